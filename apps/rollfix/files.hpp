@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace rollfix::app {
+
+/// The whole of a file. Throws InputError: missing, a directory, or not readable.
+std::string read_file(const std::string& path);
+
+/// A file that is to be written.
+struct OutputFile {
+  std::string path;
+  std::string bytes;
+};
+
+/// Throws InputError when a file of this name exists and `force` is not given, or when its folder does not exist.
+/// Asked before the work starts, so that nobody waits for a refusal. Devices and pipes are always fine.
+void require_writable(const std::string& path, bool force);
+
+/// Writes all of them, each beside its final name first: an older file is replaced whole or not at all.
+/// Throws InputError when that is not possible.
+void write_files(const std::vector<OutputFile>& files);
+
+}  // namespace rollfix::app

@@ -1,0 +1,143 @@
+#include "rollfix/inspect_outcome.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "rollfix/locate_outcome.hpp"
+#include "rollfix/table.hpp"
+
+namespace rollfix::app {
+namespace {
+
+constexpr std::size_t kMostPlaces = 8;  // of one sort on the screen
+
+Json point_json(const Vec2& point) { return Json::array({json_number(point.x()), json_number(point.y())}); }
+
+Json corners_json(const Part& part) {
+  Json list = Json::array();
+  for (const Corner& corner : part.corners()) {
+    list.push_back({{"s", json_number(corner.s)}, {"turn", json_number(corner.turn)}});
+  }
+  return list;
+}
+
+Json ambiguity_json(const InspectOutcome& outcome) {
+  Json list = Json::array();
+  for (const Ambiguity& entry : outcome.ambiguity) {
+    list.push_back({{"length", json_number(outcome.part.perimeter() / entry.share)},
+                    {"rolls", entry.rolls},
+                    {"rolls_with_stretch", entry.with_stretch},
+                    {"mean_placements", json_number(entry.mean_placements)},
+                    {"most_placements", entry.most_placements}});
+  }
+  return list;
+}
+
+/// "4, at 0, 2.42, 4.84, 7.27"
+std::string list(const std::vector<std::string>& places) {
+  if (places.empty()) return "none";
+  const std::vector<std::string> shown(
+      places.begin(), places.begin() + static_cast<std::ptrdiff_t>(std::min(places.size(), kMostPlaces)));
+  const std::string more = places.size() > kMostPlaces ? ", ... (--json lists them all)" : "";
+  return fmt::format("{}, at {}{}", places.size(), fmt::join(shown, ", "), more);
+}
+
+std::string list(const std::vector<double>& places, int decimals) {
+  std::vector<std::string> texts;
+  texts.reserve(places.size());
+  for (const double s : places) texts.push_back(fixed(s, decimals));
+  return list(texts);
+}
+
+std::string list(const std::vector<Corner>& corners, int decimals) {
+  std::vector<std::string> texts;
+  texts.reserve(corners.size());
+  for (const Corner& corner : corners)
+    texts.push_back(fmt::format("{} ({} deg)", fixed(corner.s, decimals), degrees(corner.turn)));
+  return list(texts);
+}
+
+std::string shape_text(const Part& part) {
+  if (!part.closed()) return fmt::format("open; its tangent turns by {} deg", degrees(part.total_turn()));
+  return fmt::format("closed; its tangent turns by {} deg{}", degrees(part.total_turn()),
+                     part.reversed() ? "; given clockwise, stored counter-clockwise" : "");
+}
+
+std::string disk_text(double radius) {
+  if (std::isinf(radius)) return "of any size rolls all around: nothing is concave";
+  if (radius == 0) return "of no size rolls all around: there is a concave corner";
+  return fmt::format(
+      "of radius {:.6g} at most rolls all around, by the curvature (a narrow neck may stop a smaller one)", radius);
+}
+
+std::string symmetry_text(int symmetry) {
+  if (symmetry == 0) return "every place looks like every other: no roll can tell them apart";
+  if (symmetry == 1) return "none";
+  return fmt::format("{}-fold: no roll can tell {} places apart", symmetry, symmetry);
+}
+
+std::string ambiguity_text(const std::vector<Ambiguity>& entries) {
+  std::string text;
+  std::string title = "ambiguity";
+  for (const Ambiguity& entry : entries) {
+    const std::string stretches = entry.with_stretch == 0 ? ""
+                                                          : fmt::format("; {} of {} rolls fit a continuum of places",
+                                                                        entry.with_stretch, entry.rolls);
+    text += fmt::format("{:<12} a roll of perimeter/{:<2} has {:.1f} placements on average, at most {}{}\n", title,
+                        entry.share, entry.mean_placements, entry.most_placements, stretches);
+    title = "";
+  }
+  return text;
+}
+
+}  // namespace
+
+InspectOutcome look_at(const Part& part) {
+  return {part, bounding_box(part), curvature_range(part), largest_disk(part), symmetry(part), ambiguity(part)};
+}
+
+Json inspect_json(const InspectOutcome& outcome) {
+  const Part& part = outcome.part;
+  return {{"schema", "rollfix/inspect/1"},
+          {"part", part_json(part)},
+          {"total_turn", json_number(part.total_turn())},
+          {"box", Json::array({point_json(outcome.box.lo), point_json(outcome.box.hi)})},
+          {"start", {{"point", point_json(part.point(0))}, {"tangent", json_number(part.tangent(0))}}},
+          {"spirals", part.turning().spirals().size()},
+          {"curvature", Json::array({json_number(outcome.curvature.lo), json_number(outcome.curvature.hi)})},
+          {"largest_disk", json_number(outcome.largest_disk)},
+          {"symmetry", outcome.symmetry == 0 ? Json(nullptr) : Json(outcome.symmetry)},
+          {"inflections", json_numbers(part.inflections())},
+          {"vertices", json_numbers(part.vertices())},
+          {"corners", corners_json(part)},
+          {"ambiguity", ambiguity_json(outcome)}};
+}
+
+std::string inspect_text(const InspectOutcome& outcome) {
+  const Part& part = outcome.part;
+  const int decimals = decimals_for(part.perimeter());
+  const Vec2 size = outcome.box.hi - outcome.box.lo;
+  std::string text = part.name() + '\n';
+  const auto line = [&text](const char* title, const std::string& value) {
+    text += fmt::format("{:<12} {}\n", title, value);
+  };
+  line("shape", shape_text(part));
+  line("perimeter", fixed(part.perimeter(), decimals));
+  line("size", fmt::format("{} x {}, from ({}, {}) to ({}, {})", fixed(size.x(), decimals), fixed(size.y(), decimals),
+                           fixed(outcome.box.lo.x(), decimals), fixed(outcome.box.lo.y(), decimals),
+                           fixed(outcome.box.hi.x(), decimals), fixed(outcome.box.hi.y(), decimals)));
+  line("start", fmt::format("({}, {}), tangent {} deg", fixed(part.point(0).x(), decimals),
+                            fixed(part.point(0).y(), decimals), degrees(part.tangent(0))));
+  line("inflections", list(part.inflections(), decimals));
+  line("vertices", list(part.vertices(), decimals));
+  line("corners", list(part.corners(), decimals));
+  line("spirals", fmt::format("{}", part.turning().spirals().size()));
+  line("curvature", fmt::format("{:.6g} to {:.6g}", outcome.curvature.lo, outcome.curvature.hi));
+  line("disk", disk_text(outcome.largest_disk));
+  line("symmetry", symmetry_text(outcome.symmetry));
+  return text + ambiguity_text(outcome.ambiguity);
+}
+
+}  // namespace rollfix::app

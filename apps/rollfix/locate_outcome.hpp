@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "rollfix/json_output.hpp"
+#include "rollfix/locate/locate.hpp"
+#include "rollfix/part/part.hpp"
+#include "rollfix/tolerance.hpp"
+
+namespace rollfix::app {
+
+/// A search with all that it was asked.
+struct LocateOutcome {
+  Part part;
+  std::vector<Reading> readings;
+  std::vector<double> instants;  // of a log: the time of each reading, seconds
+  Tolerance tolerance;
+  Search found;
+};
+
+/// The contract's "rollfix/locate/1"; docs/json.md lists the fields.
+Json locate_json(const LocateOutcome& outcome);
+
+/// For people: the verdict, what was asked, a table of the placements, and what is special about some.
+std::string locate_text(const LocateOutcome& outcome);
+
+/// The verdict with what to do next.
+std::string advice(const LocateOutcome& outcome);
+
+/// What --json says of a part; `inspect` says more.
+Json part_json(const Part& part);
+
+/// "crossing", "touching", "stretch", "corner".
+std::string name_of(Kind kind);
+
+}  // namespace rollfix::app

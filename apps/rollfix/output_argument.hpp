@@ -1,0 +1,27 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "rollfix/draw/svg.hpp"
+#include "rollfix/report.hpp"
+
+namespace rollfix::app {
+
+/// -o and --force.
+struct OutputArgument {
+  std::string file;  // empty: not given; "-": stdout
+  bool force = false;
+};
+
+void add_output_argument(CLI::App& command, OutputArgument& argument, const std::string& meaning);
+
+/// Throws InputError when -o can't be followed: an ending that no figure has, stdout where JSON goes already, or what
+/// require_writable throws.
+void require_figure_output(const OutputArgument& argument, bool json);
+
+/// Adds the figure to the report as -o says. On stdout (-o -) it is SVG and takes the place of the data, whose first
+/// line is narrated.
+void add_figure(const OutputArgument& argument, const Svg& figure, Report& report);
+
+}  // namespace rollfix::app

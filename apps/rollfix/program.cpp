@@ -1,0 +1,91 @@
+#include "rollfix/program.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <exception>
+#include <ostream>
+
+#include "rollfix/argument_list.hpp"
+#include "rollfix/commands.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/report.hpp"
+#include "rollfix/usage.hpp"
+#include "rollfix/version.hpp"
+
+namespace rollfix::app {
+namespace {
+
+constexpr const char* kDescription =
+    "Finds every place where a rolling finger may touch a curved part of known outline.";
+
+constexpr const char* kExamples = R"(Examples:
+  rollfix demo                                      # the main job; it writes the files used below
+  rollfix inspect wing.csv -o part.svg              # what a part is
+  rollfix locate wing.csv --reading 60.1,5.12deg    # where can this roll have started?
+  rollfix locate wing.csv --log wing-roll.csv --finger disk,r=10
+  rollfix simulate gallery:cam --finger disk,r=0.2 --start 0.5 --length 1 -o roll.csv
+)";
+
+/// Adds the commands to a program and returns the one that the arguments name.
+Command parse(CLI::App& program, const std::vector<std::string>& arguments) {
+  Command chosen;
+  set_help_style(program);
+  program.footer(kExamples);
+  program.set_version_flag("--version", std::string("rollfix ") + kVersion);
+  program.require_subcommand(0, 1);
+  add_inspect_command(program, chosen);
+  add_locate_command(program, chosen);
+  add_simulate_command(program, chosen);
+  add_demo_command(program, chosen);
+  // What the parser does not know is refused here, with better words.
+  program.allow_extras();
+  for (CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
+    command->allow_extras();
+    command->group("Commands");
+  }
+
+  std::vector<std::string> reversed = with_negative_values_attached(arguments);
+  std::reverse(reversed.begin(), reversed.end());
+  program.parse(std::move(reversed));
+  refuse_leftovers(program);
+  if (!chosen) throw InputError("expected a command: inspect, locate, simulate or demo; see rollfix --help");
+  return chosen;
+}
+
+int code(ExitCode exit_code) { return static_cast<int>(exit_code); }
+
+void deliver(const Report& report, std::ostream& out, std::ostream& err) {
+  write_files(report.files);
+  out << report.data << std::flush;
+  if (!out) throw InputError("standard output can't be written to");
+  for (const std::string& note : report.notes) err << "rollfix: " << note << '\n';
+}
+
+/// An error is one line, whatever is in the names that it quotes.
+int fail(std::ostream& err, std::string message, ExitCode exit_code) {
+  std::replace_if(
+      message.begin(), message.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  err << "rollfix: " << message << '\n';
+  return code(exit_code);
+}
+
+}  // namespace
+
+int run(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) {
+  CLI::App program(kDescription, "rollfix");
+  try {
+    const Report report = parse(program, arguments)();
+    deliver(report, out, err);
+    return code(report.exit_code);
+  } catch (const CLI::Success& request) {  // --help, --version
+    return program.exit(request, out, err);
+  } catch (const CLI::ParseError& error) {
+    return fail(err, explain(error), ExitCode::bad_input);
+  } catch (const InputError& error) {
+    return fail(err, error.what(), ExitCode::bad_input);
+  } catch (const std::exception& error) {
+    return fail(err, std::string("internal error, please report it: ") + error.what(), ExitCode::internal_error);
+  }
+}
+
+}  // namespace rollfix::app

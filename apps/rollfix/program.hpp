@@ -1,0 +1,13 @@
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace rollfix::app {
+
+/// The whole program: `arguments` are those after its name, the result is the exit code. Data goes to `out`,
+/// narration to `err`; on an error one line to `err` and nothing else.
+int run(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err);
+
+}  // namespace rollfix::app

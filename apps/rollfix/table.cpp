@@ -1,0 +1,56 @@
+#include "rollfix/table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace rollfix::app {
+
+void Table::add_column(std::string title, Align align) {
+  rows_.front().push_back(std::move(title));
+  aligns_.push_back(align);
+}
+
+void Table::add_row(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
+
+std::string Table::str() const {
+  std::vector<std::size_t> widths(aligns_.size(), 0);
+  for (const std::vector<std::string>& row : rows_) {
+    for (std::size_t i = 0; i < widths.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  }
+  std::string text;
+  for (const std::vector<std::string>& row : rows_) {
+    std::string line;
+    for (std::size_t i = 0; i < widths.size(); ++i) {
+      if (i > 0) line += "  ";
+      line += aligns_[i] == Align::left ? fmt::format("{:<{}}", row[i], widths[i])
+                                        : fmt::format("{:>{}}", row[i], widths[i]);
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + '\n';
+  }
+  return text;
+}
+
+int decimals_for(double size) {
+  constexpr int kDigits = 7;
+  constexpr int kMostDecimals = 15;
+  if (!(size > 0) || !std::isfinite(size)) return kDigits;
+  return std::clamp(kDigits - 1 - static_cast<int>(std::floor(std::log10(size))), 0, kMostDecimals);
+}
+
+std::string fixed(double value, int decimals) {
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  const bool is_zero = text.find_first_of("123456789") == std::string::npos;
+  if (is_zero && !text.empty() && text.front() == '-' && std::isfinite(value)) text.erase(0, 1);
+  return text;
+}
+
+std::string rough(double value) { return std::isfinite(value) ? fmt::format("{:.3g}", value) : "-"; }
+
+std::string degrees(double radians) { return fixed(radians * (180 / std::numbers::pi), 3); }
+
+}  // namespace rollfix::app

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace rollfix::app {
+
+/// Text in columns, as wide as they need to be and two blanks apart.
+class Table {
+ public:
+  enum class Align { left, right };
+
+  void add_column(std::string title, Align align = Align::right);
+  /// One cell per column.
+  void add_row(std::vector<std::string> cells);
+
+  /// A line of titles, then a line per row, without blanks at the ends of lines.
+  std::string str() const;
+
+ private:
+  std::vector<Align> aligns_;
+  std::vector<std::vector<std::string>> rows_{1};  // the first are the titles
+};
+
+/// How many decimals show a part of this size to about seven digits.
+int decimals_for(double size);
+
+/// With that many decimals; never "-0.000".
+std::string fixed(double value, int decimals);
+
+/// Three significant digits, "-" for what is infinite or not defined.
+std::string rough(double value);
+
+/// Radians shown in degrees, with three decimals.
+std::string degrees(double radians);
+
+}  // namespace rollfix::app

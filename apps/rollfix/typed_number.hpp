@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rollfix::app {
+
+// Numbers on the command line. `what` begins an error: "--start 5x". All throw InputError.
+
+/// A finite number.
+double read_number(std::string_view text, const std::string& what);
+
+/// A finite angle in radians: bare radians, or degrees as in 73deg.
+double read_angle(std::string_view text, const std::string& what);
+
+/// A whole number of at least `least`.
+std::size_t read_count(std::string_view text, const std::string& what, std::size_t least);
+
+/// The texts between separators, without blanks around them; one empty text when there is nothing.
+std::vector<std::string_view> split(std::string_view text, char separator);
+
+}  // namespace rollfix::app

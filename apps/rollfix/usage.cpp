@@ -1,0 +1,110 @@
+#include "rollfix/usage.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "rollfix/error.hpp"
+#include "rollfix/outline/names.hpp"
+
+namespace rollfix::app {
+namespace {
+
+class Help : public CLI::Formatter {
+ public:
+  Help() { column_width(kColumn); }
+
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+    if (mode == CLI::AppFormatMode::Sub) return CLI::Formatter::make_help(app, std::move(name), mode);
+    const CLI::App* const parent = app->get_parent();
+    const std::string full_name = parent == nullptr ? app->get_name() : parent->get_name() + " " + app->get_name();
+    return fmt::format("{}\n\n{}\n{}{}{}{}", app->get_description(), app->get_footer(),
+                       make_usage(app, "Usage: " + full_name), make_positionals(app), make_groups(app, mode),
+                       make_subcommands(app, mode));
+  }
+
+  std::string make_usage(const CLI::App* app, std::string name) const override {
+    const bool has_commands = !app->get_subcommands([](const CLI::App*) { return true; }).empty();
+    const bool has_part = !app->get_options([](const CLI::Option* option) { return option->get_positional(); }).empty();
+    return fmt::format("{}{}{} [OPTIONS]\n", name, has_commands ? " COMMAND" : "", has_part ? " PART" : "");
+  }
+
+ private:
+  static constexpr std::size_t kColumn = 28;
+};
+
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    if (!option->get_positional()) names.push_back(option->get_name(false, true));
+  }
+  std::vector<std::string> single;
+  for (const std::string& name : names) {
+    std::size_t start = 0;
+    for (std::size_t comma = name.find(','); comma != std::string::npos; comma = name.find(',', start)) {
+      single.push_back(name.substr(start, comma - start));
+      start = comma + 1;
+    }
+    single.push_back(name.substr(start));
+  }
+  return single;
+}
+
+std::vector<std::string> command_names(const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
+    names.push_back(command->get_name());
+  }
+  return names;
+}
+
+bool is_option(const std::string& argument) { return argument.size() > 1 && argument.front() == '-'; }
+
+[[noreturn]] void refuse_option(const CLI::App& command, const std::string& argument) {
+  const std::string name = argument.substr(0, argument.find('='));
+  const std::string known = known_names(name, option_names(command));
+  if (command.get_parent() != nullptr)
+    throw InputError(fmt::format("{} has no option {}; {}", command.get_name(), name, known));
+  throw InputError(fmt::format("there is no option {} in front of a command, only behind it; {}", name, known));
+}
+
+}  // namespace
+
+void set_help_style(CLI::App& program) { program.formatter(std::make_shared<Help>()); }
+
+CLI::Option* add_switch(CLI::App& command, const std::string& name, bool& value, const std::string& meaning) {
+  return command.add_flag(name, value, meaning)->disable_flag_override();
+}
+
+void refuse_leftovers(const CLI::App& program) {
+  const std::vector<CLI::App*> chosen = program.get_subcommands();
+  const CLI::App& command = chosen.empty() ? program : *chosen.front();
+  const std::vector<std::string> own = program.remaining(false);
+  const std::vector<std::string> leftovers = program.remaining(true);
+  for (const std::string& argument : leftovers) {
+    if (is_option(argument)) refuse_option(own.empty() ? command : program, argument);
+  }
+  if (leftovers.empty()) return;
+  if (chosen.empty()) {
+    throw InputError(fmt::format("there is no command '{}'; {}", leftovers.front(),
+                                 known_names(leftovers.front(), command_names(program))));
+  }
+  throw InputError(fmt::format("{}: '{}' is one argument too many; quote names with blanks, and see rollfix {} --help",
+                               command.get_name(), leftovers.front(), command.get_name()));
+}
+
+std::string explain(const CLI::ParseError& error) {
+  std::string text = error.what();
+  const std::string option = text.substr(0, text.find(':'));
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) == nullptr) return text;
+  if (text.find("missing") != std::string::npos)
+    return fmt::format("{}: expected a value behind it, found none", option);
+  const std::size_t override_mark = text.find(" was given a disallowed flag override");
+  if (override_mark != std::string::npos) return fmt::format("--{} takes no value", text.substr(0, override_mark));
+  if (text.find("At Most") != std::string::npos) return fmt::format("{} is given more than once", option);
+  return text;
+}
+
+}  // namespace rollfix::app

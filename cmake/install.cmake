@@ -1,0 +1,32 @@
+# What `cmake --install` leaves behind: headers, libraries, the program, and what find_package and pkg-config read.
+include(CMakePackageConfigHelpers)
+
+set(cmake_destination ${CMAKE_INSTALL_LIBDIR}/cmake/rollfix)
+set(pkgconfig_destination ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+
+# rollfix_install_library(TARGET EXPORT_FILE PKG_CONFIG_FILE)
+function(rollfix_install_library target export_file pkg_config_file)
+  install(TARGETS ${target} EXPORT ${export_file} FILE_SET HEADERS)
+  install(EXPORT ${export_file} NAMESPACE rollfix:: DESTINATION ${cmake_destination})
+  configure_file(cmake/${pkg_config_file}.in ${PROJECT_BINARY_DIR}/${pkg_config_file} @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/${pkg_config_file} DESTINATION ${pkgconfig_destination})
+endfunction()
+
+# The prefix as seen from the .pc file, so that an installed tree can be moved.
+cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX
+  BASE_DIRECTORY ${CMAKE_INSTALL_PREFIX}/${pkgconfig_destination} OUTPUT_VARIABLE prefix_from_pkgconfig)
+
+rollfix_install_library(rollfix rollfixTargets rollfix.pc)
+if(TARGET rollfix_draw)
+  rollfix_install_library(rollfix_draw rollfixDrawTargets rollfix-draw.pc)
+endif()
+if(TARGET rollfix_cli)
+  install(TARGETS rollfix_cli RUNTIME)
+endif()
+
+configure_package_config_file(cmake/rollfixConfig.cmake.in ${PROJECT_BINARY_DIR}/rollfixConfig.cmake
+  INSTALL_DESTINATION ${cmake_destination} NO_SET_AND_CHECK_MACRO)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/rollfixConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/rollfixConfig.cmake ${PROJECT_BINARY_DIR}/rollfixConfigVersion.cmake
+  DESTINATION ${cmake_destination})
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

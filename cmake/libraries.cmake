@@ -1,0 +1,49 @@
+# rollfix::rollfix, the core, and rollfix::draw, the figures. A new file in src/ needs no edit here.
+find_package(Eigen3 3.4 CONFIG REQUIRED)
+find_package(Boost 1.74 CONFIG REQUIRED)
+find_package(fmt 9 CONFIG REQUIRED)
+find_package(FastFloat CONFIG REQUIRED)
+
+configure_file(${CMAKE_CURRENT_LIST_DIR}/version.hpp.in ${PROJECT_BINARY_DIR}/include/rollfix/version.hpp @ONLY)
+
+# rollfix_library(TARGET EXPORTED_NAME SOURCES ... HEADERS ... HEADER_DIRS ...): the headers are the public ones.
+function(rollfix_library target exported_name)
+  cmake_parse_arguments(PARSE_ARGV 2 arg "" "" "SOURCES;HEADERS;HEADER_DIRS")
+  add_library(${target} STATIC ${arg_SOURCES})
+  add_library(rollfix::${exported_name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${exported_name})
+  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${arg_HEADER_DIRS} FILES ${arg_HEADERS})
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  rollfix_settings(${target})
+endfunction()
+
+file(GLOB_RECURSE core_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/*.cpp)
+file(GLOB_RECURSE core_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/*.hpp)
+set(draw_sources ${core_sources})
+set(draw_headers ${core_headers})
+list(FILTER core_sources EXCLUDE REGEX "/src/draw/")
+list(FILTER core_headers EXCLUDE REGEX "/rollfix/draw/")
+list(FILTER draw_sources INCLUDE REGEX "/src/draw/")
+list(FILTER draw_headers INCLUDE REGEX "/rollfix/draw/")
+
+rollfix_library(rollfix rollfix
+  SOURCES ${core_sources}
+  HEADERS ${core_headers} ${PROJECT_BINARY_DIR}/include/rollfix/version.hpp
+  HEADER_DIRS ${PROJECT_SOURCE_DIR}/include ${PROJECT_BINARY_DIR}/include)
+# Eigen is part of the interface, fmt is linked; Boost and fast_float are headers that only our sources see.
+target_link_libraries(rollfix
+  PUBLIC Eigen3::Eigen
+  PRIVATE fmt::fmt $<BUILD_INTERFACE:Boost::headers> $<BUILD_INTERFACE:FastFloat::fast_float>)
+
+if(ROLLFIX_BUILD_DRAW)
+  find_package(PkgConfig REQUIRED)
+  pkg_check_modules(ROLLFIX_RSVG REQUIRED IMPORTED_TARGET librsvg-2.0)
+  pkg_check_modules(ROLLFIX_CAIRO REQUIRED IMPORTED_TARGET cairo)
+  rollfix_library(rollfix_draw draw
+    SOURCES ${draw_sources}
+    HEADERS ${draw_headers}
+    HEADER_DIRS ${PROJECT_SOURCE_DIR}/include)
+  target_link_libraries(rollfix_draw
+    PUBLIC rollfix
+    PRIVATE fmt::fmt PkgConfig::ROLLFIX_RSVG PkgConfig::ROLLFIX_CAIRO)
+endif()

@@ -1,0 +1,29 @@
+# What every target of this project is compiled with.
+if(PROJECT_IS_TOP_LEVEL)
+  set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+  if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+    set(CMAKE_BUILD_TYPE Release CACHE STRING "Debug, Release, RelWithDebInfo or MinSizeRel" FORCE)
+  endif()
+  find_program(ROLLFIX_CCACHE ccache)
+  if(ROLLFIX_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${ROLLFIX_CCACHE})
+  endif()
+endif()
+
+function(rollfix_settings target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
+  # No fused multiply-add behind our back: the same source gives the same bits in every build.
+  target_compile_options(${target} PRIVATE -ffp-contract=off)
+  if(ROLLFIX_WARNINGS)
+    target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion)
+    if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+      # Guesses after inlining, wrong in Boost, Eigen and std::string with -O3; the sanitizers see the real thing.
+      target_compile_options(${target} PRIVATE
+        -Wno-array-bounds -Wno-maybe-uninitialized -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread)
+    endif()
+  endif()
+  if(ROLLFIX_WERROR)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+endfunction()

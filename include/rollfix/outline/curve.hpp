@@ -1,0 +1,80 @@
+#pragma once
+
+#include <concepts>
+#include <memory>
+#include <utility>
+
+#include "rollfix/outline/geometry.hpp"
+
+namespace rollfix {
+
+/// A curve's position and its exact derivatives by its own parameter, up to the third.
+struct Jet {
+  Vec2 position;
+  Vec2 first;
+  Vec2 second;
+  Vec2 third;
+};
+
+/// Signed curvature (positive where the curve turns left) of a curve with these derivatives.
+double curvature(const Jet& jet);
+
+/// d(curvature)/d(parameter).
+double curvature_rate(const Jet& jet);
+
+/// A smooth (analytic on its domain, ends included) regular curve: what a user's own type must offer
+/// to become a part of an outline.
+///   domain()    the parameter's interval, lo < hi
+///   jet(u)      position and derivatives at u
+/// A `velocity(u)` (the first derivative alone) is used where it exists, because arc length needs no more.
+template <class C>
+concept ParametricCurve = std::copy_constructible<C> && requires(const C& curve, double u) {
+  { curve.domain() } -> std::convertible_to<Interval>;
+  { curve.jet(u) } -> std::convertible_to<Jet>;
+};
+
+/// Any parametric curve, held by value: copies share the immutable original.
+class Curve {
+ public:
+  // `same_as` first: whether a Curve can be copied must not be asked of this constructor.
+  template <class C>
+  requires(!std::same_as<C, Curve> && ParametricCurve<C>) Curve(C curve)
+      : model_(std::make_shared<Model<C>>(std::move(curve))) {}  // NOLINT(google-explicit-constructor)
+
+  Interval domain() const { return model_->domain(); }
+  Jet jet(double u) const { return model_->jet(u); }
+  Vec2 velocity(double u) const { return model_->velocity(u); }
+  Vec2 position(double u) const { return model_->jet(u).position; }
+  Vec2 front() const { return position(domain().lo); }
+  Vec2 back() const { return position(domain().hi); }
+
+ private:
+  struct Interface {
+    virtual ~Interface() = default;
+    virtual Interval domain() const = 0;
+    virtual Jet jet(double u) const = 0;
+    virtual Vec2 velocity(double u) const = 0;
+  };
+
+  template <class C>
+  struct Model final : Interface {
+    explicit Model(C own) : curve(std::move(own)) {}
+    Interval domain() const override { return curve.domain(); }
+    Jet jet(double u) const override { return curve.jet(u); }
+    Vec2 velocity(double u) const override {
+      if constexpr (requires { curve.velocity(u); }) {
+        return curve.velocity(u);
+      } else {
+        return curve.jet(u).first;
+      }
+    }
+    C curve;
+  };
+
+  std::shared_ptr<const Interface> model_;
+};
+
+/// The same points in the opposite direction; the parameter runs over the same interval.
+Curve reversed(const Curve& curve);
+
+}  // namespace rollfix

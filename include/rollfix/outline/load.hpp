@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "rollfix/outline/outline.hpp"
+#include "rollfix/outline/points.hpp"
+
+namespace rollfix {
+
+/// An outline from what a user calls it, which becomes its name: "gallery:NAME,key=value,..." (see gallery), a points
+/// file ending in .csv, .dat or .txt, or "-" for points from standard input (see read_points). The options are for
+/// points. Throws InputError: what the parts throw, and an ending that is not known.
+Outline load_outline(const std::string& argument, const OutlineOptions& options = {});
+
+}  // namespace rollfix

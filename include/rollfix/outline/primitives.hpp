@@ -1,0 +1,74 @@
+#pragma once
+
+#include "rollfix/outline/curve.hpp"
+#include "rollfix/outline/geometry.hpp"
+
+namespace rollfix {
+
+/// A straight line, u in [0, 1]. Both ends are exact to the last bit.
+class Line {
+ public:
+  /// Throws InputError when the two points are the same.
+  Line(const Vec2& from, const Vec2& to);
+
+  Interval domain() const { return {0, 1}; }
+  Vec2 velocity(double) const { return chord_; }
+  Jet jet(double u) const { return {(1 - u) * from_ + u * to_, chord_, Vec2::Zero(), Vec2::Zero()}; }
+
+ private:
+  Vec2 from_;
+  Vec2 to_;
+  Vec2 chord_;
+};
+
+/// An arc of a circle, counter-clockwise for sweep > 0. The parameter is the angle turned so far, in [0, |sweep|].
+/// A full circle closes to the last bit.
+class Arc {
+ public:
+  /// `from` is the direction from the centre to the first point, radians; 0 < |sweep| <= 2 pi, 0 < radius.
+  /// Throws InputError otherwise.
+  Arc(const Vec2& centre, double radius, double from, double sweep);
+
+  Interval domain() const { return {0, angle_}; }
+  Vec2 velocity(double u) const;
+  Jet jet(double u) const;
+
+ private:
+  Vec2 centre_;
+  Vec2 start_;  // from the centre to the first point
+  Vec2 side_;   // start_ turned by a right angle in the direction of travel
+  double angle_;
+};
+
+/// A cubic between two points, u in [0, 1]:
+///   from + (to - from - square - cube) u + square u^2 + cube u^3.
+/// Both ends are exact to the last bit. Not checked for cusps: a span of a spline or a Bezier curve may have one.
+class CubicSpan {
+ public:
+  CubicSpan(const Vec2& from, const Vec2& to, const Vec2& square, const Vec2& cube)
+      : from_(from), to_(to), slope_(to - from - square - cube), square_(square), cube_(cube) {}
+
+  /// The cubic with these second derivatives (by u) at its ends.
+  static CubicSpan with_second_derivatives(const Vec2& from, const Vec2& to, const Vec2& second_from,
+                                           const Vec2& second_to) {
+    return {from, to, 0.5 * second_from, (second_to - second_from) / 6};
+  }
+
+  Interval domain() const { return {0, 1}; }
+  Vec2 velocity(double u) const { return slope_ + u * (2 * square_ + (3 * u) * cube_); }
+  Jet jet(double u) const {
+    const double rest = 1 - u;
+    const Vec2 chord_point = rest * from_ + u * to_;
+    const Vec2 bulge = (rest * u) * (square_ + (1 + u) * cube_);
+    return {chord_point - bulge, velocity(u), 2 * square_ + (6 * u) * cube_, 6 * cube_};
+  }
+
+ private:
+  Vec2 from_;
+  Vec2 to_;
+  Vec2 slope_;
+  Vec2 square_;
+  Vec2 cube_;
+};
+
+}  // namespace rollfix

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "rollfix/outline/outline.hpp"
+#include "rollfix/part/turning_function.hpp"
+
+namespace rollfix {
+
+/// A jump of the turning function at arc length s. `turn` > 0: convex (a finger pivots there);
+/// < 0: concave (a finger can't get into it).
+struct Corner {
+  double s = 0;     // in [0, P)
+  double turn = 0;  // radians, in (-pi, pi)
+};
+
+struct PartOptions {
+  bool allow_crossing = false;  // take an outline that crosses itself (a race track with a bridge)
+};
+
+/// An outline with everything that is computed once per shape: the paper's "one-time overhead for one
+/// part shape". Immutable; copies share their data; safe to read from any number of threads.
+///
+/// A closed outline is stored with the material on its left: a clockwise one is reversed (same first
+/// point) and `reversed()` says so. An open one keeps its direction.
+///
+/// Throws InputError: outline with a gap, a cusp, or (unless allowed) a self-crossing; the message says where.
+class Part {
+ public:
+  explicit Part(Outline outline, const PartOptions& options = {});
+
+  const std::string& name() const;
+  const Outline& outline() const;  // as stored: counter-clockwise when closed
+  bool closed() const;
+  bool reversed() const;      // stored against the direction in which the user gave it
+  double perimeter() const;   // total arc length P, in the outline's unit; relative error 1e-12
+  double total_turn() const;  // of the tangent over the whole boundary, radians
+  int turns() const;          // total_turn / 2 pi of a closed outline: 1 for a simple one; 0 when open
+
+  const TurningFunction& turning() const;
+
+  const std::vector<double>& inflections() const;  // s where the curvature changes sign
+  const std::vector<double>& vertices() const;     // s where the curvature's derivative changes sign
+  const std::vector<Corner>& corners() const;
+
+  /// Position at arc length s (any s when closed; clamped to [0, P] when open).
+  Vec2 point(double s) const;
+  /// Direction of the tangent just after s (just before it at an open end), in (-pi, pi].
+  double tangent(double s) const;
+
+  /// A polyline through `count` + 1 points from s = lo to s = hi, corners included: for drawing.
+  std::vector<Vec2> polyline(double lo, double hi, int count) const;
+
+ private:
+  struct Data;
+  std::shared_ptr<const Data> data_;
+};
+
+}  // namespace rollfix

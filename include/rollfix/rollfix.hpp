@@ -1,0 +1,15 @@
+#pragma once
+
+// All that a user of the library needs; the figures are apart, in rollfix/draw/.
+
+#include "rollfix/contact/finger.hpp"      // IWYU pragma: export
+#include "rollfix/contact/log.hpp"         // IWYU pragma: export
+#include "rollfix/contact/rolling.hpp"     // IWYU pragma: export
+#include "rollfix/error.hpp"               // IWYU pragma: export
+#include "rollfix/locate/locate.hpp"       // IWYU pragma: export
+#include "rollfix/outline/gallery.hpp"     // IWYU pragma: export
+#include "rollfix/outline/load.hpp"        // IWYU pragma: export
+#include "rollfix/outline/outline.hpp"     // IWYU pragma: export
+#include "rollfix/outline/primitives.hpp"  // IWYU pragma: export
+#include "rollfix/outline/spline.hpp"      // IWYU pragma: export
+#include "rollfix/part/part.hpp"           // IWYU pragma: export

@@ -1,0 +1,110 @@
+#include <algorithm>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <boost/math/tools/roots.hpp>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "contact/motion.hpp"
+#include "contact/track.hpp"
+#include "rollfix/contact/rolling.hpp"
+
+namespace rollfix {
+
+namespace {
+
+// Rounding of a rotation: the last row of a roll that ends where the way ends is not beyond it.
+constexpr double kRotationRounding = 16 * std::numeric_limits<double>::epsilon();
+
+struct Found {
+  double s = 0;
+  double angle = 0;
+};
+
+/// Goes along the track to where the finger has turned by a given amount: the inverse of Track::rotation.
+class Walk {
+ public:
+  Walk(const Track& track, std::int64_t index) : track_(track) { enter(index); }
+
+  Found to(double rotation) {
+    const double slack = kRotationRounding * (std::abs(rotation) + std::abs(rotation_.lo) + std::abs(rotation_.hi));
+    while (rotation > rotation_.hi + slack) go(1);
+    while (rotation < rotation_.lo - slack) go(-1);
+    return solve(std::min(std::max(rotation, rotation_.lo), rotation_.hi));
+  }
+
+ private:
+  void enter(std::int64_t index) {
+    index_ = index;
+    stretch_ = track_.stretch(index);
+    rotation_ = {track_.rotation(stretch_.s.lo, stretch_.angle.lo), track_.rotation(stretch_.s.hi, stretch_.angle.hi)};
+  }
+
+  void go(int direction) {
+    const auto next = track_.next(index_, direction);
+    if (!next) track_.refuse(index_, direction);
+    enter(*next);
+  }
+
+  Found solve(double rotation) const {
+    const double r = track_.radius();
+    if (stretch_.is_pivot) return {stretch_.s.lo, rotation - stretch_.s.lo / r};
+    const auto excess = [&](double s) {
+      const Turning turning = track_.turning(stretch_, s);
+      return std::pair(track_.rotation(s, turning.angle) - rotation, 1 / r + turning.curvature);
+    };
+    const double share = (rotation - rotation_.lo) / (rotation_.hi - rotation_.lo);
+    const double guess = stretch_.s.lo + share * stretch_.s.width();
+    constexpr int kDigits = std::numeric_limits<double>::digits;
+    std::uintmax_t iterations = 100;
+    const double s =
+        boost::math::tools::newton_raphson_iterate(excess, guess, stretch_.s.lo, stretch_.s.hi, kDigits, iterations);
+    return {s, track_.turning(stretch_, s).angle};
+  }
+
+  const Track& track_;
+  std::int64_t index_ = 0;
+  Stretch stretch_;
+  Interval rotation_;
+};
+
+/// How far the finger has turned at each of the times: the integral of omega.
+std::vector<double> rotations_of(const Motion& motion, const std::vector<double>& times) {
+  constexpr unsigned kMostHalvings = 10;
+  constexpr double kRelative = 1e-12;
+  using Quadrature = boost::math::quadrature::gauss_kronrod<double, 15>;
+  std::vector<double> rotations(times.size());
+  for (std::size_t k = 1; k < times.size(); ++k) {
+    if (motion.omega) {
+      rotations[k] =
+          rotations[k - 1] + Quadrature::integrate(motion.omega, times[k - 1], times[k], kMostHalvings, kRelative);
+    } else {
+      rotations[k] = motion.velocity * times[k];
+    }
+  }
+  return rotations;
+}
+
+}  // namespace
+
+Roll roll_in_closed_form(const Part& part, const DiskFinger& finger, const RollPlan& plan) {
+  const Track track(part, finger);
+  const Motion motion = plan_motion(track, plan);
+  const double s0 = motion.start.s;
+  const double rotation0 = track.rotation(s0, motion.start_angle);
+  const std::vector<double> times = times_of(motion, plan.rows);
+  std::vector<RollState> states;
+  states.reserve(times.size());
+  Walk walk(track, motion.start.index);
+  for (const double rotation : rotations_of(motion, times)) {
+    const auto [s, angle] = walk.to(rotation0 + rotation);
+    const Reading reading{s - s0, angle - motion.start_angle};  // eqs. (4) and (5)
+    states.push_back({contact_after(finger, motion.first, reading), s, angle});
+  }
+  return record(track, times, states);
+}
+
+}  // namespace rollfix

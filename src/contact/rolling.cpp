@@ -1,0 +1,205 @@
+#include "rollfix/contact/rolling.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/generation.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_cash_karp54.hpp>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "contact/motion.hpp"
+#include "contact/track.hpp"
+#include "rollfix/error.hpp"
+
+namespace rollfix {
+
+namespace {
+
+namespace odeint = boost::numeric::odeint;
+
+// Of one step, for angles in radians and for s in perimeters: so that a roll of many steps keeps 1e-10.
+constexpr double kStepTolerance = 1e-13;
+// What is left of a roll when it arrives at the end of its way, in radians: less than this is an error of integration.
+constexpr double kLeftOver = 1e-10;
+
+const boost::math::tools::eps_tolerance<double> kFully(std::numeric_limits<double>::digits);
+
+/// What eqs. (1) and (2) are integrated over; s in perimeters, so that one tolerance suits all.
+using State = std::array<double, 3>;
+constexpr std::size_t kU = 0;
+constexpr std::size_t kS = 1;
+constexpr std::size_t kPsi = 2;
+// Not Fehlberg 7(8): its estimate of the error is 0 wherever a rate depends on time alone, as psi's does.
+using Stepper = odeint::runge_kutta_cash_karp54<State>;
+const Stepper kStepper{};  // static, so that the scratch space in it is zeroed before it is copied
+using ControlledStepper = odeint::result_of::make_controlled<Stepper>::type;
+
+class Integration {
+ public:
+  Integration(const Track& track, const Motion& motion)
+      : track_(track),
+        motion_(motion),
+        perimeter_(track.part().perimeter()),
+        controlled_(odeint::make_controlled(kStepTolerance, 0.0, kStepper)),
+        state_{motion.first.u, motion.start.s / perimeter_, motion.first.psi},
+        step_(motion.duration) {
+    enter(motion.start.index, 1);
+  }
+
+  void advance_to(double time) {
+    while (time_ < time) {
+      const double limit = std::min(time, next_turning_point(time));
+      step(limit);
+    }
+  }
+
+  RollState state() const {
+    const Contact contact{state_[kU], state_[kPsi]};
+    return {contact, state_[kS] * perimeter_, motion_.start_angle + contact.facing() - motion_.first.facing()};
+  }
+
+ private:
+  /// Eqs. (1) and (2), the latter by arc length; in a pivot the contact rests.
+  void rates(const State& state, State& rate, double time) const {
+    const double omega = motion_.omega_at(time);
+    rate[kPsi] = omega;
+    if (stretch_.is_pivot) {
+      rate[kU] = rate[kS] = 0;
+      return;
+    }
+    const double r = track_.radius();
+    const double kappa = track_.turning(stretch_, state[kS] * perimeter_).curvature;
+    rate[kU] = -omega / (1 + r * kappa);              // eq. (1)
+    rate[kS] = omega / (1 / r + kappa) / perimeter_;  // eq. (2)
+  }
+
+  auto system() const {
+    return [this](const State& state, State& rate, double time) { rates(state, rate, time); };
+  }
+
+  void step(double limit) {
+    const bool is_cut = step_ >= limit - time_;
+    const double size = is_cut ? limit - time_ : step_;
+    State next;
+    double next_time = time_;
+    double suggestion = size;
+    if (controlled_.try_step(system(), state_, next_time, next, suggestion) == odeint::fail) {
+      step_ = suggestion;
+      require_progress();
+      return;
+    }
+    const int direction = motion_.omega_at(time_ + size / 2) < 0 ? -1 : 1;
+    const double beyond = direction > 0 ? position(next) - ends_.hi : ends_.lo - position(next);
+    if (beyond > 0) {
+      leave(direction, size);
+      return;
+    }
+    state_ = next;
+    time_ = is_cut ? limit : next_time;
+    step_ = is_cut ? std::max(step_, suggestion) : suggestion;
+  }
+
+  /// Goes to the end of the stretch, which a step of this size crosses, and on to the next.
+  void leave(int direction, double size) {
+    const double end = direction > 0 ? ends_.hi : ends_.lo;
+    const auto excess = [&](double part) { return direction * (position(stepped(part)) - end); };
+    const double before = direction * (position(state_) - end);
+    const double after = excess(size);
+    double part = before < 0 ? size : 0;
+    if (before < 0 && after > 0) {
+      std::uintmax_t iterations = 100;
+      part = boost::math::tools::toms748_solve(excess, 0.0, size, before, after, kFully, iterations).first;
+    }
+    state_ = stepped(part);
+    if (!stretch_.is_pivot) state_[kS] = end / perimeter_;
+    time_ += part;
+    go_on(direction);
+  }
+
+  State stepped(double size) const {
+    State end = state_;
+    if (size > 0) Stepper().do_step(system(), state_, time_, end, size);
+    return end;
+  }
+
+  void go_on(int direction) {
+    if (const auto next = track_.next(index_, direction)) {
+      enter(*next, direction);
+    } else if (std::abs(motion_.omega_at(time_)) * (motion_.duration - time_) < kLeftOver) {
+      time_ = motion_.duration;
+    } else {
+      track_.refuse(index_, direction);
+    }
+  }
+
+  void enter(std::int64_t index, int direction) {
+    index_ = index;
+    stretch_ = track_.stretch(index);
+    if (stretch_.is_pivot) {
+      const double angle = state_[kU] + state_[kPsi];
+      const double turn = stretch_.angle.width();
+      ends_ = direction > 0 ? Interval{angle, angle + turn} : Interval{angle - turn, angle};
+    } else {
+      ends_ = stretch_.s;
+    }
+  }
+
+  /// What has to stay between the stretch's ends: s, or the contact's direction in a pivot.
+  double position(const State& state) const {
+    return stretch_.is_pivot ? state[kU] + state[kPsi] : state[kS] * perimeter_;
+  }
+
+  /// Where omega changes its sign before `time`: a step must not go beyond an end and come back.
+  double next_turning_point(double time) const {
+    if (!motion_.omega) return time;
+    const double now = motion_.omega(time_);
+    const double then = motion_.omega(time);
+    if (!(now * then < 0)) return time;
+    std::uintmax_t iterations = 100;
+    return boost::math::tools::toms748_solve(motion_.omega, time_, time, now, then, kFully, iterations).second;
+  }
+
+  void require_progress() const {
+    if (time_ + step_ > time_) return;
+    const int direction = motion_.omega_at(time_) < 0 ? -1 : 1;
+    if (!track_.next(index_, direction)) track_.refuse(index_, direction);
+    throw InternalError(
+        fmt::format("{}: a roll got stuck at time {}, s = {}", track_.part().name(), time_, state_[kS] * perimeter_));
+  }
+
+  const Track& track_;
+  const Motion& motion_;
+  double perimeter_;
+  ControlledStepper controlled_;
+  State state_;
+  double time_ = 0;
+  double step_;
+  std::int64_t index_ = 0;
+  Stretch stretch_;
+  Interval ends_;
+};
+
+}  // namespace
+
+Roll roll(const Part& part, const DiskFinger& finger, const RollPlan& plan) {
+  const Track track(part, finger);
+  const Motion motion = plan_motion(track, plan);
+  const std::vector<double> times = times_of(motion, plan.rows);
+  std::vector<RollState> states;
+  states.reserve(times.size());
+  Integration integration(track, motion);
+  for (const double time : times) {
+    integration.advance_to(time);
+    states.push_back(integration.state());
+  }
+  return record(track, times, states);
+}
+
+}  // namespace rollfix

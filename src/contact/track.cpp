@@ -1,0 +1,242 @@
+#include "contact/track.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "rollfix/error.hpp"
+#include "rollfix/part/period.hpp"
+
+namespace rollfix {
+
+namespace {
+
+bool is_pivot(std::int64_t index) { return index % 2 == 0; }
+std::int64_t knot_before(std::int64_t index) { return (index - (index % 2 != 0 ? 1 : 0)) / 2; }
+std::int64_t pivot_at(std::int64_t knot) { return 2 * knot; }
+std::int64_t spiral_after(std::int64_t knot) { return 2 * knot + 1; }
+std::int64_t spiral_before(std::int64_t knot) { return 2 * knot - 1; }
+
+}  // namespace
+
+Track::Track(const Part& part, const DiskFinger& finger)
+    : part_(part), turning_(part.turning()), radius_(finger.radius), corner_turns_(part.turning().spirals().size()) {
+  require_valid(finger);
+  for (const Corner& corner : part.corners()) {
+    if (const auto k = knot_at(corner.s)) corner_turns_[knot(*k).index] = corner.turn;
+  }
+}
+
+Track::Knot Track::knot(std::int64_t k) const {
+  const auto count = static_cast<std::int64_t>(turning_.spirals().size());
+  const std::int64_t index = (k % count + count) % count;
+  const std::int64_t lap = (k - index) / count;
+  return {static_cast<std::size_t>(index), static_cast<double>(lap)};
+}
+
+/// The knot at this base in [0, P], if there is one.
+std::optional<std::int64_t> Track::knot_at(double base) const {
+  const std::vector<Spiral>& spirals = turning_.spirals();
+  const auto k = static_cast<std::int64_t>(turning_.spiral_at(std::min(base, turning_.perimeter())));
+  const double near = kLengthAccuracy * turning_.perimeter();
+  const Spiral& spiral = spirals[static_cast<std::size_t>(k)];
+  if (base - spiral.lo <= near) return k;
+  if (spiral.hi - base <= near) return k + 1;
+  return std::nullopt;
+}
+
+/// An open part has no stretch at this index.
+bool Track::ends_at(std::int64_t index) const {
+  return !turning_.closed() && (index <= 0 || index >= pivot_at(static_cast<std::int64_t>(turning_.spirals().size())));
+}
+
+/// Where on a spiral that is partly too concave the finger's reach ends: the curvature is monotone.
+double Track::limit_on(const Spiral& spiral) const {
+  const auto clearance = [&](double s) {
+    return 1 + radius_ * turning_.on_spiral(spiral, s).curvature - kLeastClearance;
+  };
+  const double at_lo = clearance(spiral.lo);
+  const double at_hi = clearance(spiral.hi);
+  if (!(at_lo * at_hi < 0)) return at_lo > at_hi ? spiral.lo : spiral.hi;
+  std::uintmax_t iterations = 100;
+  const boost::math::tools::eps_tolerance<double> full(std::numeric_limits<double>::digits);
+  const auto bracket =
+      boost::math::tools::toms748_solve(clearance, spiral.lo, spiral.hi, at_lo, at_hi, full, iterations);
+  return at_lo > 0 ? bracket.first : bracket.second;  // the side on which it fits
+}
+
+Stretch Track::stretch(std::int64_t index) const {
+  const auto [k, lap] = knot(knot_before(index));
+  const Spiral& spiral = turning_.spirals()[k];
+  Stretch result;
+  result.is_pivot = is_pivot(index);
+  result.spiral = &spiral;
+  result.s_shift = lap * turning_.perimeter();
+  result.angle_shift = lap * turning_.period_turn();
+  if (result.is_pivot) {
+    const Spiral& before = k > 0 ? turning_.spirals()[k - 1] : turning_.spirals().back();
+    const double seam = k > 0 ? 0 : turning_.period_turn();
+    result.s = result.whole = {spiral.lo + result.s_shift, spiral.lo + result.s_shift};
+    result.angle = {before.end.angle - seam + result.angle_shift, spiral.start.angle + result.angle_shift};
+    return result;
+  }
+  result.fits_lo = fits(spiral.start.curvature);
+  result.fits_hi = fits(spiral.end.curvature);
+  result.s = result.whole = {spiral.lo + result.s_shift, spiral.hi + result.s_shift};
+  result.angle = {spiral.start.angle + result.angle_shift, spiral.end.angle + result.angle_shift};
+  if (result.fits_lo == result.fits_hi) return result;
+  const double limit = limit_on(spiral);
+  const double angle = turning_.on_spiral(spiral, limit).angle;
+  (result.fits_lo ? result.s.hi : result.s.lo) = limit + result.s_shift;
+  (result.fits_lo ? result.angle.hi : result.angle.lo) = angle + result.angle_shift;
+  return result;
+}
+
+Turning Track::turning(const Stretch& stretch, double s) const {
+  const Spiral& spiral = *stretch.spiral;
+  Turning turning = turning_.on_spiral(spiral, std::clamp(s - stretch.s_shift, spiral.lo, spiral.hi));
+  turning.angle += stretch.angle_shift;
+  return turning;
+}
+
+/// Throws InputError off the ends of an open part.
+void Track::require_inside(double s) const {
+  const double near = kLengthAccuracy * turning_.perimeter();
+  if (!turning_.closed() && !(s >= -near && s <= turning_.perimeter() + near)) refuse_end(s);
+}
+
+Track::Found Track::find(double s, int direction) const {
+  const Wrapped wrapped = turning_.closed() ? wrap(s, turning_.perimeter()) : Wrapped{s, 0};
+  const auto laps = static_cast<std::int64_t>(wrapped.winding) * static_cast<std::int64_t>(turning_.spirals().size());
+  const std::optional<std::int64_t> knot = knot_at(wrapped.base);
+  if (!knot) return {{spiral_after(static_cast<std::int64_t>(turning_.spiral_at(wrapped.base)) + laps), s}, {}};
+  const std::int64_t k = *knot + laps;
+  const std::int64_t index = direction > 0 ? spiral_after(k) : spiral_before(k);
+  if (ends_at(index)) refuse_end(s);
+  const Stretch ahead = stretch(index);
+  return {{index, direction > 0 ? ahead.whole.lo : ahead.whole.hi}, k};
+}
+
+TrackPlace Track::place(double s, int direction) const {
+  require_inside(s);
+  const auto [place, knot] = find(s, direction);
+  if (knot && corner_turn(*knot) < 0) refuse_corner(s, corner_turn(*knot));
+  const double curvature = turning(stretch(place.index), place.s).curvature;
+  if (!fits(curvature)) refuse_tight({place.s, curvature});
+  return place;
+}
+
+std::optional<std::int64_t> Track::next(std::int64_t index, int direction) const {
+  if (!is_pivot(index)) {
+    const Stretch here = stretch(index);
+    if (!(direction > 0 ? here.fits_hi : here.fits_lo)) return std::nullopt;
+  }
+  std::int64_t found = index + direction;
+  if (ends_at(found)) return std::nullopt;
+  if (is_pivot(found)) {
+    const double turn = corner_turn(knot_before(found));
+    if (turn < 0) return std::nullopt;
+    if (turn > 0) return found;
+    found += direction;
+  }
+  const Stretch ahead = stretch(found);
+  if (!(direction > 0 ? ahead.fits_lo : ahead.fits_hi)) return std::nullopt;
+  return found;
+}
+
+void Track::refuse(std::int64_t index, int direction) const {
+  const Stretch here = stretch(index);
+  const double edge = direction > 0 ? here.s.hi : here.s.lo;
+  Tightest tightest{edge, 0};
+  std::int64_t at = index;
+  if (!here.is_pivot) {
+    const double end = direction > 0 ? here.whole.hi : here.whole.lo;
+    look_at(here, end, end, tightest);
+    if (fits(tightest.curvature)) {  // then it is what comes next
+      at += direction;
+      if (ends_at(at)) refuse_end(edge);
+      const double turn = corner_turn(knot_before(at));
+      if (turn < 0) refuse_corner(edge, turn);
+    }
+  }
+  if (is_pivot(at)) at += direction;
+  // On to the bottom of the concavity.
+  for (std::size_t seen = 0; seen <= turning_.spirals().size() && !ends_at(at); ++seen, at += 2 * direction) {
+    const Stretch spiral = stretch(at);
+    if (at != index) look_at(spiral, spiral.whole.lo, spiral.whole.hi, tightest);
+    const bool is_out = direction > 0 ? spiral.fits_hi : spiral.fits_lo;
+    if (is_out || corner_turn(knot_before(at + direction)) != 0) break;
+  }
+  refuse_tight(tightest);
+}
+
+void Track::look_at(const Stretch& stretch, double lo, double hi, Tightest& tightest) const {
+  for (const double s : {lo, hi}) {  // monotone between
+    const double curvature = turning(stretch, s).curvature;
+    if (curvature < tightest.curvature) tightest = {s, curvature};
+  }
+}
+
+void Track::require_way(double from, double to) const {
+  const double lo = std::min(from, to);
+  const double hi = std::max(from, to);
+  require_inside(lo);
+  require_inside(hi);
+  const double near = kLengthAccuracy * turning_.perimeter();
+  const double last = std::min(hi, lo + turning_.perimeter());  // a second lap meets nothing new
+  const auto [start, start_knot] = find(lo, 1);
+  if (start_knot && corner_turn(*start_knot) < 0) refuse_corner(lo, corner_turn(*start_knot));
+  Tightest tightest{lo, 0};
+  for (std::int64_t index = start.index; !ends_at(index); ++index) {
+    const Stretch at = stretch(index);
+    if (is_pivot(index)) {
+      const double turn = corner_turn(knot_before(index));
+      if (turn < 0 && at.whole.lo <= last + near) refuse_corner(at.whole.lo, turn);
+      continue;
+    }
+    if (at.whole.lo >= last) break;
+    look_at(at, std::max(at.whole.lo, lo), std::min(at.whole.hi, last), tightest);
+  }
+  if (!fits(tightest.curvature)) refuse_tight(tightest);
+}
+
+/// How messages call a place.
+double Track::named(double s) const {
+  return turning_.closed() ? wrap(s, turning_.perimeter()).base : std::clamp(s, 0.0, turning_.perimeter());
+}
+
+void Track::refuse_tight(const Tightest& tightest) const {
+  const Vec2 point = part_.point(tightest.s);
+  throw InputError(fmt::format(
+      "{}: a disk of radius {:.9g} is too big for the concavity at s = {:.9g}, ({:.6g}, {:.6g}), where the curvature "
+      "is "
+      "{:.9g}: expected a radius below {:.9g}; choose a smaller finger or another roll",
+      part_.name(), radius_, named(tightest.s), point.x(), point.y(), tightest.curvature, -1 / tightest.curvature));
+}
+
+void Track::refuse_corner(double s, double turn) const {
+  const Vec2 point = part_.point(s);
+  throw InputError(fmt::format(
+      "{}: a disk can't get into the concave corner at s = {:.9g}, ({:.6g}, {:.6g}), where the tangent turns by {:.6g} "
+      "degrees: the largest radius that would do is 0 (the curvature is -inf); end the roll before it",
+      part_.name(), named(s), point.x(), point.y(), turn * 180 / std::numbers::pi));
+}
+
+void Track::refuse_end(double s) const {
+  const Vec2 point = part_.point(s);
+  throw InputError(
+      fmt::format("{}: the roll runs off the end of the open outline at s = {:.9g}, ({:.6g}, {:.6g}): expected a "
+                  "contact that stays "
+                  "in 0 <= s <= {:.9g}; start elsewhere or roll less far",
+                  part_.name(), named(s), point.x(), point.y(), turning_.perimeter()));
+}
+
+}  // namespace rollfix

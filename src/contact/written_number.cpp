@@ -1,0 +1,74 @@
+#include "rollfix/contact/written_number.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include "outline/number.hpp"
+
+namespace rollfix {
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr std::string_view kDegreeMark = "deg";
+constexpr int kMostPower = 1000;  // beyond it every double is 0 or infinite
+
+/// Takes the mark off the text; whether there was one.
+bool strip_degrees(std::string_view& text) {
+  if (text.size() <= kDegreeMark.size() || text.substr(text.size() - kDegreeMark.size()) != kDegreeMark) return false;
+  text.remove_suffix(kDegreeMark.size());
+  return true;
+}
+
+/// 5 * 10^-(places + 1), half a unit in this decimal place. The powers that occur all the time come from a table.
+double half_unit(int places) {
+  static const std::array<double, 20> table = [] {
+    std::array<double, 20> values{};
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] = 0.5 * std::pow(10.0, -static_cast<double>(k));
+    return values;
+  }();
+  const auto index = static_cast<std::size_t>(places);
+  return index < table.size() ? table[index] : 0.5 * std::pow(10.0, -places);
+}
+
+}  // namespace
+
+std::optional<double> parse_angle(std::string_view text) {
+  const bool in_degrees = strip_degrees(text);
+  const std::optional<double> value = parse_number(text);
+  if (!value || !in_degrees) return value;
+  return *value * kDegree;
+}
+
+double rounding_of(std::string_view number) {
+  const double unit = strip_degrees(number) ? kDegree : 1;
+  bool after_point = false;
+  bool is_zero = true;
+  int places = 0;
+  std::size_t k = 0;
+  for (; k < number.size() && number[k] != 'e' && number[k] != 'E'; ++k) {
+    const char c = number[k];
+    if (c == '.') {
+      after_point = true;
+    } else if (c >= '0' && c <= '9') {
+      if (c != '0') is_zero = false;
+      if (after_point) ++places;
+    }
+  }
+  if (k < number.size()) {
+    const char* exponent = number.data() + k + 1;
+    const char* const end = number.data() + number.size();
+    if (exponent != end && *exponent == '+') ++exponent;
+    int power = 0;
+    std::from_chars(exponent, end, power);
+    places -= std::clamp(power, -kMostPower, kMostPower);
+  }
+  if (is_zero || places <= 0) return 0;
+  return unit * half_unit(places);
+}
+
+}  // namespace rollfix

@@ -1,0 +1,173 @@
+#include "labels.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace rollfix::draw {
+namespace {
+
+constexpr double kCell = 2;             // pixels
+constexpr double kRim = 1.5;            // kept free around a label, pixels
+constexpr double kMostSteps = 4096;     // along one edge: longer ones are mostly beyond the page
+constexpr int kSweeps = 4;              // times that every label may move in view of the others
+constexpr double kCellPenalty = 9;      // pixels of distance that a covered cell is worth
+constexpr double kOverlapPenalty = 2;   // ... that a square pixel of another label is worth
+constexpr double kSidewaysPenalty = 5;  // ... that a radian off the normal is worth
+constexpr std::array<double, 9> kAngles = {0, 0.4, -0.4, 0.8, -0.8, 1.2, -1.2, 1.57, -1.57};
+constexpr int kDistances = 14;
+constexpr double kNearest = 3.5;  // from the anchor to the label's edge, pixels
+constexpr double kDistanceStep = 4;
+
+Box box_around(const Vec2& centre, const Vec2& size) {
+  Box box;
+  box.lo = centre - 0.5 * size - Vec2(kRim, kRim);
+  box.hi = centre + 0.5 * size + Vec2(kRim, kRim);
+  return box;
+}
+
+double overlap(const Box& a, const Box& b) {
+  const Vec2 common = a.hi.cwiseMin(b.hi) - a.lo.cwiseMax(b.lo);
+  return common.x() > 0 && common.y() > 0 ? common.x() * common.y() : 0;
+}
+
+/// Distance from a box's centre to its edge in a direction.
+double reach(const Vec2& size, const Vec2& direction) {
+  const double x = std::abs(direction.x()), y = std::abs(direction.y());
+  return 0.5 * std::min(x > 1e-9 ? size.x() / x : 1e9, y > 1e-9 ? size.y() / y : 1e9);
+}
+
+struct Candidate {
+  LabelPlace place;
+  double cost;
+};
+
+Vec2 turned(const Vec2& direction, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {c * direction.x() - s * direction.y(), s * direction.x() + c * direction.y()};
+}
+
+/// All places to try for a label with what each costs in view of the obstacles alone, cheapest first.
+std::vector<Candidate> candidates(const LabelRequest& request, const Obstacles& obstacles) {
+  std::vector<Candidate> out;
+  for (const Vec2& anchor : request.anchors) {
+    for (const double side : {1.0, -1.0}) {
+      for (const double angle : kAngles) {
+        const Vec2 direction = turned(side * request.normal, angle);
+        for (int i = 0; i < kDistances; ++i) {
+          const double distance = kNearest + kDistanceStep * i;
+          const Vec2 centre = anchor + (distance + reach(request.size, direction)) * direction;
+          const double cost = distance + kSidewaysPenalty * std::abs(angle) +
+                              kCellPenalty * obstacles.covered(box_around(centre, request.size));
+          out.push_back({{centre, anchor}, cost});
+        }
+      }
+    }
+  }
+  std::stable_sort(out.begin(), out.end(), [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+  return out;
+}
+
+/// The cheapest candidate of label i in view of where the others are.
+LabelPlace cheapest(std::size_t i, const std::vector<Candidate>& choices, const std::vector<LabelRequest>& requests,
+                    const std::vector<LabelPlace>& places) {
+  double least = 1e300;
+  LabelPlace best = places[i];
+  for (const Candidate& choice : choices) {
+    if (choice.cost >= least) break;
+    double cost = choice.cost;
+    const Box box = box_around(choice.place.centre, requests[i].size);
+    for (std::size_t k = 0; k < requests.size() && cost < least; ++k) {
+      if (k != i) cost += kOverlapPenalty * overlap(box, box_around(places[k].centre, requests[k].size));
+    }
+    if (cost >= least) continue;
+    least = cost;
+    best = choice.place;
+  }
+  return best;
+}
+
+}  // namespace
+
+Obstacles::Obstacles(double width, double height)
+    : columns_(static_cast<std::ptrdiff_t>(width / kCell) + 1),
+      rows_(static_cast<std::ptrdiff_t>(height / kCell) + 1),
+      taken_(static_cast<std::size_t>(columns_ * rows_), 0) {}
+
+void Obstacles::mark(double x, double y) {
+  const auto column = static_cast<std::ptrdiff_t>(std::floor(x / kCell));
+  const auto row = static_cast<std::ptrdiff_t>(std::floor(y / kCell));
+  if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return;
+  taken_[static_cast<std::size_t>(row * columns_ + column)] = 1;
+}
+
+void Obstacles::add(const std::vector<Vec2>& polyline) {
+  for (std::size_t i = 0; i + 1 < polyline.size(); ++i) {
+    const Vec2 edge = polyline[i + 1] - polyline[i];
+    const double count = std::min(std::ceil(edge.norm() / kCell) + 1, kMostSteps);
+    for (double k = 0; k <= count; ++k) {
+      const Vec2 point = polyline[i] + k / count * edge;
+      mark(point.x(), point.y());
+    }
+  }
+}
+
+void Obstacles::add_box(const Vec2& lo, const Vec2& hi) {
+  for (double y = lo.y(); y < hi.y() + kCell; y += kCell) {
+    for (double x = lo.x(); x < hi.x() + kCell; x += kCell) mark(std::min(x, hi.x()), std::min(y, hi.y()));
+  }
+}
+
+void Obstacles::add_circle(const Vec2& centre, double radius) {
+  std::vector<Vec2> rim;
+  for (int k = 0; k <= 72; ++k) rim.emplace_back(centre + turned(Vec2(radius, 0), 2 * std::numbers::pi * k / 72));
+  add(rim);
+}
+
+void Obstacles::finish() {
+  for (std::ptrdiff_t row = 0; row < rows_; ++row) {
+    int sum = 0;
+    for (std::ptrdiff_t column = 0; column < columns_; ++column) {
+      const auto here = static_cast<std::size_t>(row * columns_ + column);
+      sum += taken_[here];
+      taken_[here] = sum + (row > 0 ? taken_[here - static_cast<std::size_t>(columns_)] : 0);
+    }
+  }
+}
+
+double Obstacles::covered(const Box& box) const {
+  const auto column = [&](double x) {
+    return std::clamp<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(std::floor(x / kCell)), -1, columns_ - 1);
+  };
+  const auto row = [&](double y) {
+    return std::clamp<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(std::floor(y / kCell)), -1, rows_ - 1);
+  };
+  const std::ptrdiff_t left = column(box.lo.x() - kCell), right = column(box.hi.x());
+  const std::ptrdiff_t top = row(box.lo.y() - kCell), bottom = row(box.hi.y());
+  const auto sum = [&](std::ptrdiff_t r, std::ptrdiff_t c) {
+    return r < 0 || c < 0 ? 0 : taken_[static_cast<std::size_t>(r * columns_ + c)];
+  };
+  const double inside = sum(bottom, right) - sum(top, right) - sum(bottom, left) + sum(top, left);
+  // What sticks out of the page counts as covered.
+  const Vec2 size = box.size();
+  const Vec2 kept = box.hi.cwiseMin(Vec2(static_cast<double>(columns_) * kCell, static_cast<double>(rows_) * kCell)) -
+                    box.lo.cwiseMax(Vec2(0, 0));
+  const double lost = size.x() * size.y() - std::max(0.0, kept.x()) * std::max(0.0, kept.y());
+  return inside + lost / (kCell * kCell);
+}
+
+std::vector<LabelPlace> place_labels(const std::vector<LabelRequest>& requests, const Obstacles& obstacles) {
+  std::vector<std::vector<Candidate>> choices;
+  std::vector<LabelPlace> places;
+  for (const LabelRequest& request : requests) {
+    choices.push_back(candidates(request, obstacles));
+    places.push_back(choices.back().front().place);
+  }
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    for (std::size_t i = 0; i < requests.size(); ++i) places[i] = cheapest(i, choices[i], requests, places);
+  }
+  return places;
+}
+
+}  // namespace rollfix::draw

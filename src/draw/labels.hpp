@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "rollfix/outline/geometry.hpp"
+#include "trace.hpp"
+
+namespace rollfix::draw {
+
+/// What labels should keep clear of, as a raster of the page.
+class Obstacles {
+ public:
+  Obstacles(double width, double height);
+
+  void add(const std::vector<Vec2>& polyline);
+  void add_box(const Vec2& lo, const Vec2& hi);
+  void add_circle(const Vec2& centre, double radius);
+
+  /// To be called between the last `add` and the first `covered`.
+  void finish();
+
+  /// How many of the raster's cells in this box are taken; those beyond the page are.
+  double covered(const Box& box) const;
+
+ private:
+  void mark(double x, double y);
+
+  std::ptrdiff_t columns_;
+  std::ptrdiff_t rows_;
+  std::vector<int> taken_;  // then the sums over all cells above and to the left
+};
+
+/// A label to be placed near one of its anchors, best straight along `normal` or against it.
+struct LabelRequest {
+  std::vector<Vec2> anchors;
+  Vec2 normal;
+  Vec2 size;
+};
+
+/// Where a label goes, and the anchor it is nearest to.
+struct LabelPlace {
+  Vec2 centre;
+  Vec2 anchor;
+};
+
+/// Places for the labels: close to their anchors, clear of the obstacles and of one another as far as that goes.
+std::vector<LabelPlace> place_labels(const std::vector<LabelRequest>& requests, const Obstacles& obstacles);
+
+}  // namespace rollfix::draw

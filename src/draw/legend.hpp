@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "rollfix/draw/svg.hpp"
+
+namespace rollfix::draw {
+
+/// Signs for points of a boundary, to be told apart without colour as well.
+enum class Sign { line, inflection, vertex, corner };
+
+/// A diamond, a triangle or a square at a point; for Sign::line a short stroke. `size` is 1 for the usual one.
+void draw_sign(Svg& svg, Sign sign, const Vec2& at, std::string_view colour, double size = 1);
+
+/// The colour that goes with a sign of a point.
+std::string_view sign_colour(Sign sign);
+
+struct LegendEntry {
+  Sign sign = Sign::line;
+  std::string_view colour;
+  Text text;
+};
+
+/// Entries in as many columns as fit, filled column by column.
+class Legend {
+ public:
+  Legend(std::vector<LegendEntry> entries, double width);
+
+  double height() const;  // 0 where there is no entry
+  void draw(Svg& svg, double top) const;
+
+ private:
+  std::vector<LegendEntry> entries_;
+  double width_;
+  std::size_t columns_ = 1;
+  std::size_t rows_ = 0;
+};
+
+constexpr double kHeaderHeight = 46;  // pixels
+constexpr double kPageMargin = 12;
+
+/// The lines above a drawing: what it is, at the right what came out, and the small print below.
+void draw_header(Svg& svg, const std::string& title, const std::string& outcome, const Text& small_print);
+
+}  // namespace rollfix::draw

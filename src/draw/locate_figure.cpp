@@ -1,0 +1,304 @@
+#include "rollfix/draw/locate_figure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "label_set.hpp"
+#include "legend.hpp"
+#include "locate_plan.hpp"
+#include "locate_texts.hpp"
+#include "offset.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/part/period.hpp"
+
+namespace rollfix {
+namespace draw {
+namespace {
+
+constexpr std::size_t kMostPoints = 100000;  // of all arcs together
+constexpr double kLabelSize = 13;            // pixels
+constexpr double kVisibleExtent = 4;         // a wider extent gets a band
+constexpr std::string_view kFingerColour = "#8a8a8a";
+
+/// One plan on a page of its own, drawn from the bottom to the top.
+class Picture {
+ public:
+  explicit Picture(const Plan& plan)
+      : plan_(plan),
+        legend_(legend_of(plan)),
+        drawing_end_(kHeaderHeight + drawing_height(plan.framing)),
+        svg_(plan.figure->width, drawing_end_ + legend_.height() + 8),
+        scene_(make_scene(plan.part(), plan.framing, Vec2(0, kHeaderHeight))),
+        clearance_(scene_.boundary),
+        obstacles_(svg_.width(), drawing_end_) {}
+
+  Svg draw() {
+    const LocateFigure& figure = *plan_.figure;
+    draw_header(svg_, figure.title.empty() ? plan_.part().name() : figure.title,
+                figure.verdict.empty() ? figure.found.verdict() : figure.verdict, readings_text(figure.readings));
+    svg_.open_clip(scene_.area.lo.x(), scene_.area.lo.y(), scene_.area.size().x(), scene_.area.size().y());
+    draw_material(svg_, scene_, plan_.part());
+    bands();
+    fingers();
+    draw_boundary(svg_, scene_, plan_.part());
+    obstacles_.add(scene_.boundary.points);
+    draw_corners(svg_, scene_, plan_.part(), obstacles_);
+    draw_origin(svg_, scene_, obstacles_);
+    if (plan_.has_arcs()) {
+      placements();
+    } else {
+      starts();
+    }
+    draw_scale_bar(svg_, scene_);
+    labels_.add({scene_.at(0)}, scene_.normal(0), {{"s", true, false, false}, {" = 0"}}, kSoftInk, 10);
+    labels_.draw(svg_, obstacles_);
+    svg_.close_group();
+    legend_.draw(svg_, drawing_end_);
+    return std::move(svg_);
+  }
+
+ private:
+  // ---- under the boundary
+
+  void bands() {
+    for (std::size_t i = 0; i < plan_.placements().size(); ++i) {
+      const Placement& placement = plan_.placements()[i];
+      const bool wide = scene_.pixels(placement.extent.width()) > kVisibleExtent;
+      if (placement.kind == Kind::stretch || wide) band(placement.extent, plan_.colour_of(i), "extent", "");
+    }
+    for (const Interval& interval : plan_.figure->found.unresolved) band(interval, kSoftInk, "unresolved", "1 13");
+  }
+
+  void band(const Interval& extent, std::string_view colour, std::string_view name, const std::string& dash) {
+    Paint paint = stroke(colour, 10);
+    paint.stroke_opacity = 0.32;
+    paint.dash = dash;
+    svg_.open_group(name);
+    svg_.polyline(slice(scene_.boundary, extent.lo, extent.hi).points, paint);
+    svg_.close_group();
+  }
+
+  void fingers() {
+    for (std::size_t i = 0; i < plan_.placements().size(); ++i) {
+      if (!plan_.has_finger(i)) continue;
+      const Placement& placement = plan_.placements()[i];
+      const double radius = *plan_.figure->finger_radius;
+      // The spoke is fixed to the finger; at the first contact it points at the part.
+      const double inward = placement.tangent + 0.5 * std::numbers::pi;
+      svg_.open_group("finger");
+      finger(placement.start, radius, inward);
+      if (!plan_.figure->readings.empty()) {
+        const Reading& last = plan_.figure->readings.back();
+        // L = -r du and theta = du + dpsi give the finger's own turn dpsi.
+        finger(placement.end, radius, inward + last.turn + last.length / radius);
+      }
+      svg_.close_group();
+    }
+  }
+
+  void finger(double s, double radius, double spoke) {
+    const Vec2 centre = scene_.view(finger_centre(plan_.part(), s, radius));
+    const double size = scene_.pixels(radius);
+    Paint disk = stroke(kFingerColour, 1.2);
+    disk.fill = kFingerColour;
+    disk.fill_opacity = 0.15;
+    Paint hub;
+    hub.fill = kFingerColour;
+    svg_.circle(centre, size, disk);
+    const std::vector<Vec2> line = {centre, centre + size * Vec2(std::cos(spoke), -std::sin(spoke))};
+    svg_.segments(line, stroke(kFingerColour, 1));
+    svg_.circle(centre, 1.8, hub);
+    obstacles_.add(line);
+    obstacles_.add_circle(centre, size);
+  }
+
+  // ---- the placements
+
+  /// The path of one run on the page, in the direction of the roll.
+  struct Arc {
+    std::size_t placement;
+    const Run* run;
+    std::vector<Vec2> path;
+  };
+
+  void placements() {
+    std::vector<Arc> arcs;
+    for (std::size_t i = 0; i < plan_.placements().size(); ++i) {
+      for (const Run& run : plan_.roll.runs) arcs.push_back({i, &run, path_of(i, run)});
+    }
+    svg_.open_group("stems");
+    for (const Arc& arc : arcs) stems(arc);
+    svg_.close_group();
+    for (const Arc& arc : arcs) draw_arc(arc);
+    // The starts lie on the ends, and are smaller: both can be seen where they meet.
+    for (std::size_t i = 0; i < plan_.placements().size(); ++i) ends(i);
+    for (std::size_t i = 0; i < plan_.placements().size(); ++i) start(i);
+    if (plan_.has_labels()) labels(arcs);
+  }
+
+  std::vector<Vec2> path_of(std::size_t i, const Run& run) const {
+    const double from = plan_.placements()[i].start + run.from, to = plan_.placements()[i].start + run.to;
+    const auto offset = [&](double s) { return plan_.offset(i, run, std::abs(s - from)); };
+    std::vector<Vec2> path =
+        path_beside(slice(scene_.boundary, std::min(from, to), std::max(from, to)), clearance_, offset);
+    path = pick(path, simplify(path, kInvisible, kMostPoints / plan_.placements().size()));
+    if (to < from) std::reverse(path.begin(), path.end());
+    return path;
+  }
+
+  /// Thin lines from the boundary to the arc's ends.
+  void stems(const Arc& arc) {
+    const double start = plan_.placements()[arc.placement].start;
+    const std::vector<Vec2> ends = {scene_.at(start + arc.run->from), arc.path.front(), scene_.at(start + arc.run->to),
+                                    arc.path.back()};
+    Paint paint = stroke(plan_.colour_of(arc.placement), 0.7);
+    paint.stroke_opacity = 0.8;
+    svg_.segments(ends, paint);
+    obstacles_.add({ends[0], ends[1]});
+    obstacles_.add({ends[2], ends[3]});
+  }
+
+  void draw_arc(const Arc& arc) {
+    const double width = plan_.line_width(arc.placement);
+    const std::string_view colour = plan_.colour_of(arc.placement);
+    svg_.open_group("arc");
+    const double head = plan_.roll.tangled ? 0 : 4 + 2 * width;
+    svg_.polyline(without_tip(arc.path, 0.7 * head), stroke(colour, width));
+    if (head > 0) draw_arrowhead(svg_, arc.path, head, colour);
+    svg_.close_group();
+    obstacles_.add(arc.path);
+  }
+
+  void ends(std::size_t i) {
+    const Placement& placement = plan_.placements()[i];
+    const std::vector<double>& contacts = plan_.roll.contacts;
+    for (std::size_t k = 0; k < contacts.size(); ++k) {
+      const bool last = k + 1 == contacts.size();
+      if (!plan_.is_lettered(k)) continue;
+      Paint paint = stroke(plan_.colour_of(i), 1.4);
+      paint.fill = "#ffffff";
+      marker(last ? placement.end : placement.start + contacts[k], last ? 3.9 : 2.6, paint);
+    }
+  }
+
+  void start(std::size_t i) {
+    Paint paint = stroke("#ffffff", 0.6);
+    paint.fill = plan_.colour_of(i);
+    marker(plan_.placements()[i].start, 3.1, paint);
+  }
+
+  void marker(double s, double radius, const Paint& paint) {
+    const double size = std::min(radius, (1.2 + 0.35 * plan_.spacing) * radius / 3.1);
+    const Vec2 at = scene_.at(s), half = Vec2::Constant(size);
+    svg_.circle(at, size, paint);
+    obstacles_.add_box(at - half, at + half);
+  }
+
+  /// More placements than arcs can show: a tick at each start.
+  void starts() {
+    std::vector<Vec2> ticks;
+    for (const Placement& placement : plan_.placements()) {
+      const Vec2 at = scene_.at(placement.start), normal = scene_.normal(placement.start);
+      ticks.emplace_back(at + 2 * normal);
+      ticks.emplace_back(at + 9 * normal);
+    }
+    svg_.open_group("starts");
+    svg_.segments(ticks, stroke(colour(0), 1));
+    svg_.close_group();
+  }
+
+  /// At both ends of every arc; each may stand at the boundary or at the arc.
+  void labels(const std::vector<Arc>& arcs) {
+    const std::vector<double>& contacts = plan_.roll.contacts;
+    for (std::size_t i = 0; i < plan_.placements().size(); ++i) {
+      const Placement& placement = plan_.placements()[i];
+      label(i, 0, placement.start, arcs);
+      for (std::size_t k = 0; k < contacts.size(); ++k) {
+        const bool last = k + 1 == contacts.size();
+        if (plan_.is_lettered(k)) label(i, k + 1, last ? placement.end : placement.start + contacts[k], arcs);
+      }
+    }
+  }
+
+  void label(std::size_t i, std::size_t k, double s, const std::vector<Arc>& arcs) {
+    const double travelled = k == 0 ? 0 : plan_.roll.contacts[k - 1];
+    std::vector<Vec2> anchors = {scene_.at(s)};
+    for (const Arc& arc : arcs) {
+      if (arc.placement != i) continue;
+      if (arc.run->from == travelled) anchors.push_back(arc.path.front());
+      if (arc.run->to == travelled) anchors.push_back(arc.path.back());
+    }
+    labels_.add(std::move(anchors), scene_.normal(s), contact_name(k, plan_.number(i)), plan_.colour_of(i), kLabelSize);
+  }
+
+  const Plan& plan_;
+  Legend legend_;
+  double drawing_end_;
+  Svg svg_;
+  Scene scene_;
+  Clearance clearance_;
+  Obstacles obstacles_;
+  LabelSet labels_;
+};
+
+}  // namespace
+}  // namespace draw
+
+Svg draw_placements(const LocateFigure& figure) {
+  const draw::Plan plan = draw::plan_of(figure);
+  return draw::Picture(plan).draw();
+}
+
+Svg side_by_side(const std::vector<LocateFigure>& figures) {
+  if (figures.empty()) throw InputError("a row of figures needs at least one, found none");
+  std::vector<draw::Plan> plans;
+  for (const LocateFigure& figure : figures) plans.push_back(draw::plan_of(figure));
+  for (draw::Plan& plan : plans) {
+    for (const draw::Plan& other : plans) {
+      if (plan.figure->part != other.figure->part) continue;
+      plan.framing.extras.include(other.framing.extras);
+      plan.framing.margin = std::max(plan.framing.margin, other.framing.margin);
+    }
+  }
+  std::vector<Svg> pictures;
+  double width = 0, height = 0;
+  std::string titles;
+  for (const draw::Plan& plan : plans) {
+    pictures.push_back(draw::Picture(plan).draw());
+    width += pictures.back().width();
+    height = std::max(height, pictures.back().height());
+    titles += (titles.empty() ? "" : "; ") + pictures.back().description();
+  }
+  Svg row(width, height);
+  row.describe(titles);
+  double x = 0;
+  for (const Svg& picture : pictures) {
+    row.embed(picture, x, 0);
+    x += picture.width();
+  }
+  return row;
+}
+
+std::vector<std::size_t> numbers_of(const Search& later, const Search& earlier, const Part& part) {
+  const auto distance = [&](double a, double b) {
+    return part.closed() ? periodic_distance(a, b, part.perimeter()) : std::abs(a - b);
+  };
+  std::vector<std::size_t> numbers;
+  for (const Placement& placement : later.placements) {
+    std::size_t nearest = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < earlier.placements.size(); ++i) {
+      const double here = distance(placement.start, earlier.placements[i].start);
+      if (here >= least) continue;
+      least = here;
+      nearest = i;
+    }
+    numbers.push_back(nearest);
+  }
+  return numbers;
+}
+
+}  // namespace rollfix

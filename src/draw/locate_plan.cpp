@@ -1,0 +1,117 @@
+#include "locate_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "rollfix/error.hpp"
+
+namespace rollfix::draw {
+namespace {
+
+constexpr std::size_t kMostLabels = 20;  // placements with labels
+constexpr std::size_t kMostLegend = 12;  // ... with a legend
+constexpr std::size_t kMostArcs = 120;   // ... with arcs
+constexpr std::size_t kMostFingers = 2;  // ... with a finger each when none is highlighted
+constexpr std::size_t kLettered = 3;     // readings of which each has its own letter
+constexpr double kFirstLane = 8;         // from the boundary to the first lane, pixels
+constexpr double kLaneSpacing = 6.5;
+constexpr double kMostLanesWidth = 64;    // of all lanes together
+constexpr double kLabelRoom = 24;         // beyond the last lane
+constexpr double kEndGap = 14;            // between neighbours on a lane
+constexpr double kMostFingerReach = 0.3;  // beyond the part, as a fraction of its size
+
+void check(const LocateFigure& figure) {
+  if (figure.part == nullptr) {
+    throw InputError("a figure of placements needs a part, found none: set LocateFigure::part");
+  }
+  const std::size_t count = figure.found.placements.size();
+  if (figure.highlight && *figure.highlight >= count) {
+    throw InputError(fmt::format("a figure's highlight must be the index of one of its {} placements, found {}", count,
+                                 *figure.highlight));
+  }
+  if (!figure.numbers.empty() && figure.numbers.size() != count) {
+    throw InputError(
+        fmt::format("a figure needs a number for each of its {} placements, found {}", count, figure.numbers.size()));
+  }
+}
+
+/// The fingers that are drawn, as far as they are not too far off.
+Box fingers_of(const Plan& plan) {
+  const Box& part = plan.framing.part;
+  const Vec2 reach = Vec2::Constant(kMostFingerReach * part.size().maxCoeff());
+  Box box;
+  for (std::size_t i = 0; i < plan.placements().size(); ++i) {
+    if (!plan.has_finger(i)) continue;
+    const double radius = *plan.figure->finger_radius;
+    for (const double s : {plan.placements()[i].start, plan.placements()[i].end}) {
+      const Vec2 centre = finger_centre(plan.part(), s, radius);
+      for (const double side : {-radius, radius}) {
+        const Vec2 edge = centre + Vec2::Constant(side);
+        box.include(edge.cwiseMax(part.lo - reach).cwiseMin(part.hi + reach));
+      }
+    }
+  }
+  return box;
+}
+
+Lanes lanes_of(const Plan& plan) {
+  std::vector<Interval> stretches;
+  for (const Placement& placement : plan.placements()) {
+    stretches.push_back({placement.start + plan.roll.hull.lo, placement.start + plan.roll.hull.hi});
+  }
+  // The scale is not known yet; the part's size over the page's width is near enough.
+  const double gap = kEndGap * plan.framing.part.size().maxCoeff() / plan.framing.width;
+  return assign_lanes(stretches, plan.part().closed() ? plan.part().perimeter() : 0, gap);
+}
+
+}  // namespace
+
+bool Plan::has_arcs() const { return placements().size() <= kMostArcs; }
+bool Plan::has_labels() const { return placements().size() <= kMostLabels; }
+bool Plan::has_legend() const { return placements().size() <= kMostLegend; }
+bool Plan::is_lettered(std::size_t k) const {
+  return roll.contacts.size() <= kLettered || k + 1 == roll.contacts.size();
+}
+
+bool Plan::has_finger(std::size_t i) const {
+  if (!figure->finger_radius) return false;
+  return figure->highlight ? *figure->highlight == i : placements().size() <= kMostFingers;
+}
+
+double Plan::line_width(std::size_t i) const {
+  const double width = std::clamp(0.4 * spacing, 0.6, 2.4);
+  return figure->highlight == i ? 1.5 * width : width;
+}
+
+double Plan::offset(std::size_t i, const Run& run, double travelled) const {
+  const double period = part().closed() ? part().perimeter() : 0;
+  const double winding = goes_round(run, period) ? travelled / period : 0;
+  return kFirstLane + spacing * (lanes.of[i] * roll.lanes + run.lane + winding);
+}
+
+Vec2 finger_centre(const Part& part, double s, double radius) {
+  const double at = part.closed() ? s : std::clamp(s, 0.0, part.perimeter());
+  const TurningFunction& turning = part.turning();
+  const double tangent = 0.5 * (turning.angle(at, Side::before) + turning.angle(at, Side::after));
+  return part.point(at) + radius * Vec2(std::sin(tangent), -std::cos(tangent));
+}
+
+Plan plan_of(const LocateFigure& figure) {
+  check(figure);
+  Plan plan;
+  plan.figure = &figure;
+  plan.roll = roll_of(figure.readings, figure.part->closed() ? figure.part->perimeter() : 0);
+  plan.framing.width = figure.width;
+  plan.framing.least_height = 0.3 * figure.width;
+  plan.framing.most_height = 0.85 * figure.width;
+  plan.framing.part = part_bounds(*figure.part);
+  plan.framing.extras = fingers_of(plan);
+  if (plan.has_arcs()) plan.lanes = lanes_of(plan);
+  const int count = plan.lanes.count * plan.roll.lanes;
+  plan.spacing = std::min(kLaneSpacing, kMostLanesWidth / std::max(count, 1));
+  plan.framing.margin = kFirstLane + plan.spacing * count + kLabelRoom;
+  return plan;
+}
+
+}  // namespace rollfix::draw

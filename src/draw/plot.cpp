@@ -1,0 +1,97 @@
+#include "plot.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "palette.hpp"
+#include "scene.hpp"
+#include "trace.hpp"
+
+namespace rollfix::draw {
+namespace {
+
+constexpr double kNumberSize = 9.5;  // pixels
+constexpr double kTitleSize = 11;
+constexpr double kColumn = 1.0 / 3;
+constexpr std::string_view kGrid = "#e4e4e4";
+
+}  // namespace
+
+void draw_axes(Svg& svg, const Axes& axes, const Ticks& x_ticks, const Ticks& y_ticks, const Text& title,
+               const std::string& note) {
+  const Vec2 end = axes.corner + axes.size;
+  TextStyle numbers;
+  numbers.size = kNumberSize;
+  numbers.fill = kSoftInk;
+  svg.open_group("axes");
+  std::vector<Vec2> grid;
+  numbers.align = Align::middle;
+  for (const double x : x_ticks.at) {
+    grid.insert(grid.end(), {Vec2(axes.page_x(x), axes.corner.y()), Vec2(axes.page_x(x), end.y())});
+    svg.text({axes.page_x(x), end.y() + 13}, {{tick_text(x, x_ticks.decimals)}}, numbers);
+  }
+  numbers.align = Align::end;
+  for (const double y : y_ticks.at) {
+    grid.insert(grid.end(), {Vec2(axes.corner.x(), axes.page_y(y)), Vec2(end.x(), axes.page_y(y))});
+    svg.text({axes.corner.x() - 6, axes.page_y(y) + 3.4}, {{tick_text(y, y_ticks.decimals)}}, numbers);
+  }
+  svg.segments(grid, stroke(kGrid, 0.8));
+  if (axes.y.lo < 0 && axes.y.hi > 0) {
+    svg.segments({axes(axes.x.lo, 0), axes(axes.x.hi, 0)}, stroke("#9a9a9a", 0.8));
+  }
+  svg.rectangle(axes.corner.x(), axes.corner.y(), axes.size.x(), axes.size.y(), stroke(kSoftInk, 0.8));
+  TextStyle style;
+  style.size = kTitleSize;
+  svg.text(axes.corner + Vec2(0, -6), title, style);
+  if (!note.empty()) {
+    style.size = kNumberSize;
+    style.align = Align::end;
+    style.fill = kSoftInk;
+    svg.text({end.x(), axes.corner.y() - 6}, {{note}}, style);
+  }
+  svg.close_group();
+}
+
+void draw_x_name(Svg& svg, const Axes& axes, const Text& name) {
+  TextStyle style;
+  style.size = kTitleSize;
+  style.align = Align::middle;
+  svg.text(axes.corner + Vec2(0.5 * axes.size.x(), axes.size.y() + 28), name, style);
+}
+
+std::vector<Vec2> thinned(const std::vector<Vec2>& points) {
+  std::vector<Vec2> out;
+  for (std::size_t first = 0; first < points.size();) {
+    std::size_t lowest = first, highest = first, last = first;
+    const double column = std::floor(points[first].x() / kColumn);
+    for (std::size_t i = first; i < points.size() && std::floor(points[i].x() / kColumn) == column; last = i++) {
+      if (points[i].y() < points[lowest].y()) lowest = i;
+      if (points[i].y() > points[highest].y()) highest = i;
+    }
+    std::vector<std::size_t> kept = {first, lowest, highest, last};
+    std::sort(kept.begin(), kept.end());
+    kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+    for (const std::size_t i : kept) out.push_back(points[i]);
+    first = last + 1;
+  }
+  return out;
+}
+
+void draw_graph(Svg& svg, const Axes& axes, const std::vector<Vec2>& points, const Paint& paint) {
+  std::vector<Vec2> visible = points;
+  // Far outside of the frame coordinates would only grow; a frame's height beyond it is as good.
+  const double top = axes.corner.y() - axes.size.y(), bottom = axes.corner.y() + 2 * axes.size.y();
+  for (Vec2& point : visible) point.y() = std::clamp(point.y(), top, bottom);
+  visible = pick(visible, simplify(visible, kInvisible));
+  svg.open_clip(axes.corner.x() - 1, axes.corner.y() - 1, axes.size.x() + 2, axes.size.y() + 2);
+  svg.polyline(visible, paint);
+  svg.close_group();
+}
+
+Interval widened(const Interval& range, double fraction) {
+  const double least = 1e-9 * std::max({std::abs(range.lo), std::abs(range.hi), 1e-300});
+  const double margin = range.width() > least ? fraction * range.width() : std::max(0.1 * std::abs(range.hi), 1e-300);
+  return {range.lo - margin, range.hi + margin};
+}
+
+}  // namespace rollfix::draw

@@ -1,0 +1,46 @@
+#include "rolls.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rollfix::draw {
+namespace {
+
+constexpr std::size_t kMostRuns = 3;  // more changes of direction than that are noise or a mess to look at
+
+int lanes_for(const Run& run, double period) {
+  return goes_round(run, period) ? 1 + static_cast<int>(std::ceil(run.size() / period)) : 1;
+}
+
+}  // namespace
+
+bool goes_round(const Run& run, double period) { return period > 0 && run.size() > period * (1 + 1e-9); }
+
+Roll roll_of(const std::vector<Reading>& readings, double period) {
+  Roll roll;
+  double at = 0;
+  for (const Reading& reading : readings) {
+    roll.contacts.push_back(reading.length);
+    roll.hull.lo = std::min(roll.hull.lo, reading.length);
+    roll.hull.hi = std::max(roll.hull.hi, reading.length);
+    if (reading.length == at) continue;
+    const bool goes_on = !roll.runs.empty() && (reading.length > at) == (roll.runs.back().to > roll.runs.back().from);
+    if (!goes_on) roll.runs.push_back({at, at, 0});
+    roll.runs.back().to = reading.length;
+    at = reading.length;
+  }
+  roll.tangled = roll.runs.size() > kMostRuns;
+  if (roll.tangled) {
+    const Interval& hull = roll.hull;
+    roll.runs.assign(1, Run{hull.lo, hull.hi, 0});
+  }
+  roll.lanes = 0;
+  for (Run& run : roll.runs) {
+    run.lane = roll.lanes;
+    roll.lanes += lanes_for(run, period);
+  }
+  roll.lanes = std::max(roll.lanes, 1);
+  return roll;
+}
+
+}  // namespace rollfix::draw

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "rollfix/locate/reading.hpp"
+#include "rollfix/outline/geometry.hpp"
+
+namespace rollfix::draw {
+
+/// A part of a roll without a change of direction.
+struct Run {
+  double from = 0;  // length travelled at its ends, measured from the first contact
+  double to = 0;
+  int lane = 0;  // of its drawing, counted from the roll's own first lane
+
+  double size() const { return to > from ? to - from : from - to; }
+};
+
+/// What the drawings of all placements have in common: the way along the boundary that the readings tell of.
+struct Roll {
+  std::vector<Run> runs;         // empty where nothing rolled
+  std::vector<double> contacts;  // length travelled at each reading
+  Interval hull;                 // least and greatest length travelled
+  int lanes = 1;                 // that it needs side by side
+  bool tangled = false;          // changes its direction so often that one run stands for all
+};
+
+/// Whether a run covers a closed boundary more than once and has to wind outward; `period` is 0 for an open one.
+bool goes_round(const Run& run, double period);
+
+/// `period`: the perimeter of a closed part, or 0.
+Roll roll_of(const std::vector<Reading>& readings, double period);
+
+}  // namespace rollfix::draw

@@ -1,0 +1,106 @@
+#include "rollfix/draw/save.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cctype>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "render.hpp"
+#include "rollfix/error.hpp"
+
+namespace rollfix {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kPngScale = 2;  // pixels of the image for each of the figure's
+
+[[noreturn]] void fail(const fs::path& file, int error) {
+  throw InputError(fmt::format("can't write {}: {}; give a file in a folder that exists and that you may write to",
+                               file.string(), std::strerror(error)));
+}
+
+/// A new file that removes itself unless it is moved to its final name.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const fs::path& final_name) : final_name_(final_name) {
+    static std::atomic<unsigned> counter{0};
+    temporary_name_ = final_name;
+    temporary_name_.replace_filename(fmt::format(".{}.{}.{}", final_name.filename().string(), getpid(), counter++));
+    file_ = std::fopen(temporary_name_.c_str(), "wbx");
+    if (file_ == nullptr) fail(final_name_, errno);
+  }
+  ~TemporaryFile() {
+    if (file_ != nullptr) std::fclose(file_);
+    if (!moved_) std::remove(temporary_name_.c_str());
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  void write(const std::string& bytes) {
+    if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail(final_name_, errno);
+  }
+
+  void move_to_final_name() {
+    const bool closed = std::fclose(file_) == 0;
+    file_ = nullptr;
+    if (!closed || std::rename(temporary_name_.c_str(), final_name_.c_str()) != 0) fail(final_name_, errno);
+    moved_ = true;
+  }
+
+ private:
+  fs::path final_name_;
+  fs::path temporary_name_;
+  std::FILE* file_ = nullptr;
+  bool moved_ = false;
+};
+
+/// Where a link points to, so that the link itself stays.
+fs::path followed(const fs::path& file) {
+  std::error_code ignored;
+  if (!fs::is_symlink(file, ignored)) return file;
+  const fs::path target = fs::weakly_canonical(file, ignored);
+  return ignored ? file : target;
+}
+
+}  // namespace
+
+FigureFormat figure_format(const fs::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  if (ending == ".svg") return FigureFormat::svg;
+  if (ending == ".png") return FigureFormat::png;
+  if (ending == ".pdf") return FigureFormat::pdf;
+  throw InputError(fmt::format("{}: a figure's file name must end in .svg, .png or .pdf, found {}", file.string(),
+                               ending.empty() ? "no ending" : "\"" + ending + "\""));
+}
+
+std::string encode(const Svg& figure, FigureFormat format) {
+  switch (format) {
+    case FigureFormat::png:
+      return draw::render_png(figure.str(), figure.width(), figure.height(), kPngScale);
+    case FigureFormat::pdf:
+      return draw::render_pdf(figure.str(), figure.width(), figure.height());
+    case FigureFormat::svg:
+      break;
+  }
+  return figure.str();
+}
+
+void save_figure(const Svg& figure, const fs::path& file) {
+  const std::string bytes = encode(figure, figure_format(file));
+  const fs::path target = followed(file);
+  std::error_code ignored;
+  if (fs::is_directory(target, ignored)) fail(file, EISDIR);
+  TemporaryFile temporary(target);
+  temporary.write(bytes);
+  temporary.move_to_final_name();
+}
+
+}  // namespace rollfix

@@ -1,0 +1,187 @@
+#include "scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "legend.hpp"
+#include "numerals.hpp"
+#include "offset.hpp"
+#include "palette.hpp"
+
+namespace rollfix::draw {
+namespace {
+
+constexpr double kBoundaryWidth = 1.6;   // pixels
+constexpr double kExtrasMargin = 8;      // around fingers and the like
+constexpr double kStripHeight = 24;      // below the drawing, for the scale bar
+constexpr double kScaleBarWidth = 0.22;  // at most, of the drawing's width
+
+std::vector<Vec2> rectangle(const Box& box) {
+  return {box.lo, Vec2(box.hi.x(), box.lo.y()), box.hi, Vec2(box.lo.x(), box.hi.y())};
+}
+
+/// A closed boundary without its repeated last vertex.
+std::vector<Vec2> loop(const Trace& trace) {
+  return std::vector<Vec2>(trace.points.begin(), std::prev(trace.points.end()));
+}
+
+/// What the content covers at a scale, in pixels from the part's own origin, y pointing up.
+Box filled(const Framing& framing, double scale) {
+  const Vec2 margin(framing.margin, framing.margin), small(kExtrasMargin, kExtrasMargin);
+  Box box;
+  box.include(scale * framing.part.lo - margin);
+  box.include(scale * framing.part.hi + margin);
+  if (framing.extras.lo.x() <= framing.extras.hi.x()) {
+    box.include(scale * framing.extras.lo - small);
+    box.include(scale * framing.extras.hi + small);
+  }
+  return box;
+}
+
+/// The scale at which the content just fits.
+double largest_scale(const Framing& framing, double width, double height) {
+  const auto fits = [&](double scale) {
+    const Vec2 size = filled(framing, scale).size();
+    return size.x() <= width && size.y() <= height;
+  };
+  // No part is seen at all below the first guess, and it sticks out above the second.
+  const double extent = framing.part.size().maxCoeff();
+  double lo = 16 / extent, hi = 2 * std::max(width, std::min(height, 4 * width)) / extent;
+  for (int i = 0; i < 60 && lo < hi; ++i) {
+    const double middle = 0.5 * (lo + hi);
+    (fits(middle) ? lo : hi) = middle;
+  }
+  return lo;
+}
+
+}  // namespace
+
+Paint stroke(std::string_view colour, double width) {
+  Paint paint;
+  paint.stroke = colour;
+  paint.width = width;
+  return paint;
+}
+
+Vec2 Scene::normal(double s) const {
+  const Vec2 after = direction_at(boundary, s, Side::after);
+  const Vec2 sum = direction_at(boundary, s, Side::before) + after;
+  return outward(sum.norm() > 1e-9 ? Vec2(sum.normalized()) : after);
+}
+
+double drawing_height(const Framing& framing) {
+  const double scale = largest_scale(framing, framing.width, 1e300);
+  const double height = filled(framing, scale).size().y() + kStripHeight;
+  return std::clamp(height, framing.least_height, framing.most_height);
+}
+
+Scene make_scene(const Part& part, const Framing& framing, const Vec2& corner) {
+  Scene scene;
+  scene.area.lo = corner;
+  scene.area.hi = corner + Vec2(framing.width, drawing_height(framing));
+  const Vec2 room = scene.area.size() - Vec2(0, kStripHeight);
+  scene.view.scale = largest_scale(framing, room.x(), room.y());
+  const Vec2 centre = filled(framing, scene.view.scale).centre();
+  scene.view.origin = corner + 0.5 * room + Vec2(-centre.x(), centre.y());
+  scene.boundary = trace(part, kInvisible / scene.view.scale);
+  for (Vec2& point : scene.boundary.points) point = scene.view(point);
+  return scene;
+}
+
+Box part_bounds(const Part& part) { return bounds(trace(part, 1e-4 * part.perimeter()).points); }
+
+void draw_material(Svg& svg, const Scene& scene, const Part& part) {
+  if (!part.closed()) return;
+  Paint paint;
+  paint.fill = kMaterial;
+  if (part.turns() < 0) {
+    svg.loops({rectangle(scene.area), loop(scene.boundary)}, paint);  // a hole: the material is around it
+  } else {
+    svg.polygon(loop(scene.boundary), paint);
+  }
+}
+
+void draw_boundary(Svg& svg, const Scene& scene, const Part& part) {
+  const Paint paint = stroke(kInk, kBoundaryWidth);
+  svg.open_group("boundary");
+  if (part.closed()) {
+    svg.polygon(loop(scene.boundary), paint);
+  } else {
+    svg.polyline(scene.boundary.points, paint);
+  }
+  svg.close_group();
+}
+
+void draw_corners(Svg& svg, const Scene& scene, const Part& part, Obstacles& obstacles) {
+  if (part.corners().empty() || part.corners().size() > kMostCorners) return;
+  svg.open_group("corners");
+  for (const Corner& corner : part.corners()) {
+    const Vec2 at = scene.at(corner.s);
+    draw_sign(svg, Sign::corner, at, sign_colour(Sign::corner));
+    obstacles.add_box(at - Vec2(3, 3), at + Vec2(3, 3));
+  }
+  svg.close_group();
+}
+
+void draw_origin(Svg& svg, const Scene& scene, Obstacles& obstacles) {
+  const Vec2 at = scene.at(0), along = direction_at(scene.boundary, 0, Side::after);
+  const Vec2 normal = outward(along);
+  const Vec2 foot = at - 6 * normal;
+  const std::vector<Vec2> arrow = {foot, foot + 14 * along};
+  svg.open_group("origin");
+  svg.segments({at + 4 * normal, foot}, stroke(kInk, 1.2));
+  svg.polyline({arrow[0], arrow[1] - 3 * along}, stroke(kInk, 1));
+  draw_arrowhead(svg, arrow, 5, kInk);
+  svg.close_group();
+  obstacles.add({at + 4 * normal, foot});
+  obstacles.add(arrow);
+}
+
+void draw_scale_bar(Svg& svg, const Scene& scene) {
+  const double length = round_below(kScaleBarWidth * scene.area.size().x() / scene.view.scale);
+  const double width = scene.pixels(length);
+  const Vec2 left(scene.area.lo.x() + 14, scene.area.hi.y() - 8);
+  const Vec2 right = left + Vec2(width, 0), up(0, -4);
+  svg.open_group("scale-bar");
+  svg.segments({left, right, left, left + up, right, right + up}, stroke(kSoftInk, 1.2));
+  TextStyle style;
+  style.size = 10;
+  style.fill = kSoftInk;
+  svg.text(right + Vec2(6, 1), {{pretty(length)}}, style);
+  svg.close_group();
+}
+
+void draw_arrowhead(Svg& svg, const std::vector<Vec2>& path, double size, std::string_view colour) {
+  if (path.size() < 2) return;
+  const Vec2& tip = path.back();
+  // The direction over the head's own length, so that a bent path's head does not stick out.
+  Vec2 tail = path.front();
+  for (auto point = path.rbegin(); point != path.rend(); ++point) {
+    if ((tip - *point).norm() < size) continue;
+    tail = *point;
+    break;
+  }
+  const double distance = (tip - tail).norm();
+  if (distance < 0.3 * size) return;
+  const Vec2 back = (tail - tip) / distance, side(-back.y(), back.x());
+  Paint paint;
+  paint.fill = colour;
+  svg.polygon({tip, tip + size * back + 0.42 * size * side, tip + size * back - 0.42 * size * side}, paint);
+}
+
+std::vector<Vec2> without_tip(const std::vector<Vec2>& path, double length) {
+  const Vec2& tip = path.back();
+  for (std::size_t count = path.size(); count-- > 1;) {
+    const Vec2& before = path[count - 1];
+    const double distance = (before - tip).norm();
+    if (distance <= length) continue;
+    // Where the edge enters the circle of that radius around the tip, near enough.
+    const double inner = (path[count] - tip).norm();
+    std::vector<Vec2> out(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(count));
+    out.emplace_back(before + (path[count] - before) * (distance - length) / (distance - inner));
+    return out;
+  }
+  return path;
+}
+
+}  // namespace rollfix::draw

@@ -1,0 +1,332 @@
+#include "placements.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "corner_sets.hpp"
+
+namespace rollfix {
+namespace {
+
+// What a simple root is accurate to: a share of the perimeter, or an angle over the slope of f.
+constexpr double kRootLength = 1e-9;
+constexpr double kRootTurn = 4e-12;
+// A slope of f below this share of the curvatures that it is the difference of is rounding noise.
+constexpr double kNoSlope = 1e-10;
+// A place known to this share of the perimeter is known as well as it can be.
+constexpr double kPolished = 1e-14;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+using Roots = std::vector<Root>;
+
+/// Pieces that touch, and the roots in them. lo <= hi, hi beyond P where it reaches across s = 0.
+struct Cluster {
+  double lo = 0;
+  double hi = 0;
+  bool exact = false;
+  bool whole_loop = false;
+  Roots roots;
+};
+
+std::vector<Cluster> join(const Part& part, std::vector<Piece>& pieces) {
+  const double same_place = kLengthAccuracy * part.perimeter();
+  const auto earlier = [](const Piece& one, const Piece& two) { return one.lo < two.lo; };
+  if (!std::is_sorted(pieces.begin(), pieces.end(), earlier)) std::sort(pieces.begin(), pieces.end(), earlier);
+  std::vector<Cluster> clusters;
+  clusters.reserve(pieces.size());
+  for (const Piece& piece : pieces) {
+    if (clusters.empty() || piece.lo > clusters.back().hi + same_place) {
+      clusters.push_back({piece.lo, piece.hi, piece.exact, false, {}});
+    } else {
+      clusters.back().hi = std::max(clusters.back().hi, piece.hi);
+      clusters.back().exact |= piece.exact;
+    }
+  }
+  if (clusters.empty() || !part.closed()) return clusters;
+  const double period = part.perimeter();
+  const bool joined = clusters.front().lo <= same_place && clusters.back().hi >= period - same_place;
+  if (joined && clusters.size() == 1) {
+    Cluster& only = clusters.front();
+    only.whole_loop = only.hi - only.lo >= period - 2 * same_place;
+    if (only.whole_loop) only = {0, period, only.exact, true, {}};
+  } else if (joined) {
+    clusters.back().hi = period + clusters.front().hi;
+    clusters.back().exact |= clusters.front().exact;
+    clusters.erase(clusters.begin());
+  }
+  return clusters;
+}
+
+void hand_out(const Part& part, const std::vector<Root>& roots, std::vector<Cluster>& clusters) {
+  const double same_place = kLengthAccuracy * part.perimeter();
+  for (const Root& root : roots) {
+    for (Cluster& cluster : clusters) {
+      Root shifted = root;
+      if (part.closed() && root.s < cluster.lo - same_place) shifted.s += part.perimeter();
+      if (shifted.s >= cluster.lo - same_place && shifted.s <= cluster.hi + same_place) {
+        cluster.roots.push_back(shifted);
+        break;
+      }
+    }
+  }
+  for (Cluster& cluster : clusters) {
+    std::sort(cluster.roots.begin(), cluster.roots.end(),
+              [](const Root& one, const Root& two) { return one.s < two.s; });
+  }
+}
+
+class PlacementMaker {
+ public:
+  PlacementMaker(const Part& part, const std::vector<Reading>& readings)
+      : part_(part), turning_(part.turning()), readings_(readings), period_(part.perimeter()) {}
+
+  Placement make(const Cluster& cluster) const {
+    if (readings_.size() == 1 && cluster.roots.size() == 1 && cluster.roots.front().crossing && !cluster.whole_loop) {
+      return make_crossing(cluster);
+    }
+    Placement placement;
+    const Roots roots = exact_roots(cluster);
+    const Root start = roots.empty() ? nearest_miss(cluster) : roots.front();
+    place(start.s, placement);
+    placement.kind = kind_of(cluster, roots, start);
+    placement.extent = extent_of(cluster);
+    placement.whole_loop = cluster.whole_loop;
+    for (const Root& root : roots) placement.roots.push_back(canonical(root.s));
+    placement.residual = residual_at(part_, readings_, start.s);
+    if (placement.kind == Kind::corner) {
+      describe_corner(start.s, placement);
+    } else {
+      placement.tangent = part_.tangent(placement.start);
+      std::vector<Sample> samples;
+      for (const Reading& reading : readings_) samples.push_back(sample(reading, start.s));
+      describe_slopes(samples.data(), placement);
+    }
+    return placement;
+  }
+
+ private:
+  /// By far the most frequent answer: one reading, one simple root.
+  Placement make_crossing(const Cluster& cluster) const {
+    const Sample& root = cluster.roots.front().sample;
+    Placement placement;
+    place(cluster.roots.front().s, placement);
+    placement.kind = Kind::crossing;
+    placement.extent = extent_of(cluster);
+    placement.roots.push_back(placement.start);
+    placement.residual = std::abs(root.value);
+    placement.tangent = part_.tangent(placement.start);
+    describe_slopes(&root, placement);
+    return placement;
+  }
+
+  // ---- where ----
+
+  double canonical(double s) const {
+    if (!part_.closed()) return std::clamp(s, 0.0, period_);
+    const double base = wrap(s, period_).base;
+    return period_ - base <= kLengthAccuracy * period_ ? 0 : base;
+  }
+
+  void place(double s, Placement& placement) const {
+    placement.start = canonical(s);
+    placement.end = canonical(s + readings_.back().length);
+    placement.point = part_.point(placement.start);
+  }
+
+  Interval extent_of(const Cluster& cluster) const {
+    if (cluster.whole_loop) return {0, period_};
+    if (!part_.closed()) return {std::max(cluster.lo, 0.0), std::min(cluster.hi, period_)};
+    double lo = wrap(cluster.lo, period_).base;
+    const double width = cluster.hi - cluster.lo;
+    if (width == 0 && period_ - lo <= kLengthAccuracy * period_) lo = 0;
+    return {lo, lo + width};
+  }
+
+  // ---- roots ----
+
+  Sample sample(const Reading& reading, double s) const {
+    const Turning at_start = turning_.at(s);
+    const Turning at_end = turning_.at(s + reading.length);
+    return {s, at_end.angle - at_start.angle - reading.turn, at_start.curvature, at_end.curvature};
+  }
+
+  /// The places in a cluster where every reading's f is 0, each once.
+  Roots exact_roots(const Cluster& cluster) const {
+    Roots found;
+    for (const Root& root : cluster.roots) {
+      Root candidate = root;
+      if (readings_.size() == 1) {
+        if (!root.exact) continue;
+      } else {
+        if (root.crossing) candidate.s = polished_together(root.s, cluster);
+        if (residual_at(part_, readings_, candidate.s) > kRootTurn) continue;
+      }
+      if (!found.empty() && same_root(found.back(), candidate)) {
+        found.back().crossing &= candidate.crossing;
+        found.back().corner |= candidate.corner;
+        continue;
+      }
+      found.push_back(candidate);
+      if (cluster.exact) break;  // the rest is its continuum
+    }
+    return found;
+  }
+
+  /// Least squares over all the readings: the steepest decide.
+  double polished_together(double s, const Cluster& cluster) const {
+    for (int round = 0; round < 3; ++round) {
+      double normal = 0;
+      double right = 0;
+      for (const Reading& reading : readings_) {
+        const Sample at = sample(reading, s);
+        normal += at.slope() * at.slope();
+        right -= at.slope() * at.value;
+      }
+      const double next = s + right / normal;
+      if (!(next >= cluster.lo && next <= cluster.hi)) break;
+      s = next;
+    }
+    return s;
+  }
+
+  /// Between two finds of one root f does not leave 0.
+  bool same_root(const Root& one, const Root& two) const {
+    if (two.s - one.s <= kLengthAccuracy * period_) return true;
+    return two.s - one.s <= 1e-6 * period_ && residual_at(part_, readings_, 0.5 * (one.s + two.s)) <= kTurnAccuracy;
+  }
+
+  /// Where the largest |f| is least: at an extremum, at a joint, or at an end of the cluster; for several readings
+  /// also where two of them are equally far off.
+  Root nearest_miss(const Cluster& cluster) const {
+    Root best;
+    double least = kInfinity;
+    const auto consider = [&](double s, bool corner) {
+      const double residual = residual_at(part_, readings_, s);
+      if (residual < least) {
+        least = residual;
+        best = {s, false, corner};
+      }
+    };
+    consider(cluster.lo, false);
+    consider(cluster.hi, false);
+    for (const Root& root : cluster.roots) consider(root.s, root.corner);
+    if (readings_.size() > 1) consider(golden_section(cluster), false);
+    return best;
+  }
+
+  double golden_section(const Cluster& cluster) const {
+    constexpr double kRatio = 0.6180339887498949;
+    double lo = cluster.lo;
+    double hi = cluster.hi;
+    double inner_lo = hi - kRatio * (hi - lo);
+    double inner_hi = lo + kRatio * (hi - lo);
+    double value_lo = residual_at(part_, readings_, inner_lo);
+    double value_hi = residual_at(part_, readings_, inner_hi);
+    while (hi - lo > kPolished * period_) {
+      if (value_lo <= value_hi) {
+        hi = inner_hi;
+        inner_hi = inner_lo;
+        value_hi = value_lo;
+        inner_lo = hi - kRatio * (hi - lo);
+        value_lo = residual_at(part_, readings_, inner_lo);
+      } else {
+        lo = inner_lo;
+        inner_lo = inner_hi;
+        value_lo = value_hi;
+        inner_hi = lo + kRatio * (hi - lo);
+        value_hi = residual_at(part_, readings_, inner_hi);
+      }
+      if (!(inner_lo > lo && inner_hi < hi)) break;
+    }
+    return 0.5 * (lo + hi);
+  }
+
+  // ---- what kind ----
+
+  Kind kind_of(const Cluster& cluster, const Roots& roots, const Root& start) const {
+    if (cluster.exact) return Kind::stretch;
+    if (start.corner) return Kind::corner;
+    if (roots.size() == 1 && roots.front().crossing && !cluster.whole_loop) return Kind::crossing;
+    if (cluster.whole_loop) return roots.empty() ? Kind::touching : Kind::crossing;
+    for (const Reading& reading : readings_) {
+      if (changes_sign(reading, cluster)) return Kind::crossing;
+    }
+    return Kind::touching;
+  }
+
+  /// Does f have opposite signs at the two ends of the cluster? An end where it is 0 is an end of the boundary: there a
+  /// root with a slope counts.
+  bool changes_sign(const Reading& reading, const Cluster& cluster) const {
+    const double lo = one_sided(reading, cluster.lo, Side::after);
+    const double hi = one_sided(reading, cluster.hi, Side::before);
+    if (std::abs(lo) > kTurnAccuracy && std::abs(hi) > kTurnAccuracy) return (lo < 0) != (hi < 0);
+    const Sample end = sample(reading, std::abs(lo) < std::abs(hi) ? cluster.lo : cluster.hi);
+    return std::abs(hi - lo) > kTurnAccuracy && std::abs(end.slope()) > slope_noise(end);
+  }
+
+  double slope_noise(const Sample& at) const {
+    return kNoSlope * (std::abs(at.start_curvature) + std::abs(at.end_curvature) + 1 / period_);
+  }
+
+  double one_sided(const Reading& reading, double s, Side side) const {
+    return turning_.angle(s + reading.length, side) - turning_.angle(s, side) - reading.turn;
+  }
+
+  // ---- how sure ----
+
+  /// `samples`: one per reading, at the start.
+  void describe_slopes(const Sample* samples, Placement& placement) const {
+    double sum = 0;
+    double noise = 0;
+    for (std::size_t k = 0; k < readings_.size(); ++k) {
+      const Sample& at = samples[k];
+      sum += at.slope() * at.slope();
+      noise = std::max(noise, slope_noise(at));
+    }
+    const bool simple = placement.kind == Kind::crossing && std::sqrt(sum) > noise;
+    placement.error = simple ? std::max(kRootLength * period_, kRootTurn / std::sqrt(sum)) : kInfinity;
+    for (std::size_t k = 0; k < readings_.size(); ++k) {
+      const Sample& at = samples[k];
+      placement.sensitivity.per_turn.push_back(simple ? at.slope() / sum : kNaN);
+      placement.sensitivity.per_length.push_back(simple ? -at.end_curvature * at.slope() / sum : kNaN);
+    }
+  }
+
+  /// A corner at the start holds the start; one at the end holds the end, so that the start follows L alone.
+  void describe_corner(double s, Placement& placement) const {
+    placement.error = kRootLength * period_;
+    placement.pivot = pivot_at(part_, readings_, s);
+    placement.tangent = std::remainder(placement.pivot->start.middle(), 2 * std::numbers::pi);
+    const bool at_start = angle_set(part_, s).pivot;
+    for (const Reading& reading : readings_) {
+      const bool at_end = angle_set(part_, s + reading.length).pivot;
+      placement.sensitivity.per_turn.push_back(at_start && at_end ? kNaN : 0);
+      placement.sensitivity.per_length.push_back(at_start ? (at_end ? kNaN : 0) : (at_end ? -1 : 0));
+    }
+  }
+
+  const Part& part_;
+  const TurningFunction& turning_;
+  const std::vector<Reading>& readings_;
+  double period_;
+};
+
+}  // namespace
+
+std::vector<Placement> make_placements(const Part& part, const std::vector<Reading>& readings,
+                                       std::vector<Piece> pieces, const std::vector<Root>& roots) {
+  std::vector<Cluster> clusters = join(part, pieces);
+  hand_out(part, roots, clusters);
+  const PlacementMaker maker(part, readings);
+  std::vector<Placement> placements;
+  placements.reserve(clusters.size());
+  for (const Cluster& cluster : clusters) placements.push_back(maker.make(cluster));
+  std::sort(placements.begin(), placements.end(),
+            [](const Placement& one, const Placement& two) { return one.start < two.start; });
+  return placements;
+}
+
+}  // namespace rollfix

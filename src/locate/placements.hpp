@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+#include "root_search.hpp"
+
+namespace rollfix {
+
+/// Joins pieces that touch into connected sets (across s = 0 on a closed outline), one placement each, and says
+/// what kind of answer each is. `pieces` and `roots` in any order, of all readings together.
+std::vector<Placement> make_placements(const Part& part, const std::vector<Reading>& readings,
+                                       std::vector<Piece> pieces, const std::vector<Root>& roots);
+
+}  // namespace rollfix

@@ -1,0 +1,342 @@
+#include "root_search.hpp"
+
+#include <algorithm>
+#include <array>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <cstdint>
+
+namespace rollfix {
+namespace {
+
+// Newton's step that is below this share of the perimeter is the last one.
+constexpr double kRootStep = 1e-11;
+constexpr int kMostRounds = 100;
+// The ends of an extent may be off by this share of its width: there f is taken as straight.
+constexpr double kExtentBend = 1e-3;
+// An interval of zeros shorter than this share of the perimeter can't be told from a root.
+constexpr double kShortestStretch = 1e-9;
+// On a stretch the slope of f vanishes as well, up to this share of the curvatures that it is the difference of.
+constexpr double kStretchSlope = 1e-9;
+// An arc length is rounded to this share of the perimeter: times the curvature, an angle.
+constexpr double kPlaceRounding = 1e-15;
+// Zero at more points than the polynomials have terms: zero between them, too.
+constexpr int kStretchSamples = 19;
+// Bounds by monotone curvature are tried this often before those by polynomials, which cost more.
+constexpr int kPlainHalvings = 4;
+// Rounding errors of a polynomial's bounds: hundreds of operations on angles of some radians.
+constexpr double kRounding = 1e-14;
+// The extremum of f is approached by the secant of its slope this long, then bracketed.
+constexpr int kMostSecants = 12;
+
+/// s where the cubic through both ends, taken as a function of f, has the value `level`.
+double inverse_cubic(const Sample& lo, const Sample& hi, double level) {
+  const double rise = hi.value - lo.value;
+  const double x = (level - lo.value) / rise;
+  const double width = hi.s - lo.s;
+  const double slope_lo = rise / (lo.slope() * width);  // of s by f, scaled to the unit square
+  const double slope_hi = rise / (hi.slope() * width);
+  const double y = x * (slope_lo + x * ((3 - 2 * slope_lo - slope_hi) + x * (slope_lo + slope_hi - 2)));
+  return lo.s + width * y;
+}
+
+struct Bounds {
+  double least;
+  double most;
+};
+
+/// Bounds on f' from the curvatures at the ends, because curvature is monotone on a spiral.
+Bounds slope_bounds(const Sample& lo, const Sample& hi) {
+  return {std::min(lo.end_curvature, hi.end_curvature) - std::max(lo.start_curvature, hi.start_curvature),
+          std::max(lo.end_curvature, hi.end_curvature) - std::min(lo.start_curvature, hi.start_curvature)};
+}
+
+/// How fast f' can change between the ends, on average.
+double mean_bend(const Sample& lo, const Sample& hi) {
+  return (std::abs(hi.end_curvature - lo.end_curvature) + std::abs(hi.start_curvature - lo.start_curvature)) /
+         (hi.s - lo.s);
+}
+
+/// Bounds on f from its values at the ends and from bounds of either sign on its slope.
+Bounds value_bounds(const Sample& lo, const Sample& hi, const Bounds& slope) {
+  const double width = hi.s - lo.s;
+  const double span = slope.most - slope.least;
+  const double scale = slope.least * slope.most * width;
+  return {(slope.most * lo.value - slope.least * hi.value + scale) / span,
+          (slope.most * hi.value - slope.least * lo.value - scale) / span};
+}
+
+/// The sign of f'' where the spirals' trends settle it.
+int bend_by_trends(const SpiralPair& pair) {
+  if (pair.end.trend >= 0 && pair.start.trend <= 0) return 1;
+  if (pair.end.trend <= 0 && pair.start.trend >= 0) return -1;
+  return 0;
+}
+
+/// One of these places that lies between lo and hi, or lo.
+double first_inside(double lo, double hi, const std::array<double, 4>& places) {
+  for (const double place : places) {
+    if (place > lo && place < hi) return place;
+  }
+  return lo;
+}
+
+/// f as a polynomial in y in [-1, 1] over [middle - half, middle + half].
+Powers difference(const SpiralPair& pair, const Panel& start, const Panel& end, double middle, double half) {
+  const Powers at_start = pair.turning.expand(start, middle, half);
+  const Powers at_end = pair.turning.expand(end, middle + pair.offset, half);
+  Powers f = Powers::Zero(std::max({at_start.size(), at_end.size(), Eigen::Index{3}}));
+  f.head(at_end.size()) = at_end;
+  f.head(at_start.size()) -= at_start;
+  f[0] -= pair.turn;
+  return f;
+}
+
+}  // namespace
+
+RootSearch::RootSearch(const LocateOptions& options, double perimeter, Findings& findings)
+    : tolerance_(std::max(options.tolerance, kTurnAccuracy)),
+      budget_(options.budget),
+      same_place_(kLengthAccuracy * perimeter),
+      findings_(findings) {
+  waiting_.reserve(16);
+}
+
+void RootSearch::run(const SpiralPair& pair, const Sample& lo, const Sample& hi) {
+  if (is_far(lo, hi)) {  // most intervals
+    ++findings_.counts.intervals;
+    ++budget_;
+    return;
+  }
+  if (is_stretch(pair, lo, hi)) {
+    add_piece(lo.s, hi.s, true);
+    findings_.roots.push_back({lo.s});
+    return;
+  }
+  ++budget_;  // this one comes with the part, however many points it has
+  decide(pair, {lo, hi, 0, 0});
+  while (!waiting_.empty()) {
+    const Range range = waiting_.back();
+    waiting_.pop_back();
+    decide(pair, range);
+  }
+}
+
+/// Further from 0 in the mean than the steepest slope can bring f.
+bool RootSearch::is_far(const Sample& lo, const Sample& hi) const {
+  const Bounds slope = slope_bounds(lo, hi);
+  const double reach = 0.5 * std::max(-slope.least, slope.most) * (hi.s - lo.s);
+  return 0.5 * std::abs(lo.value + hi.value) > reach + tolerance_;
+}
+
+bool RootSearch::is_stretch(const SpiralPair& pair, const Sample& lo, const Sample& hi) {
+  const double period = pair.turning.perimeter();
+  const auto vanishes = [&](const Sample& at) {
+    const double curvature = std::abs(at.start_curvature) + std::abs(at.end_curvature);
+    return std::abs(at.value) <= kTurnAccuracy + kPlaceRounding * period * curvature;
+  };
+  if (!vanishes(lo) || !vanishes(hi) || hi.s - lo.s < kShortestStretch * period) return false;
+  for (int k = 1; k < kStretchSamples; ++k) {
+    const Sample at = sample(pair, lo.s + (hi.s - lo.s) * k / kStretchSamples);
+    const double scale = std::abs(at.start_curvature) + std::abs(at.end_curvature) + 1 / period;
+    if (!vanishes(at) || std::abs(at.slope()) > kStretchSlope * scale) return false;
+  }
+  return true;
+}
+
+void RootSearch::decide(const SpiralPair& pair, const Range& range) {
+  const Sample& lo = range.lo;
+  const Sample& hi = range.hi;
+  if (++findings_.counts.intervals > budget_) {
+    findings_.unresolved.push_back({lo.s, hi.s});
+    return;
+  }
+  const Bounds slope = slope_bounds(lo, hi);
+  if (slope.least >= 0 || slope.most <= 0) {
+    take_monotone(pair, lo, hi);
+    return;
+  }
+  const Bounds value = value_bounds(lo, hi, slope);
+  if (value.least > tolerance_ || value.most < -tolerance_) return;
+  if (std::max(std::abs(value.least), std::abs(value.most)) <= kTurnAccuracy || hi.s - lo.s <= same_place_) {
+    take_flat(lo, hi, std::abs(lo.value) <= kTurnAccuracy);
+    return;
+  }
+  const int bend = range.bend != 0 ? range.bend : bend_by_trends(pair);
+  if (bend != 0) {
+    decide_bent(pair, {lo, hi, bend, range.depth});
+    return;
+  }
+  if (range.depth < kPlainHalvings) {
+    halve(pair, range, 0.5 * (lo.s + hi.s));
+    return;
+  }
+  const Panel& start = pair.turning.panel_on(pair.start, 0.5 * (lo.s + hi.s));
+  const Panel& end = pair.turning.panel_on(pair.end, 0.5 * (lo.s + hi.s) + pair.offset);
+  const double cut = first_inside(lo.s + same_place_, hi.s - same_place_,
+                                  {start.lo, start.hi, end.lo - pair.offset, end.hi - pair.offset});
+  if (cut > lo.s + same_place_) {
+    halve(pair, range, cut);
+  } else {
+    decide_by_polynomial(pair, range, start, end);
+  }
+}
+
+/// On a panel each f is a difference of two polynomials, whose bounds see what they have in common: nearly congruent
+/// stretches, where bounds on either end alone would never close.
+void RootSearch::decide_by_polynomial(const SpiralPair& pair, const Range& range, const Panel& start,
+                                      const Panel& end) {
+  const Sample& lo = range.lo;
+  const Sample& hi = range.hi;
+  const double half = 0.5 * (hi.s - lo.s);
+  const Powers f = difference(pair, start, end, lo.s + half, half);
+  double reach = kRounding;  // how far f gets from its middle value, its slope from the middle slope, and so on
+  double slope_reach = kRounding;
+  double bend_reach = kRounding;
+  for (Eigen::Index k = 1; k < f.size(); ++k) {
+    const double size = std::abs(f[k]);
+    const auto order = static_cast<double>(k);
+    reach += size;
+    if (k > 1) slope_reach += order * size;
+    if (k > 2) bend_reach += order * (order - 1) * size;
+  }
+  if (std::abs(f[0]) > tolerance_ + reach) return;
+  if (std::abs(f[1]) > slope_reach) {
+    take_monotone(pair, lo, hi);
+  } else if (reach <= kTurnAccuracy) {  // constant to rounding
+    take_flat(lo, hi, std::abs(f[0]) <= kTurnAccuracy);
+  } else if (2 * std::abs(f[2]) > bend_reach) {
+    decide_bent(pair, {lo, hi, f[2] > 0 ? 1 : -1, range.depth});
+  } else {
+    halve(pair, range, lo.s + half);
+  }
+}
+
+/// A root of high order, or no more than rounding: no finer answer exists.
+void RootSearch::take_flat(const Sample& lo, const Sample& hi, bool exact) {
+  add_piece(lo.s, hi.s);
+  findings_.roots.push_back({0.5 * (lo.s + hi.s), exact});
+}
+
+void RootSearch::halve(const SpiralPair& pair, const Range& range, double place) {
+  const Sample middle = sample(pair, place);
+  waiting_.push_back({middle, range.hi, 0, range.depth + 1});
+  waiting_.push_back({range.lo, middle, 0, range.depth + 1});
+}
+
+/// f'' keeps its sign, so f has one extremum at the most. Told for a convex f; a concave one is its mirror image.
+void RootSearch::decide_bent(const SpiralPair& pair, const Range& range) {
+  const Sample& lo = range.lo;
+  const Sample& hi = range.hi;
+  const bool turns = (lo.slope() < 0) != (hi.slope() < 0);
+  const bool lo_far = std::abs(lo.value) > tolerance_;
+  const bool hi_far = std::abs(hi.value) > tolerance_;
+  // From above the tolerance to below it: convex, so it crosses once and does not come back.
+  const bool crosses_once = lo_far && hi_far && (lo.value < 0) != (hi.value < 0);
+  if (!turns || crosses_once) {
+    take_monotone(pair, lo, hi);
+    return;
+  }
+  const bool above = range.bend > 0 ? lo.value > 0 : lo.value < 0;
+  if (lo_far && hi_far && !above) return;  // a convex f is below its chord
+  if (!lo_far || !hi_far) {
+    split_at_extremum(pair, range);
+    return;
+  }
+  // Both ends above: look near the lowest point, where the slope's chord vanishes.
+  const double place = lo.s - lo.slope() * (hi.s - lo.s) / (hi.slope() - lo.slope());
+  const Sample inner = sample(pair, std::clamp(place, lo.s, hi.s));
+  const bool inner_above = range.bend > 0 ? inner.value > tolerance_ : inner.value < -tolerance_;
+  if (std::abs(inner.value) <= tolerance_ || !(inner.s > lo.s && inner.s < hi.s) || range.depth > kMostSecants) {
+    split_at_extremum(pair, range);
+  } else if (!inner_above) {  // below: one crossing on either side
+    waiting_.push_back({inner, hi, range.bend, range.depth + 1});
+    waiting_.push_back({lo, inner, range.bend, range.depth + 1});
+  } else if ((inner.slope() < 0) == (lo.slope() < 0)) {  // still above: the lowest point is on the side it slopes to
+    waiting_.push_back({inner, hi, range.bend, range.depth + 1});
+  } else {
+    waiting_.push_back({lo, inner, range.bend, range.depth + 1});
+  }
+}
+
+/// f' is monotone and changes sign: f is monotone on either side of where it vanishes.
+void RootSearch::split_at_extremum(const SpiralPair& pair, const Range& range) {
+  std::uintmax_t rounds = 100;
+  const auto bracket = boost::math::tools::toms748_solve([&](double s) { return sample(pair, s).slope(); }, range.lo.s,
+                                                         range.hi.s, range.lo.slope(), range.hi.slope(),
+                                                         boost::math::tools::eps_tolerance<double>(46), rounds);
+  const Sample extremum = sample(pair, 0.5 * (bracket.first + bracket.second));
+  const double size = std::abs(extremum.value);
+  if (size > tolerance_ && (extremum.value > 0) == (range.lo.value > 0) &&
+      (extremum.value > 0) == (range.hi.value > 0) && size <= std::abs(range.lo.value)) {
+    return;  // passes 0 by
+  }
+  if (size > kTurnAccuracy && size <= tolerance_) findings_.roots.push_back({extremum.s, false});
+  take_monotone(pair, range.lo, extremum);
+  take_monotone(pair, extremum, range.hi);
+}
+
+void RootSearch::take_monotone(const SpiralPair& pair, const Sample& lo, const Sample& hi) {
+  const double least = std::min(lo.value, hi.value);
+  const double most = std::max(lo.value, hi.value);
+  if (least > tolerance_ || most < -tolerance_) return;
+
+  Root root;
+  bool near_root = false;  // where f may be taken as straight
+  double reach = 0;
+  if (std::abs(lo.value) <= kTurnAccuracy) {
+    root.s = lo.s;
+  } else if (std::abs(hi.value) <= kTurnAccuracy) {
+    root.s = hi.s;
+  } else if ((lo.value < 0) != (hi.value < 0)) {
+    const Sample found = solve(pair, 0, lo, hi);
+    root = {found.s, true, false, true, found};
+    const double bend = mean_bend(lo, hi);
+    reach = tolerance_ / std::abs(found.slope());
+    near_root = reach * bend <= kExtentBend * std::abs(found.slope());
+  } else {
+    root.exact = false;
+  }
+  if (root.exact) findings_.roots.push_back(root);
+
+  const auto end_at = [&](const Sample& end, double direction) {
+    if (std::abs(end.value) <= tolerance_) return end.s;
+    if (near_root) return root.s + direction * reach;
+    return solve(pair, std::copysign(tolerance_, end.value), lo, hi).s;
+  };
+  const double from = end_at(lo, -1);
+  const double to = end_at(hi, 1);
+  add_piece(std::max(from, lo.s), std::min(to, hi.s));
+}
+
+/// Where f, monotone between the ends, has this value: inverse cubic interpolation from the last two samples, of order
+/// 2.7, kept inside the bracket.
+Sample RootSearch::solve(const SpiralPair& pair, double level, Sample lo, Sample hi) {
+  const bool rises = hi.value > lo.value;
+  const double short_step = kRootStep * pair.turning.perimeter();
+  double s = inverse_cubic(lo, hi, level);
+  if (!(s > lo.s && s < hi.s)) s = lo.s + (hi.s - lo.s) * (level - lo.value) / (hi.value - lo.value);
+  if (!(s > lo.s && s < hi.s)) s = 0.5 * (lo.s + hi.s);
+  Sample last = std::abs(lo.value - level) < std::abs(hi.value - level) ? lo : hi;
+  for (int round = 0;; ++round) {
+    const Sample at = sample(pair, s);
+    const double newton = at.s - (at.value - level) / at.slope();
+    if (std::abs(newton - at.s) <= short_step) return newton == at.s ? at : sample(pair, newton);
+    if (at.value == level || round == kMostRounds) return at;
+    ((at.value > level) == rises ? hi : lo) = at;
+    if (hi.s - lo.s <= short_step) return at;
+    const double cubic = inverse_cubic(last, at, level);
+    last = at;
+    if (cubic >= lo.s && cubic <= hi.s) {
+      s = cubic;
+    } else if (newton >= lo.s && newton <= hi.s) {
+      s = newton;
+    } else {
+      s = 0.5 * (lo.s + hi.s);
+    }
+  }
+}
+
+void RootSearch::add_piece(double lo, double hi, bool exact) { findings_.pieces.push_back({lo, hi, exact, false}); }
+
+}  // namespace rollfix

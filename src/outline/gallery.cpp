@@ -1,0 +1,238 @@
+#include "rollfix/outline/gallery.hpp"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <string_view>
+
+#include "outline/shapes/shapes.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/outline/names.hpp"
+
+namespace rollfix {
+
+namespace {
+
+using Build = shapes::Curves (*)(const Parameters&);
+
+struct Entry {
+  GalleryShape shape;
+  Build build;
+};
+
+GalleryParameter length(const char* name, const char* value, const char* meaning) {
+  return {name, value, meaning, ParameterKind::length, 0, 0};
+}
+
+GalleryParameter number(const char* name, const char* value, const char* meaning, double least, double most) {
+  return {name, value, meaning, ParameterKind::number, least, most};
+}
+
+GalleryParameter whole(const char* name, const char* value, const char* meaning, double least, double most) {
+  return {name, value, meaning, ParameterKind::whole, least, most};
+}
+
+GalleryParameter text(const char* name, const char* value, const char* meaning) {
+  return {name, value, meaning, ParameterKind::text, 0, 0};
+}
+
+constexpr bool kClosed = true;
+constexpr bool kOpen = false;
+constexpr bool kSmooth = true;
+constexpr bool kCorners = false;
+constexpr double kMostSeed = 9007199254740992;  // 2^53: every whole number up to it is a double
+
+const std::vector<Entry>& entries() {
+  static const std::vector<Entry> table = {
+      {{"circle",
+        "x = r cos u, y = r sin u",
+        "(r, 0)",
+        "every place fits every roll that fits at all",
+        kClosed,
+        kSmooth,
+        {length("r", "1", "radius")}},
+       shapes::circle},
+      {{"ellipse",
+        "x = a cos u, y = b sin u",
+        "(a, 0)",
+        "two-fold: each place has an opposite one; close to a circle (a = b) it is ill-conditioned",
+        kClosed,
+        kSmooth,
+        {length("a", "2", "half axis along x"), length("b", "1", "half axis along y")}},
+       shapes::ellipse},
+      {{"superellipse",
+        "|x/a|^n + |y/b|^n = 1",
+        "(a, 0)",
+        "for n > 2 the curvature is 0 at the four points on the axes, without a change of sign; where n is not even "
+        "its derivatives break there",
+        kClosed,
+        kSmooth,
+        {length("a", "1.5", "half axis along x"), length("b", "1", "half axis along y"),
+         number("n", "4", "exponent, 2 or at least 3", 2, 100)}},
+       shapes::superellipse},
+      {{"limacon",
+        "r = a + b cos u",
+        "(a + b, 0)",
+        "convex for a >= 2|b|, dimpled below, and for a < |b| it crosses itself; a = |b| has a cusp and is refused",
+        kClosed,
+        kSmooth,
+        {length("a", "1.5", "mean radius"), number("b", "1", "how far it is off centre", -kMostLength, kMostLength)}},
+       shapes::limacon},
+      {{"cam",
+        "r = base + lift ((1 + cos u)/2)^2",
+        "(base + lift, 0), the top of the lift",
+        "symmetric about the x axis, almost round opposite to the lift",
+        kClosed,
+        kSmooth,
+        {length("base", "1", "radius of the base circle"),
+         number("lift", "0.5", "height of the lift above it", 0, kMostLength)}},
+       shapes::cam},
+      {{"gear",
+        "radius r + depth cos(teeth u) at the angle u",
+        "(r + depth, 0), the top of a tooth",
+        "as many-fold as it has teeth",
+        kClosed,
+        kSmooth,
+        {whole("teeth", "12", "number of teeth", 1, 1000), length("r", "1", "mean radius"),
+         number("depth", "0.1", "half the height of a tooth", 0, kMostLength)}},
+       shapes::gear},
+      {{"spline",
+        "C2 periodic cubic spline in chord length through n points at equal angles, with radii "
+        "1 + wobble * uniform(-1, 1)",
+        "the first point, on the x axis",
+        "the curvature's derivative jumps at every point; uniform(-1, 1) is 2 k/2^53 - 1 with k the top 53 bits of "
+        "std::mt19937_64, one for each point in order",
+        kClosed,
+        kSmooth,
+        {whole("n", "10", "number of points", 3, 100000), whole("seed", "7", "of the generator", 0, kMostSeed),
+         number("wobble", "0.25", "how far the radii stray from 1", 0, 0.99)}},
+       shapes::spline},
+      {{"naca",
+        "4-digit section with the closed trailing edge (-0.1036 x^4): camber, its place, thickness",
+        "the trailing edge (chord, 0), then over the top",
+        "a sharp corner at the trailing edge; with camber also a very slight one above and below its highest place, "
+        "where "
+        "the formula's own tangent jumps; the curvature's derivative jumps at the nose",
+        kClosed,
+        kCorners,
+        {text("digits", "2412", "the four digits, such as 0012 or 2412"), length("chord", "1", "length")}},
+       shapes::naca},
+      {{"reuleaux",
+        "three arcs of radius width around each other's ends",
+        "the corner (width/sqrt 3, 0)",
+        "every place on an arc fits as well as any other",
+        kClosed,
+        kCorners,
+        {length("width", "1", "width in every direction")}},
+       shapes::reuleaux},
+      {{"stadium",
+        "two half circles of radius r joined by two lines of the given length",
+        "(-length/2, -r), the start of the lower line",
+        "whole stretches fit; curvature jumps where line and arc meet",
+        kClosed,
+        kSmooth,
+        {length("length", "2", "of each straight side"), length("r", "1", "radius of the ends")}},
+       shapes::stadium},
+      {{"rounded-rectangle",
+        "width by height, its corners rounded with radius r",
+        "(-width/2 + r, -height/2), the start of the lower side",
+        "whole stretches fit; curvature jumps where line and arc meet",
+        kClosed,
+        kSmooth,
+        {length("width", "3", "outer size along x"), length("height", "2", "outer size along y"),
+         length("r", "0.5", "radius of the corners, below half of either")}},
+       shapes::rounded_rectangle},
+      {{"polygon",
+        "regular, corners at r (cos 2 pi i/n, sin 2 pi i/n)",
+        "the corner (r, 0)",
+        "every place on a side fits as well as any other",
+        kClosed,
+        kCorners,
+        {whole("n", "6", "number of corners", 3, 10000), length("r", "1", "radius of the circle through the corners")}},
+       shapes::polygon},
+      {{"log-spiral",
+        "r = a e^(b u)",
+        "(a, 0)",
+        "no inflection and no vertex at all",
+        kOpen,
+        kSmooth,
+        {length("a", "1", "radius at the start"), number("b", "0.1", "growth per radian, not 0", -100, 100),
+         number("turns", "2", "how often it goes round", 1e-6, 1000)}},
+       shapes::log_spiral},
+      {{"exponential",
+        "x = scale u, y = scale e^u, from <= u <= to",
+        "u = from",
+        "one vertex, at u = -ln(2)/2, and no inflection",
+        kOpen,
+        kSmooth,
+        {number("from", "-3", "where u starts", -25, 25), number("to", "2", "where u ends", -25, 25),
+         length("scale", "1", "unit of both axes")}},
+       shapes::exponential},
+  };
+  return table;
+}
+
+const Entry& find_entry(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Entry& entry : entries()) {
+    if (entry.shape.name == name) return entry;
+    names.push_back(entry.shape.name);
+  }
+  throw InputError(fmt::format("there is no gallery shape '{}'; {}", name, known_names(name, names)));
+}
+
+std::string trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return "";
+  return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
+}
+
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> parts;
+  std::size_t start = 0;
+  for (std::size_t comma = text.find(','); comma != std::string::npos; comma = text.find(',', start)) {
+    parts.push_back(trimmed(std::string_view(text).substr(start, comma - start)));
+    start = comma + 1;
+  }
+  parts.push_back(trimmed(std::string_view(text).substr(start)));
+  return parts;
+}
+
+}  // namespace
+
+const std::vector<GalleryShape>& gallery_shapes() {
+  static const std::vector<GalleryShape> shapes = [] {
+    std::vector<GalleryShape> result;
+    for (const Entry& entry : entries()) result.push_back(entry.shape);
+    return result;
+  }();
+  return shapes;
+}
+
+Outline gallery(const std::string& shape, const ParameterList& parameters) {
+  const Entry& entry = find_entry(shape);
+  Outline outline;
+  outline.name = "gallery:" + shape;
+  for (const auto& [name, value] : parameters) outline.name += fmt::format(",{}={}", name, value);
+  outline.closed = entry.shape.closed;
+  outline.curves = entry.build(Parameters(entry.shape, parameters));
+  return outline;
+}
+
+Outline gallery(const std::string& specification) {
+  const std::string prefix = "gallery:";
+  const bool has_prefix = specification.rfind(prefix, 0) == 0;
+  const std::vector<std::string> parts = split(has_prefix ? specification.substr(prefix.size()) : specification);
+  ParameterList parameters;
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    const std::size_t equals = parts[i].find('=');
+    if (equals == std::string::npos) {
+      throw InputError(
+          fmt::format("'{}' in '{}': expected a parameter as in gallery:ellipse,a=2,b=1", parts[i], specification));
+    }
+    parameters.emplace_back(trimmed(parts[i].substr(0, equals)), trimmed(parts[i].substr(equals + 1)));
+  }
+  return gallery(parts.front(), parameters);
+}
+
+}  // namespace rollfix

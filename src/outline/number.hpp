@@ -1,0 +1,34 @@
+#pragma once
+
+#include <fast_float/fast_float.h>
+
+#include <optional>
+#include <string_view>
+#include <system_error>
+
+namespace rollfix {
+
+/// Reads one number at `cursor` and moves it past the number; false (and the cursor stays) when there is none.
+/// A leading plus is accepted; nan and inf are numbers here, for the caller to refuse.
+inline bool scan_number(const char*& cursor, const char* end, double& value) {
+  const char* digits = cursor;
+  if (digits != end && *digits == '+') {
+    ++digits;
+    if (digits != end && *digits == '-') return false;
+  }
+  const auto result = fast_float::from_chars(digits, end, value);
+  if (result.ec == std::errc::invalid_argument) return false;
+  cursor = result.ptr;
+  return true;
+}
+
+/// The whole text as a number, or nothing.
+inline std::optional<double> parse_number(std::string_view text) {
+  const char* cursor = text.data();
+  const char* const end = text.data() + text.size();
+  double value = 0;
+  if (!scan_number(cursor, end, value) || cursor != end) return std::nullopt;
+  return value;
+}
+
+}  // namespace rollfix

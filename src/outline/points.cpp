@@ -1,0 +1,228 @@
+#include "rollfix/outline/points.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <limits>
+
+#include "outline/number.hpp"
+#include "outline/text_file.hpp"
+#include "rollfix/error.hpp"
+
+namespace rollfix {
+
+namespace {
+
+/// Beyond this, products of four coordinates overflow.
+constexpr double kMostCoordinate = 1e75;
+/// A closed outline flatter than this share of its size has all its points on one line, but for rounding.
+constexpr double kFlat = 1e-12;
+
+/// Points with the lines they came from.
+struct NumberedPoints {
+  std::vector<Vec2> points;
+  std::vector<std::size_t> lines;
+};
+
+/// What a line holds.
+enum class LineKind { blank, point, words, one_number, mixed_separators };
+
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+bool is_mark(char c) { return c == ',' || c == ';'; }
+
+/// Between two fields: blanks with at most one comma or semicolon among them. Returns the mark, a blank when there
+/// is none, or 0 when the line ends or nothing separates.
+char skip_separator(const char*& cursor, const char* end) {
+  const char* const start = cursor;
+  char mark = ' ';
+  while (cursor != end && is_space(*cursor)) ++cursor;
+  if (cursor != end && is_mark(*cursor)) {
+    mark = *cursor++;
+    while (cursor != end && is_space(*cursor)) ++cursor;
+  }
+  const bool line_ends = cursor == end && mark == ' ';
+  return line_ends || cursor == start ? '\0' : mark;
+}
+
+LineKind read_line(const char* cursor, const char* end, Vec2& point) {
+  while (cursor != end && is_space(*cursor)) ++cursor;
+  if (cursor == end) return LineKind::blank;
+  if (!scan_number(cursor, end, point.x())) return LineKind::words;
+  const char first_mark = skip_separator(cursor, end);
+  if (first_mark == '\0') return cursor == end ? LineKind::one_number : LineKind::words;
+  if (cursor == end) return LineKind::one_number;  // "1,"
+  if (!scan_number(cursor, end, point.y())) return LineKind::words;
+  const char second_mark = skip_separator(cursor, end);
+  if (second_mark == '\0') return cursor == end ? LineKind::point : LineKind::words;
+  // "1,5;2,5" or "1,5 2,5": a decimal comma, most likely, and nothing that could be taken for a point by mistake.
+  return is_mark(first_mark) && second_mark != first_mark ? LineKind::mixed_separators : LineKind::point;
+}
+
+std::string shown(std::string_view line) {
+  constexpr std::size_t kMost = 40;
+  while (!line.empty() && is_space(line.front())) line.remove_prefix(1);
+  while (!line.empty() && is_space(line.back())) line.remove_suffix(1);
+  const std::string more = line.size() > kMost ? "..." : "";
+  std::string text = std::string(line.substr(0, kMost)) + more;
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20) c = '?';
+  }
+  return text;
+}
+
+[[noreturn]] void refuse_line(const std::string& name, std::size_t number, std::string_view line, LineKind kind) {
+  const std::string where = fmt::format("{}:{}: '{}'", name, number, shown(line));
+  switch (kind) {
+    case LineKind::one_number:
+      throw InputError(where + " is only one number, expected two as in '1.5 2'; a title goes behind a #");
+    case LineKind::mixed_separators:
+      throw InputError(where + " mixes separators, expected 'x y' or 'x,y' with decimal points, not commas");
+    default:
+      throw InputError(where + " is not two numbers, expected a point as in '1.5 2' or '1.5,2'");
+  }
+}
+
+void refuse_binary(std::string_view text, const std::string& name) {
+  const std::string_view head = text.substr(0, 1024);
+  const bool is_utf16 = head.substr(0, 2) == "\xFF\xFE" || head.substr(0, 2) == "\xFE\xFF";
+  if (is_utf16) throw InputError(fmt::format("{}: is UTF-16 text, expected plain text; save it as UTF-8", name));
+  if (head.find('\0') != std::string_view::npos) {
+    throw InputError(fmt::format("{}: is not a text file, expected one point 'x y' per line", name));
+  }
+}
+
+/// One pass over the text.
+NumberedPoints read_lines(std::string_view text, const std::string& name) {
+  refuse_binary(text, name);
+  if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
+  NumberedPoints result;
+  bool title_may_come = true;
+  std::size_t number = 0;
+  const char* cursor = text.data();
+  const char* const end = text.data() + text.size();
+  while (cursor != end) {
+    ++number;
+    const auto rest = static_cast<std::size_t>(end - cursor);
+    const auto* const newline = static_cast<const char*>(std::memchr(cursor, '\n', rest));
+    const char* const line_end = newline != nullptr ? newline : end;
+    const std::string_view line(cursor, static_cast<std::size_t>(line_end - cursor));
+    cursor = newline != nullptr ? newline + 1 : end;
+
+    const std::string_view data = line.substr(0, line.find('#'));
+    Vec2 point;
+    const LineKind kind = read_line(data.data(), data.data() + data.size(), point);
+    if (kind == LineKind::blank) continue;
+    const bool is_title = kind == LineKind::words && title_may_come;
+    title_may_come = false;
+    if (is_title) continue;
+    if (kind != LineKind::point) refuse_line(name, number, line, kind);
+    if (!(point.cwiseAbs().maxCoeff() <= kMostCoordinate) || point.hasNaN()) {
+      throw InputError(fmt::format("{}:{}: the point ({}, {}) is out of range, expected finite numbers of at most {}",
+                                   name, number, point.x(), point.y(), kMostCoordinate));
+    }
+    result.points.push_back(point);
+    result.lines.push_back(number);
+  }
+  return result;
+}
+
+/// The bounding box's diagonal.
+double size_of(const std::vector<Vec2>& points) {
+  Vec2 least = points.front();
+  Vec2 most = points.front();
+  for (const Vec2& point : points) {
+    least = least.cwiseMin(point);
+    most = most.cwiseMax(point);
+  }
+  return (most - least).norm();
+}
+
+void require_enough(const NumberedPoints& data, const std::string& name, const OutlineOptions& options) {
+  const std::size_t count = data.points.size();
+  const std::size_t needed = options.open ? 2 : 3;
+  if (count >= needed) return;
+  const std::string kind = options.open ? "an open" : "a closed";
+  const std::string cure = !options.open && count == 2 ? " (or is it open?)" : "";
+  throw InputError(
+      fmt::format("{}: holds {} different points, {} outline needs at least {}{}", name, count, kind, needed, cure));
+}
+
+/// The format of some airfoil collections: after the title the number of points above and below, then both
+/// surfaces from the nose to the tail. Taken for points it would give nonsense.
+void refuse_lednicer(const NumberedPoints& data, const std::string& name) {
+  const Vec2& counts = data.points.front();
+  const bool are_whole = counts == counts.array().floor().matrix() && counts.minCoeff() > 2;
+  if (!are_whole || counts.sum() != static_cast<double>(data.points.size() - 1)) return;
+  throw InputError(
+      fmt::format("{}:{}: '{} {}' looks like the numbers of points above and below (Lednicer's airfoil format), "
+                  "expected the points of one loop in order (Selig's format)",
+                  name, data.lines.front(), counts.x(), counts.y()));
+}
+
+void refuse_repeated(const NumberedPoints& data, double size, const std::string& name, bool open) {
+  const std::vector<Vec2>& points = data.points;
+  const double least = kSamePoint * size;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool is_last = i + 1 == points.size();
+    if (is_last && open) break;
+    const std::size_t next = is_last ? 0 : i + 1;
+    if ((points[next] - points[i]).squaredNorm() > least * least) continue;
+    const double distance = (points[next] - points[i]).norm();
+    const std::string how_near =
+        distance > 0 ? fmt::format(" but for {:.2g}, too little for a size of {:.4g}", distance, size) : "";
+    throw InputError(fmt::format("{}: lines {} and {} hold the same point ({}, {}){}; remove one of them", name,
+                                 data.lines[i], data.lines[next], points[next].x(), points[next].y(), how_near));
+  }
+}
+
+void refuse_flat(const std::vector<Vec2>& points, double size, const std::string& name) {
+  const Vec2& first = points.front();
+  const auto is_nearer = [&](const Vec2& a, const Vec2& b) {
+    return (a - first).squaredNorm() < (b - first).squaredNorm();
+  };
+  const Vec2 reach = *std::max_element(points.begin(), points.end(), is_nearer) - first;
+  const double limit = kFlat * size * reach.norm();
+  const auto is_on_line = [&](const Vec2& point) { return std::abs(cross(reach, point - first)) <= limit; };
+  if (!std::all_of(points.begin(), points.end(), is_on_line)) return;
+  throw InputError(fmt::format("{}: all {} points lie on one line, a closed outline encloses an area (or is it open?)",
+                               name, points.size()));
+}
+
+}  // namespace
+
+std::vector<Vec2> parse_points(std::string_view text, const std::string& name, const OutlineOptions& options) {
+  NumberedPoints data = read_lines(text, name);
+  if (data.points.size() < 2) require_enough(data, name, options);
+  const double size = size_of(data.points);
+  if (!(size > 0)) {
+    throw InputError(fmt::format("{}: all {} points are the same, ({}, {})", name, data.points.size(),
+                                 data.points.front().x(), data.points.front().y()));
+  }
+  const bool ends_meet = (data.points.back() - data.points.front()).norm() <= kSamePoint * size;
+  if (!options.open && ends_meet) {
+    data.points.pop_back();
+    data.lines.pop_back();
+  }
+  require_enough(data, name, options);
+  refuse_lednicer(data, name);
+  refuse_repeated(data, size, name, options.open);
+  if (!options.open) refuse_flat(data.points, size, name);
+  return std::move(data.points);
+}
+
+std::vector<Vec2> read_points(const std::string& path, const OutlineOptions& options) {
+  return parse_points(read_text(path), path == "-" ? "standard input" : path, options);
+}
+
+Outline outline_through(const std::vector<Vec2>& points, const std::string& name, const OutlineOptions& options) {
+  Outline outline;
+  outline.name = name;
+  outline.closed = !options.open;
+  outline.curves = spline_through(points, outline.closed, options.corner_angle);
+  return outline;
+}
+
+}  // namespace rollfix

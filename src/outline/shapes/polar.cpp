@@ -1,0 +1,111 @@
+#include <cmath>
+
+#include "outline/shapes/shapes.hpp"
+#include "outline/turn.hpp"
+
+namespace rollfix::shapes {
+
+namespace {
+
+/// A radius and its derivatives by the angle.
+struct RadiusJet {
+  double value;
+  double first;
+  double second;
+  double third;
+};
+
+/// r = r(u) once around, in polar form: x = r cos u, y = r sin u. `Radius` gives RadiusJet from a Turn.
+template <class Radius>
+struct Polar {
+  Radius radius;
+
+  Interval domain() const { return {0, kFullTurn}; }
+
+  Vec2 velocity(double u) const {
+    const Turn turn = turn_by(u);
+    const RadiusJet r = radius(turn);
+    return in_frame(turn, r.first, r.value);
+  }
+
+  Jet jet(double u) const {
+    const Turn turn = turn_by(u);
+    const RadiusJet r = radius(turn);
+    return {in_frame(turn, r.value, 0), in_frame(turn, r.first, r.value),
+            in_frame(turn, r.second - r.value, 2 * r.first),
+            in_frame(turn, r.third - 3 * r.first, 3 * r.second - r.value)};
+  }
+
+ private:
+  static Vec2 in_frame(const Turn& turn, double outward, double around) {
+    return {outward * turn.cosine - around * turn.sine, outward * turn.sine + around * turn.cosine};
+  }
+};
+
+/// r = a + b cos u, with a > 0.
+struct LimaconRadius {
+  double a;
+  double b;
+
+  RadiusJet operator()(const Turn& turn) const {
+    // Where b cos u is close to -|b|, the sum is taken as (a - |b|) + |b| (1 - cos^2)/(1 - ...) without cancellation.
+    const double cosine = b < 0 ? -turn.cosine : turn.cosine;
+    const double above_least = cosine < 0 ? turn.sine * turn.sine / (1 - cosine) : 1 + cosine;
+    const double size = std::abs(b);
+    return {(a - size) + size * above_least, -b * turn.sine, -b * turn.cosine, b * turn.sine};
+  }
+};
+
+/// r = base + lift q^2, q = (1 + cos u)/2.
+struct CamRadius {
+  double base;
+  double lift;
+
+  RadiusJet operator()(const Turn& turn) const {
+    const double q = 0.5 * (1 + turn.cosine);
+    const double q1 = -0.5 * turn.sine;
+    const double q2 = -0.5 * turn.cosine;
+    const double q3 = 0.5 * turn.sine;
+    return {base + lift * q * q, 2 * lift * q * q1, 2 * lift * (q1 * q1 + q * q2), 2 * lift * (3 * q1 * q2 + q * q3)};
+  }
+};
+
+/// r = r0 + depth cos(teeth u).
+struct GearRadius {
+  double r0;
+  double depth;
+  double teeth;
+
+  RadiusJet operator()(const Turn& turn) const {
+    // teeth * u is rounded; what rounding took is put back to first order.
+    const ExactProduct phase = exact_product(teeth, turn.angle);
+    const double rounded_cosine = std::cos(phase.value);
+    const double rounded_sine = std::sin(phase.value);
+    const double cosine = rounded_cosine - phase.rest * rounded_sine;
+    const double sine = rounded_sine + phase.rest * rounded_cosine;
+    return {r0 + depth * cosine, -teeth * depth * sine, -teeth * teeth * depth * cosine,
+            teeth * teeth * teeth * depth * sine};
+  }
+};
+
+}  // namespace
+
+Curves limacon(const Parameters& parameters) {
+  const double a = parameters.number("a");
+  const double b = parameters.number("b");
+  if (kMostContrast * std::abs(a - std::abs(b)) < a) parameters.refuse("it has a cusp where a = |b|; take them apart");
+  return {Polar<LimaconRadius>{{a, b}}};
+}
+
+Curves cam(const Parameters& parameters) {
+  return {Polar<CamRadius>{{parameters.number("base"), parameters.number("lift")}}};
+}
+
+Curves gear(const Parameters& parameters) {
+  const double r = parameters.number("r");
+  const double depth = parameters.number("depth");
+  if (kMostContrast * (r - depth) < r) parameters.refuse("depth must be below r, or the gaps reach the centre");
+  return {Polar<GearRadius>{{r, depth, parameters.number("teeth")}}};
+}
+
+}  // namespace rollfix::shapes

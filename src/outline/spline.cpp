@@ -1,0 +1,206 @@
+#include "rollfix/outline/spline.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+#include "outline/tridiagonal.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/outline/primitives.hpp"
+
+namespace rollfix {
+
+namespace {
+
+/// Points that are off a straight line by this share of their largest coordinate are on it: rounding of the input.
+constexpr double kStraight = 4 * std::numeric_limits<double>::epsilon();
+
+void require_usable(const std::vector<Vec2>& points, bool closed, double corner_angle) {
+  const std::size_t needed = closed ? 3 : 2;
+  if (points.size() < needed) {
+    throw InputError(fmt::format("a spline through {} points: {} curve needs at least {}", points.size(),
+                                 closed ? "a closed" : "an open", needed));
+  }
+  if (!(corner_angle >= 0 && corner_angle <= std::numbers::pi)) {
+    throw InputError(
+        fmt::format("a corner angle of {} rad: expected 0 to pi (degrees are written as in 59deg)", corner_angle));
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i].allFinite()) {
+      throw InputError(
+          fmt::format("point {} of a spline is ({}, {}): expected finite numbers", i, points[i].x(), points[i].y()));
+    }
+  }
+}
+
+/// The polygon that a spline runs along. On a closed one, chord i goes from point i to point i + 1 modulo their number.
+class Chords {
+ public:
+  Chords(const std::vector<Vec2>& points, bool closed) : points_(points), closed_(closed) {
+    lengths_.reserve(size());
+    for (std::size_t i = 0; i < size(); ++i) {
+      const double length = chord(i).norm();
+      if (!(length > 0)) {
+        throw InputError(fmt::format("points {} and {} of a spline are both ({}, {}); leave one out", i, end_index(i),
+                                     points_[i].x(), points_[i].y()));
+      }
+      lengths_.push_back(length);
+    }
+  }
+
+  std::size_t size() const { return closed_ ? points_.size() : points_.size() - 1; }
+  bool closed() const { return closed_; }
+  std::size_t wrapped(std::size_t i) const { return i < size() ? i : i - size(); }
+  const Vec2& from(std::size_t i) const { return points_[i]; }
+  const Vec2& to(std::size_t i) const { return points_[end_index(i)]; }
+  Vec2 chord(std::size_t i) const { return to(i) - from(i); }
+  double length(std::size_t i) const { return lengths_[i]; }
+  Vec2 slope(std::size_t i) const { return chord(i) / lengths_[i]; }
+
+  /// How far the polygon turns where chord `next` follows chord `previous`, in [0, pi].
+  double turn(std::size_t previous, std::size_t next) const {
+    const Vec2 before = slope(previous);
+    const Vec2 after = slope(next);
+    return std::abs(std::atan2(cross(before, after), before.dot(after)));
+  }
+
+  /// Points at which a new spline starts, in order; on an open curve they include its first.
+  std::vector<std::size_t> breaks(double corner_angle) const {
+    std::vector<std::size_t> result;
+    for (std::size_t i = 0; i < size(); ++i) {
+      const bool is_end = i == 0 && !closed_;
+      if (is_end || turn(i == 0 ? size() - 1 : i - 1, i) >= corner_angle) result.push_back(i);
+    }
+    return result;
+  }
+
+ private:
+  std::size_t end_index(std::size_t i) const { return i + 1 < points_.size() ? i + 1 : 0; }
+
+  const std::vector<Vec2>& points_;
+  bool closed_;
+  std::vector<double> lengths_;
+};
+
+/// A run of neighbouring chords, across the seam if need be.
+struct Run {
+  std::size_t first;
+  std::size_t count;
+};
+
+/// The equation of continuous slope at the knot between two chords.
+void add_knot(TridiagonalSystem& system, const Chords& chords, std::size_t before, std::size_t after) {
+  system.diagonal.push_back(2 * (chords.length(before) + chords.length(after)));
+  system.off.push_back(chords.length(after));
+  system.right.push_back(6 * (chords.slope(after) - chords.slope(before)));
+}
+
+TridiagonalSystem room_for(std::size_t knots) {
+  TridiagonalSystem system;
+  system.diagonal.reserve(knots);
+  system.off.reserve(knots);
+  system.right.reserve(knots);
+  return system;
+}
+
+/// Second derivatives, by chord length, at the start of every chord of a periodic spline.
+std::vector<Vec2> periodic_moments(const Chords& chords) {
+  TridiagonalSystem system = room_for(chords.size());
+  for (std::size_t i = 0; i < chords.size(); ++i) {
+    add_knot(system, chords, i == 0 ? chords.size() - 1 : i - 1, i);
+  }
+  system.wrap = chords.length(chords.size() - 1);
+  return solve(std::move(system));
+}
+
+/// Second derivatives at the run's count + 1 points; zero at both ends.
+std::vector<Vec2> natural_moments(const Chords& chords, const Run& run) {
+  std::vector<Vec2> moments;
+  if (run.count > 1) {
+    TridiagonalSystem system = room_for(run.count - 1);
+    for (std::size_t k = 1; k < run.count; ++k) {
+      add_knot(system, chords, chords.wrapped(run.first + k - 1), chords.wrapped(run.first + k));
+    }
+    moments = solve(std::move(system));
+  }
+  moments.insert(moments.begin(), Vec2::Zero());
+  moments.push_back(Vec2::Zero());
+  return moments;
+}
+
+Curve span(const Chords& chords, std::size_t i, const Vec2& moment_from, const Vec2& moment_to) {
+  // The span's own parameter runs over [0, 1], so derivatives by chord length scale with the chord.
+  const double square = chords.length(i) * chords.length(i);
+  return CubicSpan::with_second_derivatives(chords.from(i), chords.to(i), square * moment_from, square * moment_to);
+}
+
+/// Whether all points of the run are on the line from its first to its last.
+bool is_straight(const Chords& chords, const Run& run) {
+  const Vec2& first = chords.from(run.first);
+  const Vec2& last = chords.to(chords.wrapped(run.first + run.count - 1));
+  const Vec2 whole = last - first;
+  if (whole == Vec2::Zero()) return false;  // all the way round, from the only corner back to it
+  const double largest = std::max(first.cwiseAbs().maxCoeff(), last.cwiseAbs().maxCoeff());
+  const double limit = kStraight * largest * whole.norm();
+  for (std::size_t k = 0; k + 1 < run.count; ++k) {
+    const Vec2& point = chords.to(chords.wrapped(run.first + k));
+    if (std::abs(cross(whole, point - first)) > limit) return false;
+  }
+  return true;
+}
+
+/// One spline between two breaks; `place(i, curve)` takes the curve on chord i.
+template <class Place>
+void draw_run(const Chords& chords, const Run& run, const Place& place) {
+  if (is_straight(chords, run)) {
+    for (std::size_t k = 0; k < run.count; ++k) {
+      const std::size_t i = chords.wrapped(run.first + k);
+      place(i, Line(chords.from(i), chords.to(i)));
+    }
+    return;
+  }
+  const std::vector<Vec2> moments = natural_moments(chords, run);
+  for (std::size_t k = 0; k < run.count; ++k) {
+    const std::size_t i = chords.wrapped(run.first + k);
+    place(i, span(chords, i, moments[k], moments[k + 1]));
+  }
+}
+
+std::vector<Curve> periodic_spline(const Chords& chords) {
+  const std::vector<Vec2> moments = periodic_moments(chords);
+  std::vector<Curve> curves;
+  curves.reserve(chords.size());
+  for (std::size_t i = 0; i < chords.size(); ++i) {
+    curves.push_back(span(chords, i, moments[i], moments[chords.wrapped(i + 1)]));
+  }
+  return curves;
+}
+
+}  // namespace
+
+std::vector<Curve> spline_through(const std::vector<Vec2>& points, bool closed, double corner_angle) {
+  require_usable(points, closed, corner_angle);
+  const Chords chords(points, closed);
+  const std::vector<std::size_t> breaks = chords.breaks(corner_angle);
+  if (breaks.empty()) return periodic_spline(chords);
+
+  // The run across the seam is drawn first and turned last: its tail belongs to the front of the list.
+  std::vector<Curve> curves;
+  curves.reserve(chords.size());
+  std::vector<Curve> before_first_break;
+  const auto place = [&](std::size_t i, Curve curve) {
+    (i < breaks.front() ? before_first_break : curves).push_back(std::move(curve));
+  };
+  for (std::size_t k = 0; k < breaks.size(); ++k) {
+    const std::size_t end = k + 1 < breaks.size() ? breaks[k + 1] : chords.size() + (closed ? breaks.front() : 0);
+    draw_run(chords, {breaks[k], end - breaks[k]}, place);
+  }
+  curves.insert(curves.begin(), before_first_break.begin(), before_first_break.end());
+  return curves;
+}
+
+}  // namespace rollfix

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+namespace rollfix {
+
+inline constexpr double kFullTurn = 2 * std::numbers::pi;
+
+/// An angle with its cosine and sine.
+struct Turn {
+  double angle = 0;
+  double cosine = 1;
+  double sine = 0;
+};
+
+/// The turn by u in [0, 2 pi]. The second half is measured back from the end, so that a full turn gives
+/// the bits of no turn at all: curves in polar form close exactly.
+inline Turn turn_by(double u) {
+  const double angle = u > std::numbers::pi ? u - kFullTurn : u;
+  return {angle, std::cos(angle), std::sin(angle)};
+}
+
+/// a * b as the sum of two doubles, without error.
+struct ExactProduct {
+  double value;  // a * b rounded
+  double rest;
+};
+
+inline ExactProduct exact_product(double a, double b) {
+  const double value = a * b;
+  return {value, std::fma(a, b, -value)};
+}
+
+}  // namespace rollfix

@@ -1,0 +1,204 @@
+#include "crossing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace rollfix {
+namespace {
+
+// A stretch whose tangent turns by less than half a turn in all, corners included, can't meet itself.
+constexpr double kSimpleTurn = std::numbers::pi * (1 - 1e-9);
+// Leaves turn by no more than this, so that a chord is close to its arc.
+constexpr double kLeafTurn = 0.7;
+// Two arcs that are still not apart at this share of the perimeter do meet.
+constexpr double kMeeting = 1e-10;
+
+struct Box {
+  Vec2 lo;
+  Vec2 hi;
+
+  bool meets(const Box& other) const {
+    return (lo.array() <= other.hi.array()).all() && (other.lo.array() <= hi.array()).all();
+  }
+  Box with(const Box& other) const { return {lo.cwiseMin(other.lo), hi.cwiseMax(other.hi)}; }
+  double size() const { return (hi - lo).maxCoeff(); }
+};
+
+/// A stretch of boundary between arc lengths lo and hi.
+struct Arc {
+  double lo = 0;
+  double hi = 0;
+  Vec2 start;
+  Vec2 end;
+  double turn = 0;  // of the tangent in all, |corner at its start| not included
+
+  /// An arc lies no further from its chord than the isosceles triangle with the same turn.
+  Box box() const {
+    const double bulge = 0.5 * (end - start).norm() * std::tan(0.5 * std::min(turn, 2.0)) * (1 + 1e-9);
+    const Vec2 margin = Vec2::Constant(bulge);
+    return {start.cwiseMin(end) - margin, start.cwiseMax(end) + margin};
+  }
+};
+
+/// A binary tree over consecutive arcs. A node knows its box, and how far the tangent turns in it.
+class CrossingSearch {
+ public:
+  explicit CrossingSearch(const Part& part) : part_(part) {
+    collect_arcs();
+    build(0, arcs_.size());
+  }
+
+  std::optional<Crossing> run() {
+    within(0, 0, arcs_.size());
+    return found_;
+  }
+
+ private:
+  struct Node {
+    Box box;
+    double turn = 0;   // corners between its arcs included
+    double reach = 0;  // length
+    std::size_t right = 0;
+  };
+
+  void collect_arcs() {
+    const std::vector<Spiral>& spirals = part_.turning().spirals();
+    const std::vector<Panel>& panels = part_.turning().panels();
+    auto corner = part_.corners().begin();
+    for (const Spiral& spiral : spirals) {
+      double jump = 0;
+      if (corner != part_.corners().end() && corner->s <= spiral.lo) jump = std::abs((corner++)->turn);
+      for (std::uint32_t panel = spiral.first_panel; panel <= spiral.last_panel; ++panel) {
+        const double lo = std::max(spiral.lo, panels[panel].lo);
+        const double hi = std::min(spiral.hi, panels[panel].hi);
+        if (hi > lo) add_arcs(spiral, lo, hi, jump);
+        jump = 0;
+      }
+    }
+  }
+
+  void add_arcs(const Spiral& spiral, double lo, double hi, double jump) {
+    const TurningFunction& turning = part_.turning();
+    const double turn = std::abs(turning.on_spiral(spiral, hi).angle - turning.on_spiral(spiral, lo).angle);
+    const int count = 1 + static_cast<int>(turn / kLeafTurn);
+    for (int k = 0; k < count; ++k) {
+      const double from = lo + (hi - lo) * k / count;
+      const double to = k + 1 == count ? hi : lo + (hi - lo) * (k + 1) / count;
+      arcs_.push_back(arc(from, to));
+      corners_.push_back(k == 0 ? jump : 0);
+    }
+  }
+
+  Arc arc(double lo, double hi) const {
+    const TurningFunction& turning = part_.turning();
+    const double turn = std::abs(turning.angle(hi, Side::before) - turning.angle(lo, Side::after));
+    return {lo, hi, arcs_.empty() || arcs_.back().hi != lo ? part_.point(lo) : arcs_.back().end, part_.point(hi), turn};
+  }
+
+  std::size_t build(std::size_t first, std::size_t last) {
+    const std::size_t index = nodes_.size();
+    nodes_.emplace_back();
+    if (last - first == 1) {
+      const Arc& leaf = arcs_[first];
+      nodes_[index] = {leaf.box(), leaf.turn, leaf.hi - leaf.lo, 0};
+      return index;
+    }
+    const std::size_t middle = first + (last - first) / 2;
+    const std::size_t left = build(first, middle);
+    const std::size_t right = build(middle, last);
+    nodes_[index] = {nodes_[left].box.with(nodes_[right].box),
+                     nodes_[left].turn + corners_[middle] + nodes_[right].turn,
+                     nodes_[left].reach + nodes_[right].reach, right};
+    return index;
+  }
+
+  /// Does the stretch of arcs [first, last) meet itself?
+  void within(std::size_t node, std::size_t first, std::size_t last) {
+    if (found_ || last - first == 1 || nodes_[node].turn < kSimpleTurn) return;
+    const std::size_t middle = first + (last - first) / 2;
+    within(node + 1, first, middle);
+    within(nodes_[node].right, middle, last);
+    between(node + 1, first, middle, nodes_[node].right, middle, last);
+  }
+
+  /// Do two stretches, the first before the second, meet elsewhere than where they join?
+  void between(std::size_t node1, std::size_t first1, std::size_t last1, std::size_t node2, std::size_t first2,
+               std::size_t last2) {
+    if (found_ || !nodes_[node1].box.meets(nodes_[node2].box)) return;
+    if (last1 == first2 && nodes_[node1].turn + corners_[first2] + nodes_[node2].turn < kSimpleTurn) return;
+    if (last2 == arcs_.size() && first1 == 0 && part_.closed() &&
+        nodes_[node1].turn + corners_[0] + nodes_[node2].turn < kSimpleTurn) {
+      return;
+    }
+    const bool leaf1 = last1 - first1 == 1;
+    const bool leaf2 = last2 - first2 == 1;
+    if (leaf1 && leaf2) {
+      meet(arcs_[first1], arcs_[first2], joint_turn(last1, first2, last2, first1));
+    } else if (leaf2 || (!leaf1 && nodes_[node1].box.size() >= nodes_[node2].box.size())) {
+      const std::size_t middle = first1 + (last1 - first1) / 2;
+      between(node1 + 1, first1, middle, node2, first2, last2);
+      between(nodes_[node1].right, middle, last1, node2, first2, last2);
+    } else {
+      const std::size_t middle = first2 + (last2 - first2) / 2;
+      between(node1, first1, last1, node2 + 1, first2, middle);
+      between(node1, first1, last1, nodes_[node2].right, middle, last2);
+    }
+  }
+
+  /// The corners at which two neighbouring leaves join: after the first, and across s = 0 after the second.
+  struct JointTurn {
+    double after_first = -1;  // negative: not neighbours there
+    double after_second = -1;
+  };
+  JointTurn joint_turn(std::size_t last1, std::size_t first2, std::size_t last2, std::size_t first1) const {
+    JointTurn turn;
+    if (last1 == first2) turn.after_first = corners_[first2];
+    if (part_.closed() && last2 == arcs_.size() && first1 == 0) turn.after_second = corners_[0];
+    return turn;
+  }
+
+  /// Halves two arcs until they are apart, or too short to tell from one point.
+  void meet(const Arc& one, const Arc& two, const JointTurn& joint) {
+    if (found_ || !one.box().meets(two.box())) return;
+    const double turn = one.turn + two.turn;
+    if (joint.after_first >= 0 && turn + joint.after_first < kSimpleTurn) return;
+    if (joint.after_second >= 0 && turn + joint.after_second < kSimpleTurn) return;
+    const double shortest = kMeeting * part_.perimeter();
+    const bool split_one = one.hi - one.lo >= two.hi - two.lo;
+    const Arc& longer = split_one ? one : two;
+    if (longer.hi - longer.lo <= shortest) {
+      found_ = Crossing{one.lo, two.lo, one.start};
+      return;
+    }
+    const double middle = 0.5 * (longer.lo + longer.hi);
+    const Arc head = part_of(longer, longer.lo, middle);
+    const Arc tail = part_of(longer, middle, longer.hi);
+    if (split_one) {
+      meet(head, two, {-1, joint.after_second});
+      meet(tail, two, {joint.after_first, -1});
+    } else {
+      meet(one, head, {joint.after_first, -1});
+      meet(one, tail, {-1, joint.after_second});
+    }
+  }
+
+  Arc part_of(const Arc& whole, double lo, double hi) const {
+    const TurningFunction& turning = part_.turning();
+    return {lo, hi, lo == whole.lo ? whole.start : part_.point(lo), hi == whole.hi ? whole.end : part_.point(hi),
+            std::abs(turning.angle(hi, Side::before) - turning.angle(lo, Side::after))};
+  }
+
+  const Part& part_;
+  std::vector<Arc> arcs_;
+  std::vector<double> corners_;  // |turn| of the corner where each arc starts
+  std::vector<Node> nodes_;      // a node's left child is the next one
+  std::optional<Crossing> found_;
+};
+
+}  // namespace
+
+std::optional<Crossing> find_crossing(const Part& part) { return CrossingSearch(part).run(); }
+
+}  // namespace rollfix

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "resolve.hpp"
+#include "rollfix/outline/outline.hpp"
+#include "rollfix/part/part.hpp"
+#include "rollfix/part/turning_function.hpp"
+
+namespace rollfix {
+
+/// From arc length back to the curves: on each panel of the turning function the curve's parameter as a
+/// polynomial in the panel's x.
+struct Parametrization {
+  struct Piece {
+    std::uint32_t curve = 0;
+    std::uint32_t offset = 0;
+    std::uint32_t count = 0;
+  };
+  std::vector<Piece> pieces;  // one per panel
+  std::vector<double> coefficients;
+
+  double parameter(std::size_t panel, double x) const;
+};
+
+/// Builds the turning function of an outline, curve by curve.
+class TurningFunctionBuilder {
+ public:
+  explicit TurningFunctionBuilder(const Outline& outline);
+
+  TurningFunction turning;
+  Parametrization parametrization;
+  std::vector<Corner> corners;
+
+ private:
+  void add_curve(std::uint32_t index);
+  void add_panel(const ResolvedPanel& resolved, std::uint32_t curve);
+  void add_spirals(const ResolvedPanel& resolved);
+  void add_spiral(double lo, double hi, std::uint32_t panel);
+  void join(const Vec2& direction);
+  void close();
+  void store(const chebyshev::Series& turn, const chebyshev::Series& curvature, Panel& panel);
+
+  const Outline& outline_;
+  double size_ = 0;         // the outline's length or so
+  double length_ = 0;       // so far, with ...
+  double length_rest_ = 0;  // ... what rounding left out of it
+  double angle_ = 0;        // of the tangent where the last panel ended
+  double first_angle_ = 0;
+  bool new_curve_ = true;  // the next spiral starts at a joint
+};
+
+}  // namespace rollfix

@@ -1,0 +1,196 @@
+// What goes wrong is said in one line that names the place and the cure; nothing is printed or written.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "cli.hpp"
+
+namespace {
+
+using cli::run;
+using cli::run_words;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+struct Mistake {
+  std::string name;
+  std::string command;
+  std::vector<std::string> expected;  // pieces of the message
+};
+
+std::ostream& operator<<(std::ostream& out, const Mistake& mistake) { return out << "rollfix " << mistake.command; }
+
+void write_files(const cli::Folder& folder) {
+  folder.write("few.csv", "0 0\n1 0\n");
+  folder.write("nan.csv", "0 0\n1 0\n1 nan\n0 1\n");
+  folder.write("twice.csv", "0 0\n1 0\n1 0\n0 1\n");
+  folder.write("bow.csv", "0 0\n2 2\n2 0\n0 2\n");
+  folder.write("word.csv", "0 0\n1 0\n1 l.5\n0 1\n");
+  folder.write("cusp.csv", "0 0\n1 0\n2 1\n1 0\n0 0\n0 2\n");
+  folder.write("square.csv", "0 0\n1 0\n1 1\n0 1\n");
+  folder.write("broken.json", "{\"gallery\": \"ellipse\",\n \"parameters\": {\"a\": 2]}");
+  folder.write("typo.json", R"({"gallery": "elipse"})");
+  folder.write("other.json", R"({"schema": 1})");
+  folder.write("field.json", R"({"gallery": "ellipse", "params": {"a": 2}})");
+  folder.write("list.json", R"({"gallery": "ellipse", "parameters": {"a": [2]}})");
+  folder.write("huge.json", R"({"gallery": "ellipse", "parameters": {"a": 1e999}})");
+  folder.write("cell.csv", "time,u,psi\n0,0,0\n1,abc,1\n");
+  folder.write("roll.csv", "time,u,psi\n0,0,0\n1,-1,2\n");
+  folder.write("exists.svg", "old");
+}
+
+class Mistakes : public testing::TestWithParam<Mistake> {};
+
+}  // namespace
+
+TEST_P(Mistakes, are_told_in_one_line) {
+  const cli::Folder folder;
+  write_files(folder);
+  const std::vector<std::string> before = folder.files();
+  const cli::Ran ran = run(GetParam().command);
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_EQ(ran.out, "");
+  EXPECT_THAT(ran.err, StartsWith("rollfix: "));
+  EXPECT_THAT(ran.err, EndsWith("\n"));
+  EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
+  for (const std::string& piece : GetParam().expected) EXPECT_THAT(ran.err, HasSubstr(piece));
+  EXPECT_EQ(folder.files(), before);
+  EXPECT_EQ(cli::read("exists.svg"), "old");
+}
+
+const std::vector<Mistake> kParts = {
+    {"missing_file", "inspect missing.csv", {"missing.csv", "no such file"}},
+    {"folder_for_a_file", "inspect .", {"."}},
+    {"no_part", "inspect", {"expected a PART"}},
+    {"too_few_points", "inspect few.csv", {"few.csv", "2 different points", "at least 3"}},
+    {"not_a_number", "inspect nan.csv", {"nan.csv:3", "nan"}},
+    {"repeated_point", "inspect twice.csv", {"twice.csv", "lines 2 and 3", "(1, 0)"}},
+    {"self_crossing", "inspect bow.csv", {"bow.csv", "(1, 1)", "--allow-crossing"}},
+    {"cusp", "inspect cusp.csv", {"cusp.csv", "cusp", "arc length"}},
+    {"word_in_line_3", "inspect word.csv", {"word.csv:3", "l.5"}},
+    {"unknown_ending", "inspect part.step", {"part.step", ".step"}},
+    {"unknown_shape", "inspect gallery:elipse", {"did you mean 'ellipse'?", "limacon"}},
+    {"unknown_parameter", "inspect gallery:ellipse,c=1", {"'c'", "Known are: a, b"}},
+    {"impossible_parameter", "inspect gallery:ellipse,a=-1", {"a = '-1'", "above 0"}},
+    {"option_for_points", "inspect gallery:ellipse --open", {"--open is for points"}},
+    {"corner_angle_without_unit", "inspect square.csv --corner-angle 59", {"59deg"}},
+    {"corner_angle_of_letters", "inspect square.csv --corner-angle x", {"--corner-angle", "'x'", "73deg"}},
+    {"broken_json", "inspect broken.json", {"broken.json:2:23"}},
+    {"typo_in_json", "inspect typo.json", {"typo.json", "did you mean 'ellipse'?"}},
+    {"other_json", "inspect other.json", {"other.json", "gallery"}},
+    {"unknown_field_in_json", "inspect field.json", {"field.json", "'params'"}},
+    {"list_in_json", "inspect list.json", {"list.json", "'a'", "array"}},
+    {"huge_number_in_json", "inspect huge.json", {"huge.json", "out of range"}},
+};
+
+const std::vector<Mistake> kReadings = {
+    {"no_reading", "locate gallery:cam", {"--reading", "--log", "neither"}},
+    {"one_number", "locate gallery:cam --reading 1", {"LENGTH,TURN", "1 number"}},
+    {"three_numbers", "locate gallery:cam --reading 1,2,3", {"3 numbers", "two fingers", "not there yet"}},
+    {"four_numbers", "locate gallery:cam --reading 0,5,1,2", {"4 numbers", "decimal comma"}},
+    {"letters", "locate gallery:cam --reading 1,x", {"--reading 1,x", "'x'"}},
+    {"nan", "locate gallery:cam --reading nan,1", {"'nan'", "finite"}},
+    {"minus_infinity", "locate gallery:cam --reading -inf,1", {"'-inf'", "finite"}},
+    {"length_in_degrees", "locate gallery:cam --reading 5deg,1", {"'5deg' is not a number"}},
+    {"longer_than_an_open_curve",
+     "locate gallery:exponential --reading 100,1",
+     {"gallery:exponential", "10.014", "100"}},
+    {"readings_and_log", "locate gallery:cam --reading 1,1 --log roll.csv", {"found both"}},
+    {"at_without_log", "locate gallery:cam --reading 1,1 --at 2", {"--at", "--log"}},
+    {"negative_tolerance", "locate gallery:cam --reading 1,1 --tolerance -1", {"--tolerance", "negative"}},
+    {"budget_of_nothing", "locate gallery:cam --reading 1,1 --budget 0", {"--budget", "'0'", "at least 1"}},
+};
+
+const std::vector<Mistake> kLogs = {
+    {"missing_log", "locate gallery:cam --log no.csv --finger disk,r=1", {"no.csv", "no such file"}},
+    {"letters_in_a_cell", "locate gallery:cam --log cell.csv --finger disk,r=1", {"cell.csv:3", "'abc'"}},
+    {"no_finger", "locate gallery:cam --log roll.csv", {"roll.csv", "--finger disk,r="}},
+    {"jaw", "locate gallery:cam --log roll.csv --finger jaw", {"--finger jaw", "disk,r=0.1"}},
+    {"negative_radius", "locate gallery:cam --log roll.csv --finger disk,r=-1", {"disk,r=-1", "above 0"}},
+    {"two_logs", "locate gallery:cam --log roll.csv --log roll.csv", {"--log", "two fingers"}},
+    {"two_fingers",
+     "locate gallery:cam --log roll.csv --finger disk,r=1 --finger disk,r=1",
+     {"--finger", "two fingers"}},
+    {"no_such_instant", "locate gallery:cam --log roll.csv --finger disk,r=1 --at 7", {"roll.csv", "7"}},
+    {"everything_from_stdin", "locate - --log -", {"standard input"}},
+    {"no_start", "simulate gallery:cam --finger disk,r=1 --length 1", {"--start"}},
+    {"no_length", "simulate gallery:cam --finger disk,r=1 --start 1", {"--length", "--rotation", "neither"}},
+    {"disk_too_big",
+     "simulate gallery:limacon --finger disk,r=1 --start 3 --length 4",
+     {"gallery:limacon", "s = ", "radius"}},
+    {"off_the_end", "simulate gallery:exponential --finger disk,r=0.1 --start 9 --length 5", {"end", "10.014"}},
+    {"one_sample",
+     "simulate gallery:cam --finger disk,r=1 --start 0 --length 1 --samples 1",
+     {"--samples", "at least 2"}},
+};
+
+const std::vector<Mistake> kUsage = {
+    {"nothing", "", {"expected a command", "locate", "--help"}},
+    {"unknown_command",
+     "lcoate gallery:cam",
+     {"'lcoate'", "did you mean 'locate'?", "inspect, locate, simulate, demo"}},
+    {"unknown_option", "inspect gallery:cam --opne", {"--opne", "did you mean '--open'?", "--corner-angle"}},
+    {"option_before_command", "--json inspect gallery:cam", {"--json", "behind"}},
+    {"option_without_value", "locate gallery:cam --reading", {"--reading", "expected a value"}},
+    {"option_twice", "locate gallery:cam --reading 1,1 --budget 1 --budget 2", {"--budget", "more than once"}},
+    {"value_for_a_flag", "inspect gallery:cam --json=yes", {"--json takes no value"}},
+    {"two_parts", "inspect gallery:cam gallery:gear", {"'gallery:gear'", "too many"}},
+    {"existing_figure", "inspect gallery:cam -o exists.svg", {"exists.svg", "--force"}},
+    {"existing_log",
+     "simulate gallery:cam --finger disk,r=1 --start 0 --length 1 -o roll.csv",
+     {"roll.csv", "--force"}},
+    {"unknown_figure", "inspect gallery:cam -o cam.jpg", {"cam.jpg", ".svg, .png or .pdf"}},
+    {"figure_in_no_folder", "inspect gallery:cam -o no/cam.svg", {"no/cam.svg", "no folder no"}},
+    {"figure_and_json_on_stdout", "inspect gallery:cam --json -o -", {"-o -", "--json"}},
+    {"demo_in_a_file", "demo -o square.csv", {"square.csv", "folder"}},
+};
+
+std::string mistake_name(const testing::TestParamInfo<Mistake>& info) { return info.param.name; }
+
+INSTANTIATE_TEST_SUITE_P(Part, Mistakes, testing::ValuesIn(kParts), mistake_name);
+INSTANTIATE_TEST_SUITE_P(Reading, Mistakes, testing::ValuesIn(kReadings), mistake_name);
+INSTANTIATE_TEST_SUITE_P(Log, Mistakes, testing::ValuesIn(kLogs), mistake_name);
+INSTANTIATE_TEST_SUITE_P(Usage, Mistakes, testing::ValuesIn(kUsage), mistake_name);
+
+TEST(Options, that_do_not_exist_yet_are_an_error_and_not_ignored) {
+  for (const char* option : {"--noise", "--facing", "--heading", "--prior", "--mirror", "--direction", "--loop",
+                             "--smooth", "--batch", "--certify"}) {
+    const cli::Ran ran = run_words({"locate", "gallery:cam", "--reading", "1,1", option, "1"});
+    EXPECT_EQ(ran.code, 2) << option;
+    EXPECT_EQ(ran.out, "");
+    EXPECT_THAT(ran.err, HasSubstr(std::string("locate has no option ") + option));
+  }
+}
+
+TEST(Commands, that_do_not_exist_yet_are_an_error) {
+  for (const char* command : {"teach", "advise", "watch", "verify"}) {
+    const cli::Ran ran = run_words({command, "gallery:cam"});
+    EXPECT_EQ(ran.code, 2) << command;
+    EXPECT_THAT(ran.err, HasSubstr(std::string("there is no command '") + command + "'"));
+  }
+}
+
+TEST(Messages, stay_on_one_line_whatever_a_name_holds) {
+  const cli::Ran ran = run_words({"inspect", "two\nlines.csv"});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
+}
+
+TEST(UnreadableFile, is_named) {
+  const cli::Folder folder;
+  folder.write("locked.csv", "0 0\n1 0\n0 1\n");
+  cli::fs::permissions("locked.csv", cli::fs::perms::none);
+  if (std::ifstream("locked.csv")) GTEST_SKIP() << "this user may read everything";
+  const cli::Ran ran = run("inspect locked.csv");
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_THAT(ran.err, HasSubstr("locked.csv: can't be opened"));
+}
+
+TEST(StandardOutput, that_is_full_is_an_error) {
+  if (!cli::fs::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
+  const cli::Ran ran = cli::shell("rollfix inspect gallery:cam > /dev/full");
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_THAT(ran.err, HasSubstr("standard output"));
+}

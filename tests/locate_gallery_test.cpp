@@ -1,0 +1,127 @@
+// Every placement, and none that is not one: the search against an exhaustive scan that shares only the curves.
+
+#include <gtest/gtest.h>
+
+#include "march_oracle.hpp"
+#include "random.hpp"
+#include "rollfix/locate/locate.hpp"
+#include "shapes.hpp"
+
+namespace {
+
+using namespace rollfix;
+
+std::vector<std::string> specifications(bool smooth_only) {
+  std::vector<std::string> names;
+  for (const GalleryShape& shape : gallery_shapes()) {
+    if (shape.name == "circle" || (smooth_only && !shape.smooth)) continue;
+    names.push_back(shape.name);
+  }
+  for (const char* more : {"ellipse,a=1,b=0.05", "limacon,a=1.05,b=1", "spline,n=12,seed=5,wobble=0.4",
+                           "spline,n=40,seed=8,wobble=0.1", "gear,teeth=12,r=1,depth=0.12"}) {
+    names.emplace_back(more);
+  }
+  return names;
+}
+
+/// A start and a length in either direction, on a closed outline up to two laps.
+struct Roll {
+  double start;
+  double length;
+};
+
+Roll random_roll(const Part& part, std::mt19937_64& generator) {
+  std::uniform_real_distribution<double> unit(0, 1);
+  const double period = part.perimeter();
+  if (part.closed()) return {unit(generator) * period, (4 * unit(generator) - 2) * period};
+  const double start = unit(generator) * period;
+  return {start, unit(generator) * period - start};
+}
+
+class Locate : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Gallery, Locate, testing::ValuesIn(specifications(false)), shapes::as_identifier);
+
+TEST_P(Locate, finds_the_place_where_the_reading_was_taken) {
+  const Part part(gallery(GetParam()));
+  auto generator = test_generator();
+  for (int k = 0; k < test_count(300); ++k) {
+    const Roll roll = random_roll(part, generator);
+    const Search search = locate(part, shapes::reading_from(part, roll.start, roll.length));
+    EXPECT_EQ(search.status, Status::complete);
+    EXPECT_TRUE(shapes::holds(part, search, roll.start, 1e-9 * part.perimeter())) << roll.start << " " << roll.length;
+  }
+}
+
+TEST_P(Locate, answers_with_places_that_fit) {
+  const Part part(gallery(GetParam()));
+  auto generator = test_generator(1);
+  for (int k = 0; k < test_count(300); ++k) {
+    const Roll roll = random_roll(part, generator);
+    const Reading reading = shapes::reading_from(part, roll.start, roll.length);
+    for (const Placement& placement : locate(part, reading).placements) {
+      EXPECT_LE(placement.residual, 1e-9 * (1 + 1e-9));
+      if (placement.kind == Kind::corner) continue;
+      const double inside = placement.kind == Kind::stretch ? placement.extent.middle() : placement.start;
+      const Reading there = shapes::reading_from(part, inside, reading.length);
+      EXPECT_NEAR(there.turn, reading.turn, 1.1e-9) << placement.start;
+    }
+  }
+}
+
+class LocateSmooth : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Gallery, LocateSmooth, testing::ValuesIn(specifications(true)), shapes::as_identifier);
+
+TEST_P(LocateSmooth, agrees_with_an_exhaustive_scan) {
+  const Outline outline = gallery(GetParam());
+  const Part part(outline);
+  const march_oracle::Exhaustive oracle(outline);
+  auto generator = test_generator(2);
+  int compared = 0;
+  for (int k = 0; k < test_count(4); ++k) {
+    const Roll roll = random_roll(part, generator);
+    const Reading reading = shapes::reading_from(part, roll.start, roll.length);
+    const auto scan = oracle.scan(reading.length, reading.turn);
+    if (scan.nearest_miss < 1e-6) continue;  // too close to a double root for a scan to tell
+    const Search search = locate(part, reading);
+    ++compared;
+    ASSERT_EQ(search.placements.size(), scan.roots.size()) << reading.length << " " << reading.turn;
+    for (const double root : scan.roots) {
+      double nearest = part.perimeter();
+      for (const double start : shapes::starts(search)) {
+        nearest = std::min(nearest,
+                           part.closed() ? periodic_distance(root, start, part.perimeter()) : std::abs(root - start));
+      }
+      EXPECT_LT(nearest, 1e-8 * part.perimeter());
+    }
+  }
+  EXPECT_GT(compared, 0);
+}
+
+TEST_P(LocateSmooth, gives_sensitivities_that_finite_differences_confirm) {
+  const Part part(gallery(GetParam()));
+  auto generator = test_generator(3);
+  const double step = 1e-6;
+  for (int k = 0; k < test_count(20); ++k) {
+    const Roll roll = random_roll(part, generator);
+    const Reading reading = shapes::reading_from(part, roll.start, roll.length);
+    for (const Placement& placement : locate(part, reading).placements) {
+      const double per_turn = placement.sensitivity.per_turn[0];
+      if (placement.kind != Kind::crossing || std::abs(per_turn) > part.perimeter()) continue;
+      const auto moved = [&](const Reading& other) {
+        double nearest = part.perimeter();
+        for (const double start : shapes::starts(locate(part, other))) {
+          const double move =
+              part.closed() ? std::remainder(start - placement.start, part.perimeter()) : start - placement.start;
+          if (std::abs(move) < std::abs(nearest)) nearest = move;
+        }
+        return nearest;
+      };
+      const double by_turn =
+          moved({reading.length, reading.turn + step}) - moved({reading.length, reading.turn - step});
+      if (std::abs(by_turn) > 1e-3 * part.perimeter()) continue;  // an open curve's end
+      EXPECT_NEAR(by_turn / (2 * step), per_turn, 1e-2 * std::abs(per_turn) + 1e-6);
+    }
+  }
+}
+
+}  // namespace

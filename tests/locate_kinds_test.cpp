@@ -1,0 +1,315 @@
+// Stretches, double roots, near misses: every degenerate case by name, on parts where the answer is known by hand.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "rollfix/error.hpp"
+#include "rollfix/locate/locate.hpp"
+#include "shapes.hpp"
+
+namespace {
+
+using namespace rollfix;
+using shapes::kPi;
+using testing::Each;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+MATCHER_P2(Spans, lo, hi, "") { return std::abs(arg.extent.lo - lo) < 1e-8 && std::abs(arg.extent.hi - hi) < 1e-8; }
+
+// ---- stretches ----
+
+TEST(Stretch, a_circle_answers_one_stretch_all_around) {
+  const Part circle(gallery("circle,r=2"));
+  const Search search = locate(circle, {1, 0.5});
+  ASSERT_THAT(shapes::kinds(search), ElementsAre(Kind::stretch));
+  EXPECT_THAT(search.placements[0], Spans(0, 4 * kPi));
+  EXPECT_EQ(search.verdict(), "unobservable");
+}
+
+TEST(Stretch, a_circle_of_the_wrong_radius_answers_nothing) {
+  EXPECT_EQ(locate(Part(gallery("circle,r=2")), {1, 0.4}).verdict(), "inconsistent");
+}
+
+TEST(Stretch, a_roll_of_no_length_and_no_turn_fits_everywhere) {
+  EXPECT_EQ(locate(Part(gallery("ellipse")), {0, 0}).verdict(), "unobservable");
+}
+
+TEST(Stretch, a_turn_without_length_fits_nowhere_on_a_smooth_part) {
+  EXPECT_EQ(locate(Part(gallery("ellipse")), {0, 0.1}).verdict(), "inconsistent");
+}
+
+TEST(Stretch, whole_laps_fit_everywhere_in_either_direction) {
+  const Part part(gallery("spline,seed=2"));
+  for (const int laps : {-2, -1, 1, 3}) {
+    EXPECT_EQ(locate(part, {laps * part.perimeter(), laps * 2 * kPi}).verdict(), "unobservable") << laps;
+    EXPECT_EQ(locate(part, {laps * part.perimeter(), laps * 2 * kPi + 0.01}).verdict(), "inconsistent") << laps;
+  }
+}
+
+TEST(Stretch, whole_laps_fit_everywhere_though_their_length_is_rounded_and_the_curvature_large) {
+  const Part part(gallery("spline,n=40,seed=3"));
+  ASSERT_GT(part.turning().most_curvature(), 500);
+  for (const double rounded : {1 - 4e-16, 1.0, 1 + 4e-16}) {
+    EXPECT_EQ(locate(part, {part.perimeter() * rounded, 2 * kPi}).verdict(), "unobservable");
+  }
+}
+
+TEST(Stretch, a_symmetric_part_cannot_tell_rolls_from_one_of_its_images_to_the_next) {
+  for (const int teeth : {2, 5, 12}) {
+    const Part part(gallery("gear,r=1,depth=0.05,teeth=" + std::to_string(teeth)));
+    const double step = part.perimeter() / teeth;
+    for (const int steps : {1, teeth - 1, -1, 2 * teeth + 1}) {
+      EXPECT_EQ(locate(part, {steps * step, steps * 2 * kPi / teeth}).verdict(), "unobservable")
+          << teeth << " " << steps;
+    }
+  }
+  const Part ellipse(gallery("ellipse,a=3,b=1"));
+  EXPECT_EQ(locate(ellipse, {ellipse.perimeter() / 2, kPi}).verdict(), "unobservable");
+}
+
+TEST(Stretch, a_line_on_a_line_is_a_stretch_as_long_as_the_rest_of_it) {
+  const Part stadium(gallery("stadium,length=2,r=0.5"));
+  const Search search = locate(stadium, {0.5, 0});
+  ASSERT_THAT(shapes::kinds(search), Each(Kind::stretch));
+  ASSERT_EQ(search.placements.size(), 2U);
+  for (const Placement& placement : search.placements) EXPECT_NEAR(placement.extent.width(), 1.5, 1e-8);
+  EXPECT_EQ(search.verdict(), "ambiguous (2)");
+}
+
+TEST(Stretch, an_arc_on_an_equal_arc_is_a_stretch) {
+  const Part stadium(gallery("stadium,length=2,r=0.5"));
+  const Search search = locate(stadium, {0.25, 0.5});
+  ASSERT_THAT(shapes::kinds(search), ElementsAre(Kind::stretch, Kind::stretch));
+  EXPECT_NEAR(search.placements[0].extent.width(), 0.5 * kPi - 0.25, 1e-8);
+}
+
+TEST(Stretch, from_one_line_to_the_opposite_one_is_a_stretch) {
+  const Part stadium(gallery("stadium,length=2,r=0.5"));
+  const Search search = locate(stadium, {0.5 * kPi + 1, kPi});
+  ASSERT_THAT(shapes::kinds(search), ElementsAre(Kind::stretch, Kind::stretch));
+  for (const Placement& placement : search.placements) EXPECT_NEAR(placement.extent.width(), 1, 1e-8);
+}
+
+TEST(Stretch, across_the_first_point_is_one_stretch_whose_extent_exceeds_the_perimeter) {
+  const Part part(shapes::polygon({{1, 0}, {2, 0}, {2, 1}, {0, 1}, {0, 0}}));  // the first point is on an edge
+  const Search search = locate(part, {0.5, 0});
+  ASSERT_EQ(search.placements.size(), 4U);
+  EXPECT_THAT(search.placements.back(), Spans(5, 6.5));
+}
+
+TEST(Stretch, a_straight_open_curve_is_one_stretch) {
+  const Part line(shapes::polygon({{0, 0}, {3, 4}}, false));
+  EXPECT_THAT(locate(line, {2, 0}).placements, ElementsAre(Spans(0, 3)));
+  EXPECT_THAT(locate(line, {-2, 0}).placements, ElementsAre(Spans(2, 5)));
+  EXPECT_EQ(locate(line, {2, 0}).verdict(), "ambiguous (1 stretch)");
+  EXPECT_EQ(locate(line, {2, 0.1}).verdict(), "inconsistent");
+}
+
+// ---- nearly congruent stretches: f is tiny all along ----
+
+TEST(NearlyCongruent, a_roll_far_shorter_than_any_feature_is_decided_quickly) {
+  const Part part(gallery("spline,seed=3"));
+  for (const double share : {1e-4, 1e-6, 1e-8}) {
+    const double length = share * part.perimeter();
+    const Search search = locate(part, shapes::reading_from(part, 1.5, length));
+    EXPECT_EQ(search.status, Status::complete) << share;
+    EXPECT_TRUE(shapes::holds(part, search, 1.5, 1e-9)) << share;
+    EXPECT_LT(search.counts.intervals, 20000U) << share;
+  }
+}
+
+TEST(NearlyCongruent, a_roll_that_is_almost_a_symmetry_is_decided_quickly) {
+  const Part part(gallery("gear,teeth=12"));
+  for (const double off : {1e-4, 1e-7, 1e-10}) {
+    const double length = part.perimeter() / 12 + off;
+    const Search search = locate(part, shapes::reading_from(part, 0.3, length));
+    EXPECT_EQ(search.status, Status::complete) << off;
+    EXPECT_TRUE(shapes::holds(part, search, 0.3, 1e-9)) << off;
+    EXPECT_LT(search.counts.intervals, 20000U) << off;
+  }
+}
+
+TEST(NearlyCongruent, a_whole_loop_within_the_tolerance_tells_nothing) {
+  const Part part(gallery("ellipse,a=1,b=0.9999999999"));
+  EXPECT_EQ(locate(part, {0.5, 0.5}).verdict(), "unobservable");
+}
+
+// ---- double roots ----
+
+/// The turn over rolls of this length is largest (or least) where the roll is centred on this vertex.
+Reading extreme_reading(const Part& part, double vertex, double length, double beyond = 0) {
+  Reading reading = shapes::reading_from(part, vertex - length / 2, length);
+  reading.turn += beyond;
+  return reading;
+}
+
+TEST(Touching, an_exact_double_root_is_one_placement_with_one_root) {
+  const Part part(gallery("ellipse,a=1,b=0.5"));
+  const Search search = locate(part, extreme_reading(part, 0, 1));
+  ASSERT_THAT(shapes::kinds(search), ElementsAre(Kind::touching, Kind::touching));
+  for (const Placement& placement : search.placements) {
+    EXPECT_EQ(placement.roots.size(), 1U);
+    EXPECT_TRUE(std::isinf(placement.error));
+  }
+  EXPECT_NEAR(search.placements[1].start, part.perimeter() - 0.5, 1e-7);
+}
+
+TEST(Touching, a_near_miss_within_the_tolerance_is_kept_and_says_so) {
+  const Part part(gallery("ellipse,a=1,b=0.5"));
+  const Search search = locate(part, extreme_reading(part, 0, 1, 3e-10));
+  ASSERT_THAT(shapes::kinds(search), ElementsAre(Kind::touching, Kind::touching));
+  EXPECT_TRUE(search.placements[0].roots.empty());
+  EXPECT_NEAR(search.placements[0].residual, 3e-10, 1e-12);
+}
+
+TEST(Touching, a_miss_beyond_the_tolerance_is_no_placement) {
+  const Part part(gallery("ellipse,a=1,b=0.5"));
+  EXPECT_TRUE(locate(part, extreme_reading(part, 0, 1, 2e-9)).placements.empty());
+}
+
+TEST(Touching, two_roots_too_close_for_the_tolerance_are_one_placement_with_both) {
+  const Part part(gallery("ellipse,a=1,b=0.5"));
+  const Search search = locate(part, extreme_reading(part, 0, 1, -5e-10));
+  ASSERT_THAT(shapes::kinds(search), ElementsAre(Kind::touching, Kind::touching));
+  EXPECT_EQ(search.placements[0].roots.size(), 2U);
+}
+
+TEST(Touching, two_roots_further_apart_are_two_crossings) {
+  const Part part(gallery("ellipse,a=1,b=0.5"));
+  const Search search = locate(part, extreme_reading(part, 0, 1, -2e-9));
+  EXPECT_THAT(shapes::kinds(search), ElementsAre(Kind::crossing, Kind::crossing, Kind::crossing, Kind::crossing));
+}
+
+TEST(Touching, a_fourfold_root_is_one_placement) {
+  // Both ends at vertices that mirror each other: f, f', f'' and f''' vanish together.
+  const Part part(gallery("limacon,a=1.5,b=1"));
+  const double vertex = part.vertices()[1];
+  ASSERT_GT(vertex, 0.1);
+  const Search search = locate(part, extreme_reading(part, 0, 2 * vertex));
+  EXPECT_EQ(search.status, Status::complete);
+  ASSERT_EQ(search.placements.size(), 1U);
+  EXPECT_EQ(search.placements[0].kind, Kind::touching);
+  EXPECT_NEAR(search.placements[0].start, part.perimeter() - vertex, 1e-3);
+}
+
+TEST(Touching, a_kink_of_f_at_a_joint_touches_without_a_derivative) {
+  const Part stadium(gallery("stadium,length=2,r=0.5"));
+  const Search search = locate(stadium, {2, 0});  // the whole of a straight side and no more
+  ASSERT_THAT(shapes::kinds(search), ElementsAre(Kind::touching, Kind::touching));
+  EXPECT_LT(search.placements[0].extent.width(), 1e-8);
+}
+
+// ---- tolerance, direction, laps ----
+
+TEST(Tolerance, widens_the_extent_in_proportion) {
+  const Part part(gallery("ellipse,a=1,b=0.5"));
+  const Reading reading = shapes::reading_from(part, 0.3, 1);
+  for (const double tolerance : {1e-9, 1e-6, 1e-4}) {
+    LocateOptions options;
+    options.tolerance = tolerance;
+    for (const Placement& placement : locate(part, reading, options).placements) {
+      const double expected = 2 * tolerance * std::abs(placement.sensitivity.per_turn[0]);
+      EXPECT_NEAR(placement.extent.width(), expected, 0.02 * expected);
+    }
+  }
+}
+
+TEST(Direction, a_roll_backwards_starts_where_the_roll_forwards_ends) {
+  const Part part(gallery("limacon"));
+  const Reading reading = shapes::reading_from(part, 0.7, 1.3);
+  const Search there = locate(part, reading);
+  const Search back = locate(part, {-reading.length, -reading.turn});
+  ASSERT_EQ(there.placements.size(), back.placements.size());
+  for (const Placement& placement : there.placements) {
+    EXPECT_TRUE(shapes::holds(part, back, placement.end, 1e-9));
+  }
+}
+
+TEST(Laps, a_whole_lap_more_changes_no_placement) {
+  const Part part(gallery("spline"));
+  const Reading reading = shapes::reading_from(part, 1.1, 0.8);
+  const Search once = locate(part, reading);
+  const Search again = locate(part, {reading.length + 2 * part.perimeter(), reading.turn + 4 * kPi});
+  ASSERT_EQ(once.placements.size(), again.placements.size());
+  for (std::size_t k = 0; k < once.placements.size(); ++k) {
+    EXPECT_NEAR(once.placements[k].start, again.placements[k].start, 1e-9);
+  }
+}
+
+TEST(Seam, a_placement_at_the_first_point_is_found_once) {
+  const Part part(gallery("ellipse,a=1,b=0.5"));
+  const Search search = locate(part, shapes::reading_from(part, 0, 1));
+  EXPECT_EQ(search.placements.size(), 4U);
+  EXPECT_TRUE(shapes::holds(part, search, 0, 1e-9));
+}
+
+// ---- open curves ----
+
+TEST(OpenCurve, a_roll_that_starts_or_ends_at_an_end_is_found) {
+  const Part part(gallery("exponential"));
+  const double length = 0.4 * part.perimeter();
+  EXPECT_TRUE(shapes::holds(part, locate(part, shapes::reading_from(part, 0, length)), 0, 1e-9));
+  const double last = part.perimeter() - length;
+  EXPECT_TRUE(shapes::holds(part, locate(part, shapes::reading_from(part, last, length)), last, 1e-9));
+}
+
+TEST(OpenCurve, a_roll_over_all_of_it_has_one_place) {
+  const Part part(gallery("log-spiral"));
+  const Search search = locate(part, {part.perimeter(), part.total_turn()});
+  EXPECT_THAT(search.placements, ElementsAre(Spans(0, 0)));
+}
+
+TEST(OpenCurve, a_roll_longer_than_it_is_refused) {
+  const Part part(gallery("log-spiral"));
+  EXPECT_THROW(locate(part, {1.01 * part.perimeter(), 1}), InputError);
+}
+
+// ---- what a search says of itself ----
+
+TEST(Budget, a_search_that_runs_out_says_where_it_stopped) {
+  LocateOptions options;
+  options.budget = 5;
+  const Part part(gallery("spline"));
+  const Search search = locate(part, shapes::reading_from(part, 1, 1e-5), options);
+  EXPECT_EQ(search.status, Status::incomplete);
+  ASSERT_FALSE(search.unresolved.empty());
+  EXPECT_EQ(search.unresolved.back().hi, part.perimeter());
+  EXPECT_EQ(search.verdict(), "undecided");
+}
+
+TEST(Readings, that_are_not_numbers_are_refused) {
+  const Part part(gallery("ellipse"));
+  EXPECT_THROW(locate(part, Reading{std::nan(""), 1}), InputError);
+  EXPECT_THROW(locate(part, std::vector<Reading>{}), InputError);
+}
+
+TEST(Readings, more_of_one_roll_leave_fewer_placements_and_never_lose_the_true_one) {
+  const Part part(gallery("spline,n=14,seed=4,wobble=0.2"));
+  const double start = 2.2;
+  std::vector<Reading> readings;
+  std::size_t last = 1000;
+  for (const double length : {0.35, 0.9, 1.6, -0.5}) {
+    readings.push_back(shapes::reading_from(part, start, length));
+    const Search search = locate(part, readings);
+    EXPECT_LE(search.placements.size(), last);
+    EXPECT_TRUE(shapes::holds(part, search, start, 1e-9));
+    last = search.placements.size();
+  }
+  EXPECT_EQ(last, 1U);
+}
+
+TEST(Readings, a_stretch_is_cut_by_a_further_reading) {
+  const Part stadium(gallery("stadium,length=2,r=0.5"));
+  // 0.5 along a side, and 1.8 from the same start, which bends by 0.6 = 0.3 / r at the end.
+  const Search search = locate(stadium, std::vector<Reading>{{0.5, 0}, {1.8, 0.6}});
+  ASSERT_THAT(shapes::kinds(search), ElementsAre(Kind::crossing, Kind::crossing));
+}
+
+TEST(Readings, that_contradict_each_other_leave_nothing) {
+  const Part part(gallery("spline"));
+  const std::vector<Reading> readings{shapes::reading_from(part, 1, 0.5), shapes::reading_from(part, 3, 1.5)};
+  EXPECT_EQ(locate(part, readings).verdict(), "inconsistent");
+}
+
+}  // namespace

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstdint>
+#include <random>
+
+/// How many cases a randomised test runs: `default_count`, or what the test program was told:
+/// --count=N for N cases in every test, --count=Nx for N times each test's default.
+int test_count(int default_count);
+
+/// The seed of a randomised test: fixed, or --seed=N. A failing test prints it.
+std::uint64_t test_seed();
+
+/// A generator seeded with test_seed(); `stream` gives independent ones.
+inline std::mt19937_64 test_generator(std::uint64_t stream = 0) {
+  return std::mt19937_64(test_seed() + 0x9e3779b97f4a7c15U * stream);
+}

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "rollfix/locate/locate.hpp"
+#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/primitives.hpp"
+
+/// Small words for tests about parts and placements.
+namespace shapes {
+
+inline constexpr double kPi = std::numbers::pi;
+
+/// The name of a parametrized test: what its shape is called.
+inline std::string as_identifier(const testing::TestParamInfo<std::string>& info) {
+  std::string name = info.param;
+  for (char& letter : name) letter = std::isalnum(static_cast<unsigned char>(letter)) != 0 ? letter : '_';
+  return name;
+}
+
+inline rollfix::Outline polygon(const std::vector<rollfix::Vec2>& corners, bool closed = true) {
+  rollfix::Outline outline{"polygon", {}, closed};
+  const std::size_t count = corners.size();
+  for (std::size_t k = 0; k + (closed ? 0 : 1) < count; ++k) {
+    outline.curves.emplace_back(rollfix::Line(corners[k], corners[(k + 1) % count]));
+  }
+  return outline;
+}
+
+inline rollfix::Part unit_square() { return rollfix::Part(polygon({{0, 0}, {1, 0}, {1, 1}, {0, 1}})); }
+
+/// What a finger would read that rolls from s by this length.
+inline rollfix::Reading reading_from(const rollfix::Part& part, double s, double length) {
+  return {length, part.turning().angle(s + length) - part.turning().angle(s)};
+}
+
+inline std::vector<double> starts(const rollfix::Search& search) {
+  std::vector<double> found;
+  for (const rollfix::Placement& placement : search.placements) found.push_back(placement.start);
+  return found;
+}
+
+inline std::vector<rollfix::Kind> kinds(const rollfix::Search& search) {
+  std::vector<rollfix::Kind> found;
+  for (const rollfix::Placement& placement : search.placements) found.push_back(placement.kind);
+  return found;
+}
+
+/// Is there a placement whose extent holds s, give or take `slack`?
+inline bool holds(const rollfix::Part& part, const rollfix::Search& search, double s, double slack) {
+  for (const rollfix::Placement& placement : search.placements) {
+    const double ahead = rollfix::wrap(s - placement.extent.lo, part.perimeter()).base;
+    const double beyond = ahead - placement.extent.width();
+    if (beyond <= slack || part.perimeter() - ahead <= slack) return true;
+  }
+  return false;
+}
+
+}  // namespace shapes
