@@ -1,60 +1,23 @@
-// What one finger costs, in units of W: one integration of the same outline's perimeter, timed in the same process.
-//   rollfix_bench [ROUNDS]     rounds of measurement, each of every job in turn; the least is printed (default 15):
-//   what else the
-//                      machine does only adds
+// The table of one finger: building the part, all placements of a reading, and the paper's own algorithm.
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <boost/math/quadrature/gauss_kronrod.hpp>
-#include <cmath>
-#include <cstdlib>
 #include <optional>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "outlines.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate/locate.hpp"
 #include "rollfix/locate/march/march.hpp"
-#include "rollfix/outline/gallery.hpp"
-#include "rollfix/outline/spline.hpp"
 #include "stopwatch.hpp"
+#include "tables.hpp"
 
+namespace bench {
 namespace {
 
 using namespace rollfix;
-
-struct Family {
-  std::string name;
-  Outline outline;
-};
-
-/// A wing section as a user has it: points, with a corner at the trailing edge.
-Outline wing_through_points(int count) {
-  const Part wing(gallery("naca,digits=2412"));
-  std::vector<Vec2> points;
-  for (int k = 0; k < count; ++k) points.push_back(wing.point(wing.perimeter() * k / count));
-  return {"points", spline_through(points, true), true};
-}
-
-std::vector<Family> families() {
-  std::vector<Family> all;
-  for (const GalleryShape& shape : gallery_shapes()) all.push_back({shape.name, gallery(shape.name)});
-  all.push_back({"200 points", wing_through_points(200)});
-  return all;
-}
-
-/// W: Boost's adaptive quadrature at 1e-10, one call per smooth piece.
-double perimeter_by_quadrature(const Outline& outline) {
-  double sum = 0;
-  for (const Curve& curve : outline.curves) {
-    const Interval domain = curve.domain();
-    sum += boost::math::quadrature::gauss_kronrod<double, 15>::integrate(
-        [&](double u) { return curve.velocity(u).norm(); }, domain.lo, domain.hi, 15, 1e-10);
-  }
-  return sum;
-}
 
 std::vector<Reading> random_readings(const Part& part, std::size_t count) {
   std::mt19937_64 generator(1);
@@ -115,27 +78,21 @@ Row measure(const Family& family, int rounds) {
   Turn turn(readings.size());
   Turn march_turn(readings.size());
   for (int round = 0; round < rounds; ++round) {
-    unit.push_back(bench::seconds_per_call([&] { bench::keep(perimeter_by_quadrature(family.outline)); }));
-    build.push_back(bench::seconds_per_call([&] { bench::keep(Part(family.outline, trusted)); }));
-    find.push_back(bench::seconds_per_call([&] { bench::keep(locate(part, readings[turn.next()])); }));
+    unit.push_back(seconds_per_call([&] { keep(perimeter_by_quadrature(family.outline)); }));
+    build.push_back(seconds_per_call([&] { keep(Part(family.outline, trusted)); }));
+    find.push_back(seconds_per_call([&] { keep(locate(part, readings[turn.next()])); }));
     if (reference && round < 3) {
-      march.push_back(bench::seconds_per_call([&] {
+      march.push_back(seconds_per_call([&] {
         const Reading& reading = readings[march_turn.next()];
-        bench::keep(reference->segments(reading.length, reading.turn));
+        keep(reference->segments(reading.length, reading.turn));
       }));
     }
   }
-  row.unit = bench::least(unit);
-  row.build = bench::least(build) / row.unit;
-  row.locate = bench::least(find) / row.unit;
-  row.march = reference ? bench::least(march) / row.unit : 0;
+  row.unit = least(unit);
+  row.build = least(build) / row.unit;
+  row.locate = least(find) / row.unit;
+  row.march = reference ? least(march) / row.unit : 0;
   return row;
-}
-
-/// Lines and arcs alone: next to nothing to integrate.
-bool is_trivial(const Part& part) {
-  const std::vector<Spiral>& spirals = part.turning().spirals();
-  return std::all_of(spirals.begin(), spirals.end(), [](const Spiral& spiral) { return spiral.trend == 0; });
 }
 
 void print(const Row& row) {
@@ -143,21 +100,9 @@ void print(const Row& row) {
              row.locate, row.march > 0 ? fmt::format("{:.0f}", row.march) : "refused", row.placements, row.evaluations);
 }
 
-struct Mean {
-  double sum = 0;
-  int count = 0;
-  void add(double value) {
-    if (value <= 0) return;
-    sum += std::log(value);
-    ++count;
-  }
-  double value() const { return count > 0 ? std::exp(sum / count) : 0; }
-};
-
 }  // namespace
 
-int main(int argc, char** argv) {
-  const int rounds = argc > 1 ? std::max(1, std::atoi(argv[1])) : 15;
+void one_finger(int rounds) {
   fmt::print("{:<14}{:>9}{:>10}{:>10}{:>11}{:>12}{:>14}\n", "outline", "W [us]", "build/W", "locate/W", "march/W",
              "placements", "evaluations");
   Mean build;
@@ -179,5 +124,6 @@ int main(int argc, char** argv) {
              march.value());
   if (!trivial.empty()) fmt::print("\noutlines whose W is next to nothing, lines and arcs alone:\n");
   for (const Row& row : trivial) print(row);
-  return 0;
 }
+
+}  // namespace bench

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
+#include <ctime>
 #include <vector>
 
 namespace bench {
@@ -13,15 +13,15 @@ void keep(const T& value) {
   asm volatile("" : : "r,m"(&value) : "memory");
 }
 
-/// Seconds that one call takes: as many calls in a row as fill `batch_seconds`.
+/// Seconds of processor time that one call takes: as many calls in a row as fill `batch_seconds`. Not by the clock on
+/// the wall, which other programs hold up.
 template <class Job>
 double seconds_per_call(Job&& job, double batch_seconds = 0.001) {
-  using Clock = std::chrono::steady_clock;
   std::size_t calls = 1;
   for (;;) {
-    const auto start = Clock::now();
+    const std::clock_t start = std::clock();
     for (std::size_t k = 0; k < calls; ++k) job();
-    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     if (seconds >= batch_seconds) return seconds / static_cast<double>(calls);
     calls *= seconds > 0.1 * batch_seconds ? 2 : 10;
   }

@@ -88,7 +88,9 @@ const std::vector<Mistake> kParts = {
 const std::vector<Mistake> kReadings = {
     {"no_reading", "locate gallery:cam", {"--reading", "--log", "neither"}},
     {"one_number", "locate gallery:cam --reading 1", {"LENGTH,TURN", "1 number"}},
-    {"three_numbers", "locate gallery:cam --reading 1,2,3", {"3 numbers", "two fingers", "not there yet"}},
+    {"one_of_two_fingers", "locate gallery:cam --reading 1,2,3", {"at least two readings", "facing"}},
+    {"facing_of_one_finger", "locate gallery:cam --reading 1,2 --facing 3deg", {"--facing", "LA,LB,THETA"}},
+    {"readings_of_one_and_of_two", "locate gallery:cam --reading 1,2 --reading 1,2,3", {"1,2", "2 numbers"}},
     {"four_numbers", "locate gallery:cam --reading 0,5,1,2", {"4 numbers", "decimal comma"}},
     {"letters", "locate gallery:cam --reading 1,x", {"--reading 1,x", "'x'"}},
     {"nan", "locate gallery:cam --reading nan,1", {"'nan'", "finite"}},
@@ -109,7 +111,10 @@ const std::vector<Mistake> kLogs = {
     {"no_finger", "locate gallery:cam --log roll.csv", {"roll.csv", "--finger disk,r="}},
     {"jaw", "locate gallery:cam --log roll.csv --finger jaw", {"--finger jaw", "disk,r=0.1"}},
     {"negative_radius", "locate gallery:cam --log roll.csv --finger disk,r=-1", {"disk,r=-1", "above 0"}},
-    {"two_logs", "locate gallery:cam --log roll.csv --log roll.csv", {"--log", "two fingers"}},
+    {"three_logs", "locate gallery:cam --log roll.csv --log roll.csv --log roll.csv", {"--log", "3 times"}},
+    {"facing_beside_logs",
+     "locate gallery:cam --log roll.csv --log roll.csv --finger disk,r=1 --facing 1",
+     {"--facing", "log"}},
     {"two_fingers",
      "locate gallery:cam --log roll.csv --finger disk,r=1 --finger disk,r=1",
      {"--finger", "two fingers"}},
@@ -155,8 +160,8 @@ INSTANTIATE_TEST_SUITE_P(Log, Mistakes, testing::ValuesIn(kLogs), mistake_name);
 INSTANTIATE_TEST_SUITE_P(Usage, Mistakes, testing::ValuesIn(kUsage), mistake_name);
 
 TEST(Options, that_do_not_exist_yet_are_an_error_and_not_ignored) {
-  for (const char* option : {"--noise", "--facing", "--heading", "--prior", "--mirror", "--direction", "--loop",
-                             "--smooth", "--batch", "--certify"}) {
+  for (const char* option :
+       {"--noise", "--heading", "--prior", "--mirror", "--direction", "--loop", "--smooth", "--batch", "--certify"}) {
     const cli::Ran ran = run_words({"locate", "gallery:cam", "--reading", "1,1", option, "1"});
     EXPECT_EQ(ran.code, 2) << option;
     EXPECT_EQ(ran.out, "");

@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "rollfix/commands.hpp"
+#include "rollfix/demo_pair_story.hpp"
 #include "rollfix/demo_parts.hpp"
 #include "rollfix/demo_story.hpp"
 #include "rollfix/error.hpp"
@@ -41,6 +42,18 @@ DemoStory wing_story(const std::string& folder) {
   return {"A wing section", in_folder(folder, "wing.csv"), {10}, "55", 60, "120", in_folder(folder, "wing")};
 }
 
+DemoPairStory pair_story(const std::string& folder) {
+  // Found by examples/figure8_search.cpp: the paper's turns, 16 intervals for each finger, and 16 pairs.
+  return {"Two fingers on a spline that is free to move",
+          "gallery:spline,n=9,seed=7,wobble=0.2",
+          {0.15},
+          {"0.58,0.94,-0.725248", "1.01,1.92,-1.99849", "1.25,2.37,-1.966238"},
+          {"0.81813", "4.084821"},
+          {"1.25", "2.37"},
+          "20deg",
+          in_folder(folder, "figure8")};
+}
+
 void require_room(const std::string& folder, const std::vector<std::string>& names, bool force) {
   std::error_code ignored;
   if (!folder.empty() && !fs::exists(folder, ignored)) return;  // it is made when all is ready
@@ -66,9 +79,11 @@ Report demo(const OutputArgument& output) {
   if (output.file == "-") throw InputError("demo: -o takes a folder, and the demo writes several files");
   const DemoStory spline = spline_story(output.file);
   const DemoStory wing = wing_story(output.file);
+  const DemoPairStory pair = pair_story(output.file);
   std::vector<std::string> names = file_names(spline);
   for (const std::string& name : file_names(wing)) names.push_back(name);
   names.push_back(wing.argument);
+  for (const std::string& name : file_names(pair)) names.push_back(name);
   require_room(output.file, names, output.force);
 
   const std::string points = wing_points();
@@ -78,6 +93,7 @@ Report demo(const OutputArgument& output) {
   add(perform(spline, spline_part), report);
   add(perform(wing, wing_part), report);
   report.files.push_back({wing.argument, points});
+  add(perform(pair, Part(load_outline(pair.argument))), report);
   make_folder(output.file);
   report.notes.emplace_back("wrote");
   for (const OutputFile& file : report.files) report.notes.back() += " " + file.path;
@@ -89,7 +105,9 @@ Report demo(const OutputArgument& output) {
 void add_demo_command(CLI::App& program, Command& chosen) {
   const auto output = std::make_shared<OutputArgument>();
   CLI::App* command = program.add_subcommand(
-      "demo", "The main job on shipped input: six placements of a roll on a spline, then one; the same on a wing.");
+      "demo",
+      "The main job on shipped input: six placements of a roll on a spline, then one; the same on a wing; and two "
+      "fingers, 16 pairs of placements, then one.");
   command->footer(kExamples);
   add_output_argument(*command, *output, "the folder to write to; default the current one");
   command->callback([output, &chosen] { chosen = [output] { return demo(*output); }; });

@@ -44,10 +44,14 @@ std::string instant_of_b(const DemoStory& story, const Roll& roll) {
 LocateOutcome locate_at(const DemoStory& story, const Part& part, const Log& log, const std::string& instants) {
   const Observation observation = observe_log(log, part, story.finger, read_instants(instants));
   LocateOutcome outcome{
-      part, observation.readings, observation.instants, tolerance_from_rounding(part, observation.roundings), {}};
+      part, observation.readings, observation.instants, tolerance_from_rounding(part, observation.roundings), {},
+      {},   observation.times};
   LocateOptions options;
   options.tolerance = outcome.tolerance.value;
   outcome.found = locate(part, outcome.readings, options);
+  for (const Placement& placement : outcome.found.placements) {
+    outcome.poses.push_back(poses(part, story.finger, log, placement.start, observation.rows));
+  }
   return outcome;
 }
 

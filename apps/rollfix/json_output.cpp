@@ -22,6 +22,10 @@ std::string value_text(const Json& value) {
 
 Json json_number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
+Json json_interval(const Interval& interval) {
+  return Json::array({json_number(interval.lo), json_number(interval.hi)});
+}
+
 std::string json_text(const Json& document) {
   std::string text = "{";
   bool is_first = true;

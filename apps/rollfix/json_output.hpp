@@ -3,6 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "rollfix/outline/geometry.hpp"
+
 namespace rollfix::app {
 
 using Json = nlohmann::ordered_json;
@@ -17,6 +19,9 @@ Json json_numbers(const Numbers& values) {
   for (const double value : values) list.push_back(json_number(value));
   return list;
 }
+
+/// [lo, hi].
+Json json_interval(const Interval& interval);
 
 /// The text of a document: a field per line, and of a list of objects an object per line.
 std::string json_text(const Json& document);

@@ -1,17 +1,11 @@
-#include <fmt/format.h>
-
 #include <memory>
-#include <optional>
 
 #include "rollfix/commands.hpp"
-#include "rollfix/draw/locate_figure.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/finger_argument.hpp"
-#include "rollfix/locate_outcome.hpp"
+#include "rollfix/locate_request.hpp"
 #include "rollfix/observation.hpp"
-#include "rollfix/output_argument.hpp"
-#include "rollfix/part_argument.hpp"
-#include "rollfix/typed_number.hpp"
+#include "rollfix/reading_argument.hpp"
 #include "rollfix/usage.hpp"
 
 namespace rollfix::app {
@@ -22,24 +16,16 @@ constexpr const char* kExamples = R"(Examples (wing.csv and wing-roll.csv: from 
   rollfix locate wing.csv --reading 60.1,5.12deg --reading 120,18.39deg -o where.svg
   rollfix locate wing.csv --log wing-roll.csv --finger disk,r=10
   rollfix locate wing.csv --log wing-roll.csv --finger disk,r=10 --at 6.1,12.32 --json
+Two fingers on a part that is free to move:
+  rollfix locate gallery:cam --reading 0.7446832,-0.3983439,57.48184deg --reading 1.5,-0.8,110.97000deg
+  rollfix locate gallery:cam --reading 1.5,-0.8,110.97000deg --facing -142.40990deg
+  rollfix simulate gallery:cam --finger disk,r=0.2 --start 1 --start 4 --length 1.5 --length -0.8 -o cam-rolls.csv
+  rollfix locate gallery:cam --log cam-rolls.csv --finger disk,r=0.2 -o cam-pairs.svg
 )";
-
-struct LocateArguments {
-  PartArgument part;
-  std::vector<std::string> readings;
-  std::vector<std::string> logs;
-  std::vector<std::string> fingers;
-  std::string instants;
-  std::string tolerance;
-  std::string budget;
-  bool json = false;
-  OutputArgument output;
-};
 
 /// What can't be meant, before any file is read.
 void require_sensible(const LocateArguments& arguments) {
   const bool from_log = !arguments.logs.empty();
-  if (arguments.logs.size() > 1) throw InputError("--log is given twice, which is two fingers: not there yet");
   if (arguments.readings.empty() && !from_log) {
     throw InputError("locate: expected --reading LENGTH,TURN or --log FILE, found neither");
   }
@@ -52,49 +38,15 @@ void require_sensible(const LocateArguments& arguments) {
   }
 }
 
-Observation observe(const LocateArguments& arguments, const Part& part, const std::optional<DiskFinger>& finger) {
-  if (arguments.logs.empty()) return observe_readings(arguments.readings);
-  return observe_log(read_log(arguments.logs.front()), part, finger, read_instants(arguments.instants));
-}
-
-ExitCode exit_code_of(const Search& found) {
-  if (found.status == Status::incomplete) return ExitCode::incomplete;
-  return found.placements.empty() ? ExitCode::nothing_fits : ExitCode::fits;
-}
-
-LocateOutcome search(const LocateArguments& arguments, const Part& part, const Observation& observation) {
-  LocateOutcome outcome{part, observation.readings, observation.instants, {}, {}};
-  outcome.tolerance = arguments.tolerance.empty() ? tolerance_from_rounding(part, observation.roundings)
-                                                  : tolerance_from_option(arguments.tolerance);
-  LocateOptions options;
-  options.tolerance = outcome.tolerance.value;
-  if (!arguments.budget.empty()) options.budget = read_count(arguments.budget, "--budget", 1);
-  outcome.found = locate(part, outcome.readings, options);
-  return outcome;
-}
-
 Report locate_report(const LocateArguments& arguments) {
   require_sensible(arguments);
   require_figure_output(arguments.output, arguments.json);
-  const std::optional<DiskFinger> finger = read_finger(arguments.fingers);
-  const Part part = load_part(arguments.part);
-  const Observation observation = observe(arguments, part, finger);
-  const LocateOutcome outcome = search(arguments, part, observation);
-
-  Report report;
-  report.exit_code = exit_code_of(outcome.found);
-  report.data = arguments.json ? json_text(locate_json(outcome)) : locate_text(outcome);
-  if (part.reversed()) report.notes.push_back(reversed_note(part));
-  if (observation.lengths_turned_round) report.notes.emplace_back("the log's lengths changed their signs to match");
-  if (!arguments.output.file.empty()) {
-    LocateFigure figure;
-    figure.part = &part;
-    figure.readings = outcome.readings;
-    figure.found = outcome.found;
-    if (finger) figure.finger_radius = finger->radius;
-    add_figure(arguments.output, draw_placements(figure), report);
+  const std::vector<Log> logs = arguments.logs.empty() ? std::vector<Log>{} : read_log_argument(arguments.logs);
+  const bool two_fingers = logs.empty() ? are_of_two_fingers(arguments.readings) : logs.size() == 2;
+  if (!two_fingers && !arguments.facing.empty()) {
+    throw InputError("--facing compares two fingers: expected --reading LA,LB,THETA with it");
   }
-  return report;
+  return two_fingers ? locate_two(arguments, logs) : locate_one(arguments, logs);
 }
 
 }  // namespace
@@ -106,15 +58,24 @@ void add_locate_command(CLI::App& program, Command& chosen) {
   add_part_argument(*command, arguments->part);
   command
       ->add_option("--reading", arguments->readings,
-                   "from the first contact: arc length travelled, along the stored outline, and turn of the tangent")
+                   "from the first contact: arc length travelled, along the stored outline, and turn of the tangent; "
+                   "of two fingers both lengths and finger a's turn less finger b's: LA,LB,THETA")
       ->type_name("L,THETA")
       ->allow_extra_args(false);
-  command->add_option("--log", arguments->logs, "a tactile log, - for stdin")
+  command->add_option("--log", arguments->logs, "a tactile log, - for stdin; of two fingers one file or two")
       ->type_name("FILE")
       ->allow_extra_args(false);
   add_finger_argument(*command, arguments->fingers);
-  command->add_option("--at", arguments->instants, "instants of the log to use, seconds; default its last row")
+  command
+      ->add_option("--at", arguments->instants,
+                   "instants of the log to use, seconds; default its last row, of two fingers also the middle one")
       ->type_name("T1,T2,...");
+  command
+      ->add_option(
+          "--facing", arguments->facing,
+          "how far finger a's contact normal is turned from finger b's at the first contacts; then one reading "
+          "of two fingers suffices")
+      ->type_name("ANGLE");
   command
       ->add_option("--tolerance", arguments->tolerance,
                    "how far the turn may be off; default 1e-9, or the rounding of the digits given")

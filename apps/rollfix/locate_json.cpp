@@ -2,13 +2,10 @@
 #include <cmath>
 
 #include "rollfix/locate_outcome.hpp"
+#include "rollfix/pose_json.hpp"
 
 namespace rollfix::app {
 namespace {
-
-Json interval_json(const Interval& interval) {
-  return Json::array({json_number(interval.lo), json_number(interval.hi)});
-}
 
 /// One finger: a list of one.
 Json per_finger(Json value) { return Json::array({std::move(value)}); }
@@ -24,17 +21,17 @@ Json sensitivity_json(const Sensitivity& sensitivity) {
   return {{"per_turn", per_finger(json_numbers(sensitivity.per_turn))}, {"per_length", per_finger(per_length)}};
 }
 
-Json placement_json(const Placement& placement) {
+Json placement_json(const Placement& placement, const std::optional<Poses>& poses) {
   Json roots = Json::array();
   for (const double root : placement.roots) roots.push_back(per_finger(json_number(root)));
   Json pivot = nullptr;
   if (placement.pivot) {
-    pivot = Json::array({interval_json(placement.pivot->start), interval_json(placement.pivot->end)});
+    pivot = Json::array({json_interval(placement.pivot->start), json_interval(placement.pivot->end)});
   }
   return {{"kind", name_of(placement.kind)},
           {"start", per_finger(json_number(placement.start))},
           {"end", per_finger(json_number(placement.end))},
-          {"extent", per_finger(interval_json(placement.extent))},
+          {"extent", per_finger(json_interval(placement.extent))},
           {"whole_loop", placement.whole_loop},
           {"roots", roots},
           {"error", json_number(placement.error)},
@@ -44,7 +41,8 @@ Json placement_json(const Placement& placement) {
           {"sensitivity", sensitivity_json(placement.sensitivity)},
           {"pivot", pivot},
           {"probability", nullptr},
-          {"pose", nullptr}};
+          {"pose", pose_json(poses)},
+          {"pose_residual", pose_residual_json(poses)}};
 }
 
 Json readings_json(const LocateOutcome& outcome) {
@@ -88,9 +86,12 @@ Json part_json(const Part& part) {
 Json locate_json(const LocateOutcome& outcome) {
   const Search& found = outcome.found;
   Json placements = Json::array();
-  for (const Placement& placement : found.placements) placements.push_back(placement_json(placement));
+  for (std::size_t k = 0; k < found.placements.size(); ++k) {
+    placements.push_back(
+        placement_json(found.placements[k], k < outcome.poses.size() ? outcome.poses[k] : std::nullopt));
+  }
   Json unresolved = Json::array();
-  for (const Interval& interval : found.unresolved) unresolved.push_back(interval_json(interval));
+  for (const Interval& interval : found.unresolved) unresolved.push_back(json_interval(interval));
   return {{"schema", "rollfix/locate/1"},
           {"status", found.status == Status::complete ? "complete" : "incomplete"},
           {"verdict", found.verdict()},
@@ -99,6 +100,7 @@ Json locate_json(const LocateOutcome& outcome) {
           {"readings", readings_json(outcome)},
           {"tolerance", json_number(outcome.tolerance.value)},
           {"placements", placements},
+          {"pose_time", outcome.times.empty() ? Json(nullptr) : json_numbers(outcome.times)},
           {"dropped", Json::object()},
           {"unresolved", unresolved},
           {"counts", {{"intervals", found.counts.intervals}, {"evaluations", found.counts.evaluations}}}};

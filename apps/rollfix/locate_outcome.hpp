@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "rollfix/contact/pose.hpp"
 #include "rollfix/json_output.hpp"
 #include "rollfix/locate/locate.hpp"
 #include "rollfix/part/part.hpp"
@@ -17,6 +19,8 @@ struct LocateOutcome {
   std::vector<double> instants;  // of a log: the time of each reading, seconds
   Tolerance tolerance;
   Search found;
+  std::vector<std::optional<Poses>> poses;  // of each placement at every row of a log; nothing where it does not tell
+  std::vector<double> times;                // of a log with times: of those rows, seconds
 };
 
 /// The contract's "rollfix/locate/1"; docs/json.md lists the fields.
@@ -30,6 +34,9 @@ std::string advice(const LocateOutcome& outcome);
 
 /// What --json says of a part; `inspect` says more.
 Json part_json(const Part& part);
+
+/// "the part is at x, y, turned by 12.000 deg at 3.5 s (off by ...)": the last pose.
+std::string about_pose(const Poses& poses, const Part& part);
 
 /// "crossing", "touching", "stretch", "corner".
 std::string name_of(Kind kind);

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kMostRows = 40;   // placements in the table
 constexpr std::size_t kMostNotes = 12;  // lines about single placements
+constexpr double kAgreement = 1e-9;     // contacts closer together than this share of the perimeter are the same
 constexpr double kDegree = std::numbers::pi / 180;
 
 /// The names in figures: a0 is where the first placement starts.
@@ -115,6 +116,14 @@ std::string remarks(const LocateOutcome& outcome) {
   return text;
 }
 
+std::string pose_lines(const LocateOutcome& outcome) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(outcome.poses.size(), kMostNotes); ++i) {
+    if (outcome.poses[i]) text += fmt::format("{}: {}\n", label(i), about_pose(*outcome.poses[i], outcome.part));
+  }
+  return text;
+}
+
 std::string unresolved_lines(const LocateOutcome& outcome) {
   const int decimals = decimals_for(outcome.part.perimeter());
   const std::vector<Interval>& unresolved = outcome.found.unresolved;
@@ -144,6 +153,16 @@ std::string advice_on_one(const std::string& verdict, const Placement& only, int
 
 }  // namespace
 
+std::string about_pose(const Poses& poses, const Part& part) {
+  const int decimals = decimals_for(part.perimeter());
+  const Pose& last = poses.pose.back();
+  const double off = *std::max_element(poses.residual.begin(), poses.residual.end());
+  const std::string agreement =
+      off <= kAgreement * part.perimeter() ? "the contacts agree" : fmt::format("contacts off by {}", rough(off));
+  return fmt::format("the part is at x = {}, y = {}, heading {} deg; {}", fixed(last.x, decimals),
+                     fixed(last.y, decimals), degrees(last.heading), agreement);
+}
+
 std::string advice(const LocateOutcome& outcome) {
   const Search& found = outcome.found;
   const std::string verdict = found.verdict();
@@ -164,7 +183,7 @@ std::string locate_text(const LocateOutcome& outcome) {
   std::string text =
       advice(outcome) + "\n\n" + part_line(outcome.part) + reading_lines(outcome) + tolerance_line(outcome.tolerance);
   if (!outcome.found.placements.empty()) text += "\n" + placement_table(outcome);
-  const std::string below = remarks(outcome) + unresolved_lines(outcome);
+  const std::string below = remarks(outcome) + pose_lines(outcome) + unresolved_lines(outcome);
   if (!below.empty()) text += "\n" + below;
   return text;
 }

@@ -2,10 +2,30 @@
 
 #include <fmt/format.h>
 
+#include <numeric>
+
+#include "rollfix/error.hpp"
 #include "rollfix/reading_argument.hpp"
 #include "rollfix/typed_number.hpp"
 
 namespace rollfix::app {
+namespace {
+
+/// The times of these rows, where the log has times.
+std::vector<double> times_of(const Log& log, const std::vector<std::size_t>& rows) {
+  std::vector<double> times;
+  if (log.time.empty()) return times;
+  for (const std::size_t row : rows) times.push_back(log.time[row]);
+  return times;
+}
+
+std::vector<std::size_t> all_rows(std::size_t count) {
+  std::vector<std::size_t> rows(count);
+  std::iota(rows.begin(), rows.end(), std::size_t{0});
+  return rows;
+}
+
+}  // namespace
 
 Observation observe_readings(const std::vector<std::string>& texts) {
   Observation observation;
@@ -17,15 +37,54 @@ Observation observe_readings(const std::vector<std::string>& texts) {
   return observation;
 }
 
+PairObservation observe_pair_readings(const std::vector<std::string>& texts, const std::string& facing) {
+  PairObservation observation;
+  for (const std::string& text : texts) {
+    const WrittenPairReading written = read_pair_reading(text);
+    observation.readings.push_back(written.reading);
+    observation.roundings.push_back(written.rounding);
+  }
+  if (!facing.empty()) {
+    const WrittenAngle written = read_written_angle(facing, "--facing");
+    observation.facing = written.angle;
+    observation.roundings.push_back({0, written.rounding});
+  }
+  return observation;
+}
+
 Observation observe_log(const Log& log, const Part& part, const std::optional<DiskFinger>& finger,
                         const std::vector<double>& instants) {
   Observation observation;
   observation.readings = readings(log, part, finger, instants);
   observation.roundings = {rounding_of(log, finger)};
   observation.lengths_turned_round = part.reversed() && log.kind != LogKind::contact;
-  if (log.time.empty()) return observation;
-  for (const std::size_t row : rows_at(log, instants)) observation.instants.push_back(log.time[row]);
+  observation.rows = all_rows(log.rows());
+  observation.times = log.time;
+  observation.instants = times_of(log, rows_at(log, instants));
   return observation;
+}
+
+PairObservation observe_pair_log(const PairLog& log, const Part& part, const std::optional<FingerPair>& fingers,
+                                 const std::vector<double>& instants) {
+  PairObservation observation;
+  observation.readings = readings(log, part, fingers, instants);
+  observation.roundings = {rounding_of(log, fingers)};
+  observation.facing = facing(log);
+  observation.lengths_turned_round = part.reversed() && log.a.kind != LogKind::contact;
+  observation.rows = all_rows(log.rows());
+  observation.times = log.a.time;
+  observation.instants = times_of(log.a, rows_at(log, instants));
+  return observation;
+}
+
+std::vector<Log> read_log_argument(const std::vector<std::string>& paths) {
+  if (paths.size() == 1) return read_logs(paths.front());
+  if (paths.size() != 2) {
+    throw InputError(
+        fmt::format("--log is given {} times, expected one log, or one of each of two fingers", paths.size()));
+  }
+  const PairLog log = read_pair_log(paths.front(), paths.back());
+  return {log.a, log.b};
 }
 
 std::vector<double> read_instants(const std::string& text) {

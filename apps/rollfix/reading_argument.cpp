@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <numbers>
 #include <vector>
 
@@ -17,7 +16,6 @@ constexpr std::string_view kDegreeMark = "deg";
 
 std::string cause_of(std::size_t count) {
   if (count == 1) return "1 number";
-  if (count == 3) return "3 numbers, which is two fingers: not there yet";
   return fmt::format("{} numbers; are there decimal commas among them?", count);
 }
 
@@ -31,12 +29,15 @@ double half_unit(std::string_view number) {
   return rounding_of(number);
 }
 
-/// Both numbers are rounded alike: to the decimals of the one that shows more of them.
-Rounding rounding_of_both(std::string_view length, std::string_view turn) {
-  const double one = half_unit(length);
-  const double two = half_unit(turn);
-  const double finer = one > 0 && two > 0 ? std::min(one, two) : std::max(one, two);
-  return {finer, finer * (in_degrees(turn) ? std::numbers::pi / 180 : 1)};
+/// All numbers are rounded alike: to the decimals of the one that shows most of them. Of a turn in degrees.
+Rounding common_rounding(const std::vector<std::string_view>& fields) {
+  double finest = 0;
+  for (const std::string_view field : fields) {
+    const double one = half_unit(field);
+    if (one > 0 && (finest == 0 || one < finest)) finest = one;
+  }
+  const auto lengths = static_cast<double>(fields.size() - 1);
+  return {lengths * finest, finest * (in_degrees(fields.back()) ? std::numbers::pi / 180 : 1)};
 }
 
 }  // namespace
@@ -46,10 +47,34 @@ WrittenReading read_reading(const std::string& text) {
   const std::vector<std::string_view> fields = split(text, ',');
   if (fields.size() != 2) {
     throw InputError(
-        fmt::format("{}: expected LENGTH,TURN as in 0.5,1.2 or 0.5,73deg, found {}", what, cause_of(fields.size())));
+        fmt::format("{}: expected LENGTH,TURN as in 0.5,73deg, or of two fingers LENGTH_A,LENGTH_B,TURN, found {}",
+                    what, cause_of(fields.size())));
   }
   const Reading reading{read_number(fields[0], what), read_angle(fields[1], what)};
-  return {reading, rounding_of_both(fields[0], fields[1])};
+  return {reading, common_rounding(fields)};
+}
+
+WrittenPairReading read_pair_reading(const std::string& text) {
+  const std::string what = fmt::format("--reading {}", text);
+  const std::vector<std::string_view> fields = split(text, ',');
+  if (fields.size() != 3) {
+    throw InputError(fmt::format("{}: expected LENGTH_A,LENGTH_B,TURN as in 0.5,-0.3,73deg, found {}", what,
+                                 cause_of(fields.size())));
+  }
+  const PairReading reading{read_number(fields[0], what), read_number(fields[1], what), read_angle(fields[2], what)};
+  return {reading, common_rounding(fields)};
+}
+
+WrittenAngle read_written_angle(const std::string& text, const std::string& option) {
+  return {read_angle(text, option), half_unit(text) * (in_degrees(text) ? std::numbers::pi / 180 : 1)};
+}
+
+bool are_of_two_fingers(const std::vector<std::string>& texts) {
+  std::size_t of_two = 0;
+  for (const std::string& text : texts) of_two += split(text, ',').size() == 3 ? 1 : 0;
+  if (of_two == 0) return false;
+  for (const std::string& text : texts) static_cast<void>(read_pair_reading(text));  // the odd one is named
+  return true;
 }
 
 }  // namespace rollfix::app

@@ -3,10 +3,14 @@
 // All that a user of the library needs; the figures are apart, in rollfix/draw/.
 
 #include "rollfix/contact/finger.hpp"      // IWYU pragma: export
+#include "rollfix/contact/free_part.hpp"   // IWYU pragma: export
 #include "rollfix/contact/log.hpp"         // IWYU pragma: export
+#include "rollfix/contact/pair_log.hpp"    // IWYU pragma: export
+#include "rollfix/contact/pose.hpp"        // IWYU pragma: export
 #include "rollfix/contact/rolling.hpp"     // IWYU pragma: export
 #include "rollfix/error.hpp"               // IWYU pragma: export
 #include "rollfix/locate/locate.hpp"       // IWYU pragma: export
+#include "rollfix/locate/locate_pair.hpp"  // IWYU pragma: export
 #include "rollfix/outline/gallery.hpp"     // IWYU pragma: export
 #include "rollfix/outline/load.hpp"        // IWYU pragma: export
 #include "rollfix/outline/outline.hpp"     // IWYU pragma: export

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <cstddef>
@@ -73,38 +72,33 @@ class Walk {
 
 /// How far the finger has turned at each of the times: the integral of omega.
 std::vector<double> rotations_of(const Motion& motion, const std::vector<double>& times) {
-  constexpr unsigned kMostHalvings = 10;
-  constexpr double kRelative = 1e-12;
-  using Quadrature = boost::math::quadrature::gauss_kronrod<double, 15>;
+  if (motion.omega) return integrals(motion.omega, times);
   std::vector<double> rotations(times.size());
-  for (std::size_t k = 1; k < times.size(); ++k) {
-    if (motion.omega) {
-      rotations[k] =
-          rotations[k - 1] + Quadrature::integrate(motion.omega, times[k - 1], times[k], kMostHalvings, kRelative);
-    } else {
-      rotations[k] = motion.velocity * times[k];
-    }
-  }
+  for (std::size_t k = 0; k < times.size(); ++k) rotations[k] = motion.velocity * times[k];
   return rotations;
 }
 
 }  // namespace
 
-Roll roll_in_closed_form(const Part& part, const DiskFinger& finger, const RollPlan& plan) {
-  const Track track(part, finger);
-  const Motion motion = plan_motion(track, plan);
+std::vector<RollState> in_closed_form(const Track& track, const Motion& motion, const std::vector<double>& times) {
   const double s0 = motion.start.s;
   const double rotation0 = track.rotation(s0, motion.start_angle);
-  const std::vector<double> times = times_of(motion, plan.rows);
   std::vector<RollState> states;
   states.reserve(times.size());
   Walk walk(track, motion.start.index);
   for (const double rotation : rotations_of(motion, times)) {
     const auto [s, angle] = walk.to(rotation0 + rotation);
     const Reading reading{s - s0, angle - motion.start_angle};  // eqs. (4) and (5)
-    states.push_back({contact_after(finger, motion.first, reading), s, angle});
+    states.push_back({contact_after({track.radius()}, motion.first, reading), s, angle});
   }
-  return record(track, times, states);
+  return states;
+}
+
+Roll roll_in_closed_form(const Part& part, const DiskFinger& finger, const RollPlan& plan) {
+  const Track track(part, finger);
+  const Motion motion = plan_motion(track, plan);
+  const std::vector<double> times = times_of(motion, plan.rows);
+  return record(track, times, in_closed_form(track, motion, times));
 }
 
 }  // namespace rollfix

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <numbers>
 #include <vector>
 
@@ -107,6 +109,20 @@ std::vector<double> times_of(const Motion& motion, std::size_t rows) {
   const auto last = static_cast<double>(rows - 1);
   for (std::size_t k = 0; k < rows; ++k) times[k] = motion.duration * (static_cast<double>(k) / last);
   return times;
+}
+
+std::vector<double> integrals(const std::function<double(double)>& rate, const std::vector<double>& times) {
+  constexpr unsigned kMostHalvings = 10;
+  constexpr double kRelative = 1e-12;
+  using Quadrature = boost::math::quadrature::gauss_kronrod<double, 15>;
+  std::vector<double> sums(times.size());
+  for (std::size_t k = 1; k < times.size(); ++k) {
+    const double step = times[k] - times[k - 1];
+    // Over [0, 1]: over a short interval it would take its own rounding for an error and halve on and on.
+    const auto share = [&](double x) { return step * rate(times[k - 1] + x * step); };
+    sums[k] = sums[k - 1] + Quadrature::integrate(share, 0.0, 1.0, kMostHalvings, kRelative);
+  }
+  return sums;
 }
 
 Roll record(const Track& track, const std::vector<double>& times, const std::vector<RollState>& states) {

@@ -27,12 +27,19 @@ Motion plan_motion(const Track& track, const RollPlan& plan);
 /// Equal times from 0 to the end.
 std::vector<double> times_of(const Motion& motion, std::size_t rows);
 
+/// The integral of a rate from the first of these times to each.
+std::vector<double> integrals(const std::function<double(double)>& rate, const std::vector<double>& times);
+
 /// One instant of a roll.
 struct RollState {
   Contact contact;
   double s = 0;
   double angle = 0;  // of the tangent
 };
+
+/// The roll at these times: eqs. (1) and (2) integrated, or the closed form that they imply.
+std::vector<RollState> integrated(const Track& track, const Motion& motion, const std::vector<double>& times);
+std::vector<RollState> in_closed_form(const Track& track, const Motion& motion, const std::vector<double>& times);
 
 /// The log of these instants.
 Roll record(const Track& track, const std::vector<double>& times, const std::vector<RollState>& states);

@@ -188,10 +188,7 @@ class Integration {
 
 }  // namespace
 
-Roll roll(const Part& part, const DiskFinger& finger, const RollPlan& plan) {
-  const Track track(part, finger);
-  const Motion motion = plan_motion(track, plan);
-  const std::vector<double> times = times_of(motion, plan.rows);
+std::vector<RollState> integrated(const Track& track, const Motion& motion, const std::vector<double>& times) {
   std::vector<RollState> states;
   states.reserve(times.size());
   Integration integration(track, motion);
@@ -199,7 +196,14 @@ Roll roll(const Part& part, const DiskFinger& finger, const RollPlan& plan) {
     integration.advance_to(time);
     states.push_back(integration.state());
   }
-  return record(track, times, states);
+  return states;
+}
+
+Roll roll(const Part& part, const DiskFinger& finger, const RollPlan& plan) {
+  const Track track(part, finger);
+  const Motion motion = plan_motion(track, plan);
+  const std::vector<double> times = times_of(motion, plan.rows);
+  return record(track, times, integrated(track, motion, times));
 }
 
 }  // namespace rollfix

@@ -11,6 +11,7 @@
 #include "locate_plan.hpp"
 #include "locate_texts.hpp"
 #include "offset.hpp"
+#include "roll_pen.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/part/period.hpp"
 
@@ -19,9 +20,9 @@ namespace draw {
 namespace {
 
 constexpr std::size_t kMostPoints = 100000;  // of all arcs together
+constexpr double kStartSize = 3.1;           // pixels
 constexpr double kLabelSize = 13;            // pixels
 constexpr double kVisibleExtent = 4;         // a wider extent gets a band
-constexpr std::string_view kFingerColour = "#8a8a8a";
 
 /// One plan on a page of its own, drawn from the bottom to the top.
 class Picture {
@@ -33,7 +34,8 @@ class Picture {
         svg_(plan.figure->width, drawing_end_ + legend_.height() + 8),
         scene_(make_scene(plan.part(), plan.framing, Vec2(0, kHeaderHeight))),
         clearance_(scene_.boundary),
-        obstacles_(svg_.width(), drawing_end_) {}
+        obstacles_(svg_.width(), drawing_end_),
+        pen_(svg_, scene_, clearance_, obstacles_) {}
 
   Svg draw() {
     const LocateFigure& figure = *plan_.figure;
@@ -89,30 +91,14 @@ class Picture {
       // The spoke is fixed to the finger; at the first contact it points at the part.
       const double inward = placement.tangent + 0.5 * std::numbers::pi;
       svg_.open_group("finger");
-      finger(placement.start, radius, inward);
+      pen_.finger(plan_.part(), placement.start, radius, inward);
       if (!plan_.figure->readings.empty()) {
         const Reading& last = plan_.figure->readings.back();
         // L = -r du and theta = du + dpsi give the finger's own turn dpsi.
-        finger(placement.end, radius, inward + last.turn + last.length / radius);
+        pen_.finger(plan_.part(), placement.end, radius, inward + last.turn + last.length / radius);
       }
       svg_.close_group();
     }
-  }
-
-  void finger(double s, double radius, double spoke) {
-    const Vec2 centre = scene_.view(finger_centre(plan_.part(), s, radius));
-    const double size = scene_.pixels(radius);
-    Paint disk = stroke(kFingerColour, 1.2);
-    disk.fill = kFingerColour;
-    disk.fill_opacity = 0.15;
-    Paint hub;
-    hub.fill = kFingerColour;
-    svg_.circle(centre, size, disk);
-    const std::vector<Vec2> line = {centre, centre + size * Vec2(std::cos(spoke), -std::sin(spoke))};
-    svg_.segments(line, stroke(kFingerColour, 1));
-    svg_.circle(centre, 1.8, hub);
-    obstacles_.add(line);
-    obstacles_.add_circle(centre, size);
   }
 
   // ---- the placements
@@ -130,9 +116,13 @@ class Picture {
       for (const Run& run : plan_.roll.runs) arcs.push_back({i, &run, path_of(i, run)});
     }
     svg_.open_group("stems");
-    for (const Arc& arc : arcs) stems(arc);
+    for (const Arc& arc : arcs) {
+      pen_.stems(plan_.placements()[arc.placement].start, *arc.run, arc.path, plan_.colour_of(arc.placement));
+    }
     svg_.close_group();
-    for (const Arc& arc : arcs) draw_arc(arc);
+    for (const Arc& arc : arcs) {
+      pen_.arc(arc.path, plan_.colour_of(arc.placement), plan_.line_width(arc.placement), !plan_.roll.tangled);
+    }
     // The starts lie on the ends, and are smaller: both can be seen where they meet.
     for (std::size_t i = 0; i < plan_.placements().size(); ++i) ends(i);
     for (std::size_t i = 0; i < plan_.placements().size(); ++i) start(i);
@@ -140,36 +130,8 @@ class Picture {
   }
 
   std::vector<Vec2> path_of(std::size_t i, const Run& run) const {
-    const double from = plan_.placements()[i].start + run.from, to = plan_.placements()[i].start + run.to;
-    const auto offset = [&](double s) { return plan_.offset(i, run, std::abs(s - from)); };
-    std::vector<Vec2> path =
-        path_beside(slice(scene_.boundary, std::min(from, to), std::max(from, to)), clearance_, offset);
-    path = pick(path, simplify(path, kInvisible, kMostPoints / plan_.placements().size()));
-    if (to < from) std::reverse(path.begin(), path.end());
-    return path;
-  }
-
-  /// Thin lines from the boundary to the arc's ends.
-  void stems(const Arc& arc) {
-    const double start = plan_.placements()[arc.placement].start;
-    const std::vector<Vec2> ends = {scene_.at(start + arc.run->from), arc.path.front(), scene_.at(start + arc.run->to),
-                                    arc.path.back()};
-    Paint paint = stroke(plan_.colour_of(arc.placement), 0.7);
-    paint.stroke_opacity = 0.8;
-    svg_.segments(ends, paint);
-    obstacles_.add({ends[0], ends[1]});
-    obstacles_.add({ends[2], ends[3]});
-  }
-
-  void draw_arc(const Arc& arc) {
-    const double width = plan_.line_width(arc.placement);
-    const std::string_view colour = plan_.colour_of(arc.placement);
-    svg_.open_group("arc");
-    const double head = plan_.roll.tangled ? 0 : 4 + 2 * width;
-    svg_.polyline(without_tip(arc.path, 0.7 * head), stroke(colour, width));
-    if (head > 0) draw_arrowhead(svg_, arc.path, head, colour);
-    svg_.close_group();
-    obstacles_.add(arc.path);
+    const auto offset = [&](double travelled) { return plan_.offset(i, run, travelled); };
+    return pen_.path(plan_.placements()[i].start, run, offset, kMostPoints / plan_.placements().size());
   }
 
   void ends(std::size_t i) {
@@ -178,23 +140,16 @@ class Picture {
     for (std::size_t k = 0; k < contacts.size(); ++k) {
       const bool last = k + 1 == contacts.size();
       if (!plan_.is_lettered(k)) continue;
-      Paint paint = stroke(plan_.colour_of(i), 1.4);
-      paint.fill = "#ffffff";
-      marker(last ? placement.end : placement.start + contacts[k], last ? 3.9 : 2.6, paint);
+      pen_.contact(last ? placement.end : placement.start + contacts[k], plan_.colour_of(i),
+                   marker_size(last ? 3.9 : 2.6));
     }
   }
 
-  void start(std::size_t i) {
-    Paint paint = stroke("#ffffff", 0.6);
-    paint.fill = plan_.colour_of(i);
-    marker(plan_.placements()[i].start, 3.1, paint);
-  }
+  void start(std::size_t i) { pen_.start(plan_.placements()[i].start, plan_.colour_of(i), marker_size(kStartSize)); }
 
-  void marker(double s, double radius, const Paint& paint) {
-    const double size = std::min(radius, (1.2 + 0.35 * plan_.spacing) * radius / 3.1);
-    const Vec2 at = scene_.at(s), half = Vec2::Constant(size);
-    svg_.circle(at, size, paint);
-    obstacles_.add_box(at - half, at + half);
+  /// Smaller where the lanes are close together.
+  double marker_size(double radius) const {
+    return std::min(radius, (1.2 + 0.35 * plan_.spacing) * radius / kStartSize);
   }
 
   /// More placements than arcs can show: a tick at each start.
@@ -241,6 +196,7 @@ class Picture {
   Scene scene_;
   Clearance clearance_;
   Obstacles obstacles_;
+  RollPen pen_;
   LabelSet labels_;
 };
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "roll_pen.hpp"
 #include "rollfix/error.hpp"
 
 namespace rollfix::draw {
@@ -16,10 +17,9 @@ constexpr std::size_t kMostFingers = 2;  // ... with a finger each when none is 
 constexpr std::size_t kLettered = 3;     // readings of which each has its own letter
 constexpr double kFirstLane = 8;         // from the boundary to the first lane, pixels
 constexpr double kLaneSpacing = 6.5;
-constexpr double kMostLanesWidth = 64;    // of all lanes together
-constexpr double kLabelRoom = 24;         // beyond the last lane
-constexpr double kEndGap = 14;            // between neighbours on a lane
-constexpr double kMostFingerReach = 0.3;  // beyond the part, as a fraction of its size
+constexpr double kMostLanesWidth = 64;  // of all lanes together
+constexpr double kLabelRoom = 24;       // beyond the last lane
+constexpr double kEndGap = 14;          // between neighbours on a lane
 
 void check(const LocateFigure& figure) {
   if (figure.part == nullptr) {
@@ -38,18 +38,11 @@ void check(const LocateFigure& figure) {
 
 /// The fingers that are drawn, as far as they are not too far off.
 Box fingers_of(const Plan& plan) {
-  const Box& part = plan.framing.part;
-  const Vec2 reach = Vec2::Constant(kMostFingerReach * part.size().maxCoeff());
   Box box;
   for (std::size_t i = 0; i < plan.placements().size(); ++i) {
     if (!plan.has_finger(i)) continue;
-    const double radius = *plan.figure->finger_radius;
     for (const double s : {plan.placements()[i].start, plan.placements()[i].end}) {
-      const Vec2 centre = finger_centre(plan.part(), s, radius);
-      for (const double side : {-radius, radius}) {
-        const Vec2 edge = centre + Vec2::Constant(side);
-        box.include(edge.cwiseMax(part.lo - reach).cwiseMin(part.hi + reach));
-      }
+      include_finger(box, plan.framing.part, plan.part(), s, *plan.figure->finger_radius);
     }
   }
   return box;
@@ -88,13 +81,6 @@ double Plan::offset(std::size_t i, const Run& run, double travelled) const {
   const double period = part().closed() ? part().perimeter() : 0;
   const double winding = goes_round(run, period) ? travelled / period : 0;
   return kFirstLane + spacing * (lanes.of[i] * roll.lanes + run.lane + winding);
-}
-
-Vec2 finger_centre(const Part& part, double s, double radius) {
-  const double at = part.closed() ? s : std::clamp(s, 0.0, part.perimeter());
-  const TurningFunction& turning = part.turning();
-  const double tangent = 0.5 * (turning.angle(at, Side::before) + turning.angle(at, Side::after));
-  return part.point(at) + radius * Vec2(std::sin(tangent), -std::cos(tangent));
 }
 
 Plan plan_of(const LocateFigure& figure) {

@@ -41,8 +41,4 @@ struct Plan {
 /// Throws InputError: no part, or an index that is out of range. The figure has to outlive the plan.
 Plan plan_of(const LocateFigure& figure);
 
-/// Centre of a disk that touches the part's outside at s, in the part's coordinates; at a corner in the middle of
-/// its pivot.
-Vec2 finger_centre(const Part& part, double s, double radius);
-
 }  // namespace rollfix::draw

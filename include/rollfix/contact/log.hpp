@@ -37,6 +37,7 @@ struct Log {
   std::vector<double> x;       // the finger's centre in the world
   std::vector<double> y;
   std::vector<std::size_t> line;  // of the file that each row comes from
+  bool contact_was_off = false;   // rows without contact, before these or after them, were left out
   double place_rounding = 0;      // half a unit of the most precise u (radians) or length or distance
   double angle_rounding = 0;      // the same of psi or turn or dturn
 
@@ -48,11 +49,16 @@ struct Log {
 /// quotes, a byte order mark and both kinds of line ends are allowed. Rows with contact 0 before the first contact and
 /// after the last are skipped, whatever they hold. "-" is standard input. Throws InputError with file, line and value:
 /// no such file, no known header, a cell that is missing or not a finite number, a time that does not grow, contact
-/// lost and found again, too few rows.
+/// lost and found again, too few rows, two fingers.
 Log read_log(const std::string& path);
 
 /// The same from a text; `name` is what messages call it.
 Log parse_log(std::string_view text, const std::string& name);
+
+/// The same of a file that may be of one finger or of two: u_a, psi_a, u_b, psi_b and so on in columns side by side
+/// (pair_log.hpp makes one of the two). Of two fingers the rows in which both touch the part are taken.
+std::vector<Log> read_logs(const std::string& path);
+std::vector<Log> parse_logs(std::string_view text, const std::string& name);
 
 /// time,u,psi,x,y (or time,length,turn), 17 significant digits each: reading it back gives the same bits.
 /// Throws InputError when neighbouring rows are so far apart that a reader would take the angles as wrapped.

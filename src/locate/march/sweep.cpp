@@ -32,7 +32,8 @@ Sweep::Sweep(const Path& path, const Preprocessed& preprocessed, const Problem& 
       preprocessed_(preprocessed),
       options_(options),
       pair_(first_pair(problem)),
-      modes_(path, preprocessed, pair_) {
+      modes_(path, preprocessed, pair_),
+      escape_amount_(options.reset * preprocessed.loop.length) {
   const double perimeter = preprocessed.loop.length;
   const double tolerance = options.limit * perimeter;
   const double loosest = std::fmax(tolerance, kPartOfReset * options.reset * perimeter);
@@ -154,6 +155,7 @@ void Sweep::note(const Pair& at, const Alternation& found) {
     segments.pop_back();  // the march is nearer to the root now
   }
   segments.push_back(std::move(segment));
+  escape_amount_ = options_.reset * preprocessed_.loop.length;
 }
 
 /// "Reset s_0 to be the sum of a very small positive amount and s_i for large enough i." Beyond a root phi - C has the
@@ -170,14 +172,15 @@ void Sweep::reset() {
 }
 
 /// A limit that is not reached: a double root, two roots close together, or a near miss. Resets by doubling amounts
-/// until phi - C has changed its sign or moves away from zero, and says so.
+/// until phi - C has changed its sign or moves away from zero, and says so. Without a find in between the next escape
+/// goes on with the doubling: where phi is almost C everywhere, a near symmetry, limit after limit is out of reach.
 void Sweep::escape(std::size_t iterations) {
   const double perimeter = preprocessed_.loop.length;
   Doubt doubt{Doubt::Why::slow, {pair_.s.length(), pair_.s.length()}, iterations, std::fabs(pair_.excess())};
   bool flat = doubt.residual <= rounding_of_integral_;
   bool past = false;
-  for (double amount = options_.reset * perimeter; !past && pair_.s.length() < modes_.sweep_end(); amount *= 2) {
-    pair_.slide_to(std::min(pair_.s.length() + amount, modes_.sweep_end()));
+  for (; !past && pair_.s.length() < modes_.sweep_end(); escape_amount_ *= 2) {
+    pair_.slide_to(std::min(pair_.s.length() + escape_amount_, modes_.sweep_end()));
     const double excess = pair_.excess();
     const bool tells = std::fabs(excess) > rounding_of_integral_;
     flat = flat && !tells;

@@ -44,6 +44,36 @@ Position land(const Path& path, Tally& tally, const Position& from, double u_end
   return at;
 }
 
+/// Where the length is `target` on the step on which `from` lies, whichever side of it. A walker that has just entered
+/// the step starts from where the length would be if the speed were the step's mean.
+Position land_on_length(const Path& path, Tally& tally, const Position& from, double target, bool entered) {
+  if (from.here.length == target) return from;
+  ++tally.landings;
+  const Interval step = path.step(from.curve, from.index);
+  Position at = from;
+  double u = entered ? step.lo + step.width() * (target - from.before.length) / from.step.length
+                     : from.u + (target - from.here.length) / from.local.speed;
+  Interval bracket = step;
+  for (int i = 0; i < kMostRefinements; ++i) {
+    if (!(u >= bracket.lo && u <= bracket.hi)) u = bracket.middle();
+    at.u = u;
+    at.here = at.before + path.integrate(at.curve, step.lo, u);
+    at.local = path.at(at.curve, u);
+    ++tally.refinements;
+    const double correction = (target - at.here.length) / at.local.speed;
+    if (std::fabs(correction) <= kLastCorrection * step.width()) {
+      at.u = std::clamp(u + correction, step.lo, step.hi);
+      at.here = at.here + at.local.spans() * correction;
+      break;
+    }
+    (correction > 0 ? bracket.lo : bracket.hi) = u;
+    if (!(bracket.middle() > bracket.lo && bracket.middle() < bracket.hi)) break;
+    u += correction;
+  }
+  at.here.length = target;  // what the landing left is a rounding error
+  return at;
+}
+
 }  // namespace
 
 Position Position::moved_by(const Span& loops) const {
@@ -77,14 +107,53 @@ Position next_position(const Path& path, const Position& position) {
   return next;
 }
 
+Position previous_position(const Path& path, const Position& position) {
+  Position previous = position;
+  if (previous.index == 0) {
+    previous.curve = (previous.curve == 0 ? path.curves() : previous.curve) - 1;
+    previous.index = path.steps(previous.curve);
+  }
+  --previous.index;
+  const Interval step = path.step(previous.curve, previous.index);
+  previous.u = step.hi;
+  previous.step = path.integrate(previous.curve, step.lo, step.hi);
+  previous.before = position.before - previous.step;
+  previous.here = position.before;
+  previous.local = path.at(previous.curve, step.hi);
+  return previous;
+}
+
 bool Walker::last_step() const {
   return !path_->closed() && position_.curve + 1 == path_->curves() &&
          position_.index + 1 == path_->steps(position_.curve);
 }
 
+bool Walker::first_step() const { return !path_->closed() && position_.curve == 0 && position_.index == 0; }
+
 void Walker::next_step() {
   position_ = next_position(*path_, position_);
   ++tally_->steps;
+  ++net_steps_;
+}
+
+void Walker::previous_step() {
+  position_ = previous_position(*path_, position_);
+  ++tally_->steps;
+  --net_steps_;
+}
+
+void Walker::move_to_length(double target) {
+  const long before = net_steps_;
+  while (target > at_step_end().length && !last_step()) next_step();
+  while (target < position_.before.length && !first_step()) previous_step();
+  position_ = land_on_length(*path_, *tally_, position_, target, net_steps_ != before);
+}
+
+void Walker::nudge(double by) {
+  const Interval step = path_->step(position_.curve, position_.index);
+  const double change = by / position_.local.speed;
+  position_.u = std::clamp(position_.u + change, step.lo, step.hi);
+  position_.here = position_.here + position_.local.spans() * change;
 }
 
 Position Walker::at_length(double target) {

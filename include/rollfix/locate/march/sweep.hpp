@@ -43,6 +43,7 @@ class Sweep {
   Modes modes_;
   LimitRule rule_;
   double rounding_of_integral_;  // |phi - C| below this can't be told from zero
+  double escape_amount_;         // by which the next escape begins
   int side_ = 1;                 // of phi - C at the pair's last place
   std::vector<Iterate> sequence_;
 };

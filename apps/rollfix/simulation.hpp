@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "rollfix/part/part.hpp"
+#include "rollfix/part_argument.hpp"
+#include "rollfix/report.hpp"
+
+namespace rollfix::app {
+
+/// What `rollfix simulate` was given, as typed. Entry 0 of a list is finger a's, entry 1 finger b's.
+struct SimulateArguments {
+  PartArgument part;
+  std::vector<std::string> fingers;
+  std::vector<std::string> starts;
+  std::vector<std::string> lengths;
+  std::vector<std::string> contact_angles;
+  std::vector<std::string> files;
+  std::string rotation;
+  std::string part_rotation;
+  std::string samples;
+  bool force = false;
+};
+
+/// One finger on a part at rest.
+Report simulate_one(const SimulateArguments& arguments);
+
+/// Two fingers on a part that is free to move.
+Report simulate_two(const SimulateArguments& arguments);
+
+/// psi of a finger whose first contact is at s, by --contact-angle; the part is not turned.
+double orientation_at(const Part& part, double s, const SimulateArguments& arguments, std::size_t finger);
+
+/// "rolled from s = 1.0000 over length 2.0000; the tangent turned by 30.000 deg".
+std::string roll_text(const Part& part, const std::vector<double>& s, const std::vector<double>& angle);
+
+/// Throws InputError when a log can't be written to this -o; stdout always can.
+void require_writable_log(const std::string& file, bool force);
+
+/// Adds a log to the report: as a file and a note, or as the data where it goes to stdout.
+void add_log(Report& report, const std::string& file, const std::string& text);
+
+}  // namespace rollfix::app

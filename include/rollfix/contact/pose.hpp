@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "rollfix/contact/finger.hpp"
+#include "rollfix/contact/log.hpp"
+#include "rollfix/contact/pair_log.hpp"
+#include "rollfix/outline/geometry.hpp"
+#include "rollfix/part/part.hpp"
+
+namespace rollfix {
+
+/// Where a part is in the world: the place of its frame's origin there, and how its frame is turned.
+struct Pose {
+  double x = 0;
+  double y = 0;
+  double heading = 0;  // radians, counter-clockwise
+
+  /// A vector of the part's frame as the world sees it.
+  Vec2 turned(const Vec2& vector) const {
+    const double c = std::cos(heading);
+    const double s = std::sin(heading);
+    return {c * vector.x() - s * vector.y(), s * vector.x() + c * vector.y()};
+  }
+  /// A point of the part's frame as the world sees it.
+  Vec2 world(const Vec2& point) const { return Vec2(x, y) + turned(point); }
+};
+
+/// The part's poses at some rows of a log, and how badly what was felt there fits the part's shape: without noise the
+/// residuals vanish for the true first contacts, and hardly ever for others. One entry per row.
+struct Poses {
+  std::vector<Pose> pose;             // headings are unwrapped; the one at the first contact is in (-pi, pi]
+  std::vector<double> residual;       // length: how far the contacts in the world are from where the part has them
+  std::vector<double> turn_residual;  // radians: how far the headings are apart that the contacts' normals ask for
+};
+
+/// The poses of a part at rest on which a finger rolls, when its first contact is at s. Each is what that row says
+/// alone; `residual` compares its chord from the first contact with the part's, `turn_residual` its heading with the
+/// first. Nothing where the log does not have the finger's orientation and its centre x, y.
+std::optional<Poses> poses(const Part& part, const DiskFinger& finger, const Log& log, double s,
+                           const std::vector<std::size_t>& rows);
+
+/// The poses of a part that is free to move, when the first contacts are at s and t: means of what both fingers say.
+/// `residual` compares the vector from contact a to contact b with the part's, which is also how far apart the fingers
+/// would have the part; `turn_residual` is the facing equation's. Nothing where a log does not have the orientation
+/// and the centre.
+std::optional<Poses> poses(const Part& part, const FingerPair& fingers, const PairLog& log,
+                           const std::array<double, 2>& start, const std::vector<std::size_t>& rows);
+
+}  // namespace rollfix

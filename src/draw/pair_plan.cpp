@@ -1,0 +1,169 @@
+#include "pair_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "legend.hpp"
+#include "numerals.hpp"
+#include "roll_pen.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/part/period.hpp"
+
+namespace rollfix::draw {
+namespace {
+
+constexpr std::size_t kMostNumbers = 20;  // placements with numbers
+constexpr std::size_t kMostNamed = 4;     // contacts of which each has its own name
+constexpr std::size_t kMostLines = 4;     // equations that are drawn
+constexpr double kFirstLane = 8;          // from the boundary to the first lane, pixels
+constexpr double kLaneSpacing = 6.5;
+constexpr double kLabelRoom = 26;    // beyond the last lane
+constexpr double kEndGap = 14;       // between neighbours on a lane
+constexpr double kPlaneShare = 0.4;  // of the width
+constexpr double kPlaneLeft = 64;    // room for the numbers and the name of the axis
+constexpr double kPlaneAbove = 24;
+constexpr double kPlaneBelow = 42;
+constexpr double kPlaneRight = 16;
+constexpr std::array<std::string_view, kMostLines> kLineColours = {kPalette[2], kPalette[10], kPalette[5], kPalette[4]};
+
+void check(const PairFigure& figure) {
+  if (figure.part == nullptr) throw InputError("a figure of pairs needs a part, found none: set PairFigure::part");
+  const std::size_t count = figure.found.placements.size();
+  if (figure.highlight && *figure.highlight >= count) {
+    throw InputError(fmt::format("a figure's highlight must be the index of one of its {} placements, found {}", count,
+                                 *figure.highlight));
+  }
+}
+
+std::vector<Reading> readings_of(const PairFigure& figure, std::size_t finger) {
+  std::vector<Reading> readings;
+  for (const PairReading& reading : figure.readings) {
+    readings.push_back({finger == 0 ? reading.length_a : reading.length_b, reading.turn});
+  }
+  return readings;
+}
+
+std::vector<PairLine> lines_of(const PairFigure& figure) {
+  std::vector<PairLine> lines;
+  const auto add = [&](std::optional<std::size_t> reading, const std::string& index) {
+    if (lines.size() == kMostLines) return;
+    const std::string dash = lines.empty() ? "" : "7 2";  // seen where lines coincide, and without colours
+    lines.push_back(
+        {reading, kLineColours[lines.size()], dash, {{"f", true, false, false}, {index, false, false, true}}});
+  };
+  if (figure.facing) add({}, "0");
+  for (std::size_t k = 0; k < figure.readings.size(); ++k) add(k, std::to_string(k + 1));
+  return lines;
+}
+
+Lanes lanes_of(const PairPlan& plan, double part_size) {
+  std::vector<Interval> stretches;
+  const PairPoint& start = plan.placements()[*plan.shown].start;
+  for (std::size_t finger = 0; finger < 2; ++finger) {
+    const Interval& hull = plan.rolls[finger].hull;
+    stretches.push_back({start[finger] + hull.lo, start[finger] + hull.hi});
+  }
+  // The scale is not known yet; the part's size over the drawing's width is near enough.
+  const double gap = kEndGap * part_size / plan.framing.width;
+  return assign_lanes(stretches, plan.part().closed() ? plan.part().perimeter() : 0, gap);
+}
+
+int lanes_each(const PairPlan& plan) { return std::max(plan.rolls[0].lanes, plan.rolls[1].lanes); }
+
+void append(Text& text, const Text& more) { text.insert(text.end(), more.begin(), more.end()); }
+
+Text finger_text(const PairPlan& plan, std::size_t finger) {
+  Text text{{finger == 0 ? "finger a" : "finger b"}};
+  if (!plan.shown) return text;
+  const std::vector<double>& contacts = plan.rolls[finger].contacts;
+  const double start = plan.placements()[*plan.shown].start[finger];
+  for (std::size_t k = 0; k <= contacts.size(); ++k) {
+    if (!plan.is_named(k)) continue;
+    const double s = k == 0 ? start : start + contacts[k - 1];
+    text.push_back({k == 0 ? ": " : ", "});
+    append(text, pair_contact(finger, k));
+    text.push_back({" = " + pretty(plan.part().closed() ? wrap(s, plan.part().perimeter()).base : s)});
+  }
+  return text;
+}
+
+Text line_text(const PairPlan& plan, const PairLine& line) {
+  Text text = line.name;
+  text.push_back({" = 0: "});
+  if (!line.reading) {
+    text.push_back({"facing " + pretty_degrees(*plan.figure->facing)});
+    return text;
+  }
+  const PairReading& reading = plan.figure->readings[*line.reading];
+  text.push_back({"L", true, false, false});
+  text.push_back({"a", false, false, true});
+  text.push_back({" = " + pretty(reading.length_a) + ", "});
+  text.push_back({"L", true, false, false});
+  text.push_back({"b", false, false, true});
+  text.push_back({" = " + pretty(reading.length_b) + ", "});
+  text.push_back({"\u03b8", true, false, false});
+  text.push_back({" = " + pretty_degrees(std::abs(reading.turn) < kTurnAccuracy ? 0 : reading.turn)});
+  return text;
+}
+
+}  // namespace
+
+bool PairPlan::has_numbers() const { return placements().size() <= kMostNumbers; }
+
+double PairPlan::offset(std::size_t finger, const Run& run, double travelled) const {
+  const double period = part().closed() ? part().perimeter() : 0;
+  const double winding = goes_round(run, period) ? travelled / period : 0;
+  return kFirstLane + kLaneSpacing * (lanes.of[finger] * lanes_each(*this) + run.lane + winding);
+}
+
+bool PairPlan::is_named(std::size_t k) const {
+  const std::size_t count = figure->readings.size() + 1;
+  return count <= kMostNamed || k == 0 || k + 1 == count;
+}
+
+PairPlan plan_of(const PairFigure& figure) {
+  check(figure);
+  PairPlan plan;
+  plan.figure = &figure;
+  plan.shown = figure.highlight;
+  if (!plan.shown && !figure.found.placements.empty()) plan.shown = 0;
+  const double side = kPlaneShare * figure.width;
+  plan.framing.width = figure.width - side - kPlaneLeft - kPlaneRight;
+  plan.framing.least_height = side + kPlaneAbove + kPlaneBelow;
+  plan.framing.most_height = std::max(0.7 * figure.width, plan.framing.least_height);
+  plan.framing.part = part_bounds(*figure.part);
+  for (std::size_t finger = 0; finger < 2; ++finger) {
+    plan.rolls[finger] = roll_of(readings_of(figure, finger), plan.part().closed() ? plan.part().perimeter() : 0);
+    if (!plan.shown || !figure.finger_radius[finger]) continue;
+    const PairPlacement& placement = plan.placements()[*plan.shown];
+    for (const double s : {placement.start[finger], placement.end[finger]}) {
+      include_finger(plan.framing.extras, plan.framing.part, plan.part(), s, *figure.finger_radius[finger]);
+    }
+  }
+  if (plan.shown) plan.lanes = lanes_of(plan, plan.framing.part.size().maxCoeff());
+  plan.framing.margin = kFirstLane + kLaneSpacing * plan.lanes.count * lanes_each(plan) + kLabelRoom;
+  const double spare = drawing_height(plan.framing) - plan.framing.least_height;
+  plan.plane.corner = Vec2(plan.framing.width + kPlaneLeft, kHeaderHeight + kPlaneAbove + 0.5 * spare);
+  plan.plane.size = Vec2(side, side);
+  plan.plane.x = plan.plane.y = {0, plan.part().perimeter()};
+  plan.lines = lines_of(figure);
+  return plan;
+}
+
+Text pair_contact(std::size_t finger, std::size_t k) {
+  return {{finger == 0 ? "s" : "t", true, false, false}, {std::to_string(k), false, false, true}};
+}
+
+Legend pair_legend(const PairPlan& plan) {
+  std::vector<LegendEntry> entries;
+  for (std::size_t finger = 0; finger < 2; ++finger) {
+    entries.push_back({Sign::line, kFingerColours[finger], finger_text(plan, finger)});
+  }
+  for (const PairLine& line : plan.lines) entries.push_back({Sign::line, line.colour, line_text(plan, line)});
+  return {std::move(entries), plan.figure->width};
+}
+
+}  // namespace rollfix::draw

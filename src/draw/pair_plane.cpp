@@ -1,0 +1,239 @@
+// The square of all pairs: where each equation holds, and the placements.
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "contours.hpp"
+#include "label_set.hpp"
+#include "pair_plan.hpp"
+
+namespace rollfix::draw {
+namespace {
+
+constexpr double kCellSize = 0.8;           // of the grid on which lines are looked for, pixels
+constexpr double kVisibleExtent = 5;        // a wider extent gets a box, pixels
+constexpr double kNumberSize = 10.5;        // pixels
+constexpr std::size_t kMostPoints = 20000;  // of a line
+constexpr int kTicks = 6;
+constexpr std::string_view kOutside = "#f0f0f0";
+constexpr std::string_view kStretch = "#F0E442";
+
+class Plane {
+ public:
+  Plane(Svg& svg, const PairPlan& plan)
+      : svg_(svg), plan_(plan), axes_(plan.plane), obstacles_(svg.width(), svg.height()) {}
+
+  void draw() {
+    svg_.open_group("plane");
+    outside();
+    const Ticks ticks = round_ticks(axes_.x, kTicks);
+    draw_axes(svg_, axes_, ticks, ticks, {{"pairs of first contacts that fit each equation"}}, "");
+    names();
+    svg_.open_clip(axes_.corner.x() - 1, axes_.corner.y() - 1, axes_.size.x() + 2, axes_.size.y() + 2);
+    for (const PairPlacement& placement : plan_.placements()) wide(placement);
+    for (const PairLine& line : plan_.lines) draw_line(line);
+    unresolved();
+    svg_.close_group();
+    dots();
+    if (plan_.has_numbers()) numbers();
+    svg_.close_group();
+  }
+
+ private:
+  /// Where on an open part the rolls don't fit: no pair can be there.
+  void outside() {
+    std::array<Interval, 2> room{axes_.x, axes_.y};
+    for (std::size_t finger = 0; finger < 2 && !plan_.part().closed(); ++finger) {
+      room[finger] = {axes_.x.lo - plan_.rolls[finger].hull.lo, axes_.x.hi - plan_.rolls[finger].hull.hi};
+    }
+    room_ = room;
+    Paint paint;
+    paint.fill = kOutside;
+    const Vec2 lo = axes_(room[0].lo, room[1].hi), hi = axes_(room[0].hi, room[1].lo), end = axes_.corner + axes_.size;
+    const auto box = [&](const Vec2& from, const Vec2& to) {
+      if (to.x() > from.x() && to.y() > from.y()) {
+        svg_.rectangle(from.x(), from.y(), to.x() - from.x(), to.y() - from.y(), paint);
+      }
+    };
+    box(axes_.corner, {lo.x(), end.y()});
+    box({hi.x(), axes_.corner.y()}, end);
+    box({lo.x(), axes_.corner.y()}, {hi.x(), lo.y()});
+    box({lo.x(), hi.y()}, {hi.x(), end.y()});
+  }
+
+  void names() {
+    const Text first = pair_contact(0, 0), second = pair_contact(1, 0);
+    draw_x_name(svg_, axes_, {first[0], first[1], {" of finger a"}});
+    TextStyle style;
+    style.align = Align::middle;
+    style.turn = -90;
+    svg_.text(axes_.corner + Vec2(-44, 0.5 * axes_.size.y()), {second[0], second[1], {" of finger b"}}, style);
+  }
+
+  // ---- lines
+
+  /// Places that are a fraction of a pixel apart, with the value there.
+  template <class F>
+  Samples sample(const Interval& range, F&& value) const {
+    const double count = std::ceil(axes_.size.x() / kCellSize);
+    Samples samples;
+    for (double k = 0; k <= count; ++k) {
+      samples.at.push_back(range.lo + range.width() * k / count);
+      samples.value.push_back(value(samples.at.back()));
+    }
+    return samples;
+  }
+
+  void draw_line(const PairLine& line) {
+    if (!(room_[0].width() > 0 && room_[1].width() > 0)) return;
+    const TurningFunction& turning = plan_.part().turning();
+    svg_.open_group("equation");
+    if (line.reading) {
+      const PairReading& reading = plan_.figure->readings[*line.reading];
+      const auto turn = [&](double length) {
+        return [&turning, length](double s) { return turning.angle(s + length) - turning.angle(s); };
+      };
+      draw_level(sample(room_[0], turn(reading.length_a)), sample(room_[1], turn(reading.length_b)), reading.turn,
+                 line);
+    } else {
+      const auto angle = [&](double s) { return turning.angle(s); };
+      const Samples g = sample(room_[0], angle), h = sample(room_[1], angle);
+      const auto [least_g, most_g] = std::minmax_element(g.value.begin(), g.value.end());
+      const auto [least_h, most_h] = std::minmax_element(h.value.begin(), h.value.end());
+      const double turn = 2 * std::numbers::pi, facing = *plan_.figure->facing;
+      for (double k = std::ceil((*least_g - *most_h - facing) / turn); facing + turn * k <= *most_g - *least_h; ++k) {
+        draw_level(g, h, facing + turn * k, line);
+      }
+    }
+    svg_.close_group();
+  }
+
+  void draw_level(const Samples& g, const Samples& h, double level, const PairLine& style) {
+    Paint paint = stroke(style.colour, 1.2);
+    paint.dash = style.dash;
+    for (const std::vector<Vec2>& line : level_lines(g, h, level)) {
+      std::vector<Vec2> path;
+      for (const Vec2& pair : line) path.push_back(axes_(pair.x(), pair.y()));
+      path = pick(path, simplify(path, kInvisible, kMostPoints));
+      svg_.polyline(path, paint);
+      obstacles_.add(path);
+    }
+  }
+
+  // ---- placements
+
+  /// What is more than a point: a stretch's line, or a box around a wide extent, also of a stretch that is no line.
+  void wide(const PairPlacement& placement) {
+    const PairBox& extent = placement.extent;
+    Box box;
+    box.include(axes_(extent[0].lo, extent[1].hi));
+    box.include(axes_(extent[0].hi, extent[1].lo));
+    const bool is_line = placement.family.size() > 1;
+    const double spread = is_line ? placement.family_error * axes_.size.x() / axes_.x.width() : box.size().maxCoeff();
+    if (!is_line && spread < kVisibleExtent) return;
+    svg_.open_group(placement.kind == Kind::stretch ? "stretch" : "extent");
+    if (spread >= kVisibleExtent) {
+      fill(box);
+    } else {
+      std::vector<Vec2> path;
+      for (const PairPoint& pair : placement.family) path.emplace_back(axes_(pair[0], pair[1]));
+      band(path);
+    }
+    svg_.close_group();
+  }
+
+  // On a closed part both may run over the square's edge and go on at the opposite one.
+
+  void band(const std::vector<Vec2>& path) {
+    for (const Vec2& shift : shifts(bounds(path))) {
+      std::vector<Vec2> moved;
+      for (const Vec2& point : path) moved.emplace_back(point + shift);
+      svg_.polyline(pick(moved, simplify(moved, kInvisible, kMostPoints)), stroke(kStretch, 6));
+    }
+  }
+
+  void fill(const Box& box) {
+    Paint paint;
+    paint.fill = kStretch;
+    paint.fill_opacity = 0.6;
+    const Vec2 size = box.size().cwiseMax(2);
+    for (const Vec2& shift : shifts(box)) {
+      const Vec2 lo = box.lo + shift;
+      svg_.rectangle(lo.x(), lo.y(), size.x(), size.y(), paint);
+    }
+  }
+
+  /// By which whole squares a drawing has to be moved so that all of it is seen.
+  std::vector<Vec2> shifts(const Box& box) const {
+    if (!plan_.part().closed()) return {Vec2::Zero()};
+    const Vec2 end = axes_.corner + axes_.size;
+    std::vector<Vec2> all;
+    const auto first = [&](int axis) { return std::ceil((axes_.corner[axis] - box.hi[axis]) / axes_.size[axis]); };
+    const auto last = [&](int axis) { return std::floor((end[axis] - box.lo[axis]) / axes_.size[axis]); };
+    for (double i = first(0); i <= last(0); ++i) {
+      for (double j = first(1); j <= last(1); ++j) all.emplace_back(i * axes_.size.x(), j * axes_.size.y());
+    }
+    return all;
+  }
+
+  void unresolved() {
+    Paint paint = stroke(kSoftInk, 1);
+    paint.dash = "2 3";
+    for (const PairBox& box : plan_.figure->found.unresolved) {
+      const Vec2 lo = axes_(box[0].lo, box[1].hi), size = axes_(box[0].hi, box[1].lo) - lo;
+      svg_.open_group("unresolved");
+      svg_.rectangle(lo.x(), lo.y(), std::max(size.x(), 3.0), std::max(size.y(), 3.0), paint);
+      svg_.close_group();
+    }
+  }
+
+  double dot_size() const { return plan_.placements().size() > 200 ? 1.6 : plan_.has_numbers() ? 3.2 : 2.4; }
+
+  void dots() {
+    svg_.open_group("dots");
+    for (std::size_t i = 0; i < plan_.placements().size(); ++i) {
+      if (plan_.shown != i) dot(i);
+    }
+    if (plan_.shown) dot(*plan_.shown);
+    svg_.close_group();
+  }
+
+  void dot(std::size_t i) {
+    const PairPoint& start = plan_.placements()[i].start;
+    const Vec2 at = axes_(start[0], start[1]);
+    const bool shown = plan_.shown == i;
+    Paint paint = stroke(shown ? kInk : std::string_view("#ffffff"), shown ? 1.6 : 0.6);
+    paint.fill = shown ? std::string_view("#ffffff") : kInk;
+    const double size = shown ? 3.8 : dot_size();
+    svg_.circle(at, size, paint);
+    obstacles_.add_box(at - Vec2::Constant(size), at + Vec2::Constant(size));
+  }
+
+  void numbers() {
+    const Vec2 end = axes_.corner + axes_.size;
+    obstacles_.add_box({0, 0}, {axes_.corner.x() - 2, svg_.height()});
+    obstacles_.add_box({0, 0}, {svg_.width(), axes_.corner.y() - 1});
+    obstacles_.add_box({0, end.y() + 1}, {svg_.width(), svg_.height()});
+    LabelSet labels;
+    for (std::size_t i = 0; i < plan_.placements().size(); ++i) {
+      const PairPoint& start = plan_.placements()[i].start;
+      labels.add({axes_(start[0], start[1])}, Vec2(std::numbers::sqrt2 / 2, -std::numbers::sqrt2 / 2),
+                 {{std::to_string(i), false, true, false}}, kInk, kNumberSize);
+    }
+    labels.draw(svg_, obstacles_);
+  }
+
+  Svg& svg_;
+  const PairPlan& plan_;
+  Axes axes_;
+  Obstacles obstacles_;
+  std::array<Interval, 2> room_;  // where first contacts may be
+};
+
+}  // namespace
+
+void draw_pair_plane(Svg& svg, const PairPlan& plan) { Plane(svg, plan).draw(); }
+
+}  // namespace rollfix::draw

@@ -1,0 +1,104 @@
+#include "rollfix/locate/march/start.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+
+namespace rollfix::march {
+
+namespace {
+
+/// A Newton step shorter than this part of the parameter step is taken without another quadrature: what it leaves in
+/// phi is its square.
+constexpr double kLastCorrection = 1e-8;
+/// A phi, the difference of two sums, is what it should be to so much of them.
+constexpr double kSumRounding = 2.5e-16;
+/// Halvings that exhaust a double, and Newton steps besides.
+constexpr int kMostHalvings = 200;
+
+}  // namespace
+
+Start::Start(const Walker& start, const Segments& segments)
+    : segments_(&segments), tally_(start.tally()), start_(start), ends_{start, start} {}
+
+Start Start::counted_by(Tally& tally) const {
+  Start copy = *this;
+  copy.tally_ = &tally;
+  copy.start_ = start_.counted_by(tally);
+  for (std::size_t k = 0; k < 2; ++k) copy.ends_[k] = ends_[k].counted_by(tally);
+  return copy;
+}
+
+void Start::move_to(double s) {
+  start_.move_to_length(s);
+  for (std::size_t k = 0; k < 2; ++k) ends_[k].move_to_length(s + segments_->length[k]);
+}
+
+void Start::nudge(double by) {
+  start_.nudge(by);
+  for (Walker& end : ends_) end.nudge(by);
+}
+
+long Start::steps_since(const Start& before) const {
+  long steps = std::labs(start_.net_steps() - before.start_.net_steps());
+  for (std::size_t k = 0; k < 2; ++k) steps += std::labs(ends_[k].net_steps() - before.ends_[k].net_steps());
+  return steps;
+}
+
+/// The steps between here and there count once, however often the landing went to and fro over them.
+void Start::become(const Start& landed, const Tally& spent) {
+  tally_->steps += static_cast<std::size_t>(landed.steps_since(*this));
+  tally_->refinements += spent.refinements + spent.steps;
+  Tally& own = *tally_;
+  *this = landed.counted_by(own);
+}
+
+bool Start::move_to_value(std::size_t k, double target, int sign, double stop) {
+  const auto shortfall = [&](const Start& at) { return sign * (target - at.phi(k)); };
+  double gap = shortfall(*this);
+  if (gap <= 0) return true;
+  if (s() == stop) return false;
+  ++tally_->landings;
+  const int direction = stop < s() ? -1 : 1;
+  const auto nearer = [&](double one, double two) { return direction * (one - two) < 0 ? one : two; };
+  const double rounding = kSumRounding * (std::fabs(start_.integral()) + std::fabs(ends_[k].integral()) + 1);
+
+  // Step by step until the target is passed; then Newton's iteration, safeguarded by halving, between the last two.
+  Start trial = *this;
+  std::optional<double> passed;
+  for (int i = 0; i < kMostHalvings || !passed; ++i) {
+    const double growth = sign * direction * trial.slope(k);
+    const double newton = trial.s() + direction * gap / growth;
+    const double step = trial.start_.position().step.length;
+    double next = newton;
+    if (!passed) {
+      const double furthest = nearer(s() + direction * step, stop);
+      if (!(growth > 0) || direction * (newton - furthest) > 0) next = furthest;
+    } else if (!(direction * (newton - s()) > 0 && direction * (*passed - newton) > 0)) {
+      next = s() + 0.5 * (*passed - s());
+    }
+    if (next == s() || next == passed) return true;  // nothing is left between the two
+    Tally spent;
+    trial = trial.counted_by(spent);
+    trial.move_to(next);
+    gap = shortfall(trial);
+    const double correction = direction * gap / (sign * direction * trial.slope(k));
+    const bool small = std::fabs(correction) <= kLastCorrection * step;
+    const bool inside = direction * (stop - (next + correction)) >= 0 && direction * (next + correction - s()) >= 0;
+    if (small && inside) trial.nudge(correction);
+    if ((small && inside) || std::fabs(gap) <= rounding) {
+      become(trial, spent);
+      return true;
+    }
+    if (gap < 0) {
+      passed = next;
+      tally_->refinements += spent.refinements + spent.steps;
+    } else {
+      become(trial, spent);
+      if (next == stop) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace rollfix::march

@@ -1,0 +1,308 @@
+#include "box_search.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "convex.hpp"
+#include "line_search.hpp"
+
+namespace rollfix {
+namespace {
+
+constexpr double kTwoPi = 2 * std::numbers::pi;
+// The simplified Newton step must contract by this at least: then the box has one root at the most.
+constexpr double kMostContraction = 0.9;
+// Curves that run alongside each other are first halved this often, which is cheap, for the halves are shared; every so
+// often they are looked at for an overlap, which no halving would ever end.
+constexpr int kPlainHalvings = 16;
+constexpr int kOverlapInterval = 8;
+// Within an extent the curves are taken as straight where their directions vary by this share at the most.
+constexpr double kExtentBend = 0.01;
+// A box on which f varies by this share of the tolerance is in or out as its middle is.
+constexpr double kSmallVariation = 0.25;
+constexpr int kMostRounds = 60;
+// Newton's step that is below this share of the box is the last one.
+constexpr double kRootStep = 1e-14;
+// On a flat box of zeros the slopes vanish as well, up to this many radians over a perimeter.
+constexpr double kFlatSlope = 1e-9;
+
+/// The part of a convex polygon where |value + slope . (x - at)| <= most.
+Polygon within(const Polygon& polygon, const Vec2& at, double value, const Vec2& slope, double most) {
+  const auto f = [&](const Vec2& x) { return value + slope.dot(x - at); };
+  const Polygon below = clipped(polygon, [&](const Vec2& x) { return f(x) - most; });
+  return clipped(below, [&](const Vec2& x) { return -f(x) - most; });
+}
+
+Range dot(const Vec2& direction, const Range& one, const Range& two) {
+  return direction.x() * one + direction.y() * two;
+}
+
+/// Bounds on a combination of two components along a side.
+Range along(const BoxSide& side, const Vec2& direction, std::size_t p, std::size_t q) {
+  const RollCurve::Component& one = side.component(p);
+  const RollCurve::Component& two = side.component(q);
+  return value_range(direction.x() * one.first + direction.y() * two.first,
+                     direction.x() * one.last + direction.y() * two.last, dot(direction, one.slope, two.slope),
+                     side.width());
+}
+
+Vec2 chord(const BoxSide& side, std::size_t p, std::size_t q) {
+  const RollCurve::Component& one = side.component(p);
+  const RollCurve::Component& two = side.component(q);
+  return {one.last - one.first, two.last - two.first};
+}
+
+}  // namespace
+
+BoxSearch::BoxSearch(RollCurve& a, RollCurve& b, const PairLimits& limits, std::size_t budget, PairFindings& findings)
+    : a_(a), b_(b), limits_(limits), budget_(budget), findings_(findings) {}
+
+void BoxSearch::run() {
+  if (a_.root() < 0 || b_.root() < 0) return;
+  waiting_.push_back({a_.root(), b_.root(), 0, false});
+  while (!waiting_.empty()) {
+    const Box box = waiting_.back();
+    waiting_.pop_back();
+    decide(box);
+  }
+}
+
+void BoxSearch::decide(const Box& box) {
+  ++findings_.counts.intervals;
+  const PairLimits limits = box.covered ? limits_.inside() : limits_;
+  const double tolerance = limits.tolerance;
+  bool one_lap = true;
+  double lap = 0;
+  const RollCurve::Component* on_a = a_.components(box.a);
+  const RollCurve::Component* on_b = b_.components(box.b);
+  for (std::size_t row = 0; row < a_.rows(); ++row) {
+    const Range f = on_a[row].value - on_b[row].value;
+    if (limits_.facing && row + 1 == a_.rows()) {
+      const double least = std::ceil((f.least - tolerance) / kTwoPi);
+      const double most = std::floor((f.most + tolerance) / kTwoPi);
+      if (least > most) return;
+      one_lap = least == most;
+      lap = least * kTwoPi;
+    } else if (f.least > tolerance || f.most < -tolerance) {
+      return;
+    }
+  }
+  const bool on_pieces = a_.node(box.a).on_one_piece() && b_.node(box.b).on_one_piece();
+  if (!on_pieces || !one_lap) {
+    halve(box, a_is_wider(box));
+    return;
+  }
+  const PairBoxSides sides{{a_, box.a}, {b_, box.b}, lap};
+  if (is_apart(sides, limits)) return;
+  if (box.depth > 0 && budget_ == 0) {
+    findings_.unresolved.push_back({Interval{sides.a.s(sides.a.lo()), sides.a.s(sides.a.hi())},
+                                    Interval{sides.b.s(sides.b.lo()), sides.b.s(sides.b.hi())}});
+    return;
+  }
+  if (box.depth > 0) --budget_;
+  decide_on_pieces(box, sides, limits);
+}
+
+void BoxSearch::decide_on_pieces(Box box, const PairBoxSides& sides, const PairLimits& limits) {
+  if (const auto rows = regular(sides); rows && take_regular(sides, limits, *rows)) return;
+  const Flat flat = take_flat(sides, limits);
+  if (flat == Flat::settled) return;
+  box.covered = box.covered || flat == Flat::covered;
+  const bool overlap_due = box.depth > 0 && box.depth % kOverlapInterval == 0;
+  if (box.depth >= kPlainHalvings || overlap_due || corners_vanish(sides)) {
+    LineSearch line(sides, box.covered ? limits_.inside() : limits_, budget_, findings_);
+    if ((box.depth >= kPlainHalvings || line.may_overlap()) && line.run()) return;
+  }
+  halve(box, a_is_wider(box));
+}
+
+/// The side that f varies more along; one that can't be halved any more is left alone.
+bool BoxSearch::a_is_wider(const Box& box) const {
+  const RollCurve::Node& a = a_.node(box.a);
+  const RollCurve::Node& b = b_.node(box.b);
+  if (a.on_one_piece() != b.on_one_piece()) return b.on_one_piece();
+  double spread_a = 0;
+  double spread_b = 0;
+  for (std::size_t row = 0; row < a_.rows(); ++row) {
+    spread_a += a_.components(box.a)[row].value.spread();
+    spread_b += b_.components(box.b)[row].value.spread();
+  }
+  if (spread_a == spread_b) return a.width() >= b.width();
+  return spread_a > spread_b;
+}
+
+void BoxSearch::halve(const Box& box, bool side_a) {
+  const bool on_pieces = a_.node(box.a).on_one_piece() && b_.node(box.b).on_one_piece();
+  const int depth = on_pieces ? box.depth + 1 : 0;
+  const auto [left, right] = side_a ? a_.halves(box.a) : b_.halves(box.b);
+  waiting_.push_back(side_a ? Box{right, box.b, depth, box.covered} : Box{box.a, right, depth, box.covered});
+  waiting_.push_back(side_a ? Box{left, box.b, depth, box.covered} : Box{box.a, left, depth, box.covered});
+}
+
+/// Seen along either side's chord, the two are further apart than the tolerance.
+bool BoxSearch::is_apart(const PairBoxSides& sides, const PairLimits& limits) const {
+  for (std::size_t p = 0; p + 1 < a_.rows(); ++p) {
+    for (std::size_t q = p + 1; q < a_.rows(); ++q) {
+      for (const Vec2& direction : {chord(sides.a, p, q), chord(sides.b, p, q)}) {
+        const double size = direction.norm();
+        if (size == 0) continue;
+        const Vec2 across = Vec2(-direction.y(), direction.x()) / size;
+        const double by = across.x() * sides.shift(p, limits_) + across.y() * sides.shift(q, limits_);
+        const Range f = along(sides.a, across, p, q) - along(sides.b, across, p, q) - Range{by, by};
+        const double reach = limits.tolerance * across.lpNorm<1>();
+        if (f.least > reach || f.most < -reach) return true;
+      }
+    }
+  }
+  return false;
+}
+
+std::optional<BoxSearch::Regular> BoxSearch::regular(const PairBoxSides& sides) const {
+  std::optional<Regular> best;
+  const Eigen::Array2d width(std::max(sides.a.width(), limits_.same_place),
+                             std::max(sides.b.width(), limits_.same_place));
+  for (std::size_t p = 0; p + 1 < a_.rows(); ++p) {
+    for (std::size_t q = p + 1; q < a_.rows(); ++q) {
+      Eigen::Matrix2d middle;
+      Eigen::Matrix2d radius;
+      for (const int k : {0, 1}) {
+        const std::size_t row = k == 0 ? p : q;
+        const Range at_a = sides.a.slope(row);
+        const Range at_b = sides.b.slope(row);
+        middle.row(k) << 0.5 * (at_a.least + at_a.most), -0.5 * (at_b.least + at_b.most);
+        radius.row(k) << 0.5 * at_a.spread(), 0.5 * at_b.spread();
+      }
+      const double determinant = middle.determinant();
+      if (determinant == 0 || !std::isfinite(1 / determinant)) continue;
+      const Eigen::Matrix2d inverse = middle.inverse();
+      const Eigen::Array2d moved = (inverse.cwiseAbs() * radius * width.matrix()).array() / width;
+      const double contraction = moved.maxCoeff();
+      if (contraction <= kMostContraction && (!best || contraction < best->contraction)) {
+        best = Regular{{p, q}, inverse, contraction};
+      }
+    }
+  }
+  return best;
+}
+
+/// f, continued beyond the box with the slopes at its ends, has one zero in the whole plane (Hadamard): where?
+bool BoxSearch::take_regular(const PairBoxSides& sides, const PairLimits& limits, const Regular& regular) {
+  const auto [p, q] = regular.rows;
+  const Eigen::Array2d width(std::max(sides.a.width(), limits_.same_place),
+                             std::max(sides.b.width(), limits_.same_place));
+  const Vec2 lo(sides.a.lo(), sides.b.lo());
+  const Vec2 hi(sides.a.hi(), sides.b.hi());
+  const double slack = 1 / (1 - regular.contraction);
+  const auto in_box = [&](const Vec2& step) { return (step.array().abs() / width).maxCoeff() * slack * width; };
+  const Eigen::Array2d reach = in_box(regular.inverse.cwiseAbs() * Vec2::Constant(limits.tolerance));
+  const double bend = regular.contraction * std::min(1.0, (reach / width).maxCoeff());
+  if (bend > kExtentBend) return false;
+
+  Vec2 at = 0.5 * (lo + hi);
+  RollPoint on_a;
+  RollPoint on_b;
+  Eigen::Matrix2d jacobian;
+  const auto residual = [&](std::size_t row) { return on_a.value[row] - on_b.value[row] - sides.shift(row, limits_); };
+  for (int round = 0;; ++round) {
+    on_a = sides.a.point(at.x());
+    on_b = sides.b.point(at.y());
+    const Vec2 f(residual(p), residual(q));
+    const Eigen::Array2d off = in_box(regular.inverse * f) + reach;
+    if (((at.array() + off < lo.array()) || (at.array() - off > hi.array())).any()) return true;  // it is elsewhere
+    jacobian << on_a.slope(p), -on_b.slope(p), on_a.slope(q), -on_b.slope(q);
+    if (round == kMostRounds) break;
+    const bool full = round < kMostRounds / 2;  // Newton's own step, then the one that contracts for sure
+    const Vec2 step = full ? Vec2(jacobian.inverse() * f) : Vec2(regular.inverse * f);
+    const bool arrived = (step.array().abs() <= kRootStep * width + 1e-3 * limits_.same_place).all();
+    if (arrived) break;
+    at -= step;
+  }
+
+  Polygon extent{lo, {hi.x(), lo.y()}, hi, {lo.x(), hi.y()}};
+  bool exact = true;
+  for (std::size_t row = 0; row < a_.rows() && !extent.empty(); ++row) {
+    const Vec2 slope(on_a.slope(row), -on_b.slope(row));
+    extent = within(extent, at, residual(row), slope, limits.tolerance);
+    exact = exact && std::abs(residual(row)) <= kRootTurn;
+  }
+  const Eigen::Array2d edge = in_box(regular.inverse.cwiseAbs() * Vec2::Constant(kTurnAccuracy)) +
+                              Eigen::Array2d(sides.a.same_place(limits_), sides.b.same_place(limits_));
+  const bool inside = ((at.array() + edge >= lo.array()) && (at.array() - edge <= hi.array())).all();
+  if (extent.empty() && !(inside && exact)) return true;
+  if (extent.empty()) extent.push_back(at);
+  const Vec2 root(std::clamp(at.x(), lo.x(), hi.x()), std::clamp(at.y(), lo.y(), hi.y()));
+  Vec2 least = inside ? root : extent.front();
+  Vec2 most = least;
+  for (const Vec2& x : extent) {
+    least = least.cwiseMin(x);
+    most = most.cwiseMax(x);
+  }
+  PairPiece piece;
+  piece.box = {Interval{sides.a.s(least.x()), sides.a.s(most.x())},
+               Interval{sides.b.s(least.y()), sides.b.s(most.y())}};
+  piece.corner = sides.pivots();
+  for (const Vec2& x : extent) piece.hull.push_back({sides.a.s(x.x()), sides.b.s(x.y())});
+  piece.error = 0.25 * bend * reach.minCoeff();
+  if (!limits.covered) findings_.pieces.push_back(piece);
+  if (inside && (exact || !limits.covered)) {
+    const PairPoint start{sides.a.s(root.x()), sides.b.s(root.y())};
+    findings_.roots.push_back({start, jacobian.determinant() > 0 ? 1 : -1, sides.pivots(), exact});
+  }
+  return true;
+}
+
+/// f hardly varies: it is 0 all over the box, or the box is too small to tell more, or it is within the tolerance all
+/// over the box, which leaves the roots to be found.
+BoxSearch::Flat BoxSearch::take_flat(const PairBoxSides& sides, const PairLimits& limits) {
+  double size = 0;
+  double spread = 0;
+  double middle = 0;
+  double steepest = 0;
+  for (std::size_t row = 0; row < a_.rows(); ++row) {
+    const Range f = sides.value(row, limits);
+    size = std::max(size, f.size());
+    spread = std::max(spread, f.spread());
+    middle = std::max(middle, 0.5 * std::abs(f.least + f.most));
+    steepest = std::max({steepest, sides.a.slope(row).size(), sides.b.slope(row).size()});
+  }
+  const bool zero = size <= kTurnAccuracy;
+  const bool tiny = sides.a.width() <= sides.a.same_place(limits) && sides.b.width() <= sides.b.same_place(limits);
+  const bool small = spread <= kSmallVariation * limits.tolerance;
+  if (!zero && !tiny && !small && size > limits.tolerance) return Flat::no;
+  if (middle > limits.tolerance) return Flat::settled;
+  PairPiece piece;
+  piece.box = {Interval{sides.a.s(sides.a.lo()), sides.a.s(sides.a.hi())},
+               Interval{sides.b.s(sides.b.lo()), sides.b.s(sides.b.hi())}};
+  piece.exact = zero && steepest * limits.perimeter <= kFlatSlope;
+  piece.corner = sides.pivots();
+  if (!piece.exact) piece.error = kSmallVariation * std::max(piece.box[0].width(), piece.box[1].width());
+  if (!limits.covered || piece.exact) findings_.pieces.push_back(piece);
+  if (!zero && !tiny && !limits.covered) return Flat::covered;
+  const PairPoint at{piece.box[0].middle(), piece.box[1].middle()};
+  if (piece.exact) {
+    findings_.roots.push_back({{piece.box[0].lo, piece.box[1].lo}, 0, sides.pivots()});
+  } else if (middle <= kTurnAccuracy) {
+    findings_.roots.push_back({at, 0, sides.pivots()});
+  }
+  return Flat::settled;
+}
+
+/// Is f zero at two corners of the box? Then the curves may run along each other from one to the other.
+bool BoxSearch::corners_vanish(const PairBoxSides& sides) const {
+  int zeros = 0;
+  for (const auto end_of_a : {&RollCurve::Component::first, &RollCurve::Component::last}) {
+    for (const auto end_of_b : {&RollCurve::Component::first, &RollCurve::Component::last}) {
+      bool zero = true;
+      for (std::size_t row = 0; row < a_.rows() && zero; ++row) {
+        const double f = sides.a.component(row).*end_of_a - sides.b.component(row).*end_of_b;
+        zero = std::abs(f - sides.shift(row, limits_)) <= kRootTurn;
+      }
+      zeros += zero ? 1 : 0;
+    }
+  }
+  return zeros >= 2;
+}
+
+}  // namespace rollfix

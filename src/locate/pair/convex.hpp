@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "rollfix/outline/geometry.hpp"
+
+namespace rollfix {
+
+/// The corners of a convex polygon in order; none: empty.
+using Polygon = std::vector<Vec2>;
+
+/// What is left of a convex polygon where `excess`, a linear function of a point, is not above 0.
+template <class Excess>
+Polygon clipped(const Polygon& polygon, const Excess& excess) {
+  Polygon kept;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Vec2& here = polygon[k];
+    const Vec2& next = polygon[(k + 1) % polygon.size()];
+    const double from = excess(here);
+    const double to = excess(next);
+    if (from <= 0) kept.push_back(here);
+    if ((from < 0 && to > 0) || (from > 0 && to < 0)) kept.push_back(here + (next - here) * (from / (from - to)));
+  }
+  return kept;
+}
+
+/// The part of a convex polygon in the box from `lo` to `hi`. What is cut off leaves its corners on the very edge.
+inline Polygon clipped(const Polygon& polygon, const Vec2& lo, const Vec2& hi) {
+  Polygon kept = polygon;
+  for (const Eigen::Index axis : {0, 1}) {
+    kept = clipped(kept, [&](const Vec2& x) { return lo[axis] - x[axis]; });
+    kept = clipped(kept, [&](const Vec2& x) { return x[axis] - hi[axis]; });
+  }
+  for (Vec2& corner : kept) corner = corner.cwiseMax(lo).cwiseMin(hi);
+  return kept;
+}
+
+}  // namespace rollfix

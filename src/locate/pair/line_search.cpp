@@ -1,0 +1,449 @@
+#include "line_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "convex.hpp"
+
+namespace rollfix {
+namespace {
+
+// The guide's slope must be at least this share of the steepest slope in the box, so that no error is blown up.
+constexpr double kGuideShare = 0.05;
+// The set within the tolerance is taken as a band about the line: no wider than the box by this factor.
+constexpr double kWidestBand = 1;
+// Zero at more points than the functions have degrees of freedom on one piece: zero between them, too.
+constexpr int kOverlapSamples = 19;
+// On an overlap the slope along the line vanishes as well, up to this share of the rates that it is made of.
+constexpr double kOverlapSlope = 1e-8;
+// An overlap shorter than this share of the perimeter can't be told from a root.
+constexpr double kShortestOverlap = 1e-9;
+// An arc length is rounded to this share of the perimeter: times the curvature, an angle.
+constexpr double kPlaceRounding = 4e-15;
+constexpr int kMostRounds = 100;
+// How far a band may bend, in parts of its half width, to be taken as straight.
+constexpr double kBandBend = 0.5;
+// A stretch of the line on which a residual varies by this share of the tolerance is in or out as its middle is.
+constexpr double kSmallVariation = 0.25;
+
+/// Where one component of a side, monotone, has this value.
+RollPoint solve_side(const BoxSide& side, std::size_t row, double target) {
+  const RollCurve::Component& component = side.component(row);
+  const double rise = component.last - component.first;
+  double lo = side.lo();
+  double hi = side.hi();
+  const double share = rise == 0 ? 0.5 : (target - component.first) / rise;
+  if (share <= 0 || share >= 1) {  // beyond an end the continuation is straight
+    const RollPoint end = share <= 0 ? side.first() : side.last();
+    return side.point(end.x + (target - end.value[row]) / end.slope(row));
+  }
+  double x = lo + share * (hi - lo);
+  const bool rises = rise > 0;
+  RollPoint at = side.point(x);
+  for (int round = 0; round < kMostRounds; ++round) {
+    const double off = at.value[row] - target;
+    if (off == 0) break;
+    ((off > 0) == rises ? hi : lo) = x;
+    double next = x - off / at.slope(row);
+    if (!(next > lo && next < hi)) next = 0.5 * (lo + hi);
+    if (next == x || std::abs(next - x) <= 1e-16 * (std::abs(x) + side.width())) break;
+    x = next;
+    at = side.point(x);
+  }
+  return at;
+}
+
+}  // namespace
+
+LineSearch::LineSearch(const PairBoxSides& sides, const PairLimits& limits, std::size_t& budget, PairFindings& findings)
+    : sides_(sides), limits_(limits), budget_(budget), findings_(findings) {}
+
+bool LineSearch::run() {
+  if (!choose_guide()) return false;
+  Stretch all{place(free().lo()), place(free().hi()), 0, limits_.covered};
+  waiting_.push_back(std::move(all));
+  while (!waiting_.empty()) {
+    Stretch stretch = std::move(waiting_.back());
+    waiting_.pop_back();
+    decide(std::move(stretch));
+  }
+  return true;
+}
+
+bool LineSearch::may_overlap() {
+  if (!choose_guide()) return false;
+  Stretch all{place(free().lo()), place(free().hi()), 0, false};
+  if (!clip(all, 0)) return false;
+  return vanishes(place(0.5 * (all.lo.free.x + all.hi.free.x)));
+}
+
+/// The steepest equation in one contact, where its slope keeps its sign.
+bool LineSearch::choose_guide() {
+  double steepest = 0;
+  for (std::size_t row = 0; row < sides_.a.rows(); ++row) {
+    steepest = std::max({steepest, sides_.a.slope(row).size(), sides_.b.slope(row).size()});
+  }
+  double best = kGuideShare * steepest;
+  bool found = false;
+  for (std::size_t row = 0; row < sides_.a.rows(); ++row) {
+    for (const bool a_is_free : {true, false}) {
+      const Range slope = (a_is_free ? sides_.b : sides_.a).slope(row);
+      if (!slope.has_sign()) continue;
+      const double least = std::min(std::abs(slope.least), std::abs(slope.most));
+      if (least <= best) continue;
+      best = least;
+      found = true;
+      free_is_a_ = a_is_free;
+      guide_ = row;
+    }
+  }
+  if (!found) return false;
+  margin_ = limits_.tolerance / best;
+  return margin_ <= kWidestBand * bound().width();
+}
+
+LineSearch::Place LineSearch::place(double x) const {
+  Place place{free().point(x), {}};
+  const double shift = sides_.shift(guide_, limits_);
+  place.bound = solve_side(bound(), guide_, place.free.value[guide_] - (free_is_a_ ? shift : -shift));
+  return place;
+}
+
+double LineSearch::residual(const Place& place, std::size_t row) const {
+  const double difference = place.free.value[row] - place.bound.value[row];
+  return (free_is_a_ ? difference : -difference) - sides_.shift(row, limits_);
+}
+
+double LineSearch::direction(const Place& place) const { return place.free.slope(guide_) / place.bound.slope(guide_); }
+
+double LineSearch::residual_slope(const Place& place, std::size_t row) const {
+  const double slope = place.free.slope(row) - place.bound.slope(row) * direction(place);
+  return free_is_a_ ? slope : -slope;
+}
+
+LineSearch::Bounds LineSearch::bounds(const Stretch& stretch) const {
+  const double width = stretch.hi.free.x - stretch.lo.free.x;
+  Bounds bounds;
+  const Range guide_free = free().slope_between(stretch.lo.free, stretch.hi.free, guide_);
+  const Range ends = hull(stretch.lo.bound.x, stretch.hi.bound.x);
+  RollPoint bound_lo = stretch.lo.bound;
+  RollPoint bound_hi = stretch.hi.bound;
+  bounds.bound_x = ends;
+  if (!guide_free.keeps_sign()) {  // the line may swing out beyond its ends
+    bounds.bound_x = value_range(stretch.lo.bound.x, stretch.hi.bound.x, guide_free / bound().slope(guide_), width);
+    bound_lo = bound().point(bounds.bound_x.least);
+    bound_hi = bound().point(bounds.bound_x.most);
+  }
+  const Range guide_bound = bound().slope_between(bound_lo, bound_hi, guide_);
+  bounds.direction = guide_free / guide_bound;
+  for (std::size_t row = 0; row < free().rows(); ++row) {
+    const Range slope_free = free().slope_between(stretch.lo.free, stretch.hi.free, row);
+    const Range slope_bound = bound().slope_between(bound_lo, bound_hi, row);
+    const Range slope = slope_free - slope_bound * bounds.direction;
+    bounds.slope.push_back(free_is_a_ ? slope : Range{-slope.most, -slope.least});
+    const double tolerance = stretch.covered ? kTurnAccuracy : limits_.tolerance;
+    bounds.within.push_back(row == guide_ ? tolerance : tolerance * (1 + (slope_bound / guide_bound).size()));
+  }
+  return bounds;
+}
+
+PairPoint LineSearch::contacts(const Place& place) const {
+  const double x = std::clamp(place.free.x, free().lo(), free().hi());
+  const double y = std::clamp(place.bound.x, bound().lo(), bound().hi());
+  return free_is_a_ ? PairPoint{sides_.a.s(x), sides_.b.s(y)} : PairPoint{sides_.a.s(y), sides_.b.s(x)};
+}
+
+bool LineSearch::is_inside(const Place& place) const {
+  const double slack = bound().same_place(limits_) + kTurnAccuracy / std::abs(place.bound.slope(guide_));
+  return place.bound.x >= bound().lo() - slack && place.bound.x <= bound().hi() + slack;
+}
+
+bool LineSearch::turns_round(const Stretch& stretch) const {
+  return !free().slope_between(stretch.lo.free, stretch.hi.free, guide_).keeps_sign();
+}
+
+/// Cuts off what lies beyond the other contact's side by more than the margin. False: nothing is left. A line that
+/// turns round is left as it is.
+bool LineSearch::clip(Stretch& stretch, double margin) const {
+  const double least = bound().lo() - margin;
+  const double most = bound().hi() + margin;
+  const double lo = stretch.lo.bound.x;
+  const double hi = stretch.hi.bound.x;
+  if (turns_round(stretch)) return true;
+  if (std::max(lo, hi) < least || std::min(lo, hi) > most) return false;
+  const Stretch whole = stretch;
+  if (lo < least || lo > most) stretch.lo = at_edge(whole, lo < least ? least : most);
+  if (hi < least || hi > most) stretch.hi = at_edge(whole, hi < least ? least : most);
+  return stretch.hi.free.x >= stretch.lo.free.x;
+}
+
+/// Where the line, monotone, reaches an edge of the box.
+LineSearch::Place LineSearch::at_edge(const Stretch& stretch, double edge) const {
+  double lo = stretch.lo.free.x;
+  double hi = stretch.hi.free.x;
+  const bool rises = stretch.hi.bound.x > stretch.lo.bound.x;
+  double x = lo + (hi - lo) * (edge - stretch.lo.bound.x) / (stretch.hi.bound.x - stretch.lo.bound.x);
+  Place at = place(std::clamp(x, lo, hi));
+  for (int round = 0; round < kMostRounds; ++round) {
+    x = at.free.x;
+    const double off = at.bound.x - edge;
+    if (std::abs(off) <= 1e-3 * limits_.same_place) break;
+    ((off > 0) == rises ? hi : lo) = x;
+    double next = x - off / direction(at);
+    if (!(next > lo && next < hi)) next = 0.5 * (lo + hi);
+    if (next == x || !(next > lo && next < hi)) break;
+    at = place(next);
+  }
+  return at;
+}
+
+void LineSearch::split(const Stretch& stretch) {
+  const Place middle = place(0.5 * (stretch.lo.free.x + stretch.hi.free.x));
+  waiting_.push_back({middle, stretch.hi, stretch.depth + 1, stretch.covered});
+  waiting_.push_back({stretch.lo, middle, stretch.depth + 1, stretch.covered});
+}
+
+void LineSearch::decide(Stretch stretch) {
+  ++findings_.counts.intervals;
+  if (!clip(stretch, margin_)) return;
+  const Bounds along = bounds(stretch);
+  if (along.bound_x.most < bound().lo() - margin_ || along.bound_x.least > bound().hi() + margin_) return;
+  const double width = stretch.hi.free.x - stretch.lo.free.x;
+  const std::size_t rows = free().rows();
+  double size = 0;  // of the residuals, against their tolerances
+  double spread = 0;
+  double turn = 0;
+  for (std::size_t row = 0; row < rows; ++row) {
+    if (row == guide_) continue;
+    const Range r = value_range(residual(stretch.lo, row), residual(stretch.hi, row), along.slope[row], width);
+    if (r.least > along.within[row] || r.most < -along.within[row]) return;
+    size = std::max(size, r.size() / along.within[row]);
+    spread = std::max(spread, r.spread() / along.within[row]);
+    turn = std::max(turn, r.size());
+  }
+  std::vector<Place> samples;
+  if (overlaps(stretch, samples)) {
+    take_overlap(std::move(samples));
+    return;
+  }
+  if (stretch.depth > 0 && budget_ == 0) {
+    const PairPoint lo = contacts(stretch.lo);
+    const PairPoint hi = contacts(stretch.hi);
+    const Range s = hull(lo[0], hi[0]);
+    const Range t = hull(lo[1], hi[1]);
+    findings_.unresolved.push_back({Interval{s.least, s.most}, Interval{t.least, t.most}});
+    return;
+  }
+  if (stretch.depth > 0) --budget_;
+  const bool tiny = width <= free().same_place(limits_);
+  const bool zero = turn <= kTurnAccuracy && !turns_round(stretch);
+  if (!tiny && !zero) {
+    std::size_t steepest = guide_;
+    double steepness = 0;
+    for (std::size_t row = 0; row < rows; ++row) {
+      if (row == guide_ || !along.slope[row].has_sign()) continue;
+      const double least = std::min(std::abs(along.slope[row].least), std::abs(along.slope[row].most));
+      if (least > steepness) {
+        steepness = least;
+        steepest = row;
+      }
+    }
+    if (steepest != guide_) {
+      take_monotone(stretch, along, steepest);
+      return;
+    }
+  }
+  const bool straight = along.direction.spread() * width <= kBandBend * margin_;
+  if (tiny || (straight && (size <= 1 || spread <= kSmallVariation || zero))) {
+    const Place middle = place(stretch.lo.free.x + 0.5 * width);
+    bool within = true;
+    double largest = 0;
+    for (std::size_t row = 0; row < rows; ++row) {
+      if (row == guide_) continue;
+      const double r = std::abs(residual(middle, row));
+      within = within && r <= along.within[row];
+      largest = std::max(largest, r);
+    }
+    if (!within) return;
+    if (!stretch.covered) add_piece(stretch.lo, stretch.hi, along.bound_x);
+    if (tiny || zero || stretch.covered) {
+      if (largest <= kTurnAccuracy && is_inside(middle)) add_root(middle, 0, true);
+      return;
+    }
+    stretch.covered = true;  // its roots are left to be found
+  }
+  split(stretch);
+}
+
+bool LineSearch::vanishes(const Place& place) const {
+  for (std::size_t row = 0; row < free().rows(); ++row) {
+    if (row == guide_) continue;
+    double rates = 0;
+    for (const double rate : place.free.rate) rates += std::abs(rate);
+    for (const double rate : place.bound.rate) rates += std::abs(rate);
+    if (std::abs(residual(place, row)) > 2 * kTurnAccuracy + kPlaceRounding * limits_.perimeter * rates) return false;
+  }
+  return true;
+}
+
+/// Do the curves coincide all along the part of a stretch that lies in the box?
+bool LineSearch::overlaps(const Stretch& whole, std::vector<Place>& samples) const {
+  Stretch stretch = whole;
+  if (turns_round(stretch)) {  // all of it must be in the box
+    const Range reached = bounds(stretch).bound_x;
+    if (reached.least < bound().lo() || reached.most > bound().hi()) return false;
+  } else if (!clip(stretch, 0)) {
+    return false;
+  }
+  const double width = stretch.hi.free.x - stretch.lo.free.x;
+  if (width <= kShortestOverlap * (free().pivots() ? 1 : limits_.perimeter)) return false;
+  if (!vanishes(stretch.lo) || !vanishes(stretch.hi)) return false;
+  samples.push_back(stretch.lo);
+  for (int k = 1; k < kOverlapSamples; ++k) {
+    samples.push_back(place(stretch.lo.free.x + width * k / kOverlapSamples));
+    const Place& at = samples.back();
+    double scale = 1 / limits_.perimeter;
+    for (const double rate : at.free.rate) scale += std::abs(rate);
+    for (const double rate : at.bound.rate) scale += std::abs(rate * direction(at));
+    for (std::size_t row = 0; row < free().rows(); ++row) {
+      if (row != guide_ && std::abs(residual_slope(at, row)) > kOverlapSlope * scale) return false;
+    }
+    if (!vanishes(at)) return false;
+  }
+  samples.push_back(stretch.hi);
+  return true;
+}
+
+/// The line's farthest place between two at which it goes different ways.
+LineSearch::Place LineSearch::turn_between(const Place& one, const Place& two) const {
+  double lo = one.free.x;
+  double hi = two.free.x;
+  const bool rises = direction(one) > 0;
+  while (true) {
+    const double middle = 0.5 * (lo + hi);
+    if (!(middle > lo && middle < hi)) return place(lo);
+    ((direction(place(middle)) > 0) == rises ? lo : hi) = middle;
+  }
+}
+
+void LineSearch::take_overlap(std::vector<Place> samples) {
+  for (std::size_t k = samples.size() - 1; k > 0; --k) {  // backwards: what is put in moves the rest
+    if (direction(samples[k - 1]) * direction(samples[k]) >= 0) continue;
+    samples.insert(samples.begin() + static_cast<std::ptrdiff_t>(k), turn_between(samples[k - 1], samples[k]));
+  }
+  PairPiece piece;
+  piece.exact = true;
+  piece.corner = sides_.pivots();
+  Range s = hull(contacts(samples.front())[0], contacts(samples.back())[0]);
+  Range t = hull(contacts(samples.front())[1], contacts(samples.back())[1]);
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const PairPoint at = contacts(samples[k]);
+    piece.line.push_back(at);
+    s = {std::min(s.least, at[0]), std::max(s.most, at[0])};
+    t = {std::min(t.least, at[1]), std::max(t.most, at[1])};
+    if (k == 0) continue;
+    // Between two samples the line is no further from its chord than its change of direction allows; twice that, for
+    // the direction may change more in between.
+    const double width = samples[k].free.x - samples[k - 1].free.x;
+    const double bend = std::abs(direction(samples[k]) - direction(samples[k - 1]));
+    piece.error = std::max(piece.error, 0.5 * width * bend);
+  }
+  piece.error += margin_;
+  piece.box = {Interval{s.least, s.most}, Interval{t.least, t.most}};
+  findings_.roots.push_back({piece.line.front(), 0, piece.corner});
+  findings_.pieces.push_back(std::move(piece));
+}
+
+void LineSearch::take_monotone(const Stretch& stretch, const Bounds& along, std::size_t row) {
+  const double within = along.within[row];
+  const double at_lo = residual(stretch.lo, row);
+  const double at_hi = residual(stretch.hi, row);
+  if (std::min(at_lo, at_hi) > within || std::max(at_lo, at_hi) < -within) return;
+  Place lo = std::abs(at_lo) <= within ? stretch.lo : solve(row, std::copysign(within, at_lo), stretch.lo, stretch.hi);
+  Place hi = std::abs(at_hi) <= within ? stretch.hi : solve(row, std::copysign(within, at_hi), stretch.lo, stretch.hi);
+  // The other equations narrow what this one leaves; on so short a stretch they are straight.
+  for (std::size_t other = 0; other < free().rows(); ++other) {
+    if (other == guide_ || other == row) continue;
+    const double from = residual(lo, other);
+    const double to = residual(hi, other);
+    const double most = along.within[other];
+    if (std::min(from, to) > most || std::max(from, to) < -most) return;
+    const double start = lo.free.x;
+    const double width = hi.free.x - start;
+    const auto reached = [&](double level) { return start + width * (level - from) / (to - from); };
+    if (std::abs(from) > most) lo = place(reached(std::copysign(most, from)));
+    if (std::abs(to) > most) hi = place(reached(std::copysign(most, to)));
+  }
+  if ((at_lo <= 0) != (at_hi <= 0) || std::abs(at_lo) <= kTurnAccuracy || std::abs(at_hi) <= kTurnAccuracy) {
+    Place root = std::abs(at_lo) <= kTurnAccuracy   ? stretch.lo
+                 : std::abs(at_hi) <= kTurnAccuracy ? stretch.hi
+                                                    : solve(row, 0, stretch.lo, stretch.hi);
+    bool exact = true;
+    for (std::size_t other = 0; other < free().rows(); ++other) {
+      exact = exact && std::abs(residual(root, other)) <= kRootTurn;
+    }
+    // det J by rows (guide, row), turned so that it has the same sign whatever guides.
+    const RollPoint& a = free_is_a_ ? root.free : root.bound;
+    const RollPoint& b = free_is_a_ ? root.bound : root.free;
+    const std::size_t p = std::min(guide_, row);
+    const std::size_t q = std::max(guide_, row);
+    const double determinant = a.slope(q) * b.slope(p) - a.slope(p) * b.slope(q);
+    if (is_inside(root) && (exact || !stretch.covered)) add_root(root, determinant > 0 ? 1 : -1, exact);
+  }
+  if (!stretch.covered) add_piece(lo, hi, bounds({lo, hi, 0, false}).bound_x);
+}
+
+LineSearch::Place LineSearch::solve(std::size_t row, double level, const Place& from, const Place& to) const {
+  double lo = from.free.x;
+  double hi = to.free.x;
+  const double first = residual(from, row);
+  const double last = residual(to, row);
+  const bool rises = last > first;
+  Place at = place(lo + (hi - lo) * (level - first) / (last - first));
+  for (int round = 0; round < kMostRounds; ++round) {
+    const double x = at.free.x;
+    const double off = residual(at, row) - level;
+    if (off == 0) break;
+    ((off > 0) == rises ? hi : lo) = x;
+    double next = x - off / residual_slope(at, row);
+    if (!(next > lo && next < hi)) next = 0.5 * (lo + hi);
+    if (!(next > lo && next < hi) || std::abs(next - x) <= 1e-16 * (std::abs(x) + hi - lo)) break;
+    at = place(next);
+  }
+  return at;
+}
+
+/// The band about the line between two places, as far as it lies in the box.
+void LineSearch::add_piece(const Place& lo, const Place& hi, const Range& y) {
+  const Interval x{std::max(lo.free.x, free().lo()), std::min(hi.free.x, free().hi())};
+  const Interval across{std::max(y.least - margin_, bound().lo()), std::min(y.most + margin_, bound().hi())};
+  if (across.hi < across.lo) return;
+  const Interval x_box{free().s(x.lo), free().s(x.hi)};
+  const Interval y_box{bound().s(across.lo), bound().s(across.hi)};
+  PairPiece piece;
+  piece.box = free_is_a_ ? PairBox{x_box, y_box} : PairBox{y_box, x_box};
+  const double bend = bounds({lo, hi, 0, false}).direction.spread() * x.width();
+  piece.error = std::min(bend, margin_);
+  piece.corner = sides_.pivots();
+  // The band's four corners, cut off where they are beyond the box: neighbours have their common edge in common.
+  if (bend <= kBandBend * margin_) {
+    const Polygon band{{lo.free.x, lo.bound.x - margin_},
+                       {hi.free.x, hi.bound.x - margin_},
+                       {hi.free.x, hi.bound.x + margin_},
+                       {lo.free.x, lo.bound.x + margin_}};
+    for (const Vec2& at : clipped(band, {free().lo(), bound().lo()}, {free().hi(), bound().hi()})) {
+      const double one = free().s(at.x());
+      const double other = bound().s(at.y());
+      piece.hull.push_back(free_is_a_ ? PairPoint{one, other} : PairPoint{other, one});
+    }
+  }
+  findings_.pieces.push_back(std::move(piece));
+}
+
+void LineSearch::add_root(const Place& place, int sign, bool exact) {
+  findings_.roots.push_back({contacts(place), sign, sides_.pivots(), exact});
+}
+
+}  // namespace rollfix

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "pair_find.hpp"
+#include "roll_curve.hpp"
+
+namespace rollfix {
+
+/// A stretch of one finger's curve on one piece: a side of a box.
+class BoxSide {
+ public:
+  BoxSide(const RollCurve& curve, std::int32_t node)
+      : curve_(&curve),
+        components_(curve.components(node)),
+        node_(node),
+        lo_(curve.node(node).lo),
+        hi_(curve.node(node).hi) {}
+
+  const RollPiece& piece() const { return curve_->piece(curve_->node(node_)); }
+  RollPoint first() const { return curve_->first(curve_->node(node_)); }
+  RollPoint last() const { return curve_->last(curve_->node(node_)); }
+  const RollCurve::Component& component(std::size_t row) const { return components_[row]; }
+  double lo() const { return lo_; }
+  double hi() const { return hi_; }
+  double width() const { return hi_ - lo_; }
+  double middle() const { return 0.5 * (lo_ + hi_); }
+  bool pivots() const { return piece().pivot_at.has_value(); }
+  double s(double x) const { return piece().s(x); }
+  std::size_t rows() const { return curve_->rows(); }
+  const Range& value(std::size_t row) const { return components_[row].value; }
+  const Range& slope(std::size_t row) const { return components_[row].slope; }
+  Range slope_between(const RollPoint& one, const RollPoint& two, std::size_t row) const {
+    return curve_->slope_between(piece(), one, two, row);
+  }
+  /// The curve, continued beyond this side's ends by its tangents there: slopes keep this side's bounds.
+  RollPoint point(double x) const { return curve_->point(piece(), {lo_, hi_}, x); }
+  /// Places closer together than this are one: a share of the perimeter, or of a radian where the finger pivots.
+  double same_place(const PairLimits& limits) const { return pivots() ? kLengthAccuracy : limits.same_place; }
+
+ private:
+  const RollCurve* curve_;
+  const RollCurve::Component* components_;  // good until a node is halved
+  std::int32_t node_;
+  double lo_;
+  double hi_;
+};
+
+/// Two sides and the equations f = A(s) - B(t) - shift = 0 between them.
+struct PairBoxSides {
+  BoxSide a;
+  BoxSide b;
+  double lap = 0;  // the multiple of 2 pi that the facing row means here
+
+  double shift(std::size_t row, const PairLimits& limits) const {
+    return limits.facing && row + 1 == a.rows() ? lap : 0;
+  }
+  Range value(std::size_t row, const PairLimits& limits) const {
+    const double by = shift(row, limits);
+    return a.value(row) - b.value(row) - Range{by, by};
+  }
+  bool pivots() const { return a.pivots() || b.pivots(); }
+};
+
+}  // namespace rollfix

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "rollfix/locate/locate_pair.hpp"
+
+namespace rollfix {
+
+/// |f_k| at a root: four tangents, each with its rounding, radians.
+inline constexpr double kRootTurn = 4e-12;
+
+/// A pair of first contacts at which every f_k is 0, or, of more equations than two, those that cross best there.
+struct PairRoot {
+  PairPoint at{};
+  int sign = 0;         // of det J; 0 where J is singular
+  bool corner = false;  // thanks to a corner's pivot
+  bool exact = true;    // every f_k is 0
+};
+
+/// A connected set of pairs on which every |f_k| is within the tolerance.
+struct PairPiece {
+  PairBox box;                  // around it
+  std::vector<PairPoint> hull;  // a convex polygon around it; empty: the box
+  std::vector<PairPoint> line;  // through it, where f = 0 along a line
+  double error = 0;             // how far the hull or the line may be off
+  bool exact = false;           // f = 0 on all of it
+  bool corner = false;          // where corners' pivots make up the difference
+};
+
+/// What a search leaves of the boxes that it looked at.
+struct PairFindings {
+  std::vector<PairPiece> pieces;
+  std::vector<PairRoot> roots;
+  std::vector<PairBox> unresolved;
+  SearchCounts counts;
+};
+
+/// What all steps of one search need to know.
+struct PairLimits {
+  double tolerance = 0;   // radians
+  double perimeter = 0;   // P
+  double same_place = 0;  // lengths below this are rounding errors
+  bool facing = false;    // the last row is modulo 2 pi
+  bool covered = false;   // inside a set that is within the tolerance and already listed: only its roots are missing
+
+  PairLimits inside() const {
+    PairLimits limits = *this;
+    limits.tolerance = kTurnAccuracy;
+    limits.covered = true;
+    return limits;
+  }
+};
+
+}  // namespace rollfix

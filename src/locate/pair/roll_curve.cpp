@@ -1,0 +1,273 @@
+#include "roll_curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace rollfix {
+
+namespace {
+
+// The slope of a component that is constant is rounding noise: this share of the curvatures that make it.
+constexpr double kNoSlope = 1e-10;
+constexpr int kConstantSamples = 20;
+
+/// A contact that moves along the boundary from spiral to spiral.
+struct Walker {
+  std::size_t index = 0;
+  double winding = 0;
+};
+
+}  // namespace
+
+RollCurve::RollCurve(const Part& part, RollEquations equations, const Interval& range)
+    : part_(part),
+      turning_(part.turning()),
+      equations_(std::move(equations)),
+      rows_(equations_.rows()),
+      contacts_(equations_.lengths.size() + 1) {
+  make_pieces(range);
+  if (pieces_.empty()) return;
+  const std::size_t count = pieces_.size();
+  nodes_.reserve(8 * count);
+  components_.reserve(8 * count * rows_);
+  values_.reserve(8 * count * rows_);
+  rates_.reserve(8 * count * contacts_);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::uint32_t first = add_point(pieces_[k], pieces_[k].lo);
+    const std::uint32_t last = add_point(pieces_[k], pieces_[k].hi);
+    find_constants(pieces_[k], first, last);
+    make_node(static_cast<std::uint32_t>(k), pieces_[k].lo, pieces_[k].hi, first, last);
+  }
+  root_ = join(0, count);
+}
+
+/// Cuts the range of first contacts wherever a contact passes from one spiral to the next, and puts a pivot wherever
+/// one passes a convex corner.
+void RollCurve::make_pieces(const Interval& range) {
+  const double period = turning_.perimeter();
+  const double same_place = kLengthAccuracy * period;
+  const std::vector<Spiral>& spirals = turning_.spirals();
+  std::vector<double> places(1, 0.0);
+  places.insert(places.end(), equations_.lengths.begin(), equations_.lengths.end());
+
+  std::vector<Walker> walkers(places.size());
+  const auto advance = [&](Walker& walker) {
+    if (++walker.index == spirals.size()) {
+      walker.index = 0;
+      walker.winding += 1;
+    }
+  };
+  const auto at_open_end = [&](const Walker& walker) {
+    return !turning_.closed() && walker.index + 1 == spirals.size();
+  };
+  for (std::size_t c = 0; c < places.size(); ++c) {
+    const double s = range.lo + places[c];
+    const Wrapped wrapped = turning_.closed() ? wrap(s, period) : Wrapped{std::clamp(s, 0.0, period), 0};
+    walkers[c] = {turning_.spiral_at(wrapped.base), wrapped.winding};
+    const auto left = [&](const Walker& walker) {  // to the spiral's end; just before s = 0 it goes on past it
+      return spirals[walker.index].hi + (walker.winding - wrapped.winding) * period - wrapped.base;
+    };
+    while (left(walkers[c]) <= same_place && !at_open_end(walkers[c])) advance(walkers[c]);
+  }
+  const auto pass_corners = [&](double s) {
+    if (part_.corners().empty()) return;
+    std::vector<Range> tangents;
+    std::size_t corners = 0;
+    for (std::size_t c = 0; c < places.size(); ++c) {
+      const Walker& walker = walkers[c];
+      const Spiral& ahead = spirals[walker.index];
+      const bool passes = std::abs(s + places[c] - walker.winding * period - ahead.lo) <= same_place &&
+                          (turning_.closed() || walker.index > 0);
+      const double after =
+          passes ? ahead.start.angle + walker.winding * turning_.period_turn() : turning_.angle(s + places[c]);
+      const double jump = passes ? ahead.start.angle - turning_.angle(ahead.lo, Side::before) : 0;
+      const bool convex = jump > kTurnAccuracy;
+      if (convex) ++corners;
+      tangents.push_back({convex ? after - jump : after, after});
+    }
+    if (corners > 0) add_pivots(s, tangents);
+    if (corners < 2) return;
+    for (std::size_t c = 1; c < places.size(); ++c) {
+      const double shift = equations_.shifts[c - 1];
+      tangents[c] = tangents[c] + Range{shift, shift};
+    }
+    patches_.push_back({s, tangents, equations_.facing.value_or(0)});
+  };
+
+  double here = range.lo;
+  pass_corners(here);
+  while (here < range.hi) {
+    RollPiece piece;
+    double next = range.hi;
+    for (std::size_t c = 0; c < places.size(); ++c) {
+      const double offset = places[c] - walkers[c].winding * period;
+      piece.spiral.push_back(static_cast<std::uint32_t>(walkers[c].index));
+      piece.offset.push_back(offset);
+      piece.angle.push_back(walkers[c].winding * turning_.period_turn());
+      if (!at_open_end(walkers[c])) next = std::min(next, spirals[walkers[c].index].hi - offset);
+    }
+    if (range.hi - next <= same_place) next = range.hi;
+    piece.lo = here;
+    piece.hi = next;
+    if (next - here > same_place) pieces_.push_back(piece);
+    here = std::max(here, next);
+    bool moved = false;
+    for (std::size_t c = 0; c < places.size(); ++c) {
+      const double offset = places[c] - walkers[c].winding * period;
+      if (spirals[walkers[c].index].hi - offset - here <= same_place && !at_open_end(walkers[c])) {
+        advance(walkers[c]);
+        moved = true;
+      }
+    }
+    if (moved && (here < range.hi || !turning_.closed())) pass_corners(here);
+  }
+}
+
+/// One contact pivots while the others stand at one limit of their tangents or at the other.
+void RollCurve::add_pivots(double s, const std::vector<Range>& tangents) {
+  for (std::size_t contact = 0; contact < tangents.size(); ++contact) {
+    if (tangents[contact].spread() == 0) continue;
+    for (const bool others_after : {false, true}) {
+      RollPiece piece;
+      piece.pivot_at = s;
+      piece.pivot = contact;
+      piece.hi = tangents[contact].spread();
+      bool others_pivot = false;
+      for (std::size_t c = 0; c < tangents.size(); ++c) {
+        others_pivot |= c != contact && tangents[c].spread() > 0;
+        piece.angle.push_back(others_after && c != contact ? tangents[c].most : tangents[c].least);
+      }
+      if (others_after && !others_pivot) break;  // the same again
+      pieces_.push_back(piece);
+    }
+  }
+}
+
+/// Bounds on the two rates of a component never see that they are the same: a whole lap, a symmetric part. Where the
+/// slope vanishes at more points than the turning function's polynomials have terms it vanishes in between.
+void RollCurve::find_constants(RollPiece& piece, std::uint32_t first, std::uint32_t last) const {
+  piece.constant.assign(rows_, true);
+  RollPoint at = stored(first, piece.lo);
+  for (int k = 0; k <= kConstantSamples; ++k) {
+    if (k == 1) at = stored(last, piece.hi);  // both ends first: nearly always they settle it
+    if (k > 1) evaluate(piece, piece.lo + piece.width() * (k - 1) / kConstantSamples, at.value.data(), at.rate.data());
+    double scale = 1 / turning_.perimeter();
+    for (const double rate : at.rate) scale += std::abs(rate);
+    bool any = false;
+    for (std::size_t row = 0; row < rows_; ++row) {
+      if (std::abs(at.slope(row)) > kNoSlope * scale) piece.constant[row] = false;
+      any = any || piece.constant[row];
+    }
+    if (!any) return;
+  }
+}
+
+void RollCurve::evaluate(const RollPiece& piece, double x, double* value, double* rate) const {
+  double first_angle = 0;
+  for (std::size_t c = 0; c < contacts_; ++c) {
+    double angle = piece.angle[c];
+    if (piece.pivot_at) {
+      const bool pivots = c == *piece.pivot;
+      angle += pivots ? x : 0;
+      rate[c] = pivots ? 1 : 0;
+    } else {
+      const Turning at = turning_.on_spiral(turning_.spirals()[piece.spiral[c]], x + piece.offset[c]);
+      angle += at.angle;
+      rate[c] = at.curvature;
+    }
+    if (c == 0) {
+      first_angle = angle;
+    } else {
+      value[c - 1] = angle - first_angle + equations_.shifts[c - 1];
+    }
+  }
+  if (equations_.facing) value[rows_ - 1] = first_angle + *equations_.facing;
+  evaluations_ += piece.pivot_at ? 0 : contacts_;
+}
+
+RollPoint RollCurve::point(const RollPiece& piece, const Interval& inside, double x) const {
+  RollPoint point;
+  point.x = x;
+  point.value.resize(rows_);
+  point.rate.resize(contacts_);
+  const double nearest = std::clamp(x, inside.lo, inside.hi);
+  evaluate(piece, nearest, point.value.data(), point.rate.data());
+  if (x != nearest) {
+    for (std::size_t row = 0; row < rows_; ++row) point.value[row] += (x - nearest) * point.slope(row);
+  }
+  return point;
+}
+
+RollPoint RollCurve::stored(std::uint32_t index, double x) const {
+  RollPoint point;
+  point.x = x;
+  const double* value = &values_[index * rows_];
+  const double* rate = &rates_[index * contacts_];
+  point.value.assign(value, value + rows_);
+  point.rate.assign(rate, rate + contacts_);
+  return point;
+}
+
+std::uint32_t RollCurve::add_point(const RollPiece& piece, double x) {
+  const std::size_t index = values_.size() / rows_;
+  values_.resize(values_.size() + rows_);
+  rates_.resize(rates_.size() + contacts_);
+  evaluate(piece, x, &values_[index * rows_], &rates_[index * contacts_]);
+  return static_cast<std::uint32_t>(index);
+}
+
+std::int32_t RollCurve::make_node(std::uint32_t piece, double lo, double hi, std::uint32_t first, std::uint32_t last) {
+  Node node;
+  node.lo = lo;
+  node.hi = hi;
+  node.piece = piece;
+  node.first = first;
+  node.last = last;
+  nodes_.push_back(node);
+  for (std::size_t row = 0; row < rows_; ++row) {
+    Component component;
+    component.first = values_[first * rows_ + row];
+    component.last = values_[last * rows_ + row];
+    component.slope = slope_between(pieces_[piece], &rates_[first * contacts_], &rates_[last * contacts_], row);
+    component.value = value_range(component.first, component.last, component.slope, hi - lo);
+    components_.push_back(component);
+  }
+  return static_cast<std::int32_t>(nodes_.size() - 1);
+}
+
+/// A node over the pieces [from, to).
+std::int32_t RollCurve::join(std::size_t from, std::size_t to) {
+  if (to - from == 1) return static_cast<std::int32_t>(from);
+  const std::size_t middle = from + (to - from) / 2;
+  Node node;
+  node.left = join(from, middle);
+  node.right = join(middle, to);
+  const Node& first = this->node(node.left);
+  const Node& last = this->node(node.right);
+  node.lo = first.on_one_piece() ? piece(first).s(first.lo) : first.lo;
+  node.hi = last.on_one_piece() ? piece(last).s(last.hi) : last.hi;
+  nodes_.push_back(node);
+  for (std::size_t row = 0; row < rows_; ++row) {
+    const Range& left = components(node.left)[row].value;
+    const Range& right = components(node.right)[row].value;
+    Component component;
+    component.value = {std::min(left.least, right.least), std::max(left.most, right.most)};
+    components_.push_back(component);
+  }
+  return static_cast<std::int32_t>(nodes_.size() - 1);
+}
+
+std::pair<std::int32_t, std::int32_t> RollCurve::halves(std::int32_t index) {
+  const Node node = this->node(index);
+  if (node.left >= 0) return {node.left, node.right};
+  const double x = 0.5 * (node.lo + node.hi);
+  const std::uint32_t middle = add_point(pieces_[node.piece], x);
+  const std::int32_t left = make_node(node.piece, node.lo, x, node.first, middle);
+  const std::int32_t right = make_node(node.piece, x, node.hi, middle, node.last);
+  nodes_[static_cast<std::size_t>(index)].left = left;
+  nodes_[static_cast<std::size_t>(index)].right = right;
+  return {left, right};
+}
+
+}  // namespace rollfix

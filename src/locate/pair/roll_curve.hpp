@@ -1,0 +1,147 @@
+#pragma once
+
+#include <boost/container/small_vector.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "range.hpp"
+#include "rollfix/part/part.hpp"
+
+namespace rollfix {
+
+/// What one finger adds to the equations: (8) and (9) say that two curves meet, A(s) of finger a and B(t) of finger b,
+/// with the components Theta(s + L_k) - Theta(s) + shift_k, one for each reading, and with the facing equation one
+/// more, Theta(s) + facing.
+struct RollEquations {
+  std::vector<double> lengths;   // L_k
+  std::vector<double> shifts;    // added to each component, radians
+  std::optional<double> facing;  // added to Theta(s)
+
+  std::size_t rows() const { return lengths.size() + (facing ? 1 : 0); }
+};
+
+/// A place on such a curve.
+struct RollPoint {
+  double x = 0;                                     // the piece's coordinate
+  boost::container::small_vector<double, 4> value;  // of each component
+  boost::container::small_vector<double, 4>
+      rate;  // of the tangent's angle by x: at the first contact, then at each s + L_k
+
+  /// Of a component by x.
+  double slope(std::size_t row) const { return row + 1 < rate.size() ? rate[row + 1] - rate[0] : rate[0]; }
+};
+
+/// Where all contacts stay on one spiral each, so that every tangent's angle has a monotone rate: x is s. Or where the
+/// finger pivots at a convex corner, x being the angle that it has pivoted by and s a constant.
+struct RollPiece {
+  double lo = 0;  // of x
+  double hi = 0;
+  std::optional<double> pivot_at;    // s of a pivot
+  std::optional<std::size_t> pivot;  // which contact pivots: 0 the first, k + 1 that of reading k
+  boost::container::small_vector<std::uint32_t, 4> spiral;  // of each contact; of a pivot unused
+  boost::container::small_vector<double, 4> offset;         // from x to each contact's place on its spiral
+  boost::container::small_vector<double, 4> angle;          // whole periods' turn; of a pivot each contact's tangent
+  boost::container::small_vector<bool, 4> constant;         // components that don't change: the contacts turn alike
+
+  double width() const { return hi - lo; }
+  double s(double x) const { return pivot_at ? *pivot_at : x; }
+};
+
+/// A first contact for which more than one contact stands at a convex corner: those pivot independently.
+struct RollPatch {
+  double s = 0;
+  std::vector<Range> tangents;  // of each contact, the first one first; of the others with their shifts added
+  double facing = 0;            // as in RollEquations
+};
+
+/// The curve with a tree of intervals over it, each with bounds on the values and slopes of every component. Intervals
+/// are halved when somebody asks for it, once for all the boxes that they are a side of.
+class RollCurve {
+ public:
+  static constexpr std::uint32_t kManyPieces = UINT32_MAX;
+
+  struct Node {
+    double lo = 0;  // of x, on one piece; else of s
+    double hi = 0;
+    std::uint32_t piece = kManyPieces;
+    std::int32_t left = -1;  // children; none yet
+    std::int32_t right = -1;
+    std::uint32_t first = 0;  // points at the ends
+    std::uint32_t last = 0;
+
+    bool on_one_piece() const { return piece != kManyPieces; }
+    double width() const { return hi - lo; }
+  };
+
+  /// What is known of one component on a node.
+  struct Component {
+    Range value;
+    Range slope;
+    double first = 0;  // its values at the ends
+    double last = 0;
+  };
+
+  /// `range`: of s, the first contacts whose rolls stay on the part.
+  RollCurve(const Part& part, RollEquations equations, const Interval& range);
+
+  std::size_t rows() const { return rows_; }
+  const Node& node(std::int32_t index) const { return nodes_[static_cast<std::size_t>(index)]; }
+  /// One for each row; good until a node is halved.
+  const Component* components(std::int32_t node) const { return &components_[static_cast<std::size_t>(node) * rows_]; }
+  const RollPiece& piece(const Node& node) const { return pieces_[node.piece]; }
+  const std::vector<RollPiece>& pieces() const { return pieces_; }
+  RollPoint first(const Node& node) const { return stored(node.first, node.lo); }
+  RollPoint last(const Node& node) const { return stored(node.last, node.hi); }
+  std::int32_t root() const { return root_; }  // -1: no pieces
+  std::size_t evaluations() const { return evaluations_; }
+
+  /// The two halves of a node; of one with many pieces its two sides.
+  std::pair<std::int32_t, std::int32_t> halves(std::int32_t index);
+
+  /// The curve at x, and beyond the ends of `inside` its tangents there: the slopes keep the bounds that they have
+  /// inside.
+  RollPoint point(const RollPiece& piece, const Interval& inside, double x) const;
+
+  /// Bounds on a component's slope between two points of one piece, for the rates are monotone.
+  Range slope_between(const RollPiece& piece, const RollPoint& one, const RollPoint& two, std::size_t row) const {
+    return slope_between(piece, one.rate.data(), two.rate.data(), row);
+  }
+
+  const std::vector<RollPatch>& patches() const { return patches_; }
+
+ private:
+  Range slope_between(const RollPiece& piece, const double* one, const double* two, std::size_t row) const {
+    if (piece.constant[row]) return {0, 0};
+    const Range start = hull(one[0], two[0]);
+    if (row + 1 == contacts_) return start;  // the facing equation's
+    return hull(one[row + 1], two[row + 1]) - start;
+  }
+  RollPoint stored(std::uint32_t index, double x) const;
+  void make_pieces(const Interval& range);
+  void find_constants(RollPiece& piece, std::uint32_t first, std::uint32_t last) const;
+  void add_pivots(double s, const std::vector<Range>& tangents);
+  std::int32_t make_node(std::uint32_t piece, double lo, double hi, std::uint32_t first, std::uint32_t last);
+  std::int32_t join(std::size_t from, std::size_t to);
+  std::uint32_t add_point(const RollPiece& piece, double x);
+  /// `value` one per row, `rate` one per contact.
+  void evaluate(const RollPiece& piece, double x, double* value, double* rate) const;
+
+  const Part& part_;
+  const TurningFunction& turning_;
+  RollEquations equations_;
+  std::size_t rows_;
+  std::size_t contacts_;
+  std::vector<RollPiece> pieces_;
+  std::vector<RollPatch> patches_;
+  std::vector<Node> nodes_;
+  std::vector<Component> components_;
+  std::vector<double> values_;  // of the points: rows_ of each
+  std::vector<double> rates_;   // contacts_ of each
+  std::int32_t root_ = -1;
+  mutable std::size_t evaluations_ = 0;
+};
+
+}  // namespace rollfix

@@ -1,0 +1,92 @@
+// Corners: at a convex one the finger pivots, and the pivot makes up what the readings lack.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "pair_cases.hpp"
+#include "rollfix/locate/locate_pair.hpp"
+#include "shapes.hpp"
+
+namespace {
+
+using namespace rollfix;
+
+bool holds(const Part& part, const PairSearch& search, const PairPoint& at) {
+  return pair_cases::holds(part, search, at, 1e-7);
+}
+
+TEST(PairCorners, a_finger_that_starts_at_a_corner_pivots_by_the_same_angle_for_all_readings) {
+  // A box with a round end: finger a starts at the corner (2, 0), pivoted by 0.3; b rolls on the arc.
+  Outline outline = shapes::polygon({{0, 0}, {2, 0}, {2, 1}}, false);
+  outline.closed = true;
+  outline.curves.emplace_back(Arc({1, 1}, 1, 0, shapes::kPi));
+  outline.curves.emplace_back(Line({0, 1}, {0, 0}));
+  const Part part(outline);
+  const double corner = 2;   // from (2, 0)
+  const double pivot = 0.3;  // of the right angle there, already behind the finger
+  const double on_arc = 2 + 1 + 0.4;
+  // a rolls by 0.2 and 0.5 up the side: its tangent ends upright, so it turns by pi/2 - 0.3 in both readings.
+  // b rolls by 0.7 and 1.1 on the arc of radius 1.
+  const double turn_a = shapes::kPi / 2 - pivot;
+  const PairSearch search = locate(part, {{0.2, 0.7, turn_a - 0.7}, {0.5, 1.1, turn_a - 1.1}});
+  EXPECT_TRUE(holds(part, search, {corner, on_arc}));
+}
+
+TEST(PairCorners, an_end_at_a_corner_is_decided_by_the_pivot_there) {
+  const Part part(gallery("naca"));
+  const double period = part.perimeter();
+  // Finger a ends at the trailing edge (s = 0) in the first reading, half way round its pivot.
+  const double s = 0.7 * period;
+  const double t = 0.3 * period;
+  const TurningFunction& turning = part.turning();
+  const double before = turning.angle(period, Side::before);
+  const double after = turning.angle(0, Side::after) + turning.period_turn();
+  const double half_way = 0.5 * (before + after) - turning.angle(s);
+  const auto turn = [&](double from, double length) { return turning.angle(from + length) - turning.angle(from); };
+  const PairSearch search =
+      locate(part, {{period - s, 0.2 * period, half_way - turn(t, 0.2 * period)},
+                    {0.1 * period, -0.15 * period, turn(s, 0.1 * period) - turn(t, -0.15 * period)}});
+  EXPECT_TRUE(holds(part, search, {s, t}));
+  EXPECT_TRUE(std::any_of(search.placements.begin(), search.placements.end(),
+                          [](const PairPlacement& placement) { return placement.kind == Kind::corner; }));
+}
+
+TEST(PairCorners, the_pivots_that_are_left_are_told) {
+  const Part part(gallery("naca"));
+  const double period = part.perimeter();
+  const double t = 0.3 * period;
+  const TurningFunction& turning = part.turning();
+  const double angle =
+      turning.angle(0, Side::after) - 0.2;  // a starts at the trailing edge, 0.2 rad short of leaving it
+  const auto turn_a = [&](double length) { return turning.angle(length) - angle; };
+  const auto turn_b = [&](double length) { return turning.angle(t + length) - turning.angle(t); };
+  const PairSearch search = locate(part, {{0.2 * period, 0.15 * period, turn_a(0.2 * period) - turn_b(0.15 * period)},
+                                          {0.3 * period, -0.1 * period, turn_a(0.3 * period) - turn_b(-0.1 * period)}});
+  ASSERT_TRUE(holds(part, search, {0, t}));
+  for (const PairPlacement& placement : search.placements) {
+    if (placement.kind != Kind::corner || placement.start[0] != 0) continue;
+    ASSERT_TRUE(placement.pivot);
+    EXPECT_GT((*placement.pivot)[0].start.width(), 0.2);
+    EXPECT_EQ((*placement.pivot)[1].start.width(), 0);
+  }
+}
+
+TEST(PairCorners, both_fingers_may_stand_at_corners) {
+  const Part part = shapes::unit_square();
+  // Both start at corners and roll along a side: any pivots with the same difference will do.
+  const PairSearch search = locate(part, {{0.3, 0.4, 0.1}, {0.5, 0.6, 0.1}});
+  EXPECT_TRUE(holds(part, search, {0, 1}));
+  EXPECT_EQ(search.status, Status::complete);
+}
+
+TEST(PairCorners, two_contacts_of_one_finger_at_corners_pivot_independently) {
+  const Part part = shapes::unit_square();
+  // Finger a, pivoted by 0.2 short of the side at s = 0, rolls along it, pivots by 0.2 at its end, and rolls half a
+  // side on; finger b stays on one side.
+  const PairSearch search = locate(part, {{1, 0.25, 0.4}, {1.5, 0.5, shapes::kPi / 2 + 0.2}});
+  EXPECT_TRUE(holds(part, search, {0, 0.1}));
+}
+
+}  // namespace
