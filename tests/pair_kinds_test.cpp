@@ -242,4 +242,18 @@ TEST(PairTouching, one_connected_set_is_one_placement_however_the_boundary_is_cu
   }
 }
 
+TEST(PairCrossing, where_the_curves_run_alongside_each_other_has_the_extent_that_one_equation_gives) {
+  // Finger b rests in the second reading, so that one alone decides about s: |f_2| <= tolerance there and no further.
+  const Part part(gallery("spline,n=11,seed=737928123,wobble=0.254"));
+  const std::vector<PairReading> readings{{6.4171912980861183, -3.2139574702642695, 10.284716124315144},
+                                          {4.3975253438083923, 0, 4.199361411990453}};
+  const PairSearch search = locate(part, readings);
+  const PairPlacement* placement = nearest(search, {4.03926, 5.22432});
+  ASSERT_NE(placement, nullptr);
+  const double s = placement->start[0];
+  const double slope = part.turning().curvature(s + readings[1].length_a) - part.turning().curvature(s);
+  const double width = 2 * PairOptions().tolerance / std::abs(slope);
+  EXPECT_NEAR(placement->extent[0].width(), width, 0.05 * width);
+}
+
 }  // namespace

@@ -28,13 +28,6 @@ constexpr double kRootStep = 1e-14;
 // On a flat box of zeros the slopes vanish as well, up to this many radians over a perimeter.
 constexpr double kFlatSlope = 1e-9;
 
-/// The part of a convex polygon where |value + slope . (x - at)| <= most.
-Polygon within(const Polygon& polygon, const Vec2& at, double value, const Vec2& slope, double most) {
-  const auto f = [&](const Vec2& x) { return value + slope.dot(x - at); };
-  const Polygon below = clipped(polygon, [&](const Vec2& x) { return f(x) - most; });
-  return clipped(below, [&](const Vec2& x) { return -f(x) - most; });
-}
-
 Range dot(const Vec2& direction, const Range& one, const Range& two) {
   return direction.x() * one + direction.y() * two;
 }

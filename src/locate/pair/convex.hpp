@@ -35,4 +35,11 @@ inline Polygon clipped(const Polygon& polygon, const Vec2& lo, const Vec2& hi) {
   return kept;
 }
 
+/// The part of a convex polygon where |value + slope . (x - at)| <= most.
+inline Polygon within(const Polygon& polygon, const Vec2& at, double value, const Vec2& slope, double most) {
+  const auto f = [&](const Vec2& x) { return value + slope.dot(x - at); };
+  const Polygon below = clipped(polygon, [&](const Vec2& x) { return f(x) - most; });
+  return clipped(below, [&](const Vec2& x) { return -f(x) - most; });
+}
+
 }  // namespace rollfix

@@ -5,8 +5,6 @@
 #include <cstddef>
 #include <utility>
 
-#include "convex.hpp"
-
 namespace rollfix {
 namespace {
 
@@ -25,6 +23,8 @@ constexpr double kPlaceRounding = 4e-15;
 constexpr int kMostRounds = 100;
 // How far a band may bend, in parts of its half width, to be taken as straight.
 constexpr double kBandBend = 0.5;
+// A residual that leaves its chord by this share of the tolerance is taken as straight.
+constexpr double kStraightShare = 0.1;
 // A stretch of the line on which a residual varies by this share of the tolerance is in or out as its middle is.
 constexpr double kSmallVariation = 0.25;
 
@@ -415,6 +415,35 @@ LineSearch::Place LineSearch::solve(std::size_t row, double level, const Place& 
   return at;
 }
 
+/// Of a band what every equation leaves, where it is straight from one end of the band to the other.
+Polygon LineSearch::narrow(const Polygon& band, const Place& lo, const Place& hi) const {
+  const double width = hi.free.x - lo.free.x;
+  Polygon left = band;
+  for (std::size_t row = 0; row < free().rows(); ++row) {
+    const double bend = residual(lo, row) + width * residual_slope(lo, row) - residual(hi, row);
+    if (!(std::abs(bend) <= kStraightShare * limits_.tolerance)) continue;
+    const double sign = free_is_a_ ? 1 : -1;
+    const Vec2 slope(sign * lo.free.slope(row), -sign * lo.bound.slope(row));
+    left = within(left, {lo.free.x, lo.bound.x}, residual(lo, row), slope, limits_.tolerance);
+  }
+  return left;
+}
+
+/// Makes a polygon of both contacts a piece's hull, with the box around it.
+void LineSearch::take_hull(const Polygon& polygon, PairPiece& piece) const {
+  if (polygon.empty()) return;
+  for (const std::size_t k : {0U, 1U}) piece.box[k] = {piece.box[k].hi, piece.box[k].lo};
+  for (const Vec2& at : polygon) {
+    const double one = free().s(at.x());
+    const double other = bound().s(at.y());
+    const PairPoint corner = free_is_a_ ? PairPoint{one, other} : PairPoint{other, one};
+    piece.hull.push_back(corner);
+    for (const std::size_t k : {0U, 1U}) {
+      piece.box[k] = {std::min(piece.box[k].lo, corner[k]), std::max(piece.box[k].hi, corner[k])};
+    }
+  }
+}
+
 /// The band about the line between two places, as far as it lies in the box.
 void LineSearch::add_piece(const Place& lo, const Place& hi, const Range& y) {
   const Interval x{std::max(lo.free.x, free().lo()), std::min(hi.free.x, free().hi())};
@@ -433,11 +462,9 @@ void LineSearch::add_piece(const Place& lo, const Place& hi, const Range& y) {
                        {hi.free.x, hi.bound.x - margin_},
                        {hi.free.x, hi.bound.x + margin_},
                        {lo.free.x, lo.bound.x + margin_}};
-    for (const Vec2& at : clipped(band, {free().lo(), bound().lo()}, {free().hi(), bound().hi()})) {
-      const double one = free().s(at.x());
-      const double other = bound().s(at.y());
-      piece.hull.push_back(free_is_a_ ? PairPoint{one, other} : PairPoint{other, one});
-    }
+    const Polygon inside = clipped(band, {free().lo(), bound().lo()}, {free().hi(), bound().hi()});
+    const Polygon narrowed = narrow(inside, lo, hi);
+    take_hull(narrowed.empty() ? inside : narrowed, piece);
   }
   findings_.pieces.push_back(std::move(piece));
 }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "convex.hpp"
 #include "pair_box.hpp"
 
 namespace rollfix {
@@ -57,6 +58,8 @@ class LineSearch {
   void take_overlap(std::vector<Place> samples);
   void take_monotone(const Stretch& stretch, const Bounds& along, std::size_t row);
   void add_piece(const Place& lo, const Place& hi, const Range& y);
+  Polygon narrow(const Polygon& band, const Place& lo, const Place& hi) const;
+  void take_hull(const Polygon& polygon, PairPiece& piece) const;
   void add_root(const Place& place, int sign, bool exact);
   Place solve(std::size_t row, double level, const Place& from, const Place& to) const;
   PairPoint contacts(const Place& place) const;
