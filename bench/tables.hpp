@@ -6,5 +6,7 @@ namespace bench {
 /// `rounds` of measurement, each of every job in turn; the least is printed: what else the machine does only adds.
 void one_finger(int rounds);
 void two_fingers(int rounds);
+/// In microseconds: loading a saved part, building it anew with the look for crossings, the reach of a disk.
+void files(int rounds);
 
 }  // namespace bench

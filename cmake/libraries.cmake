@@ -1,4 +1,4 @@
-# rollfix::rollfix, the core, and rollfix::draw, the figures. A new file in src/ needs no edit here.
+# rollfix::rollfix, the core, rollfix::files, what users come with, and rollfix::draw, the figures. A new file in src/ needs no edit here.
 find_package(Eigen3 3.4 CONFIG REQUIRED)
 find_package(Boost 1.74 CONFIG REQUIRED)
 find_package(fmt 9 CONFIG REQUIRED)
@@ -19,12 +19,14 @@ endfunction()
 
 file(GLOB_RECURSE core_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/*.cpp)
 file(GLOB_RECURSE core_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/*.hpp)
-set(draw_sources ${core_sources})
-set(draw_headers ${core_headers})
-list(FILTER core_sources EXCLUDE REGEX "/src/draw/")
-list(FILTER core_headers EXCLUDE REGEX "/rollfix/draw/")
-list(FILTER draw_sources INCLUDE REGEX "/src/draw/")
-list(FILTER draw_headers INCLUDE REGEX "/rollfix/draw/")
+foreach(room IN ITEMS files draw)
+  set(${room}_sources ${core_sources})
+  set(${room}_headers ${core_headers})
+  list(FILTER ${room}_sources INCLUDE REGEX "/src/${room}/")
+  list(FILTER ${room}_headers INCLUDE REGEX "/rollfix/${room}/")
+endforeach()
+list(FILTER core_sources EXCLUDE REGEX "/src/(files|draw)/")
+list(FILTER core_headers EXCLUDE REGEX "/rollfix/(files|draw)/")
 
 rollfix_library(rollfix rollfix
   SOURCES ${core_sources}
@@ -34,6 +36,19 @@ rollfix_library(rollfix rollfix
 target_link_libraries(rollfix
   PUBLIC Eigen3::Eigen
   PRIVATE fmt::fmt $<BUILD_INTERFACE:Boost::headers> $<BUILD_INTERFACE:FastFloat::fast_float>)
+
+if(ROLLFIX_BUILD_FILES)
+  find_package(pugixml 1.13 CONFIG REQUIRED)
+  find_package(nlohmann_json 3.11 CONFIG REQUIRED)
+  rollfix_library(rollfix_files files
+    SOURCES ${files_sources}
+    HEADERS ${files_headers}
+    HEADER_DIRS ${PROJECT_SOURCE_DIR}/include)
+  target_link_libraries(rollfix_files
+    PUBLIC rollfix
+    PRIVATE fmt::fmt pugixml::pugixml $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>
+      $<BUILD_INTERFACE:FastFloat::fast_float>)
+endif()
 
 if(ROLLFIX_BUILD_DRAW)
   find_package(PkgConfig REQUIRED)

@@ -54,7 +54,7 @@ TEST(Demo, writes_figures_logs_and_a_part) {
   EXPECT_EQ(run("demo").code, 0);
   EXPECT_THAT(folder.files(), ElementsAre("figure7-roll.csv", "figure7.png", "figure7.svg", "figure8-rolled-on.png",
                                           "figure8-rolled-on.svg", "figure8-rolls.csv", "figure8.png", "figure8.svg",
-                                          "wing-roll.csv", "wing.csv", "wing.png", "wing.svg"));
+                                          "plate.dxf", "wing-roll.csv", "wing.csv", "wing.png", "wing.svg"));
 }
 
 TEST(Demo, finds_six_placements_and_then_one) {

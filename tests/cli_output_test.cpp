@@ -145,7 +145,7 @@ TEST(Devices, can_be_written_to_without_force) {
 }
 
 TEST(Help, starts_with_what_it_is_for_and_examples) {
-  for (const std::string command : {"", "inspect ", "locate ", "simulate ", "demo "}) {
+  for (const std::string command : {"", "inspect ", "locate ", "simulate ", "teach ", "demo "}) {
     const cli::Ran ran = run(command + "--help");
     EXPECT_EQ(ran.code, 0);
     EXPECT_EQ(ran.err, "");
@@ -156,7 +156,7 @@ TEST(Help, starts_with_what_it_is_for_and_examples) {
 
 TEST(Help, has_examples_that_work) {
   const cli::Folder folder;
-  for (const std::string command : {"", "inspect ", "locate ", "simulate ", "demo "}) {
+  for (const std::string command : {"", "inspect ", "locate ", "simulate ", "teach ", "demo "}) {
     for (const std::string& example : examples_in(run(command + "--help").out)) {
       const cli::Ran ran = cli::shell(example);
       EXPECT_EQ(ran.code, 0) << example << "\n" << ran.err;

@@ -102,7 +102,8 @@ inline std::optional<Case> double_root_case(const Part& part, std::mt19937_64& g
   const auto gain = [&](double s, double length) {
     return part.turning().curvature(s + length) - part.turning().curvature(s);
   };
-  const auto [s, t] = drawn.start;
+  const double s = drawn.start[0];
+  const double t = drawn.start[1];
   const PairReading& first = drawn.readings[0];
   PairReading& second = drawn.readings[1];
   const auto determinant = [&](double length_b) {

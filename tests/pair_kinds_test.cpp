@@ -179,7 +179,7 @@ TEST(PairTouching, where_the_curves_touch_is_found_and_called_so) {
   ASSERT_NE(placement, nullptr);
   EXPECT_EQ(placement->kind, Kind::touching);
   EXPECT_EQ(search.status, Status::complete);
-  for (const std::size_t k : {0, 1}) {
+  for (const std::size_t k : {0U, 1U}) {
     EXPECT_LE(placement->extent[k].lo, tangency.start[k] + 1e-9);
     EXPECT_GE(placement->extent[k].hi, tangency.start[k] - 1e-9);
   }

@@ -73,7 +73,7 @@ TEST(PairReadings, the_facing_angle_counts_modulo_whole_turns) {
 
 TEST(PairReadings, two_suffice_and_each_further_one_narrows_the_set) {
   std::size_t before = std::numeric_limits<std::size_t>::max();
-  for (const std::size_t count : {2, 3, 4}) {
+  for (const std::size_t count : {2U, 3U, 4U}) {
     const PairSearch search = locate(spline(), readings(spline(), count));
     EXPECT_TRUE(holds(search, kStart)) << count;
     EXPECT_LE(search.placements.size(), before);

@@ -69,7 +69,7 @@ TEST_P(PairSensitivityTest, agrees_with_finite_differences) {
       }
       const auto compare = [&](auto move, const PairPoint& expected) {
         const PairPoint found = derivative(drawn, options, placement.start, move);
-        for (const std::size_t f : {0, 1}) EXPECT_NEAR(found[f], expected[f], 1e-2 * (1 + std::abs(expected[f])));
+        for (const std::size_t f : {0U, 1U}) EXPECT_NEAR(found[f], expected[f], 1e-2 * (1 + std::abs(expected[f])));
       };
       const PairSensitivity& sensitivity = placement.sensitivity;
       using Readings = std::vector<PairReading>;
@@ -101,7 +101,7 @@ TEST(PairSensitivityLeastSquares, of_more_readings_than_unknowns_is_that_of_leas
   const PairSensitivity& sensitivity = search.placements.front().sensitivity;
   // A change of the readings that the two starts explain is explained by them: pseudo-inverse times J is 1.
   const TurningFunction& turning = part.turning();
-  for (const std::size_t finger : {0, 1}) {
+  for (const std::size_t finger : {0U, 1U}) {
     double along_s = 0;
     double along_t = 0;
     for (std::size_t k = 0; k < readings.size(); ++k) {

@@ -173,11 +173,6 @@ TEST(BadPoints, closed_outline_on_one_line_is_refused) {
   EXPECT_EQ(message_of("0 0\n1 2\n2 4.0000001\n0.5 1\n"), "no error");
 }
 
-TEST(BadPoints, counts_of_another_airfoil_format_are_recognised) {
-  EXPECT_THAT(message_of("wing\n3. 3.\n\n0 0\n.5 .1\n1 0\n\n0 0\n.5 -.05\n1 0\n"),
-              AllOf(StartsWith("part.csv:2: '3 3' looks like the numbers of points"), HasSubstr("Selig")));
-}
-
 TEST(BadPoints, file_that_is_no_text_is_refused) {
   EXPECT_THAT(message_of(std::string("PK\0\3", 4)), HasSubstr("is not a text file"));
   EXPECT_THAT(message_of("\xFF\xFE" + std::string("0\0 \0", 4)), HasSubstr("is UTF-16 text"));

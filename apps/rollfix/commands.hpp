@@ -10,6 +10,7 @@ namespace rollfix::app {
 void add_inspect_command(CLI::App& program, Command& chosen);
 void add_locate_command(CLI::App& program, Command& chosen);
 void add_simulate_command(CLI::App& program, Command& chosen);
+void add_teach_command(CLI::App& program, Command& chosen);
 void add_demo_command(CLI::App& program, Command& chosen);
 
 }  // namespace rollfix::app

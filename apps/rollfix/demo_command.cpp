@@ -83,6 +83,7 @@ Report demo(const OutputArgument& output) {
   std::vector<std::string> names = file_names(spline);
   for (const std::string& name : file_names(wing)) names.push_back(name);
   names.push_back(wing.argument);
+  names.push_back(in_folder(output.file, "plate.dxf"));
   for (const std::string& name : file_names(pair)) names.push_back(name);
   require_room(output.file, names, output.force);
 
@@ -93,6 +94,7 @@ Report demo(const OutputArgument& output) {
   add(perform(spline, spline_part), report);
   add(perform(wing, wing_part), report);
   report.files.push_back({wing.argument, points});
+  report.files.push_back({in_folder(output.file, "plate.dxf"), plate_drawing()});
   add(perform(pair, Part(load_outline(pair.argument))), report);
   make_folder(output.file);
   report.notes.emplace_back("wrote");

@@ -10,6 +10,7 @@
 #include "rollfix/contact/pair_log.hpp"
 #include "rollfix/draw/pair_figure.hpp"
 #include "rollfix/draw/save.hpp"
+#include "rollfix/drop.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/observation.hpp"
 #include "rollfix/pair_outcome.hpp"
@@ -42,6 +43,7 @@ PairOutcome locate_by(const PairLog& log, const DemoPairStory& story, const Part
   const FingerPair fingers = fingers_of(story);
   const PairObservation observation = observe_pair_log(log, part, fingers, {});
   PairOutcome outcome = search(part, observation);
+  drop(std::array<FingerShape, 2>{FingerShape{story.finger}, FingerShape{story.finger}}, observation, outcome);
   for (const PairPlacement& placement : outcome.found.placements) {
     outcome.poses.push_back(poses(part, fingers, log, placement.start, observation.rows));
   }
@@ -95,17 +97,18 @@ std::string tell(const DemoPairStory& story, const PairOutcome& by_two, const Pa
   const std::vector<std::string> names = file_names(story);
   const std::string& log = names.front();
   const std::string part_and_finger = fmt::format("{} --finger disk,r={}", story.argument, story.finger.radius);
+  // The paper's readings know nothing of the fingers' size: without it all of its pairs are there.
   const auto located = [&](const std::string& how, const PairOutcome& outcome) {
-    return fmt::format("  rollfix locate {}{}\n{}\n", part_and_finger, how, pair_text(outcome));
+    return fmt::format("  rollfix locate {}\n{}\n", how, pair_text(outcome));
   };
   const std::vector<std::string> first_two(story.readings.begin(), story.readings.begin() + 2);
   return fmt::format("{}\n{}\n\n", story.title, std::string(story.title.size(), '-')) +
-         located(fmt::format("{} -o {}", repeated("--reading", first_two), names[1]), by_two) +
-         located(fmt::format("{} -o {}", repeated("--reading", story.readings), names[3]), by_three) +
+         located(fmt::format("{}{} -o {}", story.argument, repeated("--reading", first_two), names[1]), by_two) +
+         located(fmt::format("{}{} -o {}", story.argument, repeated("--reading", story.readings), names[3]), by_three) +
          fmt::format("  rollfix simulate {}{}{} --part-rotation {} --samples {} -o {}\n\n", part_and_finger,
                      repeated("--start", story.starts), repeated("--length", story.lengths), story.part_rotation, kRows,
                      log) +
-         located(fmt::format(" --log {}", log), by_log) +
+         located(fmt::format("{} --log {}", part_and_finger, log), by_log) +
          fmt::format("A log also says how the fingers face each other. The simulated ones did start at {} and {}.\n",
                      story.starts[0], story.starts[1]);
 }
@@ -126,8 +129,8 @@ DemoAct perform(const DemoPairStory& story, const Part& part) {
   require_true(story, by_three);
   require_true(story, by_log);
 
-  const Svg before = draw_pairs(figure_of(by_two, fingers_of(story)));
-  const Svg after = draw_pairs(figure_of(by_three, fingers_of(story)));
+  const Svg before = draw_pairs(figure_of(by_two, std::nullopt));
+  const Svg after = draw_pairs(figure_of(by_three, std::nullopt));
   return {tell(story, by_two, by_three, by_log),
           {{names[0], log_text},
            {names[1], encode(before, FigureFormat::svg)},

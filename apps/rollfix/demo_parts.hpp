@@ -8,4 +8,7 @@ namespace rollfix::app {
 /// gallery, from the trailing edge over the top, with four decimals.
 std::string wing_points();
 
+/// A DXF drawing of a plate, 70 x 40 mm, three of its corners rounded, with a round hole.
+std::string plate_drawing();
+
 }  // namespace rollfix::app

@@ -11,6 +11,7 @@
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/draw/locate_figure.hpp"
 #include "rollfix/draw/save.hpp"
+#include "rollfix/drop.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate_outcome.hpp"
 #include "rollfix/observation.hpp"
@@ -49,6 +50,7 @@ LocateOutcome locate_at(const DemoStory& story, const Part& part, const Log& log
   LocateOptions options;
   options.tolerance = outcome.tolerance.value;
   outcome.found = locate(part, outcome.readings, options);
+  drop(FingerShape{story.finger}, observation, outcome);
   for (const Placement& placement : outcome.found.placements) {
     outcome.poses.push_back(poses(part, story.finger, log, placement.start, observation.rows));
   }

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
-#include <cmath>
 #include <memory>
-#include <numbers>
 
 #include "rollfix/commands.hpp"
 #include "rollfix/draw/part_figure.hpp"
+#include "rollfix/dropped.hpp"
+#include "rollfix/finger_argument.hpp"
 #include "rollfix/inspect_outcome.hpp"
 #include "rollfix/output_argument.hpp"
 #include "rollfix/part_argument.hpp"
@@ -18,22 +18,36 @@ constexpr const char* kExamples = R"(Examples:
   rollfix inspect gallery:ellipse,a=2,b=1
   rollfix inspect wing.csv -o inspected.svg    # wing.csv: from rollfix demo
   rollfix inspect gallery:spline,seed=7 --json
+  rollfix inspect plate.dxf                    # from rollfix demo; lists its loops, --loop 2 takes the hole
+  rollfix inspect wing.csv --smooth 0.05 -o wing.json    # as a scan; saved, and taken by every command
+  rollfix inspect gallery:gear --finger disk,r=0.1 -o reach.svg    # where can that finger touch at all?
 )";
 
 struct InspectArguments {
   PartArgument part;
+  std::vector<std::string> fingers;
   OutputArgument output;
   bool json = false;
 };
 
 Report inspect(const InspectArguments& arguments) {
-  require_figure_output(arguments.output, arguments.json);
-  const Part part = load_part(arguments.part);
-  const InspectOutcome outcome = look_at(part);
+  require_part_output(arguments.output, arguments.json);
+  const std::optional<FingerShape> finger = read_shape(arguments.fingers);
+  const LoadedPart loaded = load(arguments.part);
+  const Part& part = loaded.part;
+  InspectOutcome outcome = look_at(loaded);
+  outcome.finger = finger;
+  if (finger) outcome.reach = reach_of(part, *finger);
   Report report;
+  report.notes = loaded.notes;
   report.data = arguments.json ? json_text(inspect_json(outcome)) : inspect_text(outcome);
   if (part.reversed()) report.notes.push_back(reversed_note(part));
-  if (!arguments.output.file.empty()) add_figure(arguments.output, draw_part({&part, "", 640}), report);
+  add_part_output(
+      arguments.output, part,
+      [&] {
+        return draw_part({&part, "", 640, outcome.reach});
+      },
+      report);
   return report;
 }
 
@@ -45,7 +59,10 @@ void add_inspect_command(CLI::App& program, Command& chosen) {
       "inspect", "What a part is: size, inflections, vertices, corners, and how ambiguous rolls on it are.");
   command->footer(kExamples);
   add_part_argument(*command, arguments->part);
-  add_output_argument(*command, arguments->output, "a figure of the part: .svg, .png or .pdf, - for SVG on stdout");
+  add_finger_argument(*command, arguments->fingers);
+  add_output_argument(
+      *command, arguments->output,
+      "a figure of the part: .svg, .png or .pdf, - for SVG on stdout; or .json: the part with all that was computed");
   add_switch(*command, "--json", arguments->json, "print JSON (rollfix/inspect/1)");
   command->callback([arguments, &chosen] { chosen = [arguments] { return inspect(*arguments); }; });
 }

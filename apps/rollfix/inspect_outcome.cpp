@@ -12,6 +12,7 @@ namespace rollfix::app {
 namespace {
 
 constexpr std::size_t kMostPlaces = 8;  // of one sort on the screen
+constexpr std::size_t kMostLoops = 20;  // on the screen
 
 Json point_json(const Vec2& point) { return Json::array({json_number(point.x()), json_number(point.y())}); }
 
@@ -33,6 +34,51 @@ Json ambiguity_json(const InspectOutcome& outcome) {
                     {"most_placements", entry.most_placements}});
   }
   return list;
+}
+
+/// Of a drawing what it holds besides.
+Json loops_json(const InspectOutcome& outcome) {
+  Json list = Json::array();
+  for (std::size_t k = 0; k < outcome.loops.size(); ++k) {
+    const Loop& loop = outcome.loops[k];
+    list.push_back({{"number", k + 1},
+                    {"taken", k + 1 == outcome.loop},
+                    {"closed", loop.outline.closed},
+                    {"hole", loop.outline.hole},
+                    {"depth", loop.depth},
+                    {"curves", loop.outline.curves.size()},
+                    {"length", json_number(loop.length)},
+                    {"area", loop.outline.closed ? json_number(loop.area) : Json(nullptr)},
+                    {"gap", json_number(loop.gap)},
+                    {"start", point_json(loop.outline.curves.front().front())}});
+  }
+  return list;
+}
+
+std::string kind_of(const Loop& loop) {
+  if (!loop.outline.closed) return "open chain";
+  if (loop.outline.hole) return "hole";
+  return loop.depth == 0 ? "outer loop" : "island";
+}
+
+std::string loops_text(const InspectOutcome& outcome) {
+  if (outcome.loops.empty()) return "";
+  std::string text;
+  std::string title = "loops";
+  const std::size_t shown = std::min(outcome.loops.size(), kMostLoops);
+  for (std::size_t k = 0; k < shown; ++k) {
+    const Loop& loop = outcome.loops[k];
+    const std::string area = loop.outline.closed ? fmt::format(", area {:.8g}", loop.area) : "";
+    const std::string gap = loop.has_gap() ? fmt::format(", gaps up to {:.2g}", loop.gap) : "";
+    text +=
+        fmt::format("{:<12} {}: {}, {} curves, length {:.8g}{}{}{}\n", title, k + 1, kind_of(loop),
+                    loop.outline.curves.size(), loop.length, area, gap, k + 1 == outcome.loop ? "  <- this one" : "");
+    title = "";
+  }
+  if (shown < outcome.loops.size()) {
+    text += fmt::format("{:<12} ... {} more (--json lists them all)\n", "", outcome.loops.size() - shown);
+  }
+  return text;
 }
 
 /// "4, at 0, 2.42, 4.84, 7.27"
@@ -60,6 +106,9 @@ std::string list(const std::vector<Corner>& corners, int decimals) {
 }
 
 std::string shape_text(const Part& part) {
+  if (part.outline().hole) {
+    return fmt::format("a hole, stored clockwise; its tangent turns by {} deg", degrees(part.total_turn()));
+  }
   if (!part.closed()) return fmt::format("open; its tangent turns by {} deg", degrees(part.total_turn()));
   return fmt::format("closed; its tangent turns by {} deg{}", degrees(part.total_turn()),
                      part.reversed() ? "; given clockwise, stored counter-clockwise" : "");
@@ -70,6 +119,48 @@ std::string disk_text(double radius) {
   if (radius == 0) return "of no size rolls all around: there is a concave corner";
   return fmt::format(
       "of radius {:.6g} at most rolls all around, by the curvature (a narrow neck may stop a smaller one)", radius);
+}
+
+/// Where a pivot is not possible all the way, the angles that are.
+Json pivots_json(const Reach& reach) {
+  Json list = Json::array();
+  for (const PivotReach& pivot : reach.pivots) {
+    Json angles = Json::array();
+    for (const Interval& interval : pivot.angles) angles.push_back(json_interval(interval));
+    list.push_back({{"s", json_number(pivot.s)}, {"whole", json_interval(pivot.whole)}, {"angles", angles}});
+  }
+  return list;
+}
+
+Json reach_json(const InspectOutcome& outcome) {
+  if (!outcome.reach) return nullptr;
+  Json arcs = Json::array();
+  for (const Interval& arc : outcome.reach->arcs) arcs.push_back(json_interval(arc));
+  return {{"finger", outcome.finger->name()},
+          {"share", json_number(outcome.reach->share())},
+          {"arcs", arcs},
+          {"pivots", pivots_json(*outcome.reach)},
+          {"slack", json_number(outcome.reach->slack)},
+          {"decided", outcome.reach->decided}};
+}
+
+std::string reach_text(const InspectOutcome& outcome) {
+  const Reach& reach = *outcome.reach;
+  const int decimals = decimals_for(outcome.part.perimeter());
+  const std::string finger = outcome.finger->name();
+  if (reach.is_whole()) return fmt::format("{} reaches all of the boundary", finger);
+  std::vector<std::string> arcs;
+  for (std::size_t k = 0; k < std::min(reach.arcs.size(), kMostPlaces); ++k) {
+    arcs.push_back(fmt::format("{} to {}", fixed(reach.arcs[k].lo, decimals), fixed(reach.arcs[k].hi, decimals)));
+  }
+  if (reach.arcs.size() > kMostPlaces) arcs.emplace_back("... (--json lists them all)");
+  std::string text = fmt::format("{} reaches {:.4g} % of the boundary", finger, 100 * reach.share());
+  if (!arcs.empty()) text += fmt::format(": {}", fmt::join(arcs, ", "));
+  const auto cut = std::count_if(reach.pivots.begin(), reach.pivots.end(),
+                                 [](const PivotReach& pivot) { return !pivot.is_whole(); });
+  if (cut > 0) text += fmt::format("; at {} corners it can't pivot all the way", cut);
+  if (!reach.decided) text += " (not decided everywhere)";
+  return text;
 }
 
 std::string symmetry_text(int symmetry) {
@@ -94,14 +185,26 @@ std::string ambiguity_text(const std::vector<Ambiguity>& entries) {
 
 }  // namespace
 
-InspectOutcome look_at(const Part& part) {
-  return {part, bounding_box(part), curvature_range(part), largest_disk(part), symmetry(part), ambiguity(part)};
+InspectOutcome look_at(const LoadedPart& loaded) {
+  const Part& part = loaded.part;
+  return {part,
+          loaded.unit,
+          loaded.loops,
+          loaded.loop,
+          bounding_box(part),
+          curvature_range(part),
+          largest_disk(part),
+          symmetry(part),
+          ambiguity(part)};
 }
 
 Json inspect_json(const InspectOutcome& outcome) {
   const Part& part = outcome.part;
   return {{"schema", "rollfix/inspect/1"},
           {"part", part_json(part)},
+          {"unit", outcome.unit.empty() ? Json(nullptr) : Json(outcome.unit)},
+          {"loops", loops_json(outcome)},
+          {"area", part.closed() ? json_number(enclosed_area(part.outline())) : Json(nullptr)},
           {"total_turn", json_number(part.total_turn())},
           {"box", Json::array({point_json(outcome.box.lo), point_json(outcome.box.hi)})},
           {"start", {{"point", point_json(part.point(0))}, {"tangent", json_number(part.tangent(0))}}},
@@ -112,7 +215,8 @@ Json inspect_json(const InspectOutcome& outcome) {
           {"inflections", json_numbers(part.inflections())},
           {"vertices", json_numbers(part.vertices())},
           {"corners", corners_json(part)},
-          {"ambiguity", ambiguity_json(outcome)}};
+          {"ambiguity", ambiguity_json(outcome)},
+          {"reach", reach_json(outcome)}};
 }
 
 std::string inspect_text(const InspectOutcome& outcome) {
@@ -123,8 +227,11 @@ std::string inspect_text(const InspectOutcome& outcome) {
   const auto line = [&text](const char* title, const std::string& value) {
     text += fmt::format("{:<12} {}\n", title, value);
   };
+  text += loops_text(outcome);
+  if (!outcome.unit.empty()) line("unit", outcome.unit);
   line("shape", shape_text(part));
   line("perimeter", fixed(part.perimeter(), decimals));
+  if (part.closed()) line("area", fmt::format("{:.8g}", enclosed_area(part.outline())));
   line("size", fmt::format("{} x {}, from ({}, {}) to ({}, {})", fixed(size.x(), decimals), fixed(size.y(), decimals),
                            fixed(outcome.box.lo.x(), decimals), fixed(outcome.box.lo.y(), decimals),
                            fixed(outcome.box.hi.x(), decimals), fixed(outcome.box.hi.y(), decimals)));
@@ -136,6 +243,7 @@ std::string inspect_text(const InspectOutcome& outcome) {
   line("spirals", fmt::format("{}", part.turning().spirals().size()));
   line("curvature", fmt::format("{:.6g} to {:.6g}", outcome.curvature.lo, outcome.curvature.hi));
   line("disk", disk_text(outcome.largest_disk));
+  if (outcome.reach) line("reach", reach_text(outcome));
   line("symmetry", symmetry_text(outcome.symmetry));
   return text + ambiguity_text(outcome.ambiguity);
 }

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "rollfix/files/load_part.hpp"
+#include "rollfix/finger_argument.hpp"
 #include "rollfix/json_output.hpp"
+#include "rollfix/part/reach.hpp"
 #include "rollfix/part_facts.hpp"
 
 namespace rollfix::app {
@@ -11,14 +15,19 @@ namespace rollfix::app {
 /// What `inspect` says of a part.
 struct InspectOutcome {
   Part part;
+  std::string unit;         // of a drawing, empty: not known
+  std::vector<Loop> loops;  // of a drawing
+  std::size_t loop = 0;     // the one that the part is, counted from 1
   Box box;
   Interval curvature;
   double largest_disk = 0;
   int symmetry = 1;
   std::vector<Ambiguity> ambiguity;
+  std::optional<FingerShape> finger{};  // --finger, and ...
+  std::optional<Reach> reach{};         // ... how far it can reach
 };
 
-InspectOutcome look_at(const Part& part);
+InspectOutcome look_at(const LoadedPart& loaded);
 
 /// The contract's "rollfix/inspect/1"; docs/json.md lists the fields.
 Json inspect_json(const InspectOutcome& outcome);

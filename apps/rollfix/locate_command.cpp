@@ -32,6 +32,9 @@ void require_sensible(const LocateArguments& arguments) {
   if (!arguments.readings.empty() && from_log) {
     throw InputError("locate: expected --reading or --log, found both: they can't be of the same roll");
   }
+  if (arguments.explain && arguments.fingers.empty()) {
+    throw InputError("--explain lists what the finger can't reach: give --finger as well");
+  }
   if (!arguments.instants.empty() && !from_log) throw InputError("--at picks instants of a log: give a --log as well");
   if (from_log && arguments.logs.front() == "-" && arguments.part.part == "-") {
     throw InputError("the part and the log can't both come from standard input: give one of them as a file");
@@ -86,6 +89,8 @@ void add_locate_command(CLI::App& program, Command& chosen) {
       ->type_name("N");
   add_output_argument(*command, arguments->output,
                       "a figure of the placements: .svg, .png or .pdf, - for SVG on stdout");
+  add_switch(*command, "--explain", arguments->explain,
+             "list what fits and was dropped all the same, because the finger can't get there, and why");
   add_switch(*command, "--json", arguments->json, "print JSON (rollfix/locate/1)");
   command->callback([arguments, &chosen] { chosen = [arguments] { return locate_report(*arguments); }; });
 }

@@ -92,18 +92,20 @@ Json locate_json(const LocateOutcome& outcome) {
   }
   Json unresolved = Json::array();
   for (const Interval& interval : found.unresolved) unresolved.push_back(json_interval(interval));
-  return {{"schema", "rollfix/locate/1"},
-          {"status", found.status == Status::complete ? "complete" : "incomplete"},
-          {"verdict", found.verdict()},
-          {"part", part_json(outcome.part)},
-          {"fingers", 1},
-          {"readings", readings_json(outcome)},
-          {"tolerance", json_number(outcome.tolerance.value)},
-          {"placements", placements},
-          {"pose_time", outcome.times.empty() ? Json(nullptr) : json_numbers(outcome.times)},
-          {"dropped", Json::object()},
-          {"unresolved", unresolved},
-          {"counts", {{"intervals", found.counts.intervals}, {"evaluations", found.counts.evaluations}}}};
+  Json document = {{"schema", "rollfix/locate/1"},
+                   {"status", found.status == Status::complete ? "complete" : "incomplete"},
+                   {"verdict", found.verdict()},
+                   {"part", part_json(outcome.part)},
+                   {"fingers", 1},
+                   {"readings", readings_json(outcome)},
+                   {"tolerance", json_number(outcome.tolerance.value)},
+                   {"placements", placements},
+                   {"pose_time", outcome.times.empty() ? Json(nullptr) : json_numbers(outcome.times)},
+                   {"dropped", dropped_json(outcome.dropped)},
+                   {"unresolved", unresolved},
+                   {"counts", {{"intervals", found.counts.intervals}, {"evaluations", found.counts.evaluations}}}};
+  if (outcome.dropped.explain) document["impossible"] = impossible_json(outcome.dropped);
+  return document;
 }
 
 }  // namespace rollfix::app

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "rollfix/contact/pose.hpp"
+#include "rollfix/dropped.hpp"
 #include "rollfix/json_output.hpp"
 #include "rollfix/locate/locate.hpp"
 #include "rollfix/part/part.hpp"
@@ -21,6 +22,7 @@ struct LocateOutcome {
   Search found;
   std::vector<std::optional<Poses>> poses;  // of each placement at every row of a log; nothing where it does not tell
   std::vector<double> times;                // of a log with times: of those rows, seconds
+  Dropped<Impossible> dropped{};            // what the finger makes impossible; no longer in `found`
 };
 
 /// The contract's "rollfix/locate/1"; docs/json.md lists the fields.

@@ -22,6 +22,7 @@ struct LocateArguments {
   std::string tolerance;
   std::string budget;
   bool json = false;
+  bool explain = false;
   OutputArgument output;
 };
 

@@ -172,6 +172,9 @@ std::string advice(const LocateOutcome& outcome) {
         found.placements.size() == 1 ? "1 placement" : fmt::format("{} placements", found.placements.size()),
         found.unresolved.size() == 1 ? "1 interval" : fmt::format("{} intervals", found.unresolved.size()));
   }
+  if (found.placements.empty() && !outcome.dropped.items.empty()) {
+    return verdict + ": " + all_dropped_advice(outcome.dropped.items.size());
+  }
   if (found.placements.empty()) {
     return verdict + ": nothing fits; check the units, the signs (positive along the outline), and the finger's radius";
   }
@@ -180,8 +183,8 @@ std::string advice(const LocateOutcome& outcome) {
 }
 
 std::string locate_text(const LocateOutcome& outcome) {
-  std::string text =
-      advice(outcome) + "\n\n" + part_line(outcome.part) + reading_lines(outcome) + tolerance_line(outcome.tolerance);
+  std::string text = advice(outcome) + "\n\n" + part_line(outcome.part) + reading_lines(outcome) +
+                     tolerance_line(outcome.tolerance) + dropped_text(outcome.dropped, outcome.part);
   if (!outcome.found.placements.empty()) text += "\n" + placement_table(outcome);
   const std::string below = remarks(outcome) + pose_lines(outcome) + unresolved_lines(outcome);
   if (!below.empty()) text += "\n" + below;

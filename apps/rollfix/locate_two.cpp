@@ -4,6 +4,7 @@
 
 #include "rollfix/contact/pair_log.hpp"
 #include "rollfix/draw/pair_figure.hpp"
+#include "rollfix/drop.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/finger_argument.hpp"
 #include "rollfix/locate_request.hpp"
@@ -36,21 +37,29 @@ PairOutcome search(const LocateArguments& arguments, const Part& part, const Pai
   return outcome;
 }
 
+std::optional<FingerPair> disks_of(const std::optional<std::array<FingerShape, 2>>& shapes) {
+  if (!shapes || !(*shapes)[0].disk || !(*shapes)[1].disk) return std::nullopt;
+  return FingerPair{*(*shapes)[0].disk, *(*shapes)[1].disk};
+}
+
 }  // namespace
 
 Report locate_two(const LocateArguments& arguments, const std::vector<Log>& logs) {
-  const std::optional<FingerPair> fingers = read_fingers(arguments.fingers);
-  const Part part = load_part(arguments.part);
+  const auto shapes = read_shapes(arguments.fingers);
+  const std::optional<FingerPair> fingers = logs.empty() ? disks_of(shapes) : read_fingers(arguments.fingers);
+  Report report;
+  const Part part = load_part(arguments.part, report.notes);
   const std::optional<PairLog> log =
       logs.empty() ? std::nullopt : std::optional<PairLog>(paired(logs.front(), logs.back()));
   const PairObservation observation = observe(arguments, part, fingers, log);
   PairOutcome outcome = search(arguments, part, observation);
+  if (shapes) drop(*shapes, observation, outcome);
+  outcome.dropped.explain = arguments.explain;
   for (const PairPlacement& placement : outcome.found.placements) {
     const bool tells = fingers && log;
     outcome.poses.push_back(tells ? poses(part, *fingers, *log, placement.start, observation.rows) : std::nullopt);
   }
 
-  Report report;
   report.exit_code = exit_code_of(outcome.found.status == Status::complete, !outcome.found.placements.empty());
   report.data = arguments.json ? json_text(pair_json(outcome)) : pair_text(outcome);
   add_direction_notes(part, observation.lengths_turned_round, report);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "rollfix/error.hpp"
@@ -26,6 +27,12 @@ std::vector<std::size_t> all_rows(std::size_t count) {
 }
 
 }  // namespace
+
+double length_error_of(const std::vector<Rounding>& roundings) {
+  double most = 0;
+  for (const Rounding& rounding : roundings) most = std::max(most, rounding.length);
+  return most;
+}
 
 Observation observe_readings(const std::vector<std::string>& texts) {
   Observation observation;
@@ -58,6 +65,10 @@ Observation observe_log(const Log& log, const Part& part, const std::optional<Di
   observation.readings = readings(log, part, finger, instants);
   observation.roundings = {rounding_of(log, finger)};
   observation.lengths_turned_round = part.reversed() && log.kind != LogKind::contact;
+  observation.rolls = readings_as_given(log, finger);
+  if (observation.lengths_turned_round) {
+    for (Reading& reading : observation.rolls) reading = in_stored_direction(reading, part);
+  }
   observation.rows = all_rows(log.rows());
   observation.times = log.time;
   observation.instants = times_of(log, rows_at(log, instants));
@@ -71,6 +82,13 @@ PairObservation observe_pair_log(const PairLog& log, const Part& part, const std
   observation.roundings = {rounding_of(log, fingers)};
   observation.facing = facing(log);
   observation.lengths_turned_round = part.reversed() && log.a.kind != LogKind::contact;
+  observation.rolls = readings_as_given(log, fingers);
+  if (observation.lengths_turned_round) {
+    for (PairReading& reading : observation.rolls) {
+      reading.length_a = -reading.length_a;
+      reading.length_b = -reading.length_b;
+    }
+  }
   observation.rows = all_rows(log.rows());
   observation.times = log.a.time;
   observation.instants = times_of(log.a, rows_at(log, instants));

@@ -19,6 +19,7 @@ struct Observation {
   std::vector<std::size_t> rows;  // of a log: all of them, for poses
   std::vector<double> times;      // of a log with times: of all its rows, seconds
   std::vector<Rounding> roundings;
+  std::vector<Reading> rolls;         // of a log: all its rows as readings
   bool lengths_turned_round = false;  // a log's lengths were along a clockwise outline
 };
 
@@ -30,8 +31,12 @@ struct PairObservation {
   std::vector<double> times;
   std::vector<Rounding> roundings;
   std::optional<double> facing;  // of a log with u and psi: at the first contacts; not more rounded than a turn
+  std::vector<PairReading> rolls;
   bool lengths_turned_round = false;
 };
+
+/// How far the digits that were written can have moved any of the lengths.
+double length_error_of(const std::vector<Rounding>& roundings);
 
 /// From --reading, each as typed. Throws InputError.
 Observation observe_readings(const std::vector<std::string>& texts);

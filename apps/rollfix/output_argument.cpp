@@ -2,12 +2,24 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "rollfix/draw/save.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/files.hpp"
+#include "rollfix/files/saved_part.hpp"
 #include "rollfix/usage.hpp"
 
 namespace rollfix::app {
+
+namespace {
+
+/// A saved part is known by its ending, which no figure has.
+bool names_a_part(const OutputArgument& argument) {
+  return std::filesystem::path(argument.file).extension() == ".json";
+}
+
+}  // namespace
 
 void add_output_argument(CLI::App& command, OutputArgument& argument, const std::string& meaning) {
   command.add_option("-o", argument.file, meaning)->type_name("FILE");
@@ -31,6 +43,25 @@ void add_figure(const OutputArgument& argument, const Svg& figure, Report& repor
     return;
   }
   report.files.push_back({argument.file, encode(figure, figure_format(argument.file))});
+  report.notes.push_back(fmt::format("wrote {}", argument.file));
+}
+
+void require_part_output(const OutputArgument& argument, bool json) {
+  if (names_a_part(argument)) {
+    require_writable(argument.file, argument.force);
+  } else {
+    require_figure_output(argument, json);
+  }
+}
+
+void add_part_output(const OutputArgument& argument, const Part& part, const std::function<Svg()>& figure,
+                     Report& report) {
+  if (argument.file.empty()) return;
+  if (!names_a_part(argument)) {
+    add_figure(argument, figure(), report);
+    return;
+  }
+  report.files.push_back({argument.file, format_part(part)});
   report.notes.push_back(fmt::format("wrote {}", argument.file));
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <string>
 
 #include "rollfix/draw/svg.hpp"
+#include "rollfix/part/part.hpp"
 #include "rollfix/report.hpp"
 
 namespace rollfix::app {
@@ -23,5 +25,12 @@ void require_figure_output(const OutputArgument& argument, bool json);
 /// Adds the figure to the report as -o says. On stdout (-o -) it is SVG and takes the place of the data, whose first
 /// line is narrated.
 void add_figure(const OutputArgument& argument, const Svg& figure, Report& report);
+
+/// The same where -o may also name a saved part: a file that ends in .json.
+void require_part_output(const OutputArgument& argument, bool json);
+
+/// Adds what -o asks for, if it is given: the part or a figure of it.
+void add_part_output(const OutputArgument& argument, const Part& part, const std::function<Svg()>& figure,
+                     Report& report);
 
 }  // namespace rollfix::app

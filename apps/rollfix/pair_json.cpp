@@ -88,19 +88,21 @@ Json pair_json(const PairOutcome& outcome) {
   }
   Json unresolved = Json::array();
   for (const PairBox& box : found.unresolved) unresolved.push_back(box_json(box));
-  return {{"schema", "rollfix/locate/1"},
-          {"status", found.status == Status::complete ? "complete" : "incomplete"},
-          {"verdict", found.verdict()},
-          {"part", part_json(outcome.part)},
-          {"fingers", 2},
-          {"readings", readings_json(outcome)},
-          {"facing", outcome.facing ? json_number(*outcome.facing) : Json(nullptr)},
-          {"tolerance", json_number(outcome.tolerance.value)},
-          {"placements", placements},
-          {"pose_time", outcome.times.empty() ? Json(nullptr) : json_numbers(outcome.times)},
-          {"dropped", Json::object()},
-          {"unresolved", unresolved},
-          {"counts", {{"boxes", found.counts.intervals}, {"evaluations", found.counts.evaluations}}}};
+  Json document = {{"schema", "rollfix/locate/1"},
+                   {"status", found.status == Status::complete ? "complete" : "incomplete"},
+                   {"verdict", found.verdict()},
+                   {"part", part_json(outcome.part)},
+                   {"fingers", 2},
+                   {"readings", readings_json(outcome)},
+                   {"facing", outcome.facing ? json_number(*outcome.facing) : Json(nullptr)},
+                   {"tolerance", json_number(outcome.tolerance.value)},
+                   {"placements", placements},
+                   {"pose_time", outcome.times.empty() ? Json(nullptr) : json_numbers(outcome.times)},
+                   {"dropped", dropped_json(outcome.dropped)},
+                   {"unresolved", unresolved},
+                   {"counts", {{"boxes", found.counts.intervals}, {"evaluations", found.counts.evaluations}}}};
+  if (outcome.dropped.explain) document["impossible"] = impossible_json(outcome.dropped);
+  return document;
 }
 
 }  // namespace rollfix::app

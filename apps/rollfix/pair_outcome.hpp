@@ -7,6 +7,7 @@
 #include "rollfix/contact/pair_log.hpp"
 #include "rollfix/contact/pose.hpp"
 #include "rollfix/draw/pair_figure.hpp"
+#include "rollfix/dropped.hpp"
 #include "rollfix/json_output.hpp"
 #include "rollfix/locate/locate_pair.hpp"
 #include "rollfix/part/part.hpp"
@@ -24,6 +25,7 @@ struct PairOutcome {
   PairSearch found;
   std::vector<std::optional<Poses>> poses;  // of each placement at every row of a log; nothing where it does not tell
   std::vector<double> times;                // of a log with times: of those rows, seconds
+  Dropped<PairImpossible> dropped{};        // what the fingers make impossible; no longer in `found`
 };
 
 /// The contract's "rollfix/locate/1" for two fingers; docs/json.md lists the fields.

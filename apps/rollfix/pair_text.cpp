@@ -109,6 +109,9 @@ std::string pair_advice(const PairOutcome& outcome) {
                        found.placements.size() == 1 ? "1 pair" : fmt::format("{} pairs", found.placements.size()),
                        found.unresolved.size() == 1 ? "1 box" : fmt::format("{} boxes", found.unresolved.size()));
   }
+  if (found.placements.empty() && !outcome.dropped.items.empty()) {
+    return verdict + ": " + all_dropped_advice(outcome.dropped.items.size());
+  }
   if (found.placements.empty()) {
     return verdict + ": nothing fits; check the units, the signs (positive along the outline), and the fingers' radii";
   }
@@ -132,6 +135,7 @@ std::string pair_text(const PairOutcome& outcome) {
   text += reading_lines(outcome);
   text += fmt::format("tolerance  {:.3g} deg = {:.3g} rad, {}\n", outcome.tolerance.value / kDegree,
                       outcome.tolerance.value, outcome.tolerance.source);
+  text += dropped_text(outcome.dropped, outcome.part);
   if (!outcome.found.placements.empty()) text += "\n" + placement_table(outcome);
   const std::string below = remarks(outcome);
   if (!below.empty()) text += "\n" + below;

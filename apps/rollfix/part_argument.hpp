@@ -2,25 +2,34 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
+#include "rollfix/files/load_part.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace rollfix::app {
 
-/// PART and the options that say how to take it.
+/// PART and the options that say how to take it, as typed; empty: not given.
 struct PartArgument {
   std::string part;
-  std::string corner_angle;  // as typed; empty: the default
+  std::string corner_angle;
+  std::string smooth;
+  std::string loop;
+  std::string gap;
+  std::string layer;
   bool open = false;
   bool allow_crossing = false;
 };
 
-/// Adds PART, --open, --corner-angle and --allow-crossing to a command.
+/// Adds PART and these options to a command.
 void add_part_argument(CLI::App& command, PartArgument& argument);
 
-/// The part. Throws InputError: no PART, what load_outline and Part throw, a .json file that is no gallery shape,
-/// or an option for points with a shape that is not made of points.
-Part load_part(const PartArgument& argument);
+/// The part and what its file says besides. Throws InputError: no PART, an option that is not what it should be, or
+/// what rollfix::load_part throws.
+LoadedPart load(const PartArgument& argument);
+
+/// The part alone. What the user should know of how it was taken is added to the notes.
+Part load_part(const PartArgument& argument, std::vector<std::string>& notes);
 
 /// That a part was given clockwise, and what follows from it.
 std::string reversed_note(const Part& part);

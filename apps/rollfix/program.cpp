@@ -36,6 +36,7 @@ Command parse(CLI::App& program, const std::vector<std::string>& arguments) {
   add_inspect_command(program, chosen);
   add_locate_command(program, chosen);
   add_simulate_command(program, chosen);
+  add_teach_command(program, chosen);
   add_demo_command(program, chosen);
   // What the parser does not know is refused here, with better words.
   program.allow_extras();
@@ -48,7 +49,7 @@ Command parse(CLI::App& program, const std::vector<std::string>& arguments) {
   std::reverse(reversed.begin(), reversed.end());
   program.parse(std::move(reversed));
   refuse_leftovers(program);
-  if (!chosen) throw InputError("expected a command: inspect, locate, simulate or demo; see rollfix --help");
+  if (!chosen) throw InputError("expected a command: inspect, locate, simulate, teach or demo; see rollfix --help");
   return chosen;
 }
 

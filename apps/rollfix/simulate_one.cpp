@@ -39,12 +39,13 @@ Report simulate_one(const SimulateArguments& arguments) {
   const std::string file = arguments.files.empty() ? "-" : arguments.files.front();
   require_writable_log(file, arguments.force);
   const DiskFinger finger = *read_finger(arguments.fingers);
-  const Part part = load_part(arguments.part);
+  Report report;
+  const Part part = load_part(arguments.part, report.notes);
   const Roll roll = rollfix::roll(part, finger, plan_of(arguments, part));
 
-  Report report;
   if (part.reversed()) report.notes.push_back(reversed_note(part));
   report.notes.push_back(roll_text(part, roll.s, roll.angle));
+  add_reach_note(report, beyond_reach_note(part, finger, roll.s, "a real finger "));
   add_log(report, file, format_log(roll.log));
   return report;
 }

@@ -85,13 +85,15 @@ Report simulate_two(const SimulateArguments& arguments) {
   require_sensible(arguments);
   for (const std::string& file : arguments.files) require_writable_log(file, arguments.force);
   const FingerPair fingers = *read_fingers(arguments.fingers);
-  const Part part = load_part(arguments.part);
+  Report report;
+  const Part part = load_part(arguments.part, report.notes);
   const FreeRoll roll = roll_free(part, plan_of(arguments, part, fingers));
 
-  Report report;
   if (part.reversed()) report.notes.push_back(reversed_note(part));
   report.notes.push_back("finger a " + roll_text(part, roll.s, roll.angle_a));
   report.notes.push_back("finger b " + roll_text(part, roll.t, roll.angle_b));
+  add_reach_note(report, beyond_reach_note(part, fingers[0], roll.s, "a real finger a "));
+  add_reach_note(report, beyond_reach_note(part, fingers[1], roll.t, "a real finger b "));
   report.notes.push_back(part_text(part, roll));
   add_logs(report, arguments.files, roll.log);
   return report;

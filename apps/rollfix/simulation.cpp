@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "rollfix/dropped.hpp"
 #include "rollfix/table.hpp"
 #include "rollfix/typed_number.hpp"
 
@@ -29,6 +30,18 @@ std::string roll_text(const Part& part, const std::vector<double>& s, const std:
   const int decimals = decimals_for(part.perimeter());
   return fmt::format("rolled from s = {} over length {}; the tangent turned by {} deg", fixed(s.front(), decimals),
                      fixed(s.back() - s.front(), decimals), degrees(angle.back() - angle.front()));
+}
+
+std::string beyond_reach_note(const Part& part, const DiskFinger& disk, const std::vector<double>& s,
+                              const std::string& finger) {
+  const auto [least, most] = std::minmax_element(s.begin(), s.end());
+  const auto obstruction =
+      obstruction_of(part, reach_of_disk(part, disk.radius), s.front(), {*least - s.front(), *most - s.front()});
+  return obstruction ? fmt::format("{}can't do this roll: {}", finger, about(*obstruction, part)) : "";
+}
+
+void add_reach_note(Report& report, const std::string& note) {
+  if (!note.empty()) report.notes.push_back(note);
 }
 
 void require_writable_log(const std::string& file, bool force) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "rollfix/contact/finger.hpp"
 #include "rollfix/part/part.hpp"
 #include "rollfix/part_argument.hpp"
 #include "rollfix/report.hpp"
@@ -35,6 +36,14 @@ double orientation_at(const Part& part, double s, const SimulateArguments& argum
 
 /// "rolled from s = 1.0000 over length 2.0000; the tangent turned by 30.000 deg".
 std::string roll_text(const Part& part, const std::vector<double>& s, const std::vector<double>& angle);
+
+/// A note on a simulated roll that a real finger could not do, because it would hit the part elsewhere; empty when it
+/// could. `finger` begins it: "", "finger a ".
+std::string beyond_reach_note(const Part& part, const DiskFinger& disk, const std::vector<double>& s,
+                              const std::string& finger);
+
+/// Adds it, unless it is empty.
+void add_reach_note(Report& report, const std::string& note);
 
 /// Throws InputError when a log can't be written to this -o; stdout always can.
 void require_writable_log(const std::string& file, bool force);

@@ -15,7 +15,7 @@ struct Tolerance {
 };
 
 /// The larger of 1e-9 and what the rounding of a reading can make of the total curvature: a length that is off by h
-/// changes it by at most h times the largest curvature.
+/// changes it by at most h times the largest curvature, but for stretches shorter than h, which count as corners.
 Tolerance tolerance_from_rounding(const Part& part, const std::vector<Rounding>& roundings);
 
 /// --tolerance as typed: an angle of at least 0. Throws InputError.

@@ -11,9 +11,11 @@
 #include "rollfix/error.hpp"               // IWYU pragma: export
 #include "rollfix/locate/locate.hpp"       // IWYU pragma: export
 #include "rollfix/locate/locate_pair.hpp"  // IWYU pragma: export
+#include "rollfix/locate/reachable.hpp"    // IWYU pragma: export
 #include "rollfix/outline/gallery.hpp"     // IWYU pragma: export
 #include "rollfix/outline/load.hpp"        // IWYU pragma: export
 #include "rollfix/outline/outline.hpp"     // IWYU pragma: export
 #include "rollfix/outline/primitives.hpp"  // IWYU pragma: export
 #include "rollfix/outline/spline.hpp"      // IWYU pragma: export
 #include "rollfix/part/part.hpp"           // IWYU pragma: export
+#include "rollfix/part/reach.hpp"          // IWYU pragma: export

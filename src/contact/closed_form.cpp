@@ -29,10 +29,11 @@ class Walk {
   Walk(const Track& track, std::int64_t index) : track_(track) { enter(index); }
 
   Found to(double rotation) {
-    const double slack = kRotationRounding * (std::abs(rotation) + std::abs(rotation_.lo) + std::abs(rotation_.hi));
-    while (rotation > rotation_.hi + slack) go(1);
-    while (rotation < rotation_.lo - slack) go(-1);
-    return solve(std::min(std::max(rotation, rotation_.lo), rotation_.hi));
+    // Turned back at falls, the finger is behind by that much.
+    const double rounding = kRotationRounding * (std::abs(rotation) + std::abs(rotation_.lo) + std::abs(rotation_.hi));
+    while (rotation + fallen_ > rotation_.hi + rounding) go(1);
+    while (rotation + fallen_ < rotation_.lo - rounding) go(-1);
+    return solve(std::min(std::max(rotation + fallen_, rotation_.lo), rotation_.hi));
   }
 
  private:
@@ -45,6 +46,7 @@ class Walk {
   void go(int direction) {
     const auto next = track_.next(index_, direction);
     if (!next) track_.refuse(index_, direction);
+    fallen_ += track_.fall_between(index_, *next);
     enter(*next);
   }
 
@@ -65,6 +67,7 @@ class Walk {
   }
 
   const Track& track_;
+  double fallen_ = 0;
   std::int64_t index_ = 0;
   Stretch stretch_;
   Interval rotation_;

@@ -68,7 +68,8 @@ double rotation_of(const Track& track, const RollPlan& plan, const TrackPlace& s
   if (plan.rotation) return *plan.rotation;
   const TrackPlace stop = track.place(start.s + *plan.distance, *plan.distance > 0 ? -1 : 1);  // as it arrives
   const double stop_angle = track.turning(track.stretch(stop.index), stop.s).angle;
-  return track.rotation(stop.s, stop_angle) - track.rotation(start.s, start_angle);
+  return track.rotation(stop.s, stop_angle) - track.rotation(start.s, start_angle) -
+         track.fall_between(start.index, stop.index);
 }
 
 }  // namespace

@@ -131,6 +131,7 @@ class Integration {
 
   void go_on(int direction) {
     if (const auto next = track_.next(index_, direction)) {
+      state_[kPsi] += track_.fall_between(index_, *next);
       enter(*next, direction);
     } else if (std::abs(motion_.omega_at(time_)) * (motion_.duration - time_) < kLeftOver) {
       time_ = motion_.duration;

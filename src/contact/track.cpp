@@ -21,6 +21,9 @@ namespace {
 
 bool is_pivot(std::int64_t index) { return index % 2 == 0; }
 std::int64_t knot_before(std::int64_t index) { return (index - (index % 2 != 0 ? 1 : 0)) / 2; }
+/// A concave corner that can't be rolled over.
+bool blocks(double turn) { return Corner{0, turn}.is_concave(); }
+double fall_of(double turn) { return turn < 0 && !blocks(turn) ? turn : 0; }
 std::int64_t pivot_at(std::int64_t knot) { return 2 * knot; }
 std::int64_t spiral_after(std::int64_t knot) { return 2 * knot + 1; }
 std::int64_t spiral_before(std::int64_t knot) { return 2 * knot - 1; }
@@ -33,6 +36,7 @@ Track::Track(const Part& part, const DiskFinger& finger)
   for (const Corner& corner : part.corners()) {
     if (const auto k = knot_at(corner.s)) corner_turns_[knot(*k).index] = corner.turn;
   }
+  for (const double turn : corner_turns_) fall_per_lap_ += fall_of(turn);
 }
 
 Track::Knot Track::knot(std::int64_t k) const {
@@ -128,7 +132,7 @@ Track::Found Track::find(double s, int direction) const {
 TrackPlace Track::place(double s, int direction) const {
   require_inside(s);
   const auto [place, knot] = find(s, direction);
-  if (knot && corner_turn(*knot) < 0) refuse_corner(s, corner_turn(*knot));
+  if (knot && blocks(corner_turn(*knot))) refuse_corner(s, corner_turn(*knot));
   const double curvature = turning(stretch(place.index), place.s).curvature;
   if (!fits(curvature)) refuse_tight({place.s, curvature});
   return place;
@@ -143,13 +147,25 @@ std::optional<std::int64_t> Track::next(std::int64_t index, int direction) const
   if (ends_at(found)) return std::nullopt;
   if (is_pivot(found)) {
     const double turn = corner_turn(knot_before(found));
-    if (turn < 0) return std::nullopt;
+    if (blocks(turn)) return std::nullopt;
     if (turn > 0) return found;
     found += direction;
   }
   const Stretch ahead = stretch(found);
   if (!(direction > 0 ? ahead.fits_lo : ahead.fits_hi)) return std::nullopt;
   return found;
+}
+
+double Track::fall_between(std::int64_t from, std::int64_t to) const {
+  if (fall_per_lap_ == 0) return 0;
+  if (to < from) return -fall_between(to, from);
+  const auto count = static_cast<std::int64_t>(corner_turns_.size());
+  const std::int64_t last = knot_before(to);
+  std::int64_t k = knot_before(from) + (is_pivot(from) ? 0 : 1);
+  const std::int64_t laps = std::max<std::int64_t>(0, last - k) / count;
+  double sum = static_cast<double>(laps) * fall_per_lap_;
+  for (k += laps * count; k <= last; ++k) sum += fall_of(corner_turn(k));
+  return sum;
 }
 
 void Track::refuse(std::int64_t index, int direction) const {
@@ -164,7 +180,7 @@ void Track::refuse(std::int64_t index, int direction) const {
       at += direction;
       if (ends_at(at)) refuse_end(edge);
       const double turn = corner_turn(knot_before(at));
-      if (turn < 0) refuse_corner(edge, turn);
+      if (blocks(turn)) refuse_corner(edge, turn);
     }
   }
   if (is_pivot(at)) at += direction;
@@ -193,13 +209,13 @@ void Track::require_way(double from, double to) const {
   const double near = kLengthAccuracy * turning_.perimeter();
   const double last = std::min(hi, lo + turning_.perimeter());  // a second lap meets nothing new
   const auto [start, start_knot] = find(lo, 1);
-  if (start_knot && corner_turn(*start_knot) < 0) refuse_corner(lo, corner_turn(*start_knot));
+  if (start_knot && blocks(corner_turn(*start_knot))) refuse_corner(lo, corner_turn(*start_knot));
   Tightest tightest{lo, 0};
   for (std::int64_t index = start.index; !ends_at(index); ++index) {
     const Stretch at = stretch(index);
     if (is_pivot(index)) {
       const double turn = corner_turn(knot_before(index));
-      if (turn < 0 && at.whole.lo <= last + near) refuse_corner(at.whole.lo, turn);
+      if (blocks(turn) && at.whole.lo <= last + near) refuse_corner(at.whole.lo, turn);
       continue;
     }
     if (at.whole.lo >= last) break;

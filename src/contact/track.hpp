@@ -54,11 +54,15 @@ class Track {
   std::optional<std::int64_t> next(std::int64_t index, int direction) const;
   [[noreturn]] void refuse(std::int64_t index, int direction) const;
 
+  /// By how much the tangent falls where the way from one stretch to another passes the tiny concave joints of a
+  /// drawing (kJointTurn), below 0 forwards and above it backwards. There the contact stays, and the finger turns back.
+  double fall_between(std::int64_t from, std::int64_t to) const;
+
   /// Throws InputError unless the finger can roll from one place to the other; the tightest spot is named.
   void require_way(double from, double to) const;
 
   /// How far the finger has turned, up to a constant, when the contact is at s and the tangent there points to angle:
-  /// the sum of eq. (3), psi = Theta + s / r. It grows all along a way that the finger can go.
+  /// the sum of eq. (3), psi = Theta + s / r. It grows all along a way that the finger can go, but for falls.
   double rotation(double s, double angle) const { return s / radius_ + angle; }
 
  private:
@@ -95,6 +99,7 @@ class Track {
   const Part& part_;
   const TurningFunction& turning_;
   double radius_;
+  double fall_per_lap_ = 0;
   std::vector<double> corner_turns_;  // at the start of each spiral; 0: no corner
 };
 

@@ -28,6 +28,8 @@ constexpr double kPlotHeight = 120;
 constexpr double kPlotGap = 44;  // above each plot, for its title and the numbers of the one above
 constexpr double kPlotEnd = 40;  // below the last one
 constexpr std::string_view kGraphColour = "#1f3b57";
+constexpr double kBlockedWidth = 4.5;
+constexpr double kBlockedBand = 5;  // above a plot, pixels
 
 struct Event {
   Sign sign;
@@ -52,7 +54,13 @@ std::string counted(std::size_t count, const std::string& one, const std::string
   return fmt::format("{} {}", count, count == 1 ? one : many);
 }
 
-Legend legend_of(const Part& part, double width) {
+std::string blocked_text(const Reach& reach) {
+  const std::string finger =
+      reach.curvature > 0 ? fmt::format("a disk of radius {}", pretty(1 / reach.curvature, 4)) : "a flat jaw";
+  return fmt::format("out of reach of {}: {} % of the boundary", finger, pretty(100 * (1 - reach.share()), 3));
+}
+
+Legend legend_of(const Part& part, const std::optional<Reach>& reach, double width) {
   std::vector<LegendEntry> entries;
   const auto add = [&](Sign sign, std::size_t count, const std::string& one, const std::string& many) {
     if (count == 0) return;
@@ -65,6 +73,7 @@ Legend legend_of(const Part& part, double width) {
   add(Sign::vertex, part.vertices().size(), "vertex (\u03ba\u2032 changes sign)",
       "vertices (\u03ba\u2032 changes sign)");
   add(Sign::corner, part.corners().size(), "corner (\u0398 jumps)", "corners (\u0398 jumps)");
+  if (reach) entries.push_back({Sign::line, kBlocked, {{blocked_text(*reach)}}});
   return {std::move(entries), width};
 }
 
@@ -75,7 +84,7 @@ class Picture {
       : figure_(figure),
         part_(*figure.part),
         framing_(framing()),
-        legend_(legend_of(part_, figure.width)),
+        legend_(legend_of(part_, figure.reach, figure.width)),
         plots_top_(kHeaderHeight + drawing_height(framing_) + legend_.height()),
         svg_(figure.width, plots_top_ + 2 * (kPlotGap + kPlotHeight) + kPlotEnd),
         scene_(make_scene(part_, framing_, Vec2(0, kHeaderHeight))),
@@ -108,7 +117,11 @@ class Picture {
   std::string summary() const {
     const std::string kind = part_.closed() ? fmt::format("closed, turns {}", counted_turns()) : "open";
     return fmt::format("{}, {}{}", kind, counted(part_.turning().spirals().size(), "spiral", "spirals"),
-                       part_.reversed() ? ", reversed: it was given clockwise" : "");
+                       part_.reversed() ? given() : "");
+  }
+
+  std::string given() const {
+    return fmt::format(", reversed: it was given {}clockwise", part_.outline().hole ? "counter-" : "");
   }
 
   std::string counted_turns() const {
@@ -125,6 +138,7 @@ class Picture {
     svg_.open_clip(scene_.area.lo.x(), scene_.area.lo.y(), scene_.area.size().x(), scene_.area.size().y());
     draw_material(svg_, scene_, part_);
     draw_boundary(svg_, scene_, part_);
+    blocked_arcs();
     obstacles_.add(scene_.boundary.points);
     draw_origin(svg_, scene_, obstacles_);
     arc_length_ticks();
@@ -138,6 +152,32 @@ class Picture {
     draw_scale_bar(svg_, scene_);
     labels_.draw(svg_, obstacles_);
     svg_.close_group();
+  }
+
+  /// Where the finger can't touch.
+  void blocked_arcs() {
+    if (!figure_.reach) return;
+    svg_.open_group("out-of-reach");
+    for (const Interval& gap : figure_.reach->gaps()) {
+      svg_.polyline(slice(scene_.boundary, gap.lo, gap.hi).points, stroke(kBlocked, kBlockedWidth));
+    }
+    svg_.close_group();
+  }
+
+  /// The same above a plot.
+  void blocked_bands(const Axes& frame) {
+    if (!figure_.reach) return;
+    const double period = part_.perimeter();
+    std::vector<Vec2> ends;
+    const auto add = [&](double lo, double hi) {
+      ends.emplace_back(frame.page_x(lo), frame.corner.y() + 0.5 * kBlockedBand);
+      ends.emplace_back(frame.page_x(hi), frame.corner.y() + 0.5 * kBlockedBand);
+    };
+    for (const Interval& gap : figure_.reach->gaps()) {
+      add(gap.lo, std::min(gap.hi, period));
+      if (gap.hi > period) add(0, gap.hi - period);
+    }
+    svg_.segments(ends, stroke(kBlocked, kBlockedBand));
   }
 
   /// The plots' marks of arc length along the boundary itself.
@@ -184,6 +224,7 @@ class Picture {
     const std::vector<Vec2> points = graph(part_, frame, value);
     svg_.open_group("curvature");
     draw_axes(svg_, frame, s_ticks_, ticks, {{"curvature "}, {"\u03ba", true, false, false}}, note);
+    blocked_bands(frame);
     corner_lines(frame);
     draw_graph(svg_, frame, points, stroke(kGraphColour, 1.4));
     cut_marks(frame, points);
@@ -198,6 +239,7 @@ class Picture {
     svg_.open_group("turning");
     draw_axes(svg_, frame, s_ticks_, degree_ticks(frame.y, 5),
               {{"turning function "}, {"\u0398", true, false, false}, {", degrees"}}, "");
+    blocked_bands(frame);
     corner_lines(frame);
     draw_graph(svg_, frame, graph(part_, frame, value), stroke(kGraphColour, 1.4));
     events_on(frame, value);

@@ -94,7 +94,7 @@ AngleSet angle_set(const Part& part, double s) {
   const double winding = place.winding + (place.base - corner->s > 0.5 * part.perimeter() ? 1 : 0);
   const double before = turning.angle(corner->s, Side::before) + winding * turning.period_turn();
   const double after = turning.angle(corner->s, Side::after) + winding * turning.period_turn();
-  return {{std::min(before, after), std::max(before, after)}, corner->turn > 0, corner->turn < 0};
+  return {{std::min(before, after), std::max(before, after)}, !corner->is_concave(), corner->is_concave()};
 }
 
 double residual_at(const Part& part, const std::vector<Reading>& readings, double s) {

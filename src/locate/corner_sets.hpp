@@ -6,11 +6,12 @@
 
 namespace rollfix {
 
-/// At a convex corner Theta takes every value between its one-sided limits: the limit of a rounding of radius 0.
-/// Elsewhere (a concave corner included) the interval is the limits' hull or a single value.
+/// At a convex corner Theta takes every value between its one-sided limits: the limit of a rounding of radius 0. So it
+/// does at the tiny concave joint (kJointTurn) of a drawing whose digits were rounded. Elsewhere (a concave corner
+/// included) the interval is the limits' hull or a single value.
 struct AngleSet {
   Interval angles;
-  bool pivot = false;    // a convex corner: every value in between is taken
+  bool pivot = false;    // a convex corner or a tiny joint: every value in between is taken
   bool concave = false;  // a concave corner: only the two ends are
 };
 

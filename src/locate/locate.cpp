@@ -65,7 +65,7 @@ void narrow(const Part& part, const Reading& reading, RootSearch& search, Findin
 void add_start_corners(const Part& part, const std::vector<Reading>& readings, const Interval& range,
                        Findings& findings, const LocateOptions& options) {
   for (const Corner& corner : part.corners()) {
-    if (corner.turn <= 0 || !range.contains(corner.s)) continue;
+    if (corner.is_concave() || !range.contains(corner.s)) continue;
     const double residual = residual_at(part, readings, corner.s);
     if (residual > std::max(options.tolerance, kTurnAccuracy)) continue;
     findings.pieces.push_back({corner.s, corner.s, false, true});

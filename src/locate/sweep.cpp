@@ -116,11 +116,13 @@ class Sweep {
     return {lo, first.value, first.start_curvature, first.end_curvature};
   }
 
-  /// The end of the roll passes a joint while the start is at s: where that is a convex corner, f(s) is an interval.
+  /// The end of the roll passes a joint while the start is at s: where that is a convex corner, or a tiny concave one,
+  /// f(s) is an interval.
   void pass_corner(double s, double start_angle, double before, double after) {
-    if (after - before <= kTurnAccuracy) return;
-    const double least = before - start_angle - reading_.turn;
-    const double most = after - start_angle - reading_.turn;
+    const Corner corner{s, after - before};
+    if (std::abs(corner.turn) <= kTurnAccuracy || corner.is_concave()) return;
+    const double least = std::min(before, after) - start_angle - reading_.turn;
+    const double most = std::max(before, after) - start_angle - reading_.turn;
     const double distance = std::max({least, -most, 0.0});
     if (distance > tolerance_) return;
     findings_.pieces.push_back({s, s, false, true});

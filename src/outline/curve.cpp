@@ -1,5 +1,9 @@
 #include "rollfix/outline/curve.hpp"
 
+#include <cmath>
+
+#include "outline/reversed_kind.hpp"
+
 namespace rollfix {
 
 double curvature(const Jet& jet) {
@@ -27,6 +31,11 @@ struct Reversed {
     return {forward.position, -forward.first, forward.second, -forward.third};
   }
   Vec2 velocity(double u) const { return -original.velocity(mirror(u)); }
+  std::optional<CurveRecord> record() const {
+    std::optional<CurveRecord> record = original.record();
+    if (record) record->kind = kReversedPrefix + record->kind;
+    return record;
+  }
 };
 
 }  // namespace

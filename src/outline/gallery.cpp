@@ -214,6 +214,7 @@ Outline gallery(const std::string& shape, const ParameterList& parameters) {
   Outline outline;
   outline.name = "gallery:" + shape;
   for (const auto& [name, value] : parameters) outline.name += fmt::format(",{}={}", name, value);
+  outline.gallery = outline.name;
   outline.closed = entry.shape.closed;
   outline.curves = entry.build(Parameters(entry.shape, parameters));
   return outline;

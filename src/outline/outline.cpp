@@ -7,6 +7,9 @@ Outline reversed(const Outline& outline) {
   result.name = outline.name;
   result.closed = outline.closed;
   result.reversed = !outline.reversed;
+  result.hole = outline.hole;
+  result.gallery = outline.gallery;
+  result.gap = outline.gap;
   result.curves.reserve(outline.curves.size());
   // A closed outline's first point is also the end of its last curve, and so stays the first point.
   for (auto curve = outline.curves.rbegin(); curve != outline.curves.rend(); ++curve) {

@@ -8,9 +8,12 @@
 #include <cstring>
 #include <limits>
 
+#include "outline/airfoil.hpp"
 #include "outline/number.hpp"
+#include "outline/numbered_points.hpp"
 #include "outline/text_file.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/outline/smoothing.hpp"
 
 namespace rollfix {
 
@@ -20,12 +23,6 @@ namespace {
 constexpr double kMostCoordinate = 1e75;
 /// A closed outline flatter than this share of its size has all its points on one line, but for rounding.
 constexpr double kFlat = 1e-12;
-
-/// Points with the lines they came from.
-struct NumberedPoints {
-  std::vector<Vec2> points;
-  std::vector<std::size_t> lines;
-};
 
 /// What a line holds.
 enum class LineKind { blank, point, words, one_number, mixed_separators };
@@ -117,7 +114,10 @@ NumberedPoints read_lines(std::string_view text, const std::string& name) {
     if (kind == LineKind::blank) continue;
     const bool is_title = kind == LineKind::words && title_may_come;
     title_may_come = false;
-    if (is_title) continue;
+    if (is_title) {
+      result.has_title = true;
+      continue;
+    }
     if (kind != LineKind::point) refuse_line(name, number, line, kind);
     if (!(point.cwiseAbs().maxCoeff() <= kMostCoordinate) || point.hasNaN()) {
       throw InputError(fmt::format("{}:{}: the point ({}, {}) is out of range, expected finite numbers of at most {}",
@@ -148,18 +148,6 @@ void require_enough(const NumberedPoints& data, const std::string& name, const O
   const std::string cure = !options.open && count == 2 ? " (or is it open?)" : "";
   throw InputError(
       fmt::format("{}: holds {} different points, {} outline needs at least {}{}", name, count, kind, needed, cure));
-}
-
-/// The format of some airfoil collections: after the title the number of points above and below, then both
-/// surfaces from the nose to the tail. Taken for points it would give nonsense.
-void refuse_lednicer(const NumberedPoints& data, const std::string& name) {
-  const Vec2& counts = data.points.front();
-  const bool are_whole = counts == counts.array().floor().matrix() && counts.minCoeff() > 2;
-  if (!are_whole || counts.sum() != static_cast<double>(data.points.size() - 1)) return;
-  throw InputError(
-      fmt::format("{}:{}: '{} {}' looks like the numbers of points above and below (Lednicer's airfoil format), "
-                  "expected the points of one loop in order (Selig's format)",
-                  name, data.lines.front(), counts.x(), counts.y()));
 }
 
 void refuse_repeated(const NumberedPoints& data, double size, const std::string& name, bool open) {
@@ -193,8 +181,11 @@ void refuse_flat(const std::vector<Vec2>& points, double size, const std::string
 
 }  // namespace
 
-std::vector<Vec2> parse_points(std::string_view text, const std::string& name, const OutlineOptions& options) {
+std::vector<Vec2> parse_points(std::string_view text, const std::string& name, const OutlineOptions& options,
+                               std::vector<std::string>* notes) {
   NumberedPoints data = read_lines(text, name);
+  const std::string airfoil = order_airfoil(data, name);
+  if (!airfoil.empty() && notes != nullptr) notes->push_back(fmt::format("{}: {}", name, airfoil));
   if (data.points.size() < 2) require_enough(data, name, options);
   const double size = size_of(data.points);
   if (!(size > 0)) {
@@ -207,21 +198,31 @@ std::vector<Vec2> parse_points(std::string_view text, const std::string& name, c
     data.lines.pop_back();
   }
   require_enough(data, name, options);
-  refuse_lednicer(data, name);
-  refuse_repeated(data, size, name, options.open);
+  if (!options.smooth) refuse_repeated(data, size, name, options.open);
   if (!options.open) refuse_flat(data.points, size, name);
   return std::move(data.points);
 }
 
-std::vector<Vec2> read_points(const std::string& path, const OutlineOptions& options) {
-  return parse_points(read_text(path), path == "-" ? "standard input" : path, options);
+std::vector<Vec2> read_points(const std::string& path, const OutlineOptions& options, std::vector<std::string>* notes) {
+  return parse_points(read_text(path), path == "-" ? "standard input" : path, options, notes);
 }
 
-Outline outline_through(const std::vector<Vec2>& points, const std::string& name, const OutlineOptions& options) {
+Outline outline_through(const std::vector<Vec2>& points, const std::string& name, const OutlineOptions& options,
+                        std::vector<std::string>* notes) {
   Outline outline;
   outline.name = name;
   outline.closed = !options.open;
-  outline.curves = spline_through(points, outline.closed, options.corner_angle);
+  if (!options.smooth) {
+    outline.curves = spline_through(points, outline.closed, options.corner_angle);
+    return outline;
+  }
+  Smoothing smoothing = smooth_spline(points, outline.closed, *options.smooth, options.corner_angle);
+  if (notes != nullptr) {
+    notes->push_back(fmt::format(
+        "smoothed: within {:.6g} of all {} points (largest deviation {:.4g}), {} curves, {} corners", *options.smooth,
+        points.size(), smoothing.deviation, smoothing.curves.size(), smoothing.corners.size()));
+  }
+  outline.curves = std::move(smoothing.curves);
   return outline;
 }
 

@@ -9,19 +9,11 @@
 #include "angle.hpp"
 #include "crossing.hpp"
 #include "events.hpp"
+#include "part_data.hpp"
 #include "rollfix/error.hpp"
 #include "turning_builder.hpp"
 
 namespace rollfix {
-
-struct Part::Data {
-  Outline outline;
-  TurningFunction turning;
-  Parametrization parametrization;
-  std::vector<Corner> corners;
-  std::vector<double> inflections;
-  std::vector<double> vertices;
-};
 
 namespace {
 
@@ -57,11 +49,13 @@ std::size_t panel_at(const TurningFunction& turning, double base, Side side) {
 
 Part::Part(Outline outline, const PartOptions& options) {
   auto data = std::make_shared<Data>();
-  if (outline.closed && !outline.curves.empty() && rough_area(outline) < 0) outline = rollfix::reversed(outline);
+  const bool is_empty = outline.curves.empty();
+  if (outline.closed && !is_empty && (rough_area(outline) < 0) != outline.hole) outline = rollfix::reversed(outline);
   for (int attempt = 0;; ++attempt) {
     TurningFunctionBuilder builder(outline);
     // The polygon of a very thin outline can mislead; the turn of the tangent does not.
-    if (outline.closed && builder.turning.period_turn() < 0 && attempt == 0) {
+    const double turn = builder.turning.period_turn();
+    if (outline.closed && attempt == 0 && (outline.hole ? turn > 0 : turn < 0)) {
       outline = rollfix::reversed(outline);
       continue;
     }

@@ -71,7 +71,7 @@ void TurningFunctionBuilder::add_curve(std::uint32_t index) {
   if (index > 0 || outline_.closed) {
     const Vec2 end = outline_.curves[before].back();
     const Vec2 start = curve.front();
-    if (!((end - start).norm() <= kGap * size_)) {
+    if (!((end - start).norm() <= std::max(kGap * size_, outline_.gap))) {
       throw InputError(fmt::format(
           "expected curve {} to start where curve {} ends, at ({:.9g}, {:.9g}); found ({:.9g}, {:.9g}), a gap of "
           "{:.3g}: close the gap or call the outline open",

@@ -2,7 +2,10 @@
 
 #include <concepts>
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "rollfix/outline/geometry.hpp"
 
@@ -22,11 +25,18 @@ double curvature(const Jet& jet);
 /// d(curvature)/d(parameter).
 double curvature_rate(const Jet& jet);
 
+/// What a curve was made of, so that a saved part can make it again to the bit: see curve_from.
+struct CurveRecord {
+  std::string kind;             // "line", "arc", ...
+  std::vector<double> numbers;  // as its constructor took them
+};
+
 /// A smooth (analytic on its domain, ends included) regular curve: what a user's own type must offer
 /// to become a part of an outline.
 ///   domain()    the parameter's interval, lo < hi
 ///   jet(u)      position and derivatives at u
-/// A `velocity(u)` (the first derivative alone) is used where it exists, because arc length needs no more.
+/// A `velocity(u)` (the first derivative alone) is used where it exists, because arc length needs no more,
+/// and a `record()` (a CurveRecord) so that a part made of it can be saved.
 template <class C>
 concept ParametricCurve = std::copy_constructible<C> && requires(const C& curve, double u) {
   { curve.domain() } -> std::convertible_to<Interval>;
@@ -47,6 +57,8 @@ class Curve {
   Vec2 position(double u) const { return model_->jet(u).position; }
   Vec2 front() const { return position(domain().lo); }
   Vec2 back() const { return position(domain().hi); }
+  /// Nothing for a curve type that does not offer it.
+  std::optional<CurveRecord> record() const { return model_->record(); }
 
  private:
   struct Interface {
@@ -54,6 +66,7 @@ class Curve {
     virtual Interval domain() const = 0;
     virtual Jet jet(double u) const = 0;
     virtual Vec2 velocity(double u) const = 0;
+    virtual std::optional<CurveRecord> record() const = 0;
   };
 
   template <class C>
@@ -68,6 +81,13 @@ class Curve {
         return curve.jet(u).first;
       }
     }
+    std::optional<CurveRecord> record() const override {
+      if constexpr (requires { curve.record(); }) {
+        return curve.record();
+      } else {
+        return std::nullopt;
+      }
+    }
     C curve;
   };
 
@@ -76,5 +96,9 @@ class Curve {
 
 /// The same points in the opposite direction; the parameter runs over the same interval.
 Curve reversed(const Curve& curve);
+
+/// The curve that has this record, to the bit. Throws InputError: a kind that is not known, another number of numbers
+/// than it takes, or numbers that its constructor refuses.
+Curve curve_from(const CurveRecord& record);
 
 }  // namespace rollfix

@@ -14,6 +14,9 @@ struct Outline {
   std::vector<Curve> curves;  // each analytic on its domain; where two meet is a joint or a corner
   bool closed = true;         // false: an open curve with two ends
   bool reversed = false;      // true: the user gave it in the opposite direction
+  bool hole = false;          // closed, and the material is outside: stored clockwise
+  std::string gallery{};      // the gallery's specification that gives these curves again; empty: not from there
+  double gap = 0;             // curves may start this far from where the one before ends: a drawing's rounded digits
 };
 
 /// The same boundary in the opposite direction with the same first point; `reversed` is toggled.

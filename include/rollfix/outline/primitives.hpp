@@ -14,6 +14,7 @@ class Line {
   Interval domain() const { return {0, 1}; }
   Vec2 velocity(double) const { return chord_; }
   Jet jet(double u) const { return {(1 - u) * from_ + u * to_, chord_, Vec2::Zero(), Vec2::Zero()}; }
+  CurveRecord record() const { return {"line", {from_.x(), from_.y(), to_.x(), to_.y()}}; }
 
  private:
   Vec2 from_;
@@ -32,12 +33,40 @@ class Arc {
   Interval domain() const { return {0, angle_}; }
   Vec2 velocity(double u) const;
   Jet jet(double u) const;
+  CurveRecord record() const { return {"arc", {centre_.x(), centre_.y(), radius_, from_, sweep_}}; }
 
  private:
   Vec2 centre_;
   Vec2 start_;  // from the centre to the first point
   Vec2 side_;   // start_ turned by a right angle in the direction of travel
   double angle_;
+  double radius_;  // as given
+  double from_;
+  double sweep_;
+};
+
+/// An arc of an ellipse: centre + cos(u) major + sin(u) minor, with u running from `from` by `sweep` (below 0:
+/// backwards). The two half axes need not be perpendicular: any affine image of a circle's arc is one. The parameter is
+/// the angle turned so far, in [0, |sweep|]. A full ellipse closes to the last bit.
+class EllipticArc {
+ public:
+  /// 0 < |sweep| <= 2 pi, half axes that are not parallel. Throws InputError otherwise.
+  EllipticArc(const Vec2& centre, const Vec2& major, const Vec2& minor, double from, double sweep);
+
+  Interval domain() const { return {0, angle_}; }
+  Vec2 velocity(double u) const;
+  Jet jet(double u) const;
+  CurveRecord record() const;
+
+ private:
+  Vec2 centre_;
+  Vec2 start_;  // from the centre to the first point
+  Vec2 side_;   // d(position)/du there
+  double angle_;
+  Vec2 major_;  // as given
+  Vec2 minor_;
+  double from_;
+  double sweep_;
 };
 
 /// A cubic between two points, u in [0, 1]:
@@ -61,6 +90,9 @@ class CubicSpan {
     const Vec2 chord_point = rest * from_ + u * to_;
     const Vec2 bulge = (rest * u) * (square_ + (1 + u) * cube_);
     return {chord_point - bulge, velocity(u), 2 * square_ + (6 * u) * cube_, 6 * cube_};
+  }
+  CurveRecord record() const {
+    return {"cubic", {from_.x(), from_.y(), to_.x(), to_.y(), square_.x(), square_.y(), cube_.x(), cube_.y()}};
   }
 
  private:

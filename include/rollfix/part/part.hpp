@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "rollfix/outline/outline.hpp"
@@ -10,11 +11,18 @@
 
 namespace rollfix {
 
+/// A jump this small is a smooth joint of a drawing whose digits were rounded, radians: Theta takes every value in
+/// between there, whichever way it turns. A corner that was meant turns by far more.
+inline constexpr double kJointTurn = 1e-3;
+
 /// A jump of the turning function at arc length s. `turn` > 0: convex (a finger pivots there);
 /// < 0: concave (a finger can't get into it).
 struct Corner {
   double s = 0;     // in [0, P)
   double turn = 0;  // radians, in (-pi, pi)
+
+  /// A finger can't roll over it.
+  bool is_concave() const { return turn <= -kJointTurn; }
 };
 
 struct PartOptions {
@@ -24,8 +32,8 @@ struct PartOptions {
 /// An outline with everything that is computed once per shape: the paper's "one-time overhead for one
 /// part shape". Immutable; copies share their data; safe to read from any number of threads.
 ///
-/// A closed outline is stored with the material on its left: a clockwise one is reversed (same first
-/// point) and `reversed()` says so. An open one keeps its direction.
+/// A closed outline is stored with the material on its left: a clockwise one (a hole: a counter-clockwise one) is
+/// reversed (same first point) and `reversed()` says so. An open one keeps its direction.
 ///
 /// Throws InputError: outline with a gap, a cusp, or (unless allowed) a self-crossing; the message says where.
 class Part {
@@ -55,7 +63,9 @@ class Part {
   std::vector<Vec2> polyline(double lo, double hi, int count) const;
 
  private:
+  friend struct PartAccess;
   struct Data;
+  explicit Part(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
   std::shared_ptr<const Data> data_;
 };
 

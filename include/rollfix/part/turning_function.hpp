@@ -95,6 +95,7 @@ class TurningFunction {
 
  private:
   friend class TurningFunctionBuilder;
+  friend struct TurningFunctionAccess;  // for saving it
 
   std::uint32_t middle_panel(const Spiral& spiral, double base) const;
 

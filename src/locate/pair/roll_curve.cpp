@@ -43,7 +43,7 @@ RollCurve::RollCurve(const Part& part, RollEquations equations, const Interval& 
 }
 
 /// Cuts the range of first contacts wherever a contact passes from one spiral to the next, and puts a pivot wherever
-/// one passes a convex corner.
+/// one passes a convex corner, or the tiny concave joint of a drawing (kJointTurn).
 void RollCurve::make_pieces(const Interval& range) {
   const double period = turning_.perimeter();
   const double same_place = kLengthAccuracy * period;
@@ -82,9 +82,10 @@ void RollCurve::make_pieces(const Interval& range) {
       const double after =
           passes ? ahead.start.angle + walker.winding * turning_.period_turn() : turning_.angle(s + places[c]);
       const double jump = passes ? ahead.start.angle - turning_.angle(ahead.lo, Side::before) : 0;
-      const bool convex = jump > kTurnAccuracy;
-      if (convex) ++corners;
-      tangents.push_back({convex ? after - jump : after, after});
+      const bool pivots = std::abs(jump) > kTurnAccuracy && !Corner{s, jump}.is_concave();
+      if (pivots) ++corners;
+      const double before = pivots ? after - jump : after;
+      tangents.push_back({std::min(before, after), std::max(before, after)});
     }
     if (corners > 0) add_pivots(s, tangents);
     if (corners < 2) return;

@@ -35,7 +35,7 @@ struct RollPoint {
 };
 
 /// Where all contacts stay on one spiral each, so that every tangent's angle has a monotone rate: x is s. Or where the
-/// finger pivots at a convex corner, x being the angle that it has pivoted by and s a constant.
+/// finger pivots at a convex corner (or at a tiny joint), x being the angle that it has pivoted by and s a constant.
 struct RollPiece {
   double lo = 0;  // of x
   double hi = 0;

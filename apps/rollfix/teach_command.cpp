@@ -1,0 +1,131 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "rollfix/commands.hpp"
+#include "rollfix/contact/log.hpp"
+#include "rollfix/contact/teach.hpp"
+#include "rollfix/draw/part_figure.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/finger_argument.hpp"
+#include "rollfix/inspect_outcome.hpp"
+#include "rollfix/noise_argument.hpp"
+#include "rollfix/output_argument.hpp"
+#include "rollfix/typed_number.hpp"
+#include "rollfix/usage.hpp"
+
+namespace rollfix::app {
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  rollfix simulate gallery:cam --finger disk,r=0.2 --start 0 --length 7.6 --samples 600 -o around.csv
+  rollfix teach around.csv --finger disk,r=0.2 -o taught.json
+  rollfix locate taught.json --reading 0.9,40deg --tolerance 0.1deg
+  rollfix teach around.csv --finger disk,r=0.2 --noise angle=1deg,slip=0.002 -o roughly.json
+)";
+
+struct TeachArguments {
+  std::string log;
+  std::vector<std::string> fingers;
+  std::string noise;
+  std::string corner_angle;
+  OutputArgument output;
+  bool bridge = false;
+  bool open = false;
+  bool allow_crossing = false;
+  bool json = false;
+};
+
+const char* word_for(Closing closing) {
+  switch (closing) {
+    case Closing::spread:
+      return "spread";
+    case Closing::bridged:
+      return "bridged";
+    case Closing::kept_open:
+      return "kept_open";
+    case Closing::not_asked:
+      break;
+  }
+  return "open";
+}
+
+Json taught_json(const Taught& taught) {
+  return {{"closing", word_for(taught.closing)},
+          {"rolled", taught.rolled},
+          {"lap", taught.lap},
+          {"overlap", taught.overlap},
+          {"turns", taught.turns},
+          {"turn_gap", taught.turn_gap},
+          {"turn_allowed", taught.turn_allowed},
+          {"gap", taught.gap},
+          {"gap_allowed", taught.gap_allowed},
+          {"bridge", taught.bridge},
+          {"correction", taught.correction},
+          {"deviation", taught.deviation}};
+}
+
+TeachOptions options_of(const TeachArguments& arguments) {
+  TeachOptions options;
+  options.finger = read_finger(arguments.fingers);
+  options.noise = read_noise(arguments.noise);
+  options.bridge = arguments.bridge;
+  options.open = arguments.open;
+  if (!arguments.corner_angle.empty()) options.corner_angle = read_angle(arguments.corner_angle, "--corner-angle");
+  if (options.bridge && options.open)
+    throw InputError("--bridge closes the part, --open keeps it open: give one of them");
+  return options;
+}
+
+Report teach_report(const TeachArguments& arguments) {
+  if (arguments.log.empty()) throw InputError("teach: expected a LOG of one roll around the part, found none");
+  const TeachOptions options = options_of(arguments);
+  require_part_output(arguments.output, arguments.json);
+  const Taught taught = rollfix::teach(read_log(arguments.log), options);
+  const LoadedPart loaded{Part(taught.outline, {arguments.allow_crossing}), "", {}, 0, {}};
+
+  Report report;
+  report.notes = taught.notes;
+  const InspectOutcome outcome = look_at(loaded);
+  if (arguments.json) {
+    Json json = inspect_json(outcome);
+    json["schema"] = "rollfix/teach/1";
+    json["taught"] = taught_json(taught);
+    report.data = json_text(json);
+  } else {
+    report.data = inspect_text(outcome);
+  }
+  add_part_output(
+      arguments.output, loaded.part,
+      [&] {
+        return draw_part({&loaded.part, "", 640});
+      },
+      report);
+  return report;
+}
+
+}  // namespace
+
+void add_teach_command(CLI::App& program, Command& chosen) {
+  const auto arguments = std::make_shared<TeachArguments>();
+  CLI::App* command = program.add_subcommand("teach", "A part without a drawing, from one full roll around it.");
+  command->footer(kExamples);
+  command->add_option("LOG", arguments->log, "a tactile log, or distance,dturn of a drive; - for stdin")->type_name("");
+  add_finger_argument(*command, arguments->fingers);
+  add_noise_argument(*command, arguments->noise);
+  add_switch(*command, "--bridge", arguments->bridge, "close a gap that drift does not explain by a piece");
+  add_switch(*command, "--open", arguments->open, "the roll runs along an open curve: close nothing");
+  command
+      ->add_option("--corner-angle", arguments->corner_angle,
+                   "where neighbouring rows turn by at least this there is a corner; default 59deg")
+      ->type_name("ANGLE");
+  add_switch(*command, "--allow-crossing", arguments->allow_crossing, "take a course that crosses itself");
+  add_output_argument(*command, arguments->output,
+                      "the part, .json, which every command takes as PART; or a figure: .svg, .png, .pdf");
+  add_switch(*command, "--json", arguments->json, "print JSON (rollfix/teach/1)");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return teach_report(*arguments); }; });
+}
+
+}  // namespace rollfix::app

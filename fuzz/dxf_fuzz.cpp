@@ -1,0 +1,15 @@
+// Any bytes as a DXF file: a drawing or an InputError.
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "rollfix/error.hpp"
+#include "rollfix/files/dxf.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  try {
+    rollfix::parse_dxf({reinterpret_cast<const char*>(data), size}, "fuzz.dxf");
+  } catch (const rollfix::InputError&) {
+  }
+  return 0;
+}

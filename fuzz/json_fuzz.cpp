@@ -1,0 +1,16 @@
+// Whatever bytes a JSON file holds, reading it ends with an outline, a drawing or an InputError.
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "rollfix/error.hpp"
+#include "rollfix/files/json_outline.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  try {
+    rollfix::parse_json_outline({reinterpret_cast<const char*>(data), size}, "fuzz.json");
+  } catch (const rollfix::InputError&) {
+    // what bad input should give
+  }
+  return 0;
+}

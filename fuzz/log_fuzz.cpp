@@ -1,0 +1,44 @@
+// Logs: whatever the bytes are, they give rows of one length, and readings, and a part to teach, or an InputError.
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+#include <vector>
+
+#include "rollfix/contact/log.hpp"
+#include "rollfix/contact/teach.hpp"
+#include "rollfix/error.hpp"
+
+namespace {
+
+/// More rows only make it slower.
+constexpr std::size_t kMostRows = 500;
+
+void require(bool holds) {
+  if (!holds) std::abort();
+}
+
+void teach(const rollfix::Log& log, const rollfix::DiskFinger& finger) {
+  rollfix::TeachOptions options;
+  options.finger = finger;
+  options.bridge = log.rows() % 2 == 0;
+  const rollfix::Taught taught = rollfix::teach(log, options);
+  require(!taught.outline.curves.empty());
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  const rollfix::DiskFinger finger{0.5};
+  try {
+    for (const rollfix::Log& log : rollfix::parse_logs(text, "fuzz.csv")) {
+      require(log.rows() > 0 && log.line.size() == log.rows());
+      const std::vector<rollfix::Reading> readings = rollfix::readings_as_given(log, finger);
+      require(readings.size() == log.rows());
+      if (log.rows() <= kMostRows) teach(log, finger);
+    }
+  } catch (const rollfix::InputError&) {
+  }
+  return 0;
+}

@@ -1,0 +1,13 @@
+#pragma once
+
+namespace rollfix {
+
+/// How far sensors are off: standard deviations.
+struct Noise {
+  double contact = 0;  // of a contact's place along the outline, in its unit, each row on its own
+  double angle = 0;    // of a turn, radians: each row on its own, and of a gyroscope's drift over the whole roll
+  double slip = 0;     // of the length travelled, per length
+  double radius = 0;   // of the finger's radius, in the outline's unit
+};
+
+}  // namespace rollfix

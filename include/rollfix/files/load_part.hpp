@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rollfix/outline/loops.hpp"
+#include "rollfix/outline/points.hpp"
+#include "rollfix/part/part.hpp"
+
+namespace rollfix {
+
+/// How to take what the user names. What does not apply to the kind of file is refused, never ignored.
+struct LoadOptions {
+  OutlineOptions points;            // `open` is for drawings as well: the longest open chain
+  std::optional<std::size_t> loop;  // of a drawing, counted from 1 as in LoadedPart::loops
+  std::optional<double> gap;        // of a drawing: ends this close together meet, in its unit; default see LoopOptions
+  std::string layer;                // of a DXF: only this one
+  bool allow_crossing = false;      // see PartOptions
+};
+
+/// A part with what its file said besides.
+struct LoadedPart {
+  Part part;
+  std::string unit;         // of a drawing: "mm", "in", ...; empty where the file does not say
+  std::vector<Loop> loops;  // of a drawing: the closed ones by falling area, then the open ones by falling length
+  std::size_t loop = 0;     // the one that was taken, counted from 1; 0: not a drawing
+  std::vector<std::string> notes;  // all that was left out, joined or chosen: for the user to read
+};
+
+/// The part that the user calls by this argument, which becomes its name: "gallery:NAME,key=value,...", a file by its
+/// ending (.csv .dat .txt points, .dxf, .svg, .json a gallery shape, curves or a saved part), or "-" for standard
+/// input, known by how it begins. Throws InputError: what the parts throw, an ending that is not known, an option that
+/// does not apply, or a drawing without a closed loop (with the size and the place of the gap).
+LoadedPart load_part(const std::string& argument, const LoadOptions& options = {});
+
+}  // namespace rollfix

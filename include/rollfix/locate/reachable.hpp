@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate/locate_pair.hpp"
+#include "rollfix/part/part.hpp"
+#include "rollfix/part/reach.hpp"
+
+namespace rollfix {
+
+/// Why a finger can't go on.
+struct Obstruction {
+  double s = 0;                 // where the contact is when it can't, in [0, P)
+  bool concave_corner = false;  // it would have to roll over a concave corner there; else it would ...
+  Hit hit;                      // ... enter the part: the deepest that it comes to
+};
+
+/// A placement that the readings allow and the finger does not.
+struct Impossible {
+  Placement placement;
+  Obstruction obstruction;
+};
+
+/// The same of two fingers: either one of them leaves its reach, or they overlap each other.
+struct PairImpossible {
+  enum class Cause { reach, overlap };
+  PairPlacement placement;
+  Cause cause = Cause::reach;
+  std::size_t finger = 0;   // 0 or 1: the one that leaves its reach, and ...
+  Obstruction obstruction;  // ... where
+  std::size_t instant = 0;  // when they overlap: 0 at the first contacts, then the readings, then the rows ...
+  double depth = 0;         // ... and by how much there, length, from the placement's own start
+};
+
+/// Can a finger that first touches somewhere in `starts` roll over all of `roll` (lo <= 0 <= hi, from the first
+/// contact) within its reach? Never no where it is yes: what is rounded counts as within reach.
+bool can_roll(const Reach& reach, const Interval& starts, const Interval& roll);
+
+/// Where a roll from s leaves the reach; nothing when it does not.
+std::optional<Obstruction> obstruction_of(const Part& part, const Reach& reach, double s, const Interval& roll);
+
+/// Takes the placements out of a search that no roll within reach can have: all of their extent is impossible.
+/// `readings`: what was searched with; `more`: other instants of the same roll, of a log all its rows. The contact has
+/// been everywhere in between. `length_error`: how far a length may be off, so that a finger that rolled until it met
+/// something is not taken to have gone further.
+std::vector<Impossible> drop_unreachable(const Part& part, const Reach& reach, const std::vector<Reading>& readings,
+                                         Search& search, const std::vector<Reading>& more = {},
+                                         double length_error = 0);
+
+/// The same of two fingers with a reach each. They overlap where their centres are closer together than their radii
+/// (less the smaller slack), looked at where both are at the same instant: at the first contacts and at each of the
+/// others. Jaws are not compared with each other.
+std::vector<PairImpossible> drop_unreachable(const Part& part, const std::array<Reach, 2>& reach,
+                                             const std::vector<PairReading>& readings, PairSearch& search,
+                                             const std::vector<PairReading>& more = {}, double length_error = 0);
+
+}  // namespace rollfix

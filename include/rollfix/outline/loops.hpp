@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rollfix/outline/drawing.hpp"
+#include "rollfix/outline/outline.hpp"
+
+namespace rollfix {
+
+/// Ends of curves closer together than this share of the drawing's diagonal meet, unless the user says otherwise.
+inline constexpr double kGapShare = 1e-6;
+
+struct LoopOptions {
+  std::optional<double> gap;  // a length: ends this close together meet; default: kGapShare of the diagonal
+};
+
+/// Curves of a drawing joined end to end.
+struct Loop {
+  Outline outline;        // starts with its first curve in the file, in that curve's direction
+  std::size_t first = 0;  // that curve's number in the drawing
+  double length = 0;      // of all its curves, to kLengthAccuracy or so
+  double area = 0;        // closed: enclosed, above 0 whichever way it runs
+  int depth = 0;          // closed: inside how many other closed loops it lies; odd: a hole
+  double gap = 0;         // the largest between neighbouring curves; open: not the one between its two ends
+
+  /// Whether the gap is more than rounding.
+  bool has_gap() const { return gap > 1e-9 * length; }
+};
+
+struct Loops {
+  std::vector<Loop> closed;        // by falling area: the first is the outer one
+  std::vector<Loop> open;          // by falling length
+  std::vector<std::string> notes;  // what was left out: curves drawn twice, curves without length
+};
+
+/// Joins a drawing's curves, whatever their order and direction, where ends meet within the gap.
+/// Throws InputError: no curves, or an end at which more than two curves meet (with the place).
+Loops loops(const Drawing& drawing, const LoopOptions& options = {});
+
+/// The area that a closed outline encloses, above 0 whichever way it runs; relative error 1e-11 or so.
+double enclosed_area(const Outline& outline);
+
+}  // namespace rollfix

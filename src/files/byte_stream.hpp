@@ -1,0 +1,68 @@
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+namespace rollfix {
+
+/// Numbers one after the other, eight bytes each, the lowest first, on every machine.
+class ByteWriter {
+ public:
+  void whole(std::uint64_t value) {
+    for (int shift = 0; shift < 64; shift += 8) bytes_.push_back(static_cast<char>((value >> shift) & 0xFFU));
+  }
+  void number(double value) { whole(std::bit_cast<std::uint64_t>(value)); }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::string bytes_;
+};
+
+/// Reads them again. Behind the end it gives zeros and `ok` is false.
+class ByteReader {
+ public:
+  explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
+
+  std::uint64_t whole() {
+    if (bytes_.size() - next_ < 8) {
+      ok_ = false;
+      return 0;
+    }
+    std::uint64_t value = 0;
+    for (std::size_t k = 0; k < 8; ++k) {
+      value |= static_cast<std::uint64_t>(static_cast<unsigned char>(bytes_[next_ + k])) << (8 * k);
+    }
+    next_ += 8;
+    return value;
+  }
+  double number() { return std::bit_cast<double>(whole()); }
+  /// A number of things that take at least `each` bytes: never more than there is room for.
+  std::size_t count(std::size_t each) {
+    const std::uint64_t value = whole();
+    if (value <= (bytes_.size() - next_) / each) return static_cast<std::size_t>(value);
+    ok_ = false;
+    return 0;
+  }
+  bool ok() const { return ok_; }
+  bool at_end() const { return next_ == bytes_.size(); }
+
+ private:
+  std::string_view bytes_;
+  std::size_t next_ = 0;
+  bool ok_ = true;
+};
+
+/// Base64, RFC 4648.
+std::string to_base64(std::string_view bytes);
+
+/// The bytes; `ok` becomes false where the text is not base64.
+std::string from_base64(std::string_view text, bool& ok);
+
+/// FNV-1a, eight bytes at a time. Whatever changes in one place changes the sum: each step is one to one.
+std::uint64_t checksum(std::string_view bytes);
+
+}  // namespace rollfix

@@ -1,0 +1,144 @@
+#include <fmt/format.h>
+
+#include <cstring>
+
+#include "files/dxf/tags.hpp"
+#include "files/dxf/text.hpp"
+#include "rollfix/error.hpp"
+
+namespace rollfix::dxf {
+
+namespace {
+
+/// How a binary file holds the value of a group.
+enum class ValueType { text, real, byte, int16, int32, int64, chunk };
+
+struct CodeRange {
+  int first;
+  int last;
+  ValueType type;
+};
+
+/// By group code; what is not listed is text that ends with a zero byte.
+constexpr CodeRange kValueTypes[] = {
+    {10, 59, ValueType::real},      {60, 79, ValueType::int16},    {90, 99, ValueType::int32},
+    {110, 149, ValueType::real},    {160, 169, ValueType::int64},  {170, 179, ValueType::int16},
+    {210, 239, ValueType::real},    {270, 289, ValueType::int16},  {290, 299, ValueType::byte},
+    {310, 319, ValueType::chunk},   {370, 389, ValueType::int16},  {400, 409, ValueType::int16},
+    {420, 429, ValueType::int32},   {440, 459, ValueType::int32},  {460, 469, ValueType::real},
+    {1004, 1004, ValueType::chunk}, {1010, 1059, ValueType::real}, {1060, 1070, ValueType::int16},
+    {1071, 1071, ValueType::int32},
+};
+constexpr int kMostCode = 1071;
+constexpr int kComment = 999;
+
+ValueType type_of(int code) {
+  for (const CodeRange& range : kValueTypes) {
+    if (range.first <= code && code <= range.last) return range.type;
+  }
+  return ValueType::text;
+}
+
+/// Codes of one byte (up to R12; 255 announces one of two bytes) or two, all least byte first.
+class BinaryTags : public TagReader {
+ public:
+  BinaryTags(std::string_view bytes, std::string name)
+      : name_(std::move(name)), bytes_(bytes), at_(kBinaryMark.size()) {
+    // The first code is 0, before SECTION, or a comment's: of two bytes it has its high byte where the other kind has
+    // the S, or follows a 255.
+    const std::string_view head = bytes_.substr(at_, 2);
+    short_codes_ = head.size() == 2 && (head[0] == '\xff' || (head[0] == 0 && head[1] != 0));
+  }
+
+  void next(Tag& tag) override {
+    do {
+      tag.place = at_;
+      tag.code = take_code();
+      take_value(tag);
+    } while (tag.code == kComment);
+  }
+
+  std::string where(std::size_t place) const override { return fmt::format("{}: byte {}", name_, place); }
+
+ private:
+  std::string_view take(std::size_t count) {
+    if (bytes_.size() - at_ < count) {
+      refuse(*this, bytes_.size(), "the file ends here, expected more up to 0 EOF: it has been cut short");
+    }
+    const std::string_view taken = bytes_.substr(at_, count);
+    at_ += count;
+    return taken;
+  }
+
+  template <class Whole>
+  Whole take_whole() {
+    const std::string_view taken = take(sizeof(Whole));
+    std::uint64_t bits = 0;
+    for (std::size_t k = sizeof(Whole); k-- > 0;) bits = bits << 8U | static_cast<unsigned char>(taken[k]);
+    return static_cast<Whole>(bits);
+  }
+
+  double take_real() {
+    const auto bits = take_whole<std::uint64_t>();
+    double real = 0;
+    std::memcpy(&real, &bits, sizeof real);
+    return real;
+  }
+
+  std::string_view take_text() {
+    const std::size_t zero = bytes_.find('\0', at_);
+    if (zero == std::string_view::npos) take(bytes_.size() - at_ + 1);  // says that the file ends
+    const std::string_view text = take(zero - at_);
+    ++at_;
+    return trimmed(text);
+  }
+
+  int take_code() {
+    const std::size_t start = at_;
+    int code = short_codes_ ? take_whole<std::uint8_t>() : take_whole<std::uint16_t>();
+    if (short_codes_ && code == 255) code = take_whole<std::uint16_t>();
+    if (code > kMostCode) {
+      refuse(*this, start, fmt::format("{} is not a group code, expected one of at most {}", code, kMostCode));
+    }
+    return code;
+  }
+
+  void take_value(Tag& tag) {
+    switch (type_of(tag.code)) {
+      case ValueType::text:
+        tag.value = take_text();
+        break;
+      case ValueType::real:
+        tag.value = take_real();
+        break;
+      case ValueType::byte:
+        tag.value = std::int64_t{take_whole<std::uint8_t>()};
+        break;
+      case ValueType::int16:
+        tag.value = std::int64_t{take_whole<std::int16_t>()};
+        break;
+      case ValueType::int32:
+        tag.value = std::int64_t{take_whole<std::int32_t>()};
+        break;
+      case ValueType::int64:
+        tag.value = take_whole<std::int64_t>();
+        break;
+      case ValueType::chunk:
+        tag.value = take(take_whole<std::uint8_t>());
+        break;
+    }
+  }
+
+  std::string name_;
+  std::string_view bytes_;
+  std::size_t at_;
+  bool short_codes_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<TagReader> open_binary_tags(std::string_view bytes, const std::string& name) {
+  return std::make_unique<BinaryTags>(bytes, name);
+}
+
+}  // namespace rollfix::dxf

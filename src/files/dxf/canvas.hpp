@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "files/dxf/model.hpp"
+#include "files/dxf/placement.hpp"
+#include "files/dxf/tags.hpp"
+#include "files/dxf/tally.hpp"
+#include "rollfix/outline/drawing.hpp"
+
+namespace rollfix::dxf {
+
+/// Where placed shapes become curves.
+class Canvas {
+ public:
+  Canvas(const TagReader& reader, const Model& model, Drawing& drawing, Tally& tally)
+      : reader_(reader), model_(model), drawing_(drawing), tally_(tally) {}
+
+  /// Draws a shape that is not an INSERT. `layer` is where it comes to lie.
+  /// Throws InputError: out of range, not parallel to the plane, or no curve (a spline's knots that fall).
+  void draw(const Entity& entity, const Placement& placement, std::size_t layer);
+
+  /// The map from the coordinates in which this entity is drawn. Throws InputError where it is tilted.
+  Placement placement_of(const Entity& entity, const Placement& outer) const;
+
+  /// Throws InputError unless all that was drawn lies at one height; notes a height that is not 0.
+  void require_flat() const;
+
+ private:
+  void draw_shape(const OtherShape& shape, const Placement& outer);
+  void draw_shape(const LineShape& line, const Placement& outer);
+  void draw_shape(const ArcShape& arc, const Placement& outer);
+  void draw_shape(const EllipseShape& ellipse, const Placement& outer);
+  void draw_shape(const PolylineShape& line, const Placement& outer);
+  void draw_shape(const SplineShape& spline, const Placement& outer);
+  void draw_shape(const InsertShape&, const Placement&) {}
+
+  /// Where the point comes to lie. Throws InputError beyond kMostNumber.
+  Vec2 placed(const Placement& placement, const Vec3& point);
+  std::vector<Vec2> placed(const Placement& placement, const std::vector<Vec3>& points);
+  void draw_line(const Placement& placement, const Vec3& from, const Vec3& to);
+  void draw_line(const Vec2& from, const Vec2& to);
+  void draw_arc(const Placement& placement, const Vec3& centre, const Vec2& major, const Vec2& minor, double from,
+                double sweep);
+  void draw_bulge(const Placement& placement, const Vertex& from, const Vertex& to);
+  std::vector<Curve> curves_of(const SplineShape& spline, const Placement& outer);
+  void take(Curve curve);
+
+  /// What `make` makes; its InputError gets the entity's place in front.
+  template <class Make>
+  auto made(const Make& make) const;
+  [[noreturn]] void refuse(const std::string& what) const;
+
+  const TagReader& reader_;
+  const Model& model_;
+  Drawing& drawing_;
+  Tally& tally_;
+  const Entity* entity_ = nullptr;  // being drawn
+  std::size_t layer_ = 0;
+
+  Vec2 least_ = Vec2::Zero();  // of all points
+  Vec2 most_ = Vec2::Zero();
+  bool any_ = false;
+  double first_height_ = 0;
+  double other_height_ = 0;  // the farthest from the first
+  std::size_t other_place_ = 0;
+};
+
+}  // namespace rollfix::dxf

@@ -1,0 +1,216 @@
+#include "rollfix/files/load_part.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+#include <variant>
+
+#include "files/file_kind.hpp"
+#include "outline/text_file.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/files/dxf.hpp"
+#include "rollfix/files/json_outline.hpp"
+#include "rollfix/files/saved_part.hpp"
+#include "rollfix/files/svg.hpp"
+#include "rollfix/outline/load.hpp"
+
+namespace rollfix {
+
+namespace {
+
+constexpr const char* kStandardInput = "standard input";
+
+std::string place(const Vec2& point) { return fmt::format("({:.9g}, {:.9g})", point.x(), point.y()); }
+
+/// The options that were given, by what they apply to.
+struct Given {
+  std::string for_points;    // the first option for points only
+  std::string for_drawings;  // for drawings only
+  bool open = false;
+  bool layer = false;
+
+  explicit Given(const LoadOptions& options) : open(options.points.open), layer(!options.layer.empty()) {
+    if (options.points.corner_angle != kCornerAngle) for_points = "--corner-angle";
+    if (options.points.smooth) for_points = "--smooth";
+    if (options.loop) for_drawings = "--loop";
+    if (options.gap) for_drawings = "--gap";
+    if (layer) for_drawings = "--layer";
+  }
+};
+
+void refuse(const std::string& option, const char* what_for, const std::string& name, const char* what_it_is) {
+  if (option.empty()) return;
+  throw InputError(fmt::format("{} is for {}, and {} is {}: leave the option out", option, what_for, name, what_it_is));
+}
+
+void require_options_for(FileKind kind, const std::string& name, const LoadOptions& options) {
+  const Given given(options);
+  switch (kind) {
+    case FileKind::gallery:
+      refuse(given.for_points, "points", name, "a gallery shape");
+      refuse(given.for_drawings, "drawings", name, "a gallery shape");
+      refuse(given.open ? "--open" : "", "points and drawings", name, "a gallery shape");
+      break;
+    case FileKind::points:
+      refuse(given.for_drawings, "drawings", name, "points");
+      break;
+    case FileKind::dxf:
+      break;
+    case FileKind::svg:
+    case FileKind::json:
+      refuse(given.layer ? "--layer" : "", "DXF files", name, "none");
+      break;
+    case FileKind::saved_part:
+      refuse(given.for_points, "points", name, "a saved part");
+      refuse(given.for_drawings, "drawings", name, "a saved part");
+      refuse(given.open ? "--open" : "", "points and drawings", name, "a saved part");
+      break;
+  }
+}
+
+LoadedPart of_outline(Outline outline, const LoadOptions& options) {
+  return {Part(std::move(outline), {options.allow_crossing}), "", {}, 0, {}};
+}
+
+std::string counted(std::size_t count, const char* one, const char* many) {
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+[[noreturn]] void refuse_open(const std::string& name, const Loop& longest) {
+  const Vec2 start = longest.outline.curves.front().front();
+  const Vec2 end = longest.outline.curves.back().back();
+  const double gap = (end - start).norm();
+  throw InputError(fmt::format(
+      "{}: expected a closed loop, found none: the longest chain ({}, length {:.6g}) is open by {:.6g} "
+      "between {} and {}: close it in the drawing, let ends that far apart meet with --gap, or take it as "
+      "it is with --open",
+      name, counted(longest.outline.curves.size(), "curve", "curves"), longest.length, gap, place(end), place(start)));
+}
+
+/// Which loop to take, counted from 0.
+std::size_t choice(const std::string& name, const Loops& found, const LoadOptions& options) {
+  const std::size_t count = found.closed.size() + found.open.size();
+  if (options.loop) {
+    if (*options.loop >= 1 && *options.loop <= count) return *options.loop - 1;
+    throw InputError(fmt::format("--loop {}: {} has {}: expected a number from 1 to {}; rollfix inspect lists them",
+                                 *options.loop, name, counted(count, "loop", "loops"), count));
+  }
+  if (options.points.open) {
+    if (!found.open.empty()) return found.closed.size();
+    throw InputError(
+        fmt::format("{}: --open expects a chain of curves with two ends, found closed loops only: leave "
+                    "the option out",
+                    name));
+  }
+  if (found.closed.empty()) refuse_open(name, found.open.front());
+  return 0;
+}
+
+std::vector<std::string> notes_on(const Drawing& drawing, const Loops& found, std::size_t chosen, const Loop& loop,
+                                  const LoadOptions& options) {
+  std::vector<std::string> notes;
+  const auto add = [&](const std::string& note) { notes.push_back(fmt::format("{}: {}", drawing.name, note)); };
+  for (const std::string& note : drawing.notes) add(note);
+  for (const std::string& note : found.notes) add(note);
+  const bool is_choice = found.closed.size() + found.open.size() > 1;
+  if (is_choice && !options.loop) {
+    add(fmt::format("{} and {}: took number {}, the {}; --loop N takes another, rollfix inspect lists them",
+                    counted(found.closed.size(), "closed loop", "closed loops"),
+                    counted(found.open.size(), "open chain", "open chains"), chosen + 1,
+                    loop.outline.closed ? "largest loop" : "longest chain"));
+  }
+  if (loop.has_gap()) {
+    add(fmt::format("ends of curves up to {:.3g} apart were taken to meet (--gap)", loop.gap));
+  }
+  if (!loop.outline.closed && !options.points.open) add("the loop taken is open: a curve with two ends");
+  return notes;
+}
+
+/// The ends of a loop's lines as points of a scan, to be smoothed.
+Outline smoothed(const Loop& loop, const std::string& name, const LoadOptions& options,
+                 std::vector<std::string>& notes) {
+  std::vector<Vec2> points;
+  for (const Curve& curve : loop.outline.curves) {
+    const std::optional<CurveRecord> record = curve.record();
+    const bool is_line = record && record->kind.find("line") != std::string::npos;
+    if (!is_line) {
+      throw InputError(fmt::format(
+          "{}: --smooth is for points and for loops of straight lines, and this one has curves: leave the option out",
+          name));
+    }
+    points.push_back(curve.front());
+  }
+  OutlineOptions as_points = options.points;
+  as_points.open = !loop.outline.closed;
+  if (as_points.open) points.push_back(loop.outline.curves.back().back());
+  Outline outline = outline_through(points, name, as_points, &notes);
+  outline.hole = loop.outline.hole;
+  return outline;
+}
+
+LoadedPart of_drawing(const Drawing& drawing, const LoadOptions& options) {
+  const Loops found = loops(drawing, {options.gap});
+  std::vector<Loop> all = found.closed;
+  all.insert(all.end(), found.open.begin(), found.open.end());
+  const std::size_t chosen = choice(drawing.name, found, options);
+  std::vector<std::string> notes = notes_on(drawing, found, chosen, all[chosen], options);
+  const bool corner_angle_alone = !options.points.smooth && options.points.corner_angle != kCornerAngle;
+  refuse(corner_angle_alone ? "--corner-angle" : "", "points", drawing.name, "a drawing");
+  Outline outline = options.points.smooth ? smoothed(all[chosen], drawing.name, options, notes) : all[chosen].outline;
+  Part part(std::move(outline), {options.allow_crossing});
+  return {std::move(part), drawing.unit, std::move(all), chosen + 1, std::move(notes)};
+}
+
+LoadedPart of_json(const std::string& text, const std::string& name, const LoadOptions& options) {
+  std::variant<Outline, Drawing> content = parse_json_outline(text, name);
+  if (const Drawing* drawing = std::get_if<Drawing>(&content)) {
+    require_options_for(FileKind::json, name, options);
+    return of_drawing(*drawing, options);
+  }
+  require_options_for(FileKind::gallery, name, options);
+  return of_outline(std::move(std::get<Outline>(content)), options);
+}
+
+LoadedPart of_file(FileKind kind, const std::string& text, const std::string& name, const LoadOptions& options) {
+  switch (kind) {
+    case FileKind::dxf:
+      return of_drawing(parse_dxf(text, name, {options.layer}), options);
+    case FileKind::svg:
+      return of_drawing(parse_svg(text, name), options);
+    case FileKind::saved_part:
+      return {parse_part(text, name), "", {}, 0, {}};
+    case FileKind::json:
+      return of_json(text, name, options);
+    default: {
+      std::vector<std::string> notes;
+      const std::vector<Vec2> points = parse_points(text, name, options.points, &notes);
+      LoadedPart loaded = of_outline(outline_through(points, name, options.points, &notes), options);
+      loaded.notes = std::move(notes);
+      return loaded;
+    }
+  }
+}
+
+}  // namespace
+
+LoadedPart load_part(const std::string& argument, const LoadOptions& options) {
+  const std::string name = argument == "-" ? kStandardInput : argument;
+  try {
+    const FileKind by_name = kind_by_name(argument);
+    if (by_name == FileKind::gallery) {
+      require_options_for(by_name, name, options);
+      return of_outline(load_outline(argument), options);
+    }
+    const std::string text = read_text(argument);
+    const FileKind kind = kind_by_content(by_name, argument == "-", text);
+    if (kind != FileKind::json) require_options_for(kind, name, options);
+    return of_file(kind, text, name, options);
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    const bool named = argument.rfind("gallery:", 0) == 0 || message.find(name) != std::string::npos;
+    throw InputError(named ? message : fmt::format("{}: {}", name, message));
+  }
+}
+
+}  // namespace rollfix

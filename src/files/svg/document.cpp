@@ -1,0 +1,121 @@
+#include "files/svg/document.hpp"
+
+#include <fmt/format.h>
+
+#include <cstring>
+
+#include "files/svg/scanner.hpp"
+#include "files/svg/utf16.hpp"
+#include "rollfix/error.hpp"
+
+namespace rollfix::svg {
+
+namespace {
+
+constexpr std::string_view kNamespace = "http://www.w3.org/2000/svg";
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+std::string readable(std::string_view text, const std::string& name) {
+  if (text.substr(0, 2) == "\x1F\x8B") {
+    throw InputError(fmt::format("{}: is compressed (.svgz), expected plain SVG: unpack it with gunzip", name));
+  }
+  if (is_utf16(text)) return utf8_from_utf16(text, name);
+  const std::size_t zero = text.find('\0');
+  if (zero != std::string_view::npos) {
+    Text(text, name).refuse(zero, "holds a byte of 0, expected the text of an SVG file");
+  }
+  return std::string(text);
+}
+
+/// Where the element's name has a prefix, with its colon.
+std::string prefix_of(std::string_view name) {
+  const std::size_t colon = name.find(':');
+  return colon == std::string_view::npos ? "" : std::string(name.substr(0, colon + 1));
+}
+
+}  // namespace
+
+Document::Document(std::string_view text, const std::string& name) : buffer_(readable(text, name)) {
+  text_.emplace(buffer_, name);
+  // Whatever the file calls its encoding, names and numbers are ASCII.
+  const pugi::xml_parse_result parsed = document_.load_buffer_inplace(
+      buffer_.data(), buffer_.size(), pugi::parse_default | pugi::parse_doctype, pugi::encoding_utf8);
+  if (parsed.status == pugi::status_no_document_element) {
+    throw InputError(fmt::format("{}: holds no XML element, expected an SVG file", name));
+  }
+  if (!parsed) {
+    text_->refuse(static_cast<std::size_t>(parsed.offset),
+                  fmt::format("is not XML from here on ({}), expected a whole SVG file", parsed.description()));
+  }
+  root_ = document_.document_element();
+  prefix_ = prefix_of(root_.name());
+  const std::string own = prefix_.empty() ? "xmlns" : "xmlns:" + prefix_.substr(0, prefix_.size() - 1);
+  const std::string_view space = root_.attribute(own.c_str()).value();
+  // Old programs write the name space as an entity of their own.
+  const bool other_space = !space.empty() && space != kNamespace && space.front() != '&';
+  if (std::string_view(root_.name()).substr(prefix_.size()) != "svg" || other_space) {
+    refuse(root_, fmt::format("is not an SVG: its outermost element is <{}>, expected <svg>", shown(root_.name())));
+  }
+  for (pugi::xml_node node = root_.next_sibling(); node; node = node.next_sibling()) {
+    if (node.type() == pugi::node_element) refuse(node, "is not XML: has a second outermost element");
+  }
+}
+
+std::size_t Document::offset_of(pugi::xml_node node) const {
+  const char* const place = node.type() == pugi::node_pcdata ? node.value() : node.name();
+  return static_cast<std::size_t>(place - buffer_.data());
+}
+
+void Document::refuse(pugi::xml_node node, const std::string& message) const {
+  text_->refuse(offset_of(node), message);
+}
+
+std::string_view Document::kind(pugi::xml_node node) const {
+  if (node.type() != pugi::node_element) return {};
+  const std::string_view name = node.name();
+  if (name.size() <= prefix_.size() || name.substr(0, prefix_.size()) != prefix_) return {};
+  const std::string_view own = name.substr(prefix_.size());
+  if (own.find(':') != std::string_view::npos) return {};
+  const std::string_view space = prefix_.empty() && node != root_ ? node.attribute("xmlns").value() : "";
+  return space.empty() || space == kNamespace ? own : std::string_view();
+}
+
+Value Document::value_of(const pugi::xml_attribute& attribute) const {
+  const std::string_view text = trimmed(attribute.value());
+  // An empty value points to nothing of the file.
+  const std::size_t offset = text.empty() ? static_cast<std::size_t>(attribute.name() - buffer_.data())
+                                          : static_cast<std::size_t>(text.data() - buffer_.data());
+  return {*text_, text, offset};
+}
+
+std::optional<Value> Document::attribute(pugi::xml_node node, const char* name) const {
+  const pugi::xml_attribute found = node.attribute(name);
+  if (!found) return std::nullopt;
+  return value_of(found);
+}
+
+std::string_view Document::property(pugi::xml_node node, const char* name) const {
+  const auto styled = style_property(node.attribute("style").value(), name);
+  return styled ? *styled : trimmed(node.attribute(name).value());
+}
+
+std::optional<std::string_view> style_property(std::string_view style, std::string_view name) {
+  std::optional<std::string_view> found;
+  while (!style.empty()) {
+    const std::size_t stop = style.find(';');
+    const std::string_view declaration = style.substr(0, stop);
+    style.remove_prefix(stop == std::string_view::npos ? style.size() : stop + 1);
+    const std::size_t colon = declaration.find(':');
+    if (colon == std::string_view::npos || trimmed(declaration.substr(0, colon)) != name) continue;
+    const std::string_view value = declaration.substr(colon + 1);
+    found = trimmed(value.substr(0, value.find('!')));  // "!important"
+  }
+  return found;
+}
+
+}  // namespace rollfix::svg

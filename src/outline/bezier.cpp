@@ -1,0 +1,376 @@
+#include "rollfix/outline/bezier.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "rollfix/error.hpp"
+#include "rollfix/outline/primitives.hpp"
+
+namespace rollfix {
+
+namespace {
+
+/// A point times its weight, and the weight.
+using Homogeneous = Eigen::Vector3d;
+
+Homogeneous lifted(const Vec2& point, double weight) { return {weight * point.x(), weight * point.y(), weight}; }
+
+void require_points(const std::vector<Vec2>& points, const std::vector<double>& weights) {
+  if (!weights.empty() && weights.size() != points.size()) {
+    throw InputError(
+        fmt::format("expected one weight for each of {} control points, found {}", points.size(), weights.size()));
+  }
+  for (const Vec2& point : points) {
+    if (!point.allFinite()) {
+      throw InputError(fmt::format("expected finite control points, found ({}, {})", point.x(), point.y()));
+    }
+  }
+  for (const double weight : weights) {
+    if (!(weight > 0) || !std::isfinite(weight)) {
+      throw InputError(fmt::format("expected weights above 0, found {}", weight));
+    }
+  }
+}
+
+/// The point at u of the Bezier curve with these control points; no control points: 0.
+template <class Point>
+Point de_casteljau(const Point* controls, std::size_t count, double u) {
+  if (count == 0) return Point::Zero();
+  std::array<Point, kMostDegree + 1> row;
+  std::copy(controls, controls + count, row.begin());
+  for (std::size_t left = count; left > 1; --left) {
+    for (std::size_t k = 0; k + 1 < left; ++k) row[k] = (1 - u) * row[k] + u * row[k + 1];
+  }
+  return row[0];
+}
+
+/// Appends the control points of a curve's first three derivatives, given its own.
+/// Differences of control points keep a velocity exact where it is small; those of points do not.
+template <class Point>
+void append_derivatives(std::vector<Point>& rows, const std::vector<Point>& controls) {
+  std::array<Point, kMostDegree + 1> row;
+  std::copy(controls.begin(), controls.end(), row.begin());
+  std::size_t count = controls.size();
+  rows.reserve(rows.size() + 3 * count);
+  for (int order = 1; order <= 3 && count > 1; ++order) {
+    const auto degree = static_cast<double>(--count);
+    for (std::size_t k = 0; k < count; ++k) row[k] = degree * (row[k + 1] - row[k]);
+    rows.insert(rows.end(), row.begin(), row.begin() + static_cast<std::ptrdiff_t>(count));
+  }
+}
+
+/// The control points of (w (P - origin), w), and of its derivatives after them.
+std::vector<Homogeneous> weighted_rows(const std::vector<Vec2>& points, const std::vector<double>& weights,
+                                       const Vec2& origin) {
+  std::vector<Homogeneous> controls;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    controls.push_back(lifted(points[k] - origin, weights.empty() ? 1 : weights[k]));
+  }
+  std::vector<Homogeneous> rows = controls;
+  append_derivatives(rows, controls);
+  return rows;
+}
+
+/// Position (from the origin) and derivatives of numerator / w (the quotient rule, one order after the other).
+Jet projected(const std::vector<Homogeneous>& rows, std::size_t count, double u) {
+  std::array<Homogeneous, 4> d;
+  const Homogeneous* row = rows.data();
+  for (std::size_t order = 0; order < d.size(); ++order) {
+    const std::size_t left = count > order ? count - order : 0;
+    d[order] = de_casteljau(row, left, u);
+    row += left;
+  }
+  const double w = d[0].z();
+  const auto plane = [&d](std::size_t k) { return Vec2(d[k].head<2>()); };
+  Jet jet;
+  jet.position = plane(0) / w;
+  jet.first = (plane(1) - d[1].z() * jet.position) / w;
+  jet.second = (plane(2) - 2 * d[1].z() * jet.first - d[2].z() * jet.position) / w;
+  jet.third = (plane(3) - 3 * d[1].z() * jet.second - 3 * d[2].z() * jet.first - d[3].z() * jet.position) / w;
+  return jet;
+}
+
+void require_bezier(const std::vector<Vec2>& points, const std::vector<double>& weights) {
+  if (points.size() < 2 || points.size() > kMostDegree + 1) {
+    throw InputError(fmt::format("expected 2 to {} control points, found {}", kMostDegree + 1, points.size()));
+  }
+  require_points(points, weights);
+}
+
+bool all_the_same(const std::vector<Vec2>& points) {
+  return std::all_of(points.begin(), points.end(), [&](const Vec2& point) { return point == points[0]; });
+}
+
+void clear_equal(std::vector<double>& weights) {
+  if (std::all_of(weights.begin(), weights.end(), [&](double weight) { return weight == weights[0]; })) weights.clear();
+}
+
+CurveRecord recorded(std::string kind, const std::vector<Vec2>& points, const std::vector<double>& weights) {
+  CurveRecord record{(weights.empty() ? "" : "rational-") + std::move(kind), {}};
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    record.numbers.push_back(points[k].x());
+    record.numbers.push_back(points[k].y());
+    if (!weights.empty()) record.numbers.push_back(weights[k]);
+  }
+  return record;
+}
+
+/// How far rounding may have moved control points.
+double rounding_of(const std::vector<Vec2>& points) {
+  constexpr double kRoundings = 8;  // of a few multiplications: a transformation of the drawing
+  double most = 0;
+  for (const Vec2& point : points) most = std::max(most, point.cwiseAbs().maxCoeff());
+  return kRoundings * std::numeric_limits<double>::epsilon() * most;
+}
+
+double longest_step(const std::vector<Vec2>& points) {
+  double most = 0;
+  for (std::size_t k = 1; k < points.size(); ++k) most = std::max(most, (points[k] - points[k - 1]).norm());
+  return most;
+}
+
+/// The control point number k, counted from an end.
+const Vec2& counted_from(Rest end, const std::vector<Vec2>& points, std::size_t k) {
+  return end == Rest::start ? points[k] : points[points.size() - 1 - k];
+}
+
+/// The number of control points next to an end one that coincide with it but for rounding.
+std::size_t resting(const std::vector<Vec2>& points, Rest end = Rest::start) {
+  const double rounding = rounding_of(points);
+  const Vec2& first = counted_from(end, points, 0);
+  std::size_t count = 0;
+  while (count + 1 < points.size() && (counted_from(end, points, count + 1) - first).norm() <= rounding) ++count;
+  return count;
+}
+
+/// A first step below this share of the longest one makes a curve start at rest, or so nearly that halving its
+/// parameter's interval would not get there.
+constexpr double kSlowStart = 1e-6;
+
+bool is_at_rest(const std::vector<Vec2>& points, Rest end) {
+  const double step = (counted_from(end, points, 1) - counted_from(end, points, 0)).norm();
+  return step < kSlowStart * longest_step(points) || resting(points, end) > 0;
+}
+
+/// All control points on one line, one after the other: the curve is that line.
+bool is_straight(const std::vector<Vec2>& points) {
+  const Vec2 chord = points.back() - points.front();
+  const double length = chord.norm();
+  const double rounding = rounding_of(points);
+  if (!(length > rounding)) return false;
+  const Vec2 ahead = chord / length;
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    if (std::abs(cross(ahead, points[k] - points[0])) > rounding) return false;
+    if (ahead.dot(points[k] - points[k - 1]) < -rounding) return false;
+  }
+  return true;
+}
+
+struct Controls {
+  std::vector<Vec2> points;
+  std::vector<double> weights;
+};
+
+Controls reversed(Controls controls) {
+  std::reverse(controls.points.begin(), controls.points.end());
+  std::reverse(controls.weights.begin(), controls.weights.end());
+  return controls;
+}
+
+/// The control points of the first half, u in [0, 1/2].
+Controls first_half(const Controls& whole) {
+  const bool rational = !whole.weights.empty();
+  std::vector<Homogeneous> row;
+  for (std::size_t k = 0; k < whole.points.size(); ++k) {
+    row.push_back(lifted(whole.points[k], rational ? whole.weights[k] : 1));
+  }
+  Controls half;
+  for (std::size_t left = row.size(); left >= 1; --left) {
+    half.points.emplace_back(left == row.size() ? whole.points[0] : row[0].head<2>() / row[0].z());
+    if (rational) half.weights.push_back(row[0].z());
+    for (std::size_t k = 0; k + 1 < left; ++k) row[k] = 0.5 * (row[k] + row[k + 1]);
+  }
+  return half;
+}
+
+/// One of a spline's polynomial stretches: its control points as a Bezier curve, by the spline's polar form (blossom).
+Homogeneous blossom(std::vector<Homogeneous> row, const std::vector<double>& knots, int degree, std::size_t span,
+                    const std::vector<double>& arguments) {
+  const auto p = static_cast<std::size_t>(degree);
+  for (std::size_t level = 1; level <= p; ++level) {
+    for (std::size_t j = p; j >= level; --j) {
+      const double lo = knots[span - p + j];
+      const double hi = knots[span + 1 + j - level];
+      const double share = (arguments[level - 1] - lo) / (hi - lo);
+      row[j] = (1 - share) * row[j - 1] + share * row[j];
+    }
+  }
+  return row[p];
+}
+
+void require_knots(int degree, const std::vector<double>& knots, std::size_t points) {
+  if (degree < 1 || degree > kMostDegree) {
+    throw InputError(fmt::format("expected a spline of degree 1 to {}, found {}", kMostDegree, degree));
+  }
+  const auto p = static_cast<std::size_t>(degree);
+  if (points < p + 1) {
+    throw InputError(
+        fmt::format("expected at least {} control points for a spline of degree {}, found {}", p + 1, degree, points));
+  }
+  if (knots.size() != points + p + 1) {
+    throw InputError(fmt::format("expected {} knots for {} control points and degree {}, found {}", points + p + 1,
+                                 points, degree, knots.size()));
+  }
+  for (std::size_t k = 0; k < knots.size(); ++k) {
+    if (!std::isfinite(knots[k])) throw InputError(fmt::format("expected finite knots, found {}", knots[k]));
+    if (k > 0 && knots[k] < knots[k - 1]) {
+      throw InputError(fmt::format("expected knots in rising order, found {} after {}", knots[k], knots[k - 1]));
+    }
+  }
+  if (!(knots[p] < knots[points])) throw InputError("expected knots that span an interval, found them all the same");
+  for (std::size_t k = p + 1; k + p < points; ++k) {
+    if (knots[k] == knots[k + p] && knots[k] > knots[p] && knots[k] < knots[points]) {
+      throw InputError(fmt::format("the inner knot {} stands there more than {} times: the curve has a gap there",
+                                   knots[k], degree));
+    }
+  }
+}
+
+}  // namespace
+
+Bezier::Bezier(std::vector<Vec2> points, std::vector<double> weights)
+    : points_(std::move(points)), weights_(std::move(weights)) {
+  require_bezier(points_, weights_);
+  if (all_the_same(points_)) throw InputError("all control points of a curve are the same; leave it out");
+  clear_equal(weights_);
+  if (weights_.empty()) {
+    append_derivatives(slopes_, points_);
+  } else {
+    weighted_ = weighted_rows(points_, weights_, points_.front());
+  }
+}
+
+Vec2 Bezier::velocity(double u) const {
+  return weights_.empty() ? de_casteljau(slopes_.data(), points_.size() - 1, u) : jet(u).first;
+}
+
+Jet Bezier::jet(double u) const {
+  const std::size_t count = points_.size();
+  Jet jet;
+  if (weights_.empty()) {
+    const Vec2* const seconds = slopes_.data() + (count - 1);
+    const std::size_t left = count - 2;  // second derivatives' control points
+    jet.position = de_casteljau(points_.data(), count, u);
+    jet.first = de_casteljau(slopes_.data(), count - 1, u);
+    jet.second = de_casteljau(seconds, left, u);
+    jet.third = de_casteljau(seconds + left, left > 0 ? left - 1 : 0, u);
+  } else {
+    jet = projected(weighted_, count, u);
+    jet.position += points_.front();
+  }
+  if (u == 0) jet.position = points_.front();
+  if (u == 1) jet.position = points_.back();
+  return jet;
+}
+
+CurveRecord Bezier::record() const { return recorded("bezier", points_, weights_); }
+
+BezierFromRest::BezierFromRest(std::vector<Vec2> points, std::vector<double> weights, Rest rest)
+    : points_(std::move(points)), weights_(std::move(weights)), rest_(rest) {
+  require_bezier(points_, weights_);
+  clear_equal(weights_);
+  Controls controls{points_, weights_};
+  if (rest_ == Rest::end) controls = reversed(std::move(controls));
+  origin_ = controls.points.front();
+  far_end_ = controls.points.back();
+  const std::size_t count = resting(controls.points);
+  if (count + 1 == points_.size()) throw InputError("all control points of a curve are the same; leave it out");
+  for (std::size_t k = 1; k <= count; ++k) controls.points[k] = origin_;
+  weighted_ = weighted_rows(controls.points, controls.weights, origin_);
+  // Over u the direction changes by about u / natural. At the first u the rounding of cross(first, second), which is
+  // epsilon * natural / u of it, must leave the curvature's sign and trend alone.
+  constexpr double kFirst = 0x1p-37;
+  const double natural = (controls.points[count + 1] - controls.points[count]).norm() / longest_step(controls.points);
+  orders_ = -std::log(kFirst * natural);
+}
+
+Jet BezierFromRest::jet(double v) const {
+  const double sign = rest_ == Rest::start ? 1 : -1;
+  const double from_rest = rest_ == Rest::start ? v : 1 - v;
+  const double u = std::exp(-orders_ * (1 - from_rest));
+  const Jet by_u = projected(weighted_, points_.size(), u);
+  // u' = a u with a = +-orders, so d/dv of (u p') is a (u p' + u^2 p''), and so on.
+  const double a = sign * orders_;
+  const Vec2 one = u * by_u.first;
+  const Vec2 two = u * u * by_u.second;
+  const Vec2 three = u * u * u * by_u.third;
+  Jet jet{origin_ + by_u.position, a * one, a * a * (one + two), a * a * a * (one + 3 * two + three)};
+  if (from_rest == 0) jet.position = origin_;
+  if (from_rest == 1) jet.position = far_end_;
+  return jet;
+}
+
+CurveRecord BezierFromRest::record() const {
+  return recorded(rest_ == Rest::start ? "bezier-from-rest" : "bezier-to-rest", points_, weights_);
+}
+
+std::vector<Curve> bezier_curves(std::vector<Vec2> points, std::vector<double> weights) {
+  require_bezier(points, weights);
+  if (resting(points) + 1 == points.size()) return {};
+  if (is_straight(points)) return {Line(points.front(), points.back())};
+  const bool rests_at_start = is_at_rest(points, Rest::start);
+  const bool rests_at_end = is_at_rest(points, Rest::end);
+  if (rests_at_start && rests_at_end) {
+    const Controls whole{std::move(points), std::move(weights)};
+    Controls start = first_half(whole);
+    Controls end = reversed(first_half(reversed(whole)));
+    return {BezierFromRest(std::move(start.points), std::move(start.weights), Rest::start),
+            BezierFromRest(std::move(end.points), std::move(end.weights), Rest::end)};
+  }
+  if (rests_at_start) return {BezierFromRest(std::move(points), std::move(weights), Rest::start)};
+  if (rests_at_end) return {BezierFromRest(std::move(points), std::move(weights), Rest::end)};
+  return {Bezier(std::move(points), std::move(weights))};
+}
+
+std::vector<Curve> nurbs(int degree, const std::vector<double>& knots, const std::vector<Vec2>& points,
+                         const std::vector<double>& weights) {
+  require_points(points, weights);
+  require_knots(degree, knots, points.size());
+  const auto p = static_cast<std::size_t>(degree);
+  std::vector<Curve> curves;
+  Vec2 joint = Vec2::Zero();
+  for (std::size_t span = p; span < points.size(); ++span) {
+    const double lo = knots[span];
+    const double hi = knots[span + 1];
+    if (!(lo < hi)) continue;
+    std::vector<Homogeneous> row;
+    for (std::size_t j = span - p; j <= span; ++j) row.push_back(lifted(points[j], weights.empty() ? 1 : weights[j]));
+    std::vector<Vec2> own_points;
+    std::vector<double> own_weights;
+    std::vector<double> arguments(p, lo);
+    for (std::size_t k = 0; k <= p; ++k) {
+      if (k > 0) arguments[k - 1] = hi;
+      const Homogeneous control = blossom(row, knots, degree, span, arguments);
+      // A control point that is one of the spline's is it to the last bit, whatever its weight.
+      const auto same = std::find(row.begin(), row.end(), control);
+      own_points.push_back(same != row.end() ? points[span - p + static_cast<std::size_t>(same - row.begin())]
+                                             : Vec2(control.head<2>() / control.z()));
+      if (!weights.empty()) own_weights.push_back(control.z());
+    }
+    if (span > p && !curves.empty()) own_points.front() = joint;  // where the one before ends, to the last bit
+    joint = own_points.back();
+    for (Curve& curve : bezier_curves(std::move(own_points), std::move(own_weights))) {
+      curves.push_back(std::move(curve));
+    }
+  }
+  return curves;
+}
+
+}  // namespace rollfix

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "rollfix/outline/geometry.hpp"
+#include "rollfix/outline/primitives.hpp"
+
+namespace rollfix {
+
+/// Where a cubic spline's spans meet.
+struct Knots {
+  std::vector<double> breaks;  // rising; closed: the last is the first, one period on
+  std::vector<char> sharp;  // of each break: only the position is continuous there (the ends' are not used when open)
+  bool closed = false;
+
+  std::size_t spans() const { return breaks.size() - 1; }
+  /// The span that holds t, a parameter between the first and the last break.
+  std::size_t span_at(double t) const;
+};
+
+/// The cubic spline (C2 but for sharp breaks) of least squared distance to points at given parameters.
+class FittedSpline {
+ public:
+  /// `stiffness` weighs jumps of the third derivative against the points: what decides where points are missing. It
+  /// should be above 0 and small beside 1.
+  FittedSpline(Knots knots, const std::vector<double>& parameters, const std::vector<Vec2>& points, double stiffness);
+
+  const Knots& knots() const { return knots_; }
+  /// One for each span, its own parameter in [0, 1].
+  const std::vector<CubicSpan>& spans() const { return spans_; }
+
+ private:
+  using Weights = std::array<double, 4>;
+
+  double knot(long index) const;
+  std::size_t coefficient(long index) const;
+  void lay_knots();
+  Weights basis(std::size_t span, double t) const;
+  std::array<Weights, 2> second_derivatives(std::size_t span) const;
+  void solve(const std::vector<double>& parameters, const std::vector<Vec2>& points, double stiffness);
+  void make_spans();
+  Vec2 sum(std::size_t span, const Weights& weights) const;
+
+  Knots knots_;
+  std::vector<double> repeated_;  // every knot as often as it counts; closed: of one period
+  std::vector<long> last_knot_;   // of each span: the knot at its start that counts last
+  std::vector<Vec2> controls_;
+  std::vector<CubicSpan> spans_;
+};
+
+}  // namespace rollfix

@@ -1,0 +1,302 @@
+#include "rollfix/outline/loops.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "outline/curve_measure.hpp"
+#include "outline/end_clusters.hpp"
+#include "rollfix/error.hpp"
+
+namespace rollfix {
+
+namespace {
+
+/// Ends that are the same but for rounding: what `gap` can't be below.
+constexpr double kRoundingShare = 1e-12;
+
+/// A curve of the drawing as it is passed through.
+struct Step {
+  std::size_t curve = 0;
+  bool forward = true;
+};
+
+/// Curves that are known to follow one another, because they are one entity's, or a whole loop.
+struct Chain {
+  std::vector<Step> steps;
+  bool closed = false;
+};
+
+std::string place(const Vec2& point) { return fmt::format("({:.9g}, {:.9g})", point.x(), point.y()); }
+
+std::string called(const Origin& origin) {
+  const std::string layer = origin.layer.empty() ? "" : fmt::format(" '{}'", origin.layer);
+  return fmt::format("{}{} of line {}", origin.entity, layer, origin.line);
+}
+
+class Assembler {
+ public:
+  Assembler(const Drawing& drawing, const LoopOptions& options) : drawing_(drawing) {
+    if (drawing.curves.empty()) {
+      throw InputError(fmt::format("{}: draws no curve: expected lines, arcs or splines", drawing.name));
+    }
+    measures_.reserve(drawing.curves.size());
+    for (const DrawnCurve& drawn : drawing.curves) measures_.push_back(measure(drawn.curve));
+    Vec2 lo = measures_.front().lo;
+    Vec2 hi = measures_.front().hi;
+    for (const CurveMeasure& one : measures_) {
+      lo = lo.cwiseMin(one.lo);
+      hi = hi.cwiseMax(one.hi);
+    }
+    const double size = (hi - lo).norm();
+    gap_ = std::max(options.gap.value_or(kGapShare * size), kRoundingShare * size);
+  }
+
+  Loops run() {
+    leave_out_the_needless();
+    make_chains();
+    join_chains();
+    return sorted();
+  }
+
+ private:
+  const CurveMeasure& measured(std::size_t curve) const { return measures_[curve]; }
+  Vec2 front(const Step& step) const { return step.forward ? measured(step.curve).front : measured(step.curve).back; }
+  Vec2 back(const Step& step) const { return step.forward ? measured(step.curve).back : measured(step.curve).front; }
+  bool meet(const Vec2& a, const Vec2& b) const { return (a - b).norm() <= gap_; }
+
+  /// Curves no larger than the gap, and curves that are drawn twice.
+  void leave_out_the_needless() {
+    std::size_t tiny = 0;
+    std::vector<std::size_t> rest;
+    for (std::size_t k = 0; k < measures_.size(); ++k) {
+      if ((measured(k).hi - measured(k).lo).norm() <= gap_) {
+        ++tiny;
+      } else {
+        rest.push_back(k);
+      }
+    }
+    if (rest.empty()) {
+      throw InputError(fmt::format("{}: all {} curves are shorter than the gap of {:.3g} within which ends meet",
+                                   drawing_.name, tiny, gap_));
+    }
+    if (tiny > 0) notes_.push_back(fmt::format("left out: {} curves no longer than {:.3g}", tiny, gap_));
+
+    std::vector<Vec2> middles;
+    middles.reserve(rest.size());
+    for (const std::size_t k : rest) middles.push_back(measured(k).middle);
+    const EndClusters places(middles, gap_);
+    std::size_t twice = 0;
+    std::size_t example = 0;
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+      const std::vector<std::size_t>& beside = places.members(places.of(i));
+      const bool drawn_before = std::any_of(beside.begin(), beside.end(), [&](std::size_t j) {
+        return j < i && is_same(measured(rest[i]), measured(rest[j]));
+      });
+      if (drawn_before) {
+        ++twice;
+        example = rest[i];
+      } else {
+        used_.push_back(rest[i]);
+      }
+    }
+    if (twice > 0) {
+      notes_.push_back(fmt::format("left out: {} curves that are drawn twice, such as the {}", twice,
+                                   called(drawing_.curves[example].origin)));
+    }
+  }
+
+  bool is_same(const CurveMeasure& a, const CurveMeasure& b) const {
+    const bool same_ends = (meet(a.front, b.front) && meet(a.back, b.back)) ||  //
+                           (meet(a.front, b.back) && meet(a.back, b.front));
+    return same_ends && meet(a.middle, b.middle) && meet(a.lo, b.lo) && meet(a.hi, b.hi);
+  }
+
+  /// What one entity draws in a row belongs together, also where it passes one of its own points again.
+  void make_chains() {
+    for (const std::size_t curve : used_) {
+      const Step step{curve, true};
+      if (continues(curve)) {
+        chains_.back().steps.push_back(step);
+      } else {
+        chains_.push_back({{step}, false});
+      }
+      Chain& chain = chains_.back();
+      chain.closed = meet(back(step), front(chain.steps.front()));
+    }
+  }
+
+  bool continues(std::size_t curve) const {
+    if (chains_.empty() || chains_.back().closed) return false;
+    const std::size_t before = chains_.back().steps.back().curve;
+    const Origin& one = drawing_.curves[before].origin;
+    const Origin& other = drawing_.curves[curve].origin;
+    const bool same_entity = one.line == other.line && one.entity == other.entity && one.layer == other.layer;
+    return same_entity && meet(measured(before).back, measured(curve).front);
+  }
+
+  /// Joins chains where their ends meet. An end's number is twice its chain's, one more for its back.
+  void join_chains() {
+    std::vector<std::size_t> open;
+    std::vector<Vec2> ends;
+    for (std::size_t k = 0; k < chains_.size(); ++k) {
+      if (chains_[k].closed) {
+        whole_.push_back(chains_[k]);
+        continue;
+      }
+      open.push_back(k);
+      ends.push_back(front(chains_[k].steps.front()));
+      ends.push_back(back(chains_[k].steps.back()));
+    }
+    const EndClusters clusters(ends, gap_);
+    refuse_branches(clusters, ends, open);
+    std::vector<bool> done(open.size(), false);
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      if (!done[i]) whole_.push_back(chain_through(i, open, clusters, done));
+    }
+  }
+
+  void refuse_branches(const EndClusters& clusters, const std::vector<Vec2>& ends,
+                       const std::vector<std::size_t>& open) const {
+    for (std::size_t end = 0; end < ends.size(); ++end) {
+      const std::vector<std::size_t>& meeting = clusters.members(clusters.of(end));
+      if (meeting.size() <= 2) continue;
+      std::vector<std::string> names;
+      for (std::size_t k = 0; k < std::min<std::size_t>(meeting.size(), 4); ++k) {
+        const Chain& chain = chains_[open[meeting[k] / 2]];
+        const Step& step = meeting[k] % 2 == 0 ? chain.steps.front() : chain.steps.back();
+        names.push_back(called(drawing_.curves[step.curve].origin));
+      }
+      throw InputError(
+          fmt::format("{}: {} ends of curves meet near {}, expected two at most ({}{}): remove the curves that do not "
+                      "belong to the outline, or take one layer only with --layer; ends within {:.3g} count as meeting "
+                      "(--gap)",
+                      drawing_.name, meeting.size(), place(ends[end]), fmt::join(names, ", "),
+                      meeting.size() > names.size() ? ", ..." : "", gap_));
+    }
+  }
+
+  /// From chain i on to where no other follows or to its own start, then back from its start.
+  Chain chain_through(std::size_t i, const std::vector<std::size_t>& open, const EndClusters& clusters,
+                      std::vector<bool>& done) const {
+    Chain result = chains_[open[i]];
+    done[i] = true;
+    const auto walk = [&](std::size_t end, std::vector<Step>& steps) {  // returns whether it came to its start
+      while (true) {
+        const std::optional<std::size_t> next = partner(clusters, end);
+        if (!next) return false;
+        const std::size_t chain = *next / 2;
+        if (done[chain]) return true;
+        done[chain] = true;
+        const bool forward = *next % 2 == 0;
+        append(chains_[open[chain]], forward, steps);
+        end = forward ? *next + 1 : *next - 1;
+      }
+    };
+    result.closed = walk(2 * i + 1, result.steps);
+    if (result.closed) return result;
+    std::vector<Step> before;
+    walk(2 * i, before);
+    std::reverse(before.begin(), before.end());
+    for (Step& step : before) step.forward = !step.forward;
+    before.insert(before.end(), result.steps.begin(), result.steps.end());
+    result.steps = std::move(before);
+    return result;
+  }
+
+  static std::optional<std::size_t> partner(const EndClusters& clusters, std::size_t end) {
+    for (const std::size_t other : clusters.members(clusters.of(end))) {
+      if (other != end) return other;
+    }
+    return std::nullopt;
+  }
+
+  static void append(const Chain& chain, bool forward, std::vector<Step>& steps) {
+    if (forward) {
+      steps.insert(steps.end(), chain.steps.begin(), chain.steps.end());
+      return;
+    }
+    for (auto step = chain.steps.rbegin(); step != chain.steps.rend(); ++step) {
+      steps.push_back({step->curve, !step->forward});
+    }
+  }
+
+  Loop loop_of(const Chain& chain) const {
+    Loop loop;
+    loop.first = chain.steps.front().curve;
+    for (const Step& step : chain.steps) loop.first = std::min(loop.first, step.curve);
+    loop.outline.name = drawing_.name;
+    loop.outline.closed = chain.closed;
+    const Vec2 origin = front(chain.steps.front());
+    double twice_area = 0;
+    const std::size_t count = chain.steps.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      const Step& step = chain.steps[k];
+      const CurveMeasure& one = measured(step.curve);
+      const Curve& curve = drawing_.curves[step.curve].curve;
+      loop.outline.curves.push_back(step.forward ? curve : reversed(curve));
+      loop.length += one.length;
+      const double swept = one.twice_area + cross(one.origin - origin, one.back - one.front);
+      twice_area += step.forward ? swept : -swept;
+      if (k + 1 == count && !chain.closed) break;
+      const Vec2 next = front(chain.steps[(k + 1) % count]);
+      loop.gap = std::max(loop.gap, (next - back(step)).norm());
+      twice_area += cross(back(step) - origin, next - origin);
+    }
+    loop.area = chain.closed ? 0.5 * std::abs(twice_area) : 0;
+    loop.outline.gap = loop.gap;
+    return loop;
+  }
+
+  Loops sorted() {
+    Loops result;
+    for (const Chain& chain : whole_) (chain.closed ? result.closed : result.open).push_back(loop_of(chain));
+    std::stable_sort(result.closed.begin(), result.closed.end(),
+                     [](const Loop& a, const Loop& b) { return a.area > b.area; });
+    std::stable_sort(result.open.begin(), result.open.end(),
+                     [](const Loop& a, const Loop& b) { return a.length > b.length; });
+    find_depths(result.closed);
+    result.notes = std::move(notes_);
+    return result;
+  }
+
+  static void find_depths(std::vector<Loop>& closed) {
+    std::vector<Polygon> polygons;
+    polygons.reserve(closed.size());
+    for (const Loop& loop : closed) polygons.push_back(polygon_of(loop.outline));
+    for (std::size_t inner = 0; inner < closed.size(); ++inner) {
+      const Vec2& probe = polygons[inner].points.front();
+      for (std::size_t outer = 0; outer < inner; ++outer) {
+        if (polygons[outer].contains(probe)) ++closed[inner].depth;
+      }
+      closed[inner].outline.hole = closed[inner].depth % 2 == 1;
+    }
+  }
+
+  const Drawing& drawing_;
+  std::vector<CurveMeasure> measures_;
+  double gap_ = 0;
+  std::vector<std::size_t> used_;
+  std::vector<Chain> chains_;  // of one entity each
+  std::vector<Chain> whole_;
+  std::vector<std::string> notes_;
+};
+
+}  // namespace
+
+double enclosed_area(const Outline& outline) {
+  double twice_area = 0;
+  const Vec2 origin = outline.curves.front().front();
+  for (const Curve& curve : outline.curves) {
+    const CurveMeasure one = measure(curve);
+    twice_area += one.twice_area + cross(one.origin - origin, one.back - one.front);
+  }
+  return 0.5 * std::abs(twice_area);
+}
+
+Loops loops(const Drawing& drawing, const LoopOptions& options) { return Assembler(drawing, options).run(); }
+
+}  // namespace rollfix

@@ -1,0 +1,118 @@
+#include "outline/scan_corners.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace rollfix {
+
+namespace {
+
+/// Of a longer arm not every point is looked at: more would hardly make its direction any better.
+constexpr std::size_t kArmPoints = 48;
+
+/// The points on one side of a point.
+struct Arm {
+  Vec2 direction = Vec2::Zero();  // away from the point
+  std::size_t count = 0;          // how many points it reaches over
+};
+
+class ScanCorners {
+ public:
+  ScanCorners(const std::vector<Vec2>& points, bool closed, double reach)
+      : points_(points), closed_(closed), reach_(reach) {}
+
+  std::vector<std::size_t> find(double corner_angle) {
+    const std::size_t count = points_.size();
+    turns_.assign(count, 0);
+    reaches_.assign(count, {0, 0});
+    std::pair<std::size_t, std::size_t> last = {1, 1};  // neighbours' arms are about as long
+    for (std::size_t i = 0; i < count; ++i) {
+      const Arm before = arm(i, false, last.first);
+      const Arm after = arm(i, true, last.second);
+      last = {before.count, after.count};
+      reaches_[i] = last;
+      const bool has_both = before.count > 0 && after.count > 0;
+      if (has_both)
+        turns_[i] =
+            std::abs(std::atan2(cross(-before.direction, after.direction), -before.direction.dot(after.direction)));
+    }
+    std::vector<std::size_t> corners;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (turns_[i] >= corner_angle && is_most(i)) corners.push_back(i);
+    }
+    return corners;
+  }
+
+ private:
+  /// The point `steps` after or before i; false when an open curve ends before.
+  bool step(std::size_t i, bool forward, std::size_t steps, std::size_t& result) const {
+    const std::size_t count = points_.size();
+    if (closed_) {
+      result = forward ? (i + steps) % count : (i + count - steps % count) % count;
+      return steps < count;
+    }
+    if (forward ? i + steps >= count : steps > i) return false;
+    result = forward ? i + steps : i - steps;
+    return true;
+  }
+
+  Arm arm(std::size_t i, bool forward, std::size_t expected) const {
+    const std::size_t stride = std::max<std::size_t>(1, expected / kArmPoints);
+    Vec2 sum = Vec2::Zero();
+    Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+    double taken = 1;  // the point itself
+    Arm result;
+    for (std::size_t steps = stride;; steps += stride) {
+      std::size_t j = 0;
+      if (!step(i, forward, steps, j)) break;
+      const Vec2 from = points_[j] - points_[i];
+      const bool is_beyond = from.squaredNorm() > reach_ * reach_;
+      if (is_beyond && result.count > 0) break;
+      if (is_beyond && stride > 1) return arm(i, forward, 1);  // sparser points than at the neighbour
+      sum += from;
+      squares += from * from.transpose();
+      ++taken;
+      result.count = steps;
+      if (is_beyond) break;
+    }
+    if (result.count > 0) result.direction = line_direction(sum, squares, taken);
+    return result;
+  }
+
+  /// Of the line that is nearest to the points in the least-squares sense, pointing to where they are.
+  static Vec2 line_direction(const Vec2& sum, const Eigen::Matrix2d& squares, double count) {
+    const Eigen::Matrix2d spread = squares - sum * sum.transpose() / count;
+    const double angle = 0.5 * std::atan2(2 * spread(0, 1), spread(0, 0) - spread(1, 1));
+    const Vec2 direction(std::cos(angle), std::sin(angle));
+    return direction.dot(sum) < 0 ? Vec2(-direction) : direction;
+  }
+
+  bool is_most(std::size_t i) const {
+    for (const bool forward : {false, true}) {
+      const std::size_t reach = forward ? reaches_[i].second : reaches_[i].first;
+      for (std::size_t steps = 1; steps <= reach; ++steps) {
+        std::size_t j = 0;
+        if (!step(i, forward, steps, j)) break;
+        const bool is_within = (points_[j] - points_[i]).squaredNorm() <= reach_ * reach_;
+        if (!is_within) continue;
+        if (turns_[j] > turns_[i] || (turns_[j] == turns_[i] && j < i)) return false;
+      }
+    }
+    return true;
+  }
+
+  const std::vector<Vec2>& points_;
+  bool closed_;
+  double reach_;
+  std::vector<double> turns_;
+  std::vector<std::pair<std::size_t, std::size_t>> reaches_;
+};
+
+}  // namespace
+
+std::vector<std::size_t> scan_corners(const std::vector<Vec2>& points, bool closed, double reach, double corner_angle) {
+  return ScanCorners(points, closed, reach).find(corner_angle);
+}
+
+}  // namespace rollfix

@@ -1,0 +1,393 @@
+#include "rollfix/outline/smoothing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "outline/fitted_spline.hpp"
+#include "outline/scan_corners.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/outline/primitives.hpp"
+
+namespace rollfix {
+
+namespace {
+
+/// Points are averaged over stretches this many tolerances long before lengths are measured: noise of one tolerance
+/// at either end still leaves half of the stretch.
+constexpr double kStretch = 4;
+/// Decides where points are missing, and shifts the curve by about this share of the noise.
+constexpr double kStiffness = 1e-6;
+/// A closed curve without corners, and a piece between corners, starts with this many spans.
+constexpr std::size_t kFirstSpans = 4;
+/// In one round only spans this near to the worst are split: a misfit shows in the neighbours as well.
+constexpr double kWorstShare = 0.5;
+/// A span with fewer points is not split: it would follow each of them.
+constexpr std::size_t kLeastPoints = 3;
+/// A corner whose fitted turn is below this share of the corner angle is none.
+constexpr double kLeastCornerShare = 0.5;
+constexpr int kNewtonRounds = 8;
+constexpr int kMostRounds = 60;
+constexpr double kNewtonStep = 1e-9;  // of a span
+
+/// Without those that repeat the one before (closed: or the first).
+std::vector<Vec2> distinct(const std::vector<Vec2>& points, bool closed) {
+  std::vector<Vec2> result;
+  for (const Vec2& point : points) {
+    if (result.empty() || point != result.back()) result.push_back(point);
+  }
+  while (closed && result.size() > 1 && result.back() == result.front()) result.pop_back();
+  return result;
+}
+
+void require_tolerance(const std::vector<Vec2>& points, double tolerance) {
+  Vec2 least = points.front();
+  Vec2 most = points.front();
+  for (const Vec2& point : points) {
+    least = least.cwiseMin(point);
+    most = most.cwiseMax(point);
+  }
+  const double size = (most - least).norm();
+  if (tolerance > 0 && tolerance <= kMostSmoothing * size) return;
+  throw InputError(
+      fmt::format("points smoothed within {}: expected a length above 0 and at most {:.4g}, a twentieth of the part's "
+                  "size of {:.4g}; about the size of a pixel or of the noise is right",
+                  tolerance, kMostSmoothing * size, size));
+}
+
+/// The polygon along which a scan's points are measured: corners, and averages of the stretches between them.
+struct Course {
+  std::vector<double> parameters;  // of each point: the length along the polygon to its nearest place
+  std::vector<double> corners;     // of each corner
+  double length = 0;
+};
+
+class CourseMaker {
+ public:
+  CourseMaker(const std::vector<Vec2>& points, bool closed, double tolerance)
+      : points_(points), closed_(closed), stretch_(kStretch * tolerance) {}
+
+  Course make(const std::vector<std::size_t>& corners) {
+    course_.parameters.assign(points_.size(), 0);
+    nodes_ = {points_.front()};
+    std::vector<std::size_t> node_of(points_.size(), 0);
+    std::vector<std::size_t> corner_nodes;
+    std::vector<std::size_t> stops = corners;
+    const std::size_t end = closed_ ? points_.size() : points_.size() - 1;
+    if (stops.empty() || stops.front() != 0) stops.insert(stops.begin(), 0);
+    if (stops.back() != end) stops.push_back(end);
+    for (std::size_t k = 0; k + 1 < stops.size(); ++k) add_run(stops[k], stops[k + 1], node_of);
+    measure();
+    for (std::size_t i = 0; i < points_.size(); ++i) course_.parameters[i] = place_of(points_[i], node_of[i]);
+    for (const std::size_t corner : corners) {
+      course_.parameters[corner] = lengths_[node_of[corner]];
+      course_.corners.push_back(course_.parameters[corner]);
+    }
+    course_.length = lengths_.back();
+    return std::move(course_);
+  }
+
+ private:
+  const Vec2& point(std::size_t i) const { return points_[i < points_.size() ? i : i - points_.size()]; }
+
+  /// Nodes for the points behind `from`, up to and with `to`.
+  void add_run(std::size_t from, std::size_t to, std::vector<std::size_t>& node_of) {
+    node_of[from] = nodes_.size() - 1;
+    std::size_t first = from + 1;
+    while (first < to) {
+      Vec2 sum = Vec2::Zero();
+      std::size_t next = first;
+      while (next < to && (point(next) - point(first)).norm() <= stretch_) sum += point(next++);
+      const Vec2 average = sum / static_cast<double>(next - first);
+      const bool crowds_end = next == to && first > from + 1 && (average - point(to)).norm() < 0.5 * stretch_ &&
+                              (point(next - 1) - point(first)).norm() < 0.5 * stretch_;
+      if (!crowds_end) nodes_.push_back(average);
+      for (std::size_t i = first; i < next; ++i) node_of[i] = nodes_.size() - 1;
+      first = next;
+    }
+    nodes_.push_back(point(to));
+    if (to < points_.size()) node_of[to] = nodes_.size() - 1;
+  }
+
+  void measure() {
+    lengths_ = {0};
+    for (std::size_t k = 1; k < nodes_.size(); ++k) {
+      lengths_.push_back(lengths_.back() + (nodes_[k] - nodes_[k - 1]).norm());
+    }
+  }
+
+  /// The nearest place on the node's chords and those beside them.
+  double place_of(const Vec2& point, std::size_t node) const {
+    const std::size_t first = node > 1 ? node - 2 : 0;
+    const std::size_t last = std::min(node + 2, nodes_.size() - 1);
+    double best = lengths_[node];
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = first; k < last; ++k) {
+      const Vec2 chord = nodes_[k + 1] - nodes_[k];
+      const double squared = chord.squaredNorm();
+      const double share = squared > 0 ? std::clamp((point - nodes_[k]).dot(chord) / squared, 0.0, 1.0) : 0;
+      const double distance = (nodes_[k] + share * chord - point).squaredNorm();
+      if (distance >= least) continue;
+      least = distance;
+      best = lengths_[k] + share * (lengths_[k + 1] - lengths_[k]);
+    }
+    return best;
+  }
+
+  const std::vector<Vec2>& points_;
+  bool closed_;
+  double stretch_;
+  std::vector<Vec2> nodes_;
+  std::vector<double> lengths_;
+  Course course_;
+};
+
+/// How far off a fitted curve is, by span.
+struct Misfit {
+  double largest = 0;
+  std::vector<double> of_span;
+  std::vector<std::size_t> points;  // nearest to each span
+};
+
+class Smoother {
+ public:
+  Smoother(std::vector<Vec2> points, bool closed, double tolerance)
+      : points_(std::move(points)), closed_(closed), tolerance_(tolerance) {}
+
+  /// Nothing when no number of knots brings the curve near enough.
+  std::optional<Smoothing> run(std::vector<std::size_t> corners, double corner_angle) {
+    for (;;) {
+      if (!fit(corners)) return std::nullopt;
+      std::vector<std::size_t> kept;
+      for (std::size_t k = 0; k < corners.size(); ++k) {
+        if (turn_at(corner_breaks_[k]) >= kLeastCornerShare * corner_angle) kept.push_back(corners[k]);
+      }
+      if (kept.size() == corners.size()) return finish();
+      corners = kept;
+    }
+  }
+
+ private:
+  /// Adds knots until every point is within the tolerance.
+  bool fit(const std::vector<std::size_t>& corners) {
+    Course course = CourseMaker(points_, closed_, tolerance_).make(corners);
+    if (!(course.length > 0)) return false;
+    parameters_ = std::move(course.parameters);
+    lay_first_knots(course);
+    for (int round = 0; round < kMostRounds; ++round) {
+      fitted_.emplace(knots_, parameters_, points_, kStiffness);
+      const Misfit misfit = compare();
+      if (misfit.largest <= tolerance_) {
+        find_corner_breaks(course);
+        return true;
+      }
+      if (!split(misfit)) return false;
+    }
+    return false;
+  }
+
+  void lay_first_knots(const Course& course) {
+    knots_ = {{0}, {0}, closed_};
+    std::vector<double> stops = course.corners;
+    if (!stops.empty() && stops.front() == 0) {
+      knots_.sharp.front() = 1;
+      stops.erase(stops.begin());
+    }
+    const bool has_corners = !course.corners.empty();
+    stops.push_back(course.length);
+    double last = 0;
+    for (std::size_t k = 0; k < stops.size(); ++k) {
+      const std::size_t pieces = closed_ && !has_corners ? kFirstSpans : (stops.size() < 3 && closed_ ? 2 : 1);
+      for (std::size_t j = 1; j <= pieces; ++j) {
+        knots_.breaks.push_back(
+            j == pieces ? stops[k] : last + (stops[k] - last) * static_cast<double>(j) / static_cast<double>(pieces));
+        knots_.sharp.push_back(j == pieces && k + 1 < stops.size() ? 1 : 0);
+      }
+      last = stops[k];
+    }
+    knots_.sharp.back() = closed_ ? knots_.sharp.front() : 0;
+  }
+
+  Misfit compare() const {
+    Misfit misfit;
+    misfit.of_span.assign(knots_.spans(), 0);
+    misfit.points.assign(knots_.spans(), 0);
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const Place place = nearest(points_[i], parameters_[i]);
+      misfit.largest = std::max(misfit.largest, place.distance);
+      misfit.of_span[place.span] = std::max(misfit.of_span[place.span], place.distance);
+      ++misfit.points[place.span];
+    }
+    return misfit;
+  }
+
+  struct Place {
+    double parameter = 0;
+    std::size_t span = 0;
+    double distance = 0;
+  };
+
+  Place at(const Vec2& point, std::size_t span, double u) const {
+    const double lo = knots_.breaks[span];
+    const double width = knots_.breaks[span + 1] - lo;
+    return {lo + u * width, span, (fitted_->spans()[span].jet(u).position - point).norm()};
+  }
+
+  /// Newton's method from t on, across spans; where it stops at a break, the other side is tried as well. The distance
+  /// is to a place on the curve, so never below the distance to the curve.
+  Place nearest(const Vec2& point, double t) const {
+    const std::size_t spans = knots_.spans();
+    std::size_t span = knots_.span_at(t);
+    const double width = knots_.breaks[span + 1] - knots_.breaks[span];
+    double u = std::clamp((t - knots_.breaks[span]) / width, 0.0, 1.0);
+    Place best = at(point, span, u);
+    for (int round = 0; round < kNewtonRounds; ++round) {
+      const Jet jet = fitted_->spans()[span].jet(u);
+      const Vec2 off = point - jet.position;
+      const double slope = off.dot(jet.first);
+      const double square = jet.first.squaredNorm();
+      const double bend = square - off.dot(jet.second);
+      const double step = slope / (bend > 0.25 * square ? bend : square);
+      if (!std::isfinite(step)) break;
+      double next = u + std::clamp(step, -1.0, 1.0);
+      const bool was_at_end = (next < 0 && u == 0) || (next > 1 && u == 1);
+      if (was_at_end) {  // over to the neighbour
+        const bool ahead = next > 1;
+        const bool leaves = ahead ? span + 1 == spans : span == 0;
+        if (leaves && !closed_) break;
+        span = ahead ? (span + 1) % spans : (span + spans - 1) % spans;
+        u = ahead ? 0 : 1;
+        const Jet there = fitted_->spans()[span].jet(u);
+        const double pull = (point - there.position).dot(there.first);
+        if (ahead ? pull <= 0 : pull >= 0) break;  // a corner, and the point is off its tip
+        continue;
+      }
+      next = std::clamp(next, 0.0, 1.0);
+      const double moved = std::abs(next - u);
+      u = next;
+      const Place place = at(point, span, u);
+      if (place.distance < best.distance) best = place;
+      if (moved < kNewtonStep) break;
+    }
+    return best;
+  }
+
+  /// False when there is nothing left to split.
+  bool split(const Misfit& misfit) {
+    double worst = 0;  // of those that have enough points
+    for (std::size_t span = 0; span < knots_.spans(); ++span) {
+      if (misfit.points[span] >= kLeastPoints) worst = std::max(worst, misfit.of_span[span]);
+    }
+    const double limit = std::max(tolerance_, kWorstShare * worst);
+    Knots finer{{}, {}, closed_};
+    for (std::size_t span = 0; span < knots_.spans(); ++span) {
+      finer.breaks.push_back(knots_.breaks[span]);
+      finer.sharp.push_back(knots_.sharp[span]);
+      if (misfit.of_span[span] < limit || misfit.points[span] < kLeastPoints) continue;
+      finer.breaks.push_back(0.5 * (knots_.breaks[span] + knots_.breaks[span + 1]));
+      finer.sharp.push_back(0);
+    }
+    finer.breaks.push_back(knots_.breaks.back());
+    finer.sharp.push_back(knots_.sharp.back());
+    const bool is_finer = finer.spans() > knots_.spans();
+    knots_ = std::move(finer);
+    return is_finer;
+  }
+
+  void find_corner_breaks(const Course& course) {
+    corner_breaks_.clear();
+    for (const double corner : course.corners) {
+      corner_breaks_.push_back(static_cast<std::size_t>(
+          std::lower_bound(knots_.breaks.begin(), knots_.breaks.end(), corner) - knots_.breaks.begin()));
+    }
+  }
+
+  double turn_at(std::size_t brk) const {
+    const std::size_t spans = knots_.spans();
+    const Vec2 before = fitted_->spans()[(brk + spans - 1) % spans].velocity(1);
+    const Vec2 after = fitted_->spans()[brk].velocity(0);
+    return std::abs(std::atan2(cross(before, after), before.dot(after)));
+  }
+
+  Smoothing finish() {
+    Smoothing result;
+    result.corners = corner_breaks_;
+    std::vector<double> of_span(knots_.spans(), 0);
+    std::vector<double> off_line(knots_.spans(), 0);
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const Place place = nearest(points_[i], parameters_[i]);
+      of_span[place.span] = std::max(of_span[place.span], place.distance);
+      off_line[place.span] = std::max(off_line[place.span], distance_to_line(place.span, points_[i]));
+    }
+    for (std::size_t span = 0; span < knots_.spans(); ++span) {
+      const CubicSpan& cubic = fitted_->spans()[span];
+      const bool is_line = is_alone(span) && off_line[span] <= tolerance_;
+      const Vec2 from = cubic.jet(0).position;
+      const Vec2 to = cubic.jet(1).position;
+      result.curves.push_back(is_line ? Curve(Line(from, to)) : Curve(cubic));
+      result.deviation = std::max(result.deviation, is_line ? off_line[span] : of_span[span]);
+    }
+    return result;
+  }
+
+  /// Between two corners or ends: the only kind of span that can be straightened without making corners.
+  bool is_alone(std::size_t span) const {
+    const bool starts = knots_.sharp[span] != 0 || (!closed_ && span == 0);
+    const bool ends = knots_.sharp[span + 1] != 0 || (!closed_ && span + 1 == knots_.spans());
+    return starts && ends;
+  }
+
+  double distance_to_line(std::size_t span, const Vec2& point) const {
+    const Vec2 from = fitted_->spans()[span].jet(0).position;
+    const Vec2 chord = fitted_->spans()[span].jet(1).position - from;
+    const double share = std::clamp((point - from).dot(chord) / chord.squaredNorm(), 0.0, 1.0);
+    return (from + share * chord - point).norm();
+  }
+
+  std::vector<Vec2> points_;
+  bool closed_;
+  double tolerance_;
+  std::vector<double> parameters_;
+  Knots knots_;
+  std::optional<FittedSpline> fitted_;
+  std::vector<std::size_t> corner_breaks_;
+};
+
+/// Where a closed scan starts within reach of a corner, that corner becomes the first point: a sliver of a span between
+/// the two would follow the noise.
+void start_at_corner(std::vector<Vec2>& points, std::vector<std::size_t>& corners, double reach) {
+  std::size_t start = 0;
+  double least = reach;
+  for (const std::size_t corner : corners) {
+    const double distance = (points[corner] - points.front()).norm();
+    if (distance > least) continue;
+    least = distance;
+    start = corner;
+  }
+  if (start == 0) return;
+  std::rotate(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(start), points.end());
+  for (std::size_t& corner : corners) corner = (corner + points.size() - start) % points.size();
+  std::sort(corners.begin(), corners.end());
+}
+
+}  // namespace
+
+Smoothing smooth_spline(const std::vector<Vec2>& points, bool closed, double tolerance, double corner_angle) {
+  std::vector<Vec2> clean = distinct(points, closed);
+  const std::size_t needed = closed ? 3 : 2;
+  const bool is_usable = std::all_of(clean.begin(), clean.end(), [](const Vec2& point) { return point.allFinite(); });
+  if (clean.size() < needed || !is_usable) return {spline_through(clean, closed, corner_angle), 0, {}};
+  require_tolerance(clean, tolerance);
+  const double reach = kCornerReach * tolerance;
+  std::vector<std::size_t> corners = scan_corners(clean, closed, reach, corner_angle);
+  if (closed) start_at_corner(clean, corners, reach);
+  Smoother smoother(clean, closed, tolerance);
+  if (auto smooth = smoother.run(corners, corner_angle)) return *std::move(smooth);
+  return {spline_through(clean, closed, corner_angle), 0, {}};
+}
+
+}  // namespace rollfix

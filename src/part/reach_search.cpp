@@ -1,0 +1,371 @@
+#include "reach_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+namespace rollfix {
+namespace {
+
+// A penetration that is deeper than the slack by no more than this share of it may count either way.
+constexpr double kDoubt = 1e-4;
+// Rounding of F, a share of the boundary's size.
+constexpr double kRounding = 1e-14;
+// A stance turns by no more than this to begin with, radians, and none is shorter than this share of the perimeter.
+constexpr double kStanceTurn = 0.4;
+constexpr double kShortestStance = 1e-12;
+// Around a stance the boundary is safe (see safe_end) while its tangent stays within these angles of the stance's.
+constexpr double kMostInward = std::numbers::pi / 2 + 1e-9;  // turned away from the finger
+constexpr double kMostOutward = std::numbers::pi / 3;        // turned towards it
+constexpr double kLeaning = 8;                               // 1 / cos^3 of kMostOutward
+
+// Far enough from the stance the bounds do as well: so many spirals, and so many times the stance's length, are enough.
+constexpr int kMostSafeSpirals = 64;
+constexpr double kMostSafeLength = 16;
+
+Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
+}  // namespace
+
+double deepness(const Vec2& normal, const Vec2& offset, double curvature) {
+  return 2 * normal.dot(offset) - curvature * offset.squaredNorm();
+}
+
+double depth_of(double deepness, double curvature) {
+  return deepness / (1 + std::sqrt(std::max(0.0, 1 - curvature * deepness)));
+}
+
+double ChordDeepness::most() const {
+  if (!(slope > 0 && slope < 2 * bend)) return most_at_ends();
+  return std::max(most_at_ends(), at_start + 0.25 * slope * slope / bend);
+}
+
+/// The gradient of F by q has the size 2 k |q - centre| = 2 sqrt(1 - k F).
+double ChordDeepness::beside(double deviation, double curvature) const {
+  return 2 * std::sqrt(std::max(0.0, 1 - curvature * most())) * deviation;
+}
+
+ChordDeepness deepness_on_chord(const BoundaryTree::Node& node, const Vec2& point, const Vec2& normal,
+                                double curvature) {
+  const Vec2 to_start = node.start - point;
+  const Vec2 chord = node.end - node.start;
+  return {deepness(normal, to_start, curvature), 2 * (normal.dot(chord) - curvature * to_start.dot(chord)),
+          curvature * chord.squaredNorm()};
+}
+
+/// A stance from its middle, and how far it goes from there.
+struct ReachSearch::View {
+  Vec2 point;
+  Vec2 tangent;
+  Vec2 normal;
+  double turn = 0;      // of the tangent, to the further end
+  double rotation = 0;  // of the finger against the part
+  double length = 0;    // of the contact's way
+};
+
+/// What is known of F for a stance and a stretch of the boundary.
+struct ReachSearch::Comparison {
+  double most = 0;   // no point is deeper
+  double least = 0;  // this point is at least as deep wherever on the stance the finger is
+  Vec2 at;
+  double from_stretch = 0;  // how much of the difference is due to the stretch's size ...
+  double from_stance = 0;   // ... and how much to the stance's
+};
+
+ReachSearch::ReachSearch(BoundaryTree& tree, double curvature, double slack, std::size_t budget)
+    : tree_(tree),
+      part_(tree.part()),
+      turning_(part_.turning()),
+      curvature_(curvature),
+      slack_(slack),
+      budget_(budget),
+      last_hit_(part_.point(0)),
+      most_(slack * (2 - curvature * slack)),
+      doubt_(std::max(kDoubt * most_, kRounding * tree.diagonal())) {}
+
+const std::vector<Decision>& ReachSearch::run() {
+  const std::size_t count = turning_.spirals().size();
+  for (std::size_t k = 0; k < count; ++k) {
+    if (part_.closed() || k > 0) add_pivots(k);
+    add_rolls(k);
+  }
+  return decisions_;
+}
+
+void ReachSearch::add_pivots(std::size_t spiral) {
+  const std::vector<Spiral>& spirals = turning_.spirals();
+  const double after = spirals[spiral].start.angle;
+  const double before = spiral > 0 ? spirals[spiral - 1].end.angle : spirals.back().end.angle - turning_.period_turn();
+  if (after - before <= kTurnAccuracy) return;
+  const int count = 1 + static_cast<int>((after - before) / kStanceTurn);
+  for (int i = 0; i < count; ++i) {
+    const double lo = before + (after - before) * i / count;
+    decide({true, spiral, {lo, i + 1 == count ? after : before + (after - before) * (i + 1) / count}}, {tree_.root()});
+  }
+}
+
+/// The finger rolls forward where 1 + r kappa > 0, else it would roll backwards: cut there, so that its rotation is
+/// monotone on each stance.
+void ReachSearch::add_rolls(std::size_t index) {
+  const Spiral& spiral = turning_.spirals()[index];
+  const auto clearance = [&](double s) { return turning_.on_spiral(spiral, s).curvature + curvature_; };
+  const int count = 1 + static_cast<int>(std::abs(spiral.turn()) / kStanceTurn);
+  for (int i = 0; i < count; ++i) {
+    double lo = i == 0 ? spiral.lo : spiral.lo + (spiral.hi - spiral.lo) * i / count;
+    const double hi = i + 1 == count ? spiral.hi : spiral.lo + (spiral.hi - spiral.lo) * (i + 1) / count;
+    const bool starts_positive = clearance(lo) > 0;
+    if (starts_positive != (clearance(hi) > 0)) {
+      Interval bracket{lo, hi};
+      while (bracket.width() > kLengthAccuracy * part_.perimeter()) {
+        const double middle = bracket.middle();
+        ((clearance(middle) > 0) == starts_positive ? bracket.lo : bracket.hi) = middle;
+      }
+      decide({false, index, {lo, bracket.hi}}, {tree_.root()});
+      lo = bracket.hi;
+    }
+    if (hi > lo) decide({false, index, {lo, hi}}, {tree_.root()});
+  }
+}
+
+ReachSearch::View ReachSearch::view_of(const Stance& stance) const {
+  View view;
+  const Spiral& spiral = turning_.spirals()[stance.spiral];
+  double angle = stance.range.middle();
+  if (stance.is_pivot) {
+    view.point = part_.point(spiral.lo);
+    view.turn = view.rotation = 0.5 * stance.range.width();
+  } else {
+    const double middle = angle;
+    angle = turning_.on_spiral(spiral, middle).angle;
+    view.point = part_.point(middle);
+    view.length = 0.5 * stance.range.width();
+    for (const double end : {stance.range.lo, stance.range.hi}) {
+      const double turn = turning_.on_spiral(spiral, end).angle - angle;
+      view.turn = std::max(view.turn, std::abs(turn));
+      view.rotation = std::max(view.rotation, std::abs(turn + curvature_ * (end - middle)));
+    }
+  }
+  view.tangent = direction(angle);
+  view.normal = {view.tangent.y(), -view.tangent.x()};
+  return view;
+}
+
+/// F of a point is at least this anywhere on the stance.
+double ReachSearch::least(const View& view, const Vec2& point) const {
+  const Vec2 offset = point - view.point;
+  return deepness(view.normal, offset, curvature_) - change(view, offset, 0);
+}
+
+/// By how much F of a point at this offset, give or take `beside`, changes on the stance at most: T.d changes as well,
+/// d(T.d) = -kappa n.d ds - ds.
+double ReachSearch::change(const View& view, const Vec2& offset, double beside) const {
+  const double along = std::abs(view.tangent.dot(offset)) + beside;
+  const double drift = view.turn * (offset.norm() + beside + view.length) + view.length;
+  return 2 * view.rotation * (along + drift);
+}
+
+/// On the chord F is a quadratic and the changes, as bounded, are convex: below the line between the ends' values.
+ReachSearch::Comparison ReachSearch::compare(const View& view, const BoundaryTree::Node& node) const {
+  const Vec2 to_start = node.start - view.point;
+  const ChordDeepness on_chord = deepness_on_chord(node, view.point, view.normal, curvature_);
+  const double change_at_start = change(view, to_start, node.deviation);
+  const double change_at_end = change(view, node.end - view.point, node.deviation);
+
+  Comparison result;
+  const ChordDeepness with_change{on_chord.at_start + change_at_start,
+                                  on_chord.slope + (change_at_end - change_at_start), on_chord.bend};
+  const double beside_chord = on_chord.beside(node.deviation, curvature_);
+  result.most = with_change.most() + beside_chord;
+  result.from_stance = std::max(change_at_start, change_at_end);
+  result.from_stretch = beside_chord + (with_change.most() - with_change.most_at_ends()) +
+                        2 * view.rotation * (std::abs(view.tangent.dot(node.end - node.start)) + node.deviation);
+  result.at = node.on_curve;
+  result.least = least(view, node.on_curve);
+  if (!node.is_single()) return result;
+  const double at_end = least(view, node.end);
+  if (at_end > result.least) {
+    result.least = at_end;
+    result.at = node.end;
+  }
+  return result;
+}
+
+void ReachSearch::decide(const Stance& stance, const std::vector<std::int32_t>& candidates) {
+  const View view = view_of(stance);
+  // What stops the finger here most often stops it next to here as well.
+  if (least(view, last_hit_) > most_) {
+    add(stance, false);
+    return;
+  }
+  if (deepness(view.normal, last_hit_ - view.point, curvature_) > most_) {
+    split(stance, candidates);
+    return;
+  }
+  std::vector<std::int32_t> open = candidates;
+  std::vector<std::int32_t> left;
+  std::optional<Interval> safe;
+  while (!open.empty()) {
+    if (++tests_ > budget_) {
+      is_decided_ = false;
+      add(stance, true);
+      return;
+    }
+    const std::int32_t index = open.back();
+    open.pop_back();
+    const BoundaryTree::Node& node = tree_.node(index);
+    const Comparison found = compare(view, node);
+    if (found.least > most_) {
+      last_hit_ = found.at;
+      add(stance, false);
+      return;
+    }
+    if (found.most <= most_ + doubt_) continue;
+    if (!safe) safe = safe_around(stance);
+    if (is_inside(node, *safe)) continue;
+    if (deepness(view.normal, found.at - view.point, curvature_) > most_) {
+      // Not free in its middle: no use in looking at the rest before it is split.
+      last_hit_ = found.at;
+      left.insert(left.end(), open.begin(), open.end());
+      left.push_back(index);
+      break;
+    }
+    const bool is_coarse = !node.is_single() || found.from_stretch > std::max(found.from_stance, 0.25 * doubt_);
+    const auto [first, second] = is_coarse ? tree_.halves(index) : std::pair(index, index);
+    if (first == second) {
+      left.push_back(index);
+    } else {
+      open.push_back(first);
+      open.push_back(second);
+    }
+  }
+  if (left.empty()) {
+    add(stance, true);
+  } else {
+    split(stance, left);
+  }
+}
+
+void ReachSearch::split(const Stance& stance, const std::vector<std::int32_t>& candidates) {
+  const double size = stance.is_pivot ? stance.range.width() : stance.range.width() / part_.perimeter();
+  if (size <= kShortestStance) {
+    add(stance, true);
+    return;
+  }
+  const double middle = stance.range.middle();
+  decide({stance.is_pivot, stance.spiral, {stance.range.lo, middle}}, candidates);
+  decide({stance.is_pivot, stance.spiral, {middle, stance.range.hi}}, candidates);
+}
+
+/// Is the stretch inside, moved by a perimeter or not?
+bool ReachSearch::is_inside(const BoundaryTree::Node& node, const Interval& around) const {
+  const double period = part_.closed() ? part_.perimeter() : 0;
+  for (const double shift : {0.0, period, -period}) {
+    if (node.lo + shift >= around.lo && node.hi + shift <= around.hi) return true;
+  }
+  return false;
+}
+
+/// The stretch around a stance that the finger can't enter, in arc length unwrapped.
+Interval ReachSearch::safe_around(const Stance& stance) const {
+  const Spiral& spiral = turning_.spirals()[stance.spiral];
+  Interval angles = stance.range;
+  if (!stance.is_pivot) {
+    const double one = turning_.on_spiral(spiral, stance.range.lo).angle;
+    const double two = turning_.on_spiral(spiral, stance.range.hi).angle;
+    angles = {std::min(one, two), std::max(one, two)};
+  }
+  return {safe_end(stance, angles, -1), safe_end(stance, angles, 1)};
+}
+
+/// With x along the tangent, T, at the contact and y against n, the boundary has sin(phi) as its slope's sine, with
+/// d(sin phi)/dx = kappa, and the disk's rim has -k x. As long as kappa >= -k the boundary stays above the rim: the
+/// finger can't enter it. Where kappa falls short by e, and where concave joints turn by j at x_j, it comes below by no
+/// more than (e x^2 / 2 + sum of j (x - x_j)) / cos^3 of the steepest slope; so long as that is within the slack, and
+/// the slopes make sense, the stretch is safe. Returns where it ends in this direction.
+double ReachSearch::safe_end(const Stance& stance, const Interval& angles, int direction) const {
+  const std::vector<Spiral>& spirals = turning_.spirals();
+  const auto count = static_cast<std::int64_t>(spirals.size());
+  const Interval allowed = direction > 0 ? Interval{angles.hi - kMostOutward, angles.lo + kMostInward}
+                                         : Interval{angles.hi - kMostInward, angles.lo + kMostOutward};
+  double length = stance.is_pivot ? 0 : stance.range.width();
+  double excess = 0;       // e
+  double jumps = 0;        // sum of j
+  double jump_places = 0;  // sum of j x_j
+  double gaps = 0;
+  const auto fits = [&](double at_length, double with_excess) {
+    const double below = 0.5 * with_excess * at_length * at_length + std::max(0.0, jumps * at_length - jump_places);
+    return kLeaning * below + gaps <= slack_;
+  };
+
+  auto index = static_cast<std::int64_t>(stance.spiral);
+  double lap_s = 0;  // from the spiral's own arc length and angle to those unwrapped around the stance
+  double lap_angle = 0;
+  double here;  // on the spiral
+  if (stance.is_pivot) {
+    here = spirals[stance.spiral].lo;
+  } else {
+    for (const double end : {stance.range.lo, stance.range.hi}) {
+      excess = std::max(excess, -turning_.on_spiral(spirals[stance.spiral], end).curvature - curvature_);
+    }
+    if (!fits(length, excess)) return direction > 0 ? stance.range.lo : stance.range.hi;
+    here = direction > 0 ? stance.range.hi : stance.range.lo;
+  }
+  if (stance.is_pivot && direction > 0 && !allowed.contains(spirals[stance.spiral].start.angle)) return here;
+
+  bool leaves_joint = stance.is_pivot && direction < 0;  // a pivot looks back at the spiral before
+  const double enough = kMostSafeLength * length;
+  for (int seen = 0;; ++seen) {
+    if (seen > kMostSafeSpirals && length > enough) return here + lap_s;
+    if (!leaves_joint) {
+      const Spiral& spiral = spirals[static_cast<std::size_t>(index)];
+      const double end = direction > 0 ? spiral.hi : spiral.lo;
+      const double from_excess = excess;
+      const auto reaches = [&](double s, double& with_excess) {
+        const Turning at = turning_.on_spiral(spiral, s);
+        const Turning from = turning_.on_spiral(spiral, here);
+        with_excess = std::max({from_excess, -at.curvature - curvature_, -from.curvature - curvature_});
+        return allowed.contains(at.angle + lap_angle) && fits(length + std::abs(s - here), with_excess);
+      };
+      double with_excess = 0;
+      if (!reaches(end, with_excess)) {
+        double inside = here;
+        double outside = end;
+        for (int round = 0; round < 30; ++round) {
+          const double middle = 0.5 * (inside + outside);
+          (reaches(middle, with_excess) ? inside : outside) = middle;
+        }
+        return inside + lap_s;
+      }
+      excess = with_excess;
+      length += std::abs(end - here);
+      here = end;
+    }
+    leaves_joint = false;
+    const std::int64_t joint = direction > 0 ? index + 1 : index;  // the spiral that starts there
+    if (!turning_.closed() && (joint <= 0 || joint >= count)) return here + lap_s;
+    if (length > part_.perimeter()) return here + lap_s;
+    const double end_s = here + lap_s;
+    const double angle_before = direction > 0 ? spirals[static_cast<std::size_t>(index)].end.angle + lap_angle : 0;
+    const double angle_after = direction < 0 ? spirals[static_cast<std::size_t>(index)].start.angle + lap_angle : 0;
+    index += direction;
+    if (index == count || index < 0) {
+      index = direction > 0 ? 0 : count - 1;
+      lap_s += direction * part_.perimeter();
+      lap_angle += direction * turning_.period_turn();
+    }
+    const Spiral& next = spirals[static_cast<std::size_t>(index)];
+    const double angle = (direction > 0 ? next.start.angle : next.end.angle) + lap_angle;
+    const double jump = direction > 0 ? angle - angle_before : angle_after - angle;
+    if (jump < 0) {
+      jumps -= jump;
+      jump_places -= jump * length;
+    }
+    gaps += tree_.gap_before(static_cast<std::size_t>(joint == count ? 0 : joint));
+    if (!allowed.contains(angle) || !fits(length, excess)) return end_s;
+    here = direction > 0 ? next.lo : next.hi;
+  }
+}
+
+}  // namespace rollfix

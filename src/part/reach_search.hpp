@@ -1,0 +1,90 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "boundary_tree.hpp"
+#include "rollfix/part/reach.hpp"
+
+namespace rollfix {
+
+/// How a finger stands on the part: its contact is somewhere on a stretch of one spiral, or it pivots at the convex
+/// corner where that spiral starts. Finger and part touch at p(s); the tangent there is T, the outward normal n.
+struct Stance {
+  bool is_pivot = false;
+  std::size_t spiral = 0;
+  Interval range;  // of s; of a pivot, of the tangent's angle
+};
+
+/// What was found out about a stance.
+struct Decision {
+  Stance stance;
+  bool is_free = true;
+};
+
+/// How deep a point q is in the finger that touches at p, as a quadratic: with d = q - p and k the finger's curvature,
+///   F = 2 n.d - k d.d
+/// is above 0 inside; the depth h has F = h (2 - k h). It serves disks and, with k = 0, jaws. While the finger turns
+/// against the part by d(omega) = d(Theta) + k ds, be it rolling or pivoting, F changes by 2 T.d d(omega).
+double deepness(const Vec2& normal, const Vec2& offset, double curvature);
+double depth_of(double deepness, double curvature);
+
+/// F along a chord: at_start + x slope - x^2 bend, 0 <= x <= 1.
+struct ChordDeepness {
+  double at_start = 0;
+  double slope = 0;
+  double bend = 0;
+
+  double most_at_ends() const { return at_start + std::max(0.0, slope - bend); }
+  double most() const;
+  /// How much larger F is at most no further than this from the chord.
+  double beside(double deviation, double curvature) const;
+};
+ChordDeepness deepness_on_chord(const BoundaryTree::Node& node, const Vec2& point, const Vec2& normal,
+                                double curvature);
+
+/// Decides for all stances of a finger whether any point of the boundary is deeper in it than the slack.
+class ReachSearch {
+ public:
+  ReachSearch(BoundaryTree& tree, double curvature, double slack, std::size_t budget);
+
+  /// In order around the part; neighbours that decide the same are not joined.
+  const std::vector<Decision>& run();
+
+  bool is_decided() const { return is_decided_; }
+  std::size_t tests() const { return tests_; }
+
+ private:
+  struct View;
+  struct Comparison;
+
+  void add_pivots(std::size_t spiral);
+  void add_rolls(std::size_t index);
+  void decide(const Stance& stance, const std::vector<std::int32_t>& candidates);
+  void split(const Stance& stance, const std::vector<std::int32_t>& candidates);
+  bool is_inside(const BoundaryTree::Node& node, const Interval& around) const;
+  double least(const View& view, const Vec2& point) const;
+  double change(const View& view, const Vec2& offset, double beside) const;
+  Comparison compare(const View& view, const BoundaryTree::Node& node) const;
+  View view_of(const Stance& stance) const;
+  Interval safe_around(const Stance& stance) const;
+  double safe_end(const Stance& stance, const Interval& angles, int direction) const;
+  void add(const Stance& stance, bool is_free) { decisions_.push_back({stance, is_free}); }
+
+  BoundaryTree& tree_;
+  const Part& part_;
+  const TurningFunction& turning_;
+  double curvature_;
+  double slack_;
+  std::size_t budget_;
+  Vec2 last_hit_;
+  double most_;   // F of a point as deep as the slack
+  double doubt_;  // F may be this much above it
+  bool is_decided_ = true;
+  std::size_t tests_ = 0;
+  std::vector<Decision> decisions_;
+};
+
+}  // namespace rollfix

@@ -1,0 +1,201 @@
+// loops: a drawing's curves, in whatever order and direction, joined end to end.
+#include "rollfix/outline/loops.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "random.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/outline/primitives.hpp"
+#include "rollfix/part/part.hpp"
+
+namespace {
+
+using rollfix::Arc;
+using rollfix::Curve;
+using rollfix::Drawing;
+using rollfix::InputError;
+using rollfix::Line;
+using rollfix::Loops;
+using rollfix::Part;
+using rollfix::Vec2;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr double kPi = std::numbers::pi;
+
+/// Each curve an entity of its own, on the line of its number.
+Drawing drawing(const std::vector<Curve>& curves) {
+  Drawing result{"drawing.dxf", "mm", {}, {}};
+  for (const Curve& curve : curves) result.curves.push_back({curve, {"LINE", "0", result.curves.size() + 1}});
+  return result;
+}
+
+/// All of one polyline.
+Drawing polyline(const std::vector<Vec2>& points) {
+  Drawing result{"drawing.dxf", "mm", {}, {}};
+  for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+    result.curves.push_back({Line(points[k], points[k + 1]), {"LWPOLYLINE", "0", 1}});
+  }
+  return result;
+}
+
+std::vector<Curve> square(double side, const Vec2& corner = Vec2(0, 0)) {
+  const Vec2 x(side, 0);
+  const Vec2 y(0, side);
+  return {Line(corner, corner + x), Line(corner + x, corner + x + y), Line(corner + x + y, corner + y),
+          Line(corner + y, corner)};
+}
+
+std::vector<Curve> stadium(double radius, double straight) {
+  return {Line({0, -radius}, {straight, -radius}), Arc({straight, 0}, radius, -kPi / 2, kPi),
+          Line({straight, radius}, {0, radius}), Arc({0, 0}, radius, kPi / 2, kPi)};
+}
+
+template <class... Lists>
+std::vector<Curve> together(const Lists&... lists) {
+  std::vector<Curve> all;
+  (all.insert(all.end(), lists.begin(), lists.end()), ...);
+  return all;
+}
+
+std::string message_of(const Drawing& drawn) {
+  try {
+    rollfix::loops(drawn);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Loops, join_pieces_in_any_order_and_direction) {
+  std::mt19937_64 generator = test_generator();
+  for (int round = 0; round < test_count(200); ++round) {
+    std::vector<Curve> curves = stadium(0.5, 2);
+    std::shuffle(curves.begin(), curves.end(), generator);
+    for (Curve& curve : curves) {
+      if (generator() % 2 == 0) curve = rollfix::reversed(curve);
+    }
+    const Loops found = rollfix::loops(drawing(curves));
+    ASSERT_EQ(found.closed.size(), 1U);
+    EXPECT_TRUE(found.open.empty());
+    EXPECT_NEAR(found.closed[0].area, 2 + kPi / 4, 1e-12);
+    EXPECT_NEAR(found.closed[0].length, 4 + kPi, 1e-12);
+    EXPECT_NEAR(Part(found.closed[0].outline).perimeter(), 4 + kPi, 1e-11);
+  }
+}
+
+TEST(Loops, start_with_the_first_curve_of_the_file_in_its_direction) {
+  const std::vector<Curve> curves = {Line({1, 1}, {1, 0}), Line({0, 0}, {1, 0}), Line({0, 1}, {1, 1}),
+                                     Line({0, 0}, {0, 1})};
+  const Part part(rollfix::loops(drawing(curves)).closed.at(0).outline);
+  EXPECT_EQ(part.point(0), Vec2(1, 1));
+  EXPECT_TRUE(part.reversed());  // that way it runs clockwise
+}
+
+TEST(Loops, keep_arcs_and_lines_exact) {
+  const Part part(rollfix::loops(drawing(stadium(0.5, 2))).closed.at(0).outline);
+  for (const rollfix::Spiral& spiral : part.turning().spirals()) EXPECT_EQ(spiral.trend, 0);
+}
+
+TEST(Loops, are_listed_by_area_and_know_what_is_a_hole) {
+  const auto hole = square(2, {1, 1});
+  const auto island = square(1, {1.5, 1.5});
+  const Loops found = rollfix::loops(drawing(together(island, square(10), hole)));
+  ASSERT_EQ(found.closed.size(), 3U);
+  EXPECT_THAT((std::vector<double>{found.closed[0].area, found.closed[1].area, found.closed[2].area}),
+              ElementsAre(100, 4, 1));
+  EXPECT_THAT((std::vector<int>{found.closed[0].depth, found.closed[1].depth, found.closed[2].depth}),
+              ElementsAre(0, 1, 2));
+  EXPECT_TRUE(found.closed[1].outline.hole);
+  EXPECT_FALSE(found.closed[2].outline.hole);
+}
+
+TEST(Loops, a_hole_is_stored_clockwise_with_the_material_on_its_left) {
+  const Loops found = rollfix::loops(drawing(together(square(10), square(2, {1, 1}))));
+  const Part hole(found.closed.at(1).outline);
+  EXPECT_EQ(hole.turns(), -1);
+  EXPECT_TRUE(hole.reversed());
+  ASSERT_EQ(hole.corners().size(), 4U);
+  for (const rollfix::Corner& corner : hole.corners()) EXPECT_NEAR(corner.turn, -kPi / 2, 1e-12);
+}
+
+TEST(Loops, a_circle_is_a_loop_by_itself_even_where_a_line_touches_it) {
+  const Loops found = rollfix::loops(drawing({Arc({0, 0}, 1, 0, 2 * kPi), Line({1, 0}, {3, 0})}));
+  EXPECT_EQ(found.closed.size(), 1U);
+  EXPECT_EQ(found.open.size(), 1U);
+}
+
+TEST(Loops, a_polyline_through_one_of_its_own_points_stays_one_loop) {
+  const Loops found = rollfix::loops(polyline({{1, 1}, {0, 0}, {-1, -1}, {1, -1}, {0, 0}, {-1, 1}, {1, 1}}));
+  ASSERT_EQ(found.closed.size(), 1U);
+  EXPECT_EQ(found.closed[0].outline.curves.size(), 6U);
+}
+
+TEST(Loops, ends_within_the_gap_meet_and_the_largest_gap_is_reported) {
+  std::vector<Curve> curves = square(1);
+  curves[1] = Line({1 + 1e-7, 0}, {1, 1});
+  const Loops found = rollfix::loops(drawing(curves));
+  ASSERT_EQ(found.closed.size(), 1U);
+  EXPECT_NEAR(found.closed[0].gap, 1e-7, 1e-15);
+  EXPECT_NEAR(Part(found.closed[0].outline).perimeter(), 4, 1e-6);
+}
+
+TEST(Loops, ends_beyond_the_gap_leave_an_open_chain) {
+  std::vector<Curve> curves = square(1);
+  curves[3] = Line({0, 1}, {0, 0.01});
+  EXPECT_EQ(rollfix::loops(drawing(curves)).open.size(), 1U);
+  EXPECT_EQ(rollfix::loops(drawing(curves), {0.02}).closed.size(), 1U);
+}
+
+TEST(Loops, an_open_chain_keeps_the_direction_of_its_first_curve) {
+  const Loops found = rollfix::loops(drawing({Line({2, 0}, {3, 1}), Line({1, 0}, {2, 0}), Line({1, 0}, {0, 1})}));
+  ASSERT_EQ(found.open.size(), 1U);
+  EXPECT_EQ(found.open[0].outline.curves.front().front(), Vec2(0, 1));
+  EXPECT_EQ(found.open[0].outline.curves.back().back(), Vec2(3, 1));
+}
+
+TEST(Loops, curves_drawn_twice_count_once_and_it_is_said) {
+  std::vector<Curve> curves = together(square(1), square(1));
+  curves[5] = rollfix::reversed(curves[5]);
+  const Loops found = rollfix::loops(drawing(curves));
+  EXPECT_EQ(found.closed.size(), 1U);
+  EXPECT_THAT(found.notes, ElementsAre(HasSubstr("4 curves that are drawn twice, such as the LINE '0' of line 8")));
+}
+
+TEST(Loops, two_arcs_over_one_chord_are_not_the_same_curve) {
+  const Loops found = rollfix::loops(drawing({Arc({0, 0}, 1, 0, kPi), Arc({0, 0}, 1, kPi, kPi)}));
+  ASSERT_EQ(found.closed.size(), 1U);
+  EXPECT_NEAR(found.closed[0].area, kPi, 1e-12);
+}
+
+TEST(Loops, curves_below_the_gap_are_left_out_and_counted) {
+  const Loops found = rollfix::loops(drawing(together(square(1), std::vector<Curve>{Line({0, 0}, {1e-9, 0})})));
+  EXPECT_EQ(found.closed.size(), 1U);
+  EXPECT_THAT(found.notes, ElementsAre(HasSubstr("left out: 1 curves no longer than")));
+}
+
+TEST(Loops, a_branch_is_refused_with_its_place) {
+  EXPECT_THAT(message_of(drawing(together(square(1), std::vector<Curve>{Line({0, 0}, {0.5, 0.5})}))),
+              HasSubstr("drawing.dxf: 3 ends of curves meet near (0, 0), expected two at most"));
+}
+
+TEST(Loops, a_drawing_without_curves_is_refused) {
+  EXPECT_THAT(message_of(Drawing{"drawing.dxf", "", {}, {}}), HasSubstr("draws no curve"));
+}
+
+TEST(Loops, a_hundred_thousand_lines_at_one_place_end_soon) {
+  std::vector<Curve> curves;
+  for (int k = 0; k < 100000; ++k) {
+    const double angle = 2 * kPi * k / 100000;
+    curves.emplace_back(Line({0, 0}, {std::cos(angle), std::sin(angle)}));
+  }
+  EXPECT_THAT(message_of(drawing(curves)), HasSubstr("100000 ends of curves meet near (0, 0)"));
+}
+
+}  // namespace

@@ -1,0 +1,299 @@
+// Where a finger can touch at all: closed forms, and a dense polyline that knows nothing of the search.
+
+#include "rollfix/part/reach.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "random.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/outline/spline.hpp"
+#include "shapes.hpp"
+
+namespace {
+
+using namespace rollfix;
+using shapes::kPi;
+
+constexpr double kExact = 1e-12;  // slack for closed forms
+
+Reach exact_reach(const Part& part, double radius) { return reach_of_disk(part, radius, {.slack = kExact}); }
+Reach exact_jaw(const Part& part) { return reach_of_jaw(part, {.slack = kExact}); }
+
+void expect_arcs(const Reach& reach, const std::vector<Interval>& expected, double tolerance = 1e-9) {
+  EXPECT_TRUE(reach.decided);
+  ASSERT_EQ(reach.arcs.size(), expected.size());
+  for (std::size_t k = 0; k < expected.size(); ++k) {
+    EXPECT_NEAR(reach.arcs[k].lo, expected[k].lo, tolerance) << k;
+    EXPECT_NEAR(reach.arcs[k].hi, expected[k].hi, tolerance) << k;
+  }
+}
+
+// ---- sharp corners
+
+Part l_shape() { return Part(shapes::polygon({{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}})); }
+
+/// A slot one unit wide and two deep, from above; s = 6 and 7 to 10 and 11 are its mouth and its walls.
+Part u_shape() { return Part(shapes::polygon({{0, 0}, {3, 0}, {3, 3}, {2, 3}, {2, 1}, {1, 1}, {1, 3}, {0, 3}})); }
+
+TEST(Reach, ends_a_radius_before_a_concave_right_angle) {
+  for (const double r : {1e-3, 0.3, 0.99}) expect_arcs(exact_reach(l_shape(), r), {{6 + r, 18 - r}});
+}
+
+TEST(Reach, of_a_disk_larger_than_both_legs_is_up_to_the_tips) {
+  const Reach reach = exact_reach(l_shape(), 5);
+  expect_arcs(reach, {{8, 16}});
+  // It pivots at (3, 1) until it touches (1, 3) as well: on a chord of 2 sqrt 2, at 135 degrees.
+  ASSERT_EQ(reach.pivots.size(), 5U);
+  ASSERT_EQ(reach.pivots[2].angles.size(), 1U);
+  EXPECT_NEAR(reach.pivots[2].angles[0].hi, 3 * kPi / 4 + std::asin(std::sqrt(2.0) / 5), 1e-9);
+}
+
+TEST(Reach, of_a_jaw_is_the_convex_hull) {
+  const Reach reach = exact_jaw(l_shape());
+  expect_arcs(reach, {{8, 16}});
+  EXPECT_NEAR(reach.pivots[2].angles[0].hi, 3 * kPi / 4, 1e-9);
+  EXPECT_NEAR(reach.pivots[3].angles[0].lo, 3 * kPi / 4, 1e-9);
+}
+
+TEST(Reach, of_a_disk_that_fits_into_a_slot_has_the_slots_bottom) {
+  expect_arcs(exact_reach(u_shape(), 0.3), {{9.3, 9.7}, {10.3, 24.7}});
+}
+
+TEST(Reach, of_a_disk_wider_than_a_slot_ends_at_the_edges_of_its_mouth) {
+  const double r = 0.6;
+  const Reach reach = exact_reach(u_shape(), r);
+  expect_arcs(reach, {{12, 23}});
+  // Pivoting about one edge of the mouth, the centre goes along a circle until it is r from the other.
+  ASSERT_EQ(reach.pivots.size(), 6U);
+  EXPECT_NEAR(reach.pivots[4].s, 12, 1e-12);
+  ASSERT_EQ(reach.pivots[4].angles.size(), 1U);
+  // The edge at (1, 3): the centre is at (1, 3) + r (sin a, -cos a).
+  const double limit = reach.pivots[4].angles[0].lo;
+  const Vec2 centre = Vec2(1, 3) + r * Vec2(std::sin(limit), -std::cos(limit));
+  EXPECT_NEAR((centre - Vec2(2, 3)).norm(), r, 1e-9);
+  EXPECT_FALSE(reach.pivots[4].is_whole());
+  EXPECT_TRUE(reach.pivots[0].is_whole());
+}
+
+TEST(Reach, of_a_disk_exactly_as_wide_as_a_slot_is_decided_in_favour_of_touching) {
+  const Reach reach = reach_of_disk(u_shape(), 0.5);
+  expect_arcs(reach, {{9.5, 9.5}, {10.5, 24.5}}, 2 * reach.slack);
+}
+
+TEST(Reach, does_not_go_over_a_concave_corner_however_small_the_finger) {
+  const Reach reach = reach_of_disk(l_shape(), 1e-9);
+  ASSERT_EQ(reach.arcs.size(), 1U);
+  EXPECT_NEAR(reach.arcs[0].lo, 6, 1e-8);
+  EXPECT_LE(reach.arcs[0].width(), reach.perimeter);
+  const Part bent(shapes::polygon({{0, 0}, {2, 0}, {2, 1}, {1, 0.998}, {0, 1}}));  // 0.2 degrees at (1, 0.998)
+  EXPECT_EQ(reach_of_disk(bent, 1e-5).arcs.size(), 1U);
+  EXPECT_NEAR(reach_of_disk(bent, 1e-5).arcs[0].lo, 3 + 1 + 2e-6, 1e-6);
+}
+
+TEST(Reach, is_not_stopped_by_the_tiny_concave_joints_of_rounded_digits) {
+  const Part bent(shapes::polygon({{0, 0}, {2, 0}, {2, 1}, {1, 1 - 1e-6}, {0, 1}}));
+  for (const double r : {0.01, 0.5, 20.0}) EXPECT_TRUE(reach_of_disk(bent, r).is_whole()) << r;
+  EXPECT_TRUE(reach_of_jaw(bent).is_whole());
+}
+
+// ---- holes and open parts
+
+Part hole(Outline outline) {
+  outline = reversed(outline);
+  outline.hole = true;
+  return Part(outline);
+}
+
+TEST(Reach, in_a_square_hole_ends_a_radius_from_its_corners) {
+  const Part part = hole(shapes::polygon({{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
+  expect_arcs(exact_reach(part, 0.1), {{0.1, 0.9}, {1.1, 1.9}, {2.1, 2.9}, {3.1, 3.9}});
+  EXPECT_TRUE(reach_of_disk(part, 0.51).arcs.empty());
+  EXPECT_TRUE(reach_of_jaw(part).arcs.empty());
+}
+
+TEST(Reach, in_a_round_hole_is_everything_up_to_its_own_radius) {
+  const Part part = hole(gallery("circle,r=2"));
+  EXPECT_TRUE(reach_of_disk(part, 1.5).is_whole());
+  EXPECT_TRUE(reach_of_disk(part, 2).is_whole());  // it fills the hole
+  EXPECT_TRUE(reach_of_disk(part, 2.01).arcs.empty());
+}
+
+TEST(Reach, of_an_open_part_counts_its_far_side_as_well) {
+  // A wall along x, then one that stands on it to the right of its direction of travel.
+  const Part wall(shapes::polygon({{0, 0}, {2, 0}, {2, -1}}, false));
+  expect_arcs(exact_reach(wall, 0.25), {{0, 1.75}, {2.25, 3}});
+  const Part step(shapes::polygon({{0, 0}, {2, 0}, {2, 1}}, false));
+  EXPECT_TRUE(exact_reach(step, 0.25).is_whole());
+}
+
+// ---- smooth dimples
+
+/// r = a + b cos u with b < a < 2b has one dimple, symmetric about u = pi.
+Part limacon() { return Part(gallery("limacon,a=1,b=0.9")); }
+
+/// A disk or a jaw that touches a symmetric dimple at two points has its centre on the axis: y of its centre is 0.
+TEST(Reach, ends_where_the_disk_touches_both_sides_of_a_dimple) {
+  const Part part = limacon();
+  for (const double r : {0.05, 0.3, 3.0}) {
+    const Reach reach = exact_reach(part, r);
+    ASSERT_EQ(reach.arcs.size(), 1U) << r;
+    for (const double s : {reach.arcs[0].lo, reach.arcs[0].hi}) {
+      const double angle = part.tangent(s);
+      const Vec2 centre = part.point(s) + r * Vec2(std::sin(angle), -std::cos(angle));
+      EXPECT_NEAR(centre.y(), 0, 1e-8) << r;
+    }
+    EXPECT_NEAR(reach.arcs[0].lo + reach.arcs[0].hi, 2 * part.perimeter(), 1e-8);
+  }
+}
+
+TEST(Reach, of_a_jaw_ends_at_the_double_tangent_of_a_dimple) {
+  const Part part = limacon();
+  const Reach reach = exact_jaw(part);
+  ASSERT_EQ(reach.arcs.size(), 1U);
+  EXPECT_NEAR(std::abs(part.tangent(reach.arcs[0].hi)), kPi / 2, 1e-8);
+  EXPECT_NEAR(part.point(reach.arcs[0].lo).x(), part.point(reach.arcs[0].hi).x(), 1e-8);
+}
+
+TEST(Reach, begins_to_shrink_where_one_plus_r_kappa_becomes_zero) {
+  const Part part = limacon();
+  double least = 0;
+  for (const Spiral& spiral : part.turning().spirals()) least = std::min(least, spiral.start.curvature);
+  const double critical = -1 / least;
+  EXPECT_TRUE(exact_reach(part, 0.99 * critical).is_whole());
+  EXPECT_FALSE(exact_reach(part, 1.01 * critical).is_whole());
+}
+
+TEST(Reach, of_a_convex_part_is_everything) {
+  for (const char* name : {"circle", "ellipse", "reuleaux", "superellipse", "stadium", "polygon,n=3", "polygon,n=9"}) {
+    const Part part(gallery(name));
+    for (const double r : {1e-3, 1.0, 1e3}) EXPECT_TRUE(reach_of_disk(part, r).is_whole()) << name << r;
+    EXPECT_TRUE(reach_of_jaw(part).is_whole()) << name;
+  }
+}
+
+TEST(Reach, of_a_gear_has_its_symmetry) {
+  const Part part(gallery("gear,teeth=12"));
+  const Reach reach = reach_of_disk(part, 0.2);
+  ASSERT_EQ(reach.arcs.size(), 12U);
+  for (std::size_t k = 1; k < 12; ++k) EXPECT_NEAR(reach.arcs[k].width(), reach.arcs[0].width(), 1e-8);
+}
+
+// ---- an oracle
+
+/// No point of a dense polyline is deeper in the disk than this. Depth by its definition: r less the distance.
+double sampled_depth(const std::vector<Vec2>& boundary, const Vec2& centre, double r) {
+  double nearest = 1e300;
+  for (const Vec2& point : boundary) nearest = std::min(nearest, (point - centre).norm());
+  return r - nearest;
+}
+
+Part random_spline(std::mt19937_64& generator) {
+  std::uniform_real_distribution<double> unit(0, 1);
+  const int count = 6 + static_cast<int>(8 * unit(generator));
+  const double wobble = 0.2 + 0.4 * unit(generator);
+  std::vector<Vec2> through;
+  for (int k = 0; k < count; ++k) {
+    const double angle = 2 * kPi * (k + 0.5 * unit(generator)) / count;
+    const double radius = 1 + wobble * (2 * unit(generator) - 1);
+    through.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+  }
+  return Part(Outline{"random spline", spline_through(through, true), true}, {true});
+}
+
+TEST(Reach, agrees_with_a_dense_polyline_on_random_splines) {
+  std::mt19937_64 generator = test_generator(71);
+  std::uniform_real_distribution<double> unit(0, 1);
+  constexpr int kSamples = 4000;
+  constexpr double kSlack = 1e-4;
+  int blocked = 0;
+  int free = 0;
+  for (int round = 0; round < test_count(20); ++round) {
+    const Part part = random_spline(generator);
+    const double r = std::pow(10.0, 2 * unit(generator) - 1.5);
+    const Reach reach = reach_of_disk(part, r, {.slack = kSlack});
+    ASSERT_TRUE(reach.decided);
+    const std::vector<Vec2> boundary = part.polyline(0, part.perimeter(), kSamples);
+    // A chord of the polyline is within this of the boundary, or less: samples may miss that much.
+    const double step = part.perimeter() / kSamples;
+    const double missed = step * step * (1 / r + part.turning().most_curvature());
+    for (int k = 0; k < 300; ++k) {
+      const double s = part.perimeter() * unit(generator);
+      const double angle = part.tangent(s);
+      const double depth = sampled_depth(boundary, part.point(s) + r * Vec2(std::sin(angle), -std::cos(angle)), r);
+      if (depth > kSlack * 1.001) {
+        ++blocked;
+        EXPECT_FALSE(reach.contains(s)) << "seed " << test_seed() << " round " << round << " s " << s << " r " << r;
+      } else if (depth < kSlack - missed) {
+        ++free;
+        EXPECT_TRUE(reach.contains(s)) << "seed " << test_seed() << " round " << round << " s " << s << " r " << r;
+      }
+    }
+  }
+  EXPECT_GT(blocked, 100);
+  EXPECT_GT(free, 100);
+}
+
+TEST(Reach, of_a_jaw_agrees_with_a_dense_polyline_on_random_splines) {
+  std::mt19937_64 generator = test_generator(72);
+  std::uniform_real_distribution<double> unit(0, 1);
+  constexpr double kSlack = 1e-4;
+  for (int round = 0; round < test_count(20); ++round) {
+    const Part part = random_spline(generator);
+    const Reach reach = reach_of_jaw(part, {.slack = kSlack});
+    const std::vector<Vec2> boundary = part.polyline(0, part.perimeter(), 4000);
+    for (int k = 0; k < 300; ++k) {
+      const double s = part.perimeter() * unit(generator);
+      const Vec2 normal(std::sin(part.tangent(s)), -std::cos(part.tangent(s)));
+      double depth = 0;
+      for (const Vec2& point : boundary) depth = std::max(depth, normal.dot(point - part.point(s)));
+      if (depth > kSlack * 0.8 && depth < kSlack * 1.001) continue;
+      EXPECT_EQ(reach.contains(s), depth < kSlack) << "seed " << test_seed() << " round " << round << " s " << s;
+    }
+  }
+}
+
+// ---- what is hit
+
+TEST(DeepestHit, of_a_disk_beside_a_concave_corner_is_the_other_leg) {
+  const Hit hit = deepest_hit(l_shape(), 1 / 0.5, 5.9, kPi / 2 + kPi / 2);  // (1.1, 1), the leg x = 1
+  EXPECT_NEAR(hit.depth, 0.4, 1e-9);
+  EXPECT_NEAR(hit.point.x(), 1, 1e-9);
+  EXPECT_NEAR(hit.point.y(), 1.5, 1e-5);
+  EXPECT_NEAR(hit.s, 6.5, 1e-5);
+}
+
+TEST(DeepestHit, of_a_jaw_is_the_point_furthest_beyond_it) {
+  const Hit hit = deepest_hit(l_shape(), 0, 5, kPi);
+  EXPECT_NEAR(hit.depth, 2, 1e-9);
+  EXPECT_NEAR(hit.point.y(), 3, 1e-9);
+}
+
+TEST(DeepestHit, of_a_free_finger_has_no_depth) { EXPECT_NEAR(deepest_hit(l_shape(), 1 / 0.5, 1, 0).depth, 0, 1e-12); }
+
+// ---- words
+
+TEST(Reach, refuses_a_radius_that_is_none) {
+  for (const double r : {0.0, -1.0, std::nan(""), HUGE_VAL}) EXPECT_THROW(reach_of_disk(l_shape(), r), InputError);
+}
+
+TEST(Reach, counts_what_its_budget_does_not_reach_as_reachable_and_says_so) {
+  ReachOptions options;
+  options.budget = 10;
+  const Reach reach = reach_of_disk(u_shape(), 0.6, options);
+  EXPECT_FALSE(reach.decided);
+  EXPECT_TRUE(reach.contains(9.5));
+}
+
+TEST(Reach, of_a_drawing_with_a_thousand_spirals_takes_few_tests) {
+  const Part part(gallery("spline,n=300,seed=3"), {true});
+  ASSERT_GT(part.turning().spirals().size(), 500U);
+  EXPECT_LT(reach_of_disk(part, 0.1).tests, 2000000U);
+}
+
+}  // namespace

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "drawing_helpers.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/files/svg.hpp"
+#include "rollfix/outline/drawing.hpp"
+
+/// Small words for tests about SVG files.
+namespace svg_test {
+
+using rollfix::Curve;
+using rollfix::Drawing;
+using rollfix::Vec2;
+
+using drawings::area_of;
+using drawings::length_of;
+
+inline Drawing parse(const std::string& text) { return rollfix::parse_svg(text, "test.svg"); }
+
+/// A file with this in it.
+inline std::string svg(const std::string& content, const std::string& attributes = "") {
+  return "<svg xmlns='http://www.w3.org/2000/svg' xmlns:xlink='http://www.w3.org/1999/xlink' " + attributes + ">" +
+         content + "</svg>";
+}
+
+inline Drawing drawn(const std::string& content, const std::string& attributes = "") {
+  return parse(svg(content, attributes));
+}
+
+inline Drawing path(const std::string& data) { return drawn("<path d='" + data + "'/>"); }
+
+/// What a curve was made of: "line", "arc", ...
+inline std::vector<std::string> kinds(const Drawing& drawing) {
+  std::vector<std::string> result;
+  for (const auto& drawn : drawing.curves) result.push_back(drawn.curve.record()->kind);
+  return result;
+}
+
+/// The ends of the curves, as long as each starts where the one before ends.
+inline std::vector<Vec2> joints(const Drawing& drawing) {
+  std::vector<Vec2> result;
+  for (const auto& drawn : drawing.curves) {
+    if (result.empty() || (result.back() - drawn.curve.front()).norm() > 1e-9) result.push_back(drawn.curve.front());
+    result.push_back(drawn.curve.back());
+  }
+  return result;
+}
+
+inline std::string message_of(const std::string& text) {
+  try {
+    parse(text);
+  } catch (const rollfix::InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+inline std::string message_of_path(const std::string& data) { return message_of(svg("<path d='" + data + "'/>")); }
+
+}  // namespace svg_test
