@@ -15,7 +15,9 @@ namespace bench {
 
 void files(int rounds) {
   fmt::print("outline          spirals  panels    bytes  load [us]  build [us]  reach [us]\n");
-  for (const Family& family : families()) {
+  std::vector<Family> all = families();
+  all.push_back({"gear, 25 teeth", rollfix::gallery("gear,teeth=25")});
+  for (const Family& family : all) {
     const rollfix::Part part(family.outline);
     const std::string text = rollfix::format_part(part);
     const double radius = 0.05 * part.perimeter();

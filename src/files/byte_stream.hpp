@@ -32,11 +32,16 @@ class ByteReader {
       ok_ = false;
       return 0;
     }
-    std::uint64_t value = 0;
-    for (std::size_t k = 0; k < 8; ++k) {
-      value |= static_cast<std::uint64_t>(static_cast<unsigned char>(bytes_[next_ + k])) << (8 * k);
-    }
+    const char* const at = bytes_.data() + next_;
     next_ += 8;
+    std::uint64_t value = 0;
+    if constexpr (std::endian::native == std::endian::little) {
+      std::memcpy(&value, at, 8);
+    } else {
+      for (unsigned k = 0; k < 8; ++k) {
+        value |= static_cast<std::uint64_t>(static_cast<unsigned char>(at[k])) << (8 * k);
+      }
+    }
     return value;
   }
   double number() { return std::bit_cast<double>(whole()); }

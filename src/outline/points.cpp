@@ -218,9 +218,10 @@ Outline outline_through(const std::vector<Vec2>& points, const std::string& name
   }
   Smoothing smoothing = smooth_spline(points, outline.closed, *options.smooth, options.corner_angle);
   if (notes != nullptr) {
-    notes->push_back(fmt::format(
-        "smoothed: within {:.6g} of all {} points (largest deviation {:.4g}), {} curves, {} corners", *options.smooth,
-        points.size(), smoothing.deviation, smoothing.curves.size(), smoothing.corners.size()));
+    notes->push_back(
+        fmt::format("smoothed: within {:.6g} of all {} points (largest deviation {:.4g}), {} curves, {} corner{}",
+                    *options.smooth, points.size(), smoothing.deviation, smoothing.curves.size(),
+                    smoothing.corners.size(), smoothing.corners.size() == 1 ? "" : "s"));
   }
   outline.curves = std::move(smoothing.curves);
   return outline;
