@@ -1,20 +1,47 @@
 // What one finger and two fingers cost, in units of W: one integration of the same outline's perimeter, timed in the
-// same process. And what saved parts and reach cost, in microseconds.
-//   rollfix_bench [ROUNDS]     rounds of measurement (default 15)
+// same process. What saved parts, reach and a growing log cost, in microseconds. And how well noisy logs are localized.
+//   rollfix_bench [ROUNDS [TABLE...]]     rounds of measurement (default 15); all tables, or those named:
+//                                         one, two, files, watch, noisy, advised
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <string_view>
 
 #include "tables.hpp"
 
+namespace {
+
+struct Table {
+  const char* name;
+  const char* title;
+  void (*print)(int rounds);
+};
+
+// Logs and cases on each part, for a round.
+constexpr int kLogs = 7;
+
+constexpr std::array<Table, 6> kTables = {{
+    {"one", "one finger", bench::one_finger},
+    {"two", "two fingers", bench::two_fingers},
+    {"files", "saved parts and reach", bench::files},
+    {"watch", "watching a growing log", bench::watch},
+    {"noisy", "noisy logs", [](int rounds) { bench::noisy(kLogs * rounds); }},
+    {"advised", "advised rolls", [](int rounds) { bench::advised(kLogs * rounds); }},
+}};
+
+}  // namespace
+
 int main(int argc, char** argv) {
   const int rounds = argc > 1 ? std::max(1, std::atoi(argv[1])) : 15;
-  std::puts("one finger");
-  bench::one_finger(rounds);
-  std::puts("\ntwo fingers");
-  bench::two_fingers(rounds);
-  std::puts("\nsaved parts and reach");
-  bench::files(rounds);
+  for (const Table& table : kTables) {
+    const bool is_named = std::any_of(argv + std::min(argc, 2), argv + argc,
+                                      [&](const char* name) { return std::string_view(name) == table.name; });
+    if (argc > 2 && !is_named) continue;
+    std::printf("%s\n", table.title);
+    table.print(rounds);
+    std::puts("");
+  }
   return 0;
 }

@@ -8,5 +8,11 @@ void one_finger(int rounds);
 void two_fingers(int rounds);
 /// In microseconds: loading a saved part, building it anew with the look for crossings, the reach of a disk.
 void files(int rounds);
+/// In microseconds per sample: a growing log, from a line to where the contact is.
+void watch(int rounds);
+/// How often noisy logs are localized, beside particle filters; so many logs on each part.
+void noisy(int count);
+/// How often two advised rolls leave one place; so many cases on each part.
+void advised(int count);
 
 }  // namespace bench

@@ -28,7 +28,7 @@ constexpr std::size_t kBaselineCases = 20;  // of them: a thousand starts take l
 constexpr std::array<int, 3> kStarts = {10, 100, 1000};
 constexpr int kManyStarts = 1000;  // take long: no more than a few rounds of them
 constexpr int kFewRounds = 3;
-constexpr double kSamePlace = 1e-6;  // of the perimeter
+constexpr double kSamePair = 1e-6;  // of the perimeter
 
 struct Case {
   std::vector<PairReading> readings;
@@ -73,7 +73,7 @@ struct Baseline {
   double recall = 0;  // share of the placements found
 };
 
-struct Row {
+struct PairRow {
   std::string name;
   double unit = 0;        // W in seconds
   double locate = 0;      // in W, per case
@@ -87,7 +87,7 @@ struct Row {
 
 /// Whether this pair is the placement's start, or one of the others that the tolerance does not tell from it.
 bool answers(const Part& part, const PairPlacement& placement, const PairPoint& pair) {
-  if (same_pair(part, pair, placement.start, kSamePlace)) return true;
+  if (same_pair(part, pair, placement.start, kSamePair)) return true;
   const auto inside = [&](std::size_t finger) {
     const Interval& extent = placement.extent[finger];
     const double ahead =
@@ -130,7 +130,7 @@ double seconds_per_case(const std::vector<Case>& cases, Job&& job) {
 }
 
 void measure_baseline(const Part& part, const pair_oracle::Exhaustive* oracle, const std::vector<Case>& cases,
-                      int rounds, Row& row) {
+                      int rounds, PairRow& row) {
   std::array<double, kStarts.size()> found{};
   double all = 0;
   for (const Case& given : cases) {
@@ -156,10 +156,10 @@ void measure_baseline(const Part& part, const pair_oracle::Exhaustive* oracle, c
   }
 }
 
-Row measure(const Family& family, int rounds) {
+PairRow measure_pairs(const Family& family, int rounds) {
   const Part part(family.outline);
   const std::vector<Case> cases = random_cases(part);
-  Row row;
+  PairRow row;
   row.name = family.name;
   for (const Case& given : cases) {
     const PairSearch search = find(part, given);
@@ -185,7 +185,7 @@ Row measure(const Family& family, int rounds) {
   return row;
 }
 
-void print(const Row& row) {
+void print(const PairRow& row) {
   fmt::print("{:<18}{:>8.2f}{:>10.1f}{:>9.2f}{:>10.1f}{:>11.1f}{:>10.0f}", row.name, 1e6 * row.unit, row.locate,
              row.placements > 0 ? row.locate / row.placements : 0, row.facing, row.placements, row.boxes);
   for (const Baseline& baseline : row.baseline) {
@@ -209,9 +209,9 @@ void two_fingers(int rounds) {  // means: geometric of costs, plain of shares
   std::array<Mean, kStarts.size()> cost;
   std::array<double, kStarts.size()> recall{};
   int rows = 0;
-  std::vector<Row> trivial;
+  std::vector<PairRow> trivial;
   for (const Family& family : families()) {
-    const Row row = measure(family, rounds);
+    const PairRow row = measure_pairs(family, rounds);
     if (is_trivial(Part(family.outline))) {
       trivial.push_back(row);
       continue;
@@ -233,7 +233,7 @@ void two_fingers(int rounds) {  // means: geometric of costs, plain of shares
   }
   fmt::print("\n");
   if (!trivial.empty()) fmt::print("\noutlines whose W is next to nothing, lines and arcs alone:\n");
-  for (const Row& row : trivial) print(row);
+  for (const PairRow& row : trivial) print(row);
 }
 
 }  // namespace bench

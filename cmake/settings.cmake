@@ -10,6 +10,18 @@ if(PROJECT_IS_TOP_LEVEL)
   endif()
 endif()
 
+# rollfix_rooms(TARGET): in a unity build (see CMakePresets.json) the files of a folder are compiled together.
+function(rollfix_rooms target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "[.]cpp$")
+  foreach(source IN LISTS sources)
+    cmake_path(GET source PARENT_PATH folder)
+    cmake_path(GET folder FILENAME room)
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${room})
+  endforeach()
+endfunction()
+
 function(rollfix_settings target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
@@ -21,6 +33,9 @@ function(rollfix_settings target)
       # Guesses after inlining, wrong in Boost, Eigen and std::string with -O3; the sanitizers see the real thing.
       target_compile_options(${target} PRIVATE
         -Wno-array-bounds -Wno-maybe-uninitialized -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread)
+      if(CMAKE_UNITY_BUILD)  # A source that is included is taken for a header, where types of no name do harm.
+        target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+      endif()
     endif()
   endif()
   if(ROLLFIX_WERROR)

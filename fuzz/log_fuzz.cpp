@@ -1,4 +1,5 @@
 // Logs: whatever the bytes are, they give rows of one length, and readings, and a part to teach, or an InputError.
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -6,8 +7,10 @@
 #include <vector>
 
 #include "rollfix/contact/log.hpp"
+#include "rollfix/contact/log_stream.hpp"
 #include "rollfix/contact/teach.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/outline/gallery.hpp"
 
 namespace {
 
@@ -25,6 +28,19 @@ void teach(const rollfix::Log& log, const rollfix::DiskFinger& finger) {
   const rollfix::Taught taught = rollfix::teach(log, options);
   require(!taught.outline.curves.empty());
 }
+/// Line by line: whatever comes, each line is one of the kinds, and what is skipped is counted.
+void stream(std::string_view text, const rollfix::DiskFinger& finger) {
+  static const rollfix::Part part(rollfix::gallery("ellipse"));
+  rollfix::LogStream stream("fuzz", part, finger);
+  std::size_t malformed = 0;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size() - 1) + 1;
+    if (stream.push(text.substr(0, end)).kind == rollfix::LineKind::malformed) ++malformed;
+    if (end % 17 == 0) stream.resume();
+    text.remove_prefix(end);
+  }
+  require(stream.malformed() == malformed);
+}
 
 }  // namespace
 
@@ -38,6 +54,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       require(readings.size() == log.rows());
       if (log.rows() <= kMostRows) teach(log, finger);
     }
+  } catch (const rollfix::InputError&) {
+  }
+  try {
+    stream(text, finger);
   } catch (const rollfix::InputError&) {
   }
   return 0;

@@ -14,6 +14,7 @@
 #include "rollfix/part/part.hpp"
 #include "shapes.hpp"
 
+namespace airfoil_test {
 namespace {
 
 using rollfix::parse_points;
@@ -144,3 +145,4 @@ TEST(Airfoil, blocks_that_start_at_different_points_are_refused) {
 }
 
 }  // namespace
+}  // namespace airfoil_test

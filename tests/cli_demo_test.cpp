@@ -6,6 +6,7 @@
 #include "rollfix/locate/march/pairs.hpp"
 #include "rollfix/outline/load.hpp"
 
+namespace cli_demo_test {
 namespace {
 
 using cli::run;
@@ -146,3 +147,5 @@ TEST(Demo, makes_the_folder_that_it_is_given_and_does_not_overwrite) {
   EXPECT_EQ(run("demo -o a/b").code, 2);
   EXPECT_EQ(run("demo -o a/b --force").code, 0);
 }
+
+}  // namespace cli_demo_test

@@ -6,6 +6,7 @@
 
 #include "cli.hpp"
 
+namespace cli_errors_test {
 namespace {
 
 using cli::run;
@@ -109,7 +110,34 @@ const std::vector<Mistake> kLogs = {
     {"missing_log", "locate gallery:cam --log no.csv --finger disk,r=1", {"no.csv", "no such file"}},
     {"letters_in_a_cell", "locate gallery:cam --log cell.csv --finger disk,r=1", {"cell.csv:3", "'abc'"}},
     {"no_finger", "locate gallery:cam --log roll.csv", {"roll.csv", "--finger disk,r="}},
-    {"jaw", "locate gallery:cam --log roll.csv --finger jaw", {"--finger jaw", "disk,r=0.1"}},
+    {"finger_without_a_radius", "locate gallery:cam --log roll.csv --finger disk", {"disk,r=0.1", "jaw", "outline"}},
+    {"finger_file_missing", "locate gallery:cam --log roll.csv --finger pad.csv", {"--finger pad.csv", "no such file"}},
+    {"finger_with_a_corner",
+     "locate gallery:cam --log roll.csv --finger gallery:reuleaux",
+     {"--finger gallery:reuleaux", "a corner of 60 deg"}},
+    {"roll_0", "locate gallery:cam --log roll.csv --finger disk,r=1 --roll 0", {"--roll", "at least 1"}},
+    {"roll_without_log", "locate gallery:cam --reading 1,1 --roll 1", {"--roll", "--log"}},
+    {"roll_of_two_logs", "locate gallery:cam --log roll.csv --log roll.csv --roll 1", {"--roll", "more than once"}},
+    {"jaw_on_a_flat_side", "simulate gallery:stadium --finger jaw --start 0.5 --length 0.1", {"flat jaw", "curvature"}},
+    {"contact_of_a_disk",
+     "simulate gallery:cam --finger disk,r=1 --start 1 --length 1 --contact 1",
+     {"--contact", "--contact-angle"}},
+    {"contact_angle_of_a_jaw",
+     "simulate gallery:cam --finger jaw --start 1 --length 1 --contact-angle 1",
+     {"--contact-angle", "--contact"}},
+    {"seed_without_noise",
+     "simulate gallery:cam --finger disk,r=1 --start 1 --length 1 --seed 1",
+     {"--seed", "--noise"}},
+    {"unknown_noise",
+     "simulate gallery:cam --finger disk,r=1 --start 1 --length 1 --noise jitter=1",
+     {"--noise jitter=1", "contact"}},
+    {"radius_of_a_jaw",
+     "simulate gallery:cam --finger jaw --start 1 --length 1 --noise radius=1",
+     {"leave the radius out"}},
+    {"two_jaws",
+     "simulate gallery:cam --finger jaw --start 1 --start 4 --length 1 --length 1",
+     {"--finger jaw", "disks only"}},
+    {"reach_of_an_outline", "inspect gallery:cam --finger gallery:ellipse", {"disks and jaws"}},
     {"negative_radius", "locate gallery:cam --log roll.csv --finger disk,r=-1", {"disk,r=-1", "above 0"}},
     {"three_logs", "locate gallery:cam --log roll.csv --log roll.csv --log roll.csv", {"--log", "3 times"}},
     {"facing_beside_logs",
@@ -135,7 +163,7 @@ const std::vector<Mistake> kUsage = {
     {"nothing", "", {"expected a command", "locate", "--help"}},
     {"unknown_command",
      "lcoate gallery:cam",
-     {"'lcoate'", "did you mean 'locate'?", "inspect, locate, simulate, teach, demo"}},
+     {"'lcoate'", "did you mean 'locate'?", "inspect, locate, advise, simulate, teach, watch, demo"}},
     {"unknown_option", "inspect gallery:cam --opne", {"--opne", "did you mean '--open'?", "--corner-angle"}},
     {"option_before_command", "--json inspect gallery:cam", {"--json", "behind"}},
     {"option_without_value", "locate gallery:cam --reading", {"--reading", "expected a value"}},
@@ -152,15 +180,34 @@ const std::vector<Mistake> kUsage = {
     {"demo_in_a_file", "demo -o square.csv", {"square.csv", "folder"}},
 };
 
+const std::vector<Mistake> kWatch = {
+    {"no_noise", "watch gallery:cam --finger disk,r=1 --log roll.csv", {"--noise contact=0.1,angle=0.5deg"}},
+    {"noise_of_nothing",
+     "watch gallery:cam --finger disk,r=1 --noise slip=0.1 --log roll.csv --once",
+     {"noise", "contact", "angle"}},
+    {"no_finger", "watch gallery:cam --noise angle=0.01 --log roll.csv --once", {"roll.csv", "--finger disk,r="}},
+    {"missing_log", "watch gallery:cam --noise angle=0.01 --log no.csv", {"no.csv", "no such file", "tcp:HOST:PORT"}},
+    {"no_port", "watch gallery:cam --noise angle=0.01 --log tcp:robot:", {"tcp:robot:", "port"}},
+    {"prior_without_sd", "watch gallery:cam --noise angle=0.01 --log roll.csv --prior 1", {"--prior 1", "S,SD"}},
+    {"prior_without_doubt", "watch gallery:cam --noise angle=0.01 --log roll.csv --prior 1,0", {"not above 0"}},
+    {"both_ways_to_tell",
+     "watch gallery:cam --noise angle=0.01 --log roll.csv --every 5 --on-change",
+     {"--every", "--on-change"}},
+    {"every_0", "watch gallery:cam --noise angle=0.01 --log roll.csv --every 0", {"--every", "at least 1"}},
+    {"idle_for_no_time", "watch gallery:cam --noise angle=0.01 --log roll.csv --idle-timeout 0", {"above 0"}},
+    {"everything_from_stdin", "watch - --noise angle=0.01 --log -", {"standard input"}},
+};
+
 std::string mistake_name(const testing::TestParamInfo<Mistake>& info) { return info.param.name; }
 
 INSTANTIATE_TEST_SUITE_P(Part, Mistakes, testing::ValuesIn(kParts), mistake_name);
 INSTANTIATE_TEST_SUITE_P(Reading, Mistakes, testing::ValuesIn(kReadings), mistake_name);
 INSTANTIATE_TEST_SUITE_P(Log, Mistakes, testing::ValuesIn(kLogs), mistake_name);
+INSTANTIATE_TEST_SUITE_P(Watch, Mistakes, testing::ValuesIn(kWatch), mistake_name);
 INSTANTIATE_TEST_SUITE_P(Usage, Mistakes, testing::ValuesIn(kUsage), mistake_name);
 
 TEST(Options, that_do_not_exist_yet_are_an_error_and_not_ignored) {
-  for (const char* option : {"--noise", "--heading", "--prior", "--mirror", "--direction", "--batch", "--certify"}) {
+  for (const char* option : {"--heading", "--mirror", "--direction", "--batch", "--certify"}) {
     const cli::Ran ran = run_words({"locate", "gallery:cam", "--reading", "1,1", option, "1"});
     EXPECT_EQ(ran.code, 2) << option;
     EXPECT_EQ(ran.out, "");
@@ -169,7 +216,7 @@ TEST(Options, that_do_not_exist_yet_are_an_error_and_not_ignored) {
 }
 
 TEST(Commands, that_do_not_exist_yet_are_an_error) {
-  for (const char* command : {"advise", "watch", "verify"}) {
+  for (const char* command : {"verify"}) {
     const cli::Ran ran = run_words({command, "gallery:cam"});
     EXPECT_EQ(ran.code, 2) << command;
     EXPECT_THAT(ran.err, HasSubstr(std::string("there is no command '") + command + "'"));
@@ -198,3 +245,5 @@ TEST(StandardOutput, that_is_full_is_an_error) {
   EXPECT_EQ(ran.code, 2);
   EXPECT_THAT(ran.err, HasSubstr("standard output"));
 }
+
+}  // namespace cli_errors_test

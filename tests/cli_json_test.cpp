@@ -11,6 +11,7 @@
 #include "rollfix/outline/load.hpp"
 #include "rollfix/part/part.hpp"
 
+namespace cli_json_test {
 namespace {
 
 using cli::Json;
@@ -176,3 +177,5 @@ TEST(InspectJson, finds_the_largest_disk_that_fits_a_concavity) {
   EXPECT_NEAR(part["largest_disk"], 1, 1e-10);
   EXPECT_EQ(part["part"]["inflections"], 2);
 }
+
+}  // namespace cli_json_test

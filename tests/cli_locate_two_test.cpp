@@ -8,6 +8,7 @@
 
 #include "cli.hpp"
 
+namespace cli_locate_two_test {
 namespace {
 
 using cli::Json;
@@ -111,3 +112,4 @@ TEST(LocateTwo, typed_digits_give_the_tolerance_of_both_lengths) {
 }
 
 }  // namespace
+}  // namespace cli_locate_two_test

@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <sstream>
+#include <string>
 
 #include "cli.hpp"
 
+namespace cli_log_test {
 namespace {
 
 using cli::Json;
@@ -134,3 +137,56 @@ TEST(CliSimulate, starts_at_the_contact_angle_asked_for) {
   EXPECT_EQ(header, "time,u,psi,x,y");
   EXPECT_NEAR(u, 0.52359877559829887, 1e-12);
 }
+
+// --- A log of several rolls.
+
+namespace {
+
+/// Two rolls with the finger off the part in between, and the ground truth of where each starts.
+void write_two_rolls(const cli::Folder& folder) {
+  const std::string roll = "simulate gallery:spline,seed=3 --finger disk,r=0.1 --samples 40 ";
+  std::string text = "u,psi,contact\n";
+  for (const char* start : {"0.7", "3.5"}) {
+    std::istringstream rows(run(roll + "--length 2 --start " + start).out);
+    std::string row;
+    std::getline(rows, row);
+    while (std::getline(rows, row)) {
+      const std::size_t u = row.find(',') + 1;
+      const std::size_t end = row.find(',', row.find(',', u) + 1);
+      text += row.substr(u, end - u) + ",1\n";
+    }
+    text += "0,0,0\n";
+  }
+  folder.write("rolls.csv", text);
+}
+
+}  // namespace
+
+TEST(CliRolls, the_last_roll_is_taken_and_said_so) {
+  const cli::Folder folder;
+  write_two_rolls(folder);
+  const cli::Ran ran = run("locate gallery:spline,seed=3 --finger disk,r=0.1 --log rolls.csv --json");
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_LT(distance_to_nearest_start(ran.json(), 3.5), 1e-6);
+  EXPECT_GT(distance_to_nearest_start(ran.json(), 0.7), 1e-3);
+  EXPECT_THAT(ran.err, testing::HasSubstr("rolls.csv, lines 43 to 82: roll 2 of 2; --roll N takes another"));
+}
+
+TEST(CliRolls, another_is_chosen) {
+  const cli::Folder folder;
+  write_two_rolls(folder);
+  const cli::Ran ran = run("locate gallery:spline,seed=3 --finger disk,r=0.1 --log rolls.csv --json --roll 1");
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_LT(distance_to_nearest_start(ran.json(), 0.7), 1e-6);
+  EXPECT_GT(distance_to_nearest_start(ran.json(), 3.5), 1e-3);
+}
+
+TEST(CliRolls, a_number_beyond_them_is_refused) {
+  const cli::Folder folder;
+  write_two_rolls(folder);
+  const cli::Ran ran = run("locate gallery:cam --finger disk,r=0.1 --log rolls.csv --roll 3");
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_THAT(ran.err, testing::HasSubstr("--roll 3: rolls.csv holds 2 rolls, expected a number from 1 to 2"));
+}
+
+}  // namespace cli_log_test

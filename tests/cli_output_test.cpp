@@ -4,6 +4,7 @@
 
 #include "cli.hpp"
 
+namespace cli_output_test {
 namespace {
 
 using cli::Json;
@@ -165,3 +166,5 @@ TEST(Help, has_examples_that_work) {
 }
 
 TEST(Version, is_told) { EXPECT_THAT(run("--version").out, StartsWith("rollfix 0.")); }
+
+}  // namespace cli_output_test

@@ -10,6 +10,7 @@
 #include "rollfix/outline/load.hpp"
 #include "rollfix/part/part.hpp"
 
+namespace cli_reading_test {
 namespace {
 
 using cli::Json;
@@ -99,3 +100,5 @@ TEST(CliTolerance, keeps_the_true_place_however_roughly_a_reading_is_written_dow
     EXPECT_TRUE(covers(found["placements"], s, P)) << name << " --reading " << reading << " from " << cli::exact(s);
   }
 }
+
+}  // namespace cli_reading_test

@@ -7,6 +7,7 @@
 
 #include "cli.hpp"
 
+namespace cli_teach_test {
 namespace {
 
 using cli::Json;
@@ -89,3 +90,4 @@ TEST(CliSmooth, note_says_how_near_the_points_are) {
 }
 
 }  // namespace
+}  // namespace cli_teach_test

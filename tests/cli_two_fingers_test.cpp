@@ -18,6 +18,7 @@
 #include "rollfix/outline/primitives.hpp"
 #include "rollfix/pose_json.hpp"
 
+namespace cli_two_fingers_test {
 namespace {
 
 using cli::Json;
@@ -141,9 +142,9 @@ TEST(CliTwoFingers, the_log_argument_is_of_as_many_fingers_as_its_files) {
 
 TEST(CliTwoFingers, a_finger_that_is_given_once_is_meant_twice) {
   const auto alike = rollfix::app::read_fingers({"disk,r=0.5"});
-  EXPECT_EQ((*alike)[0].radius, 0.5);
-  EXPECT_EQ((*alike)[1].radius, 0.5);
-  EXPECT_EQ((*rollfix::app::read_fingers({"disk,r=0.5", "disk,r=2"}))[1].radius, 2);
+  EXPECT_EQ((*alike)[0].disk()->radius, 0.5);
+  EXPECT_EQ((*alike)[1].disk()->radius, 0.5);
+  EXPECT_EQ((*rollfix::app::read_fingers({"disk,r=0.5", "disk,r=2"}))[1].disk()->radius, 2);
   EXPECT_FALSE(rollfix::app::read_fingers({}));
   EXPECT_THAT(refusal_of([] {
                 rollfix::app::read_fingers({"disk,r=1", "disk,r=1", "disk,r=1"});
@@ -236,3 +237,5 @@ INSTANTIATE_TEST_SUITE_P(
                 "simulate gallery:exponential --finger disk,r=0.1 --start 9 --start 1 --length 5 --length 1",
                 {"finger a: ", "end", "10.014"}}),
     mistake_name);
+
+}  // namespace cli_two_fingers_test

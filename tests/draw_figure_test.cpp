@@ -10,6 +10,7 @@
 #include "rollfix/draw/save.hpp"
 #include "rollfix/error.hpp"
 
+namespace draw_figure_test {
 namespace {
 
 using draw_test::count_of;
@@ -257,3 +258,4 @@ TEST(PartFigure, can_be_drawn_of_every_shape_in_the_gallery) {
 TEST(PartFigure, needs_a_part) { EXPECT_THROW(draw_part({}), rollfix::InputError); }
 
 }  // namespace
+}  // namespace draw_figure_test

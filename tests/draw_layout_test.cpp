@@ -12,6 +12,7 @@
 #include "draw/rolls.hpp"
 #include "random.hpp"
 
+namespace draw_layout_test {
 namespace {
 
 using namespace rollfix::draw;
@@ -188,3 +189,4 @@ TEST(Numerals, have_a_true_minus_sign_and_no_negative_zero) {
 }
 
 }  // namespace
+}  // namespace draw_layout_test

@@ -12,6 +12,7 @@
 #include "rollfix/draw/pair_figure.hpp"
 #include "rollfix/error.hpp"
 
+namespace draw_pair_test {
 namespace {
 
 using draw_test::count_of;
@@ -261,3 +262,4 @@ TEST(PairFigure, refuses_what_does_not_fit_together) {
 }
 
 }  // namespace
+}  // namespace draw_pair_test

@@ -13,6 +13,7 @@
 #include "draw_helpers.hpp"
 #include "rollfix/error.hpp"
 
+namespace draw_save_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -187,3 +188,4 @@ TEST_F(SaveFigure, leaves_nothing_behind_for_an_unknown_ending) {
 }
 
 }  // namespace
+}  // namespace draw_save_test

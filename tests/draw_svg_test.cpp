@@ -9,6 +9,7 @@
 #include "draw_helpers.hpp"
 #include "rollfix/error.hpp"
 
+namespace draw_svg_test {
 namespace {
 
 using draw_test::nesting_error;
@@ -93,3 +94,4 @@ TEST(TextWidth, grows_with_size_and_shrinks_in_subscripts) {
 }
 
 }  // namespace
+}  // namespace draw_svg_test

@@ -9,6 +9,7 @@
 #include "draw_helpers.hpp"
 #include "random.hpp"
 
+namespace draw_trace_test {
 namespace {
 
 using namespace rollfix::draw;
@@ -108,3 +109,4 @@ TEST(Densify, leaves_no_edge_longer_than_the_step_and_moves_nothing) {
 }
 
 }  // namespace
+}  // namespace draw_trace_test

@@ -6,6 +6,7 @@
 
 #include "dxf_text.hpp"
 
+namespace dxf_bad_files_test {
 namespace {
 
 using namespace dxf_text;
@@ -254,3 +255,4 @@ TEST(SpatialDxf, polyline_in_space) {
 }
 
 }  // namespace
+}  // namespace dxf_bad_files_test

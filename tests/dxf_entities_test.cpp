@@ -10,6 +10,7 @@
 #include "dxf_text.hpp"
 #include "shapes.hpp"
 
+namespace dxf_entities_test {
 namespace {
 
 using namespace dxf_text;
@@ -245,3 +246,4 @@ TEST(DxfEntities, curves_say_where_they_come_from) {
 }
 
 }  // namespace
+}  // namespace dxf_entities_test

@@ -9,6 +9,7 @@
 #include "dxf_text.hpp"
 #include "shapes.hpp"
 
+namespace dxf_insert_test {
 namespace {
 
 using namespace dxf_text;
@@ -189,3 +190,4 @@ TEST(DxfInsertRefusal, two_blocks_of_one_name) {
 }
 
 }  // namespace
+}  // namespace dxf_insert_test

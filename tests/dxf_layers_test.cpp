@@ -8,6 +8,7 @@
 #include "drawing_helpers.hpp"
 #include "dxf_text.hpp"
 
+namespace dxf_layers_test {
 namespace {
 
 using namespace dxf_text;
@@ -152,3 +153,4 @@ TEST(DxfUnits, are_empty_where_the_file_does_not_say) {
 }
 
 }  // namespace
+}  // namespace dxf_layers_test

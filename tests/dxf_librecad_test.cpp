@@ -7,6 +7,7 @@
 #include "rollfix/files/dxf.hpp"
 #include "shapes.hpp"
 
+namespace dxf_librecad_test {
 namespace {
 
 using rollfix::Drawing;
@@ -31,3 +32,4 @@ TEST(DxfLibrecad, unit_is_in_the_header) {
 }
 
 }  // namespace
+}  // namespace dxf_librecad_test

@@ -11,6 +11,7 @@
 #include "dxf_text.hpp"
 #include "random.hpp"
 
+namespace dxf_mutation_test {
 namespace {
 
 using rollfix::InputError;
@@ -84,3 +85,4 @@ TEST(DxfMutation, any_bytes_give_a_drawing_or_one_line_of_error) {
 }
 
 }  // namespace
+}  // namespace dxf_mutation_test

@@ -10,6 +10,7 @@
 #include "dxf_text.hpp"
 #include "random.hpp"
 
+namespace dxf_witness_test {
 namespace {
 
 using drawings::area_of;
@@ -77,3 +78,4 @@ TEST(DxfWitness, binary_and_ascii_give_the_same_bits) {
 }
 
 }  // namespace
+}  // namespace dxf_witness_test

@@ -19,7 +19,7 @@
 #include "rollfix/error.hpp"
 #include "rollfix/outline/points.hpp"
 
-namespace rollfix {
+namespace rollfix::free_part_test {
 namespace {
 
 using free_rolls::boundary_point;
@@ -427,4 +427,4 @@ TEST(FreePart, too_few_rows_to_tell_wrapped_angles_apart_are_refused) {
 }
 
 }  // namespace
-}  // namespace rollfix
+}  // namespace rollfix::free_part_test

@@ -14,6 +14,7 @@
 
 #include "rollfix/outline/gallery.hpp"
 
+namespace gallery_formulas_test {
 namespace {
 
 using boost::multiprecision::atan;
@@ -202,3 +203,4 @@ TEST(GalleryFormulas, cambered_wing_section) {
 }
 
 }  // namespace
+}  // namespace gallery_formulas_test

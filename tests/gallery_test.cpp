@@ -19,6 +19,7 @@
 
 #include "rollfix/error.hpp"
 
+namespace gallery_test {
 namespace {
 
 using rollfix::check;
@@ -409,3 +410,4 @@ TEST(Gallery, names_are_unique) {
 }
 
 }  // namespace
+}  // namespace gallery_test

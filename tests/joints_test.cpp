@@ -13,6 +13,7 @@
 #include "rollfix/part/reach.hpp"
 #include "shapes.hpp"
 
+namespace joints_test {
 namespace {
 
 using namespace rollfix;
@@ -258,3 +259,4 @@ INSTANTIATE_TEST_SUITE_P(Radii, RoundedCorner, testing::Values(1e-6, 1e-5, 1e-4,
                          [](const auto& radius) { return "radius_1e_minus_" + std::to_string(6 - radius.index); });
 
 }  // namespace
+}  // namespace joints_test

@@ -13,6 +13,7 @@
 #include "rollfix/outline/gallery.hpp"
 #include "svg_helpers.hpp"
 
+namespace json_outline_test {
 namespace {
 
 using rollfix::Drawing;
@@ -200,3 +201,4 @@ TEST(JsonErrors, mutilated_files_give_an_error_or_a_drawing) {
 }
 
 }  // namespace
+}  // namespace json_outline_test

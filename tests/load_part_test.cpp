@@ -14,6 +14,7 @@
 #include "rollfix/files/saved_part.hpp"
 #include "rollfix/outline/gallery.hpp"
 
+namespace load_part_test {
 namespace {
 
 using cli::Folder;
@@ -198,3 +199,4 @@ TEST(LoadPart, standard_input_is_known_by_how_it_begins) {
 }
 
 }  // namespace
+}  // namespace load_part_test

@@ -6,6 +6,7 @@
 #include "rollfix/locate/locate.hpp"
 #include "shapes.hpp"
 
+namespace locate_corners_test {
 namespace {
 
 using namespace rollfix;
@@ -109,3 +110,4 @@ TEST(Corner, of_a_reuleaux_triangle_between_arcs) {
 }
 
 }  // namespace
+}  // namespace locate_corners_test

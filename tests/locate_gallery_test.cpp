@@ -7,6 +7,7 @@
 #include "rollfix/locate/locate.hpp"
 #include "shapes.hpp"
 
+namespace locate_gallery_test {
 namespace {
 
 using namespace rollfix;
@@ -125,3 +126,4 @@ TEST_P(LocateSmooth, gives_sensitivities_that_finite_differences_confirm) {
 }
 
 }  // namespace
+}  // namespace locate_gallery_test

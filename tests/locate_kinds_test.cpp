@@ -7,6 +7,7 @@
 #include "rollfix/locate/locate.hpp"
 #include "shapes.hpp"
 
+namespace locate_kinds_test {
 namespace {
 
 using namespace rollfix;
@@ -313,3 +314,4 @@ TEST(Readings, that_contradict_each_other_leave_nothing) {
 }
 
 }  // namespace
+}  // namespace locate_kinds_test

@@ -8,7 +8,7 @@
 #include "rollfix/contact/log.hpp"
 #include "rollfix/error.hpp"
 
-namespace rollfix {
+namespace rollfix::log_errors_test {
 namespace {
 
 using testing::AllOf;
@@ -138,4 +138,4 @@ TEST(LogErrors, a_long_line_is_shown_in_part) {
 }
 
 }  // namespace
-}  // namespace rollfix
+}  // namespace rollfix::log_errors_test

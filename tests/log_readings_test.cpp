@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <fstream>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -15,7 +17,7 @@
 #include "rollfix/error.hpp"
 #include "rollfix/outline/gallery.hpp"
 
-namespace rollfix {
+namespace rollfix::log_readings_test {
 namespace {
 
 using testing::ElementsAre;
@@ -128,6 +130,49 @@ TEST(Log, rows_without_contact_before_and_after_the_roll_are_skipped) {
 
 TEST(Log, increments_without_contact_do_not_count) {
   expect_reading(only_reading("distance,dturn,contact\n5,5,0\n1,0.5,1\n1,0.5,1\n7,7,0\n"), 2, 1);
+}
+
+// --- Several rolls.
+
+TEST(Log, every_unbroken_stretch_of_contact_is_a_roll) {
+  const std::vector<Log> rolls = parse_rolls(
+      "time,u,psi,contact\n0,,,0\n1,1,0,1\n2,2,1,1\n3,,,0\n4,9,9,1\n5,,,0\n6,5,0,1\n7,6,1,1\n8,8,2,1\n", "run.csv");
+  ASSERT_EQ(rolls.size(), 2U) << "one row alone is no roll";
+  EXPECT_THAT(rolls[0].u, ElementsAre(1, 2));
+  EXPECT_THAT(rolls[1].u, ElementsAre(5, 6, 8));
+  EXPECT_EQ(rolls[0].name, "run.csv, lines 3 to 4");
+  EXPECT_EQ(rolls[1].name, "run.csv, lines 8 to 10");
+}
+
+TEST(Log, one_roll_is_what_it_always_was) {
+  const std::string text = "u,psi,contact\n1,0,1\n2,1,1\n0,0,0\n";
+  const std::vector<Log> rolls = parse_rolls(text, "run.csv");
+  ASSERT_EQ(rolls.size(), 1U);
+  EXPECT_EQ(rolls[0].name, "run.csv");
+  EXPECT_EQ(rolls[0].u, log_of(text).u);
+}
+
+TEST(Log, a_roll_of_two_fingers_lasts_while_both_touch) {
+  const auto rolls = parse_rolls_of_fingers(
+      "u_a,psi_a,contact_a,u_b,psi_b,contact_b\n1,0,1,9,9,0\n2,0,1,5,0,1\n3,0,1,6,0,1\n4,0,0,7,0,1\n5,0,1,8,0,1\n"
+      "6,0,1,9,0,1\n",
+      "both.csv");
+  ASSERT_EQ(rolls.size(), 2U);
+  EXPECT_THAT(rolls[0][0].u, ElementsAre(2, 3));
+  EXPECT_THAT(rolls[1][1].u, ElementsAre(8, 9));
+}
+
+TEST(Log, a_file_longer_than_the_buffer_it_is_read_through_is_the_same) {
+  std::string text = "u,psi # " + std::string(200000, '-') + "\n";
+  for (int k = 0; k < 20000; ++k) text += std::to_string(k * 1e-4) + "," + std::to_string(k * 2e-4) + "\r\n";
+  const std::string path = testing::TempDir() + "rollfix-long-log.csv";
+  std::ofstream(path, std::ios::binary) << text << "3,4";
+  const Log log = read_log(path);
+  const Log expected = log_of(text + "3,4");
+  std::remove(path.c_str());
+  EXPECT_EQ(log.u, expected.u);
+  EXPECT_EQ(log.line, expected.line);
+  EXPECT_EQ(log.u.size(), 20001U);
 }
 
 // --- Wrapped angles.
@@ -298,4 +343,4 @@ TEST(Log, rounding_of_a_reading_bounds_what_the_digits_can_do) {
 }
 
 }  // namespace
-}  // namespace rollfix
+}  // namespace rollfix::log_readings_test

@@ -17,7 +17,7 @@
 #include "rollfix/error.hpp"
 #include "rollfix/outline/gallery.hpp"
 
-namespace rollfix {
+namespace rollfix::log_round_trip_test {
 namespace {
 
 using testing::HasSubstr;
@@ -121,4 +121,4 @@ TEST(LogRoundTrip, a_million_rows_take_well_below_two_seconds) {
 }
 
 }  // namespace
-}  // namespace rollfix
+}  // namespace rollfix::log_round_trip_test

@@ -14,6 +14,7 @@
 #include "rollfix/outline/primitives.hpp"
 #include "rollfix/part/part.hpp"
 
+namespace loops_test {
 namespace {
 
 using rollfix::Arc;
@@ -199,3 +200,4 @@ TEST(Loops, a_hundred_thousand_lines_at_one_place_end_soon) {
 }
 
 }  // namespace
+}  // namespace loops_test

@@ -12,6 +12,7 @@
 #include "march_shapes.hpp"
 #include "random.hpp"
 
+namespace march_convex_test {
 namespace {
 
 using namespace rollfix::march;
@@ -162,3 +163,4 @@ TEST(MarchConvex, a_clockwise_boundary_is_the_mirror_image) {
 }
 
 }  // namespace
+}  // namespace march_convex_test

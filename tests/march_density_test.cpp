@@ -11,6 +11,7 @@
 #include "march_shapes.hpp"
 #include "random.hpp"
 
+namespace march_density_test {
 namespace {
 
 using namespace rollfix::march;
@@ -81,3 +82,4 @@ TEST(MarchDensity, the_centre_of_gravity_of_a_wire_segment_can_be_prescribed) {
 }
 
 }  // namespace
+}  // namespace march_density_test

@@ -15,6 +15,7 @@
 #include "march_shapes.hpp"
 #include "random.hpp"
 
+namespace march_holes_test {
 namespace {
 
 using namespace rollfix::march;
@@ -165,3 +166,4 @@ TEST(MarchHoles, slow_how_many_random_readings_end_in_a_doubt) {
 }
 
 }  // namespace
+}  // namespace march_holes_test

@@ -11,6 +11,7 @@
 #include "rollfix/locate/march/preprocessing.hpp"
 #include "rollfix/locate/march/walker.hpp"
 
+namespace march_integration_test {
 namespace {
 
 using namespace rollfix::march;
@@ -92,3 +93,4 @@ TEST(MarchIntegration, a_chain_of_curves_is_stepped_curve_by_curve) {
 }
 
 }  // namespace
+}  // namespace march_integration_test

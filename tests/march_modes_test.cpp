@@ -13,6 +13,7 @@
 #include "march_shapes.hpp"
 #include "random.hpp"
 
+namespace march_modes_test {
 namespace {
 
 using namespace rollfix::march;
@@ -150,3 +151,4 @@ TEST(MarchModes, slow_random_splines_again_in_great_numbers) {
 }
 
 }  // namespace
+}  // namespace march_modes_test

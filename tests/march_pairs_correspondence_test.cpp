@@ -6,6 +6,7 @@
 #include "march_shapes.hpp"
 #include "random.hpp"
 
+namespace march_pairs_correspondence_test {
 namespace {
 
 using namespace rollfix::march;
@@ -106,3 +107,4 @@ TEST(MarchPairsCorrespondence, figure_5_is_the_case_of_falling_phi_1_and_rising_
 }
 
 }  // namespace
+}  // namespace march_pairs_correspondence_test

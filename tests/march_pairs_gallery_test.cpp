@@ -7,6 +7,7 @@
 #include "rollfix/part/part.hpp"
 #include "shapes.hpp"
 
+namespace march_pairs_gallery_test {
 namespace {
 
 using namespace rollfix;
@@ -49,3 +50,4 @@ TEST_P(MarchPairsGallery, planted_pairs_are_found_and_what_is_found_fits) {
 }
 
 }  // namespace
+}  // namespace march_pairs_gallery_test

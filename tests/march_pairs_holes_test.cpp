@@ -5,6 +5,7 @@
 #include "march_shapes.hpp"
 #include "random.hpp"
 
+namespace march_pairs_holes_test {
 namespace {
 
 using namespace rollfix::march;
@@ -121,3 +122,4 @@ TEST(MarchPairsHoles, slow_how_many_random_readings_end_in_a_doubt) {
 }
 
 }  // namespace
+}  // namespace march_pairs_holes_test

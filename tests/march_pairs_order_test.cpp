@@ -7,6 +7,7 @@
 #include "march_shapes.hpp"
 #include "random.hpp"
 
+namespace march_pairs_order_test {
 namespace {
 
 using namespace rollfix::march;
@@ -108,3 +109,4 @@ TEST(MarchPairsOrder, exchanging_the_fingers_exchanges_s_and_t) {
 }
 
 }  // namespace
+}  // namespace march_pairs_order_test

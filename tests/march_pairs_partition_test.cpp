@@ -4,6 +4,7 @@
 #include "march_shapes.hpp"
 #include "random.hpp"
 
+namespace march_pairs_partition_test {
 namespace {
 
 using namespace rollfix::march;
@@ -92,3 +93,4 @@ TEST(MarchPairsPartition, whole_loops_change_no_point) {
 }
 
 }  // namespace
+}  // namespace march_pairs_partition_test

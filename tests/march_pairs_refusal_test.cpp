@@ -9,6 +9,7 @@
 #include "march_shapes.hpp"
 #include "rollfix/outline/primitives.hpp"
 
+namespace march_pairs_refusal_test {
 namespace {
 
 using namespace rollfix::march;
@@ -119,3 +120,4 @@ TEST(MarchPairsRefusal, open_outlines_and_numbers_that_are_out_of_range) {
 }
 
 }  // namespace
+}  // namespace march_pairs_refusal_test

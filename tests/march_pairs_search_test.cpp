@@ -4,6 +4,7 @@
 #include "march_shapes.hpp"
 #include "random.hpp"
 
+namespace march_pairs_search_test {
 namespace {
 
 using namespace rollfix::march;
@@ -160,3 +161,4 @@ TEST(MarchPairsSearch, the_distance_to_the_pair_shrinks_by_the_rate_that_is_clai
 }
 
 }  // namespace
+}  // namespace march_pairs_search_test

@@ -4,6 +4,7 @@
 #include "march_shapes.hpp"
 #include "random.hpp"
 
+namespace march_pairs_steps_test {
 namespace {
 
 using namespace rollfix::march;
@@ -112,3 +113,4 @@ TEST(MarchPairsSteps, the_partition_costs_some_loops_per_function_and_one_round_
 }
 
 }  // namespace
+}  // namespace march_pairs_steps_test

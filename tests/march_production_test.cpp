@@ -10,6 +10,7 @@
 #include "rollfix/locate/march/march.hpp"
 #include "shapes.hpp"
 
+namespace march_production_test {
 namespace {
 
 using namespace rollfix;
@@ -104,3 +105,4 @@ TEST_P(MarchProduction, agrees_on_random_readings) {
 }
 
 }  // namespace
+}  // namespace march_production_test

@@ -13,6 +13,7 @@
 #include "rollfix/locate/march/march.hpp"
 #include "rollfix/outline/primitives.hpp"
 
+namespace march_refusal_test {
 namespace {
 
 using namespace rollfix::march;
@@ -141,3 +142,4 @@ TEST(MarchRefusal, numbers_that_are_out_of_range) {
 }
 
 }  // namespace
+}  // namespace march_refusal_test

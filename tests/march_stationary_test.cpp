@@ -11,6 +11,7 @@
 #include "march_shapes.hpp"
 #include "random.hpp"
 
+namespace march_stationary_test {
 namespace {
 
 using namespace rollfix::march;
@@ -95,3 +96,4 @@ TEST(MarchStationary, theorem_5_holds_for_them_too) {
 }
 
 }  // namespace
+}  // namespace march_stationary_test

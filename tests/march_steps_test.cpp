@@ -12,6 +12,7 @@
 #include "march_shapes.hpp"
 #include "random.hpp"
 
+namespace march_steps_test {
 namespace {
 
 using namespace rollfix::march;
@@ -154,3 +155,4 @@ TEST(MarchSteps, answers_do_not_depend_on_the_step_once_it_is_fine_enough) {
 }
 
 }  // namespace
+}  // namespace march_steps_test

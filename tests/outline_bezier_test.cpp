@@ -18,6 +18,7 @@
 #include "rollfix/outline/primitives.hpp"
 #include "rollfix/part/part.hpp"
 
+namespace outline_bezier_test {
 namespace {
 
 using rollfix::Bezier;
@@ -492,3 +493,4 @@ TEST(Nurbs, inner_knot_as_often_as_the_degree_is_a_corner) {
 }
 
 }  // namespace
+}  // namespace outline_bezier_test

@@ -11,6 +11,7 @@
 #include "rollfix/outline/outline.hpp"
 #include "rollfix/outline/primitives.hpp"
 
+namespace outline_check_test {
 namespace {
 
 using rollfix::check;
@@ -170,3 +171,4 @@ TEST(Check, outline_far_from_the_origin_is_accepted) {
 }
 
 }  // namespace
+}  // namespace outline_check_test

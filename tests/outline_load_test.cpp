@@ -14,6 +14,7 @@
 #include "rollfix/error.hpp"
 #include "rollfix/outline/names.hpp"
 
+namespace outline_load_test {
 namespace {
 
 using rollfix::InputError;
@@ -141,3 +142,4 @@ TEST(NearestName, is_nothing_when_none_is_near) {
 }
 
 }  // namespace
+}  // namespace outline_load_test

@@ -12,6 +12,7 @@
 #include "rollfix/outline/gallery.hpp"
 #include "rollfix/outline/outline.hpp"
 
+namespace outline_primitives_test {
 namespace {
 
 using rollfix::Arc;
@@ -137,3 +138,4 @@ TEST(ReversedOutline, twice_is_the_original) {
 }
 
 }  // namespace
+}  // namespace outline_primitives_test

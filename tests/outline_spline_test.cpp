@@ -18,6 +18,7 @@
 #include "random.hpp"
 #include "rollfix/error.hpp"
 
+namespace outline_spline_test {
 namespace {
 
 using rollfix::cross;
@@ -313,3 +314,4 @@ TEST(Spline, bad_input_is_refused_with_its_place) {
 }
 
 }  // namespace
+}  // namespace outline_spline_test

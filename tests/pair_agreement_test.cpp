@@ -13,6 +13,7 @@
 #include "random.hpp"
 #include "shapes.hpp"
 
+namespace pair_agreement_test {
 namespace {
 
 using namespace rollfix;
@@ -207,3 +208,4 @@ TEST_P(PairProperties, also_where_contacts_are_at_corners) {
 }
 
 }  // namespace
+}  // namespace pair_agreement_test

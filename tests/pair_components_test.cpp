@@ -10,6 +10,7 @@
 #include "random.hpp"
 #include "shapes.hpp"
 
+namespace pair_components_test {
 namespace {
 
 using namespace rollfix;
@@ -92,3 +93,4 @@ TEST(PairSliver, that_runs_through_dozens_of_boxes_is_one_placement) {
 }
 
 }  // namespace
+}  // namespace pair_components_test

@@ -9,6 +9,7 @@
 #include "rollfix/locate/locate_pair.hpp"
 #include "shapes.hpp"
 
+namespace pair_corners_test {
 namespace {
 
 using namespace rollfix;
@@ -90,3 +91,4 @@ TEST(PairCorners, two_contacts_of_one_finger_at_corners_pivot_independently) {
 }
 
 }  // namespace
+}  // namespace pair_corners_test

@@ -6,6 +6,7 @@
 #include "pair_oracle.hpp"
 #include "shapes.hpp"
 
+namespace pair_families_test {
 namespace {
 
 using namespace rollfix;
@@ -34,3 +35,4 @@ TEST(PairFamilies, pivots_of_two_contacts_at_once_are_on_the_line_through_their_
 }
 
 }  // namespace
+}  // namespace pair_families_test

@@ -12,6 +12,7 @@
 #include "rollfix/locate/locate_pair.hpp"
 #include "shapes.hpp"
 
+namespace pair_kinds_test {
 namespace {
 
 using namespace rollfix;
@@ -257,3 +258,4 @@ TEST(PairCrossing, where_the_curves_run_alongside_each_other_has_the_extent_that
 }
 
 }  // namespace
+}  // namespace pair_kinds_test

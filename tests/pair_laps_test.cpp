@@ -8,6 +8,7 @@
 #include "random.hpp"
 #include "shapes.hpp"
 
+namespace pair_laps_test {
 namespace {
 
 using namespace rollfix;
@@ -61,3 +62,4 @@ TEST_P(PairLaps, a_facing_of_many_turns_more_is_the_same_facing) {
 }
 
 }  // namespace
+}  // namespace pair_laps_test

@@ -8,7 +8,7 @@
 #include "rollfix/contact/pair_log.hpp"
 #include "rollfix/error.hpp"
 
-namespace rollfix {
+namespace rollfix::pair_log_errors_test {
 namespace {
 
 using testing::AllOf;
@@ -148,4 +148,4 @@ TEST(PairLogErrors, logs_that_do_not_go_together_are_not_written) {
 }
 
 }  // namespace
-}  // namespace rollfix
+}  // namespace rollfix::pair_log_errors_test

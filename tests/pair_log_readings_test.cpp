@@ -15,7 +15,7 @@
 #include "rollfix/contact/pair_log.hpp"
 #include "rollfix/outline/primitives.hpp"
 
-namespace rollfix {
+namespace rollfix::pair_log_readings_test {
 namespace {
 
 using free_rolls::by_distances;
@@ -225,4 +225,4 @@ TEST(PairLogReadings, rounding_bounds_what_written_digits_can_do) {
 }
 
 }  // namespace
-}  // namespace rollfix
+}  // namespace rollfix::pair_log_readings_test

@@ -13,7 +13,7 @@
 #include "random.hpp"
 #include "rollfix/contact/pair_log.hpp"
 
-namespace rollfix {
+namespace rollfix::pair_log_round_trip_test {
 namespace {
 
 using testing::StartsWith;
@@ -83,4 +83,4 @@ TEST(PairLogRoundTrip, a_reader_finds_out_how_many_fingers_a_file_is_of) {
 }
 
 }  // namespace
-}  // namespace rollfix
+}  // namespace rollfix::pair_log_round_trip_test

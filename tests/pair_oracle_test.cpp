@@ -13,6 +13,7 @@
 #include "rollfix/outline/gallery.hpp"
 #include "shapes.hpp"
 
+namespace pair_oracle_test {
 namespace {
 
 using pair_oracle::Boundary;
@@ -119,3 +120,4 @@ TEST_P(PairOracleShapes, finds_planted_pairs_and_an_even_number_of_them) {
 }
 
 }  // namespace
+}  // namespace pair_oracle_test

@@ -11,6 +11,7 @@
 #include "rollfix/locate/locate_pair.hpp"
 #include "shapes.hpp"
 
+namespace pair_readings_test {
 namespace {
 
 using namespace rollfix;
@@ -180,3 +181,4 @@ TEST(PairReadings, give_the_same_bits_every_time) {
 }
 
 }  // namespace
+}  // namespace pair_readings_test

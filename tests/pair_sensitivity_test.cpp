@@ -9,6 +9,7 @@
 #include "rollfix/locate/locate_pair.hpp"
 #include "shapes.hpp"
 
+namespace pair_sensitivity_test {
 namespace {
 
 using namespace rollfix;
@@ -115,3 +116,4 @@ TEST(PairSensitivityLeastSquares, of_more_readings_than_unknowns_is_that_of_leas
 }
 
 }  // namespace
+}  // namespace pair_sensitivity_test

@@ -19,6 +19,7 @@
 #include "random.hpp"
 #include "shapes.hpp"
 
+namespace pair_three_ways_test {
 namespace {
 
 using namespace rollfix;
@@ -218,3 +219,4 @@ TEST_P(PairContinua, likewise_where_a_roll_is_whole_laps) {
 }
 
 }  // namespace
+}  // namespace pair_three_ways_test

@@ -14,6 +14,7 @@
 #include "rollfix/outline/spline.hpp"
 #include "shapes.hpp"
 
+namespace part_test {
 namespace {
 
 using namespace rollfix;
@@ -151,3 +152,4 @@ TEST(Part, of_a_spline_through_points_on_straight_edges_has_no_spurious_events) 
 }
 
 }  // namespace
+}  // namespace part_test

@@ -12,6 +12,7 @@
 #include "random.hpp"
 #include "rollfix/error.hpp"
 
+namespace points_test {
 namespace {
 
 using rollfix::InputError;
@@ -204,3 +205,4 @@ TEST(BadPoints, long_and_strange_lines_are_shown_in_short) {
 }
 
 }  // namespace
+}  // namespace points_test

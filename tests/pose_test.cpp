@@ -20,7 +20,7 @@
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/locate/locate.hpp"
 
-namespace rollfix {
+namespace rollfix::pose_test {
 namespace {
 
 using free_rolls::by_distances;
@@ -281,4 +281,4 @@ TEST(Pose, is_unknown_without_the_fingers_centres_and_orientations) {
 }
 
 }  // namespace
-}  // namespace rollfix
+}  // namespace rollfix::pose_test

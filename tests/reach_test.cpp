@@ -15,6 +15,7 @@
 #include "rollfix/outline/spline.hpp"
 #include "shapes.hpp"
 
+namespace reach_test {
 namespace {
 
 using namespace rollfix;
@@ -297,3 +298,4 @@ TEST(Reach, of_a_drawing_with_a_thousand_spirals_takes_few_tests) {
 }
 
 }  // namespace
+}  // namespace reach_test

@@ -12,6 +12,7 @@
 #include "random.hpp"
 #include "shapes.hpp"
 
+namespace reachable_test {
 namespace {
 
 using namespace rollfix;
@@ -308,3 +309,4 @@ TEST(DropUnreachable, of_two_fingers_names_the_one_that_leaves_its_reach) {
 }
 
 }  // namespace
+}  // namespace reachable_test

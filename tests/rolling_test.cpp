@@ -26,7 +26,7 @@
 #include "rollfix/outline/gallery.hpp"
 #include "rollfix/outline/points.hpp"
 
-namespace rollfix {
+namespace rollfix::rolling_test {
 namespace {
 
 using testing::AllOf;
@@ -517,4 +517,4 @@ TEST(Rolling, against_the_given_direction_the_length_changes_its_sign_and_the_tu
 }
 
 }  // namespace
-}  // namespace rollfix
+}  // namespace rollfix::rolling_test

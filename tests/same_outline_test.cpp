@@ -16,6 +16,7 @@
 #include "rollfix/outline/points.hpp"
 #include "shapes.hpp"
 
+namespace same_outline_test {
 namespace {
 
 using rollfix::Part;
@@ -145,3 +146,4 @@ TEST(SameOutline, has_the_length_and_the_turn_of_its_arcs) {
 }
 
 }  // namespace
+}  // namespace same_outline_test

@@ -16,6 +16,7 @@
 #include "rollfix/outline/primitives.hpp"
 #include "shapes.hpp"
 
+namespace saved_part_test {
 namespace {
 
 using rollfix::InputError;
@@ -142,3 +143,4 @@ TEST(SavedParts, foreign_json_is_not_taken_for_one) {
 }
 
 }  // namespace
+}  // namespace saved_part_test

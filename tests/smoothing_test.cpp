@@ -16,6 +16,7 @@
 #include "rollfix/part/part.hpp"
 #include "shapes.hpp"
 
+namespace smoothing_test {
 namespace {
 
 using rollfix::Curve;
@@ -291,3 +292,4 @@ TEST(Smoothing, points_files_are_smoothed_with_a_note) {
 }
 
 }  // namespace
+}  // namespace smoothing_test

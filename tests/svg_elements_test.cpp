@@ -10,6 +10,7 @@
 
 #include "svg_helpers.hpp"
 
+namespace svg_elements_test {
 namespace {
 
 using rollfix::Drawing;
@@ -419,3 +420,4 @@ TEST(SvgStructure, name_space_may_have_a_prefix) {
 }
 
 }  // namespace
+}  // namespace svg_elements_test

@@ -11,6 +11,7 @@
 #include "random.hpp"
 #include "svg_helpers.hpp"
 
+namespace svg_errors_test {
 namespace {
 
 using rollfix::Drawing;
@@ -125,3 +126,4 @@ TEST(SvgErrors, mutilated_files_give_an_error_or_a_drawing) {
 }
 
 }  // namespace
+}  // namespace svg_errors_test

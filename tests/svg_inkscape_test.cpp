@@ -17,6 +17,7 @@
 #include "random.hpp"
 #include "svg_helpers.hpp"
 
+namespace svg_inkscape_test {
 namespace {
 
 using rollfix::Curve;
@@ -231,3 +232,4 @@ TEST(SvgAgainstLib2geom, random_paths_have_the_same_points) {
 }
 
 }  // namespace
+}  // namespace svg_inkscape_test

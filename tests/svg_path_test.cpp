@@ -9,6 +9,7 @@
 
 #include "svg_helpers.hpp"
 
+namespace svg_path_test {
 namespace {
 
 using rollfix::Vec2;
@@ -224,3 +225,4 @@ TEST(SvgPath, nonsense_is_refused_with_the_place) {
 }
 
 }  // namespace
+}  // namespace svg_path_test

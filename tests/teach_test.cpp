@@ -20,6 +20,7 @@
 #include "rollfix/part/part.hpp"
 #include "shapes.hpp"
 
+namespace teach_test {
 namespace {
 
 using rollfix::Closing;
@@ -392,3 +393,4 @@ TEST(TurningSpan, turn_that_its_quadrature_is_not_exact_for_is_refused) {
 }
 
 }  // namespace
+}  // namespace teach_test

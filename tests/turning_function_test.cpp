@@ -15,6 +15,7 @@
 #include "rollfix/part/part.hpp"
 #include "shapes.hpp"
 
+namespace turning_function_test {
 namespace {
 
 using namespace rollfix;
@@ -211,3 +212,4 @@ TEST(TurningFunction, has_the_same_bits_on_every_run) {
 }
 
 }  // namespace
+}  // namespace turning_function_test

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kDemoExamples = R"(Examples:
   rollfix demo --force       # writes its figures and logs here, over older ones
   rollfix demo -o figures    # writes them to this folder
 )";
@@ -110,7 +110,7 @@ void add_demo_command(CLI::App& program, Command& chosen) {
       "demo",
       "The main job on shipped input: six placements of a roll on a spline, then one; the same on a wing; and two "
       "fingers, 16 pairs of placements, then one.");
-  command->footer(kExamples);
+  command->footer(kDemoExamples);
   add_output_argument(*command, *output, "the folder to write to; default the current one");
   command->callback([output, &chosen] { chosen = [output] { return demo(*output); }; });
 }

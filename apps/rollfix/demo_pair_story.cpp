@@ -19,8 +19,7 @@
 namespace rollfix::app {
 namespace {
 
-constexpr std::size_t kRows = 201;
-constexpr double kSamePlace = 1e-4;  // of the perimeter: what is left of it in readings with six decimals
+constexpr double kSamePairPlace = 1e-4;  // of the perimeter: what is left of it in readings with six decimals
 
 FingerPair fingers_of(const DemoPairStory& story) { return {story.finger, story.finger}; }
 
@@ -43,7 +42,7 @@ PairOutcome locate_by(const PairLog& log, const DemoPairStory& story, const Part
   const FingerPair fingers = fingers_of(story);
   const PairObservation observation = observe_pair_log(log, part, fingers, {});
   PairOutcome outcome = search(part, observation);
-  drop(std::array<FingerShape, 2>{FingerShape{story.finger}, FingerShape{story.finger}}, observation, outcome);
+  drop(fingers, observation, outcome);
   for (const PairPlacement& placement : outcome.found.placements) {
     outcome.poses.push_back(poses(part, fingers, log, placement.start, observation.rows));
   }
@@ -68,7 +67,7 @@ PairLog roll_both(const DemoPairStory& story, const Part& part) {
   plan.a = finger(0);
   plan.b = finger(1);
   plan.part_rotation = read_angle(story.part_rotation, "part rotation");
-  plan.rows = kRows;
+  plan.rows = kDemoRows;
   return roll_free(part, plan).log;
 }
 
@@ -77,8 +76,8 @@ void require_true(const DemoPairStory& story, const PairOutcome& outcome) {
   const PairPoint truth = true_starts(story);
   const double period = outcome.part.perimeter();
   const auto is_true = [&](const PairPlacement& placement) {
-    return periodic_distance(placement.start[0], truth[0], period) < kSamePlace * period &&
-           periodic_distance(placement.start[1], truth[1], period) < kSamePlace * period;
+    return periodic_distance(placement.start[0], truth[0], period) < kSamePairPlace * period &&
+           periodic_distance(placement.start[1], truth[1], period) < kSamePairPlace * period;
   };
   const std::vector<PairPlacement>& placements = outcome.found.placements;
   if (placements.size() == 1 && is_true(placements.front())) return;
@@ -106,8 +105,8 @@ std::string tell(const DemoPairStory& story, const PairOutcome& by_two, const Pa
          located(fmt::format("{}{} -o {}", story.argument, repeated("--reading", first_two), names[1]), by_two) +
          located(fmt::format("{}{} -o {}", story.argument, repeated("--reading", story.readings), names[3]), by_three) +
          fmt::format("  rollfix simulate {}{}{} --part-rotation {} --samples {} -o {}\n\n", part_and_finger,
-                     repeated("--start", story.starts), repeated("--length", story.lengths), story.part_rotation, kRows,
-                     log) +
+                     repeated("--start", story.starts), repeated("--length", story.lengths), story.part_rotation,
+                     kDemoRows, log) +
          located(fmt::format("{} --log {}", part_and_finger, log), by_log) +
          fmt::format("A log also says how the fingers face each other. The simulated ones did start at {} and {}.\n",
                      story.starts[0], story.starts[1]);

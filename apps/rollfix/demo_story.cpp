@@ -20,8 +20,6 @@
 namespace rollfix::app {
 namespace {
 
-constexpr std::size_t kRows = 201;
-
 std::string log_name(const DemoStory& story) { return story.stem + "-roll.csv"; }
 
 Roll roll_along(const DemoStory& story, const Part& part) {
@@ -29,7 +27,7 @@ Roll roll_along(const DemoStory& story, const Part& part) {
   plan.start = read_number(story.start, "start");
   plan.distance = read_number(story.whole_length, "length");
   plan.psi = part.tangent(plan.start) + std::numbers::pi / 2;
-  plan.rows = kRows;
+  plan.rows = kDemoRows;
   return roll(part, story.finger, plan);
 }
 
@@ -50,7 +48,7 @@ LocateOutcome locate_at(const DemoStory& story, const Part& part, const Log& log
   LocateOptions options;
   options.tolerance = outcome.tolerance.value;
   outcome.found = locate(part, outcome.readings, options);
-  drop(FingerShape{story.finger}, observation, outcome);
+  drop(Finger(story.finger), observation, outcome);
   for (const Placement& placement : outcome.found.placements) {
     outcome.poses.push_back(poses(part, story.finger, log, placement.start, observation.rows));
   }
@@ -109,7 +107,7 @@ std::string tell(const DemoStory& story, const LocateOutcome& at_b, const Locate
   };
   return fmt::format("{}\n{}\n\n", story.title, std::string(story.title.size(), '-')) +
          fmt::format("  rollfix simulate {} --start {} --length {} --samples {} -o {}\n\n", part_and_finger,
-                     story.start, story.whole_length, kRows, log_name(story)) +
+                     story.start, story.whole_length, kDemoRows, log_name(story)) +
          located(b, at_b) + located(b + "," + c, at_c) + ending(story, at_b, at_c, start);
 }
 

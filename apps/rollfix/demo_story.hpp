@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,9 @@
 #include "rollfix/part/part.hpp"
 
 namespace rollfix::app {
+
+/// Of a log that the demo writes.
+inline constexpr std::size_t kDemoRows = 201;
 
 /// One act of the demo, the paper's Figure 7: a disk rolls from its first contact a over to b, where several
 /// placements fit, and on to c, where one is left.

@@ -10,8 +10,8 @@
 namespace rollfix::app {
 
 /// Takes the placements out of an outcome that the finger makes impossible. Of a log all rows tell where the contact
-/// has been, not only those that were searched with.
-void drop(const FingerShape& shape, const Observation& observation, LocateOutcome& outcome);
-void drop(const std::array<FingerShape, 2>& shapes, const PairObservation& observation, PairOutcome& outcome);
+/// has been, not only those that were searched with. The fingers are disks or jaws.
+void drop(const Finger& finger, const Observation& observation, LocateOutcome& outcome);
+void drop(const FingerPair& fingers, const PairObservation& observation, PairOutcome& outcome);
 
 }  // namespace rollfix::app

@@ -49,8 +49,8 @@ Json obstruction_json(const Obstruction& obstruction) {
 
 }  // namespace
 
-Reach reach_of(const Part& part, const FingerShape& finger) {
-  return finger.disk ? reach_of_disk(part, finger.disk->radius) : reach_of_jaw(part);
+Reach reach_of(const Part& part, const Finger& finger) {
+  return finger.is_disk() ? reach_of_disk(part, finger.disk()->radius) : reach_of_jaw(part);
 }
 
 Json dropped_json(const Dropped<Impossible>& dropped) {

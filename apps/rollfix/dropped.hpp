@@ -17,8 +17,8 @@ struct Dropped {
   std::vector<Item> items;
 };
 
-/// How far a finger of this shape can reach. Throws InputError.
-Reach reach_of(const Part& part, const FingerShape& finger);
+/// How far a disk or a jaw can reach. Throws InputError.
+Reach reach_of(const Part& part, const Finger& finger);
 
 /// {"reach": n}, of two fingers {"reach": n, "overlap": m}; {} without a finger.
 Json dropped_json(const Dropped<Impossible>& dropped);

@@ -2,19 +2,26 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
+#include <string_view>
+
 #include "rollfix/error.hpp"
+#include "rollfix/files/load_part.hpp"
 #include "rollfix/typed_number.hpp"
 
 namespace rollfix::app {
 namespace {
 
 constexpr const char* kJaw = "jaw";
+constexpr std::string_view kOpen = ",open";
 
 DiskFinger read_disk(const std::string& text) {
   const std::string what = fmt::format("--finger {}", text);
   const std::vector<std::string_view> fields = split(text, ',');
   const bool is_disk = fields.size() == 2 && fields[0] == "disk" && fields[1].substr(0, 2) == "r=";
-  if (!is_disk) throw InputError(what + ": expected a disk with its radius, as in disk,r=0.1, or jaw");
+  if (!is_disk) {
+    throw InputError(what + ": expected a disk with its radius, as in disk,r=0.1, or jaw, or the file of an outline");
+  }
   const DiskFinger finger{read_number(fields[1].substr(2), what)};
   try {
     require_valid(finger);
@@ -24,19 +31,37 @@ DiskFinger read_disk(const std::string& text) {
   return finger;
 }
 
-FingerShape read_any(const std::string& text) {
-  if (text == kJaw) return {};
-  return {read_disk(text)};
+/// "pad.csv", "pad.csv,open", "gallery:stadium".
+Finger read_outlined(const std::string& text) {
+  LoadOptions options;
+  std::string name = text;
+  if (text.size() > kOpen.size() && text.substr(text.size() - kOpen.size()) == kOpen) {
+    options.points.open = true;
+    name.resize(text.size() - kOpen.size());
+  }
+  try {
+    return Finger::outlined(rollfix::load_part(name, options).part);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("--finger {}: {}", text, error.what()));
+  }
 }
 
-/// What reads logs and writes them knows disks only.
-DiskFinger require_disk(const std::string& text) {
-  if (text == kJaw) {
-    throw InputError(
-        "--finger jaw: a flat jaw is known to --reading and to inspect only; expected a disk with its radius here, as "
-        "in disk,r=0.1");
-  }
-  return read_disk(text);
+/// "pad.csv", "gallery:stadium", "-" is not; neither is "disc,r=0.1".
+bool names_outline(const std::string& text) {
+  if (text.find("gallery:") == 0) return true;
+  const std::size_t dot = text.rfind('.');
+  return dot != std::string::npos && dot + 1 < text.size() &&
+         std::isalpha(static_cast<unsigned char>(text[dot + 1])) != 0;
+}
+
+Finger read_any(const std::string& text) {
+  if (text == kJaw) return Finger::jaw();
+  return names_outline(text) ? read_outlined(text) : Finger(read_disk(text));
+}
+
+void require_disk(const Finger& finger, const std::string& what) {
+  if (finger.is_disk()) return;
+  throw InputError(fmt::format("--finger {}: {} takes disks only, as in --finger disk,r=0.1", finger.name(), what));
 }
 
 void require_one(const std::vector<std::string>& fingers) {
@@ -51,40 +76,54 @@ void require_at_most_two(const std::vector<std::string>& fingers) {
 
 }  // namespace
 
-std::string FingerShape::name() const { return disk ? fmt::format("disk,r={}", disk->radius) : kJaw; }
-
 void add_finger_argument(CLI::App& command, std::vector<std::string>& fingers) {
   command
       .add_option(
           "--finger", fingers,
-          "the finger: disk,r=RADIUS, in the outline's unit, or jaw, a flat one; for two fingers once or, where they "
-          "differ, twice")
+          "the finger: disk,r=RADIUS, in the outline's unit, or jaw, a flat one, or the file of a convex outline, with "
+          ",open behind it where it is open; for two fingers once or, where they differ, twice")
       ->type_name("FINGER")
       ->allow_extra_args(false);
 }
 
-std::optional<DiskFinger> read_finger(const std::vector<std::string>& fingers) {
-  if (fingers.empty()) return std::nullopt;
-  require_one(fingers);
-  return require_disk(fingers.front());
-}
-
-std::optional<FingerPair> read_fingers(const std::vector<std::string>& fingers) {
-  if (fingers.empty()) return std::nullopt;
-  require_at_most_two(fingers);
-  return FingerPair{require_disk(fingers.front()), require_disk(fingers.back())};
-}
-
-std::optional<FingerShape> read_shape(const std::vector<std::string>& fingers) {
+std::optional<Finger> read_finger(const std::vector<std::string>& fingers) {
   if (fingers.empty()) return std::nullopt;
   require_one(fingers);
   return read_any(fingers.front());
 }
 
-std::optional<std::array<FingerShape, 2>> read_shapes(const std::vector<std::string>& fingers) {
+std::optional<FingerPair> read_fingers(const std::vector<std::string>& fingers) {
   if (fingers.empty()) return std::nullopt;
   require_at_most_two(fingers);
-  return std::array<FingerShape, 2>{read_any(fingers.front()), read_any(fingers.back())};
+  return FingerPair{read_any(fingers.front()), read_any(fingers.back())};
+}
+
+std::optional<DiskFinger> read_disk_finger(const std::vector<std::string>& fingers, const std::string& what) {
+  const std::optional<Finger> finger = read_finger(fingers);
+  if (!finger) return std::nullopt;
+  require_disk(*finger, what);
+  return finger->disk();
+}
+
+std::optional<FingerPair> read_disk_fingers(const std::vector<std::string>& fingers, const std::string& what) {
+  std::optional<FingerPair> pair = read_fingers(fingers);
+  if (!pair) return std::nullopt;
+  for (const Finger& finger : *pair) require_disk(finger, what);
+  return pair;
+}
+
+std::string name_of(const Finger& finger) {
+  const std::optional<DiskFinger> disk = finger.disk();
+  return disk ? fmt::format("disk,r={}", disk->radius) : finger.name();
+}
+
+bool has_reach(const Finger& finger) { return finger.outline() == nullptr; }
+
+std::string no_reach_note(const Finger& finger) {
+  return fmt::format(
+      "whether the finger {} would hit the part elsewhere is not looked at: that is known of disks and "
+      "jaws only",
+      finger.name());
 }
 
 }  // namespace rollfix::app

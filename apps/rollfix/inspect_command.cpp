@@ -5,6 +5,7 @@
 #include "rollfix/commands.hpp"
 #include "rollfix/draw/part_figure.hpp"
 #include "rollfix/dropped.hpp"
+#include "rollfix/error.hpp"
 #include "rollfix/finger_argument.hpp"
 #include "rollfix/inspect_outcome.hpp"
 #include "rollfix/output_argument.hpp"
@@ -14,7 +15,7 @@
 namespace rollfix::app {
 namespace {
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kInspectExamples = R"(Examples:
   rollfix inspect gallery:ellipse,a=2,b=1
   rollfix inspect wing.csv -o inspected.svg    # wing.csv: from rollfix demo
   rollfix inspect gallery:spline,seed=7 --json
@@ -32,7 +33,11 @@ struct InspectArguments {
 
 Report inspect(const InspectArguments& arguments) {
   require_part_output(arguments.output, arguments.json);
-  const std::optional<FingerShape> finger = read_shape(arguments.fingers);
+  const std::optional<Finger> finger = read_finger(arguments.fingers);
+  if (finger && !has_reach(*finger)) {
+    throw InputError(
+        fmt::format("--finger {}: where a finger can touch is known of disks and jaws only", finger->name()));
+  }
   const LoadedPart loaded = load(arguments.part);
   const Part& part = loaded.part;
   InspectOutcome outcome = look_at(loaded);
@@ -57,7 +62,7 @@ void add_inspect_command(CLI::App& program, Command& chosen) {
   const auto arguments = std::make_shared<InspectArguments>();
   CLI::App* command = program.add_subcommand(
       "inspect", "What a part is: size, inflections, vertices, corners, and how ambiguous rolls on it are.");
-  command->footer(kExamples);
+  command->footer(kInspectExamples);
   add_part_argument(*command, arguments->part);
   add_finger_argument(*command, arguments->fingers);
   add_output_argument(

@@ -136,7 +136,7 @@ Json reach_json(const InspectOutcome& outcome) {
   if (!outcome.reach) return nullptr;
   Json arcs = Json::array();
   for (const Interval& arc : outcome.reach->arcs) arcs.push_back(json_interval(arc));
-  return {{"finger", outcome.finger->name()},
+  return {{"finger", name_of(*outcome.finger)},
           {"share", json_number(outcome.reach->share())},
           {"arcs", arcs},
           {"pivots", pivots_json(*outcome.reach)},
@@ -147,7 +147,7 @@ Json reach_json(const InspectOutcome& outcome) {
 std::string reach_text(const InspectOutcome& outcome) {
   const Reach& reach = *outcome.reach;
   const int decimals = decimals_for(outcome.part.perimeter());
-  const std::string finger = outcome.finger->name();
+  const std::string finger = name_of(*outcome.finger);
   if (reach.is_whole()) return fmt::format("{} reaches all of the boundary", finger);
   std::vector<std::string> arcs;
   for (std::size_t k = 0; k < std::min(reach.arcs.size(), kMostPlaces); ++k) {

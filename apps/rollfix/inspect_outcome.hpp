@@ -23,8 +23,8 @@ struct InspectOutcome {
   double largest_disk = 0;
   int symmetry = 1;
   std::vector<Ambiguity> ambiguity;
-  std::optional<FingerShape> finger{};  // --finger, and ...
-  std::optional<Reach> reach{};         // ... how far it can reach
+  std::optional<Finger> finger{};  // --finger, and ...
+  std::optional<Reach> reach{};    // ... how far it can reach
 };
 
 InspectOutcome look_at(const LoadedPart& loaded);

@@ -6,16 +6,18 @@
 #include "rollfix/locate_request.hpp"
 #include "rollfix/observation.hpp"
 #include "rollfix/reading_argument.hpp"
+#include "rollfix/roll_argument.hpp"
 #include "rollfix/usage.hpp"
 
 namespace rollfix::app {
 namespace {
 
-constexpr const char* kExamples = R"(Examples (wing.csv and wing-roll.csv: from rollfix demo):
+constexpr const char* kLocateExamples = R"(Examples (wing.csv and wing-roll.csv: from rollfix demo):
   rollfix locate gallery:ellipse,a=2,b=1 --reading 1.5,73.2deg
   rollfix locate wing.csv --reading 60.1,5.12deg --reading 120,18.39deg -o where.svg
   rollfix locate wing.csv --log wing-roll.csv --finger disk,r=10
   rollfix locate wing.csv --log wing-roll.csv --finger disk,r=10 --at 6.1,12.32 --json
+  rollfix locate wing.csv --log wing-roll.csv --finger disk,r=10 --noise contact=0.05,angle=0.2deg,slip=0.002
 Two fingers on a part that is free to move:
   rollfix locate gallery:cam --reading 0.7446832,-0.3983439,57.48184deg --reading 1.5,-0.8,110.97000deg
   rollfix locate gallery:cam --reading 1.5,-0.8,110.97000deg --facing -142.40990deg
@@ -35,6 +37,7 @@ void require_sensible(const LocateArguments& arguments) {
   if (arguments.explain && arguments.fingers.empty()) {
     throw InputError("--explain lists what the finger can't reach: give --finger as well");
   }
+  if (!arguments.roll.empty() && !from_log) throw InputError("--roll chooses from a log: give a --log as well");
   if (!arguments.instants.empty() && !from_log) throw InputError("--at picks instants of a log: give a --log as well");
   if (from_log && arguments.logs.front() == "-" && arguments.part.part == "-") {
     throw InputError("the part and the log can't both come from standard input: give one of them as a file");
@@ -44,12 +47,15 @@ void require_sensible(const LocateArguments& arguments) {
 Report locate_report(const LocateArguments& arguments) {
   require_sensible(arguments);
   require_figure_output(arguments.output, arguments.json);
-  const std::vector<Log> logs = arguments.logs.empty() ? std::vector<Log>{} : read_log_argument(arguments.logs);
+  const ChosenRoll roll = arguments.logs.empty() ? ChosenRoll{} : read_roll(arguments.logs, arguments.roll);
+  const std::vector<Log>& logs = roll.logs;
   const bool two_fingers = logs.empty() ? are_of_two_fingers(arguments.readings) : logs.size() == 2;
   if (!two_fingers && !arguments.facing.empty()) {
     throw InputError("--facing compares two fingers: expected --reading LA,LB,THETA with it");
   }
-  return two_fingers ? locate_two(arguments, logs) : locate_one(arguments, logs);
+  Report report = two_fingers ? locate_two(arguments, logs) : locate_one(arguments, logs);
+  if (!roll.note.empty()) report.notes.insert(report.notes.begin(), roll.note);
+  return report;
 }
 
 }  // namespace
@@ -57,7 +63,7 @@ Report locate_report(const LocateArguments& arguments) {
 void add_locate_command(CLI::App& program, Command& chosen) {
   const auto arguments = std::make_shared<LocateArguments>();
   CLI::App* command = program.add_subcommand("locate", "Every place on a part where a roll can have started.");
-  command->footer(kExamples);
+  command->footer(kLocateExamples);
   add_part_argument(*command, arguments->part);
   command
       ->add_option("--reading", arguments->readings,
@@ -68,6 +74,7 @@ void add_locate_command(CLI::App& program, Command& chosen) {
   command->add_option("--log", arguments->logs, "a tactile log, - for stdin; of two fingers one file or two")
       ->type_name("FILE")
       ->allow_extra_args(false);
+  add_roll_argument(*command, arguments->roll);
   add_finger_argument(*command, arguments->fingers);
   command
       ->add_option("--at", arguments->instants,
@@ -81,8 +88,10 @@ void add_locate_command(CLI::App& program, Command& chosen) {
       ->type_name("ANGLE");
   command
       ->add_option("--tolerance", arguments->tolerance,
-                   "how far the turn may be off; default 1e-9, or the rounding of the digits given")
+                   "how far the turn may be off; default 1e-9, or the rounding of the digits given, "
+                   "or what --noise makes of it")
       ->type_name("ANGLE");
+  add_noise_arguments(*command, arguments->noise);
   command
       ->add_option("--budget", arguments->budget,
                    "intervals to look at, beyond the part's own, before giving up; default 1000000")

@@ -89,12 +89,13 @@ Json locate_json(const LocateOutcome& outcome) {
   for (std::size_t k = 0; k < found.placements.size(); ++k) {
     placements.push_back(
         placement_json(found.placements[k], k < outcome.poses.size() ? outcome.poses[k] : std::nullopt));
+    if (outcome.weighing) add_weight(*outcome.weighing, k, placements.back());
   }
   Json unresolved = Json::array();
   for (const Interval& interval : found.unresolved) unresolved.push_back(json_interval(interval));
   Json document = {{"schema", "rollfix/locate/1"},
                    {"status", found.status == Status::complete ? "complete" : "incomplete"},
-                   {"verdict", found.verdict()},
+                   {"verdict", outcome.weighing ? outcome.weighing->verdict : found.verdict()},
                    {"part", part_json(outcome.part)},
                    {"fingers", 1},
                    {"readings", readings_json(outcome)},
@@ -104,6 +105,10 @@ Json locate_json(const LocateOutcome& outcome) {
                    {"dropped", dropped_json(outcome.dropped)},
                    {"unresolved", unresolved},
                    {"counts", {{"intervals", found.counts.intervals}, {"evaluations", found.counts.evaluations}}}};
+  if (outcome.weighing) {
+    document["dropped"]["improbable"] = outcome.weighing->improbable.size();
+    add_weighing(*outcome.weighing, document);
+  }
   if (outcome.dropped.explain) document["impossible"] = impossible_json(outcome.dropped);
   return document;
 }

@@ -10,6 +10,7 @@
 #include "rollfix/locate/locate.hpp"
 #include "rollfix/part/part.hpp"
 #include "rollfix/tolerance.hpp"
+#include "rollfix/weighing.hpp"
 
 namespace rollfix::app {
 
@@ -22,7 +23,9 @@ struct LocateOutcome {
   Search found;
   std::vector<std::optional<Poses>> poses;  // of each placement at every row of a log; nothing where it does not tell
   std::vector<double> times;                // of a log with times: of those rows, seconds
-  Dropped<Impossible> dropped{};            // what the finger makes impossible; no longer in `found`
+  std::optional<Finger> finger{};
+  Dropped<Impossible> dropped{};       // what the finger makes impossible; no longer in `found`
+  std::optional<Weighing> weighing{};  // with noise; `found` lists what it leaves, the most probable first
 };
 
 /// The contract's "rollfix/locate/1"; docs/json.md lists the fields.

@@ -8,6 +8,7 @@
 #include "rollfix/part_argument.hpp"
 #include "rollfix/report.hpp"
 #include "rollfix/tolerance.hpp"
+#include "rollfix/weighing.hpp"
 
 namespace rollfix::app {
 
@@ -17,10 +18,12 @@ struct LocateArguments {
   std::vector<std::string> readings;
   std::vector<std::string> logs;
   std::vector<std::string> fingers;
+  std::string roll;
   std::string facing;
   std::string instants;
   std::string tolerance;
   std::string budget;
+  NoiseArguments noise;
   bool json = false;
   bool explain = false;
   OutputArgument output;

@@ -10,10 +10,7 @@
 namespace rollfix::app {
 namespace {
 
-constexpr std::size_t kMostRows = 40;   // placements in the table
-constexpr std::size_t kMostNotes = 12;  // lines about single placements
-constexpr double kAgreement = 1e-9;     // contacts closer together than this share of the perimeter are the same
-constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kAgreement = 1e-9;  // contacts closer together than this share of the perimeter are the same
 
 /// The names in figures: a0 is where the first placement starts.
 std::string label(std::size_t i) { return fmt::format("a{}", i); }
@@ -50,6 +47,11 @@ std::string tolerance_line(const Tolerance& tolerance) {
                      tolerance.source);
 }
 
+std::string more_line(std::size_t count) {
+  if (count <= kMostRows) return "";
+  return fmt::format("... and {} more; --json lists them all\n", count - kMostRows);
+}
+
 std::string placement_table(const LocateOutcome& outcome) {
   const std::vector<Placement>& placements = outcome.found.placements;
   const int decimals = decimals_for(outcome.part.perimeter());
@@ -68,11 +70,27 @@ std::string placement_table(const LocateOutcome& outcome) {
                    fixed(placement.point.y(), decimals), rough(steepest(placement.sensitivity.per_turn) * kDegree),
                    rough(steepest(placement.sensitivity.per_length)), rough(placement.error)});
   }
-  std::string text = table.str();
-  if (placements.size() > kMostRows) {
-    text += fmt::format("... and {} more; --json lists them all\n", placements.size() - kMostRows);
+  return table.str() + more_line(placements.size());
+}
+
+/// With noise: how probable each is, and how well it is known.
+std::string weighed_table(const LocateOutcome& outcome) {
+  const std::vector<Placement>& placements = outcome.found.placements;
+  const int decimals = decimals_for(outcome.part.perimeter());
+  Table table;
+  table.add_column("", Table::Align::left);
+  for (const char* title : {"probability", "start", "sd", "95 % from", "to", "end", "tangent [deg]", "x", "y"}) {
+    table.add_column(title);
   }
-  return text;
+  for (std::size_t i = 0; i < std::min(placements.size(), kMostRows); ++i) {
+    const Placement& placement = placements[i];
+    const Mode& mode = outcome.weighing->modes[i];
+    table.add_row({label(i), fmt::format("{:.4f}", mode.probability), fixed(placement.start, decimals), rough(mode.sd),
+                   fixed(mode.interval.lo, decimals), fixed(mode.interval.hi, decimals), fixed(placement.end, decimals),
+                   degrees(placement.tangent), fixed(placement.point.x(), decimals),
+                   fixed(placement.point.y(), decimals)});
+  }
+  return table.str() + more_line(placements.size());
 }
 
 /// "12.000 deg", or "from 12.000 to 34.000 deg"; turned by whole turns as the start's tangent is in the table.
@@ -89,7 +107,7 @@ std::string about_corner(const Pivot& pivot) {
                      directions(pivot.start, whole_turns), directions(pivot.end, whole_turns));
 }
 
-std::string about(const Placement& placement, const Part& part) {
+std::string remark_on(const Placement& placement, const Part& part) {
   const int decimals = decimals_for(part.perimeter());
   const std::string extent =
       fmt::format("from {} to {}", fixed(placement.extent.lo, decimals), fixed(placement.extent.hi, decimals));
@@ -108,8 +126,10 @@ std::string about(const Placement& placement, const Part& part) {
 std::string remarks(const LocateOutcome& outcome) {
   std::string text;
   std::size_t count = 0;
-  for (std::size_t i = 0; i < std::min(outcome.found.placements.size(), kMostRows); ++i) {
-    const std::string remark = about(outcome.found.placements[i], outcome.part);
+  // Noise leaves hardly anything exact: there the probabilities say what is worth a remark.
+  const std::size_t rows = outcome.weighing ? 0 : std::min(outcome.found.placements.size(), kMostRows);
+  for (std::size_t i = 0; i < rows; ++i) {
+    const std::string remark = remark_on(outcome.found.placements[i], outcome.part);
     if (!remark.empty() && ++count <= kMostNotes) text += fmt::format("{}: {}\n", label(i), remark);
   }
   if (count > kMostNotes) text += fmt::format("... and {} more such remarks\n", count - kMostNotes);
@@ -165,6 +185,7 @@ std::string about_pose(const Poses& poses, const Part& part) {
 
 std::string advice(const LocateOutcome& outcome) {
   const Search& found = outcome.found;
+  if (outcome.weighing && found.status == Status::complete) return advice(*outcome.weighing);
   const std::string verdict = found.verdict();
   if (found.status == Status::incomplete) {
     return fmt::format(
@@ -184,8 +205,10 @@ std::string advice(const LocateOutcome& outcome) {
 
 std::string locate_text(const LocateOutcome& outcome) {
   std::string text = advice(outcome) + "\n\n" + part_line(outcome.part) + reading_lines(outcome) +
-                     tolerance_line(outcome.tolerance) + dropped_text(outcome.dropped, outcome.part);
-  if (!outcome.found.placements.empty()) text += "\n" + placement_table(outcome);
+                     tolerance_line(outcome.tolerance) + (outcome.weighing ? weighing_lines(*outcome.weighing) : "") +
+                     dropped_text(outcome.dropped, outcome.part);
+  if (!outcome.found.placements.empty())
+    text += "\n" + (outcome.weighing ? weighed_table(outcome) : placement_table(outcome));
   const std::string below = remarks(outcome) + pose_lines(outcome) + unresolved_lines(outcome);
   if (!below.empty()) text += "\n" + below;
   return text;

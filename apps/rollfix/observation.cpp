@@ -59,7 +59,7 @@ PairObservation observe_pair_readings(const std::vector<std::string>& texts, con
   return observation;
 }
 
-Observation observe_log(const Log& log, const Part& part, const std::optional<DiskFinger>& finger,
+Observation observe_log(const Log& log, const Part& part, const std::optional<Finger>& finger,
                         const std::vector<double>& instants) {
   Observation observation;
   observation.readings = readings(log, part, finger, instants);
@@ -80,7 +80,7 @@ PairObservation observe_pair_log(const PairLog& log, const Part& part, const std
   PairObservation observation;
   observation.readings = readings(log, part, fingers, instants);
   observation.roundings = {rounding_of(log, fingers)};
-  observation.facing = facing(log);
+  observation.facing = facing(log, fingers);
   observation.lengths_turned_round = part.reversed() && log.a.kind != LogKind::contact;
   observation.rolls = readings_as_given(log, fingers);
   if (observation.lengths_turned_round) {

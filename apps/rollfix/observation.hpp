@@ -45,7 +45,7 @@ Observation observe_readings(const std::vector<std::string>& texts);
 PairObservation observe_pair_readings(const std::vector<std::string>& texts, const std::string& facing);
 
 /// From a log at these instants; none: the last row. Throws InputError.
-Observation observe_log(const Log& log, const Part& part, const std::optional<DiskFinger>& finger,
+Observation observe_log(const Log& log, const Part& part, const std::optional<Finger>& finger,
                         const std::vector<double>& instants);
 
 /// From two fingers' log at these instants; none: the middle row and the last. Throws InputError.

@@ -85,12 +85,13 @@ Json pair_json(const PairOutcome& outcome) {
   Json placements = Json::array();
   for (std::size_t k = 0; k < found.placements.size(); ++k) {
     placements.push_back(placement_json(found.placements[k], outcome.poses[k], outcome.facing.has_value()));
+    if (outcome.weighing) add_weight(*outcome.weighing, k, placements.back());
   }
   Json unresolved = Json::array();
   for (const PairBox& box : found.unresolved) unresolved.push_back(box_json(box));
   Json document = {{"schema", "rollfix/locate/1"},
                    {"status", found.status == Status::complete ? "complete" : "incomplete"},
-                   {"verdict", found.verdict()},
+                   {"verdict", outcome.weighing ? outcome.weighing->common.verdict : found.verdict()},
                    {"part", part_json(outcome.part)},
                    {"fingers", 2},
                    {"readings", readings_json(outcome)},
@@ -101,6 +102,7 @@ Json pair_json(const PairOutcome& outcome) {
                    {"dropped", dropped_json(outcome.dropped)},
                    {"unresolved", unresolved},
                    {"counts", {{"boxes", found.counts.intervals}, {"evaluations", found.counts.evaluations}}}};
+  if (outcome.weighing) add_weighing(*outcome.weighing, document);
   if (outcome.dropped.explain) document["impossible"] = impossible_json(outcome.dropped);
   return document;
 }

@@ -8,7 +8,9 @@ PairFigure figure_of(const PairOutcome& outcome, const std::optional<FingerPair>
   figure.readings = outcome.readings;
   figure.found = outcome.found;
   figure.facing = outcome.facing;
-  if (fingers) figure.finger_radius = {(*fingers)[0].radius, (*fingers)[1].radius};
+  for (std::size_t k = 0; fingers && k < 2; ++k) {
+    if (const auto disk = (*fingers)[k].disk()) figure.finger_radius[k] = disk->radius;
+  }
   return figure;
 }
 

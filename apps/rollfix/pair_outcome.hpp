@@ -10,6 +10,7 @@
 #include "rollfix/dropped.hpp"
 #include "rollfix/json_output.hpp"
 #include "rollfix/locate/locate_pair.hpp"
+#include "rollfix/pair_weighing.hpp"
 #include "rollfix/part/part.hpp"
 #include "rollfix/tolerance.hpp"
 
@@ -26,6 +27,7 @@ struct PairOutcome {
   std::vector<std::optional<Poses>> poses;  // of each placement at every row of a log; nothing where it does not tell
   std::vector<double> times;                // of a log with times: of those rows, seconds
   Dropped<PairImpossible> dropped{};        // what the fingers make impossible; no longer in `found`
+  std::optional<PairWeighing> weighing{};   // with noise; `found` lists what it leaves, the most probable first
 };
 
 /// The contract's "rollfix/locate/1" for two fingers; docs/json.md lists the fields.

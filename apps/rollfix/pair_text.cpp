@@ -11,10 +11,6 @@
 namespace rollfix::app {
 namespace {
 
-constexpr std::size_t kMostRows = 40;   // placements in the table
-constexpr std::size_t kMostNotes = 12;  // lines about single placements
-constexpr double kDegree = std::numbers::pi / 180;
-
 std::string reading_lines(const PairOutcome& outcome) {
   const int decimals = decimals_for(outcome.part.perimeter());
   std::string text;
@@ -43,17 +39,36 @@ std::string placement_table(const PairOutcome& outcome) {
   Table table;
   table.add_column("", Table::Align::right);
   table.add_column("kind", Table::Align::left);
-  for (const char* title : {"start a", "start b", "end a", "end b", "width a", "width b", "max da/dturn [/deg]",
-                            "max db/dturn [/deg]", "error"}) {
+  for (const char* title :
+       {"start a", "start b", "end a", "end b", "width a", "width b", "max da/dturn [/deg]", "max db/dturn [/deg]"}) {
     table.add_column(title);
+  }
+  if (outcome.weighing) {
+    for (const char* title : {"probability", "sd a", "sd b"}) table.add_column(title);
+  } else {
+    table.add_column("error");
   }
   for (std::size_t i = 0; i < std::min(placements.size(), kMostRows); ++i) {
     const PairPlacement& placement = placements[i];
-    table.add_row({fmt::format("{}", i), name_of(placement.kind), fixed(placement.start[0], decimals),
-                   fixed(placement.start[1], decimals), fixed(placement.end[0], decimals),
-                   fixed(placement.end[1], decimals), rough(placement.extent[0].width()),
-                   rough(placement.extent[1].width()), rough(steepest(placement.sensitivity.per_turn[0]) * kDegree),
-                   rough(steepest(placement.sensitivity.per_turn[1]) * kDegree), rough(placement.error)});
+    std::vector<std::string> cells{fmt::format("{}", i),
+                                   name_of(placement.kind),
+                                   fixed(placement.start[0], decimals),
+                                   fixed(placement.start[1], decimals),
+                                   fixed(placement.end[0], decimals),
+                                   fixed(placement.end[1], decimals),
+                                   rough(placement.extent[0].width()),
+                                   rough(placement.extent[1].width()),
+                                   rough(steepest(placement.sensitivity.per_turn[0]) * kDegree),
+                                   rough(steepest(placement.sensitivity.per_turn[1]) * kDegree)};
+    if (outcome.weighing) {
+      const PairMode& mode = outcome.weighing->modes[i];
+      cells.push_back(fmt::format("{:.4f}", mode.probability));
+      cells.push_back(rough(mode.sd[0]));
+      cells.push_back(rough(mode.sd[1]));
+    } else {
+      cells.push_back(rough(placement.error));
+    }
+    table.add_row(std::move(cells));
   }
   std::string text = table.str();
   if (placements.size() > kMostRows) {
@@ -62,7 +77,7 @@ std::string placement_table(const PairOutcome& outcome) {
   return text;
 }
 
-std::string about(const PairPlacement& placement, const Part& part) {
+std::string remark_on(const PairPlacement& placement, const Part& part) {
   const int decimals = decimals_for(part.perimeter());
   if (placement.kind == Kind::stretch) {
     if (placement.whole_loop[0] || placement.whole_loop[1]) return "fits all the way round the boundary";
@@ -82,7 +97,7 @@ std::string remarks(const PairOutcome& outcome) {
   std::string text;
   std::size_t count = 0;
   for (std::size_t i = 0; i < std::min(outcome.found.placements.size(), kMostRows); ++i) {
-    const std::string remark = about(outcome.found.placements[i], outcome.part);
+    const std::string remark = remark_on(outcome.found.placements[i], outcome.part);
     if (!remark.empty() && ++count <= kMostNotes) text += fmt::format("{}: {}\n", i, remark);
   }
   if (count > kMostNotes) text += fmt::format("... and {} more such remarks\n", count - kMostNotes);
@@ -103,6 +118,7 @@ std::string remarks(const PairOutcome& outcome) {
 /// The verdict with what to do next.
 std::string pair_advice(const PairOutcome& outcome) {
   const PairSearch& found = outcome.found;
+  if (outcome.weighing) return advice(*outcome.weighing);
   const std::string verdict = found.verdict();
   if (found.status == Status::incomplete) {
     return fmt::format("{}: {} found, {} left open; try a larger --budget", verdict,
@@ -135,6 +151,7 @@ std::string pair_text(const PairOutcome& outcome) {
   text += reading_lines(outcome);
   text += fmt::format("tolerance  {:.3g} deg = {:.3g} rad, {}\n", outcome.tolerance.value / kDegree,
                       outcome.tolerance.value, outcome.tolerance.source);
+  if (outcome.weighing) text += weighing_lines(*outcome.weighing);
   text += dropped_text(outcome.dropped, outcome.part);
   if (!outcome.found.placements.empty()) text += "\n" + placement_table(outcome);
   const std::string below = remarks(outcome);

@@ -18,25 +18,28 @@ namespace {
 constexpr const char* kDescription =
     "Finds every place where a rolling finger may touch a curved part of known outline.";
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kProgramExamples = R"(Examples:
   rollfix demo                                      # the main job; it writes the files used below
   rollfix inspect wing.csv -o part.svg              # what a part is
   rollfix locate wing.csv --reading 60.1,5.12deg    # where can this roll have started?
   rollfix locate wing.csv --log wing-roll.csv --finger disk,r=10
   rollfix simulate gallery:cam --finger disk,r=0.2 --start 0.5 --length 1 -o roll.csv
+  rollfix watch wing.csv --finger disk,r=10 --noise contact=0.1,angle=0.1deg --log wing-roll.csv --once
 )";
 
 /// Adds the commands to a program and returns the one that the arguments name.
-Command parse(CLI::App& program, const std::vector<std::string>& arguments) {
+Command parse(CLI::App& program, const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) {
   Command chosen;
   set_help_style(program);
-  program.footer(kExamples);
+  program.footer(kProgramExamples);
   program.set_version_flag("--version", std::string("rollfix ") + kVersion);
   program.require_subcommand(0, 1);
   add_inspect_command(program, chosen);
   add_locate_command(program, chosen);
+  add_advise_command(program, chosen);
   add_simulate_command(program, chosen);
   add_teach_command(program, chosen);
+  add_watch_command(program, chosen, out, err);
   add_demo_command(program, chosen);
   // What the parser does not know is refused here, with better words.
   program.allow_extras();
@@ -49,7 +52,8 @@ Command parse(CLI::App& program, const std::vector<std::string>& arguments) {
   std::reverse(reversed.begin(), reversed.end());
   program.parse(std::move(reversed));
   refuse_leftovers(program);
-  if (!chosen) throw InputError("expected a command: inspect, locate, simulate, teach or demo; see rollfix --help");
+  if (!chosen)
+    throw InputError("expected a command: inspect, locate, simulate, teach, watch or demo; see rollfix --help");
   return chosen;
 }
 
@@ -75,7 +79,7 @@ int fail(std::ostream& err, std::string message, ExitCode exit_code) {
 int run(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) {
   CLI::App program(kDescription, "rollfix");
   try {
-    const Report report = parse(program, arguments)();
+    const Report report = parse(program, arguments, out, err)();
     deliver(report, out, err);
     return code(report.exit_code);
   } catch (const CLI::Success& request) {  // --help, --version

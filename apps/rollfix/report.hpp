@@ -18,7 +18,7 @@ enum class ExitCode {
 };
 
 /// Everything that a command has to say. Commands only compute: nothing is printed or written before all is known, so
-/// an error leaves nothing behind.
+/// an error leaves nothing behind. `watch` alone prints as it goes, and reports only how it ended.
 struct Report {
   std::string data;                // for stdout
   std::vector<std::string> notes;  // narration for stderr, a line each

@@ -3,6 +3,7 @@
 
 #include "rollfix/commands.hpp"
 #include "rollfix/finger_argument.hpp"
+#include "rollfix/noise_argument.hpp"
 #include "rollfix/part_argument.hpp"
 #include "rollfix/simulation.hpp"
 #include "rollfix/usage.hpp"
@@ -10,7 +11,7 @@
 namespace rollfix::app {
 namespace {
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kSimulateExamples = R"(Examples:
   rollfix simulate gallery:ellipse --finger disk,r=0.3 --start 1 --length 1.5 -o ellipse-roll.csv
   rollfix simulate gallery:spline --finger disk,r=0.1 --start 4 --length -0.8 --samples 11
   rollfix simulate gallery:cam --finger disk,r=0.2 --start 3 --rotation 200deg
@@ -41,7 +42,7 @@ void add_simulate_command(CLI::App& program, Command& chosen) {
   CLI::App* command = program.add_subcommand("simulate",
                                              "Writes the tactile log of a finger that rolls on a part, or of two on a "
                                              "part that is free to move.");
-  command->footer(kExamples);
+  command->footer(kSimulateExamples);
   add_part_argument(*command, arguments->part);
   add_finger_argument(*command, arguments->fingers);
   add_repeated(*command, "--start", arguments->starts, "S",
@@ -56,6 +57,13 @@ void add_simulate_command(CLI::App& program, Command& chosen) {
       ->type_name("ANGLE");
   add_repeated(*command, "--contact-angle", arguments->contact_angles, "ANGLE",
                "where on the finger the first contact is; default 0; once for both fingers or for each");
+  command
+      ->add_option("--contact", arguments->contact,
+                   "where on a jaw or an outline the first contact is, arc length; default 0, of an open outline its "
+                   "middle")
+      ->type_name("U");
+  add_noise_argument(*command, arguments->noise);
+  command->add_option("--seed", arguments->seed, "what is drawn for --noise; default 0")->type_name("N");
   command->add_option("--samples", arguments->samples, "rows of the log, at equal times; default 101")->type_name("N");
   add_repeated(*command, "-o", arguments->files, "FILE",
                "the log, - for stdout, which is the default; twice: a log for each of two fingers");

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "rollfix/contact/log.hpp"
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
@@ -10,7 +12,7 @@
 namespace rollfix::app {
 namespace {
 
-void require_sensible(const SimulateArguments& arguments) {
+void require_one_finger(const SimulateArguments& arguments) {
   if (arguments.fingers.empty()) throw InputError("simulate: expected --finger, as in --finger disk,r=0.1, found none");
   if (arguments.starts.empty()) {
     throw InputError("simulate: expected --start, the arc length of the first contact, found none");
@@ -21,32 +23,55 @@ void require_sensible(const SimulateArguments& arguments) {
   }
 }
 
+/// Where on the finger the first contact is: an angle of a disk, which turns it, or an arc length of any other.
+void place_contact(const SimulateArguments& arguments, const Part& part, const Finger& finger, RollPlan& plan) {
+  if (finger.is_disk()) {
+    if (!arguments.contact.empty()) throw InputError("--contact is of a jaw or an outline; a disk has --contact-angle");
+    plan.psi = orientation_at(part, plan.start, arguments, 0);
+    return;
+  }
+  if (!arguments.contact_angles.empty()) {
+    throw InputError("--contact-angle is of a disk; a jaw or an outline has --contact, an arc length");
+  }
+  if (!arguments.contact.empty()) plan.u = read_number(arguments.contact, "--contact");
+}
+
 /// Lengths are along the stored outline, as everywhere.
-RollPlan plan_of(const SimulateArguments& arguments, const Part& part) {
+RollPlan plan_of(const SimulateArguments& arguments, const Part& part, const Finger& finger) {
   RollPlan plan;
   plan.start = read_number(arguments.starts.front(), "--start");
   if (!arguments.lengths.empty()) plan.distance = read_number(arguments.lengths.front(), "--length");
   if (!arguments.rotation.empty()) plan.rotation = read_angle(arguments.rotation, "--rotation");
   if (!arguments.samples.empty()) plan.rows = read_count(arguments.samples, "--samples", 2);
-  plan.psi = orientation_at(part, plan.start, arguments, 0);
+  place_contact(arguments, part, finger, plan);
   return plan;
 }
 
 }  // namespace
 
 Report simulate_one(const SimulateArguments& arguments) {
-  require_sensible(arguments);
+  require_one_finger(arguments);
   const std::string file = arguments.files.empty() ? "-" : arguments.files.front();
   require_writable_log(file, arguments.force);
-  const DiskFinger finger = *read_finger(arguments.fingers);
+  const std::optional<SimulatedNoise> noise = read_simulated_noise(arguments);
+  const Finger finger = *read_finger(arguments.fingers);
   Report report;
   const Part part = load_part(arguments.part, report.notes);
-  const Roll roll = rollfix::roll(part, finger, plan_of(arguments, part));
+  const RollPlan plan = plan_of(arguments, part, finger);
+  NoisyRoll noisy;
+  if (noise) {
+    noisy = noisy_roll(part, finger, plan, noise->noise, noise->seed);
+  } else {
+    noisy.truth = rollfix::roll(part, finger, plan);
+    noisy.log = noisy.truth.log;
+  }
+  const Roll& roll = noisy.truth;
 
   if (part.reversed()) report.notes.push_back(reversed_note(part));
   report.notes.push_back(roll_text(part, roll.s, roll.angle));
   add_reach_note(report, beyond_reach_note(part, finger, roll.s, "a real finger "));
-  add_log(report, file, format_log(roll.log));
+  if (noise) report.notes.push_back(roll_error_text(finger, noisy.error));
+  add_log(report, file, format_log(noisy.log));
   return report;
 }
 

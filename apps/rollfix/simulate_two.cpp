@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "rollfix/contact/free_part.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/finger_argument.hpp"
@@ -23,7 +25,7 @@ void require_at_most_two(const std::vector<std::string>& values, const char* opt
   throw InputError(fmt::format("simulate: {} is given {} times, expected at most two fingers", option, values.size()));
 }
 
-void require_sensible(const SimulateArguments& arguments) {
+void require_two_fingers(const SimulateArguments& arguments) {
   if (arguments.fingers.empty()) {
     throw InputError("simulate: expected --finger, as in --finger disk,r=0.1, once or for each of two fingers");
   }
@@ -43,9 +45,9 @@ void require_sensible(const SimulateArguments& arguments) {
   }
 }
 
-FreeFinger finger_of(const SimulateArguments& arguments, const Part& part, const DiskFinger& disk, std::size_t which) {
+FreeFinger finger_of(const SimulateArguments& arguments, const Part& part, const Finger& disk, std::size_t which) {
   FreeFinger finger;
-  finger.disk = disk;
+  finger.disk = *disk.disk();
   finger.start = read_number(arguments.starts[which], "--start");
   finger.distance = read_number(arguments.lengths[which], "--length");
   finger.psi = orientation_at(part, finger.start, arguments, which);
@@ -82,12 +84,23 @@ void add_logs(Report& report, const std::vector<std::string>& files, const PairL
 }  // namespace
 
 Report simulate_two(const SimulateArguments& arguments) {
-  require_sensible(arguments);
+  require_two_fingers(arguments);
   for (const std::string& file : arguments.files) require_writable_log(file, arguments.force);
-  const FingerPair fingers = *read_fingers(arguments.fingers);
+  const std::optional<SimulatedNoise> noise = read_simulated_noise(arguments);
+  if (!arguments.contact.empty())
+    throw InputError("--contact is of one finger with an outline; disks have --contact-angle");
+  const FingerPair fingers = *read_disk_fingers(arguments.fingers, "simulate with two fingers");
   Report report;
   const Part part = load_part(arguments.part, report.notes);
-  const FreeRoll roll = roll_free(part, plan_of(arguments, part, fingers));
+  const FreePlan plan = plan_of(arguments, part, fingers);
+  NoisyFreeRoll noisy;
+  if (noise) {
+    noisy = noisy_roll_free(part, plan, noise->noise, noise->seed);
+  } else {
+    noisy.truth = roll_free(part, plan);
+    noisy.log = noisy.truth.log;
+  }
+  const FreeRoll& roll = noisy.truth;
 
   if (part.reversed()) report.notes.push_back(reversed_note(part));
   report.notes.push_back("finger a " + roll_text(part, roll.s, roll.angle_a));
@@ -95,7 +108,11 @@ Report simulate_two(const SimulateArguments& arguments) {
   add_reach_note(report, beyond_reach_note(part, fingers[0], roll.s, "a real finger a "));
   add_reach_note(report, beyond_reach_note(part, fingers[1], roll.t, "a real finger b "));
   report.notes.push_back(part_text(part, roll));
-  add_logs(report, arguments.files, roll.log);
+  if (noise) {
+    report.notes.push_back("finger a: " + roll_error_text(fingers[0], noisy.error[0]));
+    report.notes.push_back("finger b: " + roll_error_text(fingers[1], noisy.error[1]));
+  }
+  add_logs(report, arguments.files, noisy.log);
   return report;
 }
 

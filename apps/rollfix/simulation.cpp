@@ -6,6 +6,9 @@
 #include <numbers>
 
 #include "rollfix/dropped.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/finger_argument.hpp"
+#include "rollfix/noise_argument.hpp"
 #include "rollfix/table.hpp"
 #include "rollfix/typed_number.hpp"
 
@@ -32,12 +35,27 @@ std::string roll_text(const Part& part, const std::vector<double>& s, const std:
                      fixed(s.back() - s.front(), decimals), degrees(angle.back() - angle.front()));
 }
 
-std::string beyond_reach_note(const Part& part, const DiskFinger& disk, const std::vector<double>& s,
-                              const std::string& finger) {
+std::optional<SimulatedNoise> read_simulated_noise(const SimulateArguments& arguments) {
+  const std::optional<Noise> noise = read_noise(arguments.noise);
+  if (!noise && !arguments.seed.empty()) throw InputError("--seed is of --noise: give that as well");
+  if (!noise) return std::nullopt;
+  return SimulatedNoise{*noise, arguments.seed.empty() ? 0 : read_count(arguments.seed, "--seed", 0)};
+}
+
+std::string roll_error_text(const Finger& finger, const RollError& error) {
+  std::string text =
+      fmt::format("the contact went {:.6g} % farther than the finger was rolled", 100 * error.slip + 0.0);  // no -0
+  if (error.radius != 0) text += fmt::format("; its radius really is {:.9g}", finger.length_per_u() + error.radius);
+  return text;
+}
+
+std::string beyond_reach_note(const Part& part, const Finger& finger, const std::vector<double>& s,
+                              const std::string& name) {
+  if (!has_reach(finger)) return no_reach_note(finger);
   const auto [least, most] = std::minmax_element(s.begin(), s.end());
   const auto obstruction =
-      obstruction_of(part, reach_of_disk(part, disk.radius), s.front(), {*least - s.front(), *most - s.front()});
-  return obstruction ? fmt::format("{}can't do this roll: {}", finger, about(*obstruction, part)) : "";
+      obstruction_of(part, reach_of(part, finger), s.front(), {*least - s.front(), *most - s.front()});
+  return obstruction ? fmt::format("{}can't do this roll: {}", name, about(*obstruction, part)) : "";
 }
 
 void add_reach_note(Report& report, const std::string& note) {

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "rollfix/contact/finger.hpp"
+#include "rollfix/contact/noisy.hpp"
 #include "rollfix/part/part.hpp"
 #include "rollfix/part_argument.hpp"
 #include "rollfix/report.hpp"
@@ -18,6 +21,9 @@ struct SimulateArguments {
   std::vector<std::string> starts;
   std::vector<std::string> lengths;
   std::vector<std::string> contact_angles;
+  std::string contact;
+  std::string noise;
+  std::string seed;
   std::vector<std::string> files;
   std::string rotation;
   std::string part_rotation;
@@ -34,13 +40,23 @@ Report simulate_two(const SimulateArguments& arguments);
 /// psi of a finger whose first contact is at s, by --contact-angle; the part is not turned.
 double orientation_at(const Part& part, double s, const SimulateArguments& arguments, std::size_t finger);
 
+/// --noise as typed, and the seed of what is drawn; nothing without --noise. Throws InputError.
+struct SimulatedNoise {
+  Noise noise;
+  std::uint64_t seed = 0;
+};
+std::optional<SimulatedNoise> read_simulated_noise(const SimulateArguments& arguments);
+
+/// "slipped by 0.01 %; its radius really is 0.201": what was drawn for a whole roll.
+std::string roll_error_text(const Finger& finger, const RollError& error);
+
 /// "rolled from s = 1.0000 over length 2.0000; the tangent turned by 30.000 deg".
 std::string roll_text(const Part& part, const std::vector<double>& s, const std::vector<double>& angle);
 
 /// A note on a simulated roll that a real finger could not do, because it would hit the part elsewhere; empty when it
-/// could. `finger` begins it: "", "finger a ".
-std::string beyond_reach_note(const Part& part, const DiskFinger& disk, const std::vector<double>& s,
-                              const std::string& finger);
+/// could, or a note that this is not known. `name` begins it: "", "finger a ".
+std::string beyond_reach_note(const Part& part, const Finger& finger, const std::vector<double>& s,
+                              const std::string& name);
 
 /// Adds it, unless it is empty.
 void add_reach_note(Report& report, const std::string& note);

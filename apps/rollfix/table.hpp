@@ -1,9 +1,15 @@
 #pragma once
 
+#include <cstddef>
+#include <numbers>
 #include <string>
 #include <vector>
 
 namespace rollfix::app {
+
+inline constexpr std::size_t kMostRows = 40;   // placements in a table
+inline constexpr std::size_t kMostNotes = 12;  // lines about single placements below it
+inline constexpr double kDegree = std::numbers::pi / 180;
 
 /// Text in columns, as wide as they need to be and two blanks apart.
 class Table {

@@ -19,7 +19,7 @@
 namespace rollfix::app {
 namespace {
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kTeachExamples = R"(Examples:
   rollfix simulate gallery:cam --finger disk,r=0.2 --start 0 --length 7.6 --samples 600 -o around.csv
   rollfix teach around.csv --finger disk,r=0.2 -o taught.json
   rollfix locate taught.json --reading 0.9,40deg --tolerance 0.1deg
@@ -69,7 +69,7 @@ Json taught_json(const Taught& taught) {
 
 TeachOptions options_of(const TeachArguments& arguments) {
   TeachOptions options;
-  options.finger = read_finger(arguments.fingers);
+  options.finger = read_disk_finger(arguments.fingers, "teach");
   options.noise = read_noise(arguments.noise);
   options.bridge = arguments.bridge;
   options.open = arguments.open;
@@ -111,7 +111,7 @@ Report teach_report(const TeachArguments& arguments) {
 void add_teach_command(CLI::App& program, Command& chosen) {
   const auto arguments = std::make_shared<TeachArguments>();
   CLI::App* command = program.add_subcommand("teach", "A part without a drawing, from one full roll around it.");
-  command->footer(kExamples);
+  command->footer(kTeachExamples);
   command->add_option("LOG", arguments->log, "a tactile log, or distance,dturn of a drive; - for stdin")->type_name("");
   add_finger_argument(*command, arguments->fingers);
   add_noise_argument(*command, arguments->noise);

@@ -76,6 +76,8 @@ Tolerance tolerance_from_rounding(const Part& part, const std::vector<Rounding>&
   return {value, "from the digits given"};
 }
 
+Tolerance tolerance_from_noise(double value) { return {std::max(value, LocateOptions().tolerance), "from the noise"}; }
+
 Tolerance tolerance_from_option(const std::string& text) {
   const double value = read_angle(text, "--tolerance");
   if (value < 0) throw InputError(fmt::format("--tolerance: '{}' is negative, expected an angle of at least 0", text));

@@ -19,6 +19,10 @@ struct Tolerance {
 Tolerance tolerance_from_rounding(const Part& part, const std::vector<Rounding>& roundings);
 
 /// --tolerance as typed: an angle of at least 0. Throws InputError.
+/// What noise makes of it.
+Tolerance tolerance_from_noise(double value);
+
+/// As typed. Throws InputError.
 Tolerance tolerance_from_option(const std::string& text);
 
 }  // namespace rollfix::app

@@ -2,9 +2,17 @@
 
 // All that a user of the library needs; the figures are apart, in rollfix/draw/.
 
+#include "rollfix/belief/advise.hpp"       // IWYU pragma: export
+#include "rollfix/belief/belief.hpp"       // IWYU pragma: export
+#include "rollfix/belief/pair_belief.hpp"  // IWYU pragma: export
+#include "rollfix/belief/pair_weigh.hpp"   // IWYU pragma: export
+#include "rollfix/belief/pose_spread.hpp"  // IWYU pragma: export
+#include "rollfix/belief/weigh.hpp"        // IWYU pragma: export
 #include "rollfix/contact/finger.hpp"      // IWYU pragma: export
 #include "rollfix/contact/free_part.hpp"   // IWYU pragma: export
 #include "rollfix/contact/log.hpp"         // IWYU pragma: export
+#include "rollfix/contact/log_stream.hpp"  // IWYU pragma: export
+#include "rollfix/contact/noisy.hpp"       // IWYU pragma: export
 #include "rollfix/contact/pair_log.hpp"    // IWYU pragma: export
 #include "rollfix/contact/pose.hpp"        // IWYU pragma: export
 #include "rollfix/contact/rolling.hpp"     // IWYU pragma: export

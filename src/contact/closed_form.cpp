@@ -40,7 +40,8 @@ class Walk {
   void enter(std::int64_t index) {
     index_ = index;
     stretch_ = track_.stretch(index);
-    rotation_ = {track_.rotation(stretch_.s.lo, stretch_.angle.lo), track_.rotation(stretch_.s.hi, stretch_.angle.hi)};
+    rotation_ = {track_.rotation(stretch_, stretch_.s.lo, stretch_.angle.lo),
+                 track_.rotation(stretch_, stretch_.s.hi, stretch_.angle.hi)};
   }
 
   void go(int direction) {
@@ -51,11 +52,11 @@ class Walk {
   }
 
   Found solve(double rotation) const {
-    const double r = track_.radius();
-    if (stretch_.is_pivot) return {stretch_.s.lo, rotation - stretch_.s.lo / r};
+    if (stretch_.is_pivot) return {stretch_.s.lo, stretch_.angle.lo + (rotation - rotation_.lo)};
     const auto excess = [&](double s) {
       const Turning turning = track_.turning(stretch_, s);
-      return std::pair(track_.rotation(s, turning.angle) - rotation, 1 / r + turning.curvature);
+      return std::pair(track_.rotation(stretch_, s, turning.angle) - rotation,
+                       track_.finger_curvature(stretch_, s) + turning.curvature);
     };
     const double share = (rotation - rotation_.lo) / (rotation_.hi - rotation_.lo);
     const double guess = stretch_.s.lo + share * stretch_.s.width();
@@ -85,20 +86,21 @@ std::vector<double> rotations_of(const Motion& motion, const std::vector<double>
 
 std::vector<RollState> in_closed_form(const Track& track, const Motion& motion, const std::vector<double>& times) {
   const double s0 = motion.start.s;
-  const double rotation0 = track.rotation(s0, motion.start_angle);
+  const double rotation0 = track.rotation(track.stretch(motion.start.index), s0, motion.start_angle);
   std::vector<RollState> states;
   states.reserve(times.size());
   Walk walk(track, motion.start.index);
   for (const double rotation : rotations_of(motion, times)) {
     const auto [s, angle] = walk.to(rotation0 + rotation);
     const Reading reading{s - s0, angle - motion.start_angle};  // eqs. (4) and (5)
-    states.push_back({contact_after({track.radius()}, motion.first, reading), s, angle});
+    states.push_back({contact_after(track.finger(), motion.first, reading), s, angle});
   }
   return states;
 }
 
-Roll roll_in_closed_form(const Part& part, const DiskFinger& finger, const RollPlan& plan) {
-  const Track track(part, finger);
+Roll roll_in_closed_form(const Part& part, const Finger& finger, const RollPlan& plan) {
+  const auto way = track_of(part, finger, plan.start, plan.u);
+  const Track& track = *way;
   const Motion motion = plan_motion(track, plan);
   const std::vector<double> times = times_of(motion, plan.rows);
   return record(track, times, in_closed_form(track, motion, times));

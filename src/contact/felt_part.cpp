@@ -15,12 +15,12 @@ constexpr double kOnCorner = 1e-8;
 
 }  // namespace
 
-FeltPart::FeltPart(const Part& part, const DiskFinger& finger, const Log& log, double start)
+FeltPart::FeltPart(const Part& part, const Finger& finger, const Log& log, double start)
     : part_(part),
       finger_(finger),
       log_(log),
       start_(start),
-      u_(unwrapped(log.u, log.place_rounding)),
+      u_(unwrapped(log.u, log.place_rounding, finger.period())),
       psi_(unwrapped(log.psi, log.angle_rounding)) {
   require_valid(finger);
 }
@@ -44,13 +44,13 @@ Interval FeltPart::tangents(double s) const {
 
 Interval FeltPart::heading(std::size_t row) const {
   const Interval tangent = tangents(place(row));
-  const double normal = contact(row).facing() - std::numbers::pi / 2;
+  const double normal = facing(finger_, contact(row)) - std::numbers::pi / 2;
   return {normal - tangent.hi, normal - tangent.lo};
 }
 
 Vec2 FeltPart::in_world(std::size_t row) const {
-  const double facing = contact(row).facing();
-  return Vec2(log_.x[row], log_.y[row]) + finger_.radius * Vec2(std::cos(facing), std::sin(facing));
+  // Where the frame's origin would be if the contact were at 0 says how far the contact is from it.
+  return Vec2(log_.x[row], log_.y[row]) - centre_of(finger_, Vec2::Zero(), contact(row));
 }
 
 }  // namespace rollfix

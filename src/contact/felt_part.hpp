@@ -13,7 +13,7 @@ namespace rollfix {
 class FeltPart {
  public:
   /// All have to stay. The log has u, psi, x and y.
-  FeltPart(const Part& part, const DiskFinger& finger, const Log& log, double start);
+  FeltPart(const Part& part, const Finger& finger, const Log& log, double start);
 
   /// Whether a log has what this needs.
   static bool is_in(const Log& log) { return log.kind == LogKind::contact && !log.x.empty(); }
@@ -29,12 +29,12 @@ class FeltPart {
   std::size_t rows() const { return u_.size(); }
 
  private:
-  double place(std::size_t row) const { return start_ - finger_.radius * (u_[row] - u_[0]); }
+  double place(std::size_t row) const { return start_ - finger_.length_per_u() * (u_[row] - u_[0]); }
   Contact contact(std::size_t row) const { return {u_[row], psi_[row]}; }
   Interval tangents(double s) const;
 
   const Part& part_;
-  DiskFinger finger_;
+  Finger finger_;
   const Log& log_;
   double start_;
   std::vector<double> u_;

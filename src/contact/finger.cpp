@@ -10,27 +10,116 @@
 
 namespace rollfix {
 
-void require_valid(const DiskFinger& finger) {
-  if (finger.radius > 0 && std::isfinite(finger.radius)) return;
+namespace {
+
+constexpr double kQuarterTurn = std::numbers::pi / 2;
+// Of a full turn over the perimeter: a curvature this far below 0 is rounding.
+constexpr double kFlat = 1e-9;
+
+[[noreturn]] void refuse_finger(const Part& part, double u, const std::string& found) {
+  const Vec2 point = part.point(u);
   throw InputError(
-      fmt::format("expected a finger whose radius is a finite number above 0, found {}: give it in the outline's unit",
-                  finger.radius));
+      fmt::format("{}: expected the outline of a finger, convex and without corners, found {} at {:.6g} of "
+                  "its length, ({:.6g}, {:.6g}); round it",
+                  part.name(), found, u, point.x(), point.y()));
 }
 
-Reading reading_between(const DiskFinger& finger, const Contact& first, const Contact& last) {
+void require_convex(const Part& part) {
+  for (const Corner& corner : part.corners()) {
+    if (std::abs(corner.turn) > kJointTurn) {
+      refuse_finger(part, corner.s, fmt::format("a corner of {:.6g} deg", corner.turn * 180 / std::numbers::pi));
+    }
+  }
+  const double least = -kFlat * 2 * std::numbers::pi / part.perimeter();
+  for (const Spiral& spiral : part.turning().spirals()) {
+    const bool at_start = spiral.start.curvature < spiral.end.curvature;
+    const double curvature = at_start ? spiral.start.curvature : spiral.end.curvature;
+    if (curvature < least) {
+      refuse_finger(part, at_start ? spiral.lo : spiral.hi, fmt::format("a curvature of {:.6g}", curvature));
+    }
+  }
+}
+
+Vec2 unit_vector(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
+}  // namespace
+
+Finger Finger::jaw() { return {Kind::jaw, "jaw"}; }
+
+Finger Finger::outlined(const Part& outline) {
+  Finger finger(Kind::outline, outline.name());
+  finger.outline_ = std::make_shared<const Part>(outline);
+  require_convex(*finger.outline_);
+  return finger;
+}
+
+std::optional<DiskFinger> Finger::disk() const {
+  return is_disk() ? std::optional<DiskFinger>(DiskFinger{radius_}) : std::nullopt;
+}
+
+double Finger::normal(double u) const {
+  if (is_disk()) return u;
+  return is_jaw() ? -kQuarterTurn : outline_->turning().angle(u) - kQuarterTurn;
+}
+
+double Finger::curvature(double u) const {
+  if (is_disk()) return 1 / radius_;
+  return is_jaw() ? 0 : outline_->turning().curvature(u);
+}
+
+Vec2 Finger::point(double u) const {
+  if (is_disk()) return radius_ * unit_vector(u);
+  return is_jaw() ? Vec2(u, 0) : outline_->point(u);
+}
+
+double Finger::turn_per_u() const {
+  if (is_disk()) return 1;
+  return is_jaw() ? 0 : outline_->turning().most_curvature();
+}
+
+double Finger::period() const {
+  if (is_disk()) return 2 * std::numbers::pi;
+  return outline_ && outline_->closed() ? outline_->perimeter() : std::numeric_limits<double>::infinity();
+}
+
+Interval Finger::ends() const {
+  if (outline_ && !outline_->closed()) return {0, outline_->perimeter()};
+  return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+}
+
+void require_valid(const Finger& finger) {
+  const double radius = finger.is_disk() ? finger.length_per_u() : 1;
+  if (radius > 0 && std::isfinite(radius)) return;
+  throw InputError(fmt::format(
+      "expected a finger whose radius is a finite number above 0, found {}: give it in the outline's unit", radius));
+}
+
+double facing(const Finger& finger, const Contact& contact) { return finger.normal(contact.u) + contact.psi; }
+
+Reading reading_between(const Finger& finger, const Contact& first, const Contact& last) {
   const double rolled = last.u - first.u;
-  return {-finger.radius * rolled, rolled + (last.psi - first.psi)};  // eq. (3)
+  const double turned = finger.is_disk() ? rolled : finger.normal(last.u) - finger.normal(first.u);
+  return {-finger.length_per_u() * rolled, turned + (last.psi - first.psi)};  // eq. (3)
 }
 
-Contact contact_after(const DiskFinger& finger, const Contact& first, const Reading& reading) {
-  const double rolled = reading.length / finger.radius;
-  return {first.u - rolled, first.psi + (reading.turn + rolled)};
+Contact contact_after(const Finger& finger, const Contact& first, const Reading& reading) {
+  const double rolled = reading.length / finger.length_per_u();
+  const double u = first.u - rolled;
+  const double turned = finger.is_disk() ? rolled : finger.normal(first.u) - finger.normal(u);
+  return {u, first.psi + (reading.turn + turned)};
 }
 
-Contact contact_on(double tangent, double psi) { return {nearest_angle(tangent + std::numbers::pi / 2 - psi), psi}; }
+Contact contact_on(double tangent, double psi) { return {nearest_angle(tangent + kQuarterTurn - psi), psi}; }
 
-Vec2 centre_of(const DiskFinger& finger, const Vec2& point, const Contact& contact) {
-  return point - finger.radius * Vec2(std::cos(contact.facing()), std::sin(contact.facing()));
+Contact contact_at(const Finger& finger, double tangent, double u) {
+  return {u, tangent + kQuarterTurn - finger.normal(u)};
+}
+
+Vec2 centre_of(const Finger& finger, const Vec2& point, const Contact& contact) {
+  if (finger.is_disk()) return point - finger.length_per_u() * unit_vector(contact.facing());
+  const Vec2 x = unit_vector(contact.psi);
+  const Vec2 on_finger = finger.point(contact.u);
+  return point - (on_finger.x() * x + on_finger.y() * Vec2(-x.y(), x.x()));
 }
 
 Reading in_stored_direction(const Reading& as_given, const Part& part) {

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "contact/motion.hpp"
@@ -138,17 +141,18 @@ std::vector<Vec2> displacements(const std::function<Vec2(double)>& velocity, con
 }
 
 /// One finger's roll as the part sees it.
-struct Finger {
-  Track track;
+struct FreeContact {
+  std::shared_ptr<const Track> way;
   Motion motion;
   std::vector<RollState> states;
 
   Vec2 centre(std::size_t row) const {
-    return centre_of({track.radius()}, track.part().point(states[row].s), states[row].contact);
+    return centre_of(track().finger(), track().part().point(states[row].s), states[row].contact);
   }
+  const Track& track() const { return *way; }
 };
 
-std::vector<Pose> poses_of(const FreePlan& plan, const Finger& a, const std::vector<double>& times) {
+std::vector<Pose> poses_of(const FreePlan& plan, const FreeContact& a, const std::vector<double>& times) {
   const std::vector<double> headings = headings_of(plan, times);
   const std::vector<Vec2> moved = displacements(plan.velocity_part ? plan.velocity_part : plan.velocity_a, times);
   const Vec2 centre = plan.pose.world(a.centre(0));
@@ -165,10 +169,10 @@ std::vector<Pose> poses_of(const FreePlan& plan, const Finger& a, const std::vec
 }
 
 /// What the finger's sensors say in the world.
-Log log_of(const Finger& rolling, const FreeFinger& finger, const std::vector<Pose>& poses,
+Log log_of(const FreeContact& rolling, const FreeFinger& finger, const std::vector<Pose>& poses,
            const std::vector<double>& times) {
   Log log;
-  log.name = fmt::format("the roll on {}", rolling.track.part().name());
+  log.name = fmt::format("the roll on {}", rolling.track().part().name());
   log.time = times;
   for (std::size_t k = 0; k < times.size(); ++k) {
     const Contact& contact = rolling.states[k].contact;
@@ -182,19 +186,20 @@ Log log_of(const Finger& rolling, const FreeFinger& finger, const std::vector<Po
   return log;
 }
 
-Finger finger_of(const Part& part, const FreeFinger& finger, const FreePlan& plan) {
-  const Track track(part, finger.disk);
-  return {track, motion_against_part(track, finger, plan), {}};
+FreeContact contact_of(const Part& part, const FreeFinger& finger, const FreePlan& plan) {
+  std::shared_ptr<const Track> way = track_of(part, finger.disk, finger.start, std::nullopt);
+  Motion motion = motion_against_part(*way, finger, plan);
+  return {std::move(way), std::move(motion), {}};
 }
 
 FreeRoll roll_with(Solve solve, const Part& part, const FreePlan& plan) {
   require_consistent(plan);
-  Finger a = naming("finger a", [&] { return finger_of(part, plan.a, plan); });
-  Finger b = naming("finger b", [&] { return finger_of(part, plan.b, plan); });
+  FreeContact a = naming("finger a", [&] { return contact_of(part, plan.a, plan); });
+  FreeContact b = naming("finger b", [&] { return contact_of(part, plan.b, plan); });
   if (is_by_distances(plan)) share_duration(a.motion, b.motion, plan);
   const std::vector<double> times = times_of(a.motion, plan.rows);
-  a.states = naming("finger a", [&] { return solve(a.track, a.motion, times); });
-  b.states = naming("finger b", [&] { return solve(b.track, b.motion, times); });
+  a.states = naming("finger a", [&] { return solve(a.track(), a.motion, times); });
+  b.states = naming("finger b", [&] { return solve(b.track(), b.motion, times); });
 
   FreeRoll roll;
   roll.pose = poses_of(plan, a, times);

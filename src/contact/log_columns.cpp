@@ -69,29 +69,29 @@ std::string hint(const TableRow& header, const Columns& columns) {
   return "";
 }
 
-[[noreturn]] void refuse_header(const TableRow& header, const TableReader& reader, const Columns& columns) {
+[[noreturn]] void refuse_header(const TableRow& header, const std::string& log, const Columns& columns) {
   if (!columns.suffix.empty()) {
     const bool is_a = columns.suffix == kFingerSuffixes[0];
     throw InputError(fmt::format(
         "{}: the header '{}' has columns of finger {} but none of finger {}, expected the same of both, such as 'u_a', "
         "'psi_a', 'u_b' and 'psi_b'{}",
-        reader.where(header.line), shown(header.text), is_a ? 'b' : 'a', is_a ? 'a' : 'b', hint(header, columns)));
+        where(log, header.line), shown(header.text), is_a ? 'b' : 'a', is_a ? 'a' : 'b', hint(header, columns)));
   }
   throw InputError(fmt::format(
       "{}: the header '{}' does not say what the columns are, expected {}{} Known are: {}; of two fingers with _a and "
       "_b behind them",
-      reader.where(header.line), shown(header.text), kExpected, hint(header, columns), fmt::join(kColumnNames, ", ")));
+      where(log, header.line), shown(header.text), kExpected, hint(header, columns), fmt::join(kColumnNames, ", ")));
 }
 
 /// Which of the pairs the log has: exactly one of them, and whole.
-LogKind kind_of(const Columns& columns, const TableRow& header, const TableReader& reader) {
+LogKind kind_of(const Columns& columns, const TableRow& header, const std::string& log) {
   const Pair* found = nullptr;
   for (const Pair& pair : kPairs) {
     const bool has_first = columns.has(pair.first);
     const bool has_second = columns.has(pair.second);
     if (has_first != has_second) {
       throw InputError(fmt::format("{}: the header '{}' has a column '{}' but no '{}', expected both{}",
-                                   reader.where(header.line), shown(header.text),
+                                   where(log, header.line), shown(header.text),
                                    columns.called(has_first ? pair.first : pair.second),
                                    columns.called(has_first ? pair.second : pair.first), hint(header, columns)));
     }
@@ -100,12 +100,12 @@ LogKind kind_of(const Columns& columns, const TableRow& header, const TableReade
       throw InputError(fmt::format(
           "{}: the header has '{}' and '{}' as well as '{}' and '{}', expected only one of these pairs; rename the "
           "columns that are not to be used",
-          reader.where(header.line), columns.called(found->first), columns.called(found->second),
+          where(log, header.line), columns.called(found->first), columns.called(found->second),
           columns.called(pair.first), columns.called(pair.second)));
     }
     found = &pair;
   }
-  if (found == nullptr) refuse_header(header, reader, columns);
+  if (found == nullptr) refuse_header(header, log, columns);
   return found->kind;
 }
 
@@ -121,7 +121,7 @@ std::optional<Column> column_named(std::string_view cell, const std::string& suf
 }
 
 /// The columns of the finger whose columns end in this.
-Columns finger_columns(const TableRow& header, const TableReader& reader, const std::string& suffix) {
+Columns finger_columns(const TableRow& header, const std::string& log, const std::string& suffix) {
   Columns columns;
   columns.count = header.cells.size();
   columns.suffix = suffix;
@@ -132,16 +132,16 @@ Columns finger_columns(const TableRow& header, const TableReader& reader, const 
     if (cell != Columns::kNone) {
       const std::string_view before = header.cells[cell];
       throw InputError(fmt::format("{}: the column '{}' occurs twice, as number {}{} and {}; rename one of them",
-                                   reader.where(header.line), shown(header.cells[k]), cell + 1,
+                                   where(log, header.line), shown(header.cells[k]), cell + 1,
                                    before == header.cells[k] ? "" : fmt::format(" ('{}')", shown(before)), k + 1));
     }
     cell = k;
     if (*column == Column::contact) columns.contact_is_shared = header.cells[k] == name_of(Column::contact);
   }
-  columns.kind = kind_of(columns, header, reader);
+  columns.kind = kind_of(columns, header, log);
   if (columns.has(Column::x) != columns.has(Column::y)) {
     throw InputError(fmt::format("{}: the header has a column '{}' but no '{}', expected both or neither",
-                                 reader.where(header.line),
+                                 where(log, header.line),
                                  columns.called(columns.has(Column::x) ? Column::x : Column::y),
                                  columns.called(columns.has(Column::x) ? Column::y : Column::x)));
   }
@@ -155,29 +155,29 @@ bool is_data(const TableRow& row) {
                      [](std::string_view cell) { return cell.empty() || parse_angle(cell).has_value(); });
 }
 
-std::vector<Columns> columns_of(const TableRow& header, const TableReader& reader) {
+std::vector<Columns> columns_of(const TableRow& header, const std::string& log) {
   std::vector<Columns> fingers;
   if (!is_of_two(header)) {
-    fingers.push_back(finger_columns(header, reader, ""));
+    fingers.push_back(finger_columns(header, log, ""));
     return fingers;
   }
-  for (const char* suffix : kFingerSuffixes) fingers.push_back(finger_columns(header, reader, suffix));
+  for (const char* suffix : kFingerSuffixes) fingers.push_back(finger_columns(header, log, suffix));
   const Columns& a = fingers[0];
   const Columns& b = fingers[1];
   if (a.kind != b.kind) {
     throw InputError(
         fmt::format("{}: the header '{}' has other columns of finger a than of finger b, expected the same of both",
-                    reader.where(header.line), shown(header.text)));
+                    where(log, header.line), shown(header.text)));
   }
   return fingers;
 }
 
-Columns bare_columns(const TableRow& row, const TableReader& reader) {
+Columns bare_columns(const TableRow& row, const std::string& log) {
   if (row.cells.size() != 2) {
     throw InputError(fmt::format(
         "{}: the log starts with '{}', {} numbers without a header: expected a header that names {}, or exactly two "
         "columns, distance and dturn. Known are: {}",
-        reader.where(row.line), shown(row.text), row.cells.size(), kExpected, fmt::join(kColumnNames, ", ")));
+        where(log, row.line), shown(row.text), row.cells.size(), kExpected, fmt::join(kColumnNames, ", ")));
   }
   Columns columns;
   columns.count = 2;

@@ -49,10 +49,10 @@ struct Columns {
 bool is_data(const TableRow& row);
 
 /// The columns of a log with this header, of one finger or of two. Throws InputError: no known column, half of a pair,
-/// two kinds of log at once, only one of two fingers, or the same column twice.
-std::vector<Columns> columns_of(const TableRow& header, const TableReader& reader);
+/// two kinds of log at once, only one of two fingers, or the same column twice. `log`: its name, for messages.
+std::vector<Columns> columns_of(const TableRow& header, const std::string& log);
 
 /// The columns of a log without a header. Throws InputError unless there are two.
-Columns bare_columns(const TableRow& row, const TableReader& reader);
+Columns bare_columns(const TableRow& row, const std::string& log);
 
 }  // namespace rollfix

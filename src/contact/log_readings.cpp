@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "contact/jump.hpp"
 #include "rollfix/contact/log.hpp"
 #include "rollfix/error.hpp"
 
@@ -15,7 +16,23 @@ namespace rollfix {
 
 namespace {
 
-const DiskFinger& require_finger(const Log& log, const std::optional<DiskFinger>& finger) {
+/// "run.csv:12". Simulated rows have no lines: they are numbered.
+std::string place_of(const Log& log, std::size_t row) {
+  return row < log.line.size() ? fmt::format("{}:{}", log.name, log.line[row])
+                               : fmt::format("{}, row {}", log.name, row + 1);
+}
+
+/// Throws InputError where u is beyond the ends of an open finger by more than rounding.
+void require_on_finger(const Log& log, const Finger& finger, const Noise& noise) {
+  const Interval ends = finger.ends();
+  const double slack = end_slack(finger, log.place_rounding, noise);
+  for (std::size_t row = 0; row < log.u.size(); ++row) {
+    if (log.u[row] >= ends.lo - slack && log.u[row] <= ends.hi + slack) continue;
+    throw InputError(fmt::format("{}: {}", place_of(log, row), off_finger(finger, log.u[row])));
+  }
+}
+
+const Finger& require_finger(const Log& log, const std::optional<Finger>& finger) {
   if (!finger) {
     throw InputError(
         fmt::format("{}: u says where on the finger the contact is, expected the finger's shape as well: --finger "
@@ -53,6 +70,17 @@ std::size_t nearest_row(const std::vector<double>& time, double instant) {
       log.name, instant, found));
 }
 
+void require_no_jump(const Log& log, const std::vector<Reading>& all, JumpWatch watch) {
+  const bool has_lines = log.line.size() == all.size();
+  for (std::size_t row = 0; row < all.size(); ++row) {
+    const auto time = log.time.empty() ? std::nullopt : std::optional<double>(log.time[row]);
+    const auto why = watch.look(has_lines ? log.line[row] : row + 1, all[row > 0 ? row - 1 : 0], all[row], time);
+    if (!why) continue;
+    throw InputError(fmt::format("{}: expected a roll that goes on, found a jump: {}; split the log there",
+                                 place_of(log, row), *why));
+  }
+}
+
 }  // namespace
 
 std::vector<std::size_t> rows_at(const Log& log, const std::vector<double>& times) {
@@ -70,38 +98,41 @@ std::vector<std::size_t> rows_at(const Log& log, const std::vector<double>& time
   return rows;
 }
 
-std::vector<Reading> readings_as_given(const Log& log, const std::optional<DiskFinger>& finger) {
+std::vector<Reading> readings_as_given(const Log& log, const std::optional<Finger>& finger) {
   std::vector<Reading> result(log.rows());
   if (log.kind != LogKind::contact) {
     for (std::size_t k = 0; k < result.size(); ++k) result[k] = {log.length[k], log.turn[k]};
     return result;
   }
-  const DiskFinger& disk = require_finger(log, finger);
-  const std::vector<double> u = unwrapped(log.u, log.place_rounding);
+  const Finger& shape = require_finger(log, finger);
+  const std::vector<double> u = unwrapped(log.u, log.place_rounding, shape.period());
   const std::vector<double> psi = unwrapped(log.psi, log.angle_rounding);
   for (std::size_t k = 0; k < result.size(); ++k) {
-    result[k] = reading_between(disk, {u.front(), psi.front()}, {u[k], psi[k]});
+    result[k] = reading_between(shape, {u.front(), psi.front()}, {u[k], psi[k]});
   }
   return result;
 }
 
-std::vector<Reading> readings(const Log& log, const Part& part, const std::optional<DiskFinger>& finger,
-                              const std::vector<double>& times) {
-  const std::vector<Reading> all = readings_as_given(log, finger);
+std::vector<Reading> readings(const Log& log, const Part& part, const std::optional<Finger>& finger,
+                              const std::vector<double>& times, const Noise& noise) {
+  std::vector<Reading> all = readings_as_given(log, finger);
+  if (log.kind == LogKind::contact) require_on_finger(log, *finger, noise);
   // A contact log needs no change of direction: the finger rolls on the part, however that was drawn.
-  const bool follows_outline = log.kind != LogKind::contact;
-  std::vector<Reading> result;
-  for (const std::size_t row : rows_at(log, times)) {
-    result.push_back(follows_outline ? in_stored_direction(all[row], part) : all[row]);
+  if (log.kind != LogKind::contact) {
+    for (Reading& reading : all) reading = in_stored_direction(reading, part);
   }
+  require_no_jump(log, all, JumpWatch(part, StepError(log.kind, finger, noise)));
+  std::vector<Reading> result;
+  for (const std::size_t row : rows_at(log, times)) result.push_back(all[row]);
   return result;
 }
 
-Rounding rounding_of(const Log& log, const std::optional<DiskFinger>& finger) {
+Rounding rounding_of(const Log& log, const std::optional<Finger>& finger) {
   switch (log.kind) {
     case LogKind::contact: {
-      const double r = require_finger(log, finger).radius;
-      return {2 * r * log.place_rounding, 2 * (log.place_rounding + log.angle_rounding)};
+      const Finger& shape = require_finger(log, finger);
+      return {2 * shape.length_per_u() * log.place_rounding,
+              2 * (shape.turn_per_u() * log.place_rounding + log.angle_rounding)};
     }
     case LogKind::travelled:
       return {log.place_rounding, log.angle_rounding};

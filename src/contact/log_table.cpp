@@ -3,13 +3,9 @@
 #include <fmt/format.h>
 
 #include <cstddef>
-#include <cstring>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
-
-#include "rollfix/error.hpp"
 
 namespace rollfix {
 
@@ -48,40 +44,18 @@ std::string shown(std::string_view text) {
   return text.size() > kMost ? result + "..." : result;
 }
 
-TableReader::TableReader(std::string_view text, std::string name) : name_(std::move(name)) {
-  const std::string_view mark = text.substr(0, 2);
-  if (mark == "\xFF\xFE" || mark == "\xFE\xFF") {
-    throw InputError(fmt::format("{}: is UTF-16 text, expected plain text; save it as UTF-8", name_));
-  }
-  if (text.substr(0, 1024).find('\0') != std::string_view::npos) {
-    throw InputError(fmt::format("{}: is not a text file, expected a log with one row per line", name_));
-  }
-  if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
-  cursor_ = text.data();
-  end_ = text.data() + text.size();
+bool TableCutter::cut(std::string_view line, std::size_t number, TableRow& row) {
+  const std::string_view bare_line = line.substr(0, line.find('#'));
+  const std::string_view data = trimmed(bare_line);
+  if (data.empty()) return false;
+  if (separator_ == '\0') separator_ = separator_of(data);
+  row.line = number;
+  row.text = line;
+  split(separator_ == '\t' ? bare_line : data, row.cells);
+  return true;
 }
 
-bool TableReader::next(TableRow& row) {
-  while (cursor_ != end_) {
-    ++line_;
-    const auto rest = static_cast<std::size_t>(end_ - cursor_);
-    const auto* const newline = static_cast<const char*>(std::memchr(cursor_, '\n', rest));
-    const char* const line_end = newline != nullptr ? newline : end_;
-    const std::string_view text(cursor_, static_cast<std::size_t>(line_end - cursor_));
-    cursor_ = newline != nullptr ? newline + 1 : end_;
-
-    const std::string_view data = trimmed(text.substr(0, text.find('#')));
-    if (data.empty()) continue;
-    if (separator_ == '\0') separator_ = separator_of(data);
-    row.line = line_;
-    row.text = text;
-    split(separator_ == '\t' ? text.substr(0, text.find('#')) : data, row.cells);
-    return true;
-  }
-  return false;
-}
-
-void TableReader::split(std::string_view data, std::vector<std::string_view>& cells) const {
+void TableCutter::split(std::string_view data, std::vector<std::string_view>& cells) const {
   cells.clear();
   while (true) {
     const std::size_t mark = separator_ == ' ' ? data.find_first_of(" \t") : data.find(separator_);
@@ -92,6 +66,14 @@ void TableReader::split(std::string_view data, std::vector<std::string_view>& ce
   }
 }
 
-std::string TableReader::where(std::size_t line) const { return fmt::format("{}:{}", name_, line); }
+bool TableReader::next(TableRow& row) {
+  std::string_view line;
+  while (lines_.next(line)) {
+    if (cutter_.cut(line, ++line_, row)) return true;
+  }
+  return false;
+}
+
+std::string where(const std::string& name, std::size_t line) { return fmt::format("{}:{}", name, line); }
 
 }  // namespace rollfix

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "contact/log_lines.hpp"
+
 namespace rollfix {
 
 /// The text of a table: one row per line, `#` comments and blank lines left out.
@@ -14,28 +16,40 @@ struct TableRow {
   std::vector<std::string_view> cells;  // without blanks and quotes around them
 };
 
-/// Goes through the rows of a comma, semicolon, tab or blank separated table: the first row shows which it is.
-class TableReader {
+/// Cuts the lines of a comma, semicolon, tab or blank separated table into cells: the first row shows which it is.
+class TableCutter {
  public:
-  /// Throws InputError when the text is not plain text. `name` is what messages call it. The text must stay.
-  TableReader(std::string_view text, std::string name);
+  /// Makes a row of the line, false where there is none in it. The row refers to the line.
+  bool cut(std::string_view line, std::size_t number, TableRow& row);
 
-  /// The next row, false at the end. The cells of a row are reused for the next.
-  bool next(TableRow& row);
-
-  /// "run.csv:12", for messages.
-  std::string where(std::size_t line) const;
-  const std::string& name() const { return name_; }
+  /// The next row shows anew what separates.
+  void forget() { separator_ = '\0'; }
 
  private:
   void split(std::string_view data, std::vector<std::string_view>& cells) const;
 
-  std::string name_;
-  const char* cursor_;
-  const char* end_;
-  std::size_t line_ = 0;
   char separator_ = '\0';  // not known yet
 };
+
+/// Goes through the rows of such a table.
+class TableReader {
+ public:
+  /// The lines must stay.
+  explicit TableReader(LogLines& lines) : lines_(lines) {}
+
+  /// The next row, false at the end. It is good until the next call.
+  bool next(TableRow& row);
+
+  const std::string& name() const { return lines_.name(); }
+
+ private:
+  LogLines& lines_;
+  TableCutter cutter_;
+  std::size_t line_ = 0;
+};
+
+/// "run.csv:12", for messages.
+std::string where(const std::string& name, std::size_t line);
 
 /// A piece of a file as a message can show it: on one line, not too long.
 std::string shown(std::string_view text);

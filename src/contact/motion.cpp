@@ -53,6 +53,8 @@ void require_consistent(const RollPlan& plan) {
   if (plan.rows < 2) throw InputError(fmt::format("expected at least 2 rows of a log, found {}", plan.rows));
 }
 
+double turn_per_length(const Finger& finger) { return finger.turn_per_u() / finger.length_per_u(); }
+
 /// Where the roll sets off to, +1 or -1. A profile may begin at rest.
 int direction_of(const RollPlan& plan) {
   if (plan.distance) return *plan.distance < 0 ? -1 : 1;
@@ -68,8 +70,8 @@ double rotation_of(const Track& track, const RollPlan& plan, const TrackPlace& s
   if (plan.rotation) return *plan.rotation;
   const TrackPlace stop = track.place(start.s + *plan.distance, *plan.distance > 0 ? -1 : 1);  // as it arrives
   const double stop_angle = track.turning(track.stretch(stop.index), stop.s).angle;
-  return track.rotation(stop.s, stop_angle) - track.rotation(start.s, start_angle) -
-         track.fall_between(start.index, stop.index);
+  return track.rotation(track.stretch(stop.index), stop.s, stop_angle) -
+         track.rotation(track.stretch(start.index), start.s, start_angle) - track.fall_between(start.index, stop.index);
 }
 
 }  // namespace
@@ -86,14 +88,14 @@ Motion plan_motion(const Track& track, const RollPlan& plan) {
   if (plan.distance) track.require_way(start, start + *plan.distance);
   motion.start = track.place(start, direction_of(plan));
   motion.start_angle = track.turning(track.stretch(motion.start.index), motion.start.s).angle;
-  motion.first = contact_on(motion.start_angle, plan.psi);
+  motion.first = track.first_contact(motion.start_angle, plan.psi);
   if (plan.omega) {
     motion.duration = *plan.duration;
     motion.omega = plan.omega;
     return motion;
   }
   const double rotation = rotation_of(track, plan, motion.start, motion.start_angle);
-  const double most = kMostLaps * (perimeter / track.radius() + 2 * std::numbers::pi);
+  const double most = kMostLaps * (perimeter * turn_per_length(track.finger()) + 2 * std::numbers::pi);
   if (!(std::abs(rotation) <= most)) {
     throw InputError(
         fmt::format("expected a roll that turns the finger by at most {:g} rad, {:g} times around the "
@@ -130,8 +132,9 @@ Roll record(const Track& track, const std::vector<double>& times, const std::vec
   Roll roll;
   roll.log.name = "the roll on " + track.part().name();
   roll.log.time = times;
+  roll.log.u_period = track.finger().period();
   for (const RollState& state : states) {
-    const Vec2 centre = centre_of({track.radius()}, track.part().point(state.s), state.contact);
+    const Vec2 centre = centre_of(track.finger(), track.part().point(state.s), state.contact);
     roll.log.u.push_back(state.contact.u);
     roll.log.psi.push_back(state.contact.psi);
     roll.log.x.push_back(centre.x());

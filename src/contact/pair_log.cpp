@@ -107,7 +107,7 @@ void require_same_rows(const Log& a, const Log& b) {
                   a.rows(), b.name, b.rows(), row_in_file(longer, shorter.rows())));
 }
 
-std::optional<DiskFinger> one_of(const std::optional<FingerPair>& fingers, std::size_t which) {
+std::optional<Finger> one_of(const std::optional<FingerPair>& fingers, std::size_t which) {
   if (!fingers) return std::nullopt;
   return (*fingers)[which];
 }
@@ -164,11 +164,13 @@ std::vector<PairReading> readings(const PairLog& log, const Part& part, const st
   return result;
 }
 
-std::optional<double> facing(const PairLog& log) {
+std::optional<double> facing(const PairLog& log, const std::optional<FingerPair>& fingers) {
   if (log.a.kind != LogKind::contact || log.rows() == 0) return std::nullopt;
-  const Contact a{log.a.u.front(), log.a.psi.front()};
-  const Contact b{log.b.u.front(), log.b.psi.front()};
-  return nearest_angle(a.facing() - b.facing());
+  const auto direction = [&](const Log& one, std::size_t which) {
+    const Contact first{one.u.front(), one.psi.front()};
+    return fingers ? facing((*fingers)[which], first) : first.facing();
+  };
+  return nearest_angle(direction(log.a, 0) - direction(log.b, 1));
 }
 
 Rounding rounding_of(const PairLog& log, const std::optional<FingerPair>& fingers) {

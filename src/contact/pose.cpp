@@ -5,13 +5,12 @@
 #include <numbers>
 
 #include "contact/felt_part.hpp"
+#include "outline/turn.hpp"
 #include "part/angle.hpp"
 
 namespace rollfix {
 
 namespace {
-
-constexpr double kFullTurn = 2 * std::numbers::pi;
 
 double clamped(double value, const Interval& interval) { return std::clamp(value, interval.lo, interval.hi); }
 
@@ -62,7 +61,7 @@ Agreed agreed_heading(const FeltPart& a, const FeltPart& b, std::size_t row) {
 
 }  // namespace
 
-std::optional<Poses> poses(const Part& part, const DiskFinger& finger, const Log& log, double s,
+std::optional<Poses> poses(const Part& part, const Finger& finger, const Log& log, double s,
                            const std::vector<std::size_t>& rows) {
   if (!FeltPart::is_in(log)) return std::nullopt;
   const FeltPart felt(part, finger, log, s);

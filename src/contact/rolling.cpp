@@ -47,8 +47,10 @@ class Integration {
       : track_(track),
         motion_(motion),
         perimeter_(track.part().perimeter()),
+        unit_of_u_(track.finger().is_disk() ? track.finger().length_per_u() : perimeter_),
         controlled_(odeint::make_controlled(kStepTolerance, 0.0, kStepper)),
-        state_{motion.first.u, motion.start.s / perimeter_, motion.first.psi},
+        state_{motion.first.u * track.finger().length_per_u() / unit_of_u_, motion.start.s / perimeter_,
+               motion.first.psi},
         step_(motion.duration) {
     enter(motion.start.index, 1);
   }
@@ -61,8 +63,9 @@ class Integration {
   }
 
   RollState state() const {
-    const Contact contact{state_[kU], state_[kPsi]};
-    return {contact, state_[kS] * perimeter_, motion_.start_angle + contact.facing() - motion_.first.facing()};
+    const Contact contact{state_[kU] * unit_of_u_ / track_.finger().length_per_u(), state_[kPsi]};
+    const double turn = reading_between(track_.finger(), motion_.first, contact).turn;
+    return {contact, state_[kS] * perimeter_, motion_.start_angle + turn};
   }
 
  private:
@@ -74,10 +77,10 @@ class Integration {
       rate[kU] = rate[kS] = 0;
       return;
     }
-    const double r = track_.radius();
-    const double kappa = track_.turning(stretch_, state[kS] * perimeter_).curvature;
-    rate[kU] = -omega / (1 + r * kappa);              // eq. (1)
-    rate[kS] = omega / (1 / r + kappa) / perimeter_;  // eq. (2)
+    const double s = state[kS] * perimeter_;
+    const double velocity = omega / (track_.finger_curvature(stretch_, s) + track_.turning(stretch_, s).curvature);
+    rate[kU] = -velocity / unit_of_u_;  // eq. (1): what is rolled off the finger
+    rate[kS] = velocity / perimeter_;   // eq. (2)
   }
 
   auto system() const {
@@ -144,7 +147,7 @@ class Integration {
     index_ = index;
     stretch_ = track_.stretch(index);
     if (stretch_.is_pivot) {
-      const double angle = state_[kU] + state_[kPsi];
+      const double angle = state_[kPsi];
       const double turn = stretch_.angle.width();
       ends_ = direction > 0 ? Interval{angle, angle + turn} : Interval{angle - turn, angle};
     } else {
@@ -152,10 +155,8 @@ class Integration {
     }
   }
 
-  /// What has to stay between the stretch's ends: s, or the contact's direction in a pivot.
-  double position(const State& state) const {
-    return stretch_.is_pivot ? state[kU] + state[kPsi] : state[kS] * perimeter_;
-  }
+  /// What has to stay between the stretch's ends: s, or in a pivot, where u stays, the finger's orientation.
+  double position(const State& state) const { return stretch_.is_pivot ? state[kPsi] : state[kS] * perimeter_; }
 
   /// Where omega changes its sign before `time`: a step must not go beyond an end and come back.
   double next_turning_point(double time) const {
@@ -178,6 +179,7 @@ class Integration {
   const Track& track_;
   const Motion& motion_;
   double perimeter_;
+  double unit_of_u_;  // a disk's u is an angle, any other's is taken in the part's perimeters
   ControlledStepper controlled_;
   State state_;
   double time_ = 0;
@@ -200,8 +202,9 @@ std::vector<RollState> integrated(const Track& track, const Motion& motion, cons
   return states;
 }
 
-Roll roll(const Part& part, const DiskFinger& finger, const RollPlan& plan) {
-  const Track track(part, finger);
+Roll roll(const Part& part, const Finger& finger, const RollPlan& plan) {
+  const auto way = track_of(part, finger, plan.start, plan.u);
+  const Track& track = *way;
   const Motion motion = plan_motion(track, plan);
   const std::vector<double> times = times_of(motion, plan.rows);
   return record(track, times, integrated(track, motion, times));

@@ -9,6 +9,7 @@
 
 #include "contact/turning_path.hpp"
 #include "contact/turning_runs.hpp"
+#include "outline/turn.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline/primitives.hpp"
 
@@ -16,7 +17,6 @@ namespace rollfix {
 
 namespace {
 
-constexpr double kFullTurn = 2 * std::numbers::pi;
 constexpr double kQuarter = std::numbers::pi / 2;
 /// The drift is taken as this many standard deviations.
 constexpr double kDeviations = 3;
@@ -35,13 +35,6 @@ constexpr double kLeftDrift = 4;
 constexpr double kMostTurn = 1000 * kFullTurn;
 
 double degrees(double angle) { return angle * 180 / std::numbers::pi; }
-
-void require_valid(const Noise& noise) {
-  for (const double value : {noise.contact, noise.angle, noise.slip, noise.radius}) {
-    if (value >= 0 && std::isfinite(value)) continue;
-    throw InputError(fmt::format("noise of {}: expected finite standard deviations of at least 0", value));
-  }
-}
 
 /// A roll's rows in the direction of growing length.
 struct Rows {

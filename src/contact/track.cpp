@@ -19,6 +19,8 @@ namespace rollfix {
 
 namespace {
 
+constexpr double kOneTurn = 2 * std::numbers::pi;
+
 bool is_pivot(std::int64_t index) { return index % 2 == 0; }
 std::int64_t knot_before(std::int64_t index) { return (index - (index % 2 != 0 ? 1 : 0)) / 2; }
 /// A concave corner that can't be rolled over.
@@ -30,8 +32,12 @@ std::int64_t spiral_before(std::int64_t knot) { return 2 * knot - 1; }
 
 }  // namespace
 
-Track::Track(const Part& part, const DiskFinger& finger)
-    : part_(part), turning_(part.turning()), radius_(finger.radius), corner_turns_(part.turning().spirals().size()) {
+EvenTrack::EvenTrack(const Part& part, const Finger& finger, double u)
+    : Track(part, finger),
+      turning_(part.turning()),
+      radius_(finger.is_disk() ? finger.length_per_u() : std::numeric_limits<double>::infinity()),
+      u_(u),
+      corner_turns_(part.turning().spirals().size()) {
   require_valid(finger);
   for (const Corner& corner : part.corners()) {
     if (const auto k = knot_at(corner.s)) corner_turns_[knot(*k).index] = corner.turn;
@@ -39,7 +45,7 @@ Track::Track(const Part& part, const DiskFinger& finger)
   for (const double turn : corner_turns_) fall_per_lap_ += fall_of(turn);
 }
 
-Track::Knot Track::knot(std::int64_t k) const {
+EvenTrack::Knot EvenTrack::knot(std::int64_t k) const {
   const auto count = static_cast<std::int64_t>(turning_.spirals().size());
   const std::int64_t index = (k % count + count) % count;
   const std::int64_t lap = (k - index) / count;
@@ -47,7 +53,7 @@ Track::Knot Track::knot(std::int64_t k) const {
 }
 
 /// The knot at this base in [0, P], if there is one.
-std::optional<std::int64_t> Track::knot_at(double base) const {
+std::optional<std::int64_t> EvenTrack::knot_at(double base) const {
   const std::vector<Spiral>& spirals = turning_.spirals();
   const auto k = static_cast<std::int64_t>(turning_.spiral_at(std::min(base, turning_.perimeter())));
   const double near = kLengthAccuracy * turning_.perimeter();
@@ -58,26 +64,33 @@ std::optional<std::int64_t> Track::knot_at(double base) const {
 }
 
 /// An open part has no stretch at this index.
-bool Track::ends_at(std::int64_t index) const {
+bool EvenTrack::ends_at(std::int64_t index) const {
   return !turning_.closed() && (index <= 0 || index >= pivot_at(static_cast<std::int64_t>(turning_.spirals().size())));
 }
 
+double EvenTrack::clearance(double curvature) const {
+  const double room = std::isinf(radius_) ? curvature * turning_.perimeter() / kOneTurn : 1 + radius_ * curvature;
+  return room - kLeastClearance;
+}
+
+Contact EvenTrack::first_contact(double tangent, double psi) const {
+  return finger().is_disk() ? contact_on(tangent, psi) : contact_at(finger(), tangent, u_);
+}
+
 /// Where on a spiral that is partly too concave the finger's reach ends: the curvature is monotone.
-double Track::limit_on(const Spiral& spiral) const {
-  const auto clearance = [&](double s) {
-    return 1 + radius_ * turning_.on_spiral(spiral, s).curvature - kLeastClearance;
-  };
-  const double at_lo = clearance(spiral.lo);
-  const double at_hi = clearance(spiral.hi);
+double EvenTrack::limit_on(const Spiral& spiral) const {
+  const auto clearance_at = [&](double s) { return clearance(turning_.on_spiral(spiral, s).curvature); };
+  const double at_lo = clearance_at(spiral.lo);
+  const double at_hi = clearance_at(spiral.hi);
   if (!(at_lo * at_hi < 0)) return at_lo > at_hi ? spiral.lo : spiral.hi;
   std::uintmax_t iterations = 100;
   const boost::math::tools::eps_tolerance<double> full(std::numeric_limits<double>::digits);
   const auto bracket =
-      boost::math::tools::toms748_solve(clearance, spiral.lo, spiral.hi, at_lo, at_hi, full, iterations);
+      boost::math::tools::toms748_solve(clearance_at, spiral.lo, spiral.hi, at_lo, at_hi, full, iterations);
   return at_lo > 0 ? bracket.first : bracket.second;  // the side on which it fits
 }
 
-Stretch Track::stretch(std::int64_t index) const {
+Stretch EvenTrack::stretch(std::int64_t index) const {
   const auto [k, lap] = knot(knot_before(index));
   const Spiral& spiral = turning_.spirals()[k];
   Stretch result;
@@ -106,18 +119,18 @@ Stretch Track::stretch(std::int64_t index) const {
 
 Turning Track::turning(const Stretch& stretch, double s) const {
   const Spiral& spiral = *stretch.spiral;
-  Turning turning = turning_.on_spiral(spiral, std::clamp(s - stretch.s_shift, spiral.lo, spiral.hi));
+  Turning turning = part_.turning().on_spiral(spiral, std::clamp(s - stretch.s_shift, spiral.lo, spiral.hi));
   turning.angle += stretch.angle_shift;
   return turning;
 }
 
 /// Throws InputError off the ends of an open part.
-void Track::require_inside(double s) const {
+void EvenTrack::require_inside(double s) const {
   const double near = kLengthAccuracy * turning_.perimeter();
   if (!turning_.closed() && !(s >= -near && s <= turning_.perimeter() + near)) refuse_end(s);
 }
 
-Track::Found Track::find(double s, int direction) const {
+EvenTrack::Found EvenTrack::find(double s, int direction) const {
   const Wrapped wrapped = turning_.closed() ? wrap(s, turning_.perimeter()) : Wrapped{s, 0};
   const auto laps = static_cast<std::int64_t>(wrapped.winding) * static_cast<std::int64_t>(turning_.spirals().size());
   const std::optional<std::int64_t> knot = knot_at(wrapped.base);
@@ -129,7 +142,7 @@ Track::Found Track::find(double s, int direction) const {
   return {{index, direction > 0 ? ahead.whole.lo : ahead.whole.hi}, k};
 }
 
-TrackPlace Track::place(double s, int direction) const {
+TrackPlace EvenTrack::place(double s, int direction) const {
   require_inside(s);
   const auto [place, knot] = find(s, direction);
   if (knot && blocks(corner_turn(*knot))) refuse_corner(s, corner_turn(*knot));
@@ -138,7 +151,7 @@ TrackPlace Track::place(double s, int direction) const {
   return place;
 }
 
-std::optional<std::int64_t> Track::next(std::int64_t index, int direction) const {
+std::optional<std::int64_t> EvenTrack::next(std::int64_t index, int direction) const {
   if (!is_pivot(index)) {
     const Stretch here = stretch(index);
     if (!(direction > 0 ? here.fits_hi : here.fits_lo)) return std::nullopt;
@@ -156,7 +169,7 @@ std::optional<std::int64_t> Track::next(std::int64_t index, int direction) const
   return found;
 }
 
-double Track::fall_between(std::int64_t from, std::int64_t to) const {
+double EvenTrack::fall_between(std::int64_t from, std::int64_t to) const {
   if (fall_per_lap_ == 0) return 0;
   if (to < from) return -fall_between(to, from);
   const auto count = static_cast<std::int64_t>(corner_turns_.size());
@@ -168,10 +181,10 @@ double Track::fall_between(std::int64_t from, std::int64_t to) const {
   return sum;
 }
 
-void Track::refuse(std::int64_t index, int direction) const {
+void EvenTrack::refuse(std::int64_t index, int direction) const {
   const Stretch here = stretch(index);
   const double edge = direction > 0 ? here.s.hi : here.s.lo;
-  Tightest tightest{edge, 0};
+  Tightest tightest{edge, std::numeric_limits<double>::infinity()};
   std::int64_t at = index;
   if (!here.is_pivot) {
     const double end = direction > 0 ? here.whole.hi : here.whole.lo;
@@ -194,14 +207,14 @@ void Track::refuse(std::int64_t index, int direction) const {
   refuse_tight(tightest);
 }
 
-void Track::look_at(const Stretch& stretch, double lo, double hi, Tightest& tightest) const {
+void EvenTrack::look_at(const Stretch& stretch, double lo, double hi, Tightest& tightest) const {
   for (const double s : {lo, hi}) {  // monotone between
     const double curvature = turning(stretch, s).curvature;
     if (curvature < tightest.curvature) tightest = {s, curvature};
   }
 }
 
-void Track::require_way(double from, double to) const {
+void EvenTrack::require_way(double from, double to) const {
   const double lo = std::min(from, to);
   const double hi = std::max(from, to);
   require_inside(lo);
@@ -210,7 +223,7 @@ void Track::require_way(double from, double to) const {
   const double last = std::min(hi, lo + turning_.perimeter());  // a second lap meets nothing new
   const auto [start, start_knot] = find(lo, 1);
   if (start_knot && blocks(corner_turn(*start_knot))) refuse_corner(lo, corner_turn(*start_knot));
-  Tightest tightest{lo, 0};
+  Tightest tightest{lo, std::numeric_limits<double>::infinity()};
   for (std::int64_t index = start.index; !ends_at(index); ++index) {
     const Stretch at = stretch(index);
     if (is_pivot(index)) {
@@ -224,35 +237,41 @@ void Track::require_way(double from, double to) const {
   if (!fits(tightest.curvature)) refuse_tight(tightest);
 }
 
-/// How messages call a place.
-double Track::named(double s) const {
+double EvenTrack::named(double s) const {
   return turning_.closed() ? wrap(s, turning_.perimeter()).base : std::clamp(s, 0.0, turning_.perimeter());
 }
 
-void Track::refuse_tight(const Tightest& tightest) const {
-  const Vec2 point = part_.point(tightest.s);
+void EvenTrack::refuse_tight(const Tightest& tightest) const {
+  const Vec2 point = part().point(tightest.s);
+  if (std::isinf(radius_)) {
+    throw InputError(fmt::format(
+        "{}: a flat jaw can't roll where the part is not curved outwards, as at s = {:.9g}, ({:.6g}, {:.6g}), "
+        "where the curvature is {:.9g}: expected it above 0; choose a disk or another roll",
+        part().name(), named(tightest.s), point.x(), point.y(), tightest.curvature));
+  }
   throw InputError(fmt::format(
       "{}: a disk of radius {:.9g} is too big for the concavity at s = {:.9g}, ({:.6g}, {:.6g}), where the curvature "
       "is "
       "{:.9g}: expected a radius below {:.9g}; choose a smaller finger or another roll",
-      part_.name(), radius_, named(tightest.s), point.x(), point.y(), tightest.curvature, -1 / tightest.curvature));
+      part().name(), radius_, named(tightest.s), point.x(), point.y(), tightest.curvature, -1 / tightest.curvature));
 }
 
-void Track::refuse_corner(double s, double turn) const {
-  const Vec2 point = part_.point(s);
-  throw InputError(fmt::format(
-      "{}: a disk can't get into the concave corner at s = {:.9g}, ({:.6g}, {:.6g}), where the tangent turns by {:.6g} "
-      "degrees: the largest radius that would do is 0 (the curvature is -inf); end the roll before it",
-      part_.name(), named(s), point.x(), point.y(), turn * 180 / std::numbers::pi));
+void EvenTrack::refuse_corner(double s, double turn) const {
+  const Vec2 point = part().point(s);
+  throw InputError(
+      fmt::format("{}: a finger can't get into the concave corner at s = {:.9g}, ({:.6g}, {:.6g}), where the tangent "
+                  "turns by {:.6g} "
+                  "degrees: the largest radius that would do is 0 (the curvature is -inf); end the roll before it",
+                  part().name(), named(s), point.x(), point.y(), turn * 180 / std::numbers::pi));
 }
 
-void Track::refuse_end(double s) const {
-  const Vec2 point = part_.point(s);
+void EvenTrack::refuse_end(double s) const {
+  const Vec2 point = part().point(s);
   throw InputError(
       fmt::format("{}: the roll runs off the end of the open outline at s = {:.9g}, ({:.6g}, {:.6g}): expected a "
                   "contact that stays "
                   "in 0 <= s <= {:.9g}; start elsewhere or roll less far",
-                  part_.name(), named(s), point.x(), point.y(), turning_.perimeter()));
+                  part().name(), named(s), point.x(), point.y(), turning_.perimeter()));
 }
 
 }  // namespace rollfix

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -26,6 +27,9 @@ struct Stretch {
   Interval angle;       // of the tangent at the ends of `s`
   bool fits_lo = true;  // at the ends of `whole`
   bool fits_hi = true;
+  const Spiral* finger_spiral = nullptr;  // of a finger's outline: that is rolled off meanwhile
+  double finger_u_shift = 0;              // from the spiral's own arc length and angle to this lap's
+  double finger_angle_shift = 0;
 };
 
 /// A place of the way: which stretch, and where on it.
@@ -34,36 +38,72 @@ struct TrackPlace {
   double s = 0;
 };
 
-/// The way of one finger around one part: pivots (even index 2k) and spirals (odd index 2k + 1) in turn, where spiral
-/// k starts at knot k. On a closed part k runs on over the laps. It knows where the finger can't go, and says why.
+/// The way of one finger along one part, piece by piece. It knows where the finger can't go, and says why.
 class Track {
  public:
-  Track(const Part& part, const DiskFinger& finger);
+  Track(const Part& part, const Finger& finger) : part_(part), finger_(finger) {}
+  virtual ~Track() = default;
 
   const Part& part() const { return part_; }
-  double radius() const { return radius_; }
+  const Finger& finger() const { return finger_; }
 
-  Stretch stretch(std::int64_t index) const;
+  virtual Stretch stretch(std::int64_t index) const = 0;
   Turning turning(const Stretch& stretch, double s) const;
 
   /// The place s on the stretch that a finger is on when it leaves in this direction (+1 or -1): at a corner or a
   /// joint the one that lies ahead. Throws InputError where the finger can't be.
-  TrackPlace place(double s, int direction) const;
+  virtual TrackPlace place(double s, int direction) const = 0;
 
   /// The stretch that follows in this direction; nothing where the finger can't go on, and `refuse` says why.
-  std::optional<std::int64_t> next(std::int64_t index, int direction) const;
-  [[noreturn]] void refuse(std::int64_t index, int direction) const;
+  virtual std::optional<std::int64_t> next(std::int64_t index, int direction) const = 0;
+  [[noreturn]] virtual void refuse(std::int64_t index, int direction) const = 0;
 
   /// By how much the tangent falls where the way from one stretch to another passes the tiny concave joints of a
   /// drawing (kJointTurn), below 0 forwards and above it backwards. There the contact stays, and the finger turns back.
-  double fall_between(std::int64_t from, std::int64_t to) const;
+  /// Tiny joints of the finger's own outline count as well.
+  virtual double fall_between(std::int64_t from, std::int64_t to) const = 0;
 
   /// Throws InputError unless the finger can roll from one place to the other; the tightest spot is named.
-  void require_way(double from, double to) const;
+  virtual void require_way(double from, double to) const = 0;
 
-  /// How far the finger has turned, up to a constant, when the contact is at s and the tangent there points to angle:
-  /// the sum of eq. (3), psi = Theta + s / r. It grows all along a way that the finger can go, but for falls.
-  double rotation(double s, double angle) const { return s / radius_ + angle; }
+  /// How far the finger has turned, up to a constant, when the contact is at s on this stretch and the tangent there
+  /// points to angle: eq. (3), psi = Theta - N, of a disk Theta + s / r. It grows all along a way that the finger can
+  /// go, but for falls.
+  virtual double rotation(const Stretch& stretch, double s, double angle) const = 0;
+
+  /// Of the finger where it touches at s on this stretch: 1 / r of a disk.
+  virtual double finger_curvature(const Stretch& stretch, double s) const = 0;
+
+  /// The first contact, at s with this direction of the tangent.
+  virtual Contact first_contact(double tangent, double psi) const = 0;
+
+ private:
+  const Part& part_;
+  Finger finger_;
+};
+
+/// The way of a finger that first touches the part at s = start. `u`: where on the finger that is; a disk does not need
+/// it. Throws InputError: no such finger, or no such place on it.
+std::unique_ptr<Track> track_of(const Part& part, const Finger& finger, double start, std::optional<double> u);
+
+/// The same of a disk or a jaw, which are alike all around: pivots (even index 2k) and spirals (odd index 2k + 1) in
+/// turn, where spiral k starts at knot k. On a closed part k runs on over the laps.
+class EvenTrack : public Track {
+ public:
+  EvenTrack(const Part& part, const Finger& finger, double u);
+
+  Stretch stretch(std::int64_t index) const override;
+  TrackPlace place(double s, int direction) const override;
+  std::optional<std::int64_t> next(std::int64_t index, int direction) const override;
+  [[noreturn]] void refuse(std::int64_t index, int direction) const override;
+  double fall_between(std::int64_t from, std::int64_t to) const override;
+  void require_way(double from, double to) const override;
+  double rotation(const Stretch& /*stretch*/, double s, double angle) const override { return s / radius_ + angle; }
+  double finger_curvature(const Stretch& /*stretch*/, double /*s*/) const override { return 1 / radius_; }
+  Contact first_contact(double tangent, double psi) const override;
+
+  /// How messages call a place.
+  double named(double s) const;
 
  private:
   struct Knot {
@@ -85,20 +125,21 @@ class Track {
   Knot knot(std::int64_t k) const;
   Found find(double s, int direction) const;
   void require_inside(double s) const;
-  bool fits(double curvature) const { return 1 + radius_ * curvature > kLeastClearance; }
+  /// Above 0 where the finger fits; of a jaw, whose radius is infinite, the curvature in turns per lap.
+  double clearance(double curvature) const;
+  bool fits(double curvature) const { return clearance(curvature) > 0; }
   bool ends_at(std::int64_t index) const;
   double limit_on(const Spiral& spiral) const;
   std::optional<std::int64_t> knot_at(double base) const;
   double corner_turn(std::int64_t k) const { return ends_at(2 * k) ? 0 : corner_turns_[knot(k).index]; }
-  double named(double s) const;
   void look_at(const Stretch& stretch, double lo, double hi, Tightest& tightest) const;
   [[noreturn]] void refuse_tight(const Tightest& tightest) const;
   [[noreturn]] void refuse_corner(double s, double turn) const;
   [[noreturn]] void refuse_end(double s) const;
 
-  const Part& part_;
   const TurningFunction& turning_;
-  double radius_;
+  double radius_;  // infinite of a jaw
+  double u_;       // of a jaw's first contact
   double fall_per_lap_ = 0;
   std::vector<double> corner_turns_;  // at the start of each spiral; 0: no corner
 };

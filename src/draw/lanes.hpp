@@ -6,6 +6,10 @@
 
 namespace rollfix::draw {
 
+inline constexpr double kFirstLane = 8;  // from the boundary to the first lane, pixels
+inline constexpr double kLaneSpacing = 6.5;
+inline constexpr double kEndGap = 14;  // between neighbours on a lane
+
 /// Lanes on which stretches of a boundary can be drawn side by side without overlapping.
 struct Lanes {
   std::vector<int> of;  // each stretch's lane, 0 is the nearest to the boundary

@@ -16,6 +16,8 @@ void draw_sign(Svg& svg, Sign sign, const Vec2& at, std::string_view colour, dou
 /// The colour that goes with a sign of a point.
 std::string_view sign_colour(Sign sign);
 
+inline void append(Text& text, const Text& more) { text.insert(text.end(), more.begin(), more.end()); }
+
 struct LegendEntry {
   Sign sign = Sign::line;
   std::string_view colour;

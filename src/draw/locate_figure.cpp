@@ -19,15 +19,14 @@ namespace rollfix {
 namespace draw {
 namespace {
 
-constexpr std::size_t kMostPoints = 100000;  // of all arcs together
-constexpr double kStartSize = 3.1;           // pixels
-constexpr double kLabelSize = 13;            // pixels
-constexpr double kVisibleExtent = 4;         // a wider extent gets a band
+constexpr std::size_t kMostArcPoints = 100000;  // of all arcs together
+constexpr double kStartSize = 3.1;              // pixels
+constexpr double kArcLabelSize = 13;            // pixels
 
 /// One plan on a page of its own, drawn from the bottom to the top.
-class Picture {
+class LocatePicture {
  public:
-  explicit Picture(const Plan& plan)
+  explicit LocatePicture(const Plan& plan)
       : plan_(plan),
         legend_(legend_of(plan)),
         drawing_end_(kHeaderHeight + drawing_height(plan.framing)),
@@ -131,7 +130,7 @@ class Picture {
 
   std::vector<Vec2> path_of(std::size_t i, const Run& run) const {
     const auto offset = [&](double travelled) { return plan_.offset(i, run, travelled); };
-    return pen_.path(plan_.placements()[i].start, run, offset, kMostPoints / plan_.placements().size());
+    return pen_.path(plan_.placements()[i].start, run, offset, kMostArcPoints / plan_.placements().size());
   }
 
   void ends(std::size_t i) {
@@ -186,7 +185,8 @@ class Picture {
       if (arc.run->from == travelled) anchors.push_back(arc.path.front());
       if (arc.run->to == travelled) anchors.push_back(arc.path.back());
     }
-    labels_.add(std::move(anchors), scene_.normal(s), contact_name(k, plan_.number(i)), plan_.colour_of(i), kLabelSize);
+    labels_.add(std::move(anchors), scene_.normal(s), contact_name(k, plan_.number(i)), plan_.colour_of(i),
+                kArcLabelSize);
   }
 
   const Plan& plan_;
@@ -205,7 +205,7 @@ class Picture {
 
 Svg draw_placements(const LocateFigure& figure) {
   const draw::Plan plan = draw::plan_of(figure);
-  return draw::Picture(plan).draw();
+  return draw::LocatePicture(plan).draw();
 }
 
 Svg side_by_side(const std::vector<LocateFigure>& figures) {
@@ -223,7 +223,7 @@ Svg side_by_side(const std::vector<LocateFigure>& figures) {
   double width = 0, height = 0;
   std::string titles;
   for (const draw::Plan& plan : plans) {
-    pictures.push_back(draw::Picture(plan).draw());
+    pictures.push_back(draw::LocatePicture(plan).draw());
     width += pictures.back().width();
     height = std::max(height, pictures.back().height());
     titles += (titles.empty() ? "" : "; ") + pictures.back().description();

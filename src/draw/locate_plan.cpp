@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "lanes.hpp"
 #include "roll_pen.hpp"
 #include "rollfix/error.hpp"
 
@@ -15,11 +16,8 @@ constexpr std::size_t kMostLegend = 12;  // ... with a legend
 constexpr std::size_t kMostArcs = 120;   // ... with arcs
 constexpr std::size_t kMostFingers = 2;  // ... with a finger each when none is highlighted
 constexpr std::size_t kLettered = 3;     // readings of which each has its own letter
-constexpr double kFirstLane = 8;         // from the boundary to the first lane, pixels
-constexpr double kLaneSpacing = 6.5;
-constexpr double kMostLanesWidth = 64;  // of all lanes together
-constexpr double kLabelRoom = 24;       // beyond the last lane
-constexpr double kEndGap = 14;          // between neighbours on a lane
+constexpr double kMostLanesWidth = 64;   // of all lanes together
+constexpr double kLabelRoom = 24;        // beyond the last lane
 
 void check(const LocateFigure& figure) {
   if (figure.part == nullptr) {

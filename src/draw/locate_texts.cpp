@@ -11,8 +11,6 @@
 namespace rollfix::draw {
 namespace {
 
-void append(Text& text, const Text& more) { text.insert(text.end(), more.begin(), more.end()); }
-
 Text reading_text(const Reading& reading, const std::string& index) {
   Text text;
   const auto symbol = [&](const std::string& letter) {

@@ -6,7 +6,7 @@
 namespace rollfix::draw {
 namespace {
 
-constexpr double kCell = 6;      // pixels
+constexpr double kSideCell = 6;  // pixels
 constexpr double kStep = 1.5;    // between samples of a boundary, pixels
 constexpr double kSlack = 0.06;  // what samples at that step may hide, pixels
 constexpr double kFan = 0.15;    // radians between a corner's normals
@@ -14,15 +14,15 @@ constexpr int kTries = 8;
 constexpr double kNearer = 0.7;  // of the distance at each further try
 constexpr double kLeast = 0.08;  // fraction of a path that must survive
 
-struct Side {
+struct SidePoint {
   Vec2 point;
   Vec2 normal;
   double s;
 };
 
 /// Every vertex with its outward normal; a convex corner has a fan of them.
-std::vector<Side> sides(const Trace& stretch) {
-  std::vector<Side> out;
+std::vector<SidePoint> sides(const Trace& stretch) {
+  std::vector<SidePoint> out;
   Vec2 last = Vec2::Zero();
   for (std::size_t i = 0; i < stretch.points.size(); ++i) {
     Vec2 next = last;
@@ -52,8 +52,8 @@ std::vector<Side> sides(const Trace& stretch) {
 Clearance::Clearance(const Trace& boundary) {
   const Trace fine = densify(boundary, kStep);
   box_ = bounds(fine.points);
-  columns_ = 1 + static_cast<std::size_t>(box_.size().x() / kCell);
-  rows_ = 1 + static_cast<std::size_t>(box_.size().y() / kCell);
+  columns_ = 1 + static_cast<std::size_t>(box_.size().x() / kSideCell);
+  rows_ = 1 + static_cast<std::size_t>(box_.size().y() / kSideCell);
   cells_.resize(columns_ * rows_);
   for (const Vec2& point : fine.points) {
     cells_[cell_of(point.y(), box_.lo.y(), rows_) * columns_ + cell_of(point.x(), box_.lo.x(), columns_)].push_back(
@@ -62,7 +62,7 @@ Clearance::Clearance(const Trace& boundary) {
 }
 
 std::size_t Clearance::cell_of(double value, double origin, std::size_t count) const {
-  const double cell = std::floor((value - origin) / kCell);
+  const double cell = std::floor((value - origin) / kSideCell);
   return static_cast<std::size_t>(std::clamp(cell, 0.0, static_cast<double>(count - 1)));
 }
 
@@ -83,12 +83,12 @@ bool Clearance::closer_than(const Vec2& point, double distance) const {
 
 std::vector<Vec2> path_beside(const Trace& stretch, const Clearance& boundary,
                               const std::function<double(double)>& offset) {
-  const std::vector<Side> along = sides(densify(stretch, kStep));
+  const std::vector<SidePoint> along = sides(densify(stretch, kStep));
   std::vector<Vec2> path;
   double nearer = 1;
   for (int attempt = 0; attempt < kTries; ++attempt, nearer *= kNearer) {
     path.clear();
-    for (const Side& side : along) {
+    for (const SidePoint& side : along) {
       const double distance = nearer * offset(side.s);
       const Vec2 beside = side.point + distance * side.normal;
       if (!boundary.closer_than(beside, distance - kSlack)) path.push_back(beside);

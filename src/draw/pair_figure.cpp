@@ -17,11 +17,10 @@ namespace rollfix {
 namespace draw {
 namespace {
 
-constexpr std::size_t kMostPoints = 20000;  // of an arc
-constexpr double kArcWidth = 2.6;           // pixels
-constexpr double kLabelSize = 13.5;
-constexpr double kNumberSize = 10;
-constexpr double kVisibleExtent = 4;    // a wider extent gets a band
+constexpr std::size_t kMostPairArcPoints = 20000;  // of an arc
+constexpr double kArcWidth = 2.6;                  // pixels
+constexpr double kPairLabelSize = 13.5;
+constexpr double kPairNumberSize = 10;
 constexpr double kSameDot = 3;          // dots that are closer together get one label
 constexpr std::size_t kMostListed = 4;  // numbers in a label
 
@@ -141,7 +140,7 @@ class PairPicture {
           pen_.contact(s, kFingerColours[finger], 2.4);
         }
         if (!plan_.has_numbers()) continue;
-        labels_.add({scene_.at(s)}, scene_.normal(s), {{listed(numbers)}}, kFingerColours[finger], kNumberSize);
+        labels_.add({scene_.at(s)}, scene_.normal(s), {{listed(numbers)}}, kFingerColours[finger], kPairNumberSize);
       }
     }
     svg_.close_group();
@@ -161,7 +160,7 @@ class PairPicture {
       std::vector<std::vector<Vec2>> paths;
       for (const Run& run : roll.runs) {
         const auto offset = [&](double travelled) { return plan_.offset(finger, run, travelled); };
-        paths.push_back(pen_.path(start, run, offset, kMostPoints));
+        paths.push_back(pen_.path(start, run, offset, kMostPairArcPoints));
         pen_.stems(start, run, paths.back(), kFingerColours[finger]);
       }
       for (const std::vector<Vec2>& path : paths) pen_.arc(path, kFingerColours[finger], kArcWidth, !roll.tangled);
@@ -185,7 +184,8 @@ class PairPicture {
         if (roll.runs[i].from == travelled(k)) anchors.push_back(paths[i].front());
         if (roll.runs[i].to == travelled(k)) anchors.push_back(paths[i].back());
       }
-      labels_.add(std::move(anchors), scene_.normal(s), pair_contact(finger, k), kFingerColours[finger], kLabelSize);
+      labels_.add(std::move(anchors), scene_.normal(s), pair_contact(finger, k), kFingerColours[finger],
+                  kPairLabelSize);
     }
   }
 

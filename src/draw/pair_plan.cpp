@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lanes.hpp"
 #include "legend.hpp"
 #include "numerals.hpp"
 #include "roll_pen.hpp"
@@ -18,12 +19,9 @@ namespace {
 constexpr std::size_t kMostNumbers = 20;  // placements with numbers
 constexpr std::size_t kMostNamed = 4;     // contacts of which each has its own name
 constexpr std::size_t kMostLines = 4;     // equations that are drawn
-constexpr double kFirstLane = 8;          // from the boundary to the first lane, pixels
-constexpr double kLaneSpacing = 6.5;
-constexpr double kLabelRoom = 26;    // beyond the last lane
-constexpr double kEndGap = 14;       // between neighbours on a lane
-constexpr double kPlaneShare = 0.4;  // of the width
-constexpr double kPlaneLeft = 64;    // room for the numbers and the name of the axis
+constexpr double kPairLabelRoom = 26;     // beyond the last lane
+constexpr double kPlaneShare = 0.4;       // of the width
+constexpr double kPlaneLeft = 64;         // room for the numbers and the name of the axis
 constexpr double kPlaneAbove = 24;
 constexpr double kPlaneBelow = 42;
 constexpr double kPlaneRight = 16;
@@ -72,8 +70,6 @@ Lanes lanes_of(const PairPlan& plan, double part_size) {
 }
 
 int lanes_each(const PairPlan& plan) { return std::max(plan.rolls[0].lanes, plan.rolls[1].lanes); }
-
-void append(Text& text, const Text& more) { text.insert(text.end(), more.begin(), more.end()); }
 
 Text finger_text(const PairPlan& plan, std::size_t finger) {
   Text text{{finger == 0 ? "finger a" : "finger b"}};
@@ -144,7 +140,7 @@ PairPlan plan_of(const PairFigure& figure) {
     }
   }
   if (plan.shown) plan.lanes = lanes_of(plan, plan.framing.part.size().maxCoeff());
-  plan.framing.margin = kFirstLane + kLaneSpacing * plan.lanes.count * lanes_each(plan) + kLabelRoom;
+  plan.framing.margin = kFirstLane + kLaneSpacing * plan.lanes.count * lanes_each(plan) + kPairLabelRoom;
   const double spare = drawing_height(plan.framing) - plan.framing.least_height;
   plan.plane.corner = Vec2(plan.framing.width + kPlaneLeft, kHeaderHeight + kPlaneAbove + 0.5 * spare);
   plan.plane.size = Vec2(side, side);

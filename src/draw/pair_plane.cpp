@@ -12,17 +12,17 @@
 namespace rollfix::draw {
 namespace {
 
-constexpr double kCellSize = 0.8;           // of the grid on which lines are looked for, pixels
-constexpr double kVisibleExtent = 5;        // a wider extent gets a box, pixels
-constexpr double kNumberSize = 10.5;        // pixels
-constexpr std::size_t kMostPoints = 20000;  // of a line
+constexpr double kCellSize = 0.8;               // of the grid on which lines are looked for, pixels
+constexpr double kVisibleBox = 5;               // a wider extent gets a box, pixels
+constexpr double kPlaneNumberSize = 10.5;       // pixels
+constexpr std::size_t kMostLinePoints = 20000;  // of a line
 constexpr int kTicks = 6;
 constexpr std::string_view kOutside = "#f0f0f0";
 constexpr std::string_view kStretch = "#F0E442";
 
-class Plane {
+class PlanePicture {
  public:
-  Plane(Svg& svg, const PairPlan& plan)
+  PlanePicture(Svg& svg, const PairPlan& plan)
       : svg_(svg), plan_(plan), axes_(plan.plane), obstacles_(svg.width(), svg.height()) {}
 
   void draw() {
@@ -116,7 +116,7 @@ class Plane {
     for (const std::vector<Vec2>& line : level_lines(g, h, level)) {
       std::vector<Vec2> path;
       for (const Vec2& pair : line) path.push_back(axes_(pair.x(), pair.y()));
-      path = pick(path, simplify(path, kInvisible, kMostPoints));
+      path = pick(path, simplify(path, kInvisible, kMostLinePoints));
       svg_.polyline(path, paint);
       obstacles_.add(path);
     }
@@ -132,9 +132,9 @@ class Plane {
     box.include(axes_(extent[0].hi, extent[1].lo));
     const bool is_line = placement.family.size() > 1;
     const double spread = is_line ? placement.family_error * axes_.size.x() / axes_.x.width() : box.size().maxCoeff();
-    if (!is_line && spread < kVisibleExtent) return;
+    if (!is_line && spread < kVisibleBox) return;
     svg_.open_group(placement.kind == Kind::stretch ? "stretch" : "extent");
-    if (spread >= kVisibleExtent) {
+    if (spread >= kVisibleBox) {
       fill(box);
     } else {
       std::vector<Vec2> path;
@@ -150,7 +150,7 @@ class Plane {
     for (const Vec2& shift : shifts(bounds(path))) {
       std::vector<Vec2> moved;
       for (const Vec2& point : path) moved.emplace_back(point + shift);
-      svg_.polyline(pick(moved, simplify(moved, kInvisible, kMostPoints)), stroke(kStretch, 6));
+      svg_.polyline(pick(moved, simplify(moved, kInvisible, kMostLinePoints)), stroke(kStretch, 6));
     }
   }
 
@@ -220,7 +220,7 @@ class Plane {
     for (std::size_t i = 0; i < plan_.placements().size(); ++i) {
       const PairPoint& start = plan_.placements()[i].start;
       labels.add({axes_(start[0], start[1])}, Vec2(std::numbers::sqrt2 / 2, -std::numbers::sqrt2 / 2),
-                 {{std::to_string(i), false, true, false}}, kInk, kNumberSize);
+                 {{std::to_string(i), false, true, false}}, kInk, kPlaneNumberSize);
     }
     labels.draw(svg_, obstacles_);
   }
@@ -234,6 +234,6 @@ class Plane {
 
 }  // namespace
 
-void draw_pair_plane(Svg& svg, const PairPlan& plan) { Plane(svg, plan).draw(); }
+void draw_pair_plane(Svg& svg, const PairPlan& plan) { PlanePicture(svg, plan).draw(); }
 
 }  // namespace rollfix::draw

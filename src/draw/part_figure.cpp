@@ -78,9 +78,9 @@ Legend legend_of(const Part& part, const std::optional<Reach>& reach, double wid
 }
 
 /// The part above, its curvature and turning function below.
-class Picture {
+class PartPicture {
  public:
-  explicit Picture(const PartFigure& figure)
+  explicit PartPicture(const PartFigure& figure)
       : figure_(figure),
         part_(*figure.part),
         framing_(framing()),
@@ -309,7 +309,7 @@ class Picture {
 
 Svg draw_part(const PartFigure& figure) {
   if (figure.part == nullptr) throw InputError("a figure of a part needs one, found none: set PartFigure::part");
-  return draw::Picture(figure).draw();
+  return draw::PartPicture(figure).draw();
 }
 
 }  // namespace rollfix

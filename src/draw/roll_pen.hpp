@@ -12,6 +12,9 @@
 
 namespace rollfix::draw {
 
+/// An extent wider than this gets a band, pixels.
+inline constexpr double kVisibleExtent = 4;
+
 /// Draws rolls beside a boundary: arcs, the thin lines that tie them to it, contacts and fingers. What it draws is
 /// also an obstacle for labels.
 class RollPen {

@@ -26,12 +26,6 @@ Interval starts(const AngleSet& end, double turn, double slack) {
   return {end.angles.lo - turn - slack, end.angles.hi - turn + slack};
 }
 
-/// A start's tangents are a pivot's interval, or the one or two values at a smooth point or a concave corner.
-std::vector<Interval> choices(const AngleSet& set) {
-  if (set.concave) return {{set.angles.lo, set.angles.lo}, {set.angles.hi, set.angles.hi}};
-  return {set.angles};
-}
-
 struct Fit {
   double residual = std::numeric_limits<double>::infinity();
   Interval start;  // the tangents at the start that have it
@@ -82,6 +76,11 @@ Fit best_fit(const Part& part, const std::vector<Reading>& readings, double s) {
 }
 
 }  // namespace
+
+std::vector<Interval> choices(const AngleSet& set) {
+  if (set.concave) return {{set.angles.lo, set.angles.lo}, {set.angles.hi, set.angles.hi}};
+  return {set.angles};
+}
 
 AngleSet angle_set(const Part& part, double s) {
   const TurningFunction& turning = part.turning();

@@ -18,6 +18,10 @@ struct AngleSet {
 /// Theta at s as a set. Places within kLengthAccuracy * P of a corner are at it.
 AngleSet angle_set(const Part& part, double s);
 
+/// What to try of a set, one at a time: a pivot's interval, or the one or two values at a smooth point or a concave
+/// corner.
+std::vector<Interval> choices(const AngleSet& set);
+
 /// How far 0 is from f(s) = Theta(s + L) - Theta(s) - theta, corners taken as sets; all readings share the start's
 /// tangent. This is the residual of s: the largest |f_k| for the best choice within the pivots.
 double residual_at(const Part& part, const std::vector<Reading>& readings, double s);

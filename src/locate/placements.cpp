@@ -5,16 +5,12 @@
 #include <limits>
 #include <numbers>
 
+#include "accuracy.hpp"
 #include "corner_sets.hpp"
 
 namespace rollfix {
 namespace {
 
-// What a simple root is accurate to: a share of the perimeter, or an angle over the slope of f.
-constexpr double kRootLength = 1e-9;
-constexpr double kRootTurn = 4e-12;
-// A slope of f below this share of the curvatures that it is the difference of is rounding noise.
-constexpr double kNoSlope = 1e-10;
 // A place known to this share of the perimeter is known as well as it can be.
 constexpr double kPolished = 1e-14;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -100,7 +96,7 @@ class PlacementMaker {
       describe_corner(start.s, placement);
     } else {
       placement.tangent = part_.tangent(placement.start);
-      std::vector<Sample> samples;
+      std::vector<ResidualSample> samples;
       for (const Reading& reading : readings_) samples.push_back(sample(reading, start.s));
       describe_slopes(samples.data(), placement);
     }
@@ -110,7 +106,7 @@ class PlacementMaker {
  private:
   /// By far the most frequent answer: one reading, one simple root.
   Placement make_crossing(const Cluster& cluster) const {
-    const Sample& root = cluster.roots.front().sample;
+    const ResidualSample& root = cluster.roots.front().sample;
     Placement placement;
     place(cluster.roots.front().s, placement);
     placement.kind = Kind::crossing;
@@ -147,7 +143,7 @@ class PlacementMaker {
 
   // ---- roots ----
 
-  Sample sample(const Reading& reading, double s) const {
+  ResidualSample sample(const Reading& reading, double s) const {
     const Turning at_start = turning_.at(s);
     const Turning at_end = turning_.at(s + reading.length);
     return {s, at_end.angle - at_start.angle - reading.turn, at_start.curvature, at_end.curvature};
@@ -181,7 +177,7 @@ class PlacementMaker {
       double normal = 0;
       double right = 0;
       for (const Reading& reading : readings_) {
-        const Sample at = sample(reading, s);
+        const ResidualSample at = sample(reading, s);
         normal += at.slope() * at.slope();
         right -= at.slope() * at.value;
       }
@@ -263,11 +259,11 @@ class PlacementMaker {
     const double lo = one_sided(reading, cluster.lo, Side::after);
     const double hi = one_sided(reading, cluster.hi, Side::before);
     if (std::abs(lo) > kTurnAccuracy && std::abs(hi) > kTurnAccuracy) return (lo < 0) != (hi < 0);
-    const Sample end = sample(reading, std::abs(lo) < std::abs(hi) ? cluster.lo : cluster.hi);
+    const ResidualSample end = sample(reading, std::abs(lo) < std::abs(hi) ? cluster.lo : cluster.hi);
     return std::abs(hi - lo) > kTurnAccuracy && std::abs(end.slope()) > slope_noise(end);
   }
 
-  double slope_noise(const Sample& at) const {
+  double slope_noise(const ResidualSample& at) const {
     return kNoSlope * (std::abs(at.start_curvature) + std::abs(at.end_curvature) + 1 / period_);
   }
 
@@ -278,18 +274,18 @@ class PlacementMaker {
   // ---- how sure ----
 
   /// `samples`: one per reading, at the start.
-  void describe_slopes(const Sample* samples, Placement& placement) const {
+  void describe_slopes(const ResidualSample* samples, Placement& placement) const {
     double sum = 0;
     double noise = 0;
     for (std::size_t k = 0; k < readings_.size(); ++k) {
-      const Sample& at = samples[k];
+      const ResidualSample& at = samples[k];
       sum += at.slope() * at.slope();
       noise = std::max(noise, slope_noise(at));
     }
     const bool simple = placement.kind == Kind::crossing && std::sqrt(sum) > noise;
     placement.error = simple ? std::max(kRootLength * period_, kRootTurn / std::sqrt(sum)) : kInfinity;
     for (std::size_t k = 0; k < readings_.size(); ++k) {
-      const Sample& at = samples[k];
+      const ResidualSample& at = samples[k];
       placement.sensitivity.per_turn.push_back(simple ? at.slope() / sum : kNaN);
       placement.sensitivity.per_length.push_back(simple ? -at.end_curvature * at.slope() / sum : kNaN);
     }

@@ -11,7 +11,7 @@ namespace rollfix {
 namespace {
 
 // Lengths that come from elsewhere are rounded: this share of the perimeter.
-constexpr double kRounding = 1e-9;
+constexpr double kGivenRounding = 1e-9;
 
 double base_of(const Part& part, double s) {
   return part.closed() ? wrap(s, part.perimeter()).base : std::clamp(s, 0.0, part.perimeter());
@@ -19,7 +19,7 @@ double base_of(const Part& part, double s) {
 
 bool same_place(const Part& part, double one, double two) {
   const double away = part.closed() ? periodic_distance(one, two, part.perimeter()) : std::abs(one - two);
-  return away <= kRounding * part.perimeter();
+  return away <= kGivenRounding * part.perimeter();
 }
 
 const PivotReach* pivot_at(const Part& part, const Reach& reach, double s) {
@@ -42,7 +42,7 @@ Interval near(const Interval& angles, const Interval& pivot) {
 }
 
 bool meets(const Interval& one, const Interval& two) {
-  return one.lo <= two.hi + kRounding && two.lo <= one.hi + kRounding;
+  return one.lo <= two.hi + kGivenRounding && two.lo <= one.hi + kGivenRounding;
 }
 
 /// Can a finger that pivots at a corner between these tangents come from the boundary before it or after it, or go
@@ -85,7 +85,7 @@ Obstruction beyond(const Part& part, const Reach& reach, double from, double to)
     for (const double edge : {arc.lo, arc.hi}) {
       const double ahead = part.closed() ? wrap(edge - from, part.perimeter()).base : edge - from;
       const double signed_ahead = to >= from || !part.closed() ? ahead : ahead - part.perimeter();
-      const double least = kRounding * part.perimeter();
+      const double least = kGivenRounding * part.perimeter();
       if (to >= from && signed_ahead > least) end = std::min(end, from + signed_ahead);
       if (to < from && signed_ahead < -least) end = std::max(end, from + signed_ahead);
     }
@@ -100,7 +100,7 @@ Obstruction beyond(const Part& part, const Reach& reach, double from, double to)
 
 bool can_roll(const Reach& reach, const Interval& starts, const Interval& roll) {
   if (reach.whole_loop) return true;
-  const double rounding = kRounding * reach.perimeter;
+  const double rounding = kGivenRounding * reach.perimeter;
   const auto holds = [&](const Interval& arc) {
     const Interval fitting{arc.lo - roll.lo - rounding, arc.hi - roll.hi + rounding};
     if (fitting.width() < 0) return false;
@@ -126,8 +126,8 @@ std::optional<Obstruction> obstruction_of(const Part& part, const Reach& reach, 
     return here;
   }
   // The arc that goes furthest the right way: at a corner two may end.
-  if (s + roll.hi > arc->hi) return beyond(part, reach, arc->hi - kRounding * reach.perimeter, s + roll.hi);
-  return beyond(part, reach, arc->lo + kRounding * reach.perimeter, s + roll.lo);
+  if (s + roll.hi > arc->hi) return beyond(part, reach, arc->hi - kGivenRounding * reach.perimeter, s + roll.hi);
+  return beyond(part, reach, arc->lo + kGivenRounding * reach.perimeter, s + roll.lo);
 }
 
 std::vector<Impossible> drop_unreachable(const Part& part, const Reach& reach, const std::vector<Reading>& readings,

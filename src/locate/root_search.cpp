@@ -25,12 +25,12 @@ constexpr int kStretchSamples = 19;
 // Bounds by monotone curvature are tried this often before those by polynomials, which cost more.
 constexpr int kPlainHalvings = 4;
 // Rounding errors of a polynomial's bounds: hundreds of operations on angles of some radians.
-constexpr double kRounding = 1e-14;
+constexpr double kBoundsRounding = 1e-14;
 // The extremum of f is approached by the secant of its slope this long, then bracketed.
 constexpr int kMostSecants = 12;
 
 /// s where the cubic through both ends, taken as a function of f, has the value `level`.
-double inverse_cubic(const Sample& lo, const Sample& hi, double level) {
+double inverse_cubic(const ResidualSample& lo, const ResidualSample& hi, double level) {
   const double rise = hi.value - lo.value;
   const double x = (level - lo.value) / rise;
   const double width = hi.s - lo.s;
@@ -46,19 +46,19 @@ struct Bounds {
 };
 
 /// Bounds on f' from the curvatures at the ends, because curvature is monotone on a spiral.
-Bounds slope_bounds(const Sample& lo, const Sample& hi) {
+Bounds slope_bounds(const ResidualSample& lo, const ResidualSample& hi) {
   return {std::min(lo.end_curvature, hi.end_curvature) - std::max(lo.start_curvature, hi.start_curvature),
           std::max(lo.end_curvature, hi.end_curvature) - std::min(lo.start_curvature, hi.start_curvature)};
 }
 
 /// How fast f' can change between the ends, on average.
-double mean_bend(const Sample& lo, const Sample& hi) {
+double mean_bend(const ResidualSample& lo, const ResidualSample& hi) {
   return (std::abs(hi.end_curvature - lo.end_curvature) + std::abs(hi.start_curvature - lo.start_curvature)) /
          (hi.s - lo.s);
 }
 
 /// Bounds on f from its values at the ends and from bounds of either sign on its slope.
-Bounds value_bounds(const Sample& lo, const Sample& hi, const Bounds& slope) {
+Bounds value_bounds(const ResidualSample& lo, const ResidualSample& hi, const Bounds& slope) {
   const double width = hi.s - lo.s;
   const double span = slope.most - slope.least;
   const double scale = slope.least * slope.most * width;
@@ -102,7 +102,7 @@ RootSearch::RootSearch(const LocateOptions& options, double perimeter, Findings&
   waiting_.reserve(16);
 }
 
-void RootSearch::run(const SpiralPair& pair, const Sample& lo, const Sample& hi) {
+void RootSearch::run(const SpiralPair& pair, const ResidualSample& lo, const ResidualSample& hi) {
   if (is_far(lo, hi)) {  // most intervals
     ++findings_.counts.intervals;
     ++budget_;
@@ -123,21 +123,21 @@ void RootSearch::run(const SpiralPair& pair, const Sample& lo, const Sample& hi)
 }
 
 /// Further from 0 in the mean than the steepest slope can bring f.
-bool RootSearch::is_far(const Sample& lo, const Sample& hi) const {
+bool RootSearch::is_far(const ResidualSample& lo, const ResidualSample& hi) const {
   const Bounds slope = slope_bounds(lo, hi);
   const double reach = 0.5 * std::max(-slope.least, slope.most) * (hi.s - lo.s);
   return 0.5 * std::abs(lo.value + hi.value) > reach + tolerance_;
 }
 
-bool RootSearch::is_stretch(const SpiralPair& pair, const Sample& lo, const Sample& hi) {
+bool RootSearch::is_stretch(const SpiralPair& pair, const ResidualSample& lo, const ResidualSample& hi) {
   const double period = pair.turning.perimeter();
-  const auto vanishes = [&](const Sample& at) {
+  const auto vanishes = [&](const ResidualSample& at) {
     const double curvature = std::abs(at.start_curvature) + std::abs(at.end_curvature);
     return std::abs(at.value) <= kTurnAccuracy + kPlaceRounding * period * curvature;
   };
   if (!vanishes(lo) || !vanishes(hi) || hi.s - lo.s < kShortestStretch * period) return false;
   for (int k = 1; k < kStretchSamples; ++k) {
-    const Sample at = sample(pair, lo.s + (hi.s - lo.s) * k / kStretchSamples);
+    const ResidualSample at = sample(pair, lo.s + (hi.s - lo.s) * k / kStretchSamples);
     const double scale = std::abs(at.start_curvature) + std::abs(at.end_curvature) + 1 / period;
     if (!vanishes(at) || std::abs(at.slope()) > kStretchSlope * scale) return false;
   }
@@ -145,8 +145,8 @@ bool RootSearch::is_stretch(const SpiralPair& pair, const Sample& lo, const Samp
 }
 
 void RootSearch::decide(const SpiralPair& pair, const Range& range) {
-  const Sample& lo = range.lo;
-  const Sample& hi = range.hi;
+  const ResidualSample& lo = range.lo;
+  const ResidualSample& hi = range.hi;
   if (++findings_.counts.intervals > budget_) {
     findings_.unresolved.push_back({lo.s, hi.s});
     return;
@@ -186,13 +186,13 @@ void RootSearch::decide(const SpiralPair& pair, const Range& range) {
 /// stretches, where bounds on either end alone would never close.
 void RootSearch::decide_by_polynomial(const SpiralPair& pair, const Range& range, const Panel& start,
                                       const Panel& end) {
-  const Sample& lo = range.lo;
-  const Sample& hi = range.hi;
+  const ResidualSample& lo = range.lo;
+  const ResidualSample& hi = range.hi;
   const double half = 0.5 * (hi.s - lo.s);
   const Powers f = difference(pair, start, end, lo.s + half, half);
-  double reach = kRounding;  // how far f gets from its middle value, its slope from the middle slope, and so on
-  double slope_reach = kRounding;
-  double bend_reach = kRounding;
+  double reach = kBoundsRounding;  // how far f gets from its middle value, its slope from the middle slope, and so on
+  double slope_reach = kBoundsRounding;
+  double bend_reach = kBoundsRounding;
   for (Eigen::Index k = 1; k < f.size(); ++k) {
     const double size = std::abs(f[k]);
     const auto order = static_cast<double>(k);
@@ -213,21 +213,21 @@ void RootSearch::decide_by_polynomial(const SpiralPair& pair, const Range& range
 }
 
 /// A root of high order, or no more than rounding: no finer answer exists.
-void RootSearch::take_flat(const Sample& lo, const Sample& hi, bool exact) {
+void RootSearch::take_flat(const ResidualSample& lo, const ResidualSample& hi, bool exact) {
   add_piece(lo.s, hi.s);
   findings_.roots.push_back({0.5 * (lo.s + hi.s), exact});
 }
 
 void RootSearch::halve(const SpiralPair& pair, const Range& range, double place) {
-  const Sample middle = sample(pair, place);
+  const ResidualSample middle = sample(pair, place);
   waiting_.push_back({middle, range.hi, 0, range.depth + 1});
   waiting_.push_back({range.lo, middle, 0, range.depth + 1});
 }
 
 /// f'' keeps its sign, so f has one extremum at the most. Told for a convex f; a concave one is its mirror image.
 void RootSearch::decide_bent(const SpiralPair& pair, const Range& range) {
-  const Sample& lo = range.lo;
-  const Sample& hi = range.hi;
+  const ResidualSample& lo = range.lo;
+  const ResidualSample& hi = range.hi;
   const bool turns = (lo.slope() < 0) != (hi.slope() < 0);
   const bool lo_far = std::abs(lo.value) > tolerance_;
   const bool hi_far = std::abs(hi.value) > tolerance_;
@@ -245,7 +245,7 @@ void RootSearch::decide_bent(const SpiralPair& pair, const Range& range) {
   }
   // Both ends above: look near the lowest point, where the slope's chord vanishes.
   const double place = lo.s - lo.slope() * (hi.s - lo.s) / (hi.slope() - lo.slope());
-  const Sample inner = sample(pair, std::clamp(place, lo.s, hi.s));
+  const ResidualSample inner = sample(pair, std::clamp(place, lo.s, hi.s));
   const bool inner_above = range.bend > 0 ? inner.value > tolerance_ : inner.value < -tolerance_;
   if (std::abs(inner.value) <= tolerance_ || !(inner.s > lo.s && inner.s < hi.s) || range.depth > kMostSecants) {
     split_at_extremum(pair, range);
@@ -265,7 +265,7 @@ void RootSearch::split_at_extremum(const SpiralPair& pair, const Range& range) {
   const auto bracket = boost::math::tools::toms748_solve([&](double s) { return sample(pair, s).slope(); }, range.lo.s,
                                                          range.hi.s, range.lo.slope(), range.hi.slope(),
                                                          boost::math::tools::eps_tolerance<double>(46), rounds);
-  const Sample extremum = sample(pair, 0.5 * (bracket.first + bracket.second));
+  const ResidualSample extremum = sample(pair, 0.5 * (bracket.first + bracket.second));
   const double size = std::abs(extremum.value);
   if (size > tolerance_ && (extremum.value > 0) == (range.lo.value > 0) &&
       (extremum.value > 0) == (range.hi.value > 0) && size <= std::abs(range.lo.value)) {
@@ -276,7 +276,7 @@ void RootSearch::split_at_extremum(const SpiralPair& pair, const Range& range) {
   take_monotone(pair, extremum, range.hi);
 }
 
-void RootSearch::take_monotone(const SpiralPair& pair, const Sample& lo, const Sample& hi) {
+void RootSearch::take_monotone(const SpiralPair& pair, const ResidualSample& lo, const ResidualSample& hi) {
   const double least = std::min(lo.value, hi.value);
   const double most = std::max(lo.value, hi.value);
   if (least > tolerance_ || most < -tolerance_) return;
@@ -289,7 +289,7 @@ void RootSearch::take_monotone(const SpiralPair& pair, const Sample& lo, const S
   } else if (std::abs(hi.value) <= kTurnAccuracy) {
     root.s = hi.s;
   } else if ((lo.value < 0) != (hi.value < 0)) {
-    const Sample found = solve(pair, 0, lo, hi);
+    const ResidualSample found = solve(pair, 0, lo, hi);
     root = {found.s, true, false, true, found};
     const double bend = mean_bend(lo, hi);
     reach = tolerance_ / std::abs(found.slope());
@@ -299,7 +299,7 @@ void RootSearch::take_monotone(const SpiralPair& pair, const Sample& lo, const S
   }
   if (root.exact) findings_.roots.push_back(root);
 
-  const auto end_at = [&](const Sample& end, double direction) {
+  const auto end_at = [&](const ResidualSample& end, double direction) {
     if (std::abs(end.value) <= tolerance_) return end.s;
     if (near_root) return root.s + direction * reach;
     return solve(pair, std::copysign(tolerance_, end.value), lo, hi).s;
@@ -311,15 +311,15 @@ void RootSearch::take_monotone(const SpiralPair& pair, const Sample& lo, const S
 
 /// Where f, monotone between the ends, has this value: inverse cubic interpolation from the last two samples, of order
 /// 2.7, kept inside the bracket.
-Sample RootSearch::solve(const SpiralPair& pair, double level, Sample lo, Sample hi) {
+ResidualSample RootSearch::solve(const SpiralPair& pair, double level, ResidualSample lo, ResidualSample hi) {
   const bool rises = hi.value > lo.value;
   const double short_step = kRootStep * pair.turning.perimeter();
   double s = inverse_cubic(lo, hi, level);
   if (!(s > lo.s && s < hi.s)) s = lo.s + (hi.s - lo.s) * (level - lo.value) / (hi.value - lo.value);
   if (!(s > lo.s && s < hi.s)) s = 0.5 * (lo.s + hi.s);
-  Sample last = std::abs(lo.value - level) < std::abs(hi.value - level) ? lo : hi;
+  ResidualSample last = std::abs(lo.value - level) < std::abs(hi.value - level) ? lo : hi;
   for (int round = 0;; ++round) {
-    const Sample at = sample(pair, s);
+    const ResidualSample at = sample(pair, s);
     const double newton = at.s - (at.value - level) / at.slope();
     if (std::abs(newton - at.s) <= short_step) return newton == at.s ? at : sample(pair, newton);
     if (at.value == level || round == kMostRounds) return at;

@@ -18,10 +18,10 @@ struct Piece {
 /// A place worth looking at in a piece.
 struct Root {
   double s = 0;
-  bool exact = true;      // f = 0 there; false: a near miss
-  bool corner = false;    // thanks to a corner's pivot
-  bool crossing = false;  // strictly inside an interval on which f is monotone and changes sign
-  Sample sample{};        // of f at a crossing
+  bool exact = true;        // f = 0 there; false: a near miss
+  bool corner = false;      // thanks to a corner's pivot
+  bool crossing = false;    // strictly inside an interval on which f is monotone and changes sign
+  ResidualSample sample{};  // of f at a crossing
 };
 
 /// What one reading leaves of a stretch of boundary.
@@ -43,27 +43,27 @@ class RootSearch {
   RootSearch(const LocateOptions& options, double perimeter, Findings& findings);
 
   /// The ends are samples of this pair.
-  void run(const SpiralPair& pair, const Sample& lo, const Sample& hi);
+  void run(const SpiralPair& pair, const ResidualSample& lo, const ResidualSample& hi);
 
  private:
   struct Range {
-    Sample lo;
-    Sample hi;
+    ResidualSample lo;
+    ResidualSample hi;
     int bend = 0;  // the sign of f'' where it is known
     int depth = 0;
   };
 
-  bool is_far(const Sample& lo, const Sample& hi) const;
-  bool is_stretch(const SpiralPair& pair, const Sample& lo, const Sample& hi);
+  bool is_far(const ResidualSample& lo, const ResidualSample& hi) const;
+  bool is_stretch(const SpiralPair& pair, const ResidualSample& lo, const ResidualSample& hi);
   void decide(const SpiralPair& pair, const Range& range);
   void decide_bent(const SpiralPair& pair, const Range& range);
-  void take_monotone(const SpiralPair& pair, const Sample& lo, const Sample& hi);
+  void take_monotone(const SpiralPair& pair, const ResidualSample& lo, const ResidualSample& hi);
   void split_at_extremum(const SpiralPair& pair, const Range& range);
   void decide_by_polynomial(const SpiralPair& pair, const Range& range, const Panel& start, const Panel& end);
-  void take_flat(const Sample& lo, const Sample& hi, bool exact);
+  void take_flat(const ResidualSample& lo, const ResidualSample& hi, bool exact);
   void halve(const SpiralPair& pair, const Range& range, double place);
-  Sample solve(const SpiralPair& pair, double level, Sample lo, Sample hi);
-  Sample sample(const SpiralPair& pair, double s) {
+  ResidualSample solve(const SpiralPair& pair, double level, ResidualSample lo, ResidualSample hi);
+  ResidualSample sample(const SpiralPair& pair, double s) {
     findings_.counts.evaluations += 2;
     return pair.sample(s);
   }

@@ -5,7 +5,7 @@
 namespace rollfix {
 
 /// f and its slope at one first contact s:  f(s) = Theta(s + L) - Theta(s) - theta,  f' = kappa(s + L) - kappa(s).
-struct Sample {
+struct ResidualSample {
   double s = 0;
   double value = 0;
   double start_curvature = 0;  // kappa(s)
@@ -22,10 +22,12 @@ struct SpiralPair {
   double offset = 0;  // from the start's s to the end's, whole periods taken off
   double turn = 0;    // theta, the same periods' turn taken off
 
-  Sample sample(double s, const Turning& at_start, const Turning& at_end) const {
+  ResidualSample sample(double s, const Turning& at_start, const Turning& at_end) const {
     return {s, at_end.angle - at_start.angle - turn, at_start.curvature, at_end.curvature};
   }
-  Sample sample(double s) const { return sample(s, turning.on_spiral(start, s), turning.on_spiral(end, s + offset)); }
+  ResidualSample sample(double s) const {
+    return sample(s, turning.on_spiral(start, s), turning.on_spiral(end, s + offset));
+  }
 };
 
 }  // namespace rollfix

@@ -42,7 +42,7 @@ class Sweep {
     }
     Walker start = place(range.lo);
     Walker end = place(range.lo + reading_.length);
-    Sample left = enter(start, end, range.lo);
+    ResidualSample left = enter(start, end, range.lo);
     double here = range.lo;
     while (here < range.hi && findings_.unresolved.empty()) {
       const double offset = reading_.length - end.winding * period_;
@@ -56,7 +56,7 @@ class Sweep {
       const SpiralPair pair = pair_of(start, end);
       const Turning at_start = start_moves ? start.spiral().end : turning_.on_spiral(start.spiral(), next);
       const Turning at_end = end_moves ? end.spiral().end : turning_.on_spiral(end.spiral(), next + offset);
-      const Sample right = pair.sample(next, at_start, at_end);
+      const ResidualSample right = pair.sample(next, at_start, at_end);
       findings_.counts.evaluations += (start_moves ? 0 : 1) + (end_moves ? 0 : 1);
       if (next - here > same_place_) search_.run(pair, left, right);
       if (!findings_.unresolved.empty()) findings_.unresolved.back().hi = range.hi;
@@ -102,10 +102,10 @@ class Sweep {
   }
 
   /// The first sample, and the corner where the end stands, if it does.
-  Sample enter(Walker& start, Walker& end, double lo) {
+  ResidualSample enter(Walker& start, Walker& end, double lo) {
     if (start.winding > 0) start.winding = 0;  // s = P - rounding: the same place, one lap earlier
     const SpiralPair pair = pair_of(start, end);
-    const Sample first = pair.sample(std::max(lo, start.spiral().lo));
+    const ResidualSample first = pair.sample(std::max(lo, start.spiral().lo));
     findings_.counts.evaluations += 2;
     if (std::abs(lo + pair.offset - end.spiral().lo) <= same_place_ && (turning_.closed() || end.index > 0)) {
       const std::size_t before = end.index > 0 ? end.index - 1 : turning_.spirals().size() - 1;

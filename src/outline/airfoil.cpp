@@ -14,11 +14,11 @@ namespace rollfix {
 namespace {
 
 /// Airfoils are drawn with a chord of 1. Within this of the origin everything of them lies, flaps included.
-constexpr double kMostCoordinate = 1.5;
+constexpr double kMostChordCoordinate = 1.5;
 /// A chord this near to 1 is 1, and a trailing edge this near to its end is at its end.
 constexpr double kChordSlack = 0.02;
 /// Fewer points are not taken for an airfoil's.
-constexpr std::size_t kLeastPoints = 6;
+constexpr std::size_t kLeastAirfoilPoints = 6;
 
 bool is_count(double value) { return value > 1 && value == std::floor(value); }
 
@@ -28,9 +28,9 @@ bool starts_a_block(const NumberedPoints& data, std::size_t index) {
 }
 
 bool is_far_from_the_rest(const NumberedPoints& data) {
-  return data.points.size() > kLeastPoints &&
+  return data.points.size() > kLeastAirfoilPoints &&
          std::all_of(data.points.begin() + 1, data.points.end(),
-                     [](const Vec2& point) { return point.cwiseAbs().maxCoeff() <= kMostCoordinate; });
+                     [](const Vec2& point) { return point.cwiseAbs().maxCoeff() <= kMostChordCoordinate; });
 }
 
 [[noreturn]] void refuse(const NumberedPoints& data, const std::string& name, const std::string& found) {
@@ -81,7 +81,7 @@ void reorder(NumberedPoints& data, std::size_t above) {
 
 bool is_selig(const NumberedPoints& data) {
   const std::vector<Vec2>& points = data.points;
-  if (!data.has_title || points.size() < kLeastPoints) return false;
+  if (!data.has_title || points.size() < kLeastAirfoilPoints) return false;
   const auto by_x = [](const Vec2& a, const Vec2& b) { return a.x() < b.x(); };
   const auto nose = std::min_element(points.begin(), points.end(), by_x);
   const auto tail = std::max_element(points.begin(), points.end(), by_x);

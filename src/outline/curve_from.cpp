@@ -35,13 +35,13 @@ class Numbers {
   std::size_t next_ = 0;
 };
 
-struct Controls {
+struct WrittenControls {
   std::vector<Vec2> points;
   std::vector<double> weights;
 };
 
-Controls controls(Numbers& numbers, bool rational) {
-  Controls result;
+WrittenControls controls(Numbers& numbers, bool rational) {
+  WrittenControls result;
   while (numbers.left()) {
     result.points.push_back(numbers.point());
     if (rational) result.weights.push_back(numbers.number());
@@ -85,13 +85,13 @@ Curve turning_span(Numbers& numbers) {
 
 template <bool Rational>
 Curve bezier(Numbers& numbers) {
-  Controls all = controls(numbers, Rational);
+  WrittenControls all = controls(numbers, Rational);
   return Bezier(std::move(all.points), std::move(all.weights));
 }
 
 template <bool Rational, Rest End>
 Curve resting_bezier(Numbers& numbers) {
-  Controls all = controls(numbers, Rational);
+  WrittenControls all = controls(numbers, Rational);
   return BezierFromRest(std::move(all.points), std::move(all.weights), End);
 }
 

@@ -27,7 +27,7 @@ constexpr std::size_t kFirstSpans = 4;
 /// In one round only spans this near to the worst are split: a misfit shows in the neighbours as well.
 constexpr double kWorstShare = 0.5;
 /// A span with fewer points is not split: it would follow each of them.
-constexpr std::size_t kLeastPoints = 3;
+constexpr std::size_t kLeastSpanPoints = 3;
 /// A corner whose fitted turn is below this share of the corner angle is none.
 constexpr double kLeastCornerShare = 0.5;
 constexpr int kNewtonRounds = 8;
@@ -280,14 +280,14 @@ class Smoother {
   bool split(const Misfit& misfit) {
     double worst = 0;  // of those that have enough points
     for (std::size_t span = 0; span < knots_.spans(); ++span) {
-      if (misfit.points[span] >= kLeastPoints) worst = std::max(worst, misfit.of_span[span]);
+      if (misfit.points[span] >= kLeastSpanPoints) worst = std::max(worst, misfit.of_span[span]);
     }
     const double limit = std::max(tolerance_, kWorstShare * worst);
     Knots finer{{}, {}, closed_};
     for (std::size_t span = 0; span < knots_.spans(); ++span) {
       finer.breaks.push_back(knots_.breaks[span]);
       finer.sharp.push_back(knots_.sharp[span]);
-      if (misfit.of_span[span] < limit || misfit.points[span] < kLeastPoints) continue;
+      if (misfit.of_span[span] < limit || misfit.points[span] < kLeastSpanPoints) continue;
       finer.breaks.push_back(0.5 * (knots_.breaks[span] + knots_.breaks[span + 1]));
       finer.sharp.push_back(0);
     }

@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <memory>
 #include <system_error>
 
 #include "rollfix/error.hpp"
@@ -33,21 +32,28 @@ std::string read_all(std::FILE* file, std::size_t expected, const std::string& n
 
 }  // namespace
 
-std::string read_text(const std::string& path) {
-  if (path == "-") return read_all(stdin, 0, "standard input");
+OpenFile open_text(const std::string& path) {
+  if (path == "-") return {stdin, [](std::FILE* /*file*/) { return 0; }};  // not ours to close
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) throw InputError(fmt::format("{}: there is no such file", path));
   if (std::filesystem::is_directory(status)) {
     throw InputError(fmt::format("{}: is a directory, expected a file", path));
   }
+  OpenFile file(std::fopen(path.c_str(), "rb"), &std::fclose);
+  if (!file) throw InputError(fmt::format("{}: can't be opened: {}", path, std::strerror(errno)));
+  return file;
+}
+
+std::string read_text(const std::string& path) {
+  const OpenFile file = open_text(path);
+  if (path == "-") return read_all(file.get(), 0, "standard input");
+  std::error_code error;
   std::size_t expected = 0;
-  if (std::filesystem::is_regular_file(status)) {
+  if (std::filesystem::is_regular_file(path, error)) {
     expected = static_cast<std::size_t>(std::filesystem::file_size(path, error));
     if (error) expected = 0;
   }
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
-  if (!file) throw InputError(fmt::format("{}: can't be opened: {}", path, std::strerror(errno)));
   return read_all(file.get(), expected, path);
 }
 

@@ -13,7 +13,7 @@ namespace rollfix {
 namespace {
 
 // For turns of at most one radian the error of 12 points is far below rounding.
-using Quadrature = boost::math::quadrature::gauss<double, 12>;
+using SpanQuadrature = boost::math::quadrature::gauss<double, 12>;
 
 /// A span on which the sum of its terms' turns is a rounding error above the limit is taken.
 constexpr double kSlack = 1e-9;
@@ -47,8 +47,8 @@ Vec2 TurningSpan::velocity(double s) const {
 
 Vec2 TurningSpan::position(double s) const {
   const double half = 0.5 * s;
-  const auto& nodes = Quadrature::abscissa();
-  const auto& weights = Quadrature::weights();
+  const auto& nodes = SpanQuadrature::abscissa();
+  const auto& weights = SpanQuadrature::weights();
   Vec2 sum = Vec2::Zero();
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const double reach = half * nodes[k];

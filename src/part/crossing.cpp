@@ -11,7 +11,7 @@ namespace {
 // A stretch whose tangent turns by less than half a turn in all, corners included, can't meet itself.
 constexpr double kSimpleTurn = std::numbers::pi * (1 - 1e-9);
 // Leaves turn by no more than this, so that a chord is close to its arc.
-constexpr double kLeafTurn = 0.7;
+constexpr double kCrossingLeafTurn = 0.7;
 // Two arcs that are still not apart at this share of the perimeter do meet.
 constexpr double kMeeting = 1e-10;
 
@@ -82,7 +82,7 @@ class CrossingSearch {
   void add_arcs(const Spiral& spiral, double lo, double hi, double jump) {
     const TurningFunction& turning = part_.turning();
     const double turn = std::abs(turning.on_spiral(spiral, hi).angle - turning.on_spiral(spiral, lo).angle);
-    const int count = 1 + static_cast<int>(turn / kLeafTurn);
+    const int count = 1 + static_cast<int>(turn / kCrossingLeafTurn);
     for (int k = 0; k < count; ++k) {
       const double from = lo + (hi - lo) * k / count;
       const double to = k + 1 == count ? hi : lo + (hi - lo) * (k + 1) / count;

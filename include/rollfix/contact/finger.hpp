@@ -1,7 +1,13 @@
 #pragma once
 
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+
 #include "rollfix/locate/reading.hpp"
 #include "rollfix/outline/geometry.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace rollfix {
@@ -13,29 +19,84 @@ struct DiskFinger {
 
 /// What the sensors say of one instant.
 struct Contact {
-  double u = 0;    // where on the finger, in its own frame, radians, counter-clockwise
+  double u = 0;    // where on the finger, counter-clockwise: of a disk the angle in its frame, else arc length
   double psi = 0;  // the finger's orientation in the world, radians, counter-clockwise
 
-  /// Direction in the world from the finger's centre to the contact: the part's inward normal there.
+  /// Of a disk: direction in the world from its centre to the contact, the part's inward normal there.
   double facing() const { return u + psi; }
 };
 
-/// Throws InputError unless the radius is a finite number above 0.
-void require_valid(const DiskFinger& finger);
+/// A finger of any convex shape: a disk, a flat jaw, or an outline. Its body lies on the left of its own boundary.
+class Finger {
+ public:
+  /// A disk. Its radius is looked at by require_valid, not here.
+  Finger(const DiskFinger& disk) : radius_(disk.radius) {}  // NOLINT(google-explicit-constructor): it is one
+  Finger(double disk_radius) : radius_(disk_radius) {}      // NOLINT(google-explicit-constructor): {0.2}
 
-/// Eqs. (1)-(3) integrated: L = -r (u1 - u0), theta = (u1 - u0) + (psi1 - psi0). Angles unwrapped.
-Reading reading_between(const DiskFinger& finger, const Contact& first, const Contact& last);
+  /// A flat jaw without ends: the x axis of its frame, its body above; u = x.
+  static Finger jaw();
+
+  /// A convex outline, closed or open, in its frame; u is arc length from its first point, of a closed one
+  /// counter-clockwise whichever way it was given. Throws InputError: it is concave somewhere, has a corner (there the
+  /// skin can't tell how the normal is turned), or is no outline.
+  static Finger outlined(const Outline& outline) { return outlined(Part(outline)); }
+  static Finger outlined(const Part& outline);
+
+  const std::string& name() const { return name_; }  // "disk", "jaw", or the outline's
+  std::optional<DiskFinger> disk() const;
+  bool is_disk() const { return kind_ == Kind::disk; }
+  bool is_jaw() const { return kind_ == Kind::jaw; }
+  /// The outline, as a part; nullptr of a disk and a jaw.
+  const Part* outline() const { return outline_.get(); }
+
+  /// N: direction of the outward normal in the finger's frame, radians, unwrapped; it grows with u.
+  double normal(double u) const;
+  /// dN per arc length: 1 / r of a disk, 0 of a jaw.
+  double curvature(double u) const;
+  /// The place in the finger's frame.
+  Vec2 point(double u) const;
+  /// What u has to be multiplied by for arc length: r of a disk, else 1.
+  double length_per_u() const { return is_disk() ? radius_ : 1; }
+  /// The largest change of N per u: 1 of a disk, 0 of a jaw.
+  double turn_per_u() const;
+  /// What once around adds to u: 2 pi of a disk; of a jaw and an open outline there is no around, it is infinite.
+  double period() const;
+  /// The range of u: that of an open outline ends.
+  Interval ends() const;
+
+ private:
+  enum class Kind { disk, jaw, outline };
+  Finger(Kind kind, std::string name) : kind_(kind), name_(std::move(name)) {}
+
+  Kind kind_ = Kind::disk;
+  double radius_ = std::numeric_limits<double>::infinity();
+  std::string name_ = "disk";
+  std::shared_ptr<const Part> outline_;
+};
+
+/// Throws InputError unless a disk's radius is a finite number above 0.
+void require_valid(const Finger& finger);
+
+/// N(u) + psi: the direction of the contact's normal in the world, out of the finger and into the part.
+double facing(const Finger& finger, const Contact& contact);
+
+/// Eqs. (1)-(3) integrated: L = -(arc length on the finger), theta = (N(u1) - N(u0)) + (psi1 - psi0). Angles unwrapped,
+/// and so is u of a closed outline. Of a disk N = u, of a jaw N stays.
+Reading reading_between(const Finger& finger, const Contact& first, const Contact& last);
 
 /// The inverse: the contact after a roll with this reading.
-Contact contact_after(const DiskFinger& finger, const Contact& first, const Reading& reading);
+Contact contact_after(const Finger& finger, const Contact& first, const Reading& reading);
 
-/// The contact of a finger that is oriented psi and touches where the part's tangent points in this direction (both in
+/// The contact of a disk that is oriented psi and touches where the part's tangent points in this direction (both in
 /// the world's frame). The finger lies on the right of the tangent, the material on its left: u + psi = tangent + pi/2.
 /// u comes out in (-pi, pi].
 Contact contact_on(double tangent, double psi);
 
-/// Where the finger's centre is in the world when it touches at this point.
-Vec2 centre_of(const DiskFinger& finger, const Vec2& point, const Contact& contact);
+/// The contact of any finger that touches with its place u where the tangent points in this direction: psi follows.
+Contact contact_at(const Finger& finger, double tangent, double u);
+
+/// Where the origin of the finger's frame is in the world, a disk's centre, when it touches at this point.
+Vec2 centre_of(const Finger& finger, const Vec2& point, const Contact& contact);
 
 /// A reading whose length is positive along the outline as the user gave it, in the direction in which it is stored.
 /// Against the user's direction, L changes its sign and theta does not: see docs/rolling.md.

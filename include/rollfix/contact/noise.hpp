@@ -10,4 +10,7 @@ struct Noise {
   double radius = 0;   // of the finger's radius, in the outline's unit
 };
 
+/// Throws InputError: a standard deviation that is not a finite number of at least 0.
+void require_valid(const Noise& noise);
+
 }  // namespace rollfix

@@ -15,7 +15,7 @@
 namespace rollfix {
 
 /// Finger a and finger b.
-using FingerPair = std::array<DiskFinger, 2>;
+using FingerPair = std::array<Finger, 2>;
 
 /// What two fingers recorded together while both touched the part. Row k of both is the same instant.
 struct PairLog {
@@ -58,9 +58,10 @@ std::vector<PairReading> readings_as_given(const PairLog& log, const std::option
 std::vector<PairReading> readings(const PairLog& log, const Part& part, const std::optional<FingerPair>& fingers,
                                   const std::vector<double>& times = {});
 
-/// (u + psi) of finger a less that of finger b at the first contacts, which is Theta(s) - Theta(t) up to whole turns,
-/// in (-pi, pi]. Nothing where the logs don't have it: length and turn, distance and dturn.
-std::optional<double> facing(const PairLog& log);
+/// (N(u) + psi) of finger a less that of finger b, u + psi of disks, at the first contacts, which is Theta(s) -
+/// Theta(t) up to whole turns, in (-pi, pi]. Nothing where the logs don't have it: length and turn, distance and dturn.
+/// Without fingers they are disks.
+std::optional<double> facing(const PairLog& log, const std::optional<FingerPair>& fingers = std::nullopt);
 
 /// How far the digits that were written can have moved such a reading, at worst: `length` both of its lengths together,
 /// `turn` its turn. The facing can't be further off than the turn.

@@ -41,7 +41,7 @@ struct Poses {
 /// The poses of a part at rest on which a finger rolls, when its first contact is at s. Each is what that row says
 /// alone; `residual` compares its chord from the first contact with the part's, `turn_residual` its heading with the
 /// first. Nothing where the log does not have the finger's orientation and its centre x, y.
-std::optional<Poses> poses(const Part& part, const DiskFinger& finger, const Log& log, double s,
+std::optional<Poses> poses(const Part& part, const Finger& finger, const Log& log, double s,
                            const std::vector<std::size_t>& rows);
 
 /// The poses of a part that is free to move, when the first contacts are at s and t: means of what both fingers say.

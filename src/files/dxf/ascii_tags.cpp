@@ -12,10 +12,8 @@ namespace rollfix::dxf {
 
 namespace {
 
-/// The group codes there are; -5 to -1 are a program's own.
+/// The lowest group code there is; -5 to -1 are a program's own.
 constexpr int kLeastCode = -5;
-constexpr int kMostCode = 1071;
-constexpr int kComment = 999;
 
 /// Two lines a group: the code, then the value.
 class AsciiTags : public TagReader {

@@ -29,8 +29,6 @@ constexpr CodeRange kValueTypes[] = {
     {1004, 1004, ValueType::chunk}, {1010, 1059, ValueType::real}, {1060, 1070, ValueType::int16},
     {1071, 1071, ValueType::int32},
 };
-constexpr int kMostCode = 1071;
-constexpr int kComment = 999;
 
 ValueType type_of(int code) {
   for (const CodeRange& range : kValueTypes) {

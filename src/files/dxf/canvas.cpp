@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "files/dxf/text.hpp"
+#include "outline/turn.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline/bezier.hpp"
 #include "rollfix/outline/primitives.hpp"
@@ -19,7 +20,6 @@ namespace rollfix::dxf {
 
 namespace {
 
-constexpr double kFullTurn = 2 * std::numbers::pi;
 /// Half axes that differ by no more, or are no farther from a right angle, are a circle's: what nested turns leave.
 constexpr double kRound = 1e-12;
 /// An arc of a smaller bulge is off its chord by less than its centre, far away, can be held to.

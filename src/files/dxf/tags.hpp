@@ -9,6 +9,10 @@
 
 namespace rollfix::dxf {
 
+/// The highest group code there is, and that of comments.
+inline constexpr int kMostCode = 1071;
+inline constexpr int kComment = 999;
+
 /// One group of a DXF file: what it is about (the code) and the value. An ASCII file's values are all text until they
 /// are asked for; a binary file's are what the code's type makes them.
 struct Tag {

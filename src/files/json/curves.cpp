@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include "outline/turn.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline/bezier.hpp"
 #include "rollfix/outline/names.hpp"
@@ -14,8 +15,6 @@
 namespace rollfix {
 
 namespace {
-
-constexpr double kFullTurn = 2 * std::numbers::pi;
 
 std::vector<double> weights(const JsonFields& entry) {
   return entry.has("weights") ? entry.numbers("weights") : std::vector<double>();

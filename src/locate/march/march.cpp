@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "locate/march/limits.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate/march/path.hpp"
 #include "rollfix/locate/march/preprocessing.hpp"
@@ -20,8 +21,6 @@ constexpr double kWholeLoop = 1e-12;
 /// ... and equals C to rounding if it does to this part of the density's variation.
 constexpr double kWholeLoopIntegral = 1e-11;
 
-/// The smallest limit that rounding errors of s leave room for, and the smallest reset that moves s.
-constexpr double kLeastLimit = 1e-14;
 constexpr double kLeastReset = 1e-15;
 
 void check(const Options& options) {

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "locate/march/limits.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate/march/march.hpp"
 #include "rollfix/locate/march/partition.hpp"
@@ -17,9 +18,7 @@ namespace rollfix::march {
 namespace {
 
 /// Rounding errors of phi_1 - phi_3 and of phi_2 - phi_4, as a part of all that is summed up.
-constexpr double kRounding = 1e-14;
-/// The smallest limit that rounding errors of s leave room for.
-constexpr double kLeastLimit = 1e-14;
+constexpr double kPairRounding = 1e-14;
 /// Finds of neighbouring rectangles are one pair if they differ by no more than this many of their estimated errors.
 constexpr double kEstimates = 4;
 
@@ -53,14 +52,14 @@ Options for_stationary_points(const PairMarchOptions& options) {
 }
 
 /// What rounding errors are measured against: the sum of |kappa| over one loop, and its turn.
-struct Loop {
+struct OneLoop {
   Span sum;
   double variation = 0;
 };
 
-Loop walk_round(const Path& path) {
+OneLoop one_loop(const Path& path) {
   Position at = first_position(path);
-  Loop loop{at.step, std::fabs(at.step.integral)};
+  OneLoop loop{at.step, std::fabs(at.step.integral)};
   for (std::size_t i = 1; i < path.steps_per_loop(); ++i) {
     at = next_position(path, at);
     loop.sum = loop.sum + at.step;
@@ -76,7 +75,7 @@ struct PairMarch::Data {
       : options(given),
         march(closed(outline), curvature_rate_density(), for_stationary_points(given)),
         path(outline, curvature_density(), given.step),
-        loop(walk_round(path)) {}
+        loop(one_loop(path)) {}
 
   Segments segments(double length_1, double length_2) const;
   PairProblem problem(const PairReading& first, const PairReading& second) const;
@@ -86,7 +85,7 @@ struct PairMarch::Data {
   PairMarchOptions options;
   March march;
   Path path;
-  Loop loop;
+  OneLoop loop;
 };
 
 /// Whole loops add the same turn to every segment: what is left of L lies in [0, P).
@@ -107,7 +106,7 @@ PairProblem PairMarch::Data::problem(const PairReading& first, const PairReading
     loops += std::fabs(reading.length_a / loop.sum.length) + std::fabs(reading.length_b / loop.sum.length);
   }
   return {{first.turn, second.turn},
-          kRounding * (loop.variation * loops + std::fabs(first.turn) + std::fabs(second.turn))};
+          kPairRounding * (loop.variation * loops + std::fabs(first.turn) + std::fabs(second.turn))};
 }
 
 /// Pairs on the common boundary of two rectangles, or of four, are found in each.

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "locate/march/limits.hpp"
 #include "rollfix/locate/march/pair.hpp"
 #include "rollfix/locate/march/pair_bisection.hpp"
 #include "rollfix/locate/march/refusal.hpp"
@@ -12,12 +13,6 @@ namespace rollfix::march {
 
 namespace {
 
-/// Rounding errors of an advance of s or t, as a part of P: some sums of lengths of up to two loops.
-constexpr double kLengthRounding = 4e-15;
-/// (9) holds to rounding over more than this part of P: a continuum.
-constexpr double kContinuum = 1e-3;
-/// A limit is good enough, where rounding prevents better, when the reset surely passes the pair.
-constexpr double kPartOfReset = 0.25;
 /// Two finds of one pair differ by the estimated distances to it: by no more than this many limit tolerances.
 constexpr double kSamePair = 4;
 

@@ -4,13 +4,12 @@
 #include <cstdlib>
 #include <optional>
 
+#include "locate/march/limits.hpp"
+
 namespace rollfix::march {
 
 namespace {
 
-/// A Newton step shorter than this part of the parameter step is taken without another quadrature: what it leaves in
-/// phi is its square.
-constexpr double kLastCorrection = 1e-8;
 /// A phi, the difference of two sums, is what it should be to so much of them.
 constexpr double kSumRounding = 2.5e-16;
 /// Halvings that exhaust a double, and Newton steps besides.

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "locate/march/limits.hpp"
 #include "rollfix/locate/march/bisection.hpp"
 #include "rollfix/locate/march/refusal.hpp"
 
@@ -14,14 +15,8 @@ namespace rollfix::march {
 
 namespace {
 
-/// Rounding errors of an advance of s, as a part of P: some sums of lengths of up to two loops.
-constexpr double kLengthRounding = 4e-15;
 /// Rounding errors of phi - C, as a part of the density's variation plus |C|.
 constexpr double kIntegralRounding = 1e-14;
-/// phi = C to rounding over more than this part of P is a continuum.
-constexpr double kContinuum = 1e-3;
-/// A limit is good enough, where rounding prevents better, when the reset surely passes the root.
-constexpr double kPartOfReset = 0.25;
 /// Two finds of one root differ by the estimated distances to it: by no more than this many limit tolerances.
 constexpr double kSameRoot = 4;
 

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "locate/march/limits.hpp"
+
 namespace rollfix::march {
 
 namespace {
 
-/// A Newton step shorter than this part of the parameter step is taken without another quadrature: what it leaves is
-/// its square, a rounding error.
-constexpr double kLastCorrection = 1e-8;
 /// Newton falls back to halving where it leaves the bracket; so many halvings exhaust a double.
 constexpr int kMostRefinements = 100;
 

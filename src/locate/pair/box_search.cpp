@@ -5,26 +5,25 @@
 #include <cmath>
 #include <numbers>
 
+#include "../accuracy.hpp"
 #include "convex.hpp"
 #include "line_search.hpp"
+#include "outline/turn.hpp"
 
 namespace rollfix {
 namespace {
 
-constexpr double kTwoPi = 2 * std::numbers::pi;
 // The simplified Newton step must contract by this at least: then the box has one root at the most.
 constexpr double kMostContraction = 0.9;
 // Curves that run alongside each other are first halved this often, which is cheap, for the halves are shared; every so
 // often they are looked at for an overlap, which no halving would ever end.
-constexpr int kPlainHalvings = 16;
+constexpr int kPlainBoxHalvings = 16;
 constexpr int kOverlapInterval = 8;
 // Within an extent the curves are taken as straight where their directions vary by this share at the most.
-constexpr double kExtentBend = 0.01;
-// A box on which f varies by this share of the tolerance is in or out as its middle is.
-constexpr double kSmallVariation = 0.25;
-constexpr int kMostRounds = 60;
+constexpr double kBoxExtentBend = 0.01;
+constexpr int kMostBoxRounds = 60;
 // Newton's step that is below this share of the box is the last one.
-constexpr double kRootStep = 1e-14;
+constexpr double kBoxRootStep = 1e-14;
 // On a flat box of zeros the slopes vanish as well, up to this many radians over a perimeter.
 constexpr double kFlatSlope = 1e-9;
 
@@ -73,11 +72,11 @@ void BoxSearch::decide(const Box& box) {
   for (std::size_t row = 0; row < a_.rows(); ++row) {
     const Range f = on_a[row].value - on_b[row].value;
     if (limits_.facing && row + 1 == a_.rows()) {
-      const double least = std::ceil((f.least - tolerance) / kTwoPi);
-      const double most = std::floor((f.most + tolerance) / kTwoPi);
+      const double least = std::ceil((f.least - tolerance) / kFullTurn);
+      const double most = std::floor((f.most + tolerance) / kFullTurn);
       if (least > most) return;
       one_lap = least == most;
-      lap = least * kTwoPi;
+      lap = least * kFullTurn;
     } else if (f.least > tolerance || f.most < -tolerance) {
       return;
     }
@@ -104,9 +103,9 @@ void BoxSearch::decide_on_pieces(Box box, const PairBoxSides& sides, const PairL
   if (flat == Flat::settled) return;
   box.covered = box.covered || flat == Flat::covered;
   const bool overlap_due = box.depth > 0 && box.depth % kOverlapInterval == 0;
-  if (box.depth >= kPlainHalvings || overlap_due || corners_vanish(sides)) {
+  if (box.depth >= kPlainBoxHalvings || overlap_due || corners_vanish(sides)) {
     LineSearch line(sides, box.covered ? limits_.inside() : limits_, budget_, findings_);
-    if ((box.depth >= kPlainHalvings || line.may_overlap()) && line.run()) return;
+    if ((box.depth >= kPlainBoxHalvings || line.may_overlap()) && line.run()) return;
   }
   halve(box, a_is_wider(box));
 }
@@ -191,7 +190,7 @@ bool BoxSearch::take_regular(const PairBoxSides& sides, const PairLimits& limits
   const auto in_box = [&](const Vec2& step) { return (step.array().abs() / width).maxCoeff() * slack * width; };
   const Eigen::Array2d reach = in_box(regular.inverse.cwiseAbs() * Vec2::Constant(limits.tolerance));
   const double bend = regular.contraction * std::min(1.0, (reach / width).maxCoeff());
-  if (bend > kExtentBend) return false;
+  if (bend > kBoxExtentBend) return false;
 
   Vec2 at = 0.5 * (lo + hi);
   RollPoint on_a;
@@ -205,10 +204,10 @@ bool BoxSearch::take_regular(const PairBoxSides& sides, const PairLimits& limits
     const Eigen::Array2d off = in_box(regular.inverse * f) + reach;
     if (((at.array() + off < lo.array()) || (at.array() - off > hi.array())).any()) return true;  // it is elsewhere
     jacobian << on_a.slope(p), -on_b.slope(p), on_a.slope(q), -on_b.slope(q);
-    if (round == kMostRounds) break;
-    const bool full = round < kMostRounds / 2;  // Newton's own step, then the one that contracts for sure
+    if (round == kMostBoxRounds) break;
+    const bool full = round < kMostBoxRounds / 2;  // Newton's own step, then the one that contracts for sure
     const Vec2 step = full ? Vec2(jacobian.inverse() * f) : Vec2(regular.inverse * f);
-    const bool arrived = (step.array().abs() <= kRootStep * width + 1e-3 * limits_.same_place).all();
+    const bool arrived = (step.array().abs() <= kBoxRootStep * width + 1e-3 * limits_.same_place).all();
     if (arrived) break;
     at -= step;
   }

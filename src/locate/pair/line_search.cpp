@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "../accuracy.hpp"
+
 namespace rollfix {
 namespace {
 
@@ -19,14 +21,12 @@ constexpr double kOverlapSlope = 1e-8;
 // An overlap shorter than this share of the perimeter can't be told from a root.
 constexpr double kShortestOverlap = 1e-9;
 // An arc length is rounded to this share of the perimeter: times the curvature, an angle.
-constexpr double kPlaceRounding = 4e-15;
-constexpr int kMostRounds = 100;
+constexpr double kResidualRounding = 4e-15;
+constexpr int kMostLineRounds = 100;
 // How far a band may bend, in parts of its half width, to be taken as straight.
 constexpr double kBandBend = 0.5;
 // A residual that leaves its chord by this share of the tolerance is taken as straight.
 constexpr double kStraightShare = 0.1;
-// A stretch of the line on which a residual varies by this share of the tolerance is in or out as its middle is.
-constexpr double kSmallVariation = 0.25;
 
 /// Where one component of a side, monotone, has this value.
 RollPoint solve_side(const BoxSide& side, std::size_t row, double target) {
@@ -42,7 +42,7 @@ RollPoint solve_side(const BoxSide& side, std::size_t row, double target) {
   double x = lo + share * (hi - lo);
   const bool rises = rise > 0;
   RollPoint at = side.point(x);
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMostLineRounds; ++round) {
     const double off = at.value[row] - target;
     if (off == 0) break;
     ((off > 0) == rises ? hi : lo) = x;
@@ -186,7 +186,7 @@ LineSearch::Place LineSearch::at_edge(const Stretch& stretch, double edge) const
   const bool rises = stretch.hi.bound.x > stretch.lo.bound.x;
   double x = lo + (hi - lo) * (edge - stretch.lo.bound.x) / (stretch.hi.bound.x - stretch.lo.bound.x);
   Place at = place(std::clamp(x, lo, hi));
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMostLineRounds; ++round) {
     x = at.free.x;
     const double off = at.bound.x - edge;
     if (std::abs(off) <= 1e-3 * limits_.same_place) break;
@@ -283,7 +283,8 @@ bool LineSearch::vanishes(const Place& place) const {
     double rates = 0;
     for (const double rate : place.free.rate) rates += std::abs(rate);
     for (const double rate : place.bound.rate) rates += std::abs(rate);
-    if (std::abs(residual(place, row)) > 2 * kTurnAccuracy + kPlaceRounding * limits_.perimeter * rates) return false;
+    if (std::abs(residual(place, row)) > 2 * kTurnAccuracy + kResidualRounding * limits_.perimeter * rates)
+      return false;
   }
   return true;
 }
@@ -402,7 +403,7 @@ LineSearch::Place LineSearch::solve(std::size_t row, double level, const Place& 
   const double last = residual(to, row);
   const bool rises = last > first;
   Place at = place(lo + (hi - lo) * (level - first) / (last - first));
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMostLineRounds; ++round) {
     const double x = at.free.x;
     const double off = residual(at, row) - level;
     if (off == 0) break;

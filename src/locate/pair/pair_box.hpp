@@ -9,6 +9,9 @@
 
 namespace rollfix {
 
+/// Where a residual varies by this share of the tolerance, all is in or out as its middle is.
+inline constexpr double kSmallVariation = 0.25;
+
 /// A stretch of one finger's curve on one piece: a side of a box.
 class BoxSide {
  public:

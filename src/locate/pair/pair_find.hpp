@@ -7,9 +7,6 @@
 
 namespace rollfix {
 
-/// |f_k| at a root: four tangents, each with its rounding, radians.
-inline constexpr double kRootTurn = 4e-12;
-
 /// A pair of first contacts at which every f_k is 0, or, of more equations than two, those that cross best there.
 struct PairRoot {
   PairPoint at{};

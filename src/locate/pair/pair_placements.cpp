@@ -7,18 +7,14 @@
 #include <numbers>
 #include <utility>
 
+#include "../accuracy.hpp"
 #include "pair_residual.hpp"
 
 namespace rollfix {
 namespace {
 
-// What a simple root is accurate to: a share of the perimeter, or kRootTurn through the inverse of J.
-constexpr double kRootLength = 1e-9;
-// A singular value of J below this share of the curvatures that it is made of is rounding noise.
-constexpr double kNoSlope = 1e-10;
 // Two finds of one root: closer than this share of the perimeter, f not leaving 0 in between.
 constexpr double kSameRoot = 1e-6;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, 2>;
 
@@ -212,7 +208,7 @@ class PairPlacementMaker {
 
   /// J by rows [kappa(s_k) - kappa(s0), -(kappa(t_k) - kappa(t0))], the facing row [kappa(s0), -kappa(t0)] last.
   void describe_slopes(const PairPoint& at, PairPlacement& placement) const {
-    placement.error = kInfinity;
+    placement.error = std::numeric_limits<double>::infinity();
     if (placement.kind == Kind::corner) placement.error = kRootLength * period_;
     if (placement.kind != Kind::crossing) return;
     const std::size_t count = readings_.size();

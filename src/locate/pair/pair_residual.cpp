@@ -11,12 +11,6 @@ namespace {
 
 Interval minus(const Interval& one, const Interval& two) { return {one.lo - two.hi, one.hi - two.lo}; }
 
-/// Each value of a set or, of a concave corner, its two limits.
-std::vector<Interval> choices(const AngleSet& set) {
-  if (set.concave) return {{set.angles.lo, set.angles.lo}, {set.angles.hi, set.angles.hi}};
-  return {set.angles};
-}
-
 std::vector<Interval> differences(const AngleSet& one, const AngleSet& two) {
   std::vector<Interval> result;
   for (const Interval& a : choices(one)) {

@@ -4,14 +4,15 @@
 #include <cmath>
 #include <numbers>
 
+#include "outline/turn.hpp"
+
 namespace rollfix {
 namespace {
 
-constexpr double kTwoPi = 2 * std::numbers::pi;
 // The other contact is told apart to this share of the perimeter: where the curvature is 1,000 / P, to 1e-10 rad.
 constexpr double kResolution = 1e-13;
 // A continuum shorter than this share of the perimeter can't be told from a place.
-constexpr double kShortestStretch = 1e-9;
+constexpr double kShortestContinuum = 1e-9;
 
 /// How far the first contact's tangent must be from fitting every component, at least or at most, while the other
 /// curve's values are in these ranges. On a line, sets meet when each two of them do.
@@ -27,7 +28,8 @@ class PatchFit {
       const Range& value = values[row];
       if (limits_.facing && row + 1 == values.size()) {
         const double middle = 0.5 * (value.least + value.most) - patch_.facing;
-        const double lap = kTwoPi * std::round((0.5 * (start.least + start.most) - middle) / kTwoPi) - patch_.facing;
+        const double lap =
+            kFullTurn * std::round((0.5 * (start.least + start.most) - middle) / kFullTurn) - patch_.facing;
         wanted.push_back(sure ? Range{value.most + lap, value.least + lap}
                               : Range{value.least + lap, value.most + lap});
       } else {
@@ -97,7 +99,7 @@ void search_patches(const RollCurve& patched, RollCurve& other, bool patched_is_
       PairPiece found;
       found.box = patched_is_a ? PairBox{here, there} : PairBox{there, here};
       found.corner = true;
-      if (there.width() > kShortestStretch * limits.perimeter && fit.slack(values, true) <= kTurnAccuracy) {
+      if (there.width() > kShortestContinuum * limits.perimeter && fit.slack(values, true) <= kTurnAccuracy) {
         found.exact = true;  // the pivots make up for whatever the other contact does there
         found.line = {{found.box[0].lo, found.box[1].lo}, {found.box[0].hi, found.box[1].hi}};
       }

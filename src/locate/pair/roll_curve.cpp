@@ -4,16 +4,16 @@
 #include <cmath>
 #include <limits>
 
+#include "../accuracy.hpp"
+
 namespace rollfix {
 
 namespace {
 
-// The slope of a component that is constant is rounding noise: this share of the curvatures that make it.
-constexpr double kNoSlope = 1e-10;
 constexpr int kConstantSamples = 20;
 
 /// A contact that moves along the boundary from spiral to spiral.
-struct Walker {
+struct MovingContact {
   std::size_t index = 0;
   double winding = 0;
 };
@@ -51,21 +51,21 @@ void RollCurve::make_pieces(const Interval& range) {
   std::vector<double> places(1, 0.0);
   places.insert(places.end(), equations_.lengths.begin(), equations_.lengths.end());
 
-  std::vector<Walker> walkers(places.size());
-  const auto advance = [&](Walker& walker) {
+  std::vector<MovingContact> walkers(places.size());
+  const auto advance = [&](MovingContact& walker) {
     if (++walker.index == spirals.size()) {
       walker.index = 0;
       walker.winding += 1;
     }
   };
-  const auto at_open_end = [&](const Walker& walker) {
+  const auto at_open_end = [&](const MovingContact& walker) {
     return !turning_.closed() && walker.index + 1 == spirals.size();
   };
   for (std::size_t c = 0; c < places.size(); ++c) {
     const double s = range.lo + places[c];
     const Wrapped wrapped = turning_.closed() ? wrap(s, period) : Wrapped{std::clamp(s, 0.0, period), 0};
     walkers[c] = {turning_.spiral_at(wrapped.base), wrapped.winding};
-    const auto left = [&](const Walker& walker) {  // to the spiral's end; just before s = 0 it goes on past it
+    const auto left = [&](const MovingContact& walker) {  // to the spiral's end; just before s = 0 it goes on past it
       return spirals[walker.index].hi + (walker.winding - wrapped.winding) * period - wrapped.base;
     };
     while (left(walkers[c]) <= same_place && !at_open_end(walkers[c])) advance(walkers[c]);
@@ -75,7 +75,7 @@ void RollCurve::make_pieces(const Interval& range) {
     std::vector<Range> tangents;
     std::size_t corners = 0;
     for (std::size_t c = 0; c < places.size(); ++c) {
-      const Walker& walker = walkers[c];
+      const MovingContact& walker = walkers[c];
       const Spiral& ahead = spirals[walker.index];
       const bool passes = std::abs(s + places[c] - walker.winding * period - ahead.lo) <= same_place &&
                           (turning_.closed() || walker.index > 0);

@@ -1,0 +1,263 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+
+#include "rollfix/belief/advise.hpp"
+#include "rollfix/commands.hpp"
+#include "rollfix/draw/advice_figure.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/finger_argument.hpp"
+#include "rollfix/locate_one.hpp"
+#include "rollfix/part_facts.hpp"
+#include "rollfix/reading_argument.hpp"
+#include "rollfix/roll_argument.hpp"
+#include "rollfix/table.hpp"
+#include "rollfix/typed_number.hpp"
+#include "rollfix/usage.hpp"
+
+namespace rollfix::app {
+namespace {
+
+constexpr const char* kAdviseExamples = R"(Examples (wing.csv and wing-roll.csv: from rollfix demo):
+  rollfix advise gallery:cam --reading 0.4,20.1deg
+  rollfix advise gallery:limacon --reading 0.9,30.15deg --finger disk,r=0.1 --travel -1,1.5 -o next.svg
+  rollfix advise wing.csv --log wing-roll.csv --finger disk,r=10 --noise contact=0.05,angle=0.2deg --json
+)";
+
+// Without noise a turn can be read this well: well below what tells two places apart, well above rounding.
+constexpr double kTurnSd = 1e-4;
+// Placements in the table.
+constexpr std::size_t kMostContenders = 20;
+
+struct AdviseArguments {
+  LocateArguments locate;
+  std::string travel;
+};
+
+Interval read_travel(const std::string& text) {
+  const std::vector<std::string_view> fields = split(text, ',');
+  const std::string what = "--travel " + text;
+  if (fields.size() == 1) {
+    const double most = read_number(fields[0], what);
+    if (!(most > 0)) throw InputError(what + ": expected a length above 0, or BACK,FORWARD as in -0.5,1.2");
+    return {-most, most};
+  }
+  if (fields.size() != 2) throw InputError(what + ": expected one length, or BACK,FORWARD as in -0.5,1.2");
+  const Interval travel{read_number(fields[0], what), read_number(fields[1], what)};
+  if (!(travel.lo <= 0 && travel.hi >= 0 && travel.width() > 0)) {
+    throw InputError(what + ": expected a length of at most 0, backwards, and one of at least 0, forwards");
+  }
+  return travel;
+}
+
+/// What was found so far, and what to do next.
+struct AdviseOutcome {
+  LocateOutcome located;
+  std::vector<Contender> contenders;
+  std::optional<Advice> advice;  // nothing where there is nothing to tell apart
+  std::string why;               // ... or where no roll will, and why
+};
+
+std::string verdict_of(const LocateOutcome& located) {
+  return located.weighing ? located.weighing->verdict : located.found.verdict();
+}
+
+/// Why a part can't be told apart from itself.
+std::string why_no_roll(const Part& part) {
+  const int fold = symmetry(part);
+  if (fold == 0) return "the part looks the same from every place on its boundary";
+  if (fold > 1) return fmt::format("the part looks the same from {} places", fold);
+  return "within the travel the places that remain look alike";
+}
+
+AdviseOutcome solve(const AdviseArguments& arguments, const std::vector<Log>& logs, Report& report) {
+  AdviseOutcome outcome{solve_one(arguments.locate, logs, report), {}, {}, ""};
+  const LocateOutcome& located = outcome.located;
+  const Part& part = located.part;
+  outcome.contenders =
+      located.weighing ? contenders_of(part, located.weighing->modes) : contenders_of(part, located.found);
+  if (outcome.contenders.empty()) {
+    outcome.why = "nothing fits: there is nothing to tell apart";
+    return outcome;
+  }
+  if (outcome.contenders.size() == 1 || (located.weighing && located.weighing->verdict == "unique")) {
+    outcome.why = "there is only one place left";
+    return outcome;
+  }
+  AdviceOptions options;
+  options.turn_sd = kTurnSd;
+  if (located.weighing) {
+    const Noise& noise = located.weighing->options.noise;
+    const double curvature = located.finger ? located.finger->curvature(0) : 0;
+    // From one row to another: the errors of both.
+    options.turn_sd = std::max(std::hypot(noise.angle, noise.contact * curvature) * std::numbers::sqrt2, kTurnAccuracy);
+    options.length_sd = noise.contact * std::numbers::sqrt2;
+    options.length_share_sd = std::hypot(noise.slip, noise.radius * curvature);
+  }
+  if (!arguments.travel.empty()) options.travel = read_travel(arguments.travel);
+  std::optional<Reach> reach;
+  if (located.finger && has_reach(*located.finger)) reach = reach_of(part, *located.finger);
+  if (reach) options.reach = &*reach;
+  outcome.advice = advise(part, outcome.contenders, options);
+  if (!outcome.advice->helps) outcome.why = why_no_roll(part);
+  return outcome;
+}
+
+/// How far the tangent would turn along the advised roll, were this the place.
+double turn_ahead(const AdviseOutcome& outcome, const Contender& contender) {
+  const TurningFunction& turning = outcome.located.part.turning();
+  return turning.angle(contender.place + outcome.advice->advised().length) - turning.angle(contender.place);
+}
+
+std::string headline(const AdviseOutcome& outcome) {
+  const std::string verdict = verdict_of(outcome.located);
+  if (!outcome.advice) return fmt::format("{}: {}", verdict, outcome.why);
+  if (!outcome.advice->helps) return fmt::format("{}: no roll will tell them apart: {}", verdict, outcome.why);
+  const Prospect& advised = outcome.advice->advised();
+  const int decimals = decimals_for(outcome.located.part.perimeter());
+  return fmt::format("{}: roll on {} by {}: {:.2f} placements are expected to remain, {:.2f} of {:.2f} bits gained",
+                     verdict, advised.length < 0 ? "backwards" : "forwards", fixed(std::abs(advised.length), decimals),
+                     advised.placements, advised.bits, outcome.advice->bits_wanted);
+}
+
+/// What the contenders of one placement have in common.
+struct Expected {
+  double first = 0;  // contact
+  double last = 0;
+  double probability = 0;
+  Interval turn{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+
+  void add(const Contender& contender, double turn_ahead) {
+    if (probability == 0) first = contender.place;
+    last = contender.place;
+    probability += contender.probability;
+    turn = {std::min(turn.lo, turn_ahead), std::max(turn.hi, turn_ahead)};
+  }
+};
+
+std::string span_of(const std::string& lo, const std::string& hi) { return lo == hi ? lo : lo + " to " + hi; }
+
+std::string advise_text(const AdviseOutcome& outcome) {
+  std::string text = headline(outcome) + "\n";
+  if (!outcome.advice || !outcome.advice->helps) return text;
+  const int decimals = decimals_for(outcome.located.part.perimeter());
+  Table table;
+  table.add_column("", Table::Align::left);
+  for (const char* title : {"contact now", "probability", "turn to expect [deg]"}) table.add_column(title);
+  const std::vector<Contender>& all = outcome.contenders;
+  std::size_t placements = 0;
+  for (std::size_t k = 0; k < all.size();) {
+    // A wide placement is several contenders: one row.
+    Expected row;
+    const std::size_t label = all[k].label;
+    for (; k < all.size() && all[k].label == label; ++k) row.add(all[k], turn_ahead(outcome, all[k]));
+    if (++placements <= kMostContenders) {
+      table.add_row({fmt::format("a{}", label), span_of(fixed(row.first, decimals), fixed(row.last, decimals)),
+                     fmt::format("{:.4f}", row.probability), span_of(degrees(row.turn.lo), degrees(row.turn.hi))});
+    }
+  }
+  text += "\n" + table.str();
+  if (placements > kMostContenders) {
+    text += fmt::format("... and {} more; --json lists them all\n", placements - kMostContenders);
+  }
+  return text;
+}
+
+Json advise_json(const AdviseOutcome& outcome) {
+  Json contenders = Json::array();
+  for (const Contender& contender : outcome.contenders) {
+    contenders.push_back({{"placement", contender.label},
+                          {"contact", json_number(contender.place)},
+                          {"sd", json_number(contender.sd)},
+                          {"probability", json_number(contender.probability)},
+                          {"turn", outcome.advice && outcome.advice->helps ? json_number(turn_ahead(outcome, contender))
+                                                                           : Json(nullptr)}});
+  }
+  Json document = {{"schema", "rollfix/advise/1"},
+                   {"verdict", verdict_of(outcome.located)},
+                   {"part", part_json(outcome.located.part)},
+                   {"helps", outcome.advice && outcome.advice->helps},
+                   {"why", outcome.why.empty() ? Json(nullptr) : Json(outcome.why)},
+                   {"length", nullptr},
+                   {"expected_placements", nullptr},
+                   {"bits", nullptr},
+                   {"bits_wanted", nullptr},
+                   {"contenders", contenders},
+                   {"prospects", Json::array()}};
+  if (!outcome.advice) return document;
+  const Advice& advice = *outcome.advice;
+  if (advice.helps) document["length"] = json_number(advice.advised().length);
+  document["expected_placements"] = json_number(advice.advised().placements);
+  document["bits"] = json_number(advice.advised().bits);
+  document["bits_wanted"] = json_number(advice.bits_wanted);
+  for (const Prospect& prospect : advice.prospects) {
+    document["prospects"].push_back(
+        Json::array({json_number(prospect.length), json_number(prospect.placements), json_number(prospect.bits)}));
+  }
+  return document;
+}
+
+Report advise_report(const AdviseArguments& arguments) {
+  const LocateArguments& locate = arguments.locate;
+  if (locate.readings.empty() == locate.logs.empty()) {
+    throw InputError("advise: expected --reading LENGTH,TURN or --log FILE of the roll so far");
+  }
+  require_figure_output(locate.output, locate.json);
+  if (!arguments.travel.empty()) read_travel(arguments.travel);
+  const ChosenRoll roll = locate.logs.empty() ? ChosenRoll{} : read_roll(locate.logs, locate.roll);
+  const std::vector<Log>& logs = roll.logs;
+  if (logs.empty() ? are_of_two_fingers(locate.readings) : logs.size() == 2) {
+    throw InputError("advise: expected what one finger read, found two fingers");
+  }
+  Report report;
+  if (!roll.note.empty()) report.notes.push_back(roll.note);
+  const AdviseOutcome outcome = solve(arguments, logs, report);
+  const bool complete = outcome.located.found.status == Status::complete;
+  report.exit_code = exit_code_of(complete, !outcome.contenders.empty());
+  report.data = locate.json ? json_text(advise_json(outcome)) : advise_text(outcome);
+  if (!locate.output.file.empty()) {
+    if (!outcome.advice)
+      throw InputError(fmt::format("-o {}: there is no figure: {}", locate.output.file, outcome.why));
+    add_figure(locate.output, draw_advice({*outcome.advice, outcome.located.part.name(), verdict_of(outcome.located)}),
+               report);
+  }
+  return report;
+}
+
+}  // namespace
+
+void add_advise_command(CLI::App& program, Command& chosen) {
+  const auto arguments = std::make_shared<AdviseArguments>();
+  LocateArguments& locate = arguments->locate;
+  CLI::App* command =
+      program.add_subcommand("advise", "The next roll: which one tells the remaining placements apart.");
+  command->footer(kAdviseExamples);
+  add_part_argument(*command, locate.part);
+  command
+      ->add_option("--reading", locate.readings,
+                   "of the roll so far: arc length travelled, along the stored outline, and turn of the tangent")
+      ->type_name("L,THETA")
+      ->allow_extra_args(false);
+  command->add_option("--log", locate.logs, "a tactile log of the roll so far, - for stdin")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  add_roll_argument(*command, locate.roll);
+  add_finger_argument(*command, locate.fingers);
+  command
+      ->add_option(
+          "--travel", arguments->travel,
+          "how far the finger can roll on: a length, or one backwards, below 0, and one forwards; default one lap")
+      ->type_name("BACK,FORWARD");
+  command->add_option("--tolerance", locate.tolerance, "as for locate")->type_name("ANGLE");
+  add_noise_arguments(*command, locate.noise);
+  add_output_argument(*command, locate.output,
+                      "a figure of what is to be expected by length: .svg, .png or .pdf, - for SVG on stdout");
+  add_switch(*command, "--json", locate.json, "print JSON (rollfix/advise/1)");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return advise_report(*arguments); }; });
+}
+
+}  // namespace rollfix::app

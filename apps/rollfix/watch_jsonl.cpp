@@ -1,0 +1,145 @@
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "rollfix/json_output.hpp"
+#include "rollfix/locate_outcome.hpp"
+#include "rollfix/watch_writer.hpp"
+#include "rollfix/weighing.hpp"
+
+namespace rollfix::app {
+namespace {
+
+constexpr const char* kSchema = "rollfix/watch/1";
+
+/// As in locate's JSON: one entry per finger.
+Json one_finger(Json value) { return Json::array({std::move(value)}); }
+
+Json mode_json(const Mode& mode, const Part& part) {
+  const Vec2 point = part.point(mode.start);
+  return {{"start", one_finger(json_number(mode.start))},
+          {"end", one_finger(json_number(mode.end))},
+          {"probability", json_number(mode.probability)},
+          {"mean", one_finger(json_number(mode.mean))},
+          {"sd", one_finger(json_number(mode.sd))},
+          {"interval", one_finger(json_interval(mode.interval))},
+          {"end_mean", one_finger(json_number(mode.end_mean))},
+          {"end_sd", one_finger(json_number(mode.end_sd))},
+          {"point", one_finger(Json::array({json_number(point.x()), json_number(point.y())}))},
+          {"tangent", one_finger(json_number(std::remainder(mode.tangent, 2 * std::numbers::pi)))}};
+}
+
+Json event_json(const char* name) { return {{"schema", kSchema}, {"event", name}}; }
+
+Json answer_json(const char* name, const WatchAnswer& answer, const Part& part) {
+  Json event = event_json(name);
+  event["roll"] = answer.roll;
+  event["samples"] = answer.samples;
+  event["line"] = answer.sample.line;
+  event["time"] = answer.sample.time ? json_number(*answer.sample.time) : Json(nullptr);
+  // What has not moved yet is 0 and not -0.
+  event["reading"] = {{"length", one_finger(json_number(answer.sample.reading.length + 0.0))},
+                      {"turn", json_number(answer.sample.reading.turn)}};
+  event["verdict"] = answer.verdict;
+  event["placements"] = Json::array();
+  for (const Mode& mode : answer.modes) event["placements"].push_back(mode_json(mode, part));
+  event["rest"] = json_number(answer.rest);
+  event["excess"] = json_number(answer.excess);
+  return event;
+}
+
+Json counts_json(const WatchCounts& counts) {
+  return {{"lines", counts.lines},
+          {"samples", counts.samples},
+          {"rolls", counts.rolls},
+          {"malformed", counts.malformed},
+          {"reconnects", counts.reconnects}};
+}
+
+const char* word_for(RollEnd why) {
+  switch (why) {
+    case RollEnd::lost:
+      return "lost";
+    case RollEnd::jump:
+      return "jump";
+    case RollEnd::restarted:
+      return "restarted";
+    case RollEnd::ended:
+      break;
+  }
+  return "ended";
+}
+
+const char* word_for(WatchEnd why) {
+  switch (why) {
+    case WatchEnd::stream:
+      return "stream";
+    case WatchEnd::signal:
+      return "signal";
+    case WatchEnd::idle:
+      break;
+  }
+  return "idle";
+}
+
+class JsonlWriter : public WatchWriter {
+ public:
+  JsonlWriter(const Part& part, std::ostream& out, std::ostream& err, std::function<bool()> is_ready)
+      : WatchWriter(out, err, std::move(is_ready)), part_(part) {}
+
+  void begin(const Part& part, const WatchOptions& options) override {
+    Json event = event_json("begin");
+    event["part"] = part_json(part);
+    event["fingers"] = 1;
+    event["log"] = options.name;
+    event["noise"] = noise_json(options.belief.noise);
+    event["prior"] = nullptr;
+    if (const auto& prior = options.belief.prior) {
+      event["prior"] = Json::array({json_number(prior->s), json_number(prior->sd)});
+    }
+    event["robust"] = options.belief.robust;
+    announce(line_of(event));
+  }
+
+  void found(const WatchAnswer& answer) override { write_event(answer_json("found", answer, part_)); }
+  void changed(const WatchAnswer& answer) override { write_event(answer_json("placements", answer, part_)); }
+
+  void over(const WatchAnswer& answer, RollEnd why) override {
+    Json event = answer_json("over", answer, part_);
+    event["why"] = word_for(why);
+    event["diagnosis"] = diagnosis_json(answer.diagnosis);
+    write_event(event);
+  }
+
+  void resumed(const WatchCounts& counts) override {
+    Json event = event_json("resumed");
+    event["counts"] = counts_json(counts);
+    write_event(event);
+  }
+
+  void end(WatchEnd why, const WatchAnswer& last, const WatchCounts& counts) override {
+    Json event = event_json("end");
+    event["why"] = word_for(why);
+    event["verdict"] = last.roll > 0 ? Json(last.verdict) : Json(nullptr);
+    event["counts"] = counts_json(counts);
+    event["seconds_per_sample"] = json_number(counts.seconds_per_sample());
+    write_event(event);
+  }
+
+ private:
+  static std::string line_of(const Json& event) {
+    return event.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  }
+  void write_event(const Json& event) { write(line_of(event)); }
+
+  Part part_;
+};
+
+}  // namespace
+
+std::unique_ptr<WatchWriter> watch_jsonl(const Part& part, std::ostream& out, std::ostream& err,
+                                         std::function<bool()> is_ready) {
+  return std::make_unique<JsonlWriter>(part, out, err, std::move(is_ready));
+}
+
+}  // namespace rollfix::app

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <functional>
+#include <iosfwd>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "rollfix/watch_limit.hpp"
+#include "rollfix/watcher.hpp"
+
+namespace rollfix::app {
+
+/// Why the watch is over.
+enum class WatchEnd {
+  stream,  // the log ended
+  signal,  // the user stopped it
+  idle     // nothing came for too long
+};
+
+/// "end of input", "stopped", "nothing more came".
+std::string name_of(WatchEnd end);
+
+/// Tells what happens, as it happens: data to `out`, a whole line at a time, and notes to `err`.
+class WatchWriter : public WatchListener {
+ public:
+  /// `is_ready`: whether `out` takes a line without waiting.
+  WatchWriter(std::ostream& out, std::ostream& err, std::function<bool()> is_ready);
+
+  /// What is watched. It is shown before anything else is, or by show(): a log that can't be read at all shows nothing.
+  virtual void begin(const Part& part, const WatchOptions& options) = 0;
+  void show();
+  virtual void resumed(const WatchCounts& counts) = 0;  // after a dropped connection
+  virtual void end(WatchEnd why, const WatchAnswer& last, const WatchCounts& counts) = 0;
+
+  void note(const std::string& message) final;  // not all of them when there are many
+  bool is_ready() final { return is_ready_(); }
+
+ protected:
+  void announce(std::string lines) { announced_ = std::move(lines); }
+  /// Throws InputError: can't be written to.
+  void write(const std::string& lines);
+
+ private:
+  std::string announced_;  // and not shown yet
+  std::ostream& out_;
+  std::ostream& err_;
+  std::function<bool()> is_ready_;
+  NoteLimit limit_;
+};
+
+/// For people: a table that grows.
+std::unique_ptr<WatchWriter> watch_text(const Part& part, std::ostream& out, std::ostream& err,
+                                        std::function<bool()> is_ready);
+/// For programs: an object per line, "rollfix/watch/1"; docs/json.md lists the fields.
+std::unique_ptr<WatchWriter> watch_jsonl(const Part& part, std::ostream& out, std::ostream& err,
+                                         std::function<bool()> is_ready);
+
+/// Whether standard output takes a line without waiting for whoever reads it.
+bool standard_output_is_ready();
+
+}  // namespace rollfix::app

@@ -1,0 +1,179 @@
+#include "rollfix/watcher.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <limits>
+#include <utility>
+
+namespace rollfix::app {
+namespace {
+
+using WorkClock = std::chrono::steady_clock;
+
+// What is known of a roll changes little while it grows by less than this.
+constexpr double kGrowth = 0.1;
+
+/// Adds the time that passes while it lives.
+class WorkTime {
+ public:
+  explicit WorkTime(double& seconds) : seconds_(seconds) {}
+  ~WorkTime() { seconds_ += std::chrono::duration<double>(WorkClock::now() - start_).count(); }
+  WorkTime(const WorkTime&) = delete;
+  WorkTime& operator=(const WorkTime&) = delete;
+
+ private:
+  double& seconds_;
+  WorkClock::time_point start_ = WorkClock::now();
+};
+
+}  // namespace
+
+double WatchCounts::seconds_per_sample() const {
+  return samples > 0 ? seconds / static_cast<double>(samples) : std::numeric_limits<double>::quiet_NaN();
+}
+
+Watcher::Watcher(const Part& part, WatchOptions options, WatchListener& listener)
+    : part_(part), options_(std::move(options)), listener_(listener), stream_(new_stream()) {
+  // What can't be right of the noise is said now and not at the first contact.
+  const Belief trial(part_, LogKind::contact, options_.belief);
+}
+
+void Watcher::push(const ReadLine& line) {
+  const LogLine row = read(line);
+  switch (row.kind) {
+    case LineKind::nothing:
+      return;
+    case LineKind::first:
+      begin_roll(row.sample);
+      return;
+    case LineKind::sample:
+      add(row.sample);
+      return;
+    case LineKind::lost:
+      end_roll(RollEnd::lost);
+      return;
+    case LineKind::jump:
+      listener_.note(row.message);
+      end_roll(RollEnd::jump);
+      begin_roll(row.sample);
+      return;
+    case LineKind::malformed:
+      ++counts_.malformed;
+      listener_.note(row.message);
+      return;
+  }
+}
+
+void Watcher::resume() {
+  ++counts_.reconnects;
+  stream_.resume();
+}
+
+void Watcher::restart() {
+  end_roll(RollEnd::restarted);
+  stream_ = new_stream();
+}
+
+void Watcher::finish() { end_roll(RollEnd::ended); }
+
+LogStream Watcher::new_stream() const {
+  return LogStream(options_.name, part_, options_.finger, options_.belief.noise);
+}
+
+LogLine Watcher::read(const ReadLine& line) {
+  const WorkTime time(counts_.seconds);
+  ++counts_.lines;
+  if (!line.too_long) return stream_.push(line.text);
+  stream_.push("#");  // it counts as a line all the same
+  LogLine row;
+  row.kind = LineKind::malformed;
+  row.message = fmt::format("{}:{}: expected a row of numbers, found more than {} bytes without a line end",
+                            options_.name, stream_.lines(), kLongestLine);
+  return row;
+}
+
+void Watcher::begin_roll(const Sample& sample) {
+  {
+    const WorkTime time(counts_.seconds);
+    belief_.emplace(part_, stream_.kind(), options_.belief);
+  }
+  ++counts_.rolls;
+  samples_ = 0;
+  take(sample);
+  look();
+  said_ = answer_;
+  has_news_ = false;
+  listener_.found(answer_);
+}
+
+void Watcher::add(const Sample& sample) {
+  take(sample);
+  if (options_.every > 0) {
+    if (samples_ % options_.every != 0) return;
+    look();
+    tell();
+    return;
+  }
+  if (is_time_to_look()) look();
+  tell_news();
+}
+
+void Watcher::take(const Sample& sample) {
+  const WorkTime time(counts_.seconds);
+  belief_->add(sample);
+  ++counts_.samples;
+  ++samples_;
+  last_ = sample;
+}
+
+bool Watcher::is_time_to_look() const {
+  const auto grown = static_cast<double>(samples_ - answer_.samples);
+  if (grown >= kGrowth * static_cast<double>(answer_.samples)) return true;
+  return options_.live && WorkClock::now() - looked_ >= kMostDelay;
+}
+
+void Watcher::look() {
+  const WorkTime time(counts_.seconds);
+  answer_.roll = counts_.rolls;
+  answer_.samples = samples_;
+  answer_.sample = last_;
+  answer_.verdict = belief_->verdict();
+  answer_.modes = belief_->modes();
+  answer_.rest = belief_->rest();
+  answer_.excess = belief_->excess();
+  has_news_ = is_news(said_, answer_, part_);
+  if (options_.live) looked_ = WorkClock::now();
+}
+
+void Watcher::end_roll(RollEnd why) {
+  if (!belief_) return;
+  if (answer_.samples < samples_) look();
+  if (answer_.verdict == kInconsistent) answer_.diagnosis = belief_->diagnosis();
+  belief_.reset();
+  has_news_ = false;
+  listener_.over(answer_, why);
+}
+
+bool Watcher::is_behind() const {
+  if (!belief_ || options_.every > 0) return false;
+  return has_news_ || (options_.live && answer_.samples < samples_);
+}
+
+void Watcher::catch_up() {
+  if (!is_behind()) return;
+  if (answer_.samples < samples_) look();
+  tell_news();
+}
+
+void Watcher::tell_news() {
+  if (has_news_ && listener_.is_ready()) tell();
+}
+
+void Watcher::tell() {
+  said_ = answer_;
+  has_news_ = false;
+  listener_.changed(answer_);
+}
+
+}  // namespace rollfix::app

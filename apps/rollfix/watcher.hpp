@@ -1,0 +1,115 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "rollfix/belief/belief.hpp"
+#include "rollfix/contact/log_stream.hpp"
+#include "rollfix/part/part.hpp"
+#include "rollfix/watch_answer.hpp"
+#include "rollfix/watch_line_buffer.hpp"
+
+namespace rollfix::app {
+
+/// Why a roll is over.
+enum class RollEnd {
+  lost,       // contact
+  jump,       // the next row is farther away than is physical: another roll
+  restarted,  // another log began
+  ended       // there is no more of the log
+};
+
+/// Who is told what happens in a growing log.
+class WatchListener {
+ public:
+  WatchListener() = default;
+  virtual ~WatchListener() = default;
+  WatchListener(const WatchListener&) = delete;
+  WatchListener& operator=(const WatchListener&) = delete;
+
+  virtual void found(const WatchAnswer& answer) = 0;              // contact: a roll begins
+  virtual void changed(const WatchAnswer& answer) = 0;            // there is something new to say of it
+  virtual void over(const WatchAnswer& answer, RollEnd why) = 0;  // and this is the last that is known of it
+  virtual void note(const std::string& message) = 0;              // a line that can't be read, a jump
+  /// Whether a change can be told without making the log wait. What is told later is then what is known by then.
+  virtual bool is_ready() = 0;
+};
+
+/// How a growing log is watched.
+struct WatchOptions {
+  std::string name;              // of the log, for messages
+  std::optional<Finger> finger;  // for logs of u and psi
+  BeliefOptions belief;
+  std::size_t every = 0;  // tell every so many samples; 0: when there is news
+  bool live = false;      // somebody waits: nothing that is new is kept back for longer than kMostDelay
+};
+
+/// Somebody who watches a screen, and a robot's next decision, can wait this long.
+inline constexpr std::chrono::milliseconds kMostDelay{100};
+
+struct WatchCounts {
+  std::size_t lines = 0;
+  std::size_t samples = 0;
+  std::size_t rolls = 0;
+  std::size_t malformed = 0;
+  std::size_t reconnects = 0;
+  double seconds = 0;  // spent on the lines, without waiting for them and without telling
+
+  double seconds_per_sample() const;  // not a number without samples
+};
+
+/// Turns the lines of a growing log into news of where the contact is, in constant memory. Knows no files or streams.
+///
+/// Taking a sample is cheap, working out what it means is not. So that is done after every sample at first, and then
+/// each time a roll has grown by a tenth; where it is live as often as kMostDelay asks for as well.
+class Watcher {
+ public:
+  /// Throws InputError: noise or prior that are not valid.
+  Watcher(const Part& part, WatchOptions options, WatchListener& listener);
+
+  /// Throws InputError: what LogStream::push throws.
+  void push(const ReadLine& line);
+  /// The connection dropped and is there again.
+  void resume();
+  /// Another log begins.
+  void restart();
+  /// The log is over.
+  void finish();
+
+  /// Whether there are samples that nothing was made of yet, or news that the listener was not ready for: then
+  /// catch_up() is due when no line has come for kMostDelay.
+  bool is_behind() const;
+  void catch_up();
+
+  const WatchCounts& counts() const { return counts_; }
+  const WatchAnswer& last_answer() const { return answer_; }  // roll 0: there was none yet
+
+ private:
+  LogStream new_stream() const;
+  LogLine read(const ReadLine& line);
+  void begin_roll(const Sample& sample);
+  void add(const Sample& sample);
+  void take(const Sample& sample);
+  bool is_time_to_look() const;
+  void look();
+  void end_roll(RollEnd why);
+  void tell_news();
+  void tell();
+
+  Part part_;
+  WatchOptions options_;
+  WatchListener& listener_;
+  LogStream stream_;
+  std::optional<Belief> belief_;  // of the roll that goes on
+  std::size_t samples_ = 0;       // of this roll
+  Sample last_;                   // of these
+  WatchAnswer answer_;            // when it was last worked out
+  WatchAnswer said_;              // what the listener knows
+  std::chrono::steady_clock::time_point looked_{};
+  bool has_news_ = false;
+  WatchCounts counts_;
+};
+
+}  // namespace rollfix::app

@@ -1,0 +1,225 @@
+#include "rollfix/belief/advise.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "belief/square.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/part/period.hpp"
+
+namespace rollfix {
+
+namespace {
+
+using belief::square;
+
+// Lengths that are looked at, each way.
+constexpr std::size_t kSteps = 400;
+// A wide placement is this many contenders.
+constexpr std::size_t kOfAWidePlacement = 15;
+// One is wide from this share of the perimeter on.
+constexpr double kWidePlacement = 1e-3;
+// A mode is wide from this standard deviation on, a share of the perimeter: it is this many contenders then, at the
+// quantiles 1/14, 3/14, ... of a normal distribution.
+constexpr double kWideSpread = 0.005;
+constexpr std::array<double, 7> kSevenDeviates = {-1.465, -0.792, -0.366, 0, 0.366, 0.792, 1.465};
+// A contender with less probability is not waited for, nor counted among those that remain.
+constexpr double kContenderCounts = 0.01;
+// The advised roll gains at least this share of what the best one does ...
+constexpr double kNearlyAll = 0.98;
+// ... and leaves no more than this many placements more.
+constexpr double kNearlyAsFew = 0.02;
+// A roll that gains less than this share of the bits wanted is no help.
+constexpr double kHelp = 0.05;
+
+double entropy(const std::vector<double>& weights) {
+  double bits = 0;
+  for (const double p : weights) {
+    if (p > 0) bits -= p * std::log2(p);
+  }
+  return bits;
+}
+
+/// The lengths that every contender that counts can roll over.
+Interval common_travel(const Part& part, const std::vector<Contender>& contenders, const AdviceOptions& options) {
+  const double P = part.perimeter();
+  Interval travel = options.travel.value_or(Interval{-P, P});
+  for (const Contender& contender : contenders) {
+    if (contender.probability < kContenderCounts && contenders.size() > 1) continue;
+    if (!part.closed()) {
+      travel.lo = std::max(travel.lo, -contender.place);
+      travel.hi = std::min(travel.hi, P - contender.place);
+    }
+    if (options.reach == nullptr || options.reach->whole_loop) continue;
+    const std::optional<Interval> arc = options.reach->arc_at(contender.place);
+    if (!arc) continue;
+    travel.lo = std::max(travel.lo, std::min(0.0, arc->lo - contender.place));
+    travel.hi = std::min(travel.hi, std::max(0.0, arc->hi - contender.place));
+  }
+  return travel;
+}
+
+/// Contenders compared while they roll one way: the largest distances so far.
+class Comparison {
+ public:
+  Comparison(const Part& part, const std::vector<Contender>& contenders, const AdviceOptions& options)
+      : part_(part), contenders_(contenders), options_(options) {
+    const std::size_t n = contenders.size();
+    distance_.assign(n * n, 0);
+    for (const Contender& contender : contenders) start_.push_back(part.turning().at(contender.place));
+  }
+
+  /// Rolls on to x and says what is to be expected then.
+  Prospect roll_to(double x) {
+    const std::size_t n = contenders_.size();
+    std::vector<double> turn(n);
+    std::vector<double> variance(n);
+    const double length_variance = square(options_.length_sd) + square(options_.length_share_sd * x);
+    for (std::size_t i = 0; i < n; ++i) {
+      const Turning now = part_.turning().at(contenders_[i].place + x);
+      turn[i] = now.angle - start_[i].angle;
+      variance[i] = square(options_.turn_sd) + length_variance * square(now.curvature) +
+                    square(contenders_[i].sd * (now.curvature - start_[i].curvature));
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        const double squared = square(turn[i] - turn[j]) / (variance[i] + variance[j]);
+        double& most = distance_[i * n + j];
+        most = std::max(most, squared);
+        distance_[j * n + i] = most;
+      }
+    }
+    return expected(x);
+  }
+
+ private:
+  Prospect expected(double x) const {
+    const std::size_t n = contenders_.size();
+    std::vector<double> prior(n);
+    for (std::size_t i = 0; i < n; ++i) prior[i] = contenders_[i].probability;
+    Prospect prospect{x, 0, entropy(prior)};
+    std::vector<double> left(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      // Contender i is the true one: what the others are worth then.
+      double total = 0;
+      for (std::size_t j = 0; j < n; ++j) total += left[j] = prior[j] * std::exp(-0.5 * distance_[i * n + j]);
+      std::vector<double> of_label;
+      for (std::size_t j = 0; j < n; ++j) {
+        left[j] /= total;
+        if (contenders_[j].label >= of_label.size()) of_label.resize(contenders_[j].label + 1, 0);
+        of_label[contenders_[j].label] += left[j];
+      }
+      prospect.bits -= prior[i] * entropy(left);
+      const auto counts =
+          std::count_if(of_label.begin(), of_label.end(), [](double p) { return p >= kContenderCounts; });
+      prospect.placements += prior[i] * static_cast<double>(counts);
+    }
+    return prospect;
+  }
+
+  const Part& part_;
+  const std::vector<Contender>& contenders_;
+  const AdviceOptions& options_;
+  std::vector<double> distance_;  // squared, of each pair
+  std::vector<Turning> start_;
+};
+
+void require_valid(const std::vector<Contender>& contenders, const AdviceOptions& options) {
+  if (contenders.empty()) throw InputError("advise: expected at least one place where the contact may be, found none");
+  if (!(options.turn_sd > 0)) {
+    throw InputError(fmt::format("advise: the turn's standard deviation is {}, expected one above 0", options.turn_sd));
+  }
+  if (options.travel && !(options.travel->lo <= 0 && options.travel->hi >= 0)) {
+    throw InputError(fmt::format("advise: the travel goes from {} to {}, expected it to hold 0: where the finger is",
+                                 options.travel->lo, options.travel->hi));
+  }
+}
+
+bool is_better(const Prospect& one, const Prospect& other) {
+  if (one.placements != other.placements) return one.placements < other.placements;
+  return one.bits > other.bits;
+}
+
+}  // namespace
+
+std::vector<Contender> contenders_of(const Part& part, const Search& found) {
+  const double P = part.perimeter();
+  std::vector<Contender> contenders;
+  for (std::size_t k = 0; k < found.placements.size(); ++k) {
+    const Placement& placement = found.placements[k];
+    const double share = 1 / static_cast<double>(found.placements.size());
+    const double rolled = placement.end - placement.start;
+    if (placement.extent.width() < kWidePlacement * P) {
+      contenders.push_back({placement.end, 0, share, k});
+      continue;
+    }
+    for (std::size_t i = 0; i < kOfAWidePlacement; ++i) {
+      const double t = (static_cast<double>(i) + 0.5) / static_cast<double>(kOfAWidePlacement);
+      const double s = placement.extent.lo + t * placement.extent.width() + rolled;
+      contenders.push_back({part.closed() ? wrap(s, P).base : s, 0, share / static_cast<double>(kOfAWidePlacement), k});
+    }
+  }
+  return contenders;
+}
+
+std::vector<Contender> contenders_of(const Part& part, const std::vector<Mode>& modes) {
+  std::vector<Contender> contenders;
+  double total = 0;
+  for (const Mode& mode : modes) total += mode.probability;
+  for (std::size_t k = 0; k < modes.size(); ++k) {
+    const Mode& mode = modes[k];
+    const double share = mode.probability / total;
+    if (mode.end_sd < kWideSpread * part.perimeter()) {
+      contenders.push_back({mode.end_mean, mode.end_sd, share, k});
+      continue;
+    }
+    // As many places of the same probability, as if the mode were normal.
+    for (const double deviate : kSevenDeviates) {
+      const double s = mode.end_mean + deviate * mode.end_sd;
+      const double place = part.closed() ? wrap(s, part.perimeter()).base : std::clamp(s, 0.0, part.perimeter());
+      contenders.push_back({place, mode.end_sd / kSevenDeviates.size(), share / kSevenDeviates.size(), k});
+    }
+  }
+  return contenders;
+}
+
+Advice advise(const Part& part, const std::vector<Contender>& contenders, const AdviceOptions& options) {
+  require_valid(contenders, options);
+  const Interval travel = common_travel(part, contenders, options);
+  Advice advice;
+  std::vector<double> prior;
+  for (const Contender& contender : contenders) prior.push_back(contender.probability);
+  advice.bits_wanted = entropy(prior);
+
+  Comparison back(part, contenders, options);
+  for (std::size_t k = 1; k <= kSteps && travel.lo < 0; ++k) {
+    advice.prospects.push_back(back.roll_to(travel.lo * static_cast<double>(k) / kSteps));
+  }
+  std::reverse(advice.prospects.begin(), advice.prospects.end());
+  Comparison forward(part, contenders, options);
+  const std::size_t here = advice.prospects.size();
+  for (std::size_t k = 0; k <= kSteps && (k == 0 || travel.hi > 0); ++k) {
+    advice.prospects.push_back(forward.roll_to(travel.hi * static_cast<double>(k) / kSteps));
+  }
+
+  Prospect most = advice.prospects[here];
+  for (const Prospect& prospect : advice.prospects) {
+    if (is_better(prospect, most)) most = prospect;
+  }
+  advice.best = here;
+  for (std::size_t k = 0; k < advice.prospects.size(); ++k) {
+    const Prospect& prospect = advice.prospects[k];
+    const bool is_enough =
+        prospect.bits >= kNearlyAll * most.bits && prospect.placements <= most.placements + kNearlyAsFew;
+    if (!is_enough) continue;
+    const bool is_first = advice.best == here && here != k;
+    if (is_first || std::abs(prospect.length) < std::abs(advice.advised().length)) advice.best = k;
+  }
+  advice.helps = most.bits > kHelp * advice.bits_wanted && advice.best != here;
+  return advice;
+}
+
+}  // namespace rollfix

@@ -1,0 +1,225 @@
+#include "belief/felt_turning.hpp"
+
+#include <algorithm>
+#include <array>
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "rollfix/part/period.hpp"
+
+namespace rollfix::belief {
+
+namespace {
+
+// A normal distribution further out than this many standard deviations holds 6e-7 of its mass.
+constexpr double kTail = 5;
+// First knots per perimeter; between them the table is refined.
+constexpr std::size_t kFirstKnots = 64;
+constexpr int kMostKnotHalvings = 14;
+// The variance is interpolated to this share of itself, or of what the angles are known to.
+constexpr double kShareOfVariance = 0.05;
+constexpr std::size_t kBucketsPerKnot = 2;
+
+double square_of(double x) { return x * x; }
+
+using Rule = boost::math::quadrature::gauss<double, 15>;
+
+/// Sums over a distribution of (offset of place n, offset of angle y).
+struct Moments {
+  double mass = 0;
+  double n = 0;
+  double nn = 0;
+  double y = 0;
+  double yn = 0;
+  double yy = 0;
+
+  void add(double weight, double place, double angle) {
+    mass += weight;
+    n += weight * place;
+    nn += weight * place * place;
+    y += weight * angle;
+    yn += weight * angle * place;
+    yy += weight * angle * angle;
+  }
+};
+
+}  // namespace
+
+FeltTurning::FeltTurning(const TurningFunction& turning, double sd, double corner_length, double normal_turn,
+                         double accuracy)
+    : turning_(&turning), sd_(sd), corner_length_(corner_length), normal_turn_(normal_turn) {
+  const double P = turning.perimeter();
+  lo_ = turning.closed() ? 0 : -2 * kTail * sd;
+  hi_ = turning.closed() ? P : P + 2 * kTail * sd;
+  add_knots((hi_ - lo_) / static_cast<double>(kFirstKnots), accuracy);
+  index();
+}
+
+Felt FeltTurning::integrated(double s) const {
+  const TurningFunction& turning = *turning_;
+  const std::vector<Spiral>& spirals = turning.spirals();
+  const double P = turning.perimeter();
+  const double from = s - kTail * sd_;
+  const double to = s + kTail * sd_;
+  const double reference = turning.angle(s);
+  Moments moments;
+  const auto density = [&](double n) { return std::exp(-0.5 * square_of(n / sd_)); };
+  const auto add_stretch = [&](double lo, double hi, const auto& angle) {
+    const double middle = 0.5 * (lo + hi);
+    const double half = 0.5 * (hi - lo);
+    if (half <= 0) return;
+    const auto& nodes = Rule::abscissa();
+    const auto& weights = Rule::weights();
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      for (const double side : {-1.0, 1.0}) {
+        if (k == 0 && side > 0) continue;  // the middle one
+        const double at = middle + side * half * nodes[k];
+        moments.add(weights[k] * half * density(at - s), at - s, angle(at) - reference);
+      }
+    }
+  };
+  if (!turning.closed()) {
+    add_stretch(from, std::min(to, 0.0), [&](double) { return spirals.front().start.angle; });
+    add_stretch(std::max(from, P), to, [&](double) { return spirals.back().end.angle; });
+  }
+  const double begin = turning.closed() ? from : std::max(from, 0.0);
+  const double end = turning.closed() ? to : std::min(to, P);
+  if (begin < end) {
+    const Wrapped first = turning.closed() ? wrap(begin, P) : Wrapped{begin, 0};
+    std::size_t k = turning.spiral_at(first.base);
+    double winding = first.winding;
+    bool is_first = true;
+    double before = 0;  // the tangent where the last spiral ended
+    while (true) {
+      const Spiral& spiral = spirals[k];
+      const double shift = winding * P;
+      const double lift = winding * turning.period_turn();
+      if (spiral.lo + shift >= end) break;
+      const double jump = spiral.start.angle + lift - before;
+      const double at = spiral.lo + shift;
+      if (!is_first && jump > kTurnAccuracy && at > from) {
+        // A pivot: every direction in between, alike.
+        const double weight = corner_length_ * jump * density(at - s);
+        const double middle = before + 0.5 * jump - reference;
+        moments.add(weight, at - s, middle);
+        moments.yy += weight * square_of(jump) / 12;
+      }
+      // Halves: over all of the tails one rule is not enough.
+      const auto angle = [&](double place) { return turning.on_spiral(spiral, place - shift).angle + lift; };
+      add_stretch(std::max(begin, at), std::min({end, spiral.hi + shift, s}), angle);
+      add_stretch(std::max({begin, at, s}), std::min(end, spiral.hi + shift), angle);
+      before = spiral.end.angle + lift;
+      is_first = false;
+      if (++k == spirals.size()) {
+        if (!turning.closed()) break;
+        k = 0;
+        winding += 1;
+      }
+    }
+  }
+  // Y = Theta + n / r.
+  const double mean_n = moments.n / moments.mass;
+  const double spread_n = moments.nn / moments.mass - square_of(mean_n);
+  const double mean_angle = moments.y / moments.mass;
+  const double both_angle = moments.yn / moments.mass - mean_angle * mean_n;
+  const double spread_angle = moments.yy / moments.mass - square_of(mean_angle);
+  const double mean = mean_angle + normal_turn_ * mean_n;
+  const double both = both_angle + normal_turn_ * spread_n;
+  const double spread = spread_angle + normal_turn_ * (2 * both_angle + normal_turn_ * spread_n);
+  Felt felt;
+  felt.angle = reference + mean;
+  // The mean's derivative: moving s tilts the density by n / sd^2, and n is counted from there.
+  felt.slope = both / square_of(sd_) - normal_turn_;
+  felt.variance = std::max(0.0, spread);
+  return felt;
+}
+
+void FeltTurning::add_knots(double spacing, double accuracy) {
+  std::vector<double> first;
+  const auto count = static_cast<std::size_t>(std::ceil((hi_ - lo_) / spacing));
+  for (std::size_t k = 0; k <= count; ++k) {
+    first.push_back(lo_ + (hi_ - lo_) * static_cast<double>(k) / static_cast<double>(count));
+  }
+  for (const Spiral& spiral : turning_->spirals()) {
+    for (const double sigmas : {-4.0, -2.0, -1.0, 0.0, 1.0, 2.0, 4.0}) {
+      const double at = spiral.lo + sigmas * sd_;
+      if (at > lo_ && at < hi_) first.push_back(at);
+      const double across = spiral.hi + sigmas * sd_;
+      if (across > lo_ && across < hi_) first.push_back(across);
+    }
+  }
+  std::sort(first.begin(), first.end());
+  const double least = 1e-3 * sd_;
+  const auto knot_at = [&](double s) { return Knot{s, integrated(s)}; };
+  knots_.push_back(knot_at(first.front()));
+  struct Task {
+    Knot hi;
+    int depth;
+  };
+  for (const double s : first) {
+    if (s - knots_.back().s < least && s != first.back()) continue;
+    if (s <= knots_.back().s) continue;
+    std::vector<Task> tasks{{knot_at(s), 0}};
+    while (!tasks.empty()) {
+      const Knot lo = knots_.back();
+      const Task task = tasks.back();
+      const Knot& hi = task.hi;
+      const double h = hi.s - lo.s;
+      const Knot middle = knot_at(lo.s + 0.5 * h);
+      const double guess = 0.5 * (lo.felt.angle + hi.felt.angle) + 0.125 * h * (lo.felt.slope - hi.felt.slope);
+      const double variance = 0.5 * (lo.felt.variance + hi.felt.variance);
+      const bool is_good = std::abs(guess - middle.felt.angle) <= accuracy &&
+                           std::abs(variance - middle.felt.variance) <=
+                               kShareOfVariance * (middle.felt.variance + square_of(accuracy) / kShareOfVariance);
+      if (!is_good && task.depth < kMostKnotHalvings && h > 2 * least) {
+        tasks.back().depth += 1;
+        tasks.push_back({middle, task.depth + 1});
+        continue;
+      }
+      knots_.push_back(middle);
+      knots_.push_back(hi);
+      tasks.pop_back();
+    }
+  }
+}
+
+void FeltTurning::index() {
+  const std::size_t count = kBucketsPerKnot * knots_.size();
+  buckets_per_length_ = static_cast<double>(count) / (hi_ - lo_);
+  bucket_.resize(count);
+  std::size_t knot = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    // A step earlier, so that rounding can't make a place precede its bucket's knot.
+    const double start = lo_ + (static_cast<double>(k) - 1) / buckets_per_length_;
+    while (knot + 2 < knots_.size() && knots_[knot + 1].s <= start) ++knot;
+    bucket_[k] = knot;
+  }
+}
+
+Felt FeltTurning::at(double s) const {
+  double base = s;
+  double lift = 0;
+  if (turning_->closed()) {
+    const Wrapped wrapped = wrap(s, turning_->perimeter());
+    base = wrapped.base;
+    lift = wrapped.winding * turning_->period_turn();
+  } else if (s <= lo_ || s >= hi_) {
+    return {s <= lo_ ? knots_.front().felt.angle : knots_.back().felt.angle, 0, 0};
+  }
+  const auto step = static_cast<std::size_t>(std::max(0.0, (base - lo_) * buckets_per_length_));
+  std::size_t k = bucket_[std::min(step, bucket_.size() - 1)];
+  while (k + 2 < knots_.size() && knots_[k + 1].s <= base) ++k;
+  const Knot& lo = knots_[k];
+  const Knot& hi = knots_[k + 1];
+  // Hermite's cubic.
+  const double h = hi.s - lo.s;
+  const double x = base - lo.s;
+  const double mean = (hi.felt.angle - lo.felt.angle) / h;
+  const double b = (3 * mean - 2 * lo.felt.slope - hi.felt.slope) / h;
+  const double c = (lo.felt.slope + hi.felt.slope - 2 * mean) / (h * h);
+  return {lo.felt.angle + x * (lo.felt.slope + x * (b + x * c)) + lift, lo.felt.slope + x * (2 * b + x * 3 * c),
+          lo.felt.variance + (hi.felt.variance - lo.felt.variance) * x / h};
+}
+
+}  // namespace rollfix::belief

@@ -1,0 +1,259 @@
+#include "belief/modes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "rollfix/part/period.hpp"
+
+namespace rollfix::belief {
+
+namespace {
+
+// Two peaks are two places when the density between them is below exp(-3) = 5 % of the lower one.
+constexpr double kValley = 3;
+// A mode with less probability than this is not listed.
+constexpr double kLeastProbability = 1e-4;
+constexpr double kCredible = 0.95;
+// A cell with less is not told of.
+constexpr double kLeastShare = 1e-9;
+
+using Cells = std::vector<GridCell>;
+
+/// A run of cells; `turns`: how often each of them lies beyond the seam of a closed boundary.
+struct Run {
+  std::vector<const GridCell*> cells;
+  std::vector<double> turns;
+};
+
+/// Cuts the cells of one arc, in order, at the valleys of the density.
+std::vector<Run> cut_at_valleys(const Run& arc) {
+  std::vector<Run> runs;
+  double peak = -std::numeric_limits<double>::infinity();
+  double valley = peak;
+  std::size_t valley_at = 0;
+  std::size_t begin = 0;
+  const auto close = [&](std::size_t end) {
+    Run run;
+    for (std::size_t k = begin; k < end; ++k) {
+      run.cells.push_back(arc.cells[k]);
+      run.turns.push_back(arc.turns[k]);
+    }
+    runs.push_back(std::move(run));
+    begin = end;
+  };
+  for (std::size_t k = 0; k < arc.cells.size(); ++k) {
+    const double density = arc.cells[k]->log_density;
+    const bool has_peak = std::isfinite(peak);
+    if (has_peak && density > valley + kValley && valley < peak - kValley) {
+      close(valley_at);
+      peak = valley = density;
+      valley_at = k;
+    } else if (density > peak) {
+      peak = valley = density;
+      valley_at = k;
+    } else if (density < valley) {
+      valley = density;
+      valley_at = k;
+    }
+  }
+  close(arc.cells.size());
+  return runs;
+}
+
+/// The cells of each arc; a loop's from where the density is least on.
+std::vector<Run> arcs_of(const Grid& grid, const TiltedBoundary& boundary) {
+  std::vector<Run> arcs(boundary.arcs().size());
+  for (const GridCell& cell : grid.cells()) {
+    arcs[cell.arc].cells.push_back(&cell);
+    arcs[cell.arc].turns.push_back(0);
+  }
+  for (std::size_t a = 0; a < arcs.size(); ++a) {
+    if (!boundary.arcs()[a].loop()) continue;
+    Run& arc = arcs[a];
+    const auto least = std::min_element(
+        arc.cells.begin(), arc.cells.end(),
+        [](const GridCell* one, const GridCell* other) { return one->log_density < other->log_density; });
+    const auto shift = least - arc.cells.begin();
+    std::rotate(arc.cells.begin(), least, arc.cells.end());
+    std::fill(arc.turns.end() - shift, arc.turns.end(), 1.0);
+  }
+  return arcs;
+}
+
+class ModeOfRun {
+ public:
+  ModeOfRun(const Grid& grid, const ModeQuestion& question, const Run& run)
+      : grid_(grid), question_(question), run_(run) {}
+
+  Mode mode() const {
+    Mode mode;
+    const GridPoint& best = best_point();
+    for (const GridCell* cell : run_.cells) mode.probability += cell->share;
+    const double w = peak(best);
+    const double s = arc().at(w).s;
+    mode.start = wrapped(s);
+    mode.tangent = w - question_.boundary->tilt() * s;
+    mode.end = wrapped(best.now.after(question_.last).s);
+    spread(mode);
+    return mode;
+  }
+
+ private:
+  double wrapped(double s) const { return question_.closed ? wrap(s, question_.perimeter).base : s; }
+
+  const TiltedArc& arc() const { return question_.boundary->arcs()[run_.cells.front()->arc]; }
+
+  const GridPoint& best_point() const {
+    const GridPoint* best = nullptr;
+    for (const GridCell* cell : run_.cells) {
+      if (!cell->fine) continue;
+      for (const std::size_t k : {cell->first, cell->first + 1}) {
+        const GridPoint& point = grid_.point(cell->arc, k);
+        if (best == nullptr || point.score.log_likelihood() > best->score.log_likelihood()) best = &point;
+      }
+    }
+    return *best;
+  }
+
+  /// From the best point one step of Newton's method, no further than its neighbours are: w.
+  double peak(const GridPoint& best) const {
+    double lo = best.filter.w();
+    double hi = lo;
+    for (const GridCell* cell : run_.cells) {
+      if (cell->lo == best.filter.w()) hi = cell->hi;
+      if (cell->hi == best.filter.w()) lo = cell->lo;
+    }
+    if (best.score.information <= 0) return best.filter.w();
+    const double step = best.score.slope / best.score.information;
+    return std::clamp(best.filter.w() + step, lo, hi);
+  }
+
+  /// Means, standard deviations and the interval, by the cells.
+  void spread(Mode& mode) const {
+    const double P = question_.perimeter;
+    double total = 0;
+    double sum = 0;
+    double square = 0;
+    double end_sum = 0;
+    double end_square = 0;
+    const double near = run_.cells.front()->middle.s;
+    for (std::size_t k = 0; k < run_.cells.size(); ++k) {
+      const GridCell& cell = *run_.cells[k];
+      if (!cell.fine) continue;
+      const double lo = arc().at(cell.lo).s + run_.turns[k] * P;
+      const double hi = upper(k);
+      const double at = 0.5 * (lo + hi) - near;
+      const RollFilter& filter = grid_.point(cell.arc, cell.first).now;
+      const double end = filter.after(question_.last).s + run_.turns[k] * P + 0.5 * (hi - lo) - near;
+      const double end_variance = filter.variance_after(question_.last, question_.own);
+      total += cell.share;
+      sum += cell.share * at;
+      square += cell.share * (at * at + (hi - lo) * (hi - lo) / 12);
+      end_sum += cell.share * end;
+      end_square += cell.share * (end * end + end_variance);
+    }
+    const double mean = sum / total;
+    const double end_mean = end_sum / total;
+    mode.mean = wrapped(near + mean);
+    mode.sd = std::sqrt(std::max(0.0, square / total - mean * mean));
+    mode.end_mean = wrapped(near + end_mean);
+    mode.end_sd = std::sqrt(std::max(0.0, end_square / total - end_mean * end_mean));
+
+    const double lo = quantile(0.5 * (1 - kCredible) * total);
+    const double hi = quantile(0.5 * (1 + kCredible) * total);
+    mode.interval.lo = wrapped(lo);
+    mode.interval.hi = mode.interval.lo + (hi - lo);
+    mode.region = region();
+  }
+
+  Interval region() const {
+    std::size_t first = 0;
+    while (!run_.cells[first]->fine) ++first;
+    std::size_t last = run_.cells.size() - 1;
+    while (!run_.cells[last]->fine) --last;
+    const double lo = arc().at(run_.cells[first]->lo).s + run_.turns[first] * question_.perimeter;
+    const double at = wrapped(lo);
+    return {at, at + (upper(last) - lo)};
+  }
+
+  /// s at a cell's upper end; a loop's last cell ends at its seam.
+  double upper(std::size_t k) const {
+    const GridCell& cell = *run_.cells[k];
+    const bool at_seam = arc().loop() && cell.hi >= arc().hi();
+    const double s = at_seam ? arc().at(arc().lo()).s + question_.perimeter : arc().at(cell.hi).s;
+    return s + run_.turns[k] * question_.perimeter;
+  }
+
+  /// The place up to which there is this much mass.
+  double quantile(double mass) const {
+    double before = 0;
+    for (std::size_t k = 0; k < run_.cells.size(); ++k) {
+      const GridCell& cell = *run_.cells[k];
+      if (before + cell.share < mass) {
+        before += cell.share;
+        continue;
+      }
+      if (cell.share <= 0) continue;
+      const double lo = arc().at(cell.lo).s + run_.turns[k] * question_.perimeter;
+      return lo + (upper(k) - lo) * (mass - before) / cell.share;
+    }
+    return upper(run_.cells.size() - 1);
+  }
+
+  const Grid& grid_;
+  const ModeQuestion& question_;
+  const Run& run_;
+};
+
+}  // namespace
+
+std::vector<Mode> modes_of(const Grid& grid, const ModeQuestion& question) {
+  std::vector<Mode> modes;
+  for (const Run& arc : arcs_of(grid, *question.boundary)) {
+    if (arc.cells.empty()) continue;
+    for (const Run& run : cut_at_valleys(arc)) {
+      double probability = 0;
+      for (const GridCell* cell : run.cells) probability += cell->share;
+      if (probability >= kLeastProbability) modes.push_back(ModeOfRun(grid, question, run).mode());
+    }
+  }
+  std::sort(modes.begin(), modes.end(), [](const Mode& a, const Mode& b) { return a.probability > b.probability; });
+  return modes;
+}
+
+std::vector<Mass> mass_of(const Grid& grid, const TiltedBoundary& boundary, double perimeter) {
+  std::vector<Mass> masses;
+  for (const GridCell& cell : grid.cells()) {
+    if (!(cell.share > kLeastShare)) continue;
+    const TiltedArc& arc = boundary.arcs()[cell.arc];
+    const double lo = arc.at(cell.lo).s;
+    const double hi = arc.loop() && cell.hi >= arc.hi() ? arc.at(arc.lo()).s + perimeter : arc.at(cell.hi).s;
+    masses.push_back({{lo, hi}, {cell.lo - boundary.tilt() * lo, cell.hi - boundary.tilt() * hi}, cell.share});
+  }
+  return masses;
+}
+
+double credible_length(const Grid& grid) {
+  struct Piece {
+    double density;
+    double share;
+    double length;
+  };
+  std::vector<Piece> pieces;
+  for (const GridCell& cell : grid.cells()) {
+    const double length = cell.middle.slope * (cell.hi - cell.lo);
+    if (cell.share > 0) pieces.push_back({cell.share / std::max(length, 1e-300), cell.share, length});
+  }
+  std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.density > b.density; });
+  double share = 0;
+  double length = 0;
+  for (const Piece& piece : pieces) {
+    if (share >= kCredible) break;
+    share += piece.share;
+    length += piece.length;
+  }
+  return length;
+}
+
+}  // namespace rollfix::belief

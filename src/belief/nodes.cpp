@@ -1,0 +1,101 @@
+#include "belief/nodes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rollfix::belief {
+
+namespace {
+
+// Rows of which a median is taken: enough that several stray ones don't matter, few enough to lie close together.
+constexpr std::size_t kRowsOfMedian = 16;
+
+void operator+=(RowCovariance& sum, const RowCovariance& term) {
+  sum.length += term.length;
+  sum.both += term.both;
+  sum.turn += term.turn;
+}
+
+RowCovariance operator*(double factor, const RowCovariance& covariance) {
+  return {factor * covariance.length, factor * covariance.both, factor * covariance.turn};
+}
+
+double median(std::vector<double> values) {
+  const auto upper = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), upper, values.end());
+  if (values.size() % 2 == 1) return *upper;
+  return 0.5 * (*upper + *std::max_element(values.begin(), upper));
+}
+
+}  // namespace
+
+std::size_t Nodes::block() const { return robust_ ? std::min(stride_, kRowsOfMedian) : 1; }
+
+void Nodes::close_block(Node& sum, double& blocks) const {
+  if (block_.empty()) return;
+  std::vector<double> lengths;
+  std::vector<double> turns;
+  for (const Reading& row : block_) {
+    lengths.push_back(row.length);
+    turns.push_back(row.turn);
+  }
+  const double length = median(std::move(lengths));
+  const double turn = median(std::move(turns));
+  // The variance among the blocks so far, times their number (Welford 1962).
+  if (blocks > 0) {
+    const double off = turn + tilt_ * length - (sum.turn + tilt_ * sum.length) / blocks;
+    sum.spread += off * off * blocks / (blocks + 1);
+  }
+  sum.length += length;
+  sum.turn += turn;
+  sum.own += block_own_;  // as of one row: a median of rows on a slope is hardly better
+  blocks += 1;
+}
+
+void Nodes::add(const Sample& sample) {
+  const Reading& reading = sample.reading;
+  sum_.gathered += errors_.gathered(1, reading.length - length_);
+  length_ = reading.length;
+  ++rows_;
+  ++pending_rows_;
+  block_own_ = errors_.row(sample.finger_curvature);
+  block_.push_back(reading);
+  if (block_.size() >= block()) {
+    close_block(sum_, blocks_);
+    block_.clear();
+  }
+  if (pending_rows_ < stride_) return;
+  nodes_.push_back(*pending());
+  sum_ = {};
+  blocks_ = 0;
+  pending_rows_ = 0;
+  block_.clear();
+  if (nodes_.size() >= kMostNodes) join_neighbours();
+}
+
+std::optional<Node> Nodes::pending() const {
+  if (pending_rows_ == 0) return std::nullopt;
+  Node sum = sum_;
+  double blocks = blocks_;
+  close_block(sum, blocks);
+  return Node{sum.length / blocks, sum.turn / blocks, sum.spread / blocks, 1 / (blocks * blocks) * sum.own,
+              sum.gathered};
+}
+
+void Nodes::join_neighbours() {
+  for (std::size_t k = 0; 2 * k + 1 < nodes_.size(); ++k) {
+    const Node& a = nodes_[2 * k];
+    const Node& b = nodes_[2 * k + 1];
+    const double apart = b.turn - a.turn + tilt_ * (b.length - a.length);
+    const double spread = 0.5 * (a.spread + b.spread) + 0.25 * apart * apart;
+    Node both{0.5 * (a.length + b.length), 0.5 * (a.turn + b.turn), spread, 0.25 * a.own, a.gathered};
+    both.own += 0.25 * b.own;
+    both.gathered += b.gathered;
+    nodes_[k] = both;
+  }
+  nodes_.resize(nodes_.size() / 2);
+  stride_ *= 2;
+  ++generation_;
+}
+
+}  // namespace rollfix::belief

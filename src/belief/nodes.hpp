@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "belief/error_model.hpp"
+#include "rollfix/contact/log_stream.hpp"
+
+namespace rollfix::belief {
+
+/// Neighbouring rows of a roll as one: their mean, which is as good as all of them where they are close together.
+struct Node {
+  double length = 0;
+  double turn = 0;
+  double spread = 0;       // variance of turn + tilt times length among the rows
+  RowCovariance own;       // of the mean
+  RowCovariance gathered;  // by the offsets since the node before
+
+  /// The least variance that what a place makes of such a node can have, whatever the curvature there.
+  double least_variance(double tilt) const {
+    return (own.length * own.turn - own.both * own.both) / (tilt * tilt * own.length + 2 * tilt * own.both + own.turn);
+  }
+};
+
+/// A roll's rows as at most kMostNodes nodes, however many rows there are: when they are too many, neighbours are
+/// joined, and from then on twice as many rows make one.
+class Nodes {
+ public:
+  static constexpr std::size_t kMostNodes = 512;
+
+  /// `robust`: of rows that make a node together medians are taken first, so that a stray one does not move it.
+  Nodes(const ErrorModel& errors, double tilt, bool robust) : errors_(errors), tilt_(tilt), robust_(robust) {}
+
+  void add(const Sample& sample);
+
+  /// Those that will not change until `generation` does.
+  const std::vector<Node>& complete() const { return nodes_; }
+  std::size_t generation() const { return generation_; }  // grows when nodes are joined
+  /// The rows after them.
+  std::optional<Node> pending() const;
+  std::size_t rows() const { return rows_; }
+
+ private:
+  std::size_t block() const;
+  void close_block(Node& sum, double& blocks) const;
+  void join_neighbours();
+
+  ErrorModel errors_;
+  double tilt_;
+  bool robust_;
+  std::size_t stride_ = 1;  // rows of a node
+  std::size_t generation_ = 0;
+  std::size_t rows_ = 0;
+  double length_ = 0;  // of the row before
+  std::vector<Node> nodes_;
+  // Of the node that is being made: sums over blocks of rows, and the rows of the block that is being filled.
+  Node sum_;
+  double blocks_ = 0;
+  std::size_t pending_rows_ = 0;
+  std::vector<Reading> block_;
+  RowCovariance block_own_;  // of one of its rows
+};
+
+}  // namespace rollfix::belief

@@ -1,0 +1,258 @@
+#include "belief/tilted_boundary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+
+#include "rollfix/part/period.hpp"
+
+namespace rollfix::belief {
+
+namespace {
+
+// kappa + c is at least this share of c: where it vanished, s would jump as w grows.
+constexpr double kLeastSlopeShare = 0.5;
+// Halvings of a spiral: by then a cubic is as good as the turning function.
+constexpr int kMostHalvings = 24;
+// Equal steps of w for each cell, so that few cells begin within one.
+constexpr std::size_t kBucketsPerCell = 2;
+// Where three points stand for a normal distribution, as many standard deviations from the mean.
+constexpr double kSigmaPoint = std::numbers::sqrt3;
+// Slopes that differ by more than this share of the larger one make a kink.
+constexpr double kKink = 1e-3;
+// Rows that are joined lie on a straight line where the slope changes by less than this share among them.
+constexpr double kBend = 0.02;
+
+/// Solves Theta + c s = w for s on [lo, hi], where it grows: Newton's steps, kept within.
+double place_of(const TurningFunction& turning, const Spiral& spiral, double tilt, double w, double lo, double hi) {
+  double s = 0.5 * (lo + hi);
+  for (int round = 0; round < 60; ++round) {
+    const Turning here = turning.on_spiral(spiral, s);
+    const double miss = here.angle + tilt * s - w;
+    (miss > 0 ? hi : lo) = s;
+    const double next = s - miss / (here.curvature + tilt);
+    const double last = s;
+    s = next > lo && next < hi ? next : 0.5 * (lo + hi);
+    if (std::abs(s - last) <= 4e-16 * (std::abs(s) + std::abs(hi - lo))) break;
+  }
+  return s;
+}
+
+double least_curvature(const TurningFunction& turning) {
+  double least = 0;
+  for (const Spiral& spiral : turning.spirals()) {
+    least = std::min({least, spiral.start.curvature, spiral.end.curvature});
+  }
+  return least;
+}
+
+}  // namespace
+
+TiltedArc::Found TiltedArc::find(double w) const {
+  double base = w;
+  double shift = 0;
+  if (loop_) {
+    const Wrapped wrapped = wrap(w - lo(), hi_ - lo());
+    base = lo() + wrapped.base;
+    shift = wrapped.winding * perimeter_;
+  }
+  const auto step = static_cast<std::size_t>(std::max(0.0, (base - lo()) * buckets_per_w_));
+  std::size_t k = bucket_[std::min(step, bucket_.size() - 1)];
+  while (k + 1 < cells_.size() && cells_[k + 1].w <= base) ++k;
+  return {&cells_[k], base - cells_[k].w, shift};
+}
+
+TiltedPlace TiltedArc::at(double w) const {
+  if (!loop_ && w <= lo()) return {cells_.front().s, 0};
+  if (!loop_ && w >= hi_) return {end_, 0};
+  return on(find(w));
+}
+
+SpreadPlace TiltedArc::about(double w, double variance, double spread) const {
+  const double sd = std::sqrt(variance + spread);
+  const double reach = kSigmaPoint * sd;
+  if (loop_ || (w > lo() && w < hi_)) {
+    const Found found = find(w);
+    const TiltedPlace place = on(found);
+    const double bend = 2 * (found.cell->b + 3 * found.x * found.cell->c);
+    const bool is_straight = std::abs(bend) * std::sqrt(spread) <= kBend * place.slope;
+    if (is_straight && found.x - reach > found.cell->kink_below && found.x + reach < found.cell->kink_above) {
+      return {place.s, place.slope, 0};
+    }
+  }
+  // Three points stand for the normal distribution: weights 1/6, 2/3, 1/6.
+  const double below = at(w - reach).s;
+  const double middle = at(w).s;
+  const double above = at(w + reach).s;
+  const double mean = (below + 4 * middle + above) / 6;
+  const double half = 0.5 * (above - below);
+  const double bend = below - 2 * middle + above;
+  // Of the three about their mean, less what the straight line explains.
+  return {mean, sd > 0 ? half / reach : 0, bend * bend / 18};
+}
+
+void TiltedArc::join(std::size_t begin, double w) {
+  std::size_t before = begin;
+  while (before > 1 && cells_[before - 1].w >= w) --before;
+  std::size_t after = begin;
+  while (after + 1 < cells_.size() && cells_[after + 1].w <= w) ++after;
+  Cell& cut = cells_[after];
+  const double x = w - cut.w;
+  cut = {w,
+         cut.s + x * (cut.a + x * (cut.b + x * cut.c)),
+         cut.a + x * (2 * cut.b + x * 3 * cut.c),
+         cut.b + 3 * x * cut.c,
+         cut.c,
+         0,
+         0};
+  cells_.erase(cells_.begin() + static_cast<std::ptrdiff_t>(before),
+               cells_.begin() + static_cast<std::ptrdiff_t>(after));
+  while (breaks_.size() > 1 && breaks_.back() >= w) breaks_.pop_back();
+}
+
+void TiltedArc::mark_kinks() {
+  const std::size_t count = cells_.size();
+  const auto slope_before = [&](std::size_t k) {
+    if (k == 0 && !loop_) return 0.0;
+    const Cell& cell = cells_[k == 0 ? count - 1 : k - 1];
+    const double x = (k == 0 ? hi_ : cells_[k].w) - cell.w;
+    return cell.a + x * (2 * cell.b + x * 3 * cell.c);
+  };
+  std::vector<double> kinks;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double before = slope_before(k);
+    if (std::abs(cells_[k].a - before) > kKink * std::max(cells_[k].a, before)) kinks.push_back(cells_[k].w);
+  }
+  if (!loop_) kinks.push_back(hi_);
+  if (loop_ && !kinks.empty()) {
+    const double last = kinks.back();
+    kinks.push_back(kinks.front() + (hi_ - lo()));
+    kinks.insert(kinks.begin(), last - (hi_ - lo()));
+  }
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  for (Cell& cell : cells_) {
+    const auto above = std::upper_bound(kinks.begin(), kinks.end(), cell.w);
+    cell.kink_above = above == kinks.end() ? kNone : *above - cell.w;
+    cell.kink_below = above == kinks.begin() ? -kNone : *(above - 1) - cell.w;
+  }
+}
+
+void TiltedArc::index() {
+  const std::size_t count = kBucketsPerCell * cells_.size();
+  const double length = hi_ - lo();
+  buckets_per_w_ = static_cast<double>(count) / length;
+  bucket_.resize(count);
+  std::size_t cell = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    // A step earlier, so that rounding can't make a place precede its bucket's cell.
+    const double start = lo() + (static_cast<double>(k) - 1) / buckets_per_w_;
+    while (cell + 1 < cells_.size() && cells_[cell + 1].w <= start) ++cell;
+    bucket_[k] = cell;
+  }
+}
+
+TiltedBoundary::TiltedBoundary(const Part& part, double least, double accuracy) {
+  const TurningFunction& turning = part.turning();
+  const std::vector<Spiral>& spirals = turning.spirals();
+  const std::size_t count = spirals.size();
+  tilt_ = std::max(least, -least_curvature(turning) / (1 - kLeastSlopeShare));
+  // A hole turns by -2 pi: w must grow all the same.
+  tilt_ = std::max(tilt_, -2 * turning.period_turn() / turning.perimeter());
+
+  // The jump of Theta in front of a spiral, and whether a finger gets over it.
+  const auto jump_before = [&](std::size_t k) {
+    if (k > 0) return spirals[k].start.angle - spirals[k - 1].end.angle;
+    return part.closed() ? spirals.front().start.angle + turning.period_turn() - spirals.back().end.angle : 0.0;
+  };
+  std::size_t first = 0;
+  bool is_cut = !part.closed();
+  for (std::size_t k = 0; k < count && !is_cut; ++k) {
+    if (jump_before(k) <= -kJointTurn) {
+      first = k;
+      is_cut = true;
+    }
+  }
+
+  for (std::size_t n = 0; n < count; ++n) {
+    const std::size_t k = (first + n) % count;
+    const double winding = first + n >= count ? 1 : 0;
+    const double jump = jump_before(k);
+    if (n == 0 || jump <= -kJointTurn) {
+      arcs_.emplace_back();
+      arcs_.back().loop_ = !is_cut;
+      arcs_.back().perimeter_ = turning.perimeter();
+    }
+    TiltedArc& arc = arcs_.back();
+    const double s = spirals[k].lo + winding * turning.perimeter();
+    const double w = spirals[k].start.angle + winding * turning.period_turn() + tilt_ * s;
+    const bool goes_on = n > 0 && jump > -kJointTurn;
+    if ((goes_on || arc.loop_) && jump > kTurnAccuracy) {
+      arc.cells_.push_back({w - jump, s, 0, 0, 0, 0, 0});  // a convex corner: w grows, s stays
+      arc.breaks_.push_back(w - jump);
+    }
+    const std::size_t spiral_begin = arc.cells_.size();
+    add_spiral(turning, spirals[k], winding, accuracy, arc);
+    double start = w;
+    if (goes_on && jump < 0) {
+      // Rounded digits turned inwards: the finger touches both sides at once, and goes from one to the other.
+      start = w - 0.5 * jump;
+      arc.join(spiral_begin, start);
+    }
+    arc.breaks_.push_back(start);
+  }
+  for (TiltedArc& arc : arcs_) {
+    if (arc.loop_) arc.hi_ = arc.lo() + tilt_ * turning.perimeter() + turning.period_turn();
+    while (arc.cells_.back().w >= arc.hi_) arc.cells_.pop_back();
+    while (arc.breaks_.back() >= arc.hi_) arc.breaks_.pop_back();
+    arc.breaks_.push_back(arc.hi_);
+    arc.mark_kinks();
+    arc.index();
+  }
+}
+
+void TiltedBoundary::add_spiral(const TurningFunction& turning, const Spiral& spiral, double winding, double accuracy,
+                                TiltedArc& arc) const {
+  const double shift = winding * turning.perimeter();
+  const double lift = winding * turning.period_turn() + tilt_ * shift;
+  struct Knot {
+    double s;
+    double w;
+    double slope;
+  };
+  const auto knot_at = [&](double s, const Turning& here) {
+    return Knot{s, here.angle + tilt_ * s, 1 / (here.curvature + tilt_)};
+  };
+  struct Task {
+    Knot lo;
+    Knot hi;
+    int depth;
+  };
+  std::vector<Task> tasks{{knot_at(spiral.lo, spiral.start), knot_at(spiral.hi, spiral.end), 0}};
+  while (!tasks.empty()) {
+    const Task task = tasks.back();
+    tasks.pop_back();
+    const double h = task.hi.w - task.lo.w;
+    if (h <= 0) continue;
+    // Hermite's cubic through both ends with their slopes.
+    const double mean = (task.hi.s - task.lo.s) / h;
+    const double b = (3 * mean - 2 * task.lo.slope - task.hi.slope) / h;
+    const double c = (task.lo.slope + task.hi.slope - 2 * mean) / (h * h);
+    const double x = 0.5 * h;
+    const double guess = task.lo.s + x * (task.lo.slope + x * (b + x * c));
+    const double s = place_of(turning, spiral, tilt_, task.lo.w + x, task.lo.s, task.hi.s);
+    if (task.depth < kMostHalvings && std::abs(guess - s) > accuracy) {
+      const Turning here = turning.on_spiral(spiral, s);
+      const Knot middle = knot_at(s, here);
+      tasks.push_back({middle, task.hi, task.depth + 1});
+      tasks.push_back({task.lo, middle, task.depth + 1});
+      continue;
+    }
+    arc.cells_.push_back({task.lo.w + lift, task.lo.s + shift, task.lo.slope, b, c, 0, 0});
+  }
+  arc.hi_ = spiral.end.angle + tilt_ * spiral.hi + lift;
+  arc.end_ = spiral.hi + shift;
+}
+
+}  // namespace rollfix::belief

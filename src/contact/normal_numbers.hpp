@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+namespace rollfix {
+
+/// Normal numbers from a seed, the same on all platforms, which std::normal_distribution's are not: the polar method
+/// (Marsaglia 1964) on a generator that the standard fixes.
+class NormalNumbers {
+ public:
+  explicit NormalNumbers(std::uint64_t seed) : generator_(seed) {}
+
+  /// With mean 0 and this standard deviation.
+  double next(double deviation) {
+    if (has_spare_) {
+      has_spare_ = false;
+      return deviation * spare_;
+    }
+    double x = 0;
+    double y = 0;
+    double square = 0;
+    do {
+      x = uniform();
+      y = uniform();
+      square = x * x + y * y;
+    } while (square >= 1 || square == 0);
+    const double stretch = std::sqrt(-2 * std::log(square) / square);
+    spare_ = y * stretch;
+    has_spare_ = true;
+    return deviation * (x * stretch);
+  }
+
+ private:
+  /// In [-1, 1).
+  double uniform() { return std::ldexp(static_cast<double>(generator_() >> 11U), -52) - 1; }
+
+  std::mt19937_64 generator_;
+  double spare_ = 0;
+  bool has_spare_ = false;
+};
+
+}  // namespace rollfix

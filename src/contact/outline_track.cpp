@@ -1,0 +1,256 @@
+#include "contact/outline_track.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include "rollfix/error.hpp"
+#include "rollfix/part/period.hpp"
+
+namespace rollfix {
+
+namespace {
+
+constexpr double kNoSize = 1e-300;   // radius of a finger that gets into every concavity
+constexpr double kTightStep = 1e-9;  // of the perimeter: how closely the place is found where a finger sticks
+
+const TurningFunction& turning_of(const Finger& finger) { return finger.outline()->turning(); }
+
+std::int64_t count_of(const TurningFunction& turning) { return static_cast<std::int64_t>(turning.spirals().size()); }
+
+}  // namespace
+
+OutlineTrack::OutlineTrack(const Part& part, const Finger& finger, double start, double u)
+    : Track(part, finger),
+      point_(part, Finger(kNoSize), 0),
+      sum_(start + u),
+      u_(u),
+      near_(kLengthAccuracy * std::max(part.perimeter(), finger.outline()->perimeter())) {
+  const TurningFunction& on_finger = turning_of(finger);
+  const int direction = !part.closed() && start >= part.perimeter() - near_ ? -1 : 1;
+  const TrackPlace first = point_.place(start, direction);
+  const Wrapped wrapped = on_finger.closed() ? wrap(u, on_finger.perimeter()) : Wrapped{u, 0};
+  auto cell = static_cast<std::int64_t>(on_finger.spiral_at(std::clamp(wrapped.base, 0.0, on_finger.perimeter())));
+  cell += static_cast<std::int64_t>(wrapped.winding) * count_of(on_finger);
+
+  Piece piece;
+  piece.base = first.index;
+  piece.stretch = point_.stretch(first.index);
+  set_cell(piece, cell);
+  // Where one of the finger's spirals ends the roll starts on the one that lies ahead.
+  if (direction > 0 && cell_range(piece).hi <= first.s + near_ && !finger_ends(cell - 1)) set_cell(piece, cell - 1);
+  if (direction < 0 && cell_range(piece).lo >= first.s - near_ && !finger_ends(cell + 1)) set_cell(piece, cell + 1);
+  const Interval range = cell_range(piece);
+  piece.stretch.s = {std::max(piece.stretch.s.lo, range.lo), std::min(piece.stretch.s.hi, range.hi)};
+  piece.stretch.whole = piece.stretch.s;
+  const Interval whole = piece.stretch.s;
+  cut(piece, first.s, -1);
+  piece.stretch.s.hi = whole.hi;
+  cut(piece, first.s, 1);
+  ahead_.push_back(piece);
+  if (piece.is_tight_hi && piece.stretch.s.hi <= first.s) refuse(0, 1);
+}
+
+void OutlineTrack::set_cell(Piece& piece, std::int64_t cell) const {
+  const TurningFunction& on_finger = turning_of(finger());
+  const std::int64_t count = count_of(on_finger);
+  const std::int64_t index = (cell % count + count) % count;
+  const std::int64_t whole_laps = (cell - index) / count;
+  const auto lap = static_cast<double>(whole_laps);
+  piece.cell = cell;
+  piece.stretch.finger_spiral = &on_finger.spirals()[static_cast<std::size_t>(index)];
+  piece.stretch.finger_u_shift = lap * on_finger.perimeter();
+  piece.stretch.finger_angle_shift = lap * on_finger.period_turn();
+}
+
+/// An open finger has no spiral there.
+bool OutlineTrack::finger_ends(std::int64_t cell) const {
+  const TurningFunction& on_finger = turning_of(finger());
+  return !on_finger.closed() && (cell < 0 || cell >= count_of(on_finger));
+}
+
+/// The places of the part that the finger's spiral can roll over.
+Interval OutlineTrack::cell_range(const Piece& piece) const {
+  const Spiral& spiral = *piece.stretch.finger_spiral;
+  const double offset = sum_ - piece.stretch.finger_u_shift;
+  return {offset - spiral.hi, offset - spiral.lo};
+}
+
+Turning OutlineTrack::on_finger(const Stretch& stretch, double s) const {
+  const Spiral& spiral = *stretch.finger_spiral;
+  const double u = std::clamp(sum_ - s - stretch.finger_u_shift, spiral.lo, spiral.hi);
+  Turning result = turning_of(finger()).on_spiral(spiral, u);
+  result.angle += stretch.finger_angle_shift;
+  return result;
+}
+
+double OutlineTrack::rotation(const Stretch& stretch, double s, double angle) const {
+  return angle - on_finger(stretch, s).angle;
+}
+
+double OutlineTrack::finger_curvature(const Stretch& stretch, double s) const {
+  return on_finger(stretch, s).curvature;
+}
+
+Contact OutlineTrack::first_contact(double tangent, double /*psi*/) const { return contact_at(finger(), tangent, u_); }
+
+/// Whether the finger surely fits all along: both curvatures are monotone.
+bool OutlineTrack::has_room(const Stretch& stretch, const Interval& s) const {
+  const double part_least = std::min(turning(stretch, s.lo).curvature, turning(stretch, s.hi).curvature);
+  const double finger_least = std::min(finger_curvature(stretch, s.lo), finger_curvature(stretch, s.hi));
+  return (part_least + finger_least) * part().perimeter() / (2 * std::numbers::pi) > kLeastClearance;
+}
+
+/// Where, on the way from one place to another, the finger does not surely fit any more.
+std::optional<double> OutlineTrack::first_tight(const Stretch& stretch, double from, double to) const {
+  if (has_room(stretch, {std::min(from, to), std::max(from, to)})) return std::nullopt;
+  if (std::abs(to - from) <= kTightStep * part().perimeter()) return from;
+  const double middle = from + 0.5 * (to - from);
+  if (const auto near = first_tight(stretch, from, middle)) return near;
+  return first_tight(stretch, middle, to);
+}
+
+/// Cuts a piece that is entered at `from` where the finger does not fit any more.
+void OutlineTrack::cut(Piece& piece, double from, int direction) const {
+  Stretch& stretch = piece.stretch;
+  if (!stretch.is_pivot) {
+    double& end = direction > 0 ? stretch.s.hi : stretch.s.lo;
+    if (const auto tight = first_tight(stretch, from, end)) {
+      end = *tight;
+      (direction > 0 ? piece.is_tight_hi : piece.is_tight_lo) = true;
+    }
+    stretch.angle = {turning(stretch, stretch.s.lo).angle, turning(stretch, stretch.s.hi).angle};
+  }
+}
+
+/// The piece behind this one's end; nothing where there is none.
+std::optional<OutlineTrack::Piece> OutlineTrack::follow(const Piece& piece, int direction) const {
+  if (direction > 0 ? piece.is_tight_hi : piece.is_tight_lo) return std::nullopt;
+  const double edge = direction > 0 ? piece.stretch.s.hi : piece.stretch.s.lo;
+  const Stretch below = point_.stretch(piece.base);
+  const Interval range = cell_range(piece);
+  const bool base_is_over = std::abs(edge - (direction > 0 ? below.s.hi : below.s.lo)) <= near_;
+  const bool cell_is_over = std::abs(edge - (direction > 0 ? range.hi : range.lo)) <= near_;
+
+  Piece found;
+  found.jump = piece.jump;
+  found.base = piece.base;
+  if (base_is_over) {
+    const auto next_base = point_.next(piece.base, direction);
+    if (!next_base) return std::nullopt;
+    found.base = *next_base;
+  }
+  found.stretch = point_.stretch(found.base);
+  const bool takes_new_cell = cell_is_over && !found.stretch.is_pivot;
+  const std::int64_t cell = takes_new_cell ? piece.cell - direction : piece.cell;
+  if (finger_ends(cell)) return std::nullopt;
+  set_cell(found, cell);
+  if (found.stretch.is_pivot) return found;
+  if (takes_new_cell) found.jump += on_finger(piece.stretch, edge).angle - on_finger(found.stretch, edge).angle;
+  const Interval on = cell_range(found);
+  if (direction > 0) {
+    found.stretch.s = {std::max(edge, found.stretch.s.lo), std::min(found.stretch.s.hi, on.hi)};
+  } else {
+    found.stretch.s = {std::max(found.stretch.s.lo, on.lo), std::min(edge, found.stretch.s.hi)};
+  }
+  found.stretch.whole = found.stretch.s;
+  cut(found, direction > 0 ? found.stretch.s.lo : found.stretch.s.hi, direction);
+  const bool is_shut = direction > 0 ? found.is_tight_hi : found.is_tight_lo;
+  if (is_shut && found.stretch.s.width() <= 0) return std::nullopt;
+  return found;
+}
+
+const OutlineTrack::Piece& OutlineTrack::piece(std::int64_t index) const {
+  return index >= 0 ? ahead_[static_cast<std::size_t>(index)] : behind_[static_cast<std::size_t>(-1 - index)];
+}
+
+std::optional<std::int64_t> OutlineTrack::next(std::int64_t index, int direction) const {
+  const std::int64_t found = index + direction;
+  std::vector<Piece>& side = direction > 0 ? ahead_ : behind_;
+  const auto last =
+      direction > 0 ? static_cast<std::int64_t>(ahead_.size()) - 1 : -static_cast<std::int64_t>(behind_.size());
+  if (index != last) return found;
+  const std::optional<Piece> fresh = follow(piece(index), direction);
+  if (!fresh) return std::nullopt;
+  side.push_back(*fresh);
+  return found;
+}
+
+TrackPlace OutlineTrack::place(double s, int direction) const {
+  const double there = point_.place(s, direction).s;
+  // A place between two pieces belongs to the one that lies ahead.
+  const auto is_behind = [&](const Stretch& at) {
+    return direction > 0 ? there >= at.s.hi - near_ : there > at.s.hi + near_;
+  };
+  const auto is_ahead = [&](const Stretch& at) {
+    return direction < 0 ? there <= at.s.lo + near_ : there < at.s.lo - near_;
+  };
+  std::int64_t index = 0;
+  for (const int way : {1, -1}) {
+    while (way > 0 ? is_behind(piece(index).stretch) : is_ahead(piece(index).stretch)) {
+      const auto following = next(index, way);
+      if (!following) refuse(index, way);
+      index = *following;
+    }
+  }
+  const Interval on = piece(index).stretch.s;
+  return {index, std::clamp(there, on.lo, on.hi)};
+}
+
+double OutlineTrack::fall_between(std::int64_t from, std::int64_t to) const {
+  return point_.fall_between(piece(from).base, piece(to).base) + piece(to).jump - piece(from).jump;
+}
+
+void OutlineTrack::require_way(double from, double to) const {
+  point_.require_way(from, to);
+  const int direction = to < from ? -1 : 1;
+  std::int64_t index = place(from, direction).index;
+  while (direction > 0 ? piece(index).stretch.s.hi < to - near_ : piece(index).stretch.s.lo > to + near_) {
+    const auto following = next(index, direction);
+    if (!following) refuse(index, direction);
+    index = *following;
+  }
+}
+
+void OutlineTrack::refuse(std::int64_t index, int direction) const {
+  const Piece& here = piece(index);
+  const double edge = direction > 0 ? here.stretch.s.hi : here.stretch.s.lo;
+  const Interval range = cell_range(here);
+  const bool cell_is_over = std::abs(edge - (direction > 0 ? range.hi : range.lo)) <= near_;
+  const bool base_ends = !point_.next(here.base, direction).has_value();
+  const bool at_base_end =
+      std::abs(edge - (direction > 0 ? point_.stretch(here.base).s.hi : point_.stretch(here.base).s.lo)) <= near_;
+  if (at_base_end && base_ends) point_.refuse(here.base, direction);
+  const Vec2 point = part().point(edge);
+  const double named = point_.named(edge);
+  if (cell_is_over && finger_ends(here.cell - direction)) {
+    throw InputError(fmt::format(
+        "{}: the roll runs off the end of the finger {} at s = {:.9g}, ({:.6g}, {:.6g}), u = {:.9g}: expected "
+        "a contact that stays in 0 <= u <= {:.9g}; start elsewhere on it or roll less far",
+        part().name(), finger().name(), named, point.x(), point.y(), sum_ - edge, finger().outline()->perimeter()));
+  }
+  throw InputError(fmt::format(
+      "{}: the finger {} can't roll where the part is curved inwards as much as the finger outwards, as at "
+      "s = {:.9g}, ({:.6g}, {:.6g}), u = {:.9g}, where the curvatures are {:.9g} and {:.9g}: expected their "
+      "sum above 0; choose a smaller finger or another roll",
+      part().name(), finger().name(), named, point.x(), point.y(), sum_ - edge, turning(here.stretch, edge).curvature,
+      finger_curvature(here.stretch, edge)));
+}
+
+std::unique_ptr<Track> track_of(const Part& part, const Finger& finger, double start, std::optional<double> u) {
+  if (finger.outline() == nullptr) return std::make_unique<EvenTrack>(part, finger, u.value_or(0));
+  const Interval ends = finger.ends();
+  const double place = u.value_or(std::isfinite(ends.hi) ? ends.middle() : 0);
+  if (!(place >= ends.lo && place <= ends.hi) || !std::isfinite(place)) {
+    throw InputError(fmt::format("expected a first contact on the finger {}, {:g} <= u <= {:.9g}, found u = {}",
+                                 finger.name(), ends.lo, ends.hi, place));
+  }
+  if (!std::isfinite(start)) throw InputError(fmt::format("expected a finite start of a roll, found {}", start));
+  const double first = part.closed() ? wrap(start, part.perimeter()).base : start;
+  return std::make_unique<OutlineTrack>(part, finger, first, place);
+}
+
+}  // namespace rollfix

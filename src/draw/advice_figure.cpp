@@ -1,0 +1,84 @@
+#include "rollfix/draw/advice_figure.hpp"
+
+#include <algorithm>
+#include <functional>
+
+#include "legend.hpp"
+#include "numerals.hpp"
+#include "palette.hpp"
+#include "plot.hpp"
+#include "scene.hpp"
+
+namespace rollfix {
+namespace draw {
+namespace {
+
+constexpr double kProspectLeft = 58;  // pixels
+constexpr double kProspectRight = 16;
+constexpr double kProspectHeight = 150;
+constexpr double kProspectGap = 46;  // above each plot
+constexpr double kProspectEnd = 44;  // below the last one
+
+/// One quantity by the roll's length.
+struct ProspectPlot {
+  Text title;
+  std::function<double(const Prospect&)> value;
+  double most = 1;
+  std::string_view colour;
+};
+
+void draw_prospects(Svg& svg, const Advice& advice, const ProspectPlot& plot, double top, double width) {
+  Axes axes;
+  axes.corner = {kProspectLeft, top};
+  axes.size = {width - kProspectLeft - kProspectRight, kProspectHeight};
+  axes.x = widened({advice.prospects.front().length, advice.prospects.back().length}, 0.02);
+  axes.y = widened({0, plot.most}, 0.06);
+  axes.y.lo = 0;
+  draw_axes(svg, axes, round_ticks(axes.x, 8), round_ticks(axes.y, 5), plot.title, "");
+  std::vector<Vec2> points;
+  for (const Prospect& prospect : advice.prospects) points.push_back(axes(prospect.length, plot.value(prospect)));
+  svg.segments({axes(0, axes.y.lo), axes(0, axes.y.hi)}, stroke(kSoftInk, 0.8));
+  draw_graph(svg, axes, points, stroke(plot.colour, 1.6));
+  if (!advice.helps) return;
+  const Prospect& advised = advice.advised();
+  Paint line = stroke(kInk, 1);
+  line.dash = "4 3";
+  svg.segments({axes(advised.length, axes.y.lo), axes(advised.length, axes.y.hi)}, line);
+  Paint dot;
+  dot.fill = plot.colour;
+  svg.circle(axes(advised.length, plot.value(advised)), 4, dot);
+}
+
+}  // namespace
+}  // namespace draw
+
+Svg draw_advice(const AdviceFigure& figure) {
+  using namespace draw;
+  const double top = kHeaderHeight + 30;
+  const double second = top + kProspectHeight + kProspectGap;
+  Svg svg(figure.width, second + kProspectHeight + kProspectEnd);
+  svg.describe(figure.title + ": " + figure.outcome);
+  Paint paper;
+  paper.fill = "#ffffff";
+  svg.rectangle(0, 0, svg.width(), svg.height(), paper);
+  draw_header(svg, figure.title, figure.outcome, {{"rolling on from where the contact is now; below 0: backwards"}});
+  double most = 1;
+  for (const Prospect& prospect : figure.advice.prospects) most = std::max(most, prospect.placements);
+  draw_prospects(
+      svg, figure.advice,
+      {{{"placements that remain, expected"}}, [](const Prospect& p) { return p.placements; }, most, colour(0)}, top,
+      figure.width);
+  draw_prospects(svg, figure.advice,
+                 {{{"information gained, bits"}},
+                  [](const Prospect& p) { return p.bits; },
+                  std::max(figure.advice.bits_wanted, 0.1),
+                  colour(1)},
+                 second, figure.width);
+  Axes last;
+  last.corner = {kProspectLeft, second};
+  last.size = {figure.width - kProspectLeft - kProspectRight, kProspectHeight};
+  draw_x_name(svg, last, {{"length rolled"}});
+  return svg;
+}
+
+}  // namespace rollfix

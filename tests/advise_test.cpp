@@ -1,0 +1,146 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "belief_cases.hpp"
+#include "rollfix/belief/advise.hpp"
+#include "rollfix/error.hpp"
+
+// The next roll: what is promised of it, and that it keeps what it promises.
+namespace advise_test {
+
+using namespace belief_cases;
+using rollfix::Advice;
+using rollfix::AdviceOptions;
+using rollfix::Contender;
+using rollfix::Interval;
+
+namespace {
+
+std::vector<Contender> between(std::initializer_list<double> places) {
+  std::vector<Contender> contenders;
+  for (const double place : places) {
+    contenders.push_back({place, 0, 1.0 / static_cast<double>(places.size()), contenders.size()});
+  }
+  return contenders;
+}
+
+}  // namespace
+
+TEST(Advise, places_that_look_alike_forever_can_not_be_told_apart) {
+  const Part part = part_of("ellipse,a=2,b=1");
+  const Advice advice = advise(part, between({1, 1 + 0.5 * part.perimeter()}));
+  EXPECT_FALSE(advice.helps);
+  EXPECT_NEAR(advice.bits_wanted, 1, 1e-12);
+}
+
+TEST(Advise, the_roll_is_just_long_enough_for_the_first_difference) {
+  // A stadium's straight side is 2 long: half a unit from its end and a unit from it look alike until the end is there.
+  const Part part = part_of("stadium,length=2,r=0.5");
+  const std::vector<Contender> contenders = between({part.perimeter() - 0.5, part.perimeter() - 1.0});
+  const Advice advice = advise(part, contenders);
+  ASSERT_TRUE(advice.helps);
+  const auto turn = [&](const Contender& c) {
+    return part.turning().angle(c.place + advice.advised().length) - part.turning().angle(c.place);
+  };
+  EXPECT_GT(std::abs(turn(contenders[0]) - turn(contenders[1])), 1e-5);
+  EXPECT_NEAR(advice.advised().bits, 1, 0.03);
+  EXPECT_NEAR(advice.advised().placements, 1, 0.03);
+}
+
+TEST(Advise, it_stays_within_the_travel) {
+  const Part part = part_of("limacon");
+  AdviceOptions options;
+  options.travel = Interval{-0.2, 0.3};
+  const Advice advice = advise(part, between({1, 3}), options);
+  EXPECT_DOUBLE_EQ(advice.prospects.front().length, -0.2);
+  EXPECT_DOUBLE_EQ(advice.prospects.back().length, 0.3);
+}
+
+TEST(Advise, it_takes_no_contender_out_of_reach) {
+  const Part part = part_of("limacon,a=1.5,b=1");
+  const rollfix::Reach reach = rollfix::reach_of_disk(part, 3);
+  ASSERT_FALSE(reach.is_whole());
+  AdviceOptions options;
+  options.reach = &reach;
+  const double place = reach.arcs.front().lo + 0.1;
+  const Advice advice = advise(part, between({place, place + 0.3}), options);
+  EXPECT_GE(advice.prospects.front().length, -0.11);
+}
+
+TEST(Advise, it_stays_on_an_open_part) {
+  const Part part = part_of("exponential");
+  const double P = part.perimeter();
+  const Advice advice = advise(part, between({0.2 * P, 0.5 * P}));
+  EXPECT_NEAR(advice.prospects.front().length, -0.2 * P, 1e-9);
+  EXPECT_NEAR(advice.prospects.back().length, 0.5 * P, 1e-9);
+}
+
+TEST(Advise, longer_rolls_are_never_expected_to_tell_less_of_even_odds) {
+  const Part part = part_of("spline,n=9,seed=7,wobble=0.2");
+  const Advice advice = advise(part, between({1, 4}));
+  for (std::size_t k = 1; k < advice.prospects.size(); ++k) {
+    const rollfix::Prospect& near = advice.prospects[k - 1];
+    const rollfix::Prospect& far = advice.prospects[k];
+    if (near.length >= 0) {
+      EXPECT_GE(far.bits, near.bits - 1e-9);
+    } else if (far.length <= 0) {
+      EXPECT_GE(near.bits, far.bits - 1e-9);
+    }
+  }
+}
+
+TEST(Advise, without_contenders_there_is_nothing_to_advise) {
+  EXPECT_THROW(advise(part_of("cam"), {}), rollfix::InputError);
+  AdviceOptions options;
+  options.travel = Interval{0.1, 0.2};
+  EXPECT_THROW(advise(part_of("cam"), between({1, 2}), options), rollfix::InputError);
+}
+
+/// Locate, advise, roll, locate: does the loop close?
+class AdviceLoop : public testing::TestWithParam<const char*> {};
+
+TEST_P(AdviceLoop, two_advised_rolls_leave_one_place) {
+  const Part part = part_of(GetParam());
+  const double P = part.perimeter();
+  const double radius = 0.01 * P;
+  const rollfix::Reach reach = rollfix::reach_of_disk(part, radius);
+  BeliefOptions options;
+  options.noise = noise_on(part, 1e-4, 2e-3, 2e-3);
+  std::mt19937_64 random = test_generator();
+  std::uniform_real_distribution<double> unit;
+  const int count = test_count(25);
+  int resolved = 0;
+  for (int k = 0; k < count; ++k) {
+    const double start = part.closed() ? unit(random) * P : (0.1 + 0.8 * unit(random)) * P;
+    const std::uint64_t seed = random();
+    double length = (unit(random) < 0.5 ? -1 : 1) * 0.05 * P;
+    Robot robot(part, radius, start, options.noise, seed);
+    Belief belief(part, rollfix::LogKind::contact, options);
+    for (int rolls = 0;; ++rolls) {
+      robot.roll(length, belief);
+      if (belief.verdict() == "unique") {
+        const Mode& mode = belief.modes().front();
+        resolved += distance(part, mode.start, start) < 5 * mode.sd + 1e-6 * P ? 1 : 0;
+        break;
+      }
+      if (rolls == 2) break;
+      AdviceOptions how;
+      how.turn_sd = 2 * options.noise.angle;
+      how.length_sd = 1.5 * options.noise.contact;
+      how.length_share_sd = options.noise.slip;
+      how.reach = &reach;
+      const Advice advice = advise(part, rollfix::contenders_of(part, belief.modes()), how);
+      if (!advice.helps) break;
+      length = advice.advised().length;
+    }
+  }
+  EXPECT_GE(resolved, 0.95 * count) << "of " << count;
+}
+
+INSTANTIATE_TEST_SUITE_P(Gallery, AdviceLoop,
+                         testing::Values("limacon", "spline", "cam", "naca", "log-spiral", "exponential",
+                                         "spline,seed=3", "spline,n=12,seed=5"));
+
+}  // namespace advise_test

@@ -1,0 +1,361 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "belief/nodes.hpp"
+#include "belief_cases.hpp"
+#include "rollfix/belief/pose_spread.hpp"
+#include "rollfix/belief/weigh.hpp"
+#include "rollfix/error.hpp"
+
+// The posterior over the whole boundary: against a brute computation, and in the cases that are special.
+namespace belief_test {
+
+using namespace belief_cases;
+using rollfix::Cause;
+using rollfix::InputError;
+using rollfix::LogKind;
+using rollfix::Reading;
+using rollfix::Sample;
+
+namespace {
+
+/// The posterior's mean and standard deviation about a place, computed another way: in terms of turns, with the whole
+/// covariance of all rows written out and decomposed, on a dense and even grid.
+struct Brute {
+  double mean = 0;
+  double sd = 0;
+};
+
+/// Of what slips here and there: a random walk in lengths.
+Eigen::MatrixXd slip_here_and_there(const Part& part, const std::vector<Reading>& rows, double s, double slip) {
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  Eigen::MatrixXd covariance(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const double Li = rows[static_cast<std::size_t>(i)].length;
+      const double Lj = rows[static_cast<std::size_t>(j)].length;
+      covariance(i, j) = 25 * slip * slip * 0.01 * part.perimeter() * std::min(std::abs(Li), std::abs(Lj)) *
+                         part.turning().curvature(s + Li) * part.turning().curvature(s + Lj);
+    }
+  }
+  return covariance;
+}
+
+Brute brute_posterior(const Part& part, const std::vector<Reading>& rows, double radius, const Noise& noise,
+                      double about, double reach) {
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  const double k = 1 / radius;
+  constexpr int kPoints = 2001;
+  std::vector<double> logs(kPoints);
+  std::vector<double> places(kPoints);
+  for (int i = 0; i < kPoints; ++i) {
+    const double s = about + reach * (2.0 * i / (kPoints - 1) - 1);
+    Eigen::VectorXd f(n);
+    Eigen::VectorXd by_first(n);
+    Eigen::VectorXd by_scale(n);
+    Eigen::VectorXd own(n);
+    for (Eigen::Index r = 0; r < n; ++r) {
+      const Reading& row = rows[static_cast<std::size_t>(r)];
+      const double kappa = part.turning().curvature(s + row.length);
+      f[r] = part.turning().angle(s + row.length) - part.turning().angle(s) - row.turn;
+      by_first[r] = (k + kappa) * noise.contact;
+      by_scale[r] = kappa * row.length * noise.slip;
+      own[r] = std::pow((k + kappa) * noise.contact, 2) + std::pow(noise.angle, 2);
+    }
+    Eigen::MatrixXd covariance = own.asDiagonal();
+    covariance += by_first * by_first.transpose() + by_scale * by_scale.transpose() +
+                  slip_here_and_there(part, rows, s, noise.slip);
+    covariance.array() += noise.angle * noise.angle;
+    const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
+    const double log_volume = 2 * factor.matrixLLT().diagonal().array().log().sum();
+    double by_rotation = 0;  // the finger is turned, and the length is what comes out: the density is of lengths
+    for (Eigen::Index r = 0; r < n; ++r) {
+      by_rotation += std::log(k + part.turning().curvature(s + rows[static_cast<std::size_t>(r)].length));
+    }
+    places[static_cast<std::size_t>(i)] = s;
+    logs[static_cast<std::size_t>(i)] = -0.5 * (f.dot(factor.solve(f)) + log_volume) + by_rotation;
+  }
+  const double most = *std::max_element(logs.begin(), logs.end());
+  double total = 0;
+  double sum = 0;
+  double squares = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double weight = std::exp(logs[i] - most);
+    total += weight;
+    sum += weight * (places[i] - about);
+    squares += weight * std::pow(places[i] - about, 2);
+  }
+  const double mean = sum / total;
+  return {about + mean, std::sqrt(squares / total - mean * mean)};
+}
+
+BeliefOptions with(const Noise& noise) {
+  BeliefOptions options;
+  options.noise = noise;
+  return options;
+}
+
+Sample sample_of(const Reading& reading, double finger_curvature = 0) {
+  Sample sample;
+  sample.reading = reading;
+  sample.finger_curvature = finger_curvature;
+  return sample;
+}
+
+}  // namespace
+
+TEST(Belief, is_what_the_whole_covariance_of_all_rows_gives) {
+  const Part part = part_of("cam");
+  const double radius = 0.2;
+  const Noise noise = noise_on(part, 2e-4, 1e-3, 1e-3);
+  std::mt19937_64 random = test_generator();
+  std::uniform_real_distribution<double> unit;
+  for (int k = 0; k < test_count(6); ++k) {
+    const double start = unit(random) * part.perimeter();
+    const NoisyRoll roll = roll_on(part, radius, start, 0.35 * part.perimeter(), 40, noise, random());
+    Belief belief = belief_in(part, roll.log, radius, with(noise));
+    const Mode& mode = belief.modes().front();
+    std::vector<Reading> rows = rollfix::readings_as_given(roll.log, DiskFinger{radius});
+    rows.erase(rows.begin());
+    const Brute brute = brute_posterior(part, rows, radius, noise, mode.start, 8 * mode.sd);
+    EXPECT_NEAR(distance(part, mode.mean, brute.mean), 0, 0.05 * brute.sd);
+    EXPECT_NEAR(mode.sd, brute.sd, 0.03 * brute.sd);
+  }
+}
+
+TEST(Belief, on_a_part_that_looks_the_same_twice_both_places_are_as_probable) {
+  const Part part = part_of("ellipse,a=2,b=1");
+  const Noise noise = noise_on(part, 1e-3, 5e-3, 5e-3);
+  Belief belief = belief_in(part, roll_on(part, 0.2, 1, 3, 200, noise, 1).log, 0.2, with(noise));
+  ASSERT_EQ(belief.modes().size(), 2U);
+  EXPECT_NEAR(belief.modes()[0].probability, 0.5, 1e-3);
+  EXPECT_NEAR(distance(part, belief.modes()[0].start, belief.modes()[1].start), 0.5 * part.perimeter(), 1e-3);
+  EXPECT_EQ(belief.verdict(), "ambiguous (2)");
+}
+
+TEST(Belief, a_prior_decides_between_places_that_look_alike) {
+  const Part part = part_of("ellipse,a=2,b=1");
+  BeliefOptions options = with(noise_on(part, 1e-3, 5e-3, 5e-3));
+  options.prior = rollfix::Prior{1.2, 0.5};
+  Belief belief = belief_in(part, roll_on(part, 0.2, 1, 3, 200, options.noise, 1).log, 0.2, options);
+  EXPECT_EQ(belief.verdict(), "unique");
+  EXPECT_LT(distance(part, belief.modes().front().start, 1), 5 * belief.modes().front().sd);
+}
+
+TEST(Belief, on_a_circle_nothing_is_known_of_the_place) {
+  const Part part = part_of("circle");
+  const Noise noise = noise_on(part, 1e-3, 5e-3, 5e-3);
+  Belief belief = belief_in(part, roll_on(part, 0.2, 1, 3, 200, noise, 1).log, 0.2, with(noise));
+  EXPECT_EQ(belief.verdict(), "unobservable");
+  EXPECT_NEAR(belief.modes().front().sd, part.perimeter() / std::sqrt(12), 0.01 * part.perimeter());
+}
+
+TEST(Belief, before_anything_was_rolled_every_place_is_as_probable) {
+  const Part part = part_of("cam");
+  Belief belief(part, LogKind::contact, with(noise_on(part, 1e-3, 5e-3, 0)));
+  EXPECT_EQ(belief.verdict(), "unobservable");
+  belief.add(sample_of({0, 0}, 5));
+  belief.add(sample_of({0, 0}, 5));
+  EXPECT_EQ(belief.verdict(), "unobservable");
+}
+
+TEST(Belief, more_than_a_lap_is_no_different) {
+  const Part part = part_of("cam");
+  const Noise noise = noise_on(part, 1e-3, 5e-3, 5e-3);
+  Belief belief = belief_in(part, roll_on(part, 0.2, 2, 1.7 * part.perimeter(), 400, noise, 1).log, 0.2, with(noise));
+  EXPECT_EQ(belief.verdict(), "unique");
+  EXPECT_LT(distance(part, belief.modes().front().start, 2), 5 * belief.modes().front().sd);
+}
+
+TEST(Belief, an_open_part_is_not_left_at_its_ends) {
+  const Part part = part_of("log-spiral");
+  const double P = part.perimeter();
+  const Noise noise = noise_on(part, 1e-3, 1e-2, 5e-3);
+  Belief belief = belief_in(part, roll_on(part, 0.02 * P, 0.02 * P, 0.9 * P, 200, noise, 1).log, 0.02 * P, with(noise));
+  ASSERT_FALSE(belief.modes().empty());
+  const Mode& mode = belief.modes().front();
+  EXPECT_GE(mode.interval.lo, 0);
+  EXPECT_LE(mode.interval.hi, P);
+  EXPECT_LT(std::abs(mode.start - 0.02 * P), 5 * mode.sd);
+}
+
+TEST(Belief, a_finger_that_pivots_at_a_corner_is_at_the_corner) {
+  const Part part = part_of("reuleaux");
+  const double radius = 0.1;
+  const double corner = part.corners()[1].s;
+  const Noise noise = noise_on(part, 1e-3, 5e-3, 5e-3);
+  // From the corner's middle on: half of the pivot, and then a piece of the arc.
+  const double turn = part.corners()[1].turn;
+  Belief belief(part, LogKind::contact, with(noise));
+  for (int k = 0; k <= 50; ++k) belief.add(sample_of({0, 0.5 * turn * k / 50}, 1 / radius));
+  for (int k = 1; k <= 50; ++k) {
+    const double L = 0.3 * k / 50;
+    belief.add(sample_of({L, 0.5 * turn + L * part.turning().curvature(corner + L)}, 1 / radius));
+  }
+  ASSERT_EQ(belief.modes().size(), 3U);
+  for (const Mode& mode : belief.modes()) {
+    double least = part.perimeter();
+    for (const rollfix::Corner& c : part.corners()) least = std::min(least, distance(part, c.s, mode.start));
+    EXPECT_LT(least, 5 * noise.contact);
+    EXPECT_NEAR(mode.probability, 1.0 / 3, 0.01);
+  }
+}
+
+TEST(Belief, stray_rows_do_not_sink_a_robust_one) {
+  const Part part = part_of("cam");
+  BeliefOptions options = with(noise_on(part, 1e-3, 5e-3, 5e-3));
+  NoisyRoll roll = roll_on(part, 0.2, 2, 3, 300, options.noise, 1);
+  for (std::size_t row = 7; row < roll.log.rows(); row += 19) roll.log.psi[row] += 0.6;
+  Belief plain = belief_in(part, roll.log, 0.2, options);
+  EXPECT_GT(plain.excess(), 3);
+  options.robust = true;
+  Belief robust = belief_in(part, roll.log, 0.2, options);
+  ASSERT_EQ(robust.verdict(), "unique");
+  EXPECT_LT(distance(part, robust.modes().front().start, 2), 5 * robust.modes().front().sd);
+}
+
+TEST(Belief, noise_that_is_understated_widens_the_answer) {
+  const Part part = part_of("cam");
+  const Noise noise = noise_on(part, 1e-3, 5e-3, 0);
+  const Noise understated = noise_on(part, 5e-4, 2.5e-3, 0);
+  const rollfix::Log log = roll_on(part, 0.2, 2, 3, 300, noise, 1).log;
+  Belief right = belief_in(part, log, 0.2, with(noise));
+  Belief wrong = belief_in(part, log, 0.2, with(understated));
+  EXPECT_NEAR(right.excess(), 1, 0.1);
+  EXPECT_NEAR(wrong.excess(), 2, 0.2);
+  EXPECT_NEAR(wrong.modes().front().sd, right.modes().front().sd, 0.2 * right.modes().front().sd);
+}
+
+TEST(Belief, a_wrong_radius_is_told_from_a_wrong_part) {
+  const Part part = part_of("cam");
+  const Noise noise = noise_on(part, 2e-4, 2e-3, 1e-3);
+  const rollfix::Log log = roll_on(part, 0.2, 2, 5, 300, noise, 1).log;
+  Belief radius = belief_in(part, log, 0.2 * 1.1, with(noise));
+  EXPECT_EQ(radius.verdict(), "inconsistent");
+  EXPECT_EQ(radius.diagnosis().cause, Cause::radius);
+  EXPECT_NEAR(radius.diagnosis().length_scale, 1 / 1.1, 0.01);
+  Belief other = belief_in(part_of("gear"), log, 0.2, with(noise));
+  EXPECT_EQ(other.verdict(), "inconsistent");
+  EXPECT_EQ(other.diagnosis().cause, Cause::part);
+}
+
+TEST(Belief, a_finger_that_slipped_once_is_told_of) {
+  const Part part = part_of("spline,n=9,seed=7,wobble=0.2");
+  const Noise noise = noise_on(part, 2e-4, 2e-3, 1e-3);
+  const NoisyRoll roll = roll_on(part, 0.1, 2, 3, 300, noise, 1);
+  Belief belief(part, LogKind::contact, with(noise));
+  const std::vector<Reading> rows = rollfix::readings_as_given(roll.log, DiskFinger{0.1});
+  // Half way, within a tenth of the rows, the finger is dragged along: the length it felt falls short by 0.25.
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const double dragged = std::clamp((static_cast<double>(k) - 135) / 30, 0.0, 1.0) * 0.25;
+    belief.add(sample_of({rows[k].length - dragged, rows[k].turn}, 10));
+  }
+  EXPECT_EQ(belief.verdict(), "inconsistent");
+  EXPECT_EQ(belief.diagnosis().cause, Cause::slip);
+}
+
+TEST(Belief, a_million_rows_are_few_nodes) {
+  const Noise noise{1e-3, 1e-3, 0, 0};
+  rollfix::belief::Nodes nodes(rollfix::belief::ErrorModel(with(noise), LogKind::contact, 5, 6), 5, false);
+  for (int k = 0; k < 1000000; ++k) nodes.add(sample_of({1e-6 * k, 2e-6 * k}, 5));
+  EXPECT_EQ(nodes.rows(), 1000000U);
+  EXPECT_LE(nodes.complete().size(), rollfix::belief::Nodes::kMostNodes);
+  EXPECT_NEAR(nodes.complete().front().own.length * static_cast<double>(nodes.rows() / nodes.complete().size()), 1e-6,
+              5e-7);
+}
+
+TEST(Belief, joined_rows_say_the_same_as_all_of_them) {
+  const Part part = part_of("cam");
+  const Noise noise = noise_on(part, 1e-3, 5e-3, 5e-3);
+  const rollfix::Log log = roll_on(part, 0.2, 2, 3, 5000, noise, 1).log;
+  Belief belief = belief_in(part, log, 0.2, with(noise));
+  EXPECT_EQ(belief.samples(), 4999U);
+  EXPECT_EQ(belief.verdict(), "unique");
+  EXPECT_LT(distance(part, belief.modes().front().start, 2), 4 * belief.modes().front().sd);
+  EXPECT_LT(belief.excess(), 1.2);
+}
+
+TEST(Belief, asked_along_the_way_it_ends_where_it_does_without) {
+  const Part part = part_of("spline,n=9,seed=7,wobble=0.2");
+  const Noise noise = noise_on(part, 1e-3, 5e-3, 5e-3);
+  const rollfix::Log log = roll_on(part, 0.1, 2, 2, 700, noise, 1).log;
+  Belief at_once = belief_in(part, log, 0.1, with(noise));
+  Belief asked(part, LogKind::contact, with(noise));
+  for (const Reading& reading : rollfix::readings_as_given(log, DiskFinger{0.1})) {
+    asked.add(sample_of(reading, 10));
+    asked.modes();
+  }
+  const Mode& one = at_once.modes().front();
+  const Mode& other = asked.modes().front();
+  EXPECT_LT(distance(part, one.mean, other.mean), 0.05 * one.sd);
+  EXPECT_NEAR(one.sd, other.sd, 0.05 * one.sd);
+}
+
+TEST(Belief, the_probabilities_of_all_modes_and_the_rest_are_one) {
+  const Part part = part_of("spline,n=12,seed=5,wobble=0.4");
+  const Noise noise = noise_on(part, 2e-3, 1e-2, 1e-2);
+  Belief belief = belief_in(part, roll_on(part, 0.05, 2, 0.3, 100, noise, 1).log, 0.05, with(noise));
+  double total = belief.rest();
+  for (const Mode& mode : belief.modes()) total += mode.probability;
+  EXPECT_NEAR(total, 1, 1e-6);
+  double mass = 0;
+  for (const rollfix::Mass& piece : belief.mass()) mass += piece.share;
+  EXPECT_NEAR(mass, 1, 1e-6);
+}
+
+TEST(Belief, noise_that_makes_no_sense_is_refused) {
+  const Part part = part_of("cam");
+  EXPECT_THROW(Belief(part, LogKind::contact, with({})), InputError);
+  EXPECT_THROW(Belief(part, LogKind::contact, with({-1, 0.1, 0, 0})), InputError);
+  EXPECT_THROW(Belief(part, LogKind::contact, with({NAN, 0.1, 0, 0})), InputError);
+  BeliefOptions options = with({1e-3, 1e-3, 0, 0});
+  options.prior = rollfix::Prior{1, 0};
+  EXPECT_THROW(Belief(part, LogKind::contact, options), InputError);
+}
+
+TEST(Weigh, every_placement_of_the_search_is_listed_or_improbable) {
+  const Part part = part_of("spline,n=9,seed=7,wobble=0.2");
+  const Noise noise = noise_on(part, 1e-3, 5e-3, 5e-3);
+  const NoisyRoll roll = roll_on(part, 0.1, 2, 1, 100, noise, 1);
+  Belief belief = belief_in(part, roll.log, 0.1, with(noise));
+  const std::vector<Reading> readings{rollfix::readings_as_given(roll.log, DiskFinger{0.1}).back()};
+  rollfix::LocateOptions options;
+  options.tolerance = belief.tolerance();
+  const rollfix::Search found = rollfix::locate(part, readings, options);
+  const rollfix::Weighed weighed = rollfix::weigh(part, readings, found, belief);
+  ASSERT_EQ(weighed.placements.size(), weighed.modes.size());
+  EXPECT_GE(weighed.placements.size() + weighed.improbable.size(), found.placements.size());
+  EXPECT_LT(distance(part, weighed.placements.front().start, 2), 5 * weighed.modes.front().sd);
+}
+
+TEST(PoseSpread, holds_the_true_pose_as_often_as_it_should) {
+  const Part part = part_of("cam");
+  const double radius = 0.2;
+  const Noise noise = noise_on(part, 1e-3, 5e-3, 5e-3);
+  std::mt19937_64 random = test_generator();
+  Eigen::Vector3i within = Eigen::Vector3i::Zero();
+  const int count = test_count(60);
+  for (int k = 0; k < count; ++k) {
+    const double start = part.perimeter() * static_cast<double>(k) / count;
+    const rollfix::Log log = roll_on(part, radius, start, 3, 100, noise, random()).log;
+    Belief belief = belief_in(part, log, radius, with(noise));
+    const rollfix::Contact first{log.u.front(), log.psi.front()};
+    const double towards = first.facing();
+    const rollfix::Vec2 where =
+        rollfix::Vec2(log.x.front(), log.y.front()) + radius * rollfix::Vec2(std::cos(towards), std::sin(towards));
+    const Mode* mode = mode_at(belief.modes(), start, part);
+    ASSERT_NE(mode, nullptr);
+    const rollfix::PoseSpread spread =
+        rollfix::pose_spread(part, *mode, belief.mass(), where, towards, 1 / radius, noise);
+    // The part was simulated with its frame as the world's. Two errors make all three: the covariance is singular.
+    const Eigen::Array3d off(spread.mean.x, spread.mean.y, std::remainder(spread.mean.heading, 2 * M_PI));
+    within += (off.abs() < 1.96 * spread.covariance.diagonal().array().sqrt()).cast<int>().matrix();
+  }
+  for (const int inside : within) EXPECT_GE(inside, 0.95 * count - 4 * std::sqrt(0.95 * 0.05 * count));
+}
+
+}  // namespace belief_test

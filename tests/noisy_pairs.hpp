@@ -1,0 +1,78 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "free_roll.hpp"
+#include "rollfix/belief/pair_belief.hpp"
+#include "rollfix/contact/pair_log.hpp"
+#include "rollfix/part/period.hpp"
+
+/// Small words for tests about two fingers' noisy logs.
+namespace noisy_pairs {
+
+using rollfix::BeliefOptions;
+using rollfix::FingerPair;
+using rollfix::Noise;
+using rollfix::PairBelief;
+using rollfix::PairLog;
+using rollfix::PairMode;
+using rollfix::PairPoint;
+using rollfix::PairReading;
+using rollfix::Part;
+
+/// A roll of two fingers as it was, and what noisy sensors said of it.
+struct Case {
+  PairPoint start{};
+  std::array<rollfix::DiskFinger, 2> fingers;
+  PairLog log;
+
+  FingerPair pair() const { return {fingers[0], fingers[1]}; }
+};
+
+/// Adds to a log what its sensors are off by: each row's own contact and angle, the finger's radius, and slip.
+inline void add_noise(rollfix::Log& log, double radius, const Noise& noise, std::mt19937_64& generator) {
+  std::normal_distribution<double> normal(0, 1);
+  // Measured is what a finger of the nominal radius would have to have rolled.
+  const double scale = 1 + noise.slip * normal(generator) + noise.radius / radius * normal(generator);
+  const double first = log.u.front();
+  for (std::size_t k = 0; k < log.u.size(); ++k) {
+    const double true_u = log.u[k];
+    const double measured = first + (true_u - first) * scale;
+    // The normal is where it is: what the finger has slipped, its orientation shows.
+    log.psi[k] += true_u - measured;
+    log.u[k] = measured + noise.contact / radius * normal(generator);
+    log.psi[k] += noise.angle * normal(generator);
+  }
+}
+
+inline Case noisy_case(const Part& part, const PairPoint& start, double La, double Lb, std::size_t rows, double ra,
+                       double rb, const Noise& noise, std::mt19937_64& generator) {
+  rollfix::FreePlan plan = free_rolls::by_distances(ra, start[0], La, rb, start[1], Lb, 0.4);
+  plan.rows = rows;
+  Case drawn{start, {{{ra}, {rb}}}, {}};
+  drawn.log = rollfix::roll_free_in_closed_form(part, plan).log;
+  add_noise(drawn.log.a, ra, noise, generator);
+  add_noise(drawn.log.b, rb, noise, generator);
+  return drawn;
+}
+
+inline PairBelief belief_of(const Part& part, const Case& drawn, const BeliefOptions& options) {
+  rollfix::PairContacts contacts;
+  contacts.finger_curvature = {1 / drawn.fingers[0].radius, 1 / drawn.fingers[1].radius};
+  contacts.facing = rollfix::facing(drawn.log, drawn.pair());
+  PairBelief belief(part, rollfix::LogKind::contact, options, contacts);
+  for (const PairReading& row : rollfix::readings_as_given(drawn.log, drawn.pair())) belief.add(row);
+  return belief;
+}
+
+/// Is s within an interval of places, around the loop?
+inline bool holds(const Part& part, const rollfix::Interval& interval, double s) {
+  if (!part.closed()) return s >= interval.lo && s <= interval.hi;
+  return rollfix::wrap(s - interval.lo, part.perimeter()).base <= interval.width();
+}
+
+}  // namespace noisy_pairs

@@ -1,0 +1,301 @@
+// What a log that grows says, line by line, without files and without a clock.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "rollfix/error.hpp"
+#include "rollfix/watcher.hpp"
+#include "watch_logs.hpp"
+
+namespace watcher_test {
+
+namespace {
+
+using rollfix::Mode;
+using rollfix::app::kLongestLine;
+using rollfix::app::ReadLine;
+using rollfix::app::RollEnd;
+using rollfix::app::WatchAnswer;
+using rollfix::app::Watcher;
+using rollfix::app::WatchOptions;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::SizeIs;
+using watching::cam;
+using watching::kHeader;
+using watching::noisy_rows;
+
+/// Writes down what it is told.
+class Diary : public rollfix::app::WatchListener {
+ public:
+  void found(const WatchAnswer& answer) override { happened.push_back("found " + std::to_string(answer.roll)); }
+  void changed(const WatchAnswer& answer) override { changes.push_back(answer); }
+  void over(const WatchAnswer& answer, RollEnd why) override {
+    const char* const words[] = {"lost ", "jump ", "restarted ", "ended "};
+    happened.push_back(words[static_cast<int>(why)] + std::to_string(answer.roll));
+    answers.push_back(answer);
+  }
+  void note(const std::string& message) override { notes.push_back(message); }
+  bool is_ready() override { return ready; }
+
+  std::vector<std::string> happened;
+  std::vector<WatchAnswer> changes;
+  std::vector<WatchAnswer> answers;  // each roll's last
+  std::vector<std::string> notes;
+  bool ready = true;
+};
+
+WatchOptions options() {
+  WatchOptions options;
+  options.name = "roll.csv";
+  options.finger = watching::kFinger;
+  options.belief.noise = watching::kNoise;
+  return options;
+}
+
+/// A watch with what it told.
+struct Watch {
+  explicit Watch(const WatchOptions& how = options()) : watcher(cam(), how, diary) {}
+
+  Watch& push(const std::string& line) {
+    watcher.push({line, false});
+    return *this;
+  }
+  Watch& push(const std::vector<std::string>& lines) {
+    for (const std::string& line : lines) push(line);
+    return *this;
+  }
+
+  Diary diary;
+  Watcher watcher;
+};
+
+std::vector<std::string> part_of(const std::vector<std::string>& rows, std::size_t from, std::size_t to) {
+  const auto at = [&](std::size_t k) { return rows.begin() + static_cast<std::ptrdiff_t>(k); };
+  return {at(from), at(to)};
+}
+
+void expect_same(const WatchAnswer& a, const WatchAnswer& b) {
+  EXPECT_EQ(a.verdict, b.verdict);
+  ASSERT_EQ(a.modes.size(), b.modes.size());
+  for (std::size_t k = 0; k < a.modes.size(); ++k) {
+    EXPECT_EQ(a.modes[k].mean, b.modes[k].mean);
+    EXPECT_EQ(a.modes[k].sd, b.modes[k].sd);
+    EXPECT_EQ(a.modes[k].probability, b.modes[k].probability);
+  }
+}
+
+/// The one place that is left is the true one. Five standard deviations: seeds change.
+void expect_found(const WatchAnswer& answer, double start, double length) {
+  EXPECT_EQ(answer.verdict, "unique");
+  ASSERT_FALSE(answer.modes.empty());
+  const Mode& best = answer.modes.front();
+  EXPECT_LT(best.sd, 0.02);
+  EXPECT_LT(std::abs(best.mean - start), 5 * best.sd);
+  EXPECT_LT(std::abs(best.end_mean - (start + length)), 5 * best.end_sd);
+}
+
+/// What was told while a log grew, with nothing at all in between.
+WatchAnswer answer_to(const std::vector<std::string>& rows) {
+  Watch watch;
+  watch.push(kHeader).push(rows).watcher.finish();
+  return watch.diary.answers.back();
+}
+
+WatchAnswer one_place(double mean, double sd, double probability) {
+  WatchAnswer answer;
+  answer.verdict = "ambiguous (2)";
+  answer.modes.resize(1);
+  answer.modes[0].mean = mean;
+  answer.modes[0].sd = sd;
+  answer.modes[0].probability = probability;
+  return answer;
+}
+
+}  // namespace
+
+TEST(Watcher, tells_where_a_roll_started_and_where_the_finger_is) {
+  Watch watch;
+  watch.push(kHeader).push(noisy_rows(2, 3, 600)).watcher.finish();
+  EXPECT_THAT(watch.diary.happened, ElementsAre("found 1", "ended 1"));
+  expect_found(watch.diary.answers.back(), 2, 3);
+  EXPECT_EQ(watch.watcher.counts().samples, 600U);
+  EXPECT_EQ(watch.diary.answers.back().samples, 600U);
+  EXPECT_EQ(watch.diary.answers.back().sample.line, 601U);
+}
+
+TEST(Watcher, tells_what_changes_and_not_every_sample) {
+  Watch watch;
+  watch.push(kHeader).push(noisy_rows(2, 3, 2000)).watcher.finish();
+  EXPECT_GE(watch.diary.changes.size(), 3U);
+  EXPECT_LE(watch.diary.changes.size(), 40U);
+  for (std::size_t k = 1; k < watch.diary.changes.size(); ++k) {
+    EXPECT_TRUE(is_news(watch.diary.changes[k - 1], watch.diary.changes[k], cam()));
+  }
+}
+
+TEST(Watcher, tells_every_so_many_samples_when_asked_to) {
+  WatchOptions every = options();
+  every.every = 50;
+  Watch watch(every);
+  watch.push(kHeader).push(noisy_rows(2, 3, 220));
+  ASSERT_THAT(watch.diary.changes, SizeIs(4));
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(watch.diary.changes[k].samples, 50 * (k + 1));
+}
+
+TEST(Watcher, gives_each_sample_its_due_however_rarely_it_tells) {
+  WatchOptions rarely = options();
+  rarely.every = 100000;
+  Watch watch(rarely);
+  const std::vector<std::string> rows = noisy_rows(2, 3, 300);
+  watch.push(kHeader).push(rows).watcher.finish();
+  EXPECT_THAT(watch.diary.changes, SizeIs(0));
+  EXPECT_EQ(watch.diary.answers.back().samples, 300U);
+  expect_found(watch.diary.answers.back(), 2, 3);
+}
+
+TEST(Watcher, comes_to_the_same_answer_however_often_it_works_it_out) {
+  const std::vector<std::string> rows = noisy_rows(2, 3, 1100);
+  const WatchAnswer by_default = answer_to(rows);
+  for (const std::size_t every : {1U, 7U, 100000U}) {
+    WatchOptions asked = options();
+    asked.every = every;
+    Watch watch(asked);
+    watch.push(kHeader).push(rows).watcher.finish();
+    const WatchAnswer& answer = watch.diary.answers.back();
+    EXPECT_EQ(answer.verdict, by_default.verdict);
+    EXPECT_NEAR(answer.modes[0].mean, by_default.modes[0].mean, 0.1 * by_default.modes[0].sd);
+    EXPECT_NEAR(answer.modes[0].sd, by_default.modes[0].sd, 0.05 * by_default.modes[0].sd);
+  }
+}
+
+TEST(Watcher, skips_and_counts_what_cannot_be_read) {
+  const std::vector<std::string> rows = noisy_rows(2, 3, 300);
+  Watch watch;
+  watch.push(kHeader).push(part_of(rows, 0, 100)).push("5.81,abc,2,1").push("1,2").push(part_of(rows, 100, 200));
+  watch.push("1,nan,2,1").push(part_of(rows, 200, 300)).watcher.finish();
+  expect_same(watch.diary.answers.back(), answer_to(rows));
+  EXPECT_EQ(watch.watcher.counts().malformed, 3U);
+  ASSERT_THAT(watch.diary.notes, SizeIs(3));
+  EXPECT_THAT(watch.diary.notes[0], HasSubstr("roll.csv:102: "));
+  EXPECT_THAT(watch.diary.notes[0], HasSubstr("abc"));
+}
+
+TEST(Watcher, counts_a_line_without_end_as_one_that_cannot_be_read) {
+  const std::vector<std::string> rows = noisy_rows(2, 3, 300);
+  const std::string beginning = rows[100] + std::string(kLongestLine, ' ');
+  Watch watch;
+  watch.push(kHeader).push(part_of(rows, 0, 100));
+  watch.watcher.push(ReadLine{beginning, true});
+  watch.push(part_of(rows, 100, 300)).watcher.finish();
+  expect_same(watch.diary.answers.back(), answer_to(rows));
+  EXPECT_EQ(watch.watcher.counts().malformed, 1U);
+  ASSERT_THAT(watch.diary.notes, SizeIs(1));
+  EXPECT_THAT(watch.diary.notes[0], HasSubstr("roll.csv:102: "));
+  EXPECT_EQ(watch.diary.answers.back().sample.line, 302U);
+}
+
+TEST(Watcher, begins_anew_with_a_contact_that_was_lost_and_found_again) {
+  Watch watch;
+  watch.push(kHeader).push(noisy_rows(2, 3, 400)).push("900,0,0,0").push("901,0,0,0");
+  EXPECT_THAT(watch.diary.happened, ElementsAre("found 1", "lost 1"));
+  watch.push(noisy_rows(1, 3, 400, 1000)).watcher.finish();
+  EXPECT_THAT(watch.diary.happened, ElementsAre("found 1", "lost 1", "found 2", "ended 2"));
+  expect_found(watch.diary.answers[0], 2, 3);
+  expect_found(watch.diary.answers[1], 1, 3);
+  EXPECT_EQ(watch.watcher.counts().rolls, 2U);
+  EXPECT_EQ(watch.watcher.counts().samples, 800U);
+}
+
+TEST(Watcher, goes_on_after_a_connection_that_dropped) {
+  const std::vector<std::string> rows = noisy_rows(2, 3, 400);
+  Watch watch;
+  watch.push(kHeader).push(part_of(rows, 0, 150)).watcher.resume();
+  watch.push(kHeader).push(part_of(rows, 150, 400)).watcher.finish();
+  EXPECT_THAT(watch.diary.happened, ElementsAre("found 1", "ended 1"));
+  expect_same(watch.diary.answers.back(), answer_to(rows));
+  EXPECT_EQ(watch.watcher.counts().reconnects, 1U);
+}
+
+TEST(Watcher, takes_another_log_as_another_roll) {
+  Watch watch;
+  watch.push(kHeader).push(noisy_rows(2, 3, 400)).watcher.restart();
+  watch.push("psi,u,time");
+  watch.push("0,0,0").push("1,-0.5,1").watcher.finish();
+  EXPECT_THAT(watch.diary.happened, ElementsAre("found 1", "restarted 1", "found 2", "ended 2"));
+  expect_found(watch.diary.answers[0], 2, 3);
+  EXPECT_EQ(watch.diary.answers[1].sample.line, 3U);
+  EXPECT_NEAR(watch.diary.answers[1].sample.reading.length, 0.1, 1e-12);
+}
+
+TEST(Watcher, keeps_news_back_while_nobody_takes_it_and_then_tells_the_newest) {
+  const std::vector<std::string> rows = noisy_rows(2, 3, 400);
+  Watch watch;
+  watch.diary.ready = false;
+  watch.push(kHeader).push(rows);
+  EXPECT_THAT(watch.diary.changes, SizeIs(0));
+  EXPECT_TRUE(watch.watcher.is_behind());
+  watch.diary.ready = true;
+  watch.watcher.catch_up();
+  ASSERT_THAT(watch.diary.changes, SizeIs(1));
+  EXPECT_EQ(watch.diary.changes[0].samples, 400U);
+  EXPECT_FALSE(watch.watcher.is_behind());
+  expect_same(watch.diary.changes[0], answer_to(rows));
+}
+
+TEST(Watcher, that_is_live_makes_something_of_the_last_samples_before_more_come) {
+  WatchOptions live = options();
+  live.live = true;
+  Watch watch(live);
+  const std::vector<std::string> rows = noisy_rows(2, 3, 599);
+  watch.push(kHeader).push(rows);
+  watch.watcher.catch_up();
+  EXPECT_FALSE(watch.watcher.is_behind());
+  expect_same(watch.watcher.last_answer(), answer_to(rows));
+}
+
+TEST(Watcher, refuses_noise_that_cannot_be_before_anything_comes) {
+  WatchOptions none = options();
+  none.belief.noise = {};
+  EXPECT_THROW(Watch{none}, rollfix::InputError);
+}
+
+TEST(News, are_another_verdict_a_place_that_was_not_known_and_more_certainty) {
+  const WatchAnswer said = one_place(2, 0.1, 0.6);
+  WatchAnswer other_verdict = said;
+  other_verdict.verdict = "unique";
+  EXPECT_TRUE(is_news(said, other_verdict, cam()));
+  EXPECT_TRUE(is_news(said, one_place(2.11, 0.1, 0.6), cam()));
+  EXPECT_TRUE(is_news(said, one_place(2, 0.049, 0.6), cam()));
+  EXPECT_TRUE(is_news(said, one_place(2, 0.1, 0.71), cam()));
+  EXPECT_TRUE(is_news(WatchAnswer{}, said, cam()));
+}
+
+TEST(News, are_not_what_hardly_differs) {
+  const WatchAnswer said = one_place(2, 0.1, 0.6);
+  EXPECT_FALSE(is_news(said, said, cam()));
+  EXPECT_FALSE(is_news(said, one_place(2.09, 0.051, 0.69), cam()));
+}
+
+TEST(News, are_not_a_step_across_the_seam) {
+  const double P = cam().perimeter();
+  EXPECT_FALSE(is_news(one_place(0.01, 0.1, 0.6), one_place(P - 0.01, 0.1, 0.6), cam()));
+}
+
+TEST(News, are_not_where_nothing_fits) {
+  WatchAnswer said = one_place(2, 0.1, 0.6);
+  WatchAnswer now = one_place(3, 0.01, 0.9);
+  said.verdict = now.verdict = "inconsistent";
+  EXPECT_FALSE(is_news(said, now, cam()));
+}
+
+TEST(News, are_not_two_places_that_change_ranks) {
+  WatchAnswer said = one_place(2, 0.1, 0.51);
+  said.modes.push_back(one_place(5, 0.1, 0.49).modes[0]);
+  WatchAnswer now = said;
+  std::swap(now.modes[0], now.modes[1]);
+  EXPECT_FALSE(is_news(said, now, cam()));
+}
+
+}  // namespace watcher_test
