@@ -18,11 +18,10 @@ struct Tolerance {
 /// changes it by at most h times the largest curvature, but for stretches shorter than h, which count as corners.
 Tolerance tolerance_from_rounding(const Part& part, const std::vector<Rounding>& roundings);
 
-/// --tolerance as typed: an angle of at least 0. Throws InputError.
 /// What noise makes of it.
 Tolerance tolerance_from_noise(double value);
 
-/// As typed. Throws InputError.
+/// --tolerance as typed: an angle of at least 0. Throws InputError.
 Tolerance tolerance_from_option(const std::string& text);
 
 }  // namespace rollfix::app

@@ -11,6 +11,7 @@
 #include "belief/grid.hpp"
 #include "belief/modes.hpp"
 #include "belief/nodes.hpp"
+#include "belief/policy.hpp"
 #include "belief/tilted_boundary.hpp"
 #include "rollfix/error.hpp"
 
@@ -18,24 +19,13 @@ namespace rollfix {
 
 namespace {
 
+using namespace belief;
+
 // s as a function of w need not be better than this share of what a contact is known to.
 constexpr double kShareOfNoise = 1e-3;
 constexpr double kShareOfPerimeter = 1e-9;
-// Samples that are off by more than this many times the noise can't be of this part and this finger.
-constexpr double kMostExcess = 2.5;
-// Explanations that are tried where nothing fits: lengths off by a fifth throughout, or by as much here and there.
-constexpr double kOtherScale = 0.2;
-constexpr double kOtherSlip = 0.2;
-constexpr double kAboutAsGood = 1.3;
-// The farthest of the errors that are let pass, in standard deviations.
-constexpr double kFarthest = 4.5;
-// A place with this probability is the only one.
-constexpr double kCertain = 0.95;
-// But not where it holds more than this share of the boundary.
+// Even the only place is not known where it holds more than this share of the boundary.
 constexpr double kWide = 0.1;
-// One with less than this is not counted among those that remain.
-constexpr double kCounts = 0.01;
-
 void require_valid(const BeliefOptions& options) {
   const Noise& noise = options.noise;
   rollfix::require_valid(noise);
@@ -179,10 +169,7 @@ Diagnosis Belief::diagnosis() {
   if (!(excess() > kMostExcess)) return {Cause::none, excess(), 1};
   const Diagnosis radius = state_->explain(Cause::radius, state_->errors->with_scale(kOtherScale));
   const Diagnosis slip = state_->explain(Cause::slip, state_->errors->with_slip(kOtherSlip));
-  // Slip here and there explains a wrong scale as well: the simpler explanation counts, where it is about as good.
-  if (radius.excess <= kMostExcess && radius.excess <= kAboutAsGood * slip.excess) return radius;
-  if (slip.excess <= kMostExcess) return {Cause::slip, slip.excess, 1};
-  return {Cause::part, excess(), 1};
+  return likelier(radius, slip, excess());
 }
 
 std::string Belief::verdict() { return verdict_on(modes()); }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "belief/policy.hpp"
 #include "belief/square.hpp"
 #include "rollfix/part/period.hpp"
 
@@ -32,16 +33,6 @@ constexpr double kLeastCell = 1e-13;
 constexpr int kMostRounds = 50;
 // A grid does not grow beyond this; what is not resolved by then counts as rest.
 constexpr std::size_t kMostPoints = 400000;
-// Of samples that are asked to be robust, this share is taken to be stray.
-constexpr double kOutlierShare = 0.02;
-// The samples' cost is beyond what chance makes of it: this many standard deviations of a chi-square.
-constexpr double kExcessSigma = 3;
-
-/// The standard normal deviate that is as unlikely as this chi-square (Wilson and Hilferty 1931).
-double normal_deviate(double chi_square, double freedom) {
-  const double spread = 2 / (9 * freedom);
-  return (std::cbrt(chi_square / freedom) - (1 - spread)) / std::sqrt(spread);
-}
 
 }  // namespace
 

@@ -14,6 +14,7 @@
 #include "belief/pair_lattice.hpp"
 #include "belief/pair_modes.hpp"
 #include "belief/pair_starts.hpp"
+#include "belief/policy.hpp"
 #include "belief/tilted_boundary.hpp"
 #include "rollfix/error.hpp"
 
@@ -21,35 +22,20 @@ namespace rollfix {
 
 namespace {
 
+using namespace belief;
+
 // As for one finger: s as a function of w is known to this share of a contact's noise, ...
 constexpr double kPairShareOfNoise = 1e-3;
 constexpr double kPairShareOfPerimeter = 1e-9;
 // ... and the tangent where a contact is felt to this share of the angles'.
 constexpr double kShareOfAngle = 1e-3;
 constexpr std::size_t kMostPairNodes = 512;
-// Samples that are off by more than this many times the noise can't be of this part and these fingers.
-constexpr double kMostPairExcess = 2.5;
-constexpr double kOtherPairScale = 0.2;
-constexpr double kOtherPairSlip = 0.2;
-// The farthest of the errors that are let pass, in standard deviations; and where that leaves nothing good, at most.
-constexpr double kFarthestPair = 4.5;
+// Where errors of kFarthest leave nothing good, larger ones are let pass, up to this many standard deviations.
 constexpr double kFarthestOfAll = 40;
 constexpr double kWider = 3;
 // Squares of the search are as long as so many standard deviations of a contact's place.
 constexpr double kSquareSigmas = 3;
 constexpr double kLargestSquareShare = 1.0 / 128;
-constexpr double kPairCertain = 0.95;
-constexpr double kPairCounts = 0.01;
-// Of samples that are asked to be robust, this share is taken to be stray.
-constexpr double kPairOutlierShare = 0.02;
-// The samples' cost is beyond what chance makes of it: this many standard deviations of a chi-square.
-constexpr double kPairExcessSigma = 3;
-
-/// The standard normal deviate that is as unlikely as this chi-square (Wilson and Hilferty 1931).
-double deviate_of(double chi_square, double freedom) {
-  const double spread = 2 / (9 * freedom);
-  return (std::cbrt(chi_square / freedom) - (1 - spread)) / std::sqrt(spread);
-}
 
 }  // namespace
 
@@ -132,19 +118,19 @@ PairBelief::State::Outcome PairBelief::State::weigh(const belief::PairErrors& wi
   model.errors = &with_errors;
   model.boundary = {&*boundary[0], &*boundary[1]};
   model.felt = {&*felt[0], alike ? &*felt[0] : &*felt[1]};
-  model.outliers.share = options.robust ? kPairOutlierShare : 0;
+  model.outliers.share = options.robust ? kOutlierShare : 0;
   model.prior = options.prior;
   model.closed = part.closed();
 
   Outcome result;
   const auto freedom = static_cast<double>(nodes.size());
   const auto excess_of = [&](double cost) {
-    const bool is_excess = freedom > 0 && !options.robust && deviate_of(cost, freedom) > kPairExcessSigma;
+    const bool is_excess = freedom > 0 && !options.robust && normal_deviate(cost, freedom) > kExcessSigma;
     return is_excess ? std::max(1.0, std::sqrt(cost / freedom)) : 1.0;
   };
   const double resolution = std::clamp(kSquareSigmas * with_errors.contact_sd(), 0.0, kLargestSquareShare * P);
   std::vector<belief::PairPeak> peaks;
-  double sigmas = kFarthestPair;
+  double sigmas = kFarthest;
   double missed = 1;
   // Where the noise is larger than said, what it allows is wider.
   while (true) {
@@ -155,7 +141,7 @@ PairBelief::State::Outcome PairBelief::State::weigh(const belief::PairErrors& wi
       peaks = again;
     }
     missed = candidates.missed;
-    const double needed = peaks.empty() ? kWider * sigmas : kFarthestPair * excess_of(peaks.front().score.cost);
+    const double needed = peaks.empty() ? kWider * sigmas : kFarthest * excess_of(peaks.front().score.cost);
     if (needed <= 1.2 * sigmas || sigmas >= kFarthestOfAll) break;
     sigmas = std::min(kFarthestOfAll, std::max(needed, kWider * sigmas));
   }
@@ -250,16 +236,14 @@ double PairBelief::tolerance(const std::vector<PairReading>& readings) {
       most = std::max(most, variance);
     }
   }
-  return kFarthestPair * std::min(excess(), kMostPairExcess) * std::sqrt(most);
+  return kFarthest * std::min(excess(), kMostExcess) * std::sqrt(most);
 }
 
 Diagnosis PairBelief::diagnosis() {
-  if (!(excess() > kMostPairExcess)) return {Cause::none, excess(), 1};
-  const Diagnosis radius = state_->explain(Cause::radius, state_->errors.with_scale(kOtherPairScale));
-  if (radius.excess <= kMostPairExcess) return radius;
-  const Diagnosis slip = state_->explain(Cause::slip, state_->errors.with_slip(kOtherPairSlip));
-  if (slip.excess <= kMostPairExcess) return {Cause::slip, slip.excess, 1};
-  return {Cause::part, excess(), 1};
+  if (!(excess() > kMostExcess)) return {Cause::none, excess(), 1};
+  const Diagnosis radius = state_->explain(Cause::radius, state_->errors.with_scale(kOtherScale));
+  const Diagnosis slip = state_->explain(Cause::slip, state_->errors.with_slip(kOtherSlip));
+  return likelier(radius, slip, excess());
 }
 
 std::string PairBelief::verdict() { return verdict_on(modes()); }
@@ -267,18 +251,17 @@ std::string PairBelief::verdict() { return verdict_on(modes()); }
 std::string PairBelief::verdict_on(const std::vector<PairMode>& modes) {
   state_->settle();
   if (state_->rows.empty() && !state_->contacts.facing) return "unobservable";
-  if (excess() > kMostPairExcess || modes.empty()) return "inconsistent";
+  if (excess() > kMostExcess || modes.empty()) return "inconsistent";
   // Where one mode goes all the way round, no such roll can tell.
   const double P = state_->part.perimeter();
-  const bool goes_round =
-      state_->part.closed() && std::any_of(modes.begin(), modes.end(), [&](const PairMode& mode) {
-        return mode.probability >= kPairCounts &&
-               std::max(mode.interval[0].width(), mode.interval[1].width()) > 0.9 * kPairCertain * P;
-      });
+  const bool goes_round = state_->part.closed() && std::any_of(modes.begin(), modes.end(), [&](const PairMode& mode) {
+                            return mode.probability >= kCounts &&
+                                   std::max(mode.interval[0].width(), mode.interval[1].width()) > 0.9 * kCertain * P;
+                          });
   if (goes_round) return "unobservable";
   std::size_t count = 0;
-  for (const PairMode& mode : modes) count += mode.probability >= kPairCounts ? 1 : 0;
-  if (count <= 1 || modes.front().probability >= kPairCertain) return "unique";
+  for (const PairMode& mode : modes) count += mode.probability >= kCounts ? 1 : 0;
+  if (count <= 1 || modes.front().probability >= kCertain) return "unique";
   return fmt::format("ambiguous ({})", count);
 }
 

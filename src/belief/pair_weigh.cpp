@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "belief/policy.hpp"
 #include "locate/pair/pair_residual.hpp"
 #include "part/angle.hpp"
 #include "rollfix/part/period.hpp"
@@ -13,31 +14,22 @@ namespace rollfix {
 
 namespace {
 
-/// A placement of the search further than this many standard deviations from a mode is another one.
-constexpr double kNearPair = 3;
+using belief::distance_to;
+using belief::kNear;
 
-/// How far outside an interval of places a place is; 0 inside.
-double off_interval(const Interval& interval, double s, const Part& part) {
-  if (!part.closed()) return std::max({0.0, interval.lo - s, s - interval.hi});
-  const double P = part.perimeter();
-  const double ahead = wrap(s - interval.lo, P).base;
-  if (ahead <= interval.width()) return 0;
-  return std::min(ahead - interval.width(), P - ahead);
-}
-
-/// The same of a pair and a placement's extent, in standard deviations of a mode.
+/// How far a pair is outside a placement's extent, in standard deviations of a mode.
 double off_placement(const PairPlacement& placement, const PairPoint& at, const PairMode& mode, const Part& part) {
   double most = 0;
   for (const std::size_t finger : {0U, 1U}) {
     if (placement.whole_loop[finger]) continue;
-    const double off = off_interval(placement.extent[finger], at[finger], part);
+    const double off = distance_to(placement.extent[finger], at[finger], part);
     if (off > 0) most = std::max(most, off / std::max(mode.sd[finger], 1e-300));
   }
   return most;
 }
 
 bool lies_in(const PairBox& box, const PairPoint& at, const Part& part) {
-  return off_interval(box[0], at[0], part) == 0 && off_interval(box[1], at[1], part) == 0;
+  return distance_to(box[0], at[0], part) == 0 && distance_to(box[1], at[1], part) == 0;
 }
 
 /// What a mode is by itself: nothing of the search holds it.
@@ -110,9 +102,9 @@ WeighedPairs weigh(const Part& part, const std::vector<PairReading>& readings, c
         nearest = k;
       }
       // A wide mode can hold several.
-      if (off <= kNearPair || lies_in(mode.interval, found.placements[k].start, part)) has_mode[k] = true;
+      if (off <= kNear || lies_in(mode.interval, found.placements[k].start, part)) has_mode[k] = true;
     }
-    const bool is_found = nearest < found.placements.size() && least <= kNearPair;
+    const bool is_found = nearest < found.placements.size() && least <= kNear;
     PairPlacement placement = is_found ? within(found.placements[nearest], mode, part) : placement_of(mode);
     placement.start = mode.start;
     placement.end = mode.end;

@@ -3,27 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "belief/policy.hpp"
 #include "part/angle.hpp"
-#include "rollfix/part/period.hpp"
 
 namespace rollfix {
 
 namespace {
 
-/// A placement of the search further than this many standard deviations from a mode is another one.
-constexpr double kNear = 3;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+using belief::distance_to;
+using belief::kNear;
 
-/// How far outside an extent a place is; 0 inside.
-double distance_to(const Interval& extent, double s, const Part& part) {
-  if (!part.closed()) return std::max({0.0, extent.lo - s, s - extent.hi});
-  const double P = part.perimeter();
-  const double ahead = wrap(s - extent.lo, P).base;
-  if (ahead <= extent.width()) return 0;
-  return std::min(ahead - extent.width(), P - ahead);
-}
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Curvatures at both ends of the roll decide how the start moves with the reading.
 Sensitivity sensitivity_at(const Part& part, const std::vector<Reading>& readings, double s) {
