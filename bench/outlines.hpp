@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "rollfix/outline/gallery.hpp"
-#include "rollfix/outline/spline.hpp"
+#include "rollfix/outline/points.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace bench {

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "files/dxf/dxf.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/files/dxf.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "files/json/outline.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/files/json_outline.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {

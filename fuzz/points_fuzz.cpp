@@ -8,7 +8,6 @@
 
 #include "rollfix/error.hpp"
 #include "rollfix/outline/points.hpp"
-#include "rollfix/outline/smoothing.hpp"
 
 namespace {
 

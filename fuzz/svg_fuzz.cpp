@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "files/svg/svg.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/files/svg.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {

@@ -7,7 +7,7 @@
 #include "draw_helpers.hpp"
 #include "rollfix/draw/locate_figure.hpp"
 #include "rollfix/draw/part_figure.hpp"
-#include "rollfix/draw/save.hpp"
+#include "rollfix/draw/svg.hpp"
 #include "rollfix/error.hpp"
 
 namespace draw_figure_test {

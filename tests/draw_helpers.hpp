@@ -12,7 +12,7 @@
 
 #include "rollfix/draw/locate_figure.hpp"
 #include "rollfix/outline/gallery.hpp"
-#include "rollfix/outline/spline.hpp"
+#include "rollfix/outline/points.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace draw_test {

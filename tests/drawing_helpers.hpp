@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/outline/drawing.hpp"
+#include "rollfix/outline/loops.hpp"
 #include "rollfix/outline/outline.hpp"
 #include "rollfix/part/part.hpp"
 

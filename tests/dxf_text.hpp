@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "files/dxf/dxf.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/files/dxf.hpp"
 
 /// Small DXF files, written by hand.
 namespace dxf_text {

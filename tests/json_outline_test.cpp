@@ -1,5 +1,5 @@
 // JSON files of users: gallery shapes, and curves one by one.
-#include "rollfix/files/json_outline.hpp"
+#include "files/json/outline.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "rollfix/outline/outline.hpp"
-#include "rollfix/outline/spline.hpp"
+#include "rollfix/outline/points.hpp"
 
 namespace march_shapes {
 

@@ -1,5 +1,5 @@
 // Bezier and NURBS curves, elliptic arcs, and Bezier curves that start at rest.
-#include "rollfix/outline/bezier.hpp"
+#include "rollfix/outline/primitives.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,7 +15,6 @@
 #include "random.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline/outline.hpp"
-#include "rollfix/outline/primitives.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace outline_bezier_test {

@@ -12,7 +12,7 @@
 #include <string>
 
 #include "rollfix/error.hpp"
-#include "rollfix/outline/names.hpp"
+#include "text/text.hpp"
 
 namespace outline_load_test {
 namespace {

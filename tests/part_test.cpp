@@ -10,8 +10,8 @@
 
 #include "rollfix/error.hpp"
 #include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/points.hpp"
 #include "rollfix/outline/primitives.hpp"
-#include "rollfix/outline/spline.hpp"
 #include "shapes.hpp"
 
 namespace part_test {

@@ -12,7 +12,7 @@
 
 #include "random.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/spline.hpp"
+#include "rollfix/outline/points.hpp"
 #include "shapes.hpp"
 
 namespace reach_test {

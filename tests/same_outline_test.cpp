@@ -7,10 +7,10 @@
 #include <random>
 #include <string>
 
+#include "files/dxf/dxf.hpp"
+#include "files/svg/svg.hpp"
 #include "random.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/files/dxf.hpp"
-#include "rollfix/files/svg.hpp"
 #include "rollfix/locate/locate.hpp"
 #include "rollfix/outline/loops.hpp"
 #include "rollfix/outline/points.hpp"

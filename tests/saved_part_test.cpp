@@ -10,7 +10,6 @@
 #include "random.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate/locate.hpp"
-#include "rollfix/outline/bezier.hpp"
 #include "rollfix/outline/gallery.hpp"
 #include "rollfix/outline/points.hpp"
 #include "rollfix/outline/primitives.hpp"

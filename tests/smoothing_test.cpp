@@ -1,5 +1,5 @@
 // Points from scans: noise and pixel stairs go, the shape stays.
-#include "rollfix/outline/smoothing.hpp"
+#include "rollfix/outline/points.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -12,7 +12,6 @@
 #include "pixels.hpp"
 #include "random.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/points.hpp"
 #include "rollfix/part/part.hpp"
 #include "shapes.hpp"
 

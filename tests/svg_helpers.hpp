@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "drawing_helpers.hpp"
+#include "files/svg/svg.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/files/svg.hpp"
-#include "rollfix/outline/drawing.hpp"
+#include "rollfix/outline/loops.hpp"
 
 /// Small words for tests about SVG files.
 namespace svg_test {

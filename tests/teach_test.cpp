@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
+#include "outline/turning_span.hpp"
 #include "random.hpp"
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate/locate.hpp"
 #include "rollfix/outline/gallery.hpp"
-#include "rollfix/outline/turning_span.hpp"
 #include "rollfix/part/part.hpp"
 #include "shapes.hpp"
 

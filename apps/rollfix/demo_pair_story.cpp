@@ -9,7 +9,7 @@
 #include "rollfix/contact/free_part.hpp"
 #include "rollfix/contact/pair_log.hpp"
 #include "rollfix/draw/pair_figure.hpp"
-#include "rollfix/draw/save.hpp"
+#include "rollfix/draw/svg.hpp"
 #include "rollfix/drop.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/observation.hpp"

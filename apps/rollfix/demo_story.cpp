@@ -10,7 +10,7 @@
 #include "rollfix/contact/log.hpp"
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/draw/locate_figure.hpp"
-#include "rollfix/draw/save.hpp"
+#include "rollfix/draw/svg.hpp"
 #include "rollfix/drop.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate_outcome.hpp"

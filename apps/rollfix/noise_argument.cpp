@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "rollfix/error.hpp"
-#include "rollfix/outline/names.hpp"
 #include "rollfix/typed_number.hpp"
+#include "text/text.hpp"
 
 namespace rollfix::app {
 namespace {

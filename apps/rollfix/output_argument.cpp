@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "rollfix/draw/save.hpp"
+#include "rollfix/draw/svg.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/files.hpp"
 #include "rollfix/files/saved_part.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "rollfix/error.hpp"
-#include "rollfix/outline/names.hpp"
+#include "text/text.hpp"
 
 namespace rollfix::app {
 namespace {

@@ -23,7 +23,7 @@
 #include "rollfix/outline/gallery.hpp"     // IWYU pragma: export
 #include "rollfix/outline/load.hpp"        // IWYU pragma: export
 #include "rollfix/outline/outline.hpp"     // IWYU pragma: export
+#include "rollfix/outline/points.hpp"      // IWYU pragma: export
 #include "rollfix/outline/primitives.hpp"  // IWYU pragma: export
-#include "rollfix/outline/spline.hpp"      // IWYU pragma: export
 #include "rollfix/part/part.hpp"           // IWYU pragma: export
 #include "rollfix/part/reach.hpp"          // IWYU pragma: export

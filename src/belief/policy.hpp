@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "rollfix/belief/belief.hpp"
-#include "rollfix/outline/geometry.hpp"
+#include "rollfix/outline/curve.hpp"
 #include "rollfix/part/part.hpp"
 #include "rollfix/part/period.hpp"
 

@@ -11,7 +11,7 @@
 
 #include "rollfix/contact/written_number.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/names.hpp"
+#include "text/text.hpp"
 
 namespace rollfix {
 

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "outline/fitted_spline.hpp"
-#include "rollfix/outline/geometry.hpp"
+#include "rollfix/outline/curve.hpp"
 
 namespace rollfix {
 

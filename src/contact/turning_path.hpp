@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "contact/turning_nodes.hpp"
-#include "rollfix/outline/turning_span.hpp"
+#include "outline/turning_span.hpp"
 
 namespace rollfix {
 

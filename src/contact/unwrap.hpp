@@ -3,7 +3,7 @@
 #include <cstddef>
 
 #include "rollfix/contact/log.hpp"
-#include "rollfix/outline/geometry.hpp"
+#include "rollfix/outline/curve.hpp"
 
 namespace rollfix {
 

@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "rollfix/outline/geometry.hpp"
+#include "rollfix/outline/curve.hpp"
 #include "trace.hpp"
 
 namespace rollfix::draw {

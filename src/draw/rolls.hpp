@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "rollfix/locate/reading.hpp"
-#include "rollfix/outline/geometry.hpp"
+#include "rollfix/outline/curve.hpp"
 
 namespace rollfix::draw {
 

@@ -1,4 +1,4 @@
-#include "rollfix/draw/save.hpp"
+#include "rollfix/draw/svg.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>

@@ -6,13 +6,13 @@
 #include <utility>
 #include <variant>
 
+#include "files/dxf/dxf.hpp"
 #include "files/file_kind.hpp"
+#include "files/json/outline.hpp"
+#include "files/svg/svg.hpp"
 #include "outline/text_file.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/files/dxf.hpp"
-#include "rollfix/files/json_outline.hpp"
 #include "rollfix/files/saved_part.hpp"
-#include "rollfix/files/svg.hpp"
 #include "rollfix/outline/load.hpp"
 
 namespace rollfix {

@@ -1,4 +1,4 @@
-#include "rollfix/outline/bezier.hpp"
+#include "rollfix/outline/primitives.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "rollfix/error.hpp"
-#include "rollfix/outline/primitives.hpp"
 
 namespace rollfix {
 

@@ -8,11 +8,10 @@
 #include <vector>
 
 #include "outline/reversed_kind.hpp"
+#include "outline/turning_span.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/bezier.hpp"
 #include "rollfix/outline/curve.hpp"
 #include "rollfix/outline/primitives.hpp"
-#include "rollfix/outline/turning_span.hpp"
 
 namespace rollfix {
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "rollfix/outline/geometry.hpp"
+#include "rollfix/outline/curve.hpp"
 #include "rollfix/outline/primitives.hpp"
 
 namespace rollfix {

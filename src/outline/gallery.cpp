@@ -7,7 +7,7 @@
 
 #include "outline/shapes/shapes.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/names.hpp"
+#include "text/text.hpp"
 
 namespace rollfix {
 

@@ -8,7 +8,7 @@
 
 #include "outline/number.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/names.hpp"
+#include "text/text.hpp"
 
 namespace rollfix {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "rollfix/outline/gallery.hpp"
-#include "rollfix/outline/names.hpp"
+#include "text/text.hpp"
 
 namespace rollfix {
 

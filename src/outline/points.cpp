@@ -13,7 +13,6 @@
 #include "outline/numbered_points.hpp"
 #include "outline/text_file.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/smoothing.hpp"
 
 namespace rollfix {
 

@@ -1,4 +1,4 @@
-#include "rollfix/outline/smoothing.hpp"
+#include "rollfix/outline/points.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "rollfix/outline/spline.hpp"
+#include "rollfix/outline/points.hpp"
 
 #include <fmt/format.h>
 

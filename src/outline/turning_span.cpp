@@ -1,4 +1,4 @@
-#include "rollfix/outline/turning_span.hpp"
+#include "outline/turning_span.hpp"
 
 #include <fmt/format.h>
 

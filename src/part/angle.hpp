@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "rollfix/outline/geometry.hpp"
+#include "rollfix/outline/curve.hpp"
 
 namespace rollfix {
 

@@ -8,7 +8,7 @@
 
 #include "rollfix/contact/log_stream.hpp"
 #include "rollfix/contact/noise.hpp"
-#include "rollfix/outline/geometry.hpp"
+#include "rollfix/outline/curve.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace rollfix {

@@ -8,7 +8,7 @@
 #include "rollfix/belief/pair_belief.hpp"
 #include "rollfix/belief/pose_spread.hpp"
 #include "rollfix/locate/locate_pair.hpp"
-#include "rollfix/outline/geometry.hpp"
+#include "rollfix/outline/curve.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace rollfix {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "rollfix/locate/reading.hpp"
-#include "rollfix/outline/geometry.hpp"
+#include "rollfix/outline/curve.hpp"
 #include "rollfix/outline/outline.hpp"
 #include "rollfix/part/part.hpp"
 

@@ -9,7 +9,7 @@
 #include "rollfix/contact/finger.hpp"
 #include "rollfix/contact/log.hpp"
 #include "rollfix/contact/pair_log.hpp"
-#include "rollfix/outline/geometry.hpp"
+#include "rollfix/outline/curve.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace rollfix {

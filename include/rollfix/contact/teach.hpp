@@ -9,7 +9,7 @@
 #include "rollfix/contact/log.hpp"
 #include "rollfix/contact/noise.hpp"
 #include "rollfix/outline/outline.hpp"
-#include "rollfix/outline/spline.hpp"
+#include "rollfix/outline/points.hpp"
 
 namespace rollfix {
 

@@ -1,10 +1,11 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "rollfix/outline/geometry.hpp"
+#include "rollfix/outline/curve.hpp"
 
 namespace rollfix {
 
@@ -94,5 +95,21 @@ double text_width(const Text& text, double size);
 
 /// A user's text made fit for XML: control characters and broken UTF-8 replaced, markup escaped.
 std::string escape_xml(std::string_view text);
+
+enum class FigureFormat { svg, png, pdf };
+
+/// The format that a file name's ending asks for, upper case or lower.
+/// Throws InputError listing the known endings.
+FigureFormat figure_format(const std::filesystem::path& file);
+
+/// The figure as the bytes of a file. PNG: white background, two pixels for each of the figure's.
+/// The same figure gives the same bytes on the same machine (PNG and PDF depend on its fonts).
+/// Throws InternalError: the renderer failed.
+std::string encode(const Svg& figure, FigureFormat format);
+
+/// Writes the figure in the format that the file's ending asks for. It is written beside the file under a
+/// temporary name and then renamed: an older file is replaced whole or not at all.
+/// Throws InputError: unknown ending, or a place that can't be written to.
+void save_figure(const Svg& figure, const std::filesystem::path& file);
 
 }  // namespace rollfix

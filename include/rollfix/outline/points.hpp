@@ -1,14 +1,31 @@
 #pragma once
 
+#include <cstddef>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "rollfix/outline/curve.hpp"
 #include "rollfix/outline/outline.hpp"
-#include "rollfix/outline/spline.hpp"
 
 namespace rollfix {
+
+/// Neighbouring chords that turn by at least this make a corner. Below 60 degrees, so that a hexagon has corners.
+inline constexpr double kCornerAngle = 59 * std::numbers::pi / 180;
+
+/// The curve through points, as drawn by hand: a cubic spline with continuous second derivative in cumulative
+/// chord length, one Curve per chord; the curve number i starts at points[i] exactly.
+///  * closed: periodic; open: second derivative zero at both ends ("natural")
+///  * where two neighbouring chords turn by at least corner_angle (radians, in [0, pi]; 0 makes a polygon)
+///    there is a corner: a new spline starts, natural at both ends. On a closed curve the first point is no exception,
+///    and where it is not a corner the spline runs across it
+///  * a stretch between corners that is straight to rounding is made of lines
+/// Linear in the number of points.
+/// Throws InputError: fewer than 3 points (open: 2), a point that is not finite, two equal neighbours, or a
+/// corner angle outside [0, pi].
+std::vector<Curve> spline_through(const std::vector<Vec2>& points, bool closed, double corner_angle = kCornerAngle);
 
 /// How to make an outline of points.
 struct OutlineOptions {
@@ -39,5 +56,34 @@ std::vector<Vec2> read_points(const std::string& path, const OutlineOptions& opt
 /// `notes`, where given, is told how near, and how many corners there are.
 Outline outline_through(const std::vector<Vec2>& points, const std::string& name, const OutlineOptions& options = {},
                         std::vector<std::string>* notes = nullptr);
+
+/// The tolerance may be at most this share of the bounding box's diagonal: corners are looked for at a few tolerances'
+/// length, and little else would be left of the outline.
+inline constexpr double kMostSmoothing = 0.05;
+/// A rounded corner that turns by the corner angle within this many tolerances is a corner: below a radius of about
+/// this many tolerances, noise of the tolerance's size hides the rounding.
+inline constexpr double kCornerReach = 5;
+
+/// A smooth curve near points.
+struct Smoothing {
+  std::vector<Curve> curves;         // cubic spans, C2 but for the corners; lines between corners where lines will do
+  double deviation = 0;              // the largest distance of a point from the curves, never above the tolerance
+  std::vector<std::size_t> corners;  // the curves that start at a corner
+};
+
+/// The curve with few spans that stays within `tolerance` (a length) of every point of a scan: a least-squares cubic
+/// spline whose knots are added only where a point is farther away, so that the noise on either side averages out. (A
+/// spline that is pulled straight until it just keeps the tolerance would shrink every circle by it.) Knots are spaced
+/// by a length that pixel stairs and noise do not add to, and each point is compared with its own nearest place.
+///  * a corner is where the lines through the points within kCornerReach tolerances on either side turn by at least
+///    corner_angle; where points are sparser than that, the chords, as in spline_through
+///  * closed: the curve starts near the first point: within about the tolerance, or at a corner within that reach
+///  * a point given several times counts once
+///  * where the tolerance is finer than the noise, the curve follows the noise; where knots would get nearly as many
+///    as points, spline_through is returned, with deviation 0
+/// About linear in the number of points.
+/// Throws InputError: what spline_through throws, and a tolerance that is not finite, not above 0 or too large.
+Smoothing smooth_spline(const std::vector<Vec2>& points, bool closed, double tolerance,
+                        double corner_angle = kCornerAngle);
 
 }  // namespace rollfix

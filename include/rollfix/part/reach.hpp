@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "rollfix/outline/geometry.hpp"
+#include "rollfix/outline/curve.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace rollfix {

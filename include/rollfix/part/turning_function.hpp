@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "rollfix/outline/geometry.hpp"
+#include "rollfix/outline/curve.hpp"
 #include "rollfix/part/period.hpp"
 
 namespace rollfix {

@@ -12,9 +12,8 @@
 #include "files/dxf/text.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/bezier.hpp"
+#include "rollfix/outline/points.hpp"
 #include "rollfix/outline/primitives.hpp"
-#include "rollfix/outline/spline.hpp"
 
 namespace rollfix::dxf {
 

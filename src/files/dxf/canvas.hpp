@@ -8,7 +8,7 @@
 #include "files/dxf/placement.hpp"
 #include "files/dxf/tags.hpp"
 #include "files/dxf/tally.hpp"
-#include "rollfix/outline/drawing.hpp"
+#include "rollfix/outline/loops.hpp"
 
 namespace rollfix::dxf {
 

@@ -1,4 +1,4 @@
-#include "rollfix/files/dxf.hpp"
+#include "files/dxf/dxf.hpp"
 
 #include <memory>
 

@@ -13,8 +13,8 @@
 #include "files/dxf/tally.hpp"
 #include "files/dxf/text.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/bezier.hpp"
-#include "rollfix/outline/names.hpp"
+#include "rollfix/outline/primitives.hpp"
+#include "text/text.hpp"
 
 namespace rollfix::dxf {
 

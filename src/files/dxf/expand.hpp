@@ -4,7 +4,7 @@
 
 #include "files/dxf/model.hpp"
 #include "files/dxf/tags.hpp"
-#include "rollfix/outline/drawing.hpp"
+#include "rollfix/outline/loops.hpp"
 
 namespace rollfix::dxf {
 

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "files/dxf/model.hpp"
-#include "rollfix/outline/geometry.hpp"
+#include "rollfix/outline/curve.hpp"
 
 namespace rollfix::dxf {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "files/dxf/model.hpp"
-#include "rollfix/outline/drawing.hpp"
+#include "rollfix/outline/loops.hpp"
 
 namespace rollfix::dxf {
 

@@ -8,9 +8,8 @@
 
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/bezier.hpp"
-#include "rollfix/outline/names.hpp"
 #include "rollfix/outline/primitives.hpp"
+#include "text/text.hpp"
 
 namespace rollfix {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "rollfix/outline/geometry.hpp"
+#include "rollfix/outline/curve.hpp"
 
 namespace rollfix {
 

@@ -1,4 +1,4 @@
-#include "rollfix/files/json_outline.hpp"
+#include "files/json/outline.hpp"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "rollfix/error.hpp"
-#include "rollfix/outline/bezier.hpp"
 #include "rollfix/outline/points.hpp"
 #include "rollfix/outline/primitives.hpp"
 

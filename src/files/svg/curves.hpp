@@ -5,7 +5,7 @@
 
 #include "files/svg/context.hpp"
 #include "files/svg/segment.hpp"
-#include "rollfix/outline/drawing.hpp"
+#include "rollfix/outline/loops.hpp"
 
 namespace rollfix::svg {
 

@@ -1,4 +1,4 @@
-#include "rollfix/files/svg.hpp"
+#include "files/svg/svg.hpp"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "rollfix/outline/geometry.hpp"
+#include "rollfix/outline/curve.hpp"
 
 namespace rollfix::svg {
 

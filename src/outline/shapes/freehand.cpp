@@ -5,7 +5,7 @@
 #include <random>
 
 #include "outline/shapes/shapes.hpp"
-#include "rollfix/outline/spline.hpp"
+#include "rollfix/outline/points.hpp"
 
 namespace rollfix::shapes {
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "rollfix/outline/geometry.hpp"
+#include "rollfix/outline/curve.hpp"
 
 namespace rollfix::march {
 

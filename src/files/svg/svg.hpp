@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "rollfix/outline/drawing.hpp"
+#include "rollfix/outline/loops.hpp"
 
 namespace rollfix {
 

@@ -1,4 +1,4 @@
-#include "rollfix/outline/names.hpp"
+#include "text/text.hpp"
 
 #include <fmt/format.h>
 

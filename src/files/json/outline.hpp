@@ -4,7 +4,7 @@
 #include <string_view>
 #include <variant>
 
-#include "rollfix/outline/drawing.hpp"
+#include "rollfix/outline/loops.hpp"
 #include "rollfix/outline/outline.hpp"
 
 namespace rollfix {

@@ -3,7 +3,6 @@
 #include <array>
 
 #include "rollfix/outline/curve.hpp"
-#include "rollfix/outline/geometry.hpp"
 
 namespace rollfix {
 
