@@ -263,7 +263,7 @@ TEST(Belief, a_million_rows_are_few_nodes) {
   rollfix::belief::Nodes nodes(rollfix::belief::ErrorModel(with(noise), LogKind::contact, 5, 6), 5, false);
   for (int k = 0; k < 1000000; ++k) nodes.add(sample_of({1e-6 * k, 2e-6 * k}, 5));
   EXPECT_EQ(nodes.rows(), 1000000U);
-  EXPECT_LE(nodes.complete().size(), rollfix::belief::Nodes::kMostNodes);
+  EXPECT_LE(nodes.complete().size(), rollfix::belief::kMostNodes);
   EXPECT_NEAR(nodes.complete().front().own.length * static_cast<double>(nodes.rows() / nodes.complete().size()), 1e-6,
               5e-7);
 }

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "belief/square.hpp"
+#include "belief/policy.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/part/period.hpp"
 

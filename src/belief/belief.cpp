@@ -21,9 +21,6 @@ namespace {
 
 using namespace belief;
 
-// s as a function of w need not be better than this share of what a contact is known to.
-constexpr double kShareOfNoise = 1e-3;
-constexpr double kShareOfPerimeter = 1e-9;
 // Even the only place is not known where it holds more than this share of the boundary.
 constexpr double kWide = 0.1;
 void require_valid(const BeliefOptions& options) {
@@ -53,17 +50,19 @@ struct Belief::State {
   std::optional<belief::Nodes> nodes;
   std::optional<belief::Grid> grid;
   Sample last;
+  double first_curvature = 0;  // of the finger where it first touched
   std::size_t settled_at = 0;
   std::vector<Mode> modes;
 
   void begin(double finger_curvature);
   double corner_length() const;
-  Diagnosis explain(Cause cause, const belief::ErrorModel& other) const;
+  Diagnosis explain(Cause cause) const;
   void settle();
 };
 
 void Belief::State::begin(double finger_curvature) {
   const double P = part.perimeter();
+  first_curvature = finger_curvature;
   errors.emplace(options, kind, finger_curvature, P);
   // The tilt: a disk's curvature; else what makes lengths and angles, as uncertain as they are, count alike.
   const belief::RowCovariance own = errors->row(finger_curvature);
@@ -84,7 +83,8 @@ double Belief::State::corner_length() const {
 }
 
 // With other errors the samples' nodes stay what they are; what the rows gather is looked at by lengths alone.
-Diagnosis Belief::State::explain(Cause cause, const belief::ErrorModel& other) const {
+Diagnosis Belief::State::explain(Cause cause) const {
+  const belief::ErrorModel other(options, kind, first_curvature, part.perimeter(), cause);
   belief::Nodes again(other, boundary->tilt(), options.robust);
   Sample sample = last;
   for (const belief::Node& node : nodes->complete()) {
@@ -105,7 +105,7 @@ void Belief::State::settle() {
 }
 
 Belief::Belief(const Part& part, LogKind kind, const BeliefOptions& options)
-    : state_(std::make_unique<State>(State{part, kind, options, {}, {}, {}, {}, {}, 0, {}})) {
+    : state_(std::make_unique<State>(State{part, kind, options, {}, {}, {}, {}, {}, 0, 0, {}})) {
   require_valid(options);
 }
 Belief::~Belief() = default;
@@ -167,9 +167,7 @@ double Belief::tolerance() {
 
 Diagnosis Belief::diagnosis() {
   if (!(excess() > kMostExcess)) return {Cause::none, excess(), 1};
-  const Diagnosis radius = state_->explain(Cause::radius, state_->errors->with_scale(kOtherScale));
-  const Diagnosis slip = state_->explain(Cause::slip, state_->errors->with_slip(kOtherSlip));
-  return likelier(radius, slip, excess());
+  return likelier(state_->explain(Cause::radius), state_->explain(Cause::slip), excess());
 }
 
 std::string Belief::verdict() { return verdict_on(modes()); }

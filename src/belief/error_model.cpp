@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "belief/square.hpp"
+#include "belief/policy.hpp"
 
 namespace rollfix::belief {
 
@@ -22,59 +22,107 @@ constexpr double kMostSlipHereAndThere = 1;
 // Slip is one and the same over this share of the perimeter.
 constexpr double kSlipPatch = 0.01;
 
+// Explanations that are tried where nothing fits: lengths off by a fifth throughout, or by as much here and there.
+constexpr double kOtherScale = 0.2;
+constexpr double kOtherSlip = 0.2;
+
+double here_and_there(const Noise& noise) { return std::min(kSlipHereAndThere * noise.slip, kMostSlipHereAndThere); }
+
 }  // namespace
 
-ErrorModel::ErrorModel(const BeliefOptions& options, LogKind kind, double finger_curvature, double perimeter)
-    : kind_(kind),
-      bare_(options.bare),
-      contact_variance_(square(std::max(options.noise.contact, kLeastContactShare * perimeter))),
-      angle_variance_(square(std::max(options.noise.angle, kLeastAngle))),
-      perimeter_(perimeter) {
-  if (kind_ == LogKind::contact) {
+SensorErrors::SensorErrors(const BeliefOptions& options, LogKind log_kind, double the_perimeter, double here_and_there,
+                           Cause the_supposed)
+    : kind(log_kind),
+      bare(options.bare),
+      noise(options.noise),
+      contact_variance(square(std::max(options.noise.contact, kLeastContactShare * the_perimeter))),
+      angle_variance(square(std::max(options.noise.angle, kLeastAngle))),
+      row_share(log_kind == LogKind::increments ? kShareUnderWay : 1),
+      perimeter(the_perimeter),
+      slip_here_and_there(the_supposed == Cause::slip ? kOtherSlip : here_and_there),
+      supposed(the_supposed) {}
+
+double SensorErrors::scale_variance(double finger_curvature) const {
+  if (supposed == Cause::radius) return square(kOtherScale);
+  return square(noise.slip) + square(noise.radius * finger_curvature);
+}
+
+// What slips at one place has nothing to do with what slips a hundredth of the boundary further on.
+double SensorErrors::slipped(double length) const {
+  return square(slip_here_and_there) * std::abs(length) * kSlipPatch * perimeter;
+}
+
+// An integrated gyroscope drifts: over a whole perimeter as much as one row is off.
+double SensorErrors::drifted(double length) const {
+  return is_gyroscope() ? angle_variance * std::abs(length) / perimeter : 0;
+}
+
+ErrorModel::ErrorModel(const BeliefOptions& options, LogKind kind, double finger_curvature, double perimeter,
+                       Cause supposed)
+    : sensor_(options, kind, perimeter, here_and_there(options.noise), supposed) {
+  if (kind == LogKind::contact) {
     // u0 and psi0 are measured once and taken off every row: offsets n0 of length and -(kappa n0 + a0) of turn.
-    start_(0, 0) = contact_variance_;
-    start_(0, 1) = start_(1, 0) = -finger_curvature * contact_variance_;
-    start_(1, 1) = square(finger_curvature) * contact_variance_ + angle_variance_;
-  } else if (kind_ == LogKind::travelled && !bare_) {
-    start_(0, 0) = contact_variance_;
-    start_(1, 1) = angle_variance_;
+    start_(0, 0) = sensor_.contact_variance;
+    start_(0, 1) = start_(1, 0) = -finger_curvature * sensor_.contact_variance;
+    start_(1, 1) = square(finger_curvature) * sensor_.contact_variance + sensor_.angle_variance;
+  } else if (sensor_.is_gyroscope()) {
+    start_(0, 0) = sensor_.contact_variance;
+    start_(1, 1) = sensor_.angle_variance;
   }
-  slip_ = std::min(kSlipHereAndThere * options.noise.slip, kMostSlipHereAndThere);
-  // A radius that is off by a share has every length off by it.
-  start_(2, 2) = square(options.noise.slip) + square(options.noise.radius * finger_curvature);
+  start_(2, 2) = sensor_.scale_variance(finger_curvature);
 }
 
 RowCovariance ErrorModel::row(double finger_curvature) const {
-  if (kind_ == LogKind::contact) {
-    return {contact_variance_, -finger_curvature * contact_variance_,
-            square(finger_curvature) * contact_variance_ + angle_variance_};
-  }
-  const double share = kind_ == LogKind::increments ? kShareUnderWay : 1;
-  return {share * contact_variance_, 0, share * angle_variance_};
+  const double contact = sensor_.row_share * sensor_.contact_variance;
+  const double angle = sensor_.row_share * sensor_.angle_variance;
+  if (sensor_.kind != LogKind::contact) return {contact, 0, angle};
+  return {contact, -finger_curvature * contact, square(finger_curvature) * contact + angle};
 }
 
-ErrorModel ErrorModel::with_scale(double sd) const {
-  ErrorModel other = *this;
-  other.start_(2, 2) = square(sd);
-  return other;
-}
-
-ErrorModel ErrorModel::with_slip(double per_length) const {
-  ErrorModel other = *this;
-  other.slip_ = per_length;
-  return other;
-}
-
-RowCovariance ErrorModel::gathered(double rows, double length) const {
+RowCovariance ErrorModel::gathered(double length) const {
   RowCovariance sum;
-  // What slips at one place has nothing to do with what slips a hundredth of the boundary further on.
-  sum.length = square(slip_) * std::abs(length) * kSlipPatch * perimeter_;
-  if (kind_ == LogKind::increments) {
-    sum.length += rows * contact_variance_;
-    sum.turn += rows * angle_variance_;
+  sum.length = sensor_.slipped(length);
+  if (sensor_.gathers_rows()) {
+    sum.length += sensor_.contact_variance;
+    sum.turn += sensor_.angle_variance;
   }
-  // An integrated gyroscope drifts: over a whole perimeter as much as one row is off.
-  if (kind_ == LogKind::travelled && !bare_) sum.turn += angle_variance_ * std::abs(length) / perimeter_;
+  sum.turn += sensor_.drifted(length);
+  return sum;
+}
+
+PairErrors::PairErrors(const BeliefOptions& options, LogKind kind, const std::array<double, 2>& finger_curvature,
+                       bool facing, double perimeter, Cause supposed)
+    : sensor_(options, kind, perimeter, 0, supposed),
+      absolute_(facing && kind == LogKind::contact),
+      contact_variance_(sensor_.row_share * sensor_.contact_variance),
+      turn_variance_(sensor_.row_share * 2 * sensor_.angle_variance) {  // both fingers'
+  // The first contact is measured once and taken off every row.
+  const bool has_offsets = !sensor_.gathers_rows() && !sensor_.bare;
+  for (const std::size_t finger : {0U, 1U}) {
+    const auto i = static_cast<Eigen::Index>(finger);
+    if (kind == LogKind::contact) normal_turn_[finger] = finger_curvature[finger];
+    if (has_offsets) start_(i, i) = contact_variance_;
+    start_(2 + i, 2 + i) = sensor_.scale_variance(finger_curvature[finger]);
+  }
+  if (!absolute_ && has_offsets) start_(4, 4) = turn_variance_;
+}
+
+double PairErrors::contact_sd() const { return std::sqrt(contact_variance_); }
+
+bool PairErrors::drifts() const {
+  return sensor_.slip_here_and_there > 0 || sensor_.gathers_rows() || sensor_.is_gyroscope();
+}
+
+PairShared PairErrors::gathered(double rows, const std::array<double, 2>& travelled) const {
+  PairShared sum = PairShared::Zero();
+  sum[0] = sensor_.slipped(travelled[0]);
+  sum[1] = sensor_.slipped(travelled[1]);
+  if (sensor_.gathers_rows()) {
+    sum[0] += rows * sensor_.contact_variance;
+    sum[1] += rows * sensor_.contact_variance;
+    sum[4] += rows * 2 * sensor_.angle_variance;
+  }
+  sum[4] += sensor_.drifted(std::abs(travelled[0]) + std::abs(travelled[1]));
   return sum;
 }
 

@@ -1,13 +1,41 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 
 #include "rollfix/belief/belief.hpp"
 #include "rollfix/contact/noise.hpp"
 
 namespace rollfix::belief {
 
-/// Errors that a whole roll shares: of a length and of a turn as measured, and of the scale of lengths.
+/// How far the sensors of a finger are off, which of their errors a row has on its own and which a roll gathers: the
+/// same for one finger and for each of two. docs/belief.md derives it.
+struct SensorErrors {
+  /// `supposed`: a cause that errors are looked at with which they were not said to have. `here_and_there`: slip over
+  /// short stretches, per length.
+  SensorErrors(const BeliefOptions& options, LogKind kind, double perimeter, double here_and_there, Cause supposed);
+
+  /// Of the scale of lengths: slip all along, and a radius that is off by a share has every length off by it.
+  double scale_variance(double finger_curvature) const;
+  /// Of the length, and of the turn, that is gathered on the way over a length.
+  double slipped(double length) const;
+  double drifted(double length) const;
+
+  bool gathers_rows() const { return kind == LogKind::increments; }  // every row adds its own to all that follow
+  bool is_gyroscope() const { return kind == LogKind::travelled && !bare; }
+
+  LogKind kind;
+  bool bare;
+  Noise noise;
+  double contact_variance;  // of a contact's place
+  double angle_variance;    // of a finger's orientation
+  double row_share;         // of both, what a row has on its own: of increments the part that is under way
+  double perimeter;
+  double slip_here_and_there;
+  Cause supposed;
+};
+
+/// Errors that a whole roll of one finger shares: of a length and of a turn as measured, and of the scale of lengths.
 using Shared = Eigen::Vector3d;
 using SharedCovariance = Eigen::Matrix3d;
 
@@ -18,33 +46,63 @@ struct RowCovariance {
   double turn = 0;
 };
 
-/// How the sensors' noise enters the measured length and turn of a roll; docs/belief.md derives it. Measured are
+/// How the noise enters the measured length and turn of one finger's roll. Measured are
 ///   L (1 + scale) + offset of length + the row's own,   theta + offset of turn + the row's own.
 class ErrorModel {
  public:
   /// `finger_curvature`: of the finger where it first touched.
-  ErrorModel(const BeliefOptions& options, LogKind kind, double finger_curvature, double perimeter);
-
-  /// The same with lengths whose scale is off by this much (a standard deviation); and with lengths that are off by
-  /// this much of every length rolled, each on its own.
-  ErrorModel with_scale(double sd) const;
-  ErrorModel with_slip(double per_length) const;
+  ErrorModel(const BeliefOptions& options, LogKind kind, double finger_curvature, double perimeter,
+             Cause supposed = Cause::none);
 
   /// Of the shared errors before the first row.
   const SharedCovariance& start() const { return start_; }
   /// Of a row on its own, with the finger's curvature where it touches.
   RowCovariance row(double finger_curvature) const;
-  /// What the offsets gather over so many rows that travel over this length.
-  RowCovariance gathered(double rows, double length) const;
+  /// What the offsets gather over one row that travels over this length.
+  RowCovariance gathered(double length) const;
 
  private:
-  LogKind kind_;
-  bool bare_;
-  double contact_variance_;
-  double angle_variance_;
-  double perimeter_;
-  double slip_ = 0;
+  SensorErrors sensor_;
   SharedCovariance start_ = SharedCovariance::Zero();
+};
+
+/// Errors that two fingers' whole roll shares: of a's and b's lengths as measured, of the scales of both, and of the
+/// turn as measured.
+using PairShared = Eigen::Matrix<double, 5, 1>;
+using PairSharedCovariance = Eigen::Matrix<double, 5, 5>;
+
+/// How the noise enters two fingers' lengths and turn; docs/two_fingers.md derives it.
+class PairErrors {
+ public:
+  /// `finger_curvature`: of both disks; 0 where it is not known or a jaw. `facing`: the first contacts' facing is
+  /// known.
+  PairErrors(const BeliefOptions& options, LogKind kind, const std::array<double, 2>& finger_curvature, bool facing,
+             double perimeter, Cause supposed = Cause::none);
+
+  /// Of the shared errors before the first row.
+  const PairSharedCovariance& start() const { return start_; }
+  /// What they gather, on their diagonal, over so many rows that travel over these lengths.
+  PairShared gathered(double rows, const std::array<double, 2>& travelled) const;
+  /// They gather anything: then no one value of them serves all rows.
+  bool drifts() const;
+
+  /// Rows say where the tangents point against each other, not only how that has changed since the first.
+  bool absolute() const { return absolute_; }
+  double turn_variance() const { return turn_variance_; }        // of a row's turn, on its own
+  double contact_variance() const { return contact_variance_; }  // of a row's length, on its own
+  double contact_sd() const;
+  double facing_variance() const { return 2 * sensor_.angle_variance; }
+  /// With the place u, its error turns the normal that it tells: 1/r for logs of u, else 0.
+  double normal_turn(std::size_t finger) const { return normal_turn_[finger]; }
+  double perimeter() const { return sensor_.perimeter; }
+
+ private:
+  SensorErrors sensor_;
+  bool absolute_;
+  double contact_variance_;
+  double turn_variance_;
+  std::array<double, 2> normal_turn_{};
+  PairSharedCovariance start_ = PairSharedCovariance::Zero();
 };
 
 }  // namespace rollfix::belief

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "belief/policy.hpp"
-#include "belief/square.hpp"
 #include "rollfix/part/period.hpp"
 
 namespace rollfix::belief {
@@ -151,9 +150,7 @@ void Grid::measure_excess(const Nodes& nodes) {
   }
   best_ = best->score.log_likelihood();
   const double freedom = static_cast<double>(nodes.complete().size() + (nodes.pending() ? 1 : 0));
-  const double cost = best->score.cost;
-  const bool is_excess = freedom > 0 && !options_.robust && normal_deviate(cost, freedom) > kExcessSigma;
-  excess_ = is_excess ? std::max(1.0, std::sqrt(cost / freedom)) : 1.0;
+  excess_ = excess_of(best->score.cost, freedom, options_.robust);
   // A peak is about one standard deviation wide, and no wider than the boundary.
   const double width = 1 / (std::sqrt(best->score.information) / excess_ + 1 / length_);
   best_mass_ = best_ / square(excess_) + log_prior(best->now.place()) + std::log(width);

@@ -4,21 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "belief/policy.hpp"
 #include "rollfix/part/period.hpp"
 
 namespace rollfix::belief {
 
 namespace {
-
-// Two peaks are two places when the density between them is below exp(-3) = 5 % of the lower one.
-constexpr double kValley = 3;
-// A mode with less probability than this is not listed.
-constexpr double kLeastProbability = 1e-4;
-constexpr double kCredible = 0.95;
-// A cell with less is not told of.
-constexpr double kLeastShare = 1e-9;
-
-using Cells = std::vector<GridCell>;
 
 /// A run of cells; `turns`: how often each of them lies beyond the seam of a closed boundary.
 struct Run {

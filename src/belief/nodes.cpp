@@ -27,9 +27,10 @@ double median(std::vector<double> values) {
   return 0.5 * (*upper + *std::max_element(values.begin(), upper));
 }
 
-}  // namespace
+/// Rows that are taken together before a mean is taken: of robust ones by their median.
+std::size_t block_of(bool robust, std::size_t stride) { return robust ? std::min(stride, kRowsOfMedian) : 1; }
 
-std::size_t Nodes::block() const { return robust_ ? std::min(stride_, kRowsOfMedian) : 1; }
+}  // namespace
 
 void Nodes::close_block(Node& sum, double& blocks) const {
   if (block_.empty()) return;
@@ -54,13 +55,13 @@ void Nodes::close_block(Node& sum, double& blocks) const {
 
 void Nodes::add(const Sample& sample) {
   const Reading& reading = sample.reading;
-  sum_.gathered += errors_.gathered(1, reading.length - length_);
+  sum_.gathered += errors_.gathered(reading.length - length_);
   length_ = reading.length;
   ++rows_;
   ++pending_rows_;
   block_own_ = errors_.row(sample.finger_curvature);
   block_.push_back(reading);
-  if (block_.size() >= block()) {
+  if (block_.size() >= block_of(robust_, stride_)) {
     close_block(sum_, blocks_);
     block_.clear();
   }
@@ -96,6 +97,65 @@ void Nodes::join_neighbours() {
   nodes_.resize(nodes_.size() / 2);
   stride_ *= 2;
   ++generation_;
+}
+
+std::vector<PairNode> pair_nodes(const std::vector<PairReading>& rows, const std::optional<double>& facing,
+                                 bool absolute, bool robust) {
+  std::vector<PairNode> nodes;
+  if (facing) {
+    PairNode first;
+    first.is_facing = true;
+    first.turn = *facing;
+    nodes.push_back(first);
+  }
+  const double lift = absolute && facing ? *facing : 0;
+  const std::size_t stride = std::max<std::size_t>(1, (rows.size() + kMostNodes - 1) / kMostNodes);
+  const std::size_t block = block_of(robust, stride);
+  std::array<double, 2> last{};
+  for (std::size_t begin = 0; begin < rows.size(); begin += stride) {
+    const std::size_t end = std::min(rows.size(), begin + stride);
+    PairNode node;
+    double blocks = 0;
+    for (std::size_t from = begin; from < end; from += block) {
+      std::array<std::vector<double>, 3> columns;
+      for (std::size_t k = from; k < std::min(end, from + block); ++k) {
+        columns[0].push_back(rows[k].length_a);
+        columns[1].push_back(rows[k].length_b);
+        columns[2].push_back(rows[k].turn);
+      }
+      node.length[0] += median(std::move(columns[0]));
+      node.length[1] += median(std::move(columns[1]));
+      node.turn += median(std::move(columns[2]));
+      blocks += 1;
+    }
+    node.length[0] /= blocks;
+    node.length[1] /= blocks;
+    node.turn = node.turn / blocks + lift;
+    node.rows = blocks;  // a median of rows on a slope is hardly better than one of them
+    node.gathered = static_cast<double>(end - begin);
+    node.travelled = {node.length[0] - last[0], node.length[1] - last[1]};
+    last = node.length;
+    nodes.push_back(node);
+  }
+  return nodes;
+}
+
+std::vector<PairNode> some_of(const std::vector<PairNode>& nodes, std::size_t most) {
+  if (nodes.size() <= most) return nodes;
+  std::vector<PairNode> some;
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < most; ++k) {
+    const std::size_t at = k * (nodes.size() - 1) / (most - 1);
+    PairNode node = nodes[at];
+    for (; next < at; ++next) {
+      node.gathered += nodes[next].gathered;
+      node.travelled[0] += nodes[next].travelled[0];
+      node.travelled[1] += nodes[next].travelled[1];
+    }
+    next = at + 1;
+    some.push_back(node);
+  }
+  return some;
 }
 
 }  // namespace rollfix::belief

@@ -1,13 +1,18 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>
 
 #include "belief/error_model.hpp"
 #include "rollfix/contact/log_stream.hpp"
+#include "rollfix/locate/pair_reading.hpp"
 
 namespace rollfix::belief {
+
+// A roll's rows are joined to at most this many nodes, however many rows there are.
+inline constexpr std::size_t kMostNodes = 512;
 
 /// Neighbouring rows of a roll as one: their mean, which is as good as all of them where they are close together.
 struct Node {
@@ -27,8 +32,6 @@ struct Node {
 /// joined, and from then on twice as many rows make one.
 class Nodes {
  public:
-  static constexpr std::size_t kMostNodes = 512;
-
   /// `robust`: of rows that make a node together medians are taken first, so that a stray one does not move it.
   Nodes(const ErrorModel& errors, double tilt, bool robust) : errors_(errors), tilt_(tilt), robust_(robust) {}
 
@@ -42,7 +45,6 @@ class Nodes {
   std::size_t rows() const { return rows_; }
 
  private:
-  std::size_t block() const;
   void close_block(Node& sum, double& blocks) const;
   void join_neighbours();
 
@@ -61,5 +63,22 @@ class Nodes {
   std::vector<Reading> block_;
   RowCovariance block_own_;  // of one of its rows
 };
+
+/// Neighbouring rows of two fingers' roll as one.
+struct PairNode {
+  bool is_facing = false;             // the first contacts' facing: a row of its own, without lengths
+  std::array<double, 2> length{};     // of finger a and of finger b
+  double turn = 0;                    // what Theta(s) - Theta(t) should be there, or how much it should have changed
+  double rows = 1;                    // as many rows' worth
+  double gathered = 0;                // rows since the node before
+  std::array<double, 2> travelled{};  // length since the node before
+};
+
+/// A roll's rows as at most kMostNodes nodes. `facing`: the first contacts', then the first node. `robust`: as above.
+std::vector<PairNode> pair_nodes(const std::vector<PairReading>& rows, const std::optional<double>& facing,
+                                 bool absolute, bool robust);
+
+/// Some of the nodes, evenly, the first and the last among them.
+std::vector<PairNode> some_of(const std::vector<PairNode>& nodes, std::size_t most);
 
 }  // namespace rollfix::belief

@@ -7,9 +7,9 @@
 #include <limits>
 #include <numbers>
 
+#include "belief/error_model.hpp"
 #include "belief/felt_turning.hpp"
 #include "belief/pair_candidates.hpp"
-#include "belief/pair_errors.hpp"
 #include "belief/pair_filter.hpp"
 #include "belief/pair_lattice.hpp"
 #include "belief/pair_modes.hpp"
@@ -24,12 +24,8 @@ namespace {
 
 using namespace belief;
 
-// As for one finger: s as a function of w is known to this share of a contact's noise, ...
-constexpr double kPairShareOfNoise = 1e-3;
-constexpr double kPairShareOfPerimeter = 1e-9;
-// ... and the tangent where a contact is felt to this share of the angles'.
+// The tangent where a contact is felt is known to this share of the angles' noise.
 constexpr double kShareOfAngle = 1e-3;
-constexpr std::size_t kMostPairNodes = 512;
 // Where errors of kFarthest leave nothing good, larger ones are let pass, up to this many standard deviations.
 constexpr double kFarthestOfAll = 40;
 constexpr double kWider = 3;
@@ -54,7 +50,8 @@ struct PairBelief::State {
   };
 
   Outcome weigh(const belief::PairErrors& with_errors, bool integrate) const;
-  Diagnosis explain(Cause cause, const belief::PairErrors& other) const;
+  Diagnosis explain(Cause cause) const;
+  belief::PairErrors errors_supposing(Cause cause) const;
   void settle();
   double corner_length(std::size_t finger) const;
   double tilt(std::size_t finger) const;
@@ -77,12 +74,11 @@ PairBelief::State::State(const Part& the_part, LogKind the_kind, const BeliefOpt
       kind(the_kind),
       options(the_options),
       contacts(the_contacts),
-      errors(the_options, the_kind, the_contacts.finger_curvature, the_contacts.facing.has_value(),
-             the_part.perimeter()),
+      errors(errors_supposing(Cause::none)),
       range(the_part.turning()) {
   const double P = part.perimeter();
   for (const std::size_t finger : {0U, 1U}) {
-    const double accuracy = std::max(kPairShareOfPerimeter * P, kPairShareOfNoise * errors.contact_sd());
+    const double accuracy = std::max(kShareOfPerimeter * P, kShareOfNoise * errors.contact_sd());
     boundary[finger].emplace(part, tilt(finger), std::min(accuracy, 1e-4 * P));
   }
 }
@@ -104,8 +100,7 @@ double PairBelief::State::corner_length(std::size_t finger) const {
 PairBelief::State::Outcome PairBelief::State::weigh(const belief::PairErrors& with_errors, bool integrate) const {
   const double P = part.perimeter();
   const std::optional<double> facing = contacts.facing;
-  const std::vector<belief::PairNode> nodes =
-      belief::pair_nodes(rows, facing, with_errors.absolute(), options.robust, kMostPairNodes);
+  const std::vector<belief::PairNode> nodes = belief::pair_nodes(rows, facing, with_errors.absolute(), options.robust);
   const double accuracy = kShareOfAngle * std::sqrt(with_errors.turn_variance());
   std::array<std::optional<belief::FeltTurning>, 2> felt;
   const bool alike = contacts.finger_curvature[0] == contacts.finger_curvature[1];
@@ -124,10 +119,6 @@ PairBelief::State::Outcome PairBelief::State::weigh(const belief::PairErrors& wi
 
   Outcome result;
   const auto freedom = static_cast<double>(nodes.size());
-  const auto excess_of = [&](double cost) {
-    const bool is_excess = freedom > 0 && !options.robust && normal_deviate(cost, freedom) > kExcessSigma;
-    return is_excess ? std::max(1.0, std::sqrt(cost / freedom)) : 1.0;
-  };
   const double resolution = std::clamp(kSquareSigmas * with_errors.contact_sd(), 0.0, kLargestSquareShare * P);
   std::vector<belief::PairPeak> peaks;
   double sigmas = kFarthest;
@@ -141,7 +132,8 @@ PairBelief::State::Outcome PairBelief::State::weigh(const belief::PairErrors& wi
       peaks = again;
     }
     missed = candidates.missed;
-    const double needed = peaks.empty() ? kWider * sigmas : kFarthest * excess_of(peaks.front().score.cost);
+    const double needed =
+        peaks.empty() ? kWider * sigmas : kFarthest * excess_of(peaks.front().score.cost, freedom, options.robust);
     if (needed <= 1.2 * sigmas || sigmas >= kFarthestOfAll) break;
     sigmas = std::min(kFarthestOfAll, std::max(needed, kWider * sigmas));
   }
@@ -150,7 +142,7 @@ PairBelief::State::Outcome PairBelief::State::weigh(const belief::PairErrors& wi
     result.excess = std::numeric_limits<double>::infinity();
     return result;
   }
-  result.excess = excess_of(peaks.front().score.cost);
+  result.excess = excess_of(peaks.front().score.cost, freedom, options.robust);
   result.errors = peaks.front().score.errors;
   if (!integrate) return result;
   const belief::PairDensity density =
@@ -168,8 +160,12 @@ void PairBelief::State::settle() {
   settled_at = rows.size();
 }
 
-Diagnosis PairBelief::State::explain(Cause cause, const belief::PairErrors& other) const {
-  const Outcome again = weigh(other, false);
+belief::PairErrors PairBelief::State::errors_supposing(Cause cause) const {
+  return {options, kind, contacts.finger_curvature, contacts.facing.has_value(), part.perimeter(), cause};
+}
+
+Diagnosis PairBelief::State::explain(Cause cause) const {
+  const Outcome again = weigh(errors_supposing(cause), false);
   // Of both fingers the one whose lengths are further off.
   const double a = 1 / (1 + again.errors[2]);
   const double b = 1 / (1 + again.errors[3]);
@@ -241,9 +237,7 @@ double PairBelief::tolerance(const std::vector<PairReading>& readings) {
 
 Diagnosis PairBelief::diagnosis() {
   if (!(excess() > kMostExcess)) return {Cause::none, excess(), 1};
-  const Diagnosis radius = state_->explain(Cause::radius, state_->errors.with_scale(kOtherScale));
-  const Diagnosis slip = state_->explain(Cause::slip, state_->errors.with_slip(kOtherSlip));
-  return likelier(radius, slip, excess());
+  return likelier(state_->explain(Cause::radius), state_->explain(Cause::slip), excess());
 }
 
 std::string PairBelief::verdict() { return verdict_on(modes()); }

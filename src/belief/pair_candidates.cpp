@@ -41,7 +41,7 @@ std::vector<RangeRow> rows_for(const PairModel& model, const std::vector<PairNod
   PairShared gathered = PairShared::Zero();
   std::vector<RangeRow> rows;
   for (const PairNode& node : some_of(nodes, kRowsOfSearch)) {
-    gathered += errors.gathered(node);
+    gathered += errors.gathered(node.gathered, node.travelled);
     RangeRow row;
     row.is_facing = node.is_facing;
     row.turn = node.turn;

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "belief/pair_errors.hpp"
 #include "belief/pair_filter.hpp"
 #include "rollfix/part/turning_function.hpp"
 

@@ -4,13 +4,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "belief/policy.hpp"
+
 namespace rollfix::belief {
 
 namespace {
 
-// The scale of lengths is not believed beyond these many standard deviations, nor beyond this share.
-constexpr double kMostPairSigmas = 8;
-constexpr double kMostPairScale = 0.5;
 // Linearised within this share of a standard deviation of where the errors come out: as good as exact.
 constexpr double kSameErrors = 0.3;
 constexpr double kTwoPi = 2 * std::numbers::pi;
@@ -121,10 +120,10 @@ PairScore pass(const PairModel& model, const StartPlaces& at, const std::vector<
   Eigen::Matrix<double, 5, 2>& dx = score.errors_by_start;
   P = errors.start();
   PairShared most = PairShared::Zero();
-  for (const Eigen::Index i : {2, 3}) most[i] = std::min(kMostPairScale, kMostPairSigmas * std::sqrt(P(i, i)));
+  for (const Eigen::Index i : {2, 3}) most[i] = std::min(kMostScale, kMostSigmas * std::sqrt(P(i, i)));
   LogSum volume;
   for (const PairNode& node : nodes) {
-    if (drifts) P.diagonal() += errors.gathered(node);
+    if (drifts) P.diagonal() += errors.gathered(node.gathered, node.travelled);
     const PairShared& about = drifts ? x : guess;
     const RowEquation row =
         node.is_facing ? facing_equation(errors, at, node, about) : row_equation(model, at, node, about);

@@ -5,8 +5,9 @@
 #include <optional>
 #include <vector>
 
+#include "belief/error_model.hpp"
 #include "belief/felt_turning.hpp"
-#include "belief/pair_errors.hpp"
+#include "belief/nodes.hpp"
 #include "belief/tilted_boundary.hpp"
 
 namespace rollfix::belief {

@@ -6,19 +6,12 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "belief/policy.hpp"
 #include "rollfix/part/period.hpp"
 
 namespace rollfix::belief {
 
 namespace {
-
-// Two peaks are two modes when the density on the best way between them is below exp(-3) = 5 % of the lower one.
-constexpr double kPairValley = 3;
-// A mode with less probability than this is not listed.
-constexpr double kLeastPairProbability = 1e-4;
-constexpr double kPairCredible = 0.95;
-// A grain with less is not told of.
-constexpr double kLeastGrain = 1e-9;
 
 /// Leaves of one region beside this one: what lies just across its sides.
 std::vector<std::size_t> beside(const PairRegion& region, const PairLeaf& leaf) {
@@ -63,7 +56,7 @@ std::vector<std::size_t> hills(const PairRegion& region) {
     for (const std::size_t other : neighbours) {
       if (up[other] == count || other == k) continue;
       const std::size_t peak = top(other);
-      if (peak != highest && height(peak) - height(k) < kPairValley) up[peak] = highest;
+      if (peak != highest && height(peak) - height(k) < kValley) up[peak] = highest;
     }
   }
   std::vector<std::size_t> result(count);
@@ -192,7 +185,7 @@ class PairHill {
         return Interval{at, at + std::min(hi - lo, model_.perimeter())};
       };
       mode.interval[finger] =
-          as_interval(quantile(0.5 * (1 - kPairCredible) * total), quantile(0.5 * (1 + kPairCredible) * total));
+          as_interval(quantile(0.5 * (1 - kCredible) * total), quantile(0.5 * (1 + kCredible) * total));
       mode.region[finger] = as_interval(of_finger.front().s, of_finger.back().s);
     }
   }
@@ -220,12 +213,12 @@ PairModes modes_of(const PairDensity& density, const PairModel& model, const Pai
     std::sort(order.begin(), order.end());
     for (const std::size_t top : order) {
       const PairHill hill(region, by_top[top], model, last);
-      if (hill.probability() < kLeastPairProbability) continue;
+      if (hill.probability() < kLeastProbability) continue;
       Found found{hill.mode(), {}};
       for (const std::size_t k : by_top[top]) {
         const PairScore& score = region.leaves[k].score;
         for (const PairGrain& grain : region.leaves[k].grains) {
-          if (!(grain.share > kLeastGrain)) continue;
+          if (!(grain.share > kLeastShare)) continue;
           found.mass.push_back({grain.s,
                                 grain.angle,
                                 {score.errors[0], score.errors[1]},

@@ -4,15 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "belief/policy.hpp"
+
 namespace rollfix::belief {
-
-namespace {
-
-// The scale of lengths is not believed beyond these many standard deviations, nor beyond this share.
-constexpr double kMostSigmas = 8;
-constexpr double kMostScale = 0.5;
-
-}  // namespace
 
 RollFilter::RollFilter(const TiltedArc& arc, double tilt, double w, const SharedCovariance& start)
     : arc_(&arc),

@@ -1,7 +1,0 @@
-#pragma once
-
-namespace rollfix::belief {
-
-inline double square(double x) { return x * x; }
-
-}  // namespace rollfix::belief
