@@ -18,6 +18,7 @@
 #include "rollfix/table.hpp"
 #include "rollfix/typed_number.hpp"
 #include "rollfix/usage.hpp"
+#include "text/text.hpp"
 
 namespace rollfix::app {
 namespace {

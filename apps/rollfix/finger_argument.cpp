@@ -8,6 +8,7 @@
 #include "rollfix/error.hpp"
 #include "rollfix/files/load_part.hpp"
 #include "rollfix/typed_number.hpp"
+#include "text/text.hpp"
 
 namespace rollfix::app {
 namespace {

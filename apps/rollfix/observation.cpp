@@ -8,6 +8,7 @@
 #include "rollfix/error.hpp"
 #include "rollfix/reading_argument.hpp"
 #include "rollfix/typed_number.hpp"
+#include "text/text.hpp"
 
 namespace rollfix::app {
 namespace {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "outline/turn.hpp"
 #include "rollfix/locate_outcome.hpp"
 #include "rollfix/pair_outcome.hpp"
 #include "rollfix/table.hpp"

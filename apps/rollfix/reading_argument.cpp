@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
 #include <vector>
 
+#include "outline/turn.hpp"
 #include "rollfix/contact/written_number.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/typed_number.hpp"
+#include "text/text.hpp"
 
 namespace rollfix::app {
 namespace {
@@ -37,7 +38,7 @@ Rounding common_rounding(const std::vector<std::string_view>& fields) {
     if (one > 0 && (finest == 0 || one < finest)) finest = one;
   }
   const auto lengths = static_cast<double>(fields.size() - 1);
-  return {lengths * finest, finest * (in_degrees(fields.back()) ? std::numbers::pi / 180 : 1)};
+  return {lengths * finest, finest * (in_degrees(fields.back()) ? kDegree : 1)};
 }
 
 }  // namespace
@@ -66,7 +67,7 @@ WrittenPairReading read_pair_reading(const std::string& text) {
 }
 
 WrittenAngle read_written_angle(const std::string& text, const std::string& option) {
-  return {read_angle(text, option), half_unit(text) * (in_degrees(text) ? std::numbers::pi / 180 : 1)};
+  return {read_angle(text, option), half_unit(text) * (in_degrees(text) ? kDegree : 1)};
 }
 
 bool are_of_two_fingers(const std::vector<std::string>& texts) {

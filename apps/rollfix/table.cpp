@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
+#include "outline/turn.hpp"
 
 namespace rollfix::app {
 
@@ -51,6 +51,6 @@ std::string fixed(double value, int decimals) {
 
 std::string rough(double value) { return std::isfinite(value) ? fmt::format("{:.3g}", value) : "-"; }
 
-std::string degrees(double radians) { return fixed(radians * (180 / std::numbers::pi), 3); }
+std::string degrees(double radians) { return fixed(radians / kDegree, 3); }
 
 }  // namespace rollfix::app

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -9,7 +8,6 @@ namespace rollfix::app {
 
 inline constexpr std::size_t kMostRows = 40;   // placements in a table
 inline constexpr std::size_t kMostNotes = 12;  // lines about single placements below it
-inline constexpr double kDegree = std::numbers::pi / 180;
 
 /// Text in columns, as wide as they need to be and two blanks apart.
 class Table {

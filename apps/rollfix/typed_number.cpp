@@ -9,19 +9,9 @@
 
 #include "rollfix/contact/written_number.hpp"
 #include "rollfix/error.hpp"
+#include "text/text.hpp"
 
 namespace rollfix::app {
-namespace {
-
-std::string_view trimmed(std::string_view text) {
-  const char* const blanks = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
-}  // namespace
-
 double read_number(std::string_view text, const std::string& what) {
   const std::string_view shown = trimmed(text);
   std::string_view digits = shown;
@@ -52,17 +42,6 @@ std::size_t read_count(std::string_view text, const std::string& what, std::size
     throw InputError(fmt::format("{}: '{}' is not a whole number of at least {}", what, digits, least));
   }
   return count;
-}
-
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> pieces;
-  std::size_t start = 0;
-  for (std::size_t stop = text.find(separator); stop != std::string_view::npos; stop = text.find(separator, start)) {
-    pieces.push_back(trimmed(text.substr(start, stop - start)));
-    start = stop + 1;
-  }
-  pieces.push_back(trimmed(text.substr(start)));
-  return pieces;
 }
 
 }  // namespace rollfix::app

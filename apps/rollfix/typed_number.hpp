@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace rollfix::app {
 
@@ -17,8 +16,5 @@ double read_angle(std::string_view text, const std::string& what);
 
 /// A whole number of at least `least`.
 std::size_t read_count(std::string_view text, const std::string& what, std::size_t least);
-
-/// The texts between separators, without blanks around them; one empty text when there is nothing.
-std::vector<std::string_view> split(std::string_view text, char separator);
 
 }  // namespace rollfix::app

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "outline/turn.hpp"
 #include "part/angle.hpp"
 #include "rollfix/error.hpp"
 
@@ -27,7 +28,7 @@ constexpr double kFlat = 1e-9;
 void require_convex(const Part& part) {
   for (const Corner& corner : part.corners()) {
     if (std::abs(corner.turn) > kJointTurn) {
-      refuse_finger(part, corner.s, fmt::format("a corner of {:.6g} deg", corner.turn * 180 / std::numbers::pi));
+      refuse_finger(part, corner.s, fmt::format("a corner of {:.6g} deg", corner.turn / kDegree));
     }
   }
   const double least = -kFlat * 2 * std::numbers::pi / part.perimeter();

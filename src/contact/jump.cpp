@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include "outline/turn.hpp"
 
 namespace rollfix {
 
@@ -17,11 +18,10 @@ constexpr double kSpareTurn = 1;        // radians, of rule 2
 constexpr double kAboutTurn = 0.25;     // radians, of rule 3: logs of a part that was made a little differently ...
 constexpr double kAboutLength = 0.25;   // ... and fingers whose radius is not quite what was said
 constexpr double kSpareLength = 1e-6;   // of the perimeter, of rule 1
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 std::string step_text(const Reading& step, std::size_t line) {
   return fmt::format("the length changes by {:.6g} and the turn by {:.6g} deg since line {}", step.length,
-                     step.turn * kDegrees, line);
+                     step.turn / kDegree, line);
 }
 
 }  // namespace
@@ -84,7 +84,7 @@ std::optional<std::string> JumpWatch::impossible(const Reading& step) const {
   const double most = (1 + std::floor(length / perimeter)) * std::max(turns_.variation(), 2 * std::numbers::pi) +
                       kSpareTurn + error_.turn;
   if (std::abs(step.turn) > most) {
-    return fmt::format(", but the part turns by at most {:.6g} deg over such a length", most * kDegrees);
+    return fmt::format(", but the part turns by at most {:.6g} deg over such a length", most / kDegree);
   }
   return std::nullopt;
 }

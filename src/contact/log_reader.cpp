@@ -12,9 +12,9 @@
 #include "contact/log_lines.hpp"
 #include "contact/log_rows.hpp"
 #include "contact/log_table.hpp"
-#include "outline/text_file.hpp"
 #include "rollfix/contact/log.hpp"
 #include "rollfix/error.hpp"
+#include "text/text_file.hpp"
 
 namespace rollfix {
 

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "outline/number.hpp"
 #include "rollfix/contact/written_number.hpp"
 #include "rollfix/error.hpp"
+#include "text/number.hpp"
 
 namespace rollfix {
 

@@ -6,18 +6,11 @@
 #include <string>
 #include <string_view>
 #include <vector>
+#include "text/text.hpp"
 
 namespace rollfix {
 
 namespace {
-
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
-  return text;
-}
 
 std::string_view bare(std::string_view cell) {
   cell = trimmed(cell);
@@ -33,16 +26,6 @@ char separator_of(std::string_view row) {
 }
 
 }  // namespace
-
-std::string shown(std::string_view text) {
-  constexpr std::size_t kMost = 60;
-  text = trimmed(text);
-  std::string result(text.substr(0, kMost));
-  for (char& c : result) {
-    if (static_cast<unsigned char>(c) < 0x20) c = '?';
-  }
-  return text.size() > kMost ? result + "..." : result;
-}
 
 bool TableCutter::cut(std::string_view line, std::size_t number, TableRow& row) {
   const std::string_view bare_line = line.substr(0, line.find('#'));

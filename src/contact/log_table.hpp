@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "contact/log_lines.hpp"
+#include "text/text.hpp"
 
 namespace rollfix {
 
@@ -50,8 +51,5 @@ class TableReader {
 
 /// "run.csv:12", for messages.
 std::string where(const std::string& name, std::size_t line);
-
-/// A piece of a file as a message can show it: on one line, not too long.
-std::string shown(std::string_view text);
 
 }  // namespace rollfix

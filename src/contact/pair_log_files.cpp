@@ -6,9 +6,9 @@
 #include "contact/log_columns.hpp"
 #include "contact/log_writer.hpp"
 #include "contact/unwrap.hpp"
-#include "outline/text_file.hpp"
 #include "rollfix/contact/pair_log.hpp"
 #include "rollfix/error.hpp"
+#include "text/text_file.hpp"
 
 namespace rollfix {
 

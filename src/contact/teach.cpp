@@ -1,4 +1,5 @@
 #include "rollfix/contact/teach.hpp"
+#include "text/text.hpp"
 
 #include <fmt/format.h>
 
@@ -33,8 +34,6 @@ constexpr double kLeft = 0.05;
 constexpr double kLeftDrift = 4;
 /// No part turns further, radians: a thousand times round. What does is a mistake in units.
 constexpr double kMostTurn = 1000 * kFullTurn;
-
-double degrees(double angle) { return angle * 180 / std::numbers::pi; }
 
 /// A roll's rows in the direction of growing length.
 struct Rows {
@@ -346,9 +345,9 @@ class Teacher {
   void say(std::string text) { taught_.notes.push_back(std::move(text)); }
 
   void tell() {
-    say(fmt::format("taught from {} places: {:.6g} long, turn {:.6g} deg, {} corner{}, rows' turns within {:.2g} deg",
-                    taught_.rows, taught_.lap, degrees(taught_.turn), taught_.corners, taught_.corners == 1 ? "" : "s",
-                    degrees(taught_.deviation)));
+    say(fmt::format("taught from {} places: {:.6g} long, turn {:.6g} deg, {}, rows' turns within {:.2g} deg",
+                    taught_.rows, taught_.lap, taught_.turn / kDegree, counted(taught_.corners, "corner", "corners"),
+                    taught_.deviation / kDegree));
     if (taught_.overlap > 0) {
       say(fmt::format("the roll is back at its start after {:.6g}; the {:.6g} that it goes on from there are left out",
                       taught_.lap, taught_.overlap));
@@ -356,11 +355,11 @@ class Teacher {
     const std::string found = fmt::format(
         "the turn is off {} x 360 deg by {:.3g} deg (drift allows {:.3g}), the end is {:.3g} from the start (drift "
         "allows {:.3g})",
-        taught_.turns, degrees(taught_.turn_gap), degrees(taught_.turn_allowed), taught_.gap, taught_.gap_allowed);
+        taught_.turns, taught_.turn_gap / kDegree, taught_.turn_allowed / kDegree, taught_.gap, taught_.gap_allowed);
     switch (taught_.closing) {
       case Closing::spread:
         say(fmt::format("closed: {}; spread, which turned tangents by at most {:.3g} deg", found,
-                        degrees(taught_.correction)));
+                        taught_.correction / kDegree));
         break;
       case Closing::bridged:
         say(fmt::format("closed by a bridge of length {:.6g}: {}", taught_.bridge, found));

@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include "outline/turn.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/part/period.hpp"
 
@@ -262,7 +263,7 @@ void EvenTrack::refuse_corner(double s, double turn) const {
       fmt::format("{}: a finger can't get into the concave corner at s = {:.9g}, ({:.6g}, {:.6g}), where the tangent "
                   "turns by {:.6g} "
                   "degrees: the largest radius that would do is 0 (the curvature is -inf); end the roll before it",
-                  part().name(), named(s), point.x(), point.y(), turn * 180 / std::numbers::pi));
+                  part().name(), named(s), point.x(), point.y(), turn / kDegree));
 }
 
 void EvenTrack::refuse_end(double s) const {

@@ -5,15 +5,14 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 
-#include "outline/number.hpp"
+#include "outline/turn.hpp"
+#include "text/number.hpp"
 
 namespace rollfix {
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::string_view kDegreeMark = "deg";
 constexpr int kMostPower = 1000;  // beyond it every double is 0 or infinite
 

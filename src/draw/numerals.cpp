@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include "outline/turn.hpp"
 
 namespace rollfix::draw {
 namespace {
@@ -34,9 +34,7 @@ std::string pretty(double value, int digits) {
   return with_minus(text == "-0" ? "0" : text);
 }
 
-std::string pretty_degrees(double radians, int digits) {
-  return pretty(radians * 180 / std::numbers::pi, digits) + "\u00b0";
-}
+std::string pretty_degrees(double radians, int digits) { return pretty(radians / kDegree, digits) + "\u00b0"; }
 
 double round_below(double value) {
   const double power = std::pow(10.0, std::floor(std::log10(value)));

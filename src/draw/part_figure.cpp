@@ -8,11 +8,13 @@
 #include "label_set.hpp"
 #include "legend.hpp"
 #include "numerals.hpp"
+#include "outline/turn.hpp"
 #include "palette.hpp"
 #include "part_graphs.hpp"
 #include "plot.hpp"
 #include "rollfix/error.hpp"
 #include "scene.hpp"
+#include "text/text.hpp"
 
 namespace rollfix {
 namespace draw {
@@ -48,10 +50,6 @@ std::vector<Event> events_of(const Part& part) {
   add(Sign::inflection, part.inflections());
   add(Sign::corner, corners);
   return events;
-}
-
-std::string counted(std::size_t count, const std::string& one, const std::string& many) {
-  return fmt::format("{} {}", count, count == 1 ? one : many);
 }
 
 std::string blocked_text(const Reach& reach) {
@@ -234,7 +232,7 @@ class PartPicture {
 
   void turning_plot() {
     Axes frame = axes(1, {0, 1});
-    const auto value = [](const Turning& turning) { return turning.angle * kDegrees; };
+    const auto value = [](const Turning& turning) { return turning.angle / kDegree; };
     frame.y = turning_range(part_);
     svg_.open_group("turning");
     draw_axes(svg_, frame, s_ticks_, degree_ticks(frame.y, 5),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include "outline/turn.hpp"
 
 namespace rollfix::draw {
 namespace {
@@ -48,7 +49,7 @@ CurvatureRange curvature_range(const Part& part) {
 }
 
 Interval turning_range(const Part& part) {
-  const Interval range = value_range(part, [](const Turning& turning) { return turning.angle * kDegrees; });
+  const Interval range = value_range(part, [](const Turning& turning) { return turning.angle / kDegree; });
   return range.width() > kStraight ? widened(range, 0.06) : Interval{range.lo - 45, range.lo + 45};
 }
 

@@ -1,15 +1,12 @@
 #pragma once
 
 #include <functional>
-#include <numbers>
 #include <vector>
 
 #include "plot.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace rollfix::draw {
-
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 /// The range of curvatures to show, and whether peaks were left out.
 struct CurvatureRange {

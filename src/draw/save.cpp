@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 
 #include "render.hpp"
 #include "rollfix/error.hpp"
+#include "text/text.hpp"
 
 namespace rollfix {
 namespace {
@@ -71,9 +71,7 @@ fs::path followed(const fs::path& file) {
 }  // namespace
 
 FigureFormat figure_format(const fs::path& file) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  const std::string ending = ending_of(file.string());
   if (ending == ".svg") return FigureFormat::svg;
   if (ending == ".png") return FigureFormat::png;
   if (ending == ".pdf") return FigureFormat::pdf;

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "rollfix/draw/svg.hpp"
+#include "text/text.hpp"
 
 namespace rollfix {
 namespace {
@@ -33,25 +34,6 @@ int advance(char32_t first_byte, std::size_t length, bool bold) {
   return length == 2 ? kOtherLetter : kOtherWide;
 }
 
-/// Length of the valid UTF-8 sequence that `text` begins with; 0 where it begins with none.
-std::size_t sequence_length(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char lead = byte(0);
-  if (lead < 0x80) return 1;
-  const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
-  if (lead < 0xc2 || lead > 0xf4 || text.size() < length) return 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xc0) != 0x80) return 0;
-  }
-  // Overlong forms, surrogates and what lies beyond Unicode show in the second byte.
-  const unsigned char second = byte(1);
-  if ((lead == 0xe0 && second < 0xa0) || (lead == 0xed && second >= 0xa0)) return 0;
-  if ((lead == 0xf0 && second < 0x90) || (lead == 0xf4 && second >= 0x90)) return 0;
-  // U+FFFE and U+FFFF are no XML characters.
-  if (lead == 0xef && second == 0xbf && byte(2) >= 0xbe) return 0;
-  return length;
-}
-
 }  // namespace
 
 double text_width(const Text& text, double size) {
@@ -60,7 +42,7 @@ double text_width(const Text& text, double size) {
     int thousandths = 0;
     for (std::size_t i = 0; i < span.text.size();) {
       const std::string_view rest = std::string_view(span.text).substr(i);
-      const std::size_t length = std::max<std::size_t>(1, sequence_length(rest));
+      const std::size_t length = std::max<std::size_t>(1, utf8_length(rest));
       thousandths += advance(static_cast<unsigned char>(rest[0]), length, span.bold);
       i += length;
     }
@@ -72,7 +54,7 @@ double text_width(const Text& text, double size) {
 std::string escape_xml(std::string_view text) {
   std::string out;
   while (!text.empty()) {
-    const std::size_t length = sequence_length(text);
+    const std::size_t length = utf8_length(text);
     if (length == 0) {
       out += "\xef\xbf\xbd";  // the replacement character
     } else if (length > 1) {

@@ -5,6 +5,7 @@
 #include "outline/naming.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/files/saved_part.hpp"
+#include "text/text.hpp"
 
 namespace rollfix {
 

@@ -10,10 +10,11 @@
 #include "files/file_kind.hpp"
 #include "files/json/outline.hpp"
 #include "files/svg/svg.hpp"
-#include "outline/text_file.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/files/saved_part.hpp"
 #include "rollfix/outline/load.hpp"
+#include "text/text.hpp"
+#include "text/text_file.hpp"
 
 namespace rollfix {
 
@@ -71,10 +72,6 @@ void require_options_for(FileKind kind, const std::string& name, const LoadOptio
 
 LoadedPart of_outline(Outline outline, const LoadOptions& options) {
   return {Part(std::move(outline), {options.allow_crossing}), "", {}, 0, {}};
-}
-
-std::string counted(std::size_t count, const char* one, const char* many) {
-  return fmt::format("{} {}", count, count == 1 ? one : many);
 }
 
 [[noreturn]] void refuse_open(const std::string& name, const Loop& longest) {

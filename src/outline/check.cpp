@@ -24,7 +24,7 @@ constexpr double kGap = 1e-12;
 /// A speed below this share of the speed next to it vanishes: at a cusp the search below gets to about 1e-8.
 constexpr double kStandstill = 1e-6;
 
-std::string shown(const Vec2& v) { return fmt::format("({:.10g}, {:.10g})", v.x(), v.y()); }
+std::string coordinates(const Vec2& v) { return fmt::format("({:.10g}, {:.10g})", v.x(), v.y()); }
 
 const Vec2& derivative(const Jet& jet, int order) {
   switch (order) {
@@ -161,8 +161,8 @@ class Checker {
       const Vec2 alone = curve(i).velocity(u);
       const Vec2 in_jet = curve(i).jet(u).first;
       if ((alone - in_jet).norm() <= kAgreement * in_jet.norm()) continue;
-      complain(fmt::format("curve {} at u = {}: velocity(u) is {}, but jet(u).first is {}", i, u, shown(alone),
-                           shown(in_jet)));
+      complain(fmt::format("curve {} at u = {}: velocity(u) is {}, but jet(u).first is {}", i, u, coordinates(alone),
+                           coordinates(in_jet)));
       return;
     }
   }
@@ -179,7 +179,7 @@ class Checker {
                                                    "third derivative"};
     const auto k = static_cast<std::size_t>(order);
     complain(fmt::format("curve {} at u = {}: the {} is {}, but differences of the {} give {}", i, worst->u, kNames[k],
-                         shown(worst->stated), kNames[k - 1], shown(worst->differenced)));
+                         coordinates(worst->stated), kNames[k - 1], coordinates(worst->differenced)));
   }
 
   /// Looks for the least speed around the slowest sample.
@@ -205,7 +205,7 @@ class Checker {
       complain(
           fmt::format("curve {} at u = {}, {}: the first derivative is {}, expected it not to vanish; draw the "
                       "place with another parameter, or end the curve there if it is a cusp",
-                      i, u, shown(curve(i).position(u)), shown(curve(i).velocity(u))));
+                      i, u, coordinates(curve(i).position(u)), coordinates(curve(i).velocity(u))));
       return;
     }
   }
@@ -233,7 +233,7 @@ class Checker {
       const double gap = (start - end).norm();
       if (gap <= most) continue;
       complain(fmt::format("a gap of {:.3g} between the end of curve {} at {} and the start of curve {} at {}", gap, i,
-                           shown(end), next, shown(start)));
+                           coordinates(end), next, coordinates(start)));
     }
   }
 

@@ -181,23 +181,6 @@ const Entry& find_entry(const std::string& name) {
   throw InputError(fmt::format("there is no gallery shape '{}'; {}", name, known_names(name, names)));
 }
 
-std::string trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return "";
-  return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
-}
-
-std::vector<std::string> split(const std::string& text) {
-  std::vector<std::string> parts;
-  std::size_t start = 0;
-  for (std::size_t comma = text.find(','); comma != std::string::npos; comma = text.find(',', start)) {
-    parts.push_back(trimmed(std::string_view(text).substr(start, comma - start)));
-    start = comma + 1;
-  }
-  parts.push_back(trimmed(std::string_view(text).substr(start)));
-  return parts;
-}
-
 }  // namespace
 
 const std::vector<GalleryShape>& gallery_shapes() {
@@ -223,17 +206,18 @@ Outline gallery(const std::string& shape, const ParameterList& parameters) {
 Outline gallery(const std::string& specification) {
   const std::string prefix = "gallery:";
   const bool has_prefix = specification.rfind(prefix, 0) == 0;
-  const std::vector<std::string> parts = split(has_prefix ? specification.substr(prefix.size()) : specification);
+  const std::vector<std::string_view> parts =
+      split(std::string_view(specification).substr(has_prefix ? prefix.size() : 0), ',');
   ParameterList parameters;
   for (std::size_t i = 1; i < parts.size(); ++i) {
     const std::size_t equals = parts[i].find('=');
-    if (equals == std::string::npos) {
+    if (equals == std::string_view::npos) {
       throw InputError(
           fmt::format("'{}' in '{}': expected a parameter as in gallery:ellipse,a=2,b=1", parts[i], specification));
     }
     parameters.emplace_back(trimmed(parts[i].substr(0, equals)), trimmed(parts[i].substr(equals + 1)));
   }
-  return gallery(parts.front(), parameters);
+  return gallery(std::string(parts.front()), parameters);
 }
 
 }  // namespace rollfix

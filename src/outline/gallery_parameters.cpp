@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <optional>
 
-#include "outline/number.hpp"
 #include "rollfix/error.hpp"
+#include "text/number.hpp"
 #include "text/text.hpp"
 
 namespace rollfix {

@@ -5,6 +5,7 @@
 #include "outline/naming.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline/gallery.hpp"
+#include "text/text.hpp"
 
 namespace rollfix {
 
@@ -12,7 +13,21 @@ namespace {
 
 constexpr const char* kKnown = "points in .csv, .dat or .txt, or gallery:NAME as in gallery:ellipse,a=2,b=1";
 
+/// "ellipse,a=2" without "gallery:", or a slip of the pen in it.
+std::string gallery_hint(const std::string& argument) {
+  std::vector<std::string> names;
+  for (const GalleryShape& shape : gallery_shapes()) names.push_back(shape.name);
+  const std::string nearest = nearest_name(argument.substr(0, argument.find(',')), names);
+  return nearest.empty() ? "" : fmt::format("; did you mean gallery:{}?", nearest);
+}
+
 }  // namespace
+
+std::string unknown_ending(const std::string& path, const std::string& known) {
+  const std::string ending = ending_of(path);
+  const std::string found = ending.empty() ? "has no ending" : fmt::format("has the unknown ending '{}'", ending);
+  return fmt::format("{}: {}, expected {}{}", path, found, known, gallery_hint(path));
+}
 
 Outline load_outline(const std::string& argument, const OutlineOptions& options, std::vector<std::string>* notes) {
   if (argument.rfind("gallery:", 0) == 0) {

@@ -9,10 +9,11 @@
 #include <limits>
 
 #include "outline/airfoil.hpp"
-#include "outline/number.hpp"
 #include "outline/numbered_points.hpp"
-#include "outline/text_file.hpp"
 #include "rollfix/error.hpp"
+#include "text/number.hpp"
+#include "text/text.hpp"
+#include "text/text_file.hpp"
 
 namespace rollfix {
 
@@ -55,18 +56,6 @@ LineKind read_line(const char* cursor, const char* end, Vec2& point) {
   if (second_mark == '\0') return cursor == end ? LineKind::point : LineKind::words;
   // "1,5;2,5" or "1,5 2,5": a decimal comma, most likely, and nothing that could be taken for a point by mistake.
   return is_mark(first_mark) && second_mark != first_mark ? LineKind::mixed_separators : LineKind::point;
-}
-
-std::string shown(std::string_view line) {
-  constexpr std::size_t kMost = 40;
-  while (!line.empty() && is_space(line.front())) line.remove_prefix(1);
-  while (!line.empty() && is_space(line.back())) line.remove_suffix(1);
-  const std::string more = line.size() > kMost ? "..." : "";
-  std::string text = std::string(line.substr(0, kMost)) + more;
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < 0x20) c = '?';
-  }
-  return text;
 }
 
 [[noreturn]] void refuse_line(const std::string& name, std::size_t number, std::string_view line, LineKind kind) {
@@ -217,10 +206,9 @@ Outline outline_through(const std::vector<Vec2>& points, const std::string& name
   }
   Smoothing smoothing = smooth_spline(points, outline.closed, *options.smooth, options.corner_angle);
   if (notes != nullptr) {
-    notes->push_back(
-        fmt::format("smoothed: within {:.6g} of all {} points (largest deviation {:.4g}), {} curves, {} corner{}",
-                    *options.smooth, points.size(), smoothing.deviation, smoothing.curves.size(),
-                    smoothing.corners.size(), smoothing.corners.size() == 1 ? "" : "s"));
+    notes->push_back(fmt::format("smoothed: within {:.6g} of all {} points (largest deviation {:.4g}), {} curves, {}",
+                                 *options.smooth, points.size(), smoothing.deviation, smoothing.curves.size(),
+                                 counted(smoothing.corners.size(), "corner", "corners")));
   }
   outline.curves = std::move(smoothing.curves);
   return outline;

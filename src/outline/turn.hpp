@@ -6,6 +6,7 @@
 namespace rollfix {
 
 inline constexpr double kFullTurn = 2 * std::numbers::pi;
+inline constexpr double kDegree = std::numbers::pi / 180;
 
 /// An angle with its cosine and sine.
 struct Turn {

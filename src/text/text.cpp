@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstddef>
+#include <filesystem>
 
 namespace rollfix {
 
 namespace {
+
+bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xc0U) == 0x80U; }
 
 /// Optimal string alignment distance.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
@@ -31,6 +33,50 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 
 }  // namespace
 
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t\r\n\f";
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return text.substr(0, 0);
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> pieces;
+  for (std::size_t stop = text.find(separator); stop != std::string_view::npos; stop = text.find(separator)) {
+    pieces.push_back(trimmed(text.substr(0, stop)));
+    text.remove_prefix(stop + 1);
+  }
+  pieces.push_back(trimmed(text));
+  return pieces;
+}
+
+std::string lower_case(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) {
+    if ('A' <= c && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return result;
+}
+
+std::string ending_of(const std::string& path) { return lower_case(std::filesystem::path(path).extension().string()); }
+
+std::string shown(std::string_view text) {
+  constexpr std::size_t kMost = 60;
+  text = trimmed(text);
+  const bool is_long = text.size() > kMost;
+  std::size_t length = is_long ? kMost : text.size();
+  while (is_long && length > 0 && is_continuation(text[length])) --length;
+  std::string result(text.substr(0, length));
+  for (char& c : result) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  }
+  return is_long ? result + "..." : result;
+}
+
+std::string counted(std::size_t count, std::string_view one, std::string_view many) {
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
 std::string nearest_name(const std::string& typed, const std::vector<std::string>& names) {
   // Beyond a third of the letters it is another word.
   std::size_t least = std::max<std::size_t>(typed.size() / 3, 1) + 1;
@@ -49,6 +95,35 @@ std::string known_names(const std::string& typed, const std::vector<std::string>
   const std::string nearest = nearest_name(typed, names);
   const std::string question = nearest.empty() ? "" : fmt::format("did you mean '{}'? ", nearest);
   return fmt::format("{}Known are: {}", question, fmt::join(names, ", "));
+}
+
+std::size_t utf8_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char lead = byte(0);
+  if (lead < 0x80) return 1;
+  const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
+  if (lead < 0xc2 || lead > 0xf4 || text.size() < length) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if (!is_continuation(text[i])) return 0;
+  }
+  // Overlong forms, surrogates and what lies beyond Unicode show in the second byte.
+  const unsigned char second = byte(1);
+  if ((lead == 0xe0 && second < 0xa0) || (lead == 0xed && second >= 0xa0)) return 0;
+  if ((lead == 0xf0 && second < 0x90) || (lead == 0xf4 && second >= 0x90)) return 0;
+  // U+FFFE and U+FFFF are no characters, and none that XML allows.
+  if (lead == 0xef && second == 0xbf && byte(2) >= 0xbe) return 0;
+  return length;
+}
+
+void append_utf8(std::string& text, char32_t character) {
+  if (character < 0x80) {
+    text += static_cast<char>(character);
+    return;
+  }
+  const int rest = character < 0x800 ? 1 : character < 0x10000 ? 2 : 3;  // bytes that follow the first, six bits each
+  constexpr unsigned kLeads[] = {0, 0xc0, 0xe0, 0xf0};
+  text += static_cast<char>(kLeads[rest] | (character >> (6 * rest)));
+  for (int k = rest - 1; k >= 0; --k) text += static_cast<char>(0x80U | ((character >> (6 * k)) & 0x3fU));
 }
 
 }  // namespace rollfix

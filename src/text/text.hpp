@@ -1,9 +1,29 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace rollfix {
+
+/// Without the blanks and ends of lines around it.
+std::string_view trimmed(std::string_view text);
+
+/// The texts between separators, trimmed; one empty text when there is nothing.
+std::vector<std::string_view> split(std::string_view text, char separator);
+
+/// With a to z for A to Z; all else stays.
+std::string lower_case(std::string_view text);
+
+/// What follows the last dot of a file's name, in lower case: ".csv"; empty when there is none.
+std::string ending_of(const std::string& path);
+
+/// A piece of a user's text as a message can show it: on one line and not too long.
+std::string shown(std::string_view text);
+
+/// "1 curve", "2 curves".
+std::string counted(std::size_t count, std::string_view one, std::string_view many);
 
 /// The name that takes the fewest edits (letters inserted, dropped, changed, or two neighbours swapped) to get
 /// from what was typed; empty when none is near enough to be what was meant.
@@ -11,5 +31,10 @@ std::string nearest_name(const std::string& typed, const std::vector<std::string
 
 /// For an error message: "did you mean 'ellipse'? Known are: circle, ellipse", the question only where a name is near.
 std::string known_names(const std::string& typed, const std::vector<std::string>& names);
+
+/// How many bytes the UTF-8 character takes that a text, not empty, begins with; 0 where it begins with none.
+std::size_t utf8_length(std::string_view text);
+
+void append_utf8(std::string& text, char32_t character);
 
 }  // namespace rollfix

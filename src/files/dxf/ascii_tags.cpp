@@ -7,6 +7,7 @@
 #include "files/dxf/tags.hpp"
 #include "files/dxf/text.hpp"
 #include "rollfix/error.hpp"
+#include "text/text.hpp"
 
 namespace rollfix::dxf {
 

@@ -7,8 +7,8 @@
 #include <system_error>
 
 #include "files/dxf/text.hpp"
-#include "outline/number.hpp"
 #include "rollfix/error.hpp"
+#include "text/number.hpp"
 
 namespace rollfix::dxf {
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "files/dxf/text.hpp"
+#include "text/text.hpp"
 
 namespace rollfix::dxf {
 
@@ -10,10 +11,6 @@ namespace {
 
 /// As many kinds of entities are named; a file can make up any number.
 constexpr std::size_t kMostNamed = 20;
-
-std::string counted(std::size_t count, const char* one, const char* many) {
-  return fmt::format("{} {}", count, count == 1 ? one : many);
-}
 
 std::string others_of(const Tally& tally) {
   std::string text;

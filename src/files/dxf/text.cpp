@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
+#include "text/text.hpp"
 
 namespace rollfix::dxf {
 
@@ -15,45 +16,13 @@ constexpr std::array<std::uint16_t, 32> kWindowsLetters = {
     0x2039, 0x0152, 0,      0x017d, 0,      0,      0x2018, 0x2019, 0x201c, 0x201d, 0x2022,
     0x2013, 0x2014, 0x02dc, 0x2122, 0x0161, 0x203a, 0x0153, 0,      0x017e, 0x0178};
 
-bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xc0U) == 0x80U; }
-
-/// How many bytes the UTF-8 letter at `at` takes; 0 when there is none.
-std::size_t utf8_length(std::string_view text, std::size_t at) {
-  const auto lead = static_cast<unsigned char>(text[at]);
-  const std::size_t length = lead < 0x80   ? 1
-                             : lead < 0xc2 ? 0
-                             : lead < 0xe0 ? 2
-                             : lead < 0xf0 ? 3
-                             : lead < 0xf5 ? 4
-                                           : 0;
-  if (length == 0 || at + length > text.size()) return 0;
-  for (std::size_t k = 1; k < length; ++k) {
-    if (!is_continuation(text[at + k])) return 0;
-  }
-  return length;
-}
-
 bool is_utf8(std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
-    const std::size_t length = utf8_length(text, at);
+    const std::size_t length = utf8_length(text.substr(at));
     if (length == 0) return false;
     at += length;
   }
   return true;
-}
-
-/// Appends a letter below U+10000.
-void append_utf8(std::string& result, unsigned letter) {
-  if (letter < 0x80) {
-    result += static_cast<char>(letter);
-  } else if (letter < 0x800) {
-    result += static_cast<char>(0xc0U | (letter >> 6U));
-    result += static_cast<char>(0x80U | (letter & 0x3fU));
-  } else {
-    result += static_cast<char>(0xe0U | (letter >> 12U));
-    result += static_cast<char>(0x80U | ((letter >> 6U) & 0x3fU));
-    result += static_cast<char>(0x80U | (letter & 0x3fU));
-  }
 }
 
 unsigned windows_letter(char c) {
@@ -73,15 +42,7 @@ unsigned escaped_letter(std::string_view text) {
   return error == std::errc() && end == text.data() + kLength && !is_surrogate ? letter : 0;
 }
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
-
 }  // namespace
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
-  return text;
-}
 
 std::string decoded(std::string_view text) {
   const bool as_it_is = is_utf8(text);
@@ -99,19 +60,7 @@ std::string decoded(std::string_view text) {
   return result;
 }
 
-std::string shown(std::string_view text) {
-  constexpr std::size_t kMost = 40;
-  text = trimmed(text);
-  const bool is_long = text.size() > kMost;
-  // Cut between two letters.
-  std::size_t length = is_long ? kMost : text.size();
-  while (is_long && length > 0 && is_continuation(text[length])) --length;
-  std::string result = decoded(text.substr(0, length));
-  for (char& c : result) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-  }
-  return is_long ? result + "..." : result;
-}
+std::string shown(std::string_view text) { return rollfix::shown(decoded(text)); }
 
 std::string folded(std::string_view name) {
   std::string result(name);

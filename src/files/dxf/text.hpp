@@ -5,9 +5,6 @@
 
 namespace rollfix::dxf {
 
-/// Without the blanks around it.
-std::string_view trimmed(std::string_view text);
-
 /// A name or a text of the file in UTF-8: old files hold Windows-1252 and write other letters as \U+00E4.
 std::string decoded(std::string_view text);
 

@@ -22,13 +22,4 @@ void Text::refuse(std::size_t offset, const std::string& message) const {
   throw InputError(fmt::format("{}:{}: {}", name_, line_at(offset), message));
 }
 
-std::string shown(std::string_view text) {
-  constexpr std::size_t kMost = 40;
-  std::string result(text.substr(0, kMost));
-  for (char& c : result) {
-    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-  }
-  return text.size() > kMost ? result + "..." : result;
-}
-
 }  // namespace rollfix::svg

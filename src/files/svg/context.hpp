@@ -35,7 +35,4 @@ struct Value {
   }
 };
 
-/// The beginning of a text for a message, without what would break its line.
-std::string shown(std::string_view text);
-
 }  // namespace rollfix::svg

@@ -7,18 +7,13 @@
 #include "files/svg/scanner.hpp"
 #include "files/svg/utf16.hpp"
 #include "rollfix/error.hpp"
+#include "text/text.hpp"
 
 namespace rollfix::svg {
 
 namespace {
 
 constexpr std::string_view kNamespace = "http://www.w3.org/2000/svg";
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
-  return text;
-}
 
 std::string readable(std::string_view text, const std::string& name) {
   if (text.substr(0, 2) == "\x1F\x8B") {

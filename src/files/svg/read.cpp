@@ -16,6 +16,7 @@
 #include "files/svg/length.hpp"
 #include "files/svg/shapes.hpp"
 #include "files/svg/transform.hpp"
+#include "text/text.hpp"
 
 namespace rollfix {
 
@@ -49,10 +50,6 @@ bool is_definition(std::string_view kind) {
   return is_one_of(kind, kDefinitions);
 }
 
-std::string plural(std::size_t count, const char* one, const char* many) {
-  return fmt::format("{} {}", count, count == 1 ? one : many);
-}
-
 /// What was left out, for the user to read.
 struct LeftOut {
   std::map<std::string, std::size_t> by_name;
@@ -70,22 +67,22 @@ struct LeftOut {
     for (const auto& [name, count] : by_name) names.push_back(fmt::format("{} {}", count, name));
     if (!names.empty()) notes.push_back(fmt::format("left out: {}", fmt::join(names, ", ")));
     const auto add = [&](std::size_t count, const char* one, const char* many) {
-      if (count > 0) notes.push_back("left out: " + plural(count, one, many));
+      if (count > 0) notes.push_back("left out: " + counted(count, one, many));
     };
     add(hidden, "hidden element", "hidden elements");
     add(without_size, "element without a size", "elements without a size");
     add(without_length, "segment without length", "segments without length");
     if (singular > 0) {
       notes.push_back(fmt::format("left out: {}, the first on line {}",
-                                  plural(singular, "element that a singular transform makes flat",
-                                         "elements that singular transforms make flat"),
+                                  counted(singular, "element that a singular transform makes flat",
+                                          "elements that singular transforms make flat"),
                                   first_singular));
     }
     if (clipped > 0)
-      notes.push_back(fmt::format("drawn whole: {}", plural(clipped, "clipped element", "clipped elements")));
+      notes.push_back(fmt::format("drawn whole: {}", counted(clipped, "clipped element", "clipped elements")));
     if (style_sheets > 0) {
       notes.push_back(fmt::format("not read: {} that may hide or move elements",
-                                  plural(style_sheets, "style sheet", "style sheets")));
+                                  counted(style_sheets, "style sheet", "style sheets")));
     }
     return notes;
   }

@@ -6,7 +6,8 @@
 #include <string>
 
 #include "files/svg/context.hpp"
-#include "outline/number.hpp"
+#include "text/number.hpp"
+#include "text/text.hpp"
 
 namespace rollfix::svg {
 

@@ -10,6 +10,7 @@
 
 #include "files/svg/length.hpp"
 #include "files/svg/path.hpp"
+#include "text/text.hpp"
 
 namespace rollfix::svg {
 

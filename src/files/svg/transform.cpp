@@ -8,6 +8,7 @@
 #include <string>
 
 #include "files/svg/scanner.hpp"
+#include "text/text.hpp"
 
 namespace rollfix::svg {
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "rollfix/error.hpp"
+#include "text/text.hpp"
 
 namespace rollfix {
 
@@ -14,26 +15,6 @@ constexpr std::uint32_t kHigh = 0xD800;  // the first half of a pair from here .
 constexpr std::uint32_t kLow = 0xDC00;   // ... to here, from which the second half goes ...
 constexpr std::uint32_t kBeyond = 0xE000;
 constexpr std::uint32_t kByteOrderMark = 0xFEFF;
-
-void append(std::string& result, std::uint32_t code) {
-  const auto add = [&](std::uint32_t byte) { result += static_cast<char>(byte); };
-  const auto add_rest = [&](int shift) { add(0x80 | ((code >> shift) & 0x3F)); };
-  if (code < 0x80) {
-    add(code);
-  } else if (code < 0x800) {
-    add(0xC0 | (code >> 6));
-    add_rest(0);
-  } else if (code < 0x10000) {
-    add(0xE0 | (code >> 12));
-    add_rest(6);
-    add_rest(0);
-  } else {
-    add(0xF0 | (code >> 18));
-    add_rest(12);
-    add_rest(6);
-    add_rest(0);
-  }
-}
 
 }  // namespace
 
@@ -61,7 +42,7 @@ std::string utf8_from_utf16(std::string_view text, const std::string& name) {
       k += 2;
     }
     if (!whole || code == 0) throw InputError(fmt::format("{}: is broken UTF-16 text, at byte {}", name, k));
-    if (code != kByteOrderMark) append(result, code);
+    if (code != kByteOrderMark) append_utf8(result, code);
   }
   return result;
 }

@@ -1,4 +1,4 @@
-#include "outline/text_file.hpp"
+#include "text/text_file.hpp"
 
 #include <fmt/format.h>
 
