@@ -10,7 +10,7 @@
 #include "outlines.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate/locate.hpp"
-#include "rollfix/locate/march/march.hpp"
+#include "rollfix/march/march.hpp"
 #include "stopwatch.hpp"
 #include "tables.hpp"
 

@@ -17,6 +17,7 @@ cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX
   BASE_DIRECTORY ${CMAKE_INSTALL_PREFIX}/${pkgconfig_destination} OUTPUT_VARIABLE prefix_from_pkgconfig)
 
 rollfix_install_library(rollfix rollfixTargets rollfix.pc)
+rollfix_install_library(rollfix_march rollfixMarchTargets rollfix-march.pc)
 if(TARGET rollfix_files)
   rollfix_install_library(rollfix_files rollfixFilesTargets rollfix-files.pc)
 endif()

@@ -1,4 +1,5 @@
-# rollfix::rollfix, the core, rollfix::files, what users come with, and rollfix::draw, the figures. A new file in src/ needs no edit here.
+# rollfix::rollfix, the core, rollfix::march, the published algorithms, rollfix::files, what users come with, and
+# rollfix::draw, the figures. A new file in src/ needs no edit here.
 find_package(Eigen3 3.4 CONFIG REQUIRED)
 find_package(Boost 1.74 CONFIG REQUIRED)
 find_package(fmt 9 CONFIG REQUIRED)
@@ -20,14 +21,14 @@ endfunction()
 
 file(GLOB_RECURSE core_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/*.cpp)
 file(GLOB_RECURSE core_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/*.hpp)
-foreach(room IN ITEMS files draw)
+foreach(room IN ITEMS march files draw)
   set(${room}_sources ${core_sources})
   set(${room}_headers ${core_headers})
   list(FILTER ${room}_sources INCLUDE REGEX "/src/${room}/")
   list(FILTER ${room}_headers INCLUDE REGEX "/rollfix/${room}/")
 endforeach()
-list(FILTER core_sources EXCLUDE REGEX "/src/(files|draw)/")
-list(FILTER core_headers EXCLUDE REGEX "/rollfix/(files|draw)/")
+list(FILTER core_sources EXCLUDE REGEX "/src/(march|files|draw)/")
+list(FILTER core_headers EXCLUDE REGEX "/rollfix/(march|files|draw)/")
 
 rollfix_library(rollfix rollfix
   SOURCES ${core_sources}
@@ -37,6 +38,12 @@ rollfix_library(rollfix rollfix
 target_link_libraries(rollfix
   PUBLIC Eigen3::Eigen
   PRIVATE fmt::fmt $<BUILD_INTERFACE:Boost::headers> $<BUILD_INTERFACE:FastFloat::fast_float>)
+
+rollfix_library(rollfix_march march
+  SOURCES ${march_sources}
+  HEADERS ${march_headers}
+  HEADER_DIRS ${PROJECT_SOURCE_DIR}/include)
+target_link_libraries(rollfix_march PUBLIC rollfix PRIVATE fmt::fmt $<BUILD_INTERFACE:Boost::headers>)
 
 if(ROLLFIX_BUILD_FILES)
   find_package(pugixml 1.13 CONFIG REQUIRED)

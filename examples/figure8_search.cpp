@@ -24,8 +24,8 @@
 
 #include "rollfix/error.hpp"
 #include "rollfix/locate/locate_pair.hpp"
-#include "rollfix/locate/march/march.hpp"
-#include "rollfix/locate/march/pairs.hpp"
+#include "rollfix/march/march.hpp"
+#include "rollfix/march/march_pairs.hpp"
 #include "rollfix/outline/load.hpp"
 #include "rollfix/part/part.hpp"
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "cli.hpp"
-#include "rollfix/locate/march/pairs.hpp"
+#include "rollfix/march/march_pairs.hpp"
 #include "rollfix/outline/load.hpp"
 
 namespace cli_demo_test {

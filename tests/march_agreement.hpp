@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "march_oracle.hpp"
-#include "rollfix/locate/march/march.hpp"
+#include "rollfix/march/march.hpp"
 
 namespace march_oracle {
 

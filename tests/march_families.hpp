@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/locate/march/pairs.hpp"
+#include "rollfix/march/march_pairs.hpp"
 #include "rollfix/outline/gallery.hpp"
 
 namespace march_families {

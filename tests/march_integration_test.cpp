@@ -6,10 +6,10 @@
 
 #include <boost/math/special_functions/ellint_2.hpp>
 
+#include "march/path.hpp"
+#include "march/preprocessing.hpp"
+#include "march/walker.hpp"
 #include "march_shapes.hpp"
-#include "rollfix/locate/march/path.hpp"
-#include "rollfix/locate/march/preprocessing.hpp"
-#include "rollfix/locate/march/walker.hpp"
 
 namespace march_integration_test {
 namespace {

@@ -16,7 +16,7 @@
 #include <fmt/core.h>
 
 #include "march_oracle.hpp"
-#include "rollfix/locate/march/pairs.hpp"
+#include "rollfix/march/march_pairs.hpp"
 #include "rollfix/part/period.hpp"
 
 namespace march_pairs {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "march/correspondence.hpp"
 #include "march_pairs.hpp"
-#include "rollfix/locate/march/figure_6.hpp"
 
 namespace march_pairs {
 

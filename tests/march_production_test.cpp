@@ -7,7 +7,7 @@
 
 #include "random.hpp"
 #include "rollfix/locate/locate.hpp"
-#include "rollfix/locate/march/march.hpp"
+#include "rollfix/march/march.hpp"
 #include "shapes.hpp"
 
 namespace march_production_test {

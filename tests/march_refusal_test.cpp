@@ -10,7 +10,7 @@
 
 #include "march_oracle.hpp"
 #include "march_shapes.hpp"
-#include "rollfix/locate/march/march.hpp"
+#include "rollfix/march/march.hpp"
 #include "rollfix/outline/primitives.hpp"
 
 namespace march_refusal_test {

@@ -1,0 +1,164 @@
+#include "march/correspondence.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rollfix::march {
+
+void Correspondence::follow_with_s(StartsOfBoth& at) const {
+  at.a.move_to_value(0, at.b.phi(0) + at.problem->theta[0], 1, y());
+}
+
+void Correspondence::follow_with_t(StartsOfBoth& at) const {
+  at.b.move_to_value(0, at.a.phi(0) - at.problem->theta[0], 1, z());
+}
+
+void Correspondence::move_s_to(StartsOfBoth& at, double s) const {
+  at.a.move_to(s);
+  follow_with_t(at);
+}
+
+void Correspondence::move_t_to(StartsOfBoth& at, double t) const {
+  at.b.move_to(t);
+  follow_with_s(at);
+}
+
+Correspondence::Rates Correspondence::rates(const StartsOfBoth& at) const {
+  const double one = std::fabs(at.a.slope(0));
+  const double three = std::fabs(at.b.slope(0));
+  Rates rates;
+  rates.ds = one <= three ? 1 : three / one;
+  rates.dt = one > three ? 1 : (three > 0 ? one / three : 1);
+  rates.phi_2 = std::fabs(at.a.slope(1)) * rates.ds;
+  rates.phi_4 = std::fabs(at.b.slope(1)) * rates.dt;
+  return rates;
+}
+
+double Correspondence::slope(const StartsOfBoth& at) const {
+  const Rates along = rates(at);
+  return trend_2 * along.phi_2 - trend_4 * along.phi_4;
+}
+
+/// Whatever the trends, phi_1 grows from the bottom of the interval of s to its top, and phi_3 likewise. Below, the
+/// correspondence begins at the higher of both bottoms, and the other start goes up to it; above, it ends at the lower
+/// of both tops, and the other start comes down to it: two cases at each end, and two trends of each phi, are sixteen.
+std::optional<Correspondence> correspond(const MonotoneInterval& i, const MonotoneInterval& j,
+                                         const PairProblem& problem, Tally& tally) {
+  const double theta = problem.theta[0];
+  const double lowest_1 = i.bottom().phi(0);
+  const double highest_1 = i.top().phi(0);
+  const double lowest_3 = j.bottom().phi(0) + theta;
+  const double highest_3 = j.top().phi(0) + theta;
+  if (std::max(lowest_1, lowest_3) > std::min(highest_1, highest_3) + problem.rounding) return std::nullopt;
+
+  const StartsOfBoth bottoms = StartsOfBoth{i.bottom(), j.bottom(), &problem}.counted_by(tally);
+  const StartsOfBoth tops = StartsOfBoth{i.top(), j.top(), &problem}.counted_by(tally);
+  Correspondence found{bottoms, tops, i.second_along_first(), j.second_along_first()};
+  if (lowest_1 > lowest_3) {
+    found.begin.b.move_to_value(0, lowest_1 - theta, 1, tops.b.s());  // Figure 5: x is an end, t goes up to w
+  } else {
+    found.begin.a.move_to_value(0, lowest_3, 1, tops.a.s());
+  }
+  if (highest_1 > highest_3) {
+    found.end.a.move_to_value(0, highest_3, -1, bottoms.a.s());  // Figure 5: z is an end, s comes down to y
+  } else {
+    found.end.b.move_to_value(0, highest_1 - theta, -1, bottoms.b.s());
+  }
+  return found;
+}
+
+namespace {
+
+/// What is left of a start's way: it can only shrink, so that rounding errors of the other start, which are large near
+/// its stationary points, can't keep the halving going for ever.
+struct Left {
+  double low = 0;
+  double high = 0;
+  int direction = 1;
+
+  Left(double from, double to) : low(from), high(to), direction(to < from ? -1 : 1) {}
+
+  double width() const { return std::fmax(0.0, direction * (high - low)); }
+  double middle() const { return low + 0.5 * (high - low); }
+  void lower(double place) { low = place; }
+  void upper(double place) {
+    if (direction * (place - high) < 0) high = place;
+  }
+};
+
+}  // namespace
+
+BisectedPair bisect(const Correspondence& way, double tolerance, Tally& tally) {
+  StartsOfBoth low = way.begin.counted_by(tally);
+  const int side = side_of(low.excess(1));
+  Left s(way.x(), way.y());
+  Left t(way.w(), way.z());
+  BisectedPair result{low, 0};
+  while (s.width() > tolerance || t.width() > tolerance) {
+    result.at = low;
+    ++result.iterations;
+    if (s.width() >= t.width()) {
+      way.move_s_to(result.at, s.middle());
+    } else {
+      way.move_t_to(result.at, t.middle());
+    }
+    if (side_of(result.at.excess(1)) == side) {
+      low = result.at;
+      s.lower(low.a.s());
+      t.lower(low.b.s());
+    } else {
+      s.upper(result.at.a.s());
+      t.upper(result.at.b.s());
+    }
+  }
+  return result;
+}
+
+namespace {
+
+/// s moves to where phi_2(x_{i+1}) = phi_4(w_i) + theta_2, and t follows by (8). False: y comes first.
+bool round_with_s_first(StartsOfBoth& at, const Correspondence& way) {
+  const double target = at.b.phi(1) + at.problem->theta[1];
+  if (way.trend_2 * (target - way.end.a.phi(1)) > 0) return false;  // no need to go and see
+  if (!at.a.move_to_value(1, target, way.trend_2, way.y())) return false;
+  way.follow_with_t(at);
+  return true;
+}
+
+/// Figure 6 as printed: t moves to where phi_4(w_{i+1}) + theta_2 = phi_2(x_i), and s follows by (8).
+bool round_with_t_first(StartsOfBoth& at, const Correspondence& way) {
+  const double target = at.a.phi(1) - at.problem->theta[1];
+  if (way.trend_4 * (target - way.end.b.phi(1)) > 0) return false;
+  if (!at.b.move_to_value(1, target, way.trend_4, way.z())) return false;
+  way.follow_with_s(at);
+  return true;
+}
+
+/// With s first, the distance to the limit shrinks by the factor d phi_4 / d phi_2 along the correspondence; with t
+/// first by its inverse. What an advance leaves is as in Lemma 2.
+double shrinking(const StartsOfBoth& at, const Correspondence& way, bool s_first) {
+  const Correspondence::Rates rates = way.rates(at);
+  return s_first ? rates.phi_4 / rates.phi_2 : rates.phi_2 / rates.phi_4;
+}
+
+}  // namespace
+
+Approach iterate(StartsOfBoth& at, const Correspondence& way, const LimitRule& rule) {
+  Approach result{Approach::End::going_on};
+  const bool s_first = s_moves_first(at, way);
+  while (result.end == Approach::End::going_on && result.iterations < rule.iterations) {
+    const double s = at.a.s();
+    const double t = at.b.s();
+    ++result.iterations;
+    if (!(s_first ? round_with_s_first(at, way) : round_with_t_first(at, way))) {
+      result.end = Approach::End::exit;
+      return result;
+    }
+    result.rate = shrinking(at, way, s_first);
+    result.end = judge(std::max(std::fabs(at.a.s() - s), std::fabs(at.b.s() - t)), result.rate, rule, result.error);
+  }
+  if (result.end == Approach::End::going_on) result.end = Approach::End::stalled;
+  return result;
+}
+
+}  // namespace rollfix::march

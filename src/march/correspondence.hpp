@@ -1,0 +1,86 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include "march/limit.hpp"
+#include "march/partition.hpp"
+
+namespace rollfix::march {
+
+/// The right sides of (8) and (9), radians, and what rounding makes of such differences.
+struct PairProblem {
+  std::array<double, 2> theta{};
+  double rounding = 0;
+};
+
+/// A start of each finger. But for what is noted, (8) holds.
+struct StartsOfBoth {
+  Start a;
+  Start b;
+  const PairProblem* problem;
+
+  /// What equation (8), k = 0, or (9), k = 1, is off by: phi_1(s) - phi_3(t) - theta_1 or phi_2(s) - phi_4(t) -
+  /// theta_2.
+  double excess(std::size_t k) const { return a.phi(k) - b.phi(k) - problem->theta[k]; }
+
+  StartsOfBoth counted_by(Tally& tally) const { return {a.counted_by(tally), b.counted_by(tally), problem}; }
+};
+
+/// The one-to-one correspondence between s and t that (8) defines on a pair of monotone intervals, from (x, w) to
+/// (y, z); phi_1 and phi_3 increase on the way.
+struct Correspondence {
+  StartsOfBoth begin;  // (x, w)
+  StartsOfBoth end;    // (y, z)
+  int trend_2 = 1;     // of phi_2(s) from x to y
+  int trend_4 = 1;     // of phi_4(t) from w to z
+
+  double x() const { return begin.a.s(); }
+  double y() const { return end.a.s(); }
+  double w() const { return begin.b.s(); }
+  double z() const { return end.b.s(); }
+
+  /// s (or t) moved towards y (or z) by `amount`, and the other one so that (8) holds again.
+  void move_s_to(StartsOfBoth& at, double s) const;
+  void move_t_to(StartsOfBoth& at, double t) const;
+  /// s, or t, to where (8) holds with the other one. It is ahead of where it is.
+  void follow_with_s(StartsOfBoth& at) const;
+  void follow_with_t(StartsOfBoth& at) const;
+
+  /// How (9)'s sides change along the correspondence, per length of the one of s and t that moves more there.
+  struct Rates {
+    double ds = 0;     // 0 ... 1
+    double dt = 0;     // 0 ... 1, one of both is 1
+    double phi_2 = 0;  // size of the change
+    double phi_4 = 0;
+  };
+  Rates rates(const StartsOfBoth& at) const;
+  /// The change of phi_2(s) - phi_4(t), likewise.
+  double slope(const StartsOfBoth& at) const;
+};
+
+/// Section 3.2: the maximal subintervals. None where I_i and J_j have nothing in common.
+std::optional<Correspondence> correspond(const MonotoneInterval& i, const MonotoneInterval& j,
+                                         const PairProblem& problem, Tally& tally);
+
+/// The pair that satisfies (9) too, between two places of a correspondence.
+struct BisectedPair {
+  StartsOfBoth at;
+  std::size_t iterations = 0;
+};
+
+/// Section 3.2 where phi_2 and phi_4 go opposite ways, so that phi_2(s) - phi_4(t) is monotone: halves whichever of
+/// [s, y] and [t, z] is longer, until both are shorter than `tolerance`. REQUIRES that (9)'s excess has different signs
+/// at both ends. Each middle is reached from the lower end of what is left. Its steps are counted by `tally`.
+BisectedPair bisect(const Correspondence& way, double tolerance, Tally& tally);
+
+/// Section 3.2 where phi_2 and phi_4 go the same way: from the pair's place to the first pair that satisfies (9) too,
+/// or to the end of the correspondence. Neither s nor t ever passes it. REQUIRES trend_2 == trend_4.
+Approach iterate(StartsOfBoth& at, const Correspondence& way, const LimitRule& rule);
+
+/// Which of both starts has to go forward to meet (9): s where phi_2(s) lags behind phi_4(t) + theta_2, seen in the
+/// direction in which both go, else t.
+inline bool s_moves_first(const StartsOfBoth& at, const Correspondence& way) { return way.trend_2 * at.excess(1) < 0; }
+
+}  // namespace rollfix::march

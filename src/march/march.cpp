@@ -1,0 +1,177 @@
+#include "rollfix/march/march.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "march/sweep.hpp"
+
+namespace rollfix::march {
+
+namespace {
+
+/// A length within this part of P of a whole number of loops is that number of loops: the integral is then the same for
+/// every start, up to what the length's own rounding explains.
+constexpr double kWholeLoop = 1e-12;
+/// ... and equals C to rounding if it does to this part of the density's variation.
+constexpr double kWholeLoopIntegral = 1e-11;
+
+constexpr double kLeastReset = 1e-15;
+
+void check(const Options& options) {
+  const auto expect = [](bool good, const char* what, double found) {
+    if (!good) throw InputError(fmt::format("march: expected {}, found {}", what, found));
+  };
+  expect(options.step >= 0 && std::isfinite(options.step), "a step that is positive, or 0 for automatic", options.step);
+  expect(options.limit >= kLeastLimit && options.limit < 1, "a limit from 1e-14 to 1 (parts of P)", options.limit);
+  expect(options.reset >= kLeastReset && options.reset < 1, "a reset from 1e-15 to 1 (parts of P)", options.reset);
+  expect(options.iterations > 0, "at least one iteration per limit", 0);
+}
+
+double wrapped(double s, double perimeter) {
+  const double rest = s - std::floor(s / perimeter) * perimeter;
+  return rest < perimeter ? std::fmax(rest, 0.0) : 0.0;
+}
+
+}  // namespace
+
+Density curvature_density() {
+  return {Density::Kind::curvature, "the curvature", "inflection",
+          [](const Site& site) { return curvature(site.jet); }};
+}
+
+Density curvature_rate_density() {
+  return {Density::Kind::curvature_rate, "the curvature's derivative", "vertex",
+          [](const Site& site) { return curvature_rate(site.jet) / site.jet.first.norm(); }};
+}
+
+Density density(DensityFunction f, std::string name) {
+  return {Density::Kind::other, std::move(name), "sign change", std::move(f)};
+}
+
+struct March::Data {
+  Data(const Outline& outline, const Density& density, const Options& given)
+      : options(given), path(outline, density, given.step), preprocessed(preprocess(path)) {}
+
+  double perimeter() const { return preprocessed.loop.length; }
+  Result prepared_result() const;
+  Result on_closed(double length, double integral) const;
+  Result on_open(double length, double integral) const;
+  Result sweep(const Problem& problem) const;
+  Result without_length(double integral) const;
+
+  Options options;
+  Path path;
+  Preprocessed preprocessed;
+};
+
+/// Whole loops add the same length and the same integral to every segment: what is left of L lies in [0, P).
+Result March::Data::on_closed(double length, double integral) const {
+  double loops = std::floor(length / perimeter());
+  double rest = length - loops * perimeter();
+  if (rest >= perimeter() * (1 - kWholeLoop)) {
+    loops += 1;
+    rest = 0;
+  }
+  const double left = integral - loops * preprocessed.loop.integral;
+  if (rest <= kWholeLoop * perimeter()) return without_length(left);
+  Result result = sweep({rest, left});
+  for (Segment& segment : result.segments) {
+    segment.start = wrapped(segment.start, perimeter());
+    segment.end = wrapped(segment.end, perimeter());
+  }
+  return result;
+}
+
+/// A segment of negative length is the segment between the same two points, walked from the other end.
+Result March::Data::on_open(double length, double integral) const {
+  if (std::fabs(length) > perimeter() * (1 + kWholeLoop)) {
+    throw InputError(fmt::format("march: expected a length of at most {:.17g}, that of the open outline, found {:.17g}",
+                                 perimeter(), length));
+  }
+  if (std::fabs(length) <= kWholeLoop * perimeter()) return without_length(integral);
+  Result result = sweep({std::fabs(length), length < 0 ? -integral : integral});
+  for (Segment& segment : result.segments) {
+    segment.end = std::fmin(segment.end, perimeter());
+    if (length < 0) std::swap(segment.start, segment.end);
+  }
+  if (length < 0) {
+    for (Doubt& doubt : result.doubts) doubt.where = {doubt.where.lo - length, doubt.where.hi - length};
+  }
+  return result;
+}
+
+/// L is nothing but whole loops: every start fits, or none.
+Result March::Data::without_length(double integral) const {
+  if (std::fabs(integral) <= kWholeLoopIntegral * preprocessed.variation) {
+    throw Refusal(
+        Reason::continuum, 0,
+        "march: expected isolated segments, found that every start fits (the length is zero or a whole number "
+        "of loops); rollfix::locate reports such stretches");
+  }
+  return prepared_result();
+}
+
+Result March::Data::sweep(const Problem& problem) const {
+  Result found = march::sweep(path, preprocessed, problem, options);
+  Result result = prepared_result();
+  found.steps.choosing = result.steps.choosing;
+  found.steps.preprocessing = result.steps.preprocessing;
+  result.segments = std::move(found.segments);
+  result.doubts = std::move(found.doubts);
+  result.found_again = found.found_again;
+  result.iterations = found.iterations;
+  result.steps = found.steps;
+  return result;
+}
+
+/// What does not depend on the question.
+Result March::Data::prepared_result() const {
+  Result result;
+  result.steps.choosing = path.choosing_steps();
+  result.steps.preprocessing = path.steps_per_loop();
+  result.perimeter = preprocessed.loop.length;
+  result.total_integral = preprocessed.loop.integral;
+  result.parameter_range = path.parameter_range();
+  result.steps_per_loop = path.steps_per_loop();
+  result.length_error = path.loop_error().length;
+  result.integral_error = path.loop_error().integral;
+  result.step = path.parameter_range() / static_cast<double>(path.steps_per_loop());
+  return result;
+}
+
+March::March(const Outline& outline, const Density& density, const Options& options) {
+  check(options);
+  data_ = std::make_shared<const Data>(outline, density, options);
+}
+
+Result March::segments(double length, double integral) const {
+  if (!std::isfinite(length) || !std::isfinite(integral)) {
+    throw InputError(fmt::format("march: expected finite numbers, found length {} and integral {}", length, integral));
+  }
+  return data_->path.closed() ? data_->on_closed(length, integral) : data_->on_open(length, integral);
+}
+
+std::vector<Breakpoint> March::breakpoints() const {
+  std::vector<Breakpoint> points;
+  for (const SignChange& change : data_->preprocessed.changes) {
+    points.push_back({change.at.here.length, change.at.here.integral, change.sign_after});
+  }
+  return points;
+}
+
+Result locate(const Outline& outline, const Reading& reading, const Options& options) {
+  return March(outline, curvature_density(), options).segments(reading.length, reading.turn);
+}
+
+Result stationary_points(const Outline& outline, double length, const Options& options) {
+  return March(outline, curvature_rate_density(), options).segments(length, 0);
+}
+
+Result segments_with_integral(const Outline& outline, const DensityFunction& f, double length, double integral,
+                              const Options& options) {
+  return March(outline, density(f), options).segments(length, integral);
+}
+
+}  // namespace rollfix::march

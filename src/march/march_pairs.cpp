@@ -1,0 +1,203 @@
+#include "rollfix/march/march_pairs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "march/rectangle.hpp"
+#include "rollfix/part/period.hpp"
+
+namespace rollfix::march {
+
+namespace {
+
+/// Rounding errors of phi_1 - phi_3 and of phi_2 - phi_4, as a part of all that is summed up.
+constexpr double kPairRounding = 1e-14;
+/// Finds of neighbouring rectangles are one pair if they differ by no more than this many of their estimated errors.
+constexpr double kEstimates = 4;
+
+void check(const PairMarchOptions& options) {
+  const auto expect = [](bool good, const char* what, double found) {
+    if (!good) throw InputError(fmt::format("march: expected {}, found {}", what, found));
+  };
+  expect(options.step >= 0 && std::isfinite(options.step), "a step that is positive, or 0 for automatic", options.step);
+  expect(options.limit >= kLeastLimit && options.limit < 1, "a limit from 1e-14 to 1 (parts of P)", options.limit);
+  expect(options.reset > options.limit && options.reset < 1, "a reset above the limit and below 1 (parts of P)",
+         options.reset);
+  expect(options.iterations > 0, "at least one iteration per limit", 0);
+}
+
+void check(const PairReading& reading) {
+  if (std::isfinite(reading.length_a) && std::isfinite(reading.length_b) && std::isfinite(reading.turn)) return;
+  throw InputError(fmt::format("march: expected finite numbers, found lengths {} and {}, turn {}", reading.length_a,
+                               reading.length_b, reading.turn));
+}
+
+const Outline& closed(const Outline& outline) {
+  if (outline.closed) return outline;
+  throw InputError("march: expected a closed outline for two fingers, found an open one; use rollfix::locate");
+}
+
+Options for_stationary_points(const PairMarchOptions& options) {
+  Options same;
+  same.step = options.step;
+  same.iterations = options.iterations;
+  return same;
+}
+
+/// What rounding errors are measured against: the sum of |kappa| over one loop, and its turn.
+struct OneLoop {
+  Span sum;
+  double variation = 0;
+};
+
+OneLoop one_loop(const Path& path) {
+  Position at = first_position(path);
+  OneLoop loop{at.step, std::fabs(at.step.integral)};
+  for (std::size_t i = 1; i < path.steps_per_loop(); ++i) {
+    at = next_position(path, at);
+    loop.sum = loop.sum + at.step;
+    loop.variation += std::fabs(at.step.integral);
+  }
+  return loop;
+}
+
+}  // namespace
+
+struct PairMarch::Data {
+  Data(const Outline& outline, const PairMarchOptions& given)
+      : options(given),
+        march(closed(outline), curvature_rate_density(), for_stationary_points(given)),
+        path(outline, curvature_density(), given.step),
+        loop(one_loop(path)) {}
+
+  Segments segments(double length_1, double length_2) const;
+  PairProblem problem(const PairReading& first, const PairReading& second) const;
+  void merge(PairResult& result) const;
+  PairResult search(const PairReading& first, const PairReading& second) const;
+
+  PairMarchOptions options;
+  March march;
+  Path path;
+  OneLoop loop;
+};
+
+/// Whole loops add the same turn to every segment: what is left of L lies in [0, P).
+Segments PairMarch::Data::segments(double length_1, double length_2) const {
+  Segments segments;
+  const std::array<double, 2> lengths{length_1, length_2};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Wrapped wrapped = wrap(lengths[k], loop.sum.length);
+    segments.length[k] = wrapped.base;
+    segments.loops_turn[k] = wrapped.winding * loop.sum.integral;
+  }
+  return segments;
+}
+
+PairProblem PairMarch::Data::problem(const PairReading& first, const PairReading& second) const {
+  double loops = 1;
+  for (const PairReading& reading : {first, second}) {
+    loops += std::fabs(reading.length_a / loop.sum.length) + std::fabs(reading.length_b / loop.sum.length);
+  }
+  return {{first.turn, second.turn},
+          kPairRounding * (loop.variation * loops + std::fabs(first.turn) + std::fabs(second.turn))};
+}
+
+/// Pairs on the common boundary of two rectangles, or of four, are found in each.
+void PairMarch::Data::merge(PairResult& result) const {
+  const double period = loop.sum.length;
+  std::vector<StartPair> merged;
+  for (StartPair pair : result.pairs) {
+    pair.s = wrap(pair.s, period).base;
+    pair.t = wrap(pair.t, period).base;
+    const auto same = [&](const StartPair& other) {
+      const double near = kEstimates * std::fmax(pair.error + other.error, options.limit * period);
+      return periodic_distance(pair.s, other.s, period) <= near && periodic_distance(pair.t, other.t, period) <= near;
+    };
+    const auto twin = std::find_if(merged.begin(), merged.end(), same);
+    if (twin == merged.end()) {
+      merged.push_back(pair);
+      continue;
+    }
+    ++result.found_again;
+    if (pair.error < twin->error) *twin = pair;
+  }
+  std::sort(merged.begin(), merged.end(), [](const StartPair& one, const StartPair& two) {
+    return std::pair(one.s, one.t) < std::pair(two.s, two.t);
+  });
+  result.pairs = std::move(merged);
+  for (PairDoubt& doubt : result.doubts) {
+    for (Interval* where : {&doubt.s, &doubt.t}) {
+      const double lo = wrap(where->lo, period).base;
+      *where = {lo, lo + where->width()};
+    }
+  }
+}
+
+/// "The localization algorithm enumerates all nm pairs of intervals."
+PairResult PairMarch::Data::search(const PairReading& first, const PairReading& second) const {
+  PairResult result;
+  result.perimeter = loop.sum.length;
+  result.steps_per_loop = path.steps_per_loop();
+  result.steps.choosing = path.choosing_steps();
+  result.steps.preprocessing = path.steps_per_loop();
+
+  const PairProblem problem = this->problem(first, second);
+  const Segments segments_a = segments(first.length_a, second.length_a);
+  const Segments segments_b = segments(first.length_b, second.length_b);
+  Tally evaluation;
+  const PartitionTools tools{path, march, result.perimeter};
+  const Partition a = divide(tools, segments_a, evaluation, result.steps);
+  const Partition b = divide(tools, segments_b, evaluation, result.steps);
+  result.stationary_a = a.points;
+  result.stationary_b = b.points;
+  result.merged = a.merged + b.merged;
+  const Interval anywhere{0, result.perimeter};
+  for (const Interval& where : a.doubts) result.doubts.push_back({PairDoubt::Why::stationary, where, anywhere, 0, 0});
+  for (const Interval& where : b.doubts) result.doubts.push_back({PairDoubt::Why::stationary, anywhere, where, 0, 0});
+
+  Tally subintervals;
+  RectangleTallies tallies;
+  for (const MonotoneInterval& i : a.intervals) {
+    for (const MonotoneInterval& j : b.intervals) {
+      ++result.rectangles;
+      const auto way = correspond(i, j, problem, subintervals);
+      if (!way) {
+        ++result.rejected;
+        continue;
+      }
+      ++result.examined;
+      search_rectangle(*way, options, tallies, result);
+    }
+  }
+  merge(result);
+  result.steps.evaluation = evaluation.steps;
+  result.steps.subintervals = subintervals.steps;
+  result.steps.iteration = tallies.iteration.steps;
+  result.steps.bisection = tallies.bisection.steps;
+  for (const Tally& tally : {evaluation, subintervals, tallies.iteration, tallies.bisection}) {
+    result.steps.landings += tally.landings;
+    result.steps.refinements += tally.refinements;
+  }
+  return result;
+}
+
+PairMarch::PairMarch(const Outline& outline, const PairMarchOptions& options) {
+  check(options);
+  data_ = std::make_shared<const Data>(outline, options);
+}
+
+PairResult PairMarch::pairs(const PairReading& first, const PairReading& second) const {
+  check(first);
+  check(second);
+  return data_->search(first, second);
+}
+
+PairResult locate_pairs(const Outline& outline, const PairReading& first, const PairReading& second,
+                        const PairMarchOptions& options) {
+  return PairMarch(outline, options).pairs(first, second);
+}
+
+}  // namespace rollfix::march

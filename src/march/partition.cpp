@@ -1,0 +1,184 @@
+#include "march/partition.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "rollfix/part/period.hpp"
+
+namespace rollfix::march {
+
+namespace {
+
+/// A phi, the difference of two sums, is what it should be to so much of them.
+constexpr double kSumRounding = 2.5e-16;
+/// Halvings that exhaust a double, and Newton steps besides.
+constexpr int kMostHalvings = 200;
+
+}  // namespace
+
+Start::Start(const Walker& start, const Segments& segments)
+    : segments_(&segments), tally_(start.tally()), start_(start), ends_{start, start} {}
+
+Start Start::counted_by(Tally& tally) const {
+  Start copy = *this;
+  copy.tally_ = &tally;
+  copy.start_ = start_.counted_by(tally);
+  for (std::size_t k = 0; k < 2; ++k) copy.ends_[k] = ends_[k].counted_by(tally);
+  return copy;
+}
+
+void Start::move_to(double s) {
+  start_.move_to_length(s);
+  for (std::size_t k = 0; k < 2; ++k) ends_[k].move_to_length(s + segments_->length[k]);
+}
+
+void Start::nudge(double by) {
+  start_.nudge(by);
+  for (Walker& end : ends_) end.nudge(by);
+}
+
+long Start::steps_since(const Start& before) const {
+  long steps = std::labs(start_.net_steps() - before.start_.net_steps());
+  for (std::size_t k = 0; k < 2; ++k) steps += std::labs(ends_[k].net_steps() - before.ends_[k].net_steps());
+  return steps;
+}
+
+/// The steps between here and there count once, however often the landing went to and fro over them.
+void Start::become(const Start& landed, const Tally& spent) {
+  tally_->steps += static_cast<std::size_t>(landed.steps_since(*this));
+  tally_->refinements += spent.refinements + spent.steps;
+  Tally& own = *tally_;
+  *this = landed.counted_by(own);
+}
+
+bool Start::move_to_value(std::size_t k, double target, int sign, double stop) {
+  const auto shortfall = [&](const Start& at) { return sign * (target - at.phi(k)); };
+  double gap = shortfall(*this);
+  if (gap <= 0) return true;
+  if (s() == stop) return false;
+  ++tally_->landings;
+  const int direction = stop < s() ? -1 : 1;
+  const auto nearer = [&](double one, double two) { return direction * (one - two) < 0 ? one : two; };
+  const double rounding = kSumRounding * (std::fabs(start_.integral()) + std::fabs(ends_[k].integral()) + 1);
+
+  // Step by step until the target is passed; then Newton's iteration, safeguarded by halving, between the last two.
+  Start trial = *this;
+  std::optional<double> passed;
+  for (int i = 0; i < kMostHalvings || !passed; ++i) {
+    const double growth = sign * direction * trial.slope(k);
+    const double newton = trial.s() + direction * gap / growth;
+    const double step = trial.start_.position().step.length;
+    double next = newton;
+    if (!passed) {
+      const double furthest = nearer(s() + direction * step, stop);
+      if (!(growth > 0) || direction * (newton - furthest) > 0) next = furthest;
+    } else if (!(direction * (newton - s()) > 0 && direction * (*passed - newton) > 0)) {
+      next = s() + 0.5 * (*passed - s());
+    }
+    if (next == s() || next == passed) return true;  // nothing is left between the two
+    Tally spent;
+    trial = trial.counted_by(spent);
+    trial.move_to(next);
+    gap = shortfall(trial);
+    const double correction = direction * gap / (sign * direction * trial.slope(k));
+    const bool small = std::fabs(correction) <= kLastCorrection * step;
+    const bool inside = direction * (stop - (next + correction)) >= 0 && direction * (next + correction - s()) >= 0;
+    if (small && inside) trial.nudge(correction);
+    if ((small && inside) || std::fabs(gap) <= rounding) {
+      become(trial, spent);
+      return true;
+    }
+    if (gap < 0) {
+      passed = next;
+      tally_->refinements += spent.refinements + spent.steps;
+    } else {
+      become(trial, spent);
+      if (next == stop) return false;
+    }
+  }
+  return true;
+}
+
+namespace {
+
+/// Stationary points that are closer than this part of P are one: in between a phi changes by its square, which is a
+/// rounding error.
+constexpr double kSamePoint = 1e-9;
+
+/// Eq. (6) for the total curvature of a roll by `length`, with the reason in the words of section 3.
+Result stationary_points(const March& march, double length) {
+  try {
+    return march.segments(length, 0);
+  } catch (const Refusal& refusal) {
+    if (refusal.reason() != Reason::continuum) throw;
+    throw Refusal(Reason::continuum, refusal.where(),
+                  fmt::format("march: expected a total curvature with isolated stationary points, found that of a roll "
+                              "by {:.17g} (without whole loops) to be constant from s = {:.17g} on; rollfix::locate "
+                              "handles it",
+                              length, refusal.where()));
+  }
+}
+
+/// The stationary points of one phi, and both ends of what the march doubts.
+void add_stationary_points(const PartitionTools& tools, double length, Partition& partition, PairSteps& steps) {
+  const Result level = stationary_points(tools.march, length);
+  steps.stationary += level.steps.start + level.steps.marching + level.steps.bisection;
+  steps.landings += level.steps.landings;
+  steps.refinements += level.steps.refinements;
+  for (const Segment& segment : level.segments) partition.points.push_back(segment.start);
+  for (const Doubt& doubt : level.doubts) {
+    const double lo = wrap(doubt.where.lo, tools.perimeter).base;
+    partition.doubts.push_back({lo, lo + doubt.where.width()});
+    partition.points.push_back(lo);
+    partition.points.push_back(wrap(doubt.where.hi, tools.perimeter).base);
+  }
+}
+
+/// In order, each once.
+void merge(Partition& partition, double perimeter) {
+  std::vector<double>& points = partition.points;
+  std::sort(points.begin(), points.end());
+  const std::size_t all = points.size();
+  const auto same = [&](double one, double two) { return two - one <= kSamePoint * perimeter; };
+  points.erase(std::unique(points.begin(), points.end(), same), points.end());
+  while (points.size() > 1 && points.front() + perimeter - points.back() <= kSamePoint * perimeter) points.pop_back();
+  partition.merged = all - points.size();
+}
+
+/// s = 0 with both ends of the segments in place.
+Start first_start(const Path& path, const Segments& segments, Tally& tally) {
+  Start start(Walker(path, first_position(path), tally), segments);
+  start.move_to(0);
+  return start;
+}
+
+std::array<int, 2> trends(const Start& at) { return {at.slope(0) < 0 ? -1 : 1, at.slope(1) < 0 ? -1 : 1}; }
+
+}  // namespace
+
+Partition divide(const PartitionTools& tools, const Segments& segments, Tally& evaluation, PairSteps& steps) {
+  Partition partition;
+  for (const double length : segments.length) add_stationary_points(tools, length, partition, steps);
+  merge(partition, tools.perimeter);
+
+  // One round. The slope half-way tells the trend also where the values at both ends differ by rounding only.
+  std::vector<double> ends = partition.points;
+  if (!ends.empty()) ends.push_back(ends.front() + tools.perimeter);
+  Start at = first_start(tools.path, segments, evaluation);
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    if (i > 0) {
+      at.move_to(0.5 * (ends[i - 1] + ends[i]));
+      partition.intervals.back().trend = trends(at);
+    }
+    at.move_to(ends[i]);
+    if (i > 0) partition.intervals.back().hi = at;
+    if (i + 1 < ends.size()) partition.intervals.push_back({at, at, {}});
+  }
+  return partition;
+}
+
+}  // namespace rollfix::march

@@ -1,0 +1,152 @@
+#include "march/sign_changes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include <boost/math/tools/minima.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
+
+namespace rollfix::march {
+
+namespace {
+
+/// As dense as the quadrature's nodes: what lies between them is searched by its local minima.
+constexpr std::size_t kSamplesPerStep = 6;
+/// At the ends of a curve smaller densities (against the largest on the outline) are taken as zero: the sign there is
+/// that of the nearest inner sample, and a sign change lies at the joint.
+constexpr double kZeroAtJoint = 1e-12;
+/// A local minimum of |g| below this (against the largest) is a zero without a sign change.
+constexpr double kTouchingZero = 1e-9;
+/// A zero's order is measured at one and at two of these parts of a step beside it.
+constexpr double kOrderProbe = 1e-3;
+/// g(2d)/g(d) is 2 at a simple zero and 8 at a threefold one; this lies between.
+constexpr double kSimpleRatio = 4.0;
+/// The minimum of |g| matters to half the digits of u only.
+constexpr int kMinimumBits = 27;
+constexpr std::uintmax_t kMostSolverRounds = 200;
+
+int sign_of(double value) { return (value > 0) - (value < 0); }
+
+class Finder {
+ public:
+  Finder(const Path& path, const Samples& samples) : path_(path), samples_(samples) {}
+
+  Zeros find() {
+    for (std::size_t curve = 0; curve < path_.curves(); ++curve) find_on(curve);
+    found_.first_sign = first_sign_;
+    const bool at_seam = path_.closed() && last_sign_ == -first_sign_;
+    if (at_seam) {
+      const double u = samples_.curves.front().front().u;
+      found_.list.insert(found_.list.begin(), Zero{0, u, first_sign_, is_simple(0, u)});
+    }
+    return found_;
+  }
+
+ private:
+  void find_on(std::size_t curve) {
+    const std::vector<Sample>& values = samples_.curves[curve];
+    const Sample* previous = nullptr;  // on this curve, with a sign
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      look_beside(curve, i);
+      const int sign = sign_at(values, i);
+      if (sign == 0) continue;
+      if (first_sign_ == 0) first_sign_ = sign;
+      if (last_sign_ == -sign) {
+        // Without a previous sample of its own the sign change lies where this curve begins.
+        const double u = previous == nullptr ? values.front().u : zero_between(curve, previous->u, values[i].u);
+        found_.list.push_back({curve, u, sign, is_simple(curve, u)});
+      }
+      last_sign_ = sign;
+      previous = &values[i];
+    }
+  }
+
+  /// Two sign changes, or a zero without one, may hide beside a sample at which |g| is least.
+  void look_beside(std::size_t curve, std::size_t i) {
+    const std::vector<Sample>& values = samples_.curves[curve];
+    if (i == 0 || i + 1 >= values.size()) return;
+    const Sample& before = values[i - 1];
+    const Sample& after = values[i + 1];
+    const int sign = sign_of(before.density);
+    if (sign == 0 || sign_of(after.density) != sign || sign_of(values[i].density) == -sign) return;
+    const double least = std::fabs(values[i].density);
+    if (least > std::fabs(before.density) || least >= std::fabs(after.density)) return;
+    const double most = std::max(std::fabs(before.density), std::fabs(after.density));
+    if (least > most - least) return;  // a parabola through the three stays away from zero
+
+    const auto [u, depth] = boost::math::tools::brent_find_minima([&](double x) { return sign * density(curve, x); },
+                                                                  before.u, after.u, kMinimumBits);
+    if (depth > kTouchingZero * samples_.scale) return;
+    if (depth >= -kTouchingZero * samples_.scale) {
+      found_.list.push_back({curve, u, sign, false});
+      return;
+    }
+    const double down = zero_between(curve, before.u, u);
+    const double up = zero_between(curve, u, after.u);
+    found_.list.push_back({curve, down, -sign, is_simple(curve, down)});
+    found_.list.push_back({curve, up, sign, is_simple(curve, up)});
+  }
+
+  double density(std::size_t curve, double u) const { return path_.at(curve, u).density; }
+
+  int sign_at(const std::vector<Sample>& values, std::size_t i) const {
+    const bool at_joint = i == 0 || i + 1 == values.size();
+    if (at_joint && std::fabs(values[i].density) <= kZeroAtJoint * samples_.scale) return 0;
+    return sign_of(values[i].density);
+  }
+
+  double zero_between(std::size_t curve, double lo, double hi) const {
+    std::uintmax_t rounds = kMostSolverRounds;
+    const auto [below, above] = boost::math::tools::toms748_solve([&](double u) { return density(curve, u); }, lo, hi,
+                                                                  boost::math::tools::eps_tolerance<double>(), rounds);
+    return 0.5 * (below + above);
+  }
+
+  /// Whether g grows like the distance from u on both sides, as far as they lie on this curve.
+  bool is_simple(std::size_t curve, double u) const {
+    const double lo = samples_.curves[curve].front().u;
+    const double hi = samples_.curves[curve].back().u;
+    const double probe = kOrderProbe * path_.step(curve, 0).width();
+    for (const double d : {-probe, probe}) {
+      if (u + 2 * d < lo || u + 2 * d > hi) continue;
+      const double near = std::fabs(density(curve, u + d));
+      const double far = std::fabs(density(curve, u + 2 * d));
+      if (far > kSimpleRatio * near) return false;
+    }
+    return true;
+  }
+
+  const Path& path_;
+  const Samples& samples_;
+  Zeros found_;
+  int first_sign_ = 0;
+  int last_sign_ = 0;
+};
+
+}  // namespace
+
+Samples sample(const Path& path) {
+  Samples samples;
+  for (std::size_t curve = 0; curve < path.curves(); ++curve) {
+    std::vector<Sample> values;
+    const auto add = [&](double u) {
+      values.push_back({u, path.at(curve, u).density});
+      samples.scale = std::max(samples.scale, std::fabs(values.back().density));
+    };
+    for (std::size_t index = 0; index < path.steps(curve); ++index) {
+      const Interval step = path.step(curve, index);
+      for (std::size_t k = 0; k < kSamplesPerStep; ++k) {
+        add(step.lo + step.width() * (static_cast<double>(k) / static_cast<double>(kSamplesPerStep)));
+      }
+    }
+    add(path.step(curve, path.steps(curve) - 1).hi);
+    samples.curves.push_back(std::move(values));
+  }
+  return samples;
+}
+
+Zeros find_zeros(const Path& path, const Samples& samples) { return Finder(path, samples).find(); }
+
+}  // namespace rollfix::march
