@@ -81,11 +81,11 @@ struct Rounds {
     const LimitRule one_round{1e-12 * perimeter, 4e-15 * perimeter, 1e-9 * perimeter, 1};
     places.push_back({at.a.s(), at.b.s()});
     while (!reached && places.size() < 5000) {
-      const Figure6 round = iterate(at, way, one_round);
-      if (round.end == Figure6::End::exit) return;
+      const Approach round = iterate(at, way, one_round);
+      if (round.end == Approach::End::exit) return;
       places.push_back({at.a.s(), at.b.s()});
       rates.push_back(round.rate);
-      reached = round.end == Figure6::End::limit;
+      reached = round.end == Approach::End::limit;
     }
   }
 };
