@@ -10,6 +10,7 @@
 #include "rollfix/belief/pose_spread.hpp"
 #include "rollfix/belief/weigh.hpp"
 #include "rollfix/error.hpp"
+#include "shapes.hpp"
 
 // The posterior over the whole boundary: against a brute computation, and in the cases that are special.
 namespace belief_test {
@@ -181,6 +182,21 @@ TEST(Belief, an_open_part_is_not_left_at_its_ends) {
   EXPECT_GE(mode.interval.lo, 0);
   EXPECT_LE(mode.interval.hi, P);
   EXPECT_LT(std::abs(mode.start - 0.02 * P), 5 * mode.sd);
+}
+
+// 2026-11-22: the far end of an open part was as near to a prior at s = 0 as if the part were closed.
+TEST(Belief, a_prior_at_an_end_of_an_open_part_does_not_reach_around_to_the_other) {
+  const Part part = shapes::open_waves();
+  const double P = part.perimeter();
+  for (const bool at_end : {false, true}) {
+    BeliefOptions options = with({0.01, 0.01, 0, 0});
+    options.prior = rollfix::Prior{at_end ? P : 0, 0.06 * P};
+    const double start = at_end ? 0.87 * P : 0.12 * P;
+    Belief belief = belief_in(part, roll_on(part, 0.2, start, 0.1 * P, 99, options.noise, 1).log, 0.2, options);
+    EXPECT_EQ(belief.verdict(), "unique");
+    EXPECT_LT(std::abs(belief.modes().front().start - start), 5 * belief.modes().front().sd);
+    EXPECT_GT(belief.modes().front().probability, 0.99);
+  }
 }
 
 TEST(Belief, a_finger_that_pivots_at_a_corner_is_at_the_corner) {

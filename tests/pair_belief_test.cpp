@@ -296,6 +296,18 @@ TEST(PairBelief, takes_what_it_is_told_of_finger_a_before) {
   EXPECT_FALSE(modes_at(part, belief.modes(), drawn.start).empty());
 }
 
+TEST(PairBelief, a_prior_at_an_end_of_an_open_part_does_not_reach_around_to_the_other) {
+  const Part part = shapes::open_waves();
+  const double P = part.perimeter();
+  std::mt19937_64 generator = test_generator(8);
+  BeliefOptions options = options_with(0.01, 0.01, 0.002);
+  options.prior = Prior{0, 0.06 * P};
+  const Case drawn = noisy_case(part, {0.12 * P, 0.4 * P}, 0.1 * P, 0.1 * P, 100, 0.2, 0.2, options.noise, generator);
+  PairBelief belief = belief_of(part, drawn, options);
+  ASSERT_FALSE(belief.modes().empty());
+  for (const PairMode& mode : belief.modes()) EXPECT_LT(mode.start[0], 0.5 * P);
+}
+
 /// Some of the rows say anything.
 void disturb(Case& drawn, double share, std::mt19937_64& generator) {
   std::uniform_real_distribution<double> unit(0, 1);

@@ -10,6 +10,7 @@
 
 #include "rollfix/locate/locate.hpp"
 #include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/points.hpp"
 #include "rollfix/outline/primitives.hpp"
 
 /// Small words for tests about parts and placements.
@@ -50,6 +51,18 @@ inline std::vector<rollfix::Kind> kinds(const rollfix::Search& search) {
   std::vector<rollfix::Kind> found;
   for (const rollfix::Placement& placement : search.placements) found.push_back(placement.kind);
   return found;
+}
+
+/// Four equal waves with two ends: what is felt of one is felt of all.
+inline rollfix::Part open_waves() {
+  std::vector<rollfix::Vec2> points;
+  for (int k = 0; k <= 160; ++k) {
+    const double x = 8 * std::numbers::pi * k / 160;
+    points.emplace_back(x, 0.5 * std::sin(x));
+  }
+  rollfix::OutlineOptions options;
+  options.open = true;
+  return rollfix::Part(rollfix::outline_through(points, "waves", options));
 }
 
 /// Is there a placement whose extent holds s, give or take `slack`?

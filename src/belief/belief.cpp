@@ -71,7 +71,7 @@ void Belief::State::begin(double finger_curvature) {
   const double accuracy = std::max(kShareOfPerimeter * P, kShareOfNoise * std::sqrt(own.length));
   boundary.emplace(part, tilt, std::min(accuracy, 1e-4 * P));
   nodes.emplace(*errors, boundary->tilt(), options.robust);
-  grid.emplace(*boundary, *errors, options, P, corner_length());
+  grid.emplace(*boundary, *errors, options, part.boundary(), corner_length());
 }
 
 // A finger's centre goes along the boundary and, about a corner, along an arc of the finger's radius: what comes to
@@ -91,7 +91,7 @@ Diagnosis Belief::State::explain(Cause cause) const {
     sample.reading = {node.length, node.turn};
     again.add(sample);
   }
-  belief::Grid grid_again(*boundary, other, options, part.perimeter(), corner_length());
+  belief::Grid grid_again(*boundary, other, options, part.boundary(), corner_length());
   grid_again.settle(again);
   return {cause, grid_again.excess(), 1 / (1 + grid_again.best().now.errors()[2])};
 }

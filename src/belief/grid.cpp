@@ -35,13 +35,13 @@ constexpr std::size_t kMostPoints = 400000;
 
 }  // namespace
 
-Grid::Grid(const TiltedBoundary& boundary, const ErrorModel& errors, const BeliefOptions& options, double perimeter,
-           double corner_length)
+Grid::Grid(const TiltedBoundary& boundary, const ErrorModel& errors, const BeliefOptions& options,
+           const Boundary& places, double corner_length)
     : boundary_(&boundary),
       errors_(errors),
       options_(options),
-      outliers_{options.robust ? kOutlierShare : 0, perimeter},
-      perimeter_(perimeter),
+      outliers_{options.robust ? kOutlierShare : 0, places.perimeter},
+      places_(places),
       corner_length_(corner_length) {
   for (const TiltedArc& arc : boundary.arcs()) length_ += arc.hi() - arc.lo();
 }
@@ -85,8 +85,7 @@ void Grid::refresh(GridPoint& point, const Nodes& nodes) {
     // The prior is one sample more.
     const TiltedPlace& place = point.now.place();
     const double precision = 1 / square(options_.prior->sd);
-    double off = place.s - options_.prior->s;
-    off -= perimeter_ * std::round(off / perimeter_);
+    const double off = places_.offset(options_.prior->s, place.s);
     point.score.cost += square(off) * precision;
     point.score.slope -= off * place.slope * precision;
     point.score.information += square(place.slope) * precision;

@@ -48,7 +48,7 @@ struct GridCell {
 /// takes: where the samples' likelihood changes fast and is not negligible.
 class Grid {
  public:
-  Grid(const TiltedBoundary& boundary, const ErrorModel& errors, const BeliefOptions& options, double perimeter,
+  Grid(const TiltedBoundary& boundary, const ErrorModel& errors, const BeliefOptions& options, const Boundary& places,
        double corner_length);
 
   /// Brings all up to date with the samples.
@@ -82,7 +82,7 @@ class Grid {
   ErrorModel errors_;
   BeliefOptions options_;
   Outliers outliers_;
-  double perimeter_;
+  Boundary places_;
   double corner_length_;
   double excess_ = 1;
   std::size_t best_arc_ = 0;

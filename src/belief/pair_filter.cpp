@@ -210,8 +210,7 @@ PairScore score_of(const PairModel& model, const PairStart& start, const std::ve
   if (model.prior) {
     // The prior is one sample more.
     const double precision = 1 / (model.prior->sd * model.prior->sd);
-    double off = at.place[0].s - model.prior->s;
-    if (model.closed) off = std::remainder(off, model.perimeter());
+    const double off = Boundary{model.perimeter(), model.closed}.offset(model.prior->s, at.place[0].s);
     score.cost += off * off * precision;
     score.slope[0] -= off * at.place[0].slope * precision;
     score.information(0, 0) += at.place[0].slope * at.place[0].slope * precision;

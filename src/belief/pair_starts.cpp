@@ -171,10 +171,14 @@ std::vector<PairPeak> pair_peaks(const PairModel& model, const PairCandidates& c
     if (peaks[k].start.arc[0] == nullptr) continue;
     const PairSquare& square = candidates.squares[k];
     bool is_best = true;
+    // An open part's last square is beside no first one: its number is of no square.
+    const std::uint32_t n = candidates.cells;
+    const auto stepped = [&](std::uint32_t at, std::uint32_t by) {
+      return model.closed ? (at + n + by - 1) % n : at + by - 1;
+    };
     for (std::uint32_t di = 0; di < 3 && is_best; ++di) {
       for (std::uint32_t dj = 0; dj < 3 && is_best; ++dj) {
-        const std::uint32_t n = candidates.cells;
-        const auto beside = index.find(key((square.i + n + di - 1) % n, (square.j + n + dj - 1) % n));
+        const auto beside = index.find(key(stepped(square.i, di), stepped(square.j, dj)));
         if (beside == index.end() || beside->second == k || peaks[beside->second].start.arc[0] == nullptr) continue;
         is_best = deviance(peaks[beside->second].score) >= deviance(peaks[k].score);
       }

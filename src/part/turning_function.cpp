@@ -15,14 +15,9 @@ std::size_t TurningFunction::spiral_at(double base, Side side) const {
 }
 
 Turning TurningFunction::at(double s, Side side) const {
-  if (!closed_) {
-    const double base = std::clamp(s, 0.0, perimeter_);
-    return on_spiral(spirals_[spiral_at(base, side)], base);
-  }
-  Wrapped place = wrap(s, perimeter_);
-  if (place.base == 0 && side == Side::before) place = {perimeter_, place.winding - 1};
+  const Wrapped place = boundary().reduced(s, side);
   Turning turning = on_spiral(spirals_[spiral_at(place.base, side)], place.base);
-  turning.angle += place.winding * period_turn_;
+  if (closed_) turning.angle += place.winding * period_turn_;
   return turning;
 }
 

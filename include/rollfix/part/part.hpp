@@ -43,10 +43,11 @@ class Part {
   const std::string& name() const;
   const Outline& outline() const;  // as stored: counter-clockwise when closed
   bool closed() const;
-  bool reversed() const;      // stored against the direction in which the user gave it
-  double perimeter() const;   // total arc length P, in the outline's unit; relative error 1e-12
-  double total_turn() const;  // of the tangent over the whole boundary, radians
-  int turns() const;          // total_turn / 2 pi of a closed outline: 1 for a simple one; 0 when open
+  bool reversed() const;     // stored against the direction in which the user gave it
+  double perimeter() const;  // total arc length P, in the outline's unit; relative error 1e-12
+  Boundary boundary() const { return turning().boundary(); }  // what its places s are
+  double total_turn() const;                                  // of the tangent over the whole boundary, radians
+  int turns() const;  // total_turn / 2 pi of a closed outline: 1 for a simple one; 0 when open
 
   const TurningFunction& turning() const;
 

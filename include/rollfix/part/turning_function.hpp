@@ -6,17 +6,12 @@
 #include <vector>
 
 #include "rollfix/outline/curve.hpp"
-#include "rollfix/part/period.hpp"
+#include "rollfix/part/boundary.hpp"
 
 namespace rollfix {
 
 /// Below this a difference of turning angles is zero: what the turning function is accurate to, radians.
 inline constexpr double kTurnAccuracy = 1e-12;
-/// Arc length is accurate to this share of the perimeter: places closer together than that are one place.
-inline constexpr double kLengthAccuracy = 1e-12;
-
-/// Which one-sided limit to take where the turning function jumps (corner) or its slope does (joint).
-enum class Side { before, after };
 
 /// The turning function's value and slope at one point.
 struct Turning {
@@ -61,8 +56,10 @@ class TurningFunction {
   double perimeter() const { return perimeter_; }
   double period_turn() const { return period_turn_; }
   bool closed() const { return closed_; }
+  Boundary boundary() const { return {perimeter_, closed_}; }
 
-  /// Value and slope at s: any s on a closed outline, s clamped to [0, P] on an open one.
+  /// Value and slope at s: any s on a closed outline, s clamped to [0, P] on an open one. Where the value jumps (a
+  /// corner) or the slope does (a joint): the limit from this side.
   Turning at(double s, Side side = Side::after) const;
   double angle(double s, Side side = Side::after) const { return at(s, side).angle; }
   double curvature(double s, Side side = Side::after) const { return at(s, side).curvature; }
