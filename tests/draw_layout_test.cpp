@@ -39,7 +39,7 @@ TEST(Lanes, never_hold_two_stretches_at_one_point_of_a_closed_boundary) {
       const double lo = start(generator);
       stretches.push_back({lo, lo + size(generator)});
     }
-    const Lanes lanes = assign_lanes(stretches, 1, 0.01);
+    const Lanes lanes = assign_lanes(stretches, {1, true}, 0.01);
     for (double point = 0; point < 1; point += 0.003) {
       std::vector<int> here(stretches.size(), 0);
       for (std::size_t i = 0; i < stretches.size(); ++i) {
@@ -52,20 +52,20 @@ TEST(Lanes, never_hold_two_stretches_at_one_point_of_a_closed_boundary) {
 
 TEST(Lanes, are_as_few_as_can_be_on_an_open_boundary) {
   // Sorted by start, first fit needs no more lanes than stretches meet at one point.
-  const Lanes lanes = assign_lanes({{0, 2}, {1, 3}, {2.5, 4}, {3.5, 5}}, 0, 0.1);
+  const Lanes lanes = assign_lanes({{0, 2}, {1, 3}, {2.5, 4}, {3.5, 5}}, {5, false}, 0.1);
   EXPECT_THAT(lanes.of, ElementsAre(0, 1, 0, 1));
   EXPECT_EQ(lanes.count, 2);
 }
 
 TEST(Rolls, one_way_is_one_run_however_many_readings) {
-  const Roll roll = roll_of({{1, 0}, {2, 0}, {3.5, 0}}, 10);
+  const Roll roll = roll_of({{1, 0}, {2, 0}, {3.5, 0}}, {10, true});
   ASSERT_EQ(roll.runs.size(), 1U);
   EXPECT_EQ(roll.runs[0].to, 3.5);
   EXPECT_EQ(roll.lanes, 1);
 }
 
 TEST(Rolls, back_and_forth_takes_a_lane_each_way) {
-  const Roll roll = roll_of({{2, 0}, {-1, 0}}, 10);
+  const Roll roll = roll_of({{2, 0}, {-1, 0}}, {10, true});
   ASSERT_EQ(roll.runs.size(), 2U);
   EXPECT_EQ(roll.runs[1].from, 2);
   EXPECT_EQ(roll.runs[1].to, -1);
@@ -75,9 +75,9 @@ TEST(Rolls, back_and_forth_takes_a_lane_each_way) {
 }
 
 TEST(Rolls, more_than_once_round_takes_more_lanes) {
-  EXPECT_EQ(roll_of({{10, 0}}, 10).lanes, 1);
-  EXPECT_EQ(roll_of({{-23, 0}}, 10).lanes, 4);
-  EXPECT_EQ(roll_of({{23, 0}}, 0).lanes, 1);  // an open boundary has no round
+  EXPECT_EQ(roll_of({{10, 0}}, {10, true}).lanes, 1);
+  EXPECT_EQ(roll_of({{-23, 0}}, {10, true}).lanes, 4);
+  EXPECT_EQ(roll_of({{23, 0}}, {10, false}).lanes, 1);  // an open boundary has no round
 }
 
 /// A closed polyline on the page, run so that the inside is on the left of someone who looks at y pointing up.

@@ -2,26 +2,21 @@
 
 #include <algorithm>
 
-#include "rollfix/part/period.hpp"
-
 namespace rollfix::draw {
 namespace {
 
-bool clash(const Interval& a, const Interval& b, double period, double gap) {
-  if (period <= 0) return a.lo < b.hi + gap && b.lo < a.hi + gap;
-  // Round a circle: they clash where either one's start lies in the other.
-  return wrap(b.lo - a.lo, period).base < a.width() + gap || wrap(a.lo - b.lo, period).base < b.width() + gap;
-}
+Interval with_gap(const Interval& stretch, double gap) { return {stretch.lo, stretch.hi + gap}; }
 
 }  // namespace
 
-Lanes assign_lanes(const std::vector<Interval>& stretches, double period, double gap) {
+Lanes assign_lanes(const std::vector<Interval>& stretches, const Boundary& boundary, double gap) {
   Lanes lanes;
   std::vector<std::vector<Interval>> taken;
   for (const Interval& stretch : stretches) {
     const auto is_free = [&](const std::vector<Interval>& lane) {
-      return std::none_of(lane.begin(), lane.end(),
-                          [&](const Interval& other) { return clash(stretch, other, period, gap); });
+      return std::none_of(lane.begin(), lane.end(), [&](const Interval& other) {
+        return boundary.intersects(with_gap(stretch, gap), with_gap(other, gap));
+      });
     };
     auto lane = std::find_if(taken.begin(), taken.end(), is_free);
     if (lane == taken.end()) lane = taken.emplace(taken.end());

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "rollfix/outline/curve.hpp"
+#include "rollfix/part/boundary.hpp"
 
 namespace rollfix::draw {
 
@@ -16,8 +16,7 @@ struct Lanes {
   int count = 0;
 };
 
-/// Puts each stretch on the nearest lane where it is `gap` away from its neighbours. `period` > 0: the boundary is
-/// closed with this length and stretches may run over its seam; 0: open.
-Lanes assign_lanes(const std::vector<Interval>& stretches, double period, double gap);
+/// Puts each stretch on the nearest lane where it is `gap` away from its neighbours.
+Lanes assign_lanes(const std::vector<Interval>& stretches, const Boundary& boundary, double gap);
 
 }  // namespace rollfix::draw

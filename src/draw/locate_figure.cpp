@@ -13,7 +13,6 @@
 #include "offset.hpp"
 #include "roll_pen.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/part/period.hpp"
 
 namespace rollfix {
 namespace draw {
@@ -239,15 +238,12 @@ Svg side_by_side(const std::vector<LocateFigure>& figures) {
 }
 
 std::vector<std::size_t> numbers_of(const Search& later, const Search& earlier, const Part& part) {
-  const auto distance = [&](double a, double b) {
-    return part.closed() ? periodic_distance(a, b, part.perimeter()) : std::abs(a - b);
-  };
   std::vector<std::size_t> numbers;
   for (const Placement& placement : later.placements) {
     std::size_t nearest = 0;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < earlier.placements.size(); ++i) {
-      const double here = distance(placement.start, earlier.placements[i].start);
+      const double here = part.boundary().distance(placement.start, earlier.placements[i].start);
       if (here >= least) continue;
       least = here;
       nearest = i;

@@ -53,7 +53,7 @@ Lanes lanes_of(const Plan& plan) {
   }
   // The scale is not known yet; the part's size over the page's width is near enough.
   const double gap = kEndGap * plan.framing.part.size().maxCoeff() / plan.framing.width;
-  return assign_lanes(stretches, plan.part().closed() ? plan.part().perimeter() : 0, gap);
+  return assign_lanes(stretches, plan.part().boundary(), gap);
 }
 
 }  // namespace
@@ -76,8 +76,7 @@ double Plan::line_width(std::size_t i) const {
 }
 
 double Plan::offset(std::size_t i, const Run& run, double travelled) const {
-  const double period = part().closed() ? part().perimeter() : 0;
-  const double winding = goes_round(run, period) ? travelled / period : 0;
+  const double winding = goes_round(run, part().boundary()) ? travelled / part().perimeter() : 0;
   return kFirstLane + spacing * (lanes.of[i] * roll.lanes + run.lane + winding);
 }
 
@@ -85,7 +84,7 @@ Plan plan_of(const LocateFigure& figure) {
   check(figure);
   Plan plan;
   plan.figure = &figure;
-  plan.roll = roll_of(figure.readings, figure.part->closed() ? figure.part->perimeter() : 0);
+  plan.roll = roll_of(figure.readings, figure.part->boundary());
   plan.framing.width = figure.width;
   plan.framing.least_height = 0.3 * figure.width;
   plan.framing.most_height = 0.85 * figure.width;

@@ -11,7 +11,6 @@
 #include "numerals.hpp"
 #include "roll_pen.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/part/period.hpp"
 
 namespace rollfix::draw {
 namespace {
@@ -66,7 +65,7 @@ Lanes lanes_of(const PairPlan& plan, double part_size) {
   }
   // The scale is not known yet; the part's size over the drawing's width is near enough.
   const double gap = kEndGap * part_size / plan.framing.width;
-  return assign_lanes(stretches, plan.part().closed() ? plan.part().perimeter() : 0, gap);
+  return assign_lanes(stretches, plan.part().boundary(), gap);
 }
 
 int lanes_each(const PairPlan& plan) { return std::max(plan.rolls[0].lanes, plan.rolls[1].lanes); }
@@ -81,7 +80,7 @@ Text finger_text(const PairPlan& plan, std::size_t finger) {
     const double s = k == 0 ? start : start + contacts[k - 1];
     text.push_back({k == 0 ? ": " : ", "});
     append(text, pair_contact(finger, k));
-    text.push_back({" = " + pretty(plan.part().closed() ? wrap(s, plan.part().perimeter()).base : s)});
+    text.push_back({" = " + pretty(plan.part().boundary().base(s))});
   }
   return text;
 }
@@ -110,8 +109,7 @@ Text line_text(const PairPlan& plan, const PairLine& line) {
 bool PairPlan::has_numbers() const { return placements().size() <= kMostNumbers; }
 
 double PairPlan::offset(std::size_t finger, const Run& run, double travelled) const {
-  const double period = part().closed() ? part().perimeter() : 0;
-  const double winding = goes_round(run, period) ? travelled / period : 0;
+  const double winding = goes_round(run, part().boundary()) ? travelled / part().perimeter() : 0;
   return kFirstLane + kLaneSpacing * (lanes.of[finger] * lanes_each(*this) + run.lane + winding);
 }
 
@@ -132,7 +130,7 @@ PairPlan plan_of(const PairFigure& figure) {
   plan.framing.most_height = std::max(0.7 * figure.width, plan.framing.least_height);
   plan.framing.part = part_bounds(*figure.part);
   for (std::size_t finger = 0; finger < 2; ++finger) {
-    plan.rolls[finger] = roll_of(readings_of(figure, finger), plan.part().closed() ? plan.part().perimeter() : 0);
+    plan.rolls[finger] = roll_of(readings_of(figure, finger), plan.part().boundary());
     if (!plan.shown || !figure.finger_radius[finger]) continue;
     const PairPlacement& placement = plan.placements()[*plan.shown];
     for (const double s : {placement.start[finger], placement.end[finger]}) {

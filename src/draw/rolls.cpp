@@ -8,15 +8,17 @@ namespace {
 
 constexpr std::size_t kMostRuns = 3;  // more changes of direction than that are noise or a mess to look at
 
-int lanes_for(const Run& run, double period) {
-  return goes_round(run, period) ? 1 + static_cast<int>(std::ceil(run.size() / period)) : 1;
+int lanes_for(const Run& run, const Boundary& boundary) {
+  return goes_round(run, boundary) ? 1 + static_cast<int>(std::ceil(run.size() / boundary.perimeter)) : 1;
 }
 
 }  // namespace
 
-bool goes_round(const Run& run, double period) { return period > 0 && run.size() > period * (1 + 1e-9); }
+bool goes_round(const Run& run, const Boundary& boundary) {
+  return boundary.closed && run.size() > boundary.perimeter * (1 + 1e-9);
+}
 
-Roll roll_of(const std::vector<Reading>& readings, double period) {
+Roll roll_of(const std::vector<Reading>& readings, const Boundary& boundary) {
   Roll roll;
   double at = 0;
   for (const Reading& reading : readings) {
@@ -37,7 +39,7 @@ Roll roll_of(const std::vector<Reading>& readings, double period) {
   roll.lanes = 0;
   for (Run& run : roll.runs) {
     run.lane = roll.lanes;
-    roll.lanes += lanes_for(run, period);
+    roll.lanes += lanes_for(run, boundary);
   }
   roll.lanes = std::max(roll.lanes, 1);
   return roll;

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "rollfix/locate/reading.hpp"
-#include "rollfix/outline/curve.hpp"
+#include "rollfix/part/boundary.hpp"
 
 namespace rollfix::draw {
 
@@ -25,10 +25,9 @@ struct Roll {
   bool tangled = false;          // changes its direction so often that one run stands for all
 };
 
-/// Whether a run covers a closed boundary more than once and has to wind outward; `period` is 0 for an open one.
-bool goes_round(const Run& run, double period);
+/// Whether a run covers a closed boundary more than once and has to wind outward.
+bool goes_round(const Run& run, const Boundary& boundary);
 
-/// `period`: the perimeter of a closed part, or 0.
-Roll roll_of(const std::vector<Reading>& readings, double period);
+Roll roll_of(const std::vector<Reading>& readings, const Boundary& boundary);
 
 }  // namespace rollfix::draw

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "rollfix/part/period.hpp"
-
 namespace rollfix::draw {
 namespace {
 
@@ -117,10 +115,6 @@ Vec2 on_edge(const Trace& trace, std::size_t edge, double s) {
   return trace.points[edge] + fraction * (trace.points[edge + 1] - trace.points[edge]);
 }
 
-double reduced(const Trace& trace, double s) {
-  return trace.closed ? wrap(s, trace.length).base : std::clamp(s, 0.0, trace.length);
-}
-
 }  // namespace
 
 Trace trace(const Part& part, double tolerance, std::size_t most) {
@@ -164,13 +158,12 @@ std::vector<Vec2> pick(const std::vector<Vec2>& points, const std::vector<std::s
 }
 
 Vec2 point_at(const Trace& trace, double s) {
-  const double at = reduced(trace, s);
+  const double at = trace.boundary().base(s);
   return on_edge(trace, edge_at(trace, at, Side::after), at);
 }
 
 Vec2 direction_at(const Trace& trace, double s, Side side) {
-  double at = reduced(trace, s);
-  if (trace.closed && side == Side::before && at == 0) at = trace.length;
+  const double at = trace.boundary().reduced(s, side).base;
   const std::size_t edge = edge_at(trace, at, side);
   const Vec2 step = trace.points[edge + 1] - trace.points[edge];
   const double size = step.norm();
@@ -187,7 +180,7 @@ Trace slice(const Trace& trace, double lo, double hi) {
   out.length = hi - lo;
   out.s.push_back(lo);
   out.points.push_back(point_at(trace, lo));
-  const Wrapped start = trace.closed ? wrap(lo, trace.length) : Wrapped{lo, 0};
+  const Wrapped start = trace.boundary().reduced(lo);
   double shift = start.winding * trace.length;
   std::size_t i = edge_at(trace, start.base, Side::after) + 1;
   while (trace.s[i] + shift < hi) {

@@ -15,6 +15,8 @@ struct Trace {
   std::vector<Vec2> points;
   bool closed = true;
   double length = 0;  // arc length of the true boundary, P
+
+  Boundary boundary() const { return {length, closed}; }
 };
 
 /// Distance between a curve and its drawing that no eye sees, even at ten times the size: pixels.

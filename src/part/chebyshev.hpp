@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 namespace rollfix::chebyshev {
 
@@ -33,5 +34,9 @@ Series powers(const Series& coefficients);
 
 /// The largest of the last three coefficients: what interpolation has not resolved.
 double tail(const Series& coefficients);
+
+/// Where a polynomial, given by its powers, changes sign strictly inside (-1, 1), in rising order.
+/// All of them: an interval is left only when a bound on the polynomial, or on its derivative, excludes more.
+std::vector<double> sign_changes(const Series& powers);
 
 }  // namespace rollfix::chebyshev

@@ -1,9 +1,9 @@
-#include "crossing.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
+
+#include "part_data.hpp"
 
 namespace rollfix {
 namespace {

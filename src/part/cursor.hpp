@@ -17,6 +17,17 @@ class Cursor {
     index_ = turning.spiral_at(place.base, side);
     winding_ = place.winding;
   }
+  /// The same from where a roll forwards from s goes on: what lies before a joint by no more than rounding is past it.
+  static Cursor ahead(const TurningFunction& turning, double s) {
+    Cursor cursor(turning, s);
+    const Wrapped place = turning.boundary().reduced(s);
+    const double rounding = kLengthAccuracy * turning.perimeter();
+    const auto left = [&] {
+      return cursor.spiral().hi + (cursor.winding_ - place.winding) * turning.perimeter() - place.base;
+    };
+    while (left() <= rounding && !cursor.is_last()) cursor.advance();
+    return cursor;
+  }
   /// On a spiral, on the first lap.
   static Cursor at_spiral(const TurningFunction& turning, std::size_t index) { return {turning, index, 0.0}; }
 
@@ -47,16 +58,20 @@ class Cursor {
 
   /// Theta on both sides of the joint where the spiral starts, unwrapped; before the first of an open boundary there is
   /// none, and both are the same.
-  double angle_before() const {
-    if (is_first()) return angle_after();
-    if (index_ > 0) return turning_->spirals()[index_ - 1].end.angle + lift();
-    return turning_->spirals().back().end.angle + (winding_ - 1) * turning_->period_turn();
-  }
+  double angle_before() const { return is_first() ? angle_after() : end_before() + lift(); }
   double angle_after() const { return spiral().start.angle + lift(); }
+  /// By how much it jumps there: above 0 at a convex corner.
+  double jump() const { return is_first() ? 0 : spiral().start.angle - end_before(); }
 
  private:
   Cursor(const TurningFunction& turning, std::size_t index, double winding)
       : turning_(&turning), index_(index), winding_(winding) {}
+
+  /// Theta where the spiral before ends, as this one's own angles go on from it.
+  double end_before() const {
+    return index_ > 0 ? turning_->spirals()[index_ - 1].end.angle
+                      : turning_->spirals().back().end.angle - turning_->period_turn();
+  }
 
   const TurningFunction* turning_;
   std::size_t index_ = 0;

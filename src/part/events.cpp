@@ -1,7 +1,7 @@
-#include "events.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "part_data.hpp"
 
 namespace rollfix {
 namespace {
@@ -37,7 +37,7 @@ std::vector<double> changes(const TurningFunction& turning, Sign sign, Breaks br
       if (now == 0) continue;
       if (last != 0 && now != last && lap + 1 == laps) {
         const double place = 0.5 * (last_end + spirals[k].lo);
-        found.push_back(turning.closed() ? wrap(place, turning.perimeter()).base : place);
+        found.push_back(turning.boundary().base(place));
       }
       last = now;
       last_end = spirals[k].hi;

@@ -7,8 +7,6 @@
 #include <utility>
 
 #include "angle.hpp"
-#include "crossing.hpp"
-#include "events.hpp"
 #include "part_data.hpp"
 #include "rollfix/error.hpp"
 #include "turning_builder.hpp"
@@ -99,7 +97,7 @@ int Part::turns() const {
 
 Vec2 Part::point(double s) const {
   const TurningFunction& turning = data_->turning;
-  const double base = closed() ? wrap(s, perimeter()).base : std::min(std::max(s, 0.0), perimeter());
+  const double base = boundary().base(s);
   const std::size_t index = panel_at(turning, base, Side::after);
   const Panel& panel = turning.panels()[index];
   const Curve& curve = data_->outline.curves[data_->parametrization.pieces[index].curve];

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,23 @@ struct Part::Data {
   std::vector<double> inflections;
   std::vector<double> vertices;
 };
+
+/// Where the curvature changes sign. On a straight stretch between bends of opposite sign: its middle.
+std::vector<double> find_inflections(const TurningFunction& turning);
+
+/// Where the curvature, itself continuous, turns from rising to falling or back.
+std::vector<double> find_vertices(const TurningFunction& turning, const std::vector<Corner>& corners);
+
+/// Two places on the boundary that share a point of the plane.
+struct Crossing {
+  double first = 0;  // arc lengths
+  double second = 0;
+  Vec2 point;
+};
+
+/// A place where the part's boundary crosses or touches itself, if there is one. Exhaustive: stretches are passed
+/// over only when they turn too little to meet themselves, or when boxes around them are apart.
+std::optional<Crossing> find_crossing(const Part& part);
 
 /// For saving a part and making it again.
 struct PartAccess {

@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "boundary_tree.hpp"
+#include "cursor.hpp"
 #include "reach_search.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/part/period.hpp"
 
 namespace rollfix {
 namespace {
@@ -55,11 +55,9 @@ class Assembly {
  private:
   /// The pivots where spiral k starts; can the finger roll over that joint?
   bool pass_joint(std::size_t k, const std::vector<Decision>& decisions, std::size_t& next) {
-    const std::vector<Spiral>& spirals = part_.turning().spirals();
-    if (k == 0 && !part_.closed()) return false;
-    const double after = spirals[k].start.angle;
-    const double before = k > 0 ? spirals[k - 1].end.angle : spirals.back().end.angle - part_.turning().period_turn();
-    PivotReach pivot{spirals[k].lo, {before, after}, {}};
+    const Cursor joint = Cursor::at_spiral(part_.turning(), k);
+    if (joint.is_first()) return false;
+    PivotReach pivot{joint.lo(), {joint.angle_before(), joint.angle_after()}, {}};
     bool has_pivot = false;
     for (; next < decisions.size() && decisions[next].stance.spiral == k && decisions[next].stance.is_pivot; ++next) {
       has_pivot = true;
@@ -71,7 +69,7 @@ class Assembly {
         pivot.angles.push_back(range);
       }
     }
-    if (!has_pivot) return !Corner{spirals[k].lo, after - before}.is_concave();
+    if (!has_pivot) return !Corner{pivot.s, pivot.whole.width()}.is_concave();
     reach_.pivots.push_back(pivot);
     return pivot.is_whole();
   }
@@ -197,10 +195,8 @@ std::optional<Interval> Reach::arc_at(double s) const {
 
 bool Reach::contains(double s) const {
   if (arc_at(s)) return true;
-  const double base = closed ? wrap(s, perimeter).base : s;
   return std::any_of(pivots.begin(), pivots.end(), [&](const PivotReach& pivot) {
-    const double away = closed ? periodic_distance(base, pivot.s, perimeter) : std::abs(base - pivot.s);
-    return !pivot.angles.empty() && away <= kArcRounding * perimeter;
+    return !pivot.angles.empty() && boundary().distance(s, pivot.s) <= kArcRounding * perimeter;
   });
 }
 

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <utility>
+
+#include "cursor.hpp"
 
 namespace rollfix {
 namespace {
@@ -16,15 +17,6 @@ constexpr double kRounding = 1e-14;
 // A stance turns by no more than this to begin with, radians, and none is shorter than this share of the perimeter.
 constexpr double kStanceTurn = 0.4;
 constexpr double kShortestStance = 1e-12;
-// Around a stance the boundary is safe (see safe_end) while its tangent stays within these angles of the stance's.
-constexpr double kMostInward = std::numbers::pi / 2 + 1e-9;  // turned away from the finger
-constexpr double kMostOutward = std::numbers::pi / 3;        // turned towards it
-constexpr double kLeaning = 8;                               // 1 / cos^3 of kMostOutward
-
-// Far enough from the stance the bounds do as well: so many spirals, and so many times the stance's length, are enough.
-constexpr int kMostSafeSpirals = 64;
-constexpr double kMostSafeLength = 16;
-
 Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
 }  // namespace
@@ -95,9 +87,9 @@ const std::vector<Decision>& ReachSearch::run() {
 }
 
 void ReachSearch::add_pivots(std::size_t spiral) {
-  const std::vector<Spiral>& spirals = turning_.spirals();
-  const double after = spirals[spiral].start.angle;
-  const double before = spiral > 0 ? spirals[spiral - 1].end.angle : spirals.back().end.angle - turning_.period_turn();
+  const Cursor joint = Cursor::at_spiral(turning_, spiral);
+  const double before = joint.angle_before();
+  const double after = joint.angle_after();
   if (after - before <= kTurnAccuracy) return;
   const int count = 1 + static_cast<int>((after - before) / kStanceTurn);
   for (int i = 0; i < count; ++i) {
@@ -222,7 +214,7 @@ void ReachSearch::decide(const Stance& stance, const std::vector<std::int32_t>& 
       return;
     }
     if (found.most <= most_ + doubt_) continue;
-    if (!safe) safe = safe_around(stance);
+    if (!safe) safe = safe_stretch(tree_, curvature_, slack_, stance);
     if (is_inside(node, *safe)) continue;
     if (deepness(view.normal, found.at - view.point, curvature_) > most_) {
       // Not free in its middle: no use in looking at the rest before it is split.
@@ -265,107 +257,6 @@ bool ReachSearch::is_inside(const BoundaryTree::Node& node, const Interval& arou
     if (node.lo + shift >= around.lo && node.hi + shift <= around.hi) return true;
   }
   return false;
-}
-
-/// The stretch around a stance that the finger can't enter, in arc length unwrapped.
-Interval ReachSearch::safe_around(const Stance& stance) const {
-  const Spiral& spiral = turning_.spirals()[stance.spiral];
-  Interval angles = stance.range;
-  if (!stance.is_pivot) {
-    const double one = turning_.on_spiral(spiral, stance.range.lo).angle;
-    const double two = turning_.on_spiral(spiral, stance.range.hi).angle;
-    angles = {std::min(one, two), std::max(one, two)};
-  }
-  return {safe_end(stance, angles, -1), safe_end(stance, angles, 1)};
-}
-
-/// With x along the tangent, T, at the contact and y against n, the boundary has sin(phi) as its slope's sine, with
-/// d(sin phi)/dx = kappa, and the disk's rim has -k x. As long as kappa >= -k the boundary stays above the rim: the
-/// finger can't enter it. Where kappa falls short by e, and where concave joints turn by j at x_j, it comes below by no
-/// more than (e x^2 / 2 + sum of j (x - x_j)) / cos^3 of the steepest slope; so long as that is within the slack, and
-/// the slopes make sense, the stretch is safe. Returns where it ends in this direction.
-double ReachSearch::safe_end(const Stance& stance, const Interval& angles, int direction) const {
-  const std::vector<Spiral>& spirals = turning_.spirals();
-  const auto count = static_cast<std::int64_t>(spirals.size());
-  const Interval allowed = direction > 0 ? Interval{angles.hi - kMostOutward, angles.lo + kMostInward}
-                                         : Interval{angles.hi - kMostInward, angles.lo + kMostOutward};
-  double length = stance.is_pivot ? 0 : stance.range.width();
-  double excess = 0;       // e
-  double jumps = 0;        // sum of j
-  double jump_places = 0;  // sum of j x_j
-  double gaps = 0;
-  const auto fits = [&](double at_length, double with_excess) {
-    const double below = 0.5 * with_excess * at_length * at_length + std::max(0.0, jumps * at_length - jump_places);
-    return kLeaning * below + gaps <= slack_;
-  };
-
-  auto index = static_cast<std::int64_t>(stance.spiral);
-  double lap_s = 0;  // from the spiral's own arc length and angle to those unwrapped around the stance
-  double lap_angle = 0;
-  double here;  // on the spiral
-  if (stance.is_pivot) {
-    here = spirals[stance.spiral].lo;
-  } else {
-    for (const double end : {stance.range.lo, stance.range.hi}) {
-      excess = std::max(excess, -turning_.on_spiral(spirals[stance.spiral], end).curvature - curvature_);
-    }
-    if (!fits(length, excess)) return direction > 0 ? stance.range.lo : stance.range.hi;
-    here = direction > 0 ? stance.range.hi : stance.range.lo;
-  }
-  if (stance.is_pivot && direction > 0 && !allowed.contains(spirals[stance.spiral].start.angle)) return here;
-
-  bool leaves_joint = stance.is_pivot && direction < 0;  // a pivot looks back at the spiral before
-  const double enough = kMostSafeLength * length;
-  for (int seen = 0;; ++seen) {
-    if (seen > kMostSafeSpirals && length > enough) return here + lap_s;
-    if (!leaves_joint) {
-      const Spiral& spiral = spirals[static_cast<std::size_t>(index)];
-      const double end = direction > 0 ? spiral.hi : spiral.lo;
-      const double from_excess = excess;
-      const auto reaches = [&](double s, double& with_excess) {
-        const Turning at = turning_.on_spiral(spiral, s);
-        const Turning from = turning_.on_spiral(spiral, here);
-        with_excess = std::max({from_excess, -at.curvature - curvature_, -from.curvature - curvature_});
-        return allowed.contains(at.angle + lap_angle) && fits(length + std::abs(s - here), with_excess);
-      };
-      double with_excess = 0;
-      if (!reaches(end, with_excess)) {
-        double inside = here;
-        double outside = end;
-        for (int round = 0; round < 30; ++round) {
-          const double middle = 0.5 * (inside + outside);
-          (reaches(middle, with_excess) ? inside : outside) = middle;
-        }
-        return inside + lap_s;
-      }
-      excess = with_excess;
-      length += std::abs(end - here);
-      here = end;
-    }
-    leaves_joint = false;
-    const std::int64_t joint = direction > 0 ? index + 1 : index;  // the spiral that starts there
-    if (!turning_.closed() && (joint <= 0 || joint >= count)) return here + lap_s;
-    if (length > part_.perimeter()) return here + lap_s;
-    const double end_s = here + lap_s;
-    const double angle_before = direction > 0 ? spirals[static_cast<std::size_t>(index)].end.angle + lap_angle : 0;
-    const double angle_after = direction < 0 ? spirals[static_cast<std::size_t>(index)].start.angle + lap_angle : 0;
-    index += direction;
-    if (index == count || index < 0) {
-      index = direction > 0 ? 0 : count - 1;
-      lap_s += direction * part_.perimeter();
-      lap_angle += direction * turning_.period_turn();
-    }
-    const Spiral& next = spirals[static_cast<std::size_t>(index)];
-    const double angle = (direction > 0 ? next.start.angle : next.end.angle) + lap_angle;
-    const double jump = direction > 0 ? angle - angle_before : angle_after - angle;
-    if (jump < 0) {
-      jumps -= jump;
-      jump_places -= jump * length;
-    }
-    gaps += tree_.gap_before(static_cast<std::size_t>(joint == count ? 0 : joint));
-    if (!allowed.contains(angle) || !fits(length, excess)) return end_s;
-    here = direction > 0 ? next.lo : next.hi;
-  }
 }
 
 }  // namespace rollfix

@@ -45,6 +45,9 @@ struct ChordDeepness {
 ChordDeepness deepness_on_chord(const BoundaryTree::Node& node, const Vec2& point, const Vec2& normal,
                                 double curvature);
 
+/// The stretch around a stance that a finger in it can't enter by more than the slack, in arc length unwrapped.
+Interval safe_stretch(const BoundaryTree& tree, double curvature, double slack, const Stance& stance);
+
 /// Decides for all stances of a finger whether any point of the boundary is deeper in it than the slack.
 class ReachSearch {
  public:
@@ -69,8 +72,6 @@ class ReachSearch {
   double change(const View& view, const Vec2& offset, double beside) const;
   Comparison compare(const View& view, const BoundaryTree::Node& node) const;
   View view_of(const Stance& stance) const;
-  Interval safe_around(const Stance& stance) const;
-  double safe_end(const Stance& stance, const Interval& angles, int direction) const;
   void add(const Stance& stance, bool is_free) { decisions_.push_back({stance, is_free}); }
 
   BoundaryTree& tree_;

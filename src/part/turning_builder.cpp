@@ -7,7 +7,6 @@
 
 #include "angle.hpp"
 #include "rollfix/error.hpp"
-#include "roots.hpp"
 
 namespace rollfix {
 namespace {
@@ -142,8 +141,8 @@ void TurningFunctionBuilder::add_spirals(const ResolvedPanel& resolved) {
   const auto index = static_cast<std::uint32_t>(turning.panels_.size() - 1);
   const Panel& panel = turning.panels_[index];
   const Series curvature = chebyshev::powers(resolved.curvature);
-  std::vector<double> cuts = sign_changes(curvature);
-  const std::vector<double> slope_cuts = sign_changes(derivative(curvature));
+  std::vector<double> cuts = chebyshev::sign_changes(curvature);
+  const std::vector<double> slope_cuts = chebyshev::sign_changes(derivative(curvature));
   cuts.insert(cuts.end(), slope_cuts.begin(), slope_cuts.end());
   std::sort(cuts.begin(), cuts.end());
   double lo = panel.lo;

@@ -39,6 +39,8 @@ struct Reach {
   bool decided = true;             // false: the budget ran out, and what was not decided counts as within reach
   std::size_t tests = 0;           // pairs of stretches that were compared
 
+  Boundary boundary() const { return {perimeter, closed}; }
+
   /// Where the finger can't touch, in order; lo in [0, P), hi may exceed P.
   std::vector<Interval> gaps() const;
 

@@ -12,12 +12,6 @@ namespace {
 
 constexpr int kConstantSamples = 20;
 
-/// A contact that moves along the boundary from spiral to spiral.
-struct MovingContact {
-  std::size_t index = 0;
-  double winding = 0;
-};
-
 }  // namespace
 
 RollCurve::RollCurve(const Part& part, RollEquations equations, const Interval& range)
@@ -45,68 +39,21 @@ RollCurve::RollCurve(const Part& part, RollEquations equations, const Interval& 
 /// Cuts the range of first contacts wherever a contact passes from one spiral to the next, and puts a pivot wherever
 /// one passes a convex corner, or the tiny concave joint of a drawing (kJointTurn).
 void RollCurve::make_pieces(const Interval& range) {
-  const double period = turning_.perimeter();
-  const double same_place = kLengthAccuracy * period;
-  const std::vector<Spiral>& spirals = turning_.spirals();
-  std::vector<double> places(1, 0.0);
-  places.insert(places.end(), equations_.lengths.begin(), equations_.lengths.end());
-
-  std::vector<MovingContact> walkers(places.size());
-  const auto advance = [&](MovingContact& walker) {
-    if (++walker.index == spirals.size()) {
-      walker.index = 0;
-      walker.winding += 1;
-    }
-  };
-  const auto at_open_end = [&](const MovingContact& walker) {
-    return !turning_.closed() && walker.index + 1 == spirals.size();
-  };
-  for (std::size_t c = 0; c < places.size(); ++c) {
-    const double s = range.lo + places[c];
-    const Wrapped wrapped = turning_.closed() ? wrap(s, period) : Wrapped{std::clamp(s, 0.0, period), 0};
-    walkers[c] = {turning_.spiral_at(wrapped.base), wrapped.winding};
-    const auto left = [&](const MovingContact& walker) {  // to the spiral's end; just before s = 0 it goes on past it
-      return spirals[walker.index].hi + (walker.winding - wrapped.winding) * period - wrapped.base;
-    };
-    while (left(walkers[c]) <= same_place && !at_open_end(walkers[c])) advance(walkers[c]);
-  }
-  const auto pass_corners = [&](double s) {
-    if (part_.corners().empty()) return;
-    std::vector<Range> tangents;
-    std::size_t corners = 0;
-    for (std::size_t c = 0; c < places.size(); ++c) {
-      const MovingContact& walker = walkers[c];
-      const Spiral& ahead = spirals[walker.index];
-      const bool passes = std::abs(s + places[c] - walker.winding * period - ahead.lo) <= same_place &&
-                          (turning_.closed() || walker.index > 0);
-      const double after =
-          passes ? ahead.start.angle + walker.winding * turning_.period_turn() : turning_.angle(s + places[c]);
-      const double jump = passes ? ahead.start.angle - turning_.angle(ahead.lo, Side::before) : 0;
-      const bool pivots = std::abs(jump) > kTurnAccuracy && !Corner{s, jump}.is_concave();
-      if (pivots) ++corners;
-      const double before = pivots ? after - jump : after;
-      tangents.push_back({std::min(before, after), std::max(before, after)});
-    }
-    if (corners > 0) add_pivots(s, tangents);
-    if (corners < 2) return;
-    for (std::size_t c = 1; c < places.size(); ++c) {
-      const double shift = equations_.shifts[c - 1];
-      tangents[c] = tangents[c] + Range{shift, shift};
-    }
-    patches_.push_back({s, tangents, equations_.facing.value_or(0)});
-  };
+  const double same_place = kLengthAccuracy * turning_.perimeter();
+  std::vector<Cursor> contacts;
+  for (std::size_t c = 0; c < contacts_; ++c) contacts.push_back(Cursor::ahead(turning_, range.lo + length_to(c)));
+  const auto end_of = [&](std::size_t c) { return contacts[c].spiral().hi - offset_of(c, contacts[c]); };
 
   double here = range.lo;
-  pass_corners(here);
+  pass_corners(here, contacts);
   while (here < range.hi) {
     RollPiece piece;
     double next = range.hi;
-    for (std::size_t c = 0; c < places.size(); ++c) {
-      const double offset = places[c] - walkers[c].winding * period;
-      piece.spiral.push_back(static_cast<std::uint32_t>(walkers[c].index));
-      piece.offset.push_back(offset);
-      piece.angle.push_back(walkers[c].winding * turning_.period_turn());
-      if (!at_open_end(walkers[c])) next = std::min(next, spirals[walkers[c].index].hi - offset);
+    for (std::size_t c = 0; c < contacts_; ++c) {
+      piece.spiral.push_back(static_cast<std::uint32_t>(contacts[c].index()));
+      piece.offset.push_back(offset_of(c, contacts[c]));
+      piece.angle.push_back(contacts[c].lift());
+      if (!contacts[c].is_last()) next = std::min(next, end_of(c));
     }
     if (range.hi - next <= same_place) next = range.hi;
     piece.lo = here;
@@ -114,15 +61,37 @@ void RollCurve::make_pieces(const Interval& range) {
     if (next - here > same_place) pieces_.push_back(piece);
     here = std::max(here, next);
     bool moved = false;
-    for (std::size_t c = 0; c < places.size(); ++c) {
-      const double offset = places[c] - walkers[c].winding * period;
-      if (spirals[walkers[c].index].hi - offset - here <= same_place && !at_open_end(walkers[c])) {
-        advance(walkers[c]);
-        moved = true;
-      }
+    for (std::size_t c = 0; c < contacts_; ++c) {
+      if (contacts[c].is_last() || end_of(c) - here > same_place) continue;
+      contacts[c].advance();
+      moved = true;
     }
-    if (moved && (here < range.hi || !turning_.closed())) pass_corners(here);
+    if (moved && (here < range.hi || !turning_.closed())) pass_corners(here, contacts);
   }
+}
+
+/// The contacts that stand at a joint while the first one is at s, which their cursors have just passed.
+void RollCurve::pass_corners(double s, const std::vector<Cursor>& contacts) {
+  if (part_.corners().empty()) return;
+  std::vector<Range> tangents;
+  std::size_t corners = 0;
+  for (std::size_t c = 0; c < contacts_; ++c) {
+    const Cursor& ahead = contacts[c];
+    const bool passes = std::abs(s + offset_of(c, ahead) - ahead.spiral().lo) <= kLengthAccuracy * turning_.perimeter();
+    const double after = passes ? ahead.angle_after() : turning_.angle(s + length_to(c));
+    const double jump = passes ? ahead.jump() : 0;
+    const bool pivots = std::abs(jump) > kTurnAccuracy && !Corner{s, jump}.is_concave();
+    if (pivots) ++corners;
+    const double before = pivots ? after - jump : after;
+    tangents.push_back({std::min(before, after), std::max(before, after)});
+  }
+  if (corners > 0) add_pivots(s, tangents);
+  if (corners < 2) return;
+  for (std::size_t c = 1; c < contacts_; ++c) {
+    const double shift = equations_.shifts[c - 1];
+    tangents[c] = tangents[c] + Range{shift, shift};
+  }
+  patches_.push_back({s, tangents, equations_.facing.value_or(0)});
 }
 
 /// One contact pivots while the others stand at one limit of their tangents or at the other.

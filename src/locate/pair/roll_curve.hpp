@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "part/cursor.hpp"
 #include "range.hpp"
 #include "rollfix/part/part.hpp"
 
@@ -120,7 +121,11 @@ class RollCurve {
     return hull(one[row + 1], two[row + 1]) - start;
   }
   RollPoint stored(std::uint32_t index, double x) const;
+  /// From the first contact to contact c, and from there to the place on the cursor's spiral.
+  double length_to(std::size_t c) const { return c == 0 ? 0 : equations_.lengths[c - 1]; }
+  double offset_of(std::size_t c, const Cursor& contact) const { return length_to(c) - contact.shift(); }
   void make_pieces(const Interval& range);
+  void pass_corners(double s, const std::vector<Cursor>& contacts);
   void find_constants(RollPiece& piece, std::uint32_t first, std::uint32_t last) const;
   void add_pivots(double s, const std::vector<Range>& tangents);
   std::int32_t make_node(std::uint32_t piece, double lo, double hi, std::uint32_t first, std::uint32_t last);

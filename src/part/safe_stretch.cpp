@@ -1,0 +1,149 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "cursor.hpp"
+#include "reach_search.hpp"
+
+namespace rollfix {
+namespace {
+
+// The boundary is safe while its tangent stays within these angles of the stance's.
+constexpr double kMostInward = std::numbers::pi / 2 + 1e-9;  // turned away from the finger
+constexpr double kMostOutward = std::numbers::pi / 3;        // turned towards it
+constexpr double kLeaning = 8;                               // 1 / cos^3 of kMostOutward
+// Far enough from the stance the bounds do as well: so many spirals, and so many times the stance's length, are enough.
+constexpr int kMostSafeSpirals = 64;
+constexpr double kMostSafeLength = 16;
+constexpr int kSafeRounds = 30;  // of halving where it ends
+
+/// Walks from a stance in one direction (+1 or -1) as far as the finger can't enter the boundary.
+///
+/// With x along the tangent, T, at the contact and y against n, the boundary has sin(phi) as its slope's sine, with
+/// d(sin phi)/dx = kappa, and the disk's rim has -k x. As long as kappa >= -k the boundary stays above the rim: the
+/// finger can't enter it. Where kappa falls short by e, and where concave joints turn by j at x_j, it comes below by no
+/// more than (e x^2 / 2 + sum of j (x - x_j)) / cos^3 of the steepest slope; so long as that is within the slack, and
+/// the slopes make sense, the stretch is safe.
+class SafeWalk {
+ public:
+  /// `angles`: of the tangent on the stance.
+  SafeWalk(const BoundaryTree& tree, double curvature, double slack, const Stance& stance, const Interval& angles,
+           int direction)
+      : tree_(tree),
+        turning_(tree.part().turning()),
+        curvature_(curvature),
+        slack_(slack),
+        stance_(stance),
+        forwards_(direction > 0),
+        allowed_(forwards_ ? Interval{angles.hi - kMostOutward, angles.lo + kMostInward}
+                           : Interval{angles.hi - kMostInward, angles.lo + kMostOutward}),
+        at_(Cursor::at_spiral(turning_, stance.spiral)) {}
+
+  /// Where it ends.
+  double end() {
+    if (!leave_stance()) return here_;
+    const double enough = kMostSafeLength * length_;
+    bool at_joint = stance_.is_pivot && !forwards_;  // a pivot looks back at the spiral before
+    for (int seen = 0; seen <= kMostSafeSpirals || length_ <= enough; ++seen) {
+      if (!at_joint && !pass_spiral()) break;
+      at_joint = false;
+      if (!pass_joint()) break;
+    }
+    return here_ + at_.shift();
+  }
+
+ private:
+  bool leave_stance() {
+    const Spiral& spiral = at_.spiral();
+    if (stance_.is_pivot) {
+      here_ = spiral.lo;
+      return !forwards_ || allowed_.contains(spiral.start.angle);
+    }
+    length_ = stance_.range.width();
+    for (const double end : {stance_.range.lo, stance_.range.hi}) excess_ = std::max(excess_, excess_at(end));
+    const bool is_safe = fits(length_, excess_);
+    here_ = is_safe == forwards_ ? stance_.range.hi : stance_.range.lo;
+    return is_safe;
+  }
+
+  bool pass_spiral() {
+    const Spiral& spiral = at_.spiral();
+    const double end = forwards_ ? spiral.hi : spiral.lo;
+    const auto excess_up_to = [&](double s) { return std::max({excess_, excess_at(s), excess_at(here_)}); };
+    const auto reaches = [&](double s) {
+      return allowed_.contains(turning_.on_spiral(spiral, s).angle + at_.lift()) &&
+             fits(length_ + std::abs(s - here_), excess_up_to(s));
+    };
+    if (!reaches(end)) {
+      double inside = here_;
+      double outside = end;
+      for (int round = 0; round < kSafeRounds; ++round) {
+        const double middle = 0.5 * (inside + outside);
+        (reaches(middle) ? inside : outside) = middle;
+      }
+      here_ = inside;
+      return false;
+    }
+    excess_ = excess_up_to(end);
+    length_ += std::abs(end - here_);
+    here_ = end;
+    return true;
+  }
+
+  bool pass_joint() {
+    if ((forwards_ ? at_.is_last() : at_.is_first()) || length_ > turning_.perimeter()) return false;
+    Cursor next = at_;
+    forwards_ ? next.advance() : next.retreat();
+    const Cursor& joint = forwards_ ? next : at_;  // where the spiral starts that comes after it
+    const double jump = joint.angle_after() - joint.angle_before();
+    if (jump < 0) {
+      jumps_ -= jump;
+      jump_places_ -= jump * length_;
+    }
+    gaps_ += tree_.gap_before(joint.index());
+    if (!allowed_.contains(forwards_ ? joint.angle_after() : joint.angle_before())) return false;
+    if (!fits(length_, excess_)) return false;
+    at_ = next;
+    here_ = forwards_ ? at_.spiral().lo : at_.spiral().hi;
+    return true;
+  }
+
+  double excess_at(double s) const { return -turning_.on_spiral(at_.spiral(), s).curvature - curvature_; }
+
+  bool fits(double length, double excess) const {
+    const double below = 0.5 * excess * length * length + std::max(0.0, jumps_ * length - jump_places_);
+    return kLeaning * below + gaps_ <= slack_;
+  }
+
+  const BoundaryTree& tree_;
+  const TurningFunction& turning_;
+  double curvature_;
+  double slack_;
+  const Stance& stance_;
+  bool forwards_;
+  Interval allowed_;  // angles of the tangent
+  Cursor at_;
+  double here_ = 0;         // on its spiral
+  double length_ = 0;       // x
+  double excess_ = 0;       // e
+  double jumps_ = 0;        // sum of j
+  double jump_places_ = 0;  // sum of j x_j
+  double gaps_ = 0;
+};
+
+}  // namespace
+
+Interval safe_stretch(const BoundaryTree& tree, double curvature, double slack, const Stance& stance) {
+  const TurningFunction& turning = tree.part().turning();
+  const Spiral& spiral = turning.spirals()[stance.spiral];
+  Interval angles = stance.range;
+  if (!stance.is_pivot) {
+    const double one = turning.on_spiral(spiral, stance.range.lo).angle;
+    const double two = turning.on_spiral(spiral, stance.range.hi).angle;
+    angles = {std::min(one, two), std::max(one, two)};
+  }
+  return {SafeWalk(tree, curvature, slack, stance, angles, -1).end(),
+          SafeWalk(tree, curvature, slack, stance, angles, 1).end()};
+}
+
+}  // namespace rollfix
