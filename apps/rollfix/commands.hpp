@@ -14,6 +14,7 @@ void add_advise_command(CLI::App& program, Command& chosen);
 void add_simulate_command(CLI::App& program, Command& chosen);
 void add_teach_command(CLI::App& program, Command& chosen);
 void add_demo_command(CLI::App& program, Command& chosen);
+void add_paper_command(CLI::App& program, Command& chosen);
 
 /// This one prints while it runs: data to `out`, narration to `err`.
 void add_watch_command(CLI::App& program, Command& chosen, std::ostream& out, std::ostream& err);

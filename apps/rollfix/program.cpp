@@ -41,6 +41,7 @@ Command parse(CLI::App& program, const std::vector<std::string>& arguments, std:
   add_teach_command(program, chosen);
   add_watch_command(program, chosen, out, err);
   add_demo_command(program, chosen);
+  add_paper_command(program, chosen);
   // What the parser does not know is refused here, with better words.
   program.allow_extras();
   for (CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
