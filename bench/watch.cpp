@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "outlines.hpp"
-#include "rollfix/watcher.hpp"
+#include "rollfix/watch/watcher.hpp"
 #include "stopwatch.hpp"
 #include "tables.hpp"
 
@@ -64,7 +64,7 @@ Watched watch(const rollfix::Part& part, const std::vector<std::string>& lines) 
   Counter counter;
   const std::clock_t start = std::clock();
   rollfix::app::Watcher watcher(part, options, counter);
-  for (const std::string& line : lines) watcher.push({line, false});
+  for (const std::string& line : lines) watcher.push(line);
   watcher.finish();
   const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   return {1e6 * seconds / static_cast<double>(watcher.counts().samples), counter.changes,

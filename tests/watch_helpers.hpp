@@ -1,5 +1,7 @@
 #pragma once
 
+#include <utility>  // before Boost.Asio
+
 #include <arpa/inet.h>
 #include <fcntl.h>
 #include <netinet/in.h>
@@ -9,77 +11,112 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include <boost/asio/executor_work_guard.hpp>
 #include <cstdlib>
+#include <deque>
 #include <memory>
 #include <stdexcept>
 #include <string>
 
-#include "rollfix/watch_descriptor.hpp"
-#include "rollfix/watch_lines.hpp"
+#include "rollfix/watch/source.hpp"
 
 namespace watching {
 
-using rollfix::app::Clock;
-using rollfix::app::Descriptor;
+namespace asio = boost::asio;
 using rollfix::app::Heard;
 
-constexpr std::chrono::seconds kLongEnough{20};  // for what is sure to come, on a busy machine
+constexpr std::chrono::seconds kLongEnough{20};   // for what is sure to come, on a busy machine
+constexpr std::chrono::milliseconds kAWhile{60};  // in which all comes that is there, and files are looked at again
 
 inline void require(bool condition, const char* what) {
   if (!condition) throw std::runtime_error(what);
 }
 
+/// An open file descriptor, closed in the end; -1: none.
+class Descriptor {
+ public:
+  explicit Descriptor(int number = -1) : number_(number) {}
+  ~Descriptor() { close(); }
+  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(number_, other.number_);
+    return *this;
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  int number() const { return number_; }
+  void close() {
+    if (number_ >= 0) ::close(std::exchange(number_, -1));
+  }
+
+ private:
+  int number_ = -1;
+};
+
 inline void write_all(const Descriptor& to, const std::string& text) {
   require(::write(to.number(), text.data(), text.size()) == static_cast<ssize_t>(text.size()), "write");
 }
+
+inline Descriptor writer_of(const std::string& path) { return Descriptor(::open(path.c_str(), O_WRONLY | O_CLOEXEC)); }
+
+/// Both ends of a pipe.
+struct Pipe {
+  Pipe() {
+    int ends[2] = {-1, -1};
+    require(::pipe2(ends, O_CLOEXEC) == 0, "pipe");
+    out = Descriptor(ends[0]);
+    in = Descriptor(ends[1]);
+  }
+  Descriptor out;
+  Descriptor in;
+};
 
 /// Hears a source, one thing after the other.
 class Ear {
  public:
   explicit Ear(const std::string& name, const rollfix::app::SourceOptions& options = {})
-      : bytes_(rollfix::app::open_source(name, options, stop_)), lines_(*bytes_) {}
-  explicit Ear(int descriptor) : bytes_(rollfix::app::read_descriptor(descriptor, stop_)), lines_(*bytes_) {}
+      : source_(rollfix::app::open_source(io_, name, options, hear())) {}
+  explicit Ear(int descriptor) : source_(rollfix::app::read_descriptor(*io_, descriptor, hear())) {}
 
   /// The next line, or what happened in brackets. Notes alone are passed over, but kept.
-  std::string next() {
-    const auto deadline = Clock::now() + kLongEnough;
-    for (;;) {
-      const std::string heard = at(deadline);
-      if (heard != "(nothing)" || Clock::now() >= deadline || stop_.came()) return heard;
-    }
-  }
+  std::string next() { return within(kLongEnough); }
 
   /// The same without waiting for what is not there yet.
-  std::string now() { return at(Clock::now()); }
+  std::string now() { return within(kAWhile); }
+
+  /// Takes in what is there.
+  void listen() { io_->poll(); }
 
   const std::string& note() const { return note_; }  // the last one
-  const rollfix::app::StopSignal& stop() const { return stop_; }
 
  private:
-  std::string at(rollfix::app::Deadline deadline) {
-    const Heard heard = lines_.next(deadline);
-    if (!lines_.note().empty()) note_ = lines_.note();
-    switch (heard) {
-      case Heard::line:
-        return lines_.line().too_long ? "(too long)" : std::string(lines_.line().text);
-      case Heard::nothing:
-        return "(nothing)";
-      case Heard::dropped:
-        return "(dropped)";
-      case Heard::resumed:
-        return "(resumed)";
-      case Heard::restarted:
-        return "(restarted)";
-      case Heard::ended:
-        break;
-    }
-    return "(ended)";
+  rollfix::app::Hear hear() {
+    return [this](Heard what, std::string_view text) {
+      if (what != Heard::line && !text.empty()) note_ = text;
+      const char* const words[] = {"", "", "(dropped)", "(resumed)", "(restarted)", "(ended)"};
+      if (what == Heard::line) {
+        heard_.emplace_back(text.size() > rollfix::app::kLongestLine ? "(too long)" : text);
+      } else if (what != Heard::note) {
+        heard_.emplace_back(words[static_cast<int>(what)]);
+      }
+    };
   }
 
-  rollfix::app::StopSignal stop_;
-  std::unique_ptr<rollfix::app::ByteSource> bytes_;
-  rollfix::app::LineSource lines_;
+  std::string within(std::chrono::milliseconds time) {
+    const auto deadline = std::chrono::steady_clock::now() + time;
+    while (heard_.empty() && std::chrono::steady_clock::now() < deadline) io_->run_one_until(deadline);
+    if (heard_.empty()) return "(nothing)";
+    std::string first = heard_.front();
+    if (first != "(ended)") heard_.pop_front();
+    return first;
+  }
+
+  std::deque<std::string> heard_;
   std::string note_;
+  std::shared_ptr<asio::io_context> io_ = std::make_shared<asio::io_context>();
+  asio::executor_work_guard<asio::io_context::executor_type> work_ = asio::make_work_guard(*io_);
+  std::unique_ptr<rollfix::app::Source> source_;
 };
 
 /// A TCP server on a free port of this machine, for one client at a time.

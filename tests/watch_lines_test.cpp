@@ -5,35 +5,33 @@
 #include <string>
 #include <vector>
 
+#include "cli.hpp"
 #include "random.hpp"
-#include "rollfix/watch_limit.hpp"
-#include "rollfix/watch_line_buffer.hpp"
+#include "watch_helpers.hpp"
 
 namespace watch_lines_test {
 
 namespace {
 
 using rollfix::app::kLongestLine;
-using rollfix::app::LineBuffer;
-using rollfix::app::NoteLimit;
-
-/// All lines that are complete; "..." instead of one that is too long.
-void take_lines(LineBuffer& buffer, std::vector<std::string>& lines) {
-  while (const auto line = buffer.next()) lines.emplace_back(line->too_long ? "..." : std::string(line->text));
-}
-
-std::vector<std::string> lines_of(const std::vector<std::string>& pieces) {
-  LineBuffer buffer;
-  std::vector<std::string> lines;
-  for (const std::string& piece : pieces) {
-    buffer.append(piece);
-    take_lines(buffer, lines);
-  }
-  if (const auto line = buffer.last()) lines.emplace_back(line->text);
-  return lines;
-}
+using watching::Ear;
 
 using Lines = std::vector<std::string>;
+
+/// What is heard of them, each read by itself.
+Lines lines_of(const Lines& pieces) {
+  watching::Pipe pipe;
+  ::fcntl(pipe.in.number(), F_SETPIPE_SZ, 1 << 20);
+  Ear ear(pipe.out.number());
+  for (const std::string& piece : pieces) {
+    watching::write_all(pipe.in, piece);
+    ear.listen();
+  }
+  pipe.in.close();
+  Lines lines;
+  for (std::string line = ear.next(); line != "(ended)"; line = ear.next()) lines.push_back(line);
+  return lines;
+}
 
 }  // namespace
 
@@ -62,30 +60,26 @@ TEST(WatchLines, do_not_depend_on_the_pieces_they_come_in) {
 
 TEST(WatchLines, that_are_too_long_are_told_once_and_not_kept) {
   const std::string half(kLongestLine / 2 + 1, 'x');
-  EXPECT_EQ(lines_of({"a\n", half, half, half, half + "\nb\n"}), (Lines{"a", "...", "b"}));
-  EXPECT_EQ(lines_of({"a\n" + half + half + "\nb\n"}), (Lines{"a", "...", "b"}));
-  EXPECT_EQ(lines_of({half + half, half}), (Lines{"..."}));
+  EXPECT_EQ(lines_of({"a\n", half, half, half, half + "\nb\n"}), (Lines{"a", "(too long)", "b"}));
+  EXPECT_EQ(lines_of({"a\n" + half + half + "\nb\n"}), (Lines{"a", "(too long)", "b"}));
+  EXPECT_EQ(lines_of({half + half, half}), (Lines{"(too long)"}));
 }
 
-TEST(WatchLines, that_have_begun_can_be_given_up) {
-  LineBuffer buffer;
-  buffer.append("a\nhalf a li");
-  Lines lines;
-  take_lines(buffer, lines);
-  buffer.drop_partial();
-  buffer.append("b\n");
-  take_lines(buffer, lines);
-  EXPECT_EQ(lines, (Lines{"a", "b"}));
-}
-
-TEST(WatchNotes, are_let_through_a_few_at_once_and_then_now_and_then) {
-  NoteLimit limit;
-  const auto start = rollfix::app::Clock::now();
-  for (std::size_t k = 0; k < NoteLimit::kAtOnce; ++k) EXPECT_EQ(limit.allow(start), 0U);
-  for (int k = 0; k < 7; ++k) EXPECT_EQ(limit.allow(start), std::nullopt);
-  EXPECT_EQ(limit.allow(start + NoteLimit::kOneMoreEvery), 7U);
-  EXPECT_EQ(limit.allow(start + NoteLimit::kOneMoreEvery), std::nullopt);
-  EXPECT_EQ(limit.allow(start + 100 * NoteLimit::kOneMoreEvery), 1U);
+TEST(WatchLines, that_are_too_long_end_with_their_connection) {
+  const cli::Folder folder;
+  watching::require(::mkfifo("roll", 0600) == 0, "mkfifo");
+  Ear ear("roll");
+  watching::Descriptor writer = watching::writer_of("roll");
+  ::fcntl(writer.number(), F_SETPIPE_SZ, 1 << 20);
+  watching::write_all(writer, "a\n" + std::string(2 * kLongestLine, 'x'));
+  EXPECT_EQ(ear.next(), "a");
+  EXPECT_EQ(ear.next(), "(too long)");
+  writer.close();
+  EXPECT_EQ(ear.next(), "(dropped)");
+  writer = watching::writer_of("roll");
+  watching::write_all(writer, "b\n");
+  EXPECT_EQ(ear.next(), "(resumed)");
+  EXPECT_EQ(ear.next(), "b");
 }
 
 }  // namespace watch_lines_test

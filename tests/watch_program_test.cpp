@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <thread>
 
 #include "cli.hpp"
 #include "watch_child.hpp"
@@ -159,6 +160,29 @@ TEST(WatchProgram, follows_a_file_until_it_is_stopped) {
     child->signal(signal);
     expect_clean_end(*child, "signal");
   }
+}
+
+TEST(WatchProgram, that_is_stopped_while_nobody_reads_says_the_rest_when_somebody_does) {
+  const cli::Folder folder;
+  folder.write("roll.csv", noisy_log(2, 3, 400));
+  const auto child = watch("--every 1 --log roll.csv");
+  EXPECT_FALSE(child->next_event("found").is_null());
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));  // until the pipe is full
+  child->signal(SIGINT);
+  std::this_thread::sleep_for(watching::kAWhile);
+  expect_clean_end(*child, "signal");
+}
+
+TEST(WatchProgram, that_is_stopped_twice_ends_at_once) {
+  const cli::Folder folder;
+  folder.write("roll.csv", noisy_log(2, 3, 400));
+  const auto child = watch("--every 1 --log roll.csv");
+  EXPECT_FALSE(child->next_event("found").is_null());
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  child->signal(SIGINT);
+  std::this_thread::sleep_for(watching::kAWhile);
+  child->signal(SIGINT);
+  EXPECT_EQ(child->wait(), -1);
 }
 
 TEST(WatchProgram, takes_a_file_that_is_written_anew_as_another_roll) {

@@ -1,14 +1,34 @@
 // Where a growing log can come from: each transport, with what can happen to it.
+#include <dlfcn.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <netdb.h>
 
 #include <csignal>
 #include <fstream>
+#include <string_view>
+#include <thread>
 
 #include "cli.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/watch_reconnect.hpp"
 #include "watch_helpers.hpp"
+
+namespace watch_sources_test {
+
+constexpr const char* kSlowName = "slow.invalid";
+constexpr std::chrono::seconds kSlowness{5};
+
+}  // namespace watch_sources_test
+
+/// In place of the system's: of one name it knows nothing for a long time.
+extern "C" int getaddrinfo(const char* host, const char* service, const addrinfo* hints, addrinfo** found) {
+  if (host != nullptr && std::string_view(host) == watch_sources_test::kSlowName) {
+    std::this_thread::sleep_for(watch_sources_test::kSlowness);
+    return EAI_AGAIN;
+  }
+  static const auto system = reinterpret_cast<decltype(&getaddrinfo)>(::dlsym(RTLD_NEXT, "getaddrinfo"));
+  return system(host, service, hints, found);
+}
 
 namespace watch_sources_test {
 
@@ -18,6 +38,7 @@ using rollfix::InputError;
 using rollfix::app::SourceOptions;
 using testing::HasSubstr;
 using watching::Ear;
+using watching::Pipe;
 using watching::SerialLine;
 using watching::Server;
 
@@ -25,10 +46,6 @@ constexpr SourceOptions kOnce{true, 115200};
 
 void append(const std::string& path, const std::string& text) { std::ofstream(path, std::ios::app) << text; }
 void rewrite(const std::string& path, const std::string& text) { std::ofstream(path, std::ios::trunc) << text; }
-
-watching::Descriptor writer_of(const std::string& path) {
-  return watching::Descriptor(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
-}
 
 std::string refusal(const std::string& name) {
   try {
@@ -38,18 +55,6 @@ std::string refusal(const std::string& name) {
   }
   return "";
 }
-
-/// Both ends of a pipe.
-struct Pipe {
-  Pipe() {
-    int ends[2] = {-1, -1};
-    watching::require(::pipe2(ends, O_CLOEXEC) == 0, "pipe");
-    out = watching::Descriptor(ends[0]);
-    in = watching::Descriptor(ends[1]);
-  }
-  watching::Descriptor out;
-  watching::Descriptor in;
-};
 
 }  // namespace
 
@@ -142,12 +147,12 @@ TEST(WatchNamedPipe, goes_on_with_the_next_writer) {
   watching::require(::mkfifo("roll", 0600) == 0, "mkfifo");
   Ear ear("roll");
   EXPECT_EQ(ear.now(), "(nothing)");
-  watching::Descriptor writer = writer_of("roll");
+  watching::Descriptor writer = watching::writer_of("roll");
   watching::write_all(writer, "a\nhalf a li");
   EXPECT_EQ(ear.next(), "a");
   writer.close();
   EXPECT_EQ(ear.next(), "(dropped)");
-  writer = writer_of("roll");
+  writer = watching::writer_of("roll");
   watching::write_all(writer, "b\n");
   EXPECT_EQ(ear.next(), "(resumed)");
   EXPECT_EQ(ear.next(), "b");
@@ -157,7 +162,7 @@ TEST(WatchNamedPipe, that_is_read_once_ends_with_its_writer) {
   const cli::Folder folder;
   watching::require(::mkfifo("roll", 0600) == 0, "mkfifo");
   Ear ear("roll", kOnce);
-  watching::Descriptor writer = writer_of("roll");
+  watching::Descriptor writer = watching::writer_of("roll");
   watching::write_all(writer, "a\n");
   writer.close();
   EXPECT_EQ(ear.next(), "a");
@@ -285,15 +290,33 @@ TEST(WatchSource, that_does_not_exist_is_refused_with_the_cure) {
   EXPECT_THAT(refusal("tcp:robot:70000"), HasSubstr("70000, expected 1 to 65535"));
 }
 
-TEST(WatchStop, ends_the_waiting_and_leaves_the_handlers_as_they_were) {
-  const auto before = std::signal(SIGTERM, SIG_IGN);
+TEST(WatchTcp, that_has_an_unknown_name_is_refused) {
+  Ear ear("tcp:nowhere.invalid:7000");
+  EXPECT_THROW(ear.next(), InputError);
+}
+
+TEST(WatchTcp, waits_for_no_name_when_it_is_stopped) {
+  const auto start = std::chrono::steady_clock::now();
   {
-    Pipe pipe;
-    Ear ear(pipe.out.number());
-    std::raise(SIGTERM);
-    EXPECT_EQ(ear.next(), "(nothing)");
-    EXPECT_TRUE(ear.stop().came());
+    Ear ear("tcp:" + std::string(kSlowName) + ":7000");
+    EXPECT_EQ(ear.now(), "(nothing)");
   }
+  EXPECT_LT(std::chrono::steady_clock::now() - start, kSlowness);
+}
+
+TEST(WatchStop, ends_the_waiting_and_leaves_the_handlers_as_they_were) {
+  const cli::Folder folder;
+  watching::require(::mkfifo("roll", 0600) == 0, "mkfifo");
+  const auto before = std::signal(SIGTERM, SIG_IGN);
+  std::thread stopper([] {
+    const watching::Descriptor writer = watching::writer_of("roll");  // waits for its reader
+    ::kill(::getpid(), SIGTERM);
+    std::this_thread::sleep_for(watching::kAWhile);
+  });
+  const cli::Ran ran = cli::run("watch gallery:cam --finger disk,r=0.2 --noise contact=0.002,angle=0.003 --log roll");
+  stopper.join();
+  EXPECT_EQ(ran.code, 0);
+  EXPECT_THAT(ran.out, HasSubstr("stopped: no contact came"));
   EXPECT_EQ(std::signal(SIGTERM, before), SIG_IGN);
 }
 

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "rollfix/error.hpp"
-#include "rollfix/watch_writer.hpp"
+#include "rollfix/watch/writer.hpp"
 #include "watch_logs.hpp"
 
 namespace watch_writer_test {
@@ -17,6 +17,7 @@ namespace {
 
 using nlohmann::json;
 using rollfix::Mode;
+using rollfix::app::NoteLimit;
 using rollfix::app::RollEnd;
 using rollfix::app::WatchAnswer;
 using rollfix::app::WatchCounts;
@@ -189,6 +190,16 @@ TEST(WatchNotes, go_to_stderr_and_not_all_of_them) {
             "rollfix: roll.csv:7: expected a number\n"
             "rollfix: roll.csv:7: expected a number\n"
             "rollfix: roll.csv:7: expected a number\n");
+}
+
+TEST(WatchNotes, are_let_through_a_few_at_once_and_then_now_and_then) {
+  NoteLimit limit;
+  const auto start = std::chrono::steady_clock::now();
+  for (std::size_t k = 0; k < NoteLimit::kAtOnce; ++k) EXPECT_EQ(limit.allow(start), 0U);
+  for (int k = 0; k < 7; ++k) EXPECT_EQ(limit.allow(start), std::nullopt);
+  EXPECT_EQ(limit.allow(start + NoteLimit::kOneMoreEvery), 7U);
+  EXPECT_EQ(limit.allow(start + NoteLimit::kOneMoreEvery), std::nullopt);
+  EXPECT_EQ(limit.allow(start + 100 * NoteLimit::kOneMoreEvery), 1U);
 }
 
 TEST(WatchWriter, that_cannot_write_says_so) {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "rollfix/error.hpp"
-#include "rollfix/watcher.hpp"
+#include "rollfix/watch/watcher.hpp"
 #include "watch_logs.hpp"
 
 namespace watcher_test {
@@ -14,7 +14,6 @@ namespace {
 
 using rollfix::Mode;
 using rollfix::app::kLongestLine;
-using rollfix::app::ReadLine;
 using rollfix::app::RollEnd;
 using rollfix::app::WatchAnswer;
 using rollfix::app::Watcher;
@@ -59,7 +58,7 @@ struct Watch {
   explicit Watch(const WatchOptions& how = options()) : watcher(cam(), how, diary) {}
 
   Watch& push(const std::string& line) {
-    watcher.push({line, false});
+    watcher.push(line);
     return *this;
   }
   Watch& push(const std::vector<std::string>& lines) {
@@ -187,7 +186,7 @@ TEST(Watcher, counts_a_line_without_end_as_one_that_cannot_be_read) {
   const std::string beginning = rows[100] + std::string(kLongestLine, ' ');
   Watch watch;
   watch.push(kHeader).push(part_of(rows, 0, 100));
-  watch.watcher.push(ReadLine{beginning, true});
+  watch.watcher.push(beginning);
   watch.push(part_of(rows, 100, 300)).watcher.finish();
   expect_same(watch.diary.answers.back(), answer_to(rows));
   EXPECT_EQ(watch.watcher.counts().malformed, 1U);

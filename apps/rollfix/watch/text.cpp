@@ -1,23 +1,27 @@
+// What a watch prints for people, and what all that it prints goes through.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <ostream>
 #include <utility>
 
+#include "rollfix/error.hpp"
 #include "rollfix/table.hpp"
-#include "rollfix/watch_writer.hpp"
+#include "rollfix/watch/writer.hpp"
 #include "rollfix/weighing.hpp"
+#include "text/text.hpp"
 
 namespace rollfix::app {
 namespace {
 
 constexpr std::size_t kMostOthers = 3;  // places behind the most probable one
 
-std::string percent(double probability) { return fixed(100 * probability, 1) + " %"; }
+// In the order of RollEnd and of WatchEnd.
+constexpr std::array kRollIsOver = {"contact lost", "the contact jumped", "the log began anew", "the log ended"};
+constexpr std::array kWatchIsOver = {"end of input", "stopped", "nothing more came"};
 
-std::string counted(std::size_t count, const char* one, const char* many) {
-  return fmt::format("{} {}", count, count == 1 ? one : many);
-}
+std::string percent(double probability) { return fixed(100 * probability, 1) + " %"; }
 
 class TextWriter : public WatchWriter {
  public:
@@ -45,33 +49,21 @@ class TextWriter : public WatchWriter {
   void over(const WatchAnswer& answer, RollEnd why) override {
     if (answer.roll != roll_shown_ || answer.samples != samples_shown_) changed(answer);
     if (why == RollEnd::ended) return;
-    write(row("", "", "", "", fmt::format("{}: roll {} is over", reason(why), answer.roll), ""));
+    write(row("", "", "", "",
+              fmt::format("{}: roll {} is over", kRollIsOver.at(static_cast<std::size_t>(why)), answer.roll), ""));
   }
 
   void resumed(const WatchCounts& /*counts*/) override {}  // stderr said so
 
   void end(WatchEnd why, const WatchAnswer& last, const WatchCounts& counts) override {
-    write(fmt::format("\n{}: {}\n{} in {}, {}, {}; {} us per sample\n", name_of(why), conclusion(last),
-                      counted(counts.samples, "sample", "samples"), counted(counts.rolls, "roll", "rolls"),
+    write(fmt::format("\n{}: {}\n{} in {}, {}, {}; {} us per sample\n", kWatchIsOver.at(static_cast<std::size_t>(why)),
+                      conclusion(last), counted(counts.samples, "sample", "samples"),
+                      counted(counts.rolls, "roll", "rolls"),
                       counted(counts.malformed, "malformed line", "malformed lines"),
                       counted(counts.reconnects, "reconnect", "reconnects"), rough(1e6 * counts.seconds_per_sample())));
   }
 
  private:
-  static std::string reason(RollEnd why) {
-    switch (why) {
-      case RollEnd::lost:
-        return "contact lost";
-      case RollEnd::jump:
-        return "the contact jumped";
-      case RollEnd::restarted:
-        return "the log began anew";
-      case RollEnd::ended:
-        break;
-    }
-    return "the log ended";
-  }
-
   static std::string row(const std::string& line, const std::string& time, const std::string& length,
                          const std::string& turn, const std::string& verdict, const std::string& text) {
     std::string all = fmt::format("{:>7}  {:>9}  {:>10}  {:>10}  {:<21}  {}", line, time, length, turn, verdict, text);
@@ -117,6 +109,40 @@ class TextWriter : public WatchWriter {
 };
 
 }  // namespace
+
+std::optional<std::size_t> NoteLimit::allow(std::chrono::steady_clock::time_point now) {
+  // Every interval that has passed makes room for one more note.
+  while (told_ > 0 && now - last_ >= kOneMoreEvery) {
+    --told_;
+    last_ += kOneMoreEvery;
+  }
+  if (told_ >= kAtOnce) {
+    ++left_out_;
+    return std::nullopt;
+  }
+  if (told_ == 0) last_ = now;
+  ++told_;
+  return std::exchange(left_out_, 0);
+}
+
+WatchWriter::WatchWriter(std::ostream& out, std::ostream& err, std::function<bool()> is_ready)
+    : out_(out), err_(err), is_ready_(std::move(is_ready)) {}
+
+void WatchWriter::note(const std::string& message) {
+  const std::optional<std::size_t> left_out = limit_.allow(std::chrono::steady_clock::now());
+  if (!left_out) return;
+  if (*left_out > 0) err_ << fmt::format("rollfix: ... {} such lines were left out here\n", *left_out);
+  err_ << "rollfix: " << message << std::endl;
+}
+
+void WatchWriter::write(const std::string& lines) {
+  out_ << std::exchange(announced_, "") << lines << std::flush;
+  if (!out_) throw InputError("standard output can't be written to");
+}
+
+void WatchWriter::show() {
+  if (!announced_.empty()) write("");
+}
 
 std::unique_ptr<WatchWriter> watch_text(const Part& part, std::ostream& out, std::ostream& err,
                                         std::function<bool()> is_ready) {

@@ -1,16 +1,22 @@
+// What a watch prints for programs.
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
 #include "rollfix/json_output.hpp"
 #include "rollfix/locate_outcome.hpp"
-#include "rollfix/watch_writer.hpp"
+#include "rollfix/watch/writer.hpp"
 #include "rollfix/weighing.hpp"
 
 namespace rollfix::app {
 namespace {
 
 constexpr const char* kSchema = "rollfix/watch/1";
+
+// In the order of RollEnd and of WatchEnd.
+constexpr std::array kWhyOver = {"lost", "jump", "restarted", "ended"};
+constexpr std::array kWhyEnd = {"stream", "signal", "idle"};
 
 /// As in locate's JSON: one entry per finger.
 Json one_finger(Json value) { return Json::array({std::move(value)}); }
@@ -56,32 +62,6 @@ Json counts_json(const WatchCounts& counts) {
           {"reconnects", counts.reconnects}};
 }
 
-const char* word_for(RollEnd why) {
-  switch (why) {
-    case RollEnd::lost:
-      return "lost";
-    case RollEnd::jump:
-      return "jump";
-    case RollEnd::restarted:
-      return "restarted";
-    case RollEnd::ended:
-      break;
-  }
-  return "ended";
-}
-
-const char* word_for(WatchEnd why) {
-  switch (why) {
-    case WatchEnd::stream:
-      return "stream";
-    case WatchEnd::signal:
-      return "signal";
-    case WatchEnd::idle:
-      break;
-  }
-  return "idle";
-}
-
 class JsonlWriter : public WatchWriter {
  public:
   JsonlWriter(const Part& part, std::ostream& out, std::ostream& err, std::function<bool()> is_ready)
@@ -106,7 +86,7 @@ class JsonlWriter : public WatchWriter {
 
   void over(const WatchAnswer& answer, RollEnd why) override {
     Json event = answer_json("over", answer, part_);
-    event["why"] = word_for(why);
+    event["why"] = kWhyOver.at(static_cast<std::size_t>(why));
     event["diagnosis"] = diagnosis_json(answer.diagnosis);
     write_event(event);
   }
@@ -119,7 +99,7 @@ class JsonlWriter : public WatchWriter {
 
   void end(WatchEnd why, const WatchAnswer& last, const WatchCounts& counts) override {
     Json event = event_json("end");
-    event["why"] = word_for(why);
+    event["why"] = kWhyEnd.at(static_cast<std::size_t>(why));
     event["verdict"] = last.roll > 0 ? Json(last.verdict) : Json(nullptr);
     event["counts"] = counts_json(counts);
     event["seconds_per_sample"] = json_number(counts.seconds_per_sample());

@@ -1,10 +1,13 @@
-#include "rollfix/watcher.hpp"
+#include "rollfix/watch/watcher.hpp"
 
 #include <fmt/format.h>
 
-#include <chrono>
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
+
+#include "rollfix/part/period.hpp"
 
 namespace rollfix::app {
 namespace {
@@ -13,6 +16,9 @@ using WorkClock = std::chrono::steady_clock;
 
 // What is known of a roll changes little while it grows by less than this.
 constexpr double kGrowth = 0.1;
+
+constexpr double kOtherProbability = 0.1;  // below that nobody decides otherwise
+constexpr double kTwiceAsSure = 0.5;       // the new standard deviation, as a share of the old one
 
 /// Adds the time that passes while it lives.
 class WorkTime {
@@ -27,7 +33,30 @@ class WorkTime {
   WorkClock::time_point start_ = WorkClock::now();
 };
 
+double distance_on(const Part& part, double a, double b) {
+  return part.closed() ? periodic_distance(a, b, part.perimeter()) : std::abs(a - b);
+}
+
+/// Of several places that were known the one that this is, or is nearest to.
+const Mode& nearest_to(const Mode& mode, const std::vector<Mode>& known, const Part& part) {
+  return *std::min_element(known.begin(), known.end(), [&](const Mode& a, const Mode& b) {
+    return distance_on(part, a.mean, mode.mean) < distance_on(part, b.mean, mode.mean);
+  });
+}
+
+bool is_news_of_a_place(const Mode& said, const Mode& now, const Part& part) {
+  return distance_on(part, said.mean, now.mean) > said.sd || now.sd < kTwiceAsSure * said.sd ||
+         std::abs(now.probability - said.probability) > kOtherProbability;
+}
+
 }  // namespace
+
+bool is_news(const WatchAnswer& said, const WatchAnswer& now, const Part& part) {
+  if (now.verdict != said.verdict || now.modes.empty() != said.modes.empty()) return true;
+  if (now.modes.empty() || now.verdict == kInconsistent) return false;  // no place that is worth telling
+  const Mode& best = now.modes.front();
+  return is_news_of_a_place(nearest_to(best, said.modes, part), best, part);
+}
 
 double WatchCounts::seconds_per_sample() const {
   return samples > 0 ? seconds / static_cast<double>(samples) : std::numeric_limits<double>::quiet_NaN();
@@ -39,7 +68,7 @@ Watcher::Watcher(const Part& part, WatchOptions options, WatchListener& listener
   const Belief trial(part_, LogKind::contact, options_.belief);
 }
 
-void Watcher::push(const ReadLine& line) {
+void Watcher::push(std::string_view line) {
   const LogLine row = read(line);
   switch (row.kind) {
     case LineKind::nothing:
@@ -81,10 +110,10 @@ LogStream Watcher::new_stream() const {
   return LogStream(options_.name, part_, options_.finger, options_.belief.noise);
 }
 
-LogLine Watcher::read(const ReadLine& line) {
+LogLine Watcher::read(std::string_view line) {
   const WorkTime time(counts_.seconds);
   ++counts_.lines;
-  if (!line.too_long) return stream_.push(line.text);
+  if (line.size() <= kLongestLine) return stream_.push(line);
   stream_.push("#");  // it counts as a line all the same
   LogLine row;
   row.kind = LineKind::malformed;

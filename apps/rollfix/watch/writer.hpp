@@ -1,13 +1,15 @@
 #pragma once
 
+#include <chrono>
+#include <cstddef>
 #include <functional>
 #include <iosfwd>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
-#include "rollfix/watch_limit.hpp"
-#include "rollfix/watcher.hpp"
+#include "rollfix/watch/watcher.hpp"
 
 namespace rollfix::app {
 
@@ -18,8 +20,20 @@ enum class WatchEnd {
   idle     // nothing came for too long
 };
 
-/// "end of input", "stopped", "nothing more came".
-std::string name_of(WatchEnd end);
+/// Lets a few notes through at once and then one now and then, so that a broken sensor does not flood the screen.
+class NoteLimit {
+ public:
+  static constexpr std::size_t kAtOnce = 3;
+  static constexpr std::chrono::seconds kOneMoreEvery{5};
+
+  /// Nothing: leave this note out. Otherwise how many were left out since the last one that was told.
+  std::optional<std::size_t> allow(std::chrono::steady_clock::time_point now);
+
+ private:
+  std::size_t told_ = 0;  // lately
+  std::size_t left_out_ = 0;
+  std::chrono::steady_clock::time_point last_{};
+};
 
 /// Tells what happens, as it happens: data to `out`, a whole line at a time, and notes to `err`.
 class WatchWriter : public WatchListener {
@@ -55,8 +69,5 @@ std::unique_ptr<WatchWriter> watch_text(const Part& part, std::ostream& out, std
 /// For programs: an object per line, "rollfix/watch/1"; docs/json.md lists the fields.
 std::unique_ptr<WatchWriter> watch_jsonl(const Part& part, std::ostream& out, std::ostream& err,
                                          std::function<bool()> is_ready);
-
-/// Whether standard output takes a line without waiting for whoever reads it.
-bool standard_output_is_ready();
 
 }  // namespace rollfix::app

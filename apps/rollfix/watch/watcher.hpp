@@ -4,14 +4,38 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "rollfix/belief/belief.hpp"
 #include "rollfix/contact/log_stream.hpp"
 #include "rollfix/part/part.hpp"
-#include "rollfix/watch_answer.hpp"
-#include "rollfix/watch_line_buffer.hpp"
 
 namespace rollfix::app {
+
+// Verdicts that decide what is said; docs/belief.md has all of them.
+inline constexpr const char* kUnique = "unique";
+inline constexpr const char* kInconsistent = "inconsistent";
+
+/// Longer than any row of a log: what has no line end up to here is something else.
+inline constexpr std::size_t kLongestLine = std::size_t{64} * 1024;
+
+/// What is known of a roll after one of its samples.
+struct WatchAnswer {
+  std::size_t roll = 0;     // from 1
+  std::size_t samples = 0;  // of this roll so far
+  Sample sample;            // the last of them, after which the rest holds
+  std::string verdict;
+  std::vector<Mode> modes;  // the most probable first
+  double rest = 0;          // probability outside of them
+  double excess = 1;        // by how many times the samples are off more than the noise allows
+  Diagnosis diagnosis;      // of a roll that is over and that nothing fits: why
+};
+
+/// Whether somebody who knows the one answer wants to hear the other: another verdict, or the most probable place is
+/// not one that was known, or it is twice as certain, or its probability is another by a tenth. That two places which
+/// are about as probable change ranks is no news.
+bool is_news(const WatchAnswer& said, const WatchAnswer& now, const Part& part);
 
 /// Why a roll is over.
 enum class RollEnd {
@@ -69,8 +93,8 @@ class Watcher {
   /// Throws InputError: noise or prior that are not valid.
   Watcher(const Part& part, WatchOptions options, WatchListener& listener);
 
-  /// Throws InputError: what LogStream::push throws.
-  void push(const ReadLine& line);
+  /// One line. Throws InputError: what LogStream::push throws.
+  void push(std::string_view line);
   /// The connection dropped and is there again.
   void resume();
   /// Another log begins.
@@ -88,7 +112,7 @@ class Watcher {
 
  private:
   LogStream new_stream() const;
-  LogLine read(const ReadLine& line);
+  LogLine read(std::string_view line);
   void begin_roll(const Sample& sample);
   void add(const Sample& sample);
   void take(const Sample& sample);

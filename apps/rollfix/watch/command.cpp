@@ -1,6 +1,11 @@
 #include <fmt/format.h>
+#include <poll.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <boost/asio/signal_set.hpp>
+#include <csignal>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -13,7 +18,8 @@
 #include "rollfix/part_argument.hpp"
 #include "rollfix/typed_number.hpp"
 #include "rollfix/usage.hpp"
-#include "rollfix/watch_loop.hpp"
+#include "rollfix/watch/source.hpp"
+#include "rollfix/watch/writer.hpp"
 #include "rollfix/weighing.hpp"
 
 namespace rollfix::app {
@@ -89,12 +95,112 @@ SourceOptions source_options(const WatchArguments& arguments) {
   return options;
 }
 
-std::optional<std::chrono::duration<double>> idle_timeout_of(const WatchArguments& arguments) {
+using Seconds = std::chrono::duration<double>;
+
+std::optional<Seconds> idle_timeout_of(const WatchArguments& arguments) {
   if (arguments.idle_timeout.empty()) return std::nullopt;
   constexpr double kLongest = 1e6;  // seconds, eleven days: within what clocks can add
   const double seconds = read_number(arguments.idle_timeout, "--idle-timeout");
-  if (seconds > 0 && seconds <= kLongest) return std::chrono::duration<double>(seconds);
+  if (seconds > 0 && seconds <= kLongest) return Seconds(seconds);
   throw InputError(fmt::format("--idle-timeout {}: expected seconds above 0, at most {}", seconds, kLongest));
+}
+
+/// As long as it lives, SIGINT and SIGTERM only stop the io_context, so that the program can end cleanly; a second one
+/// of them ends it at once. Afterwards they do what they did before.
+class StopSignals {
+ public:
+  explicit StopSignals(asio::io_context& io) : set_(io, kSignals[0], kSignals[1]) {
+    set_.async_wait([&io](const error_code& /*error*/, int /*signal*/) { io.stop(); });
+    for (const int signal : kSignals) {
+      struct sigaction action = {};
+      ::sigaction(signal, nullptr, &action);
+      // What is being printed is printed; the second one also ends it where nobody takes that.
+      action.sa_flags |= static_cast<int>(SA_RESTART | SA_RESETHAND);
+      ::sigaction(signal, &action, nullptr);
+    }
+  }
+  ~StopSignals() {
+    error_code ignored;
+    set_.clear(ignored);
+    for (std::size_t i = 0; i < kSignals.size(); ++i) ::sigaction(kSignals[i], &before_[i], nullptr);
+  }
+  StopSignals(const StopSignals&) = delete;
+  StopSignals& operator=(const StopSignals&) = delete;
+
+ private:
+  static constexpr std::array<int, 2> kSignals = {SIGINT, SIGTERM};
+  static std::array<struct sigaction, 2> handlers() {
+    std::array<struct sigaction, 2> found = {};
+    for (std::size_t i = 0; i < kSignals.size(); ++i) ::sigaction(kSignals[i], nullptr, &found[i]);
+    return found;
+  }
+
+  std::array<struct sigaction, 2> before_ = handlers();
+  asio::signal_set set_;
+};
+
+/// Hears a log and watches it, until it ends, the user stops it, or no line came for too long.
+class Hearing {
+ public:
+  Hearing(asio::io_context& io, Watcher& watcher, WatchWriter& writer, std::ostream& err,
+          std::optional<Seconds> patience)
+      : io_(io), timer_(io), watcher_(watcher), writer_(writer), err_(err), patience_(patience) {}
+
+  void hear(Heard what, std::string_view text) {
+    if (what == Heard::line) {
+      last_line_ = std::chrono::steady_clock::now();
+      watcher_.push(text);
+    } else if (!text.empty()) {
+      err_ << "rollfix: " << text << std::endl;
+    }
+    if (what == Heard::ended) return stop(WatchEnd::stream);
+    if (what == Heard::restarted) watcher_.restart();
+    if (what == Heard::resumed) {
+      watcher_.resume();
+      writer_.resumed(watcher_.counts());
+    }
+    writer_.show();
+  }
+
+  WatchEnd run() {
+    last_line_ = std::chrono::steady_clock::now();
+    look_after_a_while();
+    io_.run();
+    return why_;
+  }
+
+ private:
+  /// Sees to what waits for its time, again and again.
+  void look_after_a_while() {
+    const Seconds pause = std::min<Seconds>(kMostDelay, patience_.value_or(kMostDelay));
+    timer_.expires_after(std::chrono::ceil<std::chrono::milliseconds>(pause));
+    timer_.async_wait([this](const error_code& /*error*/) {
+      watcher_.catch_up();
+      if (patience_ && std::chrono::steady_clock::now() - last_line_ >= *patience_) return stop(WatchEnd::idle);
+      writer_.show();
+      look_after_a_while();
+    });
+  }
+
+  void stop(WatchEnd why) {
+    why_ = why;
+    io_.stop();
+  }
+
+  asio::io_context& io_;
+  asio::steady_timer timer_;
+  Watcher& watcher_;
+  WatchWriter& writer_;
+  std::ostream& err_;
+  std::optional<Seconds> patience_;
+  std::chrono::steady_clock::time_point last_line_;
+  WatchEnd why_ = WatchEnd::signal;  // stopped, but not by this
+};
+
+/// Whether standard output takes a line without waiting for whoever reads it.
+bool standard_output_is_ready() {
+  pollfd output = {STDOUT_FILENO, POLLOUT, 0};
+  return ::poll(&output, 1, 0) != 0;  // errors are for the one who writes
 }
 
 /// Throws InputError: the log ended and there was nothing in it.
@@ -107,21 +213,23 @@ Report watch(const WatchArguments& arguments, std::ostream& out, std::ostream& e
   const std::string log = log_name(arguments);
   require_sensible(arguments, log);
   const WatchOptions options = watch_options(arguments, log);
-  const auto idle_timeout = idle_timeout_of(arguments);
+  const std::optional<Seconds> idle_timeout = idle_timeout_of(arguments);
   std::vector<std::string> notes;
   const Part part = load_part(arguments.part, notes);
   if (part.reversed()) notes.push_back(reversed_note(part));
 
-  const StopSignal stop;
+  const auto io = std::make_shared<asio::io_context>();
+  const StopSignals signals(*io);
   const std::function<bool()> is_ready = &out == &std::cout ? standard_output_is_ready : [] { return true; };
   const std::unique_ptr<WatchWriter> writer =
       arguments.jsonl ? watch_jsonl(part, out, err, is_ready) : watch_text(part, out, err, is_ready);
   Watcher watcher(part, options, *writer);
-  const std::unique_ptr<ByteSource> bytes = open_source(log, source_options(arguments), stop);
+  Hearing hearing(*io, watcher, *writer, err, idle_timeout);
+  const std::unique_ptr<Source> source = open_source(
+      io, log, source_options(arguments), [&hearing](Heard what, std::string_view text) { hearing.hear(what, text); });
   for (const std::string& note : notes) err << "rollfix: " << note << '\n';
   writer->begin(part, options);
-  LineSource lines(*bytes);
-  const WatchEnd why = watch_lines(lines, watcher, *writer, stop, idle_timeout, err);
+  const WatchEnd why = hearing.run();
   require_rows(why, watcher, options.name);
   watcher.finish();
   writer->end(why, watcher.last_answer(), watcher.counts());
