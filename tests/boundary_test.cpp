@@ -6,9 +6,11 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 
 #include "part/cursor.hpp"
+#include "part/turning_range.hpp"
 #include "random.hpp"
 #include "rollfix/outline/load.hpp"
 #include "rollfix/part/part.hpp"
@@ -24,6 +26,7 @@ using rollfix::wrap;
 using testing::DoubleEq;
 using testing::DoubleNear;
 
+constexpr double kPi = std::numbers::pi;
 constexpr Boundary kLoop{10, true};
 constexpr Boundary kOpen{10, false};
 
@@ -66,6 +69,8 @@ TEST(Boundary, a_place_just_before_the_seam_is_named_0) {
 TEST(Boundary, of_an_open_one_places_stay_on_it) {
   EXPECT_EQ(kOpen.base(-3), 0);
   EXPECT_EQ(kOpen.base(13), 10);
+  EXPECT_EQ(kOpen.on_first_lap(13), 13);
+  EXPECT_EQ(kLoop.on_first_lap(13), 3);
   EXPECT_EQ(kOpen.reduced(13).winding, 0);
 }
 
@@ -240,6 +245,42 @@ TEST(Cursor, ends_where_an_open_part_does) {
   EXPECT_EQ(first.lo(), 0);
   EXPECT_EQ(last.hi(), part.perimeter());
   EXPECT_EQ(first.angle_before(), first.angle_after());
+}
+
+TEST(AnglesOver, hold_theta_everywhere_on_an_arc_and_reach_it) {
+  std::mt19937_64 generator = test_generator();
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (const char* shape : {"cam", "reuleaux", "limacon", "log-spiral"}) {
+    const Part part = part_of(shape);
+    const double P = part.perimeter();
+    const rollfix::TurningRange table(part.turning(), 1024);
+    for (int k = 0; k < test_count(50); ++k) {
+      const double lo = part.closed() ? (3 * unit(generator) - 1) * P : 0.5 * P * unit(generator);
+      const Interval arc{lo, lo + 0.5 * P * unit(generator)};
+      const Interval angles = rollfix::angles_over(part.turning(), arc);
+      Interval seen{1e9, -1e9};
+      for (int i = 0; i <= 4000; ++i) {
+        const double angle = part.turning().angle(arc.lo + arc.width() * i / 4000);
+        seen = {std::min(seen.lo, angle), std::max(seen.hi, angle)};
+      }
+      EXPECT_LE(angles.lo, seen.lo + 1e-12);
+      EXPECT_GE(angles.hi, seen.hi - 1e-12);
+      EXPECT_GE(angles.lo, seen.lo - 0.01);
+      EXPECT_LE(angles.hi, seen.hi + 0.01);
+      const Interval bounds = table.over(arc.lo, arc.hi);
+      EXPECT_LE(bounds.lo, angles.lo);
+      EXPECT_GE(bounds.hi, angles.hi);
+      EXPECT_LE(bounds.width(), angles.width() + 0.05 + (shape == std::string("reuleaux") ? 4 * kPi / 3 : 0));
+    }
+  }
+}
+
+TEST(AnglesOver, hold_all_of_a_corner_at_their_ends) {
+  const Part part = part_of("reuleaux");
+  for (const rollfix::Corner& corner : part.corners()) {
+    EXPECT_NEAR(rollfix::angles_over(part.turning(), {corner.s, corner.s}).width(), corner.turn, 1e-12);
+    EXPECT_GE(rollfix::angles_over(part.turning(), {corner.s - 0.1, corner.s}).width(), corner.turn);
+  }
 }
 
 }  // namespace boundary_test

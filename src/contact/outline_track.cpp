@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "rollfix/error.hpp"
-#include "rollfix/part/period.hpp"
 
 namespace rollfix {
 
@@ -32,9 +31,9 @@ OutlineTrack::OutlineTrack(const Part& part, const Finger& finger, double start,
   const TurningFunction& on_finger = turning_of(finger);
   const int direction = !part.closed() && start >= part.perimeter() - near_ ? -1 : 1;
   const TrackPlace first = point_.place(start, direction);
-  const Wrapped wrapped = on_finger.closed() ? wrap(u, on_finger.perimeter()) : Wrapped{u, 0};
-  auto cell = static_cast<std::int64_t>(on_finger.spiral_at(std::clamp(wrapped.base, 0.0, on_finger.perimeter())));
-  cell += static_cast<std::int64_t>(wrapped.winding) * count_of(on_finger);
+  const Cursor on_cell(on_finger, u);
+  const std::int64_t cell =
+      static_cast<std::int64_t>(on_cell.index()) + static_cast<std::int64_t>(on_cell.winding()) * count_of(on_finger);
 
   Piece piece;
   piece.base = first.index;
@@ -56,14 +55,11 @@ OutlineTrack::OutlineTrack(const Part& part, const Finger& finger, double start,
 
 void OutlineTrack::set_cell(Piece& piece, std::int64_t cell) const {
   const TurningFunction& on_finger = turning_of(finger());
-  const std::int64_t count = count_of(on_finger);
-  const std::int64_t index = (cell % count + count) % count;
-  const std::int64_t whole_laps = (cell - index) / count;
-  const auto lap = static_cast<double>(whole_laps);
+  const Cursor at = Cursor::at_spiral(on_finger, cell);
   piece.cell = cell;
-  piece.stretch.finger_spiral = &on_finger.spirals()[static_cast<std::size_t>(index)];
-  piece.stretch.finger_u_shift = lap * on_finger.perimeter();
-  piece.stretch.finger_angle_shift = lap * on_finger.period_turn();
+  piece.stretch.finger_spiral = &at.spiral();
+  piece.stretch.finger_u_shift = at.shift();
+  piece.stretch.finger_angle_shift = at.lift();
 }
 
 /// An open finger has no spiral there.
@@ -225,7 +221,7 @@ void OutlineTrack::refuse(std::int64_t index, int direction) const {
       std::abs(edge - (direction > 0 ? point_.stretch(here.base).s.hi : point_.stretch(here.base).s.lo)) <= near_;
   if (at_base_end && base_ends) point_.refuse(here.base, direction);
   const Vec2 point = part().point(edge);
-  const double named = point_.named(edge);
+  const double named = part().boundary().base(edge);
   if (cell_is_over && finger_ends(here.cell - direction)) {
     throw InputError(fmt::format(
         "{}: the roll runs off the end of the finger {} at s = {:.9g}, ({:.6g}, {:.6g}), u = {:.9g}: expected "
@@ -249,7 +245,7 @@ std::unique_ptr<Track> track_of(const Part& part, const Finger& finger, double s
                                  finger.name(), ends.lo, ends.hi, place));
   }
   if (!std::isfinite(start)) throw InputError(fmt::format("expected a finite start of a roll, found {}", start));
-  const double first = part.closed() ? wrap(start, part.perimeter()).base : start;
+  const double first = part.boundary().on_first_lap(start);
   return std::make_unique<OutlineTrack>(part, finger, first, place);
 }
 

@@ -14,7 +14,6 @@
 
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/part/period.hpp"
 
 namespace rollfix {
 
@@ -41,16 +40,9 @@ EvenTrack::EvenTrack(const Part& part, const Finger& finger, double u)
       corner_turns_(part.turning().spirals().size()) {
   require_valid(finger);
   for (const Corner& corner : part.corners()) {
-    if (const auto k = knot_at(corner.s)) corner_turns_[knot(*k).index] = corner.turn;
+    if (const auto k = knot_at(corner.s)) corner_turns_[after(*k).index()] = corner.turn;
   }
   for (const double turn : corner_turns_) fall_per_lap_ += fall_of(turn);
-}
-
-EvenTrack::Knot EvenTrack::knot(std::int64_t k) const {
-  const auto count = static_cast<std::int64_t>(turning_.spirals().size());
-  const std::int64_t index = (k % count + count) % count;
-  const std::int64_t lap = (k - index) / count;
-  return {static_cast<std::size_t>(index), static_cast<double>(lap)};
 }
 
 /// The knot at this base in [0, P], if there is one.
@@ -92,24 +84,22 @@ double EvenTrack::limit_on(const Spiral& spiral) const {
 }
 
 Stretch EvenTrack::stretch(std::int64_t index) const {
-  const auto [k, lap] = knot(knot_before(index));
-  const Spiral& spiral = turning_.spirals()[k];
+  const Cursor at = after(knot_before(index));
+  const Spiral& spiral = at.spiral();
   Stretch result;
   result.is_pivot = is_pivot(index);
   result.spiral = &spiral;
-  result.s_shift = lap * turning_.perimeter();
-  result.angle_shift = lap * turning_.period_turn();
+  result.s_shift = at.shift();
+  result.angle_shift = at.lift();
   if (result.is_pivot) {
-    const Spiral& before = k > 0 ? turning_.spirals()[k - 1] : turning_.spirals().back();
-    const double seam = k > 0 ? 0 : turning_.period_turn();
-    result.s = result.whole = {spiral.lo + result.s_shift, spiral.lo + result.s_shift};
-    result.angle = {before.end.angle - seam + result.angle_shift, spiral.start.angle + result.angle_shift};
+    result.s = result.whole = {at.lo(), at.lo()};
+    result.angle = {at.angle_before(), at.angle_after()};
     return result;
   }
   result.fits_lo = fits(spiral.start.curvature);
   result.fits_hi = fits(spiral.end.curvature);
-  result.s = result.whole = {spiral.lo + result.s_shift, spiral.hi + result.s_shift};
-  result.angle = {spiral.start.angle + result.angle_shift, spiral.end.angle + result.angle_shift};
+  result.s = result.whole = {at.lo(), at.hi()};
+  result.angle = {at.angle_after(), spiral.end.angle + at.lift()};
   if (result.fits_lo == result.fits_hi) return result;
   const double limit = limit_on(spiral);
   const double angle = turning_.on_spiral(spiral, limit).angle;
@@ -132,7 +122,7 @@ void EvenTrack::require_inside(double s) const {
 }
 
 EvenTrack::Found EvenTrack::find(double s, int direction) const {
-  const Wrapped wrapped = turning_.closed() ? wrap(s, turning_.perimeter()) : Wrapped{s, 0};
+  const Wrapped wrapped = turning_.boundary().reduced(s);
   const auto laps = static_cast<std::int64_t>(wrapped.winding) * static_cast<std::int64_t>(turning_.spirals().size());
   const std::optional<std::int64_t> knot = knot_at(wrapped.base);
   if (!knot) return {{spiral_after(static_cast<std::int64_t>(turning_.spiral_at(wrapped.base)) + laps), s}, {}};
@@ -238,23 +228,20 @@ void EvenTrack::require_way(double from, double to) const {
   if (!fits(tightest.curvature)) refuse_tight(tightest);
 }
 
-double EvenTrack::named(double s) const {
-  return turning_.closed() ? wrap(s, turning_.perimeter()).base : std::clamp(s, 0.0, turning_.perimeter());
-}
-
 void EvenTrack::refuse_tight(const Tightest& tightest) const {
   const Vec2 point = part().point(tightest.s);
   if (std::isinf(radius_)) {
     throw InputError(fmt::format(
         "{}: a flat jaw can't roll where the part is not curved outwards, as at s = {:.9g}, ({:.6g}, {:.6g}), "
         "where the curvature is {:.9g}: expected it above 0; choose a disk or another roll",
-        part().name(), named(tightest.s), point.x(), point.y(), tightest.curvature));
+        part().name(), part().boundary().base(tightest.s), point.x(), point.y(), tightest.curvature));
   }
   throw InputError(fmt::format(
       "{}: a disk of radius {:.9g} is too big for the concavity at s = {:.9g}, ({:.6g}, {:.6g}), where the curvature "
       "is "
       "{:.9g}: expected a radius below {:.9g}; choose a smaller finger or another roll",
-      part().name(), radius_, named(tightest.s), point.x(), point.y(), tightest.curvature, -1 / tightest.curvature));
+      part().name(), radius_, part().boundary().base(tightest.s), point.x(), point.y(), tightest.curvature,
+      -1 / tightest.curvature));
 }
 
 void EvenTrack::refuse_corner(double s, double turn) const {
@@ -263,7 +250,7 @@ void EvenTrack::refuse_corner(double s, double turn) const {
       fmt::format("{}: a finger can't get into the concave corner at s = {:.9g}, ({:.6g}, {:.6g}), where the tangent "
                   "turns by {:.6g} "
                   "degrees: the largest radius that would do is 0 (the curvature is -inf); end the roll before it",
-                  part().name(), named(s), point.x(), point.y(), turn / kDegree));
+                  part().name(), part().boundary().base(s), point.x(), point.y(), turn / kDegree));
 }
 
 void EvenTrack::refuse_end(double s) const {
@@ -272,7 +259,7 @@ void EvenTrack::refuse_end(double s) const {
       fmt::format("{}: the roll runs off the end of the open outline at s = {:.9g}, ({:.6g}, {:.6g}): expected a "
                   "contact that stays "
                   "in 0 <= s <= {:.9g}; start elsewhere or roll less far",
-                  part().name(), named(s), point.x(), point.y(), turning_.perimeter()));
+                  part().name(), part().boundary().base(s), point.x(), point.y(), turning_.perimeter()));
 }
 
 }  // namespace rollfix

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "part/cursor.hpp"
 #include "rollfix/contact/finger.hpp"
 #include "rollfix/part/part.hpp"
 
@@ -102,14 +103,7 @@ class EvenTrack : public Track {
   double finger_curvature(const Stretch& /*stretch*/, double /*s*/) const override { return 1 / radius_; }
   Contact first_contact(double tangent, double psi) const override;
 
-  /// How messages call a place.
-  double named(double s) const;
-
  private:
-  struct Knot {
-    std::size_t index = 0;  // of the spiral that starts there
-    double lap = 0;
-  };
   /// The sharpest concavity that was met: one of the two ends of a spiral.
   struct Tightest {
     double s = 0;
@@ -122,7 +116,8 @@ class EvenTrack : public Track {
     std::optional<std::int64_t> knot;
   };
 
-  Knot knot(std::int64_t k) const;
+  /// The spiral that starts at knot k.
+  Cursor after(std::int64_t k) const { return Cursor::at_spiral(turning_, k); }
   Found find(double s, int direction) const;
   void require_inside(double s) const;
   /// Above 0 where the finger fits; of a jaw, whose radius is infinite, the curvature in turns per lap.
@@ -131,7 +126,7 @@ class EvenTrack : public Track {
   bool ends_at(std::int64_t index) const;
   double limit_on(const Spiral& spiral) const;
   std::optional<std::int64_t> knot_at(double base) const;
-  double corner_turn(std::int64_t k) const { return ends_at(2 * k) ? 0 : corner_turns_[knot(k).index]; }
+  double corner_turn(std::int64_t k) const { return ends_at(2 * k) ? 0 : corner_turns_[after(k).index()]; }
   void look_at(const Stretch& stretch, double lo, double hi, Tightest& tightest) const;
   [[noreturn]] void refuse_tight(const Tightest& tightest) const;
   [[noreturn]] void refuse_corner(double s, double turn) const;

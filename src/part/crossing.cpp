@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -15,16 +16,7 @@ constexpr double kCrossingLeafTurn = 0.7;
 // Two arcs that are still not apart at this share of the perimeter do meet.
 constexpr double kMeeting = 1e-10;
 
-struct Box {
-  Vec2 lo;
-  Vec2 hi;
-
-  bool meets(const Box& other) const {
-    return (lo.array() <= other.hi.array()).all() && (other.lo.array() <= hi.array()).all();
-  }
-  Box with(const Box& other) const { return {lo.cwiseMin(other.lo), hi.cwiseMax(other.hi)}; }
-  double size() const { return (hi - lo).maxCoeff(); }
-};
+using Box = Eigen::AlignedBox2d;
 
 /// A stretch of boundary between arc lengths lo and hi.
 struct Arc {
@@ -38,7 +30,7 @@ struct Arc {
   Box box() const {
     const double bulge = 0.5 * (end - start).norm() * std::tan(0.5 * std::min(turn, 2.0)) * (1 + 1e-9);
     const Vec2 margin = Vec2::Constant(bulge);
-    return {start.cwiseMin(end) - margin, start.cwiseMax(end) + margin};
+    return {Vec2(start.cwiseMin(end) - margin), Vec2(start.cwiseMax(end) + margin)};
   }
 };
 
@@ -108,7 +100,7 @@ class CrossingSearch {
     const std::size_t middle = first + (last - first) / 2;
     const std::size_t left = build(first, middle);
     const std::size_t right = build(middle, last);
-    nodes_[index] = {nodes_[left].box.with(nodes_[right].box),
+    nodes_[index] = {nodes_[left].box.merged(nodes_[right].box),
                      nodes_[left].turn + corners_[middle] + nodes_[right].turn,
                      nodes_[left].reach + nodes_[right].reach, right};
     return index;
@@ -126,7 +118,7 @@ class CrossingSearch {
   /// Do two stretches, the first before the second, meet elsewhere than where they join?
   void between(std::size_t node1, std::size_t first1, std::size_t last1, std::size_t node2, std::size_t first2,
                std::size_t last2) {
-    if (found_ || !nodes_[node1].box.meets(nodes_[node2].box)) return;
+    if (found_ || !nodes_[node1].box.intersects(nodes_[node2].box)) return;
     if (last1 == first2 && nodes_[node1].turn + corners_[first2] + nodes_[node2].turn < kSimpleTurn) return;
     if (last2 == arcs_.size() && first1 == 0 && part_.closed() &&
         nodes_[node1].turn + corners_[0] + nodes_[node2].turn < kSimpleTurn) {
@@ -136,7 +128,7 @@ class CrossingSearch {
     const bool leaf2 = last2 - first2 == 1;
     if (leaf1 && leaf2) {
       meet(arcs_[first1], arcs_[first2], joint_turn(last1, first2, last2, first1));
-    } else if (leaf2 || (!leaf1 && nodes_[node1].box.size() >= nodes_[node2].box.size())) {
+    } else if (leaf2 || (!leaf1 && nodes_[node1].box.sizes().maxCoeff() >= nodes_[node2].box.sizes().maxCoeff())) {
       const std::size_t middle = first1 + (last1 - first1) / 2;
       between(node1 + 1, first1, middle, node2, first2, last2);
       between(nodes_[node1].right, middle, last1, node2, first2, last2);
@@ -161,7 +153,7 @@ class CrossingSearch {
 
   /// Halves two arcs until they are apart, or too short to tell from one point.
   void meet(const Arc& one, const Arc& two, const JointTurn& joint) {
-    if (found_ || !one.box().meets(two.box())) return;
+    if (found_ || !one.box().intersects(two.box())) return;
     const double turn = one.turn + two.turn;
     if (joint.after_first >= 0 && turn + joint.after_first < kSimpleTurn) return;
     if (joint.after_second >= 0 && turn + joint.after_second < kSimpleTurn) return;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "rollfix/part/turning_function.hpp"
 
@@ -28,8 +29,13 @@ class Cursor {
     while (left() <= rounding && !cursor.is_last()) cursor.advance();
     return cursor;
   }
-  /// On a spiral, on the first lap.
-  static Cursor at_spiral(const TurningFunction& turning, std::size_t index) { return {turning, index, 0.0}; }
+  /// On spiral k, counted on over the laps of a closed boundary, below 0 backwards.
+  static Cursor at_spiral(const TurningFunction& turning, std::int64_t k) {
+    const auto count = static_cast<std::int64_t>(turning.spirals().size());
+    const std::int64_t index = (k % count + count) % count;
+    return {turning, static_cast<std::size_t>(index), static_cast<double>((k - index) / count)};
+  }
+  static Cursor at_spiral(const TurningFunction& turning, std::size_t k) { return {turning, k, 0.0}; }
 
   std::size_t index() const { return index_; }
   const Spiral& spiral() const { return turning_->spirals()[index_]; }

@@ -67,6 +67,9 @@ struct Boundary {
   }
   double base(double s) const { return reduced(s).base; }
 
+  /// s in [0, P) of a closed boundary; of an open one s as it is, on it or beyond an end.
+  double on_first_lap(double s) const { return closed ? wrap(s, perimeter).base : s; }
+
   /// The same, and what lies before P by no more than rounding is 0: one name for one place.
   double canonical(double s) const {
     const double at = base(s);

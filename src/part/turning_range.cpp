@@ -1,0 +1,83 @@
+#include "turning_range.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "cursor.hpp"
+
+namespace rollfix {
+namespace {
+
+// Rounding may put a joint on either side of a cell's end: cells are looked at this share of them farther.
+constexpr double kBeyondCell = 1e-6;
+// Of a number that is kept in single precision, relative.
+constexpr double kFloatSlack = 4e-7;
+constexpr Interval kAnyAngle{-1e9, 1e9};
+
+}  // namespace
+
+Interval angles_over(const TurningFunction& turning, const Interval& arc) {
+  const double first = turning.angle(arc.lo, Side::before);
+  Interval angles{first, first};
+  const auto include = [&](double angle) { angles = {std::min(angles.lo, angle), std::max(angles.hi, angle)}; };
+  Cursor at(turning, arc.lo, Side::before);
+  while (at.hi() <= arc.hi && !at.is_last()) {
+    include(at.spiral().end.angle + at.lift());
+    at.advance();
+    include(at.angle_after());
+  }
+  const double end = std::clamp(arc.hi - at.shift(), at.spiral().lo, at.spiral().hi);
+  include(turning.on_spiral(at.spiral(), end).angle + at.lift());
+  return angles;
+}
+
+TurningRange::TurningRange(const TurningFunction& turning, std::size_t cells)
+    : step_(turning.perimeter() / static_cast<double>(cells)),
+      boundary_(turning.boundary()),
+      period_turn_(turning.period_turn()) {
+  const std::size_t count = boundary_.closed ? 2 * cells : cells;
+  least_.emplace_back(count);
+  most_.emplace_back(count);
+  for (std::size_t k = 0; k < cells; ++k) {
+    const double lo = step_ * static_cast<double>(k);
+    const Interval angles = angles_over(turning, {lo - kBeyondCell * step_, lo + (1 + kBeyondCell) * step_});
+    for (std::size_t i = k; i < count; i += cells) {
+      const double lift = i > k ? period_turn_ : 0;
+      least_[0][i] = static_cast<float>(angles.lo + lift - kFloatSlack * std::abs(angles.lo + lift));
+      most_[0][i] = static_cast<float>(angles.hi + lift + kFloatSlack * std::abs(angles.hi + lift));
+    }
+  }
+  for (std::size_t width = 1; 2 * width <= count; width *= 2) {
+    const std::vector<float>& lo = least_.back();
+    const std::vector<float>& hi = most_.back();
+    std::vector<float> wider_lo(lo.size() - width);
+    std::vector<float> wider_hi(wider_lo.size());
+    for (std::size_t k = 0; k < wider_lo.size(); ++k) {
+      wider_lo[k] = std::min(lo[k], lo[k + width]);
+      wider_hi[k] = std::max(hi[k], hi[k + width]);
+    }
+    least_.push_back(std::move(wider_lo));
+    most_.push_back(std::move(wider_hi));
+  }
+}
+
+Interval TurningRange::over(double lo, double hi) const {
+  double lift = 0;
+  if (boundary_.closed) {
+    if (hi - lo >= boundary_.perimeter) return kAnyAngle;
+    const Wrapped start = boundary_.reduced(lo);
+    lift = start.winding * period_turn_;
+    hi = start.base + (hi - lo);
+    lo = start.base;
+  }
+  const auto last = static_cast<double>(least_.front().size() - 1);
+  const auto first = static_cast<std::size_t>(std::clamp(std::floor(lo / step_), 0.0, last));
+  const auto end = static_cast<std::size_t>(std::clamp(std::floor(hi / step_), 0.0, last)) + 1;
+  std::size_t j = 0;
+  while ((std::size_t{2} << j) <= end - first) ++j;
+  const std::size_t second = end - (std::size_t{1} << j);
+  return {std::min(least_[j][first], least_[j][second]) + lift, std::max(most_[j][first], most_[j][second]) + lift};
+}
+
+}  // namespace rollfix
