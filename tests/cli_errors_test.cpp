@@ -76,6 +76,7 @@ const std::vector<Mistake> kParts = {
     {"unknown_parameter", "inspect gallery:ellipse,c=1", {"'c'", "Known are: a, b"}},
     {"impossible_parameter", "inspect gallery:ellipse,a=-1", {"a = '-1'", "above 0"}},
     {"option_for_points", "inspect gallery:ellipse --open", {"--open is for points"}},
+    {"default_corner_angle_of_no_points", "inspect gallery:cam --corner-angle 59deg", {"--corner-angle is for points"}},
     {"corner_angle_without_unit", "inspect square.csv --corner-angle 59", {"59deg"}},
     {"corner_angle_of_letters", "inspect square.csv --corner-angle x", {"--corner-angle", "'x'", "73deg"}},
     {"broken_json", "inspect broken.json", {"broken.json:2:23"}},

@@ -101,7 +101,7 @@ TEST(LoadPart, loop_takes_a_hole_as_a_hole) {
   EXPECT_EQ(loaded.part.turns(), -1);
   options.loop = 3;
   EXPECT_THAT(message_of("plate.dxf", options),
-              HasSubstr("--loop 3: plate.dxf has 2 loops: expected a number from 1 to 2"));
+              HasSubstr("`loop` 3: plate.dxf has 2 loops: expected a number from 1 to 2"));
 }
 
 TEST(LoadPart, an_open_drawing_is_refused_with_the_gap_and_its_place) {
@@ -109,7 +109,7 @@ TEST(LoadPart, an_open_drawing_is_refused_with_the_gap_and_its_place) {
   folder.write("plate.dxf", dxf(plate(0.01)));
   EXPECT_THAT(message_of("plate.dxf"),
               AllOf(HasSubstr("plate.dxf: expected a closed loop, found none"), HasSubstr("is open by 0.01 between"),
-                    HasSubstr("(0.01, 2)"), HasSubstr("(0, 2)"), HasSubstr("--gap")));
+                    HasSubstr("(0.01, 2)"), HasSubstr("(0, 2)"), HasSubstr("`gap`")));
 }
 
 TEST(LoadPart, gap_closes_it_and_that_is_reported) {
@@ -164,12 +164,12 @@ TEST(LoadPart, options_that_do_not_apply_are_refused) {
   LoadOptions layer;
   layer.layer = "cut";
   LoadOptions angle;
-  angle.points.corner_angle = 1;
-  EXPECT_THAT(message_of("square.csv", loop), HasSubstr("--loop is for drawings, and square.csv is points"));
-  EXPECT_THAT(message_of("gallery:cam", loop), HasSubstr("--loop is for drawings, and gallery:cam is a gallery shape"));
-  EXPECT_THAT(message_of("square.svg", layer), HasSubstr("--layer is for DXF files"));
-  EXPECT_THAT(message_of("square.svg", angle), HasSubstr("--corner-angle is for points"));
-  EXPECT_THAT(message_of("gallery:cam", angle), HasSubstr("--corner-angle is for points"));
+  angle.points.corner_angle = kCornerAngle;  // given is given, the default as well
+  EXPECT_THAT(message_of("square.csv", loop), HasSubstr("`loop` is for drawings, and square.csv is points"));
+  EXPECT_THAT(message_of("gallery:cam", loop), HasSubstr("`loop` is for drawings, and gallery:cam is a gallery shape"));
+  EXPECT_THAT(message_of("square.svg", layer), HasSubstr("`layer` is for DXF files"));
+  EXPECT_THAT(message_of("square.svg", angle), HasSubstr("`corner_angle` is for points"));
+  EXPECT_THAT(message_of("gallery:cam", angle), HasSubstr("`corner_angle` is for points"));
 }
 
 TEST(LoadPart, rounded_digits_of_a_drawing_are_no_gap) {

@@ -120,7 +120,7 @@ TEST(Part, refuses_a_cusp_and_says_where) {
 
 TEST(Part, refuses_a_crossing_and_says_where) {
   EXPECT_THAT(refusal(polygon({{0, 0}, {2, 2}, {2, 0}, {0, 2}})),
-              AllOf(HasSubstr("(1, 1)"), HasSubstr("--allow-crossing")));
+              AllOf(HasSubstr("(1, 1)"), HasSubstr("`allow_crossing`")));
   EXPECT_THAT(refusal(gallery("limacon,a=1,b=2")), HasSubstr("cross itself"));
 }
 

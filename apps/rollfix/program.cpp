@@ -2,8 +2,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
+#include <boost/algorithm/string/replace.hpp>
 #include <exception>
 #include <ostream>
+#include <string>
 
 #include "rollfix/argument_list.hpp"
 #include "rollfix/commands.hpp"
@@ -26,6 +29,16 @@ constexpr const char* kProgramExamples = R"(Examples:
   rollfix simulate gallery:cam --finger disk,r=0.2 --start 0.5 --length 1 -o roll.csv
   rollfix watch wing.csv --finger disk,r=10 --noise contact=0.1,angle=0.1deg --log wing-roll.csv --once
 )";
+
+/// The library names the fields of its structs, `allow_crossing`; who typed options reads --allow-crossing.
+std::string with_options(std::string text) {
+  constexpr std::array kFields = {"allow_crossing", "bridge", "corner_angle", "finger", "gap",   "layer",
+                                  "loop",           "noise",  "open",         "roll",   "smooth"};
+  for (const std::string field : kFields) {
+    boost::replace_all(text, "`" + field + "`", "--" + boost::replace_all_copy(field, "_", "-"));
+  }
+  return text;
+}
 
 /// Adds the commands to a program and returns the one that the arguments name.
 Command parse(CLI::App& program, const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) {
@@ -64,14 +77,14 @@ void deliver(const Report& report, std::ostream& out, std::ostream& err) {
   write_files(report.files);
   out << report.data << std::flush;
   if (!out) throw InputError("standard output can't be written to");
-  for (const std::string& note : report.notes) err << "rollfix: " << note << '\n';
+  for (const std::string& note : report.notes) err << "rollfix: " << with_options(note) << '\n';
 }
 
 /// An error is one line, whatever is in the names that it quotes.
 int fail(std::ostream& err, std::string message, ExitCode exit_code) {
   std::replace_if(
       message.begin(), message.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-  err << "rollfix: " << message << '\n';
+  err << "rollfix: " << with_options(message) << '\n';
   return code(exit_code);
 }
 

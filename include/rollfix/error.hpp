@@ -13,6 +13,7 @@ class Error : public std::runtime_error {
 };
 
 /// What the user gave can't be worked with: a file, a number, a shape. Exit code 2 on the command line.
+/// A field of an options struct is named in backticks: `allow_crossing`.
 class InputError : public Error {
  public:
   using Error::Error;

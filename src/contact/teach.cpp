@@ -367,7 +367,7 @@ class Teacher {
       case Closing::kept_open:
         say(
             fmt::format("kept open, because the drift does not explain it: {}; say how large the drift is with "
-                        "--noise, or bridge the gap with --bridge",
+                        "`noise`, or bridge the gap with `bridge`",
                         found));
         break;
       case Closing::not_asked:

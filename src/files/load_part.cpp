@@ -2,14 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cstddef>
+#include <string_view>
 #include <utility>
 #include <variant>
 
 #include "files/dxf/dxf.hpp"
-#include "files/file_kind.hpp"
 #include "files/json/outline.hpp"
 #include "files/svg/svg.hpp"
+#include "outline/naming.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/files/saved_part.hpp"
 #include "rollfix/outline/load.hpp"
@@ -19,6 +20,49 @@
 namespace rollfix {
 
 namespace {
+
+/// What a user can name as a part.
+enum class FileKind { gallery, points, dxf, svg, json, saved_part };
+
+constexpr const char* kKnown =
+    "points in .csv, .dat or .txt, a drawing in .dxf or .svg, a shape or a saved part in .json, or gallery:NAME as in "
+    "gallery:ellipse,a=2,b=1";
+
+constexpr std::string_view kBinaryDxf = "AutoCAD Binary DXF";
+
+FileKind kind_by_beginning(std::string_view text) {
+  if (text.substr(0, kBinaryDxf.size()) == kBinaryDxf) return FileKind::dxf;
+  if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first == std::string_view::npos) return FileKind::points;
+  if (text[first] == '<') return FileKind::svg;
+  if (text[first] == '{') return FileKind::json;
+  // An ASCII DXF begins with a group code, alone on its line, and SECTION; or with a 999 comment.
+  const std::size_t line_end = text.find_first_of("\r\n", first);
+  const std::string_view code = text.substr(first, line_end == std::string_view::npos ? line_end : line_end - first);
+  const std::string_view head = text.substr(0, 4096);
+  const bool is_code = code == "0" || code == "999";
+  return is_code && head.find("SECTION") != std::string_view::npos ? FileKind::dxf : FileKind::points;
+}
+
+/// By "gallery:" or the ending of the file's name; standard input ("-") counts as points until it is read.
+/// Throws InputError for any other ending.
+FileKind kind_by_name(const std::string& argument) {
+  if (argument.rfind("gallery:", 0) == 0) return FileKind::gallery;
+  if (argument == "-") return FileKind::points;
+  const std::string ending = ending_of(argument);
+  if (ending == ".csv" || ending == ".dat" || ending == ".txt") return FileKind::points;
+  if (ending == ".dxf") return FileKind::dxf;
+  if (ending == ".svg") return FileKind::svg;
+  if (ending == ".json") return FileKind::json;
+  throw InputError(unknown_ending(argument, kKnown));
+}
+
+/// The same once the content is known: of standard input by how it begins, and whether a .json is a saved part.
+FileKind kind_by_content(FileKind by_name, bool is_standard_input, std::string_view text) {
+  const FileKind kind = is_standard_input ? kind_by_beginning(text) : by_name;
+  return kind == FileKind::json && is_saved_part(text) ? FileKind::saved_part : kind;
+}
 
 constexpr const char* kStandardInput = "standard input";
 
@@ -32,17 +76,17 @@ struct Given {
   bool layer = false;
 
   explicit Given(const LoadOptions& options) : open(options.points.open), layer(!options.layer.empty()) {
-    if (options.points.corner_angle != kCornerAngle) for_points = "--corner-angle";
-    if (options.points.smooth) for_points = "--smooth";
-    if (options.loop) for_drawings = "--loop";
-    if (options.gap) for_drawings = "--gap";
-    if (layer) for_drawings = "--layer";
+    if (options.points.corner_angle) for_points = "`corner_angle`";
+    if (options.points.smooth) for_points = "`smooth`";
+    if (options.loop) for_drawings = "`loop`";
+    if (options.gap) for_drawings = "`gap`";
+    if (layer) for_drawings = "`layer`";
   }
 };
 
 void refuse(const std::string& option, const char* what_for, const std::string& name, const char* what_it_is) {
   if (option.empty()) return;
-  throw InputError(fmt::format("{} is for {}, and {} is {}: leave the option out", option, what_for, name, what_it_is));
+  throw InputError(fmt::format("{} is for {}, and {} is {}: leave it out", option, what_for, name, what_it_is));
 }
 
 void require_options_for(FileKind kind, const std::string& name, const LoadOptions& options) {
@@ -51,7 +95,7 @@ void require_options_for(FileKind kind, const std::string& name, const LoadOptio
     case FileKind::gallery:
       refuse(given.for_points, "points", name, "a gallery shape");
       refuse(given.for_drawings, "drawings", name, "a gallery shape");
-      refuse(given.open ? "--open" : "", "points and drawings", name, "a gallery shape");
+      refuse(given.open ? "`open`" : "", "points and drawings", name, "a gallery shape");
       break;
     case FileKind::points:
       refuse(given.for_drawings, "drawings", name, "points");
@@ -60,12 +104,12 @@ void require_options_for(FileKind kind, const std::string& name, const LoadOptio
       break;
     case FileKind::svg:
     case FileKind::json:
-      refuse(given.layer ? "--layer" : "", "DXF files", name, "none");
+      refuse(given.layer ? "`layer`" : "", "DXF files", name, "none");
       break;
     case FileKind::saved_part:
       refuse(given.for_points, "points", name, "a saved part");
       refuse(given.for_drawings, "drawings", name, "a saved part");
-      refuse(given.open ? "--open" : "", "points and drawings", name, "a saved part");
+      refuse(given.open ? "`open`" : "", "points and drawings", name, "a saved part");
       break;
   }
 }
@@ -80,8 +124,8 @@ LoadedPart of_outline(Outline outline, const LoadOptions& options) {
   const double gap = (end - start).norm();
   throw InputError(fmt::format(
       "{}: expected a closed loop, found none: the longest chain ({}, length {:.6g}) is open by {:.6g} "
-      "between {} and {}: close it in the drawing, let ends that far apart meet with --gap, or take it as "
-      "it is with --open",
+      "between {} and {}: close it in the drawing, let ends that far apart meet with `gap`, or take it as "
+      "it is with `open`",
       name, counted(longest.outline.curves.size(), "curve", "curves"), longest.length, gap, place(end), place(start)));
 }
 
@@ -90,15 +134,13 @@ std::size_t choice(const std::string& name, const Loops& found, const LoadOption
   const std::size_t count = found.closed.size() + found.open.size();
   if (options.loop) {
     if (*options.loop >= 1 && *options.loop <= count) return *options.loop - 1;
-    throw InputError(fmt::format("--loop {}: {} has {}: expected a number from 1 to {}; rollfix inspect lists them",
-                                 *options.loop, name, counted(count, "loop", "loops"), count));
+    throw InputError(fmt::format("`loop` {}: {} has {}: expected a number from 1 to {}", *options.loop, name,
+                                 counted(count, "loop", "loops"), count));
   }
   if (options.points.open) {
     if (!found.open.empty()) return found.closed.size();
     throw InputError(
-        fmt::format("{}: --open expects a chain of curves with two ends, found closed loops only: leave "
-                    "the option out",
-                    name));
+        fmt::format("{}: `open` expects a chain of curves with two ends, found closed loops only: leave it out", name));
   }
   if (found.closed.empty()) refuse_open(name, found.open.front());
   return 0;
@@ -112,13 +154,13 @@ std::vector<std::string> notes_on(const Drawing& drawing, const Loops& found, st
   for (const std::string& note : found.notes) add(note);
   const bool is_choice = found.closed.size() + found.open.size() > 1;
   if (is_choice && !options.loop) {
-    add(fmt::format("{} and {}: took number {}, the {}; --loop N takes another, rollfix inspect lists them",
+    add(fmt::format("{} and {}: took number {}, the {}; `loop` takes another",
                     counted(found.closed.size(), "closed loop", "closed loops"),
                     counted(found.open.size(), "open chain", "open chains"), chosen + 1,
                     loop.outline.closed ? "largest loop" : "longest chain"));
   }
   if (loop.has_gap()) {
-    add(fmt::format("ends of curves up to {:.3g} apart were taken to meet (--gap)", loop.gap));
+    add(fmt::format("ends of curves up to {:.3g} apart were taken to meet (`gap`)", loop.gap));
   }
   if (!loop.outline.closed && !options.points.open) add("the loop taken is open: a curve with two ends");
   return notes;
@@ -133,8 +175,7 @@ Outline smoothed(const Loop& loop, const std::string& name, const LoadOptions& o
     const bool is_line = record && record->kind.find("line") != std::string::npos;
     if (!is_line) {
       throw InputError(fmt::format(
-          "{}: --smooth is for points and for loops of straight lines, and this one has curves: leave the option out",
-          name));
+          "{}: `smooth` is for points and for loops of straight lines, and this one has curves: leave it out", name));
     }
     points.push_back(curve.front());
   }
@@ -152,8 +193,8 @@ LoadedPart of_drawing(const Drawing& drawing, const LoadOptions& options) {
   all.insert(all.end(), found.open.begin(), found.open.end());
   const std::size_t chosen = choice(drawing.name, found, options);
   std::vector<std::string> notes = notes_on(drawing, found, chosen, all[chosen], options);
-  const bool corner_angle_alone = !options.points.smooth && options.points.corner_angle != kCornerAngle;
-  refuse(corner_angle_alone ? "--corner-angle" : "", "points", drawing.name, "a drawing");
+  const bool corner_angle_alone = !options.points.smooth && options.points.corner_angle.has_value();
+  refuse(corner_angle_alone ? "`corner_angle`" : "", "points", drawing.name, "a drawing");
   Outline outline = options.points.smooth ? smoothed(all[chosen], drawing.name, options, notes) : all[chosen].outline;
   Part part(std::move(outline), {options.allow_crossing});
   return {std::move(part), drawing.unit, std::move(all), chosen + 1, std::move(notes)};

@@ -172,8 +172,8 @@ class Assembler {
       }
       throw InputError(
           fmt::format("{}: {} ends of curves meet near {}, expected two at most ({}{}): remove the curves that do not "
-                      "belong to the outline, or take one layer only with --layer; ends within {:.3g} count as meeting "
-                      "(--gap)",
+                      "belong to the outline, or take one layer only with `layer`; ends within {:.3g} count as meeting "
+                      "(`gap`)",
                       drawing_.name, meeting.size(), place(ends[end]), fmt::join(names, ", "),
                       meeting.size() > names.size() ? ", ..." : "", gap_));
     }

@@ -200,11 +200,12 @@ Outline outline_through(const std::vector<Vec2>& points, const std::string& name
   Outline outline;
   outline.name = name;
   outline.closed = !options.open;
+  const double corner_angle = options.corner_angle.value_or(kCornerAngle);
   if (!options.smooth) {
-    outline.curves = spline_through(points, outline.closed, options.corner_angle);
+    outline.curves = spline_through(points, outline.closed, corner_angle);
     return outline;
   }
-  Smoothing smoothing = smooth_spline(points, outline.closed, *options.smooth, options.corner_angle);
+  Smoothing smoothing = smooth_spline(points, outline.closed, *options.smooth, corner_angle);
   if (notes != nullptr) {
     notes->push_back(fmt::format("smoothed: within {:.6g} of all {} points (largest deviation {:.4g}), {} curves, {}",
                                  *options.smooth, points.size(), smoothing.deviation, smoothing.curves.size(),

@@ -70,7 +70,7 @@ Part::Part(Outline outline, const PartOptions& options) {
   if (const auto crossing = find_crossing(*this)) {
     throw InputError(fmt::format(
         "{}: expected an outline that does not cross itself, found that it does near ({:.9g}, {:.9g}), at arc lengths "
-        "{:.9g} and {:.9g} of {:.9g}: mend it, or take it as it is with --allow-crossing",
+        "{:.9g} and {:.9g} of {:.9g}: mend it, or take it as it is with `allow_crossing`",
         name(), crossing->point.x(), crossing->point.y(), crossing->first, crossing->second, perimeter()));
   }
 }

@@ -29,9 +29,9 @@ std::vector<Curve> spline_through(const std::vector<Vec2>& points, bool closed, 
 
 /// How to make an outline of points.
 struct OutlineOptions {
-  bool open = false;                   // a curve with two ends
-  double corner_angle = kCornerAngle;  // radians, in [0, pi]: chords that turn by at least this make a corner
-  std::optional<double> smooth = {};   // a length: points of a scan, to be met within this and not exactly
+  bool open = false;                        // a curve with two ends
+  std::optional<double> corner_angle = {};  // radians, in [0, pi], as for spline_through; default kCornerAngle
+  std::optional<double> smooth = {};        // a length: points of a scan, to be met within this and not exactly
 };
 
 /// Points closer together than this share of the bounding box's diagonal are the same point.
