@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "draw/labels.hpp"
-#include "draw/lanes.hpp"
 #include "draw/numerals.hpp"
 #include "draw/offset.hpp"
 #include "draw/rolls.hpp"

@@ -5,7 +5,6 @@
 
 #include "legend.hpp"
 #include "numerals.hpp"
-#include "palette.hpp"
 #include "plot.hpp"
 #include "scene.hpp"
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace rollfix::draw {
 namespace {
@@ -20,15 +21,12 @@ constexpr int kDistances = 14;
 constexpr double kNearest = 3.5;  // from the anchor to the label's edge, pixels
 constexpr double kDistanceStep = 4;
 
-Box box_around(const Vec2& centre, const Vec2& size) {
-  Box box;
-  box.lo = centre - 0.5 * size - Vec2(kRim, kRim);
-  box.hi = centre + 0.5 * size + Vec2(kRim, kRim);
-  return box;
+Box rimmed(const Vec2& centre, const Vec2& size) {
+  return {centre - 0.5 * size - Vec2(kRim, kRim), centre + 0.5 * size + Vec2(kRim, kRim)};
 }
 
 double overlap(const Box& a, const Box& b) {
-  const Vec2 common = a.hi.cwiseMin(b.hi) - a.lo.cwiseMax(b.lo);
+  const Vec2 common = a.max().cwiseMin(b.max()) - a.min().cwiseMax(b.min());
   return common.x() > 0 && common.y() > 0 ? common.x() * common.y() : 0;
 }
 
@@ -59,7 +57,7 @@ std::vector<Candidate> candidates(const LabelRequest& request, const Obstacles& 
           const double distance = kNearest + kDistanceStep * i;
           const Vec2 centre = anchor + (distance + reach(request.size, direction)) * direction;
           const double cost = distance + kSidewaysPenalty * std::abs(angle) +
-                              kCellPenalty * obstacles.covered(box_around(centre, request.size));
+                              kCellPenalty * obstacles.covered(rimmed(centre, request.size));
           out.push_back({{centre, anchor}, cost});
         }
       }
@@ -77,9 +75,9 @@ LabelPlace cheapest(std::size_t i, const std::vector<Candidate>& choices, const 
   for (const Candidate& choice : choices) {
     if (choice.cost >= least) break;
     double cost = choice.cost;
-    const Box box = box_around(choice.place.centre, requests[i].size);
+    const Box box = rimmed(choice.place.centre, requests[i].size);
     for (std::size_t k = 0; k < requests.size() && cost < least; ++k) {
-      if (k != i) cost += kOverlapPenalty * overlap(box, box_around(places[k].centre, requests[k].size));
+      if (k != i) cost += kOverlapPenalty * overlap(box, rimmed(places[k].centre, requests[k].size));
     }
     if (cost >= least) continue;
     least = cost;
@@ -143,16 +141,17 @@ double Obstacles::covered(const Box& box) const {
   const auto row = [&](double y) {
     return std::clamp<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(std::floor(y / kCell)), -1, rows_ - 1);
   };
-  const std::ptrdiff_t left = column(box.lo.x() - kCell), right = column(box.hi.x());
-  const std::ptrdiff_t top = row(box.lo.y() - kCell), bottom = row(box.hi.y());
+  const std::ptrdiff_t left = column(box.min().x() - kCell), right = column(box.max().x());
+  const std::ptrdiff_t top = row(box.min().y() - kCell), bottom = row(box.max().y());
   const auto sum = [&](std::ptrdiff_t r, std::ptrdiff_t c) {
     return r < 0 || c < 0 ? 0 : taken_[static_cast<std::size_t>(r * columns_ + c)];
   };
   const double inside = sum(bottom, right) - sum(top, right) - sum(bottom, left) + sum(top, left);
   // What sticks out of the page counts as covered.
-  const Vec2 size = box.size();
-  const Vec2 kept = box.hi.cwiseMin(Vec2(static_cast<double>(columns_) * kCell, static_cast<double>(rows_) * kCell)) -
-                    box.lo.cwiseMax(Vec2(0, 0));
+  const Vec2 size = box.sizes();
+  const Vec2 kept =
+      box.max().cwiseMin(Vec2(static_cast<double>(columns_) * kCell, static_cast<double>(rows_) * kCell)) -
+      box.min().cwiseMax(Vec2(0, 0));
   const double lost = size.x() * size.y() - std::max(0.0, kept.x()) * std::max(0.0, kept.y());
   return inside + lost / (kCell * kCell);
 }
@@ -168,6 +167,45 @@ std::vector<LabelPlace> place_labels(const std::vector<LabelRequest>& requests, 
     for (std::size_t i = 0; i < requests.size(); ++i) places[i] = cheapest(i, choices[i], requests, places);
   }
   return places;
+}
+
+namespace {
+
+constexpr double kLongestGap = 8;       // pixels between anchor and label that need no line
+constexpr double kLetterHeight = 1.05;  // of a label's box, as a fraction of the font size
+constexpr double kBaseline = 0.32;      // below the box's centre, likewise
+
+void draw_leader(Svg& svg, const LabelPlace& place, const Vec2& size, std::string_view colour) {
+  const Vec2 lo = place.centre - 0.5 * size, hi = place.centre + 0.5 * size;
+  const Vec2 nearest = place.anchor.cwiseMax(lo).cwiseMin(hi);
+  if ((nearest - place.anchor).norm() <= kLongestGap) return;
+  Paint paint;
+  paint.stroke = colour;
+  paint.width = 0.6;
+  svg.segments({place.anchor, nearest}, paint);
+}
+
+}  // namespace
+
+void LabelSet::add(std::vector<Vec2> anchors, const Vec2& normal, Text text, std::string_view colour, double size) {
+  requests_.push_back({std::move(anchors), normal, Vec2(text_width(text, size), kLetterHeight * size)});
+  labels_.push_back({std::move(text), colour, size});
+}
+
+void LabelSet::draw(Svg& svg, Obstacles& obstacles) const {
+  obstacles.finish();
+  const std::vector<LabelPlace> places = place_labels(requests_, obstacles);
+  svg.open_group("labels");
+  for (std::size_t i = 0; i < labels_.size(); ++i) draw_leader(svg, places[i], requests_[i].size, labels_[i].colour);
+  for (std::size_t i = 0; i < labels_.size(); ++i) {
+    TextStyle style;
+    style.size = labels_[i].size;
+    style.align = Align::middle;
+    style.fill = labels_[i].colour;
+    style.halo = true;
+    svg.text(places[i].centre + Vec2(0, kBaseline * style.size), labels_[i].text, style);
+  }
+  svg.close_group();
 }
 
 }  // namespace rollfix::draw

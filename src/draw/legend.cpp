@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "palette.hpp"
-
 namespace rollfix::draw {
 namespace {
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "label_set.hpp"
+#include "labels.hpp"
 #include "legend.hpp"
 #include "locate_plan.hpp"
 #include "locate_texts.hpp"
@@ -39,7 +39,7 @@ class LocatePicture {
     const LocateFigure& figure = *plan_.figure;
     draw_header(svg_, figure.title.empty() ? plan_.part().name() : figure.title,
                 figure.verdict.empty() ? figure.found.verdict() : figure.verdict, readings_text(figure.readings));
-    svg_.open_clip(scene_.area.lo.x(), scene_.area.lo.y(), scene_.area.size().x(), scene_.area.size().y());
+    svg_.open_clip(scene_.area.min().x(), scene_.area.min().y(), scene_.area.sizes().x(), scene_.area.sizes().y());
     draw_material(svg_, scene_, plan_.part());
     bands();
     fingers();
@@ -214,7 +214,7 @@ Svg side_by_side(const std::vector<LocateFigure>& figures) {
   for (draw::Plan& plan : plans) {
     for (const draw::Plan& other : plans) {
       if (plan.figure->part != other.figure->part) continue;
-      plan.framing.extras.include(other.framing.extras);
+      plan.framing.extras.extend(other.framing.extras);
       plan.framing.margin = std::max(plan.framing.margin, other.framing.margin);
     }
   }

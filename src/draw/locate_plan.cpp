@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "lanes.hpp"
 #include "roll_pen.hpp"
 #include "rollfix/error.hpp"
+#include "rolls.hpp"
 
 namespace rollfix::draw {
 namespace {
@@ -52,7 +52,7 @@ Lanes lanes_of(const Plan& plan) {
     stretches.push_back({placement.start + plan.roll.hull.lo, placement.start + plan.roll.hull.hi});
   }
   // The scale is not known yet; the part's size over the page's width is near enough.
-  const double gap = kEndGap * plan.framing.part.size().maxCoeff() / plan.framing.width;
+  const double gap = kEndGap * plan.framing.part.sizes().maxCoeff() / plan.framing.width;
   return assign_lanes(stretches, plan.part().boundary(), gap);
 }
 

@@ -4,8 +4,7 @@
 #include <cstddef>
 #include <string_view>
 
-#include "lanes.hpp"
-#include "palette.hpp"
+#include "legend.hpp"
 #include "rollfix/draw/locate_figure.hpp"
 #include "rolls.hpp"
 #include "scene.hpp"

@@ -51,13 +51,13 @@ std::vector<SidePoint> sides(const Trace& stretch) {
 
 Clearance::Clearance(const Trace& boundary) {
   const Trace fine = densify(boundary, kStep);
-  box_ = bounds(fine.points);
-  columns_ = 1 + static_cast<std::size_t>(box_.size().x() / kSideCell);
-  rows_ = 1 + static_cast<std::size_t>(box_.size().y() / kSideCell);
+  box_ = box_around(fine.points);
+  columns_ = 1 + static_cast<std::size_t>(box_.sizes().x() / kSideCell);
+  rows_ = 1 + static_cast<std::size_t>(box_.sizes().y() / kSideCell);
   cells_.resize(columns_ * rows_);
   for (const Vec2& point : fine.points) {
-    cells_[cell_of(point.y(), box_.lo.y(), rows_) * columns_ + cell_of(point.x(), box_.lo.x(), columns_)].push_back(
-        point);
+    cells_[cell_of(point.y(), box_.min().y(), rows_) * columns_ + cell_of(point.x(), box_.min().x(), columns_)]
+        .push_back(point);
   }
 }
 
@@ -67,10 +67,10 @@ std::size_t Clearance::cell_of(double value, double origin, std::size_t count) c
 }
 
 bool Clearance::closer_than(const Vec2& point, double distance) const {
-  const std::size_t left = cell_of(point.x() - distance, box_.lo.x(), columns_);
-  const std::size_t right = cell_of(point.x() + distance, box_.lo.x(), columns_);
-  const std::size_t top = cell_of(point.y() - distance, box_.lo.y(), rows_);
-  const std::size_t bottom = cell_of(point.y() + distance, box_.lo.y(), rows_);
+  const std::size_t left = cell_of(point.x() - distance, box_.min().x(), columns_);
+  const std::size_t right = cell_of(point.x() + distance, box_.min().x(), columns_);
+  const std::size_t top = cell_of(point.y() - distance, box_.min().y(), rows_);
+  const std::size_t bottom = cell_of(point.y() + distance, box_.min().y(), rows_);
   for (std::size_t row = top; row <= bottom; ++row) {
     for (std::size_t column = left; column <= right; ++column) {
       for (const Vec2& other : cells_[row * columns_ + column]) {

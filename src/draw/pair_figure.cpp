@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "label_set.hpp"
+#include "labels.hpp"
 #include "legend.hpp"
 #include "offset.hpp"
 #include "pair_plan.hpp"
@@ -34,14 +34,14 @@ class PairPicture {
         svg_(plan.figure->width, drawing_end_ + legend_.height() + 8),
         scene_(make_scene(plan.part(), plan.framing, Vec2(0, kHeaderHeight))),
         clearance_(scene_.boundary),
-        obstacles_(scene_.area.hi.x(), drawing_end_),
+        obstacles_(scene_.area.max().x(), drawing_end_),
         pen_(svg_, scene_, clearance_, obstacles_) {}
 
   Svg draw() {
     const PairFigure& figure = *plan_.figure;
     draw_header(svg_, figure.title.empty() ? plan_.part().name() : figure.title,
                 figure.verdict.empty() ? figure.found.verdict() : figure.verdict, small_print());
-    svg_.open_clip(scene_.area.lo.x(), scene_.area.lo.y(), scene_.area.size().x(), scene_.area.size().y());
+    svg_.open_clip(scene_.area.min().x(), scene_.area.min().y(), scene_.area.sizes().x(), scene_.area.sizes().y());
     draw_material(svg_, scene_, plan_.part());
     bands();
     fingers();

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <utility>
 
-#include "lanes.hpp"
 #include "legend.hpp"
 #include "numerals.hpp"
 #include "roll_pen.hpp"
 #include "rollfix/error.hpp"
+#include "rolls.hpp"
 
 namespace rollfix::draw {
 namespace {
@@ -137,7 +137,7 @@ PairPlan plan_of(const PairFigure& figure) {
       include_finger(plan.framing.extras, plan.framing.part, plan.part(), s, *figure.finger_radius[finger]);
     }
   }
-  if (plan.shown) plan.lanes = lanes_of(plan, plan.framing.part.size().maxCoeff());
+  if (plan.shown) plan.lanes = lanes_of(plan, plan.framing.part.sizes().maxCoeff());
   plan.framing.margin = kFirstLane + kLaneSpacing * plan.lanes.count * lanes_each(plan) + kPairLabelRoom;
   const double spare = drawing_height(plan.framing) - plan.framing.least_height;
   plan.plane.corner = Vec2(plan.framing.width + kPlaneLeft, kHeaderHeight + kPlaneAbove + 0.5 * spare);

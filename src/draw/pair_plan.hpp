@@ -7,9 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "lanes.hpp"
 #include "legend.hpp"
-#include "palette.hpp"
 #include "plot.hpp"
 #include "rollfix/draw/pair_figure.hpp"
 #include "rolls.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "contours.hpp"
-#include "label_set.hpp"
+#include "labels.hpp"
 #include "pair_plan.hpp"
 
 namespace rollfix::draw {
@@ -128,10 +128,10 @@ class PlanePicture {
   void wide(const PairPlacement& placement) {
     const PairBox& extent = placement.extent;
     Box box;
-    box.include(axes_(extent[0].lo, extent[1].hi));
-    box.include(axes_(extent[0].hi, extent[1].lo));
+    box.extend(axes_(extent[0].lo, extent[1].hi));
+    box.extend(axes_(extent[0].hi, extent[1].lo));
     const bool is_line = placement.family.size() > 1;
-    const double spread = is_line ? placement.family_error * axes_.size.x() / axes_.x.width() : box.size().maxCoeff();
+    const double spread = is_line ? placement.family_error * axes_.size.x() / axes_.x.width() : box.sizes().maxCoeff();
     if (!is_line && spread < kVisibleBox) return;
     svg_.open_group(placement.kind == Kind::stretch ? "stretch" : "extent");
     if (spread >= kVisibleBox) {
@@ -147,7 +147,7 @@ class PlanePicture {
   // On a closed part both may run over the square's edge and go on at the opposite one.
 
   void band(const std::vector<Vec2>& path) {
-    for (const Vec2& shift : shifts(bounds(path))) {
+    for (const Vec2& shift : shifts(box_around(path))) {
       std::vector<Vec2> moved;
       for (const Vec2& point : path) moved.emplace_back(point + shift);
       svg_.polyline(pick(moved, simplify(moved, kInvisible, kMostLinePoints)), stroke(kStretch, 6));
@@ -158,9 +158,9 @@ class PlanePicture {
     Paint paint;
     paint.fill = kStretch;
     paint.fill_opacity = 0.6;
-    const Vec2 size = box.size().cwiseMax(2);
+    const Vec2 size = box.sizes().cwiseMax(2);
     for (const Vec2& shift : shifts(box)) {
-      const Vec2 lo = box.lo + shift;
+      const Vec2 lo = box.min() + shift;
       svg_.rectangle(lo.x(), lo.y(), size.x(), size.y(), paint);
     }
   }
@@ -170,8 +170,8 @@ class PlanePicture {
     if (!plan_.part().closed()) return {Vec2::Zero()};
     const Vec2 end = axes_.corner + axes_.size;
     std::vector<Vec2> all;
-    const auto first = [&](int axis) { return std::ceil((axes_.corner[axis] - box.hi[axis]) / axes_.size[axis]); };
-    const auto last = [&](int axis) { return std::floor((end[axis] - box.lo[axis]) / axes_.size[axis]); };
+    const auto first = [&](int axis) { return std::ceil((axes_.corner[axis] - box.max()[axis]) / axes_.size[axis]); };
+    const auto last = [&](int axis) { return std::floor((end[axis] - box.min()[axis]) / axes_.size[axis]); };
     for (double i = first(0); i <= last(0); ++i) {
       for (double j = first(1); j <= last(1); ++j) all.emplace_back(i * axes_.size.x(), j * axes_.size.y());
     }

@@ -5,12 +5,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "label_set.hpp"
+#include "labels.hpp"
 #include "legend.hpp"
 #include "numerals.hpp"
 #include "outline/turn.hpp"
-#include "palette.hpp"
-#include "part_graphs.hpp"
 #include "plot.hpp"
 #include "rollfix/error.hpp"
 #include "scene.hpp"
@@ -86,7 +84,7 @@ class PartPicture {
         plots_top_(kHeaderHeight + drawing_height(framing_) + legend_.height()),
         svg_(figure.width, plots_top_ + 2 * (kPlotGap + kPlotHeight) + kPlotEnd),
         scene_(make_scene(part_, framing_, Vec2(0, kHeaderHeight))),
-        obstacles_(figure.width, scene_.area.hi.y()),
+        obstacles_(figure.width, scene_.area.max().y()),
         events_(events_of(part_)),
         s_ticks_(round_ticks({0, part_.perimeter()}, 10)) {}
 
@@ -95,7 +93,7 @@ class PartPicture {
                 fmt::format("{} {}", part_.closed() ? "perimeter" : "length", pretty(part_.perimeter(), 6)),
                 {{summary()}});
     shape();
-    legend_.draw(svg_, scene_.area.hi.y());
+    legend_.draw(svg_, scene_.area.max().y());
     curvature_plot();
     turning_plot();
     return std::move(svg_);
@@ -133,7 +131,7 @@ class PartPicture {
   // ---- the shape
 
   void shape() {
-    svg_.open_clip(scene_.area.lo.x(), scene_.area.lo.y(), scene_.area.size().x(), scene_.area.size().y());
+    svg_.open_clip(scene_.area.min().x(), scene_.area.min().y(), scene_.area.sizes().x(), scene_.area.sizes().y());
     draw_material(svg_, scene_, part_);
     draw_boundary(svg_, scene_, part_);
     blocked_arcs();

@@ -3,8 +3,10 @@
 #include <string>
 #include <vector>
 
+#include <functional>
 #include "numerals.hpp"
 #include "rollfix/draw/svg.hpp"
+#include "rollfix/part/part.hpp"
 
 namespace rollfix::draw {
 
@@ -36,5 +38,20 @@ void draw_graph(Svg& svg, const Axes& axes, const std::vector<Vec2>& points, con
 
 /// The interval widened on both sides by a fraction of its width; one without width gets some.
 Interval widened(const Interval& range, double fraction);
+
+/// The range of curvatures to show, and whether peaks were left out.
+struct CurvatureRange {
+  Interval shown;
+  bool cut = false;
+  double most = 0;  // of |kappa|, corners aside
+};
+
+CurvatureRange curvature_range(const Part& part);
+
+/// The range of tangent angles to show, degrees.
+Interval turning_range(const Part& part);
+
+/// Points of a graph on the page. `value` takes a Turning. Jumps between spirals become upright lines.
+std::vector<Vec2> graph(const Part& part, const Axes& axes, const std::function<double(const Turning&)>& value);
 
 }  // namespace rollfix::draw

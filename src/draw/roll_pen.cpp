@@ -82,11 +82,11 @@ Vec2 finger_centre(const Part& part, double s, double radius) {
 }
 
 void include_finger(Box& box, const Box& bounds, const Part& part, double s, double radius) {
-  const Vec2 reach = Vec2::Constant(kMostFingerReach * bounds.size().maxCoeff());
+  const Vec2 reach = Vec2::Constant(kMostFingerReach * bounds.sizes().maxCoeff());
   const Vec2 centre = finger_centre(part, s, radius);
   for (const double side : {-radius, radius}) {
     const Vec2 edge = centre + Vec2::Constant(side);
-    box.include(edge.cwiseMax(bounds.lo - reach).cwiseMin(bounds.hi + reach));
+    box.extend(edge.cwiseMax(bounds.min() - reach).cwiseMin(bounds.max() + reach));
   }
 }
 

@@ -6,7 +6,6 @@
 #include "legend.hpp"
 #include "numerals.hpp"
 #include "offset.hpp"
-#include "palette.hpp"
 
 namespace rollfix::draw {
 namespace {
@@ -17,7 +16,7 @@ constexpr double kStripHeight = 24;      // below the drawing, for the scale bar
 constexpr double kScaleBarWidth = 0.22;  // at most, of the drawing's width
 
 std::vector<Vec2> rectangle(const Box& box) {
-  return {box.lo, Vec2(box.hi.x(), box.lo.y()), box.hi, Vec2(box.lo.x(), box.hi.y())};
+  return {box.min(), Vec2(box.max().x(), box.min().y()), box.max(), Vec2(box.min().x(), box.max().y())};
 }
 
 /// A closed boundary without its repeated last vertex.
@@ -29,11 +28,11 @@ std::vector<Vec2> loop(const Trace& trace) {
 Box filled(const Framing& framing, double scale) {
   const Vec2 margin(framing.margin, framing.margin), small(kExtrasMargin, kExtrasMargin);
   Box box;
-  box.include(scale * framing.part.lo - margin);
-  box.include(scale * framing.part.hi + margin);
-  if (framing.extras.lo.x() <= framing.extras.hi.x()) {
-    box.include(scale * framing.extras.lo - small);
-    box.include(scale * framing.extras.hi + small);
+  box.extend(scale * framing.part.min() - margin);
+  box.extend(scale * framing.part.max() + margin);
+  if (!framing.extras.isEmpty()) {
+    box.extend(scale * framing.extras.min() - small);
+    box.extend(scale * framing.extras.max() + small);
   }
   return box;
 }
@@ -41,11 +40,11 @@ Box filled(const Framing& framing, double scale) {
 /// The scale at which the content just fits.
 double largest_scale(const Framing& framing, double width, double height) {
   const auto fits = [&](double scale) {
-    const Vec2 size = filled(framing, scale).size();
+    const Vec2 size = filled(framing, scale).sizes();
     return size.x() <= width && size.y() <= height;
   };
   // No part is seen at all below the first guess, and it sticks out above the second.
-  const double extent = framing.part.size().maxCoeff();
+  const double extent = framing.part.sizes().maxCoeff();
   double lo = 16 / extent, hi = 2 * std::max(width, std::min(height, 4 * width)) / extent;
   for (int i = 0; i < 60 && lo < hi; ++i) {
     const double middle = 0.5 * (lo + hi);
@@ -71,24 +70,23 @@ Vec2 Scene::normal(double s) const {
 
 double drawing_height(const Framing& framing) {
   const double scale = largest_scale(framing, framing.width, 1e300);
-  const double height = filled(framing, scale).size().y() + kStripHeight;
+  const double height = filled(framing, scale).sizes().y() + kStripHeight;
   return std::clamp(height, framing.least_height, framing.most_height);
 }
 
 Scene make_scene(const Part& part, const Framing& framing, const Vec2& corner) {
   Scene scene;
-  scene.area.lo = corner;
-  scene.area.hi = corner + Vec2(framing.width, drawing_height(framing));
-  const Vec2 room = scene.area.size() - Vec2(0, kStripHeight);
+  scene.area = Box(corner, corner + Vec2(framing.width, drawing_height(framing)));
+  const Vec2 room = scene.area.sizes() - Vec2(0, kStripHeight);
   scene.view.scale = largest_scale(framing, room.x(), room.y());
-  const Vec2 centre = filled(framing, scene.view.scale).centre();
+  const Vec2 centre = filled(framing, scene.view.scale).center();
   scene.view.origin = corner + 0.5 * room + Vec2(-centre.x(), centre.y());
   scene.boundary = trace(part, kInvisible / scene.view.scale);
   for (Vec2& point : scene.boundary.points) point = scene.view(point);
   return scene;
 }
 
-Box part_bounds(const Part& part) { return bounds(trace(part, 1e-4 * part.perimeter()).points); }
+Box part_bounds(const Part& part) { return box_around(trace(part, 1e-4 * part.perimeter()).points); }
 
 void draw_material(Svg& svg, const Scene& scene, const Part& part) {
   if (!part.closed()) return;
@@ -138,9 +136,9 @@ void draw_origin(Svg& svg, const Scene& scene, Obstacles& obstacles) {
 }
 
 void draw_scale_bar(Svg& svg, const Scene& scene) {
-  const double length = round_below(kScaleBarWidth * scene.area.size().x() / scene.view.scale);
+  const double length = round_below(kScaleBarWidth * scene.area.sizes().x() / scene.view.scale);
   const double width = scene.pixels(length);
-  const Vec2 left(scene.area.lo.x() + 14, scene.area.hi.y() - 8);
+  const Vec2 left(scene.area.min().x() + 14, scene.area.max().y() - 8);
   const Vec2 right = left + Vec2(width, 0), up(0, -4);
   svg.open_group("scale-bar");
   svg.segments({left, right, left, left + up, right, right + up}, stroke(kSoftInk, 1.2));

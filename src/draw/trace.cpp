@@ -216,10 +216,4 @@ Trace densify(const Trace& trace, double step) {
   return out;
 }
 
-Box bounds(const std::vector<Vec2>& points) {
-  Box box;
-  for (const Vec2& point : points) box.include(point);
-  return box;
-}
-
 }  // namespace rollfix::draw

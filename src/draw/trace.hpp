@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "outline/box.hpp"
 #include "rollfix/outline/curve.hpp"
 #include "rollfix/part/part.hpp"
 
@@ -49,24 +50,5 @@ Trace slice(const Trace& trace, double lo, double hi);
 
 /// The same polyline with no edge longer than `step`.
 Trace densify(const Trace& trace, double step);
-
-/// A rectangle with sides along the axes.
-struct Box {
-  Vec2 lo = Vec2(1e300, 1e300);
-  Vec2 hi = Vec2(-1e300, -1e300);
-
-  void include(const Vec2& point) {
-    lo = lo.cwiseMin(point);
-    hi = hi.cwiseMax(point);
-  }
-  void include(const Box& other) {
-    lo = lo.cwiseMin(other.lo);
-    hi = hi.cwiseMax(other.hi);
-  }
-  Vec2 size() const { return hi - lo; }
-  Vec2 centre() const { return 0.5 * (lo + hi); }
-};
-
-Box bounds(const std::vector<Vec2>& points);
 
 }  // namespace rollfix::draw

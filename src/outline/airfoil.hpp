@@ -2,9 +2,18 @@
 
 #include <string>
 
-#include "outline/numbered_points.hpp"
+#include <cstddef>
+#include <vector>
+#include "rollfix/outline/curve.hpp"
 
 namespace rollfix {
+
+/// Points with the lines of the file that they came from.
+struct NumberedPoints {
+  std::vector<Vec2> points;
+  std::vector<std::size_t> lines;
+  bool has_title = false;
+};
 
 /// Airfoil files come in two orders. Selig's is the points of one loop, from the trailing edge over the top to the nose
 /// and back below. Lednicer's has a line with the numbers of points above and below, then both surfaces from the nose

@@ -2,7 +2,16 @@
 
 #include <cmath>
 
-#include "outline/reversed_kind.hpp"
+#include <fmt/format.h>
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string_view>
+#include <utility>
+#include <vector>
+#include "outline/turning_span.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/outline/primitives.hpp"
 
 namespace rollfix {
 
@@ -21,6 +30,9 @@ double curvature_rate(const Jet& jet) {
 
 namespace {
 
+/// What the record of a reversed curve has before its kind.
+constexpr std::string_view kReversedPrefix = "reversed ";
+
 struct Reversed {
   Curve original;
 
@@ -33,7 +45,7 @@ struct Reversed {
   Vec2 velocity(double u) const { return -original.velocity(mirror(u)); }
   std::optional<CurveRecord> record() const {
     std::optional<CurveRecord> record = original.record();
-    if (record) record->kind = kReversedPrefix + record->kind;
+    if (record) record->kind.insert(0, kReversedPrefix);
     return record;
   }
 };
@@ -41,5 +53,124 @@ struct Reversed {
 }  // namespace
 
 Curve reversed(const Curve& curve) { return Reversed{curve}; }
+
+namespace {
+
+/// Hands out the numbers of a record one after the other.
+class Numbers {
+ public:
+  explicit Numbers(const std::vector<double>& all) : all_(all) {}
+
+  bool left() const { return next_ < all_.size(); }
+  double number() { return all_[next_++]; }
+  Vec2 point() {
+    const double x = number();
+    return {x, number()};
+  }
+
+ private:
+  const std::vector<double>& all_;
+  std::size_t next_ = 0;
+};
+
+struct WrittenControls {
+  std::vector<Vec2> points;
+  std::vector<double> weights;
+};
+
+WrittenControls controls(Numbers& numbers, bool rational) {
+  WrittenControls result;
+  while (numbers.left()) {
+    result.points.push_back(numbers.point());
+    if (rational) result.weights.push_back(numbers.number());
+  }
+  return result;
+}
+
+Curve line(Numbers& numbers) {
+  const Vec2 from = numbers.point();
+  return Line(from, numbers.point());
+}
+
+Curve arc(Numbers& numbers) {
+  const Vec2 centre = numbers.point();
+  const double radius = numbers.number();
+  const double from = numbers.number();
+  return Arc(centre, radius, from, numbers.number());
+}
+
+Curve elliptic_arc(Numbers& numbers) {
+  const Vec2 centre = numbers.point();
+  const Vec2 major = numbers.point();
+  const Vec2 minor = numbers.point();
+  const double from = numbers.number();
+  return EllipticArc(centre, major, minor, from, numbers.number());
+}
+
+Curve cubic(Numbers& numbers) {
+  const Vec2 from = numbers.point();
+  const Vec2 to = numbers.point();
+  const Vec2 square = numbers.point();
+  return CubicSpan(from, to, square, numbers.point());
+}
+
+Curve turning_span(Numbers& numbers) {
+  const Vec2 start = numbers.point();
+  TurningSpan::Cubic turning{};
+  for (double& power : turning) power = numbers.number();
+  return TurningSpan(start, turning, numbers.number());
+}
+
+template <bool Rational>
+Curve bezier(Numbers& numbers) {
+  WrittenControls all = controls(numbers, Rational);
+  return Bezier(std::move(all.points), std::move(all.weights));
+}
+
+template <bool Rational, Rest End>
+Curve resting_bezier(Numbers& numbers) {
+  WrittenControls all = controls(numbers, Rational);
+  return BezierFromRest(std::move(all.points), std::move(all.weights), End);
+}
+
+struct Kind {
+  std::string_view name;
+  std::size_t numbers;  // that it takes, or ...
+  bool or_a_multiple;   // ... a multiple of it
+  Curve (*make)(Numbers&);
+};
+
+constexpr std::array<Kind, 11> kKinds = {{
+    {"line", 4, false, line},
+    {"arc", 5, false, arc},
+    {"elliptic-arc", 8, false, elliptic_arc},
+    {"cubic", 8, false, cubic},
+    {"turning", 7, false, turning_span},
+    {"bezier", 2, true, bezier<false>},
+    {"rational-bezier", 3, true, bezier<true>},
+    {"bezier-from-rest", 2, true, resting_bezier<false, Rest::start>},
+    {"bezier-to-rest", 2, true, resting_bezier<false, Rest::end>},
+    {"rational-bezier-from-rest", 3, true, resting_bezier<true, Rest::start>},
+    {"rational-bezier-to-rest", 3, true, resting_bezier<true, Rest::end>},
+}};
+
+}  // namespace
+
+Curve curve_from(const CurveRecord& record) {
+  if (record.kind.rfind(kReversedPrefix, 0) == 0) {
+    return reversed(curve_from({record.kind.substr(kReversedPrefix.size()), record.numbers}));
+  }
+  const auto* const kind =
+      std::find_if(kKinds.begin(), kKinds.end(), [&](const Kind& one) { return one.name == record.kind; });
+  if (kind == kKinds.end()) throw InputError(fmt::format("the curve kind '{}' is not known", record.kind));
+  const std::size_t count = record.numbers.size();
+  const bool fits = kind->or_a_multiple ? count % kind->numbers == 0 : count == kind->numbers;
+  if (!fits) {
+    throw InputError(fmt::format("a curve of kind '{}' takes {} numbers{}, found {}", record.kind, kind->numbers,
+                                 kind->or_a_multiple ? " for each control point" : "", count));
+  }
+  Numbers numbers(record.numbers);
+  return kind->make(numbers);
+}
 
 }  // namespace rollfix

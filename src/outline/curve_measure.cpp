@@ -27,7 +27,8 @@ bool is_line(const Curve& curve) {
 CurveMeasure measure(const Curve& curve) {
   const Interval domain = curve.domain();
   CurveMeasure result;
-  result.front = result.origin = result.lo = result.hi = curve.front();
+  result.front = result.origin = curve.front();
+  result.box.extend(result.front);
   result.back = curve.back();
   result.middle = curve.position(domain.middle());
   const bool straight = is_line(curve);
@@ -35,8 +36,7 @@ CurveMeasure measure(const Curve& curve) {
     const Vec2 point = k == kPointsPerCurve || straight
                            ? result.back
                            : curve.position(domain.lo + domain.width() * k / kPointsPerCurve);
-    result.lo = result.lo.cwiseMin(point);
-    result.hi = result.hi.cwiseMax(point);
+    result.box.extend(point);
     if (straight) break;
   }
   if (straight) {
@@ -57,7 +57,7 @@ CurveMeasure measure(const Curve& curve) {
 }
 
 bool Polygon::contains(const Vec2& point) const {
-  if ((point.array() < lo.array()).any() || (point.array() > hi.array()).any()) return false;
+  if (!box.contains(point)) return false;
   bool inside = false;
   for (std::size_t k = 0; k < points.size(); ++k) {
     const Vec2& a = points[k];
@@ -76,11 +76,7 @@ Polygon polygon_of(const Outline& outline) {
     const int count = is_line(curve) ? 1 : kPointsPerCurve;
     for (int k = 0; k < count; ++k) result.points.push_back(curve.position(domain.lo + domain.width() * k / count));
   }
-  result.lo = result.hi = result.points.front();
-  for (const Vec2& point : result.points) {
-    result.lo = result.lo.cwiseMin(point);
-    result.hi = result.hi.cwiseMax(point);
-  }
+  result.box = box_around(result.points);
   return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "outline/box.hpp"
 #include "rollfix/outline/outline.hpp"
 
 namespace rollfix {
@@ -11,8 +12,7 @@ struct CurveMeasure {
   Vec2 front;
   Vec2 back;
   Vec2 middle;  // at the middle of its parameter
-  Vec2 lo;      // of a box around points of it, its ends among them
-  Vec2 hi;
+  Box box;      // around points of it, its ends among them
   double length = 0;
   Vec2 origin;            // its front
   double twice_area = 0;  // swept by the ray from `origin`, counter-clockwise
@@ -23,8 +23,7 @@ CurveMeasure measure(const Curve& curve);
 /// Points of a closed outline, for asking what lies inside.
 struct Polygon {
   std::vector<Vec2> points;
-  Vec2 lo;
-  Vec2 hi;
+  Box box;
 
   bool contains(const Vec2& point) const;
 };

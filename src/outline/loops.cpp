@@ -45,13 +45,9 @@ class Assembler {
     }
     measures_.reserve(drawing.curves.size());
     for (const DrawnCurve& drawn : drawing.curves) measures_.push_back(measure(drawn.curve));
-    Vec2 lo = measures_.front().lo;
-    Vec2 hi = measures_.front().hi;
-    for (const CurveMeasure& one : measures_) {
-      lo = lo.cwiseMin(one.lo);
-      hi = hi.cwiseMax(one.hi);
-    }
-    const double size = (hi - lo).norm();
+    Box all;
+    for (const CurveMeasure& one : measures_) all.extend(one.box);
+    const double size = all.diagonal().norm();
     gap_ = std::max(options.gap.value_or(kGapShare * size), kRoundingShare * size);
   }
 
@@ -73,7 +69,7 @@ class Assembler {
     std::size_t tiny = 0;
     std::vector<std::size_t> rest;
     for (std::size_t k = 0; k < measures_.size(); ++k) {
-      if ((measured(k).hi - measured(k).lo).norm() <= gap_) {
+      if (measured(k).box.diagonal().norm() <= gap_) {
         ++tiny;
       } else {
         rest.push_back(k);
@@ -112,7 +108,7 @@ class Assembler {
   bool is_same(const CurveMeasure& a, const CurveMeasure& b) const {
     const bool same_ends = (meet(a.front, b.front) && meet(a.back, b.back)) ||  //
                            (meet(a.front, b.back) && meet(a.back, b.front));
-    return same_ends && meet(a.middle, b.middle) && meet(a.lo, b.lo) && meet(a.hi, b.hi);
+    return same_ends && meet(a.middle, b.middle) && meet(a.box.min(), b.box.min()) && meet(a.box.max(), b.box.max());
   }
 
   /// What one entity draws in a row belongs together, also where it passes one of its own points again.

@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "outline/airfoil.hpp"
-#include "outline/numbered_points.hpp"
+#include "outline/box.hpp"
 #include "rollfix/error.hpp"
 #include "text/number.hpp"
 #include "text/text.hpp"
@@ -117,17 +117,6 @@ NumberedPoints read_lines(std::string_view text, const std::string& name) {
   return result;
 }
 
-/// The bounding box's diagonal.
-double size_of(const std::vector<Vec2>& points) {
-  Vec2 least = points.front();
-  Vec2 most = points.front();
-  for (const Vec2& point : points) {
-    least = least.cwiseMin(point);
-    most = most.cwiseMax(point);
-  }
-  return (most - least).norm();
-}
-
 void require_enough(const NumberedPoints& data, const std::string& name, const OutlineOptions& options) {
   const std::size_t count = data.points.size();
   const std::size_t needed = options.open ? 2 : 3;
@@ -175,7 +164,7 @@ std::vector<Vec2> parse_points(std::string_view text, const std::string& name, c
   const std::string airfoil = order_airfoil(data, name);
   if (!airfoil.empty() && notes != nullptr) notes->push_back(fmt::format("{}: {}", name, airfoil));
   if (data.points.size() < 2) require_enough(data, name, options);
-  const double size = size_of(data.points);
+  const double size = box_around(data.points).diagonal().norm();
   if (!(size > 0)) {
     throw InputError(fmt::format("{}: all {} points are the same, ({}, {})", name, data.points.size(),
                                  data.points.front().x(), data.points.front().y()));

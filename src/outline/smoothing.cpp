@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "outline/box.hpp"
 #include "outline/fitted_spline.hpp"
 #include "outline/scan_corners.hpp"
 #include "rollfix/error.hpp"
@@ -45,13 +46,7 @@ std::vector<Vec2> distinct(const std::vector<Vec2>& points, bool closed) {
 }
 
 void require_tolerance(const std::vector<Vec2>& points, double tolerance) {
-  Vec2 least = points.front();
-  Vec2 most = points.front();
-  for (const Vec2& point : points) {
-    least = least.cwiseMin(point);
-    most = most.cwiseMax(point);
-  }
-  const double size = (most - least).norm();
+  const double size = box_around(points).diagonal().norm();
   if (tolerance > 0 && tolerance <= kMostSmoothing * size) return;
   throw InputError(
       fmt::format("points smoothed within {}: expected a length above 0 and at most {:.4g}, a twentieth of the part's "

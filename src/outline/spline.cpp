@@ -8,13 +8,60 @@
 #include <limits>
 #include <utility>
 
-#include "outline/tridiagonal.hpp"
+#include <vector>
 #include "rollfix/error.hpp"
+#include "rollfix/outline/curve.hpp"
 #include "rollfix/outline/primitives.hpp"
 
 namespace rollfix {
 
 namespace {
+
+/// A symmetric, strictly diagonally dominant tridiagonal system, cyclic where `wrap` is not zero:
+///   off[i-1] x[i-1] + diagonal[i] x[i] + off[i] x[i+1] = right[i],
+/// with off[i] between unknowns i and i + 1 (the last entry is not used), and `wrap` between the last and the first
+/// (then at least 3 unknowns).
+struct TridiagonalSystem {
+  std::vector<double> diagonal;
+  std::vector<double> off;
+  double wrap = 0;
+  std::vector<Vec2> right;
+};
+
+/// The solution. Elimination needs no pivoting because the diagonal dominates.
+std::vector<Vec2> solve(TridiagonalSystem system) {
+  std::vector<double>& diagonal = system.diagonal;
+  const std::vector<double>& off = system.off;
+  const double wrap = system.wrap;
+  std::vector<Vec2>& right = system.right;
+  const std::size_t last = diagonal.size() - 1;
+  // border[i]: what elimination leaves between unknown i and the last one.
+  std::vector<double> border(last, 0.0);
+  if (last > 0) {
+    border[0] = wrap;
+    for (std::size_t i = 0; i + 1 < last; ++i) {
+      const double factor = off[i] / diagonal[i];
+      diagonal[i + 1] -= factor * off[i];
+      border[i + 1] = -factor * border[i];
+      right[i + 1] -= factor * right[i];
+      const double last_factor = border[i] / diagonal[i];
+      diagonal[last] -= last_factor * border[i];
+      right[last] -= last_factor * right[i];
+    }
+    border[last - 1] += off[last - 1];
+    const double factor = border[last - 1] / diagonal[last - 1];
+    diagonal[last] -= factor * border[last - 1];
+    right[last] -= factor * right[last - 1];
+  }
+  std::vector<Vec2>& solution = right;
+  solution[last] /= diagonal[last];
+  for (std::size_t i = last; i-- > 0;) {
+    solution[i] -= border[i] * solution[last];
+    if (i + 1 < last) solution[i] -= off[i] * solution[i + 1];
+    solution[i] /= diagonal[i];
+  }
+  return std::move(solution);
+}
 
 /// Points that are off a straight line by this share of their largest coordinate are on it: rounding of the input.
 constexpr double kStraight = 4 * std::numeric_limits<double>::epsilon();

@@ -89,7 +89,7 @@ Placement Canvas::placement_of(const Entity& entity, const Placement& outer) con
 
 void Canvas::require_flat() const {
   if (!any_) return;
-  const double size = (most_ - least_).norm();
+  const double size = box_.diagonal().norm();
   const double deviation = std::abs(other_height_ - first_height_);
   if (deviation > kSameHeight * size) {
     dxf::refuse(
@@ -109,12 +109,10 @@ Vec2 Canvas::placed(const Placement& placement, const Vec3& point) {
                        height, kMostNumber));
   }
   if (!any_) {
-    least_ = most_ = result;
     first_height_ = other_height_ = height;
     any_ = true;
   }
-  least_ = least_.cwiseMin(result);
-  most_ = most_.cwiseMax(result);
+  box_.extend(result);
   if (std::abs(height - first_height_) > std::abs(other_height_ - first_height_)) {
     other_height_ = height;
     other_place_ = entity_->place;

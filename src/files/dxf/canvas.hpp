@@ -8,6 +8,7 @@
 #include "files/dxf/placement.hpp"
 #include "files/dxf/tags.hpp"
 #include "files/dxf/tally.hpp"
+#include "outline/box.hpp"
 #include "rollfix/outline/loops.hpp"
 
 namespace rollfix::dxf {
@@ -60,8 +61,7 @@ class Canvas {
   const Entity* entity_ = nullptr;  // being drawn
   std::size_t layer_ = 0;
 
-  Vec2 least_ = Vec2::Zero();  // of all points
-  Vec2 most_ = Vec2::Zero();
+  Box box_;  // around all points
   bool any_ = false;
   double first_height_ = 0;
   double other_height_ = 0;  // the farthest from the first

@@ -1,12 +1,203 @@
 #include "files/dxf/dxf.hpp"
 
-#include <memory>
+#include <fmt/format.h>
 
-#include "files/dxf/expand.hpp"
+#include <algorithm>
+#include <optional>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include "files/dxf/canvas.hpp"
 #include "files/dxf/model.hpp"
+#include "files/dxf/placement.hpp"
 #include "files/dxf/read.hpp"
 #include "files/dxf/tags.hpp"
-#include "files/dxf/units.hpp"
+#include "files/dxf/tally.hpp"
+#include "files/dxf/text.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/outline/loops.hpp"
+#include "rollfix/outline/primitives.hpp"
+#include "text/text.hpp"
+
+namespace rollfix::dxf {
+
+namespace {
+
+/// As many curves, points and cells of arrays may come out of INSERTs: ten times what a large drawing has. A file of a
+/// few hundred bytes could ask for any number.
+constexpr std::size_t kMostInserted = 1'000'000;
+/// INSERTs may be nested as deep.
+constexpr int kMostNested = 100;
+
+/// By the number that $INSUNITS has; 0 is no unit.
+constexpr std::array<const char*, 25> kUnits = {"",    "in", "ft",       "mi",    "mm",    "cm",    "m",    "km", "uin",
+                                                "mil", "yd", "angstrom", "nm",    "um",    "dm",    "dam",  "hm", "Gm",
+                                                "au",  "ly", "pc",       "us-ft", "us-in", "us-yd", "us-mi"};
+
+/// Sets the drawing's unit from $INSUNITS, or where that says nothing from $MEASUREMENT, and notes the latter.
+void set_unit(const Model& model, Drawing& drawing) {
+  const std::int64_t number = model.units.value_or(0);
+  if (number > 0 && number < static_cast<std::int64_t>(kUnits.size())) {
+    drawing.unit = kUnits[static_cast<std::size_t>(number)];
+    return;
+  }
+  if (number != 0) {
+    drawing.notes.push_back(
+        fmt::format("the header's unit ($INSUNITS) is {}, which means nothing: none is taken", number));
+    return;
+  }
+  if (!model.measurement || *model.measurement < 0 || *model.measurement > 1) return;
+  drawing.unit = *model.measurement == 1 ? "mm" : "in";
+  drawing.notes.push_back(fmt::format("the header names no unit, but says {} ($MEASUREMENT): taken as {}",
+                                      *model.measurement == 1 ? "metric" : "English", drawing.unit));
+}
+
+/// How much a shape brings to the drawing, counted in lines.
+std::size_t cost_of(const Shape& shape) {
+  if (const auto* line = std::get_if<PolylineShape>(&shape)) return 1 + line->vertices.size();
+  if (const auto* spline = std::get_if<SplineShape>(&shape)) {
+    // A piece of a spline holds degree + 1 points.
+    const auto points_of_a_piece = static_cast<std::size_t>(std::clamp<std::int64_t>(spline->degree, 0, kMostDegree));
+    return 1 + (spline->controls.size() + spline->fits.size()) * (1 + points_of_a_piece / 4);
+  }
+  return 1;
+}
+
+class Expansion {
+ public:
+  Expansion(const Model& model, const TagReader& reader, const std::string& layer, Drawing& drawing)
+      : model_(model), reader_(reader), canvas_(reader, model, drawing, tally_), open_(model.blocks.size(), false) {
+    if (!layer.empty()) wanted_ = number_of(layer, drawing.name);
+  }
+
+  /// Draws entities that a block holds, or the drawing itself: `insert_layer` is then layer 0.
+  void draw_all(const std::vector<Entity>& entities, const Placement& placement, std::size_t insert_layer) {
+    for (const Entity& entity : entities) {
+      // What lies on layer 0 of a block goes with its INSERT.
+      const std::size_t layer = entity.layer == kLayerZero ? insert_layer : entity.layer;
+      if (depth_ > 0) spend(cost_of(entity.shape), entity.place);
+      if (const auto* insert = std::get_if<InsertShape>(&entity.shape)) {
+        draw_insert(entity, *insert, placement, layer);
+      } else if (is_shown(entity, layer)) {
+        canvas_.draw(entity, placement, layer);
+      }
+    }
+  }
+
+  const Tally& tally() const { return tally_; }
+  const Canvas& canvas() const { return canvas_; }
+
+ private:
+  std::size_t number_of(const std::string& wanted, const std::string& name) const {
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < model_.layer_names.size(); ++k) {
+      names.push_back(model_.layer_names.name(k));
+      if (folded(names.back()) == folded(wanted)) return k;
+    }
+    throw InputError(fmt::format("{}: has no layer '{}'; {}", name, wanted, known_names(wanted, names)));
+  }
+
+  /// A layer that was asked for is shown even where it is off.
+  bool is_hidden(std::size_t layer, bool as_a_whole) const {
+    const Layer& its = model_.layers[layer];
+    return layer != wanted_ && (its.frozen || (its.off && !as_a_whole));
+  }
+
+  /// Counts what is not.
+  bool is_shown(const Entity& entity, std::size_t layer) {
+    if (!shows_any(entity, layer)) return false;
+    if (wanted_ && layer != *wanted_) {
+      ++tally_.other_layers;
+    } else if (is_hidden(layer, false)) {
+      ++tally_.hidden;
+    } else {
+      return true;
+    }
+    return false;
+  }
+
+  /// Whether the entity, or if it is an INSERT anything of it, is shown: where its layer is off that goes on.
+  bool shows_any(const Entity& entity, std::size_t layer) {
+    if (entity.paper && depth_ == 0) {
+      ++tally_.paper;
+    } else if (entity.invisible) {
+      ++tally_.invisible;
+    } else if (is_hidden(layer, true) && !wanted_) {
+      ++tally_.hidden;
+    } else {
+      return true;
+    }
+    return false;
+  }
+
+  void draw_insert(const Entity& entity, const InsertShape& insert, const Placement& placement, std::size_t layer) {
+    if (!shows_any(entity, layer)) return;
+    const Block& block = model_.blocks[insert.block];
+    const std::string name = shown(model_.block_names.name(insert.block));
+    if (!block.defined) {
+      refuse(reader_, entity.place, fmt::format("INSERT of block '{}', which the file does not have", name));
+    }
+    if (block.external) {
+      ++tally_.others["INSERT of another file"];
+      return;
+    }
+    if (open_[insert.block]) {
+      refuse(reader_, entity.place, fmt::format("INSERT of block '{}' inside itself: that has no end", name));
+    }
+    if (depth_ == kMostNested) {
+      refuse(reader_, entity.place, fmt::format("INSERT of block '{}' is nested more than {} deep", name, kMostNested));
+    }
+    if (insert.scale.head<2>().cwiseAbs().minCoeff() == 0) {
+      refuse(reader_, entity.place, fmt::format("INSERT of block '{}' has a scale of 0, expected another", name));
+    }
+    const Placement here = canvas_.placement_of(entity, placement);
+    open_[insert.block] = true;
+    ++depth_;
+    for (std::int64_t row = 0; row < insert.rows; ++row) {
+      for (std::int64_t column = 0; column < insert.columns; ++column) {
+        spend(1, entity.place);
+        draw_all(block.entities, composed(here, cell_of(insert, block.base, column, row)), layer);
+      }
+    }
+    --depth_;
+    open_[insert.block] = false;
+  }
+
+  void spend(std::size_t cost, std::size_t place) {
+    spent_ += cost;
+    if (spent_ <= kMostInserted) return;
+    refuse(reader_, place,
+           fmt::format("up to here the INSERTs bring more than {} curves, points and cells, expected fewer",
+                       kMostInserted));
+  }
+
+  const Model& model_;
+  const TagReader& reader_;
+  Tally tally_;
+  Canvas canvas_;
+  std::optional<std::size_t> wanted_;  // layer
+  std::vector<bool> open_;             // blocks that are being drawn
+  int depth_ = 0;
+  std::size_t spent_ = 0;
+};
+
+/// Draws all that is shown of the file, or what is on the layer (empty: any), into the drawing's curves and notes.
+/// Throws InputError: no such layer or block, nesting without end, more than kMostInserted.
+void expand(const Model& model, const TagReader& reader, const std::string& layer, Drawing& drawing) {
+  Expansion expansion(model, reader, layer, drawing);
+  expansion.draw_all(model.entities, {}, kLayerZero);
+  std::vector<std::string> notes = notes_of(expansion.tally(), layer);
+  drawing.notes.insert(drawing.notes.end(), notes.begin(), notes.end());
+  expansion.canvas().require_flat();
+}
+
+}  // namespace
+}  // namespace rollfix::dxf
 
 namespace rollfix {
 

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "files/dxf/entity_tags.hpp"
-#include "files/dxf/polylines.hpp"
 #include "files/dxf/read.hpp"
 #include "files/dxf/text.hpp"
 

@@ -58,4 +58,10 @@ class EntityTags {
   bool in_embedded_ = false;  // behind 101
 };
 
+/// LWPOLYLINE. Throws InputError.
+Shape read_light_polyline(EntityTags& tags);
+
+/// POLYLINE with its VERTEX records up to SEQEND; a mesh is an OtherShape. Throws InputError.
+Shape read_polyline(EntityTags& tags);
+
 }  // namespace rollfix::dxf

@@ -1,4 +1,4 @@
-#include "files/dxf/polylines.hpp"
+#include "files/dxf/entity_tags.hpp"
 
 #include <fmt/format.h>
 

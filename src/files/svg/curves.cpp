@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "outline/box.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline/points.hpp"
 #include "rollfix/outline/primitives.hpp"
@@ -19,11 +20,11 @@ constexpr double kMostCoordinate = 1e75;
 /// Half axes of one length and at right angles, but for rounding, are a circle's.
 constexpr double kRound = 1e-14;
 
-class Box {
+/// The box around a drawing, and whether its numbers can be worked with.
+class Bounds {
  public:
   void add(const Vec2& point) {
-    least_ = least_.cwiseMin(point);
-    most_ = most_.cwiseMax(point);
+    box_.extend(point);
     valid_ = valid_ && point.cwiseAbs().maxCoeff() <= kMostCoordinate && !point.hasNaN();
   }
 
@@ -42,11 +43,10 @@ class Box {
   }
 
   bool valid() const { return valid_; }
-  double diagonal() const { return least_.x() <= most_.x() ? (most_ - least_).norm() : 0; }
+  double diagonal() const { return box_.isEmpty() ? 0 : box_.diagonal().norm(); }
 
  private:
-  Vec2 least_ = Vec2::Constant(std::numeric_limits<double>::infinity());
-  Vec2 most_ = -least_;
+  Box box_;
   bool valid_ = true;
 };
 
@@ -113,7 +113,7 @@ std::vector<Segment> chained(Subpath path, double same_point, std::size_t& witho
 }  // namespace
 
 Curves to_curves(std::vector<PlacedSubpath> subpaths, const Text& file) {
-  Box box;
+  Bounds box;
   for (const PlacedSubpath& subpath : subpaths) {
     for (const Segment& segment : subpath.path.segments) box.add(segment);
     if (!box.valid()) {

@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "files/svg/context.hpp"
 #include "files/svg/segment.hpp"
+#include "files/svg/value.hpp"
 #include "rollfix/outline/loops.hpp"
 
 namespace rollfix::svg {

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "files/svg/context.hpp"
+#include "files/svg/value.hpp"
 
 namespace rollfix::svg {
 

@@ -13,9 +13,9 @@
 
 #include "files/svg/curves.hpp"
 #include "files/svg/document.hpp"
-#include "files/svg/length.hpp"
 #include "files/svg/shapes.hpp"
 #include "files/svg/transform.hpp"
+#include "files/svg/value.hpp"
 #include "text/text.hpp"
 
 namespace rollfix {

@@ -8,8 +8,7 @@
 #include <numbers>
 #include <optional>
 
-#include "files/svg/length.hpp"
-#include "files/svg/path.hpp"
+#include "files/svg/value.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::svg {

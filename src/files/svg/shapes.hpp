@@ -5,6 +5,7 @@
 
 #include "files/svg/document.hpp"
 #include "files/svg/segment.hpp"
+#include "files/svg/value.hpp"
 
 namespace rollfix::svg {
 
@@ -17,5 +18,12 @@ std::vector<Subpath> shape(const Document& document, pugi::xml_node node, const 
 
 /// A length in user units. Throws InputError: a unit or a percentage of something unknown.
 double user_units(const Value& value, double fallback, double whole);
+
+/// The subpaths of a `d` attribute, without those that are only a "move to". Throws InputError with the place of what
+/// is not SVG's path grammar: unlike a viewer, which would draw what comes before it.
+std::vector<Subpath> parse_path(const Value& data);
+
+/// The points of a `points` attribute.
+std::vector<Vec2> parse_point_list(const Value& points);
 
 }  // namespace rollfix::svg

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string>
 
-#include "files/svg/scanner.hpp"
+#include "files/svg/value.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::svg {

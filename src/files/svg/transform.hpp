@@ -1,7 +1,7 @@
 #pragma once
 
-#include "files/svg/context.hpp"
 #include "files/svg/segment.hpp"
+#include "files/svg/value.hpp"
 
 namespace rollfix::svg {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "outline/gallery_parameters.hpp"
+#include "outline/shapes/parameters.hpp"
 #include "rollfix/outline/curve.hpp"
 
 /// The gallery's shapes, each from its checked parameters.
@@ -23,13 +23,11 @@ Curves gear(const Parameters& parameters);
 // naca.cpp
 Curves naca(const Parameters& parameters);
 
-// drafted.cpp: lines and arcs
+// drafted.cpp: lines and arcs, and a spline
 Curves reuleaux(const Parameters& parameters);
 Curves stadium(const Parameters& parameters);
 Curves rounded_rectangle(const Parameters& parameters);
 Curves polygon(const Parameters& parameters);
-
-// freehand.cpp
 Curves spline(const Parameters& parameters);
 
 // open.cpp

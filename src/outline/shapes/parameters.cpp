@@ -1,4 +1,4 @@
-#include "outline/gallery_parameters.hpp"
+#include "outline/shapes/parameters.hpp"
 
 #include <fmt/format.h>
 

@@ -1,15 +1,44 @@
 #pragma once
 
 #include <fmt/format.h>
-
 #include <cmath>
+#include <cstddef>
+#include <optional>
 #include <string>
-
-#include "files/svg/context.hpp"
+#include <string_view>
+#include <vector>
 #include "text/number.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::svg {
+
+/// The file as it was given: where something stands in it, and how to say so.
+class Text {
+ public:
+  Text(std::string_view text, std::string name);
+
+  /// The line of the byte at this offset, counted from 1.
+  std::size_t line_at(std::size_t offset) const;
+
+  /// Throws InputError "name:line: message".
+  [[noreturn]] void refuse(std::size_t offset, const std::string& message) const;
+
+ private:
+  std::string name_;
+  std::vector<std::size_t> newlines_;
+  std::size_t size_;
+};
+
+/// An attribute's value with the place it stands at.
+struct Value {
+  const Text& file;
+  std::string_view text;
+  std::size_t offset = 0;  // of its first character in the file
+
+  [[noreturn]] void refuse(const char* cursor, const std::string& message) const {
+    file.refuse(offset + static_cast<std::size_t>(cursor - text.data()), message);
+  }
+};
 
 inline bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f'; }
 inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -84,5 +113,22 @@ class Scanner {
   const char* cursor_;
   const char* end_;
 };
+
+/// A number with a unit.
+struct Length {
+  double number = 0;
+  std::string_view unit;  // "", "px", "mm", "%", ...
+
+  /// In a unit of the world: millimetres, not pixels.
+  bool is_physical() const;
+  /// In user units of 1/96 inch; `whole` is what 100% is. Nothing for a unit that depends on a font or a window.
+  std::optional<double> in_user_units(double whole) const;
+};
+
+/// Nothing for "auto". Throws InputError with the place: not a number with or without a unit.
+std::optional<Length> parse_length(const Value& value);
+
+/// Millimetres in a user unit.
+inline constexpr double kUserUnit = 25.4 / 96;
 
 }  // namespace rollfix::svg
