@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "draw/labels.hpp"
-#include "draw/numerals.hpp"
+#include "draw/plot.hpp"
 #include "draw/offset.hpp"
 #include "draw/rolls.hpp"
 #include "random.hpp"

@@ -62,19 +62,6 @@ void replace(const OutputFile& file) {
 
 }  // namespace
 
-std::string read_file(const std::string& path) {
-  const fs::file_status status = status_of(path);
-  if (!fs::exists(status)) throw InputError(fmt::format("{}: there is no such file", path));
-  if (fs::is_directory(status)) throw InputError(fmt::format("{}: is a directory, expected a file", path));
-  const File file(std::fopen(path.c_str(), "rb"));
-  if (!file) fail(path, "read", errno);
-  std::string text;
-  std::string block(1 << 16, '\0');
-  while (const std::size_t count = std::fread(block.data(), 1, block.size(), file.get())) text.append(block, 0, count);
-  if (std::ferror(file.get()) != 0) fail(path, "read", errno);
-  return text;
-}
-
 void require_writable(const std::string& path, bool force) {
   if (path.empty()) throw InputError("-o: expected the name of a file, found nothing");
   const fs::file_status status = status_of(path);

@@ -5,9 +5,6 @@
 
 namespace rollfix::app {
 
-/// The whole of a file. Throws InputError: missing, a directory, or not readable.
-std::string read_file(const std::string& path);
-
 /// A file that is to be written.
 struct OutputFile {
   std::string path;

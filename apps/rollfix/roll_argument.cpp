@@ -8,6 +8,7 @@
 #include "rollfix/error.hpp"
 #include "rollfix/observation.hpp"
 #include "rollfix/typed_number.hpp"
+#include "text/text.hpp"
 
 namespace rollfix::app {
 
@@ -27,8 +28,8 @@ ChosenRoll read_roll(const std::vector<std::string>& paths, const std::string& r
   std::vector<std::vector<Log>> rolls = read_rolls_of_fingers(paths.front());
   const std::size_t count = rolls.size();
   if (number > count) {
-    throw InputError(fmt::format("--roll {}: {} holds {} roll{}, expected a number from 1 to {}", number, paths.front(),
-                                 count, count == 1 ? "" : "s", count));
+    throw InputError(fmt::format("--roll {}: {} holds {}, expected a number from 1 to {}", number, paths.front(),
+                                 counted(count, "roll", "rolls"), count));
   }
   const std::size_t chosen = number > 0 ? number : count;
   ChosenRoll result{std::move(rolls[chosen - 1]), ""};

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
 #include "outline/turn.hpp"
 
 namespace rollfix::app {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
 #include "outline/turn.hpp"
 
 namespace rollfix {

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
 #include "text/text.hpp"
 
 namespace rollfix {

@@ -4,7 +4,6 @@
 #include <functional>
 
 #include "legend.hpp"
-#include "numerals.hpp"
 #include "plot.hpp"
 #include "scene.hpp"
 

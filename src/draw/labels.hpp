@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <string_view>
 #include <vector>
 
-#include <string_view>
 #include "rollfix/draw/svg.hpp"
 #include "rollfix/outline/curve.hpp"
 #include "trace.hpp"

@@ -1,10 +1,10 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <string_view>
 #include <vector>
 
-#include <array>
-#include <cstddef>
 #include "rollfix/draw/svg.hpp"
 
 namespace rollfix::draw {
@@ -19,7 +19,6 @@ inline std::string_view colour(std::size_t number) { return kPalette[number % kP
 
 constexpr std::string_view kInk = "#222222";       // text and the boundary
 constexpr std::string_view kSoftInk = "#666666";   // text of less weight
-constexpr std::string_view kPale = "#c4c4c4";      // lines of less weight
 constexpr std::string_view kBlocked = "#b2182b";   // where a finger can't go
 constexpr std::string_view kMaterial = "#f3efe6";  // the part's inside
 

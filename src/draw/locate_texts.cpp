@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "numerals.hpp"
+#include "plot.hpp"
 
 namespace rollfix::draw {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "legend.hpp"
-#include "numerals.hpp"
+#include "plot.hpp"
 #include "roll_pen.hpp"
 #include "rollfix/error.hpp"
 #include "rolls.hpp"

@@ -7,7 +7,6 @@
 
 #include "labels.hpp"
 #include "legend.hpp"
-#include "numerals.hpp"
 #include "outline/turn.hpp"
 #include "plot.hpp"
 #include "rollfix/error.hpp"

@@ -1,19 +1,19 @@
 #include "rollfix/draw/svg.hpp"
 
+#include <cairo-pdf.h>
+#include <cairo.h>
 #include <fmt/format.h>
+#include <librsvg/rsvg.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
-
-#include <cairo-pdf.h>
-#include <cairo.h>
-#include <librsvg/rsvg.h>
-#include <cmath>
 #include <memory>
+
 #include "rollfix/error.hpp"
 #include "text/text.hpp"
 

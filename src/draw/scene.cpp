@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "legend.hpp"
-#include "numerals.hpp"
+#include "plot.hpp"
 #include "offset.hpp"
 
 namespace rollfix::draw {

@@ -32,7 +32,7 @@ constexpr std::string_view kBinaryDxf = "AutoCAD Binary DXF";
 
 FileKind kind_by_beginning(std::string_view text) {
   if (text.substr(0, kBinaryDxf.size()) == kBinaryDxf) return FileKind::dxf;
-  if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
+  text = without_mark(text);
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos) return FileKind::points;
   if (text[first] == '<') return FileKind::svg;

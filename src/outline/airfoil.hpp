@@ -1,9 +1,9 @@
 #pragma once
 
-#include <string>
-
 #include <cstddef>
+#include <string>
 #include <vector>
+
 #include "rollfix/outline/curve.hpp"
 
 namespace rollfix {

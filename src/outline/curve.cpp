@@ -1,14 +1,15 @@
 #include "rollfix/outline/curve.hpp"
 
-#include <cmath>
-
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <string_view>
 #include <utility>
 #include <vector>
+
 #include "outline/turning_span.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline/primitives.hpp"

@@ -42,8 +42,8 @@ constexpr bool kSmooth = true;
 constexpr bool kCorners = false;
 constexpr double kMostSeed = 9007199254740992;  // 2^53: every whole number up to it is a double
 
-const std::vector<Entry>& entries() {
-  static const std::vector<Entry> table = {
+std::vector<Entry> round_shapes() {
+  return {
       {{"circle",
         "x = r cos u, y = r sin u",
         "(r, 0)",
@@ -96,6 +96,11 @@ const std::vector<Entry>& entries() {
         {whole("teeth", "12", "number of teeth", 1, 1000), length("r", "1", "mean radius"),
          number("depth", "0.1", "half the height of a tooth", 0, kMostLength)}},
        shapes::gear},
+  };
+}
+
+std::vector<Entry> drawn_shapes() {
+  return {
       {{"spline",
         "C2 periodic cubic spline in chord length through n points at equal angles, with radii "
         "1 + wobble * uniform(-1, 1)",
@@ -150,6 +155,11 @@ const std::vector<Entry>& entries() {
         kCorners,
         {whole("n", "6", "number of corners", 3, 10000), length("r", "1", "radius of the circle through the corners")}},
        shapes::polygon},
+  };
+}
+
+std::vector<Entry> open_shapes() {
+  return {
       {{"log-spiral",
         "r = a e^(b u)",
         "(a, 0)",
@@ -169,6 +179,14 @@ const std::vector<Entry>& entries() {
          length("scale", "1", "unit of both axes")}},
        shapes::exponential},
   };
+}
+
+const std::vector<Entry>& entries() {
+  static const std::vector<Entry> table = [] {
+    std::vector<Entry> all = round_shapes();
+    for (const auto& more : {drawn_shapes(), open_shapes()}) all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }();
   return table;
 }
 

@@ -82,7 +82,7 @@ void refuse_binary(std::string_view text, const std::string& name) {
 /// One pass over the text.
 NumberedPoints read_lines(std::string_view text, const std::string& name) {
   refuse_binary(text, name);
-  if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
+  text = without_mark(text);
   NumberedPoints result;
   bool title_may_come = true;
   std::size_t number = 0;

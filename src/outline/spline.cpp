@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <limits>
 #include <utility>
-
 #include <vector>
+
 #include "rollfix/error.hpp"
 #include "rollfix/outline/curve.hpp"
 #include "rollfix/outline/primitives.hpp"

@@ -20,7 +20,7 @@ constexpr int kLeastCode = -5;
 class AsciiTags : public TagReader {
  public:
   AsciiTags(std::string_view bytes, std::string name) : name_(std::move(name)) {
-    if (bytes.substr(0, 3) == "\xEF\xBB\xBF") bytes.remove_prefix(3);
+    bytes = without_mark(bytes);
     cursor_ = bytes.data();
     end_ = bytes.data() + bytes.size();
     // Lines end with \n or \r\n, also mixed; only very old files have \r alone.

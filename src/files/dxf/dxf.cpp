@@ -3,15 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
-#include <array>
-#include <cstddef>
-#include <memory>
-#include <string>
 #include "files/dxf/canvas.hpp"
 #include "files/dxf/model.hpp"
 #include "files/dxf/placement.hpp"

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
+
 #include "text/text.hpp"
 
 namespace rollfix::dxf {

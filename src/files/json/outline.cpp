@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
-
 #include <array>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
+
 #include "files/json/fields.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"

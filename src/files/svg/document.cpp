@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <cstring>
-
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <string_view>
+
 #include "files/svg/value.hpp"
 #include "rollfix/error.hpp"
 #include "text/text.hpp"

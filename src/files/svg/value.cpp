@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
-
 #include <array>
 #include <string>
+#include <utility>
+
 #include "rollfix/error.hpp"
 
 namespace rollfix::svg {

@@ -2,10 +2,10 @@
 #include <boost/math/special_functions/sin_pi.hpp>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
-
 #include <cstdint>
+#include <numbers>
 #include <random>
+
 #include "outline/shapes/shapes.hpp"
 #include "rollfix/outline/points.hpp"
 #include "rollfix/outline/primitives.hpp"
