@@ -86,7 +86,7 @@ struct Given {
 
 void refuse(const std::string& option, const char* what_for, const std::string& name, const char* what_it_is) {
   if (option.empty()) return;
-  throw InputError(fmt::format("{} is for {}, and {} is {}: leave it out", option, what_for, name, what_it_is));
+  throw InputError(fmt::format("{} is for {}, and {} is {}: leave the option out", option, what_for, name, what_it_is));
 }
 
 void require_options_for(FileKind kind, const std::string& name, const LoadOptions& options) {
@@ -139,8 +139,8 @@ std::size_t choice(const std::string& name, const Loops& found, const LoadOption
   }
   if (options.points.open) {
     if (!found.open.empty()) return found.closed.size();
-    throw InputError(
-        fmt::format("{}: `open` expects a chain of curves with two ends, found closed loops only: leave it out", name));
+    throw InputError(fmt::format(
+        "{}: `open` expects a chain of curves with two ends, found closed loops only: leave the option out", name));
   }
   if (found.closed.empty()) refuse_open(name, found.open.front());
   return 0;
@@ -175,7 +175,8 @@ Outline smoothed(const Loop& loop, const std::string& name, const LoadOptions& o
     const bool is_line = record && record->kind.find("line") != std::string::npos;
     if (!is_line) {
       throw InputError(fmt::format(
-          "{}: `smooth` is for points and for loops of straight lines, and this one has curves: leave it out", name));
+          "{}: `smooth` is for points and for loops of straight lines, and this one has curves: leave the option out",
+          name));
     }
     points.push_back(curve.front());
   }
