@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <memory>
 
 #include "rollfix/commands.hpp"
@@ -44,6 +46,49 @@ void require_sensible(const LocateArguments& arguments) {
   }
 }
 
+/// What the paper's algorithm has no use for.
+void require_march(const LocateArguments& arguments) {
+  const auto refuse = [](bool given, const char* option) {
+    if (given) throw InputError(fmt::format("--march: the paper's algorithm has no use for {}; leave one out", option));
+  };
+  refuse(read_belief_options(arguments.noise).has_value(), "--noise");
+  refuse(!arguments.facing.empty(), "--facing");
+  refuse(!arguments.budget.empty(), "--budget");
+  refuse(!arguments.output.file.empty(), "-o");
+  refuse(arguments.explain, "--explain");
+}
+
+/// The same readings, asked of the paper's algorithm.
+Report march_report(const LocateArguments& arguments, const std::vector<Log>& logs, bool two_fingers) {
+  require_march(arguments);
+  std::vector<std::string> notes;
+  const Part part = load_part(arguments.part, notes);
+  MarchQuestion question;
+  question.step = read_step(arguments.march);
+  question.json = arguments.json;
+  std::vector<Rounding> roundings;
+  if (two_fingers) {
+    const std::optional<FingerPair> fingers = read_fingers(arguments.fingers);
+    const PairObservation seen =
+        logs.empty() ? observe_pair_readings(arguments.readings, "")
+                     : observe_pair_log(paired(logs[0], logs[1]), part, fingers, read_instants(arguments.instants));
+    for (const PairReading& reading : seen.readings) {
+      question.readings.push_back({{reading.length_a, reading.length_b}, reading.turn});
+    }
+    roundings = seen.roundings;
+  } else {
+    const std::optional<Finger> finger = read_finger(arguments.fingers);
+    const Observation seen = logs.empty() ? observe_readings(arguments.readings)
+                                          : observe_log(logs.front(), part, finger, read_instants(arguments.instants));
+    for (const Reading& reading : seen.readings) question.readings.push_back({{reading.length}, reading.turn});
+    roundings = seen.roundings;
+  }
+  question.tolerance = tolerance_of(arguments, part, roundings).value;
+  Report report = locate_by_march(part, question);
+  report.notes = std::move(notes);
+  return report;
+}
+
 Report locate_report(const LocateArguments& arguments) {
   require_sensible(arguments);
   require_figure_output(arguments.output, arguments.json);
@@ -53,7 +98,10 @@ Report locate_report(const LocateArguments& arguments) {
   if (!two_fingers && !arguments.facing.empty()) {
     throw InputError("--facing compares two fingers: expected --reading LA,LB,THETA with it");
   }
-  Report report = two_fingers ? locate_two(arguments, logs) : locate_one(arguments, logs);
+  read_step(arguments.march);
+  Report report = arguments.march.march ? march_report(arguments, logs, two_fingers)
+                  : two_fingers         ? locate_two(arguments, logs)
+                                        : locate_one(arguments, logs);
   if (!roll.note.empty()) report.notes.insert(report.notes.begin(), roll.note);
   return report;
 }
@@ -100,6 +148,7 @@ void add_locate_command(CLI::App& program, Command& chosen) {
                       "a figure of the placements: .svg, .png or .pdf, - for SVG on stdout");
   add_switch(*command, "--explain", arguments->explain,
              "list what fits and was dropped all the same, because the finger can't get there, and why");
+  add_march_arguments(*command, arguments->march);
   add_switch(*command, "--json", arguments->json, "print JSON (rollfix/locate/1)");
   command->callback([arguments, &chosen] { chosen = [arguments] { return locate_report(*arguments); }; });
 }

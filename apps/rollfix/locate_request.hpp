@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "rollfix/contact/log.hpp"
+#include "rollfix/march/locate_by_march.hpp"
 #include "rollfix/output_argument.hpp"
 #include "rollfix/part_argument.hpp"
 #include "rollfix/report.hpp"
@@ -27,6 +28,7 @@ struct LocateArguments {
   bool json = false;
   bool explain = false;
   OutputArgument output;
+  MarchArguments march;
 };
 
 /// One finger on a part at rest: from --reading L,THETA or from its log, which is then the only one in `logs`.
