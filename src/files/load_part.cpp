@@ -154,7 +154,7 @@ std::vector<std::string> notes_on(const Drawing& drawing, const Loops& found, st
   for (const std::string& note : found.notes) add(note);
   const bool is_choice = found.closed.size() + found.open.size() > 1;
   if (is_choice && !options.loop) {
-    add(fmt::format("{} and {}: took number {}, the {}; `loop` takes another",
+    add(fmt::format("{} and {}: took number {}, the {}; `loop` N takes another",
                     counted(found.closed.size(), "closed loop", "closed loops"),
                     counted(found.open.size(), "open chain", "open chains"), chosen + 1,
                     loop.outline.closed ? "largest loop" : "longest chain"));
