@@ -164,7 +164,7 @@ TEST(LoadPart, options_that_do_not_apply_are_refused) {
   LoadOptions layer;
   layer.layer = "cut";
   LoadOptions angle;
-  angle.points.corner_angle = kCornerAngle;  // given is given, the default as well
+  angle.points.corner_angle = rollfix::kCornerAngle;  // given is given, the default as well
   EXPECT_THAT(message_of("square.csv", loop), HasSubstr("`loop` is for drawings, and square.csv is points"));
   EXPECT_THAT(message_of("gallery:cam", loop), HasSubstr("`loop` is for drawings, and gallery:cam is a gallery shape"));
   EXPECT_THAT(message_of("square.svg", layer), HasSubstr("`layer` is for DXF files"));
