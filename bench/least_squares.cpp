@@ -25,15 +25,15 @@ class Residuals {
   using Scalar = double;
   enum { NUM_RESIDUALS = 2, NUM_PARAMETERS = 2 };  // NOLINT(readability-identifier-naming): Ceres' names
 
-  Residuals(const TurningFunction& turning, const std::vector<PairReading>& readings)
+  Residuals(const TurningFunction& turning, const std::vector<Reading>& readings)
       : turning_(turning), readings_(readings) {}
 
   bool operator()(const double* at, double* residuals, double* jacobian) const {
     const Turning s0 = turning_.at(at[0]);
     const Turning t0 = turning_.at(at[1]);
     for (std::size_t k = 0; k < NUM_RESIDUALS; ++k) {
-      const Turning s = turning_.at(at[0] + readings_[k].length_a);
-      const Turning t = turning_.at(at[1] + readings_[k].length_b);
+      const Turning s = turning_.at(at[0] + readings_[k].length[0]);
+      const Turning t = turning_.at(at[1] + readings_[k].length[1]);
       residuals[k] = (s.angle - s0.angle) - (t.angle - t0.angle) - readings_[k].turn;
       if (jacobian == nullptr) continue;
       jacobian[k] = s.curvature - s0.curvature;
@@ -44,15 +44,15 @@ class Residuals {
 
  private:
   const TurningFunction& turning_;
-  const std::vector<PairReading>& readings_;
+  const std::vector<Reading>& readings_;
 };
 
 /// Where a first contact may be: on an open part the whole roll has to fit on it.
-std::array<Interval, 2> ranges(const Part& part, const std::vector<PairReading>& readings) {
+std::array<Interval, 2> ranges(const Part& part, const std::vector<Reading>& readings) {
   std::array<Interval, 2> ranges{Interval{0, part.perimeter()}, Interval{0, part.perimeter()}};
   if (part.closed()) return ranges;
-  for (const PairReading& reading : readings) {
-    const std::array<double, 2> lengths{reading.length_a, reading.length_b};
+  for (const Reading& reading : readings) {
+    const std::array<double, 2> lengths{reading.length[0], reading.length[1]};
     for (std::size_t finger = 0; finger < 2; ++finger) {
       ranges[finger].lo = std::max(ranges[finger].lo, -lengths[finger]);
       ranges[finger].hi = std::min(ranges[finger].hi, part.perimeter() - lengths[finger]);
@@ -63,7 +63,8 @@ std::array<Interval, 2> ranges(const Part& part, const std::vector<PairReading>&
 
 }  // namespace
 
-std::vector<PairPoint> locate_by_least_squares(const Part& part, const std::vector<PairReading>& readings, int starts) {
+std::vector<PerFinger<double>> locate_by_least_squares(const Part& part, const std::vector<Reading>& readings,
+                                                       int starts) {
   const Residuals residuals(part.turning(), readings);
   const std::array<Interval, 2> where = ranges(part, readings);
   ceres::TinySolver<Residuals> solver;
@@ -74,21 +75,22 @@ std::vector<PairPoint> locate_by_least_squares(const Part& part, const std::vect
   solver.options.parameter_tolerance = 1e-14;
   std::mt19937_64 generator(1);
   std::uniform_real_distribution<double> unit(0, 1);
-  std::vector<PairPoint> found;
+  std::vector<PerFinger<double>> found;
   for (int k = 0; k < starts; ++k) {
     Eigen::Vector2d at;
     for (std::size_t finger = 0; finger < 2; ++finger) {
       at[static_cast<int>(finger)] = where[finger].lo + unit(generator) * where[finger].width();
     }
     if (!(std::sqrt(2 * solver.Solve(residuals, &at).final_cost) <= kVanishes)) continue;
-    PairPoint pair{at[0], at[1]};
+    PerFinger<double> pair{at[0], at[1]};
     if (part.closed()) {
       for (double& place : pair) place = wrap(place, part.perimeter()).base;
     } else if (!where[0].contains(pair[0]) || !where[1].contains(pair[1])) {
       continue;
     }
-    const bool known = std::any_of(found.begin(), found.end(),
-                                   [&](const PairPoint& other) { return same_pair(part, pair, other, kSamePlace); });
+    const bool known = std::any_of(found.begin(), found.end(), [&](const PerFinger<double>& other) {
+      return same_pair(part, pair, other, kSamePlace);
+    });
     if (!known) found.push_back(pair);
   }
   return found;

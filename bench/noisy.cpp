@@ -11,9 +11,9 @@
 #include "belief_cases.hpp"
 #include "outlines.hpp"
 #include "particle_filter.hpp"
+#include "rollfix/answer/part_facts.hpp"
 #include "rollfix/belief/advise.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/part_facts.hpp"
 #include "tables.hpp"
 
 namespace bench {
@@ -38,7 +38,7 @@ constexpr double kFound = 0.02;        // nearer than this share of the perimete
 
 double radius_on(const Part& part) {
   // A concave corner takes no disk at all: there it is a small one that stays out of it.
-  const double fits = rollfix::app::largest_disk(part);
+  const double fits = rollfix::largest_disk(part);
   return std::min(kRadiusShare * part.perimeter(), fits > 0 ? 0.5 * fits : 0.2 * kRadiusShare * part.perimeter());
 }
 
@@ -125,7 +125,7 @@ Contest contest_on(const Part& part, int count) {
     });
     std::vector<double> starts;
     for (const Mode& mode : modes) {
-      if (mode.probability >= 0.01) starts.push_back(mode.start);
+      if (mode.probability >= 0.01) starts.push_back(mode.start[0]);
     }
     contest.ours.add(part, plan.start, starts);
     contest.thousand.add(
@@ -168,7 +168,7 @@ std::size_t remaining(const std::vector<Mode>& modes) {
 
 bool lists(const Part& part, const std::vector<Mode>& modes, double truth) {
   return std::any_of(modes.begin(), modes.end(), [&](const Mode& mode) {
-    return mode.probability >= 0.01 && distance(part, mode.start, truth) < 5 * mode.sd + 1e-6 * part.perimeter();
+    return mode.probability >= 0.01 && distance(part, mode.start[0], truth) < 5 * mode.sd[0] + 1e-6 * part.perimeter();
   });
 }
 
@@ -176,7 +176,7 @@ bool lists(const Part& part, const std::vector<Mode>& modes, double truth) {
 bool close_loop(const Part& part, const rollfix::Reach& reach, const BeliefOptions& options, double start,
                 std::mt19937_64& random, Loop& loop) {
   const double P = part.perimeter();
-  const auto alike = static_cast<std::size_t>(std::max(1, rollfix::app::symmetry(part)));
+  const auto alike = static_cast<std::size_t>(std::max(1, rollfix::symmetry(part)));
   double length = (random() % 2 == 0 ? -1 : 1) * 0.05 * P;
   Robot robot(part, radius_on(part), start, options.noise, random());
   Belief belief(part, rollfix::LogKind::contact, options);
@@ -188,7 +188,8 @@ bool close_loop(const Part& part, const rollfix::Reach& reach, const BeliefOptio
       return rolls > 0;
     }
     const std::vector<Mode>& modes = belief.modes();
-    const bool is_stretch = belief.verdict() == "ambiguous (1 stretch)" || belief.verdict() == "unobservable";
+    const rollfix::Verdict verdict = belief.verdict();
+    const bool is_stretch = verdict.stretches > 0 || verdict.name == rollfix::Verdict::unobservable;
     if (!is_stretch && !modes.empty() && (remaining(modes) <= alike || modes.front().probability >= 0.95)) {
       ++loop.resolved[rolls];
       loop.wrong += lists(part, modes, start) ? 0 : 1;
@@ -256,7 +257,7 @@ void advised(int count) {
   int resolved = 0;
   for (const Family& family : families()) {
     const Part part(family.outline);
-    if (rollfix::app::symmetry(part) == 0) {
+    if (rollfix::symmetry(part) == 0) {
       std::printf("%-18s no roll will: it looks the same from everywhere\n", family.name.c_str());
       continue;
     }

@@ -67,7 +67,7 @@ Row measure(const Family& family, int rounds) {
   std::optional<march::March> reference;
   try {
     reference.emplace(family.outline, march::curvature_density());
-    reference->segments(readings[0].length, readings[0].turn);
+    reference->segments(readings[0].length[0], readings[0].turn);
   } catch (const InputError&) {
     reference.reset();  // lines, arcs, corners: not for the paper's algorithm
   }
@@ -84,7 +84,7 @@ Row measure(const Family& family, int rounds) {
     if (reference && round < 3) {
       march.push_back(seconds_per_call([&] {
         const Reading& reading = readings[march_turn.next()];
-        keep(reference->segments(reading.length, reading.turn));
+        keep(reference->segments(reading.length[0], reading.turn));
       }));
     }
   }

@@ -35,7 +35,7 @@ double square(double x) { return x * x; }
 /// is added, as if it were the row's own.
 void weigh(const Part& part, const Sample& sample, const Noise& noise, std::vector<Particle>& particles) {
   for (Particle& particle : particles) {
-    const double length = sample.reading.length / (1 + particle.scale);
+    const double length = sample.reading.length[0] / (1 + particle.scale);
     const rollfix::Turning there = part.turning().at(particle.s + length);
     const double off = there.angle - part.turning().angle(particle.s) - sample.reading.turn;
     const double by_contact = (sample.finger_curvature + there.curvature) * noise.contact;

@@ -13,7 +13,7 @@
 #include "least_squares.hpp"
 #include "outlines.hpp"
 #include "pair_oracle.hpp"
-#include "rollfix/locate/locate_pair.hpp"
+#include "rollfix/locate/locate.hpp"
 #include "same_pair.hpp"
 #include "stopwatch.hpp"
 #include "tables.hpp"
@@ -31,7 +31,7 @@ constexpr int kFewRounds = 3;
 constexpr double kSamePair = 1e-6;  // of the perimeter
 
 struct Case {
-  std::vector<PairReading> readings;
+  std::vector<Reading> readings;
   double facing = 0;
 };
 
@@ -59,10 +59,10 @@ std::vector<Case> random_cases(const Part& part) {
   return cases;
 }
 
-PairSearch find(const Part& part, const Case& given) { return locate(part, given.readings); }
+Search find(const Part& part, const Case& given) { return locate(part, given.readings); }
 
-PairSearch find_with_facing(const Part& part, const Case& given) {
-  PairOptions options;
+Search find_with_facing(const Part& part, const Case& given) {
+  LocateOptions options;
   options.facing = given.facing;
   return locate(part, {given.readings.front()}, options);
 }
@@ -86,7 +86,7 @@ struct PairRow {
 };
 
 /// Whether this pair is the placement's start, or one of the others that the tolerance does not tell from it.
-bool answers(const Part& part, const PairPlacement& placement, const PairPoint& pair) {
+bool answers(const Part& part, const Placement& placement, const PerFinger<double>& pair) {
   if (same_pair(part, pair, placement.start, kSamePair)) return true;
   const auto inside = [&](std::size_t finger) {
     const Interval& extent = placement.extent[finger];
@@ -99,22 +99,22 @@ bool answers(const Part& part, const PairPlacement& placement, const PairPoint& 
 
 /// All isolated placements of a case: the search's, and what only the exhaustive check (where the part is smooth) or
 /// the baseline knows.
-std::vector<PairPlacement> known_placements(const Part& part, const pair_oracle::Exhaustive* oracle, const Case& given,
-                                            std::vector<PairPoint> others, int& lost) {
-  std::vector<PairPlacement> all = find(part, given).placements;
+std::vector<Placement> known_placements(const Part& part, const pair_oracle::Exhaustive* oracle, const Case& given,
+                                        std::vector<PerFinger<double>> others, int& lost) {
+  std::vector<Placement> all = find(part, given).placements;
   if (oracle != nullptr) {
     for (const pair_oracle::Root& root : oracle->scan(given.readings).roots) others.push_back({root.s, root.t});
   }
-  for (const PairPoint& pair : others) {
-    const auto known = [&](const PairPlacement& placement) { return answers(part, placement, pair); };
+  for (const PerFinger<double>& pair : others) {
+    const auto known = [&](const Placement& placement) { return answers(part, placement, pair); };
     if (std::any_of(all.begin(), all.end(), known)) continue;
-    PairPlacement placement;
+    Placement placement;
     placement.start = pair;
     placement.extent = {Interval{pair[0], pair[0]}, Interval{pair[1], pair[1]}};
     all.push_back(placement);
     ++lost;
   }
-  const auto is_other = [](const PairPlacement& placement) {
+  const auto is_other = [](const Placement& placement) {
     return placement.kind == Kind::stretch || placement.kind == Kind::corner;
   };
   all.erase(std::remove_if(all.begin(), all.end(), is_other), all.end());
@@ -134,14 +134,14 @@ void measure_baseline(const Part& part, const pair_oracle::Exhaustive* oracle, c
   std::array<double, kStarts.size()> found{};
   double all = 0;
   for (const Case& given : cases) {
-    const std::vector<PairPoint> most = locate_by_least_squares(part, given.readings, kStarts.back());
-    const std::vector<PairPlacement> known = known_placements(part, oracle, given, most, row.lost);
+    const std::vector<PerFinger<double>> most = locate_by_least_squares(part, given.readings, kStarts.back());
+    const std::vector<Placement> known = known_placements(part, oracle, given, most, row.lost);
     all += static_cast<double>(known.size());
     for (std::size_t i = 0; i < kStarts.size(); ++i) {
-      const std::vector<PairPoint> some = locate_by_least_squares(part, given.readings, kStarts[i]);
-      found[i] += static_cast<double>(std::count_if(known.begin(), known.end(), [&](const PairPlacement& placement) {
+      const std::vector<PerFinger<double>> some = locate_by_least_squares(part, given.readings, kStarts[i]);
+      found[i] += static_cast<double>(std::count_if(known.begin(), known.end(), [&](const Placement& placement) {
         return std::any_of(some.begin(), some.end(),
-                           [&](const PairPoint& pair) { return answers(part, placement, pair); });
+                           [&](const PerFinger<double>& pair) { return answers(part, placement, pair); });
       }));
     }
   }
@@ -162,7 +162,7 @@ PairRow measure_pairs(const Family& family, int rounds) {
   PairRow row;
   row.name = family.name;
   for (const Case& given : cases) {
-    const PairSearch search = find(part, given);
+    const Search search = find(part, given);
     row.placements += static_cast<double>(search.placements.size()) / kCases;
     row.boxes += static_cast<double>(search.counts.intervals) / kCases;
     row.incomplete += search.status == Status::complete ? 0 : 1;

@@ -68,7 +68,7 @@ Watched watch(const rollfix::Part& part, const std::vector<std::string>& lines) 
   watcher.finish();
   const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   return {1e6 * seconds / static_cast<double>(watcher.counts().samples), counter.changes,
-          watcher.last_answer().verdict};
+          watcher.last_answer().verdict.text()};
 }
 
 double parsing(const rollfix::Part& part, const std::vector<std::string>& lines) {

@@ -23,7 +23,7 @@
 #include <vector>
 
 #include "rollfix/error.hpp"
-#include "rollfix/locate/locate_pair.hpp"
+#include "rollfix/locate/locate.hpp"
 #include "rollfix/march/march.hpp"
 #include "rollfix/march/march_pairs.hpp"
 #include "rollfix/outline/load.hpp"
@@ -56,9 +56,9 @@ struct Tally {
 
 struct Match {
   std::string part;
-  std::vector<PairReading> readings;  // the paper's two, and a third from the first of the pairs
-  PairSearch found;                   // by two readings
-  march::PairResult marched;          // the paper's algorithm, corrected
+  std::vector<Reading> readings;  // the paper's two, and a third from the first of the pairs
+  Search found;                   // by two readings
+  march::PairResult marched;      // the paper's algorithm, corrected
   march::PairResult as_printed;
 };
 
@@ -129,9 +129,9 @@ class Figure8Search {
   }
 
   bool has_the_pairs(const Match& match) const {
-    const std::vector<PairPlacement>& pairs = match.found.placements;
+    const std::vector<Placement>& pairs = match.found.placements;
     if (match.found.status != Status::complete || pairs.size() != kPairs) return false;
-    const auto is_crossing = [](const PairPlacement& pair) { return pair.kind == Kind::crossing; };
+    const auto is_crossing = [](const Placement& pair) { return pair.kind == Kind::crossing; };
     if (!std::all_of(pairs.begin(), pairs.end(), is_crossing)) return false;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
@@ -141,26 +141,26 @@ class Figure8Search {
     return loosely(match.readings).placements.size() == kPairs;
   }
 
-  double distance(const PairPoint& one, const PairPoint& other) const {
+  double distance(const PerFinger<double>& one, const PerFinger<double>& other) const {
     return std::hypot(periodic_distance(one[0], other[0], part_.perimeter()),
                       periodic_distance(one[1], other[1], part_.perimeter()));
   }
 
-  PairSearch loosely(const std::vector<PairReading>& readings) const {
-    PairOptions options;
+  Search loosely(const std::vector<Reading>& readings) const {
+    LocateOptions options;
     options.tolerance = kLooseTolerance;
     return locate(part_, readings, options);
   }
 
   /// The fingers roll on from the first pair until no other fits, and stay clear of each other.
   bool add_third(Match& match) {
-    const PairPoint& start = match.found.placements.front().start;
+    const PerFinger<double>& start = match.found.placements.front().start;
     for (int k = 0; k < kThirdReadings; ++k) {
-      PairReading third = match.readings[1];
-      third.length_a += draw(20, 60) / 100.0;
-      third.length_b += draw(20, 60) / 100.0;
-      third.turn = turn(start[0], third.length_a) - turn(start[1], third.length_b);
-      const double apart = gap(start[0], third.length_a, start[1], third.length_b, part_.perimeter());
+      Reading third = match.readings[1];
+      third.length[0] += draw(20, 60) / 100.0;
+      third.length[1] += draw(20, 60) / 100.0;
+      third.turn = turn(start[0], third.length[0]) - turn(start[1], third.length[1]);
+      const double apart = gap(start[0], third.length[0], start[1], third.length[1], part_.perimeter());
       if (apart < kRollsApart * part_.perimeter()) continue;
       if (loosely({match.readings[0], match.readings[1], third}).placements.size() != 1) continue;
       match.readings.push_back(third);
@@ -180,7 +180,7 @@ class Figure8Search {
   std::map<double, std::size_t> stationary_;  // by length
 };
 
-bool has(const march::PairResult& result, const PairPoint& start) {
+bool has(const march::PairResult& result, const PerFinger<double>& start) {
   constexpr double kSamePlace = 1e-6;  // of the perimeter
   return std::any_of(result.pairs.begin(), result.pairs.end(), [&](const march::StartPair& pair) {
     const double distance = std::max(periodic_distance(pair.s, start[0], result.perimeter),
@@ -193,15 +193,15 @@ void tell(const Match& match, const Tally& tally) {
   fmt::print("tried     {} parts, {} rolls; {} with the intervals, of them {} with the pairs, of them {} as printed\n",
              tally.parts, tally.rolls, tally.with_intervals, tally.with_pairs, tally.as_printed);
   fmt::print("part      {}\n", match.part);
-  for (const PairReading& reading : match.readings) {
-    fmt::print("reading   {:.2f},{:.2f},{:.6f}\n", reading.length_a, reading.length_b, reading.turn);
+  for (const Reading& reading : match.readings) {
+    fmt::print("reading   {:.2f},{:.2f},{:.6f}\n", reading.length[0], reading.length[1], reading.turn);
   }
   fmt::print("intervals {} and {}\n", match.marched.n(), match.marched.m());
   fmt::print("pairs     {} by the complete search, {} by the paper's algorithm, {} by it as printed\n\n",
              match.found.placements.size(), match.marched.pairs.size(), match.as_printed.pairs.size());
   fmt::print("      s0        t0        as printed\n");
   for (std::size_t i = 0; i < match.found.placements.size(); ++i) {
-    const PairPoint& start = match.found.placements[i].start;
+    const PerFinger<double>& start = match.found.placements[i].start;
     fmt::print("{:2}    {:.6f}  {:.6f}  {}\n", i, start[0], start[1],
                has(match.as_printed, start) ? "found" : "missed");
   }

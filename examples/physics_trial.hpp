@@ -117,22 +117,22 @@ inline void believe(const Part& part, const std::vector<rollfix::Sample>& sample
   options.noise = noise;
   rollfix::Belief belief(part, rollfix::LogKind::contact, options);
   for (const rollfix::Sample& sample : samples) belief.add(sample);
-  trial.verdict = belief.verdict();
+  trial.verdict = belief.verdict().text();
   trial.excess = belief.excess();
   trial.nearest = part.perimeter();
   const double P = part.perimeter();
   const std::vector<rollfix::Mode>& modes = belief.modes();
   for (std::size_t k = 0; k < modes.size(); ++k) {
     if (modes[k].probability >= 0.01) ++trial.modes;
-    trial.nearest = std::min(trial.nearest, rollfix::periodic_distance(modes[k].mean, trial.start, P));
-    if (trial.rank || !holds(modes[k].region, trial.start, P)) continue;
+    trial.nearest = std::min(trial.nearest, rollfix::periodic_distance(modes[k].mean[0], trial.start, P));
+    if (trial.rank || !holds(modes[k].region[0], trial.start, P)) continue;
     trial.rank = k;
-    trial.end_error = std::remainder(modes[k].end_mean - trial.rows.back().s, P);
-    trial.end_sd = modes[k].end_sd;
-    trial.error = std::remainder(modes[k].mean - trial.start, P);
-    trial.sd = modes[k].sd;
+    trial.end_error = std::remainder(modes[k].end_mean[0] - trial.rows.back().s, P);
+    trial.end_sd = modes[k].end_sd[0];
+    trial.error = std::remainder(modes[k].mean[0] - trial.start, P);
+    trial.sd = modes[k].sd[0];
     trial.probability = modes[k].probability;
-    trial.in_interval = holds(modes[k].interval, trial.start, P);
+    trial.in_interval = holds(modes[k].interval[0], trial.start, P);
   }
 }
 
@@ -144,7 +144,7 @@ inline void search(const Part& part, const std::vector<rollfix::Sample>& samples
   const rollfix::Search found = locate(part, readings, options);
   trial.placements = found.placements.size();
   for (const rollfix::Placement& placement : found.placements) {
-    if (holds(placement.extent, trial.start, part.perimeter(), kNear * part.perimeter())) trial.is_placed = true;
+    if (holds(placement.extent[0], trial.start, part.perimeter(), kNear * part.perimeter())) trial.is_placed = true;
   }
 }
 

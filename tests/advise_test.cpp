@@ -120,9 +120,9 @@ TEST_P(AdviceLoop, two_advised_rolls_leave_one_place) {
     Belief belief(part, rollfix::LogKind::contact, options);
     for (int rolls = 0;; ++rolls) {
       robot.roll(length, belief);
-      if (belief.verdict() == "unique") {
+      if (belief.verdict().name == rollfix::Verdict::unique) {
         const Mode& mode = belief.modes().front();
-        resolved += distance(part, mode.start, start) < 5 * mode.sd + 1e-6 * P ? 1 : 0;
+        resolved += distance(part, mode.start[0], start) < 5 * mode.sd[0] + 1e-6 * P ? 1 : 0;
         break;
       }
       if (rolls == 2) break;

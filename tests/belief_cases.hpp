@@ -83,7 +83,7 @@ inline double distance(const Part& part, double a, double b) {
 /// The mode whose region holds the place; nullptr where none does.
 inline const Mode* mode_at(const std::vector<Mode>& modes, double s, const Part& part) {
   for (const Mode& mode : modes) {
-    if (holds(mode.region, s, part)) return &mode;
+    if (holds(mode.region[0], s, part)) return &mode;
   }
   return nullptr;
 }
@@ -150,7 +150,7 @@ struct Tally {
     }
     if (mode == nullptr) return;
     ++listed;
-    inside += holds(mode->interval, truth, part) ? 1 : 0;
+    inside += holds(mode->interval[0], truth, part) ? 1 : 0;
     first += mode == &modes.front() ? 1 : 0;
   }
   double share_inside() const { return static_cast<double>(inside) / cases; }

@@ -140,10 +140,12 @@ TEST(Demo, draws_the_figures_of_the_documents) {
   }
 }
 
-TEST(Demo, makes_the_folder_that_it_is_given_and_does_not_overwrite) {
+TEST(Demo, makes_the_folder_that_it_is_given_and_can_be_run_again_there_but_overwrites_nothing_else) {
   const cli::Folder folder;
   EXPECT_EQ(run("demo -o a/b").code, 0);
   EXPECT_TRUE(cli::fs::exists("a/b/figure7.png"));
+  EXPECT_EQ(run("demo -o a/b").code, 0);
+  folder.write("a/b/figure7.svg", "mine");
   EXPECT_EQ(run("demo -o a/b").code, 2);
   EXPECT_EQ(run("demo -o a/b --force").code, 0);
 }

@@ -83,15 +83,15 @@ TEST(LocateJson, numbers_read_back_as_the_same_bits) {
     const rollfix::Reading reading{0.7, part.turning().angle(1.3) - part.turning().angle(0.6)};
     const rollfix::Search search = rollfix::locate(part, reading);
     const Json found =
-        json_of("locate " + name + " --reading " + cli::exact(reading.length) + "," + cli::exact(reading.turn));
+        json_of("locate " + name + " --reading " + cli::exact(reading.length[0]) + "," + cli::exact(reading.turn));
     EXPECT_EQ(found["readings"][0]["turn"], reading.turn);
     ASSERT_EQ(found["placements"].size(), search.placements.size()) << name;
     for (std::size_t i = 0; i < search.placements.size(); ++i) {
       const Json& placement = found["placements"][i];
-      EXPECT_EQ(placement["start"][0], search.placements[i].start);
-      EXPECT_EQ(placement["extent"][0][1], search.placements[i].extent.hi);
-      EXPECT_EQ(placement["point"][0][1], search.placements[i].point.y());
-      EXPECT_EQ(placement["tangent"][0], search.placements[i].tangent);
+      EXPECT_EQ(placement["start"][0], search.placements[i].start[0]);
+      EXPECT_EQ(placement["extent"][0][1], search.placements[i].extent[0].hi);
+      EXPECT_EQ(placement["point"][0][1], search.placements[i].point[0].y());
+      EXPECT_EQ(placement["tangent"][0], search.placements[i].tangent[0]);
     }
   }
 }

@@ -9,26 +9,30 @@
 #include <string>
 #include <vector>
 
+#include "answer/observation.hpp"
 #include "cli.hpp"
-#include "rollfix/contact/pose.hpp"
+#include "rollfix/answer/solve.hpp"
+#include "rollfix/answer_output.hpp"
+#include "rollfix/contact/pair_log.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/finger_argument.hpp"
-#include "rollfix/observation.hpp"
 #include "rollfix/outline/gallery.hpp"
 #include "rollfix/outline/primitives.hpp"
-#include "rollfix/pose_json.hpp"
+#include "rollfix/roll_arguments.hpp"
 
 namespace cli_two_fingers_test {
 namespace {
 
 using cli::Json;
 using cli::run;
+using rollfix::Answer;
 using rollfix::FingerPair;
 using rollfix::InputError;
 using rollfix::Log;
+using rollfix::Observation;
 using rollfix::PairLog;
 using rollfix::Part;
-using rollfix::app::PairObservation;
+using rollfix::solve;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -47,8 +51,13 @@ std::string refusal_of(const Action& action) {
   return "nothing was thrown";
 }
 
+std::vector<Log> logs_in(const std::vector<std::string>& files) {
+  std::vector<std::string> notes;
+  return rollfix::app::read_roll(files, "", notes);
+}
+
 PairLog log_in(const std::vector<std::string>& files) {
-  const std::vector<Log> logs = rollfix::app::read_log_argument(files);
+  const std::vector<Log> logs = logs_in(files);
   return rollfix::paired(logs.at(0), logs.at(1));
 }
 
@@ -103,16 +112,16 @@ TEST(CliTwoFingers, a_log_gives_the_middle_reading_and_the_last_and_the_facing) 
   run(kRoll + " -o both.csv");
   const Part part(rollfix::gallery("spline,seed=3"));
   const PairLog log = log_in({"both.csv"});
-  const PairObservation seen = rollfix::app::observe_pair_log(log, part, FingerPair{{{0.1}, {0.1}}}, {});
-  EXPECT_EQ(seen.rows.size(), 101U);
-  EXPECT_THAT(seen.instants, ElementsAre(log.a.time[50], log.a.time[100]));
+  const Observation seen = rollfix::observe({part, std::vector<Log>{log.a, log.b}, {0.1}});
+  EXPECT_EQ(seen.rolls.size(), 101U);
+  EXPECT_THAT(seen.times, ElementsAre(log.a.time[50], log.a.time[100]));
   ASSERT_EQ(seen.readings.size(), 2U);
-  EXPECT_NEAR(seen.readings[1].length_a, 1.5, 1e-9);
-  EXPECT_NEAR(seen.readings[1].length_b, -0.8, 1e-9);
+  EXPECT_NEAR(seen.readings[1].length[0], 1.5, 1e-9);
+  EXPECT_NEAR(seen.readings[1].length[1], -0.8, 1e-9);
   const auto angle = [&](double s) { return part.turning().angle(s); };
   EXPECT_NEAR(seen.readings[1].turn, (angle(2.5) - angle(1)) - (angle(3.2) - angle(4)), 1e-9);
   EXPECT_NEAR(std::remainder(*seen.facing - (angle(1) - angle(4)), 2 * std::numbers::pi), 0, 1e-9);
-  EXPECT_FALSE(seen.lengths_turned_round);
+  EXPECT_FALSE(seen.lengths_reversed);
   EXPECT_EQ(seen.roundings.size(), 1U);
 }
 
@@ -122,32 +131,28 @@ TEST(CliTwoFingers, a_log_of_lengths_on_a_reversed_outline_is_turned_round) {
   folder.write("b.csv", "length,turn\n-1,1\n-3,1\n");
   rollfix::Outline clockwise{"clockwise", {}, true};
   clockwise.curves = {rollfix::Line({0, 0}, {0, 3}), rollfix::Line({0, 3}, {4, 0}), rollfix::Line({4, 0}, {0, 0})};
-  const PairObservation seen = rollfix::app::observe_pair_log(log_in({"a.csv", "b.csv"}), Part(clockwise), {}, {});
-  EXPECT_TRUE(seen.lengths_turned_round);
-  EXPECT_EQ(seen.readings[1].length_b, 3);
+  const Observation seen = rollfix::observe({Part(clockwise), logs_in({"a.csv", "b.csv"})});
+  EXPECT_TRUE(seen.lengths_reversed);
+  EXPECT_EQ(seen.readings[1].length[1], 3);
   EXPECT_FALSE(seen.facing);
-  EXPECT_TRUE(seen.instants.empty());
+  EXPECT_TRUE(seen.times.empty());
 }
 
 TEST(CliTwoFingers, the_log_argument_is_of_as_many_fingers_as_its_files) {
   const cli::Folder folder;
   folder.write("one.csv", "u,psi\n0,0\n1,1\n");
-  EXPECT_EQ(rollfix::app::read_log_argument({"one.csv"}).size(), 1U);
-  EXPECT_EQ(rollfix::app::read_log_argument({"one.csv", "one.csv"}).size(), 2U);
-  EXPECT_THAT(refusal_of([] {
-                rollfix::app::read_log_argument({"1", "2", "3"});
-              }),
-              HasSubstr("--log is given 3 times"));
+  EXPECT_EQ(logs_in({"one.csv"}).size(), 1U);
+  EXPECT_EQ(logs_in({"one.csv", "one.csv"}).size(), 2U);
+  EXPECT_THAT(refusal_of([] { logs_in({"1", "2", "3"}); }), HasSubstr("--log is given 3 times"));
 }
 
-TEST(CliTwoFingers, a_finger_that_is_given_once_is_meant_twice) {
-  const auto alike = rollfix::app::read_fingers({"disk,r=0.5"});
-  EXPECT_EQ((*alike)[0].disk()->radius, 0.5);
-  EXPECT_EQ((*alike)[1].disk()->radius, 0.5);
-  EXPECT_EQ((*rollfix::app::read_fingers({"disk,r=0.5", "disk,r=2"}))[1].disk()->radius, 2);
-  EXPECT_FALSE(rollfix::app::read_fingers({}));
+TEST(CliTwoFingers, fingers_are_as_many_as_are_given_and_two_at_most) {
+  using rollfix::app::read_fingers;
+  EXPECT_EQ(read_fingers({"disk,r=0.5"}, 2).at(0).disk()->radius, 0.5);
+  EXPECT_EQ(read_fingers({"disk,r=0.5", "disk,r=2"}, 2).at(1).disk()->radius, 2);
+  EXPECT_TRUE(read_fingers({}, 2).empty());
   EXPECT_THAT(refusal_of([] {
-                rollfix::app::read_fingers({"disk,r=1", "disk,r=1", "disk,r=1"});
+                read_fingers({"disk,r=1", "disk,r=1", "disk,r=1"}, 2);
               }),
               HasSubstr("at most two fingers"));
 }
@@ -156,20 +161,24 @@ TEST(CliTwoFingers, poses_are_lists_in_json) {
   const cli::Folder folder;
   run(kRoll + " -o both.csv");
   const Part part(rollfix::gallery("spline,seed=3"));
-  const FingerPair fingers{{{0.1}, {0.1}}};
-  const PairLog log = log_in({"both.csv"});
-  const auto found = rollfix::poses(part, fingers, log, {1, 4}, {0, 100});
-  const Json pose = Json::parse(rollfix::app::pose_json(found).dump());
-  ASSERT_EQ(pose.size(), 2U);
-  EXPECT_NEAR(pose[0][0], 0, 1e-9);  // the simulated part starts in the world's frame
-  EXPECT_NEAR(pose[0][1], 0, 1e-9);
-  EXPECT_NEAR(pose[0][2], 0, 1e-9);
-  EXPECT_NEAR(pose[1][2], std::numbers::pi / 6, 1e-9);
-  const auto residual = rollfix::app::pose_residual_json(found);
-  EXPECT_LT(residual["length"].get<double>(), 1e-9);
-  EXPECT_LT(residual["turn"].get<double>(), 1e-9);
-  EXPECT_EQ(rollfix::app::pose_json({}).dump(), "null");
-  EXPECT_EQ(rollfix::app::pose_residual_json({}).dump(), "null");
+  Answer answer = solve({part, logs_in({"both.csv"}), {0.1}});
+  ASSERT_FALSE(answer.placements.empty());
+  const Json found = rollfix::app::answer_json(answer, false);
+  const auto nearest = std::find_if(answer.placements.begin(), answer.placements.end(), [](const auto& placement) {
+    return std::abs(placement.start[0] - 1) < 1e-6 && std::abs(placement.start[1] - 4) < 1e-6;
+  });
+  ASSERT_NE(nearest, answer.placements.end());
+  const Json& placement = found["placements"][static_cast<std::size_t>(nearest - answer.placements.begin())];
+  const Json& pose = placement["pose"];
+  ASSERT_EQ(pose.size(), 101U);
+  EXPECT_NEAR(pose[0][0], 0, 1e-6);  // the simulated part starts in the world's frame
+  EXPECT_NEAR(pose[0][1], 0, 1e-6);
+  EXPECT_NEAR(pose[0][2], 0, 1e-6);
+  EXPECT_NEAR(pose[100][2], std::numbers::pi / 6, 1e-6);
+  EXPECT_LT(placement["pose_residual"]["length"].get<double>(), 1e-6);
+  EXPECT_LT(placement["pose_residual"]["turn"].get<double>(), 1e-6);
+  answer.placements.front().pose_residual.reset();
+  EXPECT_TRUE(rollfix::app::answer_json(answer, false)["placements"][0]["pose"].is_null());
 }
 
 // --- Mistakes.

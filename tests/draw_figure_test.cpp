@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "draw_helpers.hpp"
-#include "rollfix/draw/locate_figure.hpp"
+#include "rollfix/draw/answer_figure.hpp"
 #include "rollfix/draw/part_figure.hpp"
 #include "rollfix/draw/svg.hpp"
 #include "rollfix/error.hpp"
@@ -14,14 +14,13 @@ namespace draw_figure_test {
 namespace {
 
 using draw_test::count_of;
+using draw_test::Figure;
 using draw_test::figure_with;
 using draw_test::found_at;
 using draw_test::gallery_part;
 using draw_test::nesting_error;
 using draw_test::paths_in;
 using rollfix::draw_part;
-using rollfix::draw_placements;
-using rollfix::LocateFigure;
 using rollfix::Part;
 using rollfix::Vec2;
 using testing::HasSubstr;
@@ -46,9 +45,9 @@ std::pair<Vec2, double> drawn_circle(const std::string& svg) {
   return {0.5 * (lo + hi), 0.5 * (hi - lo).x()};
 }
 
-TEST(LocateFigure, has_one_arc_and_both_labels_for_each_placement) {
+TEST(AnswerFigure, has_one_arc_and_both_labels_for_each_placement) {
   const Part part = gallery_part("ellipse");
-  const std::string svg = draw_placements(figure_with(part, 6, 0.2)).str();
+  const std::string svg = figure_with(part, 6, 0.2).str();
   EXPECT_EQ(paths_in(svg, "arc").size(), 6U);
   for (const std::string number : {"0", "1", "2", "3", "4", "5"}) {
     EXPECT_EQ(labels(svg, "a", number), 1);
@@ -59,19 +58,19 @@ TEST(LocateFigure, has_one_arc_and_both_labels_for_each_placement) {
   EXPECT_THAT(svg, HasSubstr("class=\"scale-bar\""));
 }
 
-TEST(LocateFigure, is_well_formed_and_the_same_on_every_run) {
+TEST(AnswerFigure, is_well_formed_and_the_same_on_every_run) {
   for (const std::string name : {"ellipse", "gear", "naca", "reuleaux", "log-spiral"}) {
     const Part part = gallery_part(name);
-    const std::string svg = draw_placements(figure_with(part, 5, 0.13)).str();
+    const std::string svg = figure_with(part, 5, 0.13).str();
     EXPECT_EQ(nesting_error(svg), "") << name;
-    EXPECT_EQ(svg, draw_placements(figure_with(part, 5, 0.13)).str()) << name;
+    EXPECT_EQ(svg, figure_with(part, 5, 0.13).str()) << name;
   }
 }
 
-TEST(LocateFigure, has_y_pointing_up) {
+TEST(AnswerFigure, has_y_pointing_up) {
   const Part part = gallery_part("circle");
-  LocateFigure figure = figure_with(part, 1, 0.25);  // from (1, 0) over a quarter to (0, 1)
-  const std::string svg = draw_placements(figure).str();
+  Figure figure = figure_with(part, 1, 0.25);  // from (1, 0) over a quarter to (0, 1)
+  const std::string svg = figure.str();
   const auto [centre, radius] = drawn_circle(svg);
   const std::vector<Vec2> arc = paths_in(svg, "arc").at(0);
   EXPECT_NEAR(arc.front().y(), centre.y(), 0.5);
@@ -79,9 +78,9 @@ TEST(LocateFigure, has_y_pointing_up) {
   EXPECT_LT(arc.back().y(), centre.y() - radius);
 }
 
-TEST(LocateFigure, stacks_overlapping_arcs_outward) {
+TEST(AnswerFigure, stacks_overlapping_arcs_outward) {
   const Part part = gallery_part("circle");
-  const std::string svg = draw_placements(figure_with(part, 3, 0.9)).str();
+  const std::string svg = figure_with(part, 3, 0.9).str();
   const auto [centre, radius] = drawn_circle(svg);
   double last = radius;
   for (const std::vector<Vec2>& arc : paths_in(svg, "arc")) {
@@ -92,9 +91,9 @@ TEST(LocateFigure, stacks_overlapping_arcs_outward) {
   }
 }
 
-TEST(LocateFigure, winds_an_arc_that_goes_round_more_than_once) {
+TEST(AnswerFigure, winds_an_arc_that_goes_round_more_than_once) {
   const Part part = gallery_part("circle");
-  const std::string svg = draw_placements(figure_with(part, 1, 2.5)).str();
+  const std::string svg = figure_with(part, 1, 2.5).str();
   const auto [centre, radius] = drawn_circle(svg);
   const std::vector<Vec2> arc = paths_in(svg, "arc").at(0);
   double turned = 0;
@@ -107,20 +106,20 @@ TEST(LocateFigure, winds_an_arc_that_goes_round_more_than_once) {
   EXPECT_GT((arc.back() - centre).norm(), (arc.front() - centre).norm() + 10);
 }
 
-TEST(LocateFigure, names_the_contact_of_a_second_reading_c) {
+TEST(AnswerFigure, names_the_contact_of_a_second_reading_c) {
   const Part part = gallery_part("ellipse");
-  LocateFigure figure = figure_with(part, 2, 0.1);
-  figure.readings.push_back({0.2 * part.perimeter(), 1.5});
-  const std::string svg = draw_placements(figure).str();
+  Figure figure = figure_with(part, 2, 0.1);
+  figure.answer.readings.push_back({0.2 * part.perimeter(), 1.5});
+  const std::string svg = figure.str();
   EXPECT_EQ(labels(svg, "a", "1") + labels(svg, "b", "1") + labels(svg, "c", "1"), 3);
 }
 
-TEST(LocateFigure, shows_a_stretch_as_a_band_over_its_extent) {
+TEST(AnswerFigure, shows_a_stretch_as_a_band_over_its_extent) {
   const Part part = gallery_part("circle");
-  LocateFigure figure = figure_with(part, 1, 0.1);
-  figure.found.placements[0].kind = rollfix::Kind::stretch;
-  figure.found.placements[0].extent = {0, part.perimeter() / 4};
-  const std::string svg = draw_placements(figure).str();
+  Figure figure = figure_with(part, 1, 0.1);
+  figure.answer.placements[0].kind = rollfix::Kind::stretch;
+  figure.answer.placements[0].extent = rollfix::Interval{0, part.perimeter() / 4};
+  const std::string svg = figure.str();
   const std::vector<std::vector<Vec2>> bands = paths_in(svg, "extent");
   ASSERT_EQ(bands.size(), 1U);
   const auto [centre, radius] = drawn_circle(svg);
@@ -128,20 +127,20 @@ TEST(LocateFigure, shows_a_stretch_as_a_band_over_its_extent) {
   EXPECT_LT((bands[0].back() - centre - Vec2(0, -radius)).norm(), 0.5);
 }
 
-TEST(LocateFigure, shows_where_the_search_is_unresolved) {
+TEST(AnswerFigure, shows_where_the_search_is_unresolved) {
   const Part part = gallery_part("ellipse");
-  LocateFigure figure = figure_with(part, 1, 0.1);
-  figure.found.unresolved = {{1, 2}};
-  EXPECT_EQ(paths_in(draw_placements(figure).str(), "unresolved").size(), 1U);
+  Figure figure = figure_with(part, 1, 0.1);
+  figure.answer.unresolved = {rollfix::Interval{1, 2}};
+  EXPECT_EQ(paths_in(figure.str(), "unresolved").size(), 1U);
 }
 
-TEST(LocateFigure, draws_the_finger_at_both_ends_of_the_highlighted_placement) {
+TEST(AnswerFigure, draws_the_finger_at_both_ends_of_the_highlighted_placement) {
   const Part part = gallery_part("circle");
-  LocateFigure figure = figure_with(part, 6, 0.1);
-  figure.finger_radius = 0.25;
-  EXPECT_THAT(draw_placements(figure).str(), Not(HasSubstr("class=\"finger\"")));
+  Figure figure = figure_with(part, 6, 0.1);
+  figure.answer.fingers = {0.25};
+  EXPECT_THAT(figure.str(), Not(HasSubstr("class=\"finger\"")));
   figure.highlight = 2;
-  const std::string svg = draw_placements(figure).str();
+  const std::string svg = figure.str();
   EXPECT_EQ(count_of(svg, "class=\"finger\""), 1);
   // The disk touches the circle from outside: the distance between their centres is the sum of their radii.
   const auto [centre, radius] = drawn_circle(svg);
@@ -152,48 +151,47 @@ TEST(LocateFigure, draws_the_finger_at_both_ends_of_the_highlighted_placement) {
   EXPECT_NEAR((Vec2(x, y) - centre).norm(), 1.25 * radius, 0.2);
 }
 
-TEST(LocateFigure, drops_labels_and_then_arcs_as_placements_grow_many) {
+TEST(AnswerFigure, drops_labels_and_then_arcs_as_placements_grow_many) {
   const Part part = gallery_part("ellipse");
-  const std::string twenty = draw_placements(figure_with(part, 20, 0.05)).str();
+  const std::string twenty = figure_with(part, 20, 0.05).str();
   EXPECT_EQ(labels(twenty, "b", "19"), 1);
   EXPECT_THAT(twenty, Not(HasSubstr("class=\"legend\"")));
-  const std::string more = draw_placements(figure_with(part, 24, 0.05)).str();
+  const std::string more = figure_with(part, 24, 0.05).str();
   EXPECT_EQ(labels(more, "a", "0"), 0);
   EXPECT_EQ(paths_in(more, "arc").size(), 24U);
   EXPECT_THAT(more, HasSubstr("ambiguous (24)"));
-  const std::string crowd = draw_placements(figure_with(part, 5000, 0.4)).str();
+  const std::string crowd = figure_with(part, 5000, 0.4).str();
   EXPECT_EQ(paths_in(crowd, "arc").size(), 0U);
   EXPECT_EQ(paths_in(crowd, "starts").at(0).size(), 10000U);
   EXPECT_LT(crowd.size(), 500000U);
 }
 
-TEST(LocateFigure, draws_a_part_alone_when_nothing_fits) {
+TEST(AnswerFigure, draws_a_part_alone_when_nothing_fits) {
   const Part part = gallery_part("ellipse");
-  const std::string svg = draw_placements(figure_with(part, 0, 0.1)).str();
+  const std::string svg = figure_with(part, 0, 0.1).str();
   EXPECT_EQ(nesting_error(svg), "");
   EXPECT_THAT(svg, HasSubstr("inconsistent"));
 }
 
-TEST(LocateFigure, refuses_what_does_not_fit_together) {
+TEST(AnswerFigure, refuses_what_does_not_fit_together) {
   const Part part = gallery_part("ellipse");
-  EXPECT_THROW(draw_placements(LocateFigure{}), rollfix::InputError);
-  LocateFigure figure = figure_with(part, 3, 0.1);
+  EXPECT_THROW(rollfix::draw_answer(rollfix::AnswerFigure{}), rollfix::InputError);
+  Figure figure = figure_with(part, 3, 0.1);
   figure.highlight = 3;
-  EXPECT_THAT([&] { draw_placements(figure); },
-              ThrowsMessage<rollfix::InputError>(HasSubstr("one of its 3 placements, found 3")));
+  EXPECT_THAT([&] { figure.str(); }, ThrowsMessage<rollfix::InputError>(HasSubstr("one of its 3 placements, found 3")));
   figure.highlight.reset();
   figure.numbers = {1};
-  EXPECT_THROW(draw_placements(figure), rollfix::InputError);
+  EXPECT_THROW(figure.str(), rollfix::InputError);
 }
 
 TEST(SideBySide, shows_one_part_at_one_scale_and_keeps_a_placements_number) {
   const Part part = gallery_part("circle");
-  LocateFigure first = figure_with(part, 6, 0.4), second = figure_with(part, 1, 0.4);
-  second.found = found_at(part, {first.found.placements[4].start + 1e-9}, second.readings[0].length);
-  second.numbers = numbers_of(second.found, first.found, part);
+  Figure first = figure_with(part, 6, 0.4), second = figure_with(part, 1, 0.4);
+  second.answer.placements = found_at(part, {first.answer.placements[4].start[0] + 1e-9}, 0.4 * part.perimeter());
+  second.numbers = numbers_of(second.answer, first.answer);
   EXPECT_THAT(second.numbers, testing::ElementsAre(4));
-  const rollfix::Svg row = rollfix::side_by_side({first, second});
-  EXPECT_EQ(row.width(), first.width + second.width);
+  const rollfix::Svg row = rollfix::side_by_side({first.figure(), second.figure()});
+  EXPECT_EQ(row.width(), 2 * 640);
   const std::string svg = row.str();
   EXPECT_EQ(nesting_error(svg), "");
   EXPECT_EQ(labels(svg, "a", "4"), 2);
@@ -206,8 +204,11 @@ TEST(SideBySide, shows_one_part_at_one_scale_and_keeps_a_placements_number) {
 TEST(NumbersOf, count_across_the_seam) {
   const Part part = gallery_part("circle");
   const double P = part.perimeter();
-  EXPECT_THAT(numbers_of(found_at(part, {P - 1e-9, 3}, 1), found_at(part, {0, 1, 3}, 1), part),
-              testing::ElementsAre(0, 2));
+  rollfix::Answer later{part};
+  later.placements = found_at(part, {P - 1e-9, 3}, 1);
+  rollfix::Answer earlier{part};
+  earlier.placements = found_at(part, {0, 1, 3}, 1);
+  EXPECT_THAT(numbers_of(later, earlier), testing::ElementsAre(0, 2));
 }
 
 TEST(PartFigure, marks_every_event_once_in_the_shape_and_counts_them) {
@@ -251,7 +252,7 @@ TEST(PartFigure, can_be_drawn_of_every_shape_in_the_gallery) {
   for (const rollfix::GalleryShape& shape : rollfix::gallery_shapes()) {
     const Part part = gallery_part(shape.name);
     EXPECT_EQ(nesting_error(draw_part({&part, "", 640}).str()), "") << shape.name;
-    EXPECT_EQ(nesting_error(draw_placements(figure_with(part, 3, 0.07)).str()), "") << shape.name;
+    EXPECT_EQ(nesting_error(figure_with(part, 3, 0.07).str()), "") << shape.name;
   }
 }
 

@@ -7,10 +7,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "rollfix/draw/locate_figure.hpp"
+#include "rollfix/draw/answer_figure.hpp"
 #include "rollfix/outline/gallery.hpp"
 #include "rollfix/outline/points.hpp"
 #include "rollfix/part/part.hpp"
@@ -29,30 +30,46 @@ inline rollfix::Part bumpy_part(int count) {
   return rollfix::Part({"bumpy", rollfix::spline_through(points, true), true, false});
 }
 
-/// A search that found crossings at these starts.
-inline rollfix::Search found_at(const rollfix::Part& part, const std::vector<double>& starts, double length) {
-  rollfix::Search search;
+/// Crossings at these starts.
+inline std::vector<rollfix::Placement> found_at(const rollfix::Part& part, const std::vector<double>& starts,
+                                                double length) {
+  std::vector<rollfix::Placement> placements;
   for (const double start : starts) {
     rollfix::Placement placement;
     placement.start = start;
     placement.end = std::fmod(std::fmod(start + length, part.perimeter()) + part.perimeter(), part.perimeter());
-    placement.extent = {start, start};
-    placement.roots = {start};
+    placement.extent = rollfix::Interval{start, start};
+    placement.roots.push_back(start);
     placement.point = part.point(start);
     placement.tangent = part.tangent(start);
-    search.placements.push_back(placement);
+    placements.push_back(placement);
   }
-  return search;
+  return placements;
 }
 
+/// A figure with the answer that it shows.
+struct Figure {
+  rollfix::Answer answer;
+  std::optional<std::size_t> highlight{};
+  std::vector<std::size_t> numbers{};
+
+  rollfix::AnswerFigure figure() const { return {&answer, highlight, numbers}; }
+  std::string str() const {
+    Figure with_verdict = *this;
+    rollfix::Search search;
+    search.placements = answer.placements;
+    with_verdict.answer.verdict = search.verdict();
+    return rollfix::draw_answer(with_verdict.figure()).str();
+  }
+};
+
 /// A figure of `count` evenly spread placements that all rolled the same fraction of the perimeter.
-inline rollfix::LocateFigure figure_with(const rollfix::Part& part, int count, double fraction) {
-  rollfix::LocateFigure figure;
-  figure.part = &part;
+inline Figure figure_with(const rollfix::Part& part, int count, double fraction) {
+  Figure figure{{part}};
   std::vector<double> starts;
   for (int i = 0; i < count; ++i) starts.push_back(part.perimeter() * i / count);
-  figure.readings = {{fraction * part.perimeter(), 1.0}};
-  figure.found = found_at(part, starts, figure.readings[0].length);
+  figure.answer.readings = {{fraction * part.perimeter(), 1.0}};
+  figure.answer.placements = found_at(part, starts, fraction * part.perimeter());
   return figure;
 }
 

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "draw/labels.hpp"
-#include "draw/plot.hpp"
 #include "draw/offset.hpp"
+#include "draw/plot.hpp"
 #include "draw/rolls.hpp"
 #include "random.hpp"
 

@@ -9,20 +9,19 @@
 #include "draw/contours.hpp"
 #include "draw_helpers.hpp"
 #include "pair_cases.hpp"
-#include "rollfix/draw/pair_figure.hpp"
+#include "rollfix/draw/answer_figure.hpp"
 #include "rollfix/error.hpp"
 
 namespace draw_pair_test {
 namespace {
 
 using draw_test::count_of;
+using draw_test::Figure;
 using draw_test::gallery_part;
 using draw_test::nesting_error;
 using draw_test::paths_in;
-using rollfix::draw_pairs;
-using rollfix::PairFigure;
-using rollfix::PairPoint;
 using rollfix::Part;
+using rollfix::PerFinger;
 using rollfix::Vec2;
 using rollfix::draw::level_lines;
 using rollfix::draw::Samples;
@@ -74,18 +73,20 @@ TEST(LevelLines, cross_where_the_function_has_a_saddle) {
 }
 
 /// A figure with crossings at these pairs; the readings are those of the first.
-PairFigure figure_of(const Part& part, const std::vector<PairPoint>& starts,
-                     const std::vector<std::array<double, 2>>& shares = {{0.21, -0.12}, {0.31, 0.15}}) {
-  PairFigure figure;
-  figure.part = &part;
+Figure figure_of(const Part& part, const std::vector<PerFinger<double>>& starts,
+                 const std::vector<std::array<double, 2>>& shares = {{0.21, -0.12}, {0.31, 0.15}}) {
+  Figure figure{{part}};
   const double P = part.perimeter();
   for (const auto& [a, b] : shares) {
-    const PairPoint from = starts.empty() ? PairPoint{} : starts[0];
-    figure.readings.push_back(pair_cases::reading_from(part, from, a * P, b * P));
+    const PerFinger<double> from = starts.empty() ? PerFinger<double>(0.0, 0.0) : starts[0];
+    figure.answer.readings.push_back(pair_cases::reading_from(part, from, a * P, b * P));
   }
-  for (const PairPoint& start : starts) {
-    rollfix::PairPlacement placement;
-    placement.start = start;
+  for (const PerFinger<double>& start : starts) {
+    rollfix::Placement placement;
+    placement.start = placement.end = placement.tangent = start;
+    placement.extent = {rollfix::Interval{}, rollfix::Interval{}};
+    placement.whole_loop = {false, false};
+    placement.point = {Vec2(), Vec2()};
     for (std::size_t finger = 0; finger < 2; ++finger) {
       const double share = shares.back()[finger];
       placement.end[finger] =
@@ -94,8 +95,8 @@ PairFigure figure_of(const Part& part, const std::vector<PairPoint>& starts,
       placement.point[finger] = part.point(start[finger]);
       placement.tangent[finger] = part.tangent(start[finger]);
     }
-    placement.roots = {start};
-    figure.found.placements.push_back(placement);
+    placement.roots.push_back(start);
+    figure.answer.placements.push_back(placement);
   }
   return figure;
 }
@@ -137,9 +138,9 @@ int labels(const std::string& svg, const std::string& letter, int k) {
   return count_of(svg, text) / 2;  // a white rim and the letter
 }
 
-TEST(PairFigure, shows_both_rolls_with_their_contacts_named) {
+TEST(AnswerFigureOfTwo, shows_both_rolls_with_their_contacts_named) {
   const Part part = gallery_part("ellipse");
-  const std::string svg = draw_pairs(figure_of(part, {{1, 4}})).str();
+  const std::string svg = figure_of(part, {{1, 4}}).str();
   EXPECT_EQ(paths_in(svg, "arc").size(), 3U);  // b turns back: its roll has two runs
   for (int k = 0; k < 3; ++k) {
     EXPECT_EQ(labels(svg, "s", k), 1) << k;
@@ -148,30 +149,30 @@ TEST(PairFigure, shows_both_rolls_with_their_contacts_named) {
   EXPECT_EQ(labels(svg, "s", 3), 0);
 }
 
-TEST(PairFigure, draws_each_equation_through_the_pairs_that_satisfy_it) {
+TEST(AnswerFigureOfTwo, draws_each_equation_through_the_pairs_that_satisfy_it) {
   const Part part = gallery_part("limacon");
-  const std::string svg = draw_pairs(figure_of(part, {{2, 5}})).str();
+  const std::string svg = figure_of(part, {{2, 5}}).str();
   const Vec2 dot = dots_of(svg).at(0).first;
   EXPECT_LT(distance(equation(svg, 0), dot), 2);  // the lines' own vertices are about a pixel apart
   EXPECT_LT(distance(equation(svg, 1), dot), 2);
-  PairFigure wrong = figure_of(part, {{2, 5}});
-  wrong.readings[1].turn += 0.5;
-  EXPECT_GT(distance(equation(draw_pairs(wrong).str(), 1), dot), 4);
+  Figure wrong = figure_of(part, {{2, 5}});
+  wrong.answer.readings[1].turn += 0.5;
+  EXPECT_GT(distance(equation(wrong.str(), 1), dot), 4);
 }
 
-TEST(PairFigure, draws_the_facing_as_an_equation_of_its_own) {
+TEST(AnswerFigureOfTwo, draws_the_facing_as_an_equation_of_its_own) {
   const Part part = gallery_part("limacon");
-  PairFigure figure = figure_of(part, {{2, 5}}, {{0.2, 0.1}});
-  figure.facing = part.turning().angle(2) - part.turning().angle(5) + 6 * std::numbers::pi;
-  const std::string svg = draw_pairs(figure).str();
+  Figure figure = figure_of(part, {{2, 5}}, {{0.2, 0.1}});
+  figure.answer.facing = part.turning().angle(2) - part.turning().angle(5) + 6 * std::numbers::pi;
+  const std::string svg = figure.str();
   EXPECT_LT(distance(equation(svg, 0), dots_of(svg).at(0).first), 2);
   EXPECT_THAT(svg, HasSubstr("facing"));
 }
 
-TEST(PairFigure, has_s_to_the_right_and_t_upward) {
+TEST(AnswerFigureOfTwo, has_s_to_the_right_and_t_upward) {
   const Part part = gallery_part("ellipse");
   const double P = part.perimeter();
-  const auto dots = dots_of(draw_pairs(figure_of(part, {{0, 0}, {P / 2, 0}, {0, P / 2}})).str());
+  const auto dots = dots_of(figure_of(part, {{0, 0}, {P / 2, 0}, {0, P / 2}}).str());
   ASSERT_EQ(dots.size(), 3U);
   const auto origin = std::max_element(dots.begin(), dots.end(), [](auto& a, auto& b) { return a.second < b.second; });
   const double half = 0.5 * 0.4 * 960;
@@ -179,86 +180,85 @@ TEST(PairFigure, has_s_to_the_right_and_t_upward) {
   EXPECT_NEAR(dots[1].first.y() - origin->first.y(), -half, 0.1);
 }
 
-TEST(PairFigure, draws_a_stretch_as_a_line_that_goes_on_at_the_opposite_edge) {
+TEST(AnswerFigureOfTwo, draws_a_stretch_as_a_line_that_goes_on_at_the_opposite_edge) {
   const Part part = gallery_part("ellipse");
   const double P = part.perimeter();
-  PairFigure figure = figure_of(part, {{0.75 * P, 0.5 * P}});
-  figure.found.placements[0].kind = rollfix::Kind::stretch;
-  figure.found.placements[0].family = {{0.75 * P, 0.5 * P}, {1.25 * P, P}};
-  const std::string svg = draw_pairs(figure).str();
+  Figure figure = figure_of(part, {{0.75 * P, 0.5 * P}});
+  figure.answer.placements[0].kind = rollfix::Kind::stretch;
+  figure.answer.placements[0].family = {{0.75 * P, 0.5 * P}, {1.25 * P, P}};
+  const std::string svg = figure.str();
   const std::size_t from = svg.find("class=\"stretch\""), to = svg.find("</g>", from);
   EXPECT_GE(count_of(svg.substr(from, to - from), "<path"), 2);
   EXPECT_EQ(count_of(svg.substr(from, to - from), "<rect"), 0);
-  figure.found.placements[0].family_error = 0.1 * P;  // not a line at all: a patch of pairs
-  figure.found.placements[0].extent = {rollfix::Interval{0.2 * P, 0.4 * P}, rollfix::Interval{0.2 * P, 0.4 * P}};
-  const std::string patch = draw_pairs(figure).str();
+  figure.answer.placements[0].family_error = 0.1 * P;  // not a line at all: a patch of pairs
+  figure.answer.placements[0].extent = {rollfix::Interval{0.2 * P, 0.4 * P}, rollfix::Interval{0.2 * P, 0.4 * P}};
+  const std::string patch = figure.str();
   const std::size_t start = patch.find("class=\"stretch\"");
   EXPECT_EQ(count_of(patch.substr(start, patch.find("</g>", start) - start), "<rect"), 1);
 }
 
-TEST(PairFigure, gives_other_placements_a_dot_for_each_finger_and_one_number_where_dots_meet) {
+TEST(AnswerFigureOfTwo, gives_other_placements_a_dot_for_each_finger_and_one_number_where_dots_meet) {
   const Part part = gallery_part("ellipse");
-  const std::string svg = draw_pairs(figure_of(part, {{1, 4}, {2, 5}, {2, 6}})).str();
+  const std::string svg = figure_of(part, {{1, 4}, {2, 5}, {2, 6}}).str();
   const std::size_t from = svg.find("class=\"starts\""), to = svg.find("</g>", from);
   EXPECT_EQ(count_of(svg.substr(from, to - from), "<circle"), 3);  // 1 and 2 share finger a's
   EXPECT_THAT(svg, HasSubstr(">1,2<"));
 }
 
-TEST(PairFigure, draws_the_fingers_of_the_highlighted_placement) {
+TEST(AnswerFigureOfTwo, draws_the_fingers_of_the_highlighted_placement) {
   const Part part = gallery_part("ellipse");
-  PairFigure figure = figure_of(part, {{1, 4}, {2, 5}});
-  EXPECT_THAT(draw_pairs(figure).str(), Not(HasSubstr("class=\"finger\"")));
+  Figure figure = figure_of(part, {{1, 4}, {2, 5}});
+  EXPECT_THAT(figure.str(), Not(HasSubstr("class=\"finger\"")));
   figure.highlight = 1;
-  figure.finger_radius = {0.3, 0.2};
-  EXPECT_EQ(count_of(draw_pairs(figure).str(), "class=\"finger\""), 2);
-  figure.finger_radius[1].reset();
-  EXPECT_EQ(count_of(draw_pairs(figure).str(), "class=\"finger\""), 1);
+  figure.answer.fingers = {0.3, 0.2};
+  EXPECT_EQ(count_of(figure.str(), "class=\"finger\""), 2);
+  figure.answer.fingers[1] = rollfix::Finger::jaw();
+  EXPECT_EQ(count_of(figure.str(), "class=\"finger\""), 1);
 }
 
-TEST(PairFigure, drops_numbers_as_placements_grow_many) {
+TEST(AnswerFigureOfTwo, drops_numbers_as_placements_grow_many) {
   const Part part = gallery_part("ellipse");
-  std::vector<PairPoint> starts;
+  std::vector<PerFinger<double>> starts;
   for (int i = 0; i < 3000; ++i) starts.push_back({0.003 * i, 0.002 * i});
-  const std::string svg = draw_pairs(figure_of(part, starts)).str();
+  const std::string svg = figure_of(part, starts).str();
   EXPECT_EQ(dots_of(svg).size(), 3000U);
   EXPECT_THAT(svg, Not(HasSubstr(">2999<")));
   EXPECT_LT(svg.size(), 1000000U);
 }
 
-TEST(PairFigure, can_be_drawn_of_every_shape_the_same_on_every_run) {
+TEST(AnswerFigureOfTwo, can_be_drawn_of_every_shape_the_same_on_every_run) {
   for (const rollfix::GalleryShape& shape : rollfix::gallery_shapes()) {
     const Part part = gallery_part(shape.name);
     const double P = part.perimeter();
-    const PairFigure figure = figure_of(part, {{0.3 * P, 0.4 * P}, {0.2 * P, 0.5 * P}});
-    const std::string svg = draw_pairs(figure).str();
+    const Figure figure = figure_of(part, {{0.3 * P, 0.4 * P}, {0.2 * P, 0.5 * P}});
+    const std::string svg = figure.str();
     EXPECT_EQ(nesting_error(svg), "") << shape.name;
-    EXPECT_EQ(svg, draw_pairs(figure).str()) << shape.name;
+    EXPECT_EQ(svg, figure.str()) << shape.name;
   }
 }
 
-TEST(PairFigure, of_nothing_that_fits_is_the_part_and_the_equations) {
+TEST(AnswerFigureOfTwo, of_nothing_that_fits_is_the_part_and_the_equations) {
   const Part part = gallery_part("ellipse");
-  const std::string svg = draw_pairs(figure_of(part, {})).str();
+  const std::string svg = figure_of(part, {}).str();
   EXPECT_EQ(nesting_error(svg), "");
   EXPECT_THAT(svg, HasSubstr("inconsistent"));
   EXPECT_EQ(count_of(svg, "class=\"equation\""), 2);
   EXPECT_TRUE(dots_of(svg).empty());
 }
 
-TEST(PairFigure, shows_where_the_search_is_unresolved) {
+TEST(AnswerFigureOfTwo, shows_where_the_search_is_unresolved) {
   const Part part = gallery_part("ellipse");
-  PairFigure figure = figure_of(part, {{1, 4}});
-  figure.found.unresolved = {{rollfix::Interval{1, 2}, rollfix::Interval{3, 4}}};
-  EXPECT_EQ(count_of(draw_pairs(figure).str(), "class=\"unresolved\""), 1);
+  Figure figure = figure_of(part, {{1, 4}});
+  figure.answer.unresolved = {{rollfix::Interval{1, 2}, rollfix::Interval{3, 4}}};
+  EXPECT_EQ(count_of(figure.str(), "class=\"unresolved\""), 1);
 }
 
-TEST(PairFigure, refuses_what_does_not_fit_together) {
+TEST(AnswerFigureOfTwo, refuses_what_does_not_fit_together) {
   const Part part = gallery_part("ellipse");
-  EXPECT_THROW(draw_pairs(PairFigure{}), rollfix::InputError);
-  PairFigure figure = figure_of(part, {{1, 4}});
+  EXPECT_THROW(rollfix::draw_answer(rollfix::AnswerFigure{}), rollfix::InputError);
+  Figure figure = figure_of(part, {{1, 4}});
   figure.highlight = 1;
-  EXPECT_THAT([&] { draw_pairs(figure); },
-              ThrowsMessage<rollfix::InputError>(HasSubstr("one of its 1 placements, found 1")));
+  EXPECT_THAT([&] { figure.str(); }, ThrowsMessage<rollfix::InputError>(HasSubstr("one of its 1 placements, found 1")));
 }
 
 }  // namespace

@@ -120,7 +120,7 @@ TEST(Finger, a_contact_after_a_reading_gives_that_reading_back) {
   for (const Finger& finger : {Finger(0.3), Finger::jaw(), finger_from("ellipse,a=0.4,b=0.2")}) {
     const Contact first{0.4, 1.2};
     const Reading reading = reading_between(finger, first, contact_after(finger, first, {-0.7, 1.9}));
-    EXPECT_NEAR(reading.length, -0.7, 1e-14);
+    EXPECT_NEAR(reading.length[0], -0.7, 1e-14);
     EXPECT_NEAR(reading.turn, 1.9, 1e-14);
   }
 }
@@ -205,7 +205,7 @@ TEST(Finger, both_ways_of_rolling_agree_on_random_shapes) {
     EXPECT_LT(difference(exact, integrated), 3e-8) << pairing.part.name() << " " << pairing.finger.name();
     EXPECT_NEAR(exact.s.back() - exact.s.front(), *pairing.plan.distance, 1e-9);
     const Reading last = readings(exact.log, pairing.part, pairing.finger).back();
-    EXPECT_NEAR(last.length, exact.s.back() - exact.s.front(), 1e-9);
+    EXPECT_NEAR(last.length[0], exact.s.back() - exact.s.front(), 1e-9);
     EXPECT_NEAR(last.turn, exact.angle.back() - exact.angle.front(), 1e-8);
   }
   EXPECT_GT(rolled, test_count(60) / 4);
@@ -306,7 +306,7 @@ TEST(Finger, logs_of_a_jaw_and_of_outlines_are_read_back) {
     LogStream stream("live", part, finger);
     stream.push("u,psi");
     for (std::size_t row = 0; row < all.size(); ++row) {
-      EXPECT_NEAR(all[row].length, found.s[row] - 1, 1e-9);
+      EXPECT_NEAR(all[row].length[0], found.s[row] - 1, 1e-9);
       const LogLine line = stream.push(fmt::format("{:.17g},{:.17g}", log.u[row], log.psi[row]));
       ASSERT_EQ(line.kind, row == 0 ? LineKind::first : LineKind::sample) << line.message;
       EXPECT_EQ(line.sample.reading.length, all[row].length);
@@ -320,9 +320,9 @@ TEST(Finger, u_of_a_closed_outline_may_be_wrapped_at_its_length) {
   const Part part(gallery("ellipse"));
   const Finger finger = finger_from("ellipse,a=0.3,b=0.2");
   Log log = roll_in_closed_form(part, finger, plan_over(1, 8, 200)).log;
-  const double whole = readings(log, part, finger).back().length;
+  const double whole = readings(log, part, finger).back().length[0];
   for (double& u : log.u) u -= finger.period() * std::floor(u / finger.period());
-  EXPECT_NEAR(readings(log, part, finger).back().length, whole, 1e-9);
+  EXPECT_NEAR(readings(log, part, finger).back().length[0], whole, 1e-9);
 }
 
 TEST(Finger, a_row_off_the_end_of_an_open_finger_is_refused_or_skipped) {

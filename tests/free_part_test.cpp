@@ -213,8 +213,8 @@ TEST_P(FreePartCases, the_difference_of_the_readings_is_that_of_the_total_curvat
   for (std::size_t row = 1; row < found.s.size(); row += 101) {
     const Reading a = reading_at(found.log.a, ra_, row);
     const Reading b = reading_at(found.log.b, rb_, row);
-    const double phi_a = turning.angle(found.s[0] + a.length) - turning.angle(found.s[0]);
-    const double phi_b = turning.angle(found.t[0] + b.length) - turning.angle(found.t[0]);
+    const double phi_a = turning.angle(found.s[0] + a.length[0]) - turning.angle(found.s[0]);
+    const double phi_b = turning.angle(found.t[0] + b.length[0]) - turning.angle(found.t[0]);
     EXPECT_NEAR(a.turn - b.turn, phi_a - phi_b, 1e-8) << "row " << row;  // eqs. (8) and (9)
   }
 }
@@ -261,7 +261,7 @@ TEST(FreePart, both_fingers_pivot_at_convex_corners) {
   const FreePlan plan = by_distances(0.5, 1, 2, 0.2, 5.5, -2, 0.4);
   const FreeRoll found = roll_free(square, plan);
   EXPECT_LT(difference(found, roll_free_in_closed_form(square, plan)), 1e-9);
-  EXPECT_NEAR(reading_at(found.log.a, 0.5, 200).length, 2, 1e-9);
+  EXPECT_NEAR(reading_at(found.log.a, 0.5, 200).length[0], 2, 1e-9);
   EXPECT_NEAR(reading_at(found.log.a, 0.5, 200).turn, kPi / 2 + 0.4, 1e-9);
   EXPECT_NEAR(reading_at(found.log.b, 0.2, 200).turn, -kPi / 2 + 0.4, 1e-9);
   std::size_t pivoting = 0;

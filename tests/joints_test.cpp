@@ -9,7 +9,6 @@
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate/locate.hpp"
-#include "rollfix/locate/locate_pair.hpp"
 #include "rollfix/part/reach.hpp"
 #include "shapes.hpp"
 
@@ -137,11 +136,11 @@ TEST(Joint, that_two_fingers_readings_fall_into_is_a_placement) {
     const double s = corner.s - 0.05;
     const double t = corner.s + 3.1;
     // Finger a ends in the middle of the jump.
-    const PairReading reading{0.05, 0.9, (there - turning.angle(s)) - (turning.angle(t + 0.9) - turning.angle(t))};
-    PairOptions options;
+    const Reading reading{0.05, 0.9, (there - turning.angle(s)) - (turning.angle(t + 0.9) - turning.angle(t))};
+    LocateOptions options;
     options.facing = turning.angle(s) - turning.angle(t);
     bool found = false;
-    for (const PairPlacement& placement : locate(drawing, std::vector<PairReading>{reading}, options).placements) {
+    for (const Placement& placement : locate(drawing, std::vector<Reading>{reading}, options).placements) {
       const double ahead = wrap(s - placement.extent[0].lo + 1e-9, drawing.perimeter()).base;
       found = found || ahead <= placement.extent[0].width() + 2e-9;
     }
@@ -219,8 +218,8 @@ TEST_P(RoundedCorner, is_found_as_accurately_as_the_closed_form) {
   ASSERT_EQ(search.placements.size(), 8U) << radius;
   for (std::size_t k = 0; k < 4; ++k) {
     const double first = static_cast<double>(k) * (side + arc);
-    EXPECT_NEAR(search.placements[2 * k].start, first + side - 0.4 + turn * radius, 1e-9) << radius;
-    EXPECT_NEAR(search.placements[2 * k + 1].start, first + side + arc - turn * radius, 1e-9) << radius;
+    EXPECT_NEAR(search.placements[2 * k].start[0], first + side - 0.4 + turn * radius, 1e-9) << radius;
+    EXPECT_NEAR(search.placements[2 * k + 1].start[0], first + side + arc - turn * radius, 1e-9) << radius;
   }
 }
 
@@ -239,9 +238,9 @@ TEST_P(RoundedCorner, tends_to_the_sharp_corners_placements) {
     EXPECT_EQ(sharp.placements[k].kind, Kind::corner);
     // Where on the plane, because arc lengths differ: a start at a corner comes after one on the edge before it, and
     // s = 0 is a corner of the sharp one.
-    const Vec2 at = rounded.placements[k].point;
+    const Vec2 at = rounded.placements[k].point[0];
     double nearest = 1;
-    for (const Placement& placement : sharp.placements) nearest = std::min(nearest, (placement.point - at).norm());
+    for (const Placement& placement : sharp.placements) nearest = std::min(nearest, (placement.point[0] - at).norm());
     EXPECT_LT(nearest, 3 * radius);
   }
 }

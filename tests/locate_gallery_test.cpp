@@ -62,9 +62,9 @@ TEST_P(Locate, answers_with_places_that_fit) {
     for (const Placement& placement : locate(part, reading).placements) {
       EXPECT_LE(placement.residual, 1e-9 * (1 + 1e-9));
       if (placement.kind == Kind::corner) continue;
-      const double inside = placement.kind == Kind::stretch ? placement.extent.middle() : placement.start;
-      const Reading there = shapes::reading_from(part, inside, reading.length);
-      EXPECT_NEAR(there.turn, reading.turn, 1.1e-9) << placement.start;
+      const double inside = placement.kind == Kind::stretch ? placement.extent[0].middle() : placement.start[0];
+      const Reading there = shapes::reading_from(part, inside, reading.length[0]);
+      EXPECT_NEAR(there.turn, reading.turn, 1.1e-9) << placement.start[0];
     }
   }
 }
@@ -81,11 +81,11 @@ TEST_P(LocateSmooth, agrees_with_an_exhaustive_scan) {
   for (int k = 0; k < test_count(4); ++k) {
     const Roll roll = random_roll(part, generator);
     const Reading reading = shapes::reading_from(part, roll.start, roll.length);
-    const auto scan = oracle.scan(reading.length, reading.turn);
+    const auto scan = oracle.scan(reading.length[0], reading.turn);
     if (scan.nearest_miss < 1e-6) continue;  // too close to a double root for a scan to tell
     const Search search = locate(part, reading);
     ++compared;
-    ASSERT_EQ(search.placements.size(), scan.roots.size()) << reading.length << " " << reading.turn;
+    ASSERT_EQ(search.placements.size(), scan.roots.size()) << reading.length[0] << " " << reading.turn;
     for (const double root : scan.roots) {
       double nearest = part.perimeter();
       for (const double start : shapes::starts(search)) {
@@ -106,19 +106,20 @@ TEST_P(LocateSmooth, gives_sensitivities_that_finite_differences_confirm) {
     const Roll roll = random_roll(part, generator);
     const Reading reading = shapes::reading_from(part, roll.start, roll.length);
     for (const Placement& placement : locate(part, reading).placements) {
-      const double per_turn = placement.sensitivity.per_turn[0];
+      if (placement.sensitivity.per_turn[0].empty()) continue;
+      const double per_turn = placement.sensitivity.per_turn[0][0];
       if (placement.kind != Kind::crossing || std::abs(per_turn) > part.perimeter()) continue;
       const auto moved = [&](const Reading& other) {
         double nearest = part.perimeter();
         for (const double start : shapes::starts(locate(part, other))) {
           const double move =
-              part.closed() ? std::remainder(start - placement.start, part.perimeter()) : start - placement.start;
+              part.closed() ? std::remainder(start - placement.start[0], part.perimeter()) : start - placement.start[0];
           if (std::abs(move) < std::abs(nearest)) nearest = move;
         }
         return nearest;
       };
       const double by_turn =
-          moved({reading.length, reading.turn + step}) - moved({reading.length, reading.turn - step});
+          moved({reading.length[0], reading.turn + step}) - moved({reading.length[0], reading.turn - step});
       if (std::abs(by_turn) > 1e-3 * part.perimeter()) continue;  // an open curve's end
       EXPECT_NEAR(by_turn / (2 * step), per_turn, 1e-2 * std::abs(per_turn) + 1e-6);
     }

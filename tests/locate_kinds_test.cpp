@@ -16,7 +16,9 @@ using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-MATCHER_P2(Spans, lo, hi, "") { return std::abs(arg.extent.lo - lo) < 1e-8 && std::abs(arg.extent.hi - hi) < 1e-8; }
+MATCHER_P2(Spans, lo, hi, "") {
+  return std::abs(arg.extent[0].lo - lo) < 1e-8 && std::abs(arg.extent[0].hi - hi) < 1e-8;
+}
 
 // ---- stretches ----
 
@@ -25,26 +27,26 @@ TEST(Stretch, a_circle_answers_one_stretch_all_around) {
   const Search search = locate(circle, {1, 0.5});
   ASSERT_THAT(shapes::kinds(search), ElementsAre(Kind::stretch));
   EXPECT_THAT(search.placements[0], Spans(0, 4 * kPi));
-  EXPECT_EQ(search.verdict(), "unobservable");
+  EXPECT_EQ(search.verdict().text(), "unobservable");
 }
 
 TEST(Stretch, a_circle_of_the_wrong_radius_answers_nothing) {
-  EXPECT_EQ(locate(Part(gallery("circle,r=2")), {1, 0.4}).verdict(), "inconsistent");
+  EXPECT_EQ(locate(Part(gallery("circle,r=2")), {1, 0.4}).verdict().text(), "inconsistent");
 }
 
 TEST(Stretch, a_roll_of_no_length_and_no_turn_fits_everywhere) {
-  EXPECT_EQ(locate(Part(gallery("ellipse")), {0, 0}).verdict(), "unobservable");
+  EXPECT_EQ(locate(Part(gallery("ellipse")), {0, 0}).verdict().text(), "unobservable");
 }
 
 TEST(Stretch, a_turn_without_length_fits_nowhere_on_a_smooth_part) {
-  EXPECT_EQ(locate(Part(gallery("ellipse")), {0, 0.1}).verdict(), "inconsistent");
+  EXPECT_EQ(locate(Part(gallery("ellipse")), {0, 0.1}).verdict().text(), "inconsistent");
 }
 
 TEST(Stretch, whole_laps_fit_everywhere_in_either_direction) {
   const Part part(gallery("spline,seed=2"));
   for (const int laps : {-2, -1, 1, 3}) {
-    EXPECT_EQ(locate(part, {laps * part.perimeter(), laps * 2 * kPi}).verdict(), "unobservable") << laps;
-    EXPECT_EQ(locate(part, {laps * part.perimeter(), laps * 2 * kPi + 0.01}).verdict(), "inconsistent") << laps;
+    EXPECT_EQ(locate(part, {laps * part.perimeter(), laps * 2 * kPi}).verdict().text(), "unobservable") << laps;
+    EXPECT_EQ(locate(part, {laps * part.perimeter(), laps * 2 * kPi + 0.01}).verdict().text(), "inconsistent") << laps;
   }
 }
 
@@ -52,7 +54,7 @@ TEST(Stretch, whole_laps_fit_everywhere_though_their_length_is_rounded_and_the_c
   const Part part(gallery("spline,n=40,seed=3"));
   ASSERT_GT(part.turning().most_curvature(), 500);
   for (const double rounded : {1 - 4e-16, 1.0, 1 + 4e-16}) {
-    EXPECT_EQ(locate(part, {part.perimeter() * rounded, 2 * kPi}).verdict(), "unobservable");
+    EXPECT_EQ(locate(part, {part.perimeter() * rounded, 2 * kPi}).verdict().text(), "unobservable");
   }
 }
 
@@ -61,12 +63,12 @@ TEST(Stretch, a_symmetric_part_cannot_tell_rolls_from_one_of_its_images_to_the_n
     const Part part(gallery("gear,r=1,depth=0.05,teeth=" + std::to_string(teeth)));
     const double step = part.perimeter() / teeth;
     for (const int steps : {1, teeth - 1, -1, 2 * teeth + 1}) {
-      EXPECT_EQ(locate(part, {steps * step, steps * 2 * kPi / teeth}).verdict(), "unobservable")
+      EXPECT_EQ(locate(part, {steps * step, steps * 2 * kPi / teeth}).verdict().text(), "unobservable")
           << teeth << " " << steps;
     }
   }
   const Part ellipse(gallery("ellipse,a=3,b=1"));
-  EXPECT_EQ(locate(ellipse, {ellipse.perimeter() / 2, kPi}).verdict(), "unobservable");
+  EXPECT_EQ(locate(ellipse, {ellipse.perimeter() / 2, kPi}).verdict().text(), "unobservable");
 }
 
 TEST(Stretch, a_line_on_a_line_is_a_stretch_as_long_as_the_rest_of_it) {
@@ -74,22 +76,22 @@ TEST(Stretch, a_line_on_a_line_is_a_stretch_as_long_as_the_rest_of_it) {
   const Search search = locate(stadium, {0.5, 0});
   ASSERT_THAT(shapes::kinds(search), Each(Kind::stretch));
   ASSERT_EQ(search.placements.size(), 2U);
-  for (const Placement& placement : search.placements) EXPECT_NEAR(placement.extent.width(), 1.5, 1e-8);
-  EXPECT_EQ(search.verdict(), "ambiguous (2)");
+  for (const Placement& placement : search.placements) EXPECT_NEAR(placement.extent[0].width(), 1.5, 1e-8);
+  EXPECT_EQ(search.verdict().text(), "ambiguous (2)");
 }
 
 TEST(Stretch, an_arc_on_an_equal_arc_is_a_stretch) {
   const Part stadium(gallery("stadium,length=2,r=0.5"));
   const Search search = locate(stadium, {0.25, 0.5});
   ASSERT_THAT(shapes::kinds(search), ElementsAre(Kind::stretch, Kind::stretch));
-  EXPECT_NEAR(search.placements[0].extent.width(), 0.5 * kPi - 0.25, 1e-8);
+  EXPECT_NEAR(search.placements[0].extent[0].width(), 0.5 * kPi - 0.25, 1e-8);
 }
 
 TEST(Stretch, from_one_line_to_the_opposite_one_is_a_stretch) {
   const Part stadium(gallery("stadium,length=2,r=0.5"));
   const Search search = locate(stadium, {0.5 * kPi + 1, kPi});
   ASSERT_THAT(shapes::kinds(search), ElementsAre(Kind::stretch, Kind::stretch));
-  for (const Placement& placement : search.placements) EXPECT_NEAR(placement.extent.width(), 1, 1e-8);
+  for (const Placement& placement : search.placements) EXPECT_NEAR(placement.extent[0].width(), 1, 1e-8);
 }
 
 TEST(Stretch, across_the_first_point_is_one_stretch_whose_extent_exceeds_the_perimeter) {
@@ -103,8 +105,8 @@ TEST(Stretch, a_straight_open_curve_is_one_stretch) {
   const Part line(shapes::polygon({{0, 0}, {3, 4}}, false));
   EXPECT_THAT(locate(line, {2, 0}).placements, ElementsAre(Spans(0, 3)));
   EXPECT_THAT(locate(line, {-2, 0}).placements, ElementsAre(Spans(2, 5)));
-  EXPECT_EQ(locate(line, {2, 0}).verdict(), "ambiguous (1 stretch)");
-  EXPECT_EQ(locate(line, {2, 0.1}).verdict(), "inconsistent");
+  EXPECT_EQ(locate(line, {2, 0}).verdict().text(), "ambiguous (1 stretch)");
+  EXPECT_EQ(locate(line, {2, 0.1}).verdict().text(), "inconsistent");
 }
 
 // ---- nearly congruent stretches: f is tiny all along ----
@@ -133,7 +135,7 @@ TEST(NearlyCongruent, a_roll_that_is_almost_a_symmetry_is_decided_quickly) {
 
 TEST(NearlyCongruent, a_whole_loop_within_the_tolerance_tells_nothing) {
   const Part part(gallery("ellipse,a=1,b=0.9999999999"));
-  EXPECT_EQ(locate(part, {0.5, 0.5}).verdict(), "unobservable");
+  EXPECT_EQ(locate(part, {0.5, 0.5}).verdict().text(), "unobservable");
 }
 
 // ---- double roots ----
@@ -153,7 +155,7 @@ TEST(Touching, an_exact_double_root_is_one_placement_with_one_root) {
     EXPECT_EQ(placement.roots.size(), 1U);
     EXPECT_TRUE(std::isinf(placement.error));
   }
-  EXPECT_NEAR(search.placements[1].start, part.perimeter() - 0.5, 1e-7);
+  EXPECT_NEAR(search.placements[1].start[0], part.perimeter() - 0.5, 1e-7);
 }
 
 TEST(Touching, a_near_miss_within_the_tolerance_is_kept_and_says_so) {
@@ -191,14 +193,14 @@ TEST(Touching, a_fourfold_root_is_one_placement) {
   EXPECT_EQ(search.status, Status::complete);
   ASSERT_EQ(search.placements.size(), 1U);
   EXPECT_EQ(search.placements[0].kind, Kind::touching);
-  EXPECT_NEAR(search.placements[0].start, part.perimeter() - vertex, 1e-3);
+  EXPECT_NEAR(search.placements[0].start[0], part.perimeter() - vertex, 1e-3);
 }
 
 TEST(Touching, a_kink_of_f_at_a_joint_touches_without_a_derivative) {
   const Part stadium(gallery("stadium,length=2,r=0.5"));
   const Search search = locate(stadium, {2, 0});  // the whole of a straight side and no more
   ASSERT_THAT(shapes::kinds(search), ElementsAre(Kind::touching, Kind::touching));
-  EXPECT_LT(search.placements[0].extent.width(), 1e-8);
+  EXPECT_LT(search.placements[0].extent[0].width(), 1e-8);
 }
 
 // ---- tolerance, direction, laps ----
@@ -210,8 +212,8 @@ TEST(Tolerance, widens_the_extent_in_proportion) {
     LocateOptions options;
     options.tolerance = tolerance;
     for (const Placement& placement : locate(part, reading, options).placements) {
-      const double expected = 2 * tolerance * std::abs(placement.sensitivity.per_turn[0]);
-      EXPECT_NEAR(placement.extent.width(), expected, 0.02 * expected);
+      const double expected = 2 * tolerance * std::abs(placement.sensitivity.per_turn[0][0]);
+      EXPECT_NEAR(placement.extent[0].width(), expected, 0.02 * expected);
     }
   }
 }
@@ -220,10 +222,10 @@ TEST(Direction, a_roll_backwards_starts_where_the_roll_forwards_ends) {
   const Part part(gallery("limacon"));
   const Reading reading = shapes::reading_from(part, 0.7, 1.3);
   const Search there = locate(part, reading);
-  const Search back = locate(part, {-reading.length, -reading.turn});
+  const Search back = locate(part, {-reading.length[0], -reading.turn});
   ASSERT_EQ(there.placements.size(), back.placements.size());
   for (const Placement& placement : there.placements) {
-    EXPECT_TRUE(shapes::holds(part, back, placement.end, 1e-9));
+    EXPECT_TRUE(shapes::holds(part, back, placement.end[0], 1e-9));
   }
 }
 
@@ -231,10 +233,10 @@ TEST(Laps, a_whole_lap_more_changes_no_placement) {
   const Part part(gallery("spline"));
   const Reading reading = shapes::reading_from(part, 1.1, 0.8);
   const Search once = locate(part, reading);
-  const Search again = locate(part, {reading.length + 2 * part.perimeter(), reading.turn + 4 * kPi});
+  const Search again = locate(part, {reading.length[0] + 2 * part.perimeter(), reading.turn + 4 * kPi});
   ASSERT_EQ(once.placements.size(), again.placements.size());
   for (std::size_t k = 0; k < once.placements.size(); ++k) {
-    EXPECT_NEAR(once.placements[k].start, again.placements[k].start, 1e-9);
+    EXPECT_NEAR(once.placements[k].start[0], again.placements[k].start[0], 1e-9);
   }
 }
 
@@ -275,8 +277,8 @@ TEST(Budget, a_search_that_runs_out_says_where_it_stopped) {
   const Search search = locate(part, shapes::reading_from(part, 1, 1e-5), options);
   EXPECT_EQ(search.status, Status::incomplete);
   ASSERT_FALSE(search.unresolved.empty());
-  EXPECT_EQ(search.unresolved.back().hi, part.perimeter());
-  EXPECT_EQ(search.verdict(), "undecided");
+  EXPECT_EQ(search.unresolved.back()[0].hi, part.perimeter());
+  EXPECT_EQ(search.verdict().text(), "undecided");
 }
 
 TEST(Readings, that_are_not_numbers_are_refused) {
@@ -310,7 +312,7 @@ TEST(Readings, a_stretch_is_cut_by_a_further_reading) {
 TEST(Readings, that_contradict_each_other_leave_nothing) {
   const Part part(gallery("spline"));
   const std::vector<Reading> readings{shapes::reading_from(part, 1, 0.5), shapes::reading_from(part, 3, 1.5)};
-  EXPECT_EQ(locate(part, readings).verdict(), "inconsistent");
+  EXPECT_EQ(locate(part, readings).verdict().text(), "inconsistent");
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ Reading only_reading(const std::string& text, const std::optional<DiskFinger>& f
 }
 
 void expect_reading(const Reading& found, double length, double turn) {
-  EXPECT_NEAR(found.length, length, 1e-12);
+  EXPECT_NEAR(found.length[0], length, 1e-12);
   EXPECT_NEAR(found.turn, turn, 1e-12);
 }
 
@@ -78,7 +78,7 @@ TEST(Log, a_million_increments_add_up_without_loss) {
   std::string text = "distance,dturn\n";
   for (int k = 0; k < 1000000; ++k) text += "0.1,-0.3\n";
   const Reading found = only_reading(text);
-  EXPECT_NEAR(found.length, 1e5, 2e-11);
+  EXPECT_NEAR(found.length[0], 1e5, 2e-11);
   EXPECT_NEAR(found.turn, -3e5, 6e-11);
 }
 
@@ -198,7 +198,7 @@ TEST(Log, wrapped_or_not_the_readings_are_the_same) {
       if (!only_u) log.psi = wrapped(plain.psi, lowest);
       const std::vector<Reading> found = readings_as_given(log, finger);
       for (std::size_t row = 0; row < expected.size(); ++row) {
-        EXPECT_NEAR(found[row].length, expected[row].length, 1e-12);
+        EXPECT_NEAR(found[row].length[0], expected[row].length[0], 1e-12);
         EXPECT_NEAR(found[row].turn, expected[row].turn, 1e-11);
       }
     }
@@ -328,14 +328,14 @@ TEST(Log, rounding_of_a_reading_bounds_what_the_digits_can_do) {
     };
     const Reading before = k == 0 ? Reading{} : expected[k - 1];
     contacts += row(exact.u[k], exact.psi[k]);
-    travelled += row(expected[k].length, expected[k].turn);
-    increments += row(expected[k].length - before.length, expected[k].turn - before.turn);
+    travelled += row(expected[k].length[0], expected[k].turn);
+    increments += row(expected[k].length[0] - before.length[0], expected[k].turn - before.turn);
   }
   for (const std::string& text : {contacts, travelled, increments}) {
     const Log log = log_of(text);
     const Rounding rounding = rounding_of(log, finger);
     const Reading found = readings(log, ellipse(), finger).front();
-    EXPECT_LE(std::abs(found.length - expected.back().length), rounding.length + 1e-12) << text.substr(0, 13);
+    EXPECT_LE(std::abs(found.length[0] - expected.back().length[0]), rounding.length + 1e-12) << text.substr(0, 13);
     EXPECT_LE(std::abs(found.turn - expected.back().turn), rounding.turn + 1e-12) << text.substr(0, 13);
     EXPECT_LT(rounding.length, 0.06) << text.substr(0, 13);
     EXPECT_GT(rounding.length, 0) << text.substr(0, 13);

@@ -122,7 +122,7 @@ TEST(LogStream, wrapped_angles_have_the_bits_of_the_file) {
                         log.psi[k] - 2 * kPi * std::floor(log.psi[k] / (2 * kPi)));
   }
   expect_samples_of_files(text);
-  EXPECT_NEAR(streamed(text).lines.back().sample.reading.length, 20, 1e-9);
+  EXPECT_NEAR(streamed(text).lines.back().sample.reading.length[0], 20, 1e-9);
 }
 
 TEST(LogStream, a_column_that_leaves_a_full_turn_was_never_wrapped) {
@@ -159,7 +159,7 @@ TEST(LogStream, contact_0_ends_a_roll_and_the_next_contact_starts_one) {
   const Streamed found = streamed("u,psi,contact\nnan,,0\n0,0,1\n-1,1.2,1\n-1,1.2,0\n9,9,0\n-3,0.1,1\n-4,1.5,1\n");
   EXPECT_THAT(found.kinds, ElementsAre(nothing, nothing, first, sample, lost, nothing, first, sample));
   EXPECT_EQ(found.lines[6].sample.reading.length, 0);
-  EXPECT_DOUBLE_EQ(found.lines[7].sample.reading.length, 0.2);
+  EXPECT_DOUBLE_EQ(found.lines[7].sample.reading.length[0], 0.2);
   EXPECT_DOUBLE_EQ(found.lines[7].sample.reading.turn, 0.4);
 }
 
@@ -188,7 +188,7 @@ TEST(LogStream, lines_that_cannot_be_read_are_skipped_and_counted) {
   EXPECT_EQ(found.malformed, 9U);
   EXPECT_THAT(found.lines[3].message, StartsWith("live:4: u is 'garbage', expected a number"));
   EXPECT_THAT(found.lines[9].message, HasSubstr("time must grow"));
-  EXPECT_DOUBLE_EQ(found.lines.back().sample.reading.length, 0.3);
+  EXPECT_DOUBLE_EQ(found.lines.back().sample.reading.length[0], 0.3);
 }
 
 TEST(LogStream, a_line_that_cannot_be_read_leaves_no_trace) {
@@ -241,7 +241,7 @@ TEST(LogStream, after_a_dropped_connection_a_header_may_come_again) {
   EXPECT_EQ(stream.push("psi;u;time").kind, nothing);
   const LogLine row = stream.push("2.0;-1.5;0.5");
   EXPECT_EQ(row.kind, sample) << "the clock was set anew";
-  EXPECT_DOUBLE_EQ(row.sample.reading.length, 0.3);
+  EXPECT_DOUBLE_EQ(row.sample.reading.length[0], 0.3);
   EXPECT_EQ(stream.malformed(), 0U);
 }
 
@@ -280,7 +280,7 @@ TEST(LogStream, a_row_far_off_is_a_jump_there_and_back) {
     EXPECT_THAT(found.lines[101].message, AllOf(StartsWith("live:102: expected a roll that goes on, found a jump"),
                                                 HasSubstr("since line 101"), HasSubstr("50 times")));
     EXPECT_EQ(found.lines[102].sample.reading.length, 0);
-    EXPECT_GT(found.lines[103].sample.reading.length, 0);
+    EXPECT_GT(found.lines[103].sample.reading.length[0], 0);
   }
 }
 
@@ -342,8 +342,8 @@ TEST(LogStream, no_honest_log_has_a_jump_however_its_rows_lie) {
       if (std::abs(length - last) > P) break;
       last = length;
       const Reading row = shapes::reading_from(part, start, length);
-      const LogLine line = stream.push(has_times ? fmt::format("{:.17g},{:.17g},{:.17g}", time, row.length, row.turn)
-                                                 : fmt::format("{:.17g},{:.17g}", row.length, row.turn));
+      const LogLine line = stream.push(has_times ? fmt::format("{:.17g},{:.17g},{:.17g}", time, row.length[0], row.turn)
+                                                 : fmt::format("{:.17g},{:.17g}", row.length[0], row.turn));
       ASSERT_NE(line.kind, jump) << part.name() << ": " << line.message;
       ASSERT_NE(line.kind, malformed) << part.name() << ": " << line.message;
     }

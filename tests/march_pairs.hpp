@@ -21,7 +21,7 @@
 
 namespace march_pairs {
 
-using rollfix::PairReading;
+using rollfix::Reading;
 using rollfix::march::PairResult;
 
 struct Point {
@@ -30,7 +30,7 @@ struct Point {
 };
 
 /// (8) and (9).
-using Readings = std::array<PairReading, 2>;
+using Readings = std::array<Reading, 2>;
 
 class Exhaustive {
  public:
@@ -49,8 +49,8 @@ class Exhaustive {
                     rollfix::periodic_distance(one.t, two.t, perimeter()));
   }
 
-  double excess(const Point& at, const PairReading& reading) const {
-    return phi(at.s, reading.length_a) - phi(at.t, reading.length_b) - reading.turn;
+  double excess(const Point& at, const Reading& reading) const {
+    return phi(at.s, reading.length[0]) - phi(at.t, reading.length[1]) - reading.turn;
   }
 
   /// All pairs that a grid of `places` squared shows.
@@ -58,8 +58,8 @@ class Exhaustive {
     std::array<std::vector<double>, 2> a, b;
     for (std::size_t k = 0; k < 2; ++k) {
       for (int i = 0; i <= places; ++i) {
-        a[k].push_back(phi(perimeter() * i / places, readings[k].length_a));
-        b[k].push_back(phi(perimeter() * i / places, readings[k].length_b) + readings[k].turn);
+        a[k].push_back(phi(perimeter() * i / places, readings[k].length[0]));
+        b[k].push_back(phi(perimeter() * i / places, readings[k].length[1]) + readings[k].turn);
       }
     }
     std::vector<Point> found;
@@ -87,8 +87,8 @@ class Exhaustive {
     const double longest = 0.02 * perimeter();
     for (int round = 0; round < 25; ++round) {
       const std::array<double, 2> f{excess(at, readings[0]), excess(at, readings[1])};
-      const std::array<double, 2> by_s{slope(at.s, readings[0].length_a), slope(at.s, readings[1].length_a)};
-      const std::array<double, 2> by_t{-slope(at.t, readings[0].length_b), -slope(at.t, readings[1].length_b)};
+      const std::array<double, 2> by_s{slope(at.s, readings[0].length[0]), slope(at.s, readings[1].length[0])};
+      const std::array<double, 2> by_t{-slope(at.t, readings[0].length[1]), -slope(at.t, readings[1].length[1])};
       const double determinant = by_s[0] * by_t[1] - by_s[1] * by_t[0];
       const Point step{(f[0] * by_t[1] - f[1] * by_t[0]) / determinant,
                        (f[1] * by_s[0] - f[0] * by_s[1]) / determinant};
@@ -118,10 +118,10 @@ struct Planted {
     std::uniform_real_distribution<double> unit(0, 1);
     at.s = unit(generator) * perimeter;
     at.t = unit(generator) * perimeter;
-    for (PairReading& reading : readings) {  // of either sign, and beyond P
-      reading.length_a = (3 * unit(generator) - 1.5) * perimeter;
-      reading.length_b = (3 * unit(generator) - 1.5) * perimeter;
-      reading.turn = phi(at.s, reading.length_a) - phi(at.t, reading.length_b);
+    for (Reading& reading : readings) {  // of either sign, and beyond P
+      reading.length[0] = (3 * unit(generator) - 1.5) * perimeter;
+      reading.length[1] = (3 * unit(generator) - 1.5) * perimeter;
+      reading.turn = phi(at.s, reading.length[0]) - phi(at.t, reading.length[1]);
     }
   }
   Planted(const Exhaustive& oracle, std::mt19937_64& generator)
@@ -138,16 +138,16 @@ struct Touching {
     const auto lean = [&](double place, double one, double two) {
       return oracle.slope(place, two) / oracle.slope(place, one);
     };
-    const double lean_s = lean(at.s, readings[0].length_a, readings[1].length_a);
-    const auto off = [&](double t) { return lean(t, readings[0].length_b, readings[1].length_b) - lean_s; };
+    const double lean_s = lean(at.s, readings[0].length[0], readings[1].length[0]);
+    const auto off = [&](double t) { return lean(t, readings[0].length[1], readings[1].length[1]) - lean_s; };
     double hi = at.t;
     while (off(at.t) * off(hi) > 0 && hi < oracle.perimeter()) hi += 0.01;
     for (int i = 0; i < 60; ++i) {
       const double middle = 0.5 * (at.t + hi);
       (off(middle) * off(at.t) > 0 ? at.t : hi) = middle;
     }
-    for (PairReading& reading : readings) {
-      reading.turn = oracle.phi(at.s, reading.length_a) - oracle.phi(at.t, reading.length_b);
+    for (Reading& reading : readings) {
+      reading.turn = oracle.phi(at.s, reading.length[0]) - oracle.phi(at.t, reading.length[1]);
     }
   }
 };
@@ -200,8 +200,8 @@ inline std::size_t interval_of(const std::vector<double>& points, double place) 
 }
 
 inline std::string trace_of(const std::string& name, const Readings& readings) {
-  return fmt::format("{} La {:.17g} {:.17g} Lb {:.17g} {:.17g} theta {:.17g} {:.17g}", name, readings[0].length_a,
-                     readings[1].length_a, readings[0].length_b, readings[1].length_b, readings[0].turn,
+  return fmt::format("{} La {:.17g} {:.17g} Lb {:.17g} {:.17g} theta {:.17g} {:.17g}", name, readings[0].length[0],
+                     readings[1].length[0], readings[0].length[1], readings[1].length[1], readings[0].turn,
                      readings[1].turn);
 }
 

@@ -25,8 +25,8 @@ struct Question {
   Question(const Outline& outline, std::mt19937_64& generator)
       : oracle(outline), planted(oracle, generator), pieces(outline, oracle.perimeter(), planted.readings) {}
 
-  double phi_1(double s) const { return oracle.phi(s, planted.readings[0].length_a); }
-  double phi_3(double t) const { return oracle.phi(t, planted.readings[0].length_b) + planted.readings[0].turn; }
+  double phi_1(double s) const { return oracle.phi(s, planted.readings[0].length[0]); }
+  double phi_3(double t) const { return oracle.phi(t, planted.readings[0].length[1]) + planted.readings[0].turn; }
 };
 
 template <class Look>

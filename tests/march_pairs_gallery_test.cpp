@@ -41,8 +41,8 @@ TEST_P(MarchPairsGallery, planted_pairs_are_found_and_what_is_found_fits) {
     EXPECT_TRUE(found || march_pairs::doubts(result, planted.at, part_.perimeter()));
     doubtful += found ? 0 : 1;
     for (const auto& pair : result.pairs) {
-      for (const PairReading& reading : planted.readings) {
-        EXPECT_NEAR(phi(pair.s, reading.length_a) - phi(pair.t, reading.length_b), reading.turn, 1e-7);
+      for (const Reading& reading : planted.readings) {
+        EXPECT_NEAR(phi(pair.s, reading.length[0]) - phi(pair.t, reading.length[1]), reading.turn, 1e-7);
       }
     }
   }

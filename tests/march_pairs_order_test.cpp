@@ -97,7 +97,7 @@ TEST(MarchPairsOrder, exchanging_the_fingers_exchanges_s_and_t) {
     const Readings readings = Planted(oracle, generator).readings;
     Readings exchanged;
     for (std::size_t k = 0; k < 2; ++k) {
-      exchanged[k] = {readings[k].length_b, readings[k].length_a, -readings[k].turn};
+      exchanged[k] = {readings[k].length[1], readings[k].length[0], -readings[k].turn};
     }
     const PairResult one = march_pairs::march(march, readings);
     const PairResult other = march_pairs::march(march, exchanged);

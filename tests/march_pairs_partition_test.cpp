@@ -51,8 +51,8 @@ TEST(MarchPairsPartition, each_phi_is_monotone_on_each_interval) {
       SCOPED_TRACE(march_pairs::trace_of(outline.name, readings));
       const PairResult result = march_pairs::march(march, readings);
       for (const auto& reading : readings) {
-        expect_monotone(oracle, result.stationary_a, reading.length_a);
-        expect_monotone(oracle, result.stationary_b, reading.length_b);
+        expect_monotone(oracle, result.stationary_a, reading.length[0]);
+        expect_monotone(oracle, result.stationary_b, reading.length[1]);
       }
     }
   }
@@ -67,8 +67,8 @@ TEST(MarchPairsPartition, its_points_are_those_that_an_exhaustive_scan_finds) {
       const Readings readings = Planted(oracle, generator).readings;
       SCOPED_TRACE(march_pairs::trace_of(outline.name, readings));
       const PairResult result = march_pairs::march(march, readings);
-      expect_stationary(oracle, result.stationary_a, readings[0].length_a, readings[1].length_a);
-      expect_stationary(oracle, result.stationary_b, readings[0].length_b, readings[1].length_b);
+      expect_stationary(oracle, result.stationary_a, readings[0].length[0], readings[1].length[0]);
+      expect_stationary(oracle, result.stationary_b, readings[0].length[1], readings[1].length[1]);
       EXPECT_EQ(result.merged, 0U);
       EXPECT_EQ(result.rectangles, result.n() * result.m());
       EXPECT_EQ(result.rectangles, result.rejected + result.examined);

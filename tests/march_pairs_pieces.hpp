@@ -25,8 +25,8 @@ struct Pieces {
   Pieces(const rollfix::Outline& outline, double perimeter, const Readings& readings)
       : rate(outline, rollfix::march::curvature_rate_density()),
         path(outline, rollfix::march::curvature_density(), 0),
-        a{{readings[0].length_a, readings[1].length_a}, {}},
-        b{{readings[0].length_b, readings[1].length_b}, {}},
+        a{{readings[0].length[0], readings[1].length[0]}, {}},
+        b{{readings[0].length[1], readings[1].length[1]}, {}},
         problem{{readings[0].turn, readings[1].turn}, 1e-13},
         divided_a(divide({path, rate, perimeter}, a, tally, steps)),
         divided_b(divide({path, rate, perimeter}, b, tally, steps)) {}
@@ -51,10 +51,10 @@ struct PlantedWithin {
     const double perimeter = oracle.perimeter();
     std::uniform_real_distribution<double> part(0.02, 0.98);
     at = {part(generator) * perimeter, part(generator) * perimeter};
-    for (PairReading& reading : readings) {
-      reading.length_a = part(generator) * perimeter;
-      reading.length_b = part(generator) * perimeter;
-      reading.turn = oracle.phi(at.s, reading.length_a) - oracle.phi(at.t, reading.length_b);
+    for (Reading& reading : readings) {
+      reading.length[0] = part(generator) * perimeter;
+      reading.length[1] = part(generator) * perimeter;
+      reading.turn = oracle.phi(at.s, reading.length[0]) - oracle.phi(at.t, reading.length[1]);
     }
   }
 };

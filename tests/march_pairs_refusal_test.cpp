@@ -17,7 +17,7 @@ using namespace march_shapes;
 using march_pairs::Exhaustive;
 using rollfix::InputError;
 using rollfix::Outline;
-using rollfix::PairReading;
+using rollfix::Reading;
 using testing::HasSubstr;
 
 template <class Action>
@@ -31,7 +31,7 @@ void expect_refusal(Reason reason, const Action& action) {
   }
 }
 
-void expect_continuum(const PairReading& first, const PairReading& second) {
+void expect_continuum(const Reading& first, const Reading& second) {
   expect_refusal(Reason::continuum, [&] { locate_pairs(ellipse(2, 1), first, second); });
 }
 

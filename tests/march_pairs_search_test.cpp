@@ -38,8 +38,8 @@ TEST(MarchPairsSearch, finds_all_pairs_that_an_exhaustive_scan_finds) {
 
 /// +1 where phi_2 and phi_4 go the same way as phi_1 and phi_3 grow, -1 where they go opposite ways.
 double ways(const Exhaustive& oracle, const Readings& readings, double s, double t) {
-  const double along_s = oracle.slope(s, readings[0].length_a) * oracle.slope(s, readings[1].length_a);
-  const double along_t = oracle.slope(t, readings[0].length_b) * oracle.slope(t, readings[1].length_b);
+  const double along_s = oracle.slope(s, readings[0].length[0]) * oracle.slope(s, readings[1].length[0]);
+  const double along_t = oracle.slope(t, readings[0].length[1]) * oracle.slope(t, readings[1].length[1]);
   return along_s * along_t;
 }
 

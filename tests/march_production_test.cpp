@@ -65,8 +65,8 @@ class MarchProduction : public testing::TestWithParam<std::string> {
   double gap(const Search& search, double root) const {
     double nearest = std::numeric_limits<double>::infinity();
     for (const Placement& placement : search.placements) {
-      for (const double other : placement.roots) {
-        if (other != root) nearest = std::min(nearest, distance(part_, other, root));
+      for (const PerFinger<double>& other : placement.roots) {
+        if (other[0] != root) nearest = std::min(nearest, distance(part_, other[0], root));
       }
     }
     return nearest;
@@ -82,19 +82,20 @@ TEST_P(MarchProduction, agrees_on_random_readings) {
   for (; readings < test_count(20); ++readings) {
     const Reading reading = random_reading(part_, generator);
     const Search search = locate(part_, reading);
-    const march::Result result = march_.segments(reading.length, reading.turn);
+    const march::Result result = march_.segments(reading.length[0], reading.turn);
     ASSERT_EQ(search.status, Status::complete);
     for (const march::Segment& segment : result.segments) {
       EXPECT_TRUE(shapes::holds(part_, search, segment.start, kAgreement * part_.perimeter() + 4 * segment.error))
-          << "production lost s = " << segment.start << " of " << reading.length << ", " << reading.turn;
+          << "production lost s = " << segment.start << " of " << reading.length[0] << ", " << reading.turn;
     }
     for (const Placement& placement : search.placements) {
-      for (const double root : placement.roots) {
+      for (const PerFinger<double>& roots : placement.roots) {
+        const double root = roots[0];
         if (found_by_march(result, root)) continue;
         // What the march may lose: neighbours closer than its reset, and double roots, which it reports as doubts.
         ++disagreements;
         std::printf("%s L=%.17g theta=%.17g: the march lost s=%.12g, gap to the next root %.3g P, doubts %zu\n",
-                    GetParam().c_str(), reading.length, reading.turn, root, gap(search, root) / part_.perimeter(),
+                    GetParam().c_str(), reading.length[0], reading.turn, root, gap(search, root) / part_.perimeter(),
                     result.doubts.size());
         EXPECT_TRUE(!result.complete() || gap(search, root) <= 1e-7 * part_.perimeter());
       }

@@ -7,26 +7,25 @@
 #include <vector>
 
 #include "free_roll.hpp"
-#include "rollfix/belief/pair_belief.hpp"
+#include "rollfix/belief/belief.hpp"
 #include "rollfix/contact/pair_log.hpp"
 #include "rollfix/part/period.hpp"
 
 /// Small words for tests about two fingers' noisy logs.
 namespace noisy_pairs {
 
+using rollfix::Belief;
 using rollfix::BeliefOptions;
 using rollfix::FingerPair;
+using rollfix::Mode;
 using rollfix::Noise;
-using rollfix::PairBelief;
 using rollfix::PairLog;
-using rollfix::PairMode;
-using rollfix::PairPoint;
-using rollfix::PairReading;
 using rollfix::Part;
+using rollfix::Reading;
 
 /// A roll of two fingers as it was, and what noisy sensors said of it.
 struct Case {
-  PairPoint start{};
+  std::array<double, 2> start{};
   std::array<rollfix::DiskFinger, 2> fingers;
   PairLog log;
 
@@ -49,8 +48,8 @@ inline void add_noise(rollfix::Log& log, double radius, const Noise& noise, std:
   }
 }
 
-inline Case noisy_case(const Part& part, const PairPoint& start, double La, double Lb, std::size_t rows, double ra,
-                       double rb, const Noise& noise, std::mt19937_64& generator) {
+inline Case noisy_case(const Part& part, const std::array<double, 2>& start, double La, double Lb, std::size_t rows,
+                       double ra, double rb, const Noise& noise, std::mt19937_64& generator) {
   rollfix::FreePlan plan = free_rolls::by_distances(ra, start[0], La, rb, start[1], Lb, 0.4);
   plan.rows = rows;
   Case drawn{start, {{{ra}, {rb}}}, {}};
@@ -60,12 +59,12 @@ inline Case noisy_case(const Part& part, const PairPoint& start, double La, doub
   return drawn;
 }
 
-inline PairBelief belief_of(const Part& part, const Case& drawn, const BeliefOptions& options) {
-  rollfix::PairContacts contacts;
+inline Belief belief_of(const Part& part, const Case& drawn, const BeliefOptions& options) {
+  rollfix::Contacts contacts;
   contacts.finger_curvature = {1 / drawn.fingers[0].radius, 1 / drawn.fingers[1].radius};
   contacts.facing = rollfix::facing(drawn.log, drawn.pair());
-  PairBelief belief(part, rollfix::LogKind::contact, options, contacts);
-  for (const PairReading& row : rollfix::readings_as_given(drawn.log, drawn.pair())) belief.add(row);
+  Belief belief(part, rollfix::LogKind::contact, options, contacts);
+  for (const Reading& row : rollfix::readings_as_given(drawn.log, drawn.pair())) belief.add(row);
   return belief;
 }
 

@@ -133,7 +133,7 @@ TEST(Noisy, slip_is_length_that_the_finger_did_not_roll) {
     ASSERT_NE(found.error.slip, 0);
     const std::vector<Reading> felt = readings_as_given(found.log, finger);
     for (std::size_t row = 0; row < felt.size(); ++row) {
-      EXPECT_NEAR((1 + found.error.slip) * felt[row].length, found.truth.s[row] - 1, 1e-12);
+      EXPECT_NEAR((1 + found.error.slip) * felt[row].length[0], found.truth.s[row] - 1, 1e-12);
       EXPECT_NEAR(felt[row].turn, found.truth.angle[row] - found.truth.angle[0], 1e-12) << "the normals know";
     }
   }
@@ -163,7 +163,7 @@ TEST(Noisy, a_reader_with_the_wrong_radius_gets_lengths_in_its_proportion) {
   const NoisyRoll found = noisy_roll(egg_part(), 0.2, long_roll(100), {0, 0, 0, 0.01}, 3);
   ASSERT_NE(found.error.radius, 0);
   const std::vector<Reading> felt = readings_as_given(found.log, Finger(0.2));
-  EXPECT_NEAR(felt.back().length * (0.2 + found.error.radius) / 0.2, 6, 1e-9);
+  EXPECT_NEAR(felt.back().length[0] * (0.2 + found.error.radius) / 0.2, 6, 1e-9);
   EXPECT_NEAR(felt.back().turn, found.truth.angle.back() - found.truth.angle.front(), 1e-9);
 }
 
@@ -174,10 +174,10 @@ TEST(Noisy, two_fingers_err_independently) {
   plan.part_rotation = 0.3;
   const NoisyFreeRoll found = noisy_roll_free(egg_part(), plan, {0, 0, 0.03, 0.01}, 4);
   EXPECT_NE(found.error[0].slip, found.error[1].slip);
-  const std::vector<PairReading> felt = readings_as_given(
+  const std::vector<Reading> felt = readings_as_given(
       found.log, FingerPair{Finger(0.2 + found.error[0].radius), Finger(0.3 + found.error[1].radius)});
-  EXPECT_NEAR((1 + found.error[0].slip) * felt.back().length_a, 2, 1e-9);
-  EXPECT_NEAR((1 + found.error[1].slip) * felt.back().length_b, -1, 1e-9);
+  EXPECT_NEAR((1 + found.error[0].slip) * felt.back().length[0], 2, 1e-9);
+  EXPECT_NEAR((1 + found.error[1].slip) * felt.back().length[1], -1, 1e-9);
   const double turn =
       (found.truth.angle_a.back() - found.truth.angle_a[0]) - (found.truth.angle_b.back() - found.truth.angle_b[0]);
   EXPECT_NEAR(felt.back().turn, turn, 1e-9);

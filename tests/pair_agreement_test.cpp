@@ -57,17 +57,17 @@ class PairAgreement : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Gallery, PairAgreement, testing::ValuesIn(kCurved), shapes::as_identifier);
 
 /// Production's starts and the check's roots, each near one of the other's.
-void expect_the_same(const Part& part, const PairSearch& search, const pair_oracle::Scan& scan) {
-  const auto near = [&](const pair_oracle::Root& root, const PairPoint& start) {
+void expect_the_same(const Part& part, const Search& search, const pair_oracle::Scan& scan) {
+  const auto near = [&](const pair_oracle::Root& root, const PerFinger<double>& start) {
     return pair_cases::distance(part, start, {root.s, root.t}) <=
            std::max(kAgreement * part.perimeter(), 10 * root.error);
   };
   for (const pair_oracle::Root& root : scan.roots) {
     EXPECT_TRUE(std::any_of(search.placements.begin(), search.placements.end(),
-                            [&](const PairPlacement& placement) { return near(root, placement.start); }))
+                            [&](const Placement& placement) { return near(root, placement.start); }))
         << "lost: " << root.s << " " << root.t;
   }
-  for (const PairPlacement& placement : search.placements) {
+  for (const Placement& placement : search.placements) {
     EXPECT_TRUE(std::any_of(scan.roots.begin(), scan.roots.end(),
                             [&](const pair_oracle::Root& root) { return near(root, placement.start); }))
         << "not a root: " << placement.start[0] << " " << placement.start[1];
@@ -85,12 +85,12 @@ TEST_P(PairAgreement, both_ways_with_an_exhaustive_check) {
   for (int k = 0; k < count; ++k) {
     const Given given = kGiven[k % std::size(kGiven)];
     const Case drawn = pair_cases::random_case(part, given.readings, generator);
-    PairOptions options;
+    LocateOptions options;
     if (given.facing) options.facing = drawn.facing;
     const pair_oracle::Scan scan = oracle.scan(drawn.readings, options.facing);
     if (scan.nearest_miss < pair_oracle::kHorizon) continue;  // too close to a double root for counting
     ++compared;
-    const PairSearch search = locate(part, drawn.readings, options);
+    const Search search = locate(part, drawn.readings, options);
     SCOPED_TRACE(testing::Message() << "case " << k << ", started at " << drawn.start[0] << " " << drawn.start[1]);
     EXPECT_EQ(search.status, Status::complete);
     expect_the_same(part, search, scan);
@@ -106,12 +106,12 @@ TEST_P(PairAgreement, a_double_root_is_held_and_its_placement_starts_where_the_r
   for (int k = 0; k < test_count(60); ++k) {
     const std::optional<Case> drawn = pair_cases::double_root_case(part, generator);
     if (!drawn) continue;
-    const PairSearch search = locate(part, drawn->readings);
+    const Search search = locate(part, drawn->readings);
     if (search.status == Status::incomplete) continue;  // it says itself that some may be missing
     ++seen;
     SCOPED_TRACE(testing::Message() << "case " << k << ", started at " << drawn->start[0] << " " << drawn->start[1]);
     EXPECT_TRUE(pair_cases::holds(part, search, drawn->start, kAgreement * part.perimeter()));
-    for (const PairPlacement& placement : search.placements) {
+    for (const Placement& placement : search.placements) {
       if (!pair_cases::holds(part, placement, drawn->start, kAgreement * part.perimeter())) continue;
       EXPECT_LE(placement.residual, 0.01 * kTolerance);  // it holds an exact root
     }
@@ -126,7 +126,7 @@ INSTANTIATE_TEST_SUITE_P(Gallery, PairProperties, testing::ValuesIn(all_shapes()
 /// interval for the difference x of the tangents' directions at the first contacts, one value where no contact is at a
 /// corner; all of them have to meet. `reach` to either side of a corner is its whole pivot.
 double least_miss(const Part& part, const pair_oracle::Boundary& boundary, const Case& drawn,
-                  const PairOptions& options, const PairPoint& pair, double reach) {
+                  const LocateOptions& options, const PerFinger<double>& pair, double reach) {
   const auto directions = [&](double s) -> Interval {
     const bool is_corner = std::any_of(part.corners().begin(), part.corners().end(), [&](const Corner& corner) {
       return pair_cases::distance(part, corner.s, s) < 0.5 * reach;
@@ -141,8 +141,8 @@ double least_miss(const Part& part, const pair_oracle::Boundary& boundary, const
   };
   Interval x = difference(pair[0], pair[1], 0);
   const auto meet = [&x](const Interval& other) { x = {std::max(x.lo, other.lo), std::min(x.hi, other.hi)}; };
-  for (const PairReading& reading : drawn.readings) {
-    meet(difference(pair[0] + reading.length_a, pair[1] + reading.length_b, reading.turn));
+  for (const Reading& reading : drawn.readings) {
+    meet(difference(pair[0] + reading.length[0], pair[1] + reading.length[1], reading.turn));
   }
   double miss = x.lo - x.hi;
   if (options.facing) {
@@ -157,18 +157,18 @@ double least_miss(const Part& part, const pair_oracle::Boundary& boundary, const
 }
 
 /// Every listed pair fits, within the tolerance.
-void expect_pairs_that_fit(const Part& part, const pair_oracle::Boundary& boundary, const PairSearch& search,
-                           const Case& drawn, const PairOptions& options) {
+void expect_pairs_that_fit(const Part& part, const pair_oracle::Boundary& boundary, const Search& search,
+                           const Case& drawn, const LocateOptions& options) {
   const double reach = 2e-9 * part.perimeter();
-  const auto fits = [&](const PairPoint& pair) {
+  const auto fits = [&](const PerFinger<double>& pair) {
     EXPECT_LE(least_miss(part, boundary, drawn, options, pair, reach), 2.2 * kTolerance) << pair[0] << " " << pair[1];
   };
-  for (const PairPlacement& placement : search.placements) {
+  for (const Placement& placement : search.placements) {
     SCOPED_TRACE(testing::Message() << "placement at " << placement.start[0] << " " << placement.start[1]);
     EXPECT_LE(placement.residual, 1.1 * kTolerance);
     fits(placement.start);
-    for (const PairPoint& root : placement.roots) fits(root);
-    for (const PairPoint& pair : placement.family) fits(pair);
+    for (const PerFinger<double>& root : placement.roots) fits(root);
+    for (const PerFinger<double>& pair : placement.family) fits(pair);
   }
 }
 
@@ -181,9 +181,9 @@ void check_cases(const std::string& name, std::uint64_t stream, int count,
   for (int k = 0; k < count; ++k) {
     const Given given = kGiven[k % std::size(kGiven)];
     const Case drawn = draw(part, given.readings, generator);
-    PairOptions options;
+    LocateOptions options;
     if (given.facing) options.facing = drawn.facing;
-    const PairSearch search = locate(part, drawn.readings, options);
+    const Search search = locate(part, drawn.readings, options);
     SCOPED_TRACE(testing::Message() << "case " << k << ", started at " << drawn.start[0] << " " << drawn.start[1]);
     EXPECT_EQ(search.status, Status::complete);
     EXPECT_TRUE(pair_cases::holds(part, search, drawn.start, kAgreement * part.perimeter()));

@@ -1,5 +1,5 @@
 // Where two fingers can have started on a free part, given a whole noisy log: probabilities, spreads and verdicts.
-#include "rollfix/belief/pair_belief.hpp"
+#include "rollfix/belief/belief.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,6 @@
 
 #include "noisy_pairs.hpp"
 #include "random.hpp"
-#include "rollfix/belief/pair_weigh.hpp"
 #include "rollfix/contact/pose.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline/gallery.hpp"
@@ -30,12 +29,14 @@ using rollfix::Cause;
 using rollfix::InputError;
 using rollfix::Interval;
 using rollfix::LogKind;
-using rollfix::PairContacts;
 using rollfix::Prior;
 
 const std::vector<std::string> kManyShapes{
     "cam",          "spline,n=9,seed=7,wobble=0.2", "limacon", "ellipse", "stadium",
     "superellipse", "spline,n=12,seed=5",           "naca"};
+
+/// Of which nothing is known.
+const rollfix::Contacts kTwoFingers{{0.0, 0.0}, {}};
 
 BeliefOptions options_with(double contact, double angle, double slip) {
   BeliefOptions options;
@@ -48,14 +49,14 @@ Case random_pair(const Part& part, std::size_t rows, const Noise& noise, std::mt
   std::uniform_real_distribution<double> unit(0, 1);
   const double P = part.perimeter();
   const auto roll = [&] { return (0.15 + 0.5 * unit(generator)) * P * (unit(generator) < 0.5 ? -1 : 1); };
-  const PairPoint start{unit(generator) * P, unit(generator) * P};
+  const std::array<double, 2> start{unit(generator) * P, unit(generator) * P};
   const double La = roll();
   const double Lb = roll();
   return noisy_case(part, start, La, Lb, rows, 0.03 * P, 0.024 * P, noise, generator);
 }
 
 /// The modes whose region holds a pair.
-std::vector<std::size_t> modes_at(const Part& part, const std::vector<PairMode>& modes, const PairPoint& at) {
+std::vector<std::size_t> modes_at(const Part& part, const std::vector<Mode>& modes, const std::array<double, 2>& at) {
   std::vector<std::size_t> found;
   for (std::size_t k = 0; k < modes.size(); ++k) {
     if (holds(part, modes[k].region[0], at[0]) && holds(part, modes[k].region[1], at[1])) found.push_back(k);
@@ -72,8 +73,8 @@ struct Calibration {
   double claimed = 0;
   double variance = 0;  // of how often the first is right, if it claims rightly
 
-  void add(const Part& part, const Case& drawn, PairBelief belief) {
-    const std::vector<PairMode>& modes = belief.modes();
+  void add(const Part& part, const Case& drawn, Belief belief) {
+    const std::vector<Mode>& modes = belief.modes();
     const std::vector<std::size_t> at = modes_at(part, modes, drawn.start);
     ++cases;
     if (modes.empty()) return;
@@ -136,9 +137,9 @@ class BruteForce {
     Eigen::MatrixXd by_error = Eigen::MatrixXd::Zero(count, 3 * count + 2);
     Eigen::VectorXd off(count);
     for (Eigen::Index k = 0; k < count; ++k) {
-      const PairReading& row = rows_[static_cast<std::size_t>(k)];
-      const auto a = part_.turning().at(s + row.length_a);
-      const auto b = part_.turning().at(t + row.length_b);
+      const Reading& row = rows_[static_cast<std::size_t>(k)];
+      const auto a = part_.turning().at(s + row.length[0]);
+      const auto b = part_.turning().at(t + row.length[1]);
       off[k] = std::remainder(a.angle - b.angle - row.turn - facing_, 2 * std::numbers::pi);
       // A contact that was felt too far along lets the tangent be expected too far on, and its normal be felt turned.
       by_error(k, 3 * k) += a.curvature + curvature_[0];
@@ -146,8 +147,8 @@ class BruteForce {
       by_error(k, 3 * k + 1) -= b.curvature + curvature_[1];
       by_error(k, 1) += b.curvature;
       by_error(k, 3 * k + 2) = 1;
-      by_error(k, 3 * count) = a.curvature * row.length_a;
-      by_error(k, 3 * count + 1) = -b.curvature * row.length_b;
+      by_error(k, 3 * count) = a.curvature * row.length[0];
+      by_error(k, 3 * count + 1) = -b.curvature * row.length[1];
     }
     Eigen::VectorXd variance(3 * count + 2);
     for (Eigen::Index k = 0; k < count; ++k) {
@@ -168,12 +169,12 @@ class BruteForce {
   };
 
   /// Of the mass in a box, as a share of that in all boxes; offsets from a mode's mean.
-  std::vector<Moments> moments(const std::vector<PairMode>& modes, int points) const {
+  std::vector<Moments> moments(const std::vector<Mode>& modes, int points) const {
     std::vector<Moments> result;
     double total = 0;
     double best = -1e300;
-    for (const PairMode& mode : modes) best = std::max(best, log_likelihood(mode.start[0], mode.start[1]));
-    for (const PairMode& mode : modes) {
+    for (const Mode& mode : modes) best = std::max(best, log_likelihood(mode.start[0], mode.start[1]));
+    for (const Mode& mode : modes) {
       Moments sum;
       Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
       const Interval& s = mode.region[0];
@@ -203,13 +204,13 @@ class BruteForce {
  private:
   const Part& part_;
   Noise noise_;
-  std::vector<PairReading> rows_;
+  std::vector<Reading> rows_;
   double facing_ = 0;
   std::array<double, 2> curvature_{};
 };
 
 /// Do the boxes around two of the modes overlap?
-bool any_overlap(const Part& part, const std::vector<PairMode>& modes) {
+bool any_overlap(const Part& part, const std::vector<Mode>& modes) {
   for (std::size_t i = 0; i < modes.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       bool both = true;
@@ -230,8 +231,8 @@ TEST(PairBelief, is_the_density_that_all_covariances_give_on_a_fine_grid) {
   std::mt19937_64 generator = test_generator(3);
   for (int k = 0; k < test_count(4); ++k) {
     const Case drawn = random_pair(part, 7, options.noise, generator);
-    PairBelief belief = belief_of(part, drawn, options);
-    const std::vector<PairMode>& modes = belief.modes();
+    Belief belief = belief_of(part, drawn, options);
+    const std::vector<Mode>& modes = belief.modes();
     if (any_overlap(part, modes)) continue;  // then a box holds others' mass as well
     const auto truth = BruteForce(part, drawn, options.noise).moments(modes, 200);
     for (std::size_t m = 0; m < modes.size(); ++m) {
@@ -255,16 +256,16 @@ TEST(PairBelief, leaves_no_mode_out_that_a_grid_over_all_pairs_finds) {
   const BeliefOptions options = options_with(0.01, 0.006, 0.004);
   std::mt19937_64 generator = test_generator(4);
   const Case drawn = random_pair(part, 4, options.noise, generator);
-  PairBelief belief = belief_of(part, drawn, options);
+  Belief belief = belief_of(part, drawn, options);
   const BruteForce brute(part, drawn, options.noise);
   constexpr int kPoints = 400;
   double inside = 0;
   double total = 0;
-  const PairMode& first = belief.modes().front();
+  const Mode& first = belief.modes().front();
   const double best = brute.log_likelihood(first.start[0], first.start[1]);
   for (int i = 0; i < kPoints; ++i) {
     for (int j = 0; j < kPoints; ++j) {
-      const PairPoint at{part.perimeter() * i / kPoints, part.perimeter() * j / kPoints};
+      const std::array<double, 2> at{part.perimeter() * i / kPoints, part.perimeter() * j / kPoints};
       const double mass = std::exp(brute.log_likelihood(at[0], at[1]) - best);
       total += mass;
       inside += modes_at(part, belief.modes(), at).empty() ? 0 : mass;
@@ -278,8 +279,8 @@ TEST(PairBelief, takes_both_halves_of_a_symmetric_part_as_equally_probable) {
   std::mt19937_64 generator = test_generator(5);
   const BeliefOptions options = options_with(0.002, 0.002, 0.002);
   const Case drawn = random_pair(part, 100, options.noise, generator);
-  PairBelief belief = belief_of(part, drawn, options);
-  ASSERT_EQ(belief.verdict(), "ambiguous (2)");
+  Belief belief = belief_of(part, drawn, options);
+  ASSERT_EQ(belief.verdict().text(), "ambiguous (2)");
   EXPECT_NEAR(belief.modes()[0].probability, 0.5, 0.01);
   EXPECT_NEAR(rollfix::periodic_distance(belief.modes()[0].start[0], belief.modes()[1].start[0], part.perimeter()),
               part.perimeter() / 2, 0.05 * belief.modes()[0].sd[0]);
@@ -291,8 +292,8 @@ TEST(PairBelief, takes_what_it_is_told_of_finger_a_before) {
   BeliefOptions options = options_with(0.002, 0.002, 0.002);
   const Case drawn = random_pair(part, 100, options.noise, generator);
   options.prior = Prior{drawn.start[0], 0.5};
-  PairBelief belief = belief_of(part, drawn, options);
-  EXPECT_EQ(belief.verdict(), "unique");
+  Belief belief = belief_of(part, drawn, options);
+  EXPECT_EQ(belief.verdict().text(), "unique");
   EXPECT_FALSE(modes_at(part, belief.modes(), drawn.start).empty());
 }
 
@@ -303,9 +304,9 @@ TEST(PairBelief, a_prior_at_an_end_of_an_open_part_does_not_reach_around_to_the_
   BeliefOptions options = options_with(0.01, 0.01, 0.002);
   options.prior = Prior{0, 0.06 * P};
   const Case drawn = noisy_case(part, {0.12 * P, 0.4 * P}, 0.1 * P, 0.1 * P, 100, 0.2, 0.2, options.noise, generator);
-  PairBelief belief = belief_of(part, drawn, options);
+  Belief belief = belief_of(part, drawn, options);
   ASSERT_FALSE(belief.modes().empty());
-  for (const PairMode& mode : belief.modes()) EXPECT_LT(mode.start[0], 0.5 * P);
+  for (const Mode& mode : belief.modes()) EXPECT_LT(mode.start[0], 0.5 * P);
 }
 
 /// Some of the rows say anything.
@@ -337,17 +338,17 @@ TEST(PairBelief, calls_stray_rows_an_excess_when_it_is_not_robust) {
   const BeliefOptions options = options_with(0.002, 0.002, 0.002);
   Case drawn = random_pair(part, 100, options.noise, generator);
   disturb(drawn, 0.05, generator);
-  EXPECT_EQ(belief_of(part, drawn, options).verdict(), "inconsistent");
+  EXPECT_EQ(belief_of(part, drawn, options).verdict().text(), "inconsistent");
 }
 
 TEST(PairBelief, widens_by_noise_that_is_larger_than_said) {
   const Part part = part_of("spline,n=9,seed=7,wobble=0.2");
   std::mt19937_64 generator = test_generator(9);
   const Case drawn = random_pair(part, 200, {0.004, 0.004, 0.002, 0}, generator);
-  PairBelief belief = belief_of(part, drawn, options_with(0.002, 0.002, 0.001));
+  Belief belief = belief_of(part, drawn, options_with(0.002, 0.002, 0.001));
   EXPECT_NEAR(belief.excess(), 2, 0.4);
   EXPECT_FALSE(modes_at(part, belief.modes(), drawn.start).empty());
-  PairBelief told = belief_of(part, drawn, options_with(0.004, 0.004, 0.002));
+  Belief told = belief_of(part, drawn, options_with(0.004, 0.004, 0.002));
   EXPECT_NEAR(belief.modes().front().sd[0], told.modes().front().sd[0], 0.25 * told.modes().front().sd[0]);
 }
 
@@ -356,8 +357,8 @@ TEST(PairBelief, says_that_a_radius_is_wrong) {
   std::mt19937_64 generator = test_generator(10);
   Case drawn = random_pair(part, 100, {0.002, 0.002, 0, 0}, generator);
   for (rollfix::DiskFinger& finger : drawn.fingers) finger.radius *= 1.1;
-  PairBelief belief = belief_of(part, drawn, options_with(0.002, 0.002, 0.001));
-  EXPECT_EQ(belief.verdict(), "inconsistent");
+  Belief belief = belief_of(part, drawn, options_with(0.002, 0.002, 0.001));
+  EXPECT_EQ(belief.verdict().text(), "inconsistent");
   EXPECT_EQ(belief.diagnosis().cause, Cause::radius);
   EXPECT_NEAR(belief.diagnosis().length_scale, 1 / 1.1, 0.01);
 }
@@ -367,8 +368,8 @@ TEST(PairBelief, says_that_it_is_another_part) {
   const BeliefOptions options = options_with(0.002, 0.002, 0.001);
   const Part felt = part_of("spline,n=9,seed=7,wobble=0.2");
   const Case drawn = noisy_case(felt, {1, 4}, 4, -3, 100, 0.2, 0.15, options.noise, generator);
-  PairBelief belief = belief_of(part_of("limacon"), drawn, options);
-  EXPECT_EQ(belief.verdict(), "inconsistent");
+  Belief belief = belief_of(part_of("limacon"), drawn, options);
+  EXPECT_EQ(belief.verdict().text(), "inconsistent");
   EXPECT_NE(belief.diagnosis().cause, Cause::none);
 }
 
@@ -376,8 +377,8 @@ TEST(PairBelief, can_not_tell_a_circles_places_apart) {
   const Part part = part_of("circle");
   std::mt19937_64 generator = test_generator(12);
   const BeliefOptions options = options_with(0.002, 0.002, 0.002);
-  PairBelief belief = belief_of(part, random_pair(part, 50, options.noise, generator), options);
-  ASSERT_EQ(belief.verdict(), "unobservable");
+  Belief belief = belief_of(part, random_pair(part, 50, options.noise, generator), options);
+  ASSERT_EQ(belief.verdict().text(), "unobservable");
   // Uniform around the circle.
   EXPECT_NEAR(belief.modes().front().sd[0], part.perimeter() / std::sqrt(12.0), 0.05 * part.perimeter());
 }
@@ -389,10 +390,10 @@ TEST(PairBelief, needs_no_facing) {
   Calibration all;
   for (int k = 0; k < test_count(25); ++k) {
     const Case drawn = random_pair(part, 100, options.noise, generator);
-    PairContacts contacts;
+    rollfix::Contacts contacts;
     contacts.finger_curvature = {1 / drawn.fingers[0].radius, 1 / drawn.fingers[1].radius};
-    PairBelief belief(part, LogKind::contact, options, contacts);
-    for (const PairReading& row : rollfix::readings_as_given(drawn.log, drawn.pair())) belief.add(row);
+    Belief belief(part, LogKind::contact, options, contacts);
+    for (const Reading& row : rollfix::readings_as_given(drawn.log, drawn.pair())) belief.add(row);
     all.add(part, drawn, std::move(belief));
   }
   EXPECT_EQ(all.listed, all.cases) << "seed " << test_seed();
@@ -400,10 +401,10 @@ TEST(PairBelief, needs_no_facing) {
 }
 
 /// Increments with noise, summed as a log of increments is.
-std::vector<PairReading> increments(const Part& part, const PairPoint& start, double La, double Lb, int rows,
-                                    const Noise& noise, std::mt19937_64& generator) {
+std::vector<Reading> increments(const Part& part, const std::array<double, 2>& start, double La, double Lb, int rows,
+                                const Noise& noise, std::mt19937_64& generator) {
   std::normal_distribution<double> normal(0, 1);
-  std::vector<PairReading> result;
+  std::vector<Reading> result;
   double off_a = 0;
   double off_b = 0;
   double off_turn = 0;
@@ -430,9 +431,9 @@ TEST(PairBelief, knows_that_increments_gather_errors) {
   for (int k = 0; k < test_count(25); ++k) {
     Case drawn;
     drawn.start = {unit(generator) * part.perimeter(), unit(generator) * part.perimeter()};
-    PairBelief belief(part, LogKind::increments, options, {});
+    Belief belief(part, LogKind::increments, options, kTwoFingers);
     const double La = (1 + 2 * unit(generator)) * (unit(generator) < 0.5 ? -1 : 1);
-    for (const PairReading& row : increments(part, drawn.start, La, 2.2, 60, options.noise, generator)) {
+    for (const Reading& row : increments(part, drawn.start, La, 2.2, 60, options.noise, generator)) {
       belief.add(row);
     }
     all.add(part, drawn, std::move(belief));
@@ -464,14 +465,14 @@ TEST(PairBelief, knows_how_sure_the_parts_pose_is) {
     const Case drawn = random_pair(part, 100, options.noise, generator);
     // Fingers that touch at the same place would be in each other's way, and tell less than any pose.
     if (rollfix::periodic_distance(drawn.start[0], drawn.start[1], part.perimeter()) < 0.4) continue;
-    PairBelief belief = belief_of(part, drawn, options);
-    std::array<rollfix::FeltContact, 2> felt;
+    Belief belief = belief_of(part, drawn, options);
+    rollfix::PerFinger<rollfix::FeltContact> felt = {rollfix::FeltContact{}, rollfix::FeltContact{}};
     for (const std::size_t finger : {0U, 1U}) {
       const rollfix::Log& log = finger == 0 ? drawn.log.a : drawn.log.b;
       const double radius = drawn.fingers[finger].radius;
       felt[finger] = {free_rolls::felt_contact(log, radius, 0), log.u[0] + log.psi[0], 1 / radius};
     }
-    const rollfix::PoseSpread spread = rollfix::pose_spread(part, 0, belief.mass(), felt, options.noise);
+    const rollfix::PoseSpread spread = belief.pose_spread(0, felt);
     // free_rolls::by_distances puts the part there.
     const Eigen::Vector3d off(spread.mean.x - 0.4, spread.mean.y + 0.7,
                               std::remainder(spread.mean.heading - 2.1, 2 * std::numbers::pi));
@@ -487,8 +488,8 @@ TEST(PairBelief, says_the_same_twice) {
   std::mt19937_64 generator = test_generator(17);
   const BeliefOptions options = options_with(0.005, 0.003, 0.002);
   const Case drawn = random_pair(part, 60, options.noise, generator);
-  PairBelief one = belief_of(part, drawn, options);
-  PairBelief other = belief_of(part, drawn, options);
+  Belief one = belief_of(part, drawn, options);
+  Belief other = belief_of(part, drawn, options);
   ASSERT_EQ(one.modes().size(), other.modes().size());
   EXPECT_EQ(one.modes().front().start, other.modes().front().start);
   EXPECT_EQ(one.modes().front().probability, other.modes().front().probability);
@@ -498,16 +499,16 @@ TEST(PairBelief, bounds_what_it_leaves_out) {
   const Part part = part_of("cam");
   std::mt19937_64 generator = test_generator(18);
   const BeliefOptions options = options_with(0.005, 0.003, 0.002);
-  PairBelief belief = belief_of(part, random_pair(part, 60, options.noise, generator), options);
+  Belief belief = belief_of(part, random_pair(part, 60, options.noise, generator), options);
   double listed = 0;
-  for (const PairMode& mode : belief.modes()) listed += mode.probability;
+  for (const Mode& mode : belief.modes()) listed += mode.probability;
   EXPECT_GE(listed + belief.rest(), 1);
   EXPECT_LT(belief.rest(), 0.002);
 }
 
 TEST(PairBelief, refuses_noise_that_is_none) {
-  EXPECT_THROW(PairBelief(part_of("cam"), LogKind::contact, BeliefOptions{}, {}), InputError);
-  EXPECT_THROW(PairBelief(part_of("cam"), LogKind::contact, options_with(-1, 0.1, 0), {}), InputError);
+  EXPECT_THROW(Belief(part_of("cam"), LogKind::contact, BeliefOptions{}, kTwoFingers), InputError);
+  EXPECT_THROW(Belief(part_of("cam"), LogKind::contact, options_with(-1, 0.1, 0), kTwoFingers), InputError);
 }
 
 }  // namespace

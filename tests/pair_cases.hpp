@@ -9,27 +9,27 @@
 #include <random>
 #include <vector>
 
-#include "rollfix/locate/locate_pair.hpp"
+#include "rollfix/locate/locate.hpp"
 #include "rollfix/part/part.hpp"
 #include "rollfix/part/period.hpp"
 
 namespace pair_cases {
 
-using rollfix::PairPlacement;
-using rollfix::PairPoint;
-using rollfix::PairReading;
 using rollfix::Part;
+using rollfix::PerFinger;
+using rollfix::Placement;
+using rollfix::Reading;
 
 /// What two fingers read that start at s and t, by the production turning function.
-inline PairReading reading_from(const Part& part, const PairPoint& start, double length_a, double length_b) {
+inline Reading reading_from(const Part& part, const PerFinger<double>& start, double length_a, double length_b) {
   const auto turn = [&](double s, double length) { return part.turning().angle(s + length) - part.turning().angle(s); };
   return {length_a, length_b, turn(start[0], length_a) - turn(start[1], length_b)};
 }
 
 /// Two first contacts and what is read from there.
 struct Case {
-  PairPoint start{};
-  std::vector<PairReading> readings;
+  PerFinger<double> start{0.0, 0.0};
+  std::vector<Reading> readings;
   double facing = 0;  // Theta(s) - Theta(t)
 };
 
@@ -55,10 +55,10 @@ inline Case random_case(const Part& part, std::size_t readings, std::mt19937_64&
 inline Case special_case(const Part& part, std::size_t readings, std::mt19937_64& generator) {
   std::uniform_int_distribution<int> which(0, 5);
   Case drawn = random_case(part, readings, generator);
-  for (PairReading& reading : drawn.readings) {
+  for (Reading& reading : drawn.readings) {
     const double half = 0.5 * part.perimeter();
-    const double others[] = {reading.length_b, reading.length_a, -reading.length_a, 0, half, 2 * half};
-    reading = reading_from(part, drawn.start, reading.length_a, others[which(generator)]);
+    const double others[] = {reading.length[1], reading.length[0], -reading.length[0], 0, half, 2 * half};
+    reading = reading_from(part, drawn.start, reading.length[0], others[which(generator)]);
   }
   return drawn;
 }
@@ -104,19 +104,19 @@ inline std::optional<Case> double_root_case(const Part& part, std::mt19937_64& g
   };
   const double s = drawn.start[0];
   const double t = drawn.start[1];
-  const PairReading& first = drawn.readings[0];
-  PairReading& second = drawn.readings[1];
+  const Reading& first = drawn.readings[0];
+  Reading& second = drawn.readings[1];
   const auto determinant = [&](double length_b) {
-    return gain(s, second.length_a) * gain(t, first.length_b) - gain(s, first.length_a) * gain(t, length_b);
+    return gain(s, second.length[0]) * gain(t, first.length[1]) - gain(s, first.length[0]) * gain(t, length_b);
   };
-  double lo = second.length_b, hi = lo + 0.3 * part.perimeter();
+  double lo = second.length[1], hi = lo + 0.3 * part.perimeter();
   const bool rises = determinant(hi) > 0;
   if ((determinant(lo) > 0) == rises) return {};
   for (int halving = 0; halving < 60; ++halving) {
     const double middle = 0.5 * (lo + hi);
     ((determinant(middle) > 0) == rises ? hi : lo) = middle;
   }
-  second = reading_from(part, drawn.start, second.length_a, lo);
+  second = reading_from(part, drawn.start, second.length[0], lo);
   return drawn;
 }
 
@@ -124,16 +124,17 @@ inline double distance(const Part& part, double a, double b) {
   return part.closed() ? rollfix::periodic_distance(a, b, part.perimeter()) : std::abs(a - b);
 }
 
-inline double distance(const Part& part, const PairPoint& a, const PairPoint& b) {
+inline double distance(const Part& part, const PerFinger<double>& a, const PerFinger<double>& b) {
   return std::max(distance(part, a[0], b[0]), distance(part, a[1], b[1]));
 }
 
 /// How far a pair is from the line through a stretch, whichever way round.
-inline double distance_to_family(const Part& part, const std::vector<PairPoint>& family, const PairPoint& pair) {
+inline double distance_to_family(const Part& part, const std::vector<PerFinger<double>>& family,
+                                 const PerFinger<double>& pair) {
   double least = 1e300;
   for (std::size_t i = 0; i < family.size(); ++i) {
-    const PairPoint& from = family[i];
-    const PairPoint& to = family[std::min(i + 1, family.size() - 1)];
+    const PerFinger<double>& from = family[i];
+    const PerFinger<double>& to = family[std::min(i + 1, family.size() - 1)];
     double along[2], off[2];
     for (std::size_t finger = 0; finger < 2; ++finger) {
       along[finger] = to[finger] - from[finger];
@@ -149,7 +150,7 @@ inline double distance_to_family(const Part& part, const std::vector<PairPoint>&
 }
 
 /// Is there a placement with this pair in its extent, give or take `slack`; of a stretch also near its line?
-inline bool holds(const Part& part, const PairPlacement& placement, const PairPoint& pair, double slack) {
+inline bool holds(const Part& part, const Placement& placement, const PerFinger<double>& pair, double slack) {
   for (std::size_t finger = 0; finger < 2; ++finger) {
     const rollfix::Interval& extent = placement.extent[finger];
     const double ahead =
@@ -161,9 +162,9 @@ inline bool holds(const Part& part, const PairPlacement& placement, const PairPo
   return placement.family.empty() || distance_to_family(part, placement.family, pair) <= placement.family_error + slack;
 }
 
-inline bool holds(const Part& part, const rollfix::PairSearch& search, const PairPoint& pair, double slack) {
+inline bool holds(const Part& part, const rollfix::Search& search, const PerFinger<double>& pair, double slack) {
   return std::any_of(search.placements.begin(), search.placements.end(),
-                     [&](const PairPlacement& placement) { return holds(part, placement, pair, slack); });
+                     [&](const Placement& placement) { return holds(part, placement, pair, slack); });
 }
 
 }  // namespace pair_cases

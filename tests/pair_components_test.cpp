@@ -20,19 +20,20 @@ using pair_cases::Case;
 constexpr double kSurelyInside = 0.85;
 
 /// By how much a pair misses the readings, by the check's own angles.
-double miss(const pair_oracle::Boundary& boundary, const Case& drawn, const PairOptions& options, double s, double t) {
+double miss(const pair_oracle::Boundary& boundary, const Case& drawn, const LocateOptions& options, double s,
+            double t) {
   const double start_s = boundary.rough(s).angle, start_t = boundary.rough(t).angle;
   double most = options.facing ? std::fabs(std::remainder(start_s - start_t - *options.facing, 2 * shapes::kPi)) : 0;
-  for (const PairReading& r : drawn.readings) {
-    const double turn_a = boundary.rough(s + r.length_a).angle - start_s;
-    most = std::max(most, std::fabs(turn_a - (boundary.rough(t + r.length_b).angle - start_t) - r.turn));
+  for (const Reading& r : drawn.readings) {
+    const double turn_a = boundary.rough(s + r.length[0]).angle - start_s;
+    most = std::max(most, std::fabs(turn_a - (boundary.rough(t + r.length[1]).angle - start_t) - r.turn));
   }
   return most;
 }
 
 /// Where two placements' extents have an edge or a part of one in common, no pair on it fits: it would join them.
-void expect_apart(const pair_oracle::Boundary& boundary, const Case& drawn, const PairOptions& options,
-                  const PairPlacement& one, const PairPlacement& two) {
+void expect_apart(const pair_oracle::Boundary& boundary, const Case& drawn, const LocateOptions& options,
+                  const Placement& one, const Placement& two) {
   constexpr int kSamples = 400;
   Interval common[2];
   for (std::size_t k = 0; k < 2; ++k) {
@@ -56,8 +57,8 @@ class PairComponents : public testing::TestWithParam<std::string> {
   Part part_{outline_};
   pair_oracle::Boundary boundary_{outline_};
 
-  void expect_all_apart(const Case& drawn, const PairOptions& options) const {
-    const PairSearch search = locate(part_, drawn.readings, options);
+  void expect_all_apart(const Case& drawn, const LocateOptions& options) const {
+    const Search search = locate(part_, drawn.readings, options);
     for (std::size_t i = 0; i < search.placements.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         expect_apart(boundary_, drawn, options, search.placements[i], search.placements[j]);
@@ -75,7 +76,7 @@ TEST_P(PairComponents, no_placement_is_cut_at_the_edge_of_a_box) {
   auto generator = test_generator(72);
   for (int k = 0; k < test_count(20); ++k) {
     SCOPED_TRACE(testing::Message() << "case " << k);
-    PairOptions options;
+    LocateOptions options;
     options.tolerance = std::pow(10, -1 - k % 3);
     const Case drawn = pair_cases::random_case(part_, 1 + static_cast<std::size_t>(k % 2), generator);
     if (k % 2 == 0) options.facing = drawn.facing;
@@ -85,10 +86,10 @@ TEST_P(PairComponents, no_placement_is_cut_at_the_edge_of_a_box) {
 
 TEST(PairSliver, that_runs_through_dozens_of_boxes_is_one_placement) {
   const Part part(gallery("cam,base=2.13,lift=0.127"));
-  PairOptions options;
+  LocateOptions options;
   options.tolerance = 1e-3;
   options.facing = -0.86901839567384442;
-  const PairSearch search = locate(part, {{7.43918898608554, -5.904109502083676, 6.1149298195681743}}, options);
+  const Search search = locate(part, {{7.43918898608554, -5.904109502083676, 6.1149298195681743}}, options);
   EXPECT_EQ(search.placements.size(), 3U);
 }
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "pair_cases.hpp"
-#include "rollfix/locate/locate_pair.hpp"
+#include "rollfix/locate/locate.hpp"
 #include "shapes.hpp"
 
 namespace pair_corners_test {
@@ -14,7 +14,7 @@ namespace {
 
 using namespace rollfix;
 
-bool holds(const Part& part, const PairSearch& search, const PairPoint& at) {
+bool holds(const Part& part, const Search& search, const PerFinger<double>& at) {
   return pair_cases::holds(part, search, at, 1e-7);
 }
 
@@ -31,7 +31,7 @@ TEST(PairCorners, a_finger_that_starts_at_a_corner_pivots_by_the_same_angle_for_
   // a rolls by 0.2 and 0.5 up the side: its tangent ends upright, so it turns by pi/2 - 0.3 in both readings.
   // b rolls by 0.7 and 1.1 on the arc of radius 1.
   const double turn_a = shapes::kPi / 2 - pivot;
-  const PairSearch search = locate(part, {{0.2, 0.7, turn_a - 0.7}, {0.5, 1.1, turn_a - 1.1}});
+  const Search search = locate(part, {{0.2, 0.7, turn_a - 0.7}, {0.5, 1.1, turn_a - 1.1}});
   EXPECT_TRUE(holds(part, search, {corner, on_arc}));
 }
 
@@ -46,12 +46,11 @@ TEST(PairCorners, an_end_at_a_corner_is_decided_by_the_pivot_there) {
   const double after = turning.angle(0, Side::after) + turning.period_turn();
   const double half_way = 0.5 * (before + after) - turning.angle(s);
   const auto turn = [&](double from, double length) { return turning.angle(from + length) - turning.angle(from); };
-  const PairSearch search =
-      locate(part, {{period - s, 0.2 * period, half_way - turn(t, 0.2 * period)},
-                    {0.1 * period, -0.15 * period, turn(s, 0.1 * period) - turn(t, -0.15 * period)}});
+  const Search search = locate(part, {{period - s, 0.2 * period, half_way - turn(t, 0.2 * period)},
+                                      {0.1 * period, -0.15 * period, turn(s, 0.1 * period) - turn(t, -0.15 * period)}});
   EXPECT_TRUE(holds(part, search, {s, t}));
   EXPECT_TRUE(std::any_of(search.placements.begin(), search.placements.end(),
-                          [](const PairPlacement& placement) { return placement.kind == Kind::corner; }));
+                          [](const Placement& placement) { return placement.kind == Kind::corner; }));
 }
 
 TEST(PairCorners, the_pivots_that_are_left_are_told) {
@@ -63,10 +62,10 @@ TEST(PairCorners, the_pivots_that_are_left_are_told) {
       turning.angle(0, Side::after) - 0.2;  // a starts at the trailing edge, 0.2 rad short of leaving it
   const auto turn_a = [&](double length) { return turning.angle(length) - angle; };
   const auto turn_b = [&](double length) { return turning.angle(t + length) - turning.angle(t); };
-  const PairSearch search = locate(part, {{0.2 * period, 0.15 * period, turn_a(0.2 * period) - turn_b(0.15 * period)},
-                                          {0.3 * period, -0.1 * period, turn_a(0.3 * period) - turn_b(-0.1 * period)}});
+  const Search search = locate(part, {{0.2 * period, 0.15 * period, turn_a(0.2 * period) - turn_b(0.15 * period)},
+                                      {0.3 * period, -0.1 * period, turn_a(0.3 * period) - turn_b(-0.1 * period)}});
   ASSERT_TRUE(holds(part, search, {0, t}));
-  for (const PairPlacement& placement : search.placements) {
+  for (const Placement& placement : search.placements) {
     if (placement.kind != Kind::corner || placement.start[0] != 0) continue;
     ASSERT_TRUE(placement.pivot);
     EXPECT_GT((*placement.pivot)[0].start.width(), 0.2);
@@ -77,7 +76,7 @@ TEST(PairCorners, the_pivots_that_are_left_are_told) {
 TEST(PairCorners, both_fingers_may_stand_at_corners) {
   const Part part = shapes::unit_square();
   // Both start at corners and roll along a side: any pivots with the same difference will do.
-  const PairSearch search = locate(part, {{0.3, 0.4, 0.1}, {0.5, 0.6, 0.1}});
+  const Search search = locate(part, {{0.3, 0.4, 0.1}, {0.5, 0.6, 0.1}});
   EXPECT_TRUE(holds(part, search, {0, 1}));
   EXPECT_EQ(search.status, Status::complete);
 }
@@ -86,7 +85,7 @@ TEST(PairCorners, two_contacts_of_one_finger_at_corners_pivot_independently) {
   const Part part = shapes::unit_square();
   // Finger a, pivoted by 0.2 short of the side at s = 0, rolls along it, pivots by 0.2 at its end, and rolls half a
   // side on; finger b stays on one side.
-  const PairSearch search = locate(part, {{1, 0.25, 0.4}, {1.5, 0.5, shapes::kPi / 2 + 0.2}});
+  const Search search = locate(part, {{1, 0.25, 0.4}, {1.5, 0.5, shapes::kPi / 2 + 0.2}});
   EXPECT_TRUE(holds(part, search, {0, 0.1}));
 }
 

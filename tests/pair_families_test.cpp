@@ -14,12 +14,12 @@ using namespace rollfix;
 TEST(PairFamilies, a_fold_is_in_the_extent_of_a_stretch_that_folds_between_its_samples) {
   const Outline outline = gallery("spline");
   const Part part(outline);
-  const PairReading reading{0.16794155640297431, 0.60547448341776733, -0.45690797298424624};
-  const PairPoint near_the_fold{2.2080034203627035, 0.3785676637628308};  // found by Newton's method elsewhere
+  const Reading reading{0.16794155640297431, 0.60547448341776733, -0.45690797298424624};
+  const PerFinger<double> near_the_fold{2.2080034203627035, 0.3785676637628308};  // found by Newton's method elsewhere
   const pair_oracle::Boundary boundary(outline);
-  EXPECT_NEAR(boundary.phi(near_the_fold[0], reading.length_a) - boundary.phi(near_the_fold[1], reading.length_b),
+  EXPECT_NEAR(boundary.phi(near_the_fold[0], reading.length[0]) - boundary.phi(near_the_fold[1], reading.length[1]),
               reading.turn, 1e-12);
-  const PairSearch search = locate(part, {{0, 0, 0}, reading});
+  const Search search = locate(part, {{0, 0, 0}, reading});
   EXPECT_TRUE(pair_cases::holds(part, search, near_the_fold, 1e-9 * part.perimeter()));
 }
 
@@ -27,10 +27,10 @@ TEST(PairFamilies, pivots_of_two_contacts_at_once_are_on_the_line_through_their_
   const Part part(gallery("polygon,n=7"));
   const double side = part.perimeter() / 7;
   // Finger a rolls from within a side to the corner s = 0 and pivots there; finger b stays on one side.
-  const PairPoint start{3.49 * side, 0.08 * side};
+  const PerFinger<double> start{3.49 * side, 0.08 * side};
   const double pivot = 0.6 * 2 * shapes::kPi / 7;
-  const PairReading reading{3.51 * side, 0.09 * side, 3 * 2 * shapes::kPi / 7 + pivot};
-  const PairSearch search = locate(part, {reading, reading});
+  const Reading reading{3.51 * side, 0.09 * side, 3 * 2 * shapes::kPi / 7 + pivot};
+  const Search search = locate(part, {reading, reading});
   EXPECT_TRUE(pair_cases::holds(part, search, start, 1e-9 * part.perimeter()));
 }
 

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "pair_cases.hpp"
-#include "rollfix/locate/locate_pair.hpp"
+#include "rollfix/locate/locate.hpp"
 #include "shapes.hpp"
 
 namespace pair_kinds_test {
@@ -18,28 +18,27 @@ namespace {
 using namespace rollfix;
 using pair_cases::reading_from;
 
-std::vector<PairReading> equal_rolls(const Part& part) {
+std::vector<Reading> equal_rolls(const Part& part) {
   const double period = part.perimeter();
   return {{0.2 * period, 0.2 * period, 0}, {0.37 * period, 0.37 * period, 0}};
 }
 
-std::size_t count(const PairSearch& search, Kind kind) {
-  return static_cast<std::size_t>(
-      std::count_if(search.placements.begin(), search.placements.end(),
-                    [&](const PairPlacement& placement) { return placement.kind == kind; }));
+std::size_t count(const Search& search, Kind kind) {
+  return static_cast<std::size_t>(std::count_if(search.placements.begin(), search.placements.end(),
+                                                [&](const Placement& placement) { return placement.kind == kind; }));
 }
 
 /// Is t - s the same all along the family, modulo P?
-bool has_offset(const Part& part, const PairPlacement& placement, double offset) {
-  return std::all_of(placement.family.begin(), placement.family.end(), [&](const PairPoint& at) {
+bool has_offset(const Part& part, const Placement& placement, double offset) {
+  return std::all_of(placement.family.begin(), placement.family.end(), [&](const PerFinger<double>& at) {
     return periodic_distance(at[1] - at[0], offset, part.perimeter()) <= 1e-9 * part.perimeter();
   });
 }
 
-double largest_residual(const Part& part, const std::vector<PairReading>& readings, const PairPoint& at) {
+double largest_residual(const Part& part, const std::vector<Reading>& readings, const PerFinger<double>& at) {
   double largest = 0;
-  for (const PairReading& reading : readings) {
-    const PairReading there = reading_from(part, at, reading.length_a, reading.length_b);
+  for (const Reading& reading : readings) {
+    const Reading there = reading_from(part, at, reading.length[0], reading.length[1]);
     largest = std::max(largest, std::abs(there.turn - reading.turn));
   }
   return largest;
@@ -49,16 +48,16 @@ double largest_residual(const Part& part, const std::vector<PairReading>& readin
 
 TEST(PairStretch, equal_rolls_without_a_turn_fit_wherever_both_fingers_are_at_one_place) {
   const Part part(gallery("spline,n=9,seed=5"));
-  const PairSearch search = locate(part, equal_rolls(part));
+  const Search search = locate(part, equal_rolls(part));
   ASSERT_EQ(count(search, Kind::stretch), 1U);
-  EXPECT_EQ(search.verdict(), "unobservable");
+  EXPECT_EQ(search.verdict().text(), "unobservable");
   EXPECT_EQ(search.placements.front().whole_loop, (std::array<bool, 2>{true, true}));
   EXPECT_TRUE(has_offset(part, search.placements.front(), 0));
 }
 
 TEST(PairStretch, an_ellipse_has_one_more_half_way_round) {
   const Part part(gallery("ellipse"));
-  const PairSearch search = locate(part, equal_rolls(part));
+  const Search search = locate(part, equal_rolls(part));
   ASSERT_EQ(search.placements.size(), 2U);
   EXPECT_EQ(search.status, Status::complete);
   EXPECT_TRUE(has_offset(part, search.placements[0], 0));
@@ -68,43 +67,43 @@ TEST(PairStretch, an_ellipse_has_one_more_half_way_round) {
 
 TEST(PairStretch, a_part_with_twelve_teeth_has_twelve) {
   const Part part(gallery("gear"));
-  const PairSearch search = locate(part, equal_rolls(part));
+  const Search search = locate(part, equal_rolls(part));
   EXPECT_EQ(count(search, Kind::stretch), 12U);
   EXPECT_EQ(search.status, Status::complete);
 }
 
 TEST(PairStretch, a_circle_can_tell_nothing) {
   const Part part(gallery("circle"));
-  const PairSearch search = locate(part, equal_rolls(part));
+  const Search search = locate(part, equal_rolls(part));
   ASSERT_EQ(search.placements.size(), 1U);
   EXPECT_EQ(search.placements.front().kind, Kind::stretch);
-  EXPECT_EQ(search.verdict(), "unobservable");
+  EXPECT_EQ(search.verdict().text(), "unobservable");
 }
 
 TEST(PairStretch, rolls_of_no_length_fit_everywhere) {
   const Part part(gallery("cam"));
-  const PairSearch search = locate(part, {{0, 0, 0}, {0, 0, 0}});
-  EXPECT_EQ(search.verdict(), "unobservable");
+  const Search search = locate(part, {{0, 0, 0}, {0, 0, 0}});
+  EXPECT_EQ(search.verdict().text(), "unobservable");
   EXPECT_EQ(search.placements.size(), 1U);
 }
 
 TEST(PairStretch, whole_laps_fit_everywhere) {
   const Part part(gallery("limacon"));
   const double period = part.perimeter();
-  const PairSearch search = locate(part, {{period, 2 * period, -2 * shapes::kPi}, {-period, 0, -2 * shapes::kPi}});
-  EXPECT_EQ(search.verdict(), "unobservable");
+  const Search search = locate(part, {{period, 2 * period, -2 * shapes::kPi}, {-period, 0, -2 * shapes::kPi}});
+  EXPECT_EQ(search.verdict().text(), "unobservable");
 }
 
 TEST(PairStretch, a_second_reading_that_says_nothing_leaves_closed_curves_of_pairs) {
   const Part part(gallery("spline"));
   const double period = part.perimeter();
-  const std::vector<PairReading> readings{{0.2 * period, 0.3 * period, 0.05}, {0, 0, 0}};
-  const PairSearch search = locate(part, readings);
+  const std::vector<Reading> readings{{0.2 * period, 0.3 * period, 0.05}, {0, 0, 0}};
+  const Search search = locate(part, readings);
   // As many as a contour plot of the one equation has, drawn on a grid of 4,000 by 4,000 cells.
   EXPECT_EQ(count(search, Kind::stretch), 14U);
   EXPECT_EQ(search.placements.size(), 14U);
-  for (const PairPlacement& placement : search.placements) {
-    for (const PairPoint& at : placement.family) EXPECT_LE(largest_residual(part, readings, at), 1e-6);
+  for (const Placement& placement : search.placements) {
+    for (const PerFinger<double>& at : placement.family) EXPECT_LE(largest_residual(part, readings, at), 1e-6);
   }
 }
 
@@ -112,15 +111,15 @@ TEST(PairStretch, families_that_cross_are_one_connected_set) {
   const Part part(gallery("ellipse"));
   const double period = part.perimeter();
   // Half a lap turns by pi from everywhere; the other reading alone leaves t = s and its mirror images.
-  const PairSearch search = locate(part, {{0.5 * period, 0.5 * period, 0}, {0.3 * period, 0.3 * period, 0}});
+  const Search search = locate(part, {{0.5 * period, 0.5 * period, 0}, {0.3 * period, 0.3 * period, 0}});
   ASSERT_EQ(search.placements.size(), 1U);
-  EXPECT_EQ(search.verdict(), "unobservable");
+  EXPECT_EQ(search.verdict().text(), "unobservable");
 }
 
 TEST(PairStretch, straight_sides_and_equal_arcs_leave_patches_of_pairs) {
   const Part part(gallery("stadium"));
   const double side = 0.01 * part.perimeter();
-  const PairSearch search = locate(part, {{side, side, 0}, {2 * side, side, 0}});
+  const Search search = locate(part, {{side, side, 0}, {2 * side, side, 0}});
   ASSERT_GE(count(search, Kind::stretch), 1U);
   EXPECT_EQ(search.status, Status::complete);
 }
@@ -131,10 +130,10 @@ TEST(PairStretch, straight_sides_and_equal_arcs_leave_patches_of_pairs) {
 /// vanishes there.
 struct Tangency {
   Part part{gallery("spline,n=8,seed=2")};
-  PairPoint start{1.1, 3.9};
+  PerFinger<double> start{1.1, 3.9};
   double length_b = 0;
 
-  std::vector<PairReading> readings() const {
+  std::vector<Reading> readings() const {
     return {reading_from(part, start, 0.8, 1.3), reading_from(part, start, kSecond, length_b)};
   }
   Tangency() {
@@ -159,11 +158,11 @@ struct Tangency {
   }
 };
 
-const PairPlacement* nearest(PairSearch&& search, const PairPoint& at) = delete;  // would outlive it
-const PairPlacement* nearest(const PairSearch& search, const PairPoint& at) {
-  const PairPlacement* best = nullptr;
+const Placement* nearest(Search&& search, const PerFinger<double>& at) = delete;  // would outlive it
+const Placement* nearest(const Search& search, const PerFinger<double>& at) {
+  const Placement* best = nullptr;
   double least = 1e9;
-  for (const PairPlacement& placement : search.placements) {
+  for (const Placement& placement : search.placements) {
     const double far = std::hypot(placement.start[0] - at[0], placement.start[1] - at[1]);
     if (far < least) {
       least = far;
@@ -175,8 +174,8 @@ const PairPlacement* nearest(const PairSearch& search, const PairPoint& at) {
 
 TEST(PairTouching, where_the_curves_touch_is_found_and_called_so) {
   const Tangency tangency;
-  const PairSearch search = locate(tangency.part, tangency.readings());
-  const PairPlacement* placement = nearest(search, tangency.start);
+  const Search search = locate(tangency.part, tangency.readings());
+  const Placement* placement = nearest(search, tangency.start);
   ASSERT_NE(placement, nullptr);
   EXPECT_EQ(placement->kind, Kind::touching);
   EXPECT_EQ(search.status, Status::complete);
@@ -188,14 +187,14 @@ TEST(PairTouching, where_the_curves_touch_is_found_and_called_so) {
 
 TEST(PairTouching, crossings_are_even_in_number_beside_it) {
   const Tangency tangency;
-  const PairSearch search = locate(tangency.part, tangency.readings());
+  const Search search = locate(tangency.part, tangency.readings());
   EXPECT_EQ(count(search, Kind::crossing) % 2, 0U);
   EXPECT_EQ(count(search, Kind::touching), 1U);
 }
 
 TEST(PairTouching, apart_it_becomes_two_crossings_or_none) {
   const Tangency tangency;
-  std::vector<PairReading> readings = tangency.readings();
+  std::vector<Reading> readings = tangency.readings();
   const std::size_t touching = locate(tangency.part, readings).placements.size();
   readings[1].turn += 1e-5;
   const std::size_t one_way = locate(tangency.part, readings).placements.size();
@@ -207,13 +206,13 @@ TEST(PairTouching, apart_it_becomes_two_crossings_or_none) {
 
 TEST(PairTouching, two_crossings_that_the_tolerance_can_not_tell_apart_are_one_placement) {
   const Tangency tangency;
-  std::vector<PairReading> readings = tangency.readings();
+  std::vector<Reading> readings = tangency.readings();
   readings[1].turn += 1e-5;
   if (locate(tangency.part, readings).placements.size() % 2 != 0) readings[1].turn -= 2e-5;
-  PairOptions wide;
+  LocateOptions wide;
   wide.tolerance = 1e-4;
-  const PairSearch search = locate(tangency.part, readings, wide);
-  const PairPlacement* placement = nearest(search, tangency.start);
+  const Search search = locate(tangency.part, readings, wide);
+  const Placement* placement = nearest(search, tangency.start);
   ASSERT_NE(placement, nullptr);
   EXPECT_EQ(placement->kind, Kind::touching);
 }
@@ -222,10 +221,10 @@ TEST(PairTouching, a_near_miss_is_kept_within_the_tolerance_and_dropped_beyond) 
   const Tangency tangency;
   const std::size_t touching = locate(tangency.part, tangency.readings()).placements.size();
   for (const double sign : {1.0, -1.0}) {
-    std::vector<PairReading> readings = tangency.readings();
+    std::vector<Reading> readings = tangency.readings();
     readings[1].turn += sign * 1e-5;
     if (locate(tangency.part, readings).placements.size() > touching) continue;  // this way they cross
-    PairOptions wide;
+    LocateOptions wide;
     wide.tolerance = 1e-4;
     EXPECT_TRUE(pair_cases::holds(tangency.part, locate(tangency.part, readings, wide), tangency.start, 0));
     wide.tolerance = 1e-6;
@@ -236,7 +235,7 @@ TEST(PairTouching, a_near_miss_is_kept_within_the_tolerance_and_dropped_beyond) 
 TEST(PairTouching, one_connected_set_is_one_placement_however_the_boundary_is_cut) {
   // Two of the pairs have just met and parted; around that place the curves run together within the tolerance.
   const Part part(gallery("spline,n=9,seed=7,wobble=0.2"));
-  PairOptions options;
+  LocateOptions options;
   for (const double tolerance : {1e-5, 6.4e-5, 1e-4}) {
     options.tolerance = tolerance;
     EXPECT_EQ(locate(part, {{0.58, 0.94, -0.725248}, {1.01, 1.92, -2.03570}}, options).placements.size(), 15U);
@@ -246,14 +245,14 @@ TEST(PairTouching, one_connected_set_is_one_placement_however_the_boundary_is_cu
 TEST(PairCrossing, where_the_curves_run_alongside_each_other_has_the_extent_that_one_equation_gives) {
   // Finger b rests in the second reading, so that one alone decides about s: |f_2| <= tolerance there and no further.
   const Part part(gallery("spline,n=11,seed=737928123,wobble=0.254"));
-  const std::vector<PairReading> readings{{6.4171912980861183, -3.2139574702642695, 10.284716124315144},
-                                          {4.3975253438083923, 0, 4.199361411990453}};
-  const PairSearch search = locate(part, readings);
-  const PairPlacement* placement = nearest(search, {4.03926, 5.22432});
+  const std::vector<Reading> readings{{6.4171912980861183, -3.2139574702642695, 10.284716124315144},
+                                      {4.3975253438083923, 0, 4.199361411990453}};
+  const Search search = locate(part, readings);
+  const Placement* placement = nearest(search, {4.03926, 5.22432});
   ASSERT_NE(placement, nullptr);
   const double s = placement->start[0];
-  const double slope = part.turning().curvature(s + readings[1].length_a) - part.turning().curvature(s);
-  const double width = 2 * PairOptions().tolerance / std::abs(slope);
+  const double slope = part.turning().curvature(s + readings[1].length[0]) - part.turning().curvature(s);
+  const double width = 2 * LocateOptions().tolerance / std::abs(slope);
   EXPECT_NEAR(placement->extent[0].width(), width, 0.05 * width);
 }
 

@@ -32,10 +32,10 @@ PairLog pair_of(const std::string& a, const std::string& b) {
 
 TEST(PairLogReadings, lengths_and_turn_follow_from_both_fingers) {
   const PairLog log = pair_of("time,u_a,psi_a,u_b,psi_b\n0,1,0.5,2,0.25\n1,0.5,2.5,2.75,-1.25\n");
-  const std::vector<PairReading> all = readings_as_given(log, FingerPair{{{2}, {4}}});
+  const std::vector<Reading> all = readings_as_given(log, FingerPair{{{2}, {4}}});
   EXPECT_EQ(all[0].turn, 0);
-  EXPECT_DOUBLE_EQ(all[1].length_a, 1);                      // -2 (0.5 - 1)
-  EXPECT_DOUBLE_EQ(all[1].length_b, -3);                     // -4 (2.75 - 2)
+  EXPECT_DOUBLE_EQ(all[1].length[0], 1);                     // -2 (0.5 - 1)
+  EXPECT_DOUBLE_EQ(all[1].length[1], -3);                    // -4 (2.75 - 2)
   EXPECT_DOUBLE_EQ(all[1].turn, (-0.5 + 2) - (0.75 - 1.5));  // of a less that of b
   EXPECT_NEAR(*facing(log), 1.5 - 2.25, 1e-15);
 }
@@ -58,7 +58,7 @@ TEST(PairLogReadings, two_files_say_the_same_as_one) {
   const PairLog two = pair_of("time,u,psi\n0,1,0.5\n1,0.5,2.5\n", "psi;time;u\n0.25;0;2\n-1.25;1;2.75\n");
   const FingerPair fingers{{{2}, {4}}};
   EXPECT_EQ(readings_as_given(one, fingers)[1].turn, readings_as_given(two, fingers)[1].turn);
-  EXPECT_EQ(readings_as_given(one, fingers)[1].length_b, readings_as_given(two, fingers)[1].length_b);
+  EXPECT_EQ(readings_as_given(one, fingers)[1].length[1], readings_as_given(two, fingers)[1].length[1]);
   EXPECT_EQ(facing(one), facing(two));
 }
 
@@ -70,12 +70,12 @@ TEST(PairLogReadings, angles_as_read_may_be_wrapped_each_in_its_own_way) {
   for (double& u : wrapped.a.u) u = std::remainder(u, 2 * kPi);
   for (double& psi : wrapped.b.psi) psi = std::remainder(psi, 2 * kPi) + kPi;  // a reader can't know this constant
   const FingerPair fingers{plan.a.disk, plan.b.disk};
-  const std::vector<PairReading> expected = readings(roll.log, part, fingers);
-  const std::vector<PairReading> found = readings(wrapped, part, fingers);
+  const std::vector<Reading> expected = readings(roll.log, part, fingers);
+  const std::vector<Reading> found = readings(wrapped, part, fingers);
   ASSERT_EQ(found.size(), 2U);
   for (std::size_t k = 0; k < 2; ++k) {
-    EXPECT_NEAR(found[k].length_a, expected[k].length_a, 1e-12);
-    EXPECT_NEAR(found[k].length_b, expected[k].length_b, 1e-12);
+    EXPECT_NEAR(found[k].length[0], expected[k].length[0], 1e-12);
+    EXPECT_NEAR(found[k].length[1], expected[k].length[1], 1e-12);
     EXPECT_NEAR(found[k].turn, expected[k].turn, 1e-12);
   }
   wrapped.b.psi = roll.log.b.psi;
@@ -94,10 +94,10 @@ TEST(PairLogReadings, of_a_roll_are_the_total_curvatures_of_the_part) {
     const double Lb = 4 * share(generator) - 2;
     const FreePlan plan = by_distances(0.05, s, La, 0.03, t, Lb, share(generator));
     const FreeRoll roll = roll_free_in_closed_form(part, plan);
-    const PairReading last = readings(roll.log, part, FingerPair{plan.a.disk, plan.b.disk}).back();
+    const Reading last = readings(roll.log, part, FingerPair{plan.a.disk, plan.b.disk}).back();
     const auto angle = [&](double at) { return part.turning().angle(at); };
-    EXPECT_NEAR(last.length_a, La, 1e-11);
-    EXPECT_NEAR(last.length_b, Lb, 1e-11);
+    EXPECT_NEAR(last.length[0], La, 1e-11);
+    EXPECT_NEAR(last.length[1], Lb, 1e-11);
     EXPECT_NEAR(last.turn, (angle(s + La) - angle(s)) - (angle(t + Lb) - angle(t)), 1e-9)  // eq. (8)
         << part.name() << " s=" << s << " La=" << La << " t=" << t << " Lb=" << Lb;
     EXPECT_NEAR(std::remainder(*facing(roll.log) - (angle(s) - angle(t)), 2 * kPi), 0, 1e-9) << part.name();
@@ -106,9 +106,9 @@ TEST(PairLogReadings, of_a_roll_are_the_total_curvatures_of_the_part) {
 
 TEST(PairLogReadings, of_lengths_and_turns_have_no_facing) {
   const PairLog log = pair_of("time,length,turn\n1,0.5,0.75\n2,1,2\n", "time,length,turn\n1,-1,0.5\n2,-3,73deg\n");
-  const std::vector<PairReading> all = readings_as_given(log, {});
-  EXPECT_EQ(all[1].length_a, 1);
-  EXPECT_EQ(all[1].length_b, -3);
+  const std::vector<Reading> all = readings_as_given(log, {});
+  EXPECT_EQ(all[1].length[0], 1);
+  EXPECT_EQ(all[1].length[1], -3);
   EXPECT_DOUBLE_EQ(all[1].turn, 2 - 73 * kPi / 180);
   EXPECT_EQ(facing(log), std::nullopt);
   EXPECT_EQ(facing(pair_of("0.1,0.2\n0.1,0.3\n", "0.1,0.2\n0.1,0.3\n")), std::nullopt);
@@ -116,14 +116,14 @@ TEST(PairLogReadings, of_lengths_and_turns_have_no_facing) {
 
 TEST(PairLogReadings, lengths_and_turns_may_stand_in_one_file) {
   const PairLog log = pair_of("length_a,turn_a,length_b,turn_b\n1,2,3,4\n");
-  EXPECT_EQ(readings_as_given(log, {})[0].length_b, 3);
+  EXPECT_EQ(readings_as_given(log, {})[0].length[1], 3);
   EXPECT_EQ(readings_as_given(log, {})[0].turn, -2);
 }
 
 TEST(PairLogReadings, of_increments_are_sums) {
   const PairLog log = pair_of("0.5,1\n0.25,2\n", "1,0.5\n-2,0.25\n");
-  EXPECT_EQ(readings_as_given(log, {})[1].length_a, 0.75);
-  EXPECT_EQ(readings_as_given(log, {})[1].length_b, -1);
+  EXPECT_EQ(readings_as_given(log, {})[1].length[0], 0.75);
+  EXPECT_EQ(readings_as_given(log, {})[1].length[1], -1);
   EXPECT_EQ(readings_as_given(log, {})[1].turn, 3 - 0.75);
 }
 
@@ -132,12 +132,12 @@ TEST(PairLogReadings, follow_a_reversed_outline_where_they_were_measured_along_i
   clockwise.curves = {Line({0, 0}, {0, 3}), Line({0, 3}, {4, 0}), Line({4, 0}, {0, 0})};
   const Part part(clockwise);
   ASSERT_TRUE(part.reversed());
-  const std::vector<PairReading> travelled = readings(pair_of("length,turn\n1,2\n", "length,turn\n-3,0.5\n"), part, {});
-  EXPECT_EQ(travelled[0].length_a, -1);
-  EXPECT_EQ(travelled[0].length_b, 3);
+  const std::vector<Reading> travelled = readings(pair_of("length,turn\n1,2\n", "length,turn\n-3,0.5\n"), part, {});
+  EXPECT_EQ(travelled[0].length[0], -1);
+  EXPECT_EQ(travelled[0].length[1], 3);
   EXPECT_EQ(travelled[0].turn, 1.5);
   const PairLog felt = pair_of("u_a,psi_a,u_b,psi_b\n0,0,0,0\n-1,0,2,0\n");
-  EXPECT_EQ(readings(felt, part, FingerPair{{{1}, {1}}})[0].length_a, 1);
+  EXPECT_EQ(readings(felt, part, FingerPair{{{1}, {1}}})[0].length[0], 1);
 }
 
 // --- Which rows.
@@ -212,12 +212,12 @@ TEST(PairLogReadings, rounding_bounds_what_written_digits_can_do) {
     log->angle_rounding = 5e-3;
   }
   const Rounding bound = rounding_of(rounded, fingers);
-  const std::vector<PairReading> exact = readings_as_given(roll.log, fingers);
-  const std::vector<PairReading> found = readings_as_given(rounded, fingers);
+  const std::vector<Reading> exact = readings_as_given(roll.log, fingers);
+  const std::vector<Reading> found = readings_as_given(rounded, fingers);
   double most = 0;
   for (std::size_t k = 0; k < exact.size(); ++k) {
     most = std::max(most, std::abs(found[k].turn - exact[k].turn));
-    EXPECT_LE(std::abs(found[k].length_a - exact[k].length_a) + std::abs(found[k].length_b - exact[k].length_b),
+    EXPECT_LE(std::abs(found[k].length[0] - exact[k].length[0]) + std::abs(found[k].length[1] - exact[k].length[1]),
               bound.length + 1e-12);
   }
   EXPECT_LE(most, bound.turn + 1e-12);

@@ -16,7 +16,7 @@
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
-#include "rollfix/locate/pair_reading.hpp"
+#include "rollfix/contact/reading.hpp"
 #include "rollfix/outline/outline.hpp"
 
 namespace pair_oracle {
@@ -198,7 +198,7 @@ class Exhaustive {
 
   const Boundary& boundary() const { return boundary_; }
 
-  Scan scan(const std::vector<rollfix::PairReading>& readings, std::optional<double> facing = {}) const {
+  Scan scan(const std::vector<rollfix::Reading>& readings, std::optional<double> facing = {}) const {
     Scan found;
     if (facing) {
       // Theta(s) - Theta(t) = C + 2 pi k, and with it Theta(s + La) - Theta(t + Lb) = theta + C + 2 pi k.
@@ -207,12 +207,12 @@ class Exhaustive {
       for (double k = -windings; k <= windings; ++k) {
         const double shift = *facing + kTwoPi * k;
         std::vector<Equation> equations{{0, 0, shift, false}};
-        for (const auto& r : readings) equations.push_back({r.length_a, r.length_b, r.turn + shift, false});
+        for (const auto& r : readings) equations.push_back({r.length[0], r.length[1], r.turn + shift, false});
         search(equations, found);
       }
     } else {
       std::vector<Equation> equations;
-      for (const auto& r : readings) equations.push_back({r.length_a, r.length_b, r.turn, true});
+      for (const auto& r : readings) equations.push_back({r.length[0], r.length[1], r.turn, true});
       search(equations, found);
     }
     std::sort(found.roots.begin(), found.roots.end(),

@@ -20,13 +20,13 @@ using pair_oracle::Boundary;
 using pair_oracle::Exhaustive;
 using pair_oracle::Root;
 using pair_oracle::Scan;
-using rollfix::PairReading;
+using rollfix::Reading;
 
 const std::vector<std::string> kShapes = {
     "ellipse", "ellipse,a=1,b=0.05", "superellipse", "limacon,a=1.05,b=1", "cam", "gear", "spline", "log-spiral"};
 
 /// What two fingers read that start at s and t.
-PairReading reading_at(const Boundary& boundary, double s, double t, double length_a, double length_b) {
+Reading reading_at(const Boundary& boundary, double s, double t, double length_a, double length_b) {
   return {length_a, length_b, boundary.phi(s, length_a) - boundary.phi(t, length_b)};
 }
 
@@ -81,8 +81,8 @@ TEST(PairOracle, notices_a_near_double_root_and_resolves_one_that_is_less_near) 
   const Boundary& boundary = oracle.boundary();
   const double P = boundary.perimeter(), a = 0.1 * P;
   // The turn of a roll over the end of the long axis, its middle there, is the greatest of its length.
-  PairReading first = reading_at(boundary, -0.5 * a, 0, a, 0);
-  const PairReading second = reading_at(boundary, 0, 0.31 * P, 0, 0.23 * P);
+  Reading first = reading_at(boundary, -0.5 * a, 0, a, 0);
+  const Reading second = reading_at(boundary, 0, 0.31 * P, 0, 0.23 * P);
   first.turn -= 1e-8;
   EXPECT_LE(oracle.scan({first, second}).nearest_miss, 2e-8);
   first.turn -= 1e-4;

@@ -8,7 +8,7 @@
 
 #include "pair_cases.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/locate/locate_pair.hpp"
+#include "rollfix/locate/locate.hpp"
 #include "shapes.hpp"
 
 namespace pair_readings_test {
@@ -17,13 +17,13 @@ namespace {
 using namespace rollfix;
 using pair_cases::reading_from;
 
-const PairPoint kStart{1.3, 4.1};
+const PerFinger<double> kStart{1.3, 4.1};
 
 Part spline() { return Part(gallery("spline,n=10,seed=3")); }
 
-std::vector<PairReading> readings(const Part& part, std::size_t count) {
-  std::vector<PairReading> all;
-  for (const PairPoint lengths : {PairPoint{0.9, -0.7}, {1.9, 0.6}, {2.6, 1.5}, {3.3, 2.9}}) {
+std::vector<Reading> readings(const Part& part, std::size_t count) {
+  std::vector<Reading> all;
+  for (const PerFinger<double> lengths : {PerFinger<double>{0.9, -0.7}, {1.9, 0.6}, {2.6, 1.5}, {3.3, 2.9}}) {
     if (all.size() < count) all.push_back(reading_from(part, kStart, lengths[0], lengths[1]));
   }
   return all;
@@ -31,13 +31,13 @@ std::vector<PairReading> readings(const Part& part, std::size_t count) {
 
 double facing(const Part& part) { return part.turning().angle(kStart[0]) - part.turning().angle(kStart[1]); }
 
-bool holds(const PairSearch& search, const PairPoint& at) {
-  return std::any_of(search.placements.begin(), search.placements.end(), [&](const PairPlacement& placement) {
+bool holds(const Search& search, const PerFinger<double>& at) {
+  return std::any_of(search.placements.begin(), search.placements.end(), [&](const Placement& placement) {
     return std::abs(placement.start[0] - at[0]) + std::abs(placement.start[1] - at[1]) < 1e-7;
   });
 }
 
-std::string message_of(const Part& part, const std::vector<PairReading>& all, const PairOptions& options = {}) {
+std::string message_of(const Part& part, const std::vector<Reading>& all, const LocateOptions& options = {}) {
   try {
     locate(part, all, options);
   } catch (const InputError& error) {
@@ -52,20 +52,20 @@ TEST(PairReadings, one_alone_leaves_a_curve_of_answers_and_is_refused) {
 }
 
 TEST(PairReadings, one_suffices_with_the_facing_equation) {
-  PairOptions options;
+  LocateOptions options;
   options.facing = facing(spline());
-  const PairSearch search = locate(spline(), readings(spline(), 1), options);
+  const Search search = locate(spline(), readings(spline(), 1), options);
   EXPECT_TRUE(holds(search, kStart));
   EXPECT_EQ(search.placements.size() % 2, 0U);
 }
 
 TEST(PairReadings, the_facing_angle_counts_modulo_whole_turns) {
-  PairOptions options;
+  LocateOptions options;
   options.facing = facing(spline());
-  PairOptions turned = options;
+  LocateOptions turned = options;
   *turned.facing += 6 * shapes::kPi;
-  const PairSearch one = locate(spline(), readings(spline(), 1), options);
-  const PairSearch other = locate(spline(), readings(spline(), 1), turned);
+  const Search one = locate(spline(), readings(spline(), 1), options);
+  const Search other = locate(spline(), readings(spline(), 1), turned);
   ASSERT_EQ(one.placements.size(), other.placements.size());
   for (std::size_t k = 0; k < one.placements.size(); ++k) {
     EXPECT_NEAR(one.placements[k].start[0], other.placements[k].start[0], 1e-9);
@@ -75,43 +75,43 @@ TEST(PairReadings, the_facing_angle_counts_modulo_whole_turns) {
 TEST(PairReadings, two_suffice_and_each_further_one_narrows_the_set) {
   std::size_t before = std::numeric_limits<std::size_t>::max();
   for (const std::size_t count : {2U, 3U, 4U}) {
-    const PairSearch search = locate(spline(), readings(spline(), count));
+    const Search search = locate(spline(), readings(spline(), count));
     EXPECT_TRUE(holds(search, kStart)) << count;
     EXPECT_LE(search.placements.size(), before);
     before = search.placements.size();
   }
-  EXPECT_EQ(locate(spline(), readings(spline(), 4)).verdict(), "unique");
+  EXPECT_EQ(locate(spline(), readings(spline(), 4)).verdict().text(), "unique");
 }
 
 TEST(PairReadings, three_that_were_rounded_still_cross_and_tell_how_sure_they_are) {
-  std::vector<PairReading> rounded = readings(spline(), 3);
-  for (PairReading& reading : rounded) reading.turn = std::round(1e4 * reading.turn) / 1e4;
-  PairOptions options;
+  std::vector<Reading> rounded = readings(spline(), 3);
+  for (Reading& reading : rounded) reading.turn = std::round(1e4 * reading.turn) / 1e4;
+  LocateOptions options;
   options.tolerance = 1e-4;
-  const PairSearch search = locate(spline(), rounded, options);
-  ASSERT_EQ(search.verdict(), "unique");
+  const Search search = locate(spline(), rounded, options);
+  ASSERT_EQ(search.verdict().text(), "unique");
   EXPECT_EQ(search.placements.front().kind, Kind::crossing);
   EXPECT_EQ(search.placements.front().sensitivity.per_turn[1].size(), 3U);
 }
 
 TEST(PairReadings, a_facing_equation_that_holds_keeps_the_true_pair_among_fewer) {
-  PairOptions options;
+  LocateOptions options;
   options.facing = facing(spline());
-  const PairSearch without = locate(spline(), readings(spline(), 2));
-  const PairSearch with = locate(spline(), readings(spline(), 2), options);
+  const Search without = locate(spline(), readings(spline(), 2));
+  const Search with = locate(spline(), readings(spline(), 2), options);
   EXPECT_TRUE(holds(with, kStart));
   EXPECT_LT(with.placements.size(), without.placements.size());
 }
 
 TEST(PairReadings, a_whole_lap_more_is_the_same_place) {
   const Part part = spline();
-  std::vector<PairReading> longer = readings(part, 2);
-  longer[0].length_a += part.perimeter();
+  std::vector<Reading> longer = readings(part, 2);
+  longer[0].length[0] += part.perimeter();
   longer[0].turn += 2 * shapes::kPi;
-  longer[1].length_b -= 2 * part.perimeter();
+  longer[1].length[1] -= 2 * part.perimeter();
   longer[1].turn += 4 * shapes::kPi;
-  const PairSearch one = locate(part, readings(part, 2));
-  const PairSearch other = locate(part, longer);
+  const Search one = locate(part, readings(part, 2));
+  const Search other = locate(part, longer);
   ASSERT_EQ(one.placements.size(), other.placements.size());
   for (std::size_t k = 0; k < one.placements.size(); ++k) {
     EXPECT_NEAR(one.placements[k].start[1], other.placements[k].start[1], 1e-9);
@@ -120,19 +120,19 @@ TEST(PairReadings, a_whole_lap_more_is_the_same_place) {
 
 TEST(PairReadings, fingers_that_change_places_give_the_mirrored_pairs) {
   const Part part = spline();
-  std::vector<PairReading> swapped;
-  for (const PairReading& reading : readings(part, 2)) {
-    swapped.push_back({reading.length_b, reading.length_a, -reading.turn});
+  std::vector<Reading> swapped;
+  for (const Reading& reading : readings(part, 2)) {
+    swapped.push_back({reading.length[1], reading.length[0], -reading.turn});
   }
   EXPECT_TRUE(holds(locate(part, swapped), {kStart[1], kStart[0]}));
   EXPECT_EQ(locate(part, swapped).placements.size(), locate(part, readings(part, 2)).placements.size());
 }
 
 TEST(PairReadings, that_are_no_numbers_are_refused) {
-  std::vector<PairReading> bad = readings(spline(), 2);
+  std::vector<Reading> bad = readings(spline(), 2);
   bad[1].turn = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(message_of(spline(), bad), testing::HasSubstr("three finite numbers"));
-  PairOptions options;
+  LocateOptions options;
   options.facing = std::numeric_limits<double>::infinity();
   EXPECT_THAT(message_of(spline(), readings(spline(), 1), options), testing::HasSubstr("facing"));
 }
@@ -146,11 +146,11 @@ TEST(PairReadings, longer_than_an_open_curve_are_refused) {
 TEST(PairReadings, on_an_open_curve_find_only_rolls_that_lie_on_it) {
   const Part part(gallery("exponential"));
   const double period = part.perimeter();
-  const PairPoint start{0.3 * period, 0.6 * period};
-  const PairSearch search = locate(part, {reading_from(part, start, 0.5 * period, -0.4 * period),
-                                          reading_from(part, start, -0.2 * period, 0.3 * period)});
+  const PerFinger<double> start{0.3 * period, 0.6 * period};
+  const Search search = locate(part, {reading_from(part, start, 0.5 * period, -0.4 * period),
+                                      reading_from(part, start, -0.2 * period, 0.3 * period)});
   EXPECT_TRUE(holds(search, start));
-  for (const PairPlacement& placement : search.placements) {
+  for (const Placement& placement : search.placements) {
     EXPECT_LE(placement.start[0] + 0.5 * period, period * (1 + 1e-12));
     EXPECT_GE(placement.start[1] - 0.4 * period, -period * 1e-12);
   }
@@ -158,24 +158,25 @@ TEST(PairReadings, on_an_open_curve_find_only_rolls_that_lie_on_it) {
 
 TEST(PairReadings, a_budget_that_runs_out_leaves_boxes_that_hold_what_is_not_listed) {
   const Part part = spline();
-  PairOptions options;
+  LocateOptions options;
   options.budget = 3;
-  const PairSearch search = locate(part, readings(part, 2), options);
+  const Search search = locate(part, readings(part, 2), options);
   EXPECT_EQ(search.status, Status::incomplete);
-  EXPECT_EQ(search.verdict(), "undecided");
-  const PairSearch whole = locate(part, readings(part, 2));
-  for (const PairPlacement& placement : whole.placements) {
-    const bool open = std::any_of(search.unresolved.begin(), search.unresolved.end(), [&](const PairBox& box) {
-      return box[0].contains(placement.start[0]) && box[1].contains(placement.start[1]);
-    });
+  EXPECT_EQ(search.verdict().text(), "undecided");
+  const Search whole = locate(part, readings(part, 2));
+  for (const Placement& placement : whole.placements) {
+    const bool open =
+        std::any_of(search.unresolved.begin(), search.unresolved.end(), [&](const PerFinger<Interval>& box) {
+          return box[0].contains(placement.start[0]) && box[1].contains(placement.start[1]);
+        });
     EXPECT_TRUE(open || holds(search, placement.start));
   }
 }
 
 TEST(PairReadings, give_the_same_bits_every_time) {
   const Part part = spline();
-  const PairSearch one = locate(part, readings(part, 2));
-  const PairSearch two = locate(part, readings(part, 2));
+  const Search one = locate(part, readings(part, 2));
+  const Search two = locate(part, readings(part, 2));
   ASSERT_EQ(one.placements.size(), two.placements.size());
   for (std::size_t k = 0; k < one.placements.size(); ++k) EXPECT_EQ(one.placements[k].start, two.placements[k].start);
 }

@@ -6,7 +6,7 @@
 
 #include "pair_cases.hpp"
 #include "random.hpp"
-#include "rollfix/locate/locate_pair.hpp"
+#include "rollfix/locate/locate.hpp"
 #include "shapes.hpp"
 
 namespace pair_sensitivity_test {
@@ -18,11 +18,11 @@ constexpr double kStep = 1e-6;
 const double kNearSingular = 30;  // sensitivities above this bend too much for a finite difference
 
 /// The start nearest to a place after the readings have been moved.
-PairPoint moved_start(const Part& part, const std::vector<PairReading>& readings, const PairOptions& options,
-                      const PairPoint& from) {
-  PairPoint best{1e9, 1e9};
+PerFinger<double> moved_start(const Part& part, const std::vector<Reading>& readings, const LocateOptions& options,
+                              const PerFinger<double>& from) {
+  PerFinger<double> best{1e9, 1e9};
   double least = 1e9;
-  for (const PairPlacement& placement : locate(part, readings, options).placements) {
+  for (const Placement& placement : locate(part, readings, options).placements) {
     const double far = std::max(periodic_distance(placement.start[0], from[0], part.perimeter()),
                                 periodic_distance(placement.start[1], from[1], part.perimeter()));
     if (far < least) {
@@ -39,11 +39,12 @@ class PairSensitivityTest : public testing::TestWithParam<std::size_t> {
 
   /// d start / d (what `move` changes), by central differences.
   template <class Move>
-  PairPoint derivative(const pair_cases::Case& drawn, const PairOptions& options, const PairPoint& at, Move move) {
-    PairPoint ends[2];
+  PerFinger<double> derivative(const pair_cases::Case& drawn, const LocateOptions& options, const PerFinger<double>& at,
+                               Move move) {
+    PerFinger<double> ends[2];
     for (const int side : {0, 1}) {
-      std::vector<PairReading> readings = drawn.readings;
-      PairOptions moved = options;
+      std::vector<Reading> readings = drawn.readings;
+      LocateOptions moved = options;
       move(readings, moved, side == 0 ? -kStep : kStep);
       ends[side] = moved_start(part_, readings, moved, at);
     }
@@ -61,27 +62,27 @@ TEST_P(PairSensitivityTest, agrees_with_finite_differences) {
   int compared = 0;
   for (int k = 0; k < test_count(6); ++k) {
     const pair_cases::Case drawn = pair_cases::random_case(part_, GetParam(), generator);
-    PairOptions options;
+    LocateOptions options;
     if (GetParam() == 1) options.facing = drawn.facing;
-    for (const PairPlacement& placement : locate(part_, drawn.readings, options).placements) {
+    for (const Placement& placement : locate(part_, drawn.readings, options).placements) {
       if (placement.kind != Kind::crossing || std::abs(placement.sensitivity.per_turn[0][0]) > kNearSingular ||
           std::abs(placement.sensitivity.per_turn[1][0]) > kNearSingular) {
         continue;
       }
-      const auto compare = [&](auto move, const PairPoint& expected) {
-        const PairPoint found = derivative(drawn, options, placement.start, move);
+      const auto compare = [&](auto move, const PerFinger<double>& expected) {
+        const PerFinger<double> found = derivative(drawn, options, placement.start, move);
         for (const std::size_t f : {0U, 1U}) EXPECT_NEAR(found[f], expected[f], 1e-2 * (1 + std::abs(expected[f])));
       };
-      const PairSensitivity& sensitivity = placement.sensitivity;
-      using Readings = std::vector<PairReading>;
-      compare([](Readings& readings, PairOptions&, double by) { readings[0].turn += by; },
+      const Sensitivity& sensitivity = placement.sensitivity;
+      using Readings = std::vector<Reading>;
+      compare([](Readings& readings, LocateOptions&, double by) { readings[0].turn += by; },
               {sensitivity.per_turn[0][0], sensitivity.per_turn[1][0]});
-      compare([](Readings& readings, PairOptions&, double by) { readings[0].length_a += by; },
+      compare([](Readings& readings, LocateOptions&, double by) { readings[0].length[0] += by; },
               {sensitivity.per_length[0][0][0], sensitivity.per_length[1][0][0]});
-      compare([](Readings& readings, PairOptions&, double by) { readings[0].length_b += by; },
+      compare([](Readings& readings, LocateOptions&, double by) { readings[0].length[1] += by; },
               {sensitivity.per_length[0][0][1], sensitivity.per_length[1][0][1]});
       if (GetParam() == 1) {
-        compare([](Readings&, PairOptions& moved, double by) { *moved.facing += by; },
+        compare([](Readings&, LocateOptions& moved, double by) { *moved.facing += by; },
                 {sensitivity.per_facing[0], sensitivity.per_facing[1]});
       }
       ++compared;
@@ -92,14 +93,14 @@ TEST_P(PairSensitivityTest, agrees_with_finite_differences) {
 
 TEST(PairSensitivityLeastSquares, of_more_readings_than_unknowns_is_that_of_least_squares) {
   const Part part(gallery("spline,n=10,seed=8"));
-  const PairPoint start{1.0, 4.0};
-  std::vector<PairReading> readings;
+  const PerFinger<double> start{1.0, 4.0};
+  std::vector<Reading> readings;
   for (const double length : {0.7, 1.6, 2.9}) {
     readings.push_back(pair_cases::reading_from(part, start, length, 2.2 - length));
   }
-  const PairSearch search = locate(part, readings);
-  ASSERT_EQ(search.verdict(), "unique");
-  const PairSensitivity& sensitivity = search.placements.front().sensitivity;
+  const Search search = locate(part, readings);
+  ASSERT_EQ(search.verdict().text(), "unique");
+  const Sensitivity& sensitivity = search.placements.front().sensitivity;
   // A change of the readings that the two starts explain is explained by them: pseudo-inverse times J is 1.
   const TurningFunction& turning = part.turning();
   for (const std::size_t finger : {0U, 1U}) {
@@ -107,8 +108,8 @@ TEST(PairSensitivityLeastSquares, of_more_readings_than_unknowns_is_that_of_leas
     double along_t = 0;
     for (std::size_t k = 0; k < readings.size(); ++k) {
       const double by = sensitivity.per_turn[finger][k];
-      along_s += by * (turning.curvature(start[0] + readings[k].length_a) - turning.curvature(start[0]));
-      along_t -= by * (turning.curvature(start[1] + readings[k].length_b) - turning.curvature(start[1]));
+      along_s += by * (turning.curvature(start[0] + readings[k].length[0]) - turning.curvature(start[0]));
+      along_t -= by * (turning.curvature(start[1] + readings[k].length[1]) - turning.curvature(start[1]));
     }
     EXPECT_NEAR(along_s, finger == 0 ? 1 : 0, 1e-9);
     EXPECT_NEAR(along_t, finger == 1 ? 1 : 0, 1e-9);

@@ -70,7 +70,7 @@ class PairThreeWays : public testing::TestWithParam<std::string> {
 
   void compare(const Case& drawn) {
     SCOPED_TRACE(march_pairs::trace_of(GetParam(), {drawn.readings[0], drawn.readings[1]}));
-    const PairSearch search = locate(part_, drawn.readings);
+    const Search search = locate(part_, drawn.readings);
     EXPECT_EQ(search.status, Status::complete);
     EXPECT_TRUE(pair_cases::holds(part_, search, drawn.start, slack()));
     ++tally_.cases;
@@ -84,44 +84,44 @@ class PairThreeWays : public testing::TestWithParam<std::string> {
   }
 
  private:
-  void compare_with_check(const PairSearch& search, const Case& drawn) {
+  void compare_with_check(const Search& search, const Case& drawn) {
     const pair_oracle::Scan scan = oracle_.scan(drawn.readings);
     if (scan.nearest_miss < pair_oracle::kHorizon) {
       ++tally_.near_double;
       return;
     }
-    const auto near = [&](const pair_oracle::Root& root, const PairPlacement& placement) {
+    const auto near = [&](const pair_oracle::Root& root, const Placement& placement) {
       return pair_cases::distance(part_, placement.start, {root.s, root.t}) <= std::max(slack(), 10 * root.error);
     };
     for (const pair_oracle::Root& root : scan.roots) {
       EXPECT_TRUE(std::any_of(search.placements.begin(), search.placements.end(),
-                              [&](const PairPlacement& placement) { return near(root, placement); }))
+                              [&](const Placement& placement) { return near(root, placement); }))
           << "production lost what the check has: " << root.s << " " << root.t;
     }
     EXPECT_EQ(search.placements.size(), scan.roots.size());
   }
 
-  void compare_with_march(const PairSearch& search, const PairResult& result) {
+  void compare_with_march(const Search& search, const PairResult& result) {
     tally_.doubtful += result.complete() ? 0 : 1;
     for (const StartPair& pair : result.pairs) {
       EXPECT_TRUE(pair_cases::holds(part_, search, {pair.s, pair.t}, slack() + 4 * pair.error))
           << "production lost what the march has: " << pair.s << " " << pair.t;
     }
-    for (const PairPlacement& placement : search.placements) {
-      for (const PairPoint& root : placement.roots) {
+    for (const Placement& placement : search.placements) {
+      for (const PerFinger<double>& root : placement.roots) {
         if (!listed(result, root)) expect_excused(search, result, root);
       }
     }
   }
 
-  bool listed(const PairResult& result, const PairPoint& root) const {
+  bool listed(const PairResult& result, const PerFinger<double>& root) const {
     return std::any_of(result.pairs.begin(), result.pairs.end(), [&](const StartPair& pair) {
       return pair_cases::distance(part_, {pair.s, pair.t}, root) <= std::max(slack(), 4 * pair.error);
     });
   }
 
   /// What the march may lose: pairs closer together than its reset, and what it says it doubts.
-  void expect_excused(const PairSearch& search, const PairResult& result, const PairPoint& root) {
+  void expect_excused(const Search& search, const PairResult& result, const PerFinger<double>& root) {
     ++tally_.lost;
     const double next = gap(search, root);
     const bool doubted = march_pairs::doubts(result, {root[0], root[1]}, part_.perimeter());
@@ -131,10 +131,10 @@ class PairThreeWays : public testing::TestWithParam<std::string> {
   }
 
   /// How far the next pair is, in parts of the perimeter.
-  double gap(const PairSearch& search, const PairPoint& root) const {
+  double gap(const Search& search, const PerFinger<double>& root) const {
     double nearest = std::numeric_limits<double>::infinity();
-    for (const PairPlacement& placement : search.placements) {
-      for (const PairPoint& other : placement.roots) {
+    for (const Placement& placement : search.placements) {
+      for (const PerFinger<double>& other : placement.roots) {
         if (other != root) nearest = std::min(nearest, pair_cases::distance(part_, other, root));
       }
     }
@@ -154,8 +154,8 @@ TEST_P(PairThreeWays, agree_where_the_fingers_roll_opposite_ways_by_equal_length
   auto generator = test_generator(62);
   for (int k = 0; k < test_count(3); ++k) {
     Case drawn = pair_cases::random_case(part_, 2, generator);
-    for (PairReading& reading : drawn.readings) {
-      reading = pair_cases::reading_from(part_, drawn.start, reading.length_a, -reading.length_a);
+    for (Reading& reading : drawn.readings) {
+      reading = pair_cases::reading_from(part_, drawn.start, reading.length[0], -reading.length[0]);
     }
     compare(drawn);
   }
@@ -165,7 +165,7 @@ TEST_P(PairThreeWays, where_a_finger_rests_the_march_refuses_and_the_others_agre
   auto generator = test_generator(66);
   for (int k = 0; k < test_count(3); ++k) {
     Case drawn = pair_cases::random_case(part_, 2, generator);
-    drawn.readings[1] = pair_cases::reading_from(part_, drawn.start, drawn.readings[1].length_a, 0);
+    drawn.readings[1] = pair_cases::reading_from(part_, drawn.start, drawn.readings[1].length[0], 0);
     compare(drawn);
   }
   EXPECT_EQ(tally_.refused, tally_.cases);
@@ -178,10 +178,10 @@ class PairContinua : public PairThreeWays {
     SCOPED_TRACE(march_pairs::trace_of(GetParam(), {drawn.readings[0], drawn.readings[1]}));
     const std::optional<PairResult> result = marched(drawn);
     EXPECT_TRUE(!result || !result->complete()) << "the march takes it for " << result->pairs.size() << " pairs";
-    const PairSearch search = locate(part_, drawn.readings);
-    EXPECT_TRUE(std::any_of(search.placements.begin(), search.placements.end(), [&](const PairPlacement& placement) {
+    const Search search = locate(part_, drawn.readings);
+    EXPECT_TRUE(std::any_of(search.placements.begin(), search.placements.end(), [&](const Placement& placement) {
       return placement.kind == Kind::stretch && pair_cases::holds(part_, placement, drawn.start, slack());
-    })) << search.verdict();
+    })) << search.verdict().text();
   }
 };
 
@@ -193,7 +193,7 @@ TEST_P(PairContinua, where_equal_rolls_turn_equally_the_march_refuses_and_produc
   for (int k = 0; k < test_count(1); ++k) {
     Case drawn = pair_cases::random_case(part_, 2, generator);
     drawn.start[1] = drawn.start[0];
-    for (PairReading& reading : drawn.readings) reading = {reading.length_a, reading.length_a, 0};
+    for (Reading& reading : drawn.readings) reading = {reading.length[0], reading.length[0], 0};
     expect_continuum(drawn);
   }
 }
@@ -211,9 +211,9 @@ TEST_P(PairContinua, likewise_where_a_roll_is_whole_laps) {
   auto generator = test_generator(65);
   for (int k = 0; k < test_count(1); ++k) {
     Case drawn = pair_cases::random_case(part_, 2, generator);
-    const PairReading first = drawn.readings[0];
+    const Reading first = drawn.readings[0];
     const double lap = part_.perimeter();
-    drawn.readings[1] = pair_cases::reading_from(part_, drawn.start, first.length_a + lap, first.length_b - lap);
+    drawn.readings[1] = pair_cases::reading_from(part_, drawn.start, first.length[0] + lap, first.length[1] - lap);
     expect_continuum(drawn);
   }
 }

@@ -221,12 +221,12 @@ TEST(Pose, tells_the_true_one_of_ten_placements_that_fit_the_reading) {
   ASSERT_EQ(search.placements.size(), 10U);
   std::size_t fitting = 0;
   for (const Placement& placement : search.placements) {
-    const Poses found = *poses(part, {0.1}, rolled.log, placement.start, {0, last});
+    const Poses found = *poses(part, {0.1}, rolled.log, placement.start[0], {0, last});
     EXPECT_LT(found.residual[0], 1e-14);
     EXPECT_LT(found.turn_residual[1], 1e-8);  // the reading fits everywhere
     if (found.residual[1] > 1e-8) continue;
     ++fitting;
-    EXPECT_NEAR(placement.start, 5, 1e-8);
+    EXPECT_NEAR(placement.start[0], 5, 1e-8);
   }
   EXPECT_EQ(fitting, 1U);
 }

@@ -100,10 +100,10 @@ TEST(DropUnreachable, takes_out_what_lies_in_a_dimple_and_leaves_the_rest) {
     // which is shorter than the rest, is not passed.
     const auto inside = [&](double s) { return wrap(s - arc.lo, part.perimeter()).base <= arc.width() + 1e-4; };
     for (const Placement& placement : search.placements) {
-      EXPECT_TRUE(inside(placement.start) && inside(placement.start + length)) << "seed " << test_seed();
+      EXPECT_TRUE(inside(placement.start[0]) && inside(placement.start[0] + length)) << "seed " << test_seed();
     }
     for (const Impossible& item : impossible) {
-      const double s = item.placement.start;
+      const double s = item.placement.start[0];
       bool leaves = false;
       for (int k = 0; k <= 200; ++k) leaves = leaves || !reach.contains(s + length * k / 200);
       EXPECT_TRUE(leaves) << "seed " << test_seed() << " s " << s << " L " << length;
@@ -186,7 +186,7 @@ TEST(DropUnreachable, of_a_pivot_looks_at_its_angles) {
     Search search = locate(part, {0.2, turn}, tight());
     drop_unreachable(part, reach, {{0.2, turn}}, search);
     return std::any_of(search.placements.begin(), search.placements.end(),
-                       [](const Placement& placement) { return std::abs(placement.start - 6.8) < 1e-6; });
+                       [](const Placement& placement) { return std::abs(placement.start[0] - 6.8) < 1e-6; });
   };
   EXPECT_TRUE(left(limit - edge - 0.01));
   EXPECT_FALSE(left(limit - edge + 0.01));
@@ -212,7 +212,7 @@ std::array<Reach, 2> disks(const Part& part, double a, double b) {
   return {reach_of_disk(part, a), reach_of_disk(part, b)};
 }
 
-PairReading pair_reading(const Part& part, double s, double t, double length_a, double length_b) {
+Reading pair_reading(const Part& part, double s, double t, double length_a, double length_b) {
   const TurningFunction& turning = part.turning();
   return {length_a, length_b,
           (turning.angle(s + length_a) - turning.angle(s)) - (turning.angle(t + length_b) - turning.angle(t))};
@@ -221,11 +221,11 @@ PairReading pair_reading(const Part& part, double s, double t, double length_a, 
 /// Is the pair still there that the readings were made from?
 bool remains(const Part& part, double s, double t, const std::vector<std::array<double, 2>>& lengths, double a,
              double b) {
-  std::vector<PairReading> readings;
+  std::vector<Reading> readings;
   for (const auto& [length_a, length_b] : lengths) readings.push_back(pair_reading(part, s, t, length_a, length_b));
-  PairSearch search = locate(part, readings);
+  Search search = locate(part, readings);
   drop_unreachable(part, disks(part, a, b), readings, search);
-  return std::any_of(search.placements.begin(), search.placements.end(), [&](const PairPlacement& placement) {
+  return std::any_of(search.placements.begin(), search.placements.end(), [&](const Placement& placement) {
     return std::abs(placement.start[0] - s) < 1e-6 && std::abs(placement.start[1] - t) < 1e-6;
   });
 }
@@ -266,14 +266,14 @@ TEST(Overlap, drops_a_pair_whose_disks_are_in_each_other_and_keeps_one_whose_are
 TEST(Overlap, says_when_and_by_how_much) {
   const Part part(gallery("circle,r=1"));
   // A quarter apart on the circle, then both at one place: centres on a circle of radius 1.5.
-  const std::vector<PairReading> readings{{kPi / 4, -kPi / 4, 2 * kPi / 4}};
-  PairOptions options;
+  const std::vector<Reading> readings{{kPi / 4, -kPi / 4, 2 * kPi / 4}};
+  LocateOptions options;
   options.facing = -kPi / 2;
-  PairSearch search = locate(part, readings, options);
-  const std::vector<PairImpossible> dropped = drop_unreachable(part, disks(part, 0.5, 0.5), readings, search);
+  Search search = locate(part, readings, options);
+  const std::vector<Impossible> dropped = drop_unreachable(part, disks(part, 0.5, 0.5), readings, search);
   ASSERT_EQ(dropped.size(), 1U);
   EXPECT_TRUE(search.placements.empty());
-  EXPECT_EQ(dropped[0].cause, PairImpossible::Cause::overlap);
+  EXPECT_EQ(dropped[0].reason, Impossible::Reason::overlap);
   EXPECT_EQ(dropped[0].instant, 1U);
   EXPECT_NEAR(dropped[0].depth, 1, 1e-6);
 }
@@ -281,29 +281,28 @@ TEST(Overlap, says_when_and_by_how_much) {
 TEST(Overlap, drops_the_continuum_of_two_fingers_at_one_place) {
   // Equal rolls and no turn: t = s fits everywhere, and two disks can't be there.
   const Part part(gallery("cam"));
-  const std::vector<PairReading> readings{{0.5, 0.5, 0}};
-  PairOptions options;
+  const std::vector<Reading> readings{{0.5, 0.5, 0}};
+  LocateOptions options;
   options.facing = 0;
-  PairSearch search = locate(part, readings, options);
+  Search search = locate(part, readings, options);
   ASSERT_FALSE(search.placements.empty());
   drop_unreachable(part, disks(part, 0.2, 0.2), readings, search);
-  for (const PairPlacement& placement : search.placements) EXPECT_NE(placement.kind, Kind::stretch);
+  for (const Placement& placement : search.placements) EXPECT_NE(placement.kind, Kind::stretch);
 }
 
 TEST(DropUnreachable, of_two_fingers_names_the_one_that_leaves_its_reach) {
   const Part part = limacon();
   const double dimple = 0.5 * part.perimeter();
-  std::vector<PairReading> readings{pair_reading(part, 1, dimple - 0.05, 0.4, 0.08),
-                                    pair_reading(part, 1, dimple - 0.05, 0.8, 0.11)};
-  PairOptions options;
+  std::vector<Reading> readings{pair_reading(part, 1, dimple - 0.05, 0.4, 0.08),
+                                pair_reading(part, 1, dimple - 0.05, 0.8, 0.11)};
+  LocateOptions options;
   options.facing = part.turning().angle(1) - part.turning().angle(dimple - 0.05);
-  PairSearch search = locate(part, readings, options);
-  const std::vector<PairImpossible> dropped = drop_unreachable(part, disks(part, 0.3, 0.3), readings, search);
-  const auto mine = std::find_if(dropped.begin(), dropped.end(), [&](const PairImpossible& item) {
-    return std::abs(item.placement.start[0] - 1) < 1e-6;
-  });
+  Search search = locate(part, readings, options);
+  const std::vector<Impossible> dropped = drop_unreachable(part, disks(part, 0.3, 0.3), readings, search);
+  const auto mine = std::find_if(dropped.begin(), dropped.end(),
+                                 [&](const Impossible& item) { return std::abs(item.placement.start[0] - 1) < 1e-6; });
   ASSERT_NE(mine, dropped.end());
-  EXPECT_EQ(mine->cause, PairImpossible::Cause::reach);
+  EXPECT_EQ(mine->reason, Impossible::Reason::reach);
   EXPECT_EQ(mine->finger, 1U);
   EXPECT_GT(mine->obstruction.hit.depth, 0.01);
 }

@@ -72,7 +72,7 @@ double difference(const Roll& a, const Roll& b, const DiskFinger& finger) {
   for (std::size_t k = 0; k < a.s.size() && most < 1e300; ++k) {
     const Reading reading_a = reading_at(a, finger, k);
     const Reading reading_b = reading_at(b, finger, k);
-    most = std::max({most, std::abs(a.s[k] - b.s[k]), std::abs(reading_a.length - reading_b.length),
+    most = std::max({most, std::abs(a.s[k] - b.s[k]), std::abs(reading_a.length[0] - reading_b.length[0]),
                      std::abs(reading_a.turn - reading_b.turn), (centre_at(a, k) - centre_at(b, k)).norm(),
                      std::abs(a.angle[k] - b.angle[k])});
   }
@@ -106,7 +106,7 @@ TEST(Rolling, on_a_circle_all_signs_are_as_in_the_picture) {
   EXPECT_NEAR(found.log.x.back(), (R + finger.radius) * std::cos(travelled), 1e-10);
   EXPECT_NEAR(found.log.y.back(), (R + finger.radius) * std::sin(travelled), 1e-10);
   const Reading reading = reading_at(found, finger, found.s.size() - 1);
-  EXPECT_NEAR(reading.length, R * travelled, 1e-10);
+  EXPECT_NEAR(reading.length[0], R * travelled, 1e-10);
   EXPECT_NEAR(reading.turn, travelled, 1e-10);
 }
 
@@ -121,7 +121,7 @@ TEST(Rolling, backwards_turns_every_sign_around) {
   const DiskFinger finger{0.5};
   const Roll found = roll(circle, finger, by_distance(1, -1.5));
   const Reading reading = reading_at(found, finger, found.s.size() - 1);
-  EXPECT_NEAR(reading.length, -1.5, 1e-10);
+  EXPECT_NEAR(reading.length[0], -1.5, 1e-10);
   EXPECT_NEAR(reading.turn, -0.75, 1e-10);
   EXPECT_LT(found.log.psi.back(), found.log.psi.front());
   EXPECT_GT(found.log.u.back(), found.log.u.front());
@@ -132,7 +132,7 @@ TEST(Rolling, a_straight_side_turns_nothing_but_the_finger) {
   const DiskFinger finger{0.25};
   const Roll found = roll(square, finger, by_distance(0.5, 1));
   const Reading reading = reading_at(found, finger, found.s.size() - 1);
-  EXPECT_NEAR(reading.length, 1, 1e-12);
+  EXPECT_NEAR(reading.length[0], 1, 1e-12);
   EXPECT_NEAR(reading.turn, 0, 1e-12);
   EXPECT_NEAR(found.log.psi.back(), 1 / finger.radius, 1e-12);
 }
@@ -142,7 +142,7 @@ TEST(Rolling, contact_after_a_reading_gives_that_reading_back) {
   const Contact first{2.5, -1.25};
   const Contact last = contact_after(finger, first, {-3.5, 7.75});
   const Reading reading = reading_between(finger, first, last);
-  EXPECT_NEAR(reading.length, -3.5, 1e-14);
+  EXPECT_NEAR(reading.length[0], -3.5, 1e-14);
   EXPECT_NEAR(reading.turn, 7.75, 1e-14);
 }
 
@@ -250,7 +250,7 @@ TEST_P(RollingCases, readings_are_the_length_and_turn_of_the_boundary_between) {
   const Roll found = roll(part, finger, by_distance(one.start * part.perimeter(), one.laps * part.perimeter(), 97));
   for (std::size_t row = 1; row < found.s.size(); ++row) {
     const Reading reading = reading_at(found, finger, row);
-    EXPECT_NEAR(reading.length, found.s[row] - found.s[0], 1e-9);
+    EXPECT_NEAR(reading.length[0], found.s[row] - found.s[0], 1e-9);
     constexpr double kNear = 1e-11;  // a corner's own place is known up to rounding
     const double before = part.turning().angle(found.s[row] - kNear) - found.angle[0];
     const double after = part.turning().angle(found.s[row] + kNear) - found.angle[0];
@@ -345,11 +345,11 @@ TEST(Rolling, at_a_convex_corner_the_finger_pivots_in_place) {
   for (std::size_t row = 0; row < found.s.size(); ++row) {
     const Reading reading = reading_at(found, finger, row);
     if (std::abs(found.s[row] - 2) > 1e-12) {
-      EXPECT_NEAR(reading.turn, reading.length < 1 ? 0 : kPi / 2, 1e-9);
+      EXPECT_NEAR(reading.turn, reading.length[0] < 1 ? 0 : kPi / 2, 1e-9);
       continue;
     }
     ++rows_at_corner;
-    EXPECT_NEAR(reading.length, 1, 1e-9);
+    EXPECT_NEAR(reading.length[0], 1, 1e-9);
     EXPECT_GT(reading.turn, -1e-9);
     EXPECT_LT(reading.turn, kPi / 2 + 1e-9);
     EXPECT_NEAR((centre_at(found, row) - square.point(2)).norm(), finger.radius, 1e-9);
@@ -512,8 +512,8 @@ TEST(Rolling, against_the_given_direction_the_length_changes_its_sign_and_the_tu
 
   const double s0 = part.perimeter() - length_along(curve, curve.domain().lo, u0);  // s = P - s'
   EXPECT_LT((part.point(s0) - curve.position(u0)).norm(), 1e-6);
-  EXPECT_LT((part.point(s0 + stored.length) - curve.position(u1)).norm(), 1e-6);
-  EXPECT_NEAR(part.turning().angle(s0 + stored.length) - part.turning().angle(s0), stored.turn, 1e-6);
+  EXPECT_LT((part.point(s0 + stored.length[0]) - curve.position(u1)).norm(), 1e-6);
+  EXPECT_NEAR(part.turning().angle(s0 + stored.length[0]) - part.turning().angle(s0), stored.turn, 1e-6);
 }
 
 }  // namespace

@@ -108,12 +108,12 @@ void expect_same_placements(const Part& one, const Part& other, const Deviation&
     options.tolerance = 1e-9 + 2 * off.turn + off.place;  // both ends, and the curvature times what the length is off
     const rollfix::Search near = rollfix::locate(other, reading, options);
     for (const rollfix::Placement& placement : found.placements) {
-      EXPECT_TRUE(shapes::holds(other, near, placement.start, 1e-9 + off.place)) << placement.start;
+      EXPECT_TRUE(shapes::holds(other, near, placement.start[0], 1e-9 + off.place)) << placement.start[0];
     }
     options.tolerance *= 2;
     const rollfix::Search wide = rollfix::locate(one, reading, options);
     for (const rollfix::Placement& placement : near.placements) {
-      EXPECT_TRUE(shapes::holds(one, wide, placement.start, 1e-9 + off.place)) << placement.start;
+      EXPECT_TRUE(shapes::holds(one, wide, placement.start[0], 1e-9 + off.place)) << placement.start[0];
     }
   }
 }

@@ -43,7 +43,7 @@ inline rollfix::Reading reading_from(const rollfix::Part& part, double s, double
 
 inline std::vector<double> starts(const rollfix::Search& search) {
   std::vector<double> found;
-  for (const rollfix::Placement& placement : search.placements) found.push_back(placement.start);
+  for (const rollfix::Placement& placement : search.placements) found.push_back(placement.start[0]);
   return found;
 }
 
@@ -68,8 +68,8 @@ inline rollfix::Part open_waves() {
 /// Is there a placement whose extent holds s, give or take `slack`?
 inline bool holds(const rollfix::Part& part, const rollfix::Search& search, double s, double slack) {
   for (const rollfix::Placement& placement : search.placements) {
-    const double ahead = rollfix::wrap(s - placement.extent.lo, part.perimeter()).base;
-    const double beyond = ahead - placement.extent.width();
+    const double ahead = rollfix::wrap(s - placement.extent[0].lo, part.perimeter()).base;
+    const double beyond = ahead - placement.extent[0].width();
     if (beyond <= slack || part.perimeter() - ahead <= slack) return true;
   }
   return false;

@@ -288,7 +288,7 @@ TEST(Teach, gap_beyond_the_drift_is_never_spread) {
   const Taught open = teach(log, with_noise({0, 0.001, 0.001, 0}));
   EXPECT_EQ(open.closing, Closing::kept_open);
   EXPECT_FALSE(open.outline.closed);
-  EXPECT_THAT(all_notes(open), HasSubstr("--bridge"));
+  EXPECT_THAT(all_notes(open), HasSubstr("`bridge`"));
   const Part part(open.outline);
   EXPECT_NEAR(part.total_turn(), log.turn.back(), 0.01);
 }

@@ -48,7 +48,7 @@ WatchAnswer answer() {
   answer.samples = 7;
   answer.sample.line = 19;
   answer.sample.reading = {0.1 + 0.2, -1.0 / 3};
-  answer.verdict = "ambiguous (2)";
+  answer.verdict = {rollfix::Verdict::ambiguous, 2};
   answer.modes.resize(2);
   Mode& first = answer.modes[0];
   first.start = 7.1;
@@ -57,7 +57,7 @@ WatchAnswer answer() {
   first.probability = 2.0 / 3;
   first.mean = 7.125;
   first.sd = 1.0 / 7;
-  first.interval = {7.0, 7.7};
+  first.interval = rollfix::Interval{7.0, 7.7};
   first.end_mean = 0.25;
   first.end_sd = 0.3;
   answer.modes[1].mean = 1;
@@ -100,7 +100,7 @@ TEST(WatchJsonl, has_the_fields_of_locate_and_numbers_that_read_back) {
 TEST(WatchJsonl, says_null_for_what_is_not_defined) {
   Printed printed;
   WatchAnswer infinite = answer();
-  infinite.modes[0].sd = std::numeric_limits<double>::infinity();
+  infinite.modes[0].sd[0] = std::numeric_limits<double>::infinity();
   printed.json_lines->found(infinite);
   printed.json_lines->end(WatchEnd::signal, {}, {});
   EXPECT_TRUE(printed.events()[0]["time"].is_null());
@@ -158,7 +158,7 @@ TEST(WatchText, shows_the_last_row_of_a_roll_once) {
 TEST(WatchText, shows_no_place_when_nothing_fits) {
   Printed printed;
   WatchAnswer nothing = answer();
-  nothing.verdict = "inconsistent";
+  nothing.verdict = {rollfix::Verdict::inconsistent};
   printed.text->changed(nothing);
   EXPECT_THAT(printed.out.str(), HasSubstr("inconsistent\n"));
 }
@@ -166,7 +166,7 @@ TEST(WatchText, shows_no_place_when_nothing_fits) {
 TEST(WatchText, ends_with_why_nothing_fits) {
   Printed printed;
   WatchAnswer nothing = answer();
-  nothing.verdict = "inconsistent";
+  nothing.verdict = {rollfix::Verdict::inconsistent};
   nothing.diagnosis = {rollfix::Cause::radius, 1, 1.25};
   printed.text->end(WatchEnd::stream, nothing, {});
   EXPECT_THAT(printed.out.str(), HasSubstr("inconsistent: nothing fits; it would if all lengths were 1.25 times"));

@@ -76,23 +76,23 @@ std::vector<std::string> part_of(const std::vector<std::string>& rows, std::size
 }
 
 void expect_same(const WatchAnswer& a, const WatchAnswer& b) {
-  EXPECT_EQ(a.verdict, b.verdict);
+  EXPECT_EQ(a.verdict.text(), b.verdict.text());
   ASSERT_EQ(a.modes.size(), b.modes.size());
   for (std::size_t k = 0; k < a.modes.size(); ++k) {
-    EXPECT_EQ(a.modes[k].mean, b.modes[k].mean);
-    EXPECT_EQ(a.modes[k].sd, b.modes[k].sd);
+    EXPECT_EQ(a.modes[k].mean[0], b.modes[k].mean[0]);
+    EXPECT_EQ(a.modes[k].sd[0], b.modes[k].sd[0]);
     EXPECT_EQ(a.modes[k].probability, b.modes[k].probability);
   }
 }
 
 /// The one place that is left is the true one. Five standard deviations: seeds change.
 void expect_found(const WatchAnswer& answer, double start, double length) {
-  EXPECT_EQ(answer.verdict, "unique");
+  EXPECT_EQ(answer.verdict.name, rollfix::Verdict::unique);
   ASSERT_FALSE(answer.modes.empty());
   const Mode& best = answer.modes.front();
-  EXPECT_LT(best.sd, 0.02);
-  EXPECT_LT(std::abs(best.mean - start), 5 * best.sd);
-  EXPECT_LT(std::abs(best.end_mean - (start + length)), 5 * best.end_sd);
+  EXPECT_LT(best.sd[0], 0.02);
+  EXPECT_LT(std::abs(best.mean[0] - start), 5 * best.sd[0]);
+  EXPECT_LT(std::abs(best.end_mean[0] - (start + length)), 5 * best.end_sd[0]);
 }
 
 /// What was told while a log grew, with nothing at all in between.
@@ -104,7 +104,7 @@ WatchAnswer answer_to(const std::vector<std::string>& rows) {
 
 WatchAnswer one_place(double mean, double sd, double probability) {
   WatchAnswer answer;
-  answer.verdict = "ambiguous (2)";
+  answer.verdict = {rollfix::Verdict::ambiguous, 2};
   answer.modes.resize(1);
   answer.modes[0].mean = mean;
   answer.modes[0].sd = sd;
@@ -164,8 +164,8 @@ TEST(Watcher, comes_to_the_same_answer_however_often_it_works_it_out) {
     watch.push(kHeader).push(rows).watcher.finish();
     const WatchAnswer& answer = watch.diary.answers.back();
     EXPECT_EQ(answer.verdict, by_default.verdict);
-    EXPECT_NEAR(answer.modes[0].mean, by_default.modes[0].mean, 0.1 * by_default.modes[0].sd);
-    EXPECT_NEAR(answer.modes[0].sd, by_default.modes[0].sd, 0.05 * by_default.modes[0].sd);
+    EXPECT_NEAR(answer.modes[0].mean[0], by_default.modes[0].mean[0], 0.1 * by_default.modes[0].sd[0]);
+    EXPECT_NEAR(answer.modes[0].sd[0], by_default.modes[0].sd[0], 0.05 * by_default.modes[0].sd[0]);
   }
 }
 
@@ -225,7 +225,7 @@ TEST(Watcher, takes_another_log_as_another_roll) {
   EXPECT_THAT(watch.diary.happened, ElementsAre("found 1", "restarted 1", "found 2", "ended 2"));
   expect_found(watch.diary.answers[0], 2, 3);
   EXPECT_EQ(watch.diary.answers[1].sample.line, 3U);
-  EXPECT_NEAR(watch.diary.answers[1].sample.reading.length, 0.1, 1e-12);
+  EXPECT_NEAR(watch.diary.answers[1].sample.reading.length[0], 0.1, 1e-12);
 }
 
 TEST(Watcher, keeps_news_back_while_nobody_takes_it_and_then_tells_the_newest) {
@@ -263,7 +263,7 @@ TEST(Watcher, refuses_noise_that_cannot_be_before_anything_comes) {
 TEST(News, are_another_verdict_a_place_that_was_not_known_and_more_certainty) {
   const WatchAnswer said = one_place(2, 0.1, 0.6);
   WatchAnswer other_verdict = said;
-  other_verdict.verdict = "unique";
+  other_verdict.verdict = {rollfix::Verdict::unique, 1};
   EXPECT_TRUE(is_news(said, other_verdict, cam()));
   EXPECT_TRUE(is_news(said, one_place(2.11, 0.1, 0.6), cam()));
   EXPECT_TRUE(is_news(said, one_place(2, 0.049, 0.6), cam()));
@@ -285,7 +285,7 @@ TEST(News, are_not_a_step_across_the_seam) {
 TEST(News, are_not_where_nothing_fits) {
   WatchAnswer said = one_place(2, 0.1, 0.6);
   WatchAnswer now = one_place(3, 0.01, 0.9);
-  said.verdict = now.verdict = "inconsistent";
+  said.verdict = now.verdict = {rollfix::Verdict::inconsistent};
   EXPECT_FALSE(is_news(said, now, cam()));
 }
 

@@ -6,15 +6,16 @@
 #include <memory>
 #include <numbers>
 
+#include "rollfix/answer/part_facts.hpp"
+#include "rollfix/answer/solve.hpp"
+#include "rollfix/answer_output.hpp"
 #include "rollfix/belief/advise.hpp"
 #include "rollfix/commands.hpp"
 #include "rollfix/draw/advice_figure.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/finger_argument.hpp"
-#include "rollfix/locate_one.hpp"
-#include "rollfix/part_facts.hpp"
-#include "rollfix/reading_argument.hpp"
-#include "rollfix/roll_argument.hpp"
+#include "rollfix/output_argument.hpp"
+#include "rollfix/roll_arguments.hpp"
 #include "rollfix/table.hpp"
 #include "rollfix/typed_number.hpp"
 #include "rollfix/usage.hpp"
@@ -35,8 +36,10 @@ constexpr double kTurnSd = 1e-4;
 constexpr std::size_t kMostContenders = 20;
 
 struct AdviseArguments {
-  LocateArguments locate;
+  RollArguments roll;
   std::string travel;
+  bool json = false;
+  OutputArgument output;
 };
 
 Interval read_travel(const std::string& text) {
@@ -57,15 +60,11 @@ Interval read_travel(const std::string& text) {
 
 /// What was found so far, and what to do next.
 struct AdviseOutcome {
-  LocateOutcome located;
+  Answer answer;
   std::vector<Contender> contenders;
   std::optional<Advice> advice;  // nothing where there is nothing to tell apart
   std::string why;               // ... or where no roll will, and why
 };
-
-std::string verdict_of(const LocateOutcome& located) {
-  return located.weighing ? located.weighing->verdict : located.found.verdict();
-}
 
 /// Why a part can't be told apart from itself.
 std::string why_no_roll(const Part& part) {
@@ -75,51 +74,56 @@ std::string why_no_roll(const Part& part) {
   return "within the travel the places that remain look alike";
 }
 
-AdviseOutcome solve(const AdviseArguments& arguments, const std::vector<Log>& logs, Report& report) {
-  AdviseOutcome outcome{solve_one(arguments.locate, logs, report), {}, {}, ""};
-  const LocateOutcome& located = outcome.located;
-  const Part& part = located.part;
-  outcome.contenders =
-      located.weighing ? contenders_of(part, located.weighing->modes) : contenders_of(part, located.found);
-  if (outcome.contenders.empty()) {
-    outcome.why = "nothing fits: there is nothing to tell apart";
-    return outcome;
-  }
-  if (outcome.contenders.size() == 1 || (located.weighing && located.weighing->verdict == "unique")) {
-    outcome.why = "there is only one place left";
-    return outcome;
-  }
+AdviceOptions options_of(const Answer& answer, const std::optional<Interval>& travel) {
   AdviceOptions options;
   options.turn_sd = kTurnSd;
-  if (located.weighing) {
-    const Noise& noise = located.weighing->options.noise;
-    const double curvature = located.finger ? located.finger->curvature(0) : 0;
+  if (answer.weighing) {
+    const Noise& noise = answer.weighing->noise;
+    const double curvature = answer.fingers.empty() ? 0 : answer.fingers.front().curvature(0);
     // From one row to another: the errors of both.
     options.turn_sd = std::max(std::hypot(noise.angle, noise.contact * curvature) * std::numbers::sqrt2, kTurnAccuracy);
     options.length_sd = noise.contact * std::numbers::sqrt2;
     options.length_share_sd = std::hypot(noise.slip, noise.radius * curvature);
   }
-  if (!arguments.travel.empty()) options.travel = read_travel(arguments.travel);
+  options.travel = travel;
+  return options;
+}
+
+AdviseOutcome advise_on(const Problem& problem, const std::optional<Interval>& travel) {
+  AdviseOutcome outcome{solve(problem), {}, {}, ""};
+  const Answer& answer = outcome.answer;
+  outcome.contenders = contenders_of(answer.part, answer.placements);
+  if (outcome.contenders.empty()) {
+    outcome.why = "nothing fits: there is nothing to tell apart";
+    return outcome;
+  }
+  if (outcome.contenders.size() == 1 || (answer.weighing && answer.verdict.name == Verdict::unique)) {
+    outcome.why = "there is only one place left";
+    return outcome;
+  }
+  AdviceOptions options = options_of(answer, travel);
   std::optional<Reach> reach;
-  if (located.finger && has_reach(*located.finger)) reach = reach_of(part, *located.finger);
+  if (!answer.fingers.empty() && has_reach(answer.fingers.front())) {
+    reach = reach_of(answer.part, answer.fingers.front());
+  }
   if (reach) options.reach = &*reach;
-  outcome.advice = advise(part, outcome.contenders, options);
-  if (!outcome.advice->helps) outcome.why = why_no_roll(part);
+  outcome.advice = advise(answer.part, outcome.contenders, options);
+  if (!outcome.advice->helps) outcome.why = why_no_roll(answer.part);
   return outcome;
 }
 
 /// How far the tangent would turn along the advised roll, were this the place.
 double turn_ahead(const AdviseOutcome& outcome, const Contender& contender) {
-  const TurningFunction& turning = outcome.located.part.turning();
+  const TurningFunction& turning = outcome.answer.part.turning();
   return turning.angle(contender.place + outcome.advice->advised().length) - turning.angle(contender.place);
 }
 
 std::string headline(const AdviseOutcome& outcome) {
-  const std::string verdict = verdict_of(outcome.located);
+  const std::string verdict = outcome.answer.verdict.text();
   if (!outcome.advice) return fmt::format("{}: {}", verdict, outcome.why);
   if (!outcome.advice->helps) return fmt::format("{}: no roll will tell them apart: {}", verdict, outcome.why);
   const Prospect& advised = outcome.advice->advised();
-  const int decimals = decimals_for(outcome.located.part.perimeter());
+  const int decimals = decimals_for(outcome.answer.part.perimeter());
   return fmt::format("{}: roll on {} by {}: {:.2f} placements are expected to remain, {:.2f} of {:.2f} bits gained",
                      verdict, advised.length < 0 ? "backwards" : "forwards", fixed(std::abs(advised.length), decimals),
                      advised.placements, advised.bits, outcome.advice->bits_wanted);
@@ -145,7 +149,7 @@ std::string span_of(const std::string& lo, const std::string& hi) { return lo ==
 std::string advise_text(const AdviseOutcome& outcome) {
   std::string text = headline(outcome) + "\n";
   if (!outcome.advice || !outcome.advice->helps) return text;
-  const int decimals = decimals_for(outcome.located.part.perimeter());
+  const int decimals = decimals_for(outcome.answer.part.perimeter());
   Table table;
   table.add_column("", Table::Align::left);
   for (const char* title : {"contact now", "probability", "turn to expect [deg]"}) table.add_column(title);
@@ -179,8 +183,8 @@ Json advise_json(const AdviseOutcome& outcome) {
                                                                            : Json(nullptr)}});
   }
   Json document = {{"schema", "rollfix/advise/1"},
-                   {"verdict", verdict_of(outcome.located)},
-                   {"part", part_json(outcome.located.part)},
+                   {"verdict", outcome.answer.verdict.text()},
+                   {"part", part_json(outcome.answer.part)},
                    {"helps", outcome.advice && outcome.advice->helps},
                    {"why", outcome.why.empty() ? Json(nullptr) : Json(outcome.why)},
                    {"length", nullptr},
@@ -203,28 +207,28 @@ Json advise_json(const AdviseOutcome& outcome) {
 }
 
 Report advise_report(const AdviseArguments& arguments) {
-  const LocateArguments& locate = arguments.locate;
-  if (locate.readings.empty() == locate.logs.empty()) {
+  const RollArguments& roll = arguments.roll;
+  if (roll.readings.empty() == roll.logs.empty()) {
     throw InputError("advise: expected --reading LENGTH,TURN or --log FILE of the roll so far");
   }
-  require_figure_output(locate.output, locate.json);
-  if (!arguments.travel.empty()) read_travel(arguments.travel);
-  const ChosenRoll roll = locate.logs.empty() ? ChosenRoll{} : read_roll(locate.logs, locate.roll);
-  const std::vector<Log>& logs = roll.logs;
-  if (logs.empty() ? are_of_two_fingers(locate.readings) : logs.size() == 2) {
+  require_figure_output(arguments.output, arguments.json);
+  std::optional<Interval> travel;
+  if (!arguments.travel.empty()) travel = read_travel(arguments.travel);
+  Report report;
+  const Problem problem = read_problem(roll, report.notes);
+  if (problem.felt.is_log() ? problem.felt.logs.size() == 2 : problem.felt.readings.front().fingers() == 2) {
     throw InputError("advise: expected what one finger read, found two fingers");
   }
-  Report report;
-  if (!roll.note.empty()) report.notes.push_back(roll.note);
-  const AdviseOutcome outcome = solve(arguments, logs, report);
-  const bool complete = outcome.located.found.status == Status::complete;
-  report.exit_code = exit_code_of(complete, !outcome.contenders.empty());
-  report.data = locate.json ? json_text(advise_json(outcome)) : advise_text(outcome);
-  if (!locate.output.file.empty()) {
-    if (!outcome.advice)
-      throw InputError(fmt::format("-o {}: there is no figure: {}", locate.output.file, outcome.why));
-    add_figure(locate.output, draw_advice({*outcome.advice, outcome.located.part.name(), verdict_of(outcome.located)}),
-               report);
+  const AdviseOutcome outcome = advise_on(problem, travel);
+  add_notes(outcome.answer, report);
+  report.exit_code = exit_code_of(outcome.answer);
+  report.data = arguments.json ? json_text(advise_json(outcome)) : advise_text(outcome);
+  if (!arguments.output.file.empty()) {
+    if (!outcome.advice) {
+      throw InputError(fmt::format("-o {}: there is no figure: {}", arguments.output.file, outcome.why));
+    }
+    add_figure(arguments.output,
+               draw_advice({*outcome.advice, outcome.answer.part.name(), outcome.answer.verdict.text()}), report);
   }
   return report;
 }
@@ -233,31 +237,18 @@ Report advise_report(const AdviseArguments& arguments) {
 
 void add_advise_command(CLI::App& program, Command& chosen) {
   const auto arguments = std::make_shared<AdviseArguments>();
-  LocateArguments& locate = arguments->locate;
   CLI::App* command =
       program.add_subcommand("advise", "The next roll: which one tells the remaining placements apart.");
   command->footer(kAdviseExamples);
-  add_part_argument(*command, locate.part);
-  command
-      ->add_option("--reading", locate.readings,
-                   "of the roll so far: arc length travelled, along the stored outline, and turn of the tangent")
-      ->type_name("L,THETA")
-      ->allow_extra_args(false);
-  command->add_option("--log", locate.logs, "a tactile log of the roll so far, - for stdin")
-      ->type_name("FILE")
-      ->allow_extra_args(false);
-  add_roll_argument(*command, locate.roll);
-  add_finger_argument(*command, locate.fingers);
+  add_roll_arguments(*command, arguments->roll);
   command
       ->add_option(
           "--travel", arguments->travel,
           "how far the finger can roll on: a length, or one backwards, below 0, and one forwards; default one lap")
       ->type_name("BACK,FORWARD");
-  command->add_option("--tolerance", locate.tolerance, "as for locate")->type_name("ANGLE");
-  add_noise_arguments(*command, locate.noise);
-  add_output_argument(*command, locate.output,
+  add_output_argument(*command, arguments->output,
                       "a figure of what is to be expected by length: .svg, .png or .pdf, - for SVG on stdout");
-  add_switch(*command, "--json", locate.json, "print JSON (rollfix/advise/1)");
+  add_switch(*command, "--json", arguments->json, "print JSON (rollfix/advise/1)");
   command->callback([arguments, &chosen] { chosen = [arguments] { return advise_report(*arguments); }; });
 }
 

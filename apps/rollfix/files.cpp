@@ -62,6 +62,15 @@ void replace(const OutputFile& file) {
 
 }  // namespace
 
+bool holds(const OutputFile& file) {
+  if (!fs::is_regular_file(status_of(file.path))) return false;
+  const File there(std::fopen(file.path.c_str(), "rb"));
+  if (!there) return false;
+  std::string bytes(file.bytes.size() + 1, '\0');
+  bytes.resize(std::fread(bytes.data(), 1, bytes.size(), there.get()));
+  return bytes == file.bytes;
+}
+
 void require_writable(const std::string& path, bool force) {
   if (path.empty()) throw InputError("-o: expected the name of a file, found nothing");
   const fs::file_status status = status_of(path);

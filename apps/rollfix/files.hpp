@@ -11,6 +11,9 @@ struct OutputFile {
   std::string bytes;
 };
 
+/// Is there such a file already, with these very bytes?
+bool holds(const OutputFile& file);
+
 /// Throws InputError when a file of this name exists and `force` is not given, or when its folder does not exist.
 /// Asked before the work starts, so that nobody waits for a refusal. Devices and pipes are always fine.
 void require_writable(const std::string& path, bool force);

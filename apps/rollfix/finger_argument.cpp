@@ -60,21 +60,6 @@ Finger read_any(const std::string& text) {
   return names_outline(text) ? read_outlined(text) : Finger(read_disk(text));
 }
 
-void require_disk(const Finger& finger, const std::string& what) {
-  if (finger.is_disk()) return;
-  throw InputError(fmt::format("--finger {}: {} takes disks only, as in --finger disk,r=0.1", finger.name(), what));
-}
-
-void require_one(const std::vector<std::string>& fingers) {
-  if (fingers.size() <= 1) return;
-  throw InputError("--finger is given twice, which is two fingers, and the rest is about one; leave one out");
-}
-
-void require_at_most_two(const std::vector<std::string>& fingers) {
-  if (fingers.size() <= 2) return;
-  throw InputError(fmt::format("--finger is given {} times, expected at most two fingers", fingers.size()));
-}
-
 }  // namespace
 
 void add_finger_argument(CLI::App& command, std::vector<std::string>& fingers) {
@@ -87,38 +72,29 @@ void add_finger_argument(CLI::App& command, std::vector<std::string>& fingers) {
       ->allow_extra_args(false);
 }
 
-std::optional<Finger> read_finger(const std::vector<std::string>& fingers) {
-  if (fingers.empty()) return std::nullopt;
-  require_one(fingers);
-  return read_any(fingers.front());
+std::vector<Finger> read_fingers(const std::vector<std::string>& fingers, std::size_t most) {
+  if (fingers.size() > most && most == 1) {
+    throw InputError("--finger is given twice, which is two fingers, and the rest is about one; leave one out");
+  }
+  if (fingers.size() > most) {
+    throw InputError(fmt::format("--finger is given {} times, expected at most two fingers", fingers.size()));
+  }
+  std::vector<Finger> read;
+  for (const std::string& text : fingers) read.push_back(read_any(text));
+  return read;
 }
 
-std::optional<FingerPair> read_fingers(const std::vector<std::string>& fingers) {
-  if (fingers.empty()) return std::nullopt;
-  require_at_most_two(fingers);
-  return FingerPair{read_any(fingers.front()), read_any(fingers.back())};
-}
-
-std::optional<DiskFinger> read_disk_finger(const std::vector<std::string>& fingers, const std::string& what) {
-  const std::optional<Finger> finger = read_finger(fingers);
-  if (!finger) return std::nullopt;
-  require_disk(*finger, what);
-  return finger->disk();
-}
-
-std::optional<FingerPair> read_disk_fingers(const std::vector<std::string>& fingers, const std::string& what) {
-  std::optional<FingerPair> pair = read_fingers(fingers);
-  if (!pair) return std::nullopt;
-  for (const Finger& finger : *pair) require_disk(finger, what);
-  return pair;
+void require_disks(const std::vector<Finger>& fingers, const std::string& what) {
+  for (const Finger& finger : fingers) {
+    if (finger.is_disk()) continue;
+    throw InputError(fmt::format("--finger {}: {} takes disks only, as in --finger disk,r=0.1", finger.name(), what));
+  }
 }
 
 std::string name_of(const Finger& finger) {
   const std::optional<DiskFinger> disk = finger.disk();
   return disk ? fmt::format("disk,r={}", disk->radius) : finger.name();
 }
-
-bool has_reach(const Finger& finger) { return finger.outline() == nullptr; }
 
 std::string no_reach_note(const Finger& finger) {
   return fmt::format(

@@ -2,9 +2,9 @@
 
 #include <memory>
 
+#include "rollfix/answer/solve.hpp"
 #include "rollfix/commands.hpp"
 #include "rollfix/draw/part_figure.hpp"
-#include "rollfix/dropped.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/finger_argument.hpp"
 #include "rollfix/inspect_outcome.hpp"
@@ -33,7 +33,8 @@ struct InspectArguments {
 
 Report inspect(const InspectArguments& arguments) {
   require_part_output(arguments.output, arguments.json);
-  const std::optional<Finger> finger = read_finger(arguments.fingers);
+  const std::vector<Finger> fingers = read_fingers(arguments.fingers, 1);
+  const std::optional<Finger> finger = fingers.empty() ? std::nullopt : std::optional<Finger>(fingers.front());
   if (finger && !has_reach(*finger)) {
     throw InputError(
         fmt::format("--finger {}: where a finger can touch is known of disks and jaws only", finger->name()));

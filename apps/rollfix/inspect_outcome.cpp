@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rollfix/locate_outcome.hpp"
+#include "rollfix/answer_output.hpp"
 #include "rollfix/table.hpp"
 
 namespace rollfix::app {

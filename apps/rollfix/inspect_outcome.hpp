@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "rollfix/answer/part_facts.hpp"
 #include "rollfix/files/load_part.hpp"
 #include "rollfix/finger_argument.hpp"
 #include "rollfix/json_output.hpp"
 #include "rollfix/part/reach.hpp"
-#include "rollfix/part_facts.hpp"
 
 namespace rollfix::app {
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <boost/algorithm/string/replace.hpp>
 #include <exception>
+#include <iostream>
 #include <ostream>
 #include <string>
 
@@ -32,12 +33,23 @@ constexpr const char* kProgramExamples = R"(Examples:
 
 /// The library names the fields of its structs, `allow_crossing`; who typed options reads --allow-crossing.
 std::string with_options(std::string text) {
-  constexpr std::array kFields = {"allow_crossing", "bridge", "corner_angle", "finger", "gap",   "layer",
-                                  "loop",           "noise",  "open",         "roll",   "smooth"};
+  constexpr std::array kFields = {"allow_crossing", "at",       "bridge", "corner_angle", "facing", "finger", "gap",
+                                  "layer",          "loop",     "noise",  "open",         "prior",  "robust", "roll",
+                                  "smooth",         "tolerance"};
   for (const std::string field : kFields) {
     boost::replace_all(text, "`" + field + "`", "--" + boost::replace_all_copy(field, "_", "-"));
   }
   return text;
+}
+
+/// "inspect, locate or demo".
+std::string names_of_commands(CLI::App& program) {
+  std::string names;
+  const std::vector<CLI::App*> commands = program.get_subcommands([](const CLI::App*) { return true; });
+  for (const CLI::App* command : commands) {
+    names += (names.empty() ? "" : command == commands.back() ? " or " : ", ") + command->get_name();
+  }
+  return names;
 }
 
 /// Adds the commands to a program and returns the one that the arguments name.
@@ -66,8 +78,7 @@ Command parse(CLI::App& program, const std::vector<std::string>& arguments, std:
   std::reverse(reversed.begin(), reversed.end());
   program.parse(std::move(reversed));
   refuse_leftovers(program);
-  if (!chosen)
-    throw InputError("expected a command: inspect, locate, simulate, teach, watch or demo; see rollfix --help");
+  if (!chosen) throw InputError("expected a command: " + names_of_commands(program) + "; see rollfix --help");
   return chosen;
 }
 
@@ -89,6 +100,11 @@ int fail(std::ostream& err, std::string message, ExitCode exit_code) {
 }
 
 }  // namespace
+
+Command command_of(const std::vector<std::string>& arguments) {
+  CLI::App program(kDescription, "rollfix");
+  return parse(program, arguments, std::cout, std::cerr);
+}
 
 int run(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) {
   CLI::App program(kDescription, "rollfix");

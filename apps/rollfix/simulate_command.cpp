@@ -3,8 +3,8 @@
 
 #include "rollfix/commands.hpp"
 #include "rollfix/finger_argument.hpp"
-#include "rollfix/noise_argument.hpp"
 #include "rollfix/part_argument.hpp"
+#include "rollfix/roll_arguments.hpp"
 #include "rollfix/simulation.hpp"
 #include "rollfix/usage.hpp"
 

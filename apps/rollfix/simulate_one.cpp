@@ -54,7 +54,7 @@ Report simulate_one(const SimulateArguments& arguments) {
   const std::string file = arguments.files.empty() ? "-" : arguments.files.front();
   require_writable_log(file, arguments.force);
   const std::optional<SimulatedNoise> noise = read_simulated_noise(arguments);
-  const Finger finger = *read_finger(arguments.fingers);
+  const Finger finger = read_fingers(arguments.fingers, 1).front();
   Report report;
   const Part part = load_part(arguments.part, report.notes);
   const RollPlan plan = plan_of(arguments, part, finger);

@@ -89,7 +89,9 @@ Report simulate_two(const SimulateArguments& arguments) {
   const std::optional<SimulatedNoise> noise = read_simulated_noise(arguments);
   if (!arguments.contact.empty())
     throw InputError("--contact is of one finger with an outline; disks have --contact-angle");
-  const FingerPair fingers = *read_disk_fingers(arguments.fingers, "simulate with two fingers");
+  const std::vector<Finger> disks = read_fingers(arguments.fingers, 2);
+  require_disks(disks, "simulate with two fingers");
+  const FingerPair fingers{disks.front(), disks.back()};
   Report report;
   const Part part = load_part(arguments.part, report.notes);
   const FreePlan plan = plan_of(arguments, part, fingers);

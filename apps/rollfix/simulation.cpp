@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <numbers>
 
-#include "rollfix/dropped.hpp"
+#include "rollfix/answer/solve.hpp"
+#include "rollfix/answer_output.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/finger_argument.hpp"
-#include "rollfix/noise_argument.hpp"
+#include "rollfix/roll_arguments.hpp"
 #include "rollfix/table.hpp"
 #include "rollfix/typed_number.hpp"
 

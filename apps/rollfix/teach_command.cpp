@@ -11,8 +11,8 @@
 #include "rollfix/error.hpp"
 #include "rollfix/finger_argument.hpp"
 #include "rollfix/inspect_outcome.hpp"
-#include "rollfix/noise_argument.hpp"
 #include "rollfix/output_argument.hpp"
+#include "rollfix/roll_arguments.hpp"
 #include "rollfix/typed_number.hpp"
 #include "rollfix/usage.hpp"
 
@@ -69,7 +69,9 @@ Json taught_json(const Taught& taught) {
 
 TeachOptions options_of(const TeachArguments& arguments) {
   TeachOptions options;
-  options.finger = read_disk_finger(arguments.fingers, "teach");
+  const std::vector<Finger> fingers = read_fingers(arguments.fingers, 1);
+  require_disks(fingers, "teach");
+  if (!fingers.empty()) options.finger = fingers.front().disk();
   options.noise = read_noise(arguments.noise);
   options.bridge = arguments.bridge;
   options.open = arguments.open;

@@ -2,12 +2,10 @@
 
 // All that a user of the library needs; the figures are apart, in rollfix/draw/.
 
+#include "rollfix/answer/part_facts.hpp"   // IWYU pragma: export
+#include "rollfix/answer/solve.hpp"        // IWYU pragma: export
 #include "rollfix/belief/advise.hpp"       // IWYU pragma: export
 #include "rollfix/belief/belief.hpp"       // IWYU pragma: export
-#include "rollfix/belief/pair_belief.hpp"  // IWYU pragma: export
-#include "rollfix/belief/pair_weigh.hpp"   // IWYU pragma: export
-#include "rollfix/belief/pose_spread.hpp"  // IWYU pragma: export
-#include "rollfix/belief/weigh.hpp"        // IWYU pragma: export
 #include "rollfix/contact/finger.hpp"      // IWYU pragma: export
 #include "rollfix/contact/free_part.hpp"   // IWYU pragma: export
 #include "rollfix/contact/log.hpp"         // IWYU pragma: export
@@ -18,7 +16,6 @@
 #include "rollfix/contact/rolling.hpp"     // IWYU pragma: export
 #include "rollfix/error.hpp"               // IWYU pragma: export
 #include "rollfix/locate/locate.hpp"       // IWYU pragma: export
-#include "rollfix/locate/locate_pair.hpp"  // IWYU pragma: export
 #include "rollfix/locate/reachable.hpp"    // IWYU pragma: export
 #include "rollfix/outline/gallery.hpp"     // IWYU pragma: export
 #include "rollfix/outline/load.hpp"        // IWYU pragma: export

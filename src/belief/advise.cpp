@@ -6,9 +6,9 @@
 #include <array>
 #include <cmath>
 
-#include "belief/policy.hpp"
+#include "belief/posterior.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/part/period.hpp"
+#include "rollfix/part/boundary.hpp"
 
 namespace rollfix {
 
@@ -143,47 +143,61 @@ bool is_better(const Prospect& one, const Prospect& other) {
   return one.bits > other.bits;
 }
 
-}  // namespace
-
-std::vector<Contender> contenders_of(const Part& part, const Search& found) {
+/// All alike, of a wide placement several.
+std::vector<Contender> without_noise(const Part& part, const std::vector<Placement>& placements) {
   const double P = part.perimeter();
   std::vector<Contender> contenders;
-  for (std::size_t k = 0; k < found.placements.size(); ++k) {
-    const Placement& placement = found.placements[k];
-    const double share = 1 / static_cast<double>(found.placements.size());
-    const double rolled = placement.end - placement.start;
-    if (placement.extent.width() < kWidePlacement * P) {
-      contenders.push_back({placement.end, 0, share, k});
+  for (std::size_t k = 0; k < placements.size(); ++k) {
+    const Interval& extent = placements[k].extent[0];
+    const double end = placements[k].end[0];
+    const double share = 1 / static_cast<double>(placements.size());
+    const double rolled = end - placements[k].start[0];
+    if (extent.width() < kWidePlacement * P) {
+      contenders.push_back({end, 0, share, k});
       continue;
     }
     for (std::size_t i = 0; i < kOfAWidePlacement; ++i) {
       const double t = (static_cast<double>(i) + 0.5) / static_cast<double>(kOfAWidePlacement);
-      const double s = placement.extent.lo + t * placement.extent.width() + rolled;
-      contenders.push_back({part.closed() ? wrap(s, P).base : s, 0, share / static_cast<double>(kOfAWidePlacement), k});
+      const double s = extent.lo + t * extent.width() + rolled;
+      contenders.push_back({part.boundary().on_first_lap(s), 0, share / static_cast<double>(kOfAWidePlacement), k});
     }
   }
   return contenders;
 }
 
-std::vector<Contender> contenders_of(const Part& part, const std::vector<Mode>& modes) {
+/// `Remaining`: a placement or a mode, of which the samples say how probable it is.
+template <class Remaining>
+std::vector<Contender> with_noise(const Part& part, const std::vector<Remaining>& all) {
   std::vector<Contender> contenders;
   double total = 0;
-  for (const Mode& mode : modes) total += mode.probability;
-  for (std::size_t k = 0; k < modes.size(); ++k) {
-    const Mode& mode = modes[k];
-    const double share = mode.probability / total;
-    if (mode.end_sd < kWideSpread * part.perimeter()) {
-      contenders.push_back({mode.end_mean, mode.end_sd, share, k});
+  for (const Remaining& one : all) total += one.probability;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const double mean = all[k].end_mean[0];
+    const double sd = all[k].end_sd[0];
+    const double share = all[k].probability / total;
+    if (sd < kWideSpread * part.perimeter()) {
+      contenders.push_back({mean, sd, share, k});
       continue;
     }
-    // As many places of the same probability, as if the mode were normal.
+    // As many places of the same probability, as if it were normal.
     for (const double deviate : kSevenDeviates) {
-      const double s = mode.end_mean + deviate * mode.end_sd;
-      const double place = part.closed() ? wrap(s, part.perimeter()).base : std::clamp(s, 0.0, part.perimeter());
-      contenders.push_back({place, mode.end_sd / kSevenDeviates.size(), share / kSevenDeviates.size(), k});
+      const double s = mean + deviate * sd;
+      const double place = part.boundary().base(s);
+      contenders.push_back({place, sd / kSevenDeviates.size(), share / kSevenDeviates.size(), k});
     }
   }
   return contenders;
+}
+
+}  // namespace
+
+std::vector<Contender> contenders_of(const Part& part, const std::vector<Placement>& placements) {
+  const bool has_noise = !placements.empty() && !std::isnan(placements.front().probability);
+  return has_noise ? with_noise(part, placements) : without_noise(part, placements);
+}
+
+std::vector<Contender> contenders_of(const Part& part, const std::vector<Mode>& modes) {
+  return with_noise(part, modes);
 }
 
 Advice advise(const Part& part, const std::vector<Contender>& contenders, const AdviceOptions& options) {

@@ -4,15 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
-#include <optional>
 
-#include "belief/error_model.hpp"
-#include "belief/grid.hpp"
-#include "belief/modes.hpp"
-#include "belief/nodes.hpp"
-#include "belief/policy.hpp"
-#include "belief/tilted_boundary.hpp"
+#include "belief/posterior.hpp"
 #include "rollfix/error.hpp"
 
 namespace rollfix {
@@ -23,7 +18,10 @@ using namespace belief;
 
 // Even the only place is not known where it holds more than this share of the boundary.
 constexpr double kWide = 0.1;
-void require_valid(const BeliefOptions& options) {
+// An explanation that leaves no more than this many times the excess of another is about as good.
+constexpr double kAboutAsGood = 1.3;
+
+void require_valid(const BeliefOptions& options, const Contacts& contacts) {
   const Noise& noise = options.noise;
   rollfix::require_valid(noise);
   if (noise.contact <= 0 && noise.angle <= 0) {
@@ -36,154 +34,127 @@ void require_valid(const BeliefOptions& options) {
     throw InputError(fmt::format("prior: expected a place and a standard deviation above 0, found {} and {}",
                                  options.prior->s, options.prior->sd));
   }
+  if (contacts.facing && !std::isfinite(*contacts.facing)) {
+    throw InputError(fmt::format("expected a finite facing angle, found {}", *contacts.facing));
+  }
+}
+
+/// Which explanation it is, given what both leave. Slip here and there explains a wrong scale as well: the simpler one
+/// counts, where it is about as good.
+Diagnosis likelier(const Diagnosis& radius, const Diagnosis& slip, double excess) {
+  if (radius.excess <= kMostExcess && radius.excess <= kAboutAsGood * slip.excess) return radius;
+  if (slip.excess <= kMostExcess) return {Cause::slip, slip.excess, 1};
+  return {Cause::part, excess, 1};
 }
 
 }  // namespace
 
 struct Belief::State {
-  Part part;
-  LogKind kind;
-  BeliefOptions options;
-  // From the first sample on: the tilt is the finger's curvature.
-  std::optional<belief::TiltedBoundary> boundary;
-  std::optional<belief::ErrorModel> errors;
-  std::optional<belief::Nodes> nodes;
-  std::optional<belief::Grid> grid;
-  Sample last;
-  double first_curvature = 0;  // of the finger where it first touched
-  std::size_t settled_at = 0;
-  std::vector<Mode> modes;
-
-  void begin(double finger_curvature);
-  double corner_length() const;
-  Diagnosis explain(Cause cause) const;
   void settle();
+  template <class Remaining>
+  Verdict verdict_on(const std::vector<Remaining>& remaining);
+
+  Part part;
+  BeliefOptions options;
+  Contacts contacts;
+  std::unique_ptr<Posterior> posterior;
+  std::size_t settled_at;  // after so many samples; none: the largest
+  Outcome outcome;
 };
 
-void Belief::State::begin(double finger_curvature) {
-  const double P = part.perimeter();
-  first_curvature = finger_curvature;
-  errors.emplace(options, kind, finger_curvature, P);
-  // The tilt: a disk's curvature; else what makes lengths and angles, as uncertain as they are, count alike.
-  const belief::RowCovariance own = errors->row(finger_curvature);
-  const double even = std::max(std::sqrt(own.turn / own.length), 8 * std::numbers::pi / P);
-  const double tilt = finger_curvature > 0 ? finger_curvature : std::min(even, 1e6 / P);
-  const double accuracy = std::max(kShareOfPerimeter * P, kShareOfNoise * std::sqrt(own.length));
-  boundary.emplace(part, tilt, std::min(accuracy, 1e-4 * P));
-  nodes.emplace(*errors, boundary->tilt(), options.robust);
-  grid.emplace(*boundary, *errors, options, part.boundary(), corner_length());
-}
-
-// A finger's centre goes along the boundary and, about a corner, along an arc of the finger's radius: what comes to
-// touch by chance touches there in proportion. A flat finger, or none that is known, stands for one as large as the
-// part.
-double Belief::State::corner_length() const {
-  const double curvature = last.finger_curvature;
-  return curvature > 0 ? 1 / curvature : part.perimeter() / (2 * std::numbers::pi);
-}
-
-// With other errors the samples' nodes stay what they are; what the rows gather is looked at by lengths alone.
-Diagnosis Belief::State::explain(Cause cause) const {
-  const belief::ErrorModel other(options, kind, first_curvature, part.perimeter(), cause);
-  belief::Nodes again(other, boundary->tilt(), options.robust);
-  Sample sample = last;
-  for (const belief::Node& node : nodes->complete()) {
-    sample.reading = {node.length, node.turn};
-    again.add(sample);
-  }
-  belief::Grid grid_again(*boundary, other, options, part.boundary(), corner_length());
-  grid_again.settle(again);
-  return {cause, grid_again.excess(), 1 / (1 + grid_again.best().now.errors()[2])};
-}
-
 void Belief::State::settle() {
-  if (!nodes || nodes->rows() == settled_at) return;
-  grid->settle(*nodes);
-  settled_at = nodes->rows();
-  modes =
-      modes_of(*grid, {&*boundary, last.reading, errors->row(last.finger_curvature), part.perimeter(), part.closed()});
+  if (posterior->samples() == settled_at) return;
+  outcome = posterior->settle();
+  settled_at = posterior->samples();
 }
 
-Belief::Belief(const Part& part, LogKind kind, const BeliefOptions& options)
-    : state_(std::make_unique<State>(State{part, kind, options, {}, {}, {}, {}, {}, 0, 0, {}})) {
-  require_valid(options);
+/// docs/belief.md has the table.
+template <class Remaining>
+Verdict Belief::State::verdict_on(const std::vector<Remaining>& remaining) {
+  settle();
+  if (!posterior->has_begun()) return {Verdict::unobservable};
+  if (outcome.excess > kMostExcess || remaining.empty()) return {Verdict::inconsistent};
+  std::vector<PerFinger<Interval>> that_count;
+  for (const Remaining& each : remaining) {
+    if (each.probability >= kCounts) that_count.push_back(each.interval);
+  }
+  const double P = part.perimeter();
+  const double length = posterior->credible_length(that_count);
+  if (part.closed() && length > 0.9 * kCertain * P) return {Verdict::unobservable};
+  if (that_count.size() > 1 && remaining.front().probability < kCertain) return {Verdict::ambiguous, that_count.size()};
+  const bool is_stretch = contacts.finger_curvature.size() == 1 && length > kWide * P;
+  return is_stretch ? Verdict{Verdict::ambiguous, 1, 1} : Verdict{Verdict::unique, 1};
+}
+
+Belief::Belief(const Part& part, LogKind kind, const BeliefOptions& options, const Contacts& contacts) {
+  require_valid(options, contacts);
+  const bool is_one = contacts.finger_curvature.size() == 1;
+  state_ = std::make_unique<State>(
+      State{part, options, contacts,
+            is_one ? posterior_of_one(part, kind, options) : posterior_of_two(part, kind, options, contacts),
+            std::numeric_limits<std::size_t>::max(), Outcome{}});
 }
 Belief::~Belief() = default;
 Belief::Belief(Belief&&) noexcept = default;
 Belief& Belief::operator=(Belief&&) noexcept = default;
 
 void Belief::add(const Sample& sample) {
-  const bool is_first = !state_->nodes;
-  state_->last = sample;
-  if (is_first) state_->begin(sample.finger_curvature);
-  // Row 1 of a log of contacts is what all others are measured from: it says nothing by itself.
-  if (is_first && state_->kind == LogKind::contact) return;
-  state_->nodes->add(sample);
+  const std::size_t fingers = state_->contacts.finger_curvature.size();
+  if (sample.reading.fingers() != fingers) {
+    throw InputError(fmt::format("expected a sample of {}, found one of {}",
+                                 fingers == 1 ? "one finger" : "two fingers", fingers == 1 ? "two" : "one"));
+  }
+  state_->posterior->add(sample);
 }
 
-std::size_t Belief::samples() const { return state_->nodes ? state_->nodes->rows() : 0; }
+void Belief::add(const Reading& reading) {
+  Sample sample;
+  sample.reading = reading;
+  sample.finger_curvature = state_->contacts.finger_curvature[0];
+  add(sample);
+}
+
+std::size_t Belief::samples() const { return state_->posterior->samples(); }
 
 const std::vector<Mode>& Belief::modes() {
   state_->settle();
-  return state_->modes;
+  return state_->outcome.modes;
 }
 
 double Belief::rest() {
   state_->settle();
   double listed = 0;
-  for (const Mode& mode : state_->modes) listed += mode.probability;
-  return std::max(0.0, 1 - listed) + (state_->grid ? state_->grid->rest() : 0);
+  for (const Mode& mode : state_->outcome.modes) listed += mode.probability;
+  return std::min(1.0, std::max(0.0, 1 - listed) + state_->outcome.unresolved);
 }
 
 double Belief::excess() {
   state_->settle();
-  return state_->grid ? state_->grid->excess() : 1;
+  return state_->outcome.excess;
 }
 
-std::vector<Mass> Belief::mass() {
+double Belief::tolerance(const std::vector<Reading>& readings) {
   state_->settle();
-  if (!state_->grid) return {};
-  return belief::mass_of(*state_->grid, *state_->boundary, state_->part.perimeter());
-}
-
-double Belief::tolerance() {
-  state_->settle();
-  if (!state_->grid) return std::numbers::pi;
-  const TurningFunction& turning = state_->part.turning();
-  const belief::SharedCovariance& shared = state_->errors->start();
-  const belief::RowCovariance own = state_->errors->row(state_->last.finger_curvature);
-  const double length = state_->last.reading.length;
-  double most = 0;
-  for (const Mode& mode : state_->modes) {
-    const double kappa = turning.curvature(mode.end);
-    // f is off by the turn's error less kappa times the length's.
-    const Eigen::Vector3d by_error(-kappa, 1, -kappa * length);
-    const double variance =
-        by_error.dot(shared * by_error) + own.turn - 2 * kappa * own.both + kappa * kappa * own.length;
-    most = std::max(most, variance);
-  }
-  return kFarthest * std::min(excess(), kMostExcess) * std::sqrt(most);
+  if (!state_->posterior->has_begun()) return std::numbers::pi;
+  const double variance = state_->posterior->variance_of_miss(readings, state_->outcome.modes);
+  return kFarthest * std::min(excess(), kMostExcess) * std::sqrt(variance);
 }
 
 Diagnosis Belief::diagnosis() {
   if (!(excess() > kMostExcess)) return {Cause::none, excess(), 1};
-  return likelier(state_->explain(Cause::radius), state_->explain(Cause::slip), excess());
+  const Posterior& posterior = *state_->posterior;
+  return likelier(posterior.supposing(Cause::radius), posterior.supposing(Cause::slip), excess());
 }
 
-std::string Belief::verdict() { return verdict_on(modes()); }
+Verdict Belief::verdict() { return verdict_on(modes()); }
 
-std::string Belief::verdict_on(const std::vector<Mode>& modes) {
-  state_->settle();
-  if (!state_->grid) return "unobservable";
-  if (excess() > kMostExcess || modes.empty()) return "inconsistent";
-  if (state_->part.closed() && credible_length(*state_->grid) > 0.9 * kCertain * state_->part.perimeter()) {
-    return "unobservable";
-  }
-  std::size_t count = 0;
-  for (const Mode& mode : modes) count += mode.probability >= kCounts ? 1 : 0;
-  if (count > 1 && modes.front().probability < kCertain) return fmt::format("ambiguous ({})", count);
-  const bool is_wide = credible_length(*state_->grid) > kWide * state_->part.perimeter();
-  return is_wide ? "ambiguous (1 stretch)" : "unique";
+Verdict Belief::verdict_on(const std::vector<Mode>& modes) { return state_->verdict_on(modes); }
+
+Verdict Belief::verdict_on(const std::vector<Placement>& placements) { return state_->verdict_on(placements); }
+
+PoseSpread Belief::pose_spread(std::size_t mode, const PerFinger<FeltContact>& felt) {
+  const std::vector<Piece> pieces = state_->posterior->pieces(mode, modes()[mode]);
+  return pose_spread_of(state_->part, pieces, felt, state_->options.noise);
 }
 
 }  // namespace rollfix

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "belief/policy.hpp"
+#include "belief/posterior.hpp"
 
 namespace rollfix::belief {
 

@@ -1,12 +1,12 @@
-#include "belief/felt_turning.hpp"
-
 #include <algorithm>
 #include <array>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <numbers>
 
-#include "rollfix/part/period.hpp"
+#include "belief/pair_filter.hpp"
+#include "belief/posterior.hpp"
+#include "rollfix/part/boundary.hpp"
 
 namespace rollfix::belief {
 
@@ -19,14 +19,14 @@ constexpr std::size_t kFirstKnots = 64;
 constexpr int kMostKnotHalvings = 14;
 // The variance is interpolated to this share of itself, or of what the angles are known to.
 constexpr double kShareOfVariance = 0.05;
-constexpr std::size_t kBucketsPerKnot = 2;
-
-double square_of(double x) { return x * x; }
 
 using Rule = boost::math::quadrature::gauss<double, 15>;
 
-/// Sums over a distribution of (offset of place n, offset of angle y).
+/// Sums over places around s, by how likely each is: of the offset n from s and of the angle's, y, from a reference.
 struct Moments {
+  double s;
+  double sd;
+  double reference;
   double mass = 0;
   double n = 0;
   double nn = 0;
@@ -42,7 +42,44 @@ struct Moments {
     yn += weight * angle * place;
     yy += weight * angle * angle;
   }
+
+  double density(double place) const { return std::exp(-0.5 * square(place / sd)); }
+
+  /// `angle`: of the tangent at a place in between.
+  template <class Angle>
+  void add_stretch(double lo, double hi, const Angle& angle) {
+    const double middle = 0.5 * (lo + hi);
+    const double half = 0.5 * (hi - lo);
+    if (half <= 0) return;
+    const auto& nodes = Rule::abscissa();
+    const auto& weights = Rule::weights();
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      for (const double side : {-1.0, 1.0}) {
+        if (k == 0 && side > 0) continue;  // the middle one
+        const double at = middle + side * half * nodes[k];
+        add(weights[k] * half * density(at - s), at - s, angle(at) - reference);
+      }
+    }
+  }
 };
+
+/// Of Y = Theta + n / r.
+Felt felt_by(const Moments& moments, double normal_turn) {
+  const double mean_n = moments.n / moments.mass;
+  const double spread_n = moments.nn / moments.mass - square(mean_n);
+  const double mean_angle = moments.y / moments.mass;
+  const double both_angle = moments.yn / moments.mass - mean_angle * mean_n;
+  const double spread_angle = moments.yy / moments.mass - square(mean_angle);
+  const double mean = mean_angle + normal_turn * mean_n;
+  const double both = both_angle + normal_turn * spread_n;
+  const double spread = spread_angle + normal_turn * (2 * both_angle + normal_turn * spread_n);
+  Felt felt;
+  felt.angle = moments.reference + mean;
+  // The mean's derivative: moving s tilts the density by n / sd^2, and n is counted from there.
+  felt.slope = both / square(moments.sd) - normal_turn;
+  felt.variance = std::max(0.0, spread);
+  return felt;
+}
 
 }  // namespace
 
@@ -53,7 +90,10 @@ FeltTurning::FeltTurning(const TurningFunction& turning, double sd, double corne
   lo_ = turning.closed() ? 0 : -2 * kTail * sd;
   hi_ = turning.closed() ? P : P + 2 * kTail * sd;
   add_knots((hi_ - lo_) / static_cast<double>(kFirstKnots), accuracy);
-  index();
+  std::vector<double> starts;
+  for (const Knot& knot : knots_) starts.push_back(knot.s);
+  starts.pop_back();
+  buckets_ = Buckets(starts, hi_);
 }
 
 Felt FeltTurning::integrated(double s) const {
@@ -63,25 +103,10 @@ Felt FeltTurning::integrated(double s) const {
   const double from = s - kTail * sd_;
   const double to = s + kTail * sd_;
   const double reference = turning.angle(s);
-  Moments moments;
-  const auto density = [&](double n) { return std::exp(-0.5 * square_of(n / sd_)); };
-  const auto add_stretch = [&](double lo, double hi, const auto& angle) {
-    const double middle = 0.5 * (lo + hi);
-    const double half = 0.5 * (hi - lo);
-    if (half <= 0) return;
-    const auto& nodes = Rule::abscissa();
-    const auto& weights = Rule::weights();
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-      for (const double side : {-1.0, 1.0}) {
-        if (k == 0 && side > 0) continue;  // the middle one
-        const double at = middle + side * half * nodes[k];
-        moments.add(weights[k] * half * density(at - s), at - s, angle(at) - reference);
-      }
-    }
-  };
+  Moments moments{s, sd_, reference};
   if (!turning.closed()) {
-    add_stretch(from, std::min(to, 0.0), [&](double) { return spirals.front().start.angle; });
-    add_stretch(std::max(from, P), to, [&](double) { return spirals.back().end.angle; });
+    moments.add_stretch(from, std::min(to, 0.0), [&](double) { return spirals.front().start.angle; });
+    moments.add_stretch(std::max(from, P), to, [&](double) { return spirals.back().end.angle; });
   }
   const double begin = turning.closed() ? from : std::max(from, 0.0);
   const double end = turning.closed() ? to : std::min(to, P);
@@ -100,15 +125,15 @@ Felt FeltTurning::integrated(double s) const {
       const double at = spiral.lo + shift;
       if (!is_first && jump > kTurnAccuracy && at > from) {
         // A pivot: every direction in between, alike.
-        const double weight = corner_length_ * jump * density(at - s);
+        const double weight = corner_length_ * jump * moments.density(at - s);
         const double middle = before + 0.5 * jump - reference;
         moments.add(weight, at - s, middle);
-        moments.yy += weight * square_of(jump) / 12;
+        moments.yy += weight * square(jump) / 12;
       }
       // Halves: over all of the tails one rule is not enough.
       const auto angle = [&](double place) { return turning.on_spiral(spiral, place - shift).angle + lift; };
-      add_stretch(std::max(begin, at), std::min({end, spiral.hi + shift, s}), angle);
-      add_stretch(std::max({begin, at, s}), std::min(end, spiral.hi + shift), angle);
+      moments.add_stretch(std::max(begin, at), std::min({end, spiral.hi + shift, s}), angle);
+      moments.add_stretch(std::max({begin, at, s}), std::min(end, spiral.hi + shift), angle);
       before = spiral.end.angle + lift;
       is_first = false;
       if (++k == spirals.size()) {
@@ -118,21 +143,7 @@ Felt FeltTurning::integrated(double s) const {
       }
     }
   }
-  // Y = Theta + n / r.
-  const double mean_n = moments.n / moments.mass;
-  const double spread_n = moments.nn / moments.mass - square_of(mean_n);
-  const double mean_angle = moments.y / moments.mass;
-  const double both_angle = moments.yn / moments.mass - mean_angle * mean_n;
-  const double spread_angle = moments.yy / moments.mass - square_of(mean_angle);
-  const double mean = mean_angle + normal_turn_ * mean_n;
-  const double both = both_angle + normal_turn_ * spread_n;
-  const double spread = spread_angle + normal_turn_ * (2 * both_angle + normal_turn_ * spread_n);
-  Felt felt;
-  felt.angle = reference + mean;
-  // The mean's derivative: moving s tilts the density by n / sd^2, and n is counted from there.
-  felt.slope = both / square_of(sd_) - normal_turn_;
-  felt.variance = std::max(0.0, spread);
-  return felt;
+  return felt_by(moments, normal_turn_);
 }
 
 void FeltTurning::add_knots(double spacing, double accuracy) {
@@ -171,7 +182,7 @@ void FeltTurning::add_knots(double spacing, double accuracy) {
       const double variance = 0.5 * (lo.felt.variance + hi.felt.variance);
       const bool is_good = std::abs(guess - middle.felt.angle) <= accuracy &&
                            std::abs(variance - middle.felt.variance) <=
-                               kShareOfVariance * (middle.felt.variance + square_of(accuracy) / kShareOfVariance);
+                               kShareOfVariance * (middle.felt.variance + square(accuracy) / kShareOfVariance);
       if (!is_good && task.depth < kMostKnotHalvings && h > 2 * least) {
         tasks.back().depth += 1;
         tasks.push_back({middle, task.depth + 1});
@@ -181,19 +192,6 @@ void FeltTurning::add_knots(double spacing, double accuracy) {
       knots_.push_back(hi);
       tasks.pop_back();
     }
-  }
-}
-
-void FeltTurning::index() {
-  const std::size_t count = kBucketsPerKnot * knots_.size();
-  buckets_per_length_ = static_cast<double>(count) / (hi_ - lo_);
-  bucket_.resize(count);
-  std::size_t knot = 0;
-  for (std::size_t k = 0; k < count; ++k) {
-    // A step earlier, so that rounding can't make a place precede its bucket's knot.
-    const double start = lo_ + (static_cast<double>(k) - 1) / buckets_per_length_;
-    while (knot + 2 < knots_.size() && knots_[knot + 1].s <= start) ++knot;
-    bucket_[k] = knot;
   }
 }
 
@@ -207,18 +205,14 @@ Felt FeltTurning::at(double s) const {
   } else if (s <= lo_ || s >= hi_) {
     return {s <= lo_ ? knots_.front().felt.angle : knots_.back().felt.angle, 0, 0};
   }
-  const auto step = static_cast<std::size_t>(std::max(0.0, (base - lo_) * buckets_per_length_));
-  std::size_t k = bucket_[std::min(step, bucket_.size() - 1)];
+  std::size_t k = buckets_.before(base);
   while (k + 2 < knots_.size() && knots_[k + 1].s <= base) ++k;
   const Knot& lo = knots_[k];
   const Knot& hi = knots_[k + 1];
-  // Hermite's cubic.
   const double h = hi.s - lo.s;
   const double x = base - lo.s;
-  const double mean = (hi.felt.angle - lo.felt.angle) / h;
-  const double b = (3 * mean - 2 * lo.felt.slope - hi.felt.slope) / h;
-  const double c = (lo.felt.slope + hi.felt.slope - 2 * mean) / (h * h);
-  return {lo.felt.angle + x * (lo.felt.slope + x * (b + x * c)) + lift, lo.felt.slope + x * (2 * b + x * 3 * c),
+  const Cubic cubic = Cubic::through(h, hi.felt.angle - lo.felt.angle, lo.felt.slope, hi.felt.slope);
+  return {lo.felt.angle + cubic.at(x) + lift, cubic.slope(x),
           lo.felt.variance + (hi.felt.variance - lo.felt.variance) * x / h};
 }
 

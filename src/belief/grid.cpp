@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "belief/policy.hpp"
-#include "rollfix/part/period.hpp"
+#include "belief/posterior.hpp"
+#include "rollfix/part/boundary.hpp"
 
 namespace rollfix::belief {
 
@@ -32,6 +32,21 @@ constexpr double kLeastCell = 1e-13;
 constexpr int kMostRounds = 50;
 // A grid does not grow beyond this; what is not resolved by then counts as rest.
 constexpr std::size_t kMostPoints = 400000;
+
+/// No more than this can be in a cell: the distance can't fall faster than it changes at the ends.
+struct Bound {
+  double rate = 0;         // of the distance, by w
+  double log_density = 0;  // without the prior
+};
+
+Bound bound_of(const Score& lo, const Score& hi, double h, double heat) {
+  const double from = std::sqrt(lo.cost);
+  const double to = std::sqrt(hi.cost);
+  const double rate = std::max(std::sqrt(std::max(lo.information, hi.information)), std::abs(to - from) / h);
+  const double least_distance = std::max(0.0, 0.5 * (from + to - kSlopeSafety * rate * h));
+  const double cost = std::min({square(least_distance), lo.cost, hi.cost});
+  return {rate, -0.5 * (cost + std::min(lo.log_volume, hi.log_volume)) / heat};
+}
 
 }  // namespace
 
@@ -169,29 +184,18 @@ bool Grid::refine(const Nodes& nodes) {
       const double h = points[k + 1].filter.w() - points[k].filter.w();
       GridCell cell{a, k, points[k].filter.w(), points[k + 1].filter.w(), arc.at(points[k].filter.w() + 0.5 * h)};
       const double log_width = log_prior(cell.middle) + std::log(h);
-      double rate = 0;
-      // No more than this can be in the cell: the distance can't fall faster than it changes at the ends.
-      const auto bound = [&]() {
-        const Score& lo = points[k].score;
-        const Score& hi = points[k + 1].score;
-        const double from = std::sqrt(lo.cost);
-        const double to = std::sqrt(hi.cost);
-        rate = std::max(std::sqrt(std::max(lo.information, hi.information)), std::abs(to - from) / h);
-        const double least_distance = std::max(0.0, 0.5 * (from + to - kSlopeSafety * rate * h));
-        const double cost = std::min({square(least_distance), lo.cost, hi.cost});
-        return -0.5 * (cost + std::min(lo.log_volume, hi.log_volume)) / heat + log_width;
-      };
+      Bound bound = bound_of(points[k].score, points[k + 1].score, h, heat);
       // A cost only grows with more samples: one that was too large before is so now.
       const bool stale = is_stale(points[k], nodes) || is_stale(points[k + 1], nodes);
-      double most = bound();
-      if (stale && most - best_mass_ > -2 * kNegligible) {
+      if (stale && bound.log_density + log_width - best_mass_ > -2 * kNegligible) {
         refresh(points[k], nodes);
         refresh(points[k + 1], nodes);
-        most = bound();
+        bound = bound_of(points[k].score, points[k + 1].score, h, heat);
         changed = changed || (!is_stale(points[k], nodes) && !is_stale(points[k + 1], nodes));
       }
+      const double most = bound.log_density + log_width;
       const bool negligible = most - best_mass_ < -kNegligible;
-      cell.fine = !negligible && (rate * h <= kFineStep * excess_ || h <= 2 * least);
+      cell.fine = !negligible && (bound.rate * h <= kFineStep * excess_ || h <= 2 * least);
       if (!negligible && !cell.fine && Grid::points() + added.size() < kMostPoints) {
         added.push_back(points[k].filter.w() + 0.5 * h);
       } else if (!cell.fine) {

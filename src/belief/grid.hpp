@@ -6,11 +6,69 @@
 
 #include "belief/error_model.hpp"
 #include "belief/nodes.hpp"
-#include "belief/roll_filter.hpp"
+#include "belief/posterior.hpp"
 #include "belief/tilted_boundary.hpp"
 #include "rollfix/belief/belief.hpp"
 
 namespace rollfix::belief {
+
+/// How outliers are taken: as a share of rows whose place says nothing, spread over `range`. Share 0: there are none.
+struct Outliers {
+  double share = 0;
+  double range = 1;  // length
+};
+
+/// One first contact on trial: an extended Kalman filter of the errors that the whole roll shares, which gives the
+/// samples' likelihood along the way, and how that changes with the place.
+class RollFilter {
+ public:
+  RollFilter(const TiltedArc& arc, double tilt, double w, const SharedCovariance& start);
+
+  void update(const Node& node, const Outliers& outliers);
+
+  const TiltedArc* arc() const { return arc_; }
+  double w() const { return w_; }
+  const TiltedPlace& place() const { return place_; }
+  /// Minus twice the logarithm of the likelihood, up to what is the same everywhere: the cost is a squared distance.
+  /// Both only grow with every node.
+  double cost() const { return cost_; }
+  double log_volume() const { return log_volume_; }
+  double deviance() const { return cost_ + log_volume_; }
+  double log_likelihood() const { return -0.5 * (cost_ + log_volume_); }
+  /// Its derivative by w, and the (expected) information on w: the square of the distance's rate of change.
+  double slope() const { return -slope_; }
+  double information() const { return information_; }
+  const Shared& errors() const { return x_; }
+  const SharedCovariance& covariance() const { return p_; }
+
+  /// Where the contact is after a roll that is measured as this.
+  TiltedPlace after(const Reading& measured) const;
+  /// The variance of that place from the shared errors and the row's own.
+  double variance_after(const Reading& measured, const RowCovariance& own) const;
+
+ private:
+  struct Corrected {
+    double length;
+    double turn;
+  };
+  Corrected corrected(double length, double turn) const { return {(length - x_[0]) / (1 + x_[2]), turn - x_[1]}; }
+
+  /// The variance of theta + c L, from the shared errors and a row's own.
+  double variance_of_roll(double length, const RowCovariance& own) const;
+
+  const TiltedArc* arc_;
+  double tilt_;
+  double w_;
+  TiltedPlace place_;
+  double most_scale_;
+  Shared x_ = Shared::Zero();
+  SharedCovariance p_;
+  Shared dx_ = Shared::Zero();  // of x by w
+  double cost_ = 0;
+  double log_volume_ = 0;
+  double slope_ = 0;
+  double information_ = 0;
+};
 
 /// What a first contact on trial is worth, the prior included; see RollFilter.
 struct Score {
@@ -97,5 +155,23 @@ class Grid {
   std::vector<std::vector<GridPoint>> points_;  // of each arc, by w
   std::vector<GridCell> cells_;
 };
+
+/// What the modes are asked about, beyond the grid.
+struct ModeQuestion {
+  const TiltedBoundary* boundary = nullptr;
+  Reading last;       // the last sample
+  RowCovariance own;  // its own errors
+  Boundary places;
+};
+
+/// The stretches of the boundary that hold the mass, the most probable first: two peaks of the density are two modes
+/// where it falls far enough between them.
+std::vector<Mode> modes_of(const Grid& grid, const ModeQuestion& question);
+
+/// The cells that hold the mass, in order.
+std::vector<Piece> pieces_of(const Grid& grid, const TiltedBoundary& boundary, double perimeter);
+
+/// The length of the boundary that holds 95 % of the mass, as short as can be.
+double credible_length(const Grid& grid);
 
 }  // namespace rollfix::belief

@@ -1,11 +1,10 @@
-#include "belief/modes.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "belief/policy.hpp"
-#include "rollfix/part/period.hpp"
+#include "belief/grid.hpp"
+#include "belief/posterior.hpp"
+#include "rollfix/part/boundary.hpp"
 
 namespace rollfix::belief {
 
@@ -83,16 +82,14 @@ class ModeOfRun {
     for (const GridCell* cell : run_.cells) mode.probability += cell->share;
     const double w = peak(best);
     const double s = arc().at(w).s;
-    mode.start = wrapped(s);
+    mode.start = question_.places.on_first_lap(s);
     mode.tangent = w - question_.boundary->tilt() * s;
-    mode.end = wrapped(best.now.after(question_.last).s);
+    mode.end = question_.places.on_first_lap(best.now.after(question_.last).s);
     spread(mode);
     return mode;
   }
 
  private:
-  double wrapped(double s) const { return question_.closed ? wrap(s, question_.perimeter).base : s; }
-
   const TiltedArc& arc() const { return question_.boundary->arcs()[run_.cells.front()->arc]; }
 
   const GridPoint& best_point() const {
@@ -122,7 +119,7 @@ class ModeOfRun {
 
   /// Means, standard deviations and the interval, by the cells.
   void spread(Mode& mode) const {
-    const double P = question_.perimeter;
+    const double P = question_.places.perimeter;
     double total = 0;
     double sum = 0;
     double square = 0;
@@ -146,15 +143,15 @@ class ModeOfRun {
     }
     const double mean = sum / total;
     const double end_mean = end_sum / total;
-    mode.mean = wrapped(near + mean);
+    mode.mean = question_.places.on_first_lap(near + mean);
     mode.sd = std::sqrt(std::max(0.0, square / total - mean * mean));
-    mode.end_mean = wrapped(near + end_mean);
+    mode.end_mean = question_.places.on_first_lap(near + end_mean);
     mode.end_sd = std::sqrt(std::max(0.0, end_square / total - end_mean * end_mean));
 
     const double lo = quantile(0.5 * (1 - kCredible) * total);
     const double hi = quantile(0.5 * (1 + kCredible) * total);
-    mode.interval.lo = wrapped(lo);
-    mode.interval.hi = mode.interval.lo + (hi - lo);
+    const double at = question_.places.on_first_lap(lo);
+    mode.interval = Interval{at, at + (hi - lo)};
     mode.region = region();
   }
 
@@ -163,8 +160,8 @@ class ModeOfRun {
     while (!run_.cells[first]->fine) ++first;
     std::size_t last = run_.cells.size() - 1;
     while (!run_.cells[last]->fine) --last;
-    const double lo = arc().at(run_.cells[first]->lo).s + run_.turns[first] * question_.perimeter;
-    const double at = wrapped(lo);
+    const double lo = arc().at(run_.cells[first]->lo).s + run_.turns[first] * question_.places.perimeter;
+    const double at = question_.places.on_first_lap(lo);
     return {at, at + (upper(last) - lo)};
   }
 
@@ -172,8 +169,8 @@ class ModeOfRun {
   double upper(std::size_t k) const {
     const GridCell& cell = *run_.cells[k];
     const bool at_seam = arc().loop() && cell.hi >= arc().hi();
-    const double s = at_seam ? arc().at(arc().lo()).s + question_.perimeter : arc().at(cell.hi).s;
-    return s + run_.turns[k] * question_.perimeter;
+    const double s = at_seam ? arc().at(arc().lo()).s + question_.places.perimeter : arc().at(cell.hi).s;
+    return s + run_.turns[k] * question_.places.perimeter;
   }
 
   /// The place up to which there is this much mass.
@@ -186,7 +183,7 @@ class ModeOfRun {
         continue;
       }
       if (cell.share <= 0) continue;
-      const double lo = arc().at(cell.lo).s + run_.turns[k] * question_.perimeter;
+      const double lo = arc().at(cell.lo).s + run_.turns[k] * question_.places.perimeter;
       return lo + (upper(k) - lo) * (mass - before) / cell.share;
     }
     return upper(run_.cells.size() - 1);
@@ -213,36 +210,39 @@ std::vector<Mode> modes_of(const Grid& grid, const ModeQuestion& question) {
   return modes;
 }
 
-std::vector<Mass> mass_of(const Grid& grid, const TiltedBoundary& boundary, double perimeter) {
-  std::vector<Mass> masses;
+std::vector<Piece> pieces_of(const Grid& grid, const TiltedBoundary& boundary, double perimeter) {
+  std::vector<Piece> pieces;
   for (const GridCell& cell : grid.cells()) {
     if (!(cell.share > kLeastShare)) continue;
     const TiltedArc& arc = boundary.arcs()[cell.arc];
     const double lo = arc.at(cell.lo).s;
     const double hi = arc.loop() && cell.hi >= arc.hi() ? arc.at(arc.lo()).s + perimeter : arc.at(cell.hi).s;
-    masses.push_back({{lo, hi}, {cell.lo - boundary.tilt() * lo, cell.hi - boundary.tilt() * hi}, cell.share});
+    const Interval s{lo, hi};
+    const Interval tangent{cell.lo - boundary.tilt() * lo, cell.hi - boundary.tilt() * hi};
+    pieces.push_back({s.middle(), tangent.middle(), cell.share, 0.0, Eigen::Matrix2d::Zero()});
   }
-  return masses;
+  return pieces;
 }
 
 double credible_length(const Grid& grid) {
-  struct Piece {
+  struct Stretch {
     double density;
     double share;
     double length;
   };
-  std::vector<Piece> pieces;
+  std::vector<Stretch> stretches;
   for (const GridCell& cell : grid.cells()) {
     const double length = cell.middle.slope * (cell.hi - cell.lo);
-    if (cell.share > 0) pieces.push_back({cell.share / std::max(length, 1e-300), cell.share, length});
+    if (cell.share > 0) stretches.push_back({cell.share / std::max(length, 1e-300), cell.share, length});
   }
-  std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.density > b.density; });
+  std::sort(stretches.begin(), stretches.end(),
+            [](const Stretch& a, const Stretch& b) { return a.density > b.density; });
   double share = 0;
   double length = 0;
-  for (const Piece& piece : pieces) {
+  for (const Stretch& stretch : stretches) {
     if (share >= kCredible) break;
-    share += piece.share;
-    length += piece.length;
+    share += stretch.share;
+    length += stretch.length;
   }
   return length;
 }

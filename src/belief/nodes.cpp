@@ -27,6 +27,22 @@ double median(std::vector<double> values) {
   return 0.5 * (*upper + *std::max_element(values.begin(), upper));
 }
 
+/// What rows that are taken together come to: each number's median.
+Reading median_of(const std::vector<Reading>& rows) {
+  Reading middle = rows.front();
+  if (rows.size() == 1) return middle;
+  const auto median_by = [&](const auto& number) {
+    std::vector<double> values;
+    for (const Reading& row : rows) values.push_back(number(row));
+    return median(std::move(values));
+  };
+  for (std::size_t finger = 0; finger < middle.fingers(); ++finger) {
+    middle.length[finger] = median_by([&](const Reading& row) { return row.length[finger]; });
+  }
+  middle.turn = median_by([](const Reading& row) { return row.turn; });
+  return middle;
+}
+
 /// Rows that are taken together before a mean is taken: of robust ones by their median.
 std::size_t block_of(bool robust, std::size_t stride) { return robust ? std::min(stride, kRowsOfMedian) : 1; }
 
@@ -34,14 +50,9 @@ std::size_t block_of(bool robust, std::size_t stride) { return robust ? std::min
 
 void Nodes::close_block(Node& sum, double& blocks) const {
   if (block_.empty()) return;
-  std::vector<double> lengths;
-  std::vector<double> turns;
-  for (const Reading& row : block_) {
-    lengths.push_back(row.length);
-    turns.push_back(row.turn);
-  }
-  const double length = median(std::move(lengths));
-  const double turn = median(std::move(turns));
+  const Reading middle = median_of(block_);
+  const double length = middle.length[0];
+  const double turn = middle.turn;
   // The variance among the blocks so far, times their number (Welford 1962).
   if (blocks > 0) {
     const double off = turn + tilt_ * length - (sum.turn + tilt_ * sum.length) / blocks;
@@ -53,13 +64,12 @@ void Nodes::close_block(Node& sum, double& blocks) const {
   blocks += 1;
 }
 
-void Nodes::add(const Sample& sample) {
-  const Reading& reading = sample.reading;
-  sum_.gathered += errors_.gathered(reading.length - length_);
-  length_ = reading.length;
+void Nodes::add(const Reading& reading, double finger_curvature) {
+  sum_.gathered += errors_.gathered(reading.length[0] - length_);
+  length_ = reading.length[0];
   ++rows_;
   ++pending_rows_;
-  block_own_ = errors_.row(sample.finger_curvature);
+  block_own_ = errors_.row(finger_curvature);
   block_.push_back(reading);
   if (block_.size() >= block_of(robust_, stride_)) {
     close_block(sum_, blocks_);
@@ -99,8 +109,8 @@ void Nodes::join_neighbours() {
   ++generation_;
 }
 
-std::vector<PairNode> pair_nodes(const std::vector<PairReading>& rows, const std::optional<double>& facing,
-                                 bool absolute, bool robust) {
+std::vector<PairNode> pair_nodes(const std::vector<Reading>& rows, const std::optional<double>& facing, bool absolute,
+                                 bool robust) {
   std::vector<PairNode> nodes;
   if (facing) {
     PairNode first;
@@ -117,15 +127,12 @@ std::vector<PairNode> pair_nodes(const std::vector<PairReading>& rows, const std
     PairNode node;
     double blocks = 0;
     for (std::size_t from = begin; from < end; from += block) {
-      std::array<std::vector<double>, 3> columns;
-      for (std::size_t k = from; k < std::min(end, from + block); ++k) {
-        columns[0].push_back(rows[k].length_a);
-        columns[1].push_back(rows[k].length_b);
-        columns[2].push_back(rows[k].turn);
-      }
-      node.length[0] += median(std::move(columns[0]));
-      node.length[1] += median(std::move(columns[1]));
-      node.turn += median(std::move(columns[2]));
+      const auto first = rows.begin() + static_cast<std::ptrdiff_t>(from);
+      const auto last_row = rows.begin() + static_cast<std::ptrdiff_t>(std::min(end, from + block));
+      const Reading middle = median_of({first, last_row});
+      node.length[0] += middle.length[0];
+      node.length[1] += middle.length[1];
+      node.turn += middle.turn;
       blocks += 1;
     }
     node.length[0] /= blocks;

@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "belief/error_model.hpp"
-#include "rollfix/contact/log_stream.hpp"
-#include "rollfix/locate/pair_reading.hpp"
+#include "rollfix/contact/reading.hpp"
 
 namespace rollfix::belief {
 
@@ -35,7 +34,8 @@ class Nodes {
   /// `robust`: of rows that make a node together medians are taken first, so that a stray one does not move it.
   Nodes(const ErrorModel& errors, double tilt, bool robust) : errors_(errors), tilt_(tilt), robust_(robust) {}
 
-  void add(const Sample& sample);
+  /// `finger_curvature`: where the finger touches.
+  void add(const Reading& reading, double finger_curvature);
 
   /// Those that will not change until `generation` does.
   const std::vector<Node>& complete() const { return nodes_; }
@@ -75,8 +75,8 @@ struct PairNode {
 };
 
 /// A roll's rows as at most kMostNodes nodes. `facing`: the first contacts', then the first node. `robust`: as above.
-std::vector<PairNode> pair_nodes(const std::vector<PairReading>& rows, const std::optional<double>& facing,
-                                 bool absolute, bool robust);
+std::vector<PairNode> pair_nodes(const std::vector<Reading>& rows, const std::optional<double>& facing, bool absolute,
+                                 bool robust);
 
 /// Some of the nodes, evenly, the first and the last among them.
 std::vector<PairNode> some_of(const std::vector<PairNode>& nodes, std::size_t most);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "belief/policy.hpp"
+#include "belief/posterior.hpp"
 
 namespace rollfix::belief {
 
@@ -73,7 +73,7 @@ RowEquation row_equation(const PairModel& model, const StartPlaces& at, const Pa
     row.by_errors[2 + i] = -row.by_errors[i] * length;
     row.by_start[i] = sign * felt.slope * at.place[finger].slope;
     row.variance += felt.variance;
-    if (!model.closed) {
+    if (!model.places.closed) {
       const double off = std::max({0.0, -s, s - errors.perimeter()});
       row.beyond += off * off / errors.contact_variance();
     }
@@ -120,7 +120,7 @@ PairScore pass(const PairModel& model, const StartPlaces& at, const std::vector<
   Eigen::Matrix<double, 5, 2>& dx = score.errors_by_start;
   P = errors.start();
   PairShared most = PairShared::Zero();
-  for (const Eigen::Index i : {2, 3}) most[i] = std::min(kMostScale, kMostSigmas * std::sqrt(P(i, i)));
+  for (const Eigen::Index i : {2, 3}) most[i] = most_scale(P(i, i));
   LogSum volume;
   for (const PairNode& node : nodes) {
     if (drifts) P.diagonal() += errors.gathered(node.gathered, node.travelled);
@@ -133,18 +133,15 @@ PairScore pass(const PairModel& model, const StartPlaces& at, const std::vector<
     const double inverse = 1 / variance;
     const double innovation = -(row.f + h.dot(x - about));
     const Eigen::Vector2d by_start = -(row.by_start + dx.transpose() * h);
-    const double square = innovation * innovation * inverse;
+    const double squared = innovation * innovation * inverse;
     double weight = 1;
-    if (model.outliers.share > 0) {
-      // A mixture: the row is right, or its turn is anything.
-      const double right = (1 - model.outliers.share) * std::sqrt(inverse / kTwoPi);
-      const double stray = model.outliers.share / kTwoPi;
-      const double fits = right * std::exp(-0.5 * square);
-      weight = fits / (fits + stray);
-      score.cost += -2 * std::log((fits + stray) / (right + stray));
-      score.log_volume -= 2 * std::log(right + stray);
+    if (model.outlier_share > 0) {
+      const Mixture mixture = mixture_of(model.outlier_share, model.outlier_share / kTwoPi, inverse, squared);
+      weight = mixture.weight;
+      score.cost += mixture.cost;
+      score.log_volume -= 2 * std::log(mixture.density);
     } else {
-      score.cost += square;
+      score.cost += squared;
       volume.add(variance * unit);
     }
     score.cost += row.beyond;
@@ -189,7 +186,7 @@ PairScore score_of(const PairModel& model, const PairStart& start, const std::ve
     // Errors that do not settle, as about corners: a straight line that fits well is not to be believed. They are worth
     // what they cost as they are, the best of those that were tried.
     const auto as_it_is = [&](PairScore tried, const PairShared& about) {
-      if (model.outliers.share > 0) return tried;
+      if (model.outlier_share > 0) return tried;
       tried.cost = std::max(tried.cost, tried.direct_cost);
       tried.errors = about;
       return tried;
@@ -210,7 +207,7 @@ PairScore score_of(const PairModel& model, const PairStart& start, const std::ve
   if (model.prior) {
     // The prior is one sample more.
     const double precision = 1 / (model.prior->sd * model.prior->sd);
-    const double off = Boundary{model.perimeter(), model.closed}.offset(model.prior->s, at.place[0].s);
+    const double off = model.places.offset(model.prior->s, at.place[0].s);
     score.cost += off * off * precision;
     score.slope[0] -= off * at.place[0].slope * precision;
     score.information(0, 0) += at.place[0].slope * at.place[0].slope * precision;

@@ -1,11 +1,11 @@
-#include "belief/pair_lattice.hpp"
-
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <deque>
 #include <limits>
+
+#include "belief/pair_density.hpp"
 
 namespace rollfix::belief {
 

@@ -1,13 +1,12 @@
-#include "belief/pair_modes.hpp"
-
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <unordered_map>
 
-#include "belief/policy.hpp"
-#include "rollfix/part/period.hpp"
+#include "belief/pair_density.hpp"
+#include "belief/posterior.hpp"
+#include "rollfix/part/boundary.hpp"
 
 namespace rollfix::belief {
 
@@ -64,11 +63,28 @@ std::vector<std::size_t> hills(const PairRegion& region) {
   return result;
 }
 
+/// A share of the mass, at one finger's place.
+struct Grain {
+  double s;
+  double share;
+};
+
+/// The place up to which there is this much mass. `grains`: in order of s. A grain's mass lies around it: half of it
+/// before.
+double quantile(const std::vector<Grain>& grains, double mass) {
+  double before = 0;
+  for (const Grain& grain : grains) {
+    if (before + 0.5 * grain.share >= mass) return grain.s;
+    before += grain.share;
+  }
+  return grains.back().s;
+}
+
 /// Leaves of a hill, weighed.
 class PairHill {
  public:
-  PairHill(const PairRegion& region, std::vector<std::size_t> leaves, const PairModel& model, const PairReading& last)
-      : region_(region), leaves_(std::move(leaves)), model_(model), last_{last.length_a, last.length_b} {}
+  PairHill(const PairRegion& region, std::vector<std::size_t> leaves, const PairModel& model, const Reading& last)
+      : region_(region), leaves_(std::move(leaves)), model_(model), last_(last.length) {}
 
   double probability() const {
     double sum = 0;
@@ -76,23 +92,31 @@ class PairHill {
     return sum;
   }
 
-  PairMode mode() const {
-    PairMode mode;
+  Mode mode() const {
+    Mode mode = empty_mode();
     mode.probability = probability();
     const PairLeaf& best = peak();
     const PairStart start = moved(best.start, step_to_peak(best));
     for (const std::size_t finger : {0U, 1U}) {
       const double s = start.arc[finger]->at(start.w[finger]).s;
-      mode.start[finger] = wrapped(s);
+      mode.start[finger] = model_.places.on_first_lap(s);
       mode.tangent[finger] = start.w[finger] - model_.boundary[finger]->tilt() * s;
-      mode.end[finger] = wrapped(s + rolled(best, finger));
+      mode.end[finger] = model_.places.on_first_lap(s + rolled(best, finger));
     }
     add_spread(mode);
     return mode;
   }
 
  private:
-  double wrapped(double s) const { return model_.closed ? wrap(s, model_.perimeter()).base : s; }
+  /// One with room for both fingers.
+  static Mode empty_mode() {
+    const PerFinger<double> zeros(0, 0);
+    const PerFinger<Interval> nothing{Interval{}, Interval{}};
+    Mode mode;
+    mode.start = mode.end = mode.tangent = mode.mean = mode.sd = mode.end_mean = mode.end_sd = zeros;
+    mode.interval = mode.region = nothing;
+    return mode;
+  }
 
   const PairLeaf& peak() const {
     std::size_t best = leaves_.front();
@@ -128,11 +152,7 @@ class PairHill {
            model_.errors->contact_variance();
   }
 
-  void add_spread(PairMode& mode) const {
-    struct Grain {
-      double s;
-      double share;
-    };
+  void add_spread(Mode& mode) const {
     double total = 0;
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
     Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
@@ -161,31 +181,19 @@ class PairHill {
     for (const std::size_t finger : {0U, 1U}) {
       const auto i = static_cast<Eigen::Index>(finger);
       const double origin = region_.origin_s[finger];
-      mode.mean[finger] = wrapped(origin + mean[i]);
+      mode.mean[finger] = model_.places.on_first_lap(origin + mean[i]);
       mode.sd[finger] = std::sqrt(std::max(0.0, mode.covariance(i, i)));
       const double end = end_sum[i] / total;
-      mode.end_mean[finger] = wrapped(origin + end);
+      mode.end_mean[finger] = model_.places.on_first_lap(origin + end);
       mode.end_sd[finger] = std::sqrt(std::max(0.0, end_squares[i] / total - end * end));
       std::vector<Grain>& of_finger = grains[finger];
       std::sort(of_finger.begin(), of_finger.end(), [](const Grain& a, const Grain& b) { return a.s < b.s; });
-      const auto quantile = [&](double mass) {
-        double before = 0;
-        double last = of_finger.front().s;
-        for (const Grain& grain : of_finger) {
-          // A grain's mass lies around it: half of it before.
-          const double here = before + 0.5 * grain.share;
-          if (here >= mass) return grain.s;
-          before += grain.share;
-          last = grain.s;
-        }
-        return last;
-      };
       const auto as_interval = [&](double lo, double hi) {
-        const double at = wrapped(origin + lo);
+        const double at = model_.places.on_first_lap(origin + lo);
         return Interval{at, at + std::min(hi - lo, model_.perimeter())};
       };
-      mode.interval[finger] =
-          as_interval(quantile(0.5 * (1 - kCredible) * total), quantile(0.5 * (1 + kCredible) * total));
+      mode.interval[finger] = as_interval(quantile(of_finger, 0.5 * (1 - kCredible) * total),
+                                          quantile(of_finger, 0.5 * (1 + kCredible) * total));
       mode.region[finger] = as_interval(of_finger.front().s, of_finger.back().s);
     }
   }
@@ -193,15 +201,15 @@ class PairHill {
   const PairRegion& region_;
   std::vector<std::size_t> leaves_;
   const PairModel& model_;
-  std::array<double, 2> last_;
+  PerFinger<double> last_;
 };
 
 }  // namespace
 
-PairModes modes_of(const PairDensity& density, const PairModel& model, const PairReading& last) {
+PairModes modes_of(const PairDensity& density, const PairModel& model, const Reading& last) {
   struct Found {
-    PairMode mode;
-    std::vector<PairMass> mass;
+    Mode mode;
+    std::vector<Piece> pieces;
   };
   std::vector<Found> all;
   for (const PairRegion& region : density.regions) {
@@ -219,12 +227,9 @@ PairModes modes_of(const PairDensity& density, const PairModel& model, const Pai
         const PairScore& score = region.leaves[k].score;
         for (const PairGrain& grain : region.leaves[k].grains) {
           if (!(grain.share > kLeastShare)) continue;
-          found.mass.push_back({grain.s,
-                                grain.angle,
-                                {score.errors[0], score.errors[1]},
-                                score.covariance.topLeftCorner<2, 2>(),
-                                0,
-                                grain.share});
+          found.pieces.push_back({grain.s, grain.angle, grain.share,
+                                  PerFinger<double>(score.errors[0], score.errors[1]),
+                                  score.covariance.topLeftCorner<2, 2>()});
         }
       }
       all.push_back(std::move(found));
@@ -233,12 +238,9 @@ PairModes modes_of(const PairDensity& density, const PairModel& model, const Pai
   std::stable_sort(all.begin(), all.end(),
                    [](const Found& a, const Found& b) { return a.mode.probability > b.mode.probability; });
   PairModes result;
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    result.modes.push_back(all[k].mode);
-    for (PairMass& piece : all[k].mass) {
-      piece.mode = k;
-      result.mass.push_back(piece);
-    }
+  for (Found& found : all) {
+    result.modes.push_back(found.mode);
+    result.pieces.push_back(std::move(found.pieces));
   }
   return result;
 }

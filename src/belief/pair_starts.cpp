@@ -1,12 +1,11 @@
-#include "belief/pair_starts.hpp"
-
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
 
-#include "rollfix/part/period.hpp"
+#include "belief/pair_density.hpp"
+#include "rollfix/part/boundary.hpp"
 
 namespace rollfix::belief {
 
@@ -92,19 +91,9 @@ PairPeak search_around(const PairModel& model, PairPeak peak, const std::vector<
   return peak;
 }
 
-}  // namespace
+bool by_deviance(const PairPeak& one, const PairPeak& other) { return deviance(one.score) < deviance(other.score); }
 
-PairStart moved(const PairStart& start, const Eigen::Vector2d& by) {
-  PairStart next = start;
-  for (const std::size_t finger : {0U, 1U}) {
-    const TiltedArc& arc = *start.arc[finger];
-    double& w = next.w[finger];
-    w += by[static_cast<Eigen::Index>(finger)];
-    w = arc.loop() ? arc.lo() + wrap(w - arc.lo(), arc.hi() - arc.lo()).base : std::clamp(w, arc.lo(), arc.hi());
-  }
-  return next;
-}
-
+/// The first contacts at arc lengths s and t, where a finger can be there.
 std::vector<PairStart> starts_at(const PairModel& model, double s, double t) {
   struct OnArc {
     const TiltedArc* arc;
@@ -115,7 +104,7 @@ std::vector<PairStart> starts_at(const PairModel& model, double s, double t) {
     const TiltedBoundary& boundary = *model.boundary[finger];
     for (const TiltedArc& arc : boundary.arcs()) {
       const double lo = arc.at(arc.lo()).s;
-      const double from_lo = model.closed ? wrap(place - lo, model.perimeter()).base : place - lo;
+      const double from_lo = model.places.ahead(lo, place);
       // s grows with w: halve until w is found.
       double below = arc.lo();
       double above = arc.hi();
@@ -136,37 +125,40 @@ std::vector<PairStart> starts_at(const PairModel& model, double s, double t) {
   return starts;
 }
 
-std::vector<PairPeak> pair_peaks(const PairModel& model, const PairCandidates& candidates,
-                                 const std::vector<PairNode>& nodes) {
-  const std::vector<PairNode> few = some_of(nodes, kFewRows);
-  const std::vector<PairNode> very_few = some_of(nodes, kVeryFewRows);
+/// The candidates by few rows: no arc where a finger can't be there.
+std::vector<PairPeak> scored(const PairModel& model, const PairCandidates& candidates,
+                             const std::vector<PairNode>& nodes) {
   const double step = model.perimeter() / static_cast<double>(candidates.cells);
-  const auto key = [&](std::uint32_t i, std::uint32_t j) { return (static_cast<std::uint64_t>(i) << 32) | j; };
-  std::unordered_map<std::uint64_t, std::size_t> index;
-  std::vector<PairPeak> peaks(candidates.squares.size());
   // The places of all rows and columns of the grid that are in use.
   std::unordered_map<std::uint32_t, PairStart> diagonal;
-  const auto on_diagonal = [&](std::uint32_t i) -> const PairStart* {
+  const auto on_diagonal = [&](std::uint32_t i) {
     auto found = diagonal.find(i);
     if (found == diagonal.end()) {
       const double at = (static_cast<double>(i) + 0.5) * step;
       const std::vector<PairStart> starts = starts_at(model, at, at);
       found = diagonal.emplace(i, starts.empty() ? PairStart{} : starts.front()).first;
     }
-    return found->second.arc[0] == nullptr ? nullptr : &found->second;
+    return found->second;
   };
+  std::vector<PairPeak> peaks(candidates.squares.size());
   for (std::size_t k = 0; k < peaks.size(); ++k) {
-    const PairSquare& square = candidates.squares[k];
-    index[key(square.i, square.j)] = k;
-    const PairStart* a = on_diagonal(square.i);
-    if (a == nullptr) continue;
-    const PairStart of_a = *a;
-    const PairStart* b = on_diagonal(square.j);
-    if (b == nullptr) continue;
-    peaks[k].start = {{of_a.arc[0], b->arc[1]}, {of_a.w[0], b->w[1]}};
-    peaks[k].score = score_of(model, peaks[k].start, very_few, PairShared::Zero(), 1);
+    const PairStart a = on_diagonal(candidates.squares[k].i);
+    const PairStart b = on_diagonal(candidates.squares[k].j);
+    if (a.arc[0] == nullptr || b.arc[0] == nullptr) continue;
+    peaks[k].start = {{a.arc[0], b.arc[1]}, {a.w[0], b.w[1]}};
+    peaks[k].score = score_of(model, peaks[k].start, nodes, PairShared::Zero(), 1);
   }
-  std::vector<PairPeak> chosen;
+  return peaks;
+}
+
+/// The candidates that no neighbour of theirs surpasses.
+std::vector<PairPeak> best_of_neighbours(const PairModel& model, const PairCandidates& candidates,
+                                         const std::vector<PairNode>& nodes) {
+  const std::vector<PairPeak> peaks = scored(model, candidates, nodes);
+  const auto key = [](std::uint32_t i, std::uint32_t j) { return (static_cast<std::uint64_t>(i) << 32) | j; };
+  std::unordered_map<std::uint64_t, std::size_t> index;
+  for (std::size_t k = 0; k < peaks.size(); ++k) index[key(candidates.squares[k].i, candidates.squares[k].j)] = k;
+  std::vector<PairPeak> best;
   for (std::size_t k = 0; k < peaks.size(); ++k) {
     if (peaks[k].start.arc[0] == nullptr) continue;
     const PairSquare& square = candidates.squares[k];
@@ -174,7 +166,7 @@ std::vector<PairPeak> pair_peaks(const PairModel& model, const PairCandidates& c
     // An open part's last square is beside no first one: its number is of no square.
     const std::uint32_t n = candidates.cells;
     const auto stepped = [&](std::uint32_t at, std::uint32_t by) {
-      return model.closed ? (at + n + by - 1) % n : at + by - 1;
+      return model.places.closed ? (at + n + by - 1) % n : at + by - 1;
     };
     for (std::uint32_t di = 0; di < 3 && is_best; ++di) {
       for (std::uint32_t dj = 0; dj < 3 && is_best; ++dj) {
@@ -183,24 +175,18 @@ std::vector<PairPeak> pair_peaks(const PairModel& model, const PairCandidates& c
         is_best = deviance(peaks[beside->second].score) >= deviance(peaks[k].score);
       }
     }
-    if (is_best) chosen.push_back(peaks[k]);
+    if (is_best) best.push_back(peaks[k]);
   }
-  const auto by_deviance = [](const PairPeak& one, const PairPeak& other) {
-    return deviance(one.score) < deviance(other.score);
-  };
-  std::sort(chosen.begin(), chosen.end(), by_deviance);
-  if (chosen.size() > kMostStarts) chosen.resize(kMostStarts);
-  for (PairPeak& peak : chosen) {
-    peak.score = score_of(model, peak.start, few, PairShared::Zero(), 1);
-    peak = climb(model, peak, few, kCoarseSteps);
-  }
-  std::sort(chosen.begin(), chosen.end(), by_deviance);
+  return best;
+}
+
+/// Of peaks, the best first, those that may be the answer, each once. `rows`: by which they were compared.
+std::vector<PairPeak> distinct(const std::vector<PairPeak>& peaks, double rows) {
   std::vector<PairPeak> found;
-  for (PairPeak& peak : chosen) {
-    const double scale = std::max(1.0, chosen.front().score.cost / static_cast<double>(few.size()));
-    if (deviance(peak.score) > deviance(chosen.front().score) + kHopeless * scale) break;
+  for (const PairPeak& peak : peaks) {
+    const double scale = std::max(1.0, peaks.front().score.cost / rows);
+    if (deviance(peak.score) > deviance(peaks.front().score) + kHopeless * scale) break;
     if (found.size() == kMostPeaks) break;
-    // The same as one before?
     const bool is_known = std::any_of(found.begin(), found.end(), [&](const PairPeak& other) {
       if (other.start.arc != peak.start.arc) return false;
       const Eigen::Vector2d off(peak.start.w[0] - other.start.w[0], peak.start.w[1] - other.start.w[1]);
@@ -209,6 +195,34 @@ std::vector<PairPeak> pair_peaks(const PairModel& model, const PairCandidates& c
     });
     if (!is_known) found.push_back(peak);
   }
+  return found;
+}
+
+}  // namespace
+
+PairStart moved(const PairStart& start, const Eigen::Vector2d& by) {
+  PairStart next = start;
+  for (const std::size_t finger : {0U, 1U}) {
+    const TiltedArc& arc = *start.arc[finger];
+    double& w = next.w[finger];
+    w += by[static_cast<Eigen::Index>(finger)];
+    w = arc.loop() ? arc.lo() + wrap(w - arc.lo(), arc.hi() - arc.lo()).base : std::clamp(w, arc.lo(), arc.hi());
+  }
+  return next;
+}
+
+std::vector<PairPeak> pair_peaks(const PairModel& model, const PairCandidates& candidates,
+                                 const std::vector<PairNode>& nodes) {
+  const std::vector<PairNode> few = some_of(nodes, kFewRows);
+  std::vector<PairPeak> chosen = best_of_neighbours(model, candidates, some_of(nodes, kVeryFewRows));
+  std::sort(chosen.begin(), chosen.end(), by_deviance);
+  if (chosen.size() > kMostStarts) chosen.resize(kMostStarts);
+  for (PairPeak& peak : chosen) {
+    peak.score = score_of(model, peak.start, few, PairShared::Zero(), 1);
+    peak = climb(model, peak, few, kCoarseSteps);
+  }
+  std::sort(chosen.begin(), chosen.end(), by_deviance);
+  std::vector<PairPeak> found = distinct(chosen, static_cast<double>(few.size()));
   if (few.size() < nodes.size()) {
     for (PairPeak& peak : found) {
       peak.score = score_of(model, peak.start, nodes, peak.score.errors, 3);

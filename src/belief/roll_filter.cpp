@@ -1,20 +1,15 @@
-#include "belief/roll_filter.hpp"
+#include "belief/grid.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "belief/policy.hpp"
+#include "belief/posterior.hpp"
 
 namespace rollfix::belief {
 
 RollFilter::RollFilter(const TiltedArc& arc, double tilt, double w, const SharedCovariance& start)
-    : arc_(&arc),
-      tilt_(tilt),
-      w_(w),
-      place_(arc.at(w)),
-      most_scale_(std::min(kMostScale, kMostSigmas * std::sqrt(start(2, 2)))),
-      p_(start) {}
+    : arc_(&arc), tilt_(tilt), w_(w), place_(arc.at(w)), most_scale_(most_scale(start(2, 2))), p_(start) {}
 
 // The true L and theta lead from this place to another: e = s(w + theta + c L) - s(w) - L = 0, with ds/dw = m.
 // With de/dtheta = m and de/dL = c m - 1, e tells of the errors of L and theta what can be told.
@@ -44,14 +39,12 @@ void RollFilter::update(const Node& node, const Outliers& outliers) {
   double weight = 1;
   const double squared = innovation * innovation * inverse;
   if (outliers.share > 0) {
-    // A mixture: the row is right, or it says nothing.
-    const double right = (1 - outliers.share) * std::sqrt(inverse / (2 * std::numbers::pi));
     const double stray = outliers.share / outliers.range;
-    const double fits = right * std::exp(-0.5 * squared);
-    weight = fits / (fits + stray);
+    const Mixture mixture = mixture_of(outliers.share, stray, inverse, squared);
+    weight = mixture.weight;
     const double most = (1 - outliers.share) * std::sqrt(1 / (2 * std::numbers::pi * least)) + stray;
-    cost_ += -2 * std::log((fits + stray) / (right + stray));
-    log_volume_ += 2 * std::log(most / (right + stray));
+    cost_ += mixture.cost;
+    log_volume_ += 2 * std::log(most / mixture.density);
   } else {
     cost_ += squared;
     log_volume_ += std::log(variance / least);
@@ -69,7 +62,7 @@ void RollFilter::update(const Node& node, const Outliers& outliers) {
 }
 
 TiltedPlace RollFilter::after(const Reading& measured) const {
-  const Corrected roll = corrected(measured.length, measured.turn);
+  const Corrected roll = corrected(measured.length[0], measured.turn);
   return arc_->at(w_ + roll.turn + tilt_ * roll.length);
 }
 
@@ -82,7 +75,7 @@ double RollFilter::variance_of_roll(double length, const RowCovariance& own) con
 
 double RollFilter::variance_after(const Reading& measured, const RowCovariance& own) const {
   const double m = after(measured).slope;
-  return m * m * variance_of_roll(corrected(measured.length, measured.turn).length, own);
+  return m * m * variance_of_roll(corrected(measured.length[0], measured.turn).length, own);
 }
 
 }  // namespace rollfix::belief

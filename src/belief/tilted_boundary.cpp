@@ -6,12 +6,20 @@
 #include <limits>
 #include <numbers>
 
-#include "rollfix/part/period.hpp"
+#include "rollfix/part/boundary.hpp"
 
 namespace rollfix::belief {
 
 namespace {
 
+// s as a function of w need not be better than this share of what a contact is known to, nor than that of the
+// perimeter; and it is no worse than the last.
+constexpr double kShareOfNoise = 1e-3;
+constexpr double kShareOfPerimeter = 1e-9;
+constexpr double kLeastAccuracy = 1e-4;
+// A tilt that is asked for: at least as many full turns per perimeter, at most as many radians.
+constexpr double kLeastTurns = 4;
+constexpr double kMostTilt = 1e6;
 // kappa + c is at least this share of c: where it vanished, s would jump as w grows.
 constexpr double kLeastSlopeShare = 0.5;
 // Halvings of a spiral: by then a cubic is as good as the turning function.
@@ -50,6 +58,19 @@ double least_curvature(const TurningFunction& turning) {
 
 }  // namespace
 
+Buckets::Buckets(const std::vector<double>& starts, double end) : lo_(starts.front()) {
+  const std::size_t count = kBucketsPerCell * starts.size();
+  per_length_ = static_cast<double>(count) / (end - lo_);
+  first_.resize(count);
+  std::size_t at = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    // A step earlier, so that rounding can't make a number precede its bucket's.
+    const double from = lo_ + (static_cast<double>(k) - 1) / per_length_;
+    while (at + 1 < starts.size() && starts[at + 1] <= from) ++at;
+    first_[k] = at;
+  }
+}
+
 TiltedArc::Found TiltedArc::find(double w) const {
   double base = w;
   double shift = 0;
@@ -58,8 +79,7 @@ TiltedArc::Found TiltedArc::find(double w) const {
     base = lo() + wrapped.base;
     shift = wrapped.winding * perimeter_;
   }
-  const auto step = static_cast<std::size_t>(std::max(0.0, (base - lo()) * buckets_per_w_));
-  std::size_t k = bucket_[std::min(step, bucket_.size() - 1)];
+  std::size_t k = buckets_.before(base);
   while (k + 1 < cells_.size() && cells_[k + 1].w <= base) ++k;
   return {&cells_[k], base - cells_[k].w, shift};
 }
@@ -76,7 +96,7 @@ SpreadPlace TiltedArc::about(double w, double variance, double spread) const {
   if (loop_ || (w > lo() && w < hi_)) {
     const Found found = find(w);
     const TiltedPlace place = on(found);
-    const double bend = 2 * (found.cell->b + 3 * found.x * found.cell->c);
+    const double bend = 2 * (found.cell->cubic.b + 3 * found.x * found.cell->cubic.c);
     const bool is_straight = std::abs(bend) * std::sqrt(spread) <= kBend * place.slope;
     if (is_straight && found.x - reach > found.cell->kink_below && found.x + reach < found.cell->kink_above) {
       return {place.s, place.slope, 0};
@@ -100,13 +120,8 @@ void TiltedArc::join(std::size_t begin, double w) {
   while (after + 1 < cells_.size() && cells_[after + 1].w <= w) ++after;
   Cell& cut = cells_[after];
   const double x = w - cut.w;
-  cut = {w,
-         cut.s + x * (cut.a + x * (cut.b + x * cut.c)),
-         cut.a + x * (2 * cut.b + x * 3 * cut.c),
-         cut.b + 3 * x * cut.c,
-         cut.c,
-         0,
-         0};
+  const Cubic& cubic = cut.cubic;
+  cut = {w, cut.s + cubic.at(x), {cubic.slope(x), cubic.b + 3 * x * cubic.c, cubic.c}, 0, 0};
   cells_.erase(cells_.begin() + static_cast<std::ptrdiff_t>(before),
                cells_.begin() + static_cast<std::ptrdiff_t>(after));
   while (breaks_.size() > 1 && breaks_.back() >= w) breaks_.pop_back();
@@ -118,12 +133,13 @@ void TiltedArc::mark_kinks() {
     if (k == 0 && !loop_) return 0.0;
     const Cell& cell = cells_[k == 0 ? count - 1 : k - 1];
     const double x = (k == 0 ? hi_ : cells_[k].w) - cell.w;
-    return cell.a + x * (2 * cell.b + x * 3 * cell.c);
+    return cell.cubic.slope(x);
   };
   std::vector<double> kinks;
   for (std::size_t k = 0; k < count; ++k) {
     const double before = slope_before(k);
-    if (std::abs(cells_[k].a - before) > kKink * std::max(cells_[k].a, before)) kinks.push_back(cells_[k].w);
+    if (std::abs(cells_[k].cubic.a - before) > kKink * std::max(cells_[k].cubic.a, before))
+      kinks.push_back(cells_[k].w);
   }
   if (!loop_) kinks.push_back(hi_);
   if (loop_ && !kinks.empty()) {
@@ -136,20 +152,6 @@ void TiltedArc::mark_kinks() {
     const auto above = std::upper_bound(kinks.begin(), kinks.end(), cell.w);
     cell.kink_above = above == kinks.end() ? kNone : *above - cell.w;
     cell.kink_below = above == kinks.begin() ? -kNone : *(above - 1) - cell.w;
-  }
-}
-
-void TiltedArc::index() {
-  const std::size_t count = kBucketsPerCell * cells_.size();
-  const double length = hi_ - lo();
-  buckets_per_w_ = static_cast<double>(count) / length;
-  bucket_.resize(count);
-  std::size_t cell = 0;
-  for (std::size_t k = 0; k < count; ++k) {
-    // A step earlier, so that rounding can't make a place precede its bucket's cell.
-    const double start = lo() + (static_cast<double>(k) - 1) / buckets_per_w_;
-    while (cell + 1 < cells_.size() && cells_[cell + 1].w <= start) ++cell;
-    bucket_[k] = cell;
   }
 }
 
@@ -189,7 +191,7 @@ TiltedBoundary::TiltedBoundary(const Part& part, double least, double accuracy) 
     const double w = spirals[k].start.angle + winding * turning.period_turn() + tilt_ * s;
     const bool goes_on = n > 0 && jump > -kJointTurn;
     if ((goes_on || arc.loop_) && jump > kTurnAccuracy) {
-      arc.cells_.push_back({w - jump, s, 0, 0, 0, 0, 0});  // a convex corner: w grows, s stays
+      arc.cells_.push_back({w - jump, s, {}, 0, 0});  // a convex corner: w grows, s stays
       arc.breaks_.push_back(w - jump);
     }
     const std::size_t spiral_begin = arc.cells_.size();
@@ -208,7 +210,9 @@ TiltedBoundary::TiltedBoundary(const Part& part, double least, double accuracy) 
     while (arc.breaks_.back() >= arc.hi_) arc.breaks_.pop_back();
     arc.breaks_.push_back(arc.hi_);
     arc.mark_kinks();
-    arc.index();
+    std::vector<double> starts;
+    for (const TiltedArc::Cell& cell : arc.cells_) starts.push_back(cell.w);
+    arc.buckets_ = Buckets(starts, arc.hi_);
   }
 }
 
@@ -235,12 +239,9 @@ void TiltedBoundary::add_spiral(const TurningFunction& turning, const Spiral& sp
     tasks.pop_back();
     const double h = task.hi.w - task.lo.w;
     if (h <= 0) continue;
-    // Hermite's cubic through both ends with their slopes.
-    const double mean = (task.hi.s - task.lo.s) / h;
-    const double b = (3 * mean - 2 * task.lo.slope - task.hi.slope) / h;
-    const double c = (task.lo.slope + task.hi.slope - 2 * mean) / (h * h);
+    const Cubic cubic = Cubic::through(h, task.hi.s - task.lo.s, task.lo.slope, task.hi.slope);
     const double x = 0.5 * h;
-    const double guess = task.lo.s + x * (task.lo.slope + x * (b + x * c));
+    const double guess = task.lo.s + cubic.at(x);
     const double s = place_of(turning, spiral, tilt_, task.lo.w + x, task.lo.s, task.hi.s);
     if (task.depth < kMostHalvings && std::abs(guess - s) > accuracy) {
       const Turning here = turning.on_spiral(spiral, s);
@@ -249,10 +250,25 @@ void TiltedBoundary::add_spiral(const TurningFunction& turning, const Spiral& sp
       tasks.push_back({task.lo, middle, task.depth + 1});
       continue;
     }
-    arc.cells_.push_back({task.lo.w + lift, task.lo.s + shift, task.lo.slope, b, c, 0, 0});
+    arc.cells_.push_back({task.lo.w + lift, task.lo.s + shift, cubic, 0, 0});
   }
   arc.hi_ = spiral.end.angle + tilt_ * spiral.hi + lift;
   arc.end_ = spiral.hi + shift;
+}
+
+double tilt_of(double finger_curvature, double even, const Part& part) {
+  const double P = part.perimeter();
+  if (finger_curvature > 0) return finger_curvature;
+  return std::min(std::max(even, kLeastTurns * 2 * std::numbers::pi / P), kMostTilt / P);
+}
+
+double accuracy_of(double contact_sd, const Part& part) {
+  const double P = part.perimeter();
+  return std::min(std::max(kShareOfPerimeter * P, kShareOfNoise * contact_sd), kLeastAccuracy * P);
+}
+
+double corner_length(double finger_curvature, const Part& part) {
+  return finger_curvature > 0 ? 1 / finger_curvature : part.perimeter() / (2 * std::numbers::pi);
 }
 
 }  // namespace rollfix::belief

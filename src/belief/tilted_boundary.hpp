@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -7,6 +8,40 @@
 #include "rollfix/part/part.hpp"
 
 namespace rollfix::belief {
+
+/// Hermite's: from 0 at x = 0, with the slope a there.
+struct Cubic {
+  double a = 0;
+  double b = 0;
+  double c = 0;
+
+  /// Through a rise over a step, with these slopes at its ends.
+  static Cubic through(double step, double rise, double slope_lo, double slope_hi) {
+    const double mean = rise / step;
+    return {slope_lo, (3 * mean - 2 * slope_lo - slope_hi) / step, (slope_lo + slope_hi - 2 * mean) / (step * step)};
+  }
+  double at(double x) const { return x * (a + x * (b + x * c)); }
+  double slope(double x) const { return a + x * (2 * b + x * 3 * c); }
+};
+
+/// Finds the last of many growing numbers that is at or below another: nearly, at once, by equal steps.
+class Buckets {
+ public:
+  Buckets() = default;
+  /// `end`: beyond the last of them.
+  Buckets(const std::vector<double>& starts, double end);
+
+  /// No later than it, and few before it.
+  std::size_t before(double x) const {
+    const auto step = static_cast<std::size_t>(std::max(0.0, (x - lo_) * per_length_));
+    return first_[std::min(step, first_.size() - 1)];
+  }
+
+ private:
+  double lo_ = 0;
+  double per_length_ = 0;
+  std::vector<std::size_t> first_;
+};
 
 /// A place on the boundary by its tilted turning w = Theta + c s. With c above every -kappa, w grows along the
 /// boundary, also through a convex corner, where s stays: it tells all that a contact can be apart. For a disk, c = 1/r
@@ -43,13 +78,11 @@ class TiltedArc {
  private:
   friend class TiltedBoundary;
 
-  /// s = s0 + x (a + x (b + x c)), x = w - this w.
+  /// s = s0 + the cubic of w - this w.
   struct Cell {
     double w = 0;
     double s = 0;
-    double a = 0;
-    double b = 0;
-    double c = 0;
+    Cubic cubic;
     double kink_below = 0;  // the nearest places where the slope jumps, from the cell's start: at most 0, and ...
     double kink_above = 0;  // ... above it
   };
@@ -63,14 +96,11 @@ class TiltedArc {
   Found find(double w) const;
   static TiltedPlace on(const Found& found) {
     const Cell& cell = *found.cell;
-    const double x = found.x;
-    return {cell.s + x * (cell.a + x * (cell.b + x * cell.c)) + found.shift,
-            cell.a + x * (2 * cell.b + x * 3 * cell.c)};
+    return {cell.s + cell.cubic.at(found.x) + found.shift, cell.cubic.slope(found.x)};
   }
 
   /// Lets the cells from `begin` on, which go back in w, take over from the ones before at w.
   void join(std::size_t begin, double w);
-  void index();
   void mark_kinks();
 
   bool loop_ = false;
@@ -79,8 +109,7 @@ class TiltedArc {
   double end_ = 0;  // s at hi
   std::vector<Cell> cells_;
   std::vector<double> breaks_;
-  std::vector<std::size_t> bucket_;  // the cell that holds the start of each of many equal steps of w
-  double buckets_per_w_ = 0;
+  Buckets buckets_;
 };
 
 /// A part's boundary by its tilted turning.
@@ -99,5 +128,17 @@ class TiltedBoundary {
   double tilt_ = 0;
   std::vector<TiltedArc> arcs_;
 };
+
+/// The tilt to ask for: a disk's curvature; else `even`, what makes lengths and angles, as uncertain as they are, count
+/// alike.
+double tilt_of(double finger_curvature, double even, const Part& part);
+
+/// How well s as a function of w is to be known, where a contact is known to this standard deviation; length.
+double accuracy_of(double contact_sd, const Part& part);
+
+/// What a radian of pivoting counts as, length. A finger's centre goes along the boundary and, about a corner, along an
+/// arc of the finger's radius: what comes to touch by chance touches there in proportion. A flat finger, or none that
+/// is known, stands for one as large as the part.
+double corner_length(double finger_curvature, const Part& part);
 
 }  // namespace rollfix::belief

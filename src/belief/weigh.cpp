@@ -1,41 +1,51 @@
-#include "rollfix/belief/weigh.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
-#include "belief/policy.hpp"
+#include "belief/posterior.hpp"
+#include "locate/corner_sets.hpp"
 #include "part/angle.hpp"
+#include "rollfix/belief/belief.hpp"
 
 namespace rollfix {
 
 namespace {
 
-using belief::distance_to;
-using belief::kNear;
-
+// A placement of the search further than this many standard deviations from a mode is another one.
+constexpr double kNear = 3;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Curvatures at both ends of the roll decide how the start moves with the reading.
+/// One finger: curvatures at both ends of the roll decide how the start moves with the reading.
 Sensitivity sensitivity_at(const Part& part, const std::vector<Reading>& readings, double s) {
   Sensitivity sensitivity;
   for (const Reading& reading : readings) {
     const double here = part.turning().curvature(s);
-    const double there = part.turning().curvature(s + reading.length);
+    const double there = part.turning().curvature(s + reading.length[0]);
     const bool is_simple = there != here;
-    sensitivity.per_turn.push_back(is_simple ? 1 / (there - here) : kNaN);
-    sensitivity.per_length.push_back(is_simple ? -there / (there - here) : kNaN);
+    sensitivity.per_turn[0].push_back(is_simple ? 1 / (there - here) : kNaN);
+    sensitivity.per_length[0].push_back(is_simple ? -there / (there - here) : kNaN);
   }
   return sensitivity;
 }
 
-double residual_at(const Part& part, const std::vector<Reading>& readings, double s) {
+/// How far a mode's start is outside a placement's extent, in the mode's standard deviations.
+double off_placement(const Placement& placement, const Mode& mode, const Part& part) {
   double most = 0;
-  for (const Reading& reading : readings) {
-    const double turned = part.turning().angle(s + reading.length) - part.turning().angle(s);
-    most = std::max(most, std::abs(turned - reading.turn));
+  for (std::size_t finger = 0; finger < mode.start.size(); ++finger) {
+    if (placement.whole_loop[finger]) continue;
+    const double off = part.boundary().distance(placement.extent[finger], mode.start[finger]);
+    if (off > 0) most = std::max(most, off / std::max(mode.sd[finger], 1e-300));
   }
   return most;
+}
+
+bool lies_in(const PerFinger<Interval>& box, const PerFinger<double>& at, const Part& part) {
+  for (std::size_t finger = 0; finger < at.size(); ++finger) {
+    if (!part.boundary().contains(box[finger], at[finger])) return false;
+  }
+  return true;
 }
 
 /// What a mode is by itself: nothing of the search holds it.
@@ -43,7 +53,9 @@ Placement placement_of(const Mode& mode) {
   Placement placement;
   placement.kind = Kind::touching;
   placement.extent = mode.interval;
-  placement.error = std::numeric_limits<double>::infinity();
+  placement.whole_loop = PerFinger<bool>::of(mode.start.size());
+  placement.point = PerFinger<Vec2>::of(mode.start.size(), Vec2::Zero());
+  placement.error = kInfinity;
   return placement;
 }
 
@@ -51,50 +63,67 @@ Placement placement_of(const Mode& mode) {
 Placement within(const Placement& found, const Mode& mode, const Part& part) {
   Placement placement = found;
   placement.roots.clear();
-  for (const double root : found.roots) {
-    if (distance_to(mode.region, root, part) == 0) placement.roots.push_back(root);
+  for (const PerFinger<double>& root : found.roots) {
+    if (lies_in(mode.region, root, part)) placement.roots.push_back(root);
   }
-  const bool is_all =
-      distance_to(mode.region, found.extent.lo, part) == 0 && found.extent.width() <= mode.region.width();
-  if (!is_all && found.kind != Kind::corner) {
-    placement.extent = found.whole_loop || found.extent.width() > mode.region.width() ? mode.region : found.extent;
-    placement.whole_loop = false;
+  if (found.kind == Kind::corner) return placement;
+  for (std::size_t finger = 0; finger < mode.start.size(); ++finger) {
+    const Interval& region = mode.region[finger];
+    const Interval& extent = found.extent[finger];
+    const bool is_all = part.boundary().contains(region, extent.lo) && extent.width() <= region.width();
+    if (is_all) continue;
+    if (found.whole_loop[finger] || extent.width() > region.width()) placement.extent[finger] = region;
+    placement.whole_loop[finger] = false;
   }
+  return placement;
+}
+
+/// With what all samples together say of it.
+Placement with_mode(Placement placement, const Mode& mode, const Part& part) {
+  placement.start = mode.start;
+  placement.end = mode.end;
+  placement.tangent = mode.tangent;
+  for (std::size_t finger = 0; finger < mode.start.size(); ++finger) {
+    placement.point[finger] = part.point(mode.start[finger]);
+    placement.tangent[finger] = nearest_angle(mode.tangent[finger]);
+  }
+  placement.probability = mode.probability;
+  placement.mean = mode.mean;
+  placement.sd = mode.sd;
+  placement.covariance = mode.covariance;
+  placement.interval = mode.interval;
+  placement.end_mean = mode.end_mean;
+  placement.end_sd = mode.end_sd;
   return placement;
 }
 
 }  // namespace
 
-Weighed weigh(const Part& part, const std::vector<Reading>& readings, const Search& found, Belief& belief) {
+Weighed weigh(const Part& part, const std::vector<Reading>& readings, const std::optional<double>& facing,
+              const Search& found, Belief& belief) {
+  const Question question{part, readings, facing};
   Weighed weighed;
   std::vector<bool> has_mode(found.placements.size(), false);
   for (const Mode& mode : belief.modes()) {
-    std::size_t nearest = found.placements.size();
-    double least = std::numeric_limits<double>::infinity();
+    const Placement* nearest = nullptr;
+    double least = kInfinity;
     for (std::size_t k = 0; k < found.placements.size(); ++k) {
-      const double distance =
-          found.placements[k].whole_loop ? 0 : distance_to(found.placements[k].extent, mode.start, part);
-      if (distance < least) {
-        least = distance;
-        nearest = k;
+      const double off = off_placement(found.placements[k], mode, part);
+      if (off < least) {
+        least = off;
+        nearest = &found.placements[k];
       }
       // A wide mode can hold several.
-      if (distance <= kNear * mode.sd || distance_to(mode.interval, found.placements[k].start, part) == 0) {
-        has_mode[k] = true;
-      }
+      if (off <= kNear || lies_in(mode.interval, found.placements[k].start, part)) has_mode[k] = true;
     }
-    const bool is_found = nearest < found.placements.size() && least <= kNear * mode.sd;
-    Placement placement = is_found ? within(found.placements[nearest], mode, part) : placement_of(mode);
-    placement.start = mode.start;
-    placement.end = mode.end;
-    placement.point = part.point(mode.start);
-    placement.tangent = nearest_angle(mode.tangent);
-    if (placement.kind != Kind::corner) {
-      placement.residual = residual_at(part, readings, mode.start);
-      placement.sensitivity = sensitivity_at(part, readings, mode.start);
+    const bool is_found = nearest != nullptr && least <= kNear;
+    Placement placement = with_mode(is_found ? within(*nearest, mode, part) : placement_of(mode), mode, part);
+    const bool is_of_one = mode.start.size() == 1;
+    if (!is_of_one || placement.kind != Kind::corner) placement.residual = residual_at(question, mode.start);
+    if (is_of_one && placement.kind != Kind::corner) {
+      placement.sensitivity = sensitivity_at(part, readings, mode.start[0]);
     }
     weighed.placements.push_back(std::move(placement));
-    weighed.modes.push_back(mode);
   }
   for (std::size_t k = 0; k < found.placements.size(); ++k) {
     if (!has_mode[k]) weighed.improbable.push_back(found.placements[k]);
@@ -103,3 +132,118 @@ Weighed weigh(const Part& part, const std::vector<Reading>& readings, const Sear
 }
 
 }  // namespace rollfix
+
+namespace rollfix::belief {
+
+namespace {
+
+// Steps that derivatives are taken by: a share of the perimeter, and radians.
+constexpr double kSlidStep = 1e-6;
+constexpr double kAngleStep = 1e-6;
+
+/// u + psi = heading + tangent + pi/2 at each finger's contact, and the contacts are at the same places in both frames:
+/// of two fingers the middle of what they say.
+Pose pose_with(const Part& part, const Piece& piece, const PerFinger<FeltContact>& felt) {
+  const auto heading_by = [&](std::size_t finger) {
+    return felt[finger].facing - 0.5 * std::numbers::pi - piece.tangent[finger];
+  };
+  Pose pose{0, 0, heading_by(0)};
+  if (felt.size() == 2) pose.heading += 0.5 * nearest_angle(heading_by(1) - heading_by(0));
+  const double share = 1 / static_cast<double>(felt.size());
+  for (std::size_t finger = 0; finger < felt.size(); ++finger) {
+    const Vec2 origin = felt[finger].where - pose.turned(part.point(piece.s[finger]));
+    pose.x += share * origin.x();
+    pose.y += share * origin.y();
+  }
+  return pose;
+}
+
+/// A contact that is felt this far along the finger from where it is, counter-clockwise, with the finger's orientation
+/// off by this angle.
+FeltContact moved(const FeltContact& contact, double along, double angle) {
+  FeltContact off = contact;
+  const double turn = along * contact.finger_curvature + angle;
+  off.facing += turn;
+  const Vec2 tangent(-std::sin(contact.facing), std::cos(contact.facing));
+  const double radius = contact.finger_curvature > 0 ? 1 / contact.finger_curvature : 0;
+  off.where += (along + radius * angle) * tangent;
+  return off;
+}
+
+/// Where the contacts were, as far as all the samples tell.
+PerFinger<FeltContact> told(const PerFinger<FeltContact>& felt, const Piece& piece) {
+  PerFinger<FeltContact> contacts = felt;
+  if (felt.size() == 1) return contacts;
+  for (std::size_t finger = 0; finger < felt.size(); ++finger) {
+    contacts[finger] = moved(felt[finger], piece.slid[finger], 0);
+  }
+  return contacts;
+}
+
+Eigen::Vector3d off(const Pose& pose, const Pose& reference) {
+  return {pose.x - reference.x, pose.y - reference.y, nearest_angle(pose.heading - reference.heading)};
+}
+
+/// What the sensors' own errors add at one finger's first contact. The contact's moves it along the tangent and turns
+/// the normal, the orientation's turns it about the contact.
+Eigen::Matrix3d sensors_of_one(const FeltContact& felt, const Pose& mean, const Noise& noise) {
+  const Vec2 arm = felt.where - Vec2(mean.x, mean.y);  // from the contact to the origin, turned back
+  const Eigen::Vector3d by_turn(arm.y(), -arm.x(), 1);
+  const Eigen::Vector3d along(-std::sin(felt.facing), std::cos(felt.facing), 0);  // counter-clockwise
+  const Eigen::Vector3d by_contact = along + felt.finger_curvature * by_turn;
+  Eigen::Vector3d by_angle = by_turn;
+  if (felt.finger_curvature > 0) by_angle += along / felt.finger_curvature;
+  return noise.contact * noise.contact * by_contact * by_contact.transpose() +
+         noise.angle * noise.angle * by_angle * by_angle.transpose();
+}
+
+/// How the pose changes with what each of two fingers slid at first, and with the error of its orientation.
+struct PoseSlopes {
+  Eigen::Matrix<double, 3, 2> by_slid = Eigen::Matrix<double, 3, 2>::Zero();
+  Eigen::Matrix<double, 3, 2> by_angle = Eigen::Matrix<double, 3, 2>::Zero();
+};
+
+PoseSlopes slopes_of_two(const Part& part, const Piece& at, const PerFinger<FeltContact>& felt) {
+  const double step = kSlidStep * part.perimeter();
+  const Pose reference = pose_with(part, at, told(felt, at));
+  PoseSlopes slopes;
+  for (std::size_t finger = 0; finger < felt.size(); ++finger) {
+    const auto column = static_cast<Eigen::Index>(finger);
+    PerFinger<FeltContact> contacts = told(felt, at);
+    contacts[finger] = moved(felt[finger], at.slid[finger] + step, 0);
+    slopes.by_slid.col(column) = off(pose_with(part, at, contacts), reference) / step;
+    contacts[finger] = moved(felt[finger], at.slid[finger], kAngleStep);
+    slopes.by_angle.col(column) = off(pose_with(part, at, contacts), reference) / kAngleStep;
+  }
+  return slopes;
+}
+
+}  // namespace
+
+PoseSpread pose_spread_of(const Part& part, const std::vector<Piece>& pieces, const PerFinger<FeltContact>& felt,
+                          const Noise& noise) {
+  if (pieces.empty()) return {};
+  const bool is_one = felt.size() == 1;
+  const Pose reference = pose_with(part, pieces.front(), told(felt, pieces.front()));
+  const PoseSlopes slopes = is_one ? PoseSlopes{} : slopes_of_two(part, pieces.front(), felt);
+  double total = 0;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  for (const Piece& piece : pieces) {
+    const Eigen::Vector3d by = off(pose_with(part, piece, told(felt, piece)), reference);
+    total += piece.share;
+    sum += piece.share * by;
+    squares +=
+        piece.share * (by * by.transpose() + slopes.by_slid * piece.slid_covariance * slopes.by_slid.transpose());
+  }
+  const Eigen::Vector3d mean = total > 0 ? Eigen::Vector3d(sum / total) : Eigen::Vector3d::Zero();
+  PoseSpread spread;
+  spread.mean = {reference.x + mean.x(), reference.y + mean.y(), nearest_angle(reference.heading) + mean.z()};
+  if (total > 0) spread.covariance = squares / total - mean * mean.transpose();
+  spread.covariance += is_one
+                           ? sensors_of_one(felt[0], spread.mean, noise)
+                           : Eigen::Matrix3d(noise.angle * noise.angle * slopes.by_angle * slopes.by_angle.transpose());
+  return spread;
+}
+
+}  // namespace rollfix::belief

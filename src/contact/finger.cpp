@@ -104,7 +104,7 @@ Reading reading_between(const Finger& finger, const Contact& first, const Contac
 }
 
 Contact contact_after(const Finger& finger, const Contact& first, const Reading& reading) {
-  const double rolled = reading.length / finger.length_per_u();
+  const double rolled = reading.length[0] / finger.length_per_u();
   const double u = first.u - rolled;
   const double turned = finger.is_disk() ? rolled : finger.normal(first.u) - finger.normal(u);
   return {u, first.psi + (reading.turn + turned)};
@@ -124,7 +124,9 @@ Vec2 centre_of(const Finger& finger, const Vec2& point, const Contact& contact) 
 }
 
 Reading in_stored_direction(const Reading& as_given, const Part& part) {
-  return {part.reversed() ? -as_given.length : as_given.length, as_given.turn};
+  Reading stored = as_given;
+  for (double& length : stored.length) length = part.reversed() ? -length : length;
+  return stored;
 }
 
 }  // namespace rollfix

@@ -21,7 +21,7 @@ constexpr double kAboutLength = 0.25;   // ... and fingers whose radius is not q
 constexpr double kSpareLength = 1e-6;   // of the perimeter, of rule 1
 
 std::string step_text(const Reading& step, std::size_t line) {
-  return fmt::format("the length changes by {:.6g} and the turn by {:.6g} deg since line {}", step.length,
+  return fmt::format("the length changes by {:.6g} and the turn by {:.6g} deg since line {}", step.length[0],
                      step.turn / kDegree, line);
 }
 
@@ -53,7 +53,7 @@ JumpWatch::JumpWatch(const Part& part, const StepError& error) : part_(part), er
 std::optional<std::string> JumpWatch::look(std::size_t line, const Reading& before, const Reading& now,
                                            const std::optional<double>& time) {
   const bool is_first = last_line_ == 0;
-  const Reading step{now.length - before.length, now.turn - before.turn};
+  const Reading step{now.length[0] - before.length[0], now.turn - before.turn};
   const std::size_t line_before = last_line_;
   const double duration = time && last_time_ ? *time - *last_time_ : 1;
   const bool may_be_far = may_be_far_;
@@ -64,7 +64,7 @@ std::optional<std::string> JumpWatch::look(std::size_t line, const Reading& befo
 
   if (auto why = impossible(step)) return step_text(step, line_before) + *why;
   // In laps and turns, so that neither a pivot nor a straight side counts as rest.
-  const double laps = step.length / part_.perimeter();
+  const double laps = step.length[0] / part_.perimeter();
   const double size = 2 * std::numbers::pi * std::abs(laps) + std::abs(step.turn);
   const double noise = 2 * std::numbers::pi * error_.length / part_.perimeter() + error_.turn;
   if (!may_be_far && size > noise && is_sudden(size / duration) && !is_explained(step)) {
@@ -78,7 +78,7 @@ std::optional<std::string> JumpWatch::look(std::size_t line, const Reading& befo
 /// Rules 1 and 2.
 std::optional<std::string> JumpWatch::impossible(const Reading& step) const {
   const double perimeter = part_.perimeter();
-  const double length = std::abs(step.length) / (1 + error_.share);
+  const double length = std::abs(step.length[0]) / (1 + error_.share);
   if (!part_.closed() && length > (1 + kSpareLength) * perimeter + error_.length) {
     return fmt::format(", but the open outline is only {:.6g} long", perimeter);
   }
@@ -103,15 +103,15 @@ void JumpWatch::remember(double size) { recent_[steps_++ % kRecent] = size; }
 
 /// Whether the part has a stretch of about this length that turns by about this much.
 bool JumpWatch::is_explained(const Reading& step) const {
-  const double length = std::abs(step.length);
+  const double length = std::abs(step.length[0]);
   if (length > part_.perimeter() * (1 + error_.share) + error_.length) return false;
   const double share = kAboutLength + error_.share;
   const Interval lengths{std::max(0.0, length / (1 + share) - error_.length), length * (1 + share) + error_.length};
   const double slack = kAboutTurn + error_.turn;
   const Interval turns = turns_.of(lengths);
   const auto is_within = [&](double turn) { return turn >= turns.lo - slack && turn <= turns.hi + slack; };
-  if (is_within(step.length < 0 ? -step.turn : step.turn)) return true;
-  return lengths.lo == 0 && is_within(step.length < 0 ? step.turn : -step.turn);
+  if (is_within(step.length[0] < 0 ? -step.turn : step.turn)) return true;
+  return lengths.lo == 0 && is_within(step.length[0] < 0 ? step.turn : -step.turn);
 }
 
 }  // namespace rollfix

@@ -106,7 +106,7 @@ Reading Odometer::add(const LogRow& row) {
     return is_first_contact ? Reading{} : Reading{length_.add(row.place.value), turn_.add(row.angle.value)};
   }
   if (is_first_contact) start_ = {row.place.value, row.angle.value};
-  return {row.place.value - start_.length, row.angle.value - start_.turn};
+  return {row.place.value - start_.length[0], row.angle.value - start_.turn};
 }
 
 LogRows::LogRows(const std::string& name, const Columns& columns, bool is_later_roll)
@@ -123,7 +123,7 @@ void LogRows::add(const LogRow& row, const std::optional<double>& time) {
     log_.psi.push_back(row.angle.value);
   } else {
     const Reading reading = odometer_.add(row);
-    log_.length.push_back(reading.length);
+    log_.length.push_back(reading.length[0]);
     log_.turn.push_back(reading.turn);
   }
   if (time) log_.time.push_back(*time);

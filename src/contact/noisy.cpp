@@ -118,13 +118,13 @@ NoisyIncrements noisy_increments(const Part& part, double start, double length, 
   for (std::size_t row = 1; row <= rows; ++row) {
     const double s = start + length * (static_cast<double>(row) / static_cast<double>(rows));
     const double next = part.turning().angle(s);
-    sum.length += length / static_cast<double>(rows) / (1 + result.error.slip) + normal.next(noise.contact);
+    sum.length[0] += length / static_cast<double>(rows) / (1 + result.error.slip) + normal.next(noise.contact);
     sum.turn += (next - angle) + normal.next(noise.angle);
     angle = next;
     result.s.push_back(s);
     // Along the outline as the user gave it, as everything that is not of u and psi.
     const Reading as_given = in_stored_direction(sum, part);
-    result.log.length.push_back(as_given.length);
+    result.log.length.push_back(as_given.length[0]);
     result.log.turn.push_back(as_given.turn);
   }
   return result;

@@ -140,26 +140,26 @@ std::vector<std::size_t> rows_at(const PairLog& log, const std::vector<double>& 
   return {middle, last};
 }
 
-std::vector<PairReading> readings_as_given(const PairLog& log, const std::optional<FingerPair>& fingers) {
+std::vector<Reading> readings_as_given(const PairLog& log, const std::optional<FingerPair>& fingers) {
   const std::vector<Reading> a = readings_as_given(log.a, one_of(fingers, 0));
   const std::vector<Reading> b = readings_as_given(log.b, one_of(fingers, 1));
-  std::vector<PairReading> result;
+  std::vector<Reading> result;
   result.reserve(a.size());
-  for (std::size_t k = 0; k < a.size(); ++k) result.push_back({a[k].length, b[k].length, a[k].turn - b[k].turn});
+  for (std::size_t k = 0; k < a.size(); ++k) result.push_back({a[k].length[0], b[k].length[0], a[k].turn - b[k].turn});
   return result;
 }
 
-std::vector<PairReading> readings(const PairLog& log, const Part& part, const std::optional<FingerPair>& fingers,
-                                  const std::vector<double>& times) {
-  const std::vector<PairReading> all = readings_as_given(log, fingers);
+std::vector<Reading> readings(const PairLog& log, const Part& part, const std::optional<FingerPair>& fingers,
+                              const std::vector<double>& times) {
+  const std::vector<Reading> all = readings_as_given(log, fingers);
   // As of one finger: u and psi do not know how the outline was drawn, and turns are the same either way.
   const bool is_turned_round = part.reversed() && log.a.kind != LogKind::contact;
-  std::vector<PairReading> result;
+  std::vector<Reading> result;
   for (const std::size_t row : rows_at(log, times)) {
     result.push_back(all[row]);
     if (!is_turned_round) continue;
-    result.back().length_a = -result.back().length_a;
-    result.back().length_b = -result.back().length_b;
+    result.back().length[0] = -result.back().length[0];
+    result.back().length[1] = -result.back().length[1];
   }
   return result;
 }

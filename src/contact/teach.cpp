@@ -46,7 +46,7 @@ Rows rows_of(const Log& log, const std::optional<DiskFinger>& finger) {
   rows.readings = readings_as_given(log, finger);
   const bool has_first_contact = log.kind == LogKind::contact;
   if (!has_first_contact) rows.readings.insert(rows.readings.begin(), Reading{0, 0});
-  rows.backwards = rows.readings.back().length < 0;
+  rows.backwards = rows.readings.back().length[0] < 0;
   if (rows.backwards) std::reverse(rows.readings.begin(), rows.readings.end());
   return rows;
 }
@@ -94,7 +94,7 @@ class Teacher {
   }
 
   void find_runs() {
-    const double rolled = rows_.readings.back().length - rows_.readings.front().length;
+    const double rolled = rows_.readings.back().length[0] - rows_.readings.front().length[0];
     if (!(rolled > 0) || !std::isfinite(rolled))
       refuse(fmt::format("expected a roll around a part, found one of length {}", rolled));
     for (const Reading& reading : rows_.readings) {

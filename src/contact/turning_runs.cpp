@@ -29,19 +29,19 @@ struct Stop {
 
 std::vector<Stop> stops_of(const std::vector<Reading>& readings, double limit) {
   std::vector<Stop> stops;
-  double farthest = readings.front().length;
+  double farthest = readings.front().length[0];
   for (std::size_t k = 0; k < readings.size();) {
-    const double start = readings[k].length;
+    const double start = readings[k].length[0];
     Stop stop{0, readings[k].turn, readings[k].turn, 0, false};
     std::size_t count = 0;
-    for (; k < readings.size() && readings[k].length - start <= limit; ++k, ++count) {
-      if (readings[k].length < farthest - kMostBack * limit) {
+    for (; k < readings.size() && readings[k].length[0] - start <= limit; ++k, ++count) {
+      if (readings[k].length[0] < farthest - kMostBack * limit) {
         throw InputError(
             fmt::format("expected a roll that goes one way round, found that it goes back from length {:.9g} to {:.9g}",
-                        farthest, readings[k].length));
+                        farthest, readings[k].length[0]));
       }
-      farthest = std::max(farthest, readings[k].length);
-      stop.s += readings[k].length;
+      farthest = std::max(farthest, readings[k].length[0]);
+      stop.s += readings[k].length[0];
       stop.mean += readings[k].turn;
       stop.last = readings[k].turn;
     }

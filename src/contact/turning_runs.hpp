@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "rollfix/locate/reading.hpp"
+#include "rollfix/contact/reading.hpp"
 
 namespace rollfix {
 

@@ -1,4 +1,4 @@
-#include "rollfix/draw/pair_figure.hpp"
+#include "rollfix/draw/answer_figure.hpp"
 
 #include <fmt/format.h>
 
@@ -31,16 +31,16 @@ class PairPicture {
       : plan_(plan),
         legend_(pair_legend(plan)),
         drawing_end_(kHeaderHeight + drawing_height(plan.framing)),
-        svg_(plan.figure->width, drawing_end_ + legend_.height() + 8),
+        svg_(width_of(*plan.figure), drawing_end_ + legend_.height() + 8),
         scene_(make_scene(plan.part(), plan.framing, Vec2(0, kHeaderHeight))),
         clearance_(scene_.boundary),
         obstacles_(scene_.area.max().x(), drawing_end_),
         pen_(svg_, scene_, clearance_, obstacles_) {}
 
   Svg draw() {
-    const PairFigure& figure = *plan_.figure;
-    draw_header(svg_, figure.title.empty() ? plan_.part().name() : figure.title,
-                figure.verdict.empty() ? figure.found.verdict() : figure.verdict, small_print());
+    const AnswerFigure& figure = *plan_.figure;
+    draw_header(svg_, figure.title.empty() ? plan_.part().name() : figure.title, figure.answer->verdict.text(),
+                small_print());
     svg_.open_clip(scene_.area.min().x(), scene_.area.min().y(), scene_.area.sizes().x(), scene_.area.sizes().y());
     draw_material(svg_, scene_, plan_.part());
     bands();
@@ -76,7 +76,7 @@ class PairPicture {
   void bands() {
     for (std::size_t finger = 0; finger < 2; ++finger) {
       std::vector<Interval> drawn;  // several placements may have one in common
-      for (const PairPlacement& placement : plan_.placements()) {
+      for (const Placement& placement : plan_.placements()) {
         const Interval& extent = placement.extent[finger];
         // All of a loop needs no band: the square says so.
         if (placement.whole_loop[finger] || scene_.pixels(extent.width()) <= kVisibleExtent) continue;
@@ -96,9 +96,9 @@ class PairPicture {
 
   void fingers() {
     for (std::size_t finger = 0; plan_.shown && finger < 2; ++finger) {
-      if (!plan_.figure->finger_radius[finger]) continue;
-      const double radius = *plan_.figure->finger_radius[finger];
-      const PairPlacement& placement = plan_.placements()[*plan_.shown];
+      if (!radius_of(*plan_.figure, finger)) continue;
+      const double radius = *radius_of(*plan_.figure, finger);
+      const Placement& placement = plan_.placements()[*plan_.shown];
       const double start = placement.start[finger];
       // The spoke is fixed to the finger; at the first contact it points at the part.
       const double inward = placement.tangent[finger] + 0.5 * std::numbers::pi;
@@ -201,11 +201,11 @@ class PairPicture {
 };
 
 }  // namespace
-}  // namespace draw
 
-Svg draw_pairs(const PairFigure& figure) {
-  const draw::PairPlan plan = draw::plan_of(figure);
-  return draw::PairPicture(plan).draw();
+Svg draw_pairs(const AnswerFigure& figure) {
+  const PairPlan plan = pair_plan_of(figure);
+  return PairPicture(plan).draw();
 }
 
+}  // namespace draw
 }  // namespace rollfix

@@ -26,24 +26,15 @@ constexpr double kPlaneBelow = 42;
 constexpr double kPlaneRight = 16;
 constexpr std::array<std::string_view, kMostLines> kLineColours = {kPalette[2], kPalette[10], kPalette[5], kPalette[4]};
 
-void check(const PairFigure& figure) {
-  if (figure.part == nullptr) throw InputError("a figure of pairs needs a part, found none: set PairFigure::part");
-  const std::size_t count = figure.found.placements.size();
-  if (figure.highlight && *figure.highlight >= count) {
-    throw InputError(fmt::format("a figure's highlight must be the index of one of its {} placements, found {}", count,
-                                 *figure.highlight));
-  }
-}
-
-std::vector<Reading> readings_of(const PairFigure& figure, std::size_t finger) {
+std::vector<Reading> readings_of(const AnswerFigure& figure, std::size_t finger) {
   std::vector<Reading> readings;
-  for (const PairReading& reading : figure.readings) {
-    readings.push_back({finger == 0 ? reading.length_a : reading.length_b, reading.turn});
+  for (const Reading& reading : figure.answer->readings) {
+    readings.push_back({finger == 0 ? reading.length[0] : reading.length[1], reading.turn});
   }
   return readings;
 }
 
-std::vector<PairLine> lines_of(const PairFigure& figure) {
+std::vector<PairLine> lines_of(const AnswerFigure& figure) {
   std::vector<PairLine> lines;
   const auto add = [&](std::optional<std::size_t> reading, const std::string& index) {
     if (lines.size() == kMostLines) return;
@@ -51,14 +42,14 @@ std::vector<PairLine> lines_of(const PairFigure& figure) {
     lines.push_back(
         {reading, kLineColours[lines.size()], dash, {{"f", true, false, false}, {index, false, false, true}}});
   };
-  if (figure.facing) add({}, "0");
-  for (std::size_t k = 0; k < figure.readings.size(); ++k) add(k, std::to_string(k + 1));
+  if (figure.answer->facing) add({}, "0");
+  for (std::size_t k = 0; k < figure.answer->readings.size(); ++k) add(k, std::to_string(k + 1));
   return lines;
 }
 
 Lanes lanes_of(const PairPlan& plan, double part_size) {
   std::vector<Interval> stretches;
-  const PairPoint& start = plan.placements()[*plan.shown].start;
+  const PerFinger<double>& start = plan.placements()[*plan.shown].start;
   for (std::size_t finger = 0; finger < 2; ++finger) {
     const Interval& hull = plan.rolls[finger].hull;
     stretches.push_back({start[finger] + hull.lo, start[finger] + hull.hi});
@@ -89,16 +80,16 @@ Text line_text(const PairPlan& plan, const PairLine& line) {
   Text text = line.name;
   text.push_back({" = 0: "});
   if (!line.reading) {
-    text.push_back({"facing " + pretty_degrees(*plan.figure->facing)});
+    text.push_back({"facing " + pretty_degrees(*plan.figure->answer->facing)});
     return text;
   }
-  const PairReading& reading = plan.figure->readings[*line.reading];
+  const Reading& reading = plan.figure->answer->readings[*line.reading];
   text.push_back({"L", true, false, false});
   text.push_back({"a", false, false, true});
-  text.push_back({" = " + pretty(reading.length_a) + ", "});
+  text.push_back({" = " + pretty(reading.length[0]) + ", "});
   text.push_back({"L", true, false, false});
   text.push_back({"b", false, false, true});
-  text.push_back({" = " + pretty(reading.length_b) + ", "});
+  text.push_back({" = " + pretty(reading.length[1]) + ", "});
   text.push_back({"\u03b8", true, false, false});
   text.push_back({" = " + pretty_degrees(std::abs(reading.turn) < kTurnAccuracy ? 0 : reading.turn)});
   return text;
@@ -114,27 +105,26 @@ double PairPlan::offset(std::size_t finger, const Run& run, double travelled) co
 }
 
 bool PairPlan::is_named(std::size_t k) const {
-  const std::size_t count = figure->readings.size() + 1;
+  const std::size_t count = figure->answer->readings.size() + 1;
   return count <= kMostNamed || k == 0 || k + 1 == count;
 }
 
-PairPlan plan_of(const PairFigure& figure) {
-  check(figure);
+PairPlan pair_plan_of(const AnswerFigure& figure) {
   PairPlan plan;
   plan.figure = &figure;
   plan.shown = figure.highlight;
-  if (!plan.shown && !figure.found.placements.empty()) plan.shown = 0;
-  const double side = kPlaneShare * figure.width;
-  plan.framing.width = figure.width - side - kPlaneLeft - kPlaneRight;
+  if (!plan.shown && !figure.answer->placements.empty()) plan.shown = 0;
+  const double side = kPlaneShare * width_of(figure);
+  plan.framing.width = width_of(figure) - side - kPlaneLeft - kPlaneRight;
   plan.framing.least_height = side + kPlaneAbove + kPlaneBelow;
-  plan.framing.most_height = std::max(0.7 * figure.width, plan.framing.least_height);
-  plan.framing.part = part_bounds(*figure.part);
+  plan.framing.most_height = std::max(0.7 * width_of(figure), plan.framing.least_height);
+  plan.framing.part = part_bounds(figure.answer->part);
   for (std::size_t finger = 0; finger < 2; ++finger) {
     plan.rolls[finger] = roll_of(readings_of(figure, finger), plan.part().boundary());
-    if (!plan.shown || !figure.finger_radius[finger]) continue;
-    const PairPlacement& placement = plan.placements()[*plan.shown];
+    if (!plan.shown || !radius_of(figure, finger)) continue;
+    const Placement& placement = plan.placements()[*plan.shown];
     for (const double s : {placement.start[finger], placement.end[finger]}) {
-      include_finger(plan.framing.extras, plan.framing.part, plan.part(), s, *figure.finger_radius[finger]);
+      include_finger(plan.framing.extras, plan.framing.part, plan.part(), s, *radius_of(figure, finger));
     }
   }
   if (plan.shown) plan.lanes = lanes_of(plan, plan.framing.part.sizes().maxCoeff());
@@ -157,7 +147,7 @@ Legend pair_legend(const PairPlan& plan) {
     entries.push_back({Sign::line, kFingerColours[finger], finger_text(plan, finger)});
   }
   for (const PairLine& line : plan.lines) entries.push_back({Sign::line, line.colour, line_text(plan, line)});
-  return {std::move(entries), plan.figure->width};
+  return {std::move(entries), width_of(*plan.figure)};
 }
 
 }  // namespace rollfix::draw

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "answer_figure.hpp"
 #include "legend.hpp"
 #include "plot.hpp"
-#include "rollfix/draw/pair_figure.hpp"
 #include "rolls.hpp"
 #include "scene.hpp"
 
@@ -25,7 +25,7 @@ struct PairLine {
 
 /// Everything about a figure of pairs that is decided before it is drawn.
 struct PairPlan {
-  const PairFigure* figure = nullptr;
+  const AnswerFigure* figure = nullptr;
   std::optional<std::size_t> shown;  // the placement whose rolls are drawn
   std::array<Roll, 2> rolls;         // of either finger
   Lanes lanes;                       // of the shown placement's two rolls
@@ -33,8 +33,8 @@ struct PairPlan {
   Axes plane;                        // of the pairs, at the right
   std::vector<PairLine> lines;       // what the plane shows
 
-  const Part& part() const { return *figure->part; }
-  const std::vector<PairPlacement>& placements() const { return figure->found.placements; }
+  const Part& part() const { return figure->answer->part; }
+  const std::vector<Placement>& placements() const { return figure->answer->placements; }
   bool has_numbers() const;
 
   /// Distance in pixels from the boundary of a run of the shown placement, `travelled` along the run.
@@ -44,7 +44,10 @@ struct PairPlan {
 };
 
 /// Throws InputError: no part, or a highlight that is out of range. The figure has to outlive the plan.
-PairPlan plan_of(const PairFigure& figure);
+PairPlan pair_plan_of(const AnswerFigure& figure);
+
+/// The figure of two fingers.
+Svg draw_pairs(const AnswerFigure& figure);
 
 inline constexpr std::array<std::string_view, 2> kFingerColours = {kPalette[0], kPalette[1]};
 

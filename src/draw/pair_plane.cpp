@@ -32,7 +32,7 @@ class PlanePicture {
     draw_axes(svg_, axes_, ticks, ticks, {{"pairs of first contacts that fit each equation"}}, "");
     names();
     svg_.open_clip(axes_.corner.x() - 1, axes_.corner.y() - 1, axes_.size.x() + 2, axes_.size.y() + 2);
-    for (const PairPlacement& placement : plan_.placements()) wide(placement);
+    for (const Placement& placement : plan_.placements()) wide(placement);
     for (const PairLine& line : plan_.lines) draw_line(line);
     unresolved();
     svg_.close_group();
@@ -91,18 +91,18 @@ class PlanePicture {
     const TurningFunction& turning = plan_.part().turning();
     svg_.open_group("equation");
     if (line.reading) {
-      const PairReading& reading = plan_.figure->readings[*line.reading];
+      const Reading& reading = plan_.figure->answer->readings[*line.reading];
       const auto turn = [&](double length) {
         return [&turning, length](double s) { return turning.angle(s + length) - turning.angle(s); };
       };
-      draw_level(sample(room_[0], turn(reading.length_a)), sample(room_[1], turn(reading.length_b)), reading.turn,
+      draw_level(sample(room_[0], turn(reading.length[0])), sample(room_[1], turn(reading.length[1])), reading.turn,
                  line);
     } else {
       const auto angle = [&](double s) { return turning.angle(s); };
       const Samples g = sample(room_[0], angle), h = sample(room_[1], angle);
       const auto [least_g, most_g] = std::minmax_element(g.value.begin(), g.value.end());
       const auto [least_h, most_h] = std::minmax_element(h.value.begin(), h.value.end());
-      const double turn = 2 * std::numbers::pi, facing = *plan_.figure->facing;
+      const double turn = 2 * std::numbers::pi, facing = *plan_.figure->answer->facing;
       for (double k = std::ceil((*least_g - *most_h - facing) / turn); facing + turn * k <= *most_g - *least_h; ++k) {
         draw_level(g, h, facing + turn * k, line);
       }
@@ -125,8 +125,8 @@ class PlanePicture {
   // ---- placements
 
   /// What is more than a point: a stretch's line, or a box around a wide extent, also of a stretch that is no line.
-  void wide(const PairPlacement& placement) {
-    const PairBox& extent = placement.extent;
+  void wide(const Placement& placement) {
+    const PerFinger<Interval>& extent = placement.extent;
     Box box;
     box.extend(axes_(extent[0].lo, extent[1].hi));
     box.extend(axes_(extent[0].hi, extent[1].lo));
@@ -138,7 +138,7 @@ class PlanePicture {
       fill(box);
     } else {
       std::vector<Vec2> path;
-      for (const PairPoint& pair : placement.family) path.emplace_back(axes_(pair[0], pair[1]));
+      for (const PerFinger<double>& pair : placement.family) path.emplace_back(axes_(pair[0], pair[1]));
       band(path);
     }
     svg_.close_group();
@@ -181,7 +181,7 @@ class PlanePicture {
   void unresolved() {
     Paint paint = stroke(kSoftInk, 1);
     paint.dash = "2 3";
-    for (const PairBox& box : plan_.figure->found.unresolved) {
+    for (const PerFinger<Interval>& box : plan_.figure->answer->unresolved) {
       const Vec2 lo = axes_(box[0].lo, box[1].hi), size = axes_(box[0].hi, box[1].lo) - lo;
       svg_.open_group("unresolved");
       svg_.rectangle(lo.x(), lo.y(), std::max(size.x(), 3.0), std::max(size.y(), 3.0), paint);
@@ -201,7 +201,7 @@ class PlanePicture {
   }
 
   void dot(std::size_t i) {
-    const PairPoint& start = plan_.placements()[i].start;
+    const PerFinger<double>& start = plan_.placements()[i].start;
     const Vec2 at = axes_(start[0], start[1]);
     const bool shown = plan_.shown == i;
     Paint paint = stroke(shown ? kInk : std::string_view("#ffffff"), shown ? 1.6 : 0.6);
@@ -218,7 +218,7 @@ class PlanePicture {
     obstacles_.add_box({0, end.y() + 1}, {svg_.width(), svg_.height()});
     LabelSet labels;
     for (std::size_t i = 0; i < plan_.placements().size(); ++i) {
-      const PairPoint& start = plan_.placements()[i].start;
+      const PerFinger<double>& start = plan_.placements()[i].start;
       labels.add({axes_(start[0], start[1])}, Vec2(std::numbers::sqrt2 / 2, -std::numbers::sqrt2 / 2),
                  {{std::to_string(i), false, true, false}}, kInk, kPlaneNumberSize);
     }

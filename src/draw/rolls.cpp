@@ -22,14 +22,15 @@ Roll roll_of(const std::vector<Reading>& readings, const Boundary& boundary) {
   Roll roll;
   double at = 0;
   for (const Reading& reading : readings) {
-    roll.contacts.push_back(reading.length);
-    roll.hull.lo = std::min(roll.hull.lo, reading.length);
-    roll.hull.hi = std::max(roll.hull.hi, reading.length);
+    roll.contacts.push_back(reading.length[0]);
+    roll.hull.lo = std::min(roll.hull.lo, reading.length[0]);
+    roll.hull.hi = std::max(roll.hull.hi, reading.length[0]);
     if (reading.length == at) continue;
-    const bool goes_on = !roll.runs.empty() && (reading.length > at) == (roll.runs.back().to > roll.runs.back().from);
+    const bool goes_on =
+        !roll.runs.empty() && (reading.length[0] > at) == (roll.runs.back().to > roll.runs.back().from);
     if (!goes_on) roll.runs.push_back({at, at, 0});
-    roll.runs.back().to = reading.length;
-    at = reading.length;
+    roll.runs.back().to = reading.length[0];
+    at = reading.length[0];
   }
   roll.tangled = roll.runs.size() > kMostRuns;
   if (roll.tangled) {

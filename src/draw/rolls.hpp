@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "rollfix/locate/reading.hpp"
+#include "rollfix/contact/reading.hpp"
 #include "rollfix/part/boundary.hpp"
 
 namespace rollfix::draw {

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "outline/turn.hpp"
 
 namespace rollfix {
 namespace {
@@ -21,9 +24,28 @@ const Corner* corner_at(const Part& part, double base) {
   return next != corners.end() && std::abs(next->s - base) <= same_place ? &*next : nullptr;
 }
 
-/// The tangents at the start for which a reading fits to within `slack`.
-Interval starts(const AngleSet& end, double turn, double slack) {
-  return {end.angles.lo - turn - slack, end.angles.hi - turn + slack};
+/// What to try of a set, one at a time: a pivot's interval, or the one or two values at a smooth point or a concave
+/// corner.
+std::vector<Interval> choices(const AngleSet& set) {
+  if (set.concave) return {{set.angles.lo, set.angles.lo}, {set.angles.hi, set.angles.hi}};
+  return {set.angles};
+}
+
+/// The tangent at a contact, of two fingers a's less b's.
+std::vector<Interval> tangents_at(const Part& part, const PerFinger<double>& at) {
+  const std::vector<Interval> of_a = choices(angle_set(part, at[0]));
+  if (at.size() == 1) return of_a;
+  std::vector<Interval> differences;
+  for (const Interval& a : of_a) {
+    for (const Interval& b : choices(angle_set(part, at[1]))) differences.push_back({a.lo - b.hi, a.hi - b.lo});
+  }
+  return differences;
+}
+
+PerFinger<double> ends_of(const PerFinger<double>& at, const Reading& reading) {
+  PerFinger<double> ends = at;
+  for (std::size_t finger = 0; finger < at.size(); ++finger) ends[finger] += reading.length[finger];
+  return ends;
 }
 
 struct Fit {
@@ -34,13 +56,11 @@ struct Fit {
 /// The least slack for which all the readings and the start's own set have a tangent in common: on a line, sets meet
 /// when each two of them do.
 Fit fit(const Interval& start, const std::vector<Interval>& wanted) {
-  Fit best;
-  best.residual = 0;
+  Fit best{0, start};
   for (const Interval& one : wanted) {
     best.residual = std::max({best.residual, one.lo - start.hi, start.lo - one.hi});
     for (const Interval& other : wanted) best.residual = std::max(best.residual, 0.5 * (one.lo - other.hi));
   }
-  best.start = start;
   for (const Interval& one : wanted) {
     best.start.lo = std::max(best.start.lo, one.lo - best.residual);
     best.start.hi = std::min(best.start.hi, one.hi + best.residual);
@@ -49,42 +69,56 @@ Fit fit(const Interval& start, const std::vector<Interval>& wanted) {
   return best;
 }
 
-Fit best_fit(const Part& part, const std::vector<Reading>& readings, double s) {
-  const AngleSet start = angle_set(part, s);
+/// With w the start's tangent, f_k = Theta(s + L_k) - theta_k - w; of two fingers w = Theta(s) - Theta(t).
+Fit best_fit(const Question& question, const PerFinger<double>& at) {
   // One-sided ends at a concave corner make several combinations; each is tried.
   std::vector<std::vector<Interval>> combinations(1);
-  for (const Reading& reading : readings) {
-    const AngleSet end = angle_set(part, s + reading.length);
-    const std::vector<Interval> ends = choices(end);
+  for (const Reading& reading : question.readings) {
     std::vector<std::vector<Interval>> longer;
-    for (const std::vector<Interval>& shorter : combinations) {
-      for (const Interval& one : ends) {
+    for (const Interval& end : tangents_at(question.part, ends_of(at, reading))) {
+      for (const std::vector<Interval>& shorter : combinations) {
         longer.push_back(shorter);
-        longer.back().push_back(starts({one, false, false}, reading.turn, 0));
+        longer.back().push_back({end.lo - reading.turn, end.hi - reading.turn});
       }
     }
     combinations = std::move(longer);
   }
   Fit best;
-  for (const Interval& tangents : choices(start)) {
-    for (const std::vector<Interval>& wanted : combinations) {
-      const Fit one = fit(tangents, wanted);
+  for (const Interval& start : tangents_at(question.part, at)) {
+    for (std::vector<Interval> wanted : combinations) {
+      if (question.facing) {
+        const double laps = std::round((start.middle() - *question.facing) / kFullTurn);
+        wanted.push_back({*question.facing + laps * kFullTurn, *question.facing + laps * kFullTurn});
+      }
+      const Fit one = fit(start, wanted);
       if (one.residual < best.residual) best = one;
     }
   }
   return best;
 }
 
-}  // namespace
-
-std::vector<Interval> choices(const AngleSet& set) {
-  if (set.concave) return {{set.angles.lo, set.angles.lo}, {set.angles.hi, set.angles.hi}};
-  return {set.angles};
+/// Where there are no corners.
+double smooth_residual(const Question& question, const PerFinger<double>& at) {
+  const auto tangent = [&](const PerFinger<double>& contacts) {
+    const double of_a = question.part.turning().angle(contacts[0]);
+    return contacts.size() == 1 ? of_a : of_a - question.part.turning().angle(contacts[1]);
+  };
+  const double start = tangent(at);
+  double largest = question.facing ? std::abs(std::remainder(start - *question.facing, kFullTurn)) : 0;
+  for (const Reading& reading : question.readings) {
+    const double end = tangent(ends_of(at, reading));
+    // One finger's in the order of the sets above, so that a part with corners far away has the same bits.
+    const double off = at.size() == 1 ? end - reading.turn - start : end - start - reading.turn;
+    largest = std::max(largest, std::abs(off));
+  }
+  return largest;
 }
+
+}  // namespace
 
 AngleSet angle_set(const Part& part, double s) {
   const TurningFunction& turning = part.turning();
-  const Wrapped place = part.closed() ? wrap(s, part.perimeter()) : Wrapped{s, 0};
+  const Wrapped place = part.boundary().reduced(s);
   const Corner* corner = corner_at(part, place.base);
   if (corner == nullptr) {
     const double angle = turning.angle(s, !part.closed() && s >= part.perimeter() ? Side::before : Side::after);
@@ -96,16 +130,23 @@ AngleSet angle_set(const Part& part, double s) {
   return {{std::min(before, after), std::max(before, after)}, !corner->is_concave(), corner->is_concave()};
 }
 
-double residual_at(const Part& part, const std::vector<Reading>& readings, double s) {
-  return best_fit(part, readings, s).residual;
+double residual_at(const Question& question, const PerFinger<double>& at) {
+  return question.part.corners().empty() ? smooth_residual(question, at) : best_fit(question, at).residual;
 }
 
-Pivot pivot_at(const Part& part, const std::vector<Reading>& readings, double s) {
-  const Interval start = best_fit(part, readings, s).start;
-  const Reading& last = readings.back();
-  const AngleSet end = angle_set(part, s + last.length);
-  const auto inside = [&](double angle) { return std::clamp(angle, end.angles.lo, end.angles.hi); };
-  return {start, {inside(start.lo + last.turn), inside(start.hi + last.turn)}};
+PerFinger<Pivot> pivots_at(const Question& question, const PerFinger<double>& at) {
+  const Reading& last = question.readings.back();
+  const PerFinger<double> ends = ends_of(at, last);
+  PerFinger<Pivot> pivots = PerFinger<Pivot>::of(at.size());
+  for (std::size_t finger = 0; finger < at.size(); ++finger) {
+    pivots[finger] = {angle_set(question.part, at[finger]).angles, angle_set(question.part, ends[finger]).angles};
+  }
+  if (at.size() == 2) return pivots;
+  // One finger's start and end tell of each other.
+  const Interval start = best_fit(question, at).start;
+  const Interval end = pivots[0].end;
+  const auto inside = [&](double angle) { return std::clamp(angle, end.lo, end.hi); };
+  return Pivot{start, {inside(start.lo + last.turn), inside(start.hi + last.turn)}};
 }
 
 }  // namespace rollfix

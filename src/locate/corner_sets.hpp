@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate/placement.hpp"
+#include "rollfix/part/part.hpp"
 
 namespace rollfix {
 
@@ -18,15 +20,22 @@ struct AngleSet {
 /// Theta at s as a set. Places within kLengthAccuracy * P of a corner are at it.
 AngleSet angle_set(const Part& part, double s);
 
-/// What to try of a set, one at a time: a pivot's interval, or the one or two values at a smooth point or a concave
-/// corner.
-std::vector<Interval> choices(const AngleSet& set);
+/// What is asked of first contacts: f_k = 0 for each reading, and of two fingers the facing equation where it is known.
+struct Question {
+  const Part& part;
+  const std::vector<Reading>& readings;
+  std::optional<double> facing{};
 
-/// How far 0 is from f(s) = Theta(s + L) - Theta(s) - theta, corners taken as sets; all readings share the start's
-/// tangent. This is the residual of s: the largest |f_k| for the best choice within the pivots.
-double residual_at(const Part& part, const std::vector<Reading>& readings, double s);
+  std::size_t fingers() const { return readings.front().fingers(); }
+  std::size_t rows() const { return readings.size() + (facing ? 1 : 0); }
+  bool is_overdetermined() const { return rows() > fingers(); }
+};
 
-/// The tangents at the first and the last contact that a start at s leaves possible.
-Pivot pivot_at(const Part& part, const std::vector<Reading>& readings, double s);
+/// The largest |f_k| at these first contacts, the facing equation's included, corners taken as sets: for the best
+/// choice within the pivots, those of the first contacts being the same for all readings.
+double residual_at(const Question& question, const PerFinger<double>& at);
+
+/// The tangents at the first and the last contacts that starts at `at` leave possible.
+PerFinger<Pivot> pivots_at(const Question& question, const PerFinger<double>& at);
 
 }  // namespace rollfix

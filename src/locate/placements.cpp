@@ -1,328 +1,244 @@
 #include "placements.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
+#include <utility>
 
 #include "accuracy.hpp"
-#include "corner_sets.hpp"
+#include "outline/turn.hpp"
 
 namespace rollfix {
 namespace {
 
-// A place known to this share of the perimeter is known as well as it can be.
-constexpr double kPolished = 1e-14;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-using Roots = std::vector<Root>;
-
-/// Pieces that touch, and the roots in them. lo <= hi, hi beyond P where it reaches across s = 0.
-struct Cluster {
-  double lo = 0;
-  double hi = 0;
-  bool exact = false;
-  bool whole_loop = false;
-  Roots roots;
-};
-
-std::vector<Cluster> join(const Part& part, std::vector<Piece>& pieces) {
-  const double same_place = kLengthAccuracy * part.perimeter();
-  const auto earlier = [](const Piece& one, const Piece& two) { return one.lo < two.lo; };
-  if (!std::is_sorted(pieces.begin(), pieces.end(), earlier)) std::sort(pieces.begin(), pieces.end(), earlier);
-  std::vector<Cluster> clusters;
-  clusters.reserve(pieces.size());
-  for (const Piece& piece : pieces) {
-    if (clusters.empty() || piece.lo > clusters.back().hi + same_place) {
-      clusters.push_back({piece.lo, piece.hi, piece.exact, false, {}});
-    } else {
-      clusters.back().hi = std::max(clusters.back().hi, piece.hi);
-      clusters.back().exact |= piece.exact;
-    }
+/// Curvatures whose differences the slopes are: below kNoSlope times them a slope is rounding.
+double curvature_scale(const Question& question, const SlopeSample* samples) {
+  double scale = 0;
+  for (std::size_t k = 0; k < question.readings.size(); ++k) {
+    double start = 1 / question.part.perimeter();
+    double end = 0;
+    for (const double curvature : samples[k].start_curvature) start += std::abs(curvature);
+    for (const double curvature : samples[k].end_curvature) end += std::abs(curvature);
+    scale = std::max(scale, question.fingers() == 1 ? start + end : std::max(start, end));
   }
-  if (clusters.empty() || !part.closed()) return clusters;
-  const double period = part.perimeter();
-  const bool joined = clusters.front().lo <= same_place && clusters.back().hi >= period - same_place;
-  if (joined && clusters.size() == 1) {
-    Cluster& only = clusters.front();
-    only.whole_loop = only.hi - only.lo >= period - 2 * same_place;
-    if (only.whole_loop) only = {0, period, only.exact, true, {}};
-  } else if (joined) {
-    clusters.back().hi = period + clusters.front().hi;
-    clusters.back().exact |= clusters.front().exact;
-    clusters.erase(clusters.begin());
-  }
-  return clusters;
+  return scale;
 }
 
-void hand_out(const Part& part, const std::vector<Root>& roots, std::vector<Cluster>& clusters) {
-  const double same_place = kLengthAccuracy * part.perimeter();
-  for (const Root& root : roots) {
-    for (Cluster& cluster : clusters) {
-      Root shifted = root;
-      if (part.closed() && root.s < cluster.lo - same_place) shifted.s += part.perimeter();
-      if (shifted.s >= cluster.lo - same_place && shifted.s <= cluster.hi + same_place) {
-        cluster.roots.push_back(shifted);
-        break;
+/// ds/dtheta = 1 / (kappa(t) - kappa(s)), ds/dL = -kappa(t) / (kappa(t) - kappa(s)), of several readings by least
+/// squares.
+void describe_slopes_of_one(const Question& question, const SlopeSample* samples, Placement& placement) {
+  double square = 0;
+  const auto slope = [&](std::size_t k) { return samples[k].end_curvature[0] - samples[k].start_curvature[0]; };
+  for (std::size_t k = 0; k < question.readings.size(); ++k) square += slope(k) * slope(k);
+  const double size = std::sqrt(square);
+  if (!(size > kNoSlope * curvature_scale(question, samples))) return;
+  placement.error = std::max(kRootLength * question.part.perimeter(), kRootTurn / size);
+  for (std::size_t k = 0; k < question.readings.size(); ++k) {
+    placement.sensitivity.per_turn[0].push_back(slope(k) / square);
+    placement.sensitivity.per_length[0].push_back(-samples[k].end_curvature[0] * slope(k) / square);
+  }
+}
+
+/// J by rows [kappa(s_k) - kappa(s0), -(kappa(t_k) - kappa(t0))], the facing row [kappa(s0), -kappa(t0)] last.
+void describe_slopes_of_two(const Question& question, const SlopeSample* samples, Placement& placement) {
+  const std::size_t count = question.readings.size();
+  const auto rows = static_cast<Eigen::Index>(question.rows());
+  Eigen::Matrix<double, Eigen::Dynamic, 2> jacobian(rows, 2);
+  const PerFinger<double>& start = samples[0].start_curvature;
+  for (std::size_t k = 0; k < count; ++k) {
+    const PerFinger<double>& end = samples[k].end_curvature;
+    jacobian.row(static_cast<Eigen::Index>(k)) << end[0] - start[0], -(end[1] - start[1]);
+  }
+  if (question.facing) jacobian.row(rows - 1) << start[0], -start[1];
+  const Eigen::Matrix2d normal = jacobian.transpose() * jacobian;
+  // The least singular value from trace and determinant: no more than two columns.
+  const double trace = normal.trace();
+  const double determinant = normal.determinant();
+  const double largest = 0.5 * trace + std::sqrt(std::max(0.0, 0.25 * trace * trace - determinant));
+  const double smallest = largest > 0 ? std::sqrt(std::max(0.0, determinant / largest)) : 0;
+  if (!(smallest > kNoSlope * curvature_scale(question, samples))) return;
+  const Eigen::Matrix<double, 2, Eigen::Dynamic> inverse = normal.inverse() * jacobian.transpose();
+  placement.error = std::max(kRootLength * question.part.perimeter(), kRootTurn / smallest);
+  Sensitivity& sensitivity = placement.sensitivity;
+  sensitivity = {PerFinger<ShortList<double>>::of(2), PerFinger<ShortList<PerFinger<double>>>::of(2), {0.0, 0.0}};
+  for (const std::size_t finger : {0U, 1U}) {
+    const auto row = static_cast<Eigen::Index>(finger);
+    for (std::size_t k = 0; k < count; ++k) {
+      // d/dtheta_k = J^-1 e_k, d/dLa_k = -kappa(s_k) J^-1 e_k, d/dLb_k = kappa(t_k) J^-1 e_k
+      const double by_turn = inverse(row, static_cast<Eigen::Index>(k));
+      const PerFinger<double>& end = samples[k].end_curvature;
+      sensitivity.per_turn[finger].push_back(by_turn);
+      sensitivity.per_length[finger].push_back({-end[0] * by_turn, end[1] * by_turn});
+    }
+    if (question.facing) sensitivity.per_facing[finger] = inverse(row, rows - 1);
+  }
+}
+
+/// Which contacts stand at a convex corner.
+class CornerContacts {
+ public:
+  CornerContacts(const Question& question, const PerFinger<double>& at) {
+    for (std::size_t finger = 0; finger < at.size(); ++finger) {
+      first_[finger] = angle_set(question.part, at[finger]).pivot;
+      for (const Reading& reading : question.readings) {
+        last_[finger].push_back(angle_set(question.part, at[finger] + reading.length[finger]).pivot);
       }
     }
   }
-  for (Cluster& cluster : clusters) {
-    std::sort(cluster.roots.begin(), cluster.roots.end(),
-              [](const Root& one, const Root& two) { return one.s < two.s; });
-  }
-}
 
-class PlacementMaker {
- public:
-  PlacementMaker(const Part& part, const std::vector<Reading>& readings)
-      : part_(part), turning_(part.turning()), readings_(readings), period_(part.perimeter()) {}
-
-  Placement make(const Cluster& cluster) const {
-    if (readings_.size() == 1 && cluster.roots.size() == 1 && cluster.roots.front().crossing && !cluster.whole_loop) {
-      return make_crossing(cluster);
-    }
-    Placement placement;
-    const Roots roots = exact_roots(cluster);
-    const Root start = roots.empty() ? nearest_miss(cluster) : roots.front();
-    place(start.s, placement);
-    placement.kind = kind_of(cluster, roots, start);
-    placement.extent = extent_of(cluster);
-    placement.whole_loop = cluster.whole_loop;
-    for (const Root& root : roots) placement.roots.push_back(canonical(root.s));
-    placement.residual = residual_at(part_, readings_, start.s);
-    if (placement.kind == Kind::corner) {
-      describe_corner(start.s, placement);
-    } else {
-      placement.tangent = part_.tangent(placement.start);
-      std::vector<ResidualSample> samples;
-      for (const Reading& reading : readings_) samples.push_back(sample(reading, start.s));
-      describe_slopes(samples.data(), placement);
-    }
-    return placement;
+  bool at_start(std::size_t finger) const { return first_[finger]; }
+  bool at_end(std::size_t finger, std::size_t reading) const { return last_[finger][reading]; }
+  bool holds(std::size_t finger) const {
+    return first_[finger] || std::find(last_[finger].begin(), last_[finger].end(), true) != last_[finger].end();
   }
+  std::size_t readings() const { return last_[0].size(); }
 
  private:
-  /// By far the most frequent answer: one reading, one simple root.
-  Placement make_crossing(const Cluster& cluster) const {
-    const ResidualSample& root = cluster.roots.front().sample;
-    Placement placement;
-    place(cluster.roots.front().s, placement);
-    placement.kind = Kind::crossing;
-    placement.extent = extent_of(cluster);
-    placement.roots.push_back(placement.start);
-    placement.residual = std::abs(root.value);
-    placement.tangent = part_.tangent(placement.start);
-    describe_slopes(&root, placement);
-    return placement;
-  }
-
-  // ---- where ----
-
-  double canonical(double s) const {
-    if (!part_.closed()) return std::clamp(s, 0.0, period_);
-    const double base = wrap(s, period_).base;
-    return period_ - base <= kLengthAccuracy * period_ ? 0 : base;
-  }
-
-  void place(double s, Placement& placement) const {
-    placement.start = canonical(s);
-    placement.end = canonical(s + readings_.back().length);
-    placement.point = part_.point(placement.start);
-  }
-
-  Interval extent_of(const Cluster& cluster) const {
-    if (cluster.whole_loop) return {0, period_};
-    if (!part_.closed()) return {std::max(cluster.lo, 0.0), std::min(cluster.hi, period_)};
-    double lo = wrap(cluster.lo, period_).base;
-    const double width = cluster.hi - cluster.lo;
-    if (width == 0 && period_ - lo <= kLengthAccuracy * period_) lo = 0;
-    return {lo, lo + width};
-  }
-
-  // ---- roots ----
-
-  ResidualSample sample(const Reading& reading, double s) const {
-    const Turning at_start = turning_.at(s);
-    const Turning at_end = turning_.at(s + reading.length);
-    return {s, at_end.angle - at_start.angle - reading.turn, at_start.curvature, at_end.curvature};
-  }
-
-  /// The places in a cluster where every reading's f is 0, each once.
-  Roots exact_roots(const Cluster& cluster) const {
-    Roots found;
-    for (const Root& root : cluster.roots) {
-      Root candidate = root;
-      if (readings_.size() == 1) {
-        if (!root.exact) continue;
-      } else {
-        if (root.crossing) candidate.s = polished_together(root.s, cluster);
-        if (residual_at(part_, readings_, candidate.s) > kRootTurn) continue;
-      }
-      if (!found.empty() && same_root(found.back(), candidate)) {
-        found.back().crossing &= candidate.crossing;
-        found.back().corner |= candidate.corner;
-        continue;
-      }
-      found.push_back(candidate);
-      if (cluster.exact) break;  // the rest is its continuum
-    }
-    return found;
-  }
-
-  /// Least squares over all the readings: the steepest decide.
-  double polished_together(double s, const Cluster& cluster) const {
-    for (int round = 0; round < 3; ++round) {
-      double normal = 0;
-      double right = 0;
-      for (const Reading& reading : readings_) {
-        const ResidualSample at = sample(reading, s);
-        normal += at.slope() * at.slope();
-        right -= at.slope() * at.value;
-      }
-      const double next = s + right / normal;
-      if (!(next >= cluster.lo && next <= cluster.hi)) break;
-      s = next;
-    }
-    return s;
-  }
-
-  /// Between two finds of one root f does not leave 0.
-  bool same_root(const Root& one, const Root& two) const {
-    if (two.s - one.s <= kLengthAccuracy * period_) return true;
-    return two.s - one.s <= 1e-6 * period_ && residual_at(part_, readings_, 0.5 * (one.s + two.s)) <= kTurnAccuracy;
-  }
-
-  /// Where the largest |f| is least: at an extremum, at a joint, or at an end of the cluster; for several readings
-  /// also where two of them are equally far off.
-  Root nearest_miss(const Cluster& cluster) const {
-    Root best;
-    double least = kInfinity;
-    const auto consider = [&](double s, bool corner) {
-      const double residual = residual_at(part_, readings_, s);
-      if (residual < least) {
-        least = residual;
-        best = {s, false, corner};
-      }
-    };
-    consider(cluster.lo, false);
-    consider(cluster.hi, false);
-    for (const Root& root : cluster.roots) consider(root.s, root.corner);
-    if (readings_.size() > 1) consider(golden_section(cluster), false);
-    return best;
-  }
-
-  double golden_section(const Cluster& cluster) const {
-    constexpr double kRatio = 0.6180339887498949;
-    double lo = cluster.lo;
-    double hi = cluster.hi;
-    double inner_lo = hi - kRatio * (hi - lo);
-    double inner_hi = lo + kRatio * (hi - lo);
-    double value_lo = residual_at(part_, readings_, inner_lo);
-    double value_hi = residual_at(part_, readings_, inner_hi);
-    while (hi - lo > kPolished * period_) {
-      if (value_lo <= value_hi) {
-        hi = inner_hi;
-        inner_hi = inner_lo;
-        value_hi = value_lo;
-        inner_lo = hi - kRatio * (hi - lo);
-        value_lo = residual_at(part_, readings_, inner_lo);
-      } else {
-        lo = inner_lo;
-        inner_lo = inner_hi;
-        value_lo = value_hi;
-        inner_hi = lo + kRatio * (hi - lo);
-        value_hi = residual_at(part_, readings_, inner_hi);
-      }
-      if (!(inner_lo > lo && inner_hi < hi)) break;
-    }
-    return 0.5 * (lo + hi);
-  }
-
-  // ---- what kind ----
-
-  Kind kind_of(const Cluster& cluster, const Roots& roots, const Root& start) const {
-    if (cluster.exact) return Kind::stretch;
-    if (start.corner) return Kind::corner;
-    if (roots.size() == 1 && roots.front().crossing && !cluster.whole_loop) return Kind::crossing;
-    if (cluster.whole_loop) return roots.empty() ? Kind::touching : Kind::crossing;
-    for (const Reading& reading : readings_) {
-      if (changes_sign(reading, cluster)) return Kind::crossing;
-    }
-    return Kind::touching;
-  }
-
-  /// Does f have opposite signs at the two ends of the cluster? An end where it is 0 is an end of the boundary: there a
-  /// root with a slope counts.
-  bool changes_sign(const Reading& reading, const Cluster& cluster) const {
-    const double lo = one_sided(reading, cluster.lo, Side::after);
-    const double hi = one_sided(reading, cluster.hi, Side::before);
-    if (std::abs(lo) > kTurnAccuracy && std::abs(hi) > kTurnAccuracy) return (lo < 0) != (hi < 0);
-    const ResidualSample end = sample(reading, std::abs(lo) < std::abs(hi) ? cluster.lo : cluster.hi);
-    return std::abs(hi - lo) > kTurnAccuracy && std::abs(end.slope()) > slope_noise(end);
-  }
-
-  double slope_noise(const ResidualSample& at) const {
-    return kNoSlope * (std::abs(at.start_curvature) + std::abs(at.end_curvature) + 1 / period_);
-  }
-
-  double one_sided(const Reading& reading, double s, Side side) const {
-    return turning_.angle(s + reading.length, side) - turning_.angle(s, side) - reading.turn;
-  }
-
-  // ---- how sure ----
-
-  /// `samples`: one per reading, at the start.
-  void describe_slopes(const ResidualSample* samples, Placement& placement) const {
-    double sum = 0;
-    double noise = 0;
-    for (std::size_t k = 0; k < readings_.size(); ++k) {
-      const ResidualSample& at = samples[k];
-      sum += at.slope() * at.slope();
-      noise = std::max(noise, slope_noise(at));
-    }
-    const bool simple = placement.kind == Kind::crossing && std::sqrt(sum) > noise;
-    placement.error = simple ? std::max(kRootLength * period_, kRootTurn / std::sqrt(sum)) : kInfinity;
-    for (std::size_t k = 0; k < readings_.size(); ++k) {
-      const ResidualSample& at = samples[k];
-      placement.sensitivity.per_turn.push_back(simple ? at.slope() / sum : kNaN);
-      placement.sensitivity.per_length.push_back(simple ? -at.end_curvature * at.slope() / sum : kNaN);
-    }
-  }
-
-  /// A corner at the start holds the start; one at the end holds the end, so that the start follows L alone.
-  void describe_corner(double s, Placement& placement) const {
-    placement.error = kRootLength * period_;
-    placement.pivot = pivot_at(part_, readings_, s);
-    placement.tangent = std::remainder(placement.pivot->start.middle(), 2 * std::numbers::pi);
-    const bool at_start = angle_set(part_, s).pivot;
-    for (const Reading& reading : readings_) {
-      const bool at_end = angle_set(part_, s + reading.length).pivot;
-      placement.sensitivity.per_turn.push_back(at_start && at_end ? kNaN : 0);
-      placement.sensitivity.per_length.push_back(at_start ? (at_end ? kNaN : 0) : (at_end ? -1 : 0));
-    }
-  }
-
-  const Part& part_;
-  const TurningFunction& turning_;
-  const std::vector<Reading>& readings_;
-  double period_;
+  std::array<bool, 2> first_{};
+  std::array<std::vector<bool>, 2> last_;
 };
+
+void describe_held(const CornerContacts& contacts, std::size_t finger, Sensitivity& sensitivity) {
+  const bool start = contacts.at_start(finger);
+  for (std::size_t k = 0; k < contacts.readings(); ++k) {
+    const bool end = contacts.at_end(finger, k);
+    PerFinger<double> per_length = PerFinger<double>::of(sensitivity.per_turn.size());
+    per_length[finger] = start ? (end ? kNaN : 0) : (end ? -1 : 0);
+    sensitivity.per_turn[finger].push_back(start && end ? kNaN : 0);
+    sensitivity.per_length[finger].push_back(per_length);
+  }
+}
+
+/// The other finger of two is held. Readings whose other end pivots tell nothing; a pivot w of the other's first
+/// contact is one more unknown: with sign +1 for finger a and -1 for b
+///   sign (kappa(s_k) - kappa(s0)) ds + w = dtheta_k - sum over both of sign kappa_k dL_k,  sign kappa(s0) ds - w = dC.
+void describe_free(const Question& question, const PerFinger<double>& at, const CornerContacts& contacts,
+                   std::size_t finger, Sensitivity& sensitivity) {
+  const std::size_t other = 1 - finger;
+  const std::size_t count = question.readings.size();
+  const double sign = finger == 0 ? 1 : -1;
+  const bool pivots = contacts.at_start(other);
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(question.rows()), pivots ? 2 : 1);
+  Eigen::VectorXd of_other = Eigen::VectorXd::Zero(rows.rows());  // by the other finger's start
+  std::vector<SlopeSample> samples;
+  for (std::size_t k = 0; k < count; ++k) {
+    samples.push_back(slope_sample(question.part, question.readings[k], at));
+    if (contacts.at_end(other, k)) continue;
+    const SlopeSample& sample = samples.back();
+    const auto row = static_cast<Eigen::Index>(k);
+    rows(row, 0) = sign * (sample.end_curvature[finger] - sample.start_curvature[finger]);
+    if (pivots) rows(row, 1) = 1;
+    of_other[row] = -sign * (sample.end_curvature[other] - sample.start_curvature[other]);
+  }
+  if (question.facing) {
+    rows(rows.rows() - 1, 0) = sign * samples[0].start_curvature[finger];
+    if (pivots) rows(rows.rows() - 1, 1) = -1;
+    of_other[rows.rows() - 1] = -sign * samples[0].start_curvature[other];
+  }
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows);
+  qr.setThreshold(kNoSlope);
+  if (qr.rank() < rows.cols()) rows.setConstant(kNaN);
+  const Eigen::VectorXd inverse = (rows.transpose() * rows).inverse().row(0) * rows.transpose();
+  for (std::size_t k = 0; k < count; ++k) {
+    const double by_turn = inverse[static_cast<Eigen::Index>(k)];
+    PerFinger<double> per_length(0.0, 0.0);
+    per_length[finger] = -sign * samples[k].end_curvature[finger] * by_turn;
+    per_length[other] = contacts.at_end(other, k) ? inverse.dot(of_other)  // there dt = -dL
+                                                  : sign * samples[k].end_curvature[other] * by_turn;
+    sensitivity.per_turn[finger].push_back(by_turn);
+    sensitivity.per_length[finger].push_back(per_length);
+  }
+  if (question.facing) sensitivity.per_facing[finger] = inverse[rows.rows() - 1];
+}
 
 }  // namespace
 
-std::vector<Placement> make_placements(const Part& part, const std::vector<Reading>& readings,
-                                       std::vector<Piece> pieces, const std::vector<Root>& roots) {
-  std::vector<Cluster> clusters = join(part, pieces);
-  hand_out(part, roots, clusters);
-  const PlacementMaker maker(part, readings);
-  std::vector<Placement> placements;
-  placements.reserve(clusters.size());
-  for (const Cluster& cluster : clusters) placements.push_back(maker.make(cluster));
-  std::sort(placements.begin(), placements.end(),
-            [](const Placement& one, const Placement& two) { return one.start < two.start; });
-  return placements;
+SlopeSample slope_sample(const Part& part, const Reading& reading, const PerFinger<double>& at) {
+  SlopeSample sample{-reading.turn, at, at};
+  for (std::size_t finger = 0; finger < at.size(); ++finger) {
+    const Turning start = part.turning().at(at[finger]);
+    const Turning end = part.turning().at(at[finger] + reading.length[finger]);
+    sample.value += (finger == 0 ? 1 : -1) * (end.angle - start.angle);
+    sample.start_curvature[finger] = start.curvature;
+    sample.end_curvature[finger] = end.curvature;
+  }
+  return sample;
+}
+
+void describe_slopes(const Question& question, const SlopeSample* samples, Placement& placement) {
+  placement.error = kInfinity;
+  if (placement.kind != Kind::crossing) return;
+  if (question.fingers() == 1) {
+    describe_slopes_of_one(question, samples, placement);
+  } else {
+    describe_slopes_of_two(question, samples, placement);
+  }
+}
+
+void PlacementMaker::make(FoundSet&& found, Placement& placement, const SlopeSample* sample) const {
+  const Boundary boundary = question_.part.boundary();
+  placement.kind = found.kind;
+  place(found.start, placement);
+  placement.whole_loop = found.whole_loop;
+  placement.extent = found.extent;
+  for (std::size_t finger = 0; finger < question_.fingers(); ++finger) {
+    const Interval& extent = found.extent[finger];
+    placement.extent[finger] = found.whole_loop[finger] ? boundary.full_arc() : boundary.arc(extent.lo, extent.hi);
+  }
+  for (PerFinger<double> root : found.roots) {
+    for (double& s : root) s = boundary.canonical(s);
+    placement.roots.push_back(root);
+  }
+  placement.family = std::move(found.family);
+  placement.family_error = found.family_error;
+  placement.residual = sample != nullptr ? std::abs(sample->value) : residual_at(question_, found.start);
+  if (placement.kind == Kind::corner) {
+    describe_corner(found, placement);
+  } else if (sample != nullptr) {
+    describe_slopes(question_, sample, placement);
+  } else {
+    std::vector<SlopeSample> samples;
+    for (const Reading& reading : question_.readings) {
+      samples.push_back(slope_sample(question_.part, reading, found.start));
+    }
+    describe_slopes(question_, samples.data(), placement);
+  }
+}
+
+void PlacementMaker::place(const PerFinger<double>& start, Placement& placement) const {
+  const Reading& last = question_.readings.back();
+  placement.start = placement.end = placement.tangent = start;
+  if (start.size() == 2) placement.point = {Vec2(), Vec2()};
+  for (std::size_t finger = 0; finger < start.size(); ++finger) {
+    placement.start[finger] = question_.part.boundary().canonical(start[finger]);
+    placement.end[finger] = question_.part.boundary().canonical(start[finger] + last.length[finger]);
+    placement.point[finger] = question_.part.point(placement.start[finger]);
+    placement.tangent[finger] = question_.part.tangent(placement.start[finger]);
+  }
+}
+
+/// A contact that stands at a corner holds its finger: at the start the start, at the end the end, so that the start
+/// follows L alone. What a held finger leaves open tells where the other one is.
+void PlacementMaker::describe_corner(const FoundSet& found, Placement& placement) const {
+  const std::size_t fingers = question_.fingers();
+  placement.error = kRootLength * question_.part.perimeter();
+  placement.pivot = pivots_at(question_, found.start);
+  if (fingers == 1) placement.tangent = std::remainder((*placement.pivot)[0].start.middle(), kFullTurn);
+  placement.sensitivity = {PerFinger<ShortList<double>>::of(fingers),
+                           PerFinger<ShortList<PerFinger<double>>>::of(fingers), PerFinger<double>::of(fingers)};
+  const CornerContacts contacts(question_, found.start);
+  for (std::size_t finger = 0; finger < fingers; ++finger) {
+    if (fingers == 1 || contacts.holds(finger)) {
+      describe_held(contacts, finger, placement.sensitivity);
+    } else if (contacts.holds(1 - finger)) {
+      describe_free(question_, found.start, contacts, finger, placement.sensitivity);
+    }
+  }
 }
 
 }  // namespace rollfix

@@ -2,13 +2,49 @@
 
 #include <vector>
 
-#include "root_search.hpp"
+#include "corner_sets.hpp"
+#include "rollfix/locate/placement.hpp"
 
 namespace rollfix {
 
-/// Joins pieces that touch into connected sets (across s = 0 on a closed outline), one placement each, and says
-/// what kind of answer each is. `pieces` and `roots` in any order, of all readings together.
-std::vector<Placement> make_placements(const Part& part, const std::vector<Reading>& readings,
-                                       std::vector<Piece> pieces, const std::vector<Root>& roots);
+/// A connected set of first contacts, as either search leaves it.
+struct FoundSet {
+  Kind kind = Kind::crossing;
+  PerFinger<double> start;             // the first root, else where the residual is least; not wrapped
+  PerFinger<Interval> extent;          // not wrapped
+  PerFinger<bool> whole_loop;          // the extent is all of a closed boundary
+  ShortList<PerFinger<double>> roots;  // not wrapped
+  std::vector<PerFinger<double>> family{};
+  double family_error = 0;
+};
+
+/// f_k at a place with its slopes: the curvature at each finger's last contact and at its first.
+struct SlopeSample {
+  double value = 0;
+  PerFinger<double> start_curvature;
+  PerFinger<double> end_curvature;
+};
+
+/// Makes placements of connected sets: wraps places, adds points and tangents, and says how sure they are.
+class PlacementMaker {
+ public:
+  explicit PlacementMaker(const Question& question) : question_(question) {}
+
+  /// `sample`: of the only reading at the start, where the search has it.
+  void make(FoundSet&& found, Placement& placement, const SlopeSample* sample = nullptr) const;
+
+ private:
+  void place(const PerFinger<double>& start, Placement& placement) const;
+  void describe_corner(const FoundSet& found, Placement& placement) const;
+
+  Question question_;
+};
+
+/// f_k of a reading.
+SlopeSample slope_sample(const Part& part, const Reading& reading, const PerFinger<double>& at);
+
+/// Error and sensitivity of a crossing from the samples at its start, one per reading: where J has no inverse the error
+/// is infinite and the sensitivity empty.
+void describe_slopes(const Question& question, const SlopeSample* samples, Placement& placement);
 
 }  // namespace rollfix

@@ -28,6 +28,8 @@ constexpr int kPlainHalvings = 4;
 constexpr double kBoundsRounding = 1e-14;
 // The extremum of f is approached by the secant of its slope this long, then bracketed.
 constexpr int kMostSecants = 12;
+// Answers to make room for.
+constexpr std::size_t kUsual = 16;
 
 /// s where the cubic through both ends, taken as a function of f, has the value `level`.
 double inverse_cubic(const ResidualSample& lo, const ResidualSample& hi, double level) {
@@ -94,23 +96,21 @@ Powers difference(const SpiralPair& pair, const Panel& start, const Panel& end, 
 
 }  // namespace
 
-RootSearch::RootSearch(const LocateOptions& options, double perimeter, Findings& findings)
-    : tolerance_(std::max(options.tolerance, kTurnAccuracy)),
-      budget_(options.budget),
-      same_place_(kLengthAccuracy * perimeter),
-      findings_(findings) {
-  waiting_.reserve(16);
+RootSearch::RootSearch(const LocateOptions& options, double perimeter)
+    : tolerance_(options.tolerance), budget_(options.budget), same_place_(kLengthAccuracy * perimeter) {
+  findings.pieces.reserve(kUsual);
+  findings.roots.reserve(kUsual);
+  waiting_.reserve(kUsual);
 }
 
 void RootSearch::run(const SpiralPair& pair, const ResidualSample& lo, const ResidualSample& hi) {
   if (is_far(lo, hi)) {  // most intervals
-    ++findings_.counts.intervals;
-    ++budget_;
+    ++findings.counts.intervals;
     return;
   }
   if (is_stretch(pair, lo, hi)) {
     add_piece(lo.s, hi.s, true);
-    findings_.roots.push_back({lo.s});
+    findings.roots.push_back({lo.s});
     return;
   }
   ++budget_;  // this one comes with the part, however many points it has
@@ -147,10 +147,12 @@ bool RootSearch::is_stretch(const SpiralPair& pair, const ResidualSample& lo, co
 void RootSearch::decide(const SpiralPair& pair, const Range& range) {
   const ResidualSample& lo = range.lo;
   const ResidualSample& hi = range.hi;
-  if (++findings_.counts.intervals > budget_) {
-    findings_.unresolved.push_back({lo.s, hi.s});
+  ++findings.counts.intervals;
+  if (budget_ == 0) {
+    findings.unresolved.push_back({lo.s, hi.s});
     return;
   }
+  --budget_;
   const Bounds slope = slope_bounds(lo, hi);
   if (slope.least >= 0 || slope.most <= 0) {
     take_monotone(pair, lo, hi);
@@ -215,7 +217,7 @@ void RootSearch::decide_by_polynomial(const SpiralPair& pair, const Range& range
 /// A root of high order, or no more than rounding: no finer answer exists.
 void RootSearch::take_flat(const ResidualSample& lo, const ResidualSample& hi, bool exact) {
   add_piece(lo.s, hi.s);
-  findings_.roots.push_back({0.5 * (lo.s + hi.s), exact});
+  findings.roots.push_back({0.5 * (lo.s + hi.s), exact});
 }
 
 void RootSearch::halve(const SpiralPair& pair, const Range& range, double place) {
@@ -271,7 +273,7 @@ void RootSearch::split_at_extremum(const SpiralPair& pair, const Range& range) {
       (extremum.value > 0) == (range.hi.value > 0) && size <= std::abs(range.lo.value)) {
     return;  // passes 0 by
   }
-  if (size > kTurnAccuracy && size <= tolerance_) findings_.roots.push_back({extremum.s, false});
+  if (size > kTurnAccuracy && size <= tolerance_) findings.roots.push_back({extremum.s, false});
   take_monotone(pair, range.lo, extremum);
   take_monotone(pair, extremum, range.hi);
 }
@@ -297,7 +299,7 @@ void RootSearch::take_monotone(const SpiralPair& pair, const ResidualSample& lo,
   } else {
     root.exact = false;
   }
-  if (root.exact) findings_.roots.push_back(root);
+  if (root.exact) findings.roots.push_back(root);
 
   const auto end_at = [&](const ResidualSample& end, double direction) {
     if (std::abs(end.value) <= tolerance_) return end.s;
@@ -337,6 +339,6 @@ ResidualSample RootSearch::solve(const SpiralPair& pair, double level, ResidualS
   }
 }
 
-void RootSearch::add_piece(double lo, double hi, bool exact) { findings_.pieces.push_back({lo, hi, exact, false}); }
+void RootSearch::add_piece(double lo, double hi, bool exact) { findings.pieces.push_back({lo, hi, exact, false}); }
 
 }  // namespace rollfix

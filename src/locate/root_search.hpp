@@ -3,9 +3,35 @@
 #include <vector>
 
 #include "rollfix/locate/locate.hpp"
-#include "spiral_pair.hpp"
+#include "rollfix/part/turning_function.hpp"
 
 namespace rollfix {
+
+/// f and its slope at one first contact s:  f(s) = Theta(s + L) - Theta(s) - theta,  f' = kappa(s + L) - kappa(s).
+struct ResidualSample {
+  double s = 0;
+  double value = 0;
+  double start_curvature = 0;  // kappa(s)
+  double end_curvature = 0;    // kappa(s + L)
+
+  double slope() const { return end_curvature - start_curvature; }
+};
+
+/// The first contacts for which the roll starts on one spiral and ends on another: there f' has rigorous bounds.
+struct SpiralPair {
+  const TurningFunction& turning;
+  const Spiral& start;
+  const Spiral& end;
+  double offset = 0;  // from the start's s to the end's, whole periods taken off
+  double turn = 0;    // theta, the same periods' turn taken off
+
+  ResidualSample sample(double s, const Turning& at_start, const Turning& at_end) const {
+    return {s, at_end.angle - at_start.angle - turn, at_start.curvature, at_end.curvature};
+  }
+  ResidualSample sample(double s) const {
+    return sample(s, turning.on_spiral(start, s), turning.on_spiral(end, s + offset));
+  }
+};
 
 /// A set of first contacts on which |f| is within the tolerance.
 struct Piece {
@@ -30,17 +56,18 @@ struct Findings {
   std::vector<Root> roots;
   std::vector<Interval> unresolved;
   SearchCounts counts;
-
-  void clear() {
-    pieces.clear();
-    roots.clear();
-  }
 };
 
 /// Branch and prune for one reading on one pair of spirals: every s with |f(s)| <= tolerance, proved complete.
 class RootSearch {
  public:
-  RootSearch(const LocateOptions& options, double perimeter, Findings& findings);
+  /// The options' tolerance is at least kTurnAccuracy.
+  RootSearch(const LocateOptions& options, double perimeter);
+
+  /// What all runs found together.
+  Findings findings;
+  /// Intervals that may still be looked at, beyond the part's own.
+  std::size_t budget() const { return budget_; }
 
   /// The ends are samples of this pair.
   void run(const SpiralPair& pair, const ResidualSample& lo, const ResidualSample& hi);
@@ -64,7 +91,7 @@ class RootSearch {
   void halve(const SpiralPair& pair, const Range& range, double place);
   ResidualSample solve(const SpiralPair& pair, double level, ResidualSample lo, ResidualSample hi);
   ResidualSample sample(const SpiralPair& pair, double s) {
-    findings_.counts.evaluations += 2;
+    findings.counts.evaluations += 2;
     return pair.sample(s);
   }
   void add_piece(double lo, double hi, bool exact = false);
@@ -72,7 +99,6 @@ class RootSearch {
   double tolerance_;
   std::size_t budget_;
   double same_place_;  // lengths below this are rounding errors
-  Findings& findings_;
   std::vector<Range> waiting_;
 };
 

@@ -2,56 +2,44 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "corner_sets.hpp"
+#include "part/cursor.hpp"
 
 namespace rollfix {
 namespace {
 
-/// A point that moves along the boundary from spiral to spiral.
-struct Walker {
-  const TurningFunction& turning;
-  std::size_t index;
-  double winding = 0;
-
-  const Spiral& spiral() const { return turning.spirals()[index]; }
-  bool at_open_end() const { return !turning.closed() && index + 1 == turning.spirals().size(); }
-  void advance() {
-    if (++index < turning.spirals().size()) return;
-    index = 0;
-    winding += 1;
-  }
-};
-
 class Sweep {
  public:
-  Sweep(const Part& part, const Reading& reading, RootSearch& search, Findings& findings, const LocateOptions& options)
+  Sweep(const Part& part, const Reading& reading, const LocateOptions& options)
       : part_(part),
         turning_(part.turning()),
         reading_(reading),
-        period_(part.perimeter()),
+        length_(reading.length[0]),
         same_place_(kLengthAccuracy * part.perimeter()),
-        tolerance_(std::max(options.tolerance, kTurnAccuracy)),
-        search_(search),
-        findings_(findings) {}
+        tolerance_(options.tolerance),
+        search_(options, part.perimeter()) {}
+
+  Swept take() { return {std::move(findings_), search_.budget()}; }
 
   void run(const Interval& range) {
     if (range.width() <= same_place_) {
       look_at(range.lo);
       return;
     }
-    Walker start = place(range.lo);
-    Walker end = place(range.lo + reading_.length);
+    Cursor start = Cursor::ahead(turning_, range.lo);
+    Cursor end = Cursor::ahead(turning_, range.lo + length_);
     ResidualSample left = enter(start, end, range.lo);
     double here = range.lo;
     while (here < range.hi && findings_.unresolved.empty()) {
-      const double offset = reading_.length - end.winding * period_;
+      const double offset = length_ - end.shift();
       const double start_passes = start.spiral().hi;
       const double end_passes = end.spiral().hi - offset;
       double next = std::min({start_passes, end_passes, range.hi});
       if (range.hi - next <= same_place_) next = range.hi;
-      const bool start_moves = start_passes - next <= same_place_ && !start.at_open_end();
-      const bool end_moves = end_passes - next <= same_place_ && !end.at_open_end();
+      const bool start_moves = start_passes - next <= same_place_ && !start.is_last();
+      const bool end_moves = end_passes - next <= same_place_ && !end.is_last();
 
       const SpiralPair pair = pair_of(start, end);
       const Turning at_start = start_moves ? start.spiral().end : turning_.on_spiral(start.spiral(), next);
@@ -63,12 +51,12 @@ class Sweep {
 
       if (next >= range.hi && !end_moves) break;
       if (end_moves) {
-        const double before = at_end.angle + end.winding * turning_.period_turn();
+        const double before = at_end.angle + end.lift();
         end.advance();
-        const double after = end.spiral().start.angle + end.winding * turning_.period_turn();
+        const double after = end.angle_after();
         pass_corner(next, at_start.angle, before, after);
         if (start_moves && next < range.hi) {  // both at once: the start's other side
-          pass_corner(next, turning_.spirals()[start.index + 1].start.angle, before, after);
+          pass_corner(next, turning_.spirals()[start.index() + 1].start.angle, before, after);
         }
       }
       if (next >= range.hi) break;
@@ -82,36 +70,26 @@ class Sweep {
  private:
   /// An open curve that is just as long as the roll has a single place for it.
   void look_at(double s) {
-    const double residual = residual_at(part_, {reading_}, s);
+    const std::vector<Reading> only{reading_};
+    const double residual = residual_at({part_, only}, s);
     if (residual > tolerance_) return;
     findings_.pieces.push_back({s, s});
     findings_.roots.push_back({s, residual <= kTurnAccuracy});
   }
 
-  SpiralPair pair_of(const Walker& start, const Walker& end) const {
-    return {turning_, start.spiral(), end.spiral(), reading_.length - end.winding * period_,
-            reading_.turn - end.winding * turning_.period_turn()};
-  }
-
-  /// A walker at s; a place a rounding error before the next spiral is on the next one.
-  Walker place(double s) const {
-    const Wrapped wrapped = turning_.closed() ? wrap(s, period_) : Wrapped{std::clamp(s, 0.0, period_), 0};
-    Walker walker{turning_, turning_.spiral_at(wrapped.base), wrapped.winding};
-    if (walker.spiral().hi - wrapped.base <= same_place_ && !walker.at_open_end()) walker.advance();
-    return walker;
+  SpiralPair pair_of(const Cursor& start, const Cursor& end) const {
+    return {turning_, start.spiral(), end.spiral(), length_ - end.shift(), reading_.turn - end.lift()};
   }
 
   /// The first sample, and the corner where the end stands, if it does.
-  ResidualSample enter(Walker& start, Walker& end, double lo) {
-    if (start.winding > 0) start.winding = 0;  // s = P - rounding: the same place, one lap earlier
+  ResidualSample enter(Cursor& start, const Cursor& end, double lo) {
+    // s = P - rounding: the same place, one lap earlier.
+    if (start.winding() > 0) start = Cursor::at_spiral(turning_, start.index());
     const SpiralPair pair = pair_of(start, end);
     const ResidualSample first = pair.sample(std::max(lo, start.spiral().lo));
     findings_.counts.evaluations += 2;
-    if (std::abs(lo + pair.offset - end.spiral().lo) <= same_place_ && (turning_.closed() || end.index > 0)) {
-      const std::size_t before = end.index > 0 ? end.index - 1 : turning_.spirals().size() - 1;
-      const double lap = (end.winding - (end.index > 0 ? 0 : 1)) * turning_.period_turn();
-      pass_corner(lo, turning_.on_spiral(start.spiral(), first.s).angle, turning_.spirals()[before].end.angle + lap,
-                  end.spiral().start.angle + end.winding * turning_.period_turn());
+    if (std::abs(lo + pair.offset - end.spiral().lo) <= same_place_ && !end.is_first()) {
+      pass_corner(lo, turning_.on_spiral(start.spiral(), first.s).angle, end.angle_before(), end.angle_after());
     }
     return {lo, first.value, first.start_curvature, first.end_curvature};
   }
@@ -132,18 +110,19 @@ class Sweep {
   const Part& part_;
   const TurningFunction& turning_;
   const Reading& reading_;
-  double period_;
+  double length_;  // L
   double same_place_;
   double tolerance_;
-  RootSearch& search_;
-  Findings& findings_;
+  RootSearch search_;
+  Findings& findings_ = search_.findings;
 };
 
 }  // namespace
 
-void sweep(const Part& part, const Reading& reading, const Interval& range, RootSearch& search, Findings& findings,
-           const LocateOptions& options) {
-  Sweep(part, reading, search, findings, options).run(range);
+Swept sweep(const Part& part, const Reading& reading, const Interval& range, const LocateOptions& options) {
+  Sweep sweep(part, reading, options);
+  sweep.run(range);
+  return sweep.take();
 }
 
 }  // namespace rollfix

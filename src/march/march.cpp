@@ -162,7 +162,7 @@ std::vector<Breakpoint> March::breakpoints() const {
 }
 
 Result locate(const Outline& outline, const Reading& reading, const Options& options) {
-  return March(outline, curvature_density(), options).segments(reading.length, reading.turn);
+  return March(outline, curvature_density(), options).segments(reading.length[0], reading.turn);
 }
 
 Result stationary_points(const Outline& outline, double length, const Options& options) {

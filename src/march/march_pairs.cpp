@@ -29,10 +29,10 @@ void check(const PairMarchOptions& options) {
   expect(options.iterations > 0, "at least one iteration per limit", 0);
 }
 
-void check(const PairReading& reading) {
-  if (std::isfinite(reading.length_a) && std::isfinite(reading.length_b) && std::isfinite(reading.turn)) return;
-  throw InputError(fmt::format("march: expected finite numbers, found lengths {} and {}, turn {}", reading.length_a,
-                               reading.length_b, reading.turn));
+void check(const Reading& reading) {
+  if (std::isfinite(reading.length[0]) && std::isfinite(reading.length[1]) && std::isfinite(reading.turn)) return;
+  throw InputError(fmt::format("march: expected finite numbers, found lengths {} and {}, turn {}", reading.length[0],
+                               reading.length[1], reading.turn));
 }
 
 const Outline& closed(const Outline& outline) {
@@ -74,9 +74,9 @@ struct PairMarch::Data {
         loop(one_loop(path)) {}
 
   Segments segments(double length_1, double length_2) const;
-  PairProblem problem(const PairReading& first, const PairReading& second) const;
+  PairProblem problem(const Reading& first, const Reading& second) const;
   void merge(PairResult& result) const;
-  PairResult search(const PairReading& first, const PairReading& second) const;
+  PairResult search(const Reading& first, const Reading& second) const;
 
   PairMarchOptions options;
   March march;
@@ -96,10 +96,10 @@ Segments PairMarch::Data::segments(double length_1, double length_2) const {
   return segments;
 }
 
-PairProblem PairMarch::Data::problem(const PairReading& first, const PairReading& second) const {
+PairProblem PairMarch::Data::problem(const Reading& first, const Reading& second) const {
   double loops = 1;
-  for (const PairReading& reading : {first, second}) {
-    loops += std::fabs(reading.length_a / loop.sum.length) + std::fabs(reading.length_b / loop.sum.length);
+  for (const Reading& reading : {first, second}) {
+    loops += std::fabs(reading.length[0] / loop.sum.length) + std::fabs(reading.length[1] / loop.sum.length);
   }
   return {{first.turn, second.turn},
           kPairRounding * (loop.variation * loops + std::fabs(first.turn) + std::fabs(second.turn))};
@@ -137,7 +137,7 @@ void PairMarch::Data::merge(PairResult& result) const {
 }
 
 /// "The localization algorithm enumerates all nm pairs of intervals."
-PairResult PairMarch::Data::search(const PairReading& first, const PairReading& second) const {
+PairResult PairMarch::Data::search(const Reading& first, const Reading& second) const {
   PairResult result;
   result.perimeter = loop.sum.length;
   result.steps_per_loop = path.steps_per_loop();
@@ -145,8 +145,8 @@ PairResult PairMarch::Data::search(const PairReading& first, const PairReading& 
   result.steps.preprocessing = path.steps_per_loop();
 
   const PairProblem problem = this->problem(first, second);
-  const Segments segments_a = segments(first.length_a, second.length_a);
-  const Segments segments_b = segments(first.length_b, second.length_b);
+  const Segments segments_a = segments(first.length[0], second.length[0]);
+  const Segments segments_b = segments(first.length[1], second.length[1]);
   Tally evaluation;
   const PartitionTools tools{path, march, result.perimeter};
   const Partition a = divide(tools, segments_a, evaluation, result.steps);
@@ -189,13 +189,13 @@ PairMarch::PairMarch(const Outline& outline, const PairMarchOptions& options) {
   data_ = std::make_shared<const Data>(outline, options);
 }
 
-PairResult PairMarch::pairs(const PairReading& first, const PairReading& second) const {
+PairResult PairMarch::pairs(const Reading& first, const Reading& second) const {
   check(first);
   check(second);
   return data_->search(first, second);
 }
 
-PairResult locate_pairs(const Outline& outline, const PairReading& first, const PairReading& second,
+PairResult locate_pairs(const Outline& outline, const Reading& first, const Reading& second,
                         const PairMarchOptions& options) {
   return PairMarch(outline, options).pairs(first, second);
 }

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <string>
 
+#include "rollfix/answer_output.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/locate_outcome.hpp"
 #include "rollfix/march/march_pairs.hpp"
 #include "rollfix/table.hpp"
 #include "rollfix/typed_number.hpp"

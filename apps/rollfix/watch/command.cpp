@@ -16,11 +16,11 @@
 #include "rollfix/error.hpp"
 #include "rollfix/finger_argument.hpp"
 #include "rollfix/part_argument.hpp"
+#include "rollfix/roll_arguments.hpp"
 #include "rollfix/typed_number.hpp"
 #include "rollfix/usage.hpp"
 #include "rollfix/watch/source.hpp"
 #include "rollfix/watch/writer.hpp"
-#include "rollfix/weighing.hpp"
 
 namespace rollfix::app {
 namespace {
@@ -42,7 +42,9 @@ struct WatchArguments {
   PartArgument part;
   std::string log;
   std::vector<std::string> fingers;
-  NoiseArguments noise;
+  std::string noise;
+  std::string prior;
+  bool robust = false;
   std::string baud;
   std::string every;
   std::string idle_timeout;
@@ -51,9 +53,10 @@ struct WatchArguments {
   bool jsonl = false;
 };
 
-BeliefOptions required_noise(const NoiseArguments& arguments) {
-  const std::optional<BeliefOptions> options = read_belief_options(arguments);
-  if (options) return *options;
+BeliefOptions belief_options(const WatchArguments& arguments) {
+  if (const std::optional<Noise> noise = read_noise(arguments.noise)) {
+    return {*noise, read_prior(arguments.prior), arguments.robust};
+  }
   throw InputError(
       "watch: expected --noise, as in --noise contact=0.1,angle=0.5deg: how sure an answer is follows from how far the "
       "sensors are off");
@@ -81,8 +84,9 @@ void require_sensible(const WatchArguments& arguments, const std::string& log) {
 WatchOptions watch_options(const WatchArguments& arguments, const std::string& log) {
   WatchOptions options;
   options.name = log == "-" ? "standard input" : log;
-  options.finger = read_finger(arguments.fingers);
-  options.belief = required_noise(arguments.noise);
+  const std::vector<Finger> fingers = read_fingers(arguments.fingers, 1);
+  if (!fingers.empty()) options.finger = fingers.front();
+  options.belief = belief_options(arguments);
   options.live = !arguments.once;
   if (!arguments.every.empty()) options.every = read_count(arguments.every, "--every", 1);
   return options;
@@ -234,7 +238,7 @@ Report watch(const WatchArguments& arguments, std::ostream& out, std::ostream& e
   watcher.finish();
   writer->end(why, watcher.last_answer(), watcher.counts());
   Report report;
-  if (watcher.last_answer().verdict == kInconsistent) report.exit_code = ExitCode::nothing_fits;
+  if (watcher.last_answer().verdict.name == Verdict::inconsistent) report.exit_code = ExitCode::nothing_fits;
   return report;
 }
 
@@ -251,7 +255,7 @@ void add_watch_command(CLI::App& program, Command& chosen, std::ostream& out, st
                    "tcp:PORT, a server to connect to; - for stdin, the default")
       ->type_name("SOURCE");
   add_finger_argument(*command, arguments->fingers);
-  add_noise_arguments(*command, arguments->noise);
+  add_noise_arguments(*command, arguments->noise, arguments->prior, arguments->robust);
   add_switch(*command, "--on-change", arguments->on_change,
              "print when the verdict, the number of places or the most probable one changes: the default");
   command->add_option("--every", arguments->every, "print after every N samples instead")->type_name("N");

@@ -4,10 +4,9 @@
 #include <numbers>
 #include <utility>
 
+#include "rollfix/answer_output.hpp"
 #include "rollfix/json_output.hpp"
-#include "rollfix/locate_outcome.hpp"
 #include "rollfix/watch/writer.hpp"
-#include "rollfix/weighing.hpp"
 
 namespace rollfix::app {
 namespace {
@@ -22,17 +21,17 @@ constexpr std::array kWhyEnd = {"stream", "signal", "idle"};
 Json one_finger(Json value) { return Json::array({std::move(value)}); }
 
 Json mode_json(const Mode& mode, const Part& part) {
-  const Vec2 point = part.point(mode.start);
-  return {{"start", one_finger(json_number(mode.start))},
-          {"end", one_finger(json_number(mode.end))},
+  const Vec2 point = part.point(mode.start[0]);
+  return {{"start", one_finger(json_number(mode.start[0]))},
+          {"end", one_finger(json_number(mode.end[0]))},
           {"probability", json_number(mode.probability)},
-          {"mean", one_finger(json_number(mode.mean))},
-          {"sd", one_finger(json_number(mode.sd))},
-          {"interval", one_finger(json_interval(mode.interval))},
-          {"end_mean", one_finger(json_number(mode.end_mean))},
-          {"end_sd", one_finger(json_number(mode.end_sd))},
+          {"mean", one_finger(json_number(mode.mean[0]))},
+          {"sd", one_finger(json_number(mode.sd[0]))},
+          {"interval", one_finger(json_interval(mode.interval[0]))},
+          {"end_mean", one_finger(json_number(mode.end_mean[0]))},
+          {"end_sd", one_finger(json_number(mode.end_sd[0]))},
           {"point", one_finger(Json::array({json_number(point.x()), json_number(point.y())}))},
-          {"tangent", one_finger(json_number(std::remainder(mode.tangent, 2 * std::numbers::pi)))}};
+          {"tangent", one_finger(json_number(std::remainder(mode.tangent[0], 2 * std::numbers::pi)))}};
 }
 
 Json event_json(const char* name) { return {{"schema", kSchema}, {"event", name}}; }
@@ -44,9 +43,9 @@ Json answer_json(const char* name, const WatchAnswer& answer, const Part& part) 
   event["line"] = answer.sample.line;
   event["time"] = answer.sample.time ? json_number(*answer.sample.time) : Json(nullptr);
   // What has not moved yet is 0 and not -0.
-  event["reading"] = {{"length", one_finger(json_number(answer.sample.reading.length + 0.0))},
+  event["reading"] = {{"length", one_finger(json_number(answer.sample.reading.length[0] + 0.0))},
                       {"turn", json_number(answer.sample.reading.turn)}};
-  event["verdict"] = answer.verdict;
+  event["verdict"] = answer.verdict.text();
   event["placements"] = Json::array();
   for (const Mode& mode : answer.modes) event["placements"].push_back(mode_json(mode, part));
   event["rest"] = json_number(answer.rest);
@@ -100,7 +99,7 @@ class JsonlWriter : public WatchWriter {
   void end(WatchEnd why, const WatchAnswer& last, const WatchCounts& counts) override {
     Json event = event_json("end");
     event["why"] = kWhyEnd.at(static_cast<std::size_t>(why));
-    event["verdict"] = last.roll > 0 ? Json(last.verdict) : Json(nullptr);
+    event["verdict"] = last.roll > 0 ? Json(last.verdict.text()) : Json(nullptr);
     event["counts"] = counts_json(counts);
     event["seconds_per_sample"] = json_number(counts.seconds_per_sample());
     write_event(event);

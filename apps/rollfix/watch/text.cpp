@@ -6,10 +6,10 @@
 #include <ostream>
 #include <utility>
 
+#include "rollfix/answer_output.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/table.hpp"
 #include "rollfix/watch/writer.hpp"
-#include "rollfix/weighing.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::app {
@@ -41,7 +41,7 @@ class TextWriter : public WatchWriter {
   }
 
   void changed(const WatchAnswer& answer) override {
-    write(row(answer, answer.verdict, places(answer)));
+    write(row(answer, answer.verdict.text(), places(answer)));
     roll_shown_ = answer.roll;
     samples_shown_ = answer.samples;
   }
@@ -74,17 +74,17 @@ class TextWriter : public WatchWriter {
   std::string row(const WatchAnswer& answer, const std::string& verdict, const std::string& text) const {
     const Sample& sample = answer.sample;
     return row(std::to_string(sample.line), sample.time ? fixed(*sample.time, 3) : "-",
-               fixed(sample.reading.length, decimals_), degrees(sample.reading.turn), verdict, text);
+               fixed(sample.reading.length[0], decimals_), degrees(sample.reading.turn), verdict, text);
   }
 
   std::string places(const WatchAnswer& answer) const {
-    if (answer.modes.empty() || answer.verdict == kInconsistent) return "";
+    if (answer.modes.empty() || answer.verdict.name == Verdict::inconsistent) return "";
     const Mode& best = answer.modes.front();
-    std::string text = fmt::format("{:>10}  {:>10}  {:>8}  {:>7}", fixed(best.mean, decimals_),
-                                   fixed(best.end_mean, decimals_), rough(best.sd), percent(best.probability));
+    std::string text = fmt::format("{:>10}  {:>10}  {:>8}  {:>7}", fixed(best.mean[0], decimals_),
+                                   fixed(best.end_mean[0], decimals_), rough(best.sd[0]), percent(best.probability));
     const std::size_t shown = std::min(answer.modes.size(), kMostOthers + 1);
     for (std::size_t i = 1; i < shown; ++i) {
-      text += fmt::format("{}{} ({})", i == 1 ? "  or " : ", ", fixed(answer.modes[i].mean, decimals_),
+      text += fmt::format("{}{} ({})", i == 1 ? "  or " : ", ", fixed(answer.modes[i].mean[0], decimals_),
                           percent(answer.modes[i].probability));
     }
     if (answer.modes.size() > shown) text += fmt::format(" and {} more", answer.modes.size() - shown);
@@ -93,14 +93,14 @@ class TextWriter : public WatchWriter {
 
   std::string conclusion(const WatchAnswer& last) const {
     if (last.roll == 0) return "no contact came";
-    if (last.verdict == kInconsistent) {
+    if (last.verdict.name == Verdict::inconsistent) {
       const std::string why = about(last.diagnosis);
-      return last.verdict + ": nothing fits" + (why.empty() ? "" : "; " + why);
+      return last.verdict.text() + ": nothing fits" + (why.empty() ? "" : "; " + why);
     }
-    if (last.verdict != kUnique) return last.verdict;
+    if (last.verdict.name != Verdict::unique) return last.verdict.text();
     const Mode& only = last.modes.front();
-    return fmt::format("{}: roll {} started at s = {} +- {}", last.verdict, last.roll, fixed(only.mean, decimals_),
-                       rough(only.sd));
+    return fmt::format("{}: roll {} started at s = {} +- {}", last.verdict.text(), last.roll,
+                       fixed(only.mean[0], decimals_), rough(only.sd[0]));
   }
 
   int decimals_;

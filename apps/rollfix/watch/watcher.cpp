@@ -40,12 +40,12 @@ double distance_on(const Part& part, double a, double b) {
 /// Of several places that were known the one that this is, or is nearest to.
 const Mode& nearest_to(const Mode& mode, const std::vector<Mode>& known, const Part& part) {
   return *std::min_element(known.begin(), known.end(), [&](const Mode& a, const Mode& b) {
-    return distance_on(part, a.mean, mode.mean) < distance_on(part, b.mean, mode.mean);
+    return distance_on(part, a.mean[0], mode.mean[0]) < distance_on(part, b.mean[0], mode.mean[0]);
   });
 }
 
 bool is_news_of_a_place(const Mode& said, const Mode& now, const Part& part) {
-  return distance_on(part, said.mean, now.mean) > said.sd || now.sd < kTwiceAsSure * said.sd ||
+  return distance_on(part, said.mean[0], now.mean[0]) > said.sd[0] || now.sd[0] < kTwiceAsSure * said.sd[0] ||
          std::abs(now.probability - said.probability) > kOtherProbability;
 }
 
@@ -53,7 +53,7 @@ bool is_news_of_a_place(const Mode& said, const Mode& now, const Part& part) {
 
 bool is_news(const WatchAnswer& said, const WatchAnswer& now, const Part& part) {
   if (now.verdict != said.verdict || now.modes.empty() != said.modes.empty()) return true;
-  if (now.modes.empty() || now.verdict == kInconsistent) return false;  // no place that is worth telling
+  if (now.modes.empty() || now.verdict.name == Verdict::inconsistent) return false;  // no place that is worth telling
   const Mode& best = now.modes.front();
   return is_news_of_a_place(nearest_to(best, said.modes, part), best, part);
 }
@@ -178,7 +178,7 @@ void Watcher::look() {
 void Watcher::end_roll(RollEnd why) {
   if (!belief_) return;
   if (answer_.samples < samples_) look();
-  if (answer_.verdict == kInconsistent) answer_.diagnosis = belief_->diagnosis();
+  if (answer_.verdict.name == Verdict::inconsistent) answer_.diagnosis = belief_->diagnosis();
   belief_.reset();
   has_news_ = false;
   listener_.over(answer_, why);

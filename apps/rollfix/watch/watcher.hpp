@@ -13,10 +13,6 @@
 
 namespace rollfix::app {
 
-// Verdicts that decide what is said; docs/belief.md has all of them.
-inline constexpr const char* kUnique = "unique";
-inline constexpr const char* kInconsistent = "inconsistent";
-
 /// Longer than any row of a log: what has no line end up to here is something else.
 inline constexpr std::size_t kLongestLine = std::size_t{64} * 1024;
 
@@ -25,7 +21,7 @@ struct WatchAnswer {
   std::size_t roll = 0;     // from 1
   std::size_t samples = 0;  // of this roll so far
   Sample sample;            // the last of them, after which the rest holds
-  std::string verdict;
+  Verdict verdict;
   std::vector<Mode> modes;  // the most probable first
   double rest = 0;          // probability outside of them
   double excess = 1;        // by how many times the samples are off more than the noise allows

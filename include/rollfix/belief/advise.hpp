@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "rollfix/belief/belief.hpp"
-#include "rollfix/locate/locate.hpp"
+#include "rollfix/locate/placement.hpp"
 #include "rollfix/part/part.hpp"
 #include "rollfix/part/reach.hpp"
 
@@ -19,9 +19,10 @@ struct Contender {
   std::size_t label = 0;   // those of one placement, such as a stretch, have the same
 };
 
-/// The contenders that a search leaves, all placements alike: one for each, of a wide one several.
-std::vector<Contender> contenders_of(const Part& part, const Search& found);
-/// The same with noise.
+/// The contenders that one finger's search leaves: with noise as probable as the samples say, else all placements
+/// alike; of a wide one several.
+std::vector<Contender> contenders_of(const Part& part, const std::vector<Placement>& placements);
+/// The same of a posterior's modes.
 std::vector<Contender> contenders_of(const Part& part, const std::vector<Mode>& modes);
 
 struct AdviceOptions {

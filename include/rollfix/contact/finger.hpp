@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "rollfix/locate/reading.hpp"
+#include "rollfix/contact/reading.hpp"
 #include "rollfix/outline/curve.hpp"
 #include "rollfix/outline/outline.hpp"
 #include "rollfix/part/part.hpp"

@@ -9,7 +9,7 @@
 
 #include "rollfix/contact/finger.hpp"
 #include "rollfix/contact/noise.hpp"
-#include "rollfix/locate/reading.hpp"
+#include "rollfix/contact/reading.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace rollfix {
@@ -19,12 +19,6 @@ enum class LogKind {
   contact,    // u and psi; the first row is the first contact
   travelled,  // length and turn, measured from a first contact that lies before the first row
   increments  // distance and dturn since the row before, as a wheel encoder with a gyroscope gives them
-};
-
-/// How far the rounding of written numbers can have moved something.
-struct Rounding {
-  double length = 0;  // in the outline's unit
-  double turn = 0;    // radians
 };
 
 /// One finger's rows while it touched the part. Columns that a log does not have are empty.

@@ -9,7 +9,7 @@
 #include "rollfix/contact/finger.hpp"
 #include "rollfix/contact/log.hpp"
 #include "rollfix/contact/noise.hpp"
-#include "rollfix/locate/reading.hpp"
+#include "rollfix/contact/reading.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace rollfix {

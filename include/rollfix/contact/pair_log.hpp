@@ -9,7 +9,7 @@
 
 #include "rollfix/contact/finger.hpp"
 #include "rollfix/contact/log.hpp"
-#include "rollfix/locate/pair_reading.hpp"
+#include "rollfix/contact/reading.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace rollfix {
@@ -52,11 +52,11 @@ std::vector<std::size_t> rows_at(const PairLog& log, const std::vector<double>& 
 
 /// Every row as a reading from the first contacts, lengths along the outline as the user gave it: eqs. (7)-(9).
 /// Throws InputError: u and psi without the fingers.
-std::vector<PairReading> readings_as_given(const PairLog& log, const std::optional<FingerPair>& fingers);
+std::vector<Reading> readings_as_given(const PairLog& log, const std::optional<FingerPair>& fingers);
 
 /// The readings at these instants (see rows_at) in the direction in which the part is stored: what `locate` takes.
-std::vector<PairReading> readings(const PairLog& log, const Part& part, const std::optional<FingerPair>& fingers,
-                                  const std::vector<double>& times = {});
+std::vector<Reading> readings(const PairLog& log, const Part& part, const std::optional<FingerPair>& fingers,
+                              const std::vector<double>& times = {});
 
 /// (N(u) + psi) of finger a less that of finger b, u + psi of disks, at the first contacts, which is Theta(s) -
 /// Theta(t) up to whole turns, in (-pi, pi]. Nothing where the logs don't have it: length and turn, distance and dturn.

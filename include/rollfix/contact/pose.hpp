@@ -14,22 +14,6 @@
 
 namespace rollfix {
 
-/// Where a part is in the world: the place of its frame's origin there, and how its frame is turned.
-struct Pose {
-  double x = 0;
-  double y = 0;
-  double heading = 0;  // radians, counter-clockwise
-
-  /// A vector of the part's frame as the world sees it.
-  Vec2 turned(const Vec2& vector) const {
-    const double c = std::cos(heading);
-    const double s = std::sin(heading);
-    return {c * vector.x() - s * vector.y(), s * vector.x() + c * vector.y()};
-  }
-  /// A point of the part's frame as the world sees it.
-  Vec2 world(const Vec2& point) const { return Vec2(x, y) + turned(point); }
-};
-
 /// The part's poses at some rows of a log, and how badly what was felt there fits the part's shape: without noise the
 /// residuals vanish for the true first contacts, and hardly ever for others. One entry per row.
 struct Poses {

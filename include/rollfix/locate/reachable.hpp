@@ -1,12 +1,11 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>
 
-#include "rollfix/locate/locate.hpp"
-#include "rollfix/locate/locate_pair.hpp"
+#include "rollfix/contact/reading.hpp"
+#include "rollfix/locate/placement.hpp"
 #include "rollfix/part/part.hpp"
 #include "rollfix/part/reach.hpp"
 
@@ -19,18 +18,12 @@ struct Obstruction {
   Hit hit;                      // ... enter the part: the deepest that it comes to
 };
 
-/// A placement that the readings allow and the finger does not.
+/// A placement that the readings allow and the fingers do not: one of them leaves its reach, or they overlap.
 struct Impossible {
+  enum class Reason { reach, overlap };
   Placement placement;
-  Obstruction obstruction;
-};
-
-/// The same of two fingers: either one of them leaves its reach, or they overlap each other.
-struct PairImpossible {
-  enum class Cause { reach, overlap };
-  PairPlacement placement;
-  Cause cause = Cause::reach;
-  std::size_t finger = 0;   // 0 or 1: the one that leaves its reach, and ...
+  Reason reason = Reason::reach;
+  std::size_t finger = 0;   // the one that leaves its reach, and ...
   Obstruction obstruction;  // ... where
   std::size_t instant = 0;  // when they overlap: 0 at the first contacts, then the readings, then the rows ...
   double depth = 0;         // ... and by how much there, length, from the placement's own start
@@ -44,18 +37,13 @@ bool can_roll(const Reach& reach, const Interval& starts, const Interval& roll);
 std::optional<Obstruction> obstruction_of(const Part& part, const Reach& reach, double s, const Interval& roll);
 
 /// Takes the placements out of a search that no roll within reach can have: all of their extent is impossible.
-/// `readings`: what was searched with; `more`: other instants of the same roll, of a log all its rows. The contact has
-/// been everywhere in between. `length_error`: how far a length may be off, so that a finger that rolled until it met
-/// something is not taken to have gone further.
-std::vector<Impossible> drop_unreachable(const Part& part, const Reach& reach, const std::vector<Reading>& readings,
-                                         Search& search, const std::vector<Reading>& more = {},
-                                         double length_error = 0);
-
-/// The same of two fingers with a reach each. They overlap where their centres are closer together than their radii
-/// (less the smaller slack), looked at where both are at the same instant: at the first contacts and at each of the
-/// others. Jaws are not compared with each other.
-std::vector<PairImpossible> drop_unreachable(const Part& part, const std::array<Reach, 2>& reach,
-                                             const std::vector<PairReading>& readings, PairSearch& search,
-                                             const std::vector<PairReading>& more = {}, double length_error = 0);
+/// `reach`: of each finger. `readings`: what was searched with; `more`: other instants of the same roll, of a log all
+/// its rows. The contact has been everywhere in between. `length_error`: how far a length may be off, so that a finger
+/// that rolled until it met something is not taken to have gone further. Two disks overlap where their centres are
+/// closer together than their radii (less the smaller slack), looked at where both are at the same instant: at the
+/// first contacts and at each of the others. Jaws are not compared with each other.
+std::vector<Impossible> drop_unreachable(const Part& part, const PerFinger<Reach>& reach,
+                                         const std::vector<Reading>& readings, Search& search,
+                                         const std::vector<Reading>& more = {}, double length_error = 0);
 
 }  // namespace rollfix

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "rollfix/contact/reading.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/locate/reading.hpp"
 #include "rollfix/outline/curve.hpp"
 #include "rollfix/outline/outline.hpp"
 

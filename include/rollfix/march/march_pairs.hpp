@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "rollfix/locate/pair_reading.hpp"
+#include "rollfix/contact/reading.hpp"
 #include "rollfix/march/march.hpp"
 #include "rollfix/outline/outline.hpp"
 
@@ -109,7 +109,7 @@ class PairMarch {
   /// Every (s_0, t_0) that satisfies (8) with the first reading and (9) with the second. Lengths have either sign and
   /// any size. Throws Refusal (continuum) where one of the four phi is constant or a curve of pairs fits, InputError
   /// for numbers that are not finite.
-  PairResult pairs(const PairReading& first, const PairReading& second) const;
+  PairResult pairs(const Reading& first, const Reading& second) const;
 
  private:
   struct Data;
@@ -117,7 +117,7 @@ class PairMarch {
 };
 
 /// The same for one question.
-PairResult locate_pairs(const Outline& outline, const PairReading& first, const PairReading& second,
+PairResult locate_pairs(const Outline& outline, const Reading& first, const Reading& second,
                         const PairMarchOptions& options = {});
 
 }  // namespace rollfix::march

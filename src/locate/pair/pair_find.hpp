@@ -1,11 +1,18 @@
 #pragma once
 
-#include <optional>
+#include <array>
 #include <vector>
 
-#include "rollfix/locate/locate_pair.hpp"
+#include "rollfix/locate/placement.hpp"
+#include "rollfix/part/turning_function.hpp"
 
 namespace rollfix {
+
+/// Two first contacts: s of finger a and t of finger b.
+using PairPoint = std::array<double, 2>;
+
+/// A box of them.
+using PairBox = std::array<Interval, 2>;
 
 /// A pair of first contacts at which every f_k is 0, or, of more equations than two, those that cross best there.
 struct PairRoot {

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+
+#include "rollfix/answer/answer.hpp"
+#include "rollfix/json_output.hpp"
+#include "rollfix/report.hpp"
+
+namespace rollfix::app {
+
+/// The contract's "rollfix/locate/1"; docs/json.md lists the fields. `explain`: with what the fingers can't do.
+Json answer_json(const Answer& answer, bool explain);
+
+/// For people: the verdict, what was asked, a table of the placements, and what is special about some.
+std::string answer_text(const Answer& answer, bool explain);
+
+/// What an answer tells whoever called the program.
+ExitCode exit_code_of(const Answer& answer);
+
+/// Notes on a part that is stored the other way round than its file has it, on a log that follows it, and on fingers
+/// whose reach is not known.
+void add_notes(const Answer& answer, Report& report);
+
+/// "the part is at x = 1, y = 2, heading 12.000 deg; the contacts agree": the last pose.
+std::string about_pose(const Placement& placement, const Part& part);
+
+/// "touching at s = 1.0 the finger would hit the part at s = 2.0, ...": where a roll can't go on.
+std::string about(const Obstruction& obstruction, const Part& part);
+
+/// What would have to be otherwise for something to fit; empty where something does.
+std::string about(const Diagnosis& diagnosis);
+
+/// What --json says of a part (`inspect` says more), of a diagnosis (null where something fits) and of noise.
+Json part_json(const Part& part);
+Json diagnosis_json(const Diagnosis& diagnosis);
+Json noise_json(const Noise& noise);
+
+}  // namespace rollfix::app

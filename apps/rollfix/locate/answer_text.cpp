@@ -1,0 +1,426 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "outline/turn.hpp"
+#include "rollfix/answer_output.hpp"
+#include "rollfix/table.hpp"
+#include "text/text.hpp"
+
+namespace rollfix::app {
+namespace {
+
+constexpr double kAgreement = 1e-9;  // contacts closer together than this share of the perimeter are the same
+
+using Rows = std::vector<std::string>;
+
+/// The text of one answer. What is of a finger is said of each.
+class AnswerText {
+ public:
+  explicit AnswerText(const Answer& answer)
+      : answer_(answer), fingers_(answer.finger_count()), decimals_(decimals_for(answer.part.perimeter())) {}
+
+  std::string text(bool explain) const {
+    std::string text = advice() + "\n\n" + head() + dropped_lines(explain);
+    if (!answer_.placements.empty()) text += "\n" + (answer_.weighing ? weighed_table() : placement_table());
+    const std::string below = remarks() + pose_lines() + unresolved_lines();
+    if (!below.empty()) text += "\n" + below;
+    return text;
+  }
+
+ private:
+  // ---- words ----
+
+  /// The names in figures: a0 is where the first placement starts; of two fingers it is pair 0.
+  std::string label(std::size_t i) const { return fingers_ == 1 ? fmt::format("a{}", i) : fmt::format("{}", i); }
+  /// "start", of two fingers "start a" and "start b".
+  std::string of(const std::string& what, std::size_t finger) const {
+    return fingers_ == 1 ? what : what + (finger == 0 ? " a" : " b");
+  }
+  std::string place(double s) const { return fixed(s, decimals_); }
+  std::string span(const Interval& interval) const {
+    return fmt::format("from {} to {}", place(interval.lo), place(interval.hi));
+  }
+  std::string where(const Placement& placement) const {
+    if (fingers_ == 1) return fmt::format("s = {:.6g}, sd {:.2g}", placement.start[0], placement.sd[0]);
+    return fmt::format("finger a at s = {:.6g}, sd {:.2g}, finger b at {:.6g}, sd {:.2g}", placement.start[0],
+                       placement.sd[0], placement.start[1], placement.sd[1]);
+  }
+  std::string more_line(std::size_t count) const {
+    return count <= kMostRows ? "" : fmt::format("... and {} more; --json lists them all\n", count - kMostRows);
+  }
+
+  // ---- the verdict with what to do next ----
+
+  std::string advice() const {
+    const std::string verdict = answer_.verdict.text();
+    if (answer_.weighing && (answer_.status == Status::complete || fingers_ == 2)) return verdict + weighed_advice();
+    if (answer_.status == Status::incomplete) {
+      return fmt::format("undecided: {} found, {} left open; try a larger --budget",
+                         fingers_ == 1 ? counted(answer_.placements.size(), "placement", "placements")
+                                       : counted(answer_.placements.size(), "pair", "pairs"),
+                         fingers_ == 1 ? counted(answer_.unresolved.size(), "interval", "intervals")
+                                       : counted(answer_.unresolved.size(), "box", "boxes"));
+    }
+    return verdict + searched_advice();
+  }
+
+  std::string searched_advice() const {
+    if (answer_.placements.empty() && !answer_.impossible.empty()) {
+      return fmt::format(": {} would fit, but the finger can't get there; check the finger's size, or see --explain",
+                         counted(answer_.impossible.size(), "placement", "placements"));
+    }
+    if (answer_.placements.empty()) {
+      return fmt::format(": nothing fits; check the units, the signs (positive along the outline), and the {}",
+                         fingers_ == 1 ? "finger's radius" : "fingers' radii");
+    }
+    if (answer_.verdict.name == Verdict::unobservable && fingers_ == 2) {
+      return ": pairs all the way round the boundary fit; no such roll, however long, can tell them apart";
+    }
+    if (answer_.placements.size() > 1) return ": roll on to tell them apart";
+    return advice_on_one(answer_.placements.front());
+  }
+
+  std::string advice_on_one(const Placement& only) const {
+    if (fingers_ == 2) {
+      if (answer_.verdict.name != Verdict::unique) return ": roll on to tell them apart";
+      return fmt::format(": finger a started at s = {}, finger b at {}", place(only.start[0]), place(only.start[1]));
+    }
+    if (only.kind == Kind::stretch) {
+      return only.whole_loop[0] ? ": this roll looks the same from every place on the boundary"
+                                : ": roll on, to where the curvature changes";
+    }
+    if (only.whole_loop[0]) return ": within the tolerance every place fits; give more digits, or roll further";
+    const std::string lo = place(only.extent[0].lo);
+    const std::string hi = place(only.extent[0].hi);
+    if (lo == hi) return fmt::format(": the finger started at s = {}", place(only.start[0]));
+    return fmt::format(": the finger started between s = {} and {}", lo, hi);
+  }
+
+  std::string weighed_advice() const {
+    const Diagnosis& diagnosis = answer_.weighing->diagnosis;
+    if (diagnosis.cause != Cause::none) return ": nothing fits; " + about(diagnosis);
+    if (answer_.placements.empty()) return ": nothing that fits is within the finger's reach";
+    const Placement& first = answer_.placements.front();
+    const Verdict& verdict = answer_.verdict;
+    if (verdict.name == Verdict::unique) {
+      return (fingers_ == 1 ? ": the finger started at " : ": the roll started with ") + where(first);
+    }
+    if (verdict.name == Verdict::unobservable) {
+      return fingers_ == 1
+                 ? ": this roll looks the same from every place on the boundary"
+                 : ": pairs all the way round the boundary fit; no such roll, however long, can tell them apart";
+    }
+    if (fingers_ == 1 && (answer_.placements.size() == 1 || verdict.stretches > 0)) {
+      return fmt::format(": the likeliest start is {}; roll on to know it better", where(first));
+    }
+    return fmt::format(": the likeliest start is {}, with probability {:.2f}; roll on to tell them apart", where(first),
+                       first.probability);
+  }
+
+  // ---- what was asked ----
+
+  std::string head() const {
+    const Part& part = answer_.part;
+    return fmt::format("part       {}, {}, perimeter {}\n", part.name(), part.closed() ? "closed" : "open",
+                       place(part.perimeter())) +
+           reading_lines() + tolerance_line() + (answer_.weighing ? weighing_lines() : "");
+  }
+
+  std::string reading_lines() const {
+    std::string text;
+    for (std::size_t i = 0; i < answer_.readings.size(); ++i) {
+      const Reading& reading = answer_.readings[i];
+      const std::string lengths =
+          fingers_ == 1 ? "length " + place(reading.length[0])
+                        : fmt::format("lengths {} and {}", place(reading.length[0]), place(reading.length[1]));
+      const std::string when = answer_.times.empty() ? "" : fmt::format(" at {:.6g} s", answer_.times[i]);
+      text += fmt::format("reading    {}, turn {} deg{}\n", lengths, degrees(reading.turn), when);
+    }
+    if (answer_.facing) text += fmt::format("facing     {} deg\n", degrees(*answer_.facing));
+    return text;
+  }
+
+  std::string tolerance_line() const {
+    constexpr std::array<const char*, 5> kSources = {"default", "from the digits given", "from the noise", "as given",
+                                                     "the least there is"};
+    const Tolerance& tolerance = answer_.tolerance;
+    return fmt::format("tolerance  {:.3g} deg = {:.3g} rad, {}\n", tolerance.value / kDegree, tolerance.value,
+                       kSources[static_cast<std::size_t>(tolerance.source)]);
+  }
+
+  /// "noise      contact 0.1, ..." and what the samples are like.
+  std::string weighing_lines() const {
+    const Weighing& weighing = *answer_.weighing;
+    const Noise& noise = weighing.noise;
+    std::string text =
+        fmt::format("noise      contact {:.4g}, angle {} deg, slip {:.4g}, radius {:.4g}{}\n", noise.contact,
+                    degrees(noise.angle), noise.slip, noise.radius, weighing.robust ? "; robust" : "");
+    if (weighing.prior) {
+      text += fmt::format("prior      s = {:.6g}, sd {:.4g}\n", weighing.prior->s, weighing.prior->sd);
+    }
+    text += fmt::format("samples    {}", weighing.samples);
+    if (weighing.excess > 1) text += fmt::format("; off by {:.2f} times the noise, widened by that", weighing.excess);
+    text += '\n';
+    if (answer_.dropped.improbable > 0) {
+      text += fmt::format("dropped    {} that the readings alone allow, but not all samples together\n",
+                          answer_.dropped.improbable);
+    }
+    return text;
+  }
+
+  // ---- what the fingers can't do ----
+
+  std::string dropped_lines(bool explain) const {
+    const std::string hint = explain ? "" : " (--explain lists them)";
+    std::string text;
+    if (answer_.dropped.reach > 0) {
+      text += fmt::format("dropped    {} that {} finger can't reach{}\n", answer_.dropped.reach,
+                          fingers_ == 1 ? "the" : "a", hint);
+    }
+    if (answer_.dropped.overlap > 0) {
+      text += fmt::format("dropped    {} whose fingers would overlap{}\n", answer_.dropped.overlap, hint);
+    }
+    if (!explain) return text;
+    for (std::size_t k = 0; k < std::min(answer_.impossible.size(), kMostRows); ++k) {
+      text += "  " + about_impossible(answer_.impossible[k]) + '\n';
+    }
+    return text + more_line(answer_.impossible.size());
+  }
+
+  std::string about_impossible(const Impossible& item) const {
+    const PerFinger<double>& start = item.placement.start;
+    const std::string starts =
+        fingers_ == 1 ? "start " + place(start[0]) : fmt::format("starts {} and {}", place(start[0]), place(start[1]));
+    const std::string head = fmt::format("{} ({}): ", starts, name_of(item.placement.kind));
+    if (item.reason == Impossible::Reason::overlap) {
+      const std::string when = item.instant == 0 ? "at the first contacts" : fmt::format("at instant {}", item.instant);
+      return head + fmt::format("the fingers would overlap by {} {}", rough(item.depth), when);
+    }
+    const std::string who = fingers_ == 1 ? "" : item.finger == 0 ? "finger a: " : "finger b: ";
+    return head + who + about(item.obstruction, answer_.part);
+  }
+
+  // ---- the tables ----
+
+  /// Columns of one title, or one for each finger.
+  void add_columns(Table& table, const std::string& title) const {
+    for (std::size_t finger = 0; finger < fingers_; ++finger) table.add_column(of(title, finger));
+  }
+  template <class ToText>
+  void add_cells(Rows& cells, const ToText& to_text) const {
+    for (std::size_t finger = 0; finger < fingers_; ++finger) cells.push_back(to_text(finger));
+  }
+  /// Of one finger also where it is; two have no room for it.
+  void add_position(const Placement& placement, Rows& cells) const {
+    if (fingers_ == 2) return;
+    cells.push_back(degrees(placement.tangent[0]));
+    cells.push_back(place(placement.point[0].x()));
+    cells.push_back(place(placement.point[0].y()));
+  }
+  void add_position_columns(Table& table) const {
+    for (const char* title : {"tangent [deg]", "x", "y"}) {
+      if (fingers_ == 1) table.add_column(title);
+    }
+  }
+
+  /// The largest by size; of one reading simply its own.
+  template <class Values>
+  static double steepest(const Values& values) {
+    double most = std::numeric_limits<double>::quiet_NaN();
+    for (const double value : values) {
+      if (std::isfinite(value) && !(std::abs(value) <= std::abs(most))) most = value;
+    }
+    return most;
+  }
+  static double steepest_by_length(const Sensitivity& sensitivity) {
+    std::vector<double> own;
+    for (const PerFinger<double>& lengths : sensitivity.per_length[0]) own.push_back(lengths[0]);
+    return steepest(own);
+  }
+
+  std::string placement_table() const {
+    const std::string most = fingers_ == 2 || answer_.readings.size() > 1 ? "max " : "";
+    Table table;
+    table.add_column("", fingers_ == 1 ? Table::Align::left : Table::Align::right);
+    table.add_column("kind", Table::Align::left);
+    for (const char* title : {"start", "end", "width"}) add_columns(table, title);
+    add_position_columns(table);
+    for (std::size_t finger = 0; finger < fingers_; ++finger) {
+      const char* change = fingers_ == 1 ? "ds" : finger == 0 ? "da" : "db";
+      table.add_column(fmt::format("{}{}/dturn [/deg]", most, change));
+    }
+    if (fingers_ == 1) table.add_column(most + "ds/dlength");
+    table.add_column("error");
+    for (std::size_t i = 0; i < std::min(answer_.placements.size(), kMostRows); ++i) {
+      const Placement& placement = answer_.placements[i];
+      Rows cells{label(i), name_of(placement.kind)};
+      add_cells(cells, [&](std::size_t finger) { return place(placement.start[finger]); });
+      add_cells(cells, [&](std::size_t finger) { return place(placement.end[finger]); });
+      add_cells(cells, [&](std::size_t finger) { return rough(placement.extent[finger].width()); });
+      add_position(placement, cells);
+      const Sensitivity& sensitivity = placement.sensitivity;
+      add_cells(cells, [&](std::size_t finger) {
+        return rough(finger < sensitivity.per_turn.size() ? steepest(sensitivity.per_turn[finger]) * kDegree
+                                                          : std::numeric_limits<double>::quiet_NaN());
+      });
+      if (fingers_ == 1) cells.push_back(rough(steepest_by_length(sensitivity)));
+      cells.push_back(rough(placement.error));
+      table.add_row(std::move(cells));
+    }
+    return table.str() + more_line(answer_.placements.size());
+  }
+
+  /// With noise: how probable each is, and how well it is known.
+  std::string weighed_table() const {
+    Table table;
+    table.add_column("", fingers_ == 1 ? Table::Align::left : Table::Align::right);
+    table.add_column("probability");
+    for (std::size_t finger = 0; finger < fingers_; ++finger) {
+      for (const char* title : {"start", "sd", "95 % from", "to", "end"}) table.add_column(of(title, finger));
+    }
+    add_position_columns(table);
+    for (std::size_t i = 0; i < std::min(answer_.placements.size(), kMostRows); ++i) {
+      const Placement& placement = answer_.placements[i];
+      Rows cells{label(i), fmt::format("{:.4f}", placement.probability)};
+      for (std::size_t finger = 0; finger < fingers_; ++finger) {
+        cells.push_back(place(placement.start[finger]));
+        cells.push_back(rough(placement.sd[finger]));
+        cells.push_back(place(placement.interval[finger].lo));
+        cells.push_back(place(placement.interval[finger].hi));
+        cells.push_back(place(placement.end[finger]));
+      }
+      add_position(placement, cells);
+      table.add_row(std::move(cells));
+    }
+    return table.str() + more_line(answer_.placements.size());
+  }
+
+  // ---- below the table ----
+
+  /// "12.000 deg", or "from 12.000 to 34.000 deg"; turned by whole turns as the start's tangent is in the table.
+  static std::string directions(const Interval& angles, double whole_turns) {
+    const std::string lo = degrees(angles.lo - whole_turns);
+    const std::string hi = degrees(angles.hi - whole_turns);
+    return lo == hi ? lo + " deg" : fmt::format("from {} to {} deg", lo, hi);
+  }
+
+  static std::string about_corner(const Pivot& pivot) {
+    const double middle = pivot.start.middle();
+    const double whole_turns = middle - std::remainder(middle, kFullTurn);
+    return fmt::format("at a corner: the tangent points {} at the start, {} at the end",
+                       directions(pivot.start, whole_turns), directions(pivot.end, whole_turns));
+  }
+
+  std::string remark_on(const Placement& placement) const {
+    const bool goes_round =
+        std::any_of(placement.whole_loop.begin(), placement.whole_loop.end(), [](bool b) { return b; });
+    if (placement.kind == Kind::stretch) {
+      if (goes_round) return fingers_ == 1 ? "every place on the boundary fits" : "fits all the way round the boundary";
+      if (fingers_ == 1) return "every start " + span(placement.extent[0]) + " fits";
+      const PerFinger<double>& from = placement.family.front();
+      const PerFinger<double>& to = placement.family.back();
+      return fmt::format("a continuum of pairs, from ({}, {}) to ({}, {}); --json has its line", place(from[0]),
+                         place(from[1]), place(to[0]), place(to[1]));
+    }
+    if (fingers_ == 1 && goes_round) return "within the tolerance every place on the boundary fits";
+    if (fingers_ == 1 && placement.kind == Kind::corner && placement.pivot) return about_corner((*placement.pivot)[0]);
+    if (placement.roots.size() > 1) {
+      return fmt::format("holds {} exact {}, closer together than the tolerance can tell", placement.roots.size(),
+                         fingers_ == 1 ? "starts" : "pairs");
+    }
+    if (placement.roots.empty()) return "fits within the tolerance, nowhere exactly";
+    return "";
+  }
+
+  std::string remarks() const {
+    if (answer_.weighing)
+      return "";  // noise leaves hardly anything exact: the probabilities say what is worth a remark
+    std::string text;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < std::min(answer_.placements.size(), kMostRows); ++i) {
+      const std::string remark = remark_on(answer_.placements[i]);
+      if (!remark.empty() && ++count <= kMostNotes) text += fmt::format("{}: {}\n", label(i), remark);
+    }
+    if (count > kMostNotes) text += fmt::format("... and {} more such remarks\n", count - kMostNotes);
+    return text;
+  }
+
+  std::string pose_lines() const {
+    std::string text;
+    for (std::size_t i = 0; i < std::min(answer_.placements.size(), kMostNotes); ++i) {
+      const Placement& placement = answer_.placements[i];
+      if (!placement.pose.empty()) text += fmt::format("{}: {}\n", label(i), about_pose(placement, answer_.part));
+    }
+    return text;
+  }
+
+  std::string unresolved_lines() const {
+    std::string text;
+    const std::size_t count = answer_.unresolved.size();
+    for (std::size_t i = 0; i < std::min(count, kMostNotes); ++i) {
+      const PerFinger<Interval>& open = answer_.unresolved[i];
+      text += fingers_ == 1 ? fmt::format("not decided: starts {}\n", span(open[0]))
+                            : fmt::format("not decided: starts a {}, b {}\n", span(open[0]), span(open[1]));
+    }
+    if (count > kMostNotes) {
+      text += fmt::format("... and {} more {}\n", count - kMostNotes, fingers_ == 1 ? "intervals" : "boxes");
+    }
+    return text;
+  }
+
+  const Answer& answer_;
+  std::size_t fingers_;
+  int decimals_;
+};
+
+std::string place_text(const Part& part, double s, const Vec2& point) {
+  const int decimals = decimals_for(part.perimeter());
+  return fmt::format("s = {}, ({}, {})", fixed(s, decimals), fixed(point.x(), decimals), fixed(point.y(), decimals));
+}
+
+}  // namespace
+
+std::string about(const Obstruction& obstruction, const Part& part) {
+  if (obstruction.concave_corner) {
+    return "the finger would roll over the concave corner at " + place_text(part, obstruction.s, obstruction.hit.point);
+  }
+  const int decimals = decimals_for(part.perimeter());
+  return fmt::format("touching at s = {} the finger would hit the part at {}, {} deep", fixed(obstruction.s, decimals),
+                     place_text(part, obstruction.hit.s, obstruction.hit.point), rough(obstruction.hit.depth));
+}
+
+std::string about(const Diagnosis& diagnosis) {
+  switch (diagnosis.cause) {
+    case Cause::none:
+      break;
+    case Cause::radius:
+      return fmt::format(
+          "it would if all lengths were {:.4g} times as long: likeliest is a wrong radius of the finger, or a wrong "
+          "unit",
+          diagnosis.length_scale);
+    case Cause::slip:
+      return "it would if lengths were off here and there: likeliest is that the finger slipped";
+    case Cause::part:
+      return "neither other lengths nor slip explain it: likeliest is another part, another side of it, or wrong signs";
+  }
+  return "";
+}
+
+std::string about_pose(const Placement& placement, const Part& part) {
+  const int decimals = decimals_for(part.perimeter());
+  const Pose& last = placement.pose.back();
+  const double off = placement.pose_residual->length;
+  const std::string agreement =
+      off <= kAgreement * part.perimeter() ? "the contacts agree" : fmt::format("contacts off by {}", rough(off));
+  return fmt::format("the part is at x = {}, y = {}, heading {} deg; {}", fixed(last.x, decimals),
+                     fixed(last.y, decimals), degrees(last.heading), agreement);
+}
+
+std::string answer_text(const Answer& answer, bool explain) { return AnswerText(answer).text(explain); }
+
+}  // namespace rollfix::app

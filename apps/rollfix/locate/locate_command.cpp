@@ -1,0 +1,145 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "answer/observation.hpp"
+#include "rollfix/answer/solve.hpp"
+#include "rollfix/answer_output.hpp"
+#include "rollfix/commands.hpp"
+#include "rollfix/draw/answer_figure.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/finger_argument.hpp"
+#include "rollfix/march/locate_by_march.hpp"
+#include "rollfix/output_argument.hpp"
+#include "rollfix/roll_arguments.hpp"
+#include "rollfix/usage.hpp"
+
+namespace rollfix::app {
+namespace {
+
+constexpr const char* kLocateExamples = R"(Examples (wing.csv and wing-roll.csv: from rollfix demo):
+  rollfix locate gallery:ellipse,a=2,b=1 --reading 1.5,73.2deg
+  rollfix locate wing.csv --reading 60.1,5.12deg --reading 120,18.39deg -o where.svg
+  rollfix locate wing.csv --log wing-roll.csv --finger disk,r=10
+  rollfix locate wing.csv --log wing-roll.csv --finger disk,r=10 --at 6.1,12.32 --json
+  rollfix locate wing.csv --log wing-roll.csv --finger disk,r=10 --noise contact=0.05,angle=0.2deg,slip=0.002
+Two fingers on a part that is free to move:
+  rollfix locate gallery:cam --reading 0.7446832,-0.3983439,57.48184deg --reading 1.5,-0.8,110.97000deg
+  rollfix locate gallery:cam --reading 1.5,-0.8,110.97000deg --facing -142.40990deg
+  rollfix simulate gallery:cam --finger disk,r=0.2 --start 1 --start 4 --length 1.5 --length -0.8 -o cam-rolls.csv
+  rollfix locate gallery:cam --log cam-rolls.csv --finger disk,r=0.2 -o cam-pairs.svg
+)";
+
+struct LocateArguments {
+  RollArguments roll;
+  bool json = false;
+  bool explain = false;
+  OutputArgument output;
+  MarchArguments march;
+};
+
+void require_sensible(const LocateArguments& arguments) {
+  const RollArguments& roll = arguments.roll;
+  if (roll.readings.empty() && roll.logs.empty()) {
+    throw InputError("locate: expected --reading LENGTH,TURN or --log FILE, found neither");
+  }
+  if (!roll.readings.empty() && !roll.logs.empty()) {
+    throw InputError("locate: expected --reading or --log, found both: they can't be of the same roll");
+  }
+  if (arguments.explain && roll.fingers.empty()) {
+    throw InputError("--explain lists what the finger can't reach: give --finger as well");
+  }
+}
+
+/// What the paper's algorithm has no use for.
+void require_march(const LocateArguments& arguments) {
+  const RollArguments& roll = arguments.roll;
+  const auto refuse = [](bool given, const char* option) {
+    if (given) throw InputError(fmt::format("--march: the paper's algorithm has no use for {}; leave one out", option));
+  };
+  refuse(!roll.noise.empty(), "--noise");
+  refuse(!roll.facing.empty(), "--facing");
+  refuse(!roll.budget.empty(), "--budget");
+  refuse(!arguments.output.file.empty(), "-o");
+  refuse(arguments.explain, "--explain");
+}
+
+/// The same readings, asked of the paper's algorithm.
+Report march_report(const LocateArguments& arguments) {
+  require_march(arguments);
+  std::vector<std::string> notes;
+  const Problem problem = read_problem(arguments.roll, notes);
+  const Observation observed = observe(problem);
+  const Tolerance tolerance =
+      problem.tolerance ? tolerance_given(*problem.tolerance) : tolerance_from_digits(problem.part, observed.roundings);
+  MarchQuestion question{{}, tolerance.value, read_step(arguments.march), arguments.json};
+  for (const Reading& reading : observed.readings) {
+    question.readings.push_back({{reading.length.begin(), reading.length.end()}, reading.turn});
+  }
+  Report report = locate_by_march(problem.part, question);
+  report.notes = std::move(notes);
+  return report;
+}
+
+Report locate_report(const LocateArguments& arguments) {
+  require_sensible(arguments);
+  require_figure_output(arguments.output, arguments.json);
+  read_step(arguments.march);
+  if (arguments.march.march) return march_report(arguments);
+  Report report;
+  const Answer answer = solve(read_problem(arguments.roll, report.notes));
+  add_notes(answer, report);
+  report.exit_code = exit_code_of(answer);
+  report.data =
+      arguments.json ? json_text(answer_json(answer, arguments.explain)) : answer_text(answer, arguments.explain);
+  if (!arguments.output.file.empty()) add_figure(arguments.output, draw_answer(answer), report);
+  return report;
+}
+
+}  // namespace
+
+ExitCode exit_code_of(const Answer& answer) {
+  if (answer.status == Status::incomplete) return ExitCode::incomplete;
+  return answer.placements.empty() ? ExitCode::nothing_fits : ExitCode::fits;
+}
+
+void add_notes(const Answer& answer, Report& report) {
+  for (const Finger& finger : answer.fingers) {
+    if (has_reach(finger)) continue;
+    report.notes.push_back(no_reach_note(finger));
+    break;
+  }
+  if (answer.part.reversed()) report.notes.push_back(reversed_note(answer.part));
+  if (answer.lengths_reversed) report.notes.emplace_back("the log's lengths changed their signs to match");
+}
+
+void add_locate_command(CLI::App& program, Command& chosen) {
+  const auto arguments = std::make_shared<LocateArguments>();
+  CLI::App* command = program.add_subcommand("locate", "Every place on a part where a roll can have started.");
+  command->footer(kLocateExamples);
+  RollArguments& roll = arguments->roll;
+  add_roll_arguments(*command, roll);
+  command
+      ->add_option("--at", roll.instants,
+                   "instants of the log to use, seconds; default its last row, of two fingers also the middle one")
+      ->type_name("T1,T2,...");
+  command
+      ->add_option(
+          "--facing", roll.facing,
+          "how far finger a's contact normal is turned from finger b's at the first contacts; then one reading "
+          "of two fingers suffices")
+      ->type_name("ANGLE");
+  command
+      ->add_option("--budget", roll.budget,
+                   "intervals to look at, beyond the part's own, before giving up; default 1000000")
+      ->type_name("N");
+  add_output_argument(*command, arguments->output,
+                      "a figure of the placements: .svg, .png or .pdf, - for SVG on stdout");
+  add_switch(*command, "--explain", arguments->explain,
+             "list what fits and was dropped all the same, because the finger can't get there, and why");
+  add_march_arguments(*command, arguments->march);
+  add_switch(*command, "--json", arguments->json, "print JSON (rollfix/locate/1)");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return locate_report(*arguments); }; });
+}
+
+}  // namespace rollfix::app

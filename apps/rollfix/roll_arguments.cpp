@@ -1,0 +1,255 @@
+#include "rollfix/roll_arguments.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "outline/turn.hpp"
+#include "rollfix/contact/pair_log.hpp"
+#include "rollfix/contact/written_number.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/finger_argument.hpp"
+#include "rollfix/typed_number.hpp"
+#include "rollfix/usage.hpp"
+#include "text/text.hpp"
+
+namespace rollfix::app {
+namespace {
+
+constexpr std::string_view kDegreeMark = "deg";
+
+bool in_degrees(std::string_view angle) {
+  return angle.size() > kDegreeMark.size() && angle.substr(angle.size() - kDegreeMark.size()) == kDegreeMark;
+}
+
+/// Half a unit of the last decimal, whatever the unit is.
+double half_unit(std::string_view number) {
+  if (in_degrees(number)) number.remove_suffix(kDegreeMark.size());
+  return rounding_of(number);
+}
+
+/// Trailing zeros are often left off, so all numbers are taken to be rounded alike: to the decimals of the one that
+/// shows most of them. Of a turn in degrees.
+Rounding common_rounding(const std::vector<std::string_view>& fields) {
+  double finest = 0;
+  for (const std::string_view field : fields) {
+    const double one = half_unit(field);
+    if (one > 0 && (finest == 0 || one < finest)) finest = one;
+  }
+  const auto lengths = static_cast<double>(fields.size() - 1);
+  return {lengths * finest, finest * (in_degrees(fields.back()) ? kDegree : 1)};
+}
+
+std::string found_instead(std::size_t count) {
+  if (count == 1) return "1 number";
+  return fmt::format("{} numbers; are there decimal commas among them?", count);
+}
+
+/// LENGTH,TURN of one finger, or LENGTH_A,LENGTH_B,TURN of two.
+void read_reading(const std::string& text, bool of_two, Felt& felt) {
+  const std::string what = fmt::format("--reading {}", text);
+  const std::vector<std::string_view> fields = split(text, ',');
+  if (of_two && fields.size() != 3) {
+    throw InputError(fmt::format("{}: expected LENGTH_A,LENGTH_B,TURN as in 0.5,-0.3,73deg, found {}", what,
+                                 found_instead(fields.size())));
+  }
+  if (!of_two && fields.size() != 2) {
+    throw InputError(
+        fmt::format("{}: expected LENGTH,TURN as in 0.5,73deg, or of two fingers LENGTH_A,LENGTH_B,TURN, found {}",
+                    what, found_instead(fields.size())));
+  }
+  const double length = read_number(fields[0], what);
+  felt.readings.push_back(of_two ? Reading(length, read_number(fields[1], what), read_angle(fields[2], what))
+                                 : Reading(length, read_angle(fields[1], what)));
+  felt.roundings.push_back(common_rounding(fields));
+}
+
+Felt read_readings(const RollArguments& arguments) {
+  Felt felt(std::vector<Reading>{});
+  const bool of_two = std::any_of(arguments.readings.begin(), arguments.readings.end(),
+                                  [](const std::string& text) { return split(text, ',').size() == 3; });
+  for (const std::string& text : arguments.readings) read_reading(text, of_two, felt);
+  return felt;
+}
+
+std::vector<double> read_instants(const std::string& text) {
+  std::vector<double> instants;
+  if (text.empty()) return instants;
+  for (const std::string_view field : split(text, ',')) {
+    instants.push_back(read_number(field, fmt::format("--at {}", text)));
+  }
+  return instants;
+}
+
+std::vector<Log> read_logs_of(const std::vector<std::string>& paths) {
+  if (paths.size() == 1) return read_logs(paths.front());
+  if (paths.size() != 2) {
+    throw InputError(
+        fmt::format("--log is given {} times, expected one log, or one of each of two fingers", paths.size()));
+  }
+  const PairLog log = read_pair_log(paths.front(), paths.back());
+  return {log.a, log.b};
+}
+
+double* place_for(Noise& noise, std::string_view name) {
+  if (name == "contact") return &noise.contact;
+  if (name == "angle") return &noise.angle;
+  if (name == "slip") return &noise.slip;
+  if (name == "radius") return &noise.radius;
+  return nullptr;
+}
+
+/// What can't be meant, before any file is read.
+void require_sensible(const RollArguments& arguments) {
+  const bool from_log = !arguments.logs.empty();
+  if (!arguments.roll.empty() && !from_log) throw InputError("--roll chooses from a log: give a --log as well");
+  if (!arguments.instants.empty() && !from_log) throw InputError("--at picks instants of a log: give a --log as well");
+  if (from_log && arguments.logs.front() == "-" && arguments.part.part == "-") {
+    throw InputError("the part and the log can't both come from standard input: give one of them as a file");
+  }
+  if (!arguments.noise.empty()) return;
+  if (!arguments.prior.empty()) {
+    throw InputError("--prior weighs places against noisy readings: give --noise as well");
+  }
+  if (arguments.robust) throw InputError("--robust is about noise: give --noise as well");
+}
+
+}  // namespace
+
+void add_log_arguments(CLI::App& command, std::vector<std::string>& logs, std::string& roll) {
+  command.add_option("--log", logs, "a tactile log, - for stdin; of two fingers one file or two")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  command
+      .add_option("--roll", roll,
+                  "which roll of a log in which contact is lost and found again, from 1; default the last")
+      ->type_name("N");
+}
+
+void add_noise_argument(CLI::App& command, std::string& noise) {
+  command
+      .add_option("--noise", noise,
+                  "how far the sensors are off, as standard deviations: contact=LENGTH,angle=ANGLE,slip=PER_LENGTH,"
+                  "radius=LENGTH, any of them")
+      ->type_name("NOISE");
+}
+
+void add_noise_arguments(CLI::App& command, std::string& noise, std::string& prior, bool& robust) {
+  add_noise_argument(command, noise);
+  command
+      .add_option("--prior", prior,
+                  "with --noise: about where the finger started, along the stored outline, and how sure that is")
+      ->type_name("S,SD");
+  add_switch(command, "--robust", robust, "with --noise: stray rows don't count");
+}
+
+void add_roll_arguments(CLI::App& command, RollArguments& arguments) {
+  add_part_argument(command, arguments.part);
+  command
+      .add_option("--reading", arguments.readings,
+                  "from the first contact: arc length travelled, along the stored outline, and turn of the tangent; "
+                  "of two fingers both lengths and finger a's turn less finger b's: LA,LB,THETA")
+      ->type_name("L,THETA")
+      ->allow_extra_args(false);
+  add_log_arguments(command, arguments.logs, arguments.roll);
+  add_finger_argument(command, arguments.fingers);
+  command
+      .add_option("--tolerance", arguments.tolerance,
+                  "how far the turn may be off; default 1e-9, or the rounding of the digits given, "
+                  "or what --noise makes of it")
+      ->type_name("ANGLE");
+  add_noise_arguments(command, arguments.noise, arguments.prior, arguments.robust);
+}
+
+std::optional<Noise> read_noise(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  Noise noise;
+  std::set<std::string, std::less<>> seen;
+  for (const std::string_view field : split(text, ',')) {
+    const std::size_t mark = field.find('=');
+    const std::string name(field.substr(0, mark));
+    double* const place = place_for(noise, name);
+    if (place == nullptr || mark == std::string_view::npos) {
+      throw InputError(fmt::format("--noise {}: '{}' is not NAME=SD; {}", text, field,
+                                   known_names(name, {"contact", "angle", "slip", "radius"})));
+    }
+    if (!seen.insert(name).second) throw InputError(fmt::format("--noise {}: {} is given twice", text, name));
+    const std::string what = fmt::format("--noise {}", text);
+    const std::string_view value = field.substr(mark + 1);
+    *place = name == "angle" ? read_angle(value, what) : read_number(value, what);
+    if (*place < 0)
+      throw InputError(fmt::format("--noise {}: {} is below 0, expected a standard deviation", text, name));
+  }
+  return noise;
+}
+
+std::optional<Prior> read_prior(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  const std::vector<std::string_view> fields = split(text, ',');
+  if (fields.size() != 2) {
+    throw InputError(
+        fmt::format("--prior {}: expected S,SD: about where the finger started, along the stored outline, and its "
+                    "standard deviation",
+                    text));
+  }
+  const std::string what = "--prior " + text;
+  const Prior prior{read_number(fields[0], what), read_number(fields[1], what)};
+  if (!(prior.sd > 0))
+    throw InputError(fmt::format("{}: '{}' is not above 0, expected a standard deviation", what, fields[1]));
+  return prior;
+}
+
+std::vector<Log> read_roll(const std::vector<std::string>& paths, const std::string& roll,
+                           std::vector<std::string>& notes) {
+  const std::size_t number = roll.empty() ? 0 : read_count(roll, "--roll", 1);
+  if (paths.size() != 1) {
+    if (number > 0) throw InputError("--roll chooses from one log, and --log is given more than once; split the logs");
+    return read_logs_of(paths);
+  }
+  std::vector<std::vector<Log>> rolls = read_rolls_of_fingers(paths.front());
+  const std::size_t count = rolls.size();
+  if (number > count) {
+    throw InputError(fmt::format("--roll {}: {} holds {}, expected a number from 1 to {}", number, paths.front(),
+                                 counted(count, "roll", "rolls"), count));
+  }
+  const std::size_t chosen = number > 0 ? number : count;
+  std::vector<Log> logs = std::move(rolls[chosen - 1]);
+  if (count > 1) {
+    notes.push_back(fmt::format("{}: roll {} of {}{}", logs.front().name, chosen, count,
+                                number > 0 ? "" : "; --roll N takes another"));
+  }
+  return logs;
+}
+
+Problem read_problem(const RollArguments& arguments, std::vector<std::string>& notes) {
+  require_sensible(arguments);
+  Felt felt = arguments.logs.empty() ? read_readings(arguments) : read_roll(arguments.logs, arguments.roll, notes);
+  const bool of_two = felt.is_log() ? felt.logs.size() == 2 : felt.readings.front().fingers() == 2;
+  if (!arguments.facing.empty()) {
+    if (!of_two) throw InputError("--facing compares two fingers: expected --reading LA,LB,THETA with it");
+    if (felt.is_log()) throw InputError("--facing goes with --reading: a log of two fingers has it in u and psi");
+  }
+  std::vector<Finger> fingers = read_fingers(arguments.fingers, of_two ? 2 : 1);
+  Problem problem{load_part(arguments.part, notes), std::move(felt), std::move(fingers), read_noise(arguments.noise)};
+  problem.prior = read_prior(arguments.prior);
+  problem.robust = arguments.robust;
+  problem.at = read_instants(arguments.instants);
+  if (!arguments.facing.empty()) {
+    problem.facing = read_angle(arguments.facing, "--facing");
+    problem.felt.roundings.push_back({0, half_unit(arguments.facing) * (in_degrees(arguments.facing) ? kDegree : 1)});
+  }
+  if (!arguments.tolerance.empty()) {
+    problem.tolerance = read_angle(arguments.tolerance, "--tolerance");
+    if (*problem.tolerance < 0) {
+      throw InputError(
+          fmt::format("--tolerance: '{}' is negative, expected an angle of at least 0", arguments.tolerance));
+    }
+  }
+  if (!arguments.budget.empty()) problem.budget = read_count(arguments.budget, "--budget", 1);
+  return problem;
+}
+
+}  // namespace rollfix::app

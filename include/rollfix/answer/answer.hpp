@@ -1,0 +1,99 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rollfix/belief/belief.hpp"
+#include "rollfix/contact/finger.hpp"
+#include "rollfix/contact/log.hpp"
+#include "rollfix/contact/noise.hpp"
+#include "rollfix/contact/reading.hpp"
+#include "rollfix/locate/placement.hpp"
+#include "rollfix/locate/reachable.hpp"
+#include "rollfix/part/part.hpp"
+
+// What is asked and what is answered, of one finger or two. Names are those of the JSON document.
+namespace rollfix {
+
+/// What the fingers felt: readings, or the rows of a log.
+struct Felt {
+  Felt(Log log) : logs{std::move(log)} {}                                   // NOLINT: a log is what was felt
+  Felt(std::vector<Log> logs_) : logs(std::move(logs_)) {}                  // NOLINT: of each finger
+  Felt(Reading reading) : readings{std::move(reading)} {}                   // NOLINT
+  Felt(std::vector<Reading> readings_) : readings(std::move(readings_)) {}  // NOLINT
+
+  std::vector<Reading> readings;      // each measured from the first contacts; or
+  std::vector<Log> logs;              // one of each finger
+  std::vector<Rounding> roundings{};  // how far the digits of the readings, and of the facing, may be off; none: exact
+
+  bool is_log() const { return !logs.empty(); }
+};
+
+/// A roll on a part, and how to look at it.
+struct Problem {
+  Part part;
+  Felt felt;
+  std::vector<Finger> fingers{};  // none: not known; one serves both of two
+  std::optional<Noise> noise{};   // none: exact but for rounded digits
+
+  std::optional<double> tolerance{};    // radians; none: from the noise, or from the digits
+  std::optional<std::size_t> budget{};  // of the search, see LocateOptions
+  std::optional<double> facing{};       // of readings of two fingers, see LocateOptions; a log has it itself
+  std::vector<double> at{};             // instants of a log, seconds; none: its last row, of two fingers the middle one
+                                        // as well
+  std::optional<Prior> prior{};         // with noise: about where finger a started
+  bool robust = false;                  // with noise: stray rows don't count
+};
+
+/// The search's tolerance and where it comes from.
+struct Tolerance {
+  enum class Source { smallest, digits, noise, given, least };
+  double value = 0;  // radians
+  Source source = Source::smallest;
+};
+
+/// How many placements were taken out, and why.
+struct DroppedCounts {
+  std::size_t reach = 0;       // a finger can't get there
+  std::size_t overlap = 0;     // two fingers would overlap
+  std::size_t improbable = 0;  // within the tolerance for the readings, but not for all samples together
+};
+
+/// What noise is made of and what it leaves; of an answer with noise.
+struct Weighing {
+  Noise noise;
+  std::optional<Prior> prior{};
+  bool robust = false;
+  std::size_t samples = 0;
+  double excess = 1;  // by how many times the samples are off more than the noise allows
+  double rest = 0;    // probability of what is not listed
+  Diagnosis diagnosis{};
+  std::vector<Placement> improbable{};
+};
+
+/// Every place where the roll can have started, and what is known of each.
+struct Answer {
+  Part part;
+  std::vector<Finger> fingers{};    // as in the problem
+  std::vector<Reading> readings{};  // that were searched with
+  std::vector<double> times{};      // of a log with times: of each reading, seconds
+  std::optional<double> facing{};   // of two fingers, radians
+  Tolerance tolerance{};
+  Status status = Status::complete;
+  Verdict verdict{};
+  std::vector<Placement> placements{};  // ordered by start; with noise the most probable first
+  std::vector<double> pose_time{};      // of a log with times: of each pose, seconds
+  bool has_reach = false;               // what the fingers can't do was dropped
+  DroppedCounts dropped{};
+  std::vector<Impossible> impossible{};  // what the fingers can't do
+  std::vector<PerFinger<Interval>> unresolved{};
+  SearchCounts counts{};
+  std::optional<Weighing> weighing{};  // with noise
+  bool lengths_reversed = false;       // a log's lengths changed their signs, as the part is stored the other way round
+
+  std::size_t finger_count() const { return readings.front().fingers(); }
+};
+
+}  // namespace rollfix

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "rollfix/answer/answer.hpp"
+
+namespace rollfix {
+
+/// What the fingers felt, as readings in the direction in which the part is stored.
+struct Observation {
+  std::vector<Reading> readings;  // to search with
+  std::vector<double> times;      // of a log with times: of each, seconds
+  std::vector<Reading> rolls;     // of a log: all its rows
+  std::vector<double> pose_time;  // of a log with times: of all its rows, seconds
+  std::optional<double> facing;   // of two fingers at the first contacts; not more rounded than a turn
+  std::vector<Rounding> roundings;
+  bool lengths_reversed = false;  // a log's lengths were along a clockwise outline
+
+  /// How far the digits that were written can have moved any of the lengths.
+  double length_error() const;
+};
+
+/// Throws InputError: facing, instants and logs that don't go together, and what `readings` of a log throws.
+Observation observe(const Problem& problem);
+
+/// What the digits, the noise or the user make of the search's tolerance.
+Tolerance tolerance_from_digits(const Part& part, const std::vector<Rounding>& roundings);
+Tolerance tolerance_from_noise(double value);
+/// Throws InputError: below 0.
+Tolerance tolerance_given(double value);
+
+}  // namespace rollfix

@@ -1,0 +1,129 @@
+#include "rollfix/answer/solve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "observation.hpp"
+#include "rollfix/contact/pose.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/locate/locate.hpp"
+#include "weighing.hpp"
+
+namespace rollfix {
+namespace {
+
+// With noise the search only says what kinds there are; with two fingers a wide tolerance is not worth more boxes than
+// this, and where nearly any direction would do it has nothing to say.
+constexpr std::size_t kBudgetWithNoise = 30000;
+constexpr double kWidestSearch = 0.5;  // radians
+
+void require_consistent(const Problem& problem) {
+  if (problem.fingers.size() > 2) throw InputError("`fingers`: expected at most two fingers");
+  if (problem.noise) return;
+  if (problem.prior) throw InputError("`prior`: weighs places against noisy readings, expected noise as well");
+  if (problem.robust) throw InputError("`robust`: is about noise, expected noise as well");
+}
+
+Tolerance tolerance_of(const Problem& problem, const Observation& observed, std::optional<Belief>& belief) {
+  if (problem.tolerance) return tolerance_given(*problem.tolerance);
+  return belief ? tolerance_from_noise(belief->tolerance(observed.readings))
+                : tolerance_from_digits(problem.part, observed.roundings);
+}
+
+/// Everything that fits the readings.
+void search(const Problem& problem, Answer& answer) {
+  LocateOptions options;
+  options.tolerance = answer.tolerance.value;
+  options.facing = answer.facing;
+  const bool of_two_with_noise = answer.tolerance.source == Tolerance::Source::noise && answer.finger_count() == 2;
+  if (of_two_with_noise) options.budget = kBudgetWithNoise;
+  if (problem.budget) options.budget = *problem.budget;
+  if (of_two_with_noise && options.tolerance > kWidestSearch) return;
+  Search found = locate(answer.part, answer.readings, options);
+  answer.status = found.status;
+  answer.verdict = found.verdict();
+  answer.placements = std::move(found.placements);
+  answer.unresolved = std::move(found.unresolved);
+  answer.counts = found.counts;
+}
+
+PerFinger<Reach> reaches_of(const Part& part, const std::vector<Finger>& fingers, std::size_t count) {
+  const Reach reach = reach_of(part, fingers.front());
+  if (count == 1) return reach;
+  const bool alike = fingers.front().curvature(0) == fingers.back().curvature(0);
+  return {reach, alike ? reach : reach_of(part, fingers.back())};
+}
+
+/// What the fingers can't do goes, where that is known of all of them.
+void drop_impossible(const Observation& observed, Answer& answer) {
+  if (answer.fingers.empty() || !std::all_of(answer.fingers.begin(), answer.fingers.end(), has_reach)) return;
+  answer.has_reach = true;
+  Search kept;
+  kept.placements = std::move(answer.placements);
+  answer.impossible = drop_unreachable(answer.part, reaches_of(answer.part, answer.fingers, answer.finger_count()),
+                                       answer.readings, kept, observed.rolls, observed.length_error());
+  answer.placements = std::move(kept.placements);
+  for (const Impossible& item : answer.impossible) {
+    ++(item.reason == Impossible::Reason::reach ? answer.dropped.reach : answer.dropped.overlap);
+  }
+  if (!answer.impossible.empty() && answer.status == Status::complete) {
+    kept.placements = answer.placements;
+    answer.verdict = kept.verdict();
+  }
+}
+
+std::optional<Poses> poses_of(const Problem& problem, const Placement& placement) {
+  const std::vector<Log>& logs = problem.felt.logs;
+  std::vector<std::size_t> rows(logs.front().rows());
+  std::iota(rows.begin(), rows.end(), std::size_t{0});
+  if (logs.size() == 1) {
+    return poses(problem.part, problem.fingers.front(), logs.front(), placement.start[0], rows);
+  }
+  return poses(problem.part, FingerPair{problem.fingers.front(), problem.fingers.back()},
+               PairLog{logs.front(), logs.back()}, {placement.start[0], placement.start[1]}, rows);
+}
+
+/// Where the part is in the world, where a log tells.
+void add_poses(const Problem& problem, Answer& answer) {
+  if (problem.fingers.empty() || !problem.felt.is_log()) return;
+  for (Placement& placement : answer.placements) {
+    std::optional<Poses> poses = poses_of(problem, placement);
+    if (!poses) continue;
+    const auto largest = [](const std::vector<double>& values) {
+      return values.empty() ? std::nan("") : *std::max_element(values.begin(), values.end());
+    };
+    placement.pose_residual = {largest(poses->residual), largest(poses->turn_residual)};
+    placement.pose = std::move(poses->pose);
+  }
+}
+
+}  // namespace
+
+bool has_reach(const Finger& finger) { return finger.outline() == nullptr; }
+
+Reach reach_of(const Part& part, const Finger& finger) {
+  return finger.is_disk() ? reach_of_disk(part, finger.disk()->radius) : reach_of_jaw(part);
+}
+
+Answer solve(const Problem& problem) {
+  require_consistent(problem);
+  const Observation observed = observe(problem);
+  std::optional<Belief> belief = believe(problem, observed);
+  Answer answer{problem.part, problem.fingers};
+  answer.readings = observed.readings;
+  answer.times = observed.times;
+  answer.facing = observed.facing;
+  answer.pose_time = observed.pose_time;
+  answer.lengths_reversed = observed.lengths_reversed;
+  answer.tolerance = tolerance_of(problem, observed, belief);
+  search(problem, answer);
+  if (belief) weigh(problem, *belief, answer);
+  drop_impossible(observed, answer);
+  if (belief) conclude(*belief, answer);
+  add_poses(problem, answer);
+  return answer;
+}
+
+}  // namespace rollfix

@@ -1,0 +1,90 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "observation.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/locate/locate.hpp"
+
+namespace rollfix {
+namespace {
+
+/// A curvature that grows by more than this factor within half the rounding of a length is a spike.
+constexpr double kSpike = 2;
+
+/// The largest curvature that lasts for at least `length`, or a little more than it. What turns in less than that, a
+/// sharp rounding or the end of a curve that starts at rest, is a corner to whoever measures lengths to that accuracy.
+class LastingCurvature {
+ public:
+  LastingCurvature(const TurningFunction& turning, double length)
+      : turning_(turning), spirals_(turning.spirals()), length_(length) {}
+
+  double value() const {
+    double most = 0;
+    double run_length = 0;  // of short spirals in a row
+    double run_most = 0;
+    const std::size_t laps = turning_.closed() ? 2 : 1;  // a run may pass the seam
+    for (std::size_t k = 0; k < laps * spirals_.size(); ++k) {
+      const Spiral& spiral = spirals_[k % spirals_.size()];
+      if (is_long(spiral)) {
+        most = std::max(most, on_long(k % spirals_.size()));
+        run_length = run_most = 0;
+        continue;
+      }
+      run_length += spiral.hi - spiral.lo;
+      run_most = std::max({run_most, std::abs(spiral.start.curvature), std::abs(spiral.end.curvature)});
+      if (run_length >= length_) most = std::max(most, run_most);
+    }
+    return most;
+  }
+
+ private:
+  bool is_long(const Spiral& spiral) const { return spiral.hi - spiral.lo >= 0.5 * length_; }
+
+  /// A stretch of that length around the sharper end reaches at least half of it into this spiral or the next long one.
+  double on_long(std::size_t index) const {
+    const Spiral& spiral = spirals_[index];
+    const std::size_t count = spirals_.size();
+    const bool at_end = std::abs(spiral.end.curvature) > std::abs(spiral.start.curvature);
+    const Spiral& beside = spirals_[at_end ? (index + 1) % count : (index + count - 1) % count];
+    const double peak = std::abs(at_end ? spiral.end.curvature : spiral.start.curvature);
+    if (!is_long(beside)) return peak;
+    const double place = at_end ? spiral.hi - 0.5 * length_ : spiral.lo + 0.5 * length_;
+    const double inside = std::abs(turning_.on_spiral(spiral, place).curvature);
+    return peak > kSpike * inside ? inside : peak;
+  }
+
+  const TurningFunction& turning_;
+  const std::vector<Spiral>& spirals_;
+  double length_;
+};
+
+}  // namespace
+
+/// The larger of the smallest and what the rounding of a reading can make of the total curvature: a length that is off
+/// by h changes it by at most h times the largest curvature, but for stretches shorter than h, which count as corners.
+Tolerance tolerance_from_digits(const Part& part, const std::vector<Rounding>& roundings) {
+  const double smallest = LocateOptions().tolerance;
+  double value = 0;
+  for (const Rounding& rounding : roundings) {
+    value =
+        std::max(value, rounding.turn + rounding.length * LastingCurvature(part.turning(), rounding.length).value());
+  }
+  if (value <= smallest) return {smallest, Tolerance::Source::smallest};
+  return {value, Tolerance::Source::digits};
+}
+
+Tolerance tolerance_from_noise(double value) {
+  return {std::max(value, LocateOptions().tolerance), Tolerance::Source::noise};
+}
+
+Tolerance tolerance_given(double value) {
+  if (!(value >= 0))
+    throw InputError(fmt::format("`tolerance`: {} is negative, expected an angle of at least 0", value));
+  if (value < kTurnAccuracy) return {kTurnAccuracy, Tolerance::Source::least};
+  return {value, Tolerance::Source::given};
+}
+
+}  // namespace rollfix

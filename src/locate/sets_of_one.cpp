@@ -1,0 +1,255 @@
+#include "sets_of_one.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "accuracy.hpp"
+
+namespace rollfix {
+namespace {
+
+// A place known to this share of the perimeter is known as well as it can be.
+constexpr double kPolished = 1e-14;
+
+using Roots = std::vector<Root>;
+
+/// Pieces that touch, and the roots in them. lo <= hi, hi beyond P where it reaches across s = 0.
+struct Cluster {
+  double lo = 0;
+  double hi = 0;
+  bool exact = false;
+  bool whole_loop = false;
+  Roots roots;
+};
+
+std::vector<Cluster> join(const Part& part, std::vector<Piece>& pieces) {
+  const double same_place = kLengthAccuracy * part.perimeter();
+  const auto earlier = [](const Piece& one, const Piece& two) { return one.lo < two.lo; };
+  if (!std::is_sorted(pieces.begin(), pieces.end(), earlier)) std::sort(pieces.begin(), pieces.end(), earlier);
+  std::vector<Cluster> clusters;
+  clusters.reserve(pieces.size());
+  for (const Piece& piece : pieces) {
+    if (clusters.empty() || piece.lo > clusters.back().hi + same_place) {
+      clusters.push_back({piece.lo, piece.hi, piece.exact, false, {}});
+    } else {
+      clusters.back().hi = std::max(clusters.back().hi, piece.hi);
+      clusters.back().exact |= piece.exact;
+    }
+  }
+  if (clusters.empty() || !part.closed()) return clusters;
+  const double period = part.perimeter();
+  const bool joined = clusters.front().lo <= same_place && clusters.back().hi >= period - same_place;
+  if (joined && clusters.size() == 1) {
+    Cluster& only = clusters.front();
+    only.whole_loop = only.hi - only.lo >= period - 2 * same_place;
+    if (only.whole_loop) only = {0, period, only.exact, true, {}};
+  } else if (joined) {
+    clusters.back().hi = period + clusters.front().hi;
+    clusters.back().exact |= clusters.front().exact;
+    clusters.erase(clusters.begin());
+  }
+  return clusters;
+}
+
+void hand_out(const Part& part, const std::vector<Root>& roots, std::vector<Cluster>& clusters) {
+  const double same_place = kLengthAccuracy * part.perimeter();
+  for (const Root& root : roots) {
+    for (Cluster& cluster : clusters) {
+      Root shifted = root;
+      if (part.closed() && root.s < cluster.lo - same_place) shifted.s += part.perimeter();
+      if (shifted.s >= cluster.lo - same_place && shifted.s <= cluster.hi + same_place) {
+        cluster.roots.push_back(shifted);
+        break;
+      }
+    }
+  }
+  for (Cluster& cluster : clusters) {
+    std::sort(cluster.roots.begin(), cluster.roots.end(),
+              [](const Root& one, const Root& two) { return one.s < two.s; });
+  }
+}
+
+class SetsOfOne {
+ public:
+  explicit SetsOfOne(const Question& question)
+      : question_(question),
+        turning_(question.part.turning()),
+        readings_(question.readings),
+        maker_(question),
+        period_(question.part.perimeter()) {}
+
+  void make(const Cluster& cluster, Placement& placement) const {
+    const Interval extent{cluster.lo, cluster.hi};
+    // By far the most frequent answer: one reading, one simple root.
+    if (readings_.size() == 1 && cluster.roots.size() == 1 && cluster.roots.front().crossing && !cluster.whole_loop) {
+      const Root& root = cluster.roots.front();
+      FoundSet found{Kind::crossing, root.s, extent, false, {}};
+      found.roots.push_back(root.s);
+      const SlopeSample sample{root.sample.value, root.sample.start_curvature, root.sample.end_curvature};
+      maker_.make(std::move(found), placement, &sample);
+      return;
+    }
+    const Roots roots = exact_roots(cluster);
+    const Root start = roots.empty() ? nearest_miss(cluster) : roots.front();
+    FoundSet found{kind_of(cluster, roots, start), start.s, extent, cluster.whole_loop, {}};
+    for (const Root& root : roots) found.roots.push_back(root.s);
+    maker_.make(std::move(found), placement);
+  }
+
+ private:
+  // ---- roots ----
+
+  ResidualSample sample(const Reading& reading, double s) const {
+    const Turning at_start = turning_.at(s);
+    const Turning at_end = turning_.at(s + reading.length[0]);
+    return {s, at_end.angle - at_start.angle - reading.turn, at_start.curvature, at_end.curvature};
+  }
+
+  /// The places in a cluster where every reading's f is 0, each once.
+  Roots exact_roots(const Cluster& cluster) const {
+    Roots found;
+    for (const Root& root : cluster.roots) {
+      Root candidate = root;
+      if (readings_.size() == 1) {
+        if (!root.exact) continue;
+      } else {
+        if (root.crossing) candidate.s = polished_together(root.s, cluster);
+        if (residual_at(question_, candidate.s) > kRootTurn) continue;
+      }
+      if (!found.empty() && same_root(found.back(), candidate)) {
+        found.back().crossing &= candidate.crossing;
+        found.back().corner |= candidate.corner;
+        continue;
+      }
+      found.push_back(candidate);
+      if (cluster.exact) break;  // the rest is its continuum
+    }
+    return found;
+  }
+
+  /// Least squares over all the readings: the steepest decide.
+  double polished_together(double s, const Cluster& cluster) const {
+    for (int round = 0; round < 3; ++round) {
+      double normal = 0;
+      double right = 0;
+      for (const Reading& reading : readings_) {
+        const ResidualSample at = sample(reading, s);
+        normal += at.slope() * at.slope();
+        right -= at.slope() * at.value;
+      }
+      const double next = s + right / normal;
+      if (!(next >= cluster.lo && next <= cluster.hi)) break;
+      s = next;
+    }
+    return s;
+  }
+
+  /// Between two finds of one root f does not leave 0.
+  bool same_root(const Root& one, const Root& two) const {
+    if (two.s - one.s <= kLengthAccuracy * period_) return true;
+    return two.s - one.s <= 1e-6 * period_ && residual_at(question_, 0.5 * (one.s + two.s)) <= kTurnAccuracy;
+  }
+
+  /// Where the largest |f| is least: at an extremum, at a joint, or at an end of the cluster; for several readings
+  /// also where two of them are equally far off.
+  Root nearest_miss(const Cluster& cluster) const {
+    Root best;
+    double least = std::numeric_limits<double>::infinity();
+    const auto consider = [&](double s, bool corner) {
+      const double residual = residual_at(question_, s);
+      if (residual < least) {
+        least = residual;
+        best = {s, false, corner};
+      }
+    };
+    consider(cluster.lo, false);
+    consider(cluster.hi, false);
+    for (const Root& root : cluster.roots) consider(root.s, root.corner);
+    if (readings_.size() > 1) consider(golden_section(cluster), false);
+    return best;
+  }
+
+  double golden_section(const Cluster& cluster) const {
+    constexpr double kRatio = 0.6180339887498949;
+    double lo = cluster.lo;
+    double hi = cluster.hi;
+    double inner_lo = hi - kRatio * (hi - lo);
+    double inner_hi = lo + kRatio * (hi - lo);
+    double value_lo = residual_at(question_, inner_lo);
+    double value_hi = residual_at(question_, inner_hi);
+    while (hi - lo > kPolished * period_) {
+      if (value_lo <= value_hi) {
+        hi = inner_hi;
+        inner_hi = inner_lo;
+        value_hi = value_lo;
+        inner_lo = hi - kRatio * (hi - lo);
+        value_lo = residual_at(question_, inner_lo);
+      } else {
+        lo = inner_lo;
+        inner_lo = inner_hi;
+        value_lo = value_hi;
+        inner_hi = lo + kRatio * (hi - lo);
+        value_hi = residual_at(question_, inner_hi);
+      }
+      if (!(inner_lo > lo && inner_hi < hi)) break;
+    }
+    return 0.5 * (lo + hi);
+  }
+
+  // ---- what kind ----
+
+  Kind kind_of(const Cluster& cluster, const Roots& roots, const Root& start) const {
+    if (cluster.exact) return Kind::stretch;
+    if (start.corner) return Kind::corner;
+    if (roots.size() == 1 && roots.front().crossing && !cluster.whole_loop) return Kind::crossing;
+    if (cluster.whole_loop) return roots.empty() ? Kind::touching : Kind::crossing;
+    for (const Reading& reading : readings_) {
+      if (changes_sign(reading, cluster)) return Kind::crossing;
+    }
+    return Kind::touching;
+  }
+
+  /// Does f have opposite signs at the two ends of the cluster? An end where it is 0 is an end of the boundary: there a
+  /// root with a slope counts.
+  bool changes_sign(const Reading& reading, const Cluster& cluster) const {
+    const double lo = one_sided(reading, cluster.lo, Side::after);
+    const double hi = one_sided(reading, cluster.hi, Side::before);
+    if (std::abs(lo) > kTurnAccuracy && std::abs(hi) > kTurnAccuracy) return (lo < 0) != (hi < 0);
+    const ResidualSample end = sample(reading, std::abs(lo) < std::abs(hi) ? cluster.lo : cluster.hi);
+    return std::abs(hi - lo) > kTurnAccuracy && std::abs(end.slope()) > slope_noise(end);
+  }
+
+  double slope_noise(const ResidualSample& at) const {
+    return kNoSlope * (std::abs(at.start_curvature) + std::abs(at.end_curvature) + 1 / period_);
+  }
+
+  double one_sided(const Reading& reading, double s, Side side) const {
+    return turning_.angle(s + reading.length[0], side) - turning_.angle(s, side) - reading.turn;
+  }
+
+  const Question& question_;
+  const TurningFunction& turning_;
+  const std::vector<Reading>& readings_;
+  PlacementMaker maker_;
+  double period_;
+};
+
+}  // namespace
+
+std::vector<Placement> make_placements(const Question& question, std::vector<Piece> pieces,
+                                       const std::vector<Root>& roots) {
+  std::vector<Cluster> clusters = join(question.part, pieces);
+  hand_out(question.part, roots, clusters);
+  const SetsOfOne sets(question);
+  std::vector<Placement> placements(clusters.size());
+  for (std::size_t k = 0; k < clusters.size(); ++k) sets.make(clusters[k], placements[k]);
+  const auto earlier = [](const Placement& one, const Placement& two) { return one.start[0] < two.start[0]; };
+  if (!std::is_sorted(placements.begin(), placements.end(), earlier)) {
+    std::sort(placements.begin(), placements.end(), earlier);
+  }
+  return placements;
+}
+
+}  // namespace rollfix

@@ -1,0 +1,202 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "corner_sets.hpp"
+#include "part/turning_range.hpp"
+#include "pivots.hpp"
+#include "rollfix/locate/reachable.hpp"
+
+namespace rollfix {
+namespace {
+
+// A continuum of pairs is looked at in pieces whose fingers move by less than this share of the smaller radius, or by
+// as little as this many pieces allow.
+constexpr double kPiece = 0.1;
+constexpr int kMostPieces = 400;
+
+/// Where a finger's centre can be while its contact is in an interval: in a disk.
+struct Ball {
+  Vec2 centre;
+  double radius = 0;
+};
+
+/// The tangent's angles anywhere in an interval of s; corners within rounding of its ends are in it.
+Interval tangents(const Part& part, const Interval& contacts) {
+  Interval angles = angles_over(part.turning(), contacts);
+  for (const double end : {contacts.lo, contacts.hi}) {
+    const Interval there = angle_set(part, end).angles;
+    angles = {std::min(angles.lo, there.lo), std::max(angles.hi, there.hi)};
+  }
+  return angles;
+}
+
+Ball centre_of(const Part& part, double radius, const Interval& contacts) {
+  const Interval angles = tangents(part, contacts);
+  const double angle = angles.middle();
+  const Vec2 normal(std::sin(angle), -std::cos(angle));
+  return {part.point(contacts.middle()) + radius * normal, 0.5 * contacts.width() + 0.5 * radius * angles.width()};
+}
+
+/// Takes out what the fingers can't do.
+class Sieve {
+ public:
+  Sieve(const Part& part, const PerFinger<Reach>& reach, const std::vector<Reading>& readings,
+        const std::vector<Reading>& more, double length_error)
+      : part_(part), reach_(reach), last_(PerFinger<double>::of(reach.size())) {
+    Reading first;
+    first.length = last_;
+    rolls_.push_back(first);
+    rolls_.insert(rolls_.end(), readings.begin(), readings.end());
+    rolls_.insert(rolls_.end(), more.begin(), more.end());
+    roll_ = PerFinger<Interval>::of(reach.size());
+    for (std::size_t finger = 0; finger < reach.size(); ++finger) {
+      Interval& roll = roll_[finger];
+      for (const Reading& reading : rolls_) {
+        roll = {std::min(roll.lo, reading.length[finger]), std::max(roll.hi, reading.length[finger])};
+      }
+      roll = {std::min(0.0, roll.lo + length_error), std::max(0.0, roll.hi - length_error)};
+      if (!readings.empty()) last_[finger] = readings.back().length[finger];
+    }
+    are_two_disks_ = reach.size() == 2 && reach[0].curvature > 0 && reach[1].curvature > 0;
+  }
+
+  /// Why a placement is impossible; nothing when it may be possible.
+  std::optional<Impossible> look_at(const Placement& placement) const {
+    const std::vector<PerFinger<Interval>> boxes = boxes_of(placement);
+    const auto is_beyond = [&](const PerFinger<Interval>& box) { return leaves_reach(box); };
+    if (!can_pivot(placement) || std::all_of(boxes.begin(), boxes.end(), is_beyond)) return beyond_reach(placement);
+    if (!are_two_disks_) return std::nullopt;
+    const auto is_out = [&](const PerFinger<Interval>& box) { return leaves_reach(box) || overlaps(box); };
+    if (!std::all_of(boxes.begin(), boxes.end(), is_out)) return std::nullopt;
+    Impossible found{placement, Impossible::Reason::overlap, 0, {}, 0, 0};
+    const PerFinger<Interval> start(Interval{placement.start[0], placement.start[0]},
+                                    Interval{placement.start[1], placement.start[1]});
+    for (std::size_t k = 0; k < rolls_.size(); ++k) {
+      const double depth = overlap(start, k);
+      if (depth <= found.depth) continue;
+      found.instant = k;
+      found.depth = depth;
+    }
+    return found;
+  }
+
+ private:
+  bool can_pivot(const Placement& placement) const {
+    for (std::size_t finger = 0; finger < reach_.size(); ++finger) {
+      if (!rollfix::can_pivot(part_, reach_[finger], placement, finger, roll_[finger], last_[finger])) return false;
+    }
+    return true;
+  }
+
+  bool leaves_reach(const PerFinger<Interval>& box) const {
+    for (std::size_t finger = 0; finger < reach_.size(); ++finger) {
+      if (!can_roll(reach_[finger], box[finger], roll_[finger])) return true;
+    }
+    return false;
+  }
+
+  /// The first finger that meets something on its way from the placement's own start; else it can't pivot as it must.
+  Impossible beyond_reach(const Placement& placement) const {
+    Impossible found{placement, Impossible::Reason::reach, 0, {}, 0, 0};
+    for (std::size_t finger = 0; finger < reach_.size(); ++finger) {
+      const auto obstruction = obstruction_of(part_, reach_[finger], placement.start[finger], roll_[finger]);
+      if (!obstruction) continue;
+      found.finger = finger;
+      found.obstruction = *obstruction;
+      return found;
+    }
+    for (std::size_t finger = 0; finger < reach_.size(); ++finger) {
+      if (rollfix::can_pivot(part_, reach_[finger], placement, finger, roll_[finger], last_[finger])) continue;
+      found.finger = finger;
+      found.obstruction = pivot_obstruction(part_, reach_[finger], placement, finger);
+      break;
+    }
+    return found;
+  }
+
+  bool overlaps(const PerFinger<Interval>& box) const {
+    const double slack = std::max(reach_[0].slack, reach_[1].slack);
+    for (std::size_t k = 0; k < rolls_.size(); ++k) {
+      if (overlap(box, k) > slack) return true;
+    }
+    return false;
+  }
+
+  /// By how much the fingers overlap at an instant, at least, from wherever in the box they started.
+  double overlap(const PerFinger<Interval>& box, std::size_t instant) const {
+    double depth = 0;
+    std::array<Ball, 2> balls;
+    for (const std::size_t finger : {0U, 1U}) {
+      const double radius = 1 / reach_[finger].curvature;
+      const double length = rolls_[instant].length[finger];
+      balls[finger] = centre_of(part_, radius, {box[finger].lo + length, box[finger].hi + length});
+      depth += radius - balls[finger].radius;
+    }
+    return depth - (balls[0].centre - balls[1].centre).norm();
+  }
+
+  /// What a placement consists of: its extent, or of a continuum small boxes along its line.
+  std::vector<PerFinger<Interval>> boxes_of(const Placement& placement) const {
+    if (placement.kind != Kind::stretch || placement.family.size() < 2) return {placement.extent};
+    std::vector<PerFinger<Interval>> boxes;
+    double step = part_.perimeter();
+    for (const Reach& reach : reach_) {
+      if (reach.curvature > 0) step = std::min(step, kPiece / reach.curvature);
+    }
+    double length = 0;
+    for (std::size_t k = 1; k < placement.family.size(); ++k) length += distance(placement, k);
+    step = std::max(step, length / kMostPieces);
+    for (std::size_t k = 1; k < placement.family.size(); ++k) {
+      const int count = 1 + static_cast<int>(distance(placement, k) / step);
+      for (int i = 0; i < count; ++i) boxes.push_back(piece(placement, k, i, count));
+    }
+    return boxes;
+  }
+
+  static double distance(const Placement& placement, std::size_t k) {
+    const PerFinger<double>& from = placement.family[k - 1];
+    const PerFinger<double>& to = placement.family[k];
+    return std::max(std::abs(to[0] - from[0]), std::abs(to[1] - from[1]));
+  }
+
+  static PerFinger<Interval> piece(const Placement& placement, std::size_t k, int i, int count) {
+    PerFinger<Interval> box = placement.extent;
+    for (std::size_t f = 0; f < 2; ++f) {
+      const double from = placement.family[k - 1][f];
+      const double step = (placement.family[k][f] - from) / count;
+      const double one = from + i * step;
+      const double two = one + step;
+      box[f] = {std::min(one, two) - placement.family_error, std::max(one, two) + placement.family_error};
+    }
+    return box;
+  }
+
+  const Part& part_;
+  const PerFinger<Reach>& reach_;
+  std::vector<Reading> rolls_;  // the first contacts first
+  PerFinger<Interval> roll_;    // of each finger, from its first contact to the furthest on both sides
+  PerFinger<double> last_;      // to the last reading searched with
+  bool are_two_disks_ = false;
+};
+
+}  // namespace
+
+std::vector<Impossible> drop_unreachable(const Part& part, const PerFinger<Reach>& reach,
+                                         const std::vector<Reading>& readings, Search& search,
+                                         const std::vector<Reading>& more, double length_error) {
+  const Sieve sieve(part, reach, readings, more, length_error);
+  std::vector<Impossible> dropped;
+  std::vector<Placement> kept;
+  for (Placement& placement : search.placements) {
+    if (auto impossible = sieve.look_at(placement)) {
+      dropped.push_back(std::move(*impossible));
+    } else {
+      kept.push_back(std::move(placement));
+    }
+  }
+  search.placements = std::move(kept);
+  return dropped;
+}
+
+}  // namespace rollfix
