@@ -13,8 +13,7 @@
 #include "pair_plan.hpp"
 #include "roll_pen.hpp"
 
-namespace rollfix {
-namespace draw {
+namespace rollfix::draw {
 namespace {
 
 constexpr std::size_t kMostPairArcPoints = 20000;  // of an arc
@@ -207,5 +206,4 @@ Svg draw_pairs(const AnswerFigure& figure) {
   return PairPicture(plan).draw();
 }
 
-}  // namespace draw
-}  // namespace rollfix
+}  // namespace rollfix::draw

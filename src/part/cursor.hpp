@@ -33,7 +33,8 @@ class Cursor {
   static Cursor at_spiral(const TurningFunction& turning, std::int64_t k) {
     const auto count = static_cast<std::int64_t>(turning.spirals().size());
     const std::int64_t index = (k % count + count) % count;
-    return {turning, static_cast<std::size_t>(index), static_cast<double>((k - index) / count)};
+    const std::int64_t laps = (k - index) / count;  // without a rest
+    return {turning, static_cast<std::size_t>(index), static_cast<double>(laps)};
   }
   static Cursor at_spiral(const TurningFunction& turning, std::size_t k) { return {turning, k, 0.0}; }
 

@@ -19,10 +19,10 @@ namespace rollfix {
 
 /// What the fingers felt: readings, or the rows of a log.
 struct Felt {
-  Felt(Log log) : logs{std::move(log)} {}                                   // NOLINT: a log is what was felt
-  Felt(std::vector<Log> logs_) : logs(std::move(logs_)) {}                  // NOLINT: of each finger
-  Felt(Reading reading) : readings{std::move(reading)} {}                   // NOLINT
-  Felt(std::vector<Reading> readings_) : readings(std::move(readings_)) {}  // NOLINT
+  Felt(Log log) : logs{std::move(log)} {}                               // NOLINT: a log is what was felt
+  Felt(std::vector<Log> of_fingers) : logs(std::move(of_fingers)) {}    // NOLINT: of each finger
+  Felt(Reading reading) : readings{std::move(reading)} {}               // NOLINT
+  Felt(std::vector<Reading> of_roll) : readings(std::move(of_roll)) {}  // NOLINT
 
   std::vector<Reading> readings;      // each measured from the first contacts; or
   std::vector<Log> logs;              // one of each finger

@@ -13,8 +13,8 @@ namespace rollfix {
 /// (L, theta), of two on a part that may have moved in the meantime (La, Lb, theta), eqs. (7)-(9).
 struct Reading {
   Reading() = default;
-  Reading(double length_, double turn_) : length(length_), turn(turn_) {}
-  Reading(double length_a, double length_b, double turn_) : length(length_a, length_b), turn(turn_) {}
+  Reading(double travelled, double turned) : length(travelled), turn(turned) {}
+  Reading(double length_a, double length_b, double turned) : length(length_a, length_b), turn(turned) {}
 
   PerFinger<double> length;  // arc length travelled on the part, positive along the stored outline; may exceed P
   double turn = 0;           // theta: total curvature along it, Phi(s0, s0 + L), of two fingers
