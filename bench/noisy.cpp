@@ -111,7 +111,7 @@ Contest contest_on(const Part& part, int count) {
     }
     ++k;
     std::vector<Sample> samples;
-    for (const rollfix::Reading& reading : rollfix::readings_as_given(roll.log, DiskFinger{radius})) {
+    for (const rollfix::Reading& reading : rollfix::readings_as_given(roll.log, {DiskFinger{radius}})) {
       samples.emplace_back();
       samples.back().reading = reading;
       samples.back().finger_curvature = 1 / radius;

@@ -38,7 +38,7 @@ void weigh(const Part& part, const Sample& sample, const Noise& noise, std::vect
     const double length = sample.reading.length[0] / (1 + particle.scale);
     const rollfix::Turning there = part.turning().at(particle.s + length);
     const double off = there.angle - part.turning().angle(particle.s) - sample.reading.turn;
-    const double by_contact = (sample.finger_curvature + there.curvature) * noise.contact;
+    const double by_contact = (sample.finger_curvature[0] + there.curvature) * noise.contact;
     const double variance = 2 * (square(by_contact) + square(noise.angle));
     particle.log_weight -= 0.5 * (square(off) / variance + std::log(variance));
   }

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "rollfix/contact/log_stream.hpp"
+#include "rollfix/contact/log.hpp"
 #include "rollfix/contact/noise.hpp"
 #include "rollfix/part/part.hpp"
 

@@ -11,7 +11,7 @@
 
 #include "physics.hpp"
 #include "rollfix/belief/belief.hpp"
-#include "rollfix/contact/log_stream.hpp"
+#include "rollfix/contact/log.hpp"
 #include "rollfix/locate/locate.hpp"
 #include "rollfix/outline/gallery.hpp"
 
@@ -101,7 +101,7 @@ inline void measure(const Part& part, double radius, Trial& trial) {
 
 /// The log's samples, as a robot's program would read them.
 inline std::vector<rollfix::Sample> samples_of(const Part& part, double radius, const std::string& log) {
-  rollfix::LogStream stream("physics.csv", part, rollfix::DiskFinger{radius});
+  rollfix::LogStream stream("physics.csv", part, {rollfix::DiskFinger{radius}});
   std::vector<rollfix::Sample> samples;
   std::istringstream lines(log);
   for (std::string line; std::getline(lines, line);) {

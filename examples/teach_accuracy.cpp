@@ -21,8 +21,8 @@ rollfix::Log lap(const Part& part, int steps) {
   log.kind = rollfix::LogKind::travelled;
   for (int k = 1; k <= steps; ++k) {
     const double s = part.perimeter() * k / steps;
-    log.length.push_back(s);
-    log.turn.push_back(part.turning().angle(s) - part.turning().angle(0));
+    log.fingers[0].length.push_back(s);
+    log.fingers[0].turn.push_back(part.turning().angle(s) - part.turning().angle(0));
   }
   return log;
 }

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "rollfix/contact/log.hpp"
-#include "rollfix/contact/log_stream.hpp"
 #include "rollfix/contact/teach.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline/gallery.hpp"
@@ -22,6 +21,7 @@ void require(bool holds) {
 }
 
 void teach(const rollfix::Log& log, const rollfix::DiskFinger& finger) {
+  if (log.fingers.size() > 1) return;
   rollfix::TeachOptions options;
   options.finger = finger;
   options.bridge = log.rows() % 2 == 0;
@@ -31,7 +31,7 @@ void teach(const rollfix::Log& log, const rollfix::DiskFinger& finger) {
 /// Line by line: whatever comes, each line is one of the kinds, and what is skipped is counted.
 void stream(std::string_view text, const rollfix::DiskFinger& finger) {
   static const rollfix::Part part(rollfix::gallery("ellipse"));
-  rollfix::LogStream stream("fuzz", part, finger);
+  rollfix::LogStream stream("fuzz", part, {finger});
   std::size_t malformed = 0;
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size() - 1) + 1;
@@ -48,12 +48,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   const rollfix::DiskFinger finger{0.5};
   try {
-    for (const rollfix::Log& log : rollfix::parse_logs(text, "fuzz.csv")) {
-      require(log.rows() > 0 && log.line.size() == log.rows());
-      const std::vector<rollfix::Reading> readings = rollfix::readings_as_given(log, finger);
-      require(readings.size() == log.rows());
-      if (log.rows() <= kMostRows) teach(log, finger);
-    }
+    const rollfix::Log log = rollfix::parse_log(text, "fuzz.csv");
+    for (const rollfix::FingerRows& rows : log.fingers) require(log.rows() > 0 && rows.line.size() == log.rows());
+    const std::vector<rollfix::Reading> readings = rollfix::readings_as_given(log, {finger});
+    require(readings.size() == log.rows());
+    if (log.rows() <= kMostRows) teach(log, finger);
   } catch (const rollfix::InputError&) {
   }
   try {

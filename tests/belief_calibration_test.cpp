@@ -84,7 +84,7 @@ TEST(BeliefCalibrationOfIncrements, a_wheel_and_a_gyroscope_are_known_as_well_as
     Belief belief(part, rollfix::LogKind::increments, options);
     for (std::size_t row = 0; row < course.log.rows(); ++row) {
       rollfix::Sample sample;
-      sample.reading = {course.log.length[row], course.log.turn[row]};
+      sample.reading = {course.log.fingers[0].length[row], course.log.fingers[0].turn[row]};
       belief.add(sample);
     }
     result.add(belief.modes(), start, part);

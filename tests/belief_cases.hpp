@@ -9,7 +9,7 @@
 
 #include "random.hpp"
 #include "rollfix/belief/belief.hpp"
-#include "rollfix/contact/noisy.hpp"
+#include "rollfix/contact/rolling.hpp"
 #include "rollfix/outline/load.hpp"
 #include "rollfix/part/period.hpp"
 
@@ -48,16 +48,16 @@ inline void slip_here_and_there(NoisyRoll& roll, const Part& part, double radius
   std::normal_distribution<double> normal;
   double slipped = 0;
   for (std::size_t row = 1; row < roll.log.rows(); ++row) {
-    const double length = std::abs(roll.truth.s[row] - roll.truth.s[row - 1]);
+    const double length = std::abs(roll.truth.s[0][row] - roll.truth.s[0][row - 1]);
     slipped += 5 * slip * std::sqrt(0.01 * part.perimeter() * length) * normal(random);
-    roll.log.u[row] += slipped / radius;
-    roll.log.psi[row] -= slipped / radius;
+    roll.log.fingers[0].u[row] += slipped / radius;
+    roll.log.fingers[0].psi[row] -= slipped / radius;
   }
 }
 
 /// Gives all rows of a log to a belief.
 inline void tell(Belief& belief, const rollfix::Log& log, double radius) {
-  for (const rollfix::Reading& reading : rollfix::readings_as_given(log, DiskFinger{radius})) {
+  for (const rollfix::Reading& reading : rollfix::readings_as_given(log, {DiskFinger{radius}})) {
     rollfix::Sample sample;
     sample.reading = reading;
     sample.finger_curvature = 1 / radius;
@@ -101,11 +101,11 @@ class Robot {
     plan.distance = length;
     plan.rows = 120;
     const rollfix::Roll roll = rollfix::roll_in_closed_form(part_, DiskFinger{radius_}, plan);
-    for (std::size_t row = 0; row < roll.s.size(); ++row) {
-      tell_row(length_ + roll.s[row] - roll.s[0], turn_ + roll.angle[row] - roll.angle[0], belief);
+    for (std::size_t row = 0; row < roll.s[0].size(); ++row) {
+      tell_row(length_ + roll.s[0][row] - roll.s[0][0], turn_ + roll.angle[0][row] - roll.angle[0][0], belief);
     }
-    length_ += roll.s.back() - roll.s.front();
-    turn_ += roll.angle.back() - roll.angle.front();
+    length_ += roll.s[0].back() - roll.s[0].front();
+    turn_ += roll.angle[0].back() - roll.angle[0].front();
   }
 
  private:

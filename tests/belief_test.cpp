@@ -119,7 +119,7 @@ TEST(Belief, is_what_the_whole_covariance_of_all_rows_gives) {
     const NoisyRoll roll = roll_on(part, radius, start, 0.35 * part.perimeter(), 40, noise, random());
     Belief belief = belief_in(part, roll.log, radius, with(noise));
     const Mode& mode = belief.modes().front();
-    std::vector<Reading> rows = rollfix::readings_as_given(roll.log, DiskFinger{radius});
+    std::vector<Reading> rows = rollfix::readings_as_given(roll.log, {DiskFinger{radius}});
     rows.erase(rows.begin());
     const Brute brute = brute_posterior(part, rows, radius, noise, mode.start[0], 8 * mode.sd[0]);
     EXPECT_NEAR(distance(part, mode.mean[0], brute.mean), 0, 0.05 * brute.sd);
@@ -224,7 +224,7 @@ TEST(Belief, stray_rows_do_not_sink_a_robust_one) {
   const Part part = part_of("cam");
   BeliefOptions options = with(noise_on(part, 1e-3, 5e-3, 5e-3));
   NoisyRoll roll = roll_on(part, 0.2, 2, 3, 300, options.noise, 1);
-  for (std::size_t row = 7; row < roll.log.rows(); row += 19) roll.log.psi[row] += 0.6;
+  for (std::size_t row = 7; row < roll.log.rows(); row += 19) roll.log.fingers[0].psi[row] += 0.6;
   Belief plain = belief_in(part, roll.log, 0.2, options);
   EXPECT_GT(plain.excess(), 3);
   options.robust = true;
@@ -263,7 +263,7 @@ TEST(Belief, a_finger_that_slipped_once_is_told_of) {
   const Noise noise = noise_on(part, 2e-4, 2e-3, 1e-3);
   const NoisyRoll roll = roll_on(part, 0.1, 2, 3, 300, noise, 1);
   Belief belief(part, LogKind::contact, with(noise));
-  const std::vector<Reading> rows = rollfix::readings_as_given(roll.log, DiskFinger{0.1});
+  const std::vector<Reading> rows = rollfix::readings_as_given(roll.log, {DiskFinger{0.1}});
   // Half way, within a tenth of the rows, the finger is dragged along: the length it felt falls short by 0.25.
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const double dragged = std::clamp((static_cast<double>(k) - 135) / 30, 0.0, 1.0) * 0.25;
@@ -300,7 +300,7 @@ TEST(Belief, asked_along_the_way_it_ends_where_it_does_without) {
   const rollfix::Log log = roll_on(part, 0.1, 2, 2, 700, noise, 1).log;
   Belief at_once = belief_in(part, log, 0.1, with(noise));
   Belief asked(part, LogKind::contact, with(noise));
-  for (const Reading& reading : rollfix::readings_as_given(log, DiskFinger{0.1})) {
+  for (const Reading& reading : rollfix::readings_as_given(log, {DiskFinger{0.1}})) {
     asked.add(sample_of(reading, 10));
     asked.modes();
   }
@@ -334,7 +334,7 @@ TEST(Weigh, every_placement_of_the_search_is_listed_or_improbable) {
   const Noise noise = noise_on(part, 1e-3, 5e-3, 5e-3);
   const NoisyRoll roll = roll_on(part, 0.1, 2, 1, 100, noise, 1);
   Belief belief = belief_in(part, roll.log, 0.1, with(noise));
-  const std::vector<Reading> readings{rollfix::readings_as_given(roll.log, DiskFinger{0.1}).back()};
+  const std::vector<Reading> readings{rollfix::readings_as_given(roll.log, {DiskFinger{0.1}}).back()};
   rollfix::LocateOptions options;
   options.tolerance = belief.tolerance(readings);
   const rollfix::Search found = rollfix::locate(part, readings, options);
@@ -355,10 +355,10 @@ TEST(PoseSpread, holds_the_true_pose_as_often_as_it_should) {
     const double start = part.perimeter() * static_cast<double>(k) / count;
     const rollfix::Log log = roll_on(part, radius, start, 3, 100, noise, random()).log;
     Belief belief = belief_in(part, log, radius, with(noise));
-    const rollfix::Contact first{log.u.front(), log.psi.front()};
+    const rollfix::Contact first{log.fingers[0].u.front(), log.fingers[0].psi.front()};
     const double towards = first.facing();
     const rollfix::Vec2 where =
-        rollfix::Vec2(log.x.front(), log.y.front()) + radius * rollfix::Vec2(std::cos(towards), std::sin(towards));
+        rollfix::Vec2(log.fingers[0].x.front(), log.fingers[0].y.front()) + radius * rollfix::Vec2(std::cos(towards), std::sin(towards));
     const Mode* mode = mode_at(belief.modes(), start, part);
     ASSERT_NE(mode, nullptr);
     const auto index = static_cast<std::size_t>(mode - belief.modes().data());

@@ -13,7 +13,6 @@
 #include "cli.hpp"
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/answer_output.hpp"
-#include "rollfix/contact/pair_log.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/finger_argument.hpp"
 #include "rollfix/outline/gallery.hpp"
@@ -26,11 +25,9 @@ namespace {
 using cli::Json;
 using cli::run;
 using rollfix::Answer;
-using rollfix::FingerPair;
 using rollfix::InputError;
 using rollfix::Log;
 using rollfix::Observation;
-using rollfix::PairLog;
 using rollfix::Part;
 using rollfix::solve;
 using testing::AllOf;
@@ -51,14 +48,9 @@ std::string refusal_of(const Action& action) {
   return "nothing was thrown";
 }
 
-std::vector<Log> logs_in(const std::vector<std::string>& files) {
+Log log_in(const std::vector<std::string>& files) {
   std::vector<std::string> notes;
   return rollfix::app::read_roll(files, "", notes);
-}
-
-PairLog log_in(const std::vector<std::string>& files) {
-  const std::vector<Log> logs = logs_in(files);
-  return rollfix::paired(logs.at(0), logs.at(1));
 }
 
 }  // namespace
@@ -78,7 +70,7 @@ TEST(CliTwoFingers, simulate_writes_a_log_of_each_when_asked) {
   const cli::Folder folder;
   run(kRoll + " -o both.csv");
   EXPECT_EQ(run(kRoll + " -o a.csv -o b.csv").code, 0);
-  EXPECT_EQ(rollfix::format_pair_log(log_in({"a.csv", "b.csv"})), cli::read("both.csv"));
+  EXPECT_EQ(rollfix::format_log(log_in({"a.csv", "b.csv"})), cli::read("both.csv"));
 }
 
 TEST(CliTwoFingers, simulate_prints_the_log_when_no_file_is_named) {
@@ -91,30 +83,30 @@ TEST(CliTwoFingers, simulate_prints_the_log_when_no_file_is_named) {
 TEST(CliTwoFingers, simulate_takes_samples_contact_angles_and_two_radii) {
   const cli::Folder folder;
   run(kRoll + " --finger disk,r=0.05 --samples 31 --contact-angle 10deg --contact-angle 20deg -o both.csv");
-  const PairLog log = log_in({"both.csv"});
+  const Log log = log_in({"both.csv"});
   EXPECT_EQ(log.rows(), 31U);
-  EXPECT_NEAR(log.a.u[0], std::numbers::pi / 18, 1e-12);
-  EXPECT_NEAR(log.b.u[0], std::numbers::pi / 9, 1e-12);
-  EXPECT_NEAR(log.a.u[30] - log.a.u[0], -1.5 / 0.1, 1e-9);
-  EXPECT_NEAR(log.b.u[30] - log.b.u[0], 0.8 / 0.05, 1e-9);
+  EXPECT_NEAR(log.fingers[0].u[0], std::numbers::pi / 18, 1e-12);
+  EXPECT_NEAR(log.fingers[1].u[0], std::numbers::pi / 9, 1e-12);
+  EXPECT_NEAR(log.fingers[0].u[30] - log.fingers[0].u[0], -1.5 / 0.1, 1e-9);
+  EXPECT_NEAR(log.fingers[1].u[30] - log.fingers[1].u[0], 0.8 / 0.05, 1e-9);
 }
 
 TEST(CliTwoFingers, one_contact_angle_is_of_both) {
   const cli::Folder folder;
   run(kRoll + " --contact-angle 10deg -o both.csv");
-  const PairLog log = log_in({"both.csv"});
-  EXPECT_NEAR(log.a.u[0], std::numbers::pi / 18, 1e-12);
-  EXPECT_NEAR(log.b.u[0], std::numbers::pi / 18, 1e-12);
+  const Log log = log_in({"both.csv"});
+  EXPECT_NEAR(log.fingers[0].u[0], std::numbers::pi / 18, 1e-12);
+  EXPECT_NEAR(log.fingers[1].u[0], std::numbers::pi / 18, 1e-12);
 }
 
 TEST(CliTwoFingers, a_log_gives_the_middle_reading_and_the_last_and_the_facing) {
   const cli::Folder folder;
   run(kRoll + " -o both.csv");
   const Part part(rollfix::gallery("spline,seed=3"));
-  const PairLog log = log_in({"both.csv"});
-  const Observation seen = rollfix::observe({part, std::vector<Log>{log.a, log.b}, {0.1}});
+  const Log log = log_in({"both.csv"});
+  const Observation seen = rollfix::observe({part, log, {0.1}});
   EXPECT_EQ(seen.rolls.size(), 101U);
-  EXPECT_THAT(seen.times, ElementsAre(log.a.time[50], log.a.time[100]));
+  EXPECT_THAT(seen.times, ElementsAre(log.time[50], log.time[100]));
   ASSERT_EQ(seen.readings.size(), 2U);
   EXPECT_NEAR(seen.readings[1].length[0], 1.5, 1e-9);
   EXPECT_NEAR(seen.readings[1].length[1], -0.8, 1e-9);
@@ -131,7 +123,7 @@ TEST(CliTwoFingers, a_log_of_lengths_on_a_reversed_outline_is_turned_round) {
   folder.write("b.csv", "length,turn\n-1,1\n-3,1\n");
   rollfix::Outline clockwise{"clockwise", {}, true};
   clockwise.curves = {rollfix::Line({0, 0}, {0, 3}), rollfix::Line({0, 3}, {4, 0}), rollfix::Line({4, 0}, {0, 0})};
-  const Observation seen = rollfix::observe({Part(clockwise), logs_in({"a.csv", "b.csv"})});
+  const Observation seen = rollfix::observe({Part(clockwise), log_in({"a.csv", "b.csv"})});
   EXPECT_TRUE(seen.lengths_reversed);
   EXPECT_EQ(seen.readings[1].length[1], 3);
   EXPECT_FALSE(seen.facing);
@@ -141,9 +133,9 @@ TEST(CliTwoFingers, a_log_of_lengths_on_a_reversed_outline_is_turned_round) {
 TEST(CliTwoFingers, the_log_argument_is_of_as_many_fingers_as_its_files) {
   const cli::Folder folder;
   folder.write("one.csv", "u,psi\n0,0\n1,1\n");
-  EXPECT_EQ(logs_in({"one.csv"}).size(), 1U);
-  EXPECT_EQ(logs_in({"one.csv", "one.csv"}).size(), 2U);
-  EXPECT_THAT(refusal_of([] { logs_in({"1", "2", "3"}); }), HasSubstr("--log is given 3 times"));
+  EXPECT_EQ(log_in({"one.csv"}).fingers.size(), 1U);
+  EXPECT_EQ(log_in({"one.csv", "one.csv"}).fingers.size(), 2U);
+  EXPECT_THAT(refusal_of([] { log_in({"1", "2", "3"}); }), HasSubstr("--log is given 3 times"));
 }
 
 TEST(CliTwoFingers, fingers_are_as_many_as_are_given_and_two_at_most) {
@@ -161,7 +153,7 @@ TEST(CliTwoFingers, poses_are_lists_in_json) {
   const cli::Folder folder;
   run(kRoll + " -o both.csv");
   const Part part(rollfix::gallery("spline,seed=3"));
-  Answer answer = solve({part, logs_in({"both.csv"}), {0.1}});
+  Answer answer = solve({part, log_in({"both.csv"}), {0.1}});
   ASSERT_FALSE(answer.placements.empty());
   const Json found = rollfix::app::answer_json(answer, false);
   const auto nearest = std::find_if(answer.placements.begin(), answer.placements.end(), [](const auto& placement) {

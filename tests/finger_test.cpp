@@ -12,7 +12,6 @@
 
 #include "random.hpp"
 #include "rollfix/contact/log.hpp"
-#include "rollfix/contact/log_stream.hpp"
 #include "rollfix/contact/pose.hpp"
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
@@ -52,18 +51,19 @@ std::string refusal_of(const Action& action) {
 
 /// A point of the finger in the world.
 Vec2 in_world(const Log& log, std::size_t row, const Vec2& on_finger) {
-  const double c = std::cos(log.psi[row]);
-  const double s = std::sin(log.psi[row]);
-  return {log.x[row] + c * on_finger.x() - s * on_finger.y(), log.y[row] + s * on_finger.x() + c * on_finger.y()};
+  const double c = std::cos(log.fingers[0].psi[row]);
+  const double s = std::sin(log.fingers[0].psi[row]);
+  return {log.fingers[0].x[row] + c * on_finger.x() - s * on_finger.y(),
+          log.fingers[0].y[row] + s * on_finger.x() + c * on_finger.y()};
 }
 
 /// Finger and part share the contact, and their tangents there, by differences of their points, are opposite.
 void expect_touching(const Part& part, const Finger& finger, const Roll& roll) {
-  for (std::size_t row = 0; row < roll.s.size(); ++row) {
+  for (std::size_t row = 0; row < roll.s[0].size(); ++row) {
     const double h = 1e-6 * part.perimeter();
-    const double u = roll.log.u[row];
-    EXPECT_LT((in_world(roll.log, row, finger.point(u)) - part.point(roll.s[row])).norm(), 1e-9 * part.perimeter());
-    const Vec2 along = part.point(roll.s[row] + h) - part.point(roll.s[row] - h);
+    const double u = roll.log.fingers[0].u[row];
+    EXPECT_LT((in_world(roll.log, row, finger.point(u)) - part.point(roll.s[0][row])).norm(), 1e-9 * part.perimeter());
+    const Vec2 along = part.point(roll.s[0][row] + h) - part.point(roll.s[0][row] - h);
     const Vec2 against = in_world(roll.log, row, finger.point(u + h)) - in_world(roll.log, row, finger.point(u - h));
     EXPECT_LT((along.normalized() + against.normalized()).norm(), 1e-4);
   }
@@ -73,10 +73,10 @@ void expect_touching(const Part& part, const Finger& finger, const Roll& roll) {
 void expect_no_slip(const Part& part, const Finger& finger, const Roll& roll) {
   double most = 0;
   double longest = 0;
-  for (std::size_t row = 1; row + 1 < roll.s.size(); ++row) {
-    const Vec2 material = finger.point(roll.log.u[row]);
+  for (std::size_t row = 1; row + 1 < roll.s[0].size(); ++row) {
+    const Vec2 material = finger.point(roll.log.fingers[0].u[row]);
     const Vec2 moved = in_world(roll.log, row + 1, material) - in_world(roll.log, row - 1, material);
-    const double step = std::abs(roll.s[row + 1] - roll.s[row - 1]);
+    const double step = std::abs(roll.s[0][row + 1] - roll.s[0][row - 1]);
     most = std::max(most, moved.norm() / step);
     longest = std::max(longest, step);
   }
@@ -132,24 +132,25 @@ TEST(Finger, a_circle_as_an_outline_rolls_like_a_disk) {
   const Finger outline = circle_finger(0.1);
   RollPlan plan = plan_over(0.7, 3);
   const Roll expected = roll_in_closed_form(part, outline, plan);
-  plan.psi = expected.log.psi[0];
+  plan.psi = expected.log.fingers[0].psi[0];
   plan.u.reset();
   const Roll found = roll_in_closed_form(part, 0.1, plan);
-  for (std::size_t row = 0; row < found.s.size(); ++row) {
-    EXPECT_NEAR(found.s[row], expected.s[row], 1e-9);
-    EXPECT_NEAR(found.log.psi[row], expected.log.psi[row], 1e-9);
-    EXPECT_NEAR(0.1 * found.log.u[row], expected.log.u[row] + 0.1 * found.log.u[0], 1e-9);
-    EXPECT_NEAR(found.log.x[row], expected.log.x[row], 1e-9);
+  for (std::size_t row = 0; row < found.s[0].size(); ++row) {
+    EXPECT_NEAR(found.s[0][row], expected.s[0][row], 1e-9);
+    EXPECT_NEAR(found.log.fingers[0].psi[row], expected.log.fingers[0].psi[row], 1e-9);
+    EXPECT_NEAR(0.1 * found.log.fingers[0].u[row], expected.log.fingers[0].u[row] + 0.1 * found.log.fingers[0].u[0],
+                1e-9);
+    EXPECT_NEAR(found.log.fingers[0].x[row], expected.log.fingers[0].x[row], 1e-9);
   }
 }
 
 TEST(Finger, a_jaw_turns_with_the_tangent_and_its_contact_runs_along_it) {
   const Part part(gallery("ellipse"));
   const Roll found = roll(part, Finger::jaw(), plan_over(1, 7, 300));
-  for (std::size_t row = 0; row < found.s.size(); ++row) {
-    const double turned = part.turning().angle(found.s[row]) - part.turning().angle(1);
-    EXPECT_NEAR(found.log.psi[row] - found.log.psi[0], turned, 1e-9);
-    EXPECT_NEAR(found.log.u[row], -(found.s[row] - 1), 1e-9);
+  for (std::size_t row = 0; row < found.s[0].size(); ++row) {
+    const double turned = part.turning().angle(found.s[0][row]) - part.turning().angle(1);
+    EXPECT_NEAR(found.log.fingers[0].psi[row] - found.log.fingers[0].psi[0], turned, 1e-9);
+    EXPECT_NEAR(found.log.fingers[0].u[row], -(found.s[0][row] - 1), 1e-9);
   }
   expect_touching(part, Finger::jaw(), found);
   expect_no_slip(part, Finger::jaw(), roll(part, Finger::jaw(), plan_over(1, 7, 4000)));
@@ -181,9 +182,10 @@ Pairing random_pairing(std::mt19937_64& generator) {
 
 double difference(const Roll& a, const Roll& b) {
   double most = 0;
-  for (std::size_t row = 0; row < a.s.size(); ++row) {
-    most = std::max({most, std::abs(a.s[row] - b.s[row]), std::abs(a.angle[row] - b.angle[row]),
-                     std::abs(a.log.u[row] - b.log.u[row]), std::abs(a.log.psi[row] - b.log.psi[row])});
+  for (std::size_t row = 0; row < a.s[0].size(); ++row) {
+    most = std::max({most, std::abs(a.s[0][row] - b.s[0][row]), std::abs(a.angle[0][row] - b.angle[0][row]),
+                     std::abs(a.log.fingers[0].u[row] - b.log.fingers[0].u[row]),
+                     std::abs(a.log.fingers[0].psi[row] - b.log.fingers[0].psi[row])});
   }
   return most;
 }
@@ -203,10 +205,10 @@ TEST(Finger, both_ways_of_rolling_agree_on_random_shapes) {
     ++rolled;
     const Roll integrated = roll(pairing.part, pairing.finger, pairing.plan);
     EXPECT_LT(difference(exact, integrated), 3e-8) << pairing.part.name() << " " << pairing.finger.name();
-    EXPECT_NEAR(exact.s.back() - exact.s.front(), *pairing.plan.distance, 1e-9);
-    const Reading last = readings(exact.log, pairing.part, pairing.finger).back();
-    EXPECT_NEAR(last.length[0], exact.s.back() - exact.s.front(), 1e-9);
-    EXPECT_NEAR(last.turn, exact.angle.back() - exact.angle.front(), 1e-8);
+    EXPECT_NEAR(exact.s[0].back() - exact.s[0].front(), *pairing.plan.distance, 1e-9);
+    const Reading last = readings(exact.log, pairing.part, {pairing.finger}).back();
+    EXPECT_NEAR(last.length[0], exact.s[0].back() - exact.s[0].front(), 1e-9);
+    EXPECT_NEAR(last.turn, exact.angle[0].back() - exact.angle[0].front(), 1e-8);
   }
   EXPECT_GT(rolled, test_count(60) / 4);
 }
@@ -228,8 +230,8 @@ TEST(Finger, at_a_corner_of_the_part_it_pivots) {
   const Part square = shapes::unit_square();
   const Finger finger = finger_from("ellipse,a=0.3,b=0.2");
   const Roll found = roll_in_closed_form(square, finger, plan_over(0.5, 1, 2001));
-  EXPECT_NEAR(found.angle.back() - found.angle.front(), kPi / 2, 1e-12);
-  const auto on_corner = std::count(found.s.begin(), found.s.end(), 1.0);
+  EXPECT_NEAR(found.angle[0].back() - found.angle[0].front(), kPi / 2, 1e-12);
+  const auto on_corner = std::count(found.s[0].begin(), found.s[0].end(), 1.0);
   EXPECT_GT(on_corner, 100) << "rows in the pivot";
   EXPECT_LT(difference(found, roll(square, finger, plan_over(0.5, 1, 2001))), 1e-8);
 }
@@ -246,7 +248,7 @@ TEST(Finger, the_part_is_found_where_it_is) {
   const Part part(gallery("cam"));
   for (const Finger& finger : {Finger::jaw(), finger_from("ellipse,a=0.3,b=0.2")}) {
     const Roll found = roll_in_closed_form(part, finger, plan_over(2, 1.5, 100, 0.3));
-    const Poses at = *poses(part, finger, found.log, 2, {0, 50, 99});
+    const Poses at = *poses(part, {finger}, found.log, 2, {0, 50, 99});
     for (std::size_t k = 0; k < 3; ++k) {
       EXPECT_NEAR(at.pose[k].x, 0, 1e-9) << finger.name();
       EXPECT_NEAR(at.pose[k].y, 0, 1e-9);
@@ -270,7 +272,7 @@ TEST(Finger, an_open_finger_ends) {
   const double half = finger.ends().hi / 2;
   EXPECT_THAT(refusal_of([&] { roll(part, finger, plan_over(1, half + 0.01, 300, half)); }),
               HasSubstr("runs off the end of the finger"));
-  EXPECT_NEAR(roll(part, finger, plan_over(1, half - 0.01, 300, half)).log.u.back(), 0.01, 1e-9);
+  EXPECT_NEAR(roll(part, finger, plan_over(1, half - 0.01, 300, half)).log.fingers[0].u.back(), 0.01, 1e-9);
   EXPECT_THAT(refusal_of([&] { roll(part, finger, plan_over(1, 0.1, 300, 3 * half)); }), HasSubstr("expected a first"));
 }
 
@@ -292,7 +294,7 @@ TEST(Finger, it_sticks_where_it_does_not_fit_any_more) {
   EXPECT_THAT(refusal_of([&] { roll(part, finger, plan); }),
               AllOf(HasSubstr("curved inwards"), HasSubstr(fmt::format("s = {:.3f}", place).substr(0, 7))));
   plan.distance = place - start - 1e-3;
-  EXPECT_NEAR(roll(part, finger, plan).s.back(), place - 1e-3, 1e-8);
+  EXPECT_NEAR(roll(part, finger, plan).s[0].back(), place - 1e-3, 1e-8);
 }
 
 // --- Logs.
@@ -302,16 +304,16 @@ TEST(Finger, logs_of_a_jaw_and_of_outlines_are_read_back) {
   for (const Finger& finger : {Finger::jaw(), finger_from("ellipse,a=0.3,b=0.2")}) {
     const Roll found = roll_in_closed_form(part, finger, plan_over(1, 8, 200));
     const Log log = parse_log(format_log(found.log), "run.csv");
-    const std::vector<Reading> all = readings_as_given(log, finger);
-    LogStream stream("live", part, finger);
+    const std::vector<Reading> all = readings_as_given(log, {finger});
+    LogStream stream("live", part, {finger});
     stream.push("u,psi");
     for (std::size_t row = 0; row < all.size(); ++row) {
-      EXPECT_NEAR(all[row].length[0], found.s[row] - 1, 1e-9);
-      const LogLine line = stream.push(fmt::format("{:.17g},{:.17g}", log.u[row], log.psi[row]));
+      EXPECT_NEAR(all[row].length[0], found.s[0][row] - 1, 1e-9);
+      const LogLine line = stream.push(fmt::format("{:.17g},{:.17g}", log.fingers[0].u[row], log.fingers[0].psi[row]));
       ASSERT_EQ(line.kind, row == 0 ? LineKind::first : LineKind::sample) << line.message;
-      EXPECT_EQ(line.sample.reading.length, all[row].length);
+      EXPECT_EQ(line.sample.reading.length[0], all[row].length[0]);
       EXPECT_EQ(line.sample.reading.turn, all[row].turn);
-      EXPECT_EQ(line.sample.finger_curvature, finger.curvature(log.u[row]));
+      EXPECT_EQ(line.sample.finger_curvature[0], finger.curvature(log.fingers[0].u[row]));
     }
   }
 }
@@ -320,9 +322,9 @@ TEST(Finger, u_of_a_closed_outline_may_be_wrapped_at_its_length) {
   const Part part(gallery("ellipse"));
   const Finger finger = finger_from("ellipse,a=0.3,b=0.2");
   Log log = roll_in_closed_form(part, finger, plan_over(1, 8, 200)).log;
-  const double whole = readings(log, part, finger).back().length[0];
-  for (double& u : log.u) u -= finger.period() * std::floor(u / finger.period());
-  EXPECT_NEAR(readings(log, part, finger).back().length[0], whole, 1e-9);
+  const double whole = readings(log, part, {finger}).back().length[0];
+  for (double& u : log.fingers[0].u) u -= finger.period() * std::floor(u / finger.period());
+  EXPECT_NEAR(readings(log, part, {finger}).back().length[0], whole, 1e-9);
 }
 
 TEST(Finger, a_row_off_the_end_of_an_open_finger_is_refused_or_skipped) {
@@ -330,14 +332,14 @@ TEST(Finger, a_row_off_the_end_of_an_open_finger_is_refused_or_skipped) {
   const Finger finger = finger_from("log-spiral");
   const double end = finger.ends().hi;
   const std::string off = fmt::format("{},0.1", end + 0.01);
-  LogStream stream("live", part, finger);
+  LogStream stream("live", part, {finger});
   EXPECT_EQ(stream.push("u,psi").kind, LineKind::nothing);
   EXPECT_EQ(stream.push("0.5,0").kind, LineKind::first);
   const LogLine line = stream.push(off);
   EXPECT_EQ(line.kind, LineKind::malformed);
   EXPECT_THAT(line.message, HasSubstr("live:3: u is"));
   const Log log = parse_log("u,psi\n0.5,0\n" + off + "\n", "run.csv");
-  EXPECT_THAT(refusal_of([&] { readings(log, part, finger); }), HasSubstr("run.csv:3: u is"));
+  EXPECT_THAT(refusal_of([&] { readings(log, part, {finger}); }), HasSubstr("run.csv:3: u is"));
 }
 
 }  // namespace

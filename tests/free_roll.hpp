@@ -5,16 +5,16 @@
 #include <string>
 #include <type_traits>
 
-#include "rollfix/contact/free_part.hpp"
+#include "rollfix/contact/rolling.hpp"
 #include "rollfix/outline/gallery.hpp"
 
 /// Small words for tests about two fingers on a part that is free to move.
 namespace free_rolls {
 
+using rollfix::FingerRows;
 using rollfix::FreePlan;
-using rollfix::FreeRoll;
-using rollfix::Log;
 using rollfix::Part;
+using rollfix::Roll;
 using rollfix::Vec2;
 
 inline Part part_of(const std::string& shape) { return Part(rollfix::gallery(shape)); }
@@ -22,8 +22,8 @@ inline Part part_of(const std::string& shape) { return Part(rollfix::gallery(sha
 /// Finger a of radius ra rolls from s over La, b of radius rb from t over Lb, while the part turns.
 inline FreePlan by_distances(double ra, double s, double La, double rb, double t, double Lb, double part_rotation = 0) {
   FreePlan plan;
-  plan.a = {{ra}, s, 0.3, La, {}};
-  plan.b = {{rb}, t, -1.1, Lb, {}};
+  plan.fingers[0] = {{ra}, s, 0.3, La, {}};
+  plan.fingers[1] = {{rb}, t, -1.1, Lb, {}};
   plan.pose = {0.4, -0.7, 2.1};
   plan.part_rotation = part_rotation;
   plan.rows = 201;
@@ -33,8 +33,8 @@ inline FreePlan by_distances(double ra, double s, double La, double rb, double t
 /// All three turn by their own profiles; finger b changes its direction.
 inline FreePlan by_profiles(double ra, double s, double rb, double t, double duration = 1, std::size_t rows = 201) {
   FreePlan plan;
-  plan.a = {{ra}, s, 0.3, {}, [](double time) { return 4 + 2 * std::cos(3 * time); }};
-  plan.b = {{rb}, t, -1.1, {}, [](double time) { return 5 * std::cos(4 * time); }};
+  plan.fingers[0] = {{ra}, s, 0.3, {}, [](double time) { return 4 + 2 * std::cos(3 * time); }};
+  plan.fingers[1] = {{rb}, t, -1.1, {}, [](double time) { return 5 * std::cos(4 * time); }};
   plan.omega_part = [](double time) { return 0.8 - time; };
   plan.duration = duration;
   plan.pose = {0.4, -0.7, 2.1};
@@ -42,16 +42,16 @@ inline FreePlan by_profiles(double ra, double s, double rb, double t, double dur
   return plan;
 }
 
-inline Vec2 centre_at(const Log& log, std::size_t row) { return {log.x[row], log.y[row]}; }
+inline Vec2 centre_at(const FingerRows& rows, std::size_t row) { return {rows.x[row], rows.y[row]}; }
 inline Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
 /// Where the finger's sensors say that the contact is in the world.
-inline Vec2 felt_contact(const Log& log, double radius, std::size_t row) {
-  return centre_at(log, row) + radius * direction(log.u[row] + log.psi[row]);
+inline Vec2 felt_contact(const FingerRows& rows, double radius, std::size_t row) {
+  return centre_at(rows, row) + radius * direction(rows.u[row] + rows.psi[row]);
 }
 
 /// Where the part's boundary is in the world.
-inline Vec2 boundary_point(const Part& part, const FreeRoll& roll, double s, std::size_t row) {
+inline Vec2 boundary_point(const Part& part, const Roll& roll, double s, std::size_t row) {
   return roll.pose[row].world(part.point(s));
 }
 

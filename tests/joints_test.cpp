@@ -160,16 +160,16 @@ TEST(Joint, is_rolled_over) {
     plan.distance = sign * 1.7 * drawing.perimeter();
     const Roll one = roll(drawing, finger, plan);
     const Roll two = roll_in_closed_form(drawing, finger, plan);
-    EXPECT_NEAR(one.s.back() - one.s.front(), *plan.distance, 1e-8);
-    for (std::size_t k = 0; k < one.s.size(); ++k) {
-      EXPECT_NEAR(one.s[k], two.s[k], 1e-8);
-      EXPECT_NEAR(one.log.psi[k], two.log.psi[k], 1e-8);
+    EXPECT_NEAR(one.s[0].back() - one.s[0].front(), *plan.distance, 1e-8);
+    for (std::size_t k = 0; k < one.s[0].size(); ++k) {
+      EXPECT_NEAR(one.s[0][k], two.s[0][k], 1e-8);
+      EXPECT_NEAR(one.log.fingers[0].psi[k], two.log.fingers[0].psi[k], 1e-8);
       // Off the joints the tangent is the part's.
-      const double theta = std::remainder(one.angle[k] - drawing.tangent(one.s[k]), 2 * kPi);
+      const double theta = std::remainder(one.angle[0][k] - drawing.tangent(one.s[0][k]), 2 * kPi);
       EXPECT_NEAR(theta, 0, kJointTurn);
     }
-    EXPECT_NEAR(one.angle.back() - one.angle.front(),
-                drawing.turning().angle(one.s.back()) - drawing.turning().angle(one.s.front()), 1e-8);
+    EXPECT_NEAR(one.angle[0].back() - one.angle[0].front(),
+                drawing.turning().angle(one.s[0].back()) - drawing.turning().angle(one.s[0].front()), 1e-8);
   }
 }
 

@@ -69,10 +69,6 @@ TEST(LogErrors, a_column_twice) {
   EXPECT_THAT(refusal("u,psi,u\n0,1,2\n"), HasSubstr("the column 'u' occurs twice, as number 1 and 3"));
 }
 
-TEST(LogErrors, a_log_of_two_fingers) {
-  EXPECT_THAT(refusal("time,u_a,psi_a,u_b,psi_b\n0,1,2,3,4\n"), HasSubstr("two fingers"));
-}
-
 TEST(LogErrors, no_header_and_not_two_columns) {
   EXPECT_THAT(refusal("0,1,2\n"),
               AllOf(StartsWith("run.csv:1: the log starts with '0,1,2', 3 numbers without a header"),

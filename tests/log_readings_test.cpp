@@ -13,9 +13,9 @@
 
 #include "rollfix/contact/log.hpp"
 #include "rollfix/contact/rolling.hpp"
-#include "rollfix/contact/written_number.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline/gallery.hpp"
+#include "text/written_number.hpp"
 
 namespace rollfix::log_readings_test {
 namespace {
@@ -42,8 +42,8 @@ const Part& ellipse() {
 
 Log log_of(const std::string& text) { return parse_log(text, "run.csv"); }
 
-Reading only_reading(const std::string& text, const std::optional<DiskFinger>& finger = std::nullopt) {
-  const std::vector<Reading> found = readings(log_of(text), ellipse(), finger);
+Reading only_reading(const std::string& text, const std::vector<Finger>& fingers = {}) {
+  const std::vector<Reading> found = readings(log_of(text), ellipse(), fingers);
   EXPECT_EQ(found.size(), 1U);
   return found.front();
 }
@@ -57,7 +57,7 @@ void expect_reading(const Reading& found, double length, double turn) {
 
 TEST(Log, u_and_psi_are_measured_from_the_first_row) {
   const std::string text = "time,u,psi\n0,1.5,0.25\n1,1,0.75\n2,0.5,1.5\n";
-  expect_reading(only_reading(text, DiskFinger{2}), 2, 0.25);
+  expect_reading(only_reading(text, {DiskFinger{2}}), 2, 0.25);
 }
 
 TEST(Log, length_and_turn_are_readings_as_they_stand) {
@@ -84,18 +84,19 @@ TEST(Log, a_million_increments_add_up_without_loss) {
 
 TEST(Log, columns_may_stand_in_any_order_among_others) {
   const std::string text = "force,psi,u,time,remark\n9,0.25,1.5,0,first\n8,0.75,1,1,second one\n";
-  expect_reading(only_reading(text, DiskFinger{2}), 1, 0);
+  expect_reading(only_reading(text, {DiskFinger{2}}), 1, 0);
   EXPECT_THAT(log_of(text).time, ElementsAre(0, 1));
 }
 
 TEST(Log, the_finger_centre_is_read_where_it_is_given) {
   const Log log = log_of("u,psi,y,x\n0,0,3,1\n1,1,4,2\n");
-  EXPECT_THAT(log.x, ElementsAre(1, 2));
-  EXPECT_THAT(log.y, ElementsAre(3, 4));
+  EXPECT_THAT(log.fingers[0].x, ElementsAre(1, 2));
+  EXPECT_THAT(log.fingers[0].y, ElementsAre(3, 4));
 }
 
 TEST(Log, angles_may_be_written_in_degrees) {
-  expect_reading(only_reading("u,psi\n90deg,-10deg\n0deg,0.5\n", DiskFinger{1}), kPi / 2, 0.5 + 10 * kDegree - kPi / 2);
+  expect_reading(only_reading("u,psi\n90deg,-10deg\n0deg,0.5\n", {DiskFinger{1}}), kPi / 2,
+                 0.5 + 10 * kDegree - kPi / 2);
 }
 
 TEST(Log, comments_blank_lines_quotes_a_mark_and_line_ends_do_not_matter) {
@@ -103,28 +104,28 @@ TEST(Log, comments_blank_lines_quotes_a_mark_and_line_ends_do_not_matter) {
   const std::string dressed =
       "\xEF\xBB\xBF# a roll\r\n\r\n \"time\" , \"u\",psi  # columns\r\n0, 1.5 ,\"0.25\"\r\n   \r\n# half "
       "time\r\n1,1,0.75";
-  EXPECT_EQ(log_of(dressed).u, log_of(plain).u);
-  EXPECT_EQ(log_of(dressed).psi, log_of(plain).psi);
-  EXPECT_THAT(log_of(dressed).line, ElementsAre(4, 7));
+  EXPECT_EQ(log_of(dressed).fingers[0].u, log_of(plain).fingers[0].u);
+  EXPECT_EQ(log_of(dressed).fingers[0].psi, log_of(plain).fingers[0].psi);
+  EXPECT_THAT(log_of(dressed).fingers[0].line, ElementsAre(4, 7));
 }
 
 TEST(Log, semicolons_tabs_and_blanks_separate_as_well) {
   for (const char* text : {"u;psi\n1;2\n3;4\n", "u\tpsi\n1\t2\n3\t4\n", "u  psi\n 1 2 \n3   4\n"}) {
-    EXPECT_THAT(log_of(text).u, ElementsAre(1, 3)) << text;
-    EXPECT_THAT(log_of(text).psi, ElementsAre(2, 4)) << text;
+    EXPECT_THAT(log_of(text).fingers[0].u, ElementsAre(1, 3)) << text;
+    EXPECT_THAT(log_of(text).fingers[0].psi, ElementsAre(2, 4)) << text;
   }
 }
 
 TEST(Log, empty_cells_of_unknown_columns_are_ignored) {
-  EXPECT_THAT(log_of("a\tu\tpsi\tb\n\t1\t2\t\n\t3\t4\t\n").u, ElementsAre(1, 3));
-  EXPECT_THAT(log_of("a,u,psi,b\n,1,2,\n,3,4\n").u, ElementsAre(1, 3));
+  EXPECT_THAT(log_of("a\tu\tpsi\tb\n\t1\t2\t\n\t3\t4\t\n").fingers[0].u, ElementsAre(1, 3));
+  EXPECT_THAT(log_of("a,u,psi,b\n,1,2,\n,3,4\n").fingers[0].u, ElementsAre(1, 3));
 }
 
 // --- Contact.
 
 TEST(Log, rows_without_contact_before_and_after_the_roll_are_skipped) {
   const Log log = log_of("time,u,psi,contact\n0,nan,0,0\n1,,0,0\n2,1,0,1\n3,2,1,1\n4,nan,2,0\n5,,,0\n");
-  EXPECT_THAT(log.u, ElementsAre(1, 2));
+  EXPECT_THAT(log.fingers[0].u, ElementsAre(1, 2));
   EXPECT_THAT(log.time, ElementsAre(2, 3));
 }
 
@@ -138,8 +139,8 @@ TEST(Log, every_unbroken_stretch_of_contact_is_a_roll) {
   const std::vector<Log> rolls = parse_rolls(
       "time,u,psi,contact\n0,,,0\n1,1,0,1\n2,2,1,1\n3,,,0\n4,9,9,1\n5,,,0\n6,5,0,1\n7,6,1,1\n8,8,2,1\n", "run.csv");
   ASSERT_EQ(rolls.size(), 2U) << "one row alone is no roll";
-  EXPECT_THAT(rolls[0].u, ElementsAre(1, 2));
-  EXPECT_THAT(rolls[1].u, ElementsAre(5, 6, 8));
+  EXPECT_THAT(rolls[0].fingers[0].u, ElementsAre(1, 2));
+  EXPECT_THAT(rolls[1].fingers[0].u, ElementsAre(5, 6, 8));
   EXPECT_EQ(rolls[0].name, "run.csv, lines 3 to 4");
   EXPECT_EQ(rolls[1].name, "run.csv, lines 8 to 10");
 }
@@ -149,17 +150,17 @@ TEST(Log, one_roll_is_what_it_always_was) {
   const std::vector<Log> rolls = parse_rolls(text, "run.csv");
   ASSERT_EQ(rolls.size(), 1U);
   EXPECT_EQ(rolls[0].name, "run.csv");
-  EXPECT_EQ(rolls[0].u, log_of(text).u);
+  EXPECT_EQ(rolls[0].fingers[0].u, log_of(text).fingers[0].u);
 }
 
 TEST(Log, a_roll_of_two_fingers_lasts_while_both_touch) {
-  const auto rolls = parse_rolls_of_fingers(
+  const auto rolls = parse_rolls(
       "u_a,psi_a,contact_a,u_b,psi_b,contact_b\n1,0,1,9,9,0\n2,0,1,5,0,1\n3,0,1,6,0,1\n4,0,0,7,0,1\n5,0,1,8,0,1\n"
       "6,0,1,9,0,1\n",
       "both.csv");
   ASSERT_EQ(rolls.size(), 2U);
-  EXPECT_THAT(rolls[0][0].u, ElementsAre(2, 3));
-  EXPECT_THAT(rolls[1][1].u, ElementsAre(8, 9));
+  EXPECT_THAT(rolls[0].fingers[0].u, ElementsAre(2, 3));
+  EXPECT_THAT(rolls[1].fingers[1].u, ElementsAre(8, 9));
 }
 
 TEST(Log, a_file_longer_than_the_buffer_it_is_read_through_is_the_same) {
@@ -170,9 +171,9 @@ TEST(Log, a_file_longer_than_the_buffer_it_is_read_through_is_the_same) {
   const Log log = read_log(path);
   const Log expected = log_of(text + "3,4");
   std::remove(path.c_str());
-  EXPECT_EQ(log.u, expected.u);
-  EXPECT_EQ(log.line, expected.line);
-  EXPECT_EQ(log.u.size(), 20001U);
+  EXPECT_EQ(log.fingers[0].u, expected.fingers[0].u);
+  EXPECT_EQ(log.fingers[0].line, expected.fingers[0].line);
+  EXPECT_EQ(log.fingers[0].u.size(), 20001U);
 }
 
 // --- Wrapped angles.
@@ -190,13 +191,13 @@ TEST(Log, wrapped_or_not_the_readings_are_the_same) {
   plan.distance = 1.7 * ellipse().perimeter();
   plan.rows = 301;
   const Log plain = roll_in_closed_form(ellipse(), finger, plan).log;
-  const std::vector<Reading> expected = readings_as_given(plain, finger);
+  const std::vector<Reading> expected = readings_as_given(plain, {finger});
   for (const double lowest : {-kPi, 0.0, -1.0}) {
     for (const bool only_u : {true, false}) {
       Log log = plain;
-      log.u = wrapped(plain.u, lowest);
-      if (!only_u) log.psi = wrapped(plain.psi, lowest);
-      const std::vector<Reading> found = readings_as_given(log, finger);
+      log.fingers[0].u = wrapped(plain.fingers[0].u, lowest);
+      if (!only_u) log.fingers[0].psi = wrapped(plain.fingers[0].psi, lowest);
+      const std::vector<Reading> found = readings_as_given(log, {finger});
       for (std::size_t row = 0; row < expected.size(); ++row) {
         EXPECT_NEAR(found[row].length[0], expected[row].length[0], 1e-12);
         EXPECT_NEAR(found[row].turn, expected[row].turn, 1e-11);
@@ -214,7 +215,7 @@ TEST(Log, what_is_not_wrapped_keeps_its_bits) {
 
 TEST(Log, wrapping_is_seen_through_the_rounding_of_written_angles) {
   const Log log = log_of("u,psi\n3.00,0\n3.14,0\n-3.15,0\n-3.00,0\n");
-  EXPECT_NEAR(unwrapped(log.u, log.place_rounding).back(), 2 * kPi - 3, 1e-12);
+  EXPECT_NEAR(unwrapped(log.fingers[0].u, log.fingers[0].place_rounding).back(), 2 * kPi - 3, 1e-12);
 }
 
 TEST(Log, of_two_rows_alone_only_the_usual_ranges_are_taken_as_wrapped) {
@@ -230,10 +231,10 @@ TEST(Log, instants_choose_the_rows_they_are_nearest_to) {
   const Log log = log_of("time,u,psi\n0,0,0\n0.5,-1,1\n1,-2,2\n1.5,-3,3\n");
   EXPECT_THAT(rows_at(log, {}), ElementsAre(3));
   EXPECT_THAT(rows_at(log, {0.5, 1.2, 1.75, -0.25, 1.1}), ElementsAre(1, 2, 3, 0, 2));
-  const std::vector<Reading> found = readings(log, ellipse(), DiskFinger{2}, {1, 0.51});
+  const std::vector<Reading> found = readings(log, ellipse(), {DiskFinger{2}}, {1, 0.51});
   ASSERT_EQ(found.size(), 2U);
-  EXPECT_EQ(found[0].length, 4);
-  EXPECT_EQ(found[1].length, 2);
+  EXPECT_EQ(found[0].length[0], 4);
+  EXPECT_EQ(found[1].length[0], 2);
 }
 
 TEST(Log, instants_outside_or_in_a_gap_of_the_log_are_refused) {
@@ -248,8 +249,8 @@ TEST(Log, instants_outside_or_in_a_gap_of_the_log_are_refused) {
 
 TEST(Log, u_needs_to_know_the_finger) {
   const Log log = log_of("u,psi\n0,0\n1,1\n");
-  EXPECT_THAT(message_of([&] { readings(log, ellipse(), std::nullopt); }), HasSubstr("--finger disk,r="));
-  EXPECT_THAT(message_of([&] { readings(log, ellipse(), DiskFinger{0}); }), HasSubstr("above 0"));
+  EXPECT_THAT(message_of([&] { readings(log, ellipse(), {}); }), HasSubstr("`finger` disk,r="));
+  EXPECT_THAT(message_of([&] { readings(log, ellipse(), {DiskFinger{0}}); }), HasSubstr("above 0"));
 }
 
 // --- Direction: a part that was given clockwise is stored counter-clockwise.
@@ -266,15 +267,15 @@ const Part& clockwise_ellipse() {
 TEST(Log, lengths_follow_the_outline_as_it_was_given) {
   ASSERT_TRUE(clockwise_ellipse().reversed());
   const Log travelled = log_of("length,turn\n0.5,-0.1\n1.5,-0.4\n");
-  expect_reading(readings(travelled, clockwise_ellipse(), std::nullopt).front(), -1.5, -0.4);
+  expect_reading(readings(travelled, clockwise_ellipse(), {}).front(), -1.5, -0.4);
   const Log increments = log_of("0.5,-0.1\n1,-0.3\n");
-  expect_reading(readings(increments, clockwise_ellipse(), std::nullopt).front(), -1.5, -0.4);
+  expect_reading(readings(increments, clockwise_ellipse(), {}).front(), -1.5, -0.4);
 }
 
 TEST(Log, a_contact_log_does_not_care_how_the_outline_was_given) {
   const Log log = log_of("u,psi\n0,0\n-1,2\n");
-  expect_reading(readings(log, ellipse(), DiskFinger{2}).front(), 2, 1);
-  expect_reading(readings(log, clockwise_ellipse(), DiskFinger{2}).front(), 2, 1);
+  expect_reading(readings(log, ellipse(), {DiskFinger{2}}).front(), 2, 1);
+  expect_reading(readings(log, clockwise_ellipse(), {DiskFinger{2}}).front(), 2, 1);
 }
 
 // --- Digits.
@@ -306,8 +307,8 @@ TEST(WrittenNumber, an_angle_is_radians_or_degrees) {
 
 TEST(Log, rounding_comes_from_the_most_precise_number_of_a_column) {
   const Log log = log_of("u,psi\n0,1\n0.5,1.125\n0.25,2\n");
-  EXPECT_DOUBLE_EQ(log.place_rounding, 0.005);
-  EXPECT_DOUBLE_EQ(log.angle_rounding, 0.0005);
+  EXPECT_DOUBLE_EQ(log.fingers[0].place_rounding, 0.005);
+  EXPECT_DOUBLE_EQ(log.fingers[0].angle_rounding, 0.0005);
 }
 
 TEST(Log, rounding_of_a_reading_bounds_what_the_digits_can_do) {
@@ -316,7 +317,7 @@ TEST(Log, rounding_of_a_reading_bounds_what_the_digits_can_do) {
   plan.distance = 4;
   plan.rows = 101;
   const Log exact = roll_in_closed_form(ellipse(), finger, plan).log;
-  const std::vector<Reading> expected = readings_as_given(exact, finger);
+  const std::vector<Reading> expected = readings_as_given(exact, {finger});
   std::string contacts = "u,psi\n";
   std::string travelled = "length,turn\n";
   std::string increments = "distance,dturn\n";
@@ -327,14 +328,14 @@ TEST(Log, rounding_of_a_reading_bounds_what_the_digits_can_do) {
       return text;
     };
     const Reading before = k == 0 ? Reading{} : expected[k - 1];
-    contacts += row(exact.u[k], exact.psi[k]);
+    contacts += row(exact.fingers[0].u[k], exact.fingers[0].psi[k]);
     travelled += row(expected[k].length[0], expected[k].turn);
     increments += row(expected[k].length[0] - before.length[0], expected[k].turn - before.turn);
   }
   for (const std::string& text : {contacts, travelled, increments}) {
     const Log log = log_of(text);
-    const Rounding rounding = rounding_of(log, finger);
-    const Reading found = readings(log, ellipse(), finger).front();
+    const Rounding rounding = rounding_of(log, {finger});
+    const Reading found = readings(log, ellipse(), {finger}).front();
     EXPECT_LE(std::abs(found.length[0] - expected.back().length[0]), rounding.length + 1e-12) << text.substr(0, 13);
     EXPECT_LE(std::abs(found.turn - expected.back().turn), rounding.turn + 1e-12) << text.substr(0, 13);
     EXPECT_LT(rounding.length, 0.06) << text.substr(0, 13);

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "free_roll.hpp"
 #include "random.hpp"
 #include "rollfix/contact/log.hpp"
 #include "rollfix/contact/rolling.hpp"
@@ -31,12 +32,13 @@ std::vector<std::uint64_t> bits_of(const std::vector<double>& values) {
 
 void expect_same(const Log& a, const Log& b) {
   EXPECT_EQ(bits_of(a.time), bits_of(b.time));
-  EXPECT_EQ(bits_of(a.u), bits_of(b.u));
-  EXPECT_EQ(bits_of(a.psi), bits_of(b.psi));
-  EXPECT_EQ(bits_of(a.length), bits_of(b.length));
-  EXPECT_EQ(bits_of(a.turn), bits_of(b.turn));
-  EXPECT_EQ(bits_of(a.x), bits_of(b.x));
-  EXPECT_EQ(bits_of(a.y), bits_of(b.y));
+  ASSERT_EQ(a.fingers.size(), b.fingers.size());
+  for (std::size_t k = 0; k < a.fingers.size(); ++k) {
+    for (const auto& column :
+         {&FingerRows::u, &FingerRows::psi, &FingerRows::length, &FingerRows::turn, &FingerRows::x, &FingerRows::y}) {
+      EXPECT_EQ(bits_of(a.fingers[k].*column), bits_of(b.fingers[k].*column));
+    }
+  }
 }
 
 Log limacon_log() {
@@ -46,33 +48,67 @@ Log limacon_log() {
   return roll(Part(gallery("limacon")), {0.1}, plan).log;
 }
 
-TEST(LogRoundTrip, a_roll_comes_back_bit_for_bit) {
-  const Log log = limacon_log();
-  const std::string text = format_log(log);
-  EXPECT_THAT(text, StartsWith("time,u,psi,x,y\n0.0000000000000000,"));
-  expect_same(parse_log(text, "again"), log);
-  EXPECT_EQ(format_log(parse_log(text, "again")), text);
+Log limacon_log_of_two() {
+  return roll_free(free_rolls::part_of("limacon"), free_rolls::by_distances(0.1, 0.3, 3, 0.05, 4, -2, 1)).log;
+}
+
+std::string in_test_folder(const char* name) { return (std::filesystem::path(testing::TempDir()) / name).string(); }
+
+TEST(LogRoundTrip, a_roll_of_one_finger_or_two_comes_back_bit_for_bit) {
+  for (const Log& log : {limacon_log(), limacon_log_of_two()}) {
+    const std::string text = format_log(log);
+    EXPECT_THAT(text,
+                StartsWith(log.fingers.size() == 1 ? "time,u,psi,x,y\n0.0000000000000000,"
+                                                   : "time,u_a,psi_a,x_a,y_a,u_b,psi_b,x_b,y_b\n0.0000000000000000,"));
+    expect_same(parse_log(text, "again"), log);
+    EXPECT_EQ(format_log(parse_log(text, "again")), text);
+  }
 }
 
 TEST(LogRoundTrip, random_numbers_of_any_size_come_back_bit_for_bit) {
   std::mt19937_64 generator = test_generator(41);
   std::normal_distribution<double> mantissa;
   std::uniform_int_distribution<int> exponent(-280, 280);
-  Log log;
-  log.kind = LogKind::travelled;
-  for (int k = 0; k < test_count(2000); ++k) {
-    log.length.push_back(std::ldexp(mantissa(generator), exponent(generator)));
-    log.turn.push_back(mantissa(generator));
+  for (const std::size_t fingers : {1U, 2U}) {
+    Log log;
+    log.kind = LogKind::travelled;
+    log.fingers.resize(fingers);
+    for (int k = 0; k < test_count(2000); ++k) {
+      for (FingerRows& rows : log.fingers) {
+        rows.length.push_back(std::ldexp(mantissa(generator), exponent(generator)));
+        rows.turn.push_back(mantissa(generator));
+      }
+    }
+    const std::string text = format_log(log);
+    EXPECT_THAT(text, StartsWith(fingers == 1 ? "length,turn\n" : "length_a,turn_a,length_b,turn_b\n"));
+    expect_same(parse_log(text, "again"), log);
   }
-  const std::string text = format_log(log);
-  EXPECT_THAT(text, StartsWith("length,turn\n"));
-  expect_same(parse_log(text, "again"), log);
+}
+
+TEST(LogRoundTrip, two_fingers_through_one_file_and_through_two) {
+  const Log log = limacon_log_of_two();
+  const std::string both = in_test_folder("rollfix_pair_both.csv");
+  const std::string a = in_test_folder("rollfix_pair_a.csv");
+  const std::string b = in_test_folder("rollfix_pair_b.csv");
+  write_log(both, log);
+  write_log(a, one_finger(log, 0));
+  write_log(b, one_finger(log, 1));
+  expect_same(read_log(both), log);
+  expect_same(read_log(a, b), log);
+  for (const std::string& path : {both, a, b}) std::filesystem::remove(path);
+}
+
+TEST(LogRoundTrip, a_reader_finds_out_how_many_fingers_a_file_is_of) {
+  const Log log = limacon_log_of_two();
+  EXPECT_EQ(parse_log(format_log(log), "both").fingers.size(), 2U);
+  EXPECT_EQ(parse_log(format_log(one_finger(log, 1)), "one").fingers.size(), 1U);
+  EXPECT_EQ(parse_log("u,psi,u_b\n0,0,x\n1,1,x\n", "one with a stranger").fingers.size(), 1U);
 }
 
 TEST(LogRoundTrip, written_digits_leave_no_rounding_worth_mentioning) {
   const Log log = parse_log("u,psi\n0.5,0\n0.25,1\n", "short");
-  EXPECT_GT(log.place_rounding, 1e-3);
-  EXPECT_LT(parse_log(format_log(log), "long").place_rounding, 1e-16);
+  EXPECT_GT(log.fingers[0].place_rounding, 1e-3);
+  EXPECT_LT(parse_log(format_log(log), "long").fingers[0].place_rounding, 1e-16);
 }
 
 TEST(LogRoundTrip, through_a_file) {
@@ -95,8 +131,8 @@ TEST(LogRoundTrip, a_place_that_can_not_be_written_to_is_named) {
 TEST(LogRoundTrip, angles_that_a_reader_would_take_as_wrapped_are_not_written) {
   Log log;
   log.name = "coarse";
-  log.u = {3, -1};
-  log.psi = {0, 1};
+  log.fingers[0].u = {3, -1};
+  log.fingers[0].psi = {0, 1};
   try {
     format_log(log);
     FAIL() << "nothing was thrown";

@@ -1,5 +1,5 @@
 // A log that grows: its samples are those of the file that ends there, and what breaks a file is survived.
-#include "rollfix/contact/log_stream.hpp"
+#include "rollfix/contact/log.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -50,7 +50,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-LogStream stream_on(const Part& part, const Noise& noise = {}) { return {"live", part, DiskFinger{0.2}, noise}; }
+LogStream stream_on(const Part& part, const Noise& noise = {}) { return {"live", part, {DiskFinger{0.2}}, noise}; }
 
 /// What a stream on the ellipse makes of each line.
 struct Streamed {
@@ -83,7 +83,7 @@ void expect_samples_of_files(const std::string& text, const Part& part = egg()) 
   for (std::size_t k = 1; k < lines.size(); ++k) {
     so_far += lines[k];
     if (found.kinds[k] != sample) continue;
-    const Reading expected = readings(parse_log(so_far, "file"), part, DiskFinger{0.2}).back();
+    const Reading expected = readings(parse_log(so_far, "file"), part, {DiskFinger{0.2}}).back();
     expect_equal_bits(found.lines[k].sample.reading, expected, k + 1);
   }
 }
@@ -118,8 +118,8 @@ TEST(LogStream, wrapped_angles_have_the_bits_of_the_file) {
   const Log log = roll_in_closed_form(egg(), DiskFinger{0.2}, plan).log;
   std::string text = "u,psi\n";
   for (std::size_t k = 0; k < log.rows(); ++k) {
-    text += fmt::format("{:.17g},{:.17g}\n", std::remainder(log.u[k], 2 * kPi),
-                        log.psi[k] - 2 * kPi * std::floor(log.psi[k] / (2 * kPi)));
+    text += fmt::format("{:.17g},{:.17g}\n", std::remainder(log.fingers[0].u[k], 2 * kPi),
+                        log.fingers[0].psi[k] - 2 * kPi * std::floor(log.fingers[0].psi[k] / (2 * kPi)));
   }
   expect_samples_of_files(text);
   EXPECT_NEAR(streamed(text).lines.back().sample.reading.length[0], 20, 1e-9);
@@ -128,17 +128,17 @@ TEST(LogStream, wrapped_angles_have_the_bits_of_the_file) {
 TEST(LogStream, a_column_that_leaves_a_full_turn_was_never_wrapped) {
   const std::string text = "u,psi\n0,0\n-3.5,4\n-5,7\n-9,11\n-12,15\n";
   expect_samples_of_files(text, Part(gallery("circle,r=3")));
-  EXPECT_EQ(streamed(text).lines.back().sample.contact->u, -12);
+  EXPECT_EQ((*streamed(text).lines.back().sample.contact)[0].u, -12);
 }
 
 TEST(LogStream, a_sample_has_all_that_its_row_has) {
   const LogLine row = streamed("time,u,psi,x,y\n0.5,1,2,3,4\n").lines.back();
   EXPECT_EQ(row.sample.line, 2U);
   EXPECT_EQ(row.sample.time, 0.5);
-  EXPECT_EQ(row.sample.contact->u, 1);
-  EXPECT_EQ(row.sample.contact->psi, 2);
-  EXPECT_EQ(*row.sample.centre, Vec2(3, 4));
-  EXPECT_EQ(row.sample.finger_curvature, 5);
+  EXPECT_EQ((*row.sample.contact)[0].u, 1);
+  EXPECT_EQ((*row.sample.contact)[0].psi, 2);
+  EXPECT_EQ((*row.sample.centre)[0], Vec2(3, 4));
+  EXPECT_EQ(row.sample.finger_curvature[0], 5);
 }
 
 TEST(LogStream, lengths_follow_the_outline_as_it_was_given) {
@@ -148,9 +148,9 @@ TEST(LogStream, lengths_follow_the_outline_as_it_was_given) {
   outline.reversed = false;
   const Part clockwise(outline);
   ASSERT_TRUE(clockwise.reversed());
-  LogStream stream("live", clockwise, std::nullopt);
+  LogStream stream("live", clockwise, {});
   stream.push("length,turn");
-  EXPECT_EQ(stream.push("0.5,0.1").sample.reading.length, -0.5);
+  EXPECT_EQ(stream.push("0.5,0.1").sample.reading.length[0], -0.5);
 }
 
 // --- Contact.
@@ -158,7 +158,7 @@ TEST(LogStream, lengths_follow_the_outline_as_it_was_given) {
 TEST(LogStream, contact_0_ends_a_roll_and_the_next_contact_starts_one) {
   const Streamed found = streamed("u,psi,contact\nnan,,0\n0,0,1\n-1,1.2,1\n-1,1.2,0\n9,9,0\n-3,0.1,1\n-4,1.5,1\n");
   EXPECT_THAT(found.kinds, ElementsAre(nothing, nothing, first, sample, lost, nothing, first, sample));
-  EXPECT_EQ(found.lines[6].sample.reading.length, 0);
+  EXPECT_EQ(found.lines[6].sample.reading.length[0], 0);
   EXPECT_DOUBLE_EQ(found.lines[7].sample.reading.length[0], 0.2);
   EXPECT_DOUBLE_EQ(found.lines[7].sample.reading.turn, 0.4);
 }
@@ -172,7 +172,8 @@ TEST(LogStream, later_rolls_are_those_of_read_rolls) {
     EXPECT_THAT(found.kinds, ElementsAre(nothing, first, sample, lost, first, sample, lost));
     for (std::size_t k = 0; k < 4; ++k) {
       const Log& log = rolls[k / 2];
-      expect_equal_bits(found.lines[k < 2 ? k + 1 : k + 2].sample.reading, {log.length[k % 2], log.turn[k % 2]}, k);
+      expect_equal_bits(found.lines[k < 2 ? k + 1 : k + 2].sample.reading,
+                        {log.fingers[0].length[k % 2], log.fingers[0].turn[k % 2]}, k);
     }
   }
 }
@@ -225,11 +226,14 @@ std::string refusal_of(const Action& action) {
 
 TEST(LogStream, what_can_never_be_read_is_refused) {
   EXPECT_THAT(refusal_of([] { stream_on(egg()).push("zeit,winkel"); }), HasSubstr("live:1: the header"));
-  EXPECT_THAT(refusal_of([] { stream_on(egg()).push("u_a,psi_a,u_b,psi_b"); }), HasSubstr("two fingers"));
-  EXPECT_THAT(refusal_of([] { LogStream("live", egg(), std::nullopt).push("u,psi"); }), HasSubstr("finger's shape"));
+  EXPECT_THAT(refusal_of([] { LogStream("live", egg(), {}).push("u,psi"); }), HasSubstr("finger's shape"));
+  EXPECT_THAT(refusal_of([] {
+                LogStream("live", egg(), {DiskFinger{1}, DiskFinger{1}}).push("u,psi");
+              }),
+              HasSubstr("is of one finger"));
   EXPECT_THAT(refusal_of([] { stream_on(egg()).push(std::string("\xFF\xFEt\0", 4)); }), HasSubstr("UTF-16"));
   EXPECT_THAT(refusal_of([] { stream_on(egg()).push("1,2,3"); }), HasSubstr("3 numbers without a header"));
-  EXPECT_THAT(refusal_of([] { LogStream("live", egg(), DiskFinger{-1}); }), HasSubstr("above 0"));
+  EXPECT_THAT(refusal_of([] { LogStream("live", egg(), {DiskFinger{-1}}); }), HasSubstr("above 0"));
 }
 
 // --- A connection that dropped.
@@ -266,8 +270,8 @@ Streamed with_glitch(double du, double dpsi, std::size_t row, const Part& part =
   plan.distance = 4;
   plan.rows = 200;
   Log log = roll_in_closed_form(part, DiskFinger{0.2}, plan).log;
-  log.u[row] += du;
-  log.psi[row] += dpsi;
+  log.fingers[0].u[row] += du;
+  log.fingers[0].psi[row] += dpsi;
   return streamed(format_log(log), part);
 }
 
@@ -279,7 +283,7 @@ TEST(LogStream, a_row_far_off_is_a_jump_there_and_back) {
     EXPECT_EQ(std::count(found.kinds.begin(), found.kinds.end(), jump), 2);
     EXPECT_THAT(found.lines[101].message, AllOf(StartsWith("live:102: expected a roll that goes on, found a jump"),
                                                 HasSubstr("since line 101"), HasSubstr("50 times")));
-    EXPECT_EQ(found.lines[102].sample.reading.length, 0);
+    EXPECT_EQ(found.lines[102].sample.reading.length[0], 0);
     EXPECT_GT(found.lines[103].sample.reading.length[0], 0);
   }
 }
@@ -303,9 +307,9 @@ TEST(LogStream, a_file_with_a_jump_is_refused_with_its_line) {
   plan.distance = 4;
   plan.rows = 200;
   Log log = roll_in_closed_form(egg(), DiskFinger{0.2}, plan).log;
-  log.u[100] += 4;
+  log.fingers[0].u[100] += 4;
   const Log read = parse_log(format_log(log), "run.csv");
-  EXPECT_THAT(refusal_of([&] { readings(read, egg(), DiskFinger{0.2}); }),
+  EXPECT_THAT(refusal_of([&] { readings(read, egg(), {DiskFinger{0.2}}); }),
               AllOf(StartsWith("run.csv:102: expected a roll that goes on"), HasSubstr("split the log")));
 }
 
@@ -333,7 +337,7 @@ TEST(LogStream, no_honest_log_has_a_jump_however_its_rows_lie) {
     const double speed = P * (share(generator) - 0.5);
     const double pause = share(generator);
     const bool has_times = share(generator) < 0.5;
-    LogStream stream("live", part, std::nullopt);
+    LogStream stream("live", part, {});
     stream.push(has_times ? "time,length,turn" : "length,turn");
     double last = 0;
     for (const double time : uneven_times(generator, 3)) {

@@ -8,7 +8,7 @@
 
 #include "free_roll.hpp"
 #include "rollfix/belief/belief.hpp"
-#include "rollfix/contact/pair_log.hpp"
+#include "rollfix/contact/log.hpp"
 #include "rollfix/part/period.hpp"
 
 /// Small words for tests about two fingers' noisy logs.
@@ -16,10 +16,9 @@ namespace noisy_pairs {
 
 using rollfix::Belief;
 using rollfix::BeliefOptions;
-using rollfix::FingerPair;
+using rollfix::Finger;
 using rollfix::Mode;
 using rollfix::Noise;
-using rollfix::PairLog;
 using rollfix::Part;
 using rollfix::Reading;
 
@@ -27,24 +26,24 @@ using rollfix::Reading;
 struct Case {
   std::array<double, 2> start{};
   std::array<rollfix::DiskFinger, 2> fingers;
-  PairLog log;
+  rollfix::Log log;
 
-  FingerPair pair() const { return {fingers[0], fingers[1]}; }
+  std::vector<rollfix::Finger> pair() const { return {fingers[0], fingers[1]}; }
 };
 
 /// Adds to a log what its sensors are off by: each row's own contact and angle, the finger's radius, and slip.
-inline void add_noise(rollfix::Log& log, double radius, const Noise& noise, std::mt19937_64& generator) {
+inline void add_noise(rollfix::FingerRows& rows, double radius, const Noise& noise, std::mt19937_64& generator) {
   std::normal_distribution<double> normal(0, 1);
   // Measured is what a finger of the nominal radius would have to have rolled.
   const double scale = 1 + noise.slip * normal(generator) + noise.radius / radius * normal(generator);
-  const double first = log.u.front();
-  for (std::size_t k = 0; k < log.u.size(); ++k) {
-    const double true_u = log.u[k];
+  const double first = rows.u.front();
+  for (std::size_t k = 0; k < rows.u.size(); ++k) {
+    const double true_u = rows.u[k];
     const double measured = first + (true_u - first) * scale;
     // The normal is where it is: what the finger has slipped, its orientation shows.
-    log.psi[k] += true_u - measured;
-    log.u[k] = measured + noise.contact / radius * normal(generator);
-    log.psi[k] += noise.angle * normal(generator);
+    rows.psi[k] += true_u - measured;
+    rows.u[k] = measured + noise.contact / radius * normal(generator);
+    rows.psi[k] += noise.angle * normal(generator);
   }
 }
 
@@ -54,8 +53,8 @@ inline Case noisy_case(const Part& part, const std::array<double, 2>& start, dou
   plan.rows = rows;
   Case drawn{start, {{{ra}, {rb}}}, {}};
   drawn.log = rollfix::roll_free_in_closed_form(part, plan).log;
-  add_noise(drawn.log.a, ra, noise, generator);
-  add_noise(drawn.log.b, rb, noise, generator);
+  add_noise(drawn.log.fingers[0], ra, noise, generator);
+  add_noise(drawn.log.fingers[1], rb, noise, generator);
   return drawn;
 }
 

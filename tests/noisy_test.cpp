@@ -1,5 +1,5 @@
 // Simulated noise: what it is said to be, the same for the same seed, and nothing where it is 0.
-#include "rollfix/contact/noisy.hpp"
+#include "rollfix/contact/rolling.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -98,22 +98,22 @@ TEST(NormalNumbers, are_the_same_everywhere) {
 TEST(Noisy, without_noise_it_is_the_roll) {
   const NoisyRoll found = noisy_roll(egg_part(), 0.2, long_roll(), {}, 7);
   const Roll plain = roll_in_closed_form(egg_part(), 0.2, long_roll());
-  EXPECT_EQ(found.log.u, plain.log.u);
-  EXPECT_EQ(found.log.psi, plain.log.psi);
+  EXPECT_EQ(found.log.fingers[0].u, plain.log.fingers[0].u);
+  EXPECT_EQ(found.log.fingers[0].psi, plain.log.fingers[0].psi);
   EXPECT_EQ(found.truth.s, plain.s);
 }
 
 TEST(Noisy, the_same_seed_gives_the_same_log_and_another_one_another) {
   const Noise noise{0.01, 0.02, 0.01, 0.001};
   const NoisyRoll one = noisy_roll(egg_part(), 0.2, long_roll(), noise, 7);
-  EXPECT_EQ(noisy_roll(egg_part(), 0.2, long_roll(), noise, 7).log.u, one.log.u);
-  EXPECT_NE(noisy_roll(egg_part(), 0.2, long_roll(), noise, 8).log.u, one.log.u);
+  EXPECT_EQ(noisy_roll(egg_part(), 0.2, long_roll(), noise, 7).log.fingers[0].u, one.log.fingers[0].u);
+  EXPECT_NE(noisy_roll(egg_part(), 0.2, long_roll(), noise, 8).log.fingers[0].u, one.log.fingers[0].u);
 }
 
 TEST(Noisy, contact_and_angle_are_off_by_what_was_said_in_each_row) {
   const NoisyRoll found = noisy_roll(egg_part(), 0.2, long_roll(), {0.01, 0.03, 0, 0}, 7);
-  const Spread u = spread_of(differences(found.log.u, found.truth.log.u));
-  const Spread psi = spread_of(differences(found.log.psi, found.truth.log.psi));
+  const Spread u = spread_of(differences(found.log.fingers[0].u, found.truth.log.fingers[0].u));
+  const Spread psi = spread_of(differences(found.log.fingers[0].psi, found.truth.log.fingers[0].psi));
   EXPECT_NEAR(0.2 * u.deviation, 0.01, 0.0005) << "along the finger";
   EXPECT_NEAR(0.2 * u.mean, 0, 0.0006);
   EXPECT_NEAR(psi.deviation, 0.03, 0.0015);
@@ -124,17 +124,17 @@ TEST(Noisy, of_an_outline_the_contact_is_off_in_length) {
   RollPlan plan = long_roll();
   plan.u = 0.1;
   const NoisyRoll found = noisy_roll(egg_part(), Finger::jaw(), plan, only_contact(0.01), 7);
-  EXPECT_NEAR(spread_of(differences(found.log.u, found.truth.log.u)).deviation, 0.01, 0.0005);
+  EXPECT_NEAR(spread_of(differences(found.log.fingers[0].u, found.truth.log.fingers[0].u)).deviation, 0.01, 0.0005);
 }
 
 TEST(Noisy, slip_is_length_that_the_finger_did_not_roll) {
   for (const Finger& finger : {Finger(0.2), Finger::jaw(), Finger::outlined(gallery("ellipse,a=0.3,b=0.2"))}) {
     const NoisyRoll found = noisy_roll(egg_part(), finger, long_roll(100), only_slip(0.05), 3);
-    ASSERT_NE(found.error.slip, 0);
-    const std::vector<Reading> felt = readings_as_given(found.log, finger);
+    ASSERT_NE(found.error[0].slip, 0);
+    const std::vector<Reading> felt = readings_as_given(found.log, {finger});
     for (std::size_t row = 0; row < felt.size(); ++row) {
-      EXPECT_NEAR((1 + found.error.slip) * felt[row].length[0], found.truth.s[row] - 1, 1e-12);
-      EXPECT_NEAR(felt[row].turn, found.truth.angle[row] - found.truth.angle[0], 1e-12) << "the normals know";
+      EXPECT_NEAR((1 + found.error[0].slip) * felt[row].length[0], found.truth.s[0][row] - 1, 1e-12);
+      EXPECT_NEAR(felt[row].turn, found.truth.angle[0][row] - found.truth.angle[0][0], 1e-12) << "the normals know";
     }
   }
 }
@@ -143,10 +143,10 @@ TEST(Noisy, what_slips_still_touches_where_it_is) {
   const Finger finger = Finger::outlined(gallery("ellipse,a=0.3,b=0.2"));
   const NoisyRoll found = noisy_roll(egg_part(), finger, long_roll(100), only_slip(0.05), 3);
   for (std::size_t row = 0; row < found.log.rows(); ++row) {
-    const Vec2 touching = egg_part().point(found.truth.s[row]);
-    const Vec2 centre = centre_of(finger, touching, {found.log.u[row], found.log.psi[row]});
-    EXPECT_NEAR(centre.x(), found.log.x[row], 1e-12);
-    EXPECT_NEAR(centre.y(), found.log.y[row], 1e-12);
+    const Vec2 touching = egg_part().point(found.truth.s[0][row]);
+    const Vec2 centre = centre_of(finger, touching, {found.log.fingers[0].u[row], found.log.fingers[0].psi[row]});
+    EXPECT_NEAR(centre.x(), found.log.fingers[0].x[row], 1e-12);
+    EXPECT_NEAR(centre.y(), found.log.fingers[0].y[row], 1e-12);
   }
 }
 
@@ -161,25 +161,25 @@ TEST(Noisy, the_slips_of_many_rolls_have_the_spread_that_was_said) {
 
 TEST(Noisy, a_reader_with_the_wrong_radius_gets_lengths_in_its_proportion) {
   const NoisyRoll found = noisy_roll(egg_part(), 0.2, long_roll(100), {0, 0, 0, 0.01}, 3);
-  ASSERT_NE(found.error.radius, 0);
-  const std::vector<Reading> felt = readings_as_given(found.log, Finger(0.2));
-  EXPECT_NEAR(felt.back().length[0] * (0.2 + found.error.radius) / 0.2, 6, 1e-9);
-  EXPECT_NEAR(felt.back().turn, found.truth.angle.back() - found.truth.angle.front(), 1e-9);
+  ASSERT_NE(found.error[0].radius, 0);
+  const std::vector<Reading> felt = readings_as_given(found.log, {Finger(0.2)});
+  EXPECT_NEAR(felt.back().length[0] * (0.2 + found.error[0].radius) / 0.2, 6, 1e-9);
+  EXPECT_NEAR(felt.back().turn, found.truth.angle[0].back() - found.truth.angle[0].front(), 1e-9);
 }
 
 TEST(Noisy, two_fingers_err_independently) {
   FreePlan plan;
-  plan.a = {{0.2}, 1, 0, 2.0, {}};
-  plan.b = {{0.3}, 5, 0, -1.0, {}};
+  plan.fingers[0] = {{0.2}, 1, 0, 2.0, {}};
+  plan.fingers[1] = {{0.3}, 5, 0, -1.0, {}};
   plan.part_rotation = 0.3;
-  const NoisyFreeRoll found = noisy_roll_free(egg_part(), plan, {0, 0, 0.03, 0.01}, 4);
+  const NoisyRoll found = noisy_roll_free(egg_part(), plan, {0, 0, 0.03, 0.01}, 4);
   EXPECT_NE(found.error[0].slip, found.error[1].slip);
-  const std::vector<Reading> felt = readings_as_given(
-      found.log, FingerPair{Finger(0.2 + found.error[0].radius), Finger(0.3 + found.error[1].radius)});
+  const std::vector<Reading> felt =
+      readings_as_given(found.log, {Finger(0.2 + found.error[0].radius), Finger(0.3 + found.error[1].radius)});
   EXPECT_NEAR((1 + found.error[0].slip) * felt.back().length[0], 2, 1e-9);
   EXPECT_NEAR((1 + found.error[1].slip) * felt.back().length[1], -1, 1e-9);
   const double turn =
-      (found.truth.angle_a.back() - found.truth.angle_a[0]) - (found.truth.angle_b.back() - found.truth.angle_b[0]);
+      (found.truth.angle[0].back() - found.truth.angle[0][0]) - (found.truth.angle[1].back() - found.truth.angle[1][0]);
   EXPECT_NEAR(felt.back().turn, turn, 1e-9);
 }
 
@@ -189,8 +189,8 @@ TEST(Noisy, increments_walk_away_from_the_truth) {
   for (std::uint64_t seed = 0; seed < 1000; ++seed) {
     const NoisyIncrements found = noisy_increments(egg_part(), 1, 2, 100, {0.01, 0.02, 0, 0}, seed);
     EXPECT_DOUBLE_EQ(found.s.back(), 3);
-    length_errors.push_back(found.log.length.back() - 2);
-    turn_errors.push_back(found.log.turn.back() - shapes::reading_from(egg_part(), 1, 2).turn);
+    length_errors.push_back(found.log.fingers[0].length.back() - 2);
+    turn_errors.push_back(found.log.fingers[0].turn.back() - shapes::reading_from(egg_part(), 1, 2).turn);
   }
   EXPECT_NEAR(spread_of(length_errors).deviation, 0.1, 0.01) << "ten steps' deviation after a hundred";
   EXPECT_NEAR(spread_of(turn_errors).deviation, 0.2, 0.02);

@@ -313,7 +313,7 @@ TEST(PairBelief, a_prior_at_an_end_of_an_open_part_does_not_reach_around_to_the_
 void disturb(Case& drawn, double share, std::mt19937_64& generator) {
   std::uniform_real_distribution<double> unit(0, 1);
   for (std::size_t k = 1; k < drawn.log.rows(); ++k) {
-    if (unit(generator) < share) drawn.log.a.psi[k] += 0.3 + unit(generator);
+    if (unit(generator) < share) drawn.log.fingers[0].psi[k] += 0.3 + unit(generator);
   }
 }
 
@@ -468,9 +468,9 @@ TEST(PairBelief, knows_how_sure_the_parts_pose_is) {
     Belief belief = belief_of(part, drawn, options);
     rollfix::PerFinger<rollfix::FeltContact> felt = {rollfix::FeltContact{}, rollfix::FeltContact{}};
     for (const std::size_t finger : {0U, 1U}) {
-      const rollfix::Log& log = finger == 0 ? drawn.log.a : drawn.log.b;
+      const rollfix::FingerRows& rows = drawn.log.fingers[finger];
       const double radius = drawn.fingers[finger].radius;
-      felt[finger] = {free_rolls::felt_contact(log, radius, 0), log.u[0] + log.psi[0], 1 / radius};
+      felt[finger] = {free_rolls::felt_contact(rows, radius, 0), rows.u[0] + rows.psi[0], 1 / radius};
     }
     const rollfix::PoseSpread spread = belief.pose_spread(0, felt);
     // free_rolls::by_distances puts the part there.

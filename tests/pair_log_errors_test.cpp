@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
-#include "rollfix/contact/pair_log.hpp"
+#include "rollfix/contact/log.hpp"
 #include "rollfix/error.hpp"
 
 namespace rollfix::pair_log_errors_test {
@@ -28,21 +29,24 @@ std::string refusal_of(const Action& action) {
 }
 
 std::string refusal(const std::string& text) {
-  return refusal_of([&] { parse_pair_log(text, "both.csv"); });
+  return refusal_of([&] { parse_log(text, "both.csv"); });
 }
 
 std::string refusal(const std::string& a, const std::string& b) {
   return refusal_of([&] { paired(parse_log(a, "a.csv"), parse_log(b, "b.csv")); });
 }
 
-TEST(PairLogErrors, a_log_of_one_finger) {
-  EXPECT_THAT(refusal("time,u,psi\n0,1,2\n1,1,2\n"),
-              AllOf(StartsWith("both.csv: this log is of one finger, two are needed"), HasSubstr("'u_a', 'psi_a'")));
+TEST(PairLogErrors, two_fingers_where_one_is_expected) {
+  const std::string both = "u_a,psi_a,u_b,psi_b\n0,1,2,3\n0,1,2,3\n";
+  EXPECT_THAT(refusal(both, "u,psi\n0,1\n0,1\n"),
+              AllOf(StartsWith("a.csv: this log is of two fingers"), HasSubstr("'u' and 'psi'")));
+  EXPECT_THAT(refusal("u,psi\n0,1\n0,1\n", both), StartsWith("b.csv: this log is of two fingers"));
 }
 
-TEST(PairLogErrors, two_fingers_where_one_is_expected) {
-  EXPECT_THAT(refusal_of([] { parse_log("u_a,psi_a,u_b,psi_b\n0,1,2,3\n0,1,2,3\n", "run.csv"); }),
-              AllOf(StartsWith("run.csv:1: this log is of two fingers"), HasSubstr("'u' and 'psi'")));
+TEST(PairLogErrors, more_fingers_than_rolled) {
+  const std::vector<Finger> both{DiskFinger{1}, DiskFinger{2}};
+  EXPECT_THAT(refusal_of([&] { readings_as_given(parse_log("u,psi\n0,1\n0,1\n", "a.csv"), both); }),
+              AllOf(StartsWith("a.csv: is of one finger"), HasSubstr("the shapes of 2")));
 }
 
 TEST(PairLogErrors, columns_of_only_one_of_two_fingers) {
@@ -120,29 +124,29 @@ TEST(PairLogErrors, rows_without_contact_and_without_times) {
 }
 
 TEST(PairLogErrors, both_from_standard_input) {
-  EXPECT_THAT(refusal_of([] { read_pair_log("-", "-"); }), HasSubstr("standard input"));
+  EXPECT_THAT(refusal_of([] { read_log("-", "-"); }), HasSubstr("standard input"));
 }
 
 TEST(PairLogErrors, u_without_the_fingers) {
-  const PairLog log = parse_pair_log("u_a,psi_a,u_b,psi_b\n0,0,0,0\n1,1,1,1\n", "both.csv");
+  const Log log = parse_log("u_a,psi_a,u_b,psi_b\n0,0,0,0\n1,1,1,1\n", "both.csv");
   EXPECT_THAT(refusal_of([&] { readings_as_given(log, {}); }),
-              AllOf(StartsWith("both.csv: "), HasSubstr("--finger disk,r=")));
-  EXPECT_THAT(refusal_of([&] { readings_as_given(log, FingerPair{{{1}, {0}}}); }), HasSubstr("radius"));
+              AllOf(StartsWith("both.csv: "), HasSubstr("`finger` disk,r=")));
+  EXPECT_THAT(refusal_of([&] { readings_as_given(log, {DiskFinger{1}, DiskFinger{0}}); }), HasSubstr("radius"));
 }
 
 TEST(PairLogErrors, an_instant_that_is_not_there) {
-  const PairLog log = parse_pair_log("time,u_a,psi_a,u_b,psi_b\n0,0,0,0,0\n1,1,1,1,1\n", "both.csv");
+  const Log log = parse_log("time,u_a,psi_a,u_b,psi_b\n0,0,0,0,0\n1,1,1,1,1\n", "both.csv");
   EXPECT_THAT(refusal_of([&] { rows_at(log, {7}); }), AllOf(StartsWith("both.csv: "), HasSubstr("instant 7")));
 }
 
 TEST(PairLogErrors, logs_that_do_not_go_together_are_not_written) {
-  PairLog log = parse_pair_log("time,u_a,psi_a,u_b,psi_b\n0,0,0,0,0\n1,1,1,1,1\n", "both.csv");
-  log.b.time[1] = 2;
-  EXPECT_THAT(refusal_of([&] { format_pair_log(log); }), HasSubstr("different times"));
-  log = parse_pair_log("u_a,psi_a,u_b,psi_b\n0,0,3,0\n1,1,-1,1\n", "both.csv");
+  Log log = parse_log("time,u_a,psi_a,u_b,psi_b\n0,0,0,0,0\n1,1,1,1,1\n", "both.csv");
+  log.fingers[1].u.push_back(2);
+  EXPECT_THAT(refusal_of([&] { format_log(log); }), HasSubstr("expected 2 values in column 'u_b', found 3"));
+  log = parse_log("u_a,psi_a,u_b,psi_b\n0,0,3,0\n1,1,-1,1\n", "both.csv");
   EXPECT_THAT(refusal_of([&] {
-                log.b.u = {3, -1};
-                format_pair_log(log);
+                log.fingers[1].u = {3, -1};
+                format_log(log);
               }),
               HasSubstr("take more rows"));
 }

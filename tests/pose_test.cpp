@@ -50,17 +50,17 @@ double largest_difference(const std::vector<Pose>& some, const std::vector<Pose>
   return largest;
 }
 
-Poses poses_of(const Part& part, const FreePlan& plan, const FreeRoll& roll, double s, double t) {
-  return *poses(part, FingerPair{plan.a.disk, plan.b.disk}, roll.log, {s, t}, all_rows(roll.s.size()));
+Poses poses_of(const Part& part, const FreePlan& plan, const Roll& roll, double s, double t) {
+  return *poses(part, {plan.fingers[0].finger, plan.fingers[1].finger}, roll.log, {s, t}, all_rows(roll.s[0].size()));
 }
 
 /// What a log looks like when the part lies elsewhere in the world.
 Log moved(Log log, const Pose& pose) {
-  for (std::size_t k = 0; k < log.u.size(); ++k) {
-    const Vec2 centre = pose.world({log.x[k], log.y[k]});
-    log.x[k] = centre.x();
-    log.y[k] = centre.y();
-    log.psi[k] += pose.heading;
+  for (std::size_t k = 0; k < log.fingers[0].u.size(); ++k) {
+    const Vec2 centre = pose.world({log.fingers[0].x[k], log.fingers[0].y[k]});
+    log.fingers[0].x[k] = centre.x();
+    log.fingers[0].y[k] = centre.y();
+    log.fingers[0].psi[k] += pose.heading;
   }
   return log;
 }
@@ -86,18 +86,18 @@ class PoseCases : public testing::TestWithParam<Case> {
   Part part_ = part_of(GetParam().shape);
   double P_ = part_.perimeter();
   FreePlan plan_ = by_distances(GetParam().ra, 0.15 * P_, 0.6 * P_, GetParam().rb, 0.61 * P_, -0.45 * P_, 2.5);
-  FreeRoll roll_ = roll_free_in_closed_form(part_, plan_);
+  Roll roll_ = roll_free_in_closed_form(part_, plan_);
 };
 
 TEST_P(PoseCases, of_two_fingers_is_the_simulated_one_at_every_instant) {
-  const Poses found = poses_of(part_, plan_, roll_, plan_.a.start, plan_.b.start);
+  const Poses found = poses_of(part_, plan_, roll_, plan_.fingers[0].start, plan_.fingers[1].start);
   EXPECT_LT(largest_difference(found.pose, roll_.pose), 1e-9 * P_);
   EXPECT_LT(most(found.residual), 1e-9 * P_);
   EXPECT_LT(most(found.turn_residual), 1e-9);
 }
 
 TEST_P(PoseCases, does_not_jump_and_starts_near_0) {
-  const Poses found = poses_of(part_, plan_, roll_, plan_.a.start, plan_.b.start);
+  const Poses found = poses_of(part_, plan_, roll_, plan_.fingers[0].start, plan_.fingers[1].start);
   EXPECT_LE(std::abs(found.pose.front().heading), kPi);
   EXPECT_NEAR(found.pose.back().heading - found.pose.front().heading, 2.5, 1e-9);
 }
@@ -106,10 +106,10 @@ TEST_P(PoseCases, of_one_finger_on_a_part_at_rest_is_where_it_lies) {
   RollPlan plan;
   plan.start = 0.15 * P_;
   plan.distance = 0.6 * P_;
-  const Roll rolled = roll_in_closed_form(part_, plan_.a.disk, plan);
+  const Roll rolled = roll_in_closed_form(part_, plan_.fingers[0].finger, plan);
   const Pose pose{0.3, -2, 2.75};
   const Log log = moved(rolled.log, pose);
-  const Poses found = *poses(part_, plan_.a.disk, log, plan.start, all_rows(log.rows()));
+  const Poses found = *poses(part_, {plan_.fingers[0].finger}, log, plan.start, all_rows(log.rows()));
   EXPECT_LT(largest_difference(found.pose, std::vector<Pose>(log.rows(), pose)), 1e-9 * P_);
   EXPECT_LT(most(found.residual), 1e-9 * P_);
   EXPECT_LT(most(found.turn_residual), 1e-9);
@@ -125,11 +125,11 @@ TEST(Pose, is_right_while_both_fingers_pivot_at_corners) {
   const Part square = part_of("polygon,n=4,r=1.4142135623730951");  // sides of length 2
   // Both come to their corners after the same share of a way that is the same for both, and pivot together.
   FreePlan plan = by_distances(0.5, 1, 2, 0.5, 5, 2, 0.4);
-  const FreeRoll roll = roll_free_in_closed_form(square, plan);
+  const Roll roll = roll_free_in_closed_form(square, plan);
   const Poses found = poses_of(square, plan, roll, 1, 5);
   std::size_t pivoting = 0;
-  for (std::size_t row = 0; row < roll.s.size(); ++row) {
-    if (std::abs(roll.s[row] - 2) < 1e-12 && std::abs(roll.t[row] - 6) < 1e-12) ++pivoting;
+  for (std::size_t row = 0; row < roll.s[0].size(); ++row) {
+    if (std::abs(roll.s[0][row] - 2) < 1e-12 && std::abs(roll.s[1][row] - 6) < 1e-12) ++pivoting;
   }
   ASSERT_GT(pivoting, 10U);
   EXPECT_LT(largest_difference(found.pose, roll.pose), 1e-9);
@@ -142,8 +142,8 @@ TEST(Pose, of_a_roll_that_starts_at_a_corner_is_right) {
     plan.start = 2;
     plan.distance = distance;
     const Roll rolled = roll_in_closed_form(square, {0.5}, plan);
-    const Poses found = *poses(square, {0.5}, rolled.log, 2, all_rows(rolled.s.size()));
-    EXPECT_LT(largest_difference(found.pose, std::vector<Pose>(rolled.s.size())), 1e-9) << distance;
+    const Poses found = *poses(square, {0.5}, rolled.log, 2, all_rows(rolled.s[0].size()));
+    EXPECT_LT(largest_difference(found.pose, std::vector<Pose>(rolled.s[0].size())), 1e-9) << distance;
   }
 }
 
@@ -154,13 +154,13 @@ TEST(Pose, of_a_part_on_which_a_finger_only_pivots_keeps_the_corner_in_place) {
   plan.rotation = 1 / 0.5 + 1.0;  // 1 rad into the pivot of pi / 2
   const Roll rolled = roll_in_closed_form(square, {0.5}, plan);
   Log pivot;
-  for (std::size_t row = 70; row < rolled.s.size(); ++row) {
-    pivot.u.push_back(rolled.log.u[row]);
-    pivot.psi.push_back(rolled.log.psi[row]);
-    pivot.x.push_back(rolled.log.x[row]);
-    pivot.y.push_back(rolled.log.y[row]);
+  for (std::size_t row = 70; row < rolled.s[0].size(); ++row) {
+    pivot.fingers[0].u.push_back(rolled.log.fingers[0].u[row]);
+    pivot.fingers[0].psi.push_back(rolled.log.fingers[0].psi[row]);
+    pivot.fingers[0].x.push_back(rolled.log.fingers[0].x[row]);
+    pivot.fingers[0].y.push_back(rolled.log.fingers[0].y[row]);
   }
-  const Poses found = *poses(square, {0.5}, pivot, 2, all_rows(pivot.u.size()));
+  const Poses found = *poses(square, {0.5}, pivot, 2, all_rows(pivot.rows()));
   for (const Pose& pose : found.pose) {
     EXPECT_LT((pose.world(square.point(2)) - square.point(2)).norm(), 1e-9);
     EXPECT_LT(std::abs(pose.heading), (kPi / 2 - 0.9) / 2 + 1e-9);  // about 0.9 of the pivot are felt
@@ -173,7 +173,7 @@ TEST(Pose, of_another_turn_of_the_first_contacts_is_the_same) {
     const Part part = part_of(shape);
     const double P = part.perimeter();
     const FreePlan plan = by_distances(0.1, 0.15 * P, 0.6 * P, 0.2, 0.61 * P, -0.45 * P, 2.5);
-    const FreeRoll roll = roll_free_in_closed_form(part, plan);
+    const Roll roll = roll_free_in_closed_form(part, plan);
     const Poses once = poses_of(part, plan, roll, 0.15 * P, 0.61 * P);
     const Poses again = poses_of(part, plan, roll, 0.15 * P - P, 0.61 * P + 2 * P);
     EXPECT_LT(largest_difference(once.pose, again.pose), 1e-9 * P) << shape;
@@ -190,11 +190,11 @@ TEST(Pose, of_random_rolls_is_the_simulated_one) {
     const double t = share(generator) * part.perimeter();
     const FreePlan plan =
         by_distances(0.05, s, 4 * share(generator) - 2, 0.03, t, 4 * share(generator) - 2, 4 * share(generator) - 2);
-    const FreeRoll roll = roll_free_in_closed_form(part, plan);
+    const Roll roll = roll_free_in_closed_form(part, plan);
     const Poses found = poses_of(part, plan, roll, s, t);
     EXPECT_LT(largest_difference(found.pose, roll.pose), 1e-9 * part.perimeter())
-        << part.name() << " s=" << s << " La=" << *plan.a.distance << " t=" << t << " Lb=" << *plan.b.distance
-        << " rotation=" << plan.part_rotation;
+        << part.name() << " s=" << s << " La=" << *plan.fingers[0].distance << " t=" << t
+        << " Lb=" << *plan.fingers[1].distance << " rotation=" << plan.part_rotation;
   }
 }
 
@@ -203,7 +203,7 @@ TEST(Pose, of_random_rolls_is_the_simulated_one) {
 TEST(Pose, of_a_wrong_pair_of_first_contacts_leaves_large_residuals) {
   const Part part = part_of("spline,seed=3");
   const FreePlan plan = by_profiles(0.1, 1, 0.06, 4);
-  const FreeRoll roll = roll_free_in_closed_form(part, plan);
+  const Roll roll = roll_free_in_closed_form(part, plan);
   for (const auto& [s, t] : {std::pair(1.3, 4.0), std::pair(1.0, 4.4), std::pair(4.0, 1.0), std::pair(2.0, 5.0)}) {
     const Poses wrong = poses_of(part, plan, roll, s, t);
     EXPECT_GT(most(wrong.residual), 0.02 * part.perimeter()) << s << " " << t;
@@ -216,8 +216,8 @@ TEST(Pose, tells_the_true_one_of_ten_placements_that_fit_the_reading) {
   plan.start = 5;
   plan.distance = 2;
   const Roll rolled = roll_in_closed_form(part, {0.1}, plan);
-  const std::size_t last = rolled.s.size() - 1;
-  const Search search = locate(part, readings(rolled.log, part, DiskFinger{0.1}));
+  const std::size_t last = rolled.s[0].size() - 1;
+  const Search search = locate(part, readings(rolled.log, part, {DiskFinger{0.1}}));
   ASSERT_EQ(search.placements.size(), 10U);
   std::size_t fitting = 0;
   for (const Placement& placement : search.placements) {
@@ -234,8 +234,8 @@ TEST(Pose, tells_the_true_one_of_ten_placements_that_fit_the_reading) {
 TEST(Pose, a_wrong_facing_shows_in_the_turn) {
   const Part part = part_of("ellipse");
   const FreePlan plan = by_distances(0.3, 1, 2, 0.3, 5, 1, 0.5);
-  FreeRoll roll = roll_free_in_closed_form(part, plan);
-  for (double& psi : roll.log.b.psi) psi += 0.01;
+  Roll roll = roll_free_in_closed_form(part, plan);
+  for (double& psi : roll.log.fingers[1].psi) psi += 0.01;
   const Poses found = poses_of(part, plan, roll, 1, 5);
   for (const double gap : found.turn_residual) EXPECT_NEAR(gap, 0.01, 1e-9);
   EXPECT_NEAR(std::remainder(found.pose[0].heading - roll.pose[0].heading, 2 * kPi), 0.005, 1e-9);
@@ -244,9 +244,9 @@ TEST(Pose, a_wrong_facing_shows_in_the_turn) {
 TEST(Pose, of_fingers_that_disagree_is_in_the_middle) {
   const Part part = part_of("ellipse");
   const FreePlan plan = by_distances(0.3, 1, 2, 0.3, 5, 1, 0.5);
-  FreeRoll roll = roll_free_in_closed_form(part, plan);
-  for (double& x : roll.log.b.x) x += 0.03;
-  for (double& y : roll.log.b.y) y -= 0.04;
+  Roll roll = roll_free_in_closed_form(part, plan);
+  for (double& x : roll.log.fingers[1].x) x += 0.03;
+  for (double& y : roll.log.fingers[1].y) y -= 0.04;
   const Poses found = poses_of(part, plan, roll, 1, 5);
   for (std::size_t row = 0; row < found.pose.size(); ++row) {
     EXPECT_NEAR(found.residual[row], 0.05, 1e-9);
@@ -260,8 +260,8 @@ TEST(Pose, of_fingers_that_disagree_is_in_the_middle) {
 TEST(Pose, is_given_for_the_rows_asked_for) {
   const Part part = part_of("ellipse");
   const FreePlan plan = by_profiles(0.3, 1, 0.2, 5);
-  const FreeRoll roll = roll_free_in_closed_form(part, plan);
-  const Poses found = *poses(part, FingerPair{{{0.3}, {0.2}}}, roll.log, {1, 5}, {200, 0, 77});
+  const Roll roll = roll_free_in_closed_form(part, plan);
+  const Poses found = *poses(part, {DiskFinger{0.3}, DiskFinger{0.2}}, roll.log, {1, 5}, {200, 0, 77});
   ASSERT_EQ(found.pose.size(), 3U);
   EXPECT_LT(difference(found.pose[0], roll.pose[200]), 1e-9);
   EXPECT_LT(difference(found.pose[1], roll.pose[0]), 1e-9);
@@ -272,12 +272,13 @@ TEST(Pose, is_unknown_without_the_fingers_centres_and_orientations) {
   const Part part = part_of("ellipse");
   const Log no_centre = parse_log("u,psi\n0,0\n1,1\n", "a");
   const Log no_angles = parse_log("length,turn,x,y\n1,2,3,4\n", "b");
-  EXPECT_FALSE(poses(part, DiskFinger{1}, no_centre, 0, {1}));
-  EXPECT_FALSE(poses(part, DiskFinger{1}, no_angles, 0, {0}));
+  EXPECT_FALSE(poses(part, {DiskFinger{1}}, no_centre, 0, {1}));
+  EXPECT_FALSE(poses(part, {DiskFinger{1}}, no_angles, 0, {0}));
   const Log whole = parse_log("u,psi,x,y\n0,0,1,1\n1,1,1,1\n", "c");
-  EXPECT_TRUE(poses(part, FingerPair{{{1}, {1}}}, PairLog{whole, whole}, {0, 0}, {1}));
-  EXPECT_FALSE(poses(part, FingerPair{{{1}, {1}}}, PairLog{whole, no_centre}, {0, 0}, {1}));
-  EXPECT_FALSE(poses(part, FingerPair{{{1}, {1}}}, PairLog{no_angles, no_angles}, {0, 0}, {0}));
+  EXPECT_FALSE(poses(part, {}, whole, 0, {0})) << "nor without a finger";
+  EXPECT_TRUE(poses(part, {DiskFinger{1}}, paired(whole, whole), {0, 0}, {1}));
+  EXPECT_FALSE(poses(part, {DiskFinger{1}}, paired(whole, no_centre), {0, 0}, {1}));
+  EXPECT_FALSE(poses(part, {DiskFinger{1}}, paired(no_angles, no_angles), {0, 0}, {0}));
 }
 
 }  // namespace

@@ -60,21 +60,23 @@ RollPlan by_profile(double start, double duration, std::function<double(double)>
   return plan;
 }
 
-Contact contact_at(const Roll& roll, std::size_t row) { return {roll.log.u[row], roll.log.psi[row]}; }
-Vec2 centre_at(const Roll& roll, std::size_t row) { return {roll.log.x[row], roll.log.y[row]}; }
+Contact contact_at(const Roll& roll, std::size_t row) {
+  return {roll.log.fingers[0].u[row], roll.log.fingers[0].psi[row]};
+}
+Vec2 centre_at(const Roll& roll, std::size_t row) { return {roll.log.fingers[0].x[row], roll.log.fingers[0].y[row]}; }
 Reading reading_at(const Roll& roll, const DiskFinger& finger, std::size_t row) {
   return reading_between(finger, contact_at(roll, 0), contact_at(roll, row));
 }
 
 /// The largest difference between two rolls in what the sensors read and where the contact is.
 double difference(const Roll& a, const Roll& b, const DiskFinger& finger) {
-  double most = a.s.size() == b.s.size() ? 0 : 1e300;
-  for (std::size_t k = 0; k < a.s.size() && most < 1e300; ++k) {
+  double most = a.s[0].size() == b.s[0].size() ? 0 : 1e300;
+  for (std::size_t k = 0; k < a.s[0].size() && most < 1e300; ++k) {
     const Reading reading_a = reading_at(a, finger, k);
     const Reading reading_b = reading_at(b, finger, k);
-    most = std::max({most, std::abs(a.s[k] - b.s[k]), std::abs(reading_a.length[0] - reading_b.length[0]),
+    most = std::max({most, std::abs(a.s[0][k] - b.s[0][k]), std::abs(reading_a.length[0] - reading_b.length[0]),
                      std::abs(reading_a.turn - reading_b.turn), (centre_at(a, k) - centre_at(b, k)).norm(),
-                     std::abs(a.angle[k] - b.angle[k])});
+                     std::abs(a.angle[0][k] - b.angle[0][k])});
   }
   return most;
 }
@@ -99,13 +101,14 @@ TEST(Rolling, on_a_circle_all_signs_are_as_in_the_picture) {
   Roll found = roll(circle, finger, by_distance(0, R * travelled));
   EXPECT_NEAR(contact_at(found, 0).facing(), kPi,
               1e-12);  // it touches (2, 0) from outside: its contact lies to the left
-  EXPECT_NEAR(found.log.x.front(), R + finger.radius, 1e-12);
-  EXPECT_NEAR(found.log.y.front(), 0, 1e-12);
-  EXPECT_NEAR(found.log.u.back() - found.log.u.front(), -R * travelled / finger.radius, 1e-10);
-  EXPECT_NEAR(found.log.psi.back() - found.log.psi.front(), travelled * (1 + R / finger.radius), 1e-10);
-  EXPECT_NEAR(found.log.x.back(), (R + finger.radius) * std::cos(travelled), 1e-10);
-  EXPECT_NEAR(found.log.y.back(), (R + finger.radius) * std::sin(travelled), 1e-10);
-  const Reading reading = reading_at(found, finger, found.s.size() - 1);
+  EXPECT_NEAR(found.log.fingers[0].x.front(), R + finger.radius, 1e-12);
+  EXPECT_NEAR(found.log.fingers[0].y.front(), 0, 1e-12);
+  EXPECT_NEAR(found.log.fingers[0].u.back() - found.log.fingers[0].u.front(), -R * travelled / finger.radius, 1e-10);
+  EXPECT_NEAR(found.log.fingers[0].psi.back() - found.log.fingers[0].psi.front(), travelled * (1 + R / finger.radius),
+              1e-10);
+  EXPECT_NEAR(found.log.fingers[0].x.back(), (R + finger.radius) * std::cos(travelled), 1e-10);
+  EXPECT_NEAR(found.log.fingers[0].y.back(), (R + finger.radius) * std::sin(travelled), 1e-10);
+  const Reading reading = reading_at(found, finger, found.s[0].size() - 1);
   EXPECT_NEAR(reading.length[0], R * travelled, 1e-10);
   EXPECT_NEAR(reading.turn, travelled, 1e-10);
 }
@@ -113,28 +116,28 @@ TEST(Rolling, on_a_circle_all_signs_are_as_in_the_picture) {
 TEST(Rolling, a_coin_around_an_equal_coin_turns_twice) {
   const Part coin = part_of("circle,r=1");
   const Roll found = roll(coin, {1}, by_distance(0, coin.perimeter()));
-  EXPECT_NEAR(found.log.psi.back() - found.log.psi.front(), 4 * kPi, 1e-10);
+  EXPECT_NEAR(found.log.fingers[0].psi.back() - found.log.fingers[0].psi.front(), 4 * kPi, 1e-10);
 }
 
 TEST(Rolling, backwards_turns_every_sign_around) {
   const Part circle = part_of("circle,r=2");
   const DiskFinger finger{0.5};
   const Roll found = roll(circle, finger, by_distance(1, -1.5));
-  const Reading reading = reading_at(found, finger, found.s.size() - 1);
+  const Reading reading = reading_at(found, finger, found.s[0].size() - 1);
   EXPECT_NEAR(reading.length[0], -1.5, 1e-10);
   EXPECT_NEAR(reading.turn, -0.75, 1e-10);
-  EXPECT_LT(found.log.psi.back(), found.log.psi.front());
-  EXPECT_GT(found.log.u.back(), found.log.u.front());
+  EXPECT_LT(found.log.fingers[0].psi.back(), found.log.fingers[0].psi.front());
+  EXPECT_GT(found.log.fingers[0].u.back(), found.log.fingers[0].u.front());
 }
 
 TEST(Rolling, a_straight_side_turns_nothing_but_the_finger) {
   const Part square = part_of("polygon,n=4,r=2");
   const DiskFinger finger{0.25};
   const Roll found = roll(square, finger, by_distance(0.5, 1));
-  const Reading reading = reading_at(found, finger, found.s.size() - 1);
+  const Reading reading = reading_at(found, finger, found.s[0].size() - 1);
   EXPECT_NEAR(reading.length[0], 1, 1e-12);
   EXPECT_NEAR(reading.turn, 0, 1e-12);
-  EXPECT_NEAR(found.log.psi.back(), 1 / finger.radius, 1e-12);
+  EXPECT_NEAR(found.log.fingers[0].psi.back(), 1 / finger.radius, 1e-12);
 }
 
 TEST(Rolling, contact_after_a_reading_gives_that_reading_back) {
@@ -153,12 +156,12 @@ TEST(Rolling, the_fingers_point_in_contact_is_at_rest) {
   const DiskFinger finger{0.1};
   const Roll found = roll(part, finger, by_distance(0.3, 5, 4001));
   const auto material_point = [&](double u, std::size_t row) {
-    const double direction = u + found.log.psi[row];
+    const double direction = u + found.log.fingers[0].psi[row];
     return Vec2(centre_at(found, row) + finger.radius * Vec2(std::cos(direction), std::sin(direction)));
   };
-  for (std::size_t row = 1; row + 1 < found.s.size(); row += 97) {
-    const double u = found.log.u[row];
-    EXPECT_LT((material_point(u, row) - part.point(found.s[row])).norm(), 1e-11);
+  for (std::size_t row = 1; row + 1 < found.s[0].size(); row += 97) {
+    const double u = found.log.fingers[0].u[row];
+    EXPECT_LT((material_point(u, row) - part.point(found.s[0][row])).norm(), 1e-11);
     const double moved = (material_point(u, row + 1) - material_point(u, row - 1)).norm();
     const double centre_moved = (centre_at(found, row + 1) - centre_at(found, row - 1)).norm();
     EXPECT_LT(moved, 0.01 * centre_moved) << "row " << row;
@@ -170,7 +173,7 @@ TEST(Rolling, the_finger_stays_outside_the_part) {
   const DiskFinger finger{0.4};
   const Roll found = roll(part, finger, by_distance(0, part.perimeter(), 61));
   const std::vector<Vec2> boundary = part.polyline(0, part.perimeter(), 2000);
-  for (std::size_t row = 0; row < found.s.size(); ++row) {
+  for (std::size_t row = 0; row < found.s[0].size(); ++row) {
     double nearest = 1e300;
     for (const Vec2& point : boundary) nearest = std::min(nearest, (point - centre_at(found, row)).norm());
     EXPECT_NEAR(nearest, finger.radius, 1e-4);
@@ -203,18 +206,18 @@ TEST(Rolling, agrees_with_the_papers_equations_in_the_curves_own_parameter) {
     const DiskFinger finger{0.1};
     const Roll found = roll(part, finger, by_distance(0, 0.8 * part.perimeter(), 51));
     const Paper paper{part.outline().curves.front(), finger.radius, 1};
-    Paper::State state{found.log.u.front(), paper.curve.domain().lo};
+    Paper::State state{found.log.fingers[0].u.front(), paper.curve.domain().lo};
     std::size_t row = 0;
     const auto compare = [&](const Paper::State& now, double /*time*/) {
-      ASSERT_LT(row, found.s.size());
-      EXPECT_NEAR(now[0], found.log.u[row], 1e-9) << shape << " row " << row;
-      EXPECT_LT((paper.curve.position(now[1]) - part.point(found.s[row])).norm(), 1e-9) << shape << " row " << row;
+      ASSERT_LT(row, found.s[0].size());
+      EXPECT_NEAR(now[0], found.log.fingers[0].u[row], 1e-9) << shape << " row " << row;
+      EXPECT_LT((paper.curve.position(now[1]) - part.point(found.s[0][row])).norm(), 1e-9) << shape << " row " << row;
       ++row;
     };
     const auto stepper = odeint::make_dense_output(1e-13, 1e-13, odeint::runge_kutta_dopri5<Paper::State>());
     const double step = found.log.time[1];
     odeint::integrate_const(stepper, paper, state, 0.0, found.log.time.back() + step / 2, step, compare);
-    EXPECT_EQ(row, found.s.size()) << shape;
+    EXPECT_EQ(row, found.s[0].size()) << shape;
   }
 }
 
@@ -240,7 +243,7 @@ TEST_P(RollingCases, integration_and_closed_form_agree) {
   const Roll integrated = roll(part, {one.radius}, plan);
   const Roll closed = roll_in_closed_form(part, {one.radius}, plan);
   EXPECT_LT(difference(integrated, closed, {one.radius}), 1e-9);
-  EXPECT_NEAR(closed.s.back() - closed.s.front(), *plan.distance, 1e-12 * (1 + part.perimeter()));
+  EXPECT_NEAR(closed.s[0].back() - closed.s[0].front(), *plan.distance, 1e-12 * (1 + part.perimeter()));
 }
 
 TEST_P(RollingCases, readings_are_the_length_and_turn_of_the_boundary_between) {
@@ -248,12 +251,12 @@ TEST_P(RollingCases, readings_are_the_length_and_turn_of_the_boundary_between) {
   const Part part = part_of(one.shape);
   const DiskFinger finger{one.radius};
   const Roll found = roll(part, finger, by_distance(one.start * part.perimeter(), one.laps * part.perimeter(), 97));
-  for (std::size_t row = 1; row < found.s.size(); ++row) {
+  for (std::size_t row = 1; row < found.s[0].size(); ++row) {
     const Reading reading = reading_at(found, finger, row);
-    EXPECT_NEAR(reading.length[0], found.s[row] - found.s[0], 1e-9);
+    EXPECT_NEAR(reading.length[0], found.s[0][row] - found.s[0][0], 1e-9);
     constexpr double kNear = 1e-11;  // a corner's own place is known up to rounding
-    const double before = part.turning().angle(found.s[row] - kNear) - found.angle[0];
-    const double after = part.turning().angle(found.s[row] + kNear) - found.angle[0];
+    const double before = part.turning().angle(found.s[0][row] - kNear) - found.angle[0][0];
+    const double after = part.turning().angle(found.s[0][row] + kNear) - found.angle[0][0];
     EXPECT_GE(reading.turn, std::min(before, after) - 1e-9) << "row " << row;
     EXPECT_LE(reading.turn, std::max(before, after) + 1e-9) << "row " << row;
   }
@@ -290,7 +293,7 @@ TEST(Rolling, a_rotation_turns_the_finger_by_just_that) {
   const Part part = part_of("ellipse");
   for (const double rotation : {7.5, -20.0}) {
     const Roll found = roll(part, {0.1}, by_rotation(1, rotation));
-    EXPECT_NEAR(found.log.psi.back() - found.log.psi.front(), rotation, 1e-12);
+    EXPECT_NEAR(found.log.fingers[0].psi.back() - found.log.fingers[0].psi.front(), rotation, 1e-12);
     EXPECT_LT(difference(found, roll_in_closed_form(part, {0.1}, by_rotation(1, rotation)), {0.1}), 1e-9);
   }
 }
@@ -311,8 +314,8 @@ TEST(Rolling, a_profile_that_swings_forth_and_back_returns_to_the_start) {
     const Part part = part_of(shape);
     const RollPlan plan = by_profile(0.1, 2 * kPi, omega);
     const Roll found = roll(part, {0.1}, plan);
-    EXPECT_NEAR(found.s.back(), found.s.front(), 1e-10) << shape;
-    EXPECT_NEAR(found.log.psi[100] - found.log.psi[0], 40, 1e-10) << shape;
+    EXPECT_NEAR(found.s[0].back(), found.s[0].front(), 1e-10) << shape;
+    EXPECT_NEAR(found.log.fingers[0].psi[100] - found.log.fingers[0].psi[0], 40, 1e-10) << shape;
     EXPECT_LT(difference(found, roll_in_closed_form(part, {0.1}, plan), {0.1}), 1e-9) << shape;
   }
 }
@@ -323,9 +326,9 @@ TEST(Rolling, orientation_at_the_start_shifts_psi_and_turns_u_back) {
   const Roll plain = roll_in_closed_form(part, {0.2}, plan);
   plan.psi = 1.25;
   const Roll turned = roll_in_closed_form(part, {0.2}, plan);
-  EXPECT_NEAR(turned.log.psi[50] - plain.log.psi[50], 1.25, 1e-12);
-  EXPECT_NEAR(std::remainder(turned.log.u[50] - plain.log.u[50] + 1.25, 2 * kPi), 0, 1e-12);
-  EXPECT_NEAR(turned.log.x[50], plain.log.x[50], 1e-12);
+  EXPECT_NEAR(turned.log.fingers[0].psi[50] - plain.log.fingers[0].psi[50], 1.25, 1e-12);
+  EXPECT_NEAR(std::remainder(turned.log.fingers[0].u[50] - plain.log.fingers[0].u[50] + 1.25, 2 * kPi), 0, 1e-12);
+  EXPECT_NEAR(turned.log.fingers[0].x[50], plain.log.fingers[0].x[50], 1e-12);
 }
 
 TEST(Rolling, the_start_may_be_given_on_any_lap) {
@@ -342,9 +345,9 @@ TEST(Rolling, at_a_convex_corner_the_finger_pivots_in_place) {
   const DiskFinger finger{0.5};
   const Roll found = roll(square, finger, by_distance(1, 2, 801));
   std::size_t rows_at_corner = 0;
-  for (std::size_t row = 0; row < found.s.size(); ++row) {
+  for (std::size_t row = 0; row < found.s[0].size(); ++row) {
     const Reading reading = reading_at(found, finger, row);
-    if (std::abs(found.s[row] - 2) > 1e-12) {
+    if (std::abs(found.s[0][row] - 2) > 1e-12) {
       EXPECT_NEAR(reading.turn, reading.length[0] < 1 ? 0 : kPi / 2, 1e-9);
       continue;
     }
@@ -362,16 +365,17 @@ TEST(Rolling, around_a_polygon_the_finger_turns_once_more_than_along_its_sides) 
   const Part triangle = part_of("polygon,n=3");
   const DiskFinger finger{0.2};
   const Roll found = roll(triangle, finger, by_distance(0.5, triangle.perimeter()));
-  EXPECT_NEAR(found.log.psi.back() - found.log.psi.front(), triangle.perimeter() / finger.radius + 2 * kPi, 1e-9);
-  EXPECT_NEAR(reading_at(found, finger, found.s.size() - 1).turn, 2 * kPi, 1e-9);
+  EXPECT_NEAR(found.log.fingers[0].psi.back() - found.log.fingers[0].psi.front(),
+              triangle.perimeter() / finger.radius + 2 * kPi, 1e-9);
+  EXPECT_NEAR(reading_at(found, finger, found.s[0].size() - 1).turn, 2 * kPi, 1e-9);
 }
 
 TEST(Rolling, a_rotation_can_end_in_the_middle_of_a_pivot) {
   const Part square = part_of("polygon,n=4,r=1.4142135623730951");
   const RollPlan plan = by_rotation(1, 1 / 0.5 + 0.3);
   for (const Roll& found : {roll(square, {0.5}, plan), roll_in_closed_form(square, {0.5}, plan)}) {
-    EXPECT_NEAR(found.s.back(), 2, 1e-12);
-    EXPECT_NEAR(found.angle.back() - found.angle.front(), 0.3, 1e-9);
+    EXPECT_NEAR(found.s[0].back(), 2, 1e-12);
+    EXPECT_NEAR(found.angle[0].back() - found.angle[0].front(), 0.3, 1e-9);
   }
 }
 
@@ -380,8 +384,8 @@ TEST(Rolling, from_corner_to_corner_there_is_no_pivot) {
   for (const double side : {2.0, -2.0}) {
     for (const Roll& found :
          {roll(square, {0.5}, by_distance(4, side)), roll_in_closed_form(square, {0.5}, by_distance(4, side))}) {
-      EXPECT_NEAR(reading_at(found, {0.5}, found.s.size() - 1).turn, 0, 1e-12);
-      EXPECT_NEAR(found.s.back(), 4 + side, 1e-12);
+      EXPECT_NEAR(reading_at(found, {0.5}, found.s[0].size() - 1).turn, 0, 1e-12);
+      EXPECT_NEAR(found.s[0].back(), 4 + side, 1e-12);
     }
   }
 }

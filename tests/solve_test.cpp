@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "rollfix/contact/pair_log.hpp"
+#include "rollfix/contact/log.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate/locate.hpp"
 #include "rollfix/outline/gallery.hpp"

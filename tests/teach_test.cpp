@@ -43,8 +43,8 @@ Log drive(const Part& part, double from, double length, int steps) {
   log.kind = LogKind::travelled;
   for (int k = 1; k <= steps; ++k) {
     const double travelled = length * k / steps;
-    log.length.push_back(travelled);
-    log.turn.push_back(part.turning().angle(from + travelled) - part.turning().angle(from));
+    log.fingers[0].length.push_back(travelled);
+    log.fingers[0].turn.push_back(part.turning().angle(from + travelled) - part.turning().angle(from));
   }
   return log;
 }
@@ -210,8 +210,8 @@ TEST(Teach, clockwise_course_keeps_its_direction) {
     length.push_back(whole - s);
     turn.push_back(forward.turning().angle(s) - forward.turning().angle(whole));
   }
-  log.length = length;
-  log.turn = turn;
+  log.fingers[0].length = length;
+  log.fingers[0].turn = turn;
   const Taught taught = teach(log);
   EXPECT_EQ(taught.turns, -1);
   EXPECT_THAT(all_notes(taught), HasSubstr("clockwise"));
@@ -220,11 +220,11 @@ TEST(Teach, clockwise_course_keeps_its_direction) {
 
   // A later drive along 0.9 of it, 1.2 after its start: it is driven like the course, so its lengths are above 0.
   Log later = log;
-  later.length = {0.9};
-  later.turn = {forward.turning().angle(whole - 2.1) - forward.turning().angle(whole - 1.2)};
+  later.fingers[0].length = {0.9};
+  later.fingers[0].turn = {forward.turning().angle(whole - 2.1) - forward.turning().angle(whole - 1.2)};
   rollfix::LocateOptions options;
   options.tolerance = 1e-4;
-  const rollfix::Search found = rollfix::locate(part, rollfix::readings(later, part, std::nullopt), options);
+  const rollfix::Search found = rollfix::locate(part, rollfix::readings(later, part, {}), options);
   // Reversed with the same first point: the stored s of the course's place 1.2 is P - 1.2.
   EXPECT_TRUE(shapes::holds(part, found, part.perimeter() - 1.2, 1e-3));
 }
@@ -247,11 +247,11 @@ TEST(Teach, course_that_crosses_itself_needs_leave_and_has_no_turn) {
 Log drifted(Log log, double bias, double slip, double noise) {
   auto generator = test_generator();
   std::normal_distribution<double> error(0, 1);
-  const double whole = log.length.back();
-  for (std::size_t k = 0; k < log.length.size(); ++k) {
-    const double share = log.length[k] / whole;
-    log.turn[k] += bias * share + noise * error(generator);
-    log.length[k] += slip * whole * std::sin(kPi * share) * std::sin(kPi * share);
+  const double whole = log.fingers[0].length.back();
+  for (std::size_t k = 0; k < log.fingers[0].length.size(); ++k) {
+    const double share = log.fingers[0].length[k] / whole;
+    log.fingers[0].turn[k] += bias * share + noise * error(generator);
+    log.fingers[0].length[k] += slip * whole * std::sin(kPi * share) * std::sin(kPi * share);
   }
   return log;
 }
@@ -290,7 +290,7 @@ TEST(Teach, gap_beyond_the_drift_is_never_spread) {
   EXPECT_FALSE(open.outline.closed);
   EXPECT_THAT(all_notes(open), HasSubstr("`bridge`"));
   const Part part(open.outline);
-  EXPECT_NEAR(part.total_turn(), log.turn.back(), 0.01);
+  EXPECT_NEAR(part.total_turn(), log.fingers[0].turn.back(), 0.01);
 }
 
 TEST(Teach, gap_is_bridged_where_asked_for) {

@@ -36,8 +36,8 @@ inline std::vector<std::string> noisy_rows(double start, double length, std::siz
   std::normal_distribution<double> off;
   std::vector<std::string> rows;
   for (std::size_t k = 0; k < count; ++k) {
-    const double u = log.u[k] + kNoise.contact / kFinger.radius * off(random);
-    const double psi = log.psi[k] + kNoise.angle * off(random);
+    const double u = log.fingers[0].u[k] + kNoise.contact / kFinger.radius * off(random);
+    const double psi = log.fingers[0].psi[k] + kNoise.angle * off(random);
     rows.push_back(fmt::format("{:.4f},{:.6f},{:.6f},1", from_time + log.time[k], u, psi));
   }
   return rows;

@@ -48,7 +48,7 @@ class Diary : public rollfix::app::WatchListener {
 WatchOptions options() {
   WatchOptions options;
   options.name = "roll.csv";
-  options.finger = watching::kFinger;
+  options.fingers = {watching::kFinger};
   options.belief.noise = watching::kNoise;
   return options;
 }

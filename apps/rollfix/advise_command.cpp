@@ -216,7 +216,7 @@ Report advise_report(const AdviseArguments& arguments) {
   if (!arguments.travel.empty()) travel = read_travel(arguments.travel);
   Report report;
   const Problem problem = read_problem(roll, report.notes);
-  if (problem.felt.is_log() ? problem.felt.logs.size() == 2 : problem.felt.readings.front().fingers() == 2) {
+  if (problem.felt.is_log() ? problem.felt.log->fingers.size() == 2 : problem.felt.readings.front().fingers() == 2) {
     throw InputError("advise: expected what one finger read, found two fingers");
   }
   const AdviseOutcome outcome = advise_on(problem, travel);

@@ -8,13 +8,13 @@
 #include <utility>
 
 #include "outline/turn.hpp"
-#include "rollfix/contact/pair_log.hpp"
-#include "rollfix/contact/written_number.hpp"
+#include "rollfix/contact/log.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/finger_argument.hpp"
 #include "rollfix/typed_number.hpp"
 #include "rollfix/usage.hpp"
 #include "text/text.hpp"
+#include "text/written_number.hpp"
 
 namespace rollfix::app {
 namespace {
@@ -84,14 +84,10 @@ std::vector<double> read_instants(const std::string& text) {
   return instants;
 }
 
-std::vector<Log> read_logs_of(const std::vector<std::string>& paths) {
-  if (paths.size() == 1) return read_logs(paths.front());
-  if (paths.size() != 2) {
-    throw InputError(
-        fmt::format("--log is given {} times, expected one log, or one of each of two fingers", paths.size()));
-  }
-  const PairLog log = read_pair_log(paths.front(), paths.back());
-  return {log.a, log.b};
+Log read_both_logs(const std::vector<std::string>& paths) {
+  if (paths.size() == 2) return read_log(paths.front(), paths.back());
+  throw InputError(
+      fmt::format("--log is given {} times, expected one log, or one of each of two fingers", paths.size()));
 }
 
 double* place_for(Noise& noise, std::string_view name) {
@@ -202,32 +198,32 @@ std::optional<Prior> read_prior(const std::string& text) {
   return prior;
 }
 
-std::vector<Log> read_roll(const std::vector<std::string>& paths, const std::string& roll,
+Log read_roll(const std::vector<std::string>& paths, const std::string& roll,
                            std::vector<std::string>& notes) {
   const std::size_t number = roll.empty() ? 0 : read_count(roll, "--roll", 1);
   if (paths.size() != 1) {
     if (number > 0) throw InputError("--roll chooses from one log, and --log is given more than once; split the logs");
-    return read_logs_of(paths);
+    return read_both_logs(paths);
   }
-  std::vector<std::vector<Log>> rolls = read_rolls_of_fingers(paths.front());
+  std::vector<Log> rolls = read_rolls(paths.front());
   const std::size_t count = rolls.size();
   if (number > count) {
     throw InputError(fmt::format("--roll {}: {} holds {}, expected a number from 1 to {}", number, paths.front(),
                                  counted(count, "roll", "rolls"), count));
   }
   const std::size_t chosen = number > 0 ? number : count;
-  std::vector<Log> logs = std::move(rolls[chosen - 1]);
+  Log log = std::move(rolls[chosen - 1]);
   if (count > 1) {
-    notes.push_back(fmt::format("{}: roll {} of {}{}", logs.front().name, chosen, count,
+    notes.push_back(fmt::format("{}: roll {} of {}{}", log.name, chosen, count,
                                 number > 0 ? "" : "; --roll N takes another"));
   }
-  return logs;
+  return log;
 }
 
 Problem read_problem(const RollArguments& arguments, std::vector<std::string>& notes) {
   require_sensible(arguments);
-  Felt felt = arguments.logs.empty() ? read_readings(arguments) : read_roll(arguments.logs, arguments.roll, notes);
-  const bool of_two = felt.is_log() ? felt.logs.size() == 2 : felt.readings.front().fingers() == 2;
+  Felt felt = arguments.logs.empty() ? read_readings(arguments) : Felt(read_roll(arguments.logs, arguments.roll, notes));
+  const bool of_two = felt.is_log() ? felt.log->fingers.size() == 2 : felt.readings.front().fingers() == 2;
   if (!arguments.facing.empty()) {
     if (!of_two) throw InputError("--facing compares two fingers: expected --reading LA,LB,THETA with it");
     if (felt.is_log()) throw InputError("--facing goes with --reading: a log of two fingers has it in u and psi");

@@ -46,7 +46,6 @@ std::optional<Prior> read_prior(const std::string& text);
 /// One roll of what --log names: one file of one finger or of two, or two files of one each. Of a file with several
 /// rolls the one that --roll names, from 1; the last where it is empty, because that is where the finger is now.
 /// Throws InputError.
-std::vector<Log> read_roll(const std::vector<std::string>& paths, const std::string& roll,
-                           std::vector<std::string>& notes);
+Log read_roll(const std::vector<std::string>& paths, const std::string& roll, std::vector<std::string>& notes);
 
 }  // namespace rollfix::app

@@ -68,9 +68,9 @@ Report simulate_one(const SimulateArguments& arguments) {
   const Roll& roll = noisy.truth;
 
   if (part.reversed()) report.notes.push_back(reversed_note(part));
-  report.notes.push_back(roll_text(part, roll.s, roll.angle));
-  add_reach_note(report, beyond_reach_note(part, finger, roll.s, "a real finger "));
-  if (noise) report.notes.push_back(roll_error_text(finger, noisy.error));
+  report.notes.push_back(roll_text(part, roll.s[0], roll.angle[0]));
+  add_reach_note(report, beyond_reach_note(part, finger, roll.s[0], "a real finger "));
+  if (noise) report.notes.push_back(roll_error_text(finger, noisy.error[0]));
   add_log(report, file, format_log(noisy.log));
   return report;
 }

@@ -1,8 +1,9 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <optional>
 
-#include "rollfix/contact/free_part.hpp"
+#include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/finger_argument.hpp"
 #include "rollfix/simulation.hpp"
@@ -45,25 +46,26 @@ void require_two_fingers(const SimulateArguments& arguments) {
   }
 }
 
-FreeFinger finger_of(const SimulateArguments& arguments, const Part& part, const Finger& disk, std::size_t which) {
+FreeFinger plan_of(const SimulateArguments& arguments, const Part& part, const Finger& disk, std::size_t which) {
   FreeFinger finger;
-  finger.disk = *disk.disk();
+  finger.finger = disk;
   finger.start = read_number(arguments.starts[which], "--start");
   finger.distance = read_number(arguments.lengths[which], "--length");
   finger.psi = orientation_at(part, finger.start, arguments, which);
   return finger;
 }
 
-FreePlan plan_of(const SimulateArguments& arguments, const Part& part, const FingerPair& fingers) {
+FreePlan plan_of(const SimulateArguments& arguments, const Part& part, const std::vector<Finger>& fingers) {
   FreePlan plan;
-  plan.a = finger_of(arguments, part, fingers[0], 0);
-  plan.b = finger_of(arguments, part, fingers[1], 1);
+  for (const std::size_t which : {0U, 1U}) {
+    plan.fingers[which] = plan_of(arguments, part, *finger_of(fingers, which), which);
+  }
   if (!arguments.part_rotation.empty()) plan.part_rotation = read_angle(arguments.part_rotation, "--part-rotation");
   if (!arguments.samples.empty()) plan.rows = read_count(arguments.samples, "--samples", 2);
   return plan;
 }
 
-std::string part_text(const Part& part, const FreeRoll& roll) {
+std::string part_text(const Part& part, const Roll& roll) {
   const int decimals = decimals_for(part.perimeter());
   const Pose& first = roll.pose.front();
   const Pose& last = roll.pose.back();
@@ -72,12 +74,11 @@ std::string part_text(const Part& part, const FreeRoll& roll) {
                      fixed(last.y - first.y, decimals));
 }
 
-void add_logs(Report& report, const std::vector<std::string>& files, const PairLog& log) {
+void add_logs(Report& report, const std::vector<std::string>& files, const Log& log) {
   if (files.size() == 2) {
-    add_log(report, files[0], format_log(log.a));
-    add_log(report, files[1], format_log(log.b));
+    for (const std::size_t which : {0U, 1U}) add_log(report, files[which], format_log(one_finger(log, which)));
   } else {
-    add_log(report, files.empty() ? "-" : files.front(), format_pair_log(log));
+    add_log(report, files.empty() ? "-" : files.front(), format_log(log));
   }
 }
 
@@ -89,30 +90,32 @@ Report simulate_two(const SimulateArguments& arguments) {
   const std::optional<SimulatedNoise> noise = read_simulated_noise(arguments);
   if (!arguments.contact.empty())
     throw InputError("--contact is of one finger with an outline; disks have --contact-angle");
-  const std::vector<Finger> disks = read_fingers(arguments.fingers, 2);
-  require_disks(disks, "simulate with two fingers");
-  const FingerPair fingers{disks.front(), disks.back()};
+  const std::vector<Finger> fingers = read_fingers(arguments.fingers, 2);
+  require_disks(fingers, "simulate with two fingers");
   Report report;
   const Part part = load_part(arguments.part, report.notes);
   const FreePlan plan = plan_of(arguments, part, fingers);
-  NoisyFreeRoll noisy;
+  NoisyRoll noisy;
   if (noise) {
     noisy = noisy_roll_free(part, plan, noise->noise, noise->seed);
   } else {
     noisy.truth = roll_free(part, plan);
     noisy.log = noisy.truth.log;
   }
-  const FreeRoll& roll = noisy.truth;
+  const Roll& roll = noisy.truth;
 
   if (part.reversed()) report.notes.push_back(reversed_note(part));
-  report.notes.push_back("finger a " + roll_text(part, roll.s, roll.angle_a));
-  report.notes.push_back("finger b " + roll_text(part, roll.t, roll.angle_b));
-  add_reach_note(report, beyond_reach_note(part, fingers[0], roll.s, "a real finger a "));
-  add_reach_note(report, beyond_reach_note(part, fingers[1], roll.t, "a real finger b "));
+  const std::array<std::string, 2> names = {"finger a", "finger b"};
+  for (const std::size_t which : {0U, 1U}) {
+    report.notes.push_back(names[which] + " " + roll_text(part, roll.s[which], roll.angle[which]));
+  }
+  for (const std::size_t which : {0U, 1U}) {
+    const Finger& finger = *finger_of(fingers, which);
+    add_reach_note(report, beyond_reach_note(part, finger, roll.s[which], "a real " + names[which] + " "));
+  }
   report.notes.push_back(part_text(part, roll));
-  if (noise) {
-    report.notes.push_back("finger a: " + roll_error_text(fingers[0], noisy.error[0]));
-    report.notes.push_back("finger b: " + roll_error_text(fingers[1], noisy.error[1]));
+  for (std::size_t which = 0; which < 2 && noise; ++which) {
+    report.notes.push_back(names[which] + ": " + roll_error_text(*finger_of(fingers, which), noisy.error[which]));
   }
   add_logs(report, arguments.files, noisy.log);
   return report;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "rollfix/contact/finger.hpp"
-#include "rollfix/contact/noisy.hpp"
+#include "rollfix/contact/rolling.hpp"
 #include "rollfix/part/part.hpp"
 #include "rollfix/part_argument.hpp"
 #include "rollfix/report.hpp"

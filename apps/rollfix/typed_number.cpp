@@ -7,7 +7,7 @@
 #include <cmath>
 #include <optional>
 
-#include "rollfix/contact/written_number.hpp"
+#include "text/written_number.hpp"
 #include "rollfix/error.hpp"
 #include "text/text.hpp"
 

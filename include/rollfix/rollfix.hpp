@@ -7,11 +7,7 @@
 #include "rollfix/belief/advise.hpp"       // IWYU pragma: export
 #include "rollfix/belief/belief.hpp"       // IWYU pragma: export
 #include "rollfix/contact/finger.hpp"      // IWYU pragma: export
-#include "rollfix/contact/free_part.hpp"   // IWYU pragma: export
 #include "rollfix/contact/log.hpp"         // IWYU pragma: export
-#include "rollfix/contact/log_stream.hpp"  // IWYU pragma: export
-#include "rollfix/contact/noisy.hpp"       // IWYU pragma: export
-#include "rollfix/contact/pair_log.hpp"    // IWYU pragma: export
 #include "rollfix/contact/pose.hpp"        // IWYU pragma: export
 #include "rollfix/contact/rolling.hpp"     // IWYU pragma: export
 #include "rollfix/error.hpp"               // IWYU pragma: export

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "rollfix/contact/pair_log.hpp"
 #include "rollfix/error.hpp"
 
 namespace rollfix {
@@ -24,37 +23,19 @@ Observation observe_readings(const Problem& problem) {
   return observed;
 }
 
-std::optional<Finger> only_finger(const std::vector<Finger>& fingers) {
-  return fingers.empty() ? std::nullopt : std::optional<Finger>(fingers.front());
-}
-
-std::optional<FingerPair> both_fingers(const std::vector<Finger>& fingers) {
-  return fingers.empty() ? std::nullopt : std::optional<FingerPair>(FingerPair{fingers.front(), fingers.back()});
-}
-
 Observation observe_log(const Problem& problem) {
   Observation observed;
-  const Log& first = problem.felt.logs.front();
-  observed.lengths_reversed = problem.part.reversed() && first.kind != LogKind::contact;
-  if (problem.felt.logs.size() == 1) {
-    const std::optional<Finger> finger = only_finger(problem.fingers);
-    observed.readings = readings(first, problem.part, finger, problem.at);
-    observed.roundings = {rounding_of(first, finger)};
-    observed.rolls = readings_as_given(first, finger);
-    observed.times = times_of(first, rows_at(first, problem.at));
-  } else {
-    const PairLog log{first, problem.felt.logs.back()};
-    const std::optional<FingerPair> fingers = both_fingers(problem.fingers);
-    observed.readings = readings(log, problem.part, fingers, problem.at);
-    observed.roundings = {rounding_of(log, fingers)};
-    observed.facing = facing(log, fingers);
-    observed.rolls = readings_as_given(log, fingers);
-    observed.times = times_of(first, rows_at(log, problem.at));
-  }
+  const Log& log = *problem.felt.log;
+  observed.lengths_reversed = problem.part.reversed() && log.kind != LogKind::contact;
+  observed.readings = readings(log, problem.part, problem.fingers, problem.at, problem.noise.value_or(Noise{}));
+  observed.roundings = {rounding_of(log, problem.fingers)};
+  observed.facing = facing(log, problem.fingers);
+  observed.rolls = readings_as_given(log, problem.fingers);
+  observed.times = times_of(log, rows_at(log, problem.at));
   if (observed.lengths_reversed) {
     for (Reading& reading : observed.rolls) reading = in_stored_direction(reading, problem.part);
   }
-  observed.pose_time = first.time;
+  observed.pose_time = log.time;
   return observed;
 }
 

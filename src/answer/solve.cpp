@@ -74,22 +74,13 @@ void drop_impossible(const Observation& observed, Answer& answer) {
   }
 }
 
-std::optional<Poses> poses_of(const Problem& problem, const Placement& placement) {
-  const std::vector<Log>& logs = problem.felt.logs;
-  std::vector<std::size_t> rows(logs.front().rows());
-  std::iota(rows.begin(), rows.end(), std::size_t{0});
-  if (logs.size() == 1) {
-    return poses(problem.part, problem.fingers.front(), logs.front(), placement.start[0], rows);
-  }
-  return poses(problem.part, FingerPair{problem.fingers.front(), problem.fingers.back()},
-               PairLog{logs.front(), logs.back()}, {placement.start[0], placement.start[1]}, rows);
-}
-
 /// Where the part is in the world, where a log tells.
 void add_poses(const Problem& problem, Answer& answer) {
   if (problem.fingers.empty() || !problem.felt.is_log()) return;
+  std::vector<std::size_t> rows(problem.felt.log->rows());
+  std::iota(rows.begin(), rows.end(), std::size_t{0});
   for (Placement& placement : answer.placements) {
-    std::optional<Poses> poses = poses_of(problem, placement);
+    std::optional<Poses> poses = rollfix::poses(problem.part, problem.fingers, *problem.felt.log, placement.start, rows);
     if (!poses) continue;
     const auto largest = [](const std::vector<double>& values) {
       return values.empty() ? std::nan("") : *std::max_element(values.begin(), values.end());

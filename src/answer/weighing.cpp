@@ -10,18 +10,17 @@ namespace {
 constexpr double kMostRest = 0.01;
 
 LogKind kind_of(const Problem& problem) {
-  return problem.felt.is_log() ? problem.felt.logs.front().kind : LogKind::travelled;
+  return problem.felt.is_log() ? problem.felt.log->kind : LogKind::travelled;
 }
 
 /// What a finger felt at its first contact, where the log tells it.
 std::optional<FeltContact> first_felt(const Problem& problem, std::size_t which) {
-  const std::vector<Log>& logs = problem.felt.logs;
-  if (problem.fingers.empty() || logs.empty()) return std::nullopt;
-  const Log& log = logs[which];
-  if (log.kind != LogKind::contact || log.x.empty()) return std::nullopt;
-  const Finger& finger = which == 0 ? problem.fingers.front() : problem.fingers.back();
-  const Contact first{log.u.front(), log.psi.front()};
-  const Vec2 where = Vec2(log.x.front(), log.y.front()) - centre_of(finger, Vec2::Zero(), first);
+  if (problem.fingers.empty() || !problem.felt.is_log()) return std::nullopt;
+  const FingerRows& rows = problem.felt.log->fingers[which];
+  if (problem.felt.log->kind != LogKind::contact || rows.x.empty()) return std::nullopt;
+  const Finger& finger = *finger_of(problem.fingers, which);
+  const Contact first{rows.u.front(), rows.psi.front()};
+  const Vec2 where = Vec2(rows.x.front(), rows.y.front()) - centre_of(finger, Vec2::Zero(), first);
   return FeltContact{where, facing(finger, first), finger.curvature(first.u)};
 }
 
@@ -29,8 +28,8 @@ std::optional<FeltContact> first_felt(const Problem& problem, std::size_t which)
 double curvature(const Problem& problem, std::size_t which, std::size_t row) {
   if (problem.fingers.empty()) return 0;
   // Where u is wrapped makes no difference to the curvature there.
-  const double u = kind_of(problem) == LogKind::contact ? problem.felt.logs[which].u[row] : 0;
-  return (which == 0 ? problem.fingers.front() : problem.fingers.back()).curvature(u);
+  const double u = kind_of(problem) == LogKind::contact ? problem.felt.log->fingers[which].u[row] : 0;
+  return finger_of(problem.fingers, which)->curvature(u);
 }
 
 void add_pose_spreads(const Problem& problem, Belief& belief, std::vector<Placement>& placements) {
@@ -57,7 +56,8 @@ std::optional<Belief> believe(const Problem& problem, const Observation& observe
   for (std::size_t k = 0; k < readings.size(); ++k) {
     Sample sample;
     sample.reading = readings[k];
-    sample.finger_curvature = curvature(problem, 0, k);
+    sample.finger_curvature = PerFinger<double>::of(fingers);
+    for (std::size_t which = 0; which < fingers; ++which) sample.finger_curvature[which] = curvature(problem, which, k);
     belief.add(sample);
   }
   return belief;

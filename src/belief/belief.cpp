@@ -110,7 +110,7 @@ void Belief::add(const Sample& sample) {
 void Belief::add(const Reading& reading) {
   Sample sample;
   sample.reading = reading;
-  sample.finger_curvature = state_->contacts.finger_curvature[0];
+  sample.finger_curvature = state_->contacts.finger_curvature;
   add(sample);
 }
 

@@ -42,10 +42,10 @@ class OneFingersPosterior : public Posterior {
   void add(const Sample& sample) override {
     const bool is_first = !state_;
     last_ = sample;
-    if (is_first) state_.emplace(part_, kind_, options_, sample.finger_curvature);
+    if (is_first) state_.emplace(part_, kind_, options_, sample.finger_curvature[0]);
     // Row 1 of a log of contacts is what all others are measured from: it says nothing by itself.
     if (is_first && kind_ == LogKind::contact) return;
-    state_->nodes.add(sample.reading, sample.finger_curvature);
+    state_->nodes.add(sample.reading, sample.finger_curvature[0]);
   }
 
   std::size_t samples() const override { return state_ ? state_->nodes.rows() : 0; }
@@ -54,7 +54,7 @@ class OneFingersPosterior : public Posterior {
   Outcome settle() override {
     if (!has_begun()) return {};
     state_->grid.settle(state_->nodes);
-    const ModeQuestion question{&state_->boundary, last_.reading, state_->errors.row(last_.finger_curvature),
+    const ModeQuestion question{&state_->boundary, last_.reading, state_->errors.row(last_.finger_curvature[0]),
                                 part_.boundary()};
     return {modes_of(state_->grid, question), state_->grid.excess(), state_->grid.rest()};
   }
@@ -65,7 +65,7 @@ class OneFingersPosterior : public Posterior {
 
   double variance_of_miss(const std::vector<Reading>& /*readings*/, const std::vector<Mode>& modes) const override {
     const SharedCovariance& shared = state_->errors.start();
-    const RowCovariance own = state_->errors.row(last_.finger_curvature);
+    const RowCovariance own = state_->errors.row(last_.finger_curvature[0]);
     double most = 0;
     for (const Mode& mode : modes) {
       const double kappa = part_.turning().curvature(mode.end[0]);
@@ -82,8 +82,8 @@ class OneFingersPosterior : public Posterior {
   Diagnosis supposing(Cause cause) const override {
     const ErrorModel other(options_, kind_, state_->finger_curvature, part_.perimeter(), cause);
     Nodes nodes(other, state_->boundary.tilt(), options_.robust);
-    for (const Node& node : state_->nodes.complete()) nodes.add({node.length, node.turn}, last_.finger_curvature);
-    Grid grid(state_->boundary, other, options_, part_.boundary(), corner_length(last_.finger_curvature, part_));
+    for (const Node& node : state_->nodes.complete()) nodes.add({node.length, node.turn}, last_.finger_curvature[0]);
+    Grid grid(state_->boundary, other, options_, part_.boundary(), corner_length(last_.finger_curvature[0], part_));
     grid.settle(nodes);
     return {cause, grid.excess(), 1 / (1 + grid.best().now.errors()[2])};
   }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -95,6 +96,26 @@ void require_valid(const Finger& finger) {
       "expected a finger whose radius is a finite number above 0, found {}: give it in the outline's unit", radius));
 }
 
+const Finger* finger_of(const std::vector<Finger>& fingers, std::size_t which) {
+  return fingers.empty() ? nullptr : &fingers[std::min(which, fingers.size() - 1)];
+}
+
+void require_fingers(const std::vector<Finger>& fingers, std::size_t rolled, bool must_be_known,
+                     const std::string& log) {
+  if (fingers.empty() && must_be_known) {
+    throw InputError(
+        fmt::format("{}: u says where on the finger the contact is, expected the finger's shape as well: `finger` "
+                    "disk,r=0.01, with "
+                    "the radius in the outline's unit",
+                    log));
+  }
+  if (fingers.size() > rolled) {
+    throw InputError(fmt::format("{}: is of {}, found the shapes of {}; leave {} out", log,
+                                 rolled == 1 ? "one finger" : "two fingers", fingers.size(), fingers.size() - rolled));
+  }
+  for (const Finger& finger : fingers) require_valid(finger);
+}
+
 double facing(const Finger& finger, const Contact& contact) { return finger.normal(contact.u) + contact.psi; }
 
 Reading reading_between(const Finger& finger, const Contact& first, const Contact& last) {
@@ -123,10 +144,16 @@ Vec2 centre_of(const Finger& finger, const Vec2& point, const Contact& contact) 
   return point - (on_finger.x() * x + on_finger.y() * Vec2(-x.y(), x.x()));
 }
 
+Reading together(const PerFinger<Reading>& each) {
+  if (each.size() == 1) return each[0];
+  return {each[0].length[0], each[1].length[0], each[0].turn - each[1].turn};
+}
+
 Reading in_stored_direction(const Reading& as_given, const Part& part) {
-  Reading stored = as_given;
-  for (double& length : stored.length) length = part.reversed() ? -length : length;
-  return stored;
+  Reading result = as_given;
+  if (!part.reversed()) return result;
+  for (double& length : result.length) length = -length;
+  return result;
 }
 
 }  // namespace rollfix

@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "contact/jump.hpp"
+#include "contact/roll_check.hpp"
+#include "part/angle.hpp"
 #include "rollfix/contact/log.hpp"
 #include "rollfix/error.hpp"
 
@@ -17,31 +18,80 @@ namespace rollfix {
 namespace {
 
 /// "run.csv:12". Simulated rows have no lines: they are numbered.
-std::string place_of(const Log& log, std::size_t row) {
-  return row < log.line.size() ? fmt::format("{}:{}", log.name, log.line[row])
-                               : fmt::format("{}, row {}", log.name, row + 1);
+std::string place_of(const Log& log, std::size_t finger, std::size_t row) {
+  const FingerRows& rows = log.fingers[finger];
+  const std::string& name = rows.name.empty() ? log.name : rows.name;
+  return row < rows.line.size() ? fmt::format("{}:{}", name, rows.line[row]) : fmt::format("{}, row {}", name, row + 1);
 }
 
-/// Throws InputError where u is beyond the ends of an open finger by more than rounding.
-void require_on_finger(const Log& log, const Finger& finger, const Noise& noise) {
-  const Interval ends = finger.ends();
-  const double slack = end_slack(finger, log.place_rounding, noise);
-  for (std::size_t row = 0; row < log.u.size(); ++row) {
-    if (log.u[row] >= ends.lo - slack && log.u[row] <= ends.hi + slack) continue;
-    throw InputError(fmt::format("{}: {}", place_of(log, row), off_finger(finger, log.u[row])));
+/// One finger's rows as readings from its own first contact.
+class FingerCourse {
+ public:
+  FingerCourse(const Log& log, const std::vector<Finger>& fingers, std::size_t which)
+      : kind_(log.kind), rows_(log.fingers[which]), finger_(finger_of(fingers, which)) {
+    if (kind_ != LogKind::contact) return;
+    u_ = unwrapped(rows_.u, rows_.place_rounding, finger_->period());
+    psi_ = unwrapped(rows_.psi, rows_.angle_rounding);
   }
-}
 
-const Finger& require_finger(const Log& log, const std::optional<Finger>& finger) {
-  if (!finger) {
-    throw InputError(
-        fmt::format("{}: u says where on the finger the contact is, expected the finger's shape as well: --finger "
-                    "disk,r=0.01, with "
-                    "the radius in the outline's unit",
-                    log.name));
+  /// Lengths along the outline as the user gave it.
+  Reading at(std::size_t row) const {
+    if (kind_ != LogKind::contact) return {rows_.length[row], rows_.turn[row]};
+    return reading_between(*finger_, {u_.front(), psi_.front()}, {u_[row], psi_[row]});
   }
-  require_valid(*finger);
-  return *finger;
+
+ private:
+  LogKind kind_;
+  const FingerRows& rows_;
+  const Finger* finger_;
+  std::vector<double> u_;  // unwrapped
+  std::vector<double> psi_;
+};
+
+/// Every finger's, which are readings together. Throws InputError: u and psi without a finger.
+class Courses {
+ public:
+  Courses(const Log& log, const std::vector<Finger>& fingers) {
+    require_fingers(fingers, log.fingers.size(), log.kind == LogKind::contact, log.name);
+    for (std::size_t k = 0; k < log.fingers.size(); ++k) courses_.emplace_back(log, fingers, k);
+  }
+
+  PerFinger<Reading> each(std::size_t row) const {
+    if (courses_.size() == 1) return courses_[0].at(row);
+    return {courses_[0].at(row), courses_[1].at(row)};
+  }
+  Reading at(std::size_t row) const { return together(each(row)); }
+
+ private:
+  std::vector<FingerCourse> courses_;
+};
+
+/// Throws InputError where a finger is beyond its ends or goes where none can: see RollCheck.
+void require_physical(const Log& log, const Courses& courses, const Part& part, RollCheck check) {
+  const std::size_t count = log.fingers.size();
+  for (std::size_t k = 0; k < count && log.kind == LogKind::contact; ++k) {
+    const FingerRows& rows = log.fingers[k];
+    for (std::size_t row = 0; row < log.rows(); ++row) {
+      const auto why = check.off_finger(k, rows.u[row], rows.place_rounding);
+      if (why) throw InputError(fmt::format("{}: {}", place_of(log, k, row), *why));
+    }
+  }
+  PerFinger<std::size_t> line = PerFinger<std::size_t>::of(count);
+  PerFinger<Reading> before = PerFinger<Reading>::of(count);
+  for (std::size_t row = 0; row < log.rows(); ++row) {
+    PerFinger<Reading> now = courses.each(row);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::vector<std::size_t>& lines = log.fingers[k].line;
+      line[k] = row < lines.size() ? lines[row] : row + 1;
+      if (log.kind != LogKind::contact) now[k] = in_stored_direction(now[k], part);
+    }
+    const auto time = log.time.empty() ? std::nullopt : std::optional<double>(log.time[row]);
+    if (const auto jump = check.jump(line, before, now, time)) {
+      throw InputError(fmt::format("{}: expected a roll that goes on, found a jump: {}; split the log there",
+                                   place_of(log, jump->finger, row), jump->why));
+    }
+    before = now;
+  }
 }
 
 /// How far from its own time a row may be taken: half the way to the nearer of its neighbours.
@@ -70,21 +120,33 @@ std::size_t nearest_row(const std::vector<double>& time, double instant) {
       log.name, instant, found));
 }
 
-void require_no_jump(const Log& log, const std::vector<Reading>& all, JumpWatch watch) {
-  const bool has_lines = log.line.size() == all.size();
-  for (std::size_t row = 0; row < all.size(); ++row) {
-    const auto time = log.time.empty() ? std::nullopt : std::optional<double>(log.time[row]);
-    const auto why = watch.look(has_lines ? log.line[row] : row + 1, all[row > 0 ? row - 1 : 0], all[row], time);
-    if (!why) continue;
-    throw InputError(fmt::format("{}: expected a roll that goes on, found a jump: {}; split the log there",
-                                 place_of(log, row), *why));
+std::vector<std::size_t> usual_rows(const Log& log) {
+  const std::size_t last = log.rows() - 1;
+  const std::size_t middle = last / 2;
+  const std::size_t first_reading = log.kind == LogKind::contact ? 1 : 0;  // before it is the first contact
+  if (log.fingers.size() == 1 || middle < first_reading || middle == last) return {last};
+  return {middle, last};
+}
+
+/// Of one finger's readings.
+Rounding rounding_of(const Log& log, const FingerRows& rows, const Finger* finger) {
+  switch (log.kind) {
+    case LogKind::contact:
+      return {2 * finger->length_per_u() * rows.place_rounding,
+              2 * (finger->turn_per_u() * rows.place_rounding + rows.angle_rounding)};
+    case LogKind::travelled:
+      return {rows.place_rounding, rows.angle_rounding};
+    case LogKind::increments:
+      break;
   }
+  const auto count = static_cast<double>(log.rows());
+  return {count * rows.place_rounding, count * rows.angle_rounding};
 }
 
 }  // namespace
 
 std::vector<std::size_t> rows_at(const Log& log, const std::vector<double>& times) {
-  if (times.empty()) return {log.rows() - 1};
+  if (times.empty()) return usual_rows(log);
   if (log.time.empty()) {
     throw InputError(fmt::format("{}: has no column 'time', so that instants of it can't be chosen", log.name));
   }
@@ -98,49 +160,46 @@ std::vector<std::size_t> rows_at(const Log& log, const std::vector<double>& time
   return rows;
 }
 
-std::vector<Reading> readings_as_given(const Log& log, const std::optional<Finger>& finger) {
+std::vector<Reading> readings_as_given(const Log& log, const std::vector<Finger>& fingers) {
+  const Courses courses(log, fingers);
   std::vector<Reading> result(log.rows());
-  if (log.kind != LogKind::contact) {
-    for (std::size_t k = 0; k < result.size(); ++k) result[k] = {log.length[k], log.turn[k]};
-    return result;
-  }
-  const Finger& shape = require_finger(log, finger);
-  const std::vector<double> u = unwrapped(log.u, log.place_rounding, shape.period());
-  const std::vector<double> psi = unwrapped(log.psi, log.angle_rounding);
-  for (std::size_t k = 0; k < result.size(); ++k) {
-    result[k] = reading_between(shape, {u.front(), psi.front()}, {u[k], psi[k]});
-  }
+  for (std::size_t row = 0; row < result.size(); ++row) result[row] = courses.at(row);
   return result;
 }
 
-std::vector<Reading> readings(const Log& log, const Part& part, const std::optional<Finger>& finger,
+std::vector<Reading> readings(const Log& log, const Part& part, const std::vector<Finger>& fingers,
                               const std::vector<double>& times, const Noise& noise) {
-  std::vector<Reading> all = readings_as_given(log, finger);
-  if (log.kind == LogKind::contact) require_on_finger(log, *finger, noise);
-  // A contact log needs no change of direction: the finger rolls on the part, however that was drawn.
-  if (log.kind != LogKind::contact) {
-    for (Reading& reading : all) reading = in_stored_direction(reading, part);
-  }
-  require_no_jump(log, all, JumpWatch(part, StepError(log.kind, finger, noise)));
+  const Courses courses(log, fingers);
+  require_physical(log, courses, part, RollCheck(part, log.kind, fingers, log.fingers.size(), noise));
   std::vector<Reading> result;
-  for (const std::size_t row : rows_at(log, times)) result.push_back(all[row]);
+  for (const std::size_t row : rows_at(log, times)) {
+    // A contact log needs no change of direction: the finger rolls on the part, however that was drawn.
+    const Reading reading = courses.at(row);
+    result.push_back(log.kind == LogKind::contact ? reading : in_stored_direction(reading, part));
+  }
   return result;
 }
 
-Rounding rounding_of(const Log& log, const std::optional<Finger>& finger) {
-  switch (log.kind) {
-    case LogKind::contact: {
-      const Finger& shape = require_finger(log, finger);
-      return {2 * shape.length_per_u() * log.place_rounding,
-              2 * (shape.turn_per_u() * log.place_rounding + log.angle_rounding)};
-    }
-    case LogKind::travelled:
-      return {log.place_rounding, log.angle_rounding};
-    case LogKind::increments:
-      break;
+std::optional<double> facing(const Log& log, const std::vector<Finger>& fingers) {
+  if (log.fingers.size() != 2 || log.kind != LogKind::contact || log.rows() == 0) return std::nullopt;
+  const auto direction = [&](std::size_t which) {
+    const FingerRows& rows = log.fingers[which];
+    const Contact first{rows.u.front(), rows.psi.front()};
+    const Finger* const finger = finger_of(fingers, which);
+    return finger != nullptr ? facing(*finger, first) : first.facing();
+  };
+  return nearest_angle(direction(0) - direction(1));
+}
+
+Rounding rounding_of(const Log& log, const std::vector<Finger>& fingers) {
+  require_fingers(fingers, log.fingers.size(), log.kind == LogKind::contact, log.name);
+  Rounding sum;
+  for (std::size_t k = 0; k < log.fingers.size(); ++k) {
+    const Rounding one = rounding_of(log, log.fingers[k], finger_of(fingers, k));
+    sum.length += one.length;
+    sum.turn += one.turn;
   }
-  const auto count = static_cast<double>(log.rows());
-  return {count * log.place_rounding, count * log.angle_rounding};
+  return sum;
 }
 
 }  // namespace rollfix

@@ -2,136 +2,283 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
-#include "rollfix/contact/written_number.hpp"
 #include "rollfix/error.hpp"
 #include "text/number.hpp"
+#include "text/written_number.hpp"
 
 namespace rollfix {
 
-double ExactSum::add(double term) {
+namespace {
+
+/// The first of several numbers that is not finite, by its column.
+void require_finite(const std::string& log, std::size_t line, const Columns& columns, const Touch& touch) {
+  const auto require = [&](Column column, double value) {
+    if (std::isfinite(value)) return;
+    throw InputError(
+        fmt::format("{}: {} is {}, expected a finite number", where(log, line), columns.called(column), value));
+  };
+  require(Column::u, touch.u);
+  require(Column::psi, touch.psi);
+  require(Column::x, touch.x.value_or(0));
+  require(Column::y, touch.y.value_or(0));
+}
+
+/// The columns of rows of numbers, in the order of a file.
+std::vector<Columns> columns_of(const std::optional<double>& time, const PerFinger<Touch>& fingers) {
+  std::vector<Columns> result;
+  for (std::size_t k = 0; k < fingers.size(); ++k) {
+    Columns& columns = result.emplace_back();
+    if (fingers.size() > 1) columns.suffix = kFingerSuffixes[k];
+    const auto add = [&](Column column) { columns.cell[static_cast<std::size_t>(column)] = columns.count++; };
+    if (time) add(Column::time);
+    add(Column::u);
+    add(Column::psi);
+    if (fingers[k].x) add(Column::x);
+    if (fingers[k].y) add(Column::y);
+  }
+  return result;
+}
+
+// A wrapped column can seem this much wider than its period: the rounding of its own 2 pi, in periods.
+constexpr double kWrapSlack = 2e-10;
+
+/// `range`: of all angles, of which there are so many.
+bool may_be_wrapped(const Interval& range, std::size_t count, double rounding, double period) {
+  if (count < 2 || !std::isfinite(period)) return false;
+  const double slack = 2 * rounding + kWrapSlack * period;
+  if (!(range.width() <= period + slack)) return false;
+  if (count > 2) return true;
+  const bool is_symmetric = range.lo >= -period / 2 - slack && range.hi <= period / 2 + slack;
+  const bool is_positive = range.lo >= -slack && range.hi <= period + slack;
+  return is_symmetric || is_positive;
+}
+
+/// The whole turns that such a step takes back.
+double turns_in(double step, double period) { return std::abs(step) > period / 2 ? std::round(step / period) : 0; }
+
+}  // namespace
+
+void RowReader::come_from(Source source) {
+  if (source_ == Source::unknown) source_ = source;
+  if (source_ == source) return;
+  throw InputError(fmt::format("{}: rows came as {} so far, expected that to go on", name_,
+                               source_ == Source::lines ? "lines of text" : "numbers"));
+}
+
+RowKind RowReader::read(std::string_view line, LogRow& row) {
+  come_from(Source::lines);
+  if (++lines_ == 1) line = plain_beginning(line, name_);
+  if (!line.empty() && line.back() == '\n') line.remove_suffix(1);
+  if (header_may_come_) cutter_.forget();
+  if (!cutter_.cut(line, lines_, table_row_)) return RowKind::none;
+  if (take_header()) return RowKind::none;
+  require_width();
+  row.line = lines_;
+  const auto touching =
+      std::count_if(columns_.begin(), columns_.end(), [&](const Columns& columns) { return touches(columns); });
+  row.time = time();
+  if (static_cast<std::size_t>(touching) < columns_.size()) return RowKind::off;
+  row.fingers = PerFinger<FingerCells>::of(columns_.size());
+  for (std::size_t k = 0; k < columns_.size(); ++k) row.fingers[k] = cells(columns_[k]);
+  return RowKind::touching;
+}
+
+/// Whether the row says what the columns are, rather than what is in them.
+bool RowReader::take_header() {
+  const bool may_come = columns_.empty() || header_may_come_;
+  if (!may_come) return false;
+  if (is_data(table_row_)) {
+    if (columns_.empty()) columns_ = {bare_columns(table_row_, name_)};
+    return false;
+  }
+  std::vector<Columns> found = rollfix::columns_of(table_row_, name_);
+  if (!columns_.empty() && (found.size() != columns_.size() || found.front().kind != kind())) {
+    throw InputError(fmt::format("{}: the header '{}' is of another kind of log than the one before it",
+                                 where(name_, table_row_.line), shown(table_row_.text)));
+  }
+  columns_ = std::move(found);
+  header_may_come_ = false;
+  time_line_ = 0;
+  return true;
+}
+
+RowKind RowReader::read(const std::optional<double>& time, const std::optional<PerFinger<Touch>>& fingers,
+                        LogRow& row) {
+  come_from(Source::numbers);
+  ++lines_;
+  require_same_columns(time, fingers);
+  if (time && !std::isfinite(*time)) {
+    throw InputError(fmt::format("{}: time is {}, expected a finite number", where(name_, lines_), *time));
+  }
+  if (time) require_later(*time, fmt::format("{}", *time), lines_);
+  row.line = lines_;
+  row.time = time;
+  if (!fingers) return RowKind::off;
+  row.fingers = PerFinger<FingerCells>::of(fingers->size());
+  for (std::size_t k = 0; k < fingers->size(); ++k) {
+    const Touch& touch = (*fingers)[k];
+    require_finite(name_, lines_, columns_[k], touch);
+    row.fingers[k] = {{touch.u, 0}, {touch.psi, 0}, touch.x.value_or(0), touch.y.value_or(0)};
+  }
+  return RowKind::touching;
+}
+
+/// Throws InputError unless the row has what the first one had, which says what all have.
+void RowReader::require_same_columns(const std::optional<double>& time,
+                                     const std::optional<PerFinger<Touch>>& fingers) {
+  if (!fingers && columns_.empty()) return;
+  const std::vector<Columns> found = fingers ? columns_of(time, *fingers) : columns_;
+  for (const Columns& columns : found) {
+    if (columns.has(Column::x) == columns.has(Column::y)) continue;
+    throw InputError(fmt::format("{}: found only one of x and y, expected both or neither", where(name_, lines_)));
+  }
+  if (columns_.empty()) columns_ = found;
+  const bool has_time = columns_.front().has(Column::time);
+  if (time.has_value() != has_time) {
+    throw InputError(fmt::format("{}: found a row {} time, expected one {}, as the first row", where(name_, lines_),
+                                 has_time ? "without" : "with", has_time ? "with" : "without"));
+  }
+  const bool is_same = found.size() == columns_.size() &&
+                       std::equal(found.begin(), found.end(), columns_.begin(),
+                                  [](const Columns& a, const Columns& b) { return a.cell == b.cell; });
+  if (is_same) return;
+  throw InputError(
+      fmt::format("{}: expected a row of as many fingers as the first row, with x and y where that has them",
+                  where(name_, lines_)));
+}
+
+void RowReader::accept(const LogRow& row) {
+  header_may_come_ = false;
+  if (!row.time) return;
+  time_ = *row.time;
+  time_line_ = row.line;
+}
+
+bool RowReader::has_centre() const {
+  return std::all_of(columns_.begin(), columns_.end(), [](const Columns& columns) { return columns.has(Column::x); });
+}
+
+std::string_view RowReader::cell(const Columns& columns, Column column) const {
+  const std::size_t k = columns[column];
+  if (k < table_row_.cells.size() && !table_row_.cells[k].empty()) return table_row_.cells[k];
+  throw InputError(fmt::format("{}: '{}' has no {}, expected a number in column {}", where(name_, lines_),
+                               shown(table_row_.text), columns.called(column), k + 1));
+}
+
+double RowReader::number(const Columns& columns, Column column) const {
+  const std::string_view text = cell(columns, column);
+  const auto value = is_angle(column) ? parse_angle(text) : parse_number(text);
+  if (value && std::isfinite(*value)) return *value;
+  throw InputError(fmt::format("{}: {} is '{}', expected a {}number{}", where(name_, lines_), columns.called(column),
+                               shown(text), value ? "finite " : "",
+                               is_angle(column) ? " such as 1.25 (radians) or 73deg" : " such as 1.25"));
+}
+
+bool RowReader::touches(const Columns& columns) const {
+  if (!columns.has(Column::contact)) return true;
+  const std::string_view text = cell(columns, Column::contact);
+  const auto value = parse_number(text);
+  if (value && (*value == 0 || *value == 1)) return *value == 1;
+  throw InputError(fmt::format("{}: {} is '{}', expected 0 or 1", where(name_, lines_), columns.called(Column::contact),
+                               shown(text)));
+}
+
+std::optional<double> RowReader::time() const {
+  const Columns& columns = columns_.front();
+  if (!columns.has(Column::time)) return std::nullopt;
+  const double time = number(columns, Column::time);
+  require_later(time, cell(columns, Column::time), lines_);
+  return time;
+}
+
+void RowReader::require_later(double time, std::string_view written, std::size_t line) const {
+  if (time_line_ == 0 || time > time_) return;
+  throw InputError(fmt::format("{}: time is '{}', expected more than {} in line {}: time must grow", where(name_, line),
+                               shown(written), time_, time_line_));
+}
+
+WrittenValue RowReader::written(const Columns& columns, Column column) const {
+  return {number(columns, column), rounding_of(cell(columns, column))};
+}
+
+FingerCells RowReader::cells(const Columns& columns) const {
+  const auto [place, angle] = kColumnPairs[static_cast<std::size_t>(columns.kind)];
+  FingerCells result;
+  result.place = written(columns, place);
+  result.angle = written(columns, angle);
+  if (columns.has(Column::x)) {
+    result.x = number(columns, Column::x);
+    result.y = number(columns, Column::y);
+  }
+  return result;
+}
+
+/// Throws InputError when the row has more cells than the table has columns.
+void RowReader::require_width() const {
+  const std::size_t count = columns_.front().count;
+  for (std::size_t k = count; k < table_row_.cells.size(); ++k) {
+    if (table_row_.cells[k].empty()) continue;
+    throw InputError(
+        fmt::format("{}: '{}' has {} cells, expected {} as in the first row; numbers take a decimal point, not a comma",
+                    where(name_, lines_), shown(table_row_.text), table_row_.cells.size(), count));
+  }
+}
+
+double Odometer::ExactSum::add(double term) {
   const double next = sum_ + term;
   rest_ += std::abs(sum_) >= std::abs(term) ? (sum_ - next) + term : (term - next) + sum_;
   sum_ = next;
   return sum_ + rest_;
 }
 
-void RowParser::refuse(const TableRow& row, Column column, std::string_view cell, const char* why) const {
-  throw InputError(fmt::format("{}: {} is '{}', {}{}", where(name_, row.line), columns_.called(column), shown(cell),
-                               why, is_angle(column) ? " such as 1.25 (radians) or 73deg" : " such as 1.25"));
-}
-
-std::string_view RowParser::cell(const TableRow& row, Column column) const {
-  const std::size_t k = columns_[column];
-  if (k < row.cells.size() && !row.cells[k].empty()) return row.cells[k];
-  throw InputError(fmt::format("{}: '{}' has no {}, expected a number in column {}", where(name_, row.line),
-                               shown(row.text), columns_.called(column), k + 1));
-}
-
-double RowParser::number(const TableRow& row, Column column) const {
-  const std::string_view text = cell(row, column);
-  const auto value = is_angle(column) ? parse_angle(text) : parse_number(text);
-  if (!value) refuse(row, column, text, "expected a number");
-  if (!std::isfinite(*value)) refuse(row, column, text, "expected a finite number");
-  return *value;
-}
-
-bool RowParser::touches(const TableRow& row) const {
-  if (!columns_.has(Column::contact)) return true;
-  const std::string_view text = cell(row, Column::contact);
-  const auto value = parse_number(text);
-  if (value && (*value == 0 || *value == 1)) return *value == 1;
-  throw InputError(fmt::format("{}: {} is '{}', expected 0 or 1", where(name_, row.line),
-                               columns_.called(Column::contact), shown(text)));
-}
-
-std::optional<double> RowParser::time(const TableRow& row) const {
-  if (!columns_.has(Column::time)) return std::nullopt;
-  const double time = number(row, Column::time);
-  if (time_line_ != 0 && !(time > time_)) {
-    throw InputError(fmt::format("{}: time is '{}', expected more than {} in line {}: time must grow",
-                                 where(name_, row.line), shown(cell(row, Column::time)), time_, time_line_));
-  }
-  return time;
-}
-
-void RowParser::keep(const std::optional<double>& time, std::size_t line) {
-  if (!time) return;
-  time_ = *time;
-  time_line_ = line;
-}
-
-WrittenValue RowParser::written(const TableRow& row, Column column) const {
-  return {number(row, column), rounding_of(cell(row, column))};
-}
-
-LogRow RowParser::parse(const TableRow& row) const {
-  LogRow result;
-  result.line = row.line;
-  switch (columns_.kind) {
-    case LogKind::contact:
-      result.place = written(row, Column::u);
-      result.angle = written(row, Column::psi);
-      break;
-    case LogKind::travelled:
-      result.place = written(row, Column::length);
-      result.angle = written(row, Column::turn);
-      break;
-    case LogKind::increments:
-      result.place = written(row, Column::distance);
-      result.angle = written(row, Column::dturn);
-      break;
-  }
-  if (columns_.has(Column::x)) {
-    result.x = number(row, Column::x);
-    result.y = number(row, Column::y);
-  }
-  return result;
-}
-
-void RowParser::require_width(const TableRow& row) const {
-  for (std::size_t k = columns_.count; k < row.cells.size(); ++k) {
-    if (row.cells[k].empty()) continue;
-    throw InputError(
-        fmt::format("{}: '{}' has {} cells, expected {} as in the first row; numbers take a decimal point, not a comma",
-                    where(name_, row.line), shown(row.text), row.cells.size(), columns_.count));
-  }
-}
-
-Reading Odometer::add(const LogRow& row) {
+Reading Odometer::add(const FingerCells& row) {
   const bool is_first_contact = starts_here_;
   starts_here_ = false;
   if (kind_ == LogKind::increments) {
     return is_first_contact ? Reading{} : Reading{length_.add(row.place.value), turn_.add(row.angle.value)};
   }
-  if (is_first_contact) start_ = {row.place.value, row.angle.value};
-  return {row.place.value - start_.length[0], row.angle.value - start_.turn};
+  if (is_first_contact) start_ = row;
+  return {row.place.value - start_.place.value, row.angle.value - start_.angle.value};
 }
 
-LogRows::LogRows(const std::string& name, const Columns& columns, bool is_later_roll)
-    : has_centre_(columns.has(Column::x)), odometer_(columns.kind, is_later_roll) {
-  log_.name = name;
-  log_.kind = columns.kind;
+std::vector<double> unwrapped(const std::vector<double>& angles, double rounding, double period) {
+  std::vector<double> result = angles;
+  if (angles.empty()) return result;
+  const auto [least, most] = std::minmax_element(angles.begin(), angles.end());
+  if (!may_be_wrapped({*least, *most}, angles.size(), rounding, period)) return result;
+  double turns = 0;
+  for (std::size_t k = 1; k < angles.size(); ++k) {
+    turns -= turns_in(angles[k] - angles[k - 1], period);
+    if (turns != 0) result[k] = angles[k] + turns * period;
+  }
+  return result;
 }
 
-void LogRows::add(const LogRow& row, const std::optional<double>& time) {
-  row.place.sharpen(log_.place_rounding);
-  row.angle.sharpen(log_.angle_rounding);
-  if (log_.kind == LogKind::contact) {
-    log_.u.push_back(row.place.value);
-    log_.psi.push_back(row.angle.value);
-  } else {
-    const Reading reading = odometer_.add(row);
-    log_.length.push_back(reading.length[0]);
-    log_.turn.push_back(reading.turn);
+double GrowingAngle::add(double angle, double rounding) {
+  const double last = last_;
+  const double turns = turns_;
+  range_ = count_ == 0 ? Interval{angle, angle} : Interval{std::min(range_.lo, angle), std::max(range_.hi, angle)};
+  if (count_ > 0) turns_ -= turns_in(angle - last, period_);
+  last_ = angle;
+  ++count_;
+  const bool is_wrapped = (turns != 0 || turns_ != 0) && may_be_wrapped(range_, count_, rounding, period_);
+  before_ = is_wrapped ? last + turns * period_ : last;
+  return is_wrapped && turns_ != 0 ? angle + turns_ * period_ : angle;
+}
+
+void require_readable(const FingerRows& rows, const std::string& log) {
+  if (unwrapped(rows.u, rows.place_rounding, rows.u_period) == rows.u &&
+      unwrapped(rows.psi, rows.angle_rounding) == rows.psi) {
+    return;
   }
-  if (time) log_.time.push_back(*time);
-  if (has_centre_) {
-    log_.x.push_back(row.x);
-    log_.y.push_back(row.y);
-  }
-  log_.line.push_back(row.line);
+  throw InputError(fmt::format(
+      "{}: its {} rows are more than half a turn apart, so that a reader would take the angles as wrapped: take more "
+      "rows",
+      log, rows.u.size()));
 }
 
 }  // namespace rollfix

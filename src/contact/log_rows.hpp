@@ -4,22 +4,14 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
-#include "contact/log_columns.hpp"
 #include "contact/log_table.hpp"
 #include "rollfix/contact/log.hpp"
+#include "rollfix/outline/curve.hpp"
 
 namespace rollfix {
-
-/// A sum that keeps what rounding drops (Neumaier 1974): a million increments add up to one rounding.
-class ExactSum {
- public:
-  double add(double term);
-
- private:
-  double sum_ = 0;
-  double rest_ = 0;
-};
 
 /// A number and half a unit of its last digit, 0 where it counts as exact.
 struct WrittenValue {
@@ -32,44 +24,77 @@ struct WrittenValue {
   }
 };
 
-/// What the cells of a row say of one finger that touches.
-struct LogRow {
-  std::size_t line = 0;
+/// What a row says of one finger that touches.
+struct FingerCells {
   WrittenValue place;  // u, length or distance
   WrittenValue angle;  // psi, turn or dturn
   double x = 0;        // where the log has them
   double y = 0;
 };
 
-/// Reads one finger's cells of the rows of a table.
-class RowParser {
+/// What a line of a log is.
+enum class RowKind {
+  none,     // a comment, a blank line, a header
+  off,      // a row in which not every finger touches
+  touching  // one in which all do
+};
+
+/// A row of all fingers.
+struct LogRow {
+  std::size_t line = 0;
+  std::optional<double> time;
+  PerFinger<FingerCells> fingers;  // of a row that touches
+};
+
+/// Reads the rows of a log of one finger or of two, from its lines or as numbers: the one place in which headers, cells
+/// and times are judged, of a file as of a stream.
+class RowReader {
  public:
-  /// `log`: its name, for messages.
-  RowParser(std::string log, const Columns& columns) : name_(std::move(log)), columns_(columns) {}
+  /// `name`: of the log, for messages.
+  explicit RowReader(std::string name) : name_(std::move(name)) {}
 
-  /// Whether the finger touches the part in this row; it does where nothing is said.
-  bool touches(const TableRow& row) const;
+  /// The next line. Throws InputError: before the columns are known because they can't be, later because of this line
+  /// only. A row leaves no trace before it is accepted.
+  RowKind read(std::string_view line, LogRow& row);
 
-  /// The row's time, nothing where the log has none. Throws InputError unless it is after that of the last `keep`.
-  std::optional<double> time(const TableRow& row) const;
-  void keep(const std::optional<double>& time, std::size_t line);
+  /// The next row as numbers: `fingers` is nothing where not every finger touches. Throws InputError likewise.
+  RowKind read(const std::optional<double>& time, const std::optional<PerFinger<Touch>>& fingers, LogRow& row);
 
-  /// What a row says in which there is contact.
-  LogRow parse(const TableRow& row) const;
+  /// This row counts: the next one has to be later, and no header comes any more.
+  void accept(const LogRow& row);
 
-  /// Throws InputError when the row has more cells than the table has columns.
-  void require_width(const TableRow& row) const;
+  /// A header may come again, of the same kind of log; with it a clock that was set anew.
+  void resume() { header_may_come_ = knows_columns(); }
 
-  const Columns& columns() const { return columns_; }
+  bool knows_columns() const { return !columns_.empty(); }
+  const std::vector<Columns>& columns() const { return columns_; }  // of each finger; they must be known
+  LogKind kind() const { return columns_.front().kind; }
+  bool has_centre() const;
+  std::size_t lines() const { return lines_; }
+  const std::string& name() const { return name_; }
 
  private:
-  [[noreturn]] void refuse(const TableRow& row, Column column, std::string_view cell, const char* why) const;
-  std::string_view cell(const TableRow& row, Column column) const;
-  double number(const TableRow& row, Column column) const;
-  WrittenValue written(const TableRow& row, Column column) const;
+  enum class Source { unknown, lines, numbers };
+
+  void come_from(Source source);
+  bool take_header();
+  void require_same_columns(const std::optional<double>& time, const std::optional<PerFinger<Touch>>& fingers);
+  void require_width() const;
+  bool touches(const Columns& columns) const;
+  std::optional<double> time() const;
+  std::string_view cell(const Columns& columns, Column column) const;
+  double number(const Columns& columns, Column column) const;
+  WrittenValue written(const Columns& columns, Column column) const;
+  FingerCells cells(const Columns& columns) const;
+  void require_later(double time, std::string_view written, std::size_t line) const;
 
   std::string name_;
-  Columns columns_;
+  Source source_ = Source::unknown;
+  TableCutter cutter_;
+  TableRow table_row_;
+  std::vector<Columns> columns_;
+  std::size_t lines_ = 0;
+  bool header_may_come_ = false;
   double time_ = 0;
   std::size_t time_line_ = 0;  // 0: there was none
 };
@@ -82,30 +107,47 @@ class Odometer {
   Odometer(LogKind kind, bool is_later_roll) : kind_(kind), starts_here_(is_later_roll) {}
 
   /// Length and turn up to this row, lengths along the outline as the user gave it.
-  Reading add(const LogRow& row);
+  Reading add(const FingerCells& row);
 
  private:
+  /// A sum that keeps what rounding drops (Neumaier 1974): a million increments add up to one rounding.
+  class ExactSum {
+   public:
+    double add(double term);
+
+   private:
+    double sum_ = 0;
+    double rest_ = 0;
+  };
+
   LogKind kind_;
   bool starts_here_;
-  Reading start_;
+  FingerCells start_;
   ExactSum length_;
   ExactSum turn_;
 };
 
-/// One finger's rows of one roll.
-class LogRows {
+/// Throws InputError when a reader of these rows of a log would take angles as wrapped that are not.
+void require_readable(const FingerRows& rows, const std::string& log);
+
+/// Unwraps a column as it grows: what `unwrapped` would make of the last of all angles so far, bit by bit.
+class GrowingAngle {
  public:
-  LogRows(const std::string& name, const Columns& columns, bool is_later_roll);
+  explicit GrowingAngle(double period) : period_(period) {}
 
-  /// Takes a row in which there is contact.
-  void add(const LogRow& row, const std::optional<double>& time);
+  /// `rounding`: of each angle so far.
+  double add(double angle, double rounding);
 
-  Log& log() { return log_; }
+  /// The angle before that one, as it is understood now: a column that leaves a full turn was never wrapped.
+  double before() const { return before_; }
 
  private:
-  bool has_centre_;
-  Log log_;
-  Odometer odometer_;
+  double period_;
+  Interval range_;
+  std::size_t count_ = 0;
+  double last_ = 0;    // as written
+  double turns_ = 0;   // whole ones that were wrapped away, if the column is wrapped
+  double before_ = 0;  // the last but one
 };
 
 }  // namespace rollfix

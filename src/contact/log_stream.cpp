@@ -1,26 +1,22 @@
-#include "rollfix/contact/log_stream.hpp"
-
 #include <fmt/format.h>
 
 #include <numbers>
 #include <utility>
 #include <vector>
 
-#include "contact/jump.hpp"
-#include "contact/log_columns.hpp"
-#include "contact/log_lines.hpp"
 #include "contact/log_rows.hpp"
-#include "contact/log_table.hpp"
-#include "contact/unwrap.hpp"
+#include "contact/roll_check.hpp"
+#include "rollfix/contact/log.hpp"
 #include "rollfix/error.hpp"
 
 namespace rollfix {
 
 namespace {
 
-/// What a roll is measured by while it lasts.
+/// What a finger's roll is measured by while it lasts.
 struct OngoingRoll {
-  OngoingRoll(LogKind kind, double period_of_u, bool is_later_roll) : u(period_of_u), odometer(kind, is_later_roll) {}
+  OngoingRoll(LogKind kind, const Finger* finger, bool is_later_roll)
+      : u(finger != nullptr ? finger->period() : 2 * std::numbers::pi), odometer(kind, is_later_roll) {}
 
   bool has_first = false;
   Contact first;  // of u and psi
@@ -32,98 +28,78 @@ struct OngoingRoll {
   Reading last;
 };
 
-/// A row's reading, and what the row before it says by now.
+/// Each finger's reading of a row, and what the row before it says by now.
 struct Steps {
-  Reading before;
-  Reading now;
+  PerFinger<Reading> before;
+  PerFinger<Reading> now;
 };
 
 }  // namespace
 
 struct LogStream::State {
-  State(std::string log_name, const Part& on, std::optional<Finger> by, const Noise& noise_of)
-      : name(std::move(log_name)), part(on), finger(std::move(by)), noise(noise_of) {
-    if (finger) require_valid(*finger);
+  State(std::string name, const Part& on, std::vector<Finger> by, const Noise& noise_of)
+      : reader(std::move(name)), part(on), fingers(std::move(by)), noise(noise_of) {
+    require_fingers(fingers, 2, false, reader.name());
   }
 
-  LogLine push(std::string_view line);
+  /// What the reader makes of a row, judged and measured.
+  template <class Read>
+  LogLine push(const Read& read);
   void resume();
 
-  std::string name;
+  RowReader reader;
   Part part;
-  std::optional<Finger> finger;
+  std::vector<Finger> fingers;
   Noise noise;
-  std::size_t lines = 0;
   std::size_t malformed = 0;
-  TableCutter cutter;
-  TableRow row;
-  std::optional<RowParser> parser;  // none before the header
-  std::optional<JumpWatch> watch;
-  std::optional<OngoingRoll> roll;  // none while there is no contact
-  bool is_later_roll = false;
-  bool header_may_come = false;  // once more
 
  private:
-  LogKind kind() const { return parser->columns().kind; }
-  void start(const Columns& columns);
-  bool starts_again();
+  std::size_t count() const { return reader.columns().size(); }
+  LogKind kind() const { return reader.kind(); }
+  void start();
   LogLine take();
   void begin_roll();
   LogLine skip(const InputError& error);
-  void require_on_finger(const LogRow& found) const;
-  Steps measure(const LogRow& found, Sample& sample);
+  void require_on_finger() const;
+  Steps measure(Sample& sample);
+  Reading measure_contact(std::size_t which, Sample& sample, Reading& before);
+
+  LogRow row;
+  std::optional<RollCheck> check;  // none before the columns are known
+  std::vector<OngoingRoll> rolls;  // of each finger; none while there is no contact
+  bool is_later_roll = false;
 };
 
-void LogStream::State::start(const Columns& columns) {
-  if (columns.kind == LogKind::contact && !finger) {
-    throw InputError(
-        fmt::format("{}: u says where on the finger the contact is, expected the finger's shape as well, as in "
-                    "--finger disk,r=0.01",
-                    name));
-  }
-  parser.emplace(name, columns);
-  watch.emplace(part, StepError(columns.kind, finger, noise));
+void LogStream::State::start() {
+  require_fingers(fingers, count(), kind() == LogKind::contact, reader.name());
+  check.emplace(part, kind(), fingers, count(), noise);
 }
 
-/// Whether the row is a header that came again.
-bool LogStream::State::starts_again() {
-  if (!header_may_come || is_data(row)) return false;
-  const std::vector<Columns> found = columns_of(row, name);
-  if (found.size() != 1 || found.front().kind != kind()) {
-    throw InputError(fmt::format("{}: the header '{}' is of another kind of log than the one before it",
-                                 where(name, row.line), shown(row.text)));
+template <class Read>
+LogLine LogStream::State::push(const Read& read) {
+  RowKind found = RowKind::none;
+  try {
+    found = read(reader, row);
+  } catch (const InputError& error) {
+    if (!reader.knows_columns()) throw;
+    return skip(error);
   }
-  parser.emplace(name, found.front());
-  return true;
-}
-
-LogLine LogStream::State::push(std::string_view line) {
-  ++lines;
-  if (lines == 1) line = plain_beginning(line, name);
-  if (!line.empty() && line.back() == '\n') line.remove_suffix(1);
-  if (header_may_come) cutter.forget();
-  if (!cutter.cut(line, lines, row)) return {};
-  if (!parser) {
-    if (!is_data(row)) {
-      const std::vector<Columns> found = columns_of(row, name);
-      if (found.size() > 1) {
-        throw InputError(
-            fmt::format("{}: this log is of two fingers, expected one with columns 'u' and 'psi'", where(name, lines)));
-      }
-      start(found.front());
-      return {};
-    }
-    start(bare_columns(row, name));
+  if (!check && reader.knows_columns()) start();
+  LogLine result;
+  if (found == RowKind::none) return result;
+  if (found == RowKind::off) {
+    reader.accept(row);
+    if (!rolls.empty()) result.kind = LineKind::lost;
+    rolls.clear();
+    return result;
   }
   try {
-    if (starts_again()) {
-      header_may_come = false;
-      return {};
-    }
-    return take();
+    require_on_finger();
   } catch (const InputError& error) {
     return skip(error);
   }
+  reader.accept(row);
+  return take();
 }
 
 LogLine LogStream::State::skip(const InputError& error) {
@@ -135,96 +111,111 @@ LogLine LogStream::State::skip(const InputError& error) {
 }
 
 void LogStream::State::begin_roll() {
-  roll.emplace(kind(), finger ? finger->period() : 2 * std::numbers::pi, is_later_roll);
+  rolls.clear();
+  for (std::size_t k = 0; k < count(); ++k) rolls.emplace_back(kind(), finger_of(fingers, k), is_later_roll);
   is_later_roll = true;
-  watch->restart();
+  check->restart();
 }
 
-/// Throws InputError where u is beyond the ends of an open finger.
-void LogStream::State::require_on_finger(const LogRow& found) const {
-  if (kind() != LogKind::contact) return;
-  const Interval ends = finger->ends();
-  const double slack = end_slack(*finger, found.place.half_unit, noise);
-  const double u = found.place.value;
-  if (u < ends.lo - slack || u > ends.hi + slack) {
-    throw InputError(fmt::format("{}: {}", where(name, row.line), off_finger(*finger, u)));
+void LogStream::State::require_on_finger() const {
+  for (std::size_t k = 0; k < count() && kind() == LogKind::contact; ++k) {
+    const WrittenValue& u = row.fingers[k].place;
+    const auto why = check->off_finger(k, u.value, u.half_unit);
+    if (why) throw InputError(fmt::format("{}: {}", where(reader.name(), row.line), *why));
   }
 }
 
-Steps LogStream::State::measure(const LogRow& found, Sample& sample) {
-  const Reading before = roll->last;
-  if (kind() != LogKind::contact) {
-    const Reading as_given = roll->odometer.add(found);
-    return {before, in_stored_direction(as_given, part)};
+Reading LogStream::State::measure_contact(std::size_t which, Sample& sample, Reading& before) {
+  OngoingRoll& roll = rolls[which];
+  const FingerCells& cells = row.fingers[which];
+  const Finger& finger = *finger_of(fingers, which);
+  cells.place.sharpen(roll.place_rounding);
+  cells.angle.sharpen(roll.angle_rounding);
+  const Contact contact{roll.u.add(cells.place.value, roll.place_rounding),
+                        roll.psi.add(cells.angle.value, roll.angle_rounding)};
+  if (!roll.has_first) roll.first = contact;
+  roll.has_first = true;
+  (*sample.contact)[which] = contact;
+  sample.finger_curvature[which] = finger.curvature(contact.u);
+  before = reading_between(finger, roll.first, {roll.u.before(), roll.psi.before()});
+  return reading_between(finger, roll.first, contact);
+}
+
+Steps LogStream::State::measure(Sample& sample) {
+  Steps steps{PerFinger<Reading>::of(count()), PerFinger<Reading>::of(count())};
+  for (std::size_t k = 0; k < count(); ++k) {
+    steps.before[k] = rolls[k].last;
+    steps.now[k] = kind() == LogKind::contact ? measure_contact(k, sample, steps.before[k])
+                                              : in_stored_direction(rolls[k].odometer.add(row.fingers[k]), part);
+    rolls[k].last = steps.now[k];
   }
-  found.place.sharpen(roll->place_rounding);
-  found.angle.sharpen(roll->angle_rounding);
-  const double u = roll->u.add(found.place.value, roll->place_rounding);
-  const double psi = roll->psi.add(found.angle.value, roll->angle_rounding);
-  if (!roll->has_first) roll->first = {u, psi};
-  roll->has_first = true;
-  sample.contact = {u, psi};
-  sample.finger_curvature = finger->curvature(u);
-  return {reading_between(*finger, roll->first, {roll->u.before(), roll->psi.before()}),
-          reading_between(*finger, roll->first, {u, psi})};
+  sample.reading = together(steps.now);
+  return steps;
 }
 
 LogLine LogStream::State::take() {
-  parser->require_width(row);
-  const bool touches = parser->touches(row);
-  const std::optional<double> time = parser->time(row);
   LogLine result;
-  if (!touches) {
-    parser->keep(time, row.line);
-    header_may_come = false;
-    if (roll) result.kind = LineKind::lost;
-    roll.reset();
-    return result;
-  }
-  const LogRow found = parser->parse(row);
-  require_on_finger(found);
-  parser->keep(time, row.line);
-  header_may_come = false;
-
   Sample& sample = result.sample;
   sample.line = row.line;
-  sample.time = time;
-  if (finger && finger->is_disk()) sample.finger_curvature = finger->curvature(0);
-  if (parser->columns().has(Column::x)) sample.centre = Vec2(found.x, found.y);
-  result.kind = roll ? LineKind::sample : LineKind::first;
-  if (!roll) begin_roll();
-  Steps steps = measure(found, sample);
-  if (const auto why = watch->look(row.line, steps.before, steps.now, time)) {
-    result.kind = LineKind::jump;
-    result.message = fmt::format("{}: expected a roll that goes on, found a jump: {}", where(name, row.line), *why);
-    begin_roll();
-    steps = measure(found, sample);
-    watch->look(row.line, steps.before, steps.now, time);  // the next row is compared with this one
+  sample.time = row.time;
+  sample.finger_curvature = PerFinger<double>::of(count());
+  if (kind() == LogKind::contact) sample.contact = PerFinger<Contact>::of(count());
+  if (reader.has_centre()) sample.centre = PerFinger<Vec2>::of(count(), Vec2::Zero());
+  for (std::size_t k = 0; k < count(); ++k) {
+    const Finger* const finger = finger_of(fingers, k);
+    if (finger != nullptr && finger->is_disk()) sample.finger_curvature[k] = finger->curvature(0);
+    if (sample.centre) (*sample.centre)[k] = Vec2(row.fingers[k].x, row.fingers[k].y);
   }
-  roll->last = steps.now;
-  sample.reading = steps.now;
+  const auto lines = PerFinger<std::size_t>::of(count(), row.line);
+  result.kind = rolls.empty() ? LineKind::first : LineKind::sample;
+  if (rolls.empty()) begin_roll();
+  Steps steps = measure(sample);
+  if (const auto jump = check->jump(lines, steps.before, steps.now, row.time)) {
+    result.kind = LineKind::jump;
+    result.message =
+        fmt::format("{}: expected a roll that goes on, found a jump: {}", where(reader.name(), row.line), jump->why);
+    begin_roll();
+    steps = measure(sample);
+    check->jump(lines, steps.before, steps.now, row.time);  // the next row is compared with this one
+  }
   return result;
 }
 
 void LogStream::State::resume() {
-  if (!parser) return;
-  header_may_come = true;
-  watch->skip();
+  reader.resume();
+  if (check) check->skip();
 }
 
-LogStream::LogStream(std::string name, const Part& part, std::optional<Finger> finger, const Noise& noise)
-    : state_(std::make_unique<State>(std::move(name), part, std::move(finger), noise)) {}
+LogStream::LogStream(std::string name, const Part& part, std::vector<Finger> fingers, const Noise& noise)
+    : state_(std::make_unique<State>(std::move(name), part, std::move(fingers), noise)) {}
 LogStream::~LogStream() = default;
 LogStream::LogStream(LogStream&&) noexcept = default;
 LogStream& LogStream::operator=(LogStream&&) noexcept = default;
 
-LogLine LogStream::push(std::string_view line) { return state_->push(line); }
+LogLine LogStream::push(std::string_view line) {
+  return state_->push([&](RowReader& reader, LogRow& row) { return reader.read(line, row); });
+}
+
+LogLine LogStream::push(std::optional<double> time, double u, double psi, std::optional<double> x,
+                        std::optional<double> y) {
+  return push(time, Touch{u, psi, x, y});
+}
+
+LogLine LogStream::push(std::optional<double> time, const PerFinger<Touch>& fingers) {
+  return state_->push([&](RowReader& reader, LogRow& row) { return reader.read(time, fingers, row); });
+}
+
+LogLine LogStream::push_off(std::optional<double> time) {
+  return state_->push([&](RowReader& reader, LogRow& row) { return reader.read(time, std::nullopt, row); });
+}
 
 void LogStream::resume() { state_->resume(); }
 
-LogKind LogStream::kind() const { return state_->parser ? state_->parser->columns().kind : LogKind::contact; }
+LogKind LogStream::kind() const { return state_->reader.knows_columns() ? state_->reader.kind() : LogKind::contact; }
 
-std::size_t LogStream::lines() const { return state_->lines; }
+std::size_t LogStream::fingers() const { return state_->reader.columns().size(); }
+
+std::size_t LogStream::lines() const { return state_->reader.lines(); }
 
 std::size_t LogStream::malformed() const { return state_->malformed; }
 

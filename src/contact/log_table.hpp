@@ -1,14 +1,43 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdio>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "contact/log_lines.hpp"
+#include "rollfix/contact/log.hpp"
 #include "text/text.hpp"
 
 namespace rollfix {
+
+/// Goes through the lines of a text, or of a file through a buffer that does not grow with the file.
+class LogLines {
+ public:
+  /// `name` is what messages call it. The text, or the file, must stay. Throws InputError when it is not plain text.
+  LogLines(std::string_view text, std::string name);
+  LogLines(std::FILE* file, std::string name);
+  LogLines(const LogLines&) = delete;
+  LogLines& operator=(const LogLines&) = delete;
+
+  /// The next line without its end, good until the next call; false behind the last. Throws InputError: can't be read.
+  bool next(std::string_view& line);
+
+  const std::string& name() const { return name_; }
+
+ private:
+  bool refill();
+
+  std::string name_;
+  std::FILE* file_ = nullptr;  // none: a text
+  std::string buffer_;         // a piece of the file
+  const char* cursor_ = nullptr;
+  const char* end_ = nullptr;
+};
+
+/// Takes the byte order mark off the beginning of a log. Throws InputError when it does not begin like plain text.
+std::string_view plain_beginning(std::string_view text, const std::string& name);
 
 /// The text of a table: one row per line, `#` comments and blank lines left out.
 struct TableRow {
@@ -32,24 +61,59 @@ class TableCutter {
   char separator_ = '\0';  // not known yet
 };
 
-/// Goes through the rows of such a table.
-class TableReader {
- public:
-  /// The lines must stay.
-  explicit TableReader(LogLines& lines) : lines_(lines) {}
-
-  /// The next row, false at the end. It is good until the next call.
-  bool next(TableRow& row);
-
-  const std::string& name() const { return lines_.name(); }
-
- private:
-  LogLines& lines_;
-  TableCutter cutter_;
-  std::size_t line_ = 0;
-};
-
 /// "run.csv:12", for messages.
 std::string where(const std::string& name, std::size_t line);
+
+/// The columns that a finger's log may have.
+enum class Column : std::size_t { time, u, psi, x, y, contact, length, turn, distance, dturn };
+inline constexpr std::size_t kColumnCount = 10;
+inline constexpr std::array<const char*, kColumnCount> kColumnNames = {
+    "time", "u", "psi", "x", "y", "contact", "length", "turn", "distance", "dturn"};
+
+/// What stands behind the names of two fingers' columns: u_a, u_b. The time is common to both.
+inline constexpr std::array<const char*, 2> kFingerSuffixes = {"_a", "_b"};
+
+inline const char* name_of(Column column) { return kColumnNames[static_cast<std::size_t>(column)]; }
+inline bool is_angle(Column column) {
+  return column == Column::u || column == Column::psi || column == Column::turn || column == Column::dturn;
+}
+
+/// The columns that say how far a finger has rolled and how it is turned, by LogKind.
+struct ColumnPair {
+  Column place;
+  Column angle;
+};
+inline constexpr std::array<ColumnPair, 3> kColumnPairs = {
+    {{Column::u, Column::psi}, {Column::length, Column::turn}, {Column::distance, Column::dturn}}};
+
+/// Which cell of a row holds which column of one finger.
+struct Columns {
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+  std::array<std::size_t, kColumnCount> cell;  // kNone: the log does not have it
+  std::size_t count = 0;                       // cells of a row
+  LogKind kind = LogKind::contact;
+  std::string suffix;              // of the finger's columns
+  bool contact_is_shared = false;  // one column `contact` for both fingers
+
+  Columns() { cell.fill(kNone); }
+  bool has(Column column) const { return (*this)[column] != kNone; }
+  std::size_t operator[](Column column) const { return cell[static_cast<std::size_t>(column)]; }
+  /// The column's name in the header.
+  std::string called(Column column) const {
+    const bool is_common = column == Column::time || (column == Column::contact && contact_is_shared);
+    return is_common ? name_of(column) : name_of(column) + suffix;
+  }
+};
+
+/// Whether the row consists of numbers only: a log without a header.
+bool is_data(const TableRow& row);
+
+/// The columns of a log with this header, of one finger or of two. Throws InputError: no known column, half of a pair,
+/// two kinds of log at once, only one of two fingers, or the same column twice. `log`: its name, for messages.
+std::vector<Columns> columns_of(const TableRow& header, const std::string& log);
+
+/// The columns of a log without a header. Throws InputError unless there are two.
+Columns bare_columns(const TableRow& row, const std::string& log);
 
 }  // namespace rollfix

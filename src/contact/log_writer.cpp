@@ -1,5 +1,3 @@
-#include "contact/log_writer.hpp"
-
 #include <fmt/format.h>
 
 #include <cerrno>
@@ -9,31 +7,47 @@
 #include <iterator>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "contact/unwrap.hpp"
+#include "contact/log_rows.hpp"
+#include "contact/log_table.hpp"
 #include "rollfix/contact/log.hpp"
 #include "rollfix/error.hpp"
 
 namespace rollfix {
 
-std::vector<NamedColumn> columns_of(const Log& log, const std::string& suffix) {
-  const std::vector<NamedColumn> all = {{"time", &log.time},          {"u" + suffix, &log.u},
-                                        {"psi" + suffix, &log.psi},   {"length" + suffix, &log.length},
-                                        {"turn" + suffix, &log.turn}, {"x" + suffix, &log.x},
-                                        {"y" + suffix, &log.y}};
+namespace {
+
+/// A column of a table that is to be written.
+using NamedColumn = std::pair<std::string, const std::vector<double>*>;
+
+/// The columns that a log has. Throws InputError when one is shorter or longer than the others.
+std::vector<NamedColumn> columns_of(const Log& log) {
   std::vector<NamedColumn> present;
-  for (const NamedColumn& column : all) {
-    if (column.second->empty()) continue;
-    if (column.second->size() != log.rows()) {
-      throw InputError(fmt::format("{}: expected {} values in column '{}', found {}", log.name, log.rows(),
-                                   column.first, column.second->size()));
+  const auto add = [&](const std::string& name, const std::vector<double>& column) {
+    if (column.empty()) return;
+    if (column.size() != log.rows()) {
+      throw InputError(
+          fmt::format("{}: expected {} values in column '{}', found {}", log.name, log.rows(), name, column.size()));
     }
-    present.push_back(column);
+    present.emplace_back(name, &column);
+  };
+  add(name_of(Column::time), log.time);
+  for (std::size_t k = 0; k < log.fingers.size(); ++k) {
+    const FingerRows& rows = log.fingers[k];
+    const std::string suffix = log.fingers.size() == 1 ? "" : kFingerSuffixes[k];
+    add(name_of(Column::u) + suffix, rows.u);
+    add(name_of(Column::psi) + suffix, rows.psi);
+    add(name_of(Column::length) + suffix, rows.length);
+    add(name_of(Column::turn) + suffix, rows.turn);
+    add(name_of(Column::x) + suffix, rows.x);
+    add(name_of(Column::y) + suffix, rows.y);
   }
   return present;
 }
 
+/// The table, 17 significant digits each.
 std::string format_table(const std::vector<NamedColumn>& columns, std::size_t rows) {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
@@ -49,6 +63,7 @@ std::string format_table(const std::vector<NamedColumn>& columns, std::size_t ro
   return fmt::to_string(text);
 }
 
+/// Writes a text to a file, "-" for standard output. Throws InputError when it can't be written.
 void write_text(const std::string& path, const std::string& text) {
   if (path == "-") {
     if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) return;
@@ -60,9 +75,12 @@ void write_text(const std::string& path, const std::string& text) {
   if (!is_written || !is_closed) throw InputError(fmt::format("{}: can't be written: {}", path, std::strerror(errno)));
 }
 
+}  // namespace
+
 std::string format_log(const Log& log) {
-  require_readable(log);
-  return format_table(columns_of(log), log.rows());
+  const std::vector<NamedColumn> columns = columns_of(log);
+  for (const FingerRows& rows : log.fingers) require_readable(rows, log.name);
+  return format_table(columns, log.rows());
 }
 
 void write_log(const std::string& path, const Log& log) { write_text(path, format_log(log)); }

@@ -9,7 +9,6 @@
 #include <numbers>
 #include <vector>
 
-#include "contact/unwrap.hpp"
 #include "rollfix/error.hpp"
 
 namespace rollfix {
@@ -126,24 +125,6 @@ std::vector<double> integrals(const std::function<double(double)>& rate, const s
     sums[k] = sums[k - 1] + Quadrature::integrate(share, 0.0, 1.0, kMostHalvings, kRelative);
   }
   return sums;
-}
-
-Roll record(const Track& track, const std::vector<double>& times, const std::vector<RollState>& states) {
-  Roll roll;
-  roll.log.name = "the roll on " + track.part().name();
-  roll.log.time = times;
-  roll.log.u_period = track.finger().period();
-  for (const RollState& state : states) {
-    const Vec2 centre = centre_of(track.finger(), track.part().point(state.s), state.contact);
-    roll.log.u.push_back(state.contact.u);
-    roll.log.psi.push_back(state.contact.psi);
-    roll.log.x.push_back(centre.x());
-    roll.log.y.push_back(centre.y());
-    roll.s.push_back(state.s);
-    roll.angle.push_back(state.angle);
-  }
-  require_readable(roll.log);
-  return roll;
 }
 
 }  // namespace rollfix

@@ -37,11 +37,9 @@ struct RollState {
   double angle = 0;  // of the tangent
 };
 
-/// The roll at these times: eqs. (1) and (2) integrated, or the closed form that they imply.
+/// One way to find the roll at these times: eqs. (1) and (2) integrated, or the closed form that they imply.
+using Solve = std::vector<RollState> (*)(const Track&, const Motion&, const std::vector<double>& times);
 std::vector<RollState> integrated(const Track& track, const Motion& motion, const std::vector<double>& times);
 std::vector<RollState> in_closed_form(const Track& track, const Motion& motion, const std::vector<double>& times);
-
-/// The log of these instants.
-Roll record(const Track& track, const std::vector<double>& times, const std::vector<RollState>& states);
 
 }  // namespace rollfix

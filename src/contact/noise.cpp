@@ -1,18 +1,140 @@
-#include "rollfix/contact/noise.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
+#include <vector>
 
+#include "contact/log_rows.hpp"
+#include "contact/normal_numbers.hpp"
+#include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
 
 namespace rollfix {
+
+namespace {
+
+double draw_slip(const Noise& noise, NormalNumbers& normal) {
+  const double slip = normal.next(noise.slip);
+  if (slip > -1) return slip;
+  throw InputError(fmt::format("expected a slip that leaves some roll, found {:.6g}; take less noise", slip));
+}
+
+RollError draw_error(const Finger& finger, const Noise& noise, NormalNumbers& normal) {
+  RollError error;
+  error.slip = draw_slip(noise, normal);
+  if (noise.radius == 0) return error;
+  if (!finger.is_disk()) {
+    throw InputError(fmt::format("expected a disk for a noise of the radius, found the finger {}; leave the radius out",
+                                 finger.name()));
+  }
+  error.radius = normal.next(noise.radius);
+  return error;
+}
+
+/// The finger as it really is. That its radius has come out below 0 the roll will say.
+Finger true_finger(const Finger& finger, const RollError& error) {
+  return finger.is_disk() ? Finger(DiskFinger{finger.length_per_u() + error.radius}) : finger;
+}
+
+/// What slips leaves the part where it is, and how the normals lie: the finger is rolled off by less, and turned.
+void let_slip(FingerRows& rows, const Finger& finger, double slip) {
+  for (std::size_t row = 0; row < rows.u.size(); ++row) {
+    const Contact before{rows.u[row], rows.psi[row]};
+    const double u = rows.u.front() + (before.u - rows.u.front()) / (1 + slip);
+    const Contact after{u, before.psi + (finger.normal(before.u) - finger.normal(u))};
+    const Vec2 moved = centre_of(finger, Vec2::Zero(), after) - centre_of(finger, Vec2::Zero(), before);
+    rows.u[row] = after.u;
+    rows.psi[row] = after.psi;
+    rows.x[row] += moved.x();
+    rows.y[row] += moved.y();
+  }
+}
+
+void add_noise(FingerRows& rows, const Finger& finger, const Noise& noise, NormalNumbers& normal) {
+  for (std::size_t row = 0; row < rows.u.size(); ++row) {
+    rows.u[row] += normal.next(noise.contact) / finger.length_per_u();
+    rows.psi[row] += normal.next(noise.angle);
+  }
+}
+
+/// What the sensors say of this roll of the true fingers.
+void let_sense(NoisyRoll& roll, const std::vector<Finger>& fingers, const Noise& noise, NormalNumbers& normal) {
+  roll.log = roll.truth.log;
+  for (std::size_t k = 0; k < fingers.size(); ++k) {
+    FingerRows& rows = roll.log.fingers[k];
+    if (roll.error[k].slip != 0) let_slip(rows, fingers[k], roll.error[k].slip);
+    add_noise(rows, fingers[k], noise, normal);
+    require_readable(rows, roll.log.name);
+  }
+}
+
+}  // namespace
 
 void require_valid(const Noise& noise) {
   for (const double sd : {noise.contact, noise.angle, noise.slip, noise.radius}) {
     if (sd >= 0 && std::isfinite(sd)) continue;
     throw InputError(fmt::format("noise of {}: expected finite standard deviations of at least 0", sd));
   }
+}
+
+NoisyRoll noisy_roll(const Part& part, const Finger& finger, const RollPlan& plan, const Noise& noise,
+                     std::uint64_t seed) {
+  require_valid(noise);
+  NormalNumbers normal(seed);
+  NoisyRoll result;
+  result.error[0] = draw_error(finger, noise, normal);
+  const Finger real = true_finger(finger, result.error[0]);
+  result.truth = roll_in_closed_form(part, real, plan);
+  let_sense(result, {real}, noise, normal);
+  return result;
+}
+
+NoisyRoll noisy_roll_free(const Part& part, const FreePlan& plan, const Noise& noise, std::uint64_t seed) {
+  require_valid(noise);
+  NormalNumbers normal(seed);
+  NoisyRoll result;
+  result.error = PerFinger<RollError>::of(2);
+  FreePlan real = plan;
+  for (std::size_t k = 0; k < 2; ++k) {
+    result.error[k] = draw_error(plan.fingers[k].finger, noise, normal);
+    real.fingers[k].finger = true_finger(plan.fingers[k].finger, result.error[k]);
+  }
+  result.truth = roll_free_in_closed_form(part, real);
+  let_sense(result, {real.fingers[0].finger, real.fingers[1].finger}, noise, normal);
+  return result;
+}
+
+NoisyIncrements noisy_increments(const Part& part, double start, double length, std::size_t rows, const Noise& noise,
+                                 std::uint64_t seed) {
+  require_valid(noise);
+  if (rows == 0) throw InputError("expected at least 1 row of a log, found 0");
+  if (!std::isfinite(start) || !std::isfinite(length)) {
+    throw InputError(fmt::format("expected a finite start and length of a roll, found {} and {}", start, length));
+  }
+  const double end = start + length;
+  if (!part.closed() && !(std::min(start, end) >= 0 && std::max(start, end) <= part.perimeter())) {
+    throw InputError(fmt::format("expected a roll that stays in 0 <= s <= {:.9g}, found one from {:.9g} to {:.9g}",
+                                 part.perimeter(), start, end));
+  }
+  NormalNumbers normal(seed);
+  NoisyIncrements result;
+  result.error.slip = draw_slip(noise, normal);
+  result.log.name = "the increments on " + part.name();
+  result.log.kind = LogKind::increments;
+  Reading sum;
+  double angle = part.turning().angle(start);
+  for (std::size_t row = 1; row <= rows; ++row) {
+    const double s = start + length * (static_cast<double>(row) / static_cast<double>(rows));
+    const double next = part.turning().angle(s);
+    sum.length[0] += length / static_cast<double>(rows) / (1 + result.error.slip) + normal.next(noise.contact);
+    sum.turn += (next - angle) + normal.next(noise.angle);
+    angle = next;
+    result.s.push_back(s);
+    // Along the outline as the user gave it, as everything that is not of u and psi.
+    const Reading as_given = in_stored_direction(sum, part);
+    result.log.fingers[0].length.push_back(as_given.length[0]);
+    result.log.fingers[0].turn.push_back(as_given.turn);
+  }
+  return result;
 }
 
 }  // namespace rollfix

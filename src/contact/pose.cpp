@@ -4,13 +4,79 @@
 #include <cmath>
 #include <numbers>
 
-#include "contact/felt_part.hpp"
 #include "outline/turn.hpp"
 #include "part/angle.hpp"
+#include "rollfix/part/period.hpp"
 
 namespace rollfix {
 
 namespace {
+
+// A contact so near to a corner, in perimeters, may be on it: a placement is known to 1e-9.
+constexpr double kOnCorner = 1e-8;
+
+/// What one finger says of the part at each row, when its first contact is at a given place of the boundary.
+class FeltPart {
+ public:
+  /// All have to stay. The rows have u, psi, x and y.
+  FeltPart(const Part& part, const Finger& finger, const FingerRows& rows, double start)
+      : part_(part),
+        finger_(finger),
+        rows_(rows),
+        start_(start),
+        u_(unwrapped(rows.u, rows.place_rounding, finger.period())),
+        psi_(unwrapped(rows.psi, rows.angle_rounding)) {}
+
+  /// The part's heading that the contact's normal asks for: u + psi = heading + Theta(s) + pi / 2. At a convex corner
+  /// the tangent may have any direction of the pivot, so that this is an interval; unwrapped over the rows.
+  Interval heading(std::size_t row) const;
+
+  /// The contact, in the part's frame and in the world's.
+  Vec2 on_part(std::size_t row) const { return part_.point(place(row)); }
+  Vec2 in_world(std::size_t row) const;
+
+  std::size_t rows() const { return u_.size(); }
+
+ private:
+  double place(std::size_t row) const { return start_ - finger_.length_per_u() * (u_[row] - u_[0]); }
+  Contact contact(std::size_t row) const { return {u_[row], psi_[row]}; }
+  Interval tangents(double s) const;
+
+  const Part& part_;
+  Finger finger_;
+  const FingerRows& rows_;
+  double start_;
+  std::vector<double> u_;
+  std::vector<double> psi_;
+};
+
+/// The directions that the tangent may have at s, in the part's frame.
+Interval FeltPart::tangents(double s) const {
+  const TurningFunction& turning = part_.turning();
+  const double P = part_.perimeter();
+  for (const Corner& corner : part_.corners()) {
+    const double ahead = part_.closed() ? std::remainder(s - corner.s, P) : s - corner.s;
+    if (std::abs(ahead) > kOnCorner * P) continue;
+    const double laps = part_.closed() ? std::round((s - corner.s) / P) : 0;
+    const double lap_turn = laps * turning.period_turn();
+    const double before = turning.angle(corner.s, Side::before) + lap_turn;
+    const double after = turning.angle(corner.s, Side::after) + lap_turn;
+    return {std::min(before, after), std::max(before, after)};
+  }
+  const double angle = turning.angle(s);
+  return {angle, angle};
+}
+
+Interval FeltPart::heading(std::size_t row) const {
+  const Interval tangent = tangents(place(row));
+  const double normal = facing(finger_, contact(row)) - std::numbers::pi / 2;
+  return {normal - tangent.hi, normal - tangent.lo};
+}
+
+Vec2 FeltPart::in_world(std::size_t row) const {
+  // Where the frame's origin would be if the contact were at 0 says how far the contact is from it.
+  return Vec2(rows_.x[row], rows_.y[row]) - centre_of(finger_, Vec2::Zero(), contact(row));
+}
 
 double clamped(double value, const Interval& interval) { return std::clamp(value, interval.lo, interval.hi); }
 
@@ -59,12 +125,7 @@ Agreed agreed_heading(const FeltPart& a, const FeltPart& b, std::size_t row) {
   return {clamped(nearest, common), 0};
 }
 
-}  // namespace
-
-std::optional<Poses> poses(const Part& part, const Finger& finger, const Log& log, double s,
-                           const std::vector<std::size_t>& rows) {
-  if (!FeltPart::is_in(log)) return std::nullopt;
-  const FeltPart felt(part, finger, log, s);
+Poses resting_poses(const FeltPart& felt, const std::vector<std::size_t>& rows) {
   const double resting = resting_heading(felt);
   const double first = clamped(resting, felt.heading(0));
   const double turns = turns_to_near(first);
@@ -78,11 +139,7 @@ std::optional<Poses> poses(const Part& part, const Finger& finger, const Log& lo
   return result;
 }
 
-std::optional<Poses> poses(const Part& part, const FingerPair& fingers, const PairLog& log,
-                           const std::array<double, 2>& start, const std::vector<std::size_t>& rows) {
-  if (!FeltPart::is_in(log.a) || !FeltPart::is_in(log.b)) return std::nullopt;
-  const FeltPart a(part, fingers[0], log.a, start[0]);
-  const FeltPart b(part, fingers[1], log.b, start[1]);
+Poses moving_poses(const FeltPart& a, const FeltPart& b, const std::vector<std::size_t>& rows) {
   const double turns = turns_to_near(agreed_heading(a, b, 0).heading);
   Poses result;
   for (const std::size_t row : rows) {
@@ -94,6 +151,20 @@ std::optional<Poses> poses(const Part& part, const FingerPair& fingers, const Pa
     result.turn_residual.push_back(gap);
   }
   return result;
+}
+
+}  // namespace
+
+std::optional<Poses> poses(const Part& part, const std::vector<Finger>& fingers, const Log& log,
+                           const PerFinger<double>& start, const std::vector<std::size_t>& rows) {
+  const bool tells =
+      !fingers.empty() && log.kind == LogKind::contact &&
+      std::none_of(log.fingers.begin(), log.fingers.end(), [](const FingerRows& finger) { return finger.x.empty(); });
+  if (!tells) return std::nullopt;
+  require_fingers(fingers, log.fingers.size(), true, log.name);
+  const FeltPart a(part, *finger_of(fingers, 0), log.fingers[0], start[0]);
+  if (log.fingers.size() == 1) return resting_poses(a, rows);
+  return moving_poses(a, FeltPart(part, *finger_of(fingers, 1), log.fingers[1], start[1]), rows);
 }
 
 }  // namespace rollfix

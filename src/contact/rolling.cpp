@@ -4,210 +4,255 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/math/tools/toms748_solve.hpp>
-#include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
-#include <boost/numeric/odeint/stepper/generation.hpp>
-#include <boost/numeric/odeint/stepper/runge_kutta_cash_karp54.hpp>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <limits>
+#include <functional>
+#include <memory>
+#include <string>
 #include <vector>
 
+#include "contact/log_rows.hpp"
 #include "contact/motion.hpp"
-#include "contact/track.hpp"
 #include "rollfix/error.hpp"
 
 namespace rollfix {
 
 namespace {
 
-namespace odeint = boost::numeric::odeint;
+using Rate = std::function<double(double)>;
 
-// Of one step, for angles in radians and for s in perimeters: so that a roll of many steps keeps 1e-10.
-constexpr double kStepTolerance = 1e-13;
-// What is left of a roll when it arrives at the end of its way, in radians: less than this is an error of integration.
-constexpr double kLeftOver = 1e-10;
+constexpr std::array<const char*, 2> kNames = {"finger a", "finger b"};
 
-const boost::math::tools::eps_tolerance<double> kFully(std::numeric_limits<double>::digits);
-
-/// What eqs. (1) and (2) are integrated over; s in perimeters, so that one tolerance suits all.
-using State = std::array<double, 3>;
-constexpr std::size_t kU = 0;
-constexpr std::size_t kS = 1;
-constexpr std::size_t kPsi = 2;
-// Not Fehlberg 7(8): its estimate of the error is 0 wherever a rate depends on time alone, as psi's does.
-using Stepper = odeint::runge_kutta_cash_karp54<State>;
-const Stepper kStepper{};  // static, so that the scratch space in it is zeroed before it is copied
-using ControlledStepper = odeint::result_of::make_controlled<Stepper>::type;
-
-class Integration {
- public:
-  Integration(const Track& track, const Motion& motion)
-      : track_(track),
-        motion_(motion),
-        perimeter_(track.part().perimeter()),
-        unit_of_u_(track.finger().is_disk() ? track.finger().length_per_u() : perimeter_),
-        controlled_(odeint::make_controlled(kStepTolerance, 0.0, kStepper)),
-        state_{motion.first.u * track.finger().length_per_u() / unit_of_u_, motion.start.s / perimeter_,
-               motion.first.psi},
-        step_(motion.duration) {
-    enter(motion.start.index, 1);
+/// Says which finger an error is about.
+template <class Action>
+void naming(const char* finger, const Action& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", finger, error.what()));
   }
+}
 
-  void advance_to(double time) {
-    while (time_ < time) {
-      const double limit = std::min(time, next_turning_point(time));
-      step(limit);
-    }
+bool is_by_distances(const FreePlan& plan) { return plan.fingers[0].distance.has_value(); }
+
+void require_consistent(const FreePlan& plan) {
+  const int distances = (plan.fingers[0].distance ? 1 : 0) + (plan.fingers[1].distance ? 1 : 0);
+  const int omegas = (plan.fingers[0].omega ? 1 : 0) + (plan.fingers[1].omega ? 1 : 0);
+  if (distances + omegas != 2 || distances * omegas != 0) {
+    throw InputError(
+        fmt::format("expected a distance for both fingers or an angular velocity by time for both, found {} distances "
+                    "and {} angular velocities",
+                    distances, omegas));
   }
-
-  RollState state() const {
-    const Contact contact{state_[kU] * unit_of_u_ / track_.finger().length_per_u(), state_[kPsi]};
-    const double turn = reading_between(track_.finger(), motion_.first, contact).turn;
-    return {contact, state_[kS] * perimeter_, motion_.start_angle + turn};
+  if (omegas == 2 && !plan.duration) {
+    throw InputError("expected a duration together with the fingers' angular velocities, found none");
   }
-
- private:
-  /// Eqs. (1) and (2), the latter by arc length; in a pivot the contact rests.
-  void rates(const State& state, State& rate, double time) const {
-    const double omega = motion_.omega_at(time);
-    rate[kPsi] = omega;
-    if (stretch_.is_pivot) {
-      rate[kU] = rate[kS] = 0;
-      return;
-    }
-    const double s = state[kS] * perimeter_;
-    const double velocity = omega / (track_.finger_curvature(stretch_, s) + track_.turning(stretch_, s).curvature);
-    rate[kU] = -velocity / unit_of_u_;  // eq. (1): what is rolled off the finger
-    rate[kS] = velocity / perimeter_;   // eq. (2)
+  if (omegas == 2 && plan.part_rotation != 0) {
+    throw InputError(
+        "expected the part's angular velocity by time together with the fingers', found a rotation, which goes with "
+        "distances");
   }
-
-  auto system() const {
-    return [this](const State& state, State& rate, double time) { rates(state, rate, time); };
+  if (distances == 2 && plan.omega_part) {
+    throw InputError(
+        "expected the part's rotation together with the fingers' distances, found an angular velocity by time");
   }
-
-  void step(double limit) {
-    const bool is_cut = step_ >= limit - time_;
-    const double size = is_cut ? limit - time_ : step_;
-    State next;
-    double next_time = time_;
-    double suggestion = size;
-    if (controlled_.try_step(system(), state_, next_time, next, suggestion) == odeint::fail) {
-      step_ = suggestion;
-      require_progress();
-      return;
-    }
-    const int direction = motion_.omega_at(time_ + size / 2) < 0 ? -1 : 1;
-    const double beyond = direction > 0 ? position(next) - ends_.hi : ends_.lo - position(next);
-    if (beyond > 0) {
-      leave(direction, size);
-      return;
-    }
-    state_ = next;
-    time_ = is_cut ? limit : next_time;
-    step_ = is_cut ? std::max(step_, suggestion) : suggestion;
+  if (plan.velocity_a && plan.velocity_part) {
+    throw InputError("expected the velocity of finger a's centre or the part's, found both");
   }
-
-  /// Goes to the end of the stretch, which a step of this size crosses, and on to the next.
-  void leave(int direction, double size) {
-    const double end = direction > 0 ? ends_.hi : ends_.lo;
-    const auto excess = [&](double part) { return direction * (position(stepped(part)) - end); };
-    const double before = direction * (position(state_) - end);
-    const double after = excess(size);
-    double part = before < 0 ? size : 0;
-    if (before < 0 && after > 0) {
-      std::uintmax_t iterations = 100;
-      part = boost::math::tools::toms748_solve(excess, 0.0, size, before, after, kFully, iterations).first;
-    }
-    state_ = stepped(part);
-    if (!stretch_.is_pivot) state_[kS] = end / perimeter_;
-    time_ += part;
-    go_on(direction);
+  if (distances == 2 && *plan.fingers[0].distance == 0 && *plan.fingers[1].distance == 0) {
+    throw InputError("expected a distance other than 0 of one finger at least, found 0 of both");
   }
-
-  State stepped(double size) const {
-    State end = state_;
-    if (size > 0) Stepper().do_step(system(), state_, time_, end, size);
-    return end;
+  if (plan.duration && !(*plan.duration > 0 && std::isfinite(*plan.duration))) {
+    throw InputError(fmt::format("expected a duration of a roll above 0, found {}", *plan.duration));
   }
-
-  void go_on(int direction) {
-    if (const auto next = track_.next(index_, direction)) {
-      state_[kPsi] += track_.fall_between(index_, *next);
-      enter(*next, direction);
-    } else if (std::abs(motion_.omega_at(time_)) * (motion_.duration - time_) < kLeftOver) {
-      time_ = motion_.duration;
-    } else {
-      track_.refuse(index_, direction);
-    }
+  if (!(plan.speed > 0 && std::isfinite(plan.speed))) {
+    throw InputError(fmt::format("expected a speed of a roll above 0, found {}", plan.speed));
   }
-
-  void enter(std::int64_t index, int direction) {
-    index_ = index;
-    stretch_ = track_.stretch(index);
-    if (stretch_.is_pivot) {
-      const double angle = state_[kPsi];
-      const double turn = stretch_.angle.width();
-      ends_ = direction > 0 ? Interval{angle, angle + turn} : Interval{angle - turn, angle};
-    } else {
-      ends_ = stretch_.s;
-    }
+  if (!std::isfinite(plan.part_rotation)) {
+    throw InputError(fmt::format("expected a finite rotation of the part, found {}", plan.part_rotation));
   }
-
-  /// What has to stay between the stretch's ends: s, or in a pivot, where u stays, the finger's orientation.
-  double position(const State& state) const { return stretch_.is_pivot ? state[kPsi] : state[kS] * perimeter_; }
-
-  /// Where omega changes its sign before `time`: a step must not go beyond an end and come back.
-  double next_turning_point(double time) const {
-    if (!motion_.omega) return time;
-    const double now = motion_.omega(time_);
-    const double then = motion_.omega(time);
-    if (!(now * then < 0)) return time;
-    std::uintmax_t iterations = 100;
-    return boost::math::tools::toms748_solve(motion_.omega, time_, time, now, then, kFully, iterations).second;
+  if (!std::isfinite(plan.pose.x) || !std::isfinite(plan.pose.y) || !std::isfinite(plan.pose.heading)) {
+    throw InputError(fmt::format("expected a finite pose of the part at the start, found {}, {}, {}", plan.pose.x,
+                                 plan.pose.y, plan.pose.heading));
   }
+}
 
-  void require_progress() const {
-    if (time_ + step_ > time_) return;
-    const int direction = motion_.omega_at(time_) < 0 ? -1 : 1;
-    if (!track_.next(index_, direction)) track_.refuse(index_, direction);
-    throw InternalError(
-        fmt::format("{}: a roll got stuck at time {}, s = {}", track_.part().name(), time_, state_[kS] * perimeter_));
+/// The finger's angular velocity as the part sees it: what stands in the numerators of eqs. (1) and (2).
+Rate against_part(const Rate& omega, const Rate& omega_part) {
+  if (!omega_part) return omega;
+  return [omega, omega_part](double time) { return omega(time) - omega_part(time); };
+}
+
+/// The motion of a finger that stays where it is on the part.
+Motion resting(const Track& track, RollPlan plan) {
+  // Where an open part ends the only stretch to rest on lies behind.
+  const double ahead = !track.part().closed() && plan.start >= track.part().perimeter() ? -1 : 1;
+  plan.duration = 1;
+  plan.omega = [ahead](double /*time*/) { return ahead; };
+  Motion motion = plan_motion(track, plan);
+  motion.omega = nullptr;
+  return motion;
+}
+
+/// One finger's motion as the part sees it.
+Motion motion_against_part(const Track& track, const FreeFinger& finger, const FreePlan& plan) {
+  RollPlan roll;
+  roll.start = finger.start;
+  roll.psi = finger.psi - plan.pose.heading;
+  roll.u = finger.u;
+  roll.rows = plan.rows;
+  if (!is_by_distances(plan)) {
+    roll.duration = plan.duration;
+    roll.omega = against_part(finger.omega, plan.omega_part);
+    return plan_motion(track, roll);
   }
+  if (*finger.distance == 0) return resting(track, roll);
+  roll.distance = finger.distance;
+  return plan_motion(track, roll);
+}
 
-  const Track& track_;
-  const Motion& motion_;
-  double perimeter_;
-  double unit_of_u_;  // a disk's u is an angle, any other's is taken in the part's perimeters
-  ControlledStepper controlled_;
-  State state_;
-  double time_ = 0;
-  double step_;
-  std::int64_t index_ = 0;
-  Stretch stretch_;
-  Interval ends_;
+/// Two even motions at once: both last as long as the longer one at the plan's speed, or as the plan says.
+void share_duration(Motion& a, Motion& b, const FreePlan& plan) {
+  const double rotation_a = a.velocity * a.duration;
+  const double rotation_b = b.velocity * b.duration;
+  const double longest = std::max(std::abs(rotation_a), std::abs(rotation_b));
+  a.duration = b.duration = plan.duration.value_or(longest / plan.speed);
+  a.velocity = rotation_a / a.duration;
+  b.velocity = rotation_b / b.duration;
+}
+
+std::vector<double> headings_of(const FreePlan& plan, const std::vector<double>& times) {
+  std::vector<double> headings(times.size());
+  if (plan.omega_part) headings = integrals(plan.omega_part, times);
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    if (is_by_distances(plan)) headings[k] = plan.part_rotation * (times[k] / times.back());
+    headings[k] += plan.pose.heading;
+  }
+  return headings;
+}
+
+/// How far something with this velocity has come at each of the times.
+std::vector<Vec2> displacements(const std::function<Vec2(double)>& velocity, const std::vector<double>& times) {
+  std::vector<Vec2> result(times.size(), Vec2::Zero());
+  if (!velocity) return result;
+  const std::vector<double> x = integrals([&](double time) { return velocity(time).x(); }, times);
+  const std::vector<double> y = integrals([&](double time) { return velocity(time).y(); }, times);
+  for (std::size_t k = 0; k < times.size(); ++k) result[k] = {x[k], y[k]};
+  return result;
+}
+
+/// One finger's roll as the part sees it.
+struct Rolling {
+  std::shared_ptr<const Track> way;
+  Motion motion;
+  std::vector<RollState> states;
+
+  const Track& track() const { return *way; }
+  Vec2 centre(std::size_t row) const {
+    return centre_of(track().finger(), track().part().point(states[row].s), states[row].contact);
+  }
 };
+
+std::vector<Pose> poses_of(const FreePlan& plan, const Rolling& a, const std::vector<double>& times) {
+  const std::vector<double> headings = headings_of(plan, times);
+  const std::vector<Vec2> moved = displacements(plan.velocity_part ? plan.velocity_part : plan.velocity_a, times);
+  const Vec2 centre = plan.pose.world(a.centre(0));
+  std::vector<Pose> poses;
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    Pose pose{0, 0, headings[k]};
+    const Vec2 origin = plan.velocity_part ? Vec2(plan.pose.x, plan.pose.y) + moved[k]
+                                           : Vec2(centre + moved[k] - pose.turned(a.centre(k)));
+    pose.x = origin.x();
+    pose.y = origin.y();
+    poses.push_back(pose);
+  }
+  return poses;
+}
+
+std::string name_of_roll(const Part& part) { return "the roll on " + part.name(); }
+
+/// What the finger's sensors say in the world, where the part is at these poses; none: it is at rest there.
+FingerRows rows_of(const Rolling& rolling, const FreeFinger& finger, const std::vector<Pose>& poses) {
+  FingerRows rows;
+  rows.u_period = rolling.track().finger().period();
+  const double first_psi = rolling.motion.first.psi;
+  for (std::size_t k = 0; k < rolling.states.size(); ++k) {
+    const Contact& contact = rolling.states[k].contact;
+    Vec2 centre = rolling.centre(k);
+    double psi = contact.psi;
+    if (!poses.empty()) {
+      const double start = finger.finger.is_disk() ? finger.psi : first_psi + poses[0].heading;
+      psi = start + (contact.psi - first_psi) + (poses[k].heading - poses[0].heading);
+      centre = poses[k].world(centre);
+    }
+    rows.u.push_back(contact.u);
+    rows.psi.push_back(psi);
+    rows.x.push_back(centre.x());
+    rows.y.push_back(centre.y());
+  }
+  require_readable(rows, name_of_roll(rolling.track().part()));
+  return rows;
+}
+
+/// Where the finger is on the part, of each row.
+void add_places(Roll& roll, std::size_t finger, const Rolling& rolling) {
+  for (const RollState& state : rolling.states) {
+    roll.s[finger].push_back(state.s);
+    roll.angle[finger].push_back(state.angle);
+  }
+}
+
+Roll roll_with(Solve solve, const Part& part, const Finger& finger, const RollPlan& plan) {
+  Rolling rolling{track_of(part, finger, plan.start, plan.u), {}, {}};
+  rolling.motion = plan_motion(rolling.track(), plan);
+  Roll roll;
+  roll.log.name = name_of_roll(part);
+  roll.log.time = times_of(rolling.motion, plan.rows);
+  rolling.states = solve(rolling.track(), rolling.motion, roll.log.time);
+  roll.log.fingers[0] = rows_of(rolling, {}, {});
+  add_places(roll, 0, rolling);
+  return roll;
+}
+
+Roll roll_with(Solve solve, const Part& part, const FreePlan& plan) {
+  require_consistent(plan);
+  std::vector<Rolling> both(2);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const FreeFinger& finger = plan.fingers[k];
+    naming(kNames[k], [&] {
+      both[k].way = track_of(part, finger.finger, finger.start, finger.u);
+      both[k].motion = motion_against_part(both[k].track(), finger, plan);
+    });
+  }
+  if (is_by_distances(plan)) share_duration(both[0].motion, both[1].motion, plan);
+  Roll roll;
+  roll.log.name = name_of_roll(part);
+  roll.log.time = times_of(both[0].motion, plan.rows);
+  for (std::size_t k = 0; k < 2; ++k) {
+    naming(kNames[k], [&] { both[k].states = solve(both[k].track(), both[k].motion, roll.log.time); });
+  }
+  roll.pose = poses_of(plan, both[0], roll.log.time);
+  roll.log.fingers.resize(2);
+  roll.s = roll.angle = PerFinger<std::vector<double>>::of(2);
+  for (std::size_t k = 0; k < 2; ++k) {
+    naming(kNames[k], [&] { roll.log.fingers[k] = rows_of(both[k], plan.fingers[k], roll.pose); });
+    add_places(roll, k, both[k]);
+  }
+  return roll;
+}
 
 }  // namespace
 
-std::vector<RollState> integrated(const Track& track, const Motion& motion, const std::vector<double>& times) {
-  std::vector<RollState> states;
-  states.reserve(times.size());
-  Integration integration(track, motion);
-  for (const double time : times) {
-    integration.advance_to(time);
-    states.push_back(integration.state());
-  }
-  return states;
+Roll roll(const Part& part, const Finger& finger, const RollPlan& plan) {
+  return roll_with(&integrated, part, finger, plan);
 }
 
-Roll roll(const Part& part, const Finger& finger, const RollPlan& plan) {
-  const auto way = track_of(part, finger, plan.start, plan.u);
-  const Track& track = *way;
-  const Motion motion = plan_motion(track, plan);
-  const std::vector<double> times = times_of(motion, plan.rows);
-  return record(track, times, integrated(track, motion, times));
+Roll roll_in_closed_form(const Part& part, const Finger& finger, const RollPlan& plan) {
+  return roll_with(&in_closed_form, part, finger, plan);
 }
+
+Roll roll_free(const Part& part, const FreePlan& plan) { return roll_with(&integrated, part, plan); }
+
+Roll roll_free_in_closed_form(const Part& part, const FreePlan& plan) { return roll_with(&in_closed_form, part, plan); }
 
 }  // namespace rollfix

@@ -8,8 +8,7 @@
 #include <numbers>
 #include <utility>
 
-#include "contact/turning_path.hpp"
-#include "contact/turning_runs.hpp"
+#include "contact/turning_course.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline/primitives.hpp"
@@ -41,9 +40,16 @@ struct Rows {
   bool backwards = false;  // as they were logged
 };
 
-Rows rows_of(const Log& log, const std::optional<DiskFinger>& finger) {
+std::vector<Finger> fingers_of(const TeachOptions& options) {
+  return options.finger ? std::vector<Finger>{*options.finger} : std::vector<Finger>{};
+}
+
+Rows rows_of(const Log& log, const TeachOptions& options) {
+  if (log.fingers.size() > 1) {
+    throw InputError(fmt::format("{}: this log is of two fingers, expected one with columns 'u' and 'psi'", log.name));
+  }
   Rows rows;
-  rows.readings = readings_as_given(log, finger);
+  rows.readings = readings_as_given(log, fingers_of(options));
   const bool has_first_contact = log.kind == LogKind::contact;
   if (!has_first_contact) rows.readings.insert(rows.readings.begin(), Reading{0, 0});
   rows.backwards = rows.readings.back().length[0] < 0;
@@ -54,9 +60,13 @@ Rows rows_of(const Log& log, const std::optional<DiskFinger>& finger) {
 class Teacher {
  public:
   Teacher(const Log& log, const TeachOptions& options)
-      : log_(log), options_(options), noise_(options.noise.value_or(Noise{})), rows_(rows_of(log, options.finger)) {
+      : log_(log),
+        felt_(log.fingers[0]),
+        options_(options),
+        noise_(options.noise.value_or(Noise{})),
+        rows_(rows_of(log, options)) {
     require_valid(noise_);
-    rounding_ = rounding_of(log, options.finger);
+    rounding_ = rounding_of(log, fingers_of(options));
     radius_ = log.kind == LogKind::contact ? options.finger->radius : 1;
   }
 
@@ -84,8 +94,8 @@ class Teacher {
     const double bend = std::abs(rows_.readings.back().turn - rows_.readings.front().turn) / length;
     const bool is_noisy = row_turn_noise() > 0 || noise_.contact > 0;
     if (is_noisy) return {kRowDeviations * std::hypot(row_turn_noise(), noise_.contact * bend), false};
-    const double row = 2 * (log_.angle_rounding + (log_.kind == LogKind::contact ? log_.place_rounding : 0));
-    return {row + 2 * radius_ * log_.place_rounding * bend + kSamePlace, true};
+    const double row = 2 * (felt_.angle_rounding + (log_.kind == LogKind::contact ? felt_.place_rounding : 0));
+    return {row + 2 * radius_ * felt_.place_rounding * bend + kSamePlace, true};
   }
 
   /// Of one row: u + psi of a finger's log holds the contact's noise as well.
@@ -103,7 +113,7 @@ class Teacher {
                          reading.turn));
     }
     const double same =
-        std::max({2 * radius_ * log_.place_rounding, kDeviations * noise_.contact, kSamePlace * rolled});
+        std::max({2 * radius_ * felt_.place_rounding, kDeviations * noise_.contact, kSamePlace * rolled});
     try {
       whole_ = turning_runs(rows_.readings, {same, options_.corner_angle});
     } catch (const InputError& error) {
@@ -302,17 +312,17 @@ class Teacher {
 
   /// Where the roll starts in the world, as far as the log says.
   Vec2 start_point() const {
-    const bool knows = log_.kind == LogKind::contact && !log_.x.empty() && !log_.y.empty();
+    const bool knows = log_.kind == LogKind::contact && !felt_.x.empty() && !felt_.y.empty();
     if (!knows) return Vec2::Zero();
     const std::size_t row = rows_.backwards ? log_.rows() - 1 : 0;
-    const double facing = log_.u[row] + log_.psi[row];
-    return Vec2(log_.x[row], log_.y[row]) + radius_ * Vec2(std::cos(facing), std::sin(facing));
+    const double facing = felt_.u[row] + felt_.psi[row];
+    return Vec2(felt_.x[row], felt_.y[row]) + radius_ * Vec2(std::cos(facing), std::sin(facing));
   }
 
   double start_direction() const {
     if (log_.kind != LogKind::contact) return 0;
     const std::size_t row = rows_.backwards ? log_.rows() - 1 : 0;
-    return log_.u[row] + log_.psi[row] - kQuarter - rows_.readings.front().turn;
+    return felt_.u[row] + felt_.psi[row] - kQuarter - rows_.readings.front().turn;
   }
 
   void draw(TurningCourse course, bool closed) {
@@ -384,6 +394,7 @@ class Teacher {
   }
 
   const Log& log_;
+  const FingerRows& felt_;
   TeachOptions options_;
   Noise noise_;
   Rows rows_;

@@ -1,4 +1,4 @@
-#include "contact/turning_runs.hpp"
+#include "contact/turning_course.hpp"
 
 #include <fmt/format.h>
 

@@ -84,8 +84,7 @@ void require_sensible(const WatchArguments& arguments, const std::string& log) {
 WatchOptions watch_options(const WatchArguments& arguments, const std::string& log) {
   WatchOptions options;
   options.name = log == "-" ? "standard input" : log;
-  const std::vector<Finger> fingers = read_fingers(arguments.fingers, 1);
-  if (!fingers.empty()) options.finger = fingers.front();
+  options.fingers = read_fingers(arguments.fingers, 1);
   options.belief = belief_options(arguments);
   options.live = !arguments.once;
   if (!arguments.every.empty()) options.every = read_count(arguments.every, "--every", 1);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "rollfix/error.hpp"
 #include "rollfix/part/period.hpp"
 
 namespace rollfix::app {
@@ -107,13 +108,18 @@ void Watcher::restart() {
 void Watcher::finish() { end_roll(RollEnd::ended); }
 
 LogStream Watcher::new_stream() const {
-  return LogStream(options_.name, part_, options_.finger, options_.belief.noise);
+  return LogStream(options_.name, part_, options_.fingers, options_.belief.noise);
 }
 
 LogLine Watcher::read(std::string_view line) {
   const WorkTime time(counts_.seconds);
   ++counts_.lines;
-  if (line.size() <= kLongestLine) return stream_.push(line);
+  if (line.size() <= kLongestLine) {
+    LogLine row = stream_.push(line);
+    if (stream_.fingers() < 2) return row;
+    throw InputError(fmt::format("{}:{}: this log is of two fingers, expected one with columns 'u' and 'psi'",
+                                 options_.name, stream_.lines()));
+  }
   stream_.push("#");  // it counts as a line all the same
   LogLine row;
   row.kind = LineKind::malformed;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "rollfix/belief/belief.hpp"
-#include "rollfix/contact/log_stream.hpp"
+#include "rollfix/contact/log.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace rollfix::app {
@@ -60,7 +60,7 @@ class WatchListener {
 /// How a growing log is watched.
 struct WatchOptions {
   std::string name;              // of the log, for messages
-  std::optional<Finger> finger;  // for logs of u and psi
+  std::vector<Finger> fingers;  // for logs of u and psi: at most one
   BeliefOptions belief;
   std::size_t every = 0;  // tell every so many samples; 0: when there is news
   bool live = false;      // somebody waits: nothing that is new is kept back for longer than kMostDelay

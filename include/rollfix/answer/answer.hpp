@@ -17,18 +17,17 @@
 // What is asked and what is answered, of one finger or two. Names are those of the JSON document.
 namespace rollfix {
 
-/// What the fingers felt: readings, or the rows of a log.
+/// What the fingers felt: readings, or a log.
 struct Felt {
-  Felt(Log log) : logs{std::move(log)} {}                               // NOLINT: a log is what was felt
-  Felt(std::vector<Log> of_fingers) : logs(std::move(of_fingers)) {}    // NOLINT: of each finger
+  Felt(Log of_roll) : log(std::move(of_roll)) {}                        // NOLINT: a log is what was felt
   Felt(Reading reading) : readings{std::move(reading)} {}               // NOLINT
   Felt(std::vector<Reading> of_roll) : readings(std::move(of_roll)) {}  // NOLINT
 
-  std::vector<Reading> readings;      // each measured from the first contacts; or
-  std::vector<Log> logs;              // one of each finger
+  std::vector<Reading> readings;  // each measured from the first contacts; or
+  std::optional<Log> log;
   std::vector<Rounding> roundings{};  // how far the digits of the readings, and of the facing, may be off; none: exact
 
-  bool is_log() const { return !logs.empty(); }
+  bool is_log() const { return log.has_value(); }
 };
 
 /// A roll on a part, and how to look at it.

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "rollfix/contact/log_stream.hpp"
+#include "rollfix/contact/log.hpp"
 #include "rollfix/contact/noise.hpp"
 #include "rollfix/locate/placement.hpp"
 #include "rollfix/outline/curve.hpp"

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "rollfix/contact/reading.hpp"
 #include "rollfix/outline/curve.hpp"
@@ -77,6 +78,14 @@ class Finger {
 /// Throws InputError unless a disk's radius is a finite number above 0.
 void require_valid(const Finger& finger);
 
+/// The finger of this number, 0 for a and 1 for b: nullptr where none are known; a single one serves both.
+const Finger* finger_of(const std::vector<Finger>& fingers, std::size_t which);
+
+/// Throws InputError: a finger that is not valid, more of them than there rolled, and none where they `must_be_known`.
+/// `log`: for messages.
+void require_fingers(const std::vector<Finger>& fingers, std::size_t rolled, bool must_be_known,
+                     const std::string& log);
+
 /// N(u) + psi: the direction of the contact's normal in the world, out of the finger and into the part.
 double facing(const Finger& finger, const Contact& contact);
 
@@ -97,6 +106,10 @@ Contact contact_at(const Finger& finger, double tangent, double u);
 
 /// Where the origin of the finger's frame is in the world, a disk's centre, when it touches at this point.
 Vec2 centre_of(const Finger& finger, const Vec2& point, const Contact& contact);
+
+/// What the fingers say together, each of which has a reading of its own: of one its own, of two eqs. (7)-(9). The
+/// turns of two may hold that of the part, which cancels.
+Reading together(const PerFinger<Reading>& each);
 
 /// A reading whose length is positive along the outline as the user gave it, in the direction in which it is stored.
 /// Against the user's direction, L changes its sign and theta does not: see docs/rolling.md.

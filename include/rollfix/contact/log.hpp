@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include "rollfix/contact/noise.hpp"
 #include "rollfix/contact/reading.hpp"
 #include "rollfix/part/part.hpp"
+#include "rollfix/per_finger.hpp"
 
 namespace rollfix {
 
@@ -21,41 +23,43 @@ enum class LogKind {
   increments  // distance and dturn since the row before, as a wheel encoder with a gyroscope gives them
 };
 
-/// One finger's rows while it touched the part. Columns that a log does not have are empty.
-struct Log {
-  std::string name;  // the file's, for messages
-  LogKind kind = LogKind::contact;
-  std::vector<double> time;    // seconds, strictly growing
-  std::vector<double> u;       // contact on the finger, radians of a disk, else arc length, as written: wrapped or not
-  std::vector<double> psi;     // the finger's orientation, radians, as written: wrapped or not
-  std::vector<double> length;  // from the first contact, along the outline as the user gave it; increments are summed
-  std::vector<double> turn;    // from the first contact, radians; increments are summed
-  std::vector<double> x;       // the finger's centre in the world
-  std::vector<double> y;
-  std::vector<std::size_t> line;           // of the file that each row comes from
-  bool contact_was_off = false;            // rows without contact, before these or after them, were left out
+/// One finger's rows. Columns that a log does not have are empty.
+struct FingerRows {
+  std::string name;                        // of its own file where each finger has one, else empty
+  std::vector<std::size_t> line;           // of the file that each row comes from; none of simulated rows
+  std::vector<double> u;                   // contact on the finger, radians of a disk, else arc length, as written
+  std::vector<double> psi;                 // the finger's orientation, radians, as written: wrapped or not, as is u
+  std::vector<double> length;              // from the first contact, along the outline as the user gave it
+  std::vector<double> turn;                // from the first contact, radians; increments are summed, as are lengths
+  std::vector<double> x;                   // the finger's centre in the world
+  std::vector<double> y;                   //
   double u_period = 2 * std::numbers::pi;  // of a simulated log: what once around the finger adds to u
   double place_rounding = 0;               // half a unit of the most precise u (radians) or length or distance
   double angle_rounding = 0;               // the same of psi or turn or dturn
-
-  std::size_t rows() const { return kind == LogKind::contact ? u.size() : length.size(); }
 };
 
-/// Reads a log: columns by name in any order, unknown ones ignored; two columns without a header are distance and
-/// dturn. Separated by commas, semicolons, tabs or blanks. Angles may be written 73deg. `#` comments, blank lines,
-/// quotes, a byte order mark and both kinds of line ends are allowed. Rows with contact 0 before the first contact and
-/// after the last are skipped, whatever they hold. "-" is standard input. Throws InputError with file, line and value:
-/// no such file, no known header, a cell that is missing or not a finite number, a time that does not grow, contact
-/// lost and found again, too few rows, two fingers.
+/// What one finger, or two together, recorded of one roll, while all of them touched the part.
+struct Log {
+  std::string name;  // the file's, for messages; of two files the first one's
+  LogKind kind = LogKind::contact;
+  std::vector<double> time;                       // seconds, strictly growing; empty where there are none
+  std::vector<FingerRows> fingers{FingerRows{}};  // one or two; row k of all is the same instant
+  bool contact_was_off = false;                   // rows without contact, before these or after them, were left out
+
+  std::size_t rows() const { return kind == LogKind::contact ? fingers[0].u.size() : fingers[0].length.size(); }
+};
+
+/// Reads a log of one finger or, with u_a, psi_a, u_b, psi_b and so on in columns side by side, of two: columns by name
+/// in any order, unknown ones ignored; two columns without a header are distance and dturn. Separated by commas,
+/// semicolons, tabs or blanks. Angles may be written 73deg. `#` comments, blank lines, quotes, a byte order mark and
+/// both kinds of line ends are allowed. Rows with contact 0, of either finger, before the first contact and after the
+/// last are skipped, whatever they hold. "-" is standard input. Throws InputError with file, line and value: no such
+/// file, no known header, a cell that is missing or not a finite number, a time that does not grow, contact lost and
+/// found again, too few rows.
 Log read_log(const std::string& path);
 
 /// The same from a text; `name` is what messages call it.
 Log parse_log(std::string_view text, const std::string& name);
-
-/// The same of a file that may be of one finger or of two: u_a, psi_a, u_b, psi_b and so on in columns side by side
-/// (pair_log.hpp makes one of the two). Of two fingers the rows in which both touch the part are taken.
-std::vector<Log> read_logs(const std::string& path);
-std::vector<Log> parse_logs(std::string_view text, const std::string& name);
 
 /// The same of a log in which contact is lost and found again: every unbroken roll with at least a reading is a log of
 /// its own, in order, each with its own first contact. Where there are several their names say the lines: "run.csv,
@@ -64,17 +68,24 @@ std::vector<Log> parse_logs(std::string_view text, const std::string& name);
 std::vector<Log> read_rolls(const std::string& path);
 std::vector<Log> parse_rolls(std::string_view text, const std::string& name);
 
-/// The same of a file that may be of one finger or of two: each roll has a log for each finger. Two fingers roll while
-/// both touch.
-std::vector<std::vector<Log>> read_rolls_of_fingers(const std::string& path);
-std::vector<std::vector<Log>> parse_rolls_of_fingers(std::string_view text, const std::string& name);
+/// Two logs of one finger each as one of two fingers, by row. Where a contact column left out rows of one of them, both
+/// are cut to the times that they share. Throws InputError: logs of different kinds, different times, different numbers
+/// of rows (naming the lines), too few rows together, or one that is of two fingers already.
+Log paired(Log a, Log b);
 
-/// time,u,psi,x,y (or time,length,turn), 17 significant digits each: reading it back gives the same bits.
-/// Throws InputError when neighbouring rows are so far apart that a reader would take the angles as wrapped.
+/// Reads two logs, one of each finger, with the same times. Throws InputError as read_log and `paired` do.
+Log read_log(const std::string& path_a, const std::string& path_b);
+
+/// time,u,psi,x,y (or time,length,turn), of two fingers time,u_a,psi_a,x_a,y_a,u_b,..., 17 significant digits each:
+/// reading it back gives the same bits. Throws InputError when columns differ in length, and when neighbouring rows are
+/// so far apart that a reader would take the angles as wrapped.
 std::string format_log(const Log& log);
 
 /// Writes that to a file, "-" for standard output. Throws InputError when it can't be written.
 void write_log(const std::string& path, const Log& log);
+
+/// One of two fingers' rows as a log of their own.
+Log one_finger(const Log& log, std::size_t finger);
 
 /// Angles without jumps. A column may be wrapped when it stays within a full turn; then each sample is moved by the
 /// multiple of 2 pi that brings it nearest to the one before. Where there are only two samples, and so nothing else to
@@ -84,20 +95,103 @@ std::vector<double> unwrapped(const std::vector<double>& angles, double rounding
                               double period = 2 * std::numbers::pi);
 
 /// The rows that are meant by these instants: each must be within half the distance of a row from its neighbours in
-/// time. No instants: the last row. Throws InputError: no such row, or a log without times.
+/// time. No instants: of one finger the last row; of two the middle row and the last, because two fingers need two
+/// readings, or only the last where the log is too short for both. Throws InputError: no such row, or a log without
+/// times.
 std::vector<std::size_t> rows_at(const Log& log, const std::vector<double>& times);
 
-/// Every row as a reading from the first contact, lengths along the outline as the user gave it.
-/// Throws InputError: u and psi without a finger.
-std::vector<Reading> readings_as_given(const Log& log, const std::optional<Finger>& finger);
+// In what follows `fingers` are those that rolled: none where they are not known, one that holds for both, or a and b.
+
+/// Every row as a reading from the first contact, lengths along the outline as the user gave it; of two fingers eqs.
+/// (7)-(9). Throws InputError: u and psi without a finger, two fingers for the log of one.
+std::vector<Reading> readings_as_given(const Log& log, const std::vector<Finger>& fingers);
 
 /// The readings at these instants (see rows_at) in the direction in which the part is stored: what `locate` takes.
-/// Throws InputError as those do, and where one row is farther from the next than is physical, naming the line: see
-/// docs/rolling.md. `noise` widens what is.
-std::vector<Reading> readings(const Log& log, const Part& part, const std::optional<Finger>& finger,
+/// Throws InputError as those do, and, naming the line, where u is beyond the ends of an open finger, and where one row
+/// is farther from the next than is physical: see docs/rolling.md. `noise` widens what is.
+std::vector<Reading> readings(const Log& log, const Part& part, const std::vector<Finger>& fingers,
                               const std::vector<double>& times = {}, const Noise& noise = {});
 
+/// (N(u) + psi) of finger a less that of finger b, u + psi of disks, at the first contacts, which is Theta(s) -
+/// Theta(t) up to whole turns, in (-pi, pi]. Nothing of one finger, and where the log does not have it: length and
+/// turn, distance and dturn. Without fingers they are disks.
+std::optional<double> facing(const Log& log, const std::vector<Finger>& fingers = {});
+
 /// How far the digits that were written can have moved such a reading, at worst: both of its rows, every increment.
-Rounding rounding_of(const Log& log, const std::optional<Finger>& finger);
+/// Of two fingers `length` is of both lengths together. The facing can't be further off than the turn.
+Rounding rounding_of(const Log& log, const std::vector<Finger>& fingers);
+
+/// One row of a log while the fingers touch, measured from the first contacts of its roll.
+struct Sample {
+  std::size_t line = 0;                       // of the log; of rows that are pushed as numbers, their count
+  std::optional<double> time;                 // seconds
+  Reading reading;                            // in the direction in which the part is stored
+  PerFinger<double> finger_curvature;         // where each touches: 1/r of a disk, 0 of a jaw; 0 where not known
+  std::optional<PerFinger<Contact>> contact;  // u and psi, unwrapped, where the log has them
+  std::optional<PerFinger<Vec2>> centre;      // of each finger in the world, where the log has it
+};
+
+/// What a line of a growing log was.
+enum class LineKind {
+  nothing,    // a comment, a blank line, the header, a row before the first contact
+  first,      // a first contact: a new roll starts (its sample has L = theta = 0 where the log has u and psi)
+  sample,     // a further row of the roll
+  lost,       // contact is lost: the roll is over
+  malformed,  // can't be read: skipped and counted
+  jump        // more than is physical since the row before: the roll is over, this row starts a new one
+};
+
+struct LogLine {
+  LineKind kind = LineKind::nothing;
+  Sample sample;        // of first, sample and jump
+  std::string message;  // of malformed and jump: "name:line: expected ..., found ..."
+};
+
+/// What a finger that touches says of one instant, as numbers.
+struct Touch {
+  double u = 0;
+  double psi = 0;
+  std::optional<double> x{};  // the finger's centre in the world: both or neither
+  std::optional<double> y{};
+};
+
+/// A log that grows, row by row, in constant memory, of one finger or of two. What read_log refuses a live stream
+/// survives: a row that can't be read, a time that does not grow, is skipped and counted. Each sample is, bit by bit,
+/// the last reading of a log that ends there. A later roll of length and turn, or of distance and dturn, is measured
+/// from its own first row, as read_rolls does. docs/rolling.md says what a jump is.
+class LogStream {
+ public:
+  /// `fingers`: for logs of u and psi. `noise`: widens what counts as a jump. `name`: for messages.
+  LogStream(std::string name, const Part& part, std::vector<Finger> fingers, const Noise& noise = {});
+  ~LogStream();
+  LogStream(LogStream&&) noexcept;
+  LogStream& operator=(LogStream&&) noexcept;
+
+  /// The next line, with or without its line end, in the format of read_log, the header included. Throws InputError: a
+  /// header that names no known columns, u and psi without a finger, not a text.
+  LogLine push(std::string_view line);
+
+  /// The next row of one finger or of two, as numbers, with the same checks. Skipped and counted is as well what
+  /// does not have what the first row has, a time or none, centres or none, as many fingers, and a line among numbers.
+  /// Throws InputError: no finger is known.
+  LogLine push(std::optional<double> time, double u, double psi, std::optional<double> x = {},
+               std::optional<double> y = {});
+  LogLine push(std::optional<double> time, const PerFinger<Touch>& fingers);
+  /// The same of an instant in which not every finger touches.
+  LogLine push_off(std::optional<double> time);
+
+  /// After a dropped connection: the next row continues the roll, however far it is, and a header may come again (of
+  /// the same kind of log; its columns may stand in another order, and the clock may have been set anew).
+  void resume();
+
+  LogKind kind() const;           // known after the header, or the first row
+  std::size_t fingers() const;    // known then: 1 or 2
+  std::size_t lines() const;      // seen
+  std::size_t malformed() const;  // of them skipped
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 }  // namespace rollfix

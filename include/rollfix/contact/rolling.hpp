@@ -1,18 +1,23 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <vector>
 
 #include "rollfix/contact/finger.hpp"
 #include "rollfix/contact/log.hpp"
+#include "rollfix/contact/noise.hpp"
+#include "rollfix/contact/pose.hpp"
 #include "rollfix/part/part.hpp"
+#include "rollfix/per_finger.hpp"
 
 namespace rollfix {
 
-/// How a robot turns a finger that touches a part. Exactly one of `distance`, `rotation` and `duration` is given.
-/// A finger that starts at a convex corner has its pivot there behind it; one that stops at one has it still ahead.
+/// How a robot turns a finger that touches a part at rest. Exactly one of `distance`, `rotation` and `duration` is
+/// given. A finger that starts at a convex corner has its pivot there behind it; one that stops at one has it still
+/// ahead.
 struct RollPlan {
   double start = 0;                // s of the first contact, along the stored outline
   double psi = 0;                  // a disk's orientation there, radians
@@ -26,11 +31,42 @@ struct RollPlan {
   std::size_t rows = 101;               // of the log, at equal times, both ends included; at least 2
 };
 
-/// A roll that was carried out. The part is at rest, its frame is the world's.
+/// One of two fingers on a part that is free to move. Exactly one of `distance` and `omega` is given, the same for
+/// both.
+struct FreeFinger {
+  Finger finger = DiskFinger{};
+  double start = 0;                     // s of the first contact, along the stored outline
+  double psi = 0;                       // a disk's orientation there, in the world, radians
+  std::optional<double> distance;       // how far its contact travels: L, below 0 for backwards, 0 for staying; or
+  std::function<double(double)> omega;  // its angular velocity in the world by time, rad/s; may change its sign
+  std::optional<double> u{};            // of any other finger than a disk: as of a roll on a part at rest
+};
+
+/// How a robot turns two fingers that touch a part, and how the part answers. All angular velocities are given, so that
+/// the contacts and the orientations follow; `velocity_a` or `velocity_part` says how everything moves along, and
+/// where neither is given finger a's centre stays where it is.
+struct FreePlan {
+  PerFinger<FreeFinger> fingers{FreeFinger{}, FreeFinger{}};
+  Pose pose;                       // the part's, at the start
+  std::optional<double> duration;  // seconds; with `omega` it must be given
+  // With distances: all turn evenly.
+  double part_rotation = 0;  // by how much the part turns meanwhile, radians
+  double speed = 1;          // without a duration: of the finger that turns the faster against the part, rad/s
+  // With `omega`:
+  std::function<double(double)> omega_part;  // the part's angular velocity by time, rad/s; none: it does not turn
+  // At most one of them, by time, per second:
+  std::function<Vec2(double)> velocity_a;     // of finger a's centre
+  std::function<Vec2(double)> velocity_part;  // of the origin of the part's frame
+  std::size_t rows = 101;                     // of the log, at equal times, both ends included; at least 2
+};
+
+/// A roll that was carried out, by one finger or by two. Entry k of everything is the instant of row k.
 struct Roll {
-  Log log;                    // what the sensors say: time, u, psi, and the finger's centre
-  std::vector<double> s;      // where the contact is, unwrapped: s[i] - s[0] is L
-  std::vector<double> angle;  // of the tangent there, unwrapped; at a corner how far the finger has pivoted
+  Log log;                               // what the sensors say: time, u, psi, and the fingers' centres in the world
+  PerFinger<std::vector<double>> s;      // where each contact is, unwrapped: s[k] - s[0] is L
+  PerFinger<std::vector<double>> angle;  // of the tangent there in the part's frame, unwrapped; at a corner how far the
+                                         // finger has pivoted
+  std::vector<Pose> pose;                // of a part that is free to move; at rest its frame is the world's: empty
 };
 
 /// Rolls a finger along a part: eqs. (1) and (2), with kappa by arc length, integrated by Runge-Kutta 5(4) with step
@@ -45,5 +81,51 @@ Roll roll(const Part& part, const Finger& finger, const RollPlan& plan);
 /// solved for s, and u = u0 - (s - s0) along the finger; of a disk N(u0) - N(u) = (s - s0) / r. Accurate to rounding
 /// and faster.
 Roll roll_in_closed_form(const Part& part, const Finger& finger, const RollPlan& plan);
+
+/// Rolls two fingers on a part that moves: eqs. (1) and (2) for each contact, with the finger's angular velocity
+/// against the part, integrated as `roll` does. Neither that a finger hits the part elsewhere nor that the fingers hit
+/// each other is checked. Throws InputError as `roll` does, and says which finger it is about.
+Roll roll_free(const Part& part, const FreePlan& plan);
+
+/// The same without integration of the contacts: see docs/rolling.md. Accurate to rounding and faster.
+Roll roll_free_in_closed_form(const Part& part, const FreePlan& plan);
+
+/// What was drawn once for a whole roll of one finger.
+struct RollError {
+  double slip = 0;    // e: the contact travelled (1 + e) times as far on the part as the finger was rolled off
+  double radius = 0;  // the disk's true radius less the one that the log's reader takes
+};
+
+/// A roll whose sensors are noisy, and how it really was. Everything follows from the seed, the same on all platforms
+/// up to the rounding of their logarithm, for each finger on its own:
+///  * slip: one normal e per roll with this standard deviation;
+///  * radius: a disk's true radius is r + N(0, radius), one per roll, and the log's reader takes r;
+///  * contact: in each row u is off by N(0, contact) along the finger, of a disk by that over r;
+///  * angle: in each row psi is off by N(0, angle).
+/// The finger's centre in the world is without error.
+struct NoisyRoll {
+  Log log;
+  Roll truth;
+  PerFinger<RollError> error;
+};
+
+/// Throws InputError as roll_in_closed_form does, and: a standard deviation that is not a number of at least 0, that of
+/// the radius of a finger that has none, or one so large that the radius came out below 0 or the slip below -1.
+NoisyRoll noisy_roll(const Part& part, const Finger& finger, const RollPlan& plan, const Noise& noise,
+                     std::uint64_t seed);
+NoisyRoll noisy_roll_free(const Part& part, const FreePlan& plan, const Noise& noise, std::uint64_t seed);
+
+/// A log of increments, as a wheel encoder and a gyroscope give them, and how it really was.
+struct NoisyIncrements {
+  Log log;                // summed up, as read_log does
+  std::vector<double> s;  // where the contact really is, of each row; the first contact is before them
+  RollError error;
+};
+
+/// From s = start over this length along the stored outline, in so many equal steps of the true length. Each distance
+/// is off by N(0, contact), each dturn by N(0, angle); slip as above. Throws InputError likewise, and: no row, a length
+/// that is not finite, a way off the ends of an open part.
+NoisyIncrements noisy_increments(const Part& part, double start, double length, std::size_t rows, const Noise& noise,
+                                 std::uint64_t seed);
 
 }  // namespace rollfix

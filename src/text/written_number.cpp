@@ -1,18 +1,19 @@
-#include "rollfix/contact/written_number.hpp"
+#include "text/written_number.hpp"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
-#include "outline/turn.hpp"
 #include "text/number.hpp"
 
 namespace rollfix {
 
 namespace {
 
+constexpr double kRadiansOfDegree = std::numbers::pi / 180;
 constexpr std::string_view kDegreeMark = "deg";
 constexpr int kMostPower = 1000;  // beyond it every double is 0 or infinite
 
@@ -40,11 +41,11 @@ std::optional<double> parse_angle(std::string_view text) {
   const bool in_degrees = strip_degrees(text);
   const std::optional<double> value = parse_number(text);
   if (!value || !in_degrees) return value;
-  return *value * kDegree;
+  return *value * kRadiansOfDegree;
 }
 
 double rounding_of(std::string_view number) {
-  const double unit = strip_degrees(number) ? kDegree : 1;
+  const double unit = strip_degrees(number) ? kRadiansOfDegree : 1;
   bool after_point = false;
   bool is_zero = true;
   int places = 0;

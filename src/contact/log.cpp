@@ -1,0 +1,292 @@
+#include "rollfix/contact/log.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "contact/log_rows.hpp"
+#include "contact/log_table.hpp"
+#include "rollfix/error.hpp"
+#include "text/text_file.hpp"
+
+namespace rollfix {
+
+namespace {
+
+/// What a reader makes of contact that is lost and found again.
+enum class Splitting { refused, into_rolls };
+
+/// Rows that a roll needs, so that there is a reading.
+std::size_t least_rows(LogKind kind, bool is_later_roll) {
+  return kind == LogKind::contact || is_later_roll ? 2 : 1;  // else the first contact lies before the rows
+}
+
+/// Makes logs of the rows that a reader gives.
+class LogMaker {
+ public:
+  LogMaker(const RowReader& reader, Splitting splitting) : reader_(reader), splitting_(splitting) {}
+
+  void take(RowKind kind, const LogRow& row) {
+    if (kind == RowKind::none) return;
+    any_row_ = true;
+    if (kind == RowKind::off) {
+      any_without_contact_ = true;
+      if (roll_.rows() > 0 && lost_line_ == 0) lost_line_ = row.line;
+      return;
+    }
+    if (lost_line_ != 0) find_again(row.line);
+    if (roll_.rows() == 0) start_roll();
+    add(row);
+  }
+
+  std::vector<Log> finish() {
+    if (!reader_.knows_columns()) {
+      throw InputError(fmt::format("{}: is empty, expected a log with a header such as 'time,u,psi'", reader_.name()));
+    }
+    const std::size_t last_rows = roll_.rows();
+    end_roll();
+    if (rolls_.empty()) {
+      const bool none_in_contact = last_rows == 0 && any_row_;
+      throw InputError(fmt::format(
+          "{}: holds {} row{} of a roll{}, expected at least {}", reader_.name(), last_rows, last_rows == 1 ? "" : "s",
+          none_in_contact ? " in contact" : "",
+          least_rows(reader_.kind(), false) == 2 ? "2: the first contact and where it went from there" : "1"));
+    }
+    for (Log& roll : rolls_) {
+      roll.contact_was_off = any_without_contact_;
+      if (rolls_.size() == 1) break;
+      const std::vector<std::size_t>& line = roll.fingers[0].line;
+      roll.name += fmt::format(", lines {} to {}", line.front(), line.back());
+    }
+    return std::move(rolls_);
+  }
+
+ private:
+  void start_roll() {
+    roll_.name = reader_.name();
+    roll_.kind = reader_.kind();
+    roll_.fingers.assign(reader_.columns().size(), FingerRows{});
+    odometers_.assign(roll_.fingers.size(), Odometer(reader_.kind(), is_later_roll_));
+  }
+
+  void add(const LogRow& row) {
+    if (row.time) roll_.time.push_back(*row.time);
+    for (std::size_t k = 0; k < roll_.fingers.size(); ++k) {
+      FingerRows& finger = roll_.fingers[k];
+      const FingerCells& cells = row.fingers[k];
+      cells.place.sharpen(finger.place_rounding);
+      cells.angle.sharpen(finger.angle_rounding);
+      if (roll_.kind == LogKind::contact) {
+        finger.u.push_back(cells.place.value);
+        finger.psi.push_back(cells.angle.value);
+      } else {
+        const Reading reading = odometers_[k].add(cells);
+        finger.length.push_back(reading.length[0]);
+        finger.turn.push_back(reading.turn);
+      }
+      if (reader_.columns()[k].has(Column::x)) {
+        finger.x.push_back(cells.x);
+        finger.y.push_back(cells.y);
+      }
+      finger.line.push_back(row.line);
+    }
+  }
+
+  /// Keeps the roll, unless it is too short to be one.
+  void end_roll() {
+    if (roll_.rows() >= least_rows(reader_.kind(), is_later_roll_)) rolls_.push_back(std::move(roll_));
+    roll_ = Log{};
+  }
+
+  void find_again(std::size_t line) {
+    if (splitting_ == Splitting::refused) {
+      throw InputError(
+          fmt::format("{}: contact is lost here and found again in line {}, expected one unbroken roll; "
+                      "split the log there, or choose one of its rolls with `roll`",
+                      where(reader_.name(), lost_line_), line));
+    }
+    end_roll();
+    is_later_roll_ = true;
+    lost_line_ = 0;
+  }
+
+  const RowReader& reader_;
+  Splitting splitting_;
+  Log roll_;  // that goes on
+  std::vector<Odometer> odometers_;
+  std::vector<Log> rolls_;
+  std::size_t lost_line_ = 0;
+  bool is_later_roll_ = false;
+  bool any_row_ = false;
+  bool any_without_contact_ = false;
+};
+
+/// Runs a stream of lines to its end.
+std::vector<Log> rolls_in(LogLines& lines, Splitting splitting) {
+  RowReader reader(lines.name());
+  LogMaker maker(reader, splitting);
+  LogRow row;
+  std::string_view line;
+  while (lines.next(line)) {
+    const RowKind kind = reader.read(line, row);
+    maker.take(kind, row);
+    if (kind != RowKind::none) reader.accept(row);
+  }
+  return maker.finish();
+}
+
+std::vector<Log> rolls_of_text(std::string_view text, const std::string& name, Splitting splitting) {
+  LogLines lines(text, name);
+  return rolls_in(lines, splitting);
+}
+
+std::vector<Log> rolls_of_file(const std::string& path, Splitting splitting) {
+  const OpenFile file = open_text(path);
+  LogLines lines(file.get(), path == "-" ? "standard input" : path);
+  return rolls_in(lines, splitting);
+}
+
+// Two clocks' readings of one instant may differ by this share of the roll's duration: rounding, not a delay.
+constexpr double kSameInstant = 1e-9;
+
+std::string columns_in(const Log& log) {
+  switch (log.kind) {
+    case LogKind::contact:
+      return "u and psi";
+    case LogKind::travelled:
+      return "length and turn";
+    case LogKind::increments:
+      break;
+  }
+  return "distance and dturn";
+}
+
+std::string row_in_file(const Log& log, std::size_t row) { return where(log.name, log.fingers[0].line[row]); }
+
+double duration_of(const Log& log) { return log.time.back() - log.time.front(); }
+
+void require_one_finger(const Log& log) {
+  if (log.fingers.size() == 1) return;
+  throw InputError(fmt::format("{}: this log is of two fingers, expected one with columns 'u' and 'psi'", log.name));
+}
+
+void require_same_kind(const Log& a, const Log& b) {
+  if (a.kind != b.kind) {
+    throw InputError(fmt::format("{} has {}, {} has {}: expected the same columns of both fingers", a.name,
+                                 columns_in(a), b.name, columns_in(b)));
+  }
+  if (a.time.empty() != b.time.empty()) {
+    throw InputError(fmt::format("{} has a column 'time' and {} has none: expected the same instants in both",
+                                 a.time.empty() ? b.name : a.name, a.time.empty() ? a.name : b.name));
+  }
+}
+
+template <class Column>
+void keep(Column& column, std::size_t from, std::size_t to) {
+  if (column.empty()) return;
+  column.erase(column.begin() + static_cast<std::ptrdiff_t>(to), column.end());
+  column.erase(column.begin(), column.begin() + static_cast<std::ptrdiff_t>(from));
+}
+
+/// The rows of a log of u and psi that lie between these times.
+void keep_between(Log& log, double first, double last) {
+  const auto from =
+      static_cast<std::size_t>(std::lower_bound(log.time.begin(), log.time.end(), first) - log.time.begin());
+  const auto to = static_cast<std::size_t>(std::upper_bound(log.time.begin(), log.time.end(), last) - log.time.begin());
+  if (to < from + 2) {
+    throw InputError(
+        fmt::format("{}: holds {} of a roll in which the other finger touches the part as well, expected "
+                    "at least 2: the first contacts and where they went from there",
+                    log.name, to <= from ? "no row" : "1 row"));
+  }
+  FingerRows& rows = log.fingers[0];
+  for (std::vector<double>* column : {&log.time, &rows.u, &rows.psi, &rows.x, &rows.y}) keep(*column, from, to);
+  keep(rows.line, from, to);
+}
+
+/// One finger may have found the part earlier or lost it later than the other.
+void keep_common_contact(Log& a, Log& b) {
+  const bool is_about_contact = a.contact_was_off || b.contact_was_off;
+  if (!is_about_contact || a.kind != LogKind::contact || a.fingers[0].line == b.fingers[0].line) return;
+  if (a.time.empty()) {
+    throw InputError(
+        fmt::format("{} and {}: rows without contact were left out and there is no column 'time', so that it is not "
+                    "known which rows "
+                    "belong together; add the times",
+                    a.name, b.name));
+  }
+  const double slack = kSameInstant * std::max(duration_of(a), duration_of(b));
+  const double first = std::max(a.time.front(), b.time.front()) - slack;
+  const double last = std::min(a.time.back(), b.time.back()) + slack;
+  keep_between(a, first, last);
+  keep_between(b, first, last);
+}
+
+void require_same_times(const Log& a, const Log& b) {
+  const double slack = a.time.empty() ? 0 : kSameInstant * std::max(duration_of(a), duration_of(b));
+  const std::size_t both = std::min(a.time.size(), b.time.size());
+  for (std::size_t k = 0; k < both; ++k) {
+    if (std::abs(a.time[k] - b.time[k]) <= slack) continue;
+    throw InputError(
+        fmt::format("{} is at the time {} and {} at {}: expected the same times in both logs, row by row; resample one "
+                    "of them",
+                    row_in_file(a, k), a.time[k], row_in_file(b, k), b.time[k]));
+  }
+}
+
+void require_same_rows(const Log& a, const Log& b) {
+  if (a.rows() == b.rows()) return;
+  const Log& longer = a.rows() > b.rows() ? a : b;
+  const Log& shorter = a.rows() > b.rows() ? b : a;
+  throw InputError(
+      fmt::format("{} has {} rows and {} has {}: expected the same instants in both, but {} has no partner", a.name,
+                  a.rows(), b.name, b.rows(), row_in_file(longer, shorter.rows())));
+}
+
+}  // namespace
+
+Log parse_log(std::string_view text, const std::string& name) {
+  return std::move(rolls_of_text(text, name, Splitting::refused).front());
+}
+
+Log read_log(const std::string& path) { return std::move(rolls_of_file(path, Splitting::refused).front()); }
+
+Log read_log(const std::string& path_a, const std::string& path_b) {
+  if (path_a == "-" && path_b == "-") {
+    throw InputError("the logs of both fingers can't come from standard input: give one of them as a file");
+  }
+  return paired(read_log(path_a), read_log(path_b));
+}
+
+std::vector<Log> parse_rolls(std::string_view text, const std::string& name) {
+  return rolls_of_text(text, name, Splitting::into_rolls);
+}
+
+std::vector<Log> read_rolls(const std::string& path) { return rolls_of_file(path, Splitting::into_rolls); }
+
+Log paired(Log a, Log b) {
+  require_one_finger(a);
+  require_one_finger(b);
+  require_same_kind(a, b);
+  keep_common_contact(a, b);
+  require_same_times(a, b);
+  require_same_rows(a, b);
+  a.fingers[0].name = a.name;
+  b.fingers[0].name = b.name;
+  a.fingers.push_back(std::move(b.fingers[0]));
+  a.contact_was_off = a.contact_was_off || b.contact_was_off;
+  return a;
+}
+
+Log one_finger(const Log& log, std::size_t finger) {
+  const FingerRows& rows = log.fingers[finger];
+  return {rows.name.empty() ? log.name : rows.name, log.kind, log.time, {rows}, log.contact_was_off};
+}
+
+}  // namespace rollfix
