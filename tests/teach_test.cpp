@@ -366,7 +366,7 @@ TEST(BadTeach, single_row_is_a_straight_open_curve_or_refused) {
 
 TEST(BadTeach, contact_log_without_a_finger_and_bad_noise_are_refused) {
   const Log log = finger_log(shape("ellipse"), 0.1, 0, 1, 20);
-  EXPECT_THAT(message_of(log), HasSubstr("--finger"));
+  EXPECT_THAT(message_of(log), HasSubstr("`finger`"));
   TeachOptions options = with_finger(0.1);
   options.noise = Noise{-1, 0, 0, 0};
   EXPECT_THAT(message_of(log, options), HasSubstr("noise of -1"));

@@ -33,7 +33,7 @@ std::vector<Interval> choices(const AngleSet& set) {
 
 /// The tangent at a contact, of two fingers a's less b's.
 std::vector<Interval> tangents_at(const Part& part, const PerFinger<double>& at) {
-  const std::vector<Interval> of_a = choices(angle_set(part, at[0]));
+  std::vector<Interval> of_a = choices(angle_set(part, at[0]));
   if (at.size() == 1) return of_a;
   std::vector<Interval> differences;
   for (const Interval& a : of_a) {

@@ -67,7 +67,10 @@ class Modes {
   // Sign changes are numbered on through all loops.
   bool exists(std::size_t number) const { return closed_ ? !changes_.empty() : number < changes_.size(); }
 
-  Span loops_before(std::size_t number) const { return loop_ * static_cast<double>(number / changes_.size()); }
+  Span loops_before(std::size_t number) const {
+    const std::size_t loops = number / changes_.size();
+    return loop_ * static_cast<double>(loops);
+  }
 
   Position position_of(std::size_t number) const {
     return changes_[number % changes_.size()].at.moved_by(loops_before(number));

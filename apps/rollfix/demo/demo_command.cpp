@@ -203,7 +203,7 @@ void perform(const TwoFingers& story, Stage& stage) {
   RollArguments arguments;
   arguments.part.part = story.part;
   // The paper's readings know nothing of the fingers' size: without it all of its pairs are there.
-  for (const std::size_t count : {2U, 3U}) {
+  for (const std::ptrdiff_t count : {2, 3}) {
     Words words{"locate", story.part};
     arguments.readings.assign(story.readings.begin(), story.readings.begin() + count);
     for (const std::string& reading : arguments.readings) words.insert(words.end(), {"--reading", reading});
