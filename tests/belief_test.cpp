@@ -357,8 +357,8 @@ TEST(PoseSpread, holds_the_true_pose_as_often_as_it_should) {
     Belief belief = belief_in(part, log, radius, with(noise));
     const rollfix::Contact first{log.fingers[0].u.front(), log.fingers[0].psi.front()};
     const double towards = first.facing();
-    const rollfix::Vec2 where =
-        rollfix::Vec2(log.fingers[0].x.front(), log.fingers[0].y.front()) + radius * rollfix::Vec2(std::cos(towards), std::sin(towards));
+    const rollfix::Vec2 where = rollfix::Vec2(log.fingers[0].x.front(), log.fingers[0].y.front()) +
+                                radius * rollfix::Vec2(std::cos(towards), std::sin(towards));
     const Mode* mode = mode_at(belief.modes(), start, part);
     ASSERT_NE(mode, nullptr);
     const auto index = static_cast<std::size_t>(mode - belief.modes().data());

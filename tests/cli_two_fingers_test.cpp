@@ -12,12 +12,12 @@
 #include "answer/observation.hpp"
 #include "cli.hpp"
 #include "rollfix/answer/solve.hpp"
-#include "rollfix/answer_output.hpp"
+#include "rollfix/arguments/finger_argument.hpp"
+#include "rollfix/arguments/roll_arguments.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/finger_argument.hpp"
 #include "rollfix/outline/gallery.hpp"
 #include "rollfix/outline/primitives.hpp"
-#include "rollfix/roll_arguments.hpp"
+#include "rollfix/output/answer_output.hpp"
 
 namespace cli_two_fingers_test {
 namespace {

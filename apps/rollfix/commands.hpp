@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <iosfwd>
 
-#include "rollfix/report.hpp"
+#include "rollfix/output/report.hpp"
 
 namespace rollfix::app {
 

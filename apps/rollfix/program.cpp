@@ -4,15 +4,16 @@
 #include <algorithm>
 #include <array>
 #include <boost/algorithm/string/replace.hpp>
+#include <cctype>
 #include <exception>
 #include <iostream>
 #include <ostream>
 #include <string>
+#include <string_view>
 
-#include "rollfix/argument_list.hpp"
 #include "rollfix/commands.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/report.hpp"
+#include "rollfix/output/report.hpp"
 #include "rollfix/usage.hpp"
 #include "rollfix/version.hpp"
 
@@ -40,6 +41,33 @@ std::string with_options(std::string text) {
     boost::replace_all(text, "`" + field + "`", "--" + boost::replace_all_copy(field, "_", "-"));
   }
   return text;
+}
+
+bool is_long_option_without_value(std::string_view argument) {
+  return argument.size() > 2 && argument.substr(0, 2) == "--" && argument.find('=') == std::string_view::npos;
+}
+
+/// A minus and a digit or a point; also -inf and -nan, so that the error is about the number.
+bool starts_like_a_negative_number(std::string_view argument) {
+  if (argument.size() < 2 || argument.front() != '-') return false;
+  const std::string_view rest = argument.substr(1);
+  const auto second = static_cast<unsigned char>(rest.front());
+  return std::isdigit(second) != 0 || second == '.' || rest.substr(0, 3) == "inf" || rest.substr(0, 3) == "nan";
+}
+
+/// Makes of an option followed by a negative number one argument: --reading -0.5,1 becomes --reading=-0.5,1, which
+/// can't be taken for another option.
+std::vector<std::string> with_negative_values_attached(const std::vector<std::string>& arguments) {
+  std::vector<std::string> result;
+  for (const std::string& argument : arguments) {
+    const bool belongs_to_last = !result.empty() && is_long_option_without_value(result.back());
+    if (belongs_to_last && starts_like_a_negative_number(argument)) {
+      result.back() += "=" + argument;
+    } else {
+      result.push_back(argument);
+    }
+  }
+  return result;
 }
 
 /// "inspect, locate or demo".

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/report.hpp"
+#include "rollfix/output/report.hpp"
 
 namespace rollfix::app {
 

@@ -4,16 +4,16 @@
 #include <string>
 #include <vector>
 
+#include "rollfix/arguments/finger_argument.hpp"
+#include "rollfix/arguments/output_argument.hpp"
+#include "rollfix/arguments/roll_arguments.hpp"
+#include "rollfix/arguments/typed_number.hpp"
 #include "rollfix/commands.hpp"
 #include "rollfix/contact/log.hpp"
 #include "rollfix/contact/teach.hpp"
 #include "rollfix/draw/part_figure.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/finger_argument.hpp"
-#include "rollfix/inspect_outcome.hpp"
-#include "rollfix/output_argument.hpp"
-#include "rollfix/roll_arguments.hpp"
-#include "rollfix/typed_number.hpp"
+#include "rollfix/inspect/inspect_outcome.hpp"
 #include "rollfix/usage.hpp"
 
 namespace rollfix::app {

@@ -83,7 +83,7 @@ Tolerance tolerance_from_noise(double value) {
 Tolerance tolerance_given(double value) {
   if (!(value >= 0))
     throw InputError(fmt::format("`tolerance`: {} is negative, expected an angle of at least 0", value));
-  if (value < kTurnAccuracy) return {kTurnAccuracy, Tolerance::Source::least};
+  if (value < kLeastTolerance) return {kLeastTolerance, Tolerance::Source::least};
   return {value, Tolerance::Source::given};
 }
 

@@ -64,33 +64,33 @@ struct LogStream::State {
   Steps measure(Sample& sample);
   Reading measure_contact(std::size_t which, Sample& sample, Reading& before);
 
-  LogRow row;
-  std::optional<RollCheck> check;  // none before the columns are known
-  std::vector<OngoingRoll> rolls;  // of each finger; none while there is no contact
-  bool is_later_roll = false;
+  LogRow row_;
+  std::optional<RollCheck> check_;  // none before the columns are known
+  std::vector<OngoingRoll> rolls_;  // of each finger; none while there is no contact
+  bool is_later_roll_ = false;
 };
 
 void LogStream::State::start() {
   require_fingers(fingers, count(), kind() == LogKind::contact, reader.name());
-  check.emplace(part, kind(), fingers, count(), noise);
+  check_.emplace(part, kind(), fingers, count(), noise);
 }
 
 template <class Read>
 LogLine LogStream::State::push(const Read& read) {
   RowKind found = RowKind::none;
   try {
-    found = read(reader, row);
+    found = read(reader, row_);
   } catch (const InputError& error) {
     if (!reader.knows_columns()) throw;
     return skip(error);
   }
-  if (!check && reader.knows_columns()) start();
+  if (!check_ && reader.knows_columns()) start();
   LogLine result;
   if (found == RowKind::none) return result;
   if (found == RowKind::off) {
-    reader.accept(row);
-    if (!rolls.empty()) result.kind = LineKind::lost;
-    rolls.clear();
+    reader.accept(row_);
+    if (!rolls_.empty()) result.kind = LineKind::lost;
+    rolls_.clear();
     return result;
   }
   try {
@@ -98,7 +98,7 @@ LogLine LogStream::State::push(const Read& read) {
   } catch (const InputError& error) {
     return skip(error);
   }
-  reader.accept(row);
+  reader.accept(row_);
   return take();
 }
 
@@ -111,23 +111,23 @@ LogLine LogStream::State::skip(const InputError& error) {
 }
 
 void LogStream::State::begin_roll() {
-  rolls.clear();
-  for (std::size_t k = 0; k < count(); ++k) rolls.emplace_back(kind(), finger_of(fingers, k), is_later_roll);
-  is_later_roll = true;
-  check->restart();
+  rolls_.clear();
+  for (std::size_t k = 0; k < count(); ++k) rolls_.emplace_back(kind(), finger_of(fingers, k), is_later_roll_);
+  is_later_roll_ = true;
+  check_->restart();
 }
 
 void LogStream::State::require_on_finger() const {
   for (std::size_t k = 0; k < count() && kind() == LogKind::contact; ++k) {
-    const WrittenValue& u = row.fingers[k].place;
-    const auto why = check->off_finger(k, u.value, u.half_unit);
-    if (why) throw InputError(fmt::format("{}: {}", where(reader.name(), row.line), *why));
+    const WrittenValue& u = row_.fingers[k].place;
+    const auto why = check_->off_finger(k, u.value, u.half_unit);
+    if (why) throw InputError(fmt::format("{}: {}", where(reader.name(), row_.line), *why));
   }
 }
 
 Reading LogStream::State::measure_contact(std::size_t which, Sample& sample, Reading& before) {
-  OngoingRoll& roll = rolls[which];
-  const FingerCells& cells = row.fingers[which];
+  OngoingRoll& roll = rolls_[which];
+  const FingerCells& cells = row_.fingers[which];
   const Finger& finger = *finger_of(fingers, which);
   cells.place.sharpen(roll.place_rounding);
   cells.angle.sharpen(roll.angle_rounding);
@@ -144,10 +144,10 @@ Reading LogStream::State::measure_contact(std::size_t which, Sample& sample, Rea
 Steps LogStream::State::measure(Sample& sample) {
   Steps steps{PerFinger<Reading>::of(count()), PerFinger<Reading>::of(count())};
   for (std::size_t k = 0; k < count(); ++k) {
-    steps.before[k] = rolls[k].last;
+    steps.before[k] = rolls_[k].last;
     steps.now[k] = kind() == LogKind::contact ? measure_contact(k, sample, steps.before[k])
-                                              : in_stored_direction(rolls[k].odometer.add(row.fingers[k]), part);
-    rolls[k].last = steps.now[k];
+                                              : in_stored_direction(rolls_[k].odometer.add(row_.fingers[k]), part);
+    rolls_[k].last = steps.now[k];
   }
   sample.reading = together(steps.now);
   return steps;
@@ -156,34 +156,34 @@ Steps LogStream::State::measure(Sample& sample) {
 LogLine LogStream::State::take() {
   LogLine result;
   Sample& sample = result.sample;
-  sample.line = row.line;
-  sample.time = row.time;
+  sample.line = row_.line;
+  sample.time = row_.time;
   sample.finger_curvature = PerFinger<double>::of(count());
   if (kind() == LogKind::contact) sample.contact = PerFinger<Contact>::of(count());
   if (reader.has_centre()) sample.centre = PerFinger<Vec2>::of(count(), Vec2::Zero());
   for (std::size_t k = 0; k < count(); ++k) {
     const Finger* const finger = finger_of(fingers, k);
     if (finger != nullptr && finger->is_disk()) sample.finger_curvature[k] = finger->curvature(0);
-    if (sample.centre) (*sample.centre)[k] = Vec2(row.fingers[k].x, row.fingers[k].y);
+    if (sample.centre) (*sample.centre)[k] = Vec2(row_.fingers[k].x, row_.fingers[k].y);
   }
-  const auto lines = PerFinger<std::size_t>::of(count(), row.line);
-  result.kind = rolls.empty() ? LineKind::first : LineKind::sample;
-  if (rolls.empty()) begin_roll();
+  const auto lines = PerFinger<std::size_t>::of(count(), row_.line);
+  result.kind = rolls_.empty() ? LineKind::first : LineKind::sample;
+  if (rolls_.empty()) begin_roll();
   Steps steps = measure(sample);
-  if (const auto jump = check->jump(lines, steps.before, steps.now, row.time)) {
+  if (const auto jump = check_->jump(lines, steps.before, steps.now, row_.time)) {
     result.kind = LineKind::jump;
     result.message =
-        fmt::format("{}: expected a roll that goes on, found a jump: {}", where(reader.name(), row.line), jump->why);
+        fmt::format("{}: expected a roll that goes on, found a jump: {}", where(reader.name(), row_.line), jump->why);
     begin_roll();
     steps = measure(sample);
-    check->jump(lines, steps.before, steps.now, row.time);  // the next row is compared with this one
+    check_->jump(lines, steps.before, steps.now, row_.time);  // the next row is compared with this one
   }
   return result;
 }
 
 void LogStream::State::resume() {
   reader.resume();
-  if (check) check->skip();
+  if (check_) check_->skip();
 }
 
 LogStream::LogStream(std::string name, const Part& part, std::vector<Finger> fingers, const Noise& noise)

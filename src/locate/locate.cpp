@@ -89,7 +89,7 @@ Interval first_contacts(const Question& question, std::size_t finger) {
 Search locate(const Part& part, const std::vector<Reading>& readings, const LocateOptions& options) {
   require_enough(readings, options);
   LocateOptions clamped = options;
-  clamped.tolerance = std::max(options.tolerance, kTurnAccuracy);
+  clamped.tolerance = std::max(options.tolerance, kLeastTolerance);
   Question question{part, readings};
   // Whole turns are nothing to it, and a huge angle's would be lost in rounding.
   if (options.facing) question.facing = std::remainder(*options.facing, kFullTurn);

@@ -25,7 +25,7 @@ class Sweep {
 
   void run(const Interval& range) {
     if (range.width() <= same_place_) {
-      look_at(range.lo);
+      look_at(range);
       return;
     }
     Cursor start = Cursor::ahead(turning_, range.lo);
@@ -68,12 +68,15 @@ class Sweep {
   }
 
  private:
-  /// An open curve that is just as long as the roll has a single place for it.
-  void look_at(double s) {
+  /// A single place: what an open curve has for a roll of its own length, or what another reading's least tolerance
+  /// left. Across it f changes by its slope.
+  void look_at(const Interval& place) {
     const std::vector<Reading> only{reading_};
+    const double s = place.middle();
     const double residual = residual_at({part_, only}, s);
-    if (residual > tolerance_) return;
-    findings_.pieces.push_back({s, s});
+    const double slope = std::abs(turning_.curvature(s)) + std::abs(turning_.curvature(s + length_));
+    if (residual > tolerance_ + 0.5 * place.width() * slope) return;
+    findings_.pieces.push_back({place.lo, place.hi});
     findings_.roots.push_back({s, residual <= kTurnAccuracy});
   }
 

@@ -8,13 +8,13 @@
 #include <system_error>
 
 #include "rollfix/answer/solve.hpp"
+#include "rollfix/arguments/output_argument.hpp"
+#include "rollfix/arguments/roll_arguments.hpp"
 #include "rollfix/commands.hpp"
 #include "rollfix/demo/demo_parts.hpp"
 #include "rollfix/draw/answer_figure.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/output_argument.hpp"
 #include "rollfix/program.hpp"
-#include "rollfix/roll_arguments.hpp"
 
 namespace rollfix::app {
 namespace {

@@ -4,14 +4,14 @@
 
 #include "answer/observation.hpp"
 #include "rollfix/answer/solve.hpp"
-#include "rollfix/answer_output.hpp"
+#include "rollfix/arguments/finger_argument.hpp"
+#include "rollfix/arguments/output_argument.hpp"
+#include "rollfix/arguments/roll_arguments.hpp"
 #include "rollfix/commands.hpp"
 #include "rollfix/draw/answer_figure.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/finger_argument.hpp"
-#include "rollfix/march/locate_by_march.hpp"
-#include "rollfix/output_argument.hpp"
-#include "rollfix/roll_arguments.hpp"
+#include "rollfix/locate/locate_by_march.hpp"
+#include "rollfix/output/answer_output.hpp"
 #include "rollfix/usage.hpp"
 
 namespace rollfix::app {

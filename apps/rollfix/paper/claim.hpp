@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/json_output.hpp"
+#include "rollfix/output/json_output.hpp"
 
 namespace rollfix::app {
 

@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "rollfix/commands.hpp"
+#include "rollfix/output/table.hpp"
 #include "rollfix/paper/claim.hpp"
-#include "rollfix/table.hpp"
 #include "rollfix/usage.hpp"
 
 namespace rollfix::app {

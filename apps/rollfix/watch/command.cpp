@@ -12,12 +12,12 @@
 #include <string>
 #include <vector>
 
+#include "rollfix/arguments/finger_argument.hpp"
+#include "rollfix/arguments/part_argument.hpp"
+#include "rollfix/arguments/roll_arguments.hpp"
+#include "rollfix/arguments/typed_number.hpp"
 #include "rollfix/commands.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/finger_argument.hpp"
-#include "rollfix/part_argument.hpp"
-#include "rollfix/roll_arguments.hpp"
-#include "rollfix/typed_number.hpp"
 #include "rollfix/usage.hpp"
 #include "rollfix/watch/source.hpp"
 #include "rollfix/watch/writer.hpp"

@@ -5,8 +5,8 @@
 #include <boost/asio/post.hpp>
 #include <thread>
 
+#include "rollfix/arguments/typed_number.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/typed_number.hpp"
 #include "rollfix/watch/source.hpp"
 
 namespace rollfix::app {

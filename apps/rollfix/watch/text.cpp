@@ -6,9 +6,9 @@
 #include <ostream>
 #include <utility>
 
-#include "rollfix/answer_output.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/table.hpp"
+#include "rollfix/output/answer_output.hpp"
+#include "rollfix/output/table.hpp"
 #include "rollfix/watch/writer.hpp"
 #include "text/text.hpp"
 

@@ -59,7 +59,7 @@ class WatchListener {
 
 /// How a growing log is watched.
 struct WatchOptions {
-  std::string name;              // of the log, for messages
+  std::string name;             // of the log, for messages
   std::vector<Finger> fingers;  // for logs of u and psi: at most one
   BeliefOptions belief;
   std::size_t every = 0;  // tell every so many samples; 0: when there is news

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@ struct Felt {
   Felt(Log of_roll) : log(std::move(of_roll)) {}                        // NOLINT: a log is what was felt
   Felt(Reading reading) : readings{std::move(reading)} {}               // NOLINT
   Felt(std::vector<Reading> of_roll) : readings(std::move(of_roll)) {}  // NOLINT
+  Felt(std::initializer_list<Reading> of_roll) : readings(of_roll) {}
 
   std::vector<Reading> readings;  // each measured from the first contacts; or
   std::optional<Log> log;

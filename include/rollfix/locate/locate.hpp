@@ -10,8 +10,12 @@
 
 namespace rollfix {
 
+/// The least tolerance that is used, radians: |f| at a root, up to four tangents each with its rounding. Below it,
+/// whether a root of one reading fits another would be decided by rounding.
+inline constexpr double kLeastTolerance = 4e-12;
+
 struct LocateOptions {
-  double tolerance = 1e-9;       // radians: how far |f_k| may be from 0; at least kTurnAccuracy is used
+  double tolerance = 1e-9;       // radians: how far |f_k| may be from 0; at least kLeastTolerance is used
   std::size_t budget = 1000000;  // intervals (of two fingers boxes) to look at, beyond the part's own, before giving up
   // Of two fingers, the facing equation: Theta(s0) - Theta(t0) = facing mod 2 pi, facing = (u + psi)_a - (u + psi)_b.
   std::optional<double> facing{};

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "rollfix/answer/answer.hpp"
-#include "rollfix/part_argument.hpp"
+#include "rollfix/arguments/part_argument.hpp"
 
 namespace rollfix::app {
 

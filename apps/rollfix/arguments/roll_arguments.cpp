@@ -1,4 +1,4 @@
-#include "rollfix/roll_arguments.hpp"
+#include "rollfix/arguments/roll_arguments.hpp"
 
 #include <fmt/format.h>
 
@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "outline/turn.hpp"
+#include "rollfix/arguments/finger_argument.hpp"
+#include "rollfix/arguments/typed_number.hpp"
 #include "rollfix/contact/log.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/finger_argument.hpp"
-#include "rollfix/typed_number.hpp"
 #include "rollfix/usage.hpp"
 #include "text/text.hpp"
 #include "text/written_number.hpp"
@@ -198,8 +198,7 @@ std::optional<Prior> read_prior(const std::string& text) {
   return prior;
 }
 
-Log read_roll(const std::vector<std::string>& paths, const std::string& roll,
-                           std::vector<std::string>& notes) {
+Log read_roll(const std::vector<std::string>& paths, const std::string& roll, std::vector<std::string>& notes) {
   const std::size_t number = roll.empty() ? 0 : read_count(roll, "--roll", 1);
   if (paths.size() != 1) {
     if (number > 0) throw InputError("--roll chooses from one log, and --log is given more than once; split the logs");
@@ -214,15 +213,16 @@ Log read_roll(const std::vector<std::string>& paths, const std::string& roll,
   const std::size_t chosen = number > 0 ? number : count;
   Log log = std::move(rolls[chosen - 1]);
   if (count > 1) {
-    notes.push_back(fmt::format("{}: roll {} of {}{}", log.name, chosen, count,
-                                number > 0 ? "" : "; --roll N takes another"));
+    notes.push_back(
+        fmt::format("{}: roll {} of {}{}", log.name, chosen, count, number > 0 ? "" : "; --roll N takes another"));
   }
   return log;
 }
 
 Problem read_problem(const RollArguments& arguments, std::vector<std::string>& notes) {
   require_sensible(arguments);
-  Felt felt = arguments.logs.empty() ? read_readings(arguments) : Felt(read_roll(arguments.logs, arguments.roll, notes));
+  Felt felt =
+      arguments.logs.empty() ? read_readings(arguments) : Felt(read_roll(arguments.logs, arguments.roll, notes));
   const bool of_two = felt.is_log() ? felt.log->fingers.size() == 2 : felt.readings.front().fingers() == 2;
   if (!arguments.facing.empty()) {
     if (!of_two) throw InputError("--facing compares two fingers: expected --reading LA,LB,THETA with it");

@@ -1,4 +1,4 @@
-#include "rollfix/typed_number.hpp"
+#include "rollfix/arguments/typed_number.hpp"
 
 #include <fast_float/fast_float.h>
 #include <fmt/format.h>
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <optional>
 
-#include "text/written_number.hpp"
 #include "rollfix/error.hpp"
 #include "text/text.hpp"
+#include "text/written_number.hpp"
 
 namespace rollfix::app {
 double read_number(std::string_view text, const std::string& what) {

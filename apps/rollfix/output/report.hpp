@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/files.hpp"
+#include "rollfix/output/files.hpp"
 
 namespace rollfix::app {
 

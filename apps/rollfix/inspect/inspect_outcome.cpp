@@ -1,12 +1,12 @@
-#include "rollfix/inspect_outcome.hpp"
+#include "rollfix/inspect/inspect_outcome.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "rollfix/answer_output.hpp"
-#include "rollfix/table.hpp"
+#include "rollfix/output/answer_output.hpp"
+#include "rollfix/output/table.hpp"
 
 namespace rollfix::app {
 namespace {

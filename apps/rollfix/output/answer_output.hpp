@@ -3,8 +3,8 @@
 #include <string>
 
 #include "rollfix/answer/answer.hpp"
-#include "rollfix/json_output.hpp"
-#include "rollfix/report.hpp"
+#include "rollfix/output/json_output.hpp"
+#include "rollfix/output/report.hpp"
 
 namespace rollfix::app {
 

@@ -2,12 +2,12 @@
 
 #include <optional>
 
+#include "rollfix/arguments/finger_argument.hpp"
+#include "rollfix/arguments/typed_number.hpp"
 #include "rollfix/contact/log.hpp"
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/finger_argument.hpp"
-#include "rollfix/simulation.hpp"
-#include "rollfix/typed_number.hpp"
+#include "rollfix/simulate/simulation.hpp"
 
 namespace rollfix::app {
 namespace {

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "rollfix/arguments/part_argument.hpp"
 #include "rollfix/contact/finger.hpp"
 #include "rollfix/contact/rolling.hpp"
+#include "rollfix/output/report.hpp"
 #include "rollfix/part/part.hpp"
-#include "rollfix/part_argument.hpp"
-#include "rollfix/report.hpp"
 
 namespace rollfix::app {
 

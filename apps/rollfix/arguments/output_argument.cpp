@@ -1,4 +1,4 @@
-#include "rollfix/output_argument.hpp"
+#include "rollfix/arguments/output_argument.hpp"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 
 #include "rollfix/draw/svg.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/files.hpp"
 #include "rollfix/files/saved_part.hpp"
+#include "rollfix/output/files.hpp"
 #include "rollfix/usage.hpp"
 
 namespace rollfix::app {

@@ -1,4 +1,4 @@
-#include "rollfix/files.hpp"
+#include "rollfix/output/files.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>

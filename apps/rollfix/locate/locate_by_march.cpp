@@ -1,4 +1,4 @@
-#include "rollfix/march/locate_by_march.hpp"
+#include "rollfix/locate/locate_by_march.hpp"
 
 #include <fmt/format.h>
 
@@ -6,11 +6,11 @@
 #include <cmath>
 #include <string>
 
-#include "rollfix/answer_output.hpp"
+#include "rollfix/arguments/typed_number.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/march/march_pairs.hpp"
-#include "rollfix/table.hpp"
-#include "rollfix/typed_number.hpp"
+#include "rollfix/output/answer_output.hpp"
+#include "rollfix/output/table.hpp"
 #include "rollfix/usage.hpp"
 
 namespace rollfix::app {

@@ -3,13 +3,13 @@
 #include <memory>
 
 #include "rollfix/answer/solve.hpp"
+#include "rollfix/arguments/finger_argument.hpp"
+#include "rollfix/arguments/output_argument.hpp"
+#include "rollfix/arguments/part_argument.hpp"
 #include "rollfix/commands.hpp"
 #include "rollfix/draw/part_figure.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/finger_argument.hpp"
-#include "rollfix/inspect_outcome.hpp"
-#include "rollfix/output_argument.hpp"
-#include "rollfix/part_argument.hpp"
+#include "rollfix/inspect/inspect_outcome.hpp"
 #include "rollfix/usage.hpp"
 
 namespace rollfix::app {

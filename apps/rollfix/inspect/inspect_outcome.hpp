@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "rollfix/answer/part_facts.hpp"
+#include "rollfix/arguments/finger_argument.hpp"
 #include "rollfix/files/load_part.hpp"
-#include "rollfix/finger_argument.hpp"
-#include "rollfix/json_output.hpp"
+#include "rollfix/output/json_output.hpp"
 #include "rollfix/part/reach.hpp"
 
 namespace rollfix::app {

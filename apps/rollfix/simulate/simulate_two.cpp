@@ -3,12 +3,12 @@
 #include <array>
 #include <optional>
 
+#include "rollfix/arguments/finger_argument.hpp"
+#include "rollfix/arguments/typed_number.hpp"
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/finger_argument.hpp"
-#include "rollfix/simulation.hpp"
-#include "rollfix/table.hpp"
-#include "rollfix/typed_number.hpp"
+#include "rollfix/output/table.hpp"
+#include "rollfix/simulate/simulation.hpp"
 
 namespace rollfix::app {
 namespace {

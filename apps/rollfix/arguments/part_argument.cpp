@@ -1,11 +1,11 @@
-#include "rollfix/part_argument.hpp"
+#include "rollfix/arguments/part_argument.hpp"
 
 #include <fmt/format.h>
 
 #include <utility>
 
+#include "rollfix/arguments/typed_number.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/typed_number.hpp"
 #include "rollfix/usage.hpp"
 
 namespace rollfix::app {
@@ -60,6 +60,7 @@ LoadedPart load(const PartArgument& argument) {
 Part load_part(const PartArgument& argument, std::vector<std::string>& notes) {
   LoadedPart loaded = load(argument);
   notes.insert(notes.end(), loaded.notes.begin(), loaded.notes.end());
+  if (loaded.loops.size() > 1 && argument.loop.empty()) notes.emplace_back("rollfix inspect lists all loops");
   return std::move(loaded.part);
 }
 

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <memory>
 
+#include "rollfix/arguments/finger_argument.hpp"
+#include "rollfix/arguments/part_argument.hpp"
+#include "rollfix/arguments/roll_arguments.hpp"
 #include "rollfix/commands.hpp"
-#include "rollfix/finger_argument.hpp"
-#include "rollfix/part_argument.hpp"
-#include "rollfix/roll_arguments.hpp"
-#include "rollfix/simulation.hpp"
+#include "rollfix/simulate/simulation.hpp"
 #include "rollfix/usage.hpp"
 
 namespace rollfix::app {

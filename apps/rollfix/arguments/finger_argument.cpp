@@ -1,13 +1,13 @@
-#include "rollfix/finger_argument.hpp"
+#include "rollfix/arguments/finger_argument.hpp"
 
 #include <fmt/format.h>
 
 #include <cctype>
 #include <string_view>
 
+#include "rollfix/arguments/typed_number.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/files/load_part.hpp"
-#include "rollfix/typed_number.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::app {

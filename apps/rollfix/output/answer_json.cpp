@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rollfix/answer_output.hpp"
+#include "rollfix/output/answer_output.hpp"
 
 namespace rollfix::app {
 namespace {

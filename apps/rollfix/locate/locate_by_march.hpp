@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "rollfix/output/report.hpp"
 #include "rollfix/part/part.hpp"
-#include "rollfix/report.hpp"
 
 namespace rollfix::app {
 

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "outline/turn.hpp"
-#include "rollfix/answer_output.hpp"
-#include "rollfix/table.hpp"
+#include "rollfix/output/answer_output.hpp"
+#include "rollfix/output/table.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::app {

@@ -1,4 +1,4 @@
-#include "rollfix/table.hpp"
+#include "rollfix/output/table.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "rollfix/json_output.hpp"
+#include "rollfix/output/json_output.hpp"
 
 #include <cmath>
 

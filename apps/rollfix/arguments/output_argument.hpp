@@ -5,8 +5,8 @@
 #include <string>
 
 #include "rollfix/draw/svg.hpp"
+#include "rollfix/output/report.hpp"
 #include "rollfix/part/part.hpp"
-#include "rollfix/report.hpp"
 
 namespace rollfix::app {
 

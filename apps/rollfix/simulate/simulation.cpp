@@ -1,4 +1,4 @@
-#include "rollfix/simulation.hpp"
+#include "rollfix/simulate/simulation.hpp"
 
 #include <fmt/format.h>
 
@@ -6,12 +6,12 @@
 #include <numbers>
 
 #include "rollfix/answer/solve.hpp"
-#include "rollfix/answer_output.hpp"
+#include "rollfix/arguments/finger_argument.hpp"
+#include "rollfix/arguments/roll_arguments.hpp"
+#include "rollfix/arguments/typed_number.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/finger_argument.hpp"
-#include "rollfix/roll_arguments.hpp"
-#include "rollfix/table.hpp"
-#include "rollfix/typed_number.hpp"
+#include "rollfix/output/answer_output.hpp"
+#include "rollfix/output/table.hpp"
 
 namespace rollfix::app {
 namespace {
