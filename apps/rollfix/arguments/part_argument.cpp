@@ -60,7 +60,7 @@ LoadedPart load(const PartArgument& argument) {
 Part load_part(const PartArgument& argument, std::vector<std::string>& notes) {
   LoadedPart loaded = load(argument);
   notes.insert(notes.end(), loaded.notes.begin(), loaded.notes.end());
-  if (loaded.loops.size() > 1 && argument.loop.empty()) notes.emplace_back("rollfix inspect lists all loops");
+  if (loaded.loops.size() > 1 && argument.loop.empty()) notes.emplace_back("inspect lists all loops");
   return std::move(loaded.part);
 }
 

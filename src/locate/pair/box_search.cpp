@@ -46,6 +46,22 @@ Vec2 chord(const BoxSide& side, std::size_t p, std::size_t q) {
   return {one.last - one.first, two.last - two.first};
 }
 
+/// A convex set of pairs, with a place in it.
+PairPiece piece_around(const PairBoxSides& sides, const Polygon& extent, const Vec2& inner) {
+  Vec2 least = inner;
+  Vec2 most = inner;
+  for (const Vec2& x : extent) {
+    least = least.cwiseMin(x);
+    most = most.cwiseMax(x);
+  }
+  PairPiece piece;
+  piece.box = {Interval{sides.a.s(least.x()), sides.a.s(most.x())},
+               Interval{sides.b.s(least.y()), sides.b.s(most.y())}};
+  piece.corner = sides.pivots();
+  for (const Vec2& x : extent) piece.hull.push_back({sides.a.s(x.x()), sides.b.s(x.y())});
+  return piece;
+}
+
 }  // namespace
 
 BoxSearch::BoxSearch(RollCurve& a, RollCurve& b, const PairLimits& limits, std::size_t budget, PairFindings& findings)
@@ -225,19 +241,10 @@ bool BoxSearch::take_regular(const PairBoxSides& sides, const PairLimits& limits
   if (extent.empty() && !(inside && exact)) return true;
   if (extent.empty()) extent.push_back(at);
   const Vec2 root(std::clamp(at.x(), lo.x(), hi.x()), std::clamp(at.y(), lo.y(), hi.y()));
-  Vec2 least = inside ? root : extent.front();
-  Vec2 most = least;
-  for (const Vec2& x : extent) {
-    least = least.cwiseMin(x);
-    most = most.cwiseMax(x);
+  if (!limits.covered) {
+    findings_.pieces.push_back(piece_around(sides, extent, inside ? root : extent.front()));
+    findings_.pieces.back().error = 0.25 * bend * reach.minCoeff();
   }
-  PairPiece piece;
-  piece.box = {Interval{sides.a.s(least.x()), sides.a.s(most.x())},
-               Interval{sides.b.s(least.y()), sides.b.s(most.y())}};
-  piece.corner = sides.pivots();
-  for (const Vec2& x : extent) piece.hull.push_back({sides.a.s(x.x()), sides.b.s(x.y())});
-  piece.error = 0.25 * bend * reach.minCoeff();
-  if (!limits.covered) findings_.pieces.push_back(piece);
   if (inside && (exact || !limits.covered)) {
     const PairPoint start{sides.a.s(root.x()), sides.b.s(root.y())};
     findings_.roots.push_back({start, jacobian.determinant() > 0 ? 1 : -1, sides.pivots(), exact});

@@ -5,34 +5,12 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
+#include <utility>
+
+#include "family_line.hpp"
 
 namespace rollfix {
 namespace {
-
-// A family's line keeps no point that is closer than this share of the perimeter to the line through the others.
-constexpr double kFamilyDetail = 1e-7;
-// Lines that end closer together than this share of the perimeter continue each other.
-constexpr double kJointWidth = 1e-8;
-
-using Shift = std::array<double, 2>;  // whole periods
-
-struct Link {
-  std::size_t to;
-  Shift shift;  // added to the other piece brings it here
-};
-
-double distance(const PairPoint& one, const PairPoint& two) { return std::hypot(one[0] - two[0], one[1] - two[1]); }
-
-PairPoint moved(const PairPoint& point, const Shift& shift) { return {point[0] + shift[0], point[1] + shift[1]}; }
-
-/// The part of a segment nearest to a point.
-PairPoint nearest_on(const PairPoint& a, const PairPoint& b, const PairPoint& p) {
-  const double x = b[0] - a[0];
-  const double y = b[1] - a[1];
-  const double square = x * x + y * y;
-  const double share = square > 0 ? std::clamp(((p[0] - a[0]) * x + (p[1] - a[1]) * y) / square, 0.0, 1.0) : 0;
-  return {a[0] + share * x, a[1] + share * y};
-}
 
 /// Does a segment come closer than `slack` to a box?
 bool segment_meets(const PairPoint& a, const PairPoint& b, const PairBox& box, double slack) {
@@ -50,10 +28,6 @@ bool segment_meets(const PairPoint& a, const PairPoint& b, const PairBox& box, d
     hi = std::min(hi, std::max(least / step, most / step));
   }
   return lo <= hi;
-}
-
-PairBox moved(const PairBox& box, const Shift& shift) {
-  return {Interval{box[0].lo + shift[0], box[0].hi + shift[0]}, Interval{box[1].lo + shift[1], box[1].hi + shift[1]}};
 }
 
 bool boxes_meet(const PairBox& one, const PairBox& two, double slack) {
@@ -194,8 +168,8 @@ class Joiner {
 
   /// Exact neighbours first, so that a walk along a family leaves it only where it must.
   void sort_links() {
-    for (std::vector<Link>& links : links_) {
-      std::stable_partition(links.begin(), links.end(), [&](const Link& link) { return pieces_[link.to].exact; });
+    for (std::vector<PieceLink>& links : links_) {
+      std::stable_partition(links.begin(), links.end(), [&](const PieceLink& link) { return pieces_[link.to].exact; });
     }
   }
 
@@ -218,7 +192,7 @@ class Joiner {
       }
       cluster.exact = cluster.exact || pieces_[here].exact;
       cluster.corner = cluster.corner && pieces_[here].corner;
-      for (const Link& link : links_[here]) {
+      for (const PieceLink& link : links_[here]) {
         if (seen[link.to]) continue;
         seen[link.to] = true;
         shift_of[link.to] = {shift_of[here][0] + link.shift[0], shift_of[here][1] + link.shift[1]};
@@ -233,7 +207,11 @@ class Joiner {
       }
     }
     hand_out_roots(members, shift_of, cluster);
-    if (cluster.exact) trace(members, cluster);
+    if (cluster.exact) {
+      FamilyLine line = line_through_family(pieces_, links_, members, period_);
+      cluster.family = std::move(line.points);
+      cluster.family_error = line.error;
+    }
     return cluster;
   }
 
@@ -275,210 +253,12 @@ class Joiner {
     }
   }
 
-  // ---- a line through a family ----
-
-  /// The nearest point of a piece to a place, by its position along the piece's line.
-  struct OnPiece {
-    PairPoint at;
-    std::size_t segment = 0;
-  };
-
-  OnPiece nearest(const PairPiece& piece, const Shift& shift, const PairPoint& place) const {
-    if (piece.line.empty()) {
-      const PairBox box = moved(piece.box, shift);
-      return {{std::clamp(place[0], box[0].lo, box[0].hi), std::clamp(place[1], box[1].lo, box[1].hi)}, 0};
-    }
-    OnPiece best{moved(piece.line.front(), shift), 0};
-    double least = distance(best.at, place);
-    for (std::size_t k = 0; k + 1 < piece.line.size(); ++k) {
-      const PairPoint at = nearest_on(moved(piece.line[k], shift), moved(piece.line[k + 1], shift), place);
-      const double far = distance(at, place);
-      if (far < least) {
-        least = far;
-        best = {at, k};
-      }
-    }
-    return best;
-  }
-
-  /// Walks along a piece's line from one of its points to another.
-  void walk(const PairPiece& piece, const Shift& shift, const PairPoint& from, const PairPoint& to,
-            std::vector<PairPoint>& path) const {
-    if (!piece.line.empty()) {
-      const std::size_t start = nearest(piece, shift, from).segment;
-      const std::size_t stop = nearest(piece, shift, to).segment;
-      for (std::size_t k = start + 1; k <= stop; ++k) path.push_back(moved(piece.line[k], shift));
-      for (std::size_t k = start; k > stop; --k) path.push_back(moved(piece.line[k], shift));
-    }
-    path.push_back(to);
-  }
-
-  PairPoint middle_of(const PairPiece& piece, const Shift& shift) const {
-    const PairBox box = moved(piece.box, shift);
-    return {box[0].middle(), box[1].middle()};
-  }
-
-  /// Depth first through the exact pieces; where a branch ends the line goes back the way it came.
-  void trace(const std::vector<std::size_t>& members, PairCluster& cluster) const {
-    std::vector<std::size_t> exact;
-    for (const std::size_t k : members) {
-      if (pieces_[k].exact) exact.push_back(k);
-    }
-    struct Visit {
-      std::size_t piece;
-      Shift shift;
-      PairPoint entry;
-      std::size_t next = 0;
-    };
-    const auto exact_links = [&](std::size_t k) {
-      std::vector<Link> links;
-      for (const Link& link : links_[k]) {
-        if (pieces_[link.to].exact) links.push_back(link);
-      }
-      return links;
-    };
-    // Begin at a loose end where there is one.
-    std::size_t first = exact.front();
-    for (const std::size_t k : exact) {
-      if (exact_links(k).size() == 1) {
-        first = k;
-        break;
-      }
-    }
-    std::vector<bool> wanted = on_the_way_to_exact(first);
-    std::size_t left = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), true));
-    std::vector<Visit> stack;
-    std::vector<PairPoint> path;
-    double error = 0;
-    const auto enter = [&](std::size_t k, const Shift& shift, const PairPoint& entry) {
-      const PairPiece& piece = pieces_[k];
-      wanted[k] = false;
-      --left;
-      path.push_back(entry);
-      PairPoint end = entry;
-      if (piece.line.empty()) {
-        end = middle_of(piece, shift);
-        path.push_back(end);
-        if (piece.exact) error = std::max(error, 0.5 * std::hypot(piece.box[0].width(), piece.box[1].width()));
-      } else {
-        const PairPoint front = moved(piece.line.front(), shift);
-        const PairPoint back = moved(piece.line.back(), shift);
-        const bool near_front = distance(entry, front) <= distance(entry, back);
-        if (distance(entry, near_front ? front : back) > kJointWidth * period_) {
-          walk(piece, shift, entry, near_front ? front : back, path);
-          walk(piece, shift, near_front ? front : back, near_front ? back : front, path);
-        } else {
-          walk(piece, shift, entry, near_front ? back : front, path);
-        }
-        end = near_front ? back : front;
-        error = std::max(error, piece.error);
-      }
-      stack.push_back({k, shift, end, 0});
-    };
-    const PairPiece& start = pieces_[first];
-    PairPoint from = start.line.empty() ? middle_of(start, {0, 0}) : start.line.front();
-    if (!start.line.empty() && !exact_links(first).empty()) {  // from the end that is not joined
-      const Link link = exact_links(first).front();
-      const PairPoint other = middle_of(pieces_[link.to], link.shift);
-      if (distance(start.line.front(), other) < distance(start.line.back(), other)) from = start.line.back();
-    }
-    enter(first, {0, 0}, from);
-    while (!stack.empty() && left > 0) {
-      Visit& here = stack.back();
-      if (here.next == links_[here.piece].size()) {
-        stack.pop_back();
-        if (stack.empty()) break;
-        const Visit& below = stack.back();
-        walk(pieces_[below.piece], below.shift, nearest(pieces_[below.piece], below.shift, path.back()).at, below.entry,
-             path);
-        continue;
-      }
-      const Link link = links_[here.piece][here.next++];
-      if (!wanted[link.to]) continue;
-      const Shift shift{here.shift[0] + link.shift[0], here.shift[1] + link.shift[1]};
-      const PairPiece& piece = pieces_[here.piece];
-      const PairPiece& other = pieces_[link.to];
-      PairPoint entry = nearest(other, shift, here.entry).at;
-      if (!other.line.empty()) {
-        const PairPoint front = moved(other.line.front(), shift);
-        const PairPoint back = moved(other.line.back(), shift);
-        const double slack = kJointWidth * period_ + piece.error + other.error;
-        if (distance(nearest(piece, here.shift, front).at, front) <= slack) {
-          entry = front;
-        } else if (distance(nearest(piece, here.shift, back).at, back) <= slack) {
-          entry = back;
-        }
-      }
-      const PairPoint exit = nearest(piece, here.shift, entry).at;
-      walk(piece, here.shift, here.entry, exit, path);
-      here.entry = exit;
-      enter(link.to, shift, entry);
-    }
-    cluster.family = simplified(path, kFamilyDetail * period_);
-    cluster.family_error = error + kFamilyDetail * period_;
-  }
-
-  /// The pieces that a walk from one of them must pass to come to every exact piece: a depth-first tree without the
-  /// branches that lead to none.
-  std::vector<bool> on_the_way_to_exact(std::size_t first) const {
-    std::vector<bool> wanted(pieces_.size(), false);
-    std::vector<bool> seen(pieces_.size(), false);
-    std::vector<std::array<std::size_t, 2>> stack{{first, 0}};  // a piece and its next link
-    seen[first] = true;
-    while (!stack.empty()) {
-      auto& [piece, next] = stack.back();
-      if (next < links_[piece].size()) {
-        const std::size_t to = links_[piece][next++].to;
-        if (seen[to]) continue;
-        seen[to] = true;
-        stack.push_back({to, 0});
-        continue;
-      }
-      const bool needed = pieces_[piece].exact || wanted[piece];
-      wanted[piece] = needed;
-      stack.pop_back();
-      if (needed && !stack.empty()) wanted[stack.back()[0]] = true;
-    }
-    return wanted;
-  }
-
-  /// Drops points that the line runs through anyway (Douglas and Peucker).
-  static std::vector<PairPoint> simplified(const std::vector<PairPoint>& path, double detail) {
-    if (path.size() < 3) return path;
-    std::vector<bool> kept(path.size(), false);
-    kept.front() = true;
-    kept.back() = true;
-    std::vector<std::array<std::size_t, 2>> waiting{{0, path.size() - 1}};
-    while (!waiting.empty()) {
-      const auto [from, to] = waiting.back();
-      waiting.pop_back();
-      double most = detail;
-      std::size_t farthest = 0;
-      for (std::size_t k = from + 1; k < to; ++k) {
-        const double far = distance(path[k], nearest_on(path[from], path[to], path[k]));
-        if (far > most) {
-          most = far;
-          farthest = k;
-        }
-      }
-      if (farthest == 0) continue;
-      kept[farthest] = true;
-      waiting.push_back({from, farthest});
-      waiting.push_back({farthest, to});
-    }
-    std::vector<PairPoint> result;
-    for (std::size_t k = 0; k < path.size(); ++k) {
-      if (kept[k]) result.push_back(path[k]);
-    }
-    return result;
-  }
-
   const std::vector<PairPiece>& pieces_;
   const std::vector<PairRoot>& roots_;
   double period_;
   bool closed_;
   double same_place_;
-  std::vector<std::vector<Link>> links_;
+  std::vector<std::vector<PieceLink>> links_;
   std::vector<bool> root_taken_;
 };
 

@@ -240,41 +240,49 @@ void LineSearch::decide(Stretch stretch) {
   const bool tiny = width <= free().same_place(limits_);
   const bool zero = turn <= kTurnAccuracy && !turns_round(stretch);
   if (!tiny && !zero) {
-    std::size_t steepest = guide_;
-    double steepness = 0;
-    for (std::size_t row = 0; row < rows; ++row) {
-      if (row == guide_ || !along.slope[row].has_sign()) continue;
-      const double least = std::min(std::abs(along.slope[row].least), std::abs(along.slope[row].most));
-      if (least > steepness) {
-        steepness = least;
-        steepest = row;
-      }
-    }
-    if (steepest != guide_) {
-      take_monotone(stretch, along, steepest);
+    const std::size_t row = steepest(along);
+    if (row != guide_) {
+      take_monotone(stretch, along, row);
       return;
     }
   }
   const bool straight = along.direction.spread() * width <= kBandBend * margin_;
   if (tiny || (straight && (size <= 1 || spread <= kSmallVariation || zero))) {
-    const Place middle = place(stretch.lo.free.x + 0.5 * width);
-    bool within = true;
-    double largest = 0;
-    for (std::size_t row = 0; row < rows; ++row) {
-      if (row == guide_) continue;
-      const double r = std::abs(residual(middle, row));
-      within = within && r <= along.within[row];
-      largest = std::max(largest, r);
-    }
-    if (!within) return;
-    if (!stretch.covered) add_piece(stretch.lo, stretch.hi, along.bound_x);
-    if (tiny || zero || stretch.covered) {
-      if (largest <= kTurnAccuracy && is_inside(middle)) add_root(middle, 0, true);
-      return;
-    }
+    if (take_flat(stretch, along, tiny || zero)) return;
     stretch.covered = true;  // its roots are left to be found
   }
   split(stretch);
+}
+
+/// The row whose residual is surely monotone and changes most; the guide where there is none.
+std::size_t LineSearch::steepest(const Bounds& along) const {
+  std::size_t best = guide_;
+  double steepness = 0;
+  for (std::size_t row = 0; row < free().rows(); ++row) {
+    if (row == guide_ || !along.slope[row].has_sign()) continue;
+    const double least = std::min(std::abs(along.slope[row].least), std::abs(along.slope[row].most));
+    if (least > steepness) {
+      steepness = least;
+      best = row;
+    }
+  }
+  return best;
+}
+
+/// The residuals hardly vary: all of the stretch is in or out as its middle is. False: roots may be left in it.
+bool LineSearch::take_flat(const Stretch& stretch, const Bounds& along, bool is_point) {
+  const Place middle = place(stretch.lo.free.x + 0.5 * (stretch.hi.free.x - stretch.lo.free.x));
+  double largest = 0;
+  for (std::size_t row = 0; row < free().rows(); ++row) {
+    if (row == guide_) continue;
+    const double r = std::abs(residual(middle, row));
+    if (r > along.within[row]) return true;
+    largest = std::max(largest, r);
+  }
+  if (!stretch.covered) add_piece(stretch.lo, stretch.hi, along.bound_x);
+  if (!is_point && !stretch.covered) return false;
+  if (largest <= kTurnAccuracy && is_inside(middle)) add_root(middle, 0, true);
+  return true;
 }
 
 bool LineSearch::vanishes(const Place& place) const {

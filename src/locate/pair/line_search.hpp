@@ -52,6 +52,8 @@ class LineSearch {
   bool clip(Stretch& stretch, double margin) const;
   Place at_edge(const Stretch& stretch, double edge) const;
   void decide(Stretch stretch);
+  std::size_t steepest(const Bounds& along) const;
+  bool take_flat(const Stretch& stretch, const Bounds& along, bool is_point);
   bool overlaps(const Stretch& whole, std::vector<Place>& samples) const;
   bool vanishes(const Place& place) const;
   Place turn_between(const Place& one, const Place& two) const;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "rollfix/locate/placement.hpp"
@@ -13,6 +14,21 @@ using PairPoint = std::array<double, 2>;
 
 /// A box of them.
 using PairBox = std::array<Interval, 2>;
+
+/// Whole periods of each.
+using Shift = std::array<double, 2>;
+
+inline PairPoint moved(const PairPoint& point, const Shift& shift) {
+  return {point[0] + shift[0], point[1] + shift[1]};
+}
+
+inline PairBox moved(const PairBox& box, const Shift& shift) {
+  return {Interval{box[0].lo + shift[0], box[0].hi + shift[0]}, Interval{box[1].lo + shift[1], box[1].hi + shift[1]}};
+}
+
+inline double distance(const PairPoint& one, const PairPoint& two) {
+  return std::hypot(one[0] - two[0], one[1] - two[1]);
+}
 
 /// A pair of first contacts at which every f_k is 0, or, of more equations than two, those that cross best there.
 struct PairRoot {
