@@ -155,6 +155,12 @@ TEST(Help, starts_with_what_it_is_for_and_examples) {
   }
 }
 
+TEST(Help, calls_each_argument_in_the_usage_as_in_its_list) {
+  EXPECT_THAT(run("locate --help").out, HasSubstr("rollfix locate PART [OPTIONS]"));
+  EXPECT_THAT(run("teach --help").out, HasSubstr("rollfix teach LOG [OPTIONS]"));
+  EXPECT_THAT(run("demo --help").out, HasSubstr("-o FOLDER"));
+}
+
 TEST(Help, has_examples_that_work) {
   const cli::Folder folder;
   for (const std::string command : {"", "inspect ", "locate ", "simulate ", "teach ", "demo "}) {

@@ -27,8 +27,11 @@ class Help : public CLI::Formatter {
 
   std::string make_usage(const CLI::App* app, std::string name) const override {
     const bool has_commands = !app->get_subcommands([](const CLI::App*) { return true; }).empty();
-    const bool has_part = !app->get_options([](const CLI::Option* option) { return option->get_positional(); }).empty();
-    return fmt::format("{}{}{} [OPTIONS]\n", name, has_commands ? " COMMAND" : "", has_part ? " PART" : "");
+    if (has_commands) name += " COMMAND";
+    for (const CLI::Option* option : app->get_options([](const CLI::Option* one) { return one->get_positional(); })) {
+      name += " " + option->get_name(true);
+    }
+    return name + " [OPTIONS]\n";
   }
 
  private:

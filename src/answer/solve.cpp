@@ -80,7 +80,8 @@ void add_poses(const Problem& problem, Answer& answer) {
   std::vector<std::size_t> rows(problem.felt.log->rows());
   std::iota(rows.begin(), rows.end(), std::size_t{0});
   for (Placement& placement : answer.placements) {
-    std::optional<Poses> poses = rollfix::poses(problem.part, problem.fingers, *problem.felt.log, placement.start, rows);
+    std::optional<Poses> poses =
+        rollfix::poses(problem.part, problem.fingers, *problem.felt.log, placement.start, rows);
     if (!poses) continue;
     const auto largest = [](const std::vector<double>& values) {
       return values.empty() ? std::nan("") : *std::max_element(values.begin(), values.end());

@@ -9,9 +9,7 @@ namespace {
 // A posterior of two fingers is complete when it leaves out no more than this.
 constexpr double kMostRest = 0.01;
 
-LogKind kind_of(const Problem& problem) {
-  return problem.felt.is_log() ? problem.felt.log->kind : LogKind::travelled;
-}
+LogKind kind_of(const Problem& problem) { return problem.felt.is_log() ? problem.felt.log->kind : LogKind::travelled; }
 
 /// What a finger felt at its first contact, where the log tells it.
 std::optional<FeltContact> first_felt(const Problem& problem, std::size_t which) {

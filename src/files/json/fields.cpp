@@ -7,9 +7,9 @@
 #include <set>
 #include <utility>
 
-#include "text/written_number.hpp"
 #include "rollfix/error.hpp"
 #include "text/text.hpp"
+#include "text/written_number.hpp"
 
 namespace rollfix {
 
