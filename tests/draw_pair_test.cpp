@@ -212,7 +212,7 @@ TEST(AnswerFigureOfTwo, draws_the_fingers_of_the_highlighted_placement) {
   figure.highlight = 1;
   figure.answer.fingers = {0.3, 0.2};
   EXPECT_EQ(count_of(figure.str(), "class=\"finger\""), 2);
-  figure.answer.fingers[1] = rollfix::Finger::jaw();
+  figure.answer.fingers[1] = rollfix::jaw();
   EXPECT_EQ(count_of(figure.str(), "class=\"finger\""), 1);
 }
 

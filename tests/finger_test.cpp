@@ -86,7 +86,7 @@ void expect_no_slip(const Part& part, const Finger& finger, const Roll& roll) {
 // --- Shapes.
 
 TEST(Finger, normals_points_and_curvatures_belong_together) {
-  for (const Finger& finger : {Finger(0.3), Finger::jaw(), finger_from("ellipse,a=0.4,b=0.2"),
+  for (const Finger& finger : {rollfix::disk(0.3), rollfix::jaw(), finger_from("ellipse,a=0.4,b=0.2"),
                                finger_from("limacon,a=0.5,b=0.2"), finger_from("log-spiral")}) {
     const double middle = finger.ends().hi < 1e300 ? finger.ends().middle() : 0;
     for (const double du : {-0.3, 0.05, 0.4}) {
@@ -117,7 +117,7 @@ TEST(Finger, what_is_not_convex_or_has_a_corner_is_refused) {
 }
 
 TEST(Finger, a_contact_after_a_reading_gives_that_reading_back) {
-  for (const Finger& finger : {Finger(0.3), Finger::jaw(), finger_from("ellipse,a=0.4,b=0.2")}) {
+  for (const Finger& finger : {rollfix::disk(0.3), rollfix::jaw(), finger_from("ellipse,a=0.4,b=0.2")}) {
     const Contact first{0.4, 1.2};
     const Reading reading = reading_between(finger, first, contact_after(finger, first, {-0.7, 1.9}));
     EXPECT_NEAR(reading.length[0], -0.7, 1e-14);
@@ -146,14 +146,14 @@ TEST(Finger, a_circle_as_an_outline_rolls_like_a_disk) {
 
 TEST(Finger, a_jaw_turns_with_the_tangent_and_its_contact_runs_along_it) {
   const Part part(gallery("ellipse"));
-  const Roll found = roll(part, Finger::jaw(), plan_over(1, 7, 300));
+  const Roll found = roll(part, rollfix::jaw(), plan_over(1, 7, 300));
   for (std::size_t row = 0; row < found.s[0].size(); ++row) {
     const double turned = part.turning().angle(found.s[0][row]) - part.turning().angle(1);
     EXPECT_NEAR(found.log.fingers[0].psi[row] - found.log.fingers[0].psi[0], turned, 1e-9);
     EXPECT_NEAR(found.log.fingers[0].u[row], -(found.s[0][row] - 1), 1e-9);
   }
-  expect_touching(part, Finger::jaw(), found);
-  expect_no_slip(part, Finger::jaw(), roll(part, Finger::jaw(), plan_over(1, 7, 4000)));
+  expect_touching(part, rollfix::jaw(), found);
+  expect_no_slip(part, rollfix::jaw(), roll(part, rollfix::jaw(), plan_over(1, 7, 4000)));
 }
 
 /// Fingers and parts that roll on each other.
@@ -172,7 +172,7 @@ Pairing random_pairing(std::mt19937_64& generator) {
                                             fmt::format("limacon,a={},b={}", size, 0.45 * size * share(generator)),
                                             fmt::format("circle,r={}", size)};
   Part part(gallery(parts[generator() % parts.size()]));
-  const Finger finger = share(generator) < 0.2 ? Finger::jaw() : finger_from(fingers[generator() % fingers.size()]);
+  const Finger finger = share(generator) < 0.2 ? rollfix::jaw() : finger_from(fingers[generator() % fingers.size()]);
   const double P = part.perimeter();
   const bool open = !part.closed();
   const double start = P * share(generator);
@@ -246,7 +246,7 @@ TEST(Finger, a_stadium_rolls_over_its_own_joints) {
 
 TEST(Finger, the_part_is_found_where_it_is) {
   const Part part(gallery("cam"));
-  for (const Finger& finger : {Finger::jaw(), finger_from("ellipse,a=0.3,b=0.2")}) {
+  for (const Finger& finger : {rollfix::jaw(), finger_from("ellipse,a=0.3,b=0.2")}) {
     const Roll found = roll_in_closed_form(part, finger, plan_over(2, 1.5, 100, 0.3));
     const Poses at = *poses(part, {finger}, found.log, 2, {0, 50, 99});
     for (std::size_t k = 0; k < 3; ++k) {
@@ -260,9 +260,9 @@ TEST(Finger, the_part_is_found_where_it_is) {
 // --- Where it can't go.
 
 TEST(Finger, a_jaw_on_a_flat_side_is_refused) {
-  EXPECT_THAT(refusal_of([] { roll(shapes::unit_square(), Finger::jaw(), plan_over(0.5, 0.2)); }),
+  EXPECT_THAT(refusal_of([] { roll(shapes::unit_square(), rollfix::jaw(), plan_over(0.5, 0.2)); }),
               AllOf(HasSubstr("flat jaw"), HasSubstr("curvature is 0")));
-  EXPECT_THAT(refusal_of([] { roll(Part(gallery("limacon")), Finger::jaw(), plan_over(1, 6)); }),
+  EXPECT_THAT(refusal_of([] { roll(Part(gallery("limacon")), rollfix::jaw(), plan_over(1, 6)); }),
               HasSubstr("flat jaw"));
 }
 
@@ -301,7 +301,7 @@ TEST(Finger, it_sticks_where_it_does_not_fit_any_more) {
 
 TEST(Finger, logs_of_a_jaw_and_of_outlines_are_read_back) {
   const Part part(gallery("ellipse"));
-  for (const Finger& finger : {Finger::jaw(), finger_from("ellipse,a=0.3,b=0.2")}) {
+  for (const Finger& finger : {rollfix::jaw(), finger_from("ellipse,a=0.3,b=0.2")}) {
     const Roll found = roll_in_closed_form(part, finger, plan_over(1, 8, 200));
     const Log log = parse_log(format_log(found.log), "run.csv");
     const std::vector<Reading> all = readings_as_given(log, {finger});

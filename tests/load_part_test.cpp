@@ -64,26 +64,26 @@ TEST(LoadPart, takes_each_kind_of_file_by_its_ending) {
   folder.write("circle.json", R"({"gallery": "circle", "parameters": {"r": 2}})");
   folder.write("disk.json",
                R"({"curves": [{"type": "arc", "centre": [0, 0], "radius": 1, "from": 0, "sweep": "360deg"}]})");
-  EXPECT_NEAR(load_part("square.csv").part.perimeter(), 4, 1e-12);
-  EXPECT_NEAR(load_part("plate.dxf").part.perimeter(), 12, 1e-12);
-  EXPECT_NEAR(load_part("square.svg").part.perimeter(), 4, 1e-12);
-  EXPECT_NEAR(load_part("circle.json").part.perimeter(), 4 * kPi, 1e-11);
-  EXPECT_NEAR(load_part("disk.json").part.perimeter(), 2 * kPi, 1e-11);
-  EXPECT_NEAR(load_part("gallery:circle,r=3").part.perimeter(), 6 * kPi, 1e-11);
+  EXPECT_NEAR(load_part("square.csv", {}).part.perimeter(), 4, 1e-12);
+  EXPECT_NEAR(load_part("plate.dxf", {}).part.perimeter(), 12, 1e-12);
+  EXPECT_NEAR(load_part("square.svg", {}).part.perimeter(), 4, 1e-12);
+  EXPECT_NEAR(load_part("circle.json", {}).part.perimeter(), 4 * kPi, 1e-11);
+  EXPECT_NEAR(load_part("disk.json", {}).part.perimeter(), 2 * kPi, 1e-11);
+  EXPECT_NEAR(load_part("gallery:circle,r=3", {}).part.perimeter(), 6 * kPi, 1e-11);
 }
 
 TEST(LoadPart, takes_a_saved_part) {
   const Folder folder;
-  rollfix::save_part(load_part("gallery:naca").part, "wing.json");
-  const LoadedPart loaded = load_part("wing.json");
-  EXPECT_EQ(loaded.part.perimeter(), load_part("gallery:naca").part.perimeter());
+  rollfix::save_part(load_part("gallery:naca", {}).part, "wing.json");
+  const LoadedPart loaded = load_part("wing.json", {});
+  EXPECT_EQ(loaded.part.perimeter(), load_part("gallery:naca", {}).part.perimeter());
   EXPECT_EQ(loaded.part.name(), "wing.json");
 }
 
 TEST(LoadPart, the_outer_loop_is_taken_and_the_choice_is_said) {
   const Folder folder;
   folder.write("plate.dxf", dxf(circle(1, 1, 0.5) + plate() + circle(3, 1, 0.25)));
-  const LoadedPart loaded = load_part("plate.dxf");
+  const LoadedPart loaded = load_part("plate.dxf", {});
   EXPECT_NEAR(loaded.part.perimeter(), 12, 1e-12);
   EXPECT_EQ(loaded.loop, 1U);
   ASSERT_EQ(loaded.loops.size(), 3U);
@@ -175,7 +175,7 @@ TEST(LoadPart, options_that_do_not_apply_are_refused) {
 TEST(LoadPart, rounded_digits_of_a_drawing_are_no_gap) {
   const Folder folder;
   folder.write("plate.dxf", dxf(line(0, 0, 4, 0) + line(4.000001, 0, 4, 2) + line(4, 2, 0, 2) + line(0, 2, 0, 0)));
-  const LoadedPart loaded = load_part("plate.dxf");
+  const LoadedPart loaded = load_part("plate.dxf", {});
   EXPECT_NEAR(loaded.part.perimeter(), 12, 1e-5);
   EXPECT_THAT(loaded.notes, ElementsAre(HasSubstr("ends of curves up to 1e-06 apart")));
 }
@@ -191,7 +191,7 @@ TEST(LoadPart, standard_input_is_known_by_how_it_begins) {
   folder.write("plate.dxf", dxf(plate()));
   folder.write("square.svg", kSquareSvg);
   folder.write("shape.json", R"({"gallery": "circle"})");
-  rollfix::save_part(load_part("gallery:cam").part, "cam.json");
+  rollfix::save_part(load_part("gallery:cam", {}).part, "cam.json");
   EXPECT_THAT(cli::shell("rollfix inspect - < plate.dxf").out, HasSubstr("perimeter    12.0"));
   EXPECT_THAT(cli::shell("rollfix inspect - < square.svg").out, HasSubstr("perimeter    4.0"));
   EXPECT_THAT(cli::shell("rollfix inspect - < shape.json").out, HasSubstr("perimeter    6.28"));

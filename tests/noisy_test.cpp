@@ -123,12 +123,12 @@ TEST(Noisy, contact_and_angle_are_off_by_what_was_said_in_each_row) {
 TEST(Noisy, of_an_outline_the_contact_is_off_in_length) {
   RollPlan plan = long_roll();
   plan.u = 0.1;
-  const NoisyRoll found = noisy_roll(egg_part(), Finger::jaw(), plan, only_contact(0.01), 7);
+  const NoisyRoll found = noisy_roll(egg_part(), rollfix::jaw(), plan, only_contact(0.01), 7);
   EXPECT_NEAR(spread_of(differences(found.log.fingers[0].u, found.truth.log.fingers[0].u)).deviation, 0.01, 0.0005);
 }
 
 TEST(Noisy, slip_is_length_that_the_finger_did_not_roll) {
-  for (const Finger& finger : {Finger(0.2), Finger::jaw(), Finger::outlined(gallery("ellipse,a=0.3,b=0.2"))}) {
+  for (const Finger& finger : {rollfix::disk(0.2), rollfix::jaw(), Finger::outlined(gallery("ellipse,a=0.3,b=0.2"))}) {
     const NoisyRoll found = noisy_roll(egg_part(), finger, long_roll(100), only_slip(0.05), 3);
     ASSERT_NE(found.error[0].slip, 0);
     const std::vector<Reading> felt = readings_as_given(found.log, {finger});
@@ -162,7 +162,7 @@ TEST(Noisy, the_slips_of_many_rolls_have_the_spread_that_was_said) {
 TEST(Noisy, a_reader_with_the_wrong_radius_gets_lengths_in_its_proportion) {
   const NoisyRoll found = noisy_roll(egg_part(), 0.2, long_roll(100), {0, 0, 0, 0.01}, 3);
   ASSERT_NE(found.error[0].radius, 0);
-  const std::vector<Reading> felt = readings_as_given(found.log, {Finger(0.2)});
+  const std::vector<Reading> felt = readings_as_given(found.log, {rollfix::disk(0.2)});
   EXPECT_NEAR(felt.back().length[0] * (0.2 + found.error[0].radius) / 0.2, 6, 1e-9);
   EXPECT_NEAR(felt.back().turn, found.truth.angle[0].back() - found.truth.angle[0].front(), 1e-9);
 }
@@ -174,8 +174,8 @@ TEST(Noisy, two_fingers_err_independently) {
   plan.part_rotation = 0.3;
   const NoisyRoll found = noisy_roll_free(egg_part(), plan, {0, 0, 0.03, 0.01}, 4);
   EXPECT_NE(found.error[0].slip, found.error[1].slip);
-  const std::vector<Reading> felt =
-      readings_as_given(found.log, {Finger(0.2 + found.error[0].radius), Finger(0.3 + found.error[1].radius)});
+  const std::vector<Reading> felt = readings_as_given(
+      found.log, {rollfix::disk(0.2 + found.error[0].radius), rollfix::disk(0.3 + found.error[1].radius)});
   EXPECT_NEAR((1 + found.error[0].slip) * felt.back().length[0], 2, 1e-9);
   EXPECT_NEAR((1 + found.error[1].slip) * felt.back().length[1], -1, 1e-9);
   const double turn =
@@ -201,7 +201,7 @@ TEST(Noisy, what_can_not_be_is_refused) {
               HasSubstr("at least 0"));
   EXPECT_THAT(refusal_of([] { noisy_roll(egg_part(), 0.2, long_roll(), only_contact(NAN), 1); }), HasSubstr("nan"));
   EXPECT_THAT(refusal_of([] {
-                noisy_roll(egg_part(), Finger::jaw(), long_roll(), {0, 0, 0, 0.1}, 1);
+                noisy_roll(egg_part(), rollfix::jaw(), long_roll(), {0, 0, 0, 0.1}, 1);
               }),
               HasSubstr("leave the radius out"));
   EXPECT_THAT(refusal_of([] { noisy_increments(egg_part(), 1, 2, 0, {}, 1); }), HasSubstr("at least 1 row"));

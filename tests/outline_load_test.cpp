@@ -12,6 +12,7 @@
 #include <string>
 
 #include "rollfix/error.hpp"
+#include "rollfix/part/part.hpp"
 #include "text/text.hpp"
 
 namespace outline_load_test {
@@ -122,10 +123,18 @@ TEST_F(Load, gallery_name_without_gallery_is_recognised) {
   EXPECT_THAT(message_of("limason"), EndsWith("did you mean gallery:limacon?"));
 }
 
-TEST_F(Load, drawings_are_not_supported_and_it_says_so) {
-  EXPECT_THAT(message_of("part.dxf"), HasSubstr(".dxf files are not supported here, expected points in .csv"));
-  EXPECT_THAT(message_of("part.SVG"), HasSubstr(".svg files are not supported here"));
-  EXPECT_THAT(message_of("part.json"), HasSubstr(".json files are not supported here"));
+TEST_F(Load, drawings_are_of_another_library_and_it_says_how_to_call_that) {
+  for (const std::string& name : {"part.dxf", "part.SVG", "part.json"}) {
+    EXPECT_THAT(message_of(name), AllOf(HasSubstr("rollfix::files"), HasSubstr("load_part(\"" + name + "\", {}).part"),
+                                        HasSubstr("here expected points in .csv")));
+  }
+}
+
+TEST_F(Load, part_is_its_outline) {
+  const rollfix::Part part = rollfix::load_part(written("part.csv", kSquare));
+  EXPECT_EQ(part.perimeter(), rollfix::Part(load_outline(path("part.csv"))).perimeter());
+  EXPECT_EQ(part.name(), path("part.csv"));
+  EXPECT_THROW(rollfix::load_part("part.dxf"), InputError);
 }
 
 TEST(NearestName, is_the_one_with_the_fewest_edits) {

@@ -71,7 +71,7 @@ TeachOptions options_of(const TeachArguments& arguments) {
   TeachOptions options;
   const std::vector<Finger> fingers = read_fingers(arguments.fingers, 1);
   require_disks(fingers, "teach");
-  if (!fingers.empty()) options.finger = fingers.front().disk();
+  if (!fingers.empty()) options.finger = fingers.front();
   options.noise = read_noise(arguments.noise);
   options.bridge = arguments.bridge;
   options.open = arguments.open;

@@ -1,6 +1,6 @@
 #pragma once
 
-// All that a user of the library needs; the figures are apart, in rollfix/draw/.
+// All that a user of the library needs; drawings are apart, in rollfix/files/, and figures, in rollfix/draw/.
 
 #include "rollfix/answer/part_facts.hpp"   // IWYU pragma: export
 #include "rollfix/answer/solve.hpp"        // IWYU pragma: export
@@ -10,6 +10,7 @@
 #include "rollfix/contact/log.hpp"         // IWYU pragma: export
 #include "rollfix/contact/pose.hpp"        // IWYU pragma: export
 #include "rollfix/contact/rolling.hpp"     // IWYU pragma: export
+#include "rollfix/contact/teach.hpp"       // IWYU pragma: export
 #include "rollfix/error.hpp"               // IWYU pragma: export
 #include "rollfix/locate/locate.hpp"       // IWYU pragma: export
 #include "rollfix/locate/reachable.hpp"    // IWYU pragma: export

@@ -46,7 +46,7 @@ Vec2 unit_vector(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
 }  // namespace
 
-Finger Finger::jaw() { return {Kind::jaw, "jaw"}; }
+Finger jaw() { return {Finger::Kind::jaw, "jaw"}; }
 
 Finger Finger::outlined(const Part& outline) {
   Finger finger(Kind::outline, outline.name());

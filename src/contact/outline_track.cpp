@@ -71,7 +71,7 @@ class OutlineTrack : public Track {
 
 OutlineTrack::OutlineTrack(const Part& part, const Finger& finger, double start, double u)
     : Track(part, finger),
-      point_(part, Finger(kNoSize), 0),
+      point_(part, disk(kNoSize), 0),
       sum_(start + u),
       u_(u),
       near_(kLengthAccuracy * std::max(part.perimeter(), finger.outline()->perimeter())) {

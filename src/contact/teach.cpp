@@ -67,7 +67,10 @@ class Teacher {
         rows_(rows_of(log, options)) {
     require_valid(noise_);
     rounding_ = rounding_of(log, fingers_of(options));
-    radius_ = log.kind == LogKind::contact ? options.finger->radius : 1;
+    if (log.kind != LogKind::contact) return;
+    if (!options.finger->is_disk())
+      refuse(fmt::format("expected a disk's log, and the finger is {}", options.finger->name()));
+    radius_ = options.finger->length_per_u();
   }
 
   Taught teach() {

@@ -41,7 +41,9 @@ Outline load_outline(const std::string& argument, const OutlineOptions& options,
   }
   if (ending == ".json" || ending == ".dxf" || ending == ".svg") {
     throw InputError(
-        fmt::format("{}: {} files are not supported here, expected {}; see load_part", argument, ending, kKnown));
+        fmt::format("{}: {} files are read by the library rollfix::files, as load_part(\"{}\", {{}}).part of "
+                    "<rollfix/files/load_part.hpp>; here expected {}",
+                    argument, ending, argument, kKnown));
   }
   throw InputError(unknown_ending(argument, kKnown));
 }

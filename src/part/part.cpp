@@ -9,6 +9,7 @@
 #include "angle.hpp"
 #include "part_data.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/outline/load.hpp"
 #include "turning_builder.hpp"
 
 namespace rollfix {
@@ -130,5 +131,7 @@ std::vector<Vec2> Part::polyline(double lo, double hi, int count) const {
   for (const double s : places) points.push_back(point(s));
   return points;
 }
+
+Part load_part(const std::string& source) { return Part(load_outline(source)); }
 
 }  // namespace rollfix

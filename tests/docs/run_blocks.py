@@ -4,10 +4,12 @@
     sh      Lines that start with `$ ` are commands (`> ` continues one); what follows is their exact output on
             stdout, where a line `...` stands for any lines. Every command must succeed, unless the next one is
             `echo $?`. All blocks of a document share one scratch directory, where `data` and `examples` are the
-            repository's. A block without `$ ` is not run: its syntax is checked, and that the scripts it names exist.
+            repository's; the program and the built examples are found by their names. A block without `$ ` is not run: its syntax is checked, and that the scripts it names exist.
     cpp     A program (it has a main) is built and run and must exit with 0; a fragment is compiled inside a
             function, after all of the library's headers and the document's earlier includes.
             <!-- given: CODE --> on the line before a fragment puts CODE in front of it.
+            <!-- from: FILE --> on the line before a block makes it an excerpt: its lines stand in that file of the
+            repository one after the other, but for their indent; the block is not compiled.
             <!-- output --> on the line before the next block of any language makes that the program's exact output.
     json    Must be JSON, or one JSON value per line.
 Other languages are not run.
@@ -44,6 +46,7 @@ class Block:
     lines: list
     given: str = ""
     is_output: bool = False
+    source: str = ""
 
 
 @dataclass
@@ -57,10 +60,10 @@ class Command:
 def parse_blocks(text):
     """The fenced blocks of a Markdown document, in order."""
     blocks, lines, i = [], text.split("\n"), 0
-    given, is_output = "", False
+    given, is_output, source = "", False, ""
     while i < len(lines):
         fence = re.match(r"^( *)(`{3,}|~{3,}) *([^\s`{]*)", lines[i])
-        comment = re.match(r"^\s*<!--\s*(?:given:(?P<given>.*)|(?P<output>output))\s*-->\s*$", lines[i])
+        comment = re.match(r"^\s*<!--\s*(?:given:(?P<given>.*)|from:\s*(?P<source>\S+)|(?P<output>output))\s*-->\s*$", lines[i])
         if fence:
             indent, mark, language = fence.groups()
             start = i = i + 1
@@ -69,12 +72,12 @@ def parse_blocks(text):
             if i == len(lines):
                 raise Failure(f"line {start}: this block has no end")
             content = [re.sub(rf"^ {{0,{len(indent)}}}", "", line) for line in lines[start:i]]
-            blocks.append(Block(language.lower(), start + 1, content, given, is_output))
-            given, is_output = "", False
+            blocks.append(Block(language.lower(), start + 1, content, given, is_output, source))
+            given, is_output, source = "", False, ""
         elif comment:
-            given, is_output = comment["given"] or "", bool(comment["output"])
+            given, is_output, source = comment["given"] or "", bool(comment["output"]), comment["source"] or ""
         elif lines[i].strip():
-            given, is_output = "", False
+            given, is_output, source = "", False, ""
         i += 1
     return blocks
 
@@ -210,6 +213,18 @@ def check_fragment(block, compiler, preamble):
     compiler.run("\n".join(source) + "\n", block, "-fsyntax-only", "-w")
 
 
+def check_excerpt(block):
+    path = REPOSITORY / block.source
+    if not path.exists():
+        raise Failure(f"line {block.first_line}: there is no {block.source}")
+    whole = "\n" + "\n".join(line.strip() for line in path.read_text().split("\n")) + "\n"
+    excerpt = [line.strip() for line in block.lines]
+    if "\n" + "\n".join(excerpt) + "\n" not in whole:
+        missing = [line for line in excerpt if f"\n{line}\n" not in whole]
+        what = f"has no line `{missing[0]}`" if missing else "has these lines, but not one after the other"
+        raise Failure(f"line {block.first_line}: {block.source} {what}")
+
+
 # --- documents --------------------------------------------------------------------------------------------------------
 
 
@@ -235,7 +250,8 @@ def check_document(path, options, corrections):
             if (REPOSITORY / name).exists():
                 (scratch / name).symlink_to(REPOSITORY / name)
         environment = dict(os.environ, NO_COLOR="1", LC_ALL="C.UTF-8", TERM="dumb", COLUMNS="100")
-        environment["PATH"] = f"{pathlib.Path(options.program).resolve().parent}:{environment['PATH']}"
+        build = pathlib.Path(options.program).resolve().parent
+        environment["PATH"] = f"{build}:{build}/examples:{environment['PATH']}"
         compiler, preamble, printed = None, [], None
         try:
             blocks = parse_blocks(path.read_text())
@@ -250,6 +266,8 @@ def check_document(path, options, corrections):
                         corrections.append((block.first_line, len(block.lines), output_lines(printed)))
                         raise Failure(f"line {block.first_line}: the program prints something else:\n"
                                       + difference(block.lines, output_lines(printed)))
+                elif block.source:
+                    check_excerpt(block)
                 elif block.language in ALIASES:
                     raise Failure(f"line {block.first_line}: write `{ALIASES[block.language]}`, not `{block.language}`, "
                                   "so that the block is tested")

@@ -93,6 +93,17 @@ class OtherBlocks(unittest.TestCase):
     def test_a_block_without_end_is_seen(self):
         self.assertIn("no end", failures_of("```sh\n$ true\n")[0])
 
+    def test_an_excerpt_stands_in_its_file(self):
+        name = "tests/docs/run_blocks_test.py"
+
+        def excerpt(*lines, file=name):
+            return failures_of("\n".join([f"<!-- from: {file} -->", "```cpp", *lines, "```", ""]))
+
+        self.assertEqual(excerpt("class OtherBlocks(unittest.TestCase):", "def test_json_is_parsed(self):"), [])
+        self.assertIn("has no line `int i;`", excerpt("class OtherBlocks(unittest.TestCase):", "int i;")[0])
+        self.assertIn("one after the other", excerpt("import argparse", "import unittest")[0])
+        self.assertIn("there is no", excerpt("int i;", file="tests/docs/none.cpp")[0])
+
     def test_an_output_without_a_program_is_seen(self):
         self.assertEqual(len(failures_of("<!-- output -->\n```text\nresult\n```\n")), 1)
 

@@ -56,7 +56,7 @@ bool names_outline(const std::string& text) {
 }
 
 Finger read_any(const std::string& text) {
-  if (text == kJaw) return Finger::jaw();
+  if (text == kJaw) return jaw();
   return names_outline(text) ? read_outlined(text) : Finger(read_disk(text));
 }
 

@@ -24,15 +24,15 @@ struct Prior {
 
 struct BeliefOptions {
   Noise noise;
-  std::optional<Prior> prior;  // none: every place alike
-  bool robust = false;         // a stray sample counts no more than its share
-  bool bare = false;           // readings whose first contact is exact and that do not drift
+  std::optional<Prior> prior{};  // none: every place alike
+  bool robust = false;           // a stray sample counts no more than its share
+  bool bare = false;             // readings whose first contact is exact and that do not drift
 };
 
 /// What is known of the fingers, one or two.
 struct Contacts {
   PerFinger<double> finger_curvature;  // at the first contact: 1/r of a disk; 0 of a jaw, or where it is not known
-  std::optional<double> facing;        // of two: (u + psi)_a - (u + psi)_b at the first contacts, radians
+  std::optional<double> facing{};      // of two: (u + psi)_a - (u + psi)_b at the first contacts, radians
 };
 
 /// Where the posterior has its mass: one of several places, or of two fingers pairs of places, that remain.

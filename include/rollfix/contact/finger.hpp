@@ -30,12 +30,7 @@ struct Contact {
 /// A finger of any convex shape: a disk, a flat jaw, or an outline. Its body lies on the left of its own boundary.
 class Finger {
  public:
-  /// A disk. Its radius is looked at by require_valid, not here.
   Finger(const DiskFinger& disk) : radius_(disk.radius) {}  // NOLINT(google-explicit-constructor): it is one
-  Finger(double disk_radius) : radius_(disk_radius) {}      // NOLINT(google-explicit-constructor): {0.2}
-
-  /// A flat jaw without ends: the x axis of its frame, its body above; u = x.
-  static Finger jaw();
 
   /// A convex outline, closed or open, in its frame; u is arc length from its first point, of a closed one
   /// counter-clockwise whichever way it was given. Throws InputError: it is concave somewhere, has a corner (there the
@@ -66,6 +61,7 @@ class Finger {
   Interval ends() const;
 
  private:
+  friend Finger jaw();
   enum class Kind { disk, jaw, outline };
   Finger(Kind kind, std::string name) : kind_(kind), name_(std::move(name)) {}
 
@@ -74,6 +70,13 @@ class Finger {
   std::string name_ = "disk";
   std::shared_ptr<const Part> outline_;
 };
+
+/// A disk with this radius, r > 0, in the outline's unit; what it is used for looks at the radius (require_valid), not
+/// this. u is an angle.
+inline Finger disk(double radius) { return DiskFinger{radius}; }
+
+/// A flat jaw without ends: the x axis of its frame, its body above; u = x.
+Finger jaw();
 
 /// Throws InputError unless a disk's radius is a finite number above 0.
 void require_valid(const Finger& finger);

@@ -35,11 +35,11 @@ struct RollPlan {
 /// both.
 struct FreeFinger {
   Finger finger = DiskFinger{};
-  double start = 0;                     // s of the first contact, along the stored outline
-  double psi = 0;                       // a disk's orientation there, in the world, radians
-  std::optional<double> distance;       // how far its contact travels: L, below 0 for backwards, 0 for staying; or
-  std::function<double(double)> omega;  // its angular velocity in the world by time, rad/s; may change its sign
-  std::optional<double> u{};            // of any other finger than a disk: as of a roll on a part at rest
+  double start = 0;                       // s of the first contact, along the stored outline
+  double psi = 0;                         // a disk's orientation there, in the world, radians
+  std::optional<double> distance{};       // how far its contact travels: L, below 0 for backwards, 0 for staying; or
+  std::function<double(double)> omega{};  // its angular velocity in the world by time, rad/s; may change its sign
+  std::optional<double> u{};              // of any other finger than a disk: as of a roll on a part at rest
 };
 
 /// How a robot turns two fingers that touch a part, and how the part answers. All angular velocities are given, so that

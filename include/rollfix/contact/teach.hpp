@@ -15,8 +15,8 @@ namespace rollfix {
 
 /// How to make an outline of a roll around it.
 struct TeachOptions {
-  std::optional<DiskFinger> finger;    // for logs of u and psi
-  std::optional<Noise> noise;          // none: only what the digits written and the rows' distance leave open
+  std::optional<Finger> finger{};      // for logs of u and psi: a disk
+  std::optional<Noise> noise{};        // none: only what the digits written and the rows' distance leave open
   bool bridge = false;                 // a gap that drift does not explain is bridged by a piece
   bool open = false;                   // the roll runs along an open curve: nothing is closed
   double corner_angle = kCornerAngle;  // radians: neighbouring rows that turn by at least this make a corner
@@ -65,7 +65,7 @@ struct Taught {
 ///    outline's direction is that in which L grows: a course driven clockwise stays one, and Part says `reversed`. A
 ///    finger's log (u and psi) that turns clockwise has the material outside: a hole
 ///  * the place is the world's where the log has x and y, the direction where it has psi; else (0, 0) and along x
-/// Throws InputError: u and psi without a finger, a finger or noise that is not valid, too few rows, a roll of no
+/// Throws InputError: u and psi without a disk, a finger or noise that is not valid, too few rows, a roll of no
 /// length or one that goes back on itself, or no turn to close to (a figure of eight's is 0, which closes as well).
 Taught teach(const Log& log, const TeachOptions& options = {});
 

@@ -32,7 +32,8 @@ struct LoadedPart {
 /// The part that the user calls by this argument, which becomes its name: "gallery:NAME,key=value,...", a file by its
 /// ending (.csv .dat .txt points, .dxf, .svg, .json a gallery shape, curves or a saved part), or "-" for standard
 /// input, known by how it begins. Throws InputError: what the parts throw, an ending that is not known, an option that
-/// does not apply, or a drawing without a closed loop (with the size and the place of the gap).
-LoadedPart load_part(const std::string& argument, const LoadOptions& options = {});
+/// does not apply, or a drawing without a closed loop (with the size and the place of the gap). Options are always
+/// given, mostly as {}: load_part(argument) is the core's, which takes the gallery and points only.
+LoadedPart load_part(const std::string& argument, const LoadOptions& options);
 
 }  // namespace rollfix

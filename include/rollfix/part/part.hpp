@@ -70,4 +70,8 @@ class Part {
   std::shared_ptr<const Data> data_;
 };
 
+/// The part of what load_outline takes: "gallery:NAME,key=value,...", or points in .csv, .dat or .txt. Throws
+/// InputError as that does and as Part does. Drawings, saved parts, and options: rollfix/files/load_part.hpp.
+Part load_part(const std::string& source);
+
 }  // namespace rollfix

@@ -1,9 +1,9 @@
 // A witness that is not ours: in Box2D, a rigid-body engine, a disk finger rolls on parts of the gallery because
 // friction makes it, and its logs are located. Prints the tables of docs/witness.md and writes a log.
 //
-//   example_physics_witness                 a few rolls on each part
-//   example_physics_witness --starts 40     as many as the document has
-//   example_physics_witness -o physics.csv  and one log, with the command that locates it
+//   study_physics_witness                 a few rolls on each part
+//   study_physics_witness --starts 40     as many as the document has
+//   study_physics_witness -o physics.csv  and one log, with the command that locates it
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -4,9 +4,9 @@
 // can't be all of them unless two rolls meet in a tangency (docs/two_fingers.md), so 16 are asked for here, all of them
 // crossings; and 15 of the paper's algorithm, taken as Figure 6 prints it.
 //
-//   example_figure8_search                        the first that is found
-//   example_figure8_search --seed 100             the same, starting with another part
-//   example_figure8_search --parts 9 --rolls 500  how many parts to try, and how many rolls on each
+//   study_figure8_search                        the first that is found
+//   study_figure8_search --seed 100             the same, starting with another part
+//   study_figure8_search --parts 9 --rolls 500  how many parts to try, and how many rolls on each
 
 #include <fmt/format.h>
 
