@@ -18,7 +18,7 @@ int main() {
 
   for (const std::size_t rows : {10, 20, 40, 80}) {
     const NoisyIncrements drive = noisy_increments(track, 700, 5.0 * static_cast<double>(rows), rows, noise, 3);
-    const Answer answer = solve({track, drive.log, {}, noise});
+    const Answer answer = solve({track, drive.log, {}, noise});  // no finger
     std::printf("after %3zu m: %s\n", 5 * rows, answer.verdict.text().c_str());
     for (const Placement& placement : answer.placements) {
       if (placement.probability < 0.05) continue;

@@ -62,7 +62,7 @@ Log finger_log(const Part& part, double radius, double from, double length, std:
 
 TeachOptions with_finger(double radius) {
   TeachOptions options;
-  options.finger = rollfix::DiskFinger{radius};
+  options.finger = rollfix::disk(radius);
   return options;
 }
 
@@ -367,6 +367,9 @@ TEST(BadTeach, single_row_is_a_straight_open_curve_or_refused) {
 TEST(BadTeach, contact_log_without_a_finger_and_bad_noise_are_refused) {
   const Log log = finger_log(shape("ellipse"), 0.1, 0, 1, 20);
   EXPECT_THAT(message_of(log), HasSubstr("`finger`"));
+  TeachOptions flat;
+  flat.finger = rollfix::jaw();
+  EXPECT_THAT(message_of(log, flat), HasSubstr("expected a disk's log, and the finger is jaw"));
   TeachOptions options = with_finger(0.1);
   options.noise = Noise{-1, 0, 0, 0};
   EXPECT_THAT(message_of(log, options), HasSubstr("noise of -1"));

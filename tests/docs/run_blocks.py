@@ -9,7 +9,7 @@
             function, after all of the library's headers and the document's earlier includes.
             <!-- given: CODE --> on the line before a fragment puts CODE in front of it.
             <!-- from: FILE --> on the line before a block makes it an excerpt: its lines stand in that file of the
-            repository one after the other, but for their indent; the block is not compiled.
+            repository, but for their indent, one after the other or with `...` between; they are not compiled.
             <!-- output --> on the line before the next block of any language makes that the program's exact output.
     json    Must be JSON, or one JSON value per line.
 Other languages are not run.
@@ -217,10 +217,10 @@ def check_excerpt(block):
     path = REPOSITORY / block.source
     if not path.exists():
         raise Failure(f"line {block.first_line}: there is no {block.source}")
-    whole = "\n" + "\n".join(line.strip() for line in path.read_text().split("\n")) + "\n"
+    whole = [line.strip() for line in path.read_text().split("\n")]
     excerpt = [line.strip() for line in block.lines]
-    if "\n" + "\n".join(excerpt) + "\n" not in whole:
-        missing = [line for line in excerpt if f"\n{line}\n" not in whole]
+    if not matches(["...", *excerpt, "..."], whole):
+        missing = [line for line in excerpt if line != "..." and line not in whole]
         what = f"has no line `{missing[0]}`" if missing else "has these lines, but not one after the other"
         raise Failure(f"line {block.first_line}: {block.source} {what}")
 

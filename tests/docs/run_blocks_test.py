@@ -100,6 +100,7 @@ class OtherBlocks(unittest.TestCase):
             return failures_of("\n".join([f"<!-- from: {file} -->", "```cpp", *lines, "```", ""]))
 
         self.assertEqual(excerpt("class OtherBlocks(unittest.TestCase):", "def test_json_is_parsed(self):"), [])
+        self.assertEqual(excerpt("import argparse", "...", "import unittest"), [])
         self.assertIn("has no line `int i;`", excerpt("class OtherBlocks(unittest.TestCase):", "int i;")[0])
         self.assertIn("one after the other", excerpt("import argparse", "import unittest")[0])
         self.assertIn("there is no", excerpt("int i;", file="tests/docs/none.cpp")[0])

@@ -90,9 +90,9 @@ class Belief {
   /// fingers.
   void add(const Sample& sample);
   void add(const Reading& reading);
-  std::size_t samples() const;
+  std::size_t samples() const;  // a first contact, of length 0, is not one of them
 
-  /// What remains, the most probable first; what they leave out is less than `rest`.
+  /// What remains, the most probable first; what they leave out is less than `rest`. None before the first sample.
   const std::vector<Mode>& modes();
   double rest();
 

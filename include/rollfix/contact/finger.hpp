@@ -31,6 +31,7 @@ struct Contact {
 class Finger {
  public:
   Finger(const DiskFinger& disk) : radius_(disk.radius) {}  // NOLINT(google-explicit-constructor): it is one
+  Finger(double disk_radius) : radius_(disk_radius) {}      // NOLINT(google-explicit-constructor): {0.2}
 
   /// A convex outline, closed or open, in its frame; u is arc length from its first point, of a closed one
   /// counter-clockwise whichever way it was given. Throws InputError: it is concave somewhere, has a corner (there the
