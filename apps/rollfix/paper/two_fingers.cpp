@@ -20,7 +20,8 @@ struct Rolls {
   double turn = 0;
 };
 
-/// A part and rolls with the paper's theta_1 and theta_2 and its numbers of intervals: examples/studies/figure8_search.cpp.
+/// A part and rolls with the paper's theta_1 and theta_2 and its numbers of intervals:
+/// examples/studies/figure8_search.cpp.
 constexpr const char* kPart = "spline,n=9,seed=7,wobble=0.2";
 constexpr Rolls kFirst{0.58, 0.94, -0.725248}, kSecond{1.01, 1.92, -1.99849}, kThird{1.25, 2.37, -1.966238};
 constexpr double kHolds = 1e-10;  // radians: what march and turning function may differ by
