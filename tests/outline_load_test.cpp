@@ -124,7 +124,7 @@ TEST_F(Load, gallery_name_without_gallery_is_recognised) {
 }
 
 TEST_F(Load, drawings_are_of_another_library_and_it_says_how_to_call_that) {
-  for (const std::string& name : {"part.dxf", "part.SVG", "part.json"}) {
+  for (const std::string name : {"part.dxf", "part.SVG", "part.json"}) {
     EXPECT_THAT(message_of(name), AllOf(HasSubstr("rollfix::files"), HasSubstr("load_part(\"" + name + "\", {}).part"),
                                         HasSubstr("here expected points in .csv")));
   }
