@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <random>
 
-#include "rollfix/part/period.hpp"
 #include "same_pair.hpp"
 
 namespace bench {
@@ -84,7 +83,7 @@ std::vector<PerFinger<double>> locate_by_least_squares(const Part& part, const s
     if (!(std::sqrt(2 * solver.Solve(residuals, &at).final_cost) <= kVanishes)) continue;
     PerFinger<double> pair{at[0], at[1]};
     if (part.closed()) {
-      for (double& place : pair) place = wrap(place, part.perimeter()).base;
+      for (double& place : pair) place = part.boundary().base(place);
     } else if (!where[0].contains(pair[0]) || !where[1].contains(pair[1])) {
       continue;
     }

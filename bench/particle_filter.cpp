@@ -5,8 +5,6 @@
 #include <numeric>
 #include <random>
 
-#include "rollfix/part/period.hpp"
-
 namespace bench {
 namespace {
 
@@ -88,7 +86,7 @@ void draw_again(const Part& part, const Noise& noise, std::mt19937_64& random, s
     const double shake = std::sqrt((1 - square(kKept)) * variance) + 1e-6 * P;
     for (std::size_t k = begin; k < end; ++k) {
       drawn[k].s = mean + kKept * (drawn[k].s - mean) + shake * normal(random);
-      drawn[k].s = part.closed() ? rollfix::wrap(drawn[k].s, P).base : std::clamp(drawn[k].s, 0.0, P);
+      drawn[k].s = part.boundary().base(drawn[k].s);
       drawn[k].scale += 0.1 * noise.slip * normal(random);
     }
     begin = end;

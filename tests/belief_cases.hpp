@@ -11,7 +11,6 @@
 #include "rollfix/belief/belief.hpp"
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/outline/load.hpp"
-#include "rollfix/part/period.hpp"
 
 /// Noisy rolls of a disk, and what they make believe.
 namespace belief_cases {
@@ -72,13 +71,10 @@ inline Belief belief_in(const Part& part, const rollfix::Log& log, double radius
 }
 
 inline bool holds(const rollfix::Interval& interval, double s, const Part& part) {
-  if (!part.closed()) return s >= interval.lo && s <= interval.hi;
-  return rollfix::wrap(s - interval.lo, part.perimeter()).base <= interval.width();
+  return part.boundary().contains(interval, s);
 }
 
-inline double distance(const Part& part, double a, double b) {
-  return part.closed() ? rollfix::periodic_distance(a, b, part.perimeter()) : std::abs(a - b);
-}
+inline double distance(const Part& part, double a, double b) { return part.boundary().distance(a, b); }
 
 /// The mode whose region holds the place; nullptr where none does.
 inline const Mode* mode_at(const std::vector<Mode>& modes, double s, const Part& part) {
@@ -97,7 +93,7 @@ class Robot {
   /// Rolls on by this length and tells the belief.
   void roll(double length, Belief& belief) {
     RollPlan plan;
-    plan.start = part_.closed() ? rollfix::wrap(start_ + length_, part_.perimeter()).base : start_ + length_;
+    plan.start = part_.boundary().on_first_lap(start_ + length_);
     plan.distance = length;
     plan.rows = 120;
     const rollfix::Roll roll = rollfix::roll_in_closed_form(part_, DiskFinger{radius_}, plan);

@@ -37,7 +37,7 @@ inline std::vector<rollfix::Placement> found_at(const rollfix::Part& part, const
   for (const double start : starts) {
     rollfix::Placement placement;
     placement.start = start;
-    placement.end = std::fmod(std::fmod(start + length, part.perimeter()) + part.perimeter(), part.perimeter());
+    placement.end = rollfix::Boundary{part.perimeter(), true}.base(start + length);
     placement.extent = rollfix::Interval{start, start};
     placement.roots.push_back(start);
     placement.point = part.point(start);

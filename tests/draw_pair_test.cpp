@@ -89,8 +89,7 @@ Figure figure_of(const Part& part, const std::vector<PerFinger<double>>& starts,
     placement.point = {Vec2(), Vec2()};
     for (std::size_t finger = 0; finger < 2; ++finger) {
       const double share = shares.back()[finger];
-      placement.end[finger] =
-          part.closed() ? rollfix::wrap(start[finger] + share * P, P).base : start[finger] + share * P;
+      placement.end[finger] = part.boundary().on_first_lap(start[finger] + share * P);
       placement.extent[finger] = {start[finger], start[finger]};
       placement.point[finger] = part.point(start[finger]);
       placement.tangent[finger] = part.tangent(start[finger]);

@@ -116,7 +116,7 @@ TEST(Joint, that_a_turn_falls_into_is_a_placement) {
     // It ends in the middle of the jump, or starts there.
     const double from = drawing.turning().angle(corner.s - length);
     const Search ends = locate(drawing, {length, there - from});
-    EXPECT_TRUE(shapes::holds(drawing, ends, wrap(corner.s - length, drawing.perimeter()).base, 1e-9)) << corner.turn;
+    EXPECT_TRUE(shapes::holds(drawing, ends, drawing.boundary().base(corner.s - length), 1e-9)) << corner.turn;
     const double to = drawing.turning().angle(corner.s + length);
     EXPECT_TRUE(shapes::holds(drawing, locate(drawing, {length, to - there}), corner.s, 1e-9)) << corner.turn;
     if (corner.turn < 0) ++concave;
@@ -141,8 +141,7 @@ TEST(Joint, that_two_fingers_readings_fall_into_is_a_placement) {
     options.facing = turning.angle(s) - turning.angle(t);
     bool found = false;
     for (const Placement& placement : locate(drawing, std::vector<Reading>{reading}, options).placements) {
-      const double ahead = wrap(s - placement.extent[0].lo + 1e-9, drawing.perimeter()).base;
-      found = found || ahead <= placement.extent[0].width() + 2e-9;
+      found = found || drawing.boundary().contains(placement.extent[0], s, 1e-9);
     }
     EXPECT_TRUE(found) << corner.s;
   }

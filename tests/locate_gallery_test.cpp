@@ -89,8 +89,7 @@ TEST_P(LocateSmooth, agrees_with_an_exhaustive_scan) {
     for (const double root : scan.roots) {
       double nearest = part.perimeter();
       for (const double start : shapes::starts(search)) {
-        nearest = std::min(nearest,
-                           part.closed() ? periodic_distance(root, start, part.perimeter()) : std::abs(root - start));
+        nearest = std::min(nearest, part.boundary().distance(root, start));
       }
       EXPECT_LT(nearest, 1e-8 * part.perimeter());
     }
@@ -112,8 +111,7 @@ TEST_P(LocateSmooth, gives_sensitivities_that_finite_differences_confirm) {
       const auto moved = [&](const Reading& other) {
         double nearest = part.perimeter();
         for (const double start : shapes::starts(locate(part, other))) {
-          const double move =
-              part.closed() ? std::remainder(start - placement.start[0], part.perimeter()) : start - placement.start[0];
+          const double move = part.boundary().offset(placement.start[0], start);
           if (std::abs(move) < std::abs(nearest)) nearest = move;
         }
         return nearest;

@@ -12,6 +12,7 @@
 
 #include "march_oracle.hpp"
 #include "rollfix/march/march.hpp"
+#include "rollfix/part/boundary.hpp"
 
 namespace march_oracle {
 
@@ -22,7 +23,7 @@ constexpr double kEstimates = 4;
 constexpr double kDoubtMargin = 1e-7;
 
 inline double distance(double a, double b, double perimeter, bool closed) {
-  return closed ? std::fabs(std::remainder(a - b, perimeter)) : std::fabs(a - b);
+  return rollfix::Boundary{perimeter, closed}.distance(a, b);
 }
 
 /// Every segment is a root; every root is a segment, or lies in a stretch that the march itself calls doubtful.

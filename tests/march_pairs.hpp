@@ -17,7 +17,7 @@
 
 #include "march_oracle.hpp"
 #include "rollfix/march/march_pairs.hpp"
-#include "rollfix/part/period.hpp"
+#include "rollfix/part/boundary.hpp"
 
 namespace march_pairs {
 
@@ -38,6 +38,7 @@ class Exhaustive {
       : turn_(outline), curvature_(outline, march_oracle::Measure::curvature, {}) {}
 
   double perimeter() const { return turn_.perimeter(); }
+  rollfix::Boundary loop() const { return {perimeter(), true}; }
   double phi(double s, double length) const { return turn_.phi(s, length); }
   /// phi'(s) = kappa(s + L) - kappa(s)
   double slope(double s, double length) const { return curvature_.phi(s, length); }
@@ -45,8 +46,7 @@ class Exhaustive {
   std::vector<double> stationary(double length) const { return curvature_.scan(length, 0).roots; }
 
   double distance(const Point& one, const Point& two) const {
-    return std::max(rollfix::periodic_distance(one.s, two.s, perimeter()),
-                    rollfix::periodic_distance(one.t, two.t, perimeter()));
+    return std::max(loop().distance(one.s, two.s), loop().distance(one.t, two.t));
   }
 
   double excess(const Point& at, const Reading& reading) const {
@@ -99,7 +99,7 @@ class Exhaustive {
       if (size > 1e-12 * perimeter()) continue;
       const bool known = std::any_of(found.begin(), found.end(),
                                      [&](const Point& other) { return distance(at, other) < 1e-7 * perimeter(); });
-      if (!known) found.push_back({rollfix::wrap(at.s, perimeter()).base, rollfix::wrap(at.t, perimeter()).base});
+      if (!known) found.push_back({loop().base(at.s), loop().base(at.t)});
       return;
     }
   }
@@ -165,15 +165,14 @@ constexpr double kDoubtMargin = 1e-7;
 inline bool lists(const PairResult& result, const Point& point, double period) {
   return std::any_of(result.pairs.begin(), result.pairs.end(), [&](const auto& pair) {
     const double near = std::max(kAgreement * period, kEstimates * pair.error);
-    return rollfix::periodic_distance(pair.s, point.s, period) <= near &&
-           rollfix::periodic_distance(pair.t, point.t, period) <= near;
+    const rollfix::Boundary loop{period, true};
+    return loop.distance(pair.s, point.s) <= near && loop.distance(pair.t, point.t) <= near;
   });
 }
 
 inline bool doubts(const PairResult& result, const Point& point, double period) {
   const auto holds = [&](const rollfix::Interval& where, double place) {
-    const double margin = kDoubtMargin * period;
-    return rollfix::wrap(place - where.lo + margin, period).base <= where.width() + 2 * margin;
+    return rollfix::Boundary{period, true}.contains(where, place, kDoubtMargin * period);
   };
   return std::any_of(result.doubts.begin(), result.doubts.end(),
                      [&](const auto& doubt) { return holds(doubt.s, point.s) && holds(doubt.t, point.t); });

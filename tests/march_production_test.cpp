@@ -34,9 +34,7 @@ std::vector<std::string> smooth_shapes() {
   return names;
 }
 
-double distance(const Part& part, double one, double two) {
-  return part.closed() ? periodic_distance(one, two, part.perimeter()) : std::abs(one - two);
-}
+double distance(const Part& part, double one, double two) { return part.boundary().distance(one, two); }
 
 /// Of a closed outline up to two laps either way; of an open one what fits on it.
 Reading random_reading(const Part& part, std::mt19937_64& generator) {

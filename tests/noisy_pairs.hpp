@@ -9,7 +9,6 @@
 #include "free_roll.hpp"
 #include "rollfix/belief/belief.hpp"
 #include "rollfix/contact/log.hpp"
-#include "rollfix/part/period.hpp"
 
 /// Small words for tests about two fingers' noisy logs.
 namespace noisy_pairs {
@@ -69,8 +68,7 @@ inline Belief belief_of(const Part& part, const Case& drawn, const BeliefOptions
 
 /// Is s within an interval of places, around the loop?
 inline bool holds(const Part& part, const rollfix::Interval& interval, double s) {
-  if (!part.closed()) return s >= interval.lo && s <= interval.hi;
-  return rollfix::wrap(s - interval.lo, part.perimeter()).base <= interval.width();
+  return part.boundary().contains(interval, s);
 }
 
 }  // namespace noisy_pairs

@@ -185,8 +185,8 @@ class BruteForce {
           const double at_s = s.lo + s.width() * (i + 0.5) / points;
           const double at_t = t.lo + t.width() * (j + 0.5) / points;
           const double mass = area * std::exp(log_likelihood(at_s, at_t) - best);
-          const Eigen::Vector2d off(std::remainder(at_s - mode.mean[0], part_.perimeter()),
-                                    std::remainder(at_t - mode.mean[1], part_.perimeter()));
+          const Eigen::Vector2d off(part_.boundary().offset(mode.mean[0], at_s),
+                                    part_.boundary().offset(mode.mean[1], at_t));
           sum.share += mass;
           sum.mean += mass * off;
           squares += mass * off * off.transpose();
@@ -282,8 +282,8 @@ TEST(PairBelief, takes_both_halves_of_a_symmetric_part_as_equally_probable) {
   Belief belief = belief_of(part, drawn, options);
   ASSERT_EQ(belief.verdict().text(), "ambiguous (2)");
   EXPECT_NEAR(belief.modes()[0].probability, 0.5, 0.01);
-  EXPECT_NEAR(rollfix::periodic_distance(belief.modes()[0].start[0], belief.modes()[1].start[0], part.perimeter()),
-              part.perimeter() / 2, 0.05 * belief.modes()[0].sd[0]);
+  EXPECT_NEAR(part.boundary().distance(belief.modes()[0].start[0], belief.modes()[1].start[0]), part.perimeter() / 2,
+              0.05 * belief.modes()[0].sd[0]);
 }
 
 TEST(PairBelief, takes_what_it_is_told_of_finger_a_before) {
@@ -464,7 +464,7 @@ TEST(PairBelief, knows_how_sure_the_parts_pose_is) {
   for (int k = 0; k < test_count(30); ++k) {
     const Case drawn = random_pair(part, 100, options.noise, generator);
     // Fingers that touch at the same place would be in each other's way, and tell less than any pose.
-    if (rollfix::periodic_distance(drawn.start[0], drawn.start[1], part.perimeter()) < 0.4) continue;
+    if (part.boundary().distance(drawn.start[0], drawn.start[1]) < 0.4) continue;
     Belief belief = belief_of(part, drawn, options);
     rollfix::PerFinger<rollfix::FeltContact> felt = {rollfix::FeltContact{}, rollfix::FeltContact{}};
     for (const std::size_t finger : {0U, 1U}) {

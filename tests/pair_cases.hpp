@@ -11,7 +11,6 @@
 
 #include "rollfix/locate/locate.hpp"
 #include "rollfix/part/part.hpp"
-#include "rollfix/part/period.hpp"
 
 namespace pair_cases {
 
@@ -120,9 +119,7 @@ inline std::optional<Case> double_root_case(const Part& part, std::mt19937_64& g
   return drawn;
 }
 
-inline double distance(const Part& part, double a, double b) {
-  return part.closed() ? rollfix::periodic_distance(a, b, part.perimeter()) : std::abs(a - b);
-}
+inline double distance(const Part& part, double a, double b) { return part.boundary().distance(a, b); }
 
 inline double distance(const Part& part, const PerFinger<double>& a, const PerFinger<double>& b) {
   return std::max(distance(part, a[0], b[0]), distance(part, a[1], b[1]));
@@ -139,8 +136,7 @@ inline double distance_to_family(const Part& part, const std::vector<PerFinger<d
     for (std::size_t finger = 0; finger < 2; ++finger) {
       along[finger] = to[finger] - from[finger];
       const double middle = from[finger] + 0.5 * along[finger];
-      off[finger] = pair[finger] - middle;
-      if (part.closed()) off[finger] = std::remainder(off[finger], part.perimeter());
+      off[finger] = part.boundary().offset(middle, pair[finger]);
     }
     const double square = along[0] * along[0] + along[1] * along[1];
     const double share = square > 0 ? std::clamp((off[0] * along[0] + off[1] * along[1]) / square, -0.5, 0.5) : 0.0;
@@ -152,12 +148,8 @@ inline double distance_to_family(const Part& part, const std::vector<PerFinger<d
 /// Is there a placement with this pair in its extent, give or take `slack`; of a stretch also near its line?
 inline bool holds(const Part& part, const Placement& placement, const PerFinger<double>& pair, double slack) {
   for (std::size_t finger = 0; finger < 2; ++finger) {
-    const rollfix::Interval& extent = placement.extent[finger];
-    const double ahead =
-        part.closed() ? rollfix::wrap(pair[finger] - extent.lo, part.perimeter()).base : pair[finger] - extent.lo;
-    const bool inside = ahead >= -slack && ahead <= extent.width() + slack;
-    const bool just_before = part.closed() && part.perimeter() - ahead <= slack;
-    if (!inside && !just_before && !placement.whole_loop[finger]) return false;
+    const bool inside = part.boundary().contains(placement.extent[finger], pair[finger], slack);
+    if (!inside && !placement.whole_loop[finger]) return false;
   }
   return placement.family.empty() || distance_to_family(part, placement.family, pair) <= placement.family_error + slack;
 }

@@ -31,7 +31,7 @@ std::size_t count(const Search& search, Kind kind) {
 /// Is t - s the same all along the family, modulo P?
 bool has_offset(const Part& part, const Placement& placement, double offset) {
   return std::all_of(placement.family.begin(), placement.family.end(), [&](const PerFinger<double>& at) {
-    return periodic_distance(at[1] - at[0], offset, part.perimeter()) <= 1e-9 * part.perimeter();
+    return part.boundary().distance(at[1] - at[0], offset) <= 1e-9 * part.perimeter();
   });
 }
 

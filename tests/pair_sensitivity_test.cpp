@@ -23,8 +23,8 @@ PerFinger<double> moved_start(const Part& part, const std::vector<Reading>& read
   PerFinger<double> best{1e9, 1e9};
   double least = 1e9;
   for (const Placement& placement : locate(part, readings, options).placements) {
-    const double far = std::max(periodic_distance(placement.start[0], from[0], part.perimeter()),
-                                periodic_distance(placement.start[1], from[1], part.perimeter()));
+    const double far = std::max(part.boundary().distance(placement.start[0], from[0]),
+                                part.boundary().distance(placement.start[1], from[1]));
     if (far < least) {
       least = far;
       best = placement.start;
@@ -48,9 +48,8 @@ class PairSensitivityTest : public testing::TestWithParam<std::size_t> {
       move(readings, moved, side == 0 ? -kStep : kStep);
       ends[side] = moved_start(part_, readings, moved, at);
     }
-    const double period = part_.perimeter();
-    return {std::remainder(ends[1][0] - ends[0][0], period) / (2 * kStep),
-            std::remainder(ends[1][1] - ends[0][1], period) / (2 * kStep)};
+    return {part_.boundary().offset(ends[0][0], ends[1][0]) / (2 * kStep),
+            part_.boundary().offset(ends[0][1], ends[1][1]) / (2 * kStep)};
   }
 };
 

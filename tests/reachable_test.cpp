@@ -98,7 +98,7 @@ TEST(DropUnreachable, takes_out_what_lies_in_a_dimple_and_leaves_the_rest) {
     dropped += impossible.size();
     // The arc has two ends and goes round the outside: a roll is possible when both its ends are on it, and the gap,
     // which is shorter than the rest, is not passed.
-    const auto inside = [&](double s) { return wrap(s - arc.lo, part.perimeter()).base <= arc.width() + 1e-4; };
+    const auto inside = [&](double s) { return part.boundary().contains({arc.lo, arc.hi + 1e-4}, s); };
     for (const Placement& placement : search.placements) {
       EXPECT_TRUE(inside(placement.start[0]) && inside(placement.start[0] + length)) << "seed " << test_seed();
     }
@@ -124,7 +124,7 @@ TEST(DropUnreachable, never_drops_a_roll_that_stays_within_reach) {
     const Reading reading = shapes::reading_from(part, s, length);
     Search search = locate(part, reading, tight());
     drop_unreachable(part, reach, {reading}, search);
-    EXPECT_TRUE(shapes::holds(part, search, wrap(s, part.perimeter()).base, 1e-6)) << "seed " << test_seed();
+    EXPECT_TRUE(shapes::holds(part, search, part.boundary().base(s), 1e-6)) << "seed " << test_seed();
   }
 }
 
@@ -150,9 +150,9 @@ TEST(DropUnreachable, allows_for_the_error_of_a_length) {
   Search search = locate(part, reading, tight());
   Search again = search;
   drop_unreachable(part, reach, {reading}, search);
-  EXPECT_FALSE(shapes::holds(part, search, wrap(s, part.perimeter()).base, 1e-6));
+  EXPECT_FALSE(shapes::holds(part, search, part.boundary().base(s), 1e-6));
   drop_unreachable(part, reach, {reading}, again, {}, 5e-4);
-  EXPECT_TRUE(shapes::holds(part, again, wrap(s, part.perimeter()).base, 1e-6));
+  EXPECT_TRUE(shapes::holds(part, again, part.boundary().base(s), 1e-6));
 }
 
 TEST(DropUnreachable, says_where_the_finger_hits_what) {

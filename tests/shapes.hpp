@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <numbers>
@@ -67,12 +68,9 @@ inline rollfix::Part open_waves() {
 
 /// Is there a placement whose extent holds s, give or take `slack`?
 inline bool holds(const rollfix::Part& part, const rollfix::Search& search, double s, double slack) {
-  for (const rollfix::Placement& placement : search.placements) {
-    const double ahead = rollfix::wrap(s - placement.extent[0].lo, part.perimeter()).base;
-    const double beyond = ahead - placement.extent[0].width();
-    if (beyond <= slack || part.perimeter() - ahead <= slack) return true;
-  }
-  return false;
+  return std::any_of(search.placements.begin(), search.placements.end(), [&](const rollfix::Placement& placement) {
+    return part.boundary().contains(placement.extent[0], s, slack);
+  });
 }
 
 }  // namespace shapes

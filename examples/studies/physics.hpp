@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "rollfix/contact/pose.hpp"
+#include "rollfix/part/boundary.hpp"
 #include "rollfix/part/part.hpp"
-#include "rollfix/part/period.hpp"
 
 /// A disk that rolls on a part because friction makes it: Box2D, a rigid-body engine, which knows of contacts, impulses
 /// and friction, and nothing of rolling, arc length or turning functions.

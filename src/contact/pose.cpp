@@ -6,7 +6,7 @@
 
 #include "outline/turn.hpp"
 #include "part/angle.hpp"
-#include "rollfix/part/period.hpp"
+#include "rollfix/part/boundary.hpp"
 
 namespace rollfix {
 

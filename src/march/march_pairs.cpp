@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "march/rectangle.hpp"
-#include "rollfix/part/period.hpp"
+#include "rollfix/part/boundary.hpp"
 
 namespace rollfix::march {
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "rollfix/error.hpp"
-#include "rollfix/part/period.hpp"
+#include "rollfix/part/boundary.hpp"
 
 namespace rollfix::app {
 namespace {
