@@ -17,13 +17,11 @@ cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX
   BASE_DIRECTORY ${CMAKE_INSTALL_PREFIX}/${pkgconfig_destination} OUTPUT_VARIABLE prefix_from_pkgconfig)
 
 rollfix_install_library(rollfix rollfixTargets rollfix.pc)
-rollfix_install_library(rollfix_march rollfixMarchTargets rollfix-march.pc)
-if(TARGET rollfix_files)
-  rollfix_install_library(rollfix_files rollfixFilesTargets rollfix-files.pc)
-endif()
-if(TARGET rollfix_draw)
-  rollfix_install_library(rollfix_draw rollfixDrawTargets rollfix-draw.pc)
-endif()
+foreach(component IN ITEMS march files draw)  # rollfixConfig.cmake finds them by these names
+  if(TARGET rollfix_${component})
+    rollfix_install_library(rollfix_${component} rollfix_${component}Targets rollfix-${component}.pc)
+  endif()
+endforeach()
 if(TARGET rollfix_cli)
   install(TARGETS rollfix_cli RUNTIME)
 endif()
