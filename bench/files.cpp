@@ -29,8 +29,9 @@ void files(int rounds) {
       build.push_back(seconds_per_call([&] { keep(rollfix::Part(family.outline)); }));
       reach.push_back(seconds_per_call([&] { keep(rollfix::reach_of_disk(part, radius)); }));
     }
-    fmt::print("{:<16} {:7} {:7} {:8}  {:9.1f}  {:10.1f}  {:10.1f}\n", family.name, part.turning().spirals().size(),
-               part.turning().panels().size(), text.size(), 1e6 * least(load), 1e6 * least(build), 1e6 * least(reach));
+    fmt::print("{:<16} {:7} {:7} {:8}  {:>9}  {:>10}  {:>10}\n", family.name, part.turning().spirals().size(),
+               part.turning().panels().size(), text.size(), cell(1e6 * least(load), 1), cell(1e6 * least(build), 1),
+               cell(1e6 * least(reach), 1));
   }
 }
 

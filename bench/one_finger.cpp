@@ -96,8 +96,8 @@ Row measure(const Family& family, int rounds) {
 }
 
 void print(const Row& row) {
-  fmt::print("{:<14}{:>9.2f}{:>10.1f}{:>10.2f}{:>11}{:>12.2f}{:>14.1f}\n", row.name, 1e6 * row.unit, row.build,
-             row.locate, row.march > 0 ? fmt::format("{:.0f}", row.march) : "refused", row.placements, row.evaluations);
+  fmt::print("{:<14}{:>9}{:>10}{:>10}{:>11}{:>12.2f}{:>14.1f}\n", row.name, cell(1e6 * row.unit, 2), cell(row.build, 1),
+             cell(row.locate, 2), row.march == 0 ? "refused" : cell(row.march, 0), row.placements, row.evaluations);
 }
 
 }  // namespace
@@ -120,8 +120,8 @@ void one_finger(int rounds) {
     find.add(row.locate);
     march.add(row.march);
   }
-  fmt::print("{:<14}{:>9}{:>10.1f}{:>10.2f}{:>11.0f}\n", "geometric mean", "", build.value(), find.value(),
-             march.value());
+  fmt::print("{:<14}{:>9}{:>10}{:>10}{:>11}\n", "geometric mean", "", cell(build.value(), 1), cell(find.value(), 2),
+             cell(march.value(), 0));
   if (!trivial.empty()) fmt::print("\noutlines whose W is next to nothing, lines and arcs alone:\n");
   for (const Row& row : trivial) print(row);
 }

@@ -56,11 +56,12 @@ inline bool is_trivial(const rollfix::Part& part) {
 class Mean {
  public:
   void add(double value) {
-    if (value <= 0) return;
+    if (!(value > 0)) return;
     sum_ += std::log(value);
     ++count_;
   }
-  double value() const { return count_ > 0 ? std::exp(sum_ / count_) : 0; }
+  /// Not a number where nothing was measured.
+  double value() const { return count_ > 0 ? std::exp(sum_ / count_) : std::nan(""); }
 
  private:
   double sum_ = 0;

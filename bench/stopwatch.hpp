@@ -1,8 +1,12 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <ctime>
+#include <string>
 #include <vector>
 
 namespace bench {
@@ -27,6 +31,14 @@ double seconds_per_call(Job&& job, double batch_seconds = 0.001) {
   }
 }
 
-inline double least(const std::vector<double>& values) { return *std::min_element(values.begin(), values.end()); }
+/// Not a number where nothing was measured.
+inline double least(const std::vector<double>& values) {
+  return values.empty() ? std::nan("") : *std::min_element(values.begin(), values.end());
+}
+
+/// What was timed as text, with so many digits after the point; "?" where it was not.
+inline std::string cell(double value, int digits) {
+  return std::isnan(value) ? "?" : fmt::format("{:.{}f}", value, digits);
+}
 
 }  // namespace bench

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <random>
 #include <string>
@@ -90,9 +91,7 @@ bool answers(const Part& part, const Placement& placement, const PerFinger<doubl
   if (same_pair(part, pair, placement.start, kSamePair)) return true;
   const auto inside = [&](std::size_t finger) {
     const Interval& extent = placement.extent[finger];
-    const double ahead =
-        part.closed() ? wrap(pair[finger] - extent.lo, part.perimeter()).base : pair[finger] - extent.lo;
-    return placement.whole_loop[finger] || (ahead >= 0 && ahead <= extent.width());
+    return placement.whole_loop[finger] || part.boundary().contains(extent, pair[finger]);
   };
   return inside(0) && inside(1);
 }
@@ -179,17 +178,24 @@ PairRow measure_pairs(const Family& family, int rounds) {
   row.locate = least(locate) / row.unit;
   row.facing = least(facing) / row.unit;
   if (is_trivial(part)) return row;  // continua of pairs, of which no share can be told
+  if (rounds == 0) {                 // the shares are counts, but take long
+    row.baseline.fill({std::nan(""), std::nan("")});
+    return row;
+  }
   const pair_oracle::Exhaustive oracle(part.outline());
   const std::vector<Case> few(cases.begin(), cases.begin() + kBaselineCases);
   measure_baseline(part, part.corners().empty() ? &oracle : nullptr, few, rounds, row);
   return row;
 }
 
+void print(double cost, double recall) { fmt::print("{:>8} ({:>3}%)", cell(cost, 0), cell(100 * recall, 0)); }
+
 void print(const PairRow& row) {
-  fmt::print("{:<18}{:>8.2f}{:>10.1f}{:>9.2f}{:>10.1f}{:>11.1f}{:>10.0f}", row.name, 1e6 * row.unit, row.locate,
-             row.placements > 0 ? row.locate / row.placements : 0, row.facing, row.placements, row.boxes);
+  fmt::print("{:<18}{:>8}{:>10}{:>9}{:>10}{:>11.1f}{:>10.0f}", row.name, cell(1e6 * row.unit, 2), cell(row.locate, 1),
+             cell(row.placements > 0 ? row.locate / row.placements : 0, 2), cell(row.facing, 1), row.placements,
+             row.boxes);
   for (const Baseline& baseline : row.baseline) {
-    if (baseline.cost > 0) fmt::print("{:>8.0f} ({:>3.0f}%)", baseline.cost, 100 * baseline.recall);
+    if (baseline.cost != 0) print(baseline.cost, baseline.recall);
   }
   if (row.incomplete > 0) fmt::print("  incomplete: {}", row.incomplete);
   if (row.lost > 0) fmt::print("  lost: {}", row.lost);
@@ -226,10 +232,10 @@ void two_fingers(int rounds) {  // means: geometric of costs, plain of shares
       recall[i] += row.baseline[i].recall;
     }
   }
-  fmt::print("{:<18}{:>8}{:>10.1f}{:>9.2f}{:>10.1f}{:>11}{:>10}", "mean", "", locate.value(), each.value(),
-             facing.value(), "", "");
+  fmt::print("{:<18}{:>8}{:>10}{:>9}{:>10}{:>11}{:>10}", "mean", "", cell(locate.value(), 1), cell(each.value(), 2),
+             cell(facing.value(), 1), "", "");
   for (std::size_t i = 0; i < kStarts.size(); ++i) {
-    fmt::print("{:>8.0f} ({:>3.0f}%)", cost[i].value(), 100 * recall[i] / rows);
+    print(cost[i].value(), recall[i] / rows);
   }
   fmt::print("\n");
   if (!trivial.empty()) fmt::print("\noutlines whose W is next to nothing, lines and arcs alone:\n");

@@ -1,15 +1,22 @@
-// The table of watch: what a sample of a growing log costs, from its line to what it means.
+// The table of watch: what a sample of a growing log costs, from its line to what it means. The program is run as a
+// user runs it: nothing of it is part of this one.
 
 #include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
-#include <algorithm>
-#include <ctime>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "outlines.hpp"
-#include "rollfix/watch/watcher.hpp"
+#include "rollfix/contact/log.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/files/saved_part.hpp"
 #include "stopwatch.hpp"
 #include "tables.hpp"
 
@@ -39,37 +46,54 @@ std::vector<std::string> noisy_roll(const rollfix::Part& part, int rows) {
   return lines;
 }
 
-/// Somebody who only counts what is told.
-class Counter : public rollfix::app::WatchListener {
- public:
-  void found(const rollfix::app::WatchAnswer& /*answer*/) override {}
-  void changed(const rollfix::app::WatchAnswer& /*answer*/) override { ++changes; }
-  void over(const rollfix::app::WatchAnswer& /*answer*/, rollfix::app::RollEnd /*why*/) override {}
-  void note(const std::string& /*message*/) override {}
-  bool is_ready() override { return true; }
-
-  int changes = 0;
-};
-
 struct Watched {
-  double microseconds = 0;  // per sample
-  int changes = 0;
+  double seconds = 0;
+  int told = 0;
   std::string verdict;
 };
 
-Watched watch(const rollfix::Part& part, const std::vector<std::string>& lines) {
-  rollfix::app::WatchOptions options;
-  options.name = "bench";
-  options.belief.noise = noise_on(part);
-  Counter counter;
-  const std::clock_t start = std::clock();
-  rollfix::app::Watcher watcher(part, options, counter);
-  for (const std::string& line : lines) watcher.push(line);
-  watcher.finish();
-  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  return {1e6 * seconds / static_cast<double>(watcher.counts().samples), counter.changes,
-          watcher.last_answer().verdict.text()};
+double seconds_of_children() {
+  rusage used{};
+  getrusage(RUSAGE_CHILDREN, &used);
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return seconds(used.ru_utime) + seconds(used.ru_stime);
 }
+
+/// `rollfix watch --once` of this part and log, as a user starts it.
+class Program {
+ public:
+  explicit Program(const rollfix::Part& part) : noise_(noise_on(part)) {
+    std::filesystem::create_directories(folder_);
+    std::ofstream(folder_ / "part.json") << rollfix::format_part(part);
+  }
+  ~Program() { std::filesystem::remove_all(folder_); }
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  Watched watch(const std::vector<std::string>& lines) const {
+    std::ofstream(folder_ / "roll.csv") << fmt::format("{}\n", fmt::join(lines, "\n"));
+    const double before = seconds_of_children();
+    const std::string command = fmt::format(
+        "cd '{}' && '{}' watch part.json --once --jsonl --noise contact={:.17g},angle={:.17g} --log roll.csv > told",
+        folder_.string(), ROLLFIX_PROGRAM, noise_.contact, noise_.angle);
+    if (std::system(command.c_str()) != 0) throw rollfix::InternalError("bench: failed: " + command);
+    Watched watched;
+    watched.seconds = seconds_of_children() - before;
+    std::ifstream told(folder_ / "told");
+    for (std::string line; std::getline(told, line);) {
+      const nlohmann::json event = nlohmann::json::parse(line);
+      if (event["event"] == "placements") ++watched.told;
+      if (event.contains("verdict")) watched.verdict = event["verdict"];
+    }
+    return watched;
+  }
+
+ private:
+  std::filesystem::path folder_ = std::filesystem::temp_directory_path() / fmt::format("rollfix_bench.{}", getpid());
+  rollfix::Noise noise_;
+};
 
 double parsing(const rollfix::Part& part, const std::vector<std::string>& lines) {
   const double seconds = seconds_per_call([&] {
@@ -87,22 +111,29 @@ void watch(int rounds) {
   Mean long_rolls;
   for (const Family& family : families()) {
     const rollfix::Part part(family.outline);
+    const Program program(part);
     const std::vector<std::string> few = noisy_roll(part, 1000);
     const std::vector<std::string> many = noisy_roll(part, 10000);
+    const Watched all = program.watch(many);
+    std::vector<double> start;  // of the program: what it takes for a single row
     std::vector<double> of_few;
     std::vector<double> of_many;
-    Watched last;
-    for (int round = 0; round < std::max(1, rounds / 5); ++round) {
-      of_few.push_back(watch(part, few).microseconds);
-      last = watch(part, many);
-      of_many.push_back(last.microseconds);
+    std::vector<double> reading;
+    for (int round = 0; 5 * round < rounds; ++round) {
+      start.push_back(program.watch({many.begin(), many.begin() + 2}).seconds);
+      of_few.push_back(program.watch(few).seconds);
+      of_many.push_back(round == 0 ? all.seconds : program.watch(many).seconds);
+      reading.push_back(parsing(part, few));
     }
-    short_rolls.add(least(of_few));
-    long_rolls.add(least(of_many));
-    fmt::print("{:<16} {:14.1f}  {:15.1f}  {:18.2f}  {:4}  {}\n", family.name, least(of_few), least(of_many),
-               parsing(part, few), last.changes, last.verdict);
+    const double per_short = (least(of_few) - least(start)) / 1000;
+    const double per_long = (least(of_many) - least(start)) / 10000;
+    short_rolls.add(per_short);
+    long_rolls.add(per_long);
+    fmt::print("{:<16} {:>14}  {:>15}  {:>18}  {:4}  {}\n", family.name, cell(1e6 * per_short, 1),
+               cell(1e6 * per_long, 1), cell(least(reading), 2), all.told, all.verdict);
   }
-  fmt::print("{:<16} {:14.1f}  {:15.1f}\n", "geometric mean", short_rolls.value(), long_rolls.value());
+  fmt::print("{:<16} {:>14}  {:>15}\n", "geometric mean", cell(1e6 * short_rolls.value(), 1),
+             cell(1e6 * long_rolls.value(), 1));
 }
 
 }  // namespace bench
