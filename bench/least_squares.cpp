@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <random>
 
+#include "rollfix/part/boundary.hpp"
 #include "same_pair.hpp"
 
 namespace bench {

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <random>
 
+#include "rollfix/part/boundary.hpp"
 namespace bench {
 namespace {
 

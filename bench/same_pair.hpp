@@ -1,6 +1,7 @@
 #pragma once
 
 #include "rollfix/locate/locate.hpp"
+#include "rollfix/part/boundary.hpp"
 
 namespace bench {
 

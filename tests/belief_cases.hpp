@@ -11,6 +11,7 @@
 #include "rollfix/belief/belief.hpp"
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/outline/load.hpp"
+#include "rollfix/part/boundary.hpp"
 
 /// Noisy rolls of a disk, and what they make believe.
 namespace belief_cases {

@@ -15,7 +15,7 @@
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline/gallery.hpp"
-#include "text/written_number.hpp"
+#include "text/number.hpp"
 
 namespace rollfix::log_readings_test {
 namespace {

@@ -8,7 +8,6 @@
 
 #include "march/path.hpp"
 #include "march/preprocessing.hpp"
-#include "march/walker.hpp"
 #include "march_shapes.hpp"
 
 namespace march_integration_test {

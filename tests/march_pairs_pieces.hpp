@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "march/correspondence.hpp"
+#include "march/pairs.hpp"
 #include "march_pairs.hpp"
 
 namespace march_pairs {

@@ -9,6 +9,7 @@
 #include "free_roll.hpp"
 #include "rollfix/belief/belief.hpp"
 #include "rollfix/contact/log.hpp"
+#include "rollfix/part/boundary.hpp"
 
 /// Small words for tests about two fingers' noisy logs.
 namespace noisy_pairs {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "rollfix/locate/locate.hpp"
+#include "rollfix/part/boundary.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace pair_cases {

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "belief/pair_density.hpp"
+#include "outline/turn.hpp"
 
 namespace rollfix::belief {
 
@@ -19,7 +20,6 @@ constexpr std::size_t kMostSquares = 1500;
 constexpr double kMostOfRow = 9;
 // ... and as many may be stray: a share of them, three at least.
 constexpr double kMostStray = 0.15;
-constexpr double kFullTurn = 2 * std::numbers::pi;
 
 /// A row as the search sees it: f is within what its contacts' ranges leave, give or take its own error.
 struct RangeRow {

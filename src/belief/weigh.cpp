@@ -5,7 +5,7 @@
 
 #include "belief/posterior.hpp"
 #include "locate/corner_sets.hpp"
-#include "part/angle.hpp"
+#include "outline/turn.hpp"
 #include "rollfix/belief/belief.hpp"
 
 namespace rollfix {

@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "outline/turn.hpp"
-#include "part/angle.hpp"
 #include "rollfix/error.hpp"
 
 namespace rollfix {

@@ -13,7 +13,7 @@
 #include "contact/log_rows.hpp"
 #include "contact/log_table.hpp"
 #include "rollfix/error.hpp"
-#include "text/text_file.hpp"
+#include "text/text.hpp"
 
 namespace rollfix {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "contact/roll_check.hpp"
-#include "part/angle.hpp"
+#include "outline/turn.hpp"
 #include "rollfix/contact/log.hpp"
 #include "rollfix/error.hpp"
 

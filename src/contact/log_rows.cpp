@@ -8,7 +8,6 @@
 
 #include "rollfix/error.hpp"
 #include "text/number.hpp"
-#include "text/written_number.hpp"
 
 namespace rollfix {
 

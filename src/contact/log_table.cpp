@@ -15,7 +15,7 @@
 
 #include "rollfix/error.hpp"
 #include "text/text.hpp"
-#include "text/written_number.hpp"
+#include "text/number.hpp"
 
 namespace rollfix {
 

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "outline/turn.hpp"
-#include "part/angle.hpp"
 #include "rollfix/part/boundary.hpp"
 
 namespace rollfix {

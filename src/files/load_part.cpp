@@ -15,7 +15,6 @@
 #include "rollfix/files/saved_part.hpp"
 #include "rollfix/outline/load.hpp"
 #include "text/text.hpp"
-#include "text/text_file.hpp"
 
 namespace rollfix {
 

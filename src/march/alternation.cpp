@@ -1,4 +1,4 @@
-#include "march/alternation.hpp"
+#include "march/sweep.hpp"
 
 namespace rollfix::march {
 

@@ -1,4 +1,4 @@
-#include "march/correspondence.hpp"
+#include "march/pairs.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "march/rectangle.hpp"
+#include "march/pairs.hpp"
 #include "rollfix/part/boundary.hpp"
 
 namespace rollfix::march {

@@ -1,4 +1,4 @@
-#include "march/partition.hpp"
+#include "march/pairs.hpp"
 
 #include <algorithm>
 #include <cmath>

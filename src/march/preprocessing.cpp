@@ -7,8 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "march/sign_changes.hpp"
-
 namespace rollfix::march {
 
 namespace {

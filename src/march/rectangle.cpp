@@ -1,4 +1,4 @@
-#include "march/rectangle.hpp"
+#include "march/pairs.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "march/sign_changes.hpp"
+#include "march/preprocessing.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,8 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "outline/curve_measure.hpp"
-#include "outline/end_clusters.hpp"
+#include "outline/joining.hpp"
 #include "rollfix/error.hpp"
 
 namespace rollfix {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "angle.hpp"
+#include "outline/turn.hpp"
 #include "rollfix/error.hpp"
 
 namespace rollfix {

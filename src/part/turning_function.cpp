@@ -1,7 +1,14 @@
 #include "rollfix/part/turning_function.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+
+#include "outline/turn.hpp"
+#include "rollfix/error.hpp"
+#include "turning_builder.hpp"
 
 namespace rollfix {
 
@@ -41,6 +48,193 @@ Powers TurningFunction::expand(const Panel& panel, double middle, double half) c
   double scale = 1;
   for (Eigen::Index k = 0; k < count; ++k, scale *= ratio) powers[k] *= scale;
   return powers;
+}
+
+namespace {
+
+using chebyshev::Series;
+
+// A smaller jump of the tangent at a joint is what is left of rounding: no corner.
+constexpr double kCornerTurn = 1e-11;
+// A corner this close to a full reversal is a cusp: to which side it turns can't be told.
+constexpr double kCuspTurn = 1e-7;
+// Curves of one outline must meet to this share of its size.
+constexpr double kGap = 1e-9;
+constexpr int kSizeSamples = 8;
+// A sign change this close to a panel's end, as a share of the panel, is at the end.
+constexpr double kPanelEnd = 1e-9;
+
+Series derivative(const Series& powers) {
+  const Eigen::Index count = std::max<Eigen::Index>(powers.size() - 1, 0);
+  Series result(count);
+  for (Eigen::Index k = 0; k < count; ++k) result[k] = static_cast<double>(k + 1) * powers[k + 1];
+  return result;
+}
+
+double rough_length(const Outline& outline) {
+  double sum = 0;
+  for (const Curve& curve : outline.curves) {
+    const Interval domain = curve.domain();
+    Vec2 last = curve.front();
+    for (int k = 1; k <= kSizeSamples; ++k) {
+      const Vec2 next = curve.position(domain.lo + domain.width() * k / kSizeSamples);
+      sum += (next - last).norm();
+      last = next;
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
+double Parametrization::parameter(std::size_t panel, double x) const {
+  const Piece& piece = pieces[panel];
+  double sum = 0;
+  for (std::uint32_t k = piece.count; k-- > 0;) sum = sum * x + coefficients[piece.offset + k];
+  return sum;
+}
+
+TurningFunctionBuilder::TurningFunctionBuilder(const Outline& outline) : outline_(outline) {
+  if (outline.curves.empty()) throw InputError("expected an outline of at least one curve, found none");
+  size_ = rough_length(outline);
+  if (!(size_ > 0) || !std::isfinite(size_)) {
+    throw InputError(fmt::format("expected an outline of finite size above 0, found length {}", size_));
+  }
+  turning.closed_ = outline.closed;
+  for (std::uint32_t index = 0; index < outline.curves.size(); ++index) add_curve(index);
+  close();
+}
+
+void TurningFunctionBuilder::add_curve(std::uint32_t index) {
+  const Curve& curve = outline_.curves[index];
+  const std::size_t before = index > 0 ? index - 1 : outline_.curves.size() - 1;
+  if (index > 0 || outline_.closed) {
+    const Vec2 end = outline_.curves[before].back();
+    const Vec2 start = curve.front();
+    if (!((end - start).norm() <= std::max(kGap * size_, outline_.gap))) {
+      throw InputError(fmt::format(
+          "expected curve {} to start where curve {} ends, at ({:.9g}, {:.9g}); found ({:.9g}, {:.9g}), a gap of "
+          "{:.3g}: close the gap or call the outline open",
+          index + 1, before + 1, end.x(), end.y(), start.x(), start.y(), (end - start).norm()));
+    }
+  }
+  new_curve_ = true;
+  resolve(curve, size_, [&](const ResolvedPanel& panel) { add_panel(panel, index); });
+}
+
+void TurningFunctionBuilder::add_panel(const ResolvedPanel& resolved, std::uint32_t curve) {
+  join(resolved.tangent_at_start);
+  Panel panel;
+  panel.lo = length_ + length_rest_;
+  const double sum = length_ + resolved.length;  // Neumaier: millions of panels must not add up their roundings
+  length_rest_ +=
+      std::abs(length_) >= resolved.length ? (length_ - sum) + resolved.length : (resolved.length - sum) + length_;
+  length_ = sum;
+  panel.hi = length_ + length_rest_;
+  panel.middle = panel.lo + 0.5 * (panel.hi - panel.lo);
+  panel.inverse_half = 2 / (panel.hi - panel.lo);
+
+  Series turn = chebyshev::powers(resolved.turn);
+  turn[0] += angle_;
+  const Series curvature = chebyshev::powers(resolved.curvature);
+  store(turn, curvature, panel);
+  turning.panels_.push_back(panel);
+
+  const Series parameter = chebyshev::powers(resolved.parameter);
+  parametrization.pieces.push_back({curve, static_cast<std::uint32_t>(parametrization.coefficients.size()),
+                                    static_cast<std::uint32_t>(parameter.size())});
+  parametrization.coefficients.insert(parametrization.coefficients.end(), parameter.begin(), parameter.end());
+
+  angle_ += resolved.turn.sum();
+  add_spirals(resolved);
+}
+
+void TurningFunctionBuilder::store(const Series& turn, const Series& curvature, Panel& panel) {
+  auto& all = turning.coefficients_;
+  panel.offset = static_cast<std::uint32_t>(all.size());
+  for (Eigen::Index k = 0; k < turn.size(); ++k) all.emplace_back(turn[k], k < curvature.size() ? curvature[k] : 0);
+  while ((all.size() - panel.offset) % kPanelBlock != 0) all.emplace_back(0, 0);
+  panel.count = static_cast<std::uint32_t>(all.size()) - panel.offset;
+}
+
+/// The tangent's own direction corrects the accumulated angle, so that roundings do not add up.
+void TurningFunctionBuilder::join(const Vec2& direction) {
+  const double own_angle = std::atan2(direction.y(), direction.x());
+  if (turning.panels_.empty()) {
+    angle_ = first_angle_ = own_angle;
+    return;
+  }
+  const double jump = nearest_angle(own_angle - angle_);
+  angle_ += jump;
+  if (std::abs(jump) <= kCornerTurn) return;
+  const double s = length_ + length_rest_;
+  if (std::abs(jump) >= std::numbers::pi - kCuspTurn) {
+    throw InputError(fmt::format(
+        "expected the outline to turn by less than 180 degrees at each corner, found a cusp (a full reversal) at "
+        "arc length {:.9g}: blunt it",
+        s));
+  }
+  corners.push_back({s, jump});
+}
+
+/// Cuts the newest panel where its curvature or the curvature's slope changes sign.
+void TurningFunctionBuilder::add_spirals(const ResolvedPanel& resolved) {
+  const auto index = static_cast<std::uint32_t>(turning.panels_.size() - 1);
+  const Panel& panel = turning.panels_[index];
+  const Series curvature = chebyshev::powers(resolved.curvature);
+  std::vector<double> cuts = chebyshev::sign_changes(curvature);
+  const std::vector<double> slope_cuts = chebyshev::sign_changes(derivative(curvature));
+  cuts.insert(cuts.end(), slope_cuts.begin(), slope_cuts.end());
+  std::sort(cuts.begin(), cuts.end());
+  double lo = panel.lo;
+  for (const double cut : cuts) {
+    if (1 - std::abs(cut) < kPanelEnd) continue;
+    const double hi = panel.middle + cut / panel.inverse_half;
+    if (hi > lo) {
+      add_spiral(lo, hi, index);
+      lo = hi;
+    }
+  }
+  add_spiral(lo, panel.hi, index);
+}
+
+/// Appends a monotone piece, or lengthens the last spiral by it where that goes on unchanged.
+void TurningFunctionBuilder::add_spiral(double lo, double hi, std::uint32_t panel) {
+  Spiral spiral;
+  spiral.lo = lo;
+  spiral.hi = hi;
+  spiral.first_panel = spiral.last_panel = panel;
+  spiral.start = turning.on_spiral(spiral, lo);
+  spiral.end = turning.on_spiral(spiral, hi);
+  const double change = spiral.end.curvature - spiral.start.curvature;
+  spiral.trend = change > 0 ? 1 : (change < 0 ? -1 : 0);
+  turning.most_curvature_ =
+      std::max({turning.most_curvature_, std::abs(spiral.start.curvature), std::abs(spiral.end.curvature)});
+  std::vector<Spiral>& all = turning.spirals_;
+  const auto side = [](const Spiral& one) { return one.start.curvature + one.end.curvature; };
+  if (!new_curve_ && all.back().trend == spiral.trend && side(all.back()) * side(spiral) >= 0) {
+    all.back().hi = hi;
+    all.back().end = spiral.end;
+    all.back().last_panel = panel;
+  } else {
+    all.push_back(spiral);
+  }
+  new_curve_ = false;
+}
+
+void TurningFunctionBuilder::close() {
+  turning.perimeter_ = turning.panels_.back().hi;
+  turning.panels_.back().hi = turning.spirals_.back().hi = turning.perimeter_;
+  if (!outline_.closed) return;
+  const Vec2 start = outline_.curves.front().velocity(outline_.curves.front().domain().lo);
+  const std::size_t found = corners.size();
+  join(start);
+  if (corners.size() > found) {  // the corner at the seam belongs to s = 0
+    corners.insert(corners.begin(), Corner{0, corners.back().turn});
+    corners.pop_back();
+  }
+  const double full = 2 * std::numbers::pi;
+  turning.period_turn_ = full * std::round((angle_ - first_angle_) / full);
 }
 
 }  // namespace rollfix

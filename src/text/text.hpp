@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdio>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,5 +41,13 @@ std::string known_names(const std::string& typed, const std::vector<std::string>
 std::size_t utf8_length(std::string_view text);
 
 void append_utf8(std::string& text, char32_t character);
+
+using OpenFile = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+/// A file that can be read, "-" for standard input. Throws InputError: missing, a directory, or not readable.
+OpenFile open_text(const std::string& path);
+
+/// The whole of a file, "-" for standard input. Throws InputError: missing, a directory, or not readable.
+std::string read_text(const std::string& path);
 
 }  // namespace rollfix

@@ -14,7 +14,7 @@
 #include "rollfix/error.hpp"
 #include "rollfix/usage.hpp"
 #include "text/text.hpp"
-#include "text/written_number.hpp"
+#include "text/number.hpp"
 
 namespace rollfix::app {
 namespace {

@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "rollfix/error.hpp"
+#include "text/number.hpp"
 #include "text/text.hpp"
-#include "text/written_number.hpp"
 
 namespace rollfix::app {
 double read_number(std::string_view text, const std::string& what) {

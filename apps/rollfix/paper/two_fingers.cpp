@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "march/correspondence.hpp"
+#include "march/pairs.hpp"
 #include "rollfix/march/march_pairs.hpp"
 #include "rollfix/outline/gallery.hpp"
 #include "rollfix/paper/claim.hpp"

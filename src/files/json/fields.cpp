@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "rollfix/error.hpp"
+#include "text/number.hpp"
 #include "text/text.hpp"
-#include "text/written_number.hpp"
 
 namespace rollfix {
 

@@ -1,4 +1,4 @@
-#include "outline/shapes/parameters.hpp"
+#include "outline/shapes/shapes.hpp"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,41 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
-#include "outline/shapes/parameters.hpp"
 #include "rollfix/outline/curve.hpp"
+#include "rollfix/outline/gallery.hpp"
+
+namespace rollfix {
+
+/// Cubes of lengths in this range and their reciprocals are normal numbers, so that curvatures are.
+inline constexpr double kLeastLength = 1e-99;
+inline constexpr double kMostLength = 1e99;
+
+/// The most by which lengths within one shape may differ. An ellipse with half axes a and b turns by pi on a stretch
+/// of b^2/a, and other shapes are alike: beyond this the stretch would be below 1e-12 of the perimeter, which is what
+/// arc lengths are accurate to, and the turn as good as a cusp.
+inline constexpr double kMostContrast = 1e6;
+
+/// The values of one shape's parameters: given or default, each checked against what the shape's table allows.
+class Parameters {
+ public:
+  /// Throws InputError on a name that the shape does not have, one given twice, or a value that is not allowed.
+  Parameters(const GalleryShape& shape, const ParameterList& given);
+
+  double number(const std::string& name) const;
+  int whole(const std::string& name) const { return static_cast<int>(number(name)); }
+  const std::string& text(const std::string& name) const;
+
+  /// Throws InputError: these values do not go together (or not with the shape), for this reason.
+  [[noreturn]] void refuse(const std::string& reason) const;
+
+ private:
+  const GalleryShape& shape_;
+  std::vector<std::string> values_;  // in the order of shape_.parameters
+};
+
+}  // namespace rollfix
 
 /// The gallery's shapes, each from its checked parameters.
 namespace rollfix::shapes {
@@ -15,10 +47,12 @@ Curves circle(const Parameters& parameters);
 Curves ellipse(const Parameters& parameters);
 Curves superellipse(const Parameters& parameters);
 
-// polar.cpp
+// polar.cpp: in polar form, and the open ones
 Curves limacon(const Parameters& parameters);
 Curves cam(const Parameters& parameters);
 Curves gear(const Parameters& parameters);
+Curves log_spiral(const Parameters& parameters);
+Curves exponential(const Parameters& parameters);
 
 // naca.cpp
 Curves naca(const Parameters& parameters);
@@ -29,9 +63,5 @@ Curves stadium(const Parameters& parameters);
 Curves rounded_rectangle(const Parameters& parameters);
 Curves polygon(const Parameters& parameters);
 Curves spline(const Parameters& parameters);
-
-// open.cpp
-Curves log_spiral(const Parameters& parameters);
-Curves exponential(const Parameters& parameters);
 
 }  // namespace rollfix::shapes

@@ -1,4 +1,4 @@
-#include "text/written_number.hpp"
+#include "text/number.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,8 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-
-#include "text/number.hpp"
 
 namespace rollfix {
 
