@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "draw/labels.hpp"
-#include "draw/offset.hpp"
 #include "draw/plot.hpp"
 #include "draw/rolls.hpp"
 #include "random.hpp"

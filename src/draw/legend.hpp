@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -32,6 +33,13 @@ void draw_sign(Svg& svg, Sign sign, const Vec2& at, std::string_view colour, dou
 std::string_view sign_colour(Sign sign);
 
 inline void append(Text& text, const Text& more) { text.insert(text.end(), more.begin(), more.end()); }
+
+/// A letter with an index, if any.
+inline Text symbol(const std::string& letter, const std::string& index = "") {
+  Text text{{letter, true, false, false}};
+  if (!index.empty()) text.push_back({index, false, false, true});
+  return text;
+}
 
 struct LegendEntry {
   Sign sign = Sign::line;

@@ -5,13 +5,18 @@
 #include <numbers>
 #include <string>
 
+#include "answer_plan.hpp"
 #include "contours.hpp"
 #include "labels.hpp"
-#include "pair_plan.hpp"
 
 namespace rollfix::draw {
 namespace {
 
+constexpr double kPlaneShare = 0.4;  // of the page's width
+constexpr double kPlaneLeft = 64;    // room for the numbers and the name of the axis, pixels
+constexpr double kPlaneAbove = 24;
+constexpr double kPlaneBelow = 42;
+constexpr double kPlaneRight = 16;
 constexpr double kCellSize = 0.8;               // of the grid on which lines are looked for, pixels
 constexpr double kVisibleBox = 5;               // a wider extent gets a box, pixels
 constexpr double kPlaneNumberSize = 10.5;       // pixels
@@ -20,10 +25,21 @@ constexpr int kTicks = 6;
 constexpr std::string_view kOutside = "#f0f0f0";
 constexpr std::string_view kStretch = "#F0E442";
 
+/// At the right of the part, half-way up.
+Axes plane_of(const Plan& plan) {
+  const double side = kPlaneShare * plan.width();
+  const double spare = drawing_height(plan.framing) - plan.framing.least_height;
+  Axes axes;
+  axes.corner = Vec2(plan.framing.width + kPlaneLeft, kHeaderHeight + kPlaneAbove + 0.5 * spare);
+  axes.size = Vec2(side, side);
+  axes.x = axes.y = {0, plan.part().perimeter()};
+  return axes;
+}
+
 class PlanePicture {
  public:
-  PlanePicture(Svg& svg, const PairPlan& plan)
-      : svg_(svg), plan_(plan), axes_(plan.plane), obstacles_(svg.width(), svg.height()) {}
+  PlanePicture(Svg& svg, const Plan& plan)
+      : svg_(svg), plan_(plan), axes_(plane_of(plan)), obstacles_(svg.width(), svg.height()) {}
 
   void draw() {
     svg_.open_group("plane");
@@ -37,7 +53,7 @@ class PlanePicture {
     unresolved();
     svg_.close_group();
     dots();
-    if (plan_.has_numbers()) numbers();
+    if (plan_.has_labels()) numbers();
     svg_.close_group();
   }
 
@@ -64,7 +80,7 @@ class PlanePicture {
   }
 
   void names() {
-    const Text first = pair_contact(0, 0), second = pair_contact(1, 0);
+    const Text first = contact_name(plan_, {0, 0}, 0), second = contact_name(plan_, {0, 1}, 0);
     draw_x_name(svg_, axes_, {first[0], first[1], {" of finger a"}});
     TextStyle style;
     style.align = Align::middle;
@@ -189,7 +205,7 @@ class PlanePicture {
     }
   }
 
-  double dot_size() const { return plan_.placements().size() > 200 ? 1.6 : plan_.has_numbers() ? 3.2 : 2.4; }
+  double dot_size() const { return plan_.placements().size() > 200 ? 1.6 : plan_.has_labels() ? 3.2 : 2.4; }
 
   void dots() {
     svg_.open_group("dots");
@@ -226,7 +242,7 @@ class PlanePicture {
   }
 
   Svg& svg_;
-  const PairPlan& plan_;
+  const Plan& plan_;
   Axes axes_;
   Obstacles obstacles_;
   std::array<Interval, 2> room_;  // where first contacts may be
@@ -234,6 +250,9 @@ class PlanePicture {
 
 }  // namespace
 
-void draw_pair_plane(Svg& svg, const PairPlan& plan) { PlanePicture(svg, plan).draw(); }
+double plane_width(double page_width) { return kPlaneShare * page_width + kPlaneLeft + kPlaneRight; }
+double plane_height(double page_width) { return kPlaneShare * page_width + kPlaneAbove + kPlaneBelow; }
+
+void draw_pair_plane(Svg& svg, const Plan& plan) { PlanePicture(svg, plan).draw(); }
 
 }  // namespace rollfix::draw

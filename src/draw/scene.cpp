@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "legend.hpp"
-#include "offset.hpp"
 #include "plot.hpp"
+#include "rolls.hpp"
 
 namespace rollfix::draw {
 namespace {
