@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "files/svg/svg.hpp"
+#include "files/formats.hpp"
 #include "rollfix/error.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -4,7 +4,7 @@
 
 #include "cli.hpp"
 #include "drawing_helpers.hpp"
-#include "files/dxf/dxf.hpp"
+#include "files/formats.hpp"
 #include "shapes.hpp"
 
 namespace dxf_librecad_test {

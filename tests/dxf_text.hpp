@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "files/dxf/dxf.hpp"
+#include "files/formats.hpp"
 #include "rollfix/error.hpp"
 
 /// Small DXF files, written by hand.

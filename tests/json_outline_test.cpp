@@ -1,5 +1,5 @@
 // JSON files of users: gallery shapes, and curves one by one.
-#include "files/json/outline.hpp"
+#include "files/formats.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -7,8 +7,7 @@
 #include <random>
 #include <string>
 
-#include "files/dxf/dxf.hpp"
-#include "files/svg/svg.hpp"
+#include "files/formats.hpp"
 #include "random.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate/locate.hpp"

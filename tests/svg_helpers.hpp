@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "drawing_helpers.hpp"
-#include "files/svg/svg.hpp"
+#include "files/formats.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline/loops.hpp"
 

@@ -7,9 +7,7 @@
 #include <utility>
 #include <variant>
 
-#include "files/dxf/dxf.hpp"
-#include "files/json/outline.hpp"
-#include "files/svg/svg.hpp"
+#include "files/formats.hpp"
 #include "outline/naming.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/files/saved_part.hpp"

@@ -17,8 +17,6 @@ namespace rollfix {
 
 namespace {
 
-/// Beyond this, products of four coordinates overflow.
-constexpr double kMostCoordinate = 1e75;
 /// A closed outline flatter than this share of its size has all its points on one line, but for rounding.
 constexpr double kFlat = 1e-12;
 
@@ -84,8 +82,8 @@ LineKind read_line(const char* cursor, const char* end, Vec2& point) {
 
 void refuse_binary(std::string_view text, const std::string& name) {
   const std::string_view head = text.substr(0, 1024);
-  const bool is_utf16 = head.substr(0, 2) == "\xFF\xFE" || head.substr(0, 2) == "\xFE\xFF";
-  if (is_utf16) throw InputError(fmt::format("{}: is UTF-16 text, expected plain text; save it as UTF-8", name));
+  if (has_utf16_mark(text))
+    throw InputError(fmt::format("{}: is UTF-16 text, expected plain text; save it as UTF-8", name));
   if (head.find('\0') != std::string_view::npos) {
     throw InputError(fmt::format("{}: is not a text file, expected one point 'x y' per line", name));
   }

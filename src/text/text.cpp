@@ -51,6 +51,10 @@ std::string_view without_mark(std::string_view text) {
   return text.substr(text.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0);
 }
 
+bool has_utf16_mark(std::string_view text) {
+  return text.substr(0, 2) == "\xFF\xFE" || text.substr(0, 2) == "\xFE\xFF";
+}
+
 std::vector<std::string_view> split(std::string_view text, char separator) {
   std::vector<std::string_view> pieces;
   for (std::size_t stop = text.find(separator); stop != std::string_view::npos; stop = text.find(separator)) {

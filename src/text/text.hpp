@@ -15,6 +15,9 @@ std::string_view trimmed(std::string_view text);
 /// Without the UTF-8 byte order mark that some programs write first.
 std::string_view without_mark(std::string_view text);
 
+/// Whether it begins with UTF-16's byte order mark.
+bool has_utf16_mark(std::string_view text);
+
 /// The texts between separators, trimmed; one empty text when there is nothing.
 std::vector<std::string_view> split(std::string_view text, char separator);
 

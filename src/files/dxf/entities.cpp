@@ -1,89 +1,129 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 #include <string_view>
 #include <utility>
 
-#include "files/dxf/entity_tags.hpp"
 #include "files/dxf/read.hpp"
-#include "files/dxf/text.hpp"
 
 namespace rollfix::dxf {
 
 namespace {
 
+/// From here on the group codes are those of extended data, which programs append for themselves.
+constexpr int kExtended = 1000;
+
+}  // namespace
+
+EntityTags::EntityTags(Cursor& cursor, Model& model) : cursor_(cursor), model_(model) {
+  entity_.type = model.types.number_of(text_of(cursor.tag));
+  entity_.layer = kLayerZero;
+  entity_.place = cursor.tag.place;
+}
+
+bool EntityTags::next() {
+  for (cursor_.advance(); cursor_.tag.code != 0; cursor_.advance()) {
+    if (!take_common()) return true;
+  }
+  return false;
+}
+
+bool EntityTags::take_common() {
+  const int code = cursor_.tag.code;
+  if (code == 102) in_group_ = !text_of(cursor_.tag).empty() && text_of(cursor_.tag).front() == '{';
+  if (code == 101) in_embedded_ = true;
+  if (in_group_ || in_embedded_ || code >= kExtended || code == 102) return true;
+  switch (code) {
+    case 8:
+      entity_.layer = model_.layer_names.number_of(text_of(cursor_.tag));
+      item_at(model_.layers, entity_.layer);
+      return true;
+    case 60:
+      entity_.invisible = whole() != 0;
+      return true;
+    case 67:
+      entity_.paper = whole() != 0;
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool EntityTags::take(int code, double& into) {
+  if (cursor_.tag.code != code) return false;
+  into = real();
+  taken_.set(static_cast<std::size_t>(code));
+  return true;
+}
+
+bool EntityTags::take(int code, std::int64_t& into) {
+  if (cursor_.tag.code != code) return false;
+  into = whole();
+  taken_.set(static_cast<std::size_t>(code));
+  return true;
+}
+
+bool EntityTags::take(int code_of_x, Vec3& into) {
+  return take(code_of_x, into.x()) || take(code_of_x + 10, into.y()) || take(code_of_x + 20, into.z());
+}
+
+void EntityTags::refuse(const std::string& what) const {
+  dxf::refuse(cursor_.reader, entity_.place, fmt::format("{} {}", shown(model_.types.name(entity_.type)), what));
+}
+
+void EntityTags::require(bool found, const std::string& what) const {
+  if (!found) refuse("without " + what);
+}
+
+void EntityTags::require(std::initializer_list<int> codes, const std::string& what) const {
+  const auto is_taken = [&](int code) { return taken_[static_cast<std::size_t>(code)]; };
+  require(std::all_of(codes.begin(), codes.end(), is_taken), what);
+}
+
+void EntityTags::require_point(int code_of_x) const {
+  require({code_of_x, code_of_x + 10}, fmt::format("its point (group codes {} and {})", code_of_x, code_of_x + 10));
+}
+
+void EntityTags::require_count(int code, std::int64_t said, std::size_t found, std::string_view things) const {
+  if (!taken_[static_cast<std::size_t>(code)] || said == static_cast<std::int64_t>(found)) return;
+  refuse(fmt::format("says that it has {} {}, but has {}", said, things, found));
+}
+
+namespace {
+
 LineShape read_line(EntityTags& tags) {
-  PointParts from;
-  PointParts to;
-  while (tags.next()) tags.take(from, 10) || tags.take(to, 11);
-  tags.require(from, 10);
-  tags.require(to, 11);
-  return {from.point, to.point};
+  LineShape line;
+  while (tags.next()) tags.take(10, line.from) || tags.take(11, line.to);
+  tags.require_point(10);
+  tags.require_point(11);
+  return line;
 }
 
 ArcShape read_arc(EntityTags& tags, bool whole_circle) {
   ArcShape arc;
-  PointParts centre;
-  bool has_radius = false;
-  bool has_start = whole_circle;
-  bool has_end = whole_circle;
   while (tags.next()) {
-    if (tags.take_extrusion() || tags.take(centre, 10)) continue;
-    if (tags.code() == 40) {
-      arc.radius = tags.real();
-      has_radius = true;
-    } else if (tags.code() == 50 && !whole_circle) {
-      arc.start = tags.real();
-      has_start = true;
-    } else if (tags.code() == 51 && !whole_circle) {
-      arc.end = tags.real();
-      has_end = true;
-    }
+    if (tags.take_extrusion() || tags.take(10, arc.centre) || tags.take(40, arc.radius) || whole_circle) continue;
+    tags.take(50, arc.start) || tags.take(51, arc.end);
   }
-  tags.require(centre, 10);
-  tags.require(has_radius, "its radius (group code 40)");
-  tags.require(has_start && has_end, "its angles (group codes 50 and 51)");
+  tags.require_point(10);
+  tags.require({40}, "its radius (group code 40)");
+  if (!whole_circle) tags.require({50, 51}, "its angles (group codes 50 and 51)");
   if (arc.radius < 0) tags.refuse(fmt::format("has the radius {}, expected one of at least 0", arc.radius));
-  arc.centre = centre.point;
   return arc;
 }
 
 EllipseShape read_ellipse(EntityTags& tags) {
   EllipseShape ellipse;
-  PointParts centre;
-  PointParts major;
-  bool has_ratio = false;
-  bool has_start = false;
-  bool has_end = false;
   while (tags.next()) {
-    if (tags.take_extrusion() || tags.take(centre, 10) || tags.take(major, 11)) continue;
-    if (tags.code() == 40) {
-      ellipse.ratio = tags.real();
-      has_ratio = true;
-    } else if (tags.code() == 41) {
-      ellipse.start = tags.real();
-      has_start = true;
-    } else if (tags.code() == 42) {
-      ellipse.end = tags.real();
-      has_end = true;
-    }
+    if (tags.take_extrusion() || tags.take(10, ellipse.centre) || tags.take(11, ellipse.major)) continue;
+    tags.take(40, ellipse.ratio) || tags.take(41, ellipse.start) || tags.take(42, ellipse.end);
   }
-  tags.require(centre, 10);
-  tags.require(major, 11);
-  tags.require(has_ratio, "the ratio of its axes (group code 40)");
-  tags.require(has_start && has_end, "its parameters (group codes 41 and 42)");
+  tags.require_point(10);
+  tags.require_point(11);
+  tags.require({40}, "the ratio of its axes (group code 40)");
+  tags.require({41, 42}, "its parameters (group codes 41 and 42)");
   if (ellipse.ratio == 0) tags.refuse("has axes of ratio 0, expected another");
-  ellipse.centre = centre.point;
-  ellipse.major = major.point;
   return ellipse;
-}
-
-/// A number of things that the file announces and then has.
-void require_count(const EntityTags& tags, const std::optional<std::int64_t>& said, std::size_t found,
-                   const char* things) {
-  if (!said || *said == static_cast<std::int64_t>(found)) return;
-  tags.refuse(fmt::format("says that it has {} {}, but has {}", *said, things, found));
 }
 
 /// Appends a point at its x, and fills in y and z that follow.
@@ -101,90 +141,45 @@ bool take_point(const EntityTags& tags, std::vector<Vec3>& points, int code_of_x
 
 SplineShape read_spline(EntityTags& tags) {
   SplineShape spline;
-  std::optional<std::int64_t> degree;
-  std::optional<std::int64_t> knots;
-  std::optional<std::int64_t> controls;
-  std::optional<std::int64_t> fits;
+  std::int64_t flags = 0, knots = 0, controls = 0, fits = 0;
+  double number = 0;
   while (tags.next()) {
     if (take_point(tags, spline.controls, 10) || take_point(tags, spline.fits, 11)) continue;
-    switch (tags.code()) {
-      case 40:
-        spline.knots.push_back(tags.real());
-        break;
-      case 41:
-        spline.weights.push_back(tags.real());
-        break;
-      case 70:
-        spline.closed = (tags.whole() & 1) != 0;
-        break;
-      case 71:
-        degree = tags.whole();
-        break;
-      case 72:
-        knots = tags.whole();
-        break;
-      case 73:
-        controls = tags.whole();
-        break;
-      case 74:
-        fits = tags.whole();
-        break;
-      default:
-        break;
+    if (tags.take(40, number)) {
+      spline.knots.push_back(number);
+    } else if (tags.take(41, number)) {
+      spline.weights.push_back(number);
+    } else {
+      tags.take(70, flags) || tags.take(71, spline.degree) || tags.take(72, knots) || tags.take(73, controls) ||
+          tags.take(74, fits);
     }
   }
-  require_count(tags, knots, spline.knots.size(), "knots");
-  require_count(tags, controls, spline.controls.size(), "control points");
-  require_count(tags, fits, spline.fits.size(), "fit points");
+  spline.closed = (flags & 1) != 0;
+  tags.require_count(72, knots, spline.knots.size(), "knots");
+  tags.require_count(73, controls, spline.controls.size(), "control points");
+  tags.require_count(74, fits, spline.fits.size(), "fit points");
   tags.require(!spline.controls.empty() || !spline.fits.empty(), "points (group code 10 or 11)");
-  tags.require(degree.has_value() || spline.controls.empty(), "its degree (group code 71)");
-  spline.degree = degree.value_or(0);
+  if (!spline.controls.empty()) tags.require({71}, "its degree (group code 71)");
   return spline;
 }
 
 InsertShape read_insert(EntityTags& tags) {
   InsertShape insert;
-  PointParts at;
   bool has_name = false;
   while (tags.next()) {
-    if (tags.take_extrusion() || tags.take(at, 10)) continue;
-    switch (tags.code()) {
-      case 2:
-        insert.block = tags.model().block_names.number_of(text_of(tags.cursor().tag));
-        item_at(tags.model().blocks, insert.block);
-        has_name = true;
-        break;
-      case 41:
-        insert.scale.x() = tags.real();
-        break;
-      case 42:
-        insert.scale.y() = tags.real();
-        break;
-      case 43:
-        insert.scale.z() = tags.real();
-        break;
-      case 44:
-        insert.column_spacing = tags.real();
-        break;
-      case 45:
-        insert.row_spacing = tags.real();
-        break;
-      case 50:
-        insert.rotation = tags.real();
-        break;
-      case 70:
-        insert.columns = tags.whole();
-        break;
-      case 71:
-        insert.rows = tags.whole();
-        break;
-      default:
-        break;
+    if (tags.code() == 2) {
+      insert.block = tags.model().block_names.number_of(text_of(tags.cursor().tag));
+      item_at(tags.model().blocks, insert.block);
+      has_name = true;
+    } else {
+      tags.take_extrusion() || tags.take(10, insert.at) || tags.take(41, insert.scale.x()) ||
+          tags.take(42, insert.scale.y()) || tags.take(43, insert.scale.z()) || tags.take(44, insert.column_spacing) ||
+          tags.take(45, insert.row_spacing) || tags.take(50, insert.rotation) || tags.take(70, insert.columns) ||
+          tags.take(71, insert.rows);
     }
   }
   tags.require(has_name, "its block's name (group code 2)");
-  tags.require(at, 10);
-  insert.at = at.point;
+  tags.require_point(10);
   // 0 columns or rows are what some programs write for one.
   insert.columns = std::max<std::int64_t>(insert.columns, 1);
   insert.rows = std::max<std::int64_t>(insert.rows, 1);

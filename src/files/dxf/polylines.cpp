@@ -1,12 +1,9 @@
-#include "files/dxf/entity_tags.hpp"
+#include "files/dxf/read.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <optional>
 #include <string_view>
-
-#include "files/dxf/text.hpp"
 
 namespace rollfix::dxf {
 
@@ -38,29 +35,22 @@ struct PolylineVertex {
   bool wide = false;
 };
 
+/// Whether the group is a width that is not 0: of a segment's start or end, or of the whole.
+bool is_wide(const EntityTags& tags) {
+  return (tags.code() == 40 || tags.code() == 41 || tags.code() == 43) && tags.real() != 0;
+}
+
 PolylineVertex read_vertex(Cursor& cursor, Model& model) {
   EntityTags tags(cursor, model);
   PolylineVertex result;
-  PointParts at;
+  std::int64_t flags = 0;
   while (tags.next()) {
-    if (tags.take(at, 10)) continue;
-    switch (tags.code()) {
-      case 40:
-      case 41:
-        result.wide = result.wide || tags.real() != 0;
-        break;
-      case 42:
-        result.vertex.bulge = bulge_of(tags);
-        break;
-      case 70:
-        result.is_frame = (tags.whole() & kFrame) != 0;
-        break;
-      default:
-        break;
-    }
+    if (tags.take(10, result.vertex.point) || tags.take(70, flags)) continue;
+    result.wide = result.wide || is_wide(tags);
+    if (tags.code() == 42) result.vertex.bulge = bulge_of(tags);
   }
-  tags.require(at, 10);
-  result.vertex.point = at.point;
+  tags.require_point(10);
+  result.is_frame = (flags & kFrame) != 0;
   return result;
 }
 
@@ -80,7 +70,7 @@ void read_vertices(EntityTags& tags, const Take& take) {
 
 Shape read_light_polyline(EntityTags& tags) {
   PolylineShape line;
-  std::optional<std::int64_t> count;
+  std::int64_t count = 0, flags = 0;
   double elevation = 0;
   const auto last = [&]() -> Vertex& {
     if (line.vertices.empty()) tags.refuse_here("a value of a vertex before the first vertex (group code 10)");
@@ -88,41 +78,21 @@ Shape read_light_polyline(EntityTags& tags) {
   };
   std::size_t without_y = 0;
   while (tags.next()) {
-    if (tags.take_extrusion()) continue;
-    switch (tags.code()) {
-      case 10:
-        line.vertices.push_back({{tags.real(), 0, 0}, 0});
-        ++without_y;
-        break;
-      case 20:
-        last().point.y() = tags.real();
-        --without_y;
-        break;
-      case 38:
-        elevation = tags.real();
-        break;
-      case 40:
-      case 41:
-      case 43:
-        line.wide = line.wide || tags.real() != 0;
-        break;
-      case 42:
-        last().bulge = bulge_of(tags);
-        break;
-      case 70:
-        line.closed = (tags.whole() & kClosed) != 0;
-        break;
-      case 90:
-        count = tags.whole();
-        break;
-      default:
-        break;
+    if (tags.take_extrusion() || tags.take(38, elevation) || tags.take(70, flags) || tags.take(90, count)) continue;
+    line.wide = line.wide || is_wide(tags);
+    if (tags.code() == 10) {
+      line.vertices.push_back({{tags.real(), 0, 0}, 0});
+      ++without_y;
+    } else if (tags.code() == 20) {
+      last().point.y() = tags.real();
+      --without_y;
+    } else if (tags.code() == 42) {
+      last().bulge = bulge_of(tags);
     }
   }
+  line.closed = (flags & kClosed) != 0;
   tags.require(without_y == 0, "the y of each of its vertices (group code 20)");
-  if (count && *count != static_cast<std::int64_t>(line.vertices.size())) {
-    tags.refuse(fmt::format("says that it has {} vertices, but has {}", *count, line.vertices.size()));
-  }
+  tags.require_count(90, count, line.vertices.size(), "vertices");
   for (Vertex& vertex : line.vertices) vertex.point.z() = elevation;
   return line;
 }
@@ -130,20 +100,10 @@ Shape read_light_polyline(EntityTags& tags) {
 Shape read_polyline(EntityTags& tags) {
   PolylineShape line;
   std::int64_t flags = 0;
-  PointParts elevation;
+  Vec3 elevation = Vec3::Zero();
   while (tags.next()) {
-    if (tags.take_extrusion() || tags.take(elevation, 10)) continue;
-    switch (tags.code()) {
-      case 40:
-      case 41:
-        line.wide = line.wide || tags.real() != 0;
-        break;
-      case 70:
-        flags = tags.whole();
-        break;
-      default:
-        break;
-    }
+    if (tags.take_extrusion() || tags.take(10, elevation) || tags.take(70, flags)) continue;
+    line.wide = line.wide || is_wide(tags);
   }
   if ((flags & kMesh) != 0) {
     read_vertices(tags, [](Cursor& cursor) { cursor.skip_record(); });
@@ -155,7 +115,7 @@ Shape read_polyline(EntityTags& tags) {
   read_vertices(tags, [&](Cursor& cursor) {
     PolylineVertex read = read_vertex(cursor, tags.model());
     if (read.is_frame) return;
-    if (!line.spatial) read.vertex.point.z() = elevation.point.z();
+    if (!line.spatial) read.vertex.point.z() = elevation.z();
     line.wide = line.wide || read.wide;
     line.vertices.push_back(read.vertex);
   });

@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "files/dxf/model.hpp"
-#include "files/dxf/text.hpp"
-
 namespace rollfix::dxf {
 
 std::size_t NameTable::number_of(std::string_view raw) {
@@ -24,11 +21,10 @@ constexpr std::int64_t kFrozen = 1;
 /// A block's bits for what another file holds: a reference, or one laid over.
 constexpr std::int64_t kExternal = 4 | 8;
 
-void skip_section(Cursor& cursor) {
-  while (!starts(cursor.tag, "ENDSEC") && !starts(cursor.tag, "SECTION") && !starts(cursor.tag, "EOF")) {
-    cursor.skip_record();
-  }
-}
+// Each of these starts behind the section's name and ends at the group 0 that ends the section, which read_model
+// checks.
+
+bool ends_section(const Tag& tag) { return starts(tag, "ENDSEC") || starts(tag, "SECTION") || starts(tag, "EOF"); }
 
 void read_layer(Cursor& cursor, Model& model) {
   std::string_view name;
@@ -86,8 +82,6 @@ void read_block(Cursor& cursor, Model& model) {
   item_at(model.blocks, number) = std::move(block);
 }
 
-}  // namespace
-
 void read_header(Cursor& cursor, Model& model) {
   std::string_view variable;
   for (cursor.advance(); cursor.tag.code != 0; cursor.advance()) {
@@ -100,7 +94,7 @@ void read_header(Cursor& cursor, Model& model) {
 
 void read_tables(Cursor& cursor, Model& model) {
   cursor.advance();
-  while (!starts(cursor.tag, "ENDSEC") && !starts(cursor.tag, "SECTION") && !starts(cursor.tag, "EOF")) {
+  while (!ends_section(cursor.tag)) {
     if (starts(cursor.tag, "LAYER")) {
       read_layer(cursor, model);
     } else {
@@ -113,6 +107,8 @@ void read_blocks(Cursor& cursor, Model& model) {
   cursor.advance();
   while (starts(cursor.tag, "BLOCK")) read_block(cursor, model);
 }
+
+}  // namespace
 
 Model read_model(TagReader& reader) {
   Model model;
@@ -139,7 +135,7 @@ Model read_model(TagReader& reader) {
       has_entities = true;
     } else {
       cursor.advance();
-      skip_section(cursor);
+      while (!ends_section(cursor.tag)) cursor.skip_record();
     }
     if (!starts(cursor.tag, "ENDSEC")) {
       cursor.refuse(

@@ -9,6 +9,15 @@
 
 namespace rollfix::dxf {
 
+/// A name or a text of the file in UTF-8: old files hold Windows-1252 and write other letters as \U+00E4.
+std::string decoded(std::string_view text);
+
+/// A piece of the file as a message can show it: on one line and not too long.
+std::string shown(std::string_view text);
+
+/// Names of layers and blocks are the same whatever the case of their letters.
+std::string folded(std::string_view name);
+
 /// The highest group code there is, and that of comments.
 inline constexpr int kMostCode = 1071;
 inline constexpr int kComment = 999;
@@ -33,16 +42,13 @@ class TagReader {
   virtual std::string where(std::size_t place) const = 0;
 };
 
-/// Numbers beyond this are nonsense: products of four of them overflow.
-inline constexpr double kMostNumber = 1e75;
-
 /// The group's value as text; empty for a number of a binary file.
 std::string_view text_of(const Tag& tag);
 
 /// Whether this is the group 0 that starts this kind of record.
 bool starts(const Tag& tag, std::string_view record);
 
-/// The group's value as a number. Throws InputError: not a number, not finite, above kMostNumber.
+/// The group's value as a number. Throws InputError: not a number, not finite, above kMostCoordinate.
 double real_of(const Tag& tag, const TagReader& reader);
 
 /// The group's value as a whole number. Throws InputError otherwise.
@@ -51,13 +57,7 @@ std::int64_t whole_of(const Tag& tag, const TagReader& reader);
 /// Throws InputError with the place in front of what is wrong there.
 [[noreturn]] void refuse(const TagReader& reader, std::size_t place, const std::string& what);
 
-/// The reader for these bytes, which must stay. Throws InputError when they are not a DXF file's.
+/// The reader for these bytes, ASCII or binary, which must stay. Throws InputError when they are not a DXF file's.
 std::unique_ptr<TagReader> open_tags(std::string_view bytes, const std::string& name);
-
-std::unique_ptr<TagReader> open_ascii_tags(std::string_view bytes, const std::string& name);
-std::unique_ptr<TagReader> open_binary_tags(std::string_view bytes, const std::string& name);
-
-/// What a binary DXF file starts with.
-inline constexpr std::string_view kBinaryMark("AutoCAD Binary DXF\r\n\x1a\0", 22);
 
 }  // namespace rollfix::dxf

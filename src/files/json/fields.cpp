@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "outline/box.hpp"
 #include "rollfix/error.hpp"
 #include "text/number.hpp"
 #include "text/text.hpp"
@@ -14,9 +15,6 @@
 namespace rollfix {
 
 namespace {
-
-/// Beyond this, products of four coordinates overflow.
-constexpr double kMostNumber = 1e75;
 
 constexpr const char* kPoint = "a point as in [1.5, 2]";
 
@@ -153,8 +151,8 @@ const Json& JsonFields::array(const char* name, const char* expected) const {
 double JsonFields::number_of(const Json& value, const std::string& name) const {
   if (!value.is_number()) refuse(fmt::format("{}: expected a number, found {}", name, shown(value)));
   const auto number = value.get<double>();
-  if (!(std::abs(number) <= kMostNumber)) {
-    refuse(fmt::format("{}: expected a number of at most {}, found {}", name, kMostNumber, shown(value)));
+  if (!(std::abs(number) <= kMostCoordinate)) {
+    refuse(fmt::format("{}: expected a number of at most {}, found {}", name, kMostCoordinate, shown(value)));
   }
   return number;
 }

@@ -1,4 +1,4 @@
-#include "files/json/outline.hpp"
+#include "files/formats.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "files/svg/curves.hpp"
+#include "files/svg/segment.hpp"
 
 #include <fmt/format.h>
 
@@ -15,8 +15,6 @@ namespace rollfix::svg {
 
 namespace {
 
-/// Beyond this, products of four coordinates overflow.
-constexpr double kMostCoordinate = 1e75;
 /// Half axes of one length and at right angles, but for rounding, are a circle's.
 constexpr double kRound = 1e-14;
 

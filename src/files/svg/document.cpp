@@ -23,8 +23,7 @@ constexpr std::uint32_t kByteOrderMark = 0xFEFF;
 /// Whether a text begins with UTF-16's byte order mark, or with '<' in UTF-16.
 bool is_utf16(std::string_view text) {
   const std::string_view head = text.substr(0, 2);
-  return head == "\xFF\xFE" || head == "\xFE\xFF" || head == std::string_view("<\0", 2) ||
-         head == std::string_view("\0<", 2);
+  return has_utf16_mark(text) || head == std::string_view("<\0", 2) || head == std::string_view("\0<", 2);
 }
 
 /// The same text in UTF-8. Throws InputError: half a character.

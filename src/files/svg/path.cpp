@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "files/svg/segment.hpp"
-#include "files/svg/transform.hpp"
 #include "files/svg/value.hpp"
 
 namespace rollfix::svg {

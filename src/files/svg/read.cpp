@@ -1,4 +1,4 @@
-#include "files/svg/svg.hpp"
+#include "files/formats.hpp"
 
 #include <fmt/format.h>
 
@@ -11,10 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "files/svg/curves.hpp"
 #include "files/svg/document.hpp"
+#include "files/svg/segment.hpp"
 #include "files/svg/shapes.hpp"
-#include "files/svg/transform.hpp"
 #include "files/svg/value.hpp"
 #include "text/text.hpp"
 
@@ -205,6 +204,14 @@ class Walker {
     }
   }
 
+  void enter(pugi::xml_node node, Surroundings& around) const {
+    refuse_style_transform(node);
+    inherit_visibility(node, around);
+    if (const auto transform = document_.attribute(node, "transform")) {
+      around.map = around.map * parse_transform(*transform);
+    }
+  }
+
   void draw_children(pugi::xml_node parent, const Surroundings& around) {
     for (const pugi::xml_node child : parent) {
       if (child.type() == pugi::node_pcdata && std::string_view(child.value()).find('&') != std::string_view::npos) {
@@ -231,12 +238,8 @@ class Walker {
       return;
     }
     if (!is_displayed(node)) return;
-    refuse_style_transform(node);
-    inherit_visibility(node, around);
-    if (!document_.property(node, "clip-path").empty() || !document_.property(node, "mask").empty()) note_clipped(node);
-    if (const auto transform = document_.attribute(node, "transform")) {
-      around.map = around.map * parse_transform(*transform);
-    }
+    enter(node, around);
+    note_clipped(node);
     if (is_shape(kind)) {
       draw_shape(node, around);
     } else if (kind == "use") {
@@ -283,8 +286,7 @@ class Walker {
   /// A viewport of an <svg> or a <symbol>, of the size that `sized` gives it.
   void enter_viewport(pugi::xml_node node, pugi::xml_node sized, Surroundings& around) const {
     const auto length = [&](pugi::xml_node from, const char* name, double fallback, double whole) {
-      const std::optional<Value> value = document_.attribute(from, name);
-      return value && !value->text.empty() ? user_units(*value, fallback, whole) : fallback;
+      return length_of(document_, from, name, whole).value_or(fallback);
     };
     const double own_width = length(node, "width", around.viewport.x(), around.viewport.x());
     const double own_height = length(node, "height", around.viewport.y(), around.viewport.y());
@@ -321,37 +323,26 @@ class Walker {
       refuse("which holds this very reference");
     }
     const auto shift = [&](const char* name, double whole) {
-      const std::optional<Value> value = document_.attribute(node, name);
-      return value && !value->text.empty() ? user_units(*value, 0, whole) : 0;
+      return length_of(document_, node, name, whole).value_or(0);
     };
     const Vec2 offset(shift("x", around.viewport.x()), shift("y", around.viewport.y()));
     around.map = around.map * Affine{Eigen::Matrix2d::Identity(), offset};
     uses_.push_back(target);
     const std::string_view kind = document_.kind(target);
-    if (kind == "symbol") {
+    if (kind == "symbol" || kind == "svg") {
       draw_symbol(node, target, around);
-    } else if (kind == "svg") {
-      draw_nested(node, target, around);
     } else {
       draw(target, around);
     }
     uses_.pop_back();
   }
 
+  /// A nested <svg> is a symbol in all but that it is drawn where it stands as well.
   void draw_symbol(pugi::xml_node use, pugi::xml_node symbol, Surroundings around) {
     if (!is_displayed(symbol)) return;
-    refuse_style_transform(symbol);
-    inherit_visibility(symbol, around);
-    if (const auto transform = document_.attribute(symbol, "transform")) {
-      around.map = around.map * parse_transform(*transform);
-    }
+    enter(symbol, around);
     enter_viewport(symbol, use, around);
     draw_children(symbol, around);
-  }
-
-  /// A symbol in all but that it is drawn where it stands as well.
-  void draw_nested(pugi::xml_node use, pugi::xml_node nested, const Surroundings& around) {
-    draw_symbol(use, nested, around);
   }
 
   /// href, or xlink:href under whatever prefix.

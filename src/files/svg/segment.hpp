@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
-#include "rollfix/outline/curve.hpp"
+#include "files/svg/value.hpp"
+#include "rollfix/outline/loops.hpp"
 
 namespace rollfix::svg {
 
@@ -17,6 +19,25 @@ struct Affine {
   /// First `inner`, then this one.
   Affine operator*(const Affine& inner) const { return {linear * inner.linear, linear * inner.shift + shift}; }
 };
+
+/// A rotation by an angle in degrees, exact for multiples of 90.
+Eigen::Matrix2d rotation(double degrees);
+
+/// A `transform` attribute: a list of matrix, translate, scale, rotate, skewX, skewY. Throws InputError with the place.
+Affine parse_transform(const Value& value);
+
+/// A `viewBox`: its corner and its size.
+struct ViewBox {
+  Vec2 corner = Vec2::Zero();
+  Vec2 size = Vec2::Zero();
+};
+
+/// Throws InputError with the place: not four numbers, or a size that is not above 0.
+ViewBox parse_view_box(const Value& value);
+
+/// From a viewBox onto a viewport of this size whose corner is the origin, as a `preserveAspectRatio` says; an empty
+/// one is its default, "xMidYMid meet".
+Affine fit(const ViewBox& box, const Vec2& viewport, const Value& aspect_ratio);
 
 enum class SegmentKind { line, quadratic, cubic, arc };
 
@@ -59,5 +80,21 @@ inline Segment mapped(const Affine& map, const Segment& segment) {
   }
   return result;
 }
+
+/// A subpath in the drawing's own frame, and where it comes from.
+struct PlacedSubpath {
+  Subpath path;
+  Origin origin;
+  std::size_t offset = 0;  // of its element in the file
+};
+
+struct Curves {
+  std::vector<DrawnCurve> curves;
+  std::size_t without_length = 0;  // segments that were left out
+};
+
+/// The subpaths as curves. What is shorter than 1e-9 of the drawing is left out, and what ends that close to the start
+/// of a closed subpath ends there. Throws InputError with the place: coordinates too large to work with.
+Curves to_curves(std::vector<PlacedSubpath> subpaths, const Text& file);
 
 }  // namespace rollfix::svg

@@ -9,13 +9,13 @@
 #include <optional>
 
 #include "files/svg/value.hpp"
+#include "outline/turn.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::svg {
 
 namespace {
 
-constexpr double kFull = 2 * std::numbers::pi;
 constexpr double kQuarter = std::numbers::pi / 2;
 
 /// An element's lengths.
@@ -40,11 +40,7 @@ class Lengths {
   }
 
  private:
-  std::optional<double> read(const char* name, double whole) const {
-    const std::optional<Value> value = document_.attribute(node_, name);
-    if (!value || value->text.empty() || value->text == "auto") return std::nullopt;
-    return user_units(*value, 0, whole);
-  }
+  std::optional<double> read(const char* name, double whole) const { return length_of(document_, node_, name, whole); }
 
   std::optional<double> size(const char* name, double whole) const {
     const std::optional<double> result = read(name, whole);
@@ -64,7 +60,7 @@ using Subpaths = std::vector<Subpath>;
 
 Subpaths ellipse(const Vec2& centre, const Vec2& radii) {
   if (!(radii.minCoeff() > 0)) return {};
-  const Segment whole = elliptic(centre, radii, 0, kFull);
+  const Segment whole = elliptic(centre, radii, 0, kFullTurn);
   return {{whole.from, {whole}, true}};
 }
 
@@ -110,21 +106,17 @@ Subpaths chain(const std::vector<Vec2>& points, bool closed) {
 
 }  // namespace
 
-double user_units(const Value& value, double fallback, double whole) {
-  const std::optional<Length> length = parse_length(value);
-  if (!length) return fallback;
+std::optional<double> length_of(const Document& document, pugi::xml_node node, const char* name, double whole) {
+  const std::optional<Value> value = document.attribute(node, name);
+  const std::optional<Length> length = value && !value->text.empty() ? parse_length(*value) : std::nullopt;
+  if (!length) return std::nullopt;
+  const auto refuse = [&](const char* message) {
+    value->refuse(value->text.data(), fmt::format(fmt::runtime(message), shown(value->text)));
+  };
   const std::optional<double> result = length->in_user_units(whole);
-  if (!result) {
-    value.refuse(
-        value.text.data(),
-        fmt::format("expected a length in px, mm, cm, in, pt, pc or without a unit, found '{}'", shown(value.text)));
-  }
-  if (!std::isfinite(*result)) {
-    value.refuse(
-        value.text.data(),
-        fmt::format("'{}' is a share of a page whose size the file does not say: write a length", shown(value.text)));
-  }
-  return *result;
+  if (!result) refuse("expected a length in px, mm, cm, in, pt, pc or without a unit, found '{}'");
+  if (!std::isfinite(*result)) refuse("'{}' is a share of a page whose size the file does not say: write a length");
+  return result;
 }
 
 bool is_shape(std::string_view kind) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -16,8 +17,9 @@ bool is_shape(std::string_view kind);
 /// has no size. Percentages are of `viewport`. Throws InputError with the place.
 std::vector<Subpath> shape(const Document& document, pugi::xml_node node, const Vec2& viewport);
 
-/// A length in user units. Throws InputError: a unit or a percentage of something unknown.
-double user_units(const Value& value, double fallback, double whole);
+/// An attribute's length in user units, of which `whole` is 100 %; nothing where it is missing, empty or "auto".
+/// Throws InputError: a unit or a percentage of something unknown.
+std::optional<double> length_of(const Document& document, pugi::xml_node node, const char* name, double whole);
 
 /// The subpaths of a `d` attribute, without those that are only a "move to". Throws InputError with the place of what
 /// is not SVG's path grammar: unlike a viewer, which would draw what comes before it.

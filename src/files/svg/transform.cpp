@@ -1,4 +1,4 @@
-#include "files/svg/transform.hpp"
+#include "files/svg/segment.hpp"
 
 #include <fmt/format.h>
 
