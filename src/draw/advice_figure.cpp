@@ -39,12 +39,8 @@ void draw_prospects(Svg& svg, const Advice& advice, const ProspectPlot& plot, do
   draw_graph(svg, axes, points, stroke(plot.colour, 1.6));
   if (!advice.helps) return;
   const Prospect& advised = advice.advised();
-  Paint line = stroke(kInk, 1);
-  line.dash = "4 3";
-  svg.segments({axes(advised.length, axes.y.lo), axes(advised.length, axes.y.hi)}, line);
-  Paint dot;
-  dot.fill = plot.colour;
-  svg.circle(axes(advised.length, plot.value(advised)), 4, dot);
+  svg.segments({axes(advised.length, axes.y.lo), axes(advised.length, axes.y.hi)}, stroke(kInk, 1, "4 3"));
+  svg.circle(axes(advised.length, plot.value(advised)), 4, filled(plot.colour));
 }
 
 }  // namespace
@@ -56,9 +52,7 @@ Svg draw_advice(const AdviceFigure& figure) {
   const double second = top + kProspectHeight + kProspectGap;
   Svg svg(figure.width, second + kProspectHeight + kProspectEnd);
   svg.describe(figure.title + ": " + figure.outcome);
-  Paint paper;
-  paper.fill = "#ffffff";
-  svg.rectangle(0, 0, svg.width(), svg.height(), paper);
+  svg.rectangle(0, 0, svg.width(), svg.height(), filled(kPaper));
   draw_header(svg, figure.title, figure.outcome, {{"rolling on from where the contact is now; below 0: backwards"}});
   double most = 1;
   for (const Prospect& prospect : figure.advice.prospects) most = std::max(most, prospect.placements);

@@ -12,6 +12,8 @@
 #include "labels.hpp"
 #include "rollfix/error.hpp"
 
+#include "legend.hpp"
+
 namespace rollfix {
 namespace draw {
 namespace {
@@ -80,27 +82,23 @@ class AnswerPicture {
   }
 
   void bands_of_placements() {
-    const auto broad = [](std::string_view colour) {
-      Paint paint = stroke(colour, 10);
-      paint.stroke_opacity = 0.32;
-      return paint;
+    const auto broad = [](std::string_view colour, std::string_view dash = "") {
+      return stroke(colour, 10, dash, 0.32);
     };
     for (const Way& way : plan_.ways) {
       const Interval& extent = plan_.placement(way).extent[0];
       const bool wide = scene_.pixels(extent.width()) > kVisibleExtent;
       if (plan_.placement(way).kind == Kind::stretch || wide) band(extent, broad(plan_.colour_of(way)), "extent");
     }
-    Paint unresolved = broad(kSoftInk);
-    unresolved.dash = "1 13";
     for (const PerFinger<Interval>& stretch : plan_.figure->answer->unresolved) {
-      band(stretch[0], unresolved, "unresolved");
+      band(stretch[0], broad(kSoftInk, "1 13"), "unresolved");
     }
   }
 
   void bands_of_fingers() {
     for (std::size_t finger = 0; finger < 2; ++finger) {
-      Paint paint = stroke(kFingerColours[finger], finger == 0 ? 11 : 7);  // both are seen where they overlap
-      paint.stroke_opacity = 0.25;
+      // Both are seen where they overlap.
+      const Paint paint = stroke(kFingerColours[finger], finger == 0 ? 11 : 7, "", 0.25);
       std::vector<Interval> drawn;  // several placements may have one in common
       for (const Placement& placement : plan_.placements()) {
         const Interval& extent = placement.extent[finger];

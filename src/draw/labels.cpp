@@ -6,6 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "legend.hpp"
+
 namespace rollfix::draw {
 namespace {
 
@@ -179,10 +181,7 @@ void draw_leader(Svg& svg, const LabelPlace& place, const Vec2& size, std::strin
   const Vec2 lo = place.centre - 0.5 * size, hi = place.centre + 0.5 * size;
   const Vec2 nearest = place.anchor.cwiseMax(lo).cwiseMin(hi);
   if ((nearest - place.anchor).norm() <= kLongestGap) return;
-  Paint paint;
-  paint.stroke = colour;
-  paint.width = 0.6;
-  svg.segments({place.anchor, nearest}, paint);
+  svg.segments({place.anchor, nearest}, stroke(colour, 0.6));
 }
 
 }  // namespace

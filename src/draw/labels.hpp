@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "outline/box.hpp"
 #include "rollfix/draw/svg.hpp"
 #include "rollfix/outline/curve.hpp"
 #include "trace.hpp"

@@ -34,12 +34,31 @@ std::string shortened(const std::string& text, double width, double size, bool b
 
 }  // namespace
 
-void draw_sign(Svg& svg, Sign sign, const Vec2& at, std::string_view colour, double size) {
-  const auto moved = [&](double x, double y) { return Vec2(at + size * Vec2(x, y)); };
+Paint stroke(std::string_view colour, double width, std::string_view dash, double opacity) {
   Paint paint;
   paint.stroke = colour;
-  paint.width = 0.6 + 0.6 * size;
-  paint.fill = "#ffffff";
+  paint.width = width;
+  paint.dash = dash;
+  paint.stroke_opacity = opacity;
+  return paint;
+}
+
+Paint filled(std::string_view colour, double opacity) {
+  Paint paint;
+  paint.fill = colour;
+  paint.fill_opacity = opacity;
+  return paint;
+}
+
+Paint with_rim(std::string_view colour, std::string_view rim, double width) {
+  Paint paint = stroke(rim, width);
+  paint.fill = colour;
+  return paint;
+}
+
+void draw_sign(Svg& svg, Sign sign, const Vec2& at, std::string_view colour, double size) {
+  const auto moved = [&](double x, double y) { return Vec2(at + size * Vec2(x, y)); };
+  Paint paint = with_rim(kPaper, colour, 0.6 + 0.6 * size);
   switch (sign) {
     case Sign::line:
       paint.width = 2.4;
@@ -91,9 +110,7 @@ void Legend::draw(Svg& svg, double top) const {
     const Vec2 at(kPageMargin + column_width * static_cast<double>(column),
                   top + 14 + kRowHeight * static_cast<double>(row));
     draw_sign(svg, entries_[i].sign, at + Vec2(10, 0), entries_[i].colour);
-    TextStyle style;
-    style.size = kTextSize;
-    svg.text(at + Vec2(kTextIndent, 4), entries_[i].text, style);
+    svg.text(at + Vec2(kTextIndent, 4), entries_[i].text, {kTextSize});
   }
   svg.close_group();
 }
@@ -101,18 +118,12 @@ void Legend::draw(Svg& svg, double top) const {
 void draw_header(Svg& svg, const std::string& title, const std::string& outcome, const Text& small_print) {
   const double right = svg.width() - kPageMargin;
   const double outcome_width = text_width({{outcome, false, true, false}}, 12);
-  TextStyle style;
-  style.size = 13;
-  const std::string fitting = shortened(title, right - kPageMargin - outcome_width - 16, style.size, true);
+  const double title_size = 13;
+  const std::string fitting = shortened(title, right - kPageMargin - outcome_width - 16, title_size, true);
   svg.open_group("header");
-  svg.text({kPageMargin, 20}, {{fitting, false, true, false}}, style);
-  style.size = 12;
-  style.align = Align::end;
-  svg.text({right, 20}, {{outcome, false, true, false}}, style);
-  style.size = 11;
-  style.align = Align::start;
-  style.fill = kSoftInk;
-  if (!small_print.empty()) svg.text({kPageMargin, 37}, small_print, style);
+  svg.text({kPageMargin, 20}, {{fitting, false, true, false}}, {title_size});
+  svg.text({right, 20}, {{outcome, false, true, false}}, {12, Align::end});
+  if (!small_print.empty()) svg.text({kPageMargin, 37}, small_print, {11, Align::start, std::string(kSoftInk)});
   svg.close_group();
   svg.describe(title + ": " + outcome);
 }

@@ -23,6 +23,14 @@ constexpr std::string_view kSoftInk = "#666666";   // text of less weight
 constexpr std::string_view kBlocked = "#b2182b";   // where a finger can't go
 constexpr std::string_view kMaterial = "#f3efe6";  // the part's inside
 
+constexpr std::string_view kPaper = "#ffffff";
+
+/// A plain line's paint.
+Paint stroke(std::string_view colour, double width, std::string_view dash = "", double opacity = 1);
+/// An area's, without a rim and with one.
+Paint filled(std::string_view colour, double opacity = 1);
+Paint with_rim(std::string_view colour, std::string_view rim, double width);
+
 /// Signs for points of a boundary, to be told apart without colour as well.
 enum class Sign { line, inflection, vertex, corner };
 

@@ -65,12 +65,10 @@ class PlanePicture {
       room[finger] = {axes_.x.lo - plan_.rolls[finger].hull.lo, axes_.x.hi - plan_.rolls[finger].hull.hi};
     }
     room_ = room;
-    Paint paint;
-    paint.fill = kOutside;
     const Vec2 lo = axes_(room[0].lo, room[1].hi), hi = axes_(room[0].hi, room[1].lo), end = axes_.corner + axes_.size;
     const auto box = [&](const Vec2& from, const Vec2& to) {
       if (to.x() > from.x() && to.y() > from.y()) {
-        svg_.rectangle(from.x(), from.y(), to.x() - from.x(), to.y() - from.y(), paint);
+        svg_.rectangle(from.x(), from.y(), to.x() - from.x(), to.y() - from.y(), filled(kOutside));
       }
     };
     box(axes_.corner, {lo.x(), end.y()});
@@ -127,13 +125,11 @@ class PlanePicture {
   }
 
   void draw_level(const Samples& g, const Samples& h, double level, const PairLine& style) {
-    Paint paint = stroke(style.colour, 1.2);
-    paint.dash = style.dash;
     for (const std::vector<Vec2>& line : level_lines(g, h, level)) {
       std::vector<Vec2> path;
       for (const Vec2& pair : line) path.push_back(axes_(pair.x(), pair.y()));
       path = pick(path, simplify(path, kInvisible, kMostLinePoints));
-      svg_.polyline(path, paint);
+      svg_.polyline(path, stroke(style.colour, 1.2, style.dash));
       obstacles_.add(path);
     }
   }
@@ -171,13 +167,10 @@ class PlanePicture {
   }
 
   void fill(const Box& box) {
-    Paint paint;
-    paint.fill = kStretch;
-    paint.fill_opacity = 0.6;
     const Vec2 size = box.sizes().cwiseMax(2);
     for (const Vec2& shift : shifts(box)) {
       const Vec2 lo = box.min() + shift;
-      svg_.rectangle(lo.x(), lo.y(), size.x(), size.y(), paint);
+      svg_.rectangle(lo.x(), lo.y(), size.x(), size.y(), filled(kStretch, 0.6));
     }
   }
 
@@ -195,12 +188,10 @@ class PlanePicture {
   }
 
   void unresolved() {
-    Paint paint = stroke(kSoftInk, 1);
-    paint.dash = "2 3";
     for (const PerFinger<Interval>& box : plan_.figure->answer->unresolved) {
       const Vec2 lo = axes_(box[0].lo, box[1].hi), size = axes_(box[0].hi, box[1].lo) - lo;
       svg_.open_group("unresolved");
-      svg_.rectangle(lo.x(), lo.y(), std::max(size.x(), 3.0), std::max(size.y(), 3.0), paint);
+      svg_.rectangle(lo.x(), lo.y(), std::max(size.x(), 3.0), std::max(size.y(), 3.0), stroke(kSoftInk, 1, "2 3"));
       svg_.close_group();
     }
   }
@@ -220,10 +211,8 @@ class PlanePicture {
     const PerFinger<double>& start = plan_.placements()[i].start;
     const Vec2 at = axes_(start[0], start[1]);
     const bool shown = plan_.shown == i;
-    Paint paint = stroke(shown ? kInk : std::string_view("#ffffff"), shown ? 1.6 : 0.6);
-    paint.fill = shown ? std::string_view("#ffffff") : kInk;
     const double size = shown ? 3.8 : dot_size();
-    svg_.circle(at, size, paint);
+    svg_.circle(at, size, shown ? with_rim(kPaper, kInk, 1.6) : with_rim(kInk, kPaper, 0.6));
     obstacles_.add_box(at - Vec2::Constant(size), at + Vec2::Constant(size));
   }
 

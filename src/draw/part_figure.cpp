@@ -243,15 +243,13 @@ class PartPicture {
   }
 
   void corner_lines(const Axes& frame) {
-    Paint paint = stroke("#9a9a9a", 0.8);
-    paint.dash = "2 3";
     std::vector<Vec2> ends;
     for (const Event& event : events_) {
       if (event.sign != Sign::corner) continue;
       ends.emplace_back(frame.page_x(event.s), frame.corner.y());
       ends.emplace_back(frame.page_x(event.s), frame.corner.y() + frame.size.y());
     }
-    svg_.segments(ends, paint);
+    svg_.segments(ends, stroke("#9a9a9a", 0.8, "2 3"));
   }
 
   /// Arrowheads where the graph leaves the frame.
@@ -267,11 +265,9 @@ class PartPicture {
       if (side != 0) tips.emplace_back(points[peak].x(), side < 0 ? top - 1 : bottom + 1);
     }
     if (tips.size() > kMostCutMarks) return;
-    Paint paint;
-    paint.fill = kGraphColour;
     for (const Vec2& tip : tips) {
       const double back = tip.y() < top ? 5 : -5;
-      svg_.polygon({tip, tip + Vec2(3, back), tip + Vec2(-3, back)}, paint);
+      svg_.polygon({tip, tip + Vec2(3, back), tip + Vec2(-3, back)}, filled(kGraphColour));
     }
   }
 

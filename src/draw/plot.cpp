@@ -86,12 +86,9 @@ constexpr std::string_view kGrid = "#e4e4e4";
 void draw_axes(Svg& svg, const Axes& axes, const Ticks& x_ticks, const Ticks& y_ticks, const Text& title,
                const std::string& note) {
   const Vec2 end = axes.corner + axes.size;
-  TextStyle numbers;
-  numbers.size = kNumberSize;
-  numbers.fill = kSoftInk;
+  TextStyle numbers{kNumberSize, Align::middle, std::string(kSoftInk)};
   svg.open_group("axes");
   std::vector<Vec2> grid;
-  numbers.align = Align::middle;
   for (const double x : x_ticks.at) {
     grid.insert(grid.end(), {Vec2(axes.page_x(x), axes.corner.y()), Vec2(axes.page_x(x), end.y())});
     svg.text({axes.page_x(x), end.y() + 13}, {{tick_text(x, x_ticks.decimals)}}, numbers);
@@ -106,23 +103,13 @@ void draw_axes(Svg& svg, const Axes& axes, const Ticks& x_ticks, const Ticks& y_
     svg.segments({axes(axes.x.lo, 0), axes(axes.x.hi, 0)}, stroke("#9a9a9a", 0.8));
   }
   svg.rectangle(axes.corner.x(), axes.corner.y(), axes.size.x(), axes.size.y(), stroke(kSoftInk, 0.8));
-  TextStyle style;
-  style.size = kTitleSize;
-  svg.text(axes.corner + Vec2(0, -6), title, style);
-  if (!note.empty()) {
-    style.size = kNumberSize;
-    style.align = Align::end;
-    style.fill = kSoftInk;
-    svg.text({end.x(), axes.corner.y() - 6}, {{note}}, style);
-  }
+  svg.text(axes.corner + Vec2(0, -6), title, {kTitleSize});
+  if (!note.empty()) svg.text({end.x(), axes.corner.y() - 6}, {{note}}, numbers);
   svg.close_group();
 }
 
 void draw_x_name(Svg& svg, const Axes& axes, const Text& name) {
-  TextStyle style;
-  style.size = kTitleSize;
-  style.align = Align::middle;
-  svg.text(axes.corner + Vec2(0.5 * axes.size.x(), axes.size.y() + 28), name, style);
+  svg.text(axes.corner + Vec2(0.5 * axes.size.x(), axes.size.y() + 28), name, {kTitleSize, Align::middle});
 }
 
 std::vector<Vec2> thinned(const std::vector<Vec2>& points) {

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "legend.hpp"
+#include "outline/turn.hpp"
+
 namespace rollfix::draw {
 
 namespace {
@@ -92,7 +95,7 @@ std::vector<SidePoint> sides(const Trace& stretch) {
     if (next.squaredNorm() == 0) continue;  // no direction yet
     if (last.squaredNorm() == 0) last = next;
     // On the page a left turn of the world is clockwise, which the cross product shows as negative.
-    const double turn = std::atan2(cross(last, next), last.dot(next));
+    const double turn = angle_between(last, next);
     const int count = turn < 0 ? 1 + static_cast<int>(-turn / kFan) : 1;
     for (int k = 0; k <= count; ++k) {
       const double angle = turn * k / count;
@@ -179,9 +182,7 @@ std::vector<Vec2> RollPen::path(double start, const Run& run, const std::functio
 
 void RollPen::stems(double start, const Run& run, const std::vector<Vec2>& path, std::string_view colour) {
   const std::vector<Vec2> ends = {scene_.at(start + run.from), path.front(), scene_.at(start + run.to), path.back()};
-  Paint paint = stroke(colour, 0.7);
-  paint.stroke_opacity = 0.8;
-  svg_.segments(ends, paint);
+  svg_.segments(ends, stroke(colour, 0.7, "", 0.8));
   obstacles_.add({ends[0], ends[1]});
   obstacles_.add({ends[2], ends[3]});
 }
@@ -196,15 +197,11 @@ void RollPen::arc(const std::vector<Vec2>& path, std::string_view colour, double
 }
 
 void RollPen::start(double s, std::string_view colour, double radius) {
-  Paint paint = stroke("#ffffff", 0.6);
-  paint.fill = colour;
-  marker(s, radius, paint);
+  marker(s, radius, with_rim(colour, kPaper, 0.6));
 }
 
 void RollPen::contact(double s, std::string_view colour, double radius) {
-  Paint paint = stroke(colour, 1.4);
-  paint.fill = "#ffffff";
-  marker(s, radius, paint);
+  marker(s, radius, with_rim(kPaper, colour, 1.4));
 }
 
 void RollPen::marker(double s, double radius, const Paint& paint) {
@@ -216,15 +213,12 @@ void RollPen::marker(double s, double radius, const Paint& paint) {
 void RollPen::finger(const Part& part, double s, double radius, double spoke) {
   const Vec2 centre = scene_.view(finger_centre(part, s, radius));
   const double size = scene_.pixels(radius);
-  Paint disk = stroke(kFingerColour, 1.2);
-  disk.fill = kFingerColour;
+  Paint disk = with_rim(kFingerColour, kFingerColour, 1.2);
   disk.fill_opacity = 0.15;
-  Paint hub;
-  hub.fill = kFingerColour;
   svg_.circle(centre, size, disk);
   const std::vector<Vec2> line = {centre, centre + size * Vec2(std::cos(spoke), -std::sin(spoke))};
   svg_.segments(line, stroke(kFingerColour, 1));
-  svg_.circle(centre, 1.8, hub);
+  svg_.circle(centre, 1.8, filled(kFingerColour));
   obstacles_.add(line);
   obstacles_.add_circle(centre, size);
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "labels.hpp"
+#include "outline/box.hpp"
 #include "rollfix/contact/reading.hpp"
 #include "rollfix/outline/curve.hpp"
 #include "rollfix/part/boundary.hpp"

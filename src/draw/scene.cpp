@@ -1,7 +1,6 @@
 #include "scene.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "legend.hpp"
 #include "plot.hpp"
@@ -55,13 +54,6 @@ double largest_scale(const Framing& framing, double width, double height) {
 
 }  // namespace
 
-Paint stroke(std::string_view colour, double width) {
-  Paint paint;
-  paint.stroke = colour;
-  paint.width = width;
-  return paint;
-}
-
 Vec2 Scene::normal(double s) const {
   const Vec2 after = direction_at(boundary, s, Side::after);
   const Vec2 sum = direction_at(boundary, s, Side::before) + after;
@@ -90,8 +82,7 @@ Box part_bounds(const Part& part) { return box_around(trace(part, 1e-4 * part.pe
 
 void draw_material(Svg& svg, const Scene& scene, const Part& part) {
   if (!part.closed()) return;
-  Paint paint;
-  paint.fill = kMaterial;
+  const Paint paint = filled(kMaterial);
   if (part.turns() < 0) {
     svg.loops({rectangle(scene.area), loop(scene.boundary)}, paint);  // a hole: the material is around it
   } else {
@@ -142,10 +133,7 @@ void draw_scale_bar(Svg& svg, const Scene& scene) {
   const Vec2 right = left + Vec2(width, 0), up(0, -4);
   svg.open_group("scale-bar");
   svg.segments({left, right, left, left + up, right, right + up}, stroke(kSoftInk, 1.2));
-  TextStyle style;
-  style.size = 10;
-  style.fill = kSoftInk;
-  svg.text(right + Vec2(6, 1), {{pretty(length)}}, style);
+  svg.text(right + Vec2(6, 1), {{pretty(length)}}, {10, Align::start, std::string(kSoftInk)});
   svg.close_group();
 }
 
@@ -162,9 +150,7 @@ void draw_arrowhead(Svg& svg, const std::vector<Vec2>& path, double size, std::s
   const double distance = (tip - tail).norm();
   if (distance < 0.3 * size) return;
   const Vec2 back = (tail - tip) / distance, side(-back.y(), back.x());
-  Paint paint;
-  paint.fill = colour;
-  svg.polygon({tip, tip + size * back + 0.42 * size * side, tip + size * back - 0.42 * size * side}, paint);
+  svg.polygon({tip, tip + size * back + 0.42 * size * side, tip + size * back - 0.42 * size * side}, filled(colour));
 }
 
 std::vector<Vec2> without_tip(const std::vector<Vec2>& path, double length) {

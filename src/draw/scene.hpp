@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "labels.hpp"
+#include "outline/box.hpp"
 #include "rollfix/draw/svg.hpp"
 #include "rollfix/part/part.hpp"
 #include "trace.hpp"
@@ -68,8 +69,5 @@ void draw_arrowhead(Svg& svg, const std::vector<Vec2>& path, double size, std::s
 /// The path without its last stretch of `length`, so that its line does not blunt the arrowhead; a path that is not
 /// longer stays as it is.
 std::vector<Vec2> without_tip(const std::vector<Vec2>& path, double length);
-
-/// A plain line's paint.
-Paint stroke(std::string_view colour, double width);
 
 }  // namespace rollfix::draw

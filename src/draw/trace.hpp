@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "outline/box.hpp"
 #include "rollfix/outline/curve.hpp"
 #include "rollfix/part/part.hpp"
 

@@ -17,26 +17,19 @@ namespace rollfix {
 
 /// The insides of a turning function, to be written and read.
 struct TurningFunctionAccess {
-  template <class Turning>
-  static auto& panels(Turning& turning) {
-    return turning.panels_;
+  template <class Pass, class Turning>
+  static void pass(Pass& pass, Turning& turning) {
+    pass(turning.perimeter_, turning.period_turn_, turning.most_curvature_);
+    pass.list(turning.panels_, 6, [&](auto& panel) {
+      pass(panel.lo, panel.hi, panel.middle, panel.inverse_half, panel.offset, panel.count);
+    });
+    pass.list(turning.coefficients_, 2, [&](auto& pair) { pass(pair[0], pair[1]); });
+    pass.list(turning.spirals_, 9, [&](auto& spiral) {
+      pass(spiral.lo, spiral.hi, spiral.start.angle, spiral.start.curvature, spiral.end.angle, spiral.end.curvature,
+           spiral.trend, spiral.first_panel, spiral.last_panel);
+    });
   }
-  template <class Turning>
-  static auto& coefficients(Turning& turning) {
-    return turning.coefficients_;
-  }
-  template <class Turning>
-  static auto& spirals(Turning& turning) {
-    return turning.spirals_;
-  }
-
-  /// The rest of it, each handed to `visit`.
-  template <class Turning, class Visit>
-  static void numbers(Turning& turning, Visit& visit) {
-    visit(turning.perimeter_);
-    visit(turning.period_turn_);
-    visit(turning.most_curvature_);
-  }
+  static std::size_t coefficients(const TurningFunction& turning) { return turning.coefficients_.size(); }
   static void set_closed(TurningFunction& turning, bool closed) { turning.closed_ = closed; }
 };
 
@@ -51,88 +44,57 @@ constexpr std::string_view kDataField = ",\n\"data\": \"";
 constexpr std::string_view kChecksumField = "\",\n\"checksum\": \"";
 constexpr std::string_view kEnd = "\"}\n";
 
-/// Writes what a part holds or reads it, in the same order: each `operator()` is one number.
+/// Writes what a part holds or reads it, in the same order: numbers, and lists of entries of so many numbers each.
 struct PartWriter {
   ByteWriter bytes;
 
-  void operator()(const double& value) { bytes.number(value); }
-  void operator()(const std::uint32_t& value) { bytes.whole(value); }
-  void operator()(const int& value) { bytes.whole(static_cast<std::uint64_t>(static_cast<std::int64_t>(value))); }
-  template <class List>
-  void size(const List& list, std::size_t) {
+  void one(double value) { bytes.number(value); }
+  void one(std::uint32_t value) { bytes.whole(value); }
+  void one(int value) { bytes.whole(static_cast<std::uint64_t>(static_cast<std::int64_t>(value))); }
+  template <class... Numbers>
+  void operator()(const Numbers&... numbers) {
+    (one(numbers), ...);
+  }
+  template <class List, class Entry>
+  void list(const List& list, std::size_t /*numbers_each*/, const Entry& entry) {
     bytes.whole(list.size());
+    for (const auto& each : list) entry(each);
   }
 };
 
 struct PartReader {
   ByteReader bytes;
 
-  void operator()(double& value) { value = bytes.number(); }
-  void operator()(std::uint32_t& value) { value = static_cast<std::uint32_t>(bytes.whole()); }
-  void operator()(int& value) { value = static_cast<int>(static_cast<std::int64_t>(bytes.whole())); }
-  template <class List>
-  void size(List& list, std::size_t numbers_each) {
+  void one(double& value) { value = bytes.number(); }
+  void one(std::uint32_t& value) { value = static_cast<std::uint32_t>(bytes.whole()); }
+  void one(int& value) { value = static_cast<int>(static_cast<std::int64_t>(bytes.whole())); }
+  template <class... Numbers>
+  void operator()(Numbers&... numbers) {
+    (one(numbers), ...);
+  }
+  template <class List, class Entry>
+  void list(List& list, std::size_t numbers_each, const Entry& entry) {
     list.resize(bytes.count(8 * numbers_each));
+    for (auto& each : list) entry(each);
   }
 };
 
-template <class Pass, class List>
-void pass_numbers(Pass& pass, List& list) {
-  pass.size(list, 1);
-  for (auto& value : list) pass(value);
-}
-
 template <class Pass, class Data>
 void pass_part(Pass& pass, Data& data) {
-  auto& turning = data.turning;
-  Access::numbers(turning, pass);
-  pass.size(Access::panels(turning), 6);
-  for (auto& panel : Access::panels(turning)) {
-    pass(panel.lo);
-    pass(panel.hi);
-    pass(panel.middle);
-    pass(panel.inverse_half);
-    pass(panel.offset);
-    pass(panel.count);
-  }
-  pass.size(Access::coefficients(turning), 2);
-  for (auto& pair : Access::coefficients(turning)) {
-    pass(pair[0]);
-    pass(pair[1]);
-  }
-  pass.size(Access::spirals(turning), 9);
-  for (auto& spiral : Access::spirals(turning)) {
-    pass(spiral.lo);
-    pass(spiral.hi);
-    pass(spiral.start.angle);
-    pass(spiral.start.curvature);
-    pass(spiral.end.angle);
-    pass(spiral.end.curvature);
-    pass(spiral.trend);
-    pass(spiral.first_panel);
-    pass(spiral.last_panel);
-  }
-  pass.size(data.parametrization.pieces, 3);
-  for (auto& piece : data.parametrization.pieces) {
-    pass(piece.curve);
-    pass(piece.offset);
-    pass(piece.count);
-  }
-  pass_numbers(pass, data.parametrization.coefficients);
-  pass.size(data.corners, 2);
-  for (auto& corner : data.corners) {
-    pass(corner.s);
-    pass(corner.turn);
-  }
-  pass_numbers(pass, data.inflections);
-  pass_numbers(pass, data.vertices);
+  const auto number = [&](auto& value) { pass(value); };
+  Access::pass(pass, data.turning);
+  pass.list(data.parametrization.pieces, 3, [&](auto& piece) { pass(piece.curve, piece.offset, piece.count); });
+  pass.list(data.parametrization.coefficients, 1, number);
+  pass.list(data.corners, 2, [&](auto& corner) { pass(corner.s, corner.turn); });
+  pass.list(data.inflections, 1, number);
+  pass.list(data.vertices, 1, number);
 }
 
 /// What the search relies on. A file with the right checksum that fails here was not written by format_part.
 bool is_sound(const PartAccess::Data& data) {
-  const auto& panels = Access::panels(data.turning);
-  const std::size_t coefficients = Access::coefficients(data.turning).size();
-  const auto& spirals = Access::spirals(data.turning);
+  const auto& panels = data.turning.panels();
+  const std::size_t coefficients = Access::coefficients(data.turning);
+  const auto& spirals = data.turning.spirals();
   const auto& pieces = data.parametrization.pieces;
   if (panels.empty() || spirals.empty() || pieces.size() != panels.size()) return false;
   const auto fits = [](std::size_t offset, std::size_t count, std::size_t size) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "march/sweep.hpp"
+#include "rollfix/part/boundary.hpp"
 
 namespace rollfix::march {
 
@@ -27,11 +28,6 @@ void check(const Options& options) {
   expect(options.limit >= kLeastLimit && options.limit < 1, "a limit from 1e-14 to 1 (parts of P)", options.limit);
   expect(options.reset >= kLeastReset && options.reset < 1, "a reset from 1e-15 to 1 (parts of P)", options.reset);
   expect(options.iterations > 0, "at least one iteration per limit", 0);
-}
-
-double wrapped(double s, double perimeter) {
-  const double rest = s - std::floor(s / perimeter) * perimeter;
-  return rest < perimeter ? std::fmax(rest, 0.0) : 0.0;
 }
 
 }  // namespace
@@ -58,7 +54,6 @@ struct March::Data {
   Result prepared_result() const;
   Result on_closed(double length, double integral) const;
   Result on_open(double length, double integral) const;
-  Result sweep(const Problem& problem) const;
   Result without_length(double integral) const;
 
   Options options;
@@ -76,10 +71,11 @@ Result March::Data::on_closed(double length, double integral) const {
   }
   const double left = integral - loops * preprocessed.loop.integral;
   if (rest <= kWholeLoop * perimeter()) return without_length(left);
-  Result result = sweep({rest, left});
+  Result result = prepared_result();
+  sweep(path, preprocessed, {rest, left}, options, result);
   for (Segment& segment : result.segments) {
-    segment.start = wrapped(segment.start, perimeter());
-    segment.end = wrapped(segment.end, perimeter());
+    segment.start = wrap(segment.start, perimeter()).base;
+    segment.end = wrap(segment.end, perimeter()).base;
   }
   return result;
 }
@@ -91,7 +87,8 @@ Result March::Data::on_open(double length, double integral) const {
                                  perimeter(), length));
   }
   if (std::fabs(length) <= kWholeLoop * perimeter()) return without_length(integral);
-  Result result = sweep({std::fabs(length), length < 0 ? -integral : integral});
+  Result result = prepared_result();
+  sweep(path, preprocessed, {std::fabs(length), length < 0 ? -integral : integral}, options, result);
   for (Segment& segment : result.segments) {
     segment.end = std::fmin(segment.end, perimeter());
     if (length < 0) std::swap(segment.start, segment.end);
@@ -113,26 +110,12 @@ Result March::Data::without_length(double integral) const {
   return prepared_result();
 }
 
-Result March::Data::sweep(const Problem& problem) const {
-  Result found = march::sweep(path, preprocessed, problem, options);
-  Result result = prepared_result();
-  found.steps.choosing = result.steps.choosing;
-  found.steps.preprocessing = result.steps.preprocessing;
-  result.segments = std::move(found.segments);
-  result.doubts = std::move(found.doubts);
-  result.found_again = found.found_again;
-  result.iterations = found.iterations;
-  result.steps = found.steps;
-  return result;
-}
-
 /// What does not depend on the question.
 Result March::Data::prepared_result() const {
   Result result;
   result.steps.choosing = path.choosing_steps();
   result.steps.preprocessing = path.steps_per_loop();
   result.perimeter = preprocessed.loop.length;
-  result.total_integral = preprocessed.loop.integral;
   result.parameter_range = path.parameter_range();
   result.steps_per_loop = path.steps_per_loop();
   result.length_error = path.loop_error().length;

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "outline/turn.hpp"
+
 namespace rollfix::march {
 
 namespace {
@@ -84,7 +86,7 @@ void check_joint(const Context& context, std::size_t number) {
   const Curve& next = context.path.outline().curves[following];
   const Jet before = curve.jet(curve.domain().hi);
   const Jet after = next.jet(next.domain().lo);
-  const double turn = std::atan2(cross(before.first, after.first), before.first.dot(after.first));
+  const double turn = angle_between(before.first, after.first);
   if (std::fabs(turn) > kSmoothJoint) {
     context.refuse(Reason::corner, following,
                    fmt::format("expected a smooth boundary, found a corner of {:.17g} rad", turn));

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -128,8 +127,10 @@ Bisected bisect(const Pair& start, double high, double tolerance, Tally& tally) 
 /// The sliding segment and what it has met.
 class Sweep {
  public:
-  Sweep(const Path& path, const Preprocessed& preprocessed, const Problem& problem, const Options& options)
-      : path_(path),
+  Sweep(const Path& path, const Preprocessed& preprocessed, const Problem& problem, const Options& options,
+        Result& result)
+      : result_(result),
+        path_(path),
         record_(options.record),
         perimeter_(preprocessed.loop.length),
         reset_amount_(options.reset * perimeter_),
@@ -141,7 +142,7 @@ class Sweep {
     result_.steps.start = tally_.steps;
   }
 
-  Result run() {
+  void run() {
     start();
     while (pair_.s.length() < modes_.sweep_end()) {
       const Mode mode = modes_.at(pair_);
@@ -152,7 +153,6 @@ class Sweep {
       }
     }
     finish();
-    return std::move(result_);
   }
 
  private:
@@ -285,11 +285,11 @@ class Sweep {
     result_.doubts.push_back(doubt);
   }
 
+  Result& result_;
   const Path& path_;
   bool record_;
   double perimeter_;
   double reset_amount_;
-  Result result_;
   Tally tally_;
   Tally bisection_tally_;
   Pair pair_;
@@ -303,8 +303,9 @@ class Sweep {
 
 }  // namespace
 
-Result sweep(const Path& path, const Preprocessed& preprocessed, const Problem& problem, const Options& options) {
-  return Sweep(path, preprocessed, problem, options).run();
+void sweep(const Path& path, const Preprocessed& preprocessed, const Problem& problem, const Options& options,
+           Result& result) {
+  Sweep(path, preprocessed, problem, options, result).run();
 }
 
 }  // namespace rollfix::march

@@ -59,7 +59,8 @@ Approach alternate(Pair& pair, const Mode& mode, const LimitRule& rule, std::vec
 
 /// Section 2.2: slides a segment of length L once along the boundary, mode by mode, and notes each place where its
 /// integral equals C. A convex boundary is one mode, and the sweep is then section 2.1.
-/// Segments, doubts and counts; starts as arc lengths in [0, P], ends not reduced to one loop.
-Result sweep(const Path& path, const Preprocessed& preprocessed, const Problem& problem, const Options& options);
+/// Adds segments, doubts and counts to `result`; starts as arc lengths in [0, P], ends not reduced to one loop.
+void sweep(const Path& path, const Preprocessed& preprocessed, const Problem& problem, const Options& options,
+           Result& result);
 
 }  // namespace rollfix::march

@@ -64,10 +64,7 @@ class Numbers {
 
   bool left() const { return next_ < all_.size(); }
   double number() { return all_[next_++]; }
-  Vec2 point() {
-    const double x = number();
-    return {x, number()};
-  }
+  Vec2 point() { return Vec2{number(), number()}; }
 
  private:
   const std::vector<double>& all_;
@@ -88,40 +85,6 @@ WrittenControls controls(Numbers& numbers, bool rational) {
   return result;
 }
 
-Curve line(Numbers& numbers) {
-  const Vec2 from = numbers.point();
-  return Line(from, numbers.point());
-}
-
-Curve arc(Numbers& numbers) {
-  const Vec2 centre = numbers.point();
-  const double radius = numbers.number();
-  const double from = numbers.number();
-  return Arc(centre, radius, from, numbers.number());
-}
-
-Curve elliptic_arc(Numbers& numbers) {
-  const Vec2 centre = numbers.point();
-  const Vec2 major = numbers.point();
-  const Vec2 minor = numbers.point();
-  const double from = numbers.number();
-  return EllipticArc(centre, major, minor, from, numbers.number());
-}
-
-Curve cubic(Numbers& numbers) {
-  const Vec2 from = numbers.point();
-  const Vec2 to = numbers.point();
-  const Vec2 square = numbers.point();
-  return CubicSpan(from, to, square, numbers.point());
-}
-
-Curve turning_span(Numbers& numbers) {
-  const Vec2 start = numbers.point();
-  TurningSpan::Cubic turning{};
-  for (double& power : turning) power = numbers.number();
-  return TurningSpan(start, turning, numbers.number());
-}
-
 template <bool Rational>
 Curve bezier(Numbers& numbers) {
   WrittenControls all = controls(numbers, Rational);
@@ -136,17 +99,32 @@ Curve resting_bezier(Numbers& numbers) {
 
 struct Kind {
   std::string_view name;
-  std::size_t numbers;  // that it takes, or ...
-  bool or_a_multiple;   // ... a multiple of it
-  Curve (*make)(Numbers&);
+  std::size_t numbers;      // that it takes, or ...
+  bool or_a_multiple;       // ... a multiple of it
+  Curve (*make)(Numbers&);  // braces take the numbers from left to right
 };
 
 constexpr std::array<Kind, 11> kKinds = {{
-    {"line", 4, false, line},
-    {"arc", 5, false, arc},
-    {"elliptic-arc", 8, false, elliptic_arc},
-    {"cubic", 8, false, cubic},
-    {"turning", 7, false, turning_span},
+    {"line", 4, false,
+     [](Numbers& n) -> Curve {
+       return Line{n.point(), n.point()};
+     }},
+    {"arc", 5, false,
+     [](Numbers& n) -> Curve {
+       return Arc{n.point(), n.number(), n.number(), n.number()};
+     }},
+    {"elliptic-arc", 8, false,
+     [](Numbers& n) -> Curve {
+       return EllipticArc{n.point(), n.point(), n.point(), n.number(), n.number()};
+     }},
+    {"cubic", 8, false,
+     [](Numbers& n) -> Curve {
+       return CubicSpan{n.point(), n.point(), n.point(), n.point()};
+     }},
+    {"turning", 7, false,
+     [](Numbers& n) -> Curve {
+       return TurningSpan{n.point(), {n.number(), n.number(), n.number(), n.number()}, n.number()};
+     }},
     {"bezier", 2, true, bezier<false>},
     {"rational-bezier", 3, true, bezier<true>},
     {"bezier-from-rest", 2, true, resting_bezier<false, Rest::start>},

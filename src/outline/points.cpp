@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
-#include <limits>
 
 #include "outline/box.hpp"
 #include "rollfix/error.hpp"

@@ -19,6 +19,31 @@ Line::Line(const Vec2& from, const Vec2& to) : from_(from), to_(to), chord_(to -
   }
 }
 
+namespace {
+
+/// d/du of cos(u) start + sin(u) side ...
+Vec2 turned_velocity(const Vec2& start, const Vec2& side, double u) {
+  const Turn turn = turn_by(u);
+  return turn.cosine * side - turn.sine * start;
+}
+
+/// ... and all of it, from the centre.
+Jet turned_jet(const Vec2& centre, const Vec2& start, const Vec2& side, double u) {
+  const Turn turn = turn_by(u);
+  const Vec2 spoke = turn.cosine * start + turn.sine * side;
+  const Vec2 first = turn.cosine * side - turn.sine * start;
+  return {centre + spoke, first, -spoke, -first};
+}
+
+void require_sweep(const char* what, double from, double sweep) {
+  const double angle = std::abs(sweep);
+  if (angle > 0 && angle <= kFullTurn && std::isfinite(from)) return;
+  throw InputError(fmt::format(
+      "{} from angle {} with a sweep of {} rad: the sweep's size must be above 0 and at most 2 pi", what, from, sweep));
+}
+
+}  // namespace
+
 Arc::Arc(const Vec2& centre, double radius, double from, double sweep)
     : centre_(centre),
       start_(radius * Vec2(std::cos(from), std::sin(from))),
@@ -29,27 +54,14 @@ Arc::Arc(const Vec2& centre, double radius, double from, double sweep)
   if (!(radius > 0) || !std::isfinite(radius)) {
     throw InputError(fmt::format("an arc of radius {}: the radius must be above 0", radius));
   }
-  if (!(angle_ > 0) || angle_ > kFullTurn || !std::isfinite(from)) {
-    throw InputError(
-        fmt::format("an arc from angle {} with a sweep of {} rad: the sweep's size must be above 0 and "
-                    "at most 2 pi",
-                    from, sweep));
-  }
+  require_sweep("an arc", from, sweep);
   const double sign = sweep > 0 ? 1 : -1;
   side_ = sign * Vec2(-start_.y(), start_.x());
 }
 
-Vec2 Arc::velocity(double u) const {
-  const Turn turn = turn_by(u);
-  return turn.cosine * side_ - turn.sine * start_;
-}
+Vec2 Arc::velocity(double u) const { return turned_velocity(start_, side_, u); }
 
-Jet Arc::jet(double u) const {
-  const Turn turn = turn_by(u);
-  const Vec2 spoke = turn.cosine * start_ + turn.sine * side_;
-  const Vec2 first = turn.cosine * side_ - turn.sine * start_;
-  return {centre_ + spoke, first, -spoke, -first};
-}
+Jet Arc::jet(double u) const { return turned_jet(centre_, start_, side_, u); }
 
 EllipticArc::EllipticArc(const Vec2& centre, const Vec2& major, const Vec2& minor, double from, double sweep)
     : centre_(centre), angle_(std::abs(sweep)), major_(major), minor_(minor), from_(from), sweep_(sweep) {
@@ -58,28 +70,15 @@ EllipticArc::EllipticArc(const Vec2& centre, const Vec2& major, const Vec2& mino
     throw InputError(fmt::format("an ellipse with the half axes ({}, {}) and ({}, {}): they must not be parallel",
                                  major.x(), major.y(), minor.x(), minor.y()));
   }
-  if (!(angle_ > 0) || angle_ > kFullTurn || !std::isfinite(from)) {
-    throw InputError(
-        fmt::format("an elliptic arc from angle {} with a sweep of {} rad: the sweep's size must be above 0 and at "
-                    "most 2 pi",
-                    from, sweep));
-  }
+  require_sweep("an elliptic arc", from, sweep);
   const double sign = sweep > 0 ? 1 : -1;
   start_ = std::cos(from) * major + std::sin(from) * minor;
   side_ = sign * (std::cos(from) * minor - std::sin(from) * major);
 }
 
-Vec2 EllipticArc::velocity(double u) const {
-  const Turn turn = turn_by(u);
-  return turn.cosine * side_ - turn.sine * start_;
-}
+Vec2 EllipticArc::velocity(double u) const { return turned_velocity(start_, side_, u); }
 
-Jet EllipticArc::jet(double u) const {
-  const Turn turn = turn_by(u);
-  const Vec2 spoke = turn.cosine * start_ + turn.sine * side_;
-  const Vec2 first = turn.cosine * side_ - turn.sine * start_;
-  return {centre_ + spoke, first, -spoke, -first};
-}
+Jet EllipticArc::jet(double u) const { return turned_jet(centre_, start_, side_, u); }
 
 CurveRecord EllipticArc::record() const {
   return {"elliptic-arc", {centre_.x(), centre_.y(), major_.x(), major_.y(), minor_.x(), minor_.y(), from_, sweep_}};

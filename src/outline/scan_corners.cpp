@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "outline/turn.hpp"
+
 namespace rollfix {
 
 namespace {
@@ -33,9 +35,7 @@ class ScanCorners {
       last = {before.count, after.count};
       reaches_[i] = last;
       const bool has_both = before.count > 0 && after.count > 0;
-      if (has_both)
-        turns_[i] =
-            std::abs(std::atan2(cross(-before.direction, after.direction), -before.direction.dot(after.direction)));
+      if (has_both) turns_[i] = std::abs(angle_between(-before.direction, after.direction));
     }
     std::vector<std::size_t> corners;
     for (std::size_t i = 0; i < count; ++i) {

@@ -11,6 +11,7 @@
 #include "outline/box.hpp"
 #include "outline/fitted_spline.hpp"
 #include "outline/scan_corners.hpp"
+#include "outline/turn.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline/primitives.hpp"
 
@@ -305,7 +306,7 @@ class Smoother {
     const std::size_t spans = knots_.spans();
     const Vec2 before = fitted_->spans()[(brk + spans - 1) % spans].velocity(1);
     const Vec2 after = fitted_->spans()[brk].velocity(0);
-    return std::abs(std::atan2(cross(before, after), before.dot(after)));
+    return std::abs(angle_between(before, after));
   }
 
   Smoothing finish() {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "outline/turn.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline/curve.hpp"
 #include "rollfix/outline/primitives.hpp"
@@ -110,9 +111,7 @@ class Chords {
 
   /// How far the polygon turns where chord `next` follows chord `previous`, in [0, pi].
   double turn(std::size_t previous, std::size_t next) const {
-    const Vec2 before = slope(previous);
-    const Vec2 after = slope(next);
-    return std::abs(std::atan2(cross(before, after), before.dot(after)));
+    return std::abs(angle_between(slope(previous), slope(next)));
   }
 
   /// Points at which a new spline starts, in order; on an open curve they include its first.

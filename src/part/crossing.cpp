@@ -1,9 +1,9 @@
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
+#include "outline/box.hpp"
 #include "part_data.hpp"
 
 namespace rollfix {
@@ -15,8 +15,6 @@ constexpr double kSimpleTurn = std::numbers::pi * (1 - 1e-9);
 constexpr double kCrossingLeafTurn = 0.7;
 // Two arcs that are still not apart at this share of the perimeter do meet.
 constexpr double kMeeting = 1e-10;
-
-using Box = Eigen::AlignedBox2d;
 
 /// A stretch of boundary between arc lengths lo and hi.
 struct Arc {
@@ -84,9 +82,8 @@ class CrossingSearch {
   }
 
   Arc arc(double lo, double hi) const {
-    const TurningFunction& turning = part_.turning();
-    const double turn = std::abs(turning.angle(hi, Side::before) - turning.angle(lo, Side::after));
-    return {lo, hi, arcs_.empty() || arcs_.back().hi != lo ? part_.point(lo) : arcs_.back().end, part_.point(hi), turn};
+    const bool goes_on = !arcs_.empty() && arcs_.back().hi == lo;
+    return {lo, hi, goes_on ? arcs_.back().end : part_.point(lo), part_.point(hi), turn(lo, hi)};
   }
 
   std::size_t build(std::size_t first, std::size_t last) {
@@ -177,9 +174,12 @@ class CrossingSearch {
   }
 
   Arc part_of(const Arc& whole, double lo, double hi) const {
-    const TurningFunction& turning = part_.turning();
     return {lo, hi, lo == whole.lo ? whole.start : part_.point(lo), hi == whole.hi ? whole.end : part_.point(hi),
-            std::abs(turning.angle(hi, Side::before) - turning.angle(lo, Side::after))};
+            turn(lo, hi)};
+  }
+
+  double turn(double lo, double hi) const {
+    return std::abs(part_.turning().angle(hi, Side::before) - part_.turning().angle(lo, Side::after));
   }
 
   const Part& part_;

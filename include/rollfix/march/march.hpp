@@ -146,7 +146,6 @@ struct Result {
   std::size_t iterations = 0;     // all rounds and halvings
   Steps steps;
   double perimeter = 0;            // P
-  double total_integral = 0;       // over the whole outline
   double parameter_range = 0;      // the paper's T
   double length_error = 0;         // of the quadrature, estimated, over one loop
   double integral_error = 0;       // likewise, of the density's integral

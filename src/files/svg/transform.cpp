@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <string>
 
 #include "files/svg/value.hpp"
 #include "text/text.hpp"

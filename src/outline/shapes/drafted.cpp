@@ -1,7 +1,5 @@
 #include <boost/math/special_functions/cos_pi.hpp>
 #include <boost/math/special_functions/sin_pi.hpp>
-#include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <numbers>
 #include <random>

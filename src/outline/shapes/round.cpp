@@ -18,24 +18,6 @@ void refuse_needle(const Parameters& parameters, double a, double b) {
   }
 }
 
-/// x = a cos u, y = b sin u.
-struct Ellipse {
-  double a;
-  double b;
-
-  Interval domain() const { return {0, kFullTurn}; }
-  Vec2 velocity(double u) const {
-    const Turn turn = turn_by(u);
-    return {-a * turn.sine, b * turn.cosine};
-  }
-  Jet jet(double u) const {
-    const Turn turn = turn_by(u);
-    const Vec2 position(a * turn.cosine, b * turn.sine);
-    const Vec2 first(-a * turn.sine, b * turn.cosine);
-    return {position, first, -position, -first};
-  }
-};
-
 /// The base raised to a whole power >= 0.
 double whole_power(double base, int exponent) {
   double result = 1;
@@ -148,6 +130,8 @@ struct SuperellipseQuarter {
   }
 };
 
+Curves whole_ellipse(double a, double b) { return {EllipticArc(Vec2::Zero(), {a, 0}, {0, b}, 0, kFullTurn)}; }
+
 }  // namespace
 
 Curves circle(const Parameters& parameters) { return {Arc(Vec2::Zero(), parameters.number("r"), 0, kFullTurn)}; }
@@ -156,7 +140,7 @@ Curves ellipse(const Parameters& parameters) {
   const double a = parameters.number("a");
   const double b = parameters.number("b");
   refuse_needle(parameters, a, b);
-  return {Ellipse{a, b}};
+  return whole_ellipse(a, b);
 }
 
 Curves superellipse(const Parameters& parameters) {
@@ -164,7 +148,7 @@ Curves superellipse(const Parameters& parameters) {
   const double b = parameters.number("b");
   const double n = parameters.number("n");
   refuse_needle(parameters, a, b);
-  if (n == 2) return {Ellipse{a, b}};
+  if (n == 2) return whole_ellipse(a, b);
   if (n < 3) parameters.refuse("n must be 2 or at least 3: between them the curvature has infinite slope on the axes");
   if (std::fmod(n, 2) == 0) return {WholeSuperellipse{{a, b, n}}};
   Curves curves;
