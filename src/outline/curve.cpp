@@ -85,6 +85,16 @@ WrittenControls controls(Numbers& numbers, bool rational) {
   return result;
 }
 
+// Braces take the numbers from left to right.
+
+Curve line(Numbers& n) { return Line{n.point(), n.point()}; }
+Curve arc(Numbers& n) { return Arc{n.point(), n.number(), n.number(), n.number()}; }
+Curve elliptic_arc(Numbers& n) { return EllipticArc{n.point(), n.point(), n.point(), n.number(), n.number()}; }
+Curve cubic(Numbers& n) { return CubicSpan{n.point(), n.point(), n.point(), n.point()}; }
+Curve turning_span(Numbers& n) {
+  return TurningSpan{n.point(), {n.number(), n.number(), n.number(), n.number()}, n.number()};
+}
+
 template <bool Rational>
 Curve bezier(Numbers& numbers) {
   WrittenControls all = controls(numbers, Rational);
@@ -99,32 +109,17 @@ Curve resting_bezier(Numbers& numbers) {
 
 struct Kind {
   std::string_view name;
-  std::size_t numbers;      // that it takes, or ...
-  bool or_a_multiple;       // ... a multiple of it
-  Curve (*make)(Numbers&);  // braces take the numbers from left to right
+  std::size_t numbers;  // that it takes, or ...
+  bool or_a_multiple;   // ... a multiple of it
+  Curve (*make)(Numbers&);
 };
 
 constexpr std::array<Kind, 11> kKinds = {{
-    {"line", 4, false,
-     [](Numbers& n) -> Curve {
-       return Line{n.point(), n.point()};
-     }},
-    {"arc", 5, false,
-     [](Numbers& n) -> Curve {
-       return Arc{n.point(), n.number(), n.number(), n.number()};
-     }},
-    {"elliptic-arc", 8, false,
-     [](Numbers& n) -> Curve {
-       return EllipticArc{n.point(), n.point(), n.point(), n.number(), n.number()};
-     }},
-    {"cubic", 8, false,
-     [](Numbers& n) -> Curve {
-       return CubicSpan{n.point(), n.point(), n.point(), n.point()};
-     }},
-    {"turning", 7, false,
-     [](Numbers& n) -> Curve {
-       return TurningSpan{n.point(), {n.number(), n.number(), n.number(), n.number()}, n.number()};
-     }},
+    {"line", 4, false, line},
+    {"arc", 5, false, arc},
+    {"elliptic-arc", 8, false, elliptic_arc},
+    {"cubic", 8, false, cubic},
+    {"turning", 7, false, turning_span},
     {"bezier", 2, true, bezier<false>},
     {"rational-bezier", 3, true, bezier<true>},
     {"bezier-from-rest", 2, true, resting_bezier<false, Rest::start>},
