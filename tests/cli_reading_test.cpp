@@ -7,6 +7,7 @@
 
 #include "cli.hpp"
 #include "random.hpp"
+#include "rollfix/locate/locate.hpp"
 #include "rollfix/outline/load.hpp"
 #include "rollfix/part/part.hpp"
 
@@ -79,7 +80,7 @@ TEST(CliTolerance, is_1e_9_for_whole_numbers_and_for_numbers_in_full) {
 
 TEST(CliTolerance, is_whatever_is_asked_for) {
   EXPECT_EQ(tolerance_of("gallery:ellipse --reading 1.5,1.27 --tolerance 0.125"), 0.125);
-  EXPECT_EQ(tolerance_of("gallery:ellipse --reading 1.5,1.27 --tolerance 0"), 1e-12);
+  EXPECT_EQ(tolerance_of("gallery:ellipse --reading 1.5,1.27 --tolerance 0"), rollfix::kLeastTolerance);
 }
 
 TEST(CliTolerance, keeps_the_true_place_however_roughly_a_reading_is_written_down) {

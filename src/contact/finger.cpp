@@ -145,7 +145,7 @@ Vec2 centre_of(const Finger& finger, const Vec2& point, const Contact& contact) 
 
 Reading together(const PerFinger<Reading>& each) {
   if (each.size() == 1) return each[0];
-  return {each[0].length[0], each[1].length[0], each[0].turn - each[1].turn};
+  return {each[0].length[0], each[1].length[0], each[0].turn - each[1].turn};  // eqs. (7)-(9)
 }
 
 Reading in_stored_direction(const Reading& as_given, const Part& part) {

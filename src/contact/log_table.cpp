@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "rollfix/error.hpp"
-#include "text/text.hpp"
 #include "text/number.hpp"
+#include "text/text.hpp"
 
 namespace rollfix {
 

@@ -108,6 +108,7 @@ double smooth_residual(const Question& question, const PerFinger<double>& at) {
   for (const Reading& reading : question.readings) {
     const double end = tangent(ends_of(at, reading));
     // One finger's in the order of the sets above, so that a part with corners far away has the same bits.
+    // Eqs. (4), (5); of two fingers (8), (9).
     const double off = at.size() == 1 ? end - reading.turn - start : end - start - reading.turn;
     largest = std::max(largest, std::abs(off));
   }

@@ -26,7 +26,7 @@ struct SpiralPair {
   double turn = 0;    // theta, the same periods' turn taken off
 
   ResidualSample sample(double s, const Turning& at_start, const Turning& at_end) const {
-    return {s, at_end.angle - at_start.angle - turn, at_start.curvature, at_end.curvature};
+    return {s, at_end.angle - at_start.angle - turn, at_start.curvature, at_end.curvature};  // eqs. (4), (5)
   }
   ResidualSample sample(double s) const {
     return sample(s, turning.on_spiral(start, s), turning.on_spiral(end, s + offset));

@@ -13,8 +13,8 @@
 #include "rollfix/contact/log.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/usage.hpp"
-#include "text/text.hpp"
 #include "text/number.hpp"
+#include "text/text.hpp"
 
 namespace rollfix::app {
 namespace {

@@ -149,7 +149,7 @@ void RollCurve::evaluate(const RollPiece& piece, double x, double* value, double
     if (c == 0) {
       first_angle = angle;
     } else {
-      value[c - 1] = angle - first_angle + equations_.shifts[c - 1];
+      value[c - 1] = angle - first_angle + equations_.shifts[c - 1];  // one side of (8), (9)
     }
   }
   if (equations_.facing) value[rows_ - 1] = first_angle + *equations_.facing;
