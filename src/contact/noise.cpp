@@ -70,9 +70,10 @@ void let_sense(NoisyRoll& roll, const std::vector<Finger>& fingers, const Noise&
 }  // namespace
 
 void require_valid(const Noise& noise) {
-  for (const double sd : {noise.contact, noise.angle, noise.slip, noise.radius}) {
+  for (const NoiseKind& kind : kNoiseKinds) {
+    const double sd = noise.*kind.sd;
     if (sd >= 0 && std::isfinite(sd)) continue;
-    throw InputError(fmt::format("noise of {}: expected finite standard deviations of at least 0", sd));
+    throw InputError(fmt::format("{} noise of {}: expected finite standard deviations of at least 0", kind.name, sd));
   }
 }
 

@@ -90,12 +90,15 @@ Log read_both_logs(const std::vector<std::string>& paths) {
       fmt::format("--log is given {} times, expected one log, or one of each of two fingers", paths.size()));
 }
 
-double* place_for(Noise& noise, std::string_view name) {
-  if (name == "contact") return &noise.contact;
-  if (name == "angle") return &noise.angle;
-  if (name == "slip") return &noise.slip;
-  if (name == "radius") return &noise.radius;
-  return nullptr;
+/// "contact=LENGTH,angle=ANGLE,...".
+std::string noise_form() {
+  std::vector<std::string> fields;
+  for (const NoiseKind& kind : kNoiseKinds) {
+    const bool is_angle = kind.unit == NoiseKind::Unit::angle;
+    const char* unit = is_angle ? "ANGLE" : kind.unit == NoiseKind::Unit::length ? "LENGTH" : "PER_LENGTH";
+    fields.push_back(fmt::format("{}={}", kind.name, unit));
+  }
+  return fmt::format("{}", fmt::join(fields, ","));
 }
 
 /// What can't be meant, before any file is read.
@@ -128,8 +131,7 @@ void add_log_arguments(CLI::App& command, std::vector<std::string>& logs, std::s
 void add_noise_argument(CLI::App& command, std::string& noise) {
   command
       .add_option("--noise", noise,
-                  "how far the sensors are off, as standard deviations: contact=LENGTH,angle=ANGLE,slip=PER_LENGTH,"
-                  "radius=LENGTH, any of them")
+                  "how far the sensors are off, as standard deviations: " + noise_form() + ", any of them")
       ->type_name("NOISE");
 }
 
@@ -167,17 +169,19 @@ std::optional<Noise> read_noise(const std::string& text) {
   for (const std::string_view field : split(text, ',')) {
     const std::size_t mark = field.find('=');
     const std::string name(field.substr(0, mark));
-    double* const place = place_for(noise, name);
-    if (place == nullptr || mark == std::string_view::npos) {
-      throw InputError(fmt::format("--noise {}: '{}' is not NAME=SD; {}", text, field,
-                                   known_names(name, {"contact", "angle", "slip", "radius"})));
+    const auto kind =
+        std::find_if(kNoiseKinds.begin(), kNoiseKinds.end(), [&](const NoiseKind& one) { return name == one.name; });
+    if (kind == kNoiseKinds.end() || mark == std::string_view::npos) {
+      std::vector<std::string> names;
+      for (const NoiseKind& one : kNoiseKinds) names.emplace_back(one.name);
+      throw InputError(fmt::format("--noise {}: '{}' is not NAME=SD; {}", text, field, known_names(name, names)));
     }
     if (!seen.insert(name).second) throw InputError(fmt::format("--noise {}: {} is given twice", text, name));
     const std::string what = fmt::format("--noise {}", text);
     const std::string_view value = field.substr(mark + 1);
-    *place = name == "angle" ? read_angle(value, what) : read_number(value, what);
-    if (*place < 0)
-      throw InputError(fmt::format("--noise {}: {} is below 0, expected a standard deviation", text, name));
+    double& sd = noise.*kind->sd;
+    sd = kind->unit == NoiseKind::Unit::angle ? read_angle(value, what) : read_number(value, what);
+    if (sd < 0) throw InputError(fmt::format("--noise {}: {} is below 0, expected a standard deviation", text, name));
   }
   return noise;
 }

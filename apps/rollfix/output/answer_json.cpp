@@ -182,10 +182,9 @@ Json diagnosis_json(const Diagnosis& diagnosis) {
 }
 
 Json noise_json(const Noise& noise) {
-  return {{"contact", json_number(noise.contact)},
-          {"angle", json_number(noise.angle)},
-          {"slip", json_number(noise.slip)},
-          {"radius", json_number(noise.radius)}};
+  Json json = Json::object();
+  for (const NoiseKind& kind : kNoiseKinds) json[kind.name] = json_number(noise.*kind.sd);
+  return json;
 }
 
 Json part_json(const Part& part) {

@@ -156,10 +156,13 @@ class AnswerText {
   /// "noise      contact 0.1, ..." and what the samples are like.
   std::string weighing_lines() const {
     const Weighing& weighing = *answer_.weighing;
-    const Noise& noise = weighing.noise;
-    std::string text =
-        fmt::format("noise      contact {:.4g}, angle {} deg, slip {:.4g}, radius {:.4g}{}\n", noise.contact,
-                    degrees(noise.angle), noise.slip, noise.radius, weighing.robust ? "; robust" : "");
+    std::vector<std::string> noise;
+    for (const NoiseKind& kind : kNoiseKinds) {
+      const double sd = weighing.noise.*kind.sd;
+      noise.push_back(kind.unit == NoiseKind::Unit::angle ? fmt::format("{} {} deg", kind.name, degrees(sd))
+                                                          : fmt::format("{} {:.4g}", kind.name, sd));
+    }
+    std::string text = fmt::format("noise      {}{}\n", fmt::join(noise, ", "), weighing.robust ? "; robust" : "");
     if (weighing.prior) {
       text += fmt::format("prior      s = {:.6g}, sd {:.4g}\n", weighing.prior->s, weighing.prior->sd);
     }

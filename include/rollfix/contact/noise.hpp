@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "rollfix/cpp20.hpp"  // IWYU pragma: keep
 
 namespace rollfix {
@@ -11,6 +13,18 @@ struct Noise {
   double slip = 0;     // of the length travelled, per length
   double radius = 0;   // of the finger's radius, in the outline's unit
 };
+
+/// One of them: what it is called, wherever users read or type it, and in what it is measured.
+struct NoiseKind {
+  enum class Unit { length, angle, per_length };
+  const char* name;
+  double Noise::*sd;
+  Unit unit;
+};
+inline constexpr std::array<NoiseKind, 4> kNoiseKinds = {{{"contact", &Noise::contact, NoiseKind::Unit::length},
+                                                          {"angle", &Noise::angle, NoiseKind::Unit::angle},
+                                                          {"slip", &Noise::slip, NoiseKind::Unit::per_length},
+                                                          {"radius", &Noise::radius, NoiseKind::Unit::length}}};
 
 /// Throws InputError: a standard deviation that is not a finite number of at least 0.
 void require_valid(const Noise& noise);
