@@ -16,7 +16,7 @@ int main() {
   };
   std::printf("a track of %.0f m\n", track.perimeter());
 
-  for (const std::size_t rows : {10, 20, 40, 80}) {
+  for (const std::size_t rows : {10U, 20U, 40U, 80U}) {
     const NoisyIncrements drive = noisy_increments(track, 700, 5.0 * static_cast<double>(rows), rows, noise, 3);
     const Answer answer = solve({track, drive.log, {}, noise});  // no finger
     std::printf("after %3zu m: %s\n", 5 * rows, answer.verdict.text().c_str());
