@@ -97,6 +97,19 @@ Fit best_fit(const Question& question, const PerFinger<double>& at) {
   return best;
 }
 
+/// Can any of the contacts be at a corner?
+bool meets_corner(const Question& question, const PerFinger<double>& at) {
+  const Part& part = question.part;
+  if (part.corners().empty()) return false;
+  if (at.size() == 2) return true;  // on arcs the best of equal residuals is picked by their last bits: by the sets'
+  const auto is_at_corner = [&](double s) { return corner_at(part, part.boundary().reduced(s).base) != nullptr; };
+  if (is_at_corner(at[0])) return true;
+  for (const Reading& reading : question.readings) {
+    if (is_at_corner(at[0] + reading.length[0])) return true;
+  }
+  return false;
+}
+
 /// Where there are no corners.
 double smooth_residual(const Question& question, const PerFinger<double>& at) {
   const auto tangent = [&](const PerFinger<double>& contacts) {
@@ -132,7 +145,7 @@ AngleSet angle_set(const Part& part, double s) {
 }
 
 double residual_at(const Question& question, const PerFinger<double>& at) {
-  return question.part.corners().empty() ? smooth_residual(question, at) : best_fit(question, at).residual;
+  return meets_corner(question, at) ? best_fit(question, at).residual : smooth_residual(question, at);
 }
 
 PerFinger<Pivot> pivots_at(const Question& question, const PerFinger<double>& at) {

@@ -37,23 +37,23 @@ class Sweep {
     }
     Cursor start = Cursor::ahead(turning_, range.lo);
     Cursor end = Cursor::ahead(turning_, range.lo + length_);
-    ResidualSample left = enter(start, end, range.lo);
+    auto [from_start, from_end] = enter(start, end, range.lo);
     double here = range.lo;
     while (here < range.hi && findings_.unresolved.empty()) {
-      const double offset = length_ - end.shift();
-      const double start_passes = start.spiral().hi;
-      const double end_passes = end.spiral().hi - offset;
+      const SpiralPair pair = pair_of(start, end);
+      const double start_passes = pair.start.hi;
+      const double end_passes = pair.end.hi - pair.offset;
       double next = std::min({start_passes, end_passes, range.hi});
       if (range.hi - next <= same_place_) next = range.hi;
       const bool start_moves = start_passes - next <= same_place_ && !start.is_last();
       const bool end_moves = end_passes - next <= same_place_ && !end.is_last();
 
-      const SpiralPair pair = pair_of(start, end);
-      const Turning at_start = start_moves ? start.spiral().end : turning_.on_spiral(start.spiral(), next);
-      const Turning at_end = end_moves ? end.spiral().end : turning_.on_spiral(end.spiral(), next + offset);
-      const ResidualSample right = pair.sample(next, at_start, at_end);
+      const Turning at_start = start_moves ? pair.start.end : turning_.on_spiral(pair.start, next);
+      const Turning at_end = end_moves ? pair.end.end : turning_.on_spiral(pair.end, next + pair.offset);
       findings_.counts.evaluations += (start_moves ? 0 : 1) + (end_moves ? 0 : 1);
-      if (next - here > same_place_) search_.run(pair, left, right);
+      if (next - here > same_place_) {
+        search_.run(pair, pair.sample(here, from_start, from_end), pair.sample(next, at_start, at_end));
+      }
       if (!findings_.unresolved.empty()) findings_.unresolved.back().hi = range.hi;
 
       if (next >= range.hi && !end_moves) break;
@@ -68,8 +68,8 @@ class Sweep {
       }
       if (next >= range.hi) break;
       if (start_moves) start.advance();
-      left = pair_of(start, end)
-                 .sample(next, start_moves ? start.spiral().start : at_start, end_moves ? end.spiral().start : at_end);
+      from_start = start_moves ? start.spiral().start : at_start;
+      from_end = end_moves ? end.spiral().start : at_end;
       here = next;
     }
   }
@@ -91,17 +91,18 @@ class Sweep {
     return {turning_, start.spiral(), end.spiral(), length_ - end.shift(), reading_.turn - end.lift()};
   }
 
-  /// The first sample, and the corner where the end stands, if it does.
-  ResidualSample enter(Cursor& start, const Cursor& end, double lo) {
+  /// Both contacts at the beginning, and the corner where the end stands, if it does.
+  std::pair<Turning, Turning> enter(Cursor& start, const Cursor& end, double lo) {
     // s = P - rounding: the same place, one lap earlier.
     if (start.winding() > 0) start = Cursor::at_spiral(turning_, start.index());
     const SpiralPair pair = pair_of(start, end);
-    const ResidualSample first = pair.sample(std::max(lo, start.spiral().lo));
+    const double s = std::max(lo, pair.start.lo);
+    const Turning at_start = turning_.on_spiral(pair.start, s);
     findings_.counts.evaluations += 2;
-    if (std::abs(lo + pair.offset - end.spiral().lo) <= same_place_ && !end.is_first()) {
-      pass_corner(lo, turning_.on_spiral(start.spiral(), first.s).angle, end.angle_before(), end.angle_after());
+    if (std::abs(lo + pair.offset - pair.end.lo) <= same_place_ && !end.is_first()) {
+      pass_corner(lo, at_start.angle, end.angle_before(), end.angle_after());
     }
-    return {lo, first.value, first.start_curvature, first.end_curvature};
+    return {at_start, turning_.on_spiral(pair.end, s + pair.offset)};
   }
 
   /// The end of the roll passes a joint while the start is at s: where that is a convex corner, or a tiny concave one,
