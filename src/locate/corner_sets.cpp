@@ -1,6 +1,7 @@
 #include "corner_sets.hpp"
 
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -9,6 +10,9 @@
 
 namespace rollfix {
 namespace {
+
+// Readings and one-sided limits are few: no allocation for them.
+using Intervals = boost::container::small_vector<Interval, 4>;
 
 /// The corner at base, 0 <= base <= P, or none.
 const Corner* corner_at(const Part& part, double base) {
@@ -26,16 +30,16 @@ const Corner* corner_at(const Part& part, double base) {
 
 /// What to try of a set, one at a time: a pivot's interval, or the one or two values at a smooth point or a concave
 /// corner.
-std::vector<Interval> choices(const AngleSet& set) {
+Intervals choices(const AngleSet& set) {
   if (set.concave) return {{set.angles.lo, set.angles.lo}, {set.angles.hi, set.angles.hi}};
   return {set.angles};
 }
 
 /// The tangent at a contact, of two fingers a's less b's.
-std::vector<Interval> tangents_at(const Part& part, const PerFinger<double>& at) {
-  std::vector<Interval> of_a = choices(angle_set(part, at[0]));
+Intervals tangents_at(const Part& part, const PerFinger<double>& at) {
+  Intervals of_a = choices(angle_set(part, at[0]));
   if (at.size() == 1) return of_a;
-  std::vector<Interval> differences;
+  Intervals differences;
   for (const Interval& a : of_a) {
     for (const Interval& b : choices(angle_set(part, at[1]))) differences.push_back({a.lo - b.hi, a.hi - b.lo});
   }
@@ -55,7 +59,7 @@ struct Fit {
 
 /// The least slack for which all the readings and the start's own set have a tangent in common: on a line, sets meet
 /// when each two of them do.
-Fit fit(const Interval& start, const std::vector<Interval>& wanted) {
+Fit fit(const Interval& start, const Intervals& wanted) {
   Fit best{0, start};
   for (const Interval& one : wanted) {
     best.residual = std::max({best.residual, one.lo - start.hi, start.lo - one.hi});
@@ -72,11 +76,11 @@ Fit fit(const Interval& start, const std::vector<Interval>& wanted) {
 /// With w the start's tangent, f_k = Theta(s + L_k) - theta_k - w; of two fingers w = Theta(s) - Theta(t).
 Fit best_fit(const Question& question, const PerFinger<double>& at) {
   // One-sided ends at a concave corner make several combinations; each is tried.
-  std::vector<std::vector<Interval>> combinations(1);
+  boost::container::small_vector<Intervals, 2> combinations(1);
   for (const Reading& reading : question.readings) {
-    std::vector<std::vector<Interval>> longer;
+    boost::container::small_vector<Intervals, 2> longer;
     for (const Interval& end : tangents_at(question.part, ends_of(at, reading))) {
-      for (const std::vector<Interval>& shorter : combinations) {
+      for (const Intervals& shorter : combinations) {
         longer.push_back(shorter);
         longer.back().push_back({end.lo - reading.turn, end.hi - reading.turn});
       }
@@ -85,7 +89,7 @@ Fit best_fit(const Question& question, const PerFinger<double>& at) {
   }
   Fit best;
   for (const Interval& start : tangents_at(question.part, at)) {
-    for (std::vector<Interval> wanted : combinations) {
+    for (Intervals wanted : combinations) {
       if (question.facing) {
         const double laps = std::round((start.middle() - *question.facing) / kFullTurn);
         wanted.push_back({*question.facing + laps * kFullTurn, *question.facing + laps * kFullTurn});
