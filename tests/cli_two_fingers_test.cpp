@@ -11,6 +11,7 @@
 
 #include "answer/observation.hpp"
 #include "cli.hpp"
+#include "refusal.hpp"
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/arguments/finger_argument.hpp"
 #include "rollfix/arguments/roll_arguments.hpp"
@@ -25,7 +26,6 @@ namespace {
 using cli::Json;
 using cli::run;
 using rollfix::Answer;
-using rollfix::InputError;
 using rollfix::Log;
 using rollfix::Observation;
 using rollfix::Part;
@@ -37,16 +37,6 @@ using testing::StartsWith;
 
 const std::string kSpline = "simulate gallery:spline,seed=3 --finger disk,r=0.1 --start 1 --start 4";
 const std::string kRoll = kSpline + " --length 1.5 --length -0.8 --part-rotation 30deg";
-
-template <class Action>
-std::string refusal_of(const Action& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
-}
 
 Log log_in(const std::vector<std::string>& files) {
   std::vector<std::string> notes;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "random.hpp"
+#include "refusal.hpp"
 #include "rollfix/contact/log.hpp"
 #include "rollfix/contact/pose.hpp"
 #include "rollfix/contact/rolling.hpp"
@@ -37,16 +38,6 @@ RollPlan plan_over(double start, double distance, std::size_t rows = 101, double
   plan.rows = rows;
   plan.u = u;
   return plan;
-}
-
-template <class Action>
-std::string refusal_of(const Action& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
 }
 
 /// A point of the finger in the world.

@@ -11,6 +11,7 @@
 
 #include "free_roll.hpp"
 #include "random.hpp"
+#include "refusal.hpp"
 #include "rollfix/contact/log.hpp"
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
@@ -35,16 +36,6 @@ const Part& egg() {
 
 std::vector<Finger> fingers_of(const Log& log) {
   return {kFingers.begin(), kFingers.begin() + static_cast<std::ptrdiff_t>(log.fingers.size())};
-}
-
-template <class Action>
-std::string refusal_of(const Action& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
 }
 
 /// A roll of one finger, or of two on a part that turns meanwhile.

@@ -2,11 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <string>
 
+#include "refusal.hpp"
 #include "rollfix/contact/log.hpp"
-#include "rollfix/error.hpp"
 
 namespace rollfix::log_errors_test {
 namespace {
@@ -14,18 +13,6 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
-
-template <class Action>
-std::string refusal_of(const Action& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    const std::string message = error.what();
-    EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 0) << message;
-    return message;
-  }
-  return "nothing was thrown";
-}
 
 std::string refusal(const std::string& text) {
   return refusal_of([&] { parse_log(text, "run.csv"); });

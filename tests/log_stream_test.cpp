@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "random.hpp"
+#include "refusal.hpp"
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline/gallery.hpp"
@@ -212,16 +213,6 @@ TEST(LogStream, a_line_that_cannot_be_read_leaves_no_trace) {
     EXPECT_NE(disturbed.push("x" + noise).kind, sample);
   }
   EXPECT_GT(disturbed.malformed(), 2 * (lines.size() - 2));
-}
-
-template <class Action>
-std::string refusal_of(const Action& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
 }
 
 TEST(LogStream, what_can_never_be_read_is_refused) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "contact/normal_numbers.hpp"
+#include "refusal.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline/gallery.hpp"
 #include "shapes.hpp"
@@ -55,16 +56,6 @@ std::vector<double> differences(const std::vector<double>& a, const std::vector<
   std::vector<double> result(a.size());
   for (std::size_t k = 0; k < a.size(); ++k) result[k] = a[k] - b[k];
   return result;
-}
-
-template <class Action>
-std::string refusal_of(const Action& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
 }
 
 TEST(NormalNumbers, have_the_moments_and_the_tails_of_a_normal) {

@@ -2,12 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
+#include "refusal.hpp"
 #include "rollfix/contact/log.hpp"
-#include "rollfix/error.hpp"
 
 namespace rollfix::pair_log_errors_test {
 namespace {
@@ -15,18 +14,6 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
-
-template <class Action>
-std::string refusal_of(const Action& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    const std::string message = error.what();
-    EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 0) << message;
-    return message;
-  }
-  return "nothing was thrown";
-}
 
 std::string refusal(const std::string& text) {
   return refusal_of([&] { parse_log(text, "both.csv"); });

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "refusal.hpp"
 #include "rollfix/contact/log.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate/locate.hpp"
@@ -16,7 +17,6 @@ namespace {
 
 using rollfix::Answer;
 using rollfix::gallery;
-using rollfix::InputError;
 using rollfix::locate;
 using rollfix::Noise;
 using rollfix::Part;
@@ -36,16 +36,6 @@ Reading roll_of_one(double s, double length) {
 
 Reading roll_of_two(double s, double t, double a, double b) {
   return {a, b, roll_of_one(s, a).turn - roll_of_one(t, b).turn};
-}
-
-template <class Call>
-std::string refusal_of(const Call& call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
 }
 
 TEST(Solve, answers_exact_readings_as_the_search_does_for_one_finger_and_two) {
