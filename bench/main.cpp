@@ -1,7 +1,8 @@
 // What one finger and two fingers cost, in units of W: one integration of the same outline's perimeter, timed in the
 // same process. What saved parts, reach and a growing log cost, in microseconds. And how well noisy logs are localized.
 //   rollfix_bench [ROUNDS [TABLE...]]     rounds of measurement (default 15); all tables, or those named:
-//                                         one, two, files, watch, noisy, advised
+//                                         one, two, files, watch, posterior, noisy,
+//                                         advised
 // 0 rounds: nothing is timed, "?" stands for it, and only what is the same every time is counted, within seconds, in
 // the first four tables. tests/docs/compare_tables.py compares it with docs/performance.md.
 
@@ -25,11 +26,12 @@ struct Table {
 // Logs and cases on each part, for a round.
 constexpr int kLogs = 7;
 
-constexpr std::array<Table, 6> kTables = {{
+constexpr std::array<Table, 7> kTables = {{
     {"one", "one finger", bench::one_finger, true},
     {"two", "two fingers", bench::two_fingers, true},
     {"files", "saved parts and reach", bench::files, true},
     {"watch", "watching a growing log", bench::watch, true},
+    {"posterior", "the posterior of one shape through few points and many", bench::posterior, false},
     {"noisy", "noisy logs", [](int rounds) { bench::noisy(kLogs * rounds); }, false},
     {"advised", "advised rolls", [](int rounds) { bench::advised(kLogs * rounds); }, false},
 }};

@@ -10,6 +10,8 @@ void two_fingers(int rounds);
 void files(int rounds);
 /// In microseconds per sample: a growing log, from a line to where the contact is.
 void watch(int rounds);
+/// In milliseconds: a noisy log's probabilities, on one shape through few points and through many.
+void posterior(int rounds);
 /// How often noisy logs are localized, beside particle filters; so many logs on each part.
 void noisy(int count);
 /// How often two advised rolls leave one place; so many cases on each part.

@@ -55,7 +55,9 @@ TEST_P(Mistakes, are_told_in_one_line) {
   EXPECT_EQ(ran.out, "");
   EXPECT_THAT(ran.err, StartsWith("rollfix: "));
   EXPECT_THAT(ran.err, EndsWith("\n"));
-  EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
+  // The names that are known have a line of their own.
+  const int lines = ran.err.find("\n  Known are: ") == std::string::npos ? 1 : 2;
+  EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), lines) << ran.err;
   for (const std::string& piece : GetParam().expected) EXPECT_THAT(ran.err, HasSubstr(piece));
   EXPECT_EQ(folder.files(), before);
   EXPECT_EQ(cli::read("exists.svg"), "old");
@@ -208,7 +210,7 @@ INSTANTIATE_TEST_SUITE_P(Watch, Mistakes, testing::ValuesIn(kWatch), mistake_nam
 INSTANTIATE_TEST_SUITE_P(Usage, Mistakes, testing::ValuesIn(kUsage), mistake_name);
 
 TEST(Options, that_do_not_exist_yet_are_an_error_and_not_ignored) {
-  for (const char* option : {"--heading", "--mirror", "--direction", "--batch", "--certify"}) {
+  for (const char* option : {"--batch", "--certify"}) {
     const cli::Ran ran = run_words({"locate", "gallery:cam", "--reading", "1,1", option, "1"});
     EXPECT_EQ(ran.code, 2) << option;
     EXPECT_EQ(ran.out, "");

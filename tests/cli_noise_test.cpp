@@ -29,6 +29,32 @@ void write_noisy_roll(const std::string& length, const std::string& part = "gall
 
 }  // namespace
 
+TEST(CliNoise, a_gyroscope_is_as_its_datasheet_has_it) {
+  const Folder folder;
+  folder.write("drive.csv", "time,length,turn\n1,0.2,0.1\n2,0.4,0.3\n3,0.6,0.5\n");
+  const auto noise = [](const std::string& typed) {
+    return run("locate gallery:cam --log drive.csv --json --noise angle=0.05," + typed).json()["noise"];
+  };
+  // A degree an hour is pi / 180 / 3600 a second; a degree per root of an hour is pi / 180 / 60 per root of a second.
+  EXPECT_NEAR(noise("drift=3600deg/h")["drift"], 0.017453292519943, 1e-14);
+  EXPECT_NEAR(noise("drift=60deg/min")["drift"], 0.017453292519943, 1e-14);
+  EXPECT_NEAR(noise("drift=0.25")["drift"], 0.25, 1e-15);
+  EXPECT_NEAR(noise("walk=60deg/sqrt(h)")["walk"], 0.017453292519943, 1e-14);
+  EXPECT_NEAR(noise("walk=1deg/s/sqrt(Hz)")["walk"], 0.017453292519943, 1e-14);
+  EXPECT_NEAR(noise("walk=0.5rad/sqrt(s)")["walk"], 0.5, 1e-15);
+}
+
+TEST(CliNoise, a_gyroscopes_noise_without_times_or_unit_is_refused) {
+  const Folder folder;
+  folder.write("drive.csv", "length,turn\n0.2,0.1\n0.4,0.3\n0.6,0.5\n");
+  EXPECT_THAT(run("locate gallery:cam --log drive.csv --noise angle=0.05,walk=0.3deg/sqrt(h)").err,
+              HasSubstr("drive.csv: has no times, and the noise's walk gathers with time"));
+  EXPECT_THAT(run("locate gallery:cam --log drive.csv --noise angle=0.05,drift=10deg").err,
+              HasSubstr("'10deg' is none of 10deg/h, 5deg/min"));
+  EXPECT_THAT(run("locate gallery:cam --log drive.csv --noise angle=0.05,walk=1deg/h").err,
+              HasSubstr("'1deg/h' is none of 0.3deg/sqrt(h)"));
+}
+
 TEST(CliNoise, every_placement_has_a_probability_and_they_come_in_that_order) {
   const Folder folder;
   write_noisy_roll("0.3");

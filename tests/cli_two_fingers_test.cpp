@@ -40,7 +40,7 @@ const std::string kRoll = kSpline + " --length 1.5 --length -0.8 --part-rotation
 
 Log log_in(const std::vector<std::string>& files) {
   std::vector<std::string> notes;
-  return rollfix::app::read_roll(files, "", notes);
+  return rollfix::app::read_roll(files, "", {}, notes);
 }
 
 }  // namespace
@@ -130,11 +130,11 @@ TEST(CliTwoFingers, the_log_argument_is_of_as_many_fingers_as_its_files) {
 
 TEST(CliTwoFingers, fingers_are_as_many_as_are_given_and_two_at_most) {
   using rollfix::app::read_fingers;
-  EXPECT_EQ(read_fingers({"disk,r=0.5"}, 2).at(0).disk()->radius, 0.5);
-  EXPECT_EQ(read_fingers({"disk,r=0.5", "disk,r=2"}, 2).at(1).disk()->radius, 2);
-  EXPECT_TRUE(read_fingers({}, 2).empty());
+  EXPECT_EQ(read_fingers({"disk,r=0.5"}, 2, "").at(0).disk()->radius, 0.5);
+  EXPECT_EQ(read_fingers({"disk,r=0.5", "disk,r=2"}, 2, "").at(1).disk()->radius, 2);
+  EXPECT_TRUE(read_fingers({}, 2, "").empty());
   EXPECT_THAT(refusal_of([] {
-                read_fingers({"disk,r=1", "disk,r=1", "disk,r=1"}, 2);
+                read_fingers({"disk,r=1", "disk,r=1", "disk,r=1"}, 2, "");
               }),
               HasSubstr("at most two fingers"));
 }

@@ -160,10 +160,12 @@ TEST(AnswerFigure, drops_labels_and_then_arcs_as_placements_grow_many) {
   EXPECT_EQ(labels(more, "a", "0"), 0);
   EXPECT_EQ(paths_in(more, "arc").size(), 24U);
   EXPECT_THAT(more, HasSubstr("ambiguous (24)"));
+  EXPECT_THAT(more, HasSubstr("24 placements: no labels, no list"));
   const std::string crowd = figure_with(part, 5000, 0.4).str();
   EXPECT_EQ(paths_in(crowd, "arc").size(), 0U);
   EXPECT_EQ(paths_in(crowd, "starts").at(0).size(), 10000U);
   EXPECT_LT(crowd.size(), 500000U);
+  EXPECT_THAT(crowd, HasSubstr("5000 placements: no rolls, no labels, no list"));
 }
 
 TEST(AnswerFigure, draws_a_part_alone_when_nothing_fits) {

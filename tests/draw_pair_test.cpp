@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "draw/contours.hpp"
+#include "draw/answer/contours.hpp"
 #include "draw_helpers.hpp"
 #include "pair_cases.hpp"
 #include "rollfix/draw/answer_figure.hpp"
@@ -157,6 +157,13 @@ TEST(AnswerFigureOfTwo, draws_each_equation_through_the_pairs_that_satisfy_it) {
   Figure wrong = figure_of(part, {{2, 5}});
   wrong.answer.readings[1].turn += 0.5;
   EXPECT_GT(distance(equation(wrong.str(), 1), dot), 4);
+}
+
+TEST(AnswerFigureOfTwo, dashes_a_line_in_the_legend_as_in_the_square) {
+  const Part part = gallery_part("limacon");
+  const std::string svg = figure_of(part, {{2, 5}}).str();
+  const std::size_t legend = svg.find("class=\"legend\"");
+  EXPECT_EQ(count_of(svg.substr(legend, svg.find("</g>", legend) - legend), "stroke-dasharray"), 1);
 }
 
 TEST(AnswerFigureOfTwo, draws_the_facing_as_an_equation_of_its_own) {

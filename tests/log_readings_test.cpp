@@ -230,11 +230,31 @@ TEST(Log, of_two_rows_alone_only_the_usual_ranges_are_taken_as_wrapped) {
 TEST(Log, instants_choose_the_rows_they_are_nearest_to) {
   const Log log = log_of("time,u,psi\n0,0,0\n0.5,-1,1\n1,-2,2\n1.5,-3,3\n");
   EXPECT_THAT(rows_at(log, {}), ElementsAre(3));
-  EXPECT_THAT(rows_at(log, {0.5, 1.2, 1.75, -0.25, 1.1}), ElementsAre(1, 2, 3, 0, 2));
+  EXPECT_THAT(rows_at(log, {0.5, 1.2, 1.75}), ElementsAre(1, 2, 3));
   const std::vector<Reading> found = readings(log, ellipse(), {DiskFinger{2}}, {1, 0.51});
   ASSERT_EQ(found.size(), 2U);
   EXPECT_EQ(found[0].length[0], 4);
   EXPECT_EQ(found[1].length[0], 2);
+}
+
+TEST(Log, an_instant_that_means_the_first_contact_is_refused) {
+  const Log log = log_of("time,u,psi\n0,0,0\n0.5,-1,1\n1,-2,2\n1.5,-3,3\n");
+  for (const double instant : {0.0, -0.25, 0.2}) {
+    EXPECT_THAT(message_of([&] {
+                  rows_at(log, {1, instant});
+                }),
+                testing::AllOf(HasSubstr("the first contact"), HasSubstr("`at`"), HasSubstr("up to 1.5")));
+  }
+  EXPECT_THAT(rows_at(log_of("time,length,turn\n0,0.1,0\n0.5,1,1\n"), {0}), ElementsAre(0));
+}
+
+TEST(Log, two_instants_that_mean_one_row_are_refused) {
+  const Log log = log_of("time,u,psi\n0,0,0\n0.5,-1,1\n1,-2,2\n1.5,-3,3\n");
+  EXPECT_THAT(message_of([&] {
+                rows_at(log, {1, 0.5, 1.2});
+              }),
+              testing::AllOf(HasSubstr("the instants 1 and 1.2 mean the same row, at 1"), HasSubstr("`at`")));
+  EXPECT_THAT(message_of([&] { rows_at(log, {0.5, 0.5}); }), HasSubstr("the instants 0.5 and 0.5"));
 }
 
 TEST(Log, instants_outside_or_in_a_gap_of_the_log_are_refused) {

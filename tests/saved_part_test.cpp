@@ -100,6 +100,20 @@ TEST(SavedParts, of_open_curves_answer_with_the_same_bits) {
   expect_same_bits(part, again(part));
 }
 
+TEST(SavedParts, keep_how_accurate_they_are) {
+  rollfix::Outline outline = rollfix::gallery("cam");
+  outline.accuracy = {0.002, 0.1 / 3, 0.7, 1e-5};
+  const rollfix::Accuracy read = again(Part(outline)).outline().accuracy;
+  EXPECT_TRUE(same_bits(read.length, outline.accuracy.length) && same_bits(read.turn, outline.accuracy.turn) &&
+              same_bits(read.alike, outline.accuracy.alike) && same_bits(read.walk, outline.accuracy.walk));
+}
+
+TEST(SavedParts, of_drawings_are_exact) {
+  const Part part(rollfix::gallery("cam"));
+  EXPECT_EQ(rollfix::format_part(part).find("accuracy"), std::string::npos);  // as files were before parts had one
+  EXPECT_TRUE(again(part).outline().accuracy.is_exact());
+}
+
 TEST(SavedParts, are_the_same_text_when_saved_again) {
   const Part part(rollfix::gallery("naca"));
   rollfix::Part loaded = rollfix::parse_part(rollfix::format_part(part), part.name());

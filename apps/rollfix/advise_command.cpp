@@ -42,16 +42,18 @@ struct AdviseArguments {
   OutputArgument output;
 };
 
-Interval read_travel(const std::string& text) {
+Interval read_travel(const std::string& text, const std::string& unit) {
   const std::vector<std::string_view> fields = split(text, ',');
   const std::string what = "--travel " + text;
   if (fields.size() == 1) {
-    const double most = read_number(fields[0], what);
+    const double most = read_length(fields[0], what, unit);
     if (!(most > 0)) throw InputError(what + ": expected a length above 0, or BACK,FORWARD as in -0.5,1.2");
     return {-most, most};
   }
-  if (fields.size() != 2) throw InputError(what + ": expected one length, or BACK,FORWARD as in -0.5,1.2");
-  const Interval travel{read_number(fields[0], what), read_number(fields[1], what)};
+  if (fields.size() != 2) {
+    throw InputError(what + ": expected one length, or BACK,FORWARD as in -0.5,1.2; are there decimal commas in it?");
+  }
+  const Interval travel{read_length(fields[0], what, unit), read_length(fields[1], what, unit)};
   if (!(travel.lo <= 0 && travel.hi >= 0 && travel.width() > 0)) {
     throw InputError(what + ": expected a length of at most 0, backwards, and one of at least 0, forwards");
   }
@@ -124,9 +126,9 @@ std::string headline(const AdviseOutcome& outcome) {
   if (!outcome.advice->helps) return fmt::format("{}: no roll will tell them apart: {}", verdict, outcome.why);
   const Prospect& advised = outcome.advice->advised();
   const int decimals = decimals_for(outcome.answer.part.perimeter());
-  return fmt::format("{}: roll on {} by {}: {:.2f} placements are expected to remain, {:.2f} of {:.2f} bits gained",
+  return fmt::format("{}: roll on {} by {}{}: {:.2f} placements are expected to remain, {:.2f} of {:.2f} bits gained",
                      verdict, advised.length < 0 ? "backwards" : "forwards", fixed(std::abs(advised.length), decimals),
-                     advised.placements, advised.bits, outcome.advice->bits_wanted);
+                     behind(outcome.answer.part.unit()), advised.placements, advised.bits, outcome.advice->bits_wanted);
 }
 
 /// What the contenders of one placement have in common.
@@ -152,7 +154,8 @@ std::string advise_text(const AdviseOutcome& outcome) {
   const int decimals = decimals_for(outcome.answer.part.perimeter());
   Table table;
   table.add_column("", Table::Align::left);
-  for (const char* title : {"contact now", "probability", "turn to expect [deg]"}) table.add_column(title);
+  table.add_column(title_in("contact now", outcome.answer.part.unit()));
+  for (const char* title : {"probability", "turn to expect [deg]"}) table.add_column(title);
   const std::vector<Contender>& all = outcome.contenders;
   std::size_t placements = 0;
   for (std::size_t k = 0; k < all.size();) {
@@ -212,10 +215,10 @@ Report advise_report(const AdviseArguments& arguments) {
     throw InputError("advise: expected --reading LENGTH,TURN or --log FILE of the roll so far");
   }
   require_figure_output(arguments.output, arguments.json);
-  std::optional<Interval> travel;
-  if (!arguments.travel.empty()) travel = read_travel(arguments.travel);
   Report report;
   const Problem problem = read_problem(roll, report.notes);
+  std::optional<Interval> travel;
+  if (!arguments.travel.empty()) travel = read_travel(arguments.travel, problem.part.unit());
   if (problem.felt.is_log() ? problem.felt.log->fingers.size() == 2 : problem.felt.readings.front().fingers() == 2) {
     throw InputError("advise: expected what one finger read, found two fingers");
   }
@@ -224,8 +227,9 @@ Report advise_report(const AdviseArguments& arguments) {
   report.exit_code = exit_code_of(outcome.answer);
   report.data = arguments.json ? json_text(advise_json(outcome)) : advise_text(outcome);
   if (!arguments.output.file.empty()) {
-    if (!outcome.advice) {
-      throw InputError(fmt::format("-o {}: there is no figure: {}", arguments.output.file, outcome.why));
+    if (!outcome.advice) {  // an answer all the same
+      report.notes.push_back(fmt::format("-o {}: nothing is drawn: {}", arguments.output.file, outcome.why));
+      return report;
     }
     add_figure(arguments.output,
                draw_advice({*outcome.advice, outcome.answer.part.name(), outcome.answer.verdict.text()}), report);

@@ -34,9 +34,9 @@ constexpr const char* kProgramExamples = R"(Examples:
 
 /// The library names the fields of its structs, `allow_crossing`; who typed options reads --allow-crossing.
 std::string with_options(std::string text) {
-  constexpr std::array kFields = {"allow_crossing", "at",       "bridge", "corner_angle", "facing", "finger", "gap",
-                                  "layer",          "loop",     "noise",  "open",         "prior",  "robust", "roll",
-                                  "smooth",         "tolerance"};
+  constexpr std::array kFields = {
+      "allow_crossing", "at",    "bridge", "columns", "corner_angle", "facing", "finger", "gap",       "layer", "loop",
+      "mirror",         "noise", "open",   "prior",   "robust",       "roll",   "smooth", "tolerance", "unit"};
   for (const std::string field : kFields) {
     boost::replace_all(text, "`" + field + "`", "--" + boost::replace_all_copy(field, "_", "-"));
   }
@@ -81,7 +81,8 @@ std::string names_of_commands(CLI::App& program) {
 }
 
 /// Adds the commands to a program and returns the one that the arguments name.
-Command parse(CLI::App& program, const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) {
+Command parse(CLI::App& program, const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err,
+              bool& quiet) {
   Command chosen;
   set_help_style(program);
   program.footer(kProgramExamples);
@@ -100,6 +101,7 @@ Command parse(CLI::App& program, const std::vector<std::string>& arguments, std:
   for (CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
     command->allow_extras();
     command->group("Commands");
+    add_switch(*command, "--quiet", quiet, "no notes on stderr; errors are told all the same");
   }
 
   std::vector<std::string> reversed = with_negative_values_attached(arguments);
@@ -112,17 +114,30 @@ Command parse(CLI::App& program, const std::vector<std::string>& arguments, std:
 
 int code(ExitCode exit_code) { return static_cast<int>(exit_code); }
 
-void deliver(const Report& report, std::ostream& out, std::ostream& err) {
+/// `notes`: where the narration goes.
+void deliver(const Report& report, std::ostream& out, std::ostream& notes) {
   write_files(report.files);
   out << report.data << std::flush;
   if (!out) throw InputError("standard output can't be written to");
-  for (const std::string& note : report.notes) err << "rollfix: " << with_options(note) << '\n';
+  for (const std::string& note : report.notes) notes << "rollfix: " << with_options(note) << '\n';
 }
 
-/// An error is one line, whatever is in the names that it quotes.
+/// What is known stands on a line of its own.
+void set_known_names_apart(std::string& message) {
+  constexpr std::string_view kMark = " Known are: ";
+  std::size_t at = message.find(kMark);
+  if (at == std::string::npos) return;
+  const std::size_t length = kMark.size();
+  std::size_t from = at;
+  if (from > 0 && message[from - 1] == ';') --from;
+  message.replace(from, at + length - from, "\n  Known are: ");
+}
+
+/// An error is one line, whatever is in the names that it quotes; and one of what would be known.
 int fail(std::ostream& err, std::string message, ExitCode exit_code) {
   std::replace_if(
       message.begin(), message.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  set_known_names_apart(message);
   err << "rollfix: " << with_options(message) << '\n';
   return code(exit_code);
 }
@@ -131,14 +146,19 @@ int fail(std::ostream& err, std::string message, ExitCode exit_code) {
 
 Command command_of(const std::vector<std::string>& arguments) {
   CLI::App program(kDescription, "rollfix");
-  return parse(program, arguments, std::cout, std::cerr);
+  bool quiet = false;
+  return parse(program, arguments, std::cout, std::cerr, quiet);
 }
 
 int run(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) {
   CLI::App program(kDescription, "rollfix");
+  std::ostream notes(err.rdbuf());
   try {
-    const Report report = parse(program, arguments, out, err)();
-    deliver(report, out, err);
+    bool quiet = false;
+    const Command command = parse(program, arguments, out, notes, quiet);
+    if (quiet) notes.rdbuf(nullptr);  // what is written to it goes nowhere
+    const Report report = command();
+    deliver(report, out, notes);
     return code(report.exit_code);
   } catch (const CLI::Success& request) {  // --help, --version
     return program.exit(request, out, err);

@@ -6,9 +6,11 @@
 
 #include "rollfix/arguments/finger_argument.hpp"
 #include "rollfix/arguments/output_argument.hpp"
+#include "rollfix/arguments/part_argument.hpp"
 #include "rollfix/arguments/roll_arguments.hpp"
 #include "rollfix/arguments/typed_number.hpp"
 #include "rollfix/commands.hpp"
+#include "rollfix/contact/dead_reckoning.hpp"
 #include "rollfix/contact/log.hpp"
 #include "rollfix/contact/teach.hpp"
 #include "rollfix/draw/part_figure.hpp"
@@ -31,6 +33,8 @@ struct TeachArguments {
   std::vector<std::string> fingers;
   std::string noise;
   std::string corner_angle;
+  std::string columns;
+  std::string unit;
   OutputArgument output;
   bool bridge = false;
   bool open = false;
@@ -64,15 +68,16 @@ Json taught_json(const Taught& taught) {
           {"gap_allowed", taught.gap_allowed},
           {"bridge", taught.bridge},
           {"correction", taught.correction},
-          {"deviation", taught.deviation}};
+          {"deviation", taught.deviation},
+          {"row_sd", taught.row_sd}};
 }
 
 TeachOptions options_of(const TeachArguments& arguments) {
   TeachOptions options;
-  const std::vector<Finger> fingers = read_fingers(arguments.fingers, 1);
+  const std::vector<Finger> fingers = read_fingers(arguments.fingers, 1, arguments.unit);
   require_disks(fingers, "teach");
   if (!fingers.empty()) options.finger = fingers.front();
-  options.noise = read_noise(arguments.noise);
+  options.noise = read_noise(arguments.noise, arguments.unit);
   options.bridge = arguments.bridge;
   options.open = arguments.open;
   if (!arguments.corner_angle.empty()) options.corner_angle = read_angle(arguments.corner_angle, "--corner-angle");
@@ -81,12 +86,20 @@ TeachOptions options_of(const TeachArguments& arguments) {
   return options;
 }
 
+/// What the figure shows of the roll.
+TaughtRows rows_of(const Log& log, const TeachOptions& options, const Taught& taught) {
+  const std::string closing = taught.closing == Closing::kept_open ? "kept open" : word_for(taught.closing);
+  const bool closes = taught.closing != Closing::not_asked;
+  return {dead_reckoned(log, options.finger), taught.lap, taught.gap, closes, closes ? closing : "kept open as asked"};
+}
+
 Report teach_report(const TeachArguments& arguments) {
   if (arguments.log.empty()) throw InputError("teach: expected a LOG of one roll around the part, found none");
   const TeachOptions options = options_of(arguments);
   require_part_output(arguments.output, arguments.json);
-  const Taught taught = rollfix::teach(read_log(arguments.log), options);
-  const LoadedPart loaded{Part(taught.outline, {arguments.allow_crossing}), "", {}, 0, {}};
+  const Log log = read_log(arguments.log, read_log_options(arguments.columns, arguments.unit));
+  const Taught taught = rollfix::teach(log, options);
+  const LoadedPart loaded{Part(taught.outline, {arguments.allow_crossing}), taught.outline.unit, {}, 0, {}};
 
   Report report;
   report.notes = taught.notes;
@@ -102,7 +115,7 @@ Report teach_report(const TeachArguments& arguments) {
   add_part_output(
       arguments.output, loaded.part,
       [&] {
-        return draw_part({&loaded.part, "", 640});
+        return draw_part({&loaded.part, "", 640, {}, {}, rows_of(log, options, taught)});
       },
       report);
   return report;
@@ -115,6 +128,8 @@ void add_teach_command(CLI::App& program, Command& chosen) {
   CLI::App* command = program.add_subcommand("teach", "A part without a drawing, from one full roll around it.");
   command->footer(kTeachExamples);
   command->add_option("LOG", arguments->log, "a tactile log, or distance,dturn of a drive; - for stdin")->type_name("");
+  add_columns_argument(*command, arguments->columns);
+  add_unit_argument(*command, arguments->unit);
   add_finger_argument(*command, arguments->fingers);
   add_noise_argument(*command, arguments->noise);
   add_switch(*command, "--bridge", arguments->bridge, "close a gap that drift does not explain by a piece");

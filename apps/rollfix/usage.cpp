@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -65,9 +67,34 @@ std::vector<std::string> command_names(const CLI::App& program) {
 
 bool is_option(const std::string& argument) { return argument.size() > 1 && argument.front() == '-'; }
 
+/// What other programs call an option of these; empty where none of them has such a name.
+std::string meant_by(const std::string& name, const std::vector<std::string>& known) {
+  constexpr std::array<std::array<const char*, 2>, 10> kOtherNames = {{{"--output", "-o"},
+                                                                       {"--out", "-o"},
+                                                                       {"--outfile", "-o"},
+                                                                       {"--measurement", "--reading"},
+                                                                       {"--radius", "--finger"},
+                                                                       {"--tol", "--tolerance"},
+                                                                       {"--units", "--unit"},
+                                                                       {"--silent", "--quiet"},
+                                                                       {"-q", "--quiet"},
+                                                                       {"--sigma", "--noise"}}};
+  for (const auto& [other, own] : kOtherNames) {
+    if (name == other && std::find(known.begin(), known.end(), own) != known.end()) return own;
+  }
+  return "";
+}
+
+std::string known_options(const std::string& name, const CLI::App& command) {
+  const std::vector<std::string> names = option_names(command);
+  const std::string meant = meant_by(name, names);
+  if (meant.empty()) return known_names(name, names);
+  return fmt::format("did you mean '{}'? Known are: {}", meant, fmt::join(names, ", "));
+}
+
 [[noreturn]] void refuse_option(const CLI::App& command, const std::string& argument) {
   const std::string name = argument.substr(0, argument.find('='));
-  const std::string known = known_names(name, option_names(command));
+  const std::string known = known_options(name, command);
   if (command.get_parent() != nullptr)
     throw InputError(fmt::format("{} has no option {}; {}", command.get_name(), name, known));
   throw InputError(fmt::format("there is no option {} in front of a command, only behind it; {}", name, known));
@@ -90,6 +117,10 @@ void refuse_leftovers(const CLI::App& program) {
     if (is_option(argument)) refuse_option(own.empty() ? command : program, argument);
   }
   if (leftovers.empty()) return;
+  if (leftovers.front() == "help") {
+    const std::string whose = chosen.empty() ? "" : " " + command.get_name();
+    throw InputError(fmt::format("there is no command 'help'; did you mean 'rollfix{} --help'?", whose));
+  }
   if (chosen.empty()) {
     throw InputError(fmt::format("there is no command '{}'; {}", leftovers.front(),
                                  known_names(leftovers.front(), command_names(program))));

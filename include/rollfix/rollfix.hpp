@@ -2,22 +2,24 @@
 
 // All that a user of the library needs; drawings are apart, in rollfix/files/, and figures, in rollfix/draw/.
 
-#include "rollfix/answer/part_facts.hpp"   // IWYU pragma: export
-#include "rollfix/answer/solve.hpp"        // IWYU pragma: export
-#include "rollfix/belief/advise.hpp"       // IWYU pragma: export
-#include "rollfix/belief/belief.hpp"       // IWYU pragma: export
-#include "rollfix/contact/finger.hpp"      // IWYU pragma: export
-#include "rollfix/contact/log.hpp"         // IWYU pragma: export
-#include "rollfix/contact/pose.hpp"        // IWYU pragma: export
-#include "rollfix/contact/rolling.hpp"     // IWYU pragma: export
-#include "rollfix/contact/teach.hpp"       // IWYU pragma: export
-#include "rollfix/error.hpp"               // IWYU pragma: export
-#include "rollfix/locate/locate.hpp"       // IWYU pragma: export
-#include "rollfix/locate/reachable.hpp"    // IWYU pragma: export
-#include "rollfix/outline/gallery.hpp"     // IWYU pragma: export
-#include "rollfix/outline/load.hpp"        // IWYU pragma: export
-#include "rollfix/outline/outline.hpp"     // IWYU pragma: export
-#include "rollfix/outline/points.hpp"      // IWYU pragma: export
-#include "rollfix/outline/primitives.hpp"  // IWYU pragma: export
-#include "rollfix/part/part.hpp"           // IWYU pragma: export
-#include "rollfix/part/reach.hpp"          // IWYU pragma: export
+#include "rollfix/answer/part_facts.hpp"       // IWYU pragma: export
+#include "rollfix/answer/solve.hpp"            // IWYU pragma: export
+#include "rollfix/belief/advise.hpp"           // IWYU pragma: export
+#include "rollfix/belief/belief.hpp"           // IWYU pragma: export
+#include "rollfix/contact/dead_reckoning.hpp"  // IWYU pragma: export
+#include "rollfix/contact/finger.hpp"          // IWYU pragma: export
+#include "rollfix/contact/log.hpp"             // IWYU pragma: export
+#include "rollfix/contact/pose.hpp"            // IWYU pragma: export
+#include "rollfix/contact/rolling.hpp"         // IWYU pragma: export
+#include "rollfix/contact/teach.hpp"           // IWYU pragma: export
+#include "rollfix/error.hpp"                   // IWYU pragma: export
+#include "rollfix/locate/locate.hpp"           // IWYU pragma: export
+#include "rollfix/locate/reachable.hpp"        // IWYU pragma: export
+#include "rollfix/outline/gallery.hpp"         // IWYU pragma: export
+#include "rollfix/outline/load.hpp"            // IWYU pragma: export
+#include "rollfix/outline/outline.hpp"         // IWYU pragma: export
+#include "rollfix/outline/points.hpp"          // IWYU pragma: export
+#include "rollfix/outline/primitives.hpp"      // IWYU pragma: export
+#include "rollfix/part/part.hpp"               // IWYU pragma: export
+#include "rollfix/part/reach.hpp"              // IWYU pragma: export
+#include "rollfix/part/samples.hpp"            // IWYU pragma: export

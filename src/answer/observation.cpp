@@ -36,6 +36,11 @@ Observation observe_log(const Problem& problem) {
     for (Reading& reading : observed.rolls) reading = in_stored_direction(reading, problem.part);
   }
   observed.pose_time = log.time;
+  if (log.kind != LogKind::contact) return observed;
+  observed.contacts = PerFinger<std::vector<Contact>>::of(log.fingers.size());
+  for (std::size_t which = 0; which < log.fingers.size(); ++which) {
+    (*observed.contacts)[which] = contacts_of(log.fingers[which], *finger_of(problem.fingers, which));
+  }
   return observed;
 }
 

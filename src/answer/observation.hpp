@@ -10,11 +10,12 @@ namespace rollfix {
 
 /// What the fingers felt, as readings in the direction in which the part is stored.
 struct Observation {
-  std::vector<Reading> readings;  // to search with
-  std::vector<double> times;      // of a log with times: of each, seconds
-  std::vector<Reading> rolls;     // of a log: all its rows
-  std::vector<double> pose_time;  // of a log with times: of all its rows, seconds
-  std::optional<double> facing;   // of two fingers at the first contacts; not more rounded than a turn
+  std::vector<Reading> readings;                            // to search with
+  std::vector<double> times;                                // of a log with times: of each, seconds
+  std::vector<Reading> rolls;                               // of a log: all its rows
+  std::vector<double> pose_time;                            // of a log with times: of all its rows, seconds
+  std::optional<PerFinger<std::vector<Contact>>> contacts;  // of a log of u and psi: each row's, unwrapped
+  std::optional<double> facing;  // of two fingers at the first contacts; not more rounded than a turn
   std::vector<Rounding> roundings;
   bool lengths_reversed = false;  // a log's lengths were along a clockwise outline
 
@@ -26,7 +27,8 @@ struct Observation {
 Observation observe(const Problem& problem);
 
 /// What the digits, the noise or the user make of the search's tolerance.
-Tolerance tolerance_from_digits(const Part& part, const std::vector<Rounding>& roundings);
+Tolerance tolerance_from_digits(const Part& part, const std::vector<Rounding>& roundings,
+                                const std::vector<Reading>& readings);
 Tolerance tolerance_from_noise(double value);
 /// Throws InputError: below 0.
 Tolerance tolerance_given(double value);

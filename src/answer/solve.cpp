@@ -4,11 +4,15 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <utility>
+#include <vector>
 
+#include "mirror.hpp"
 #include "observation.hpp"
 #include "rollfix/contact/pose.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate/locate.hpp"
+#include "unweighed.hpp"
 #include "weighing.hpp"
 
 namespace rollfix {
@@ -23,13 +27,14 @@ void require_consistent(const Problem& problem) {
   if (problem.fingers.size() > 2) throw InputError("`fingers`: expected at most two fingers");
   if (problem.noise) return;
   if (problem.prior) throw InputError("`prior`: weighs places against noisy readings, expected noise as well");
+  if (problem.pose) throw InputError("`pose`: is weighed against noisy readings, expected noise as well");
   if (problem.robust) throw InputError("`robust`: is about noise, expected noise as well");
 }
 
 Tolerance tolerance_of(const Problem& problem, const Observation& observed, std::optional<Belief>& belief) {
   if (problem.tolerance) return tolerance_given(*problem.tolerance);
   return belief ? tolerance_from_noise(belief->tolerance(observed.readings))
-                : tolerance_from_digits(problem.part, observed.roundings);
+                : tolerance_from_digits(problem.part, observed.roundings, observed.readings);
 }
 
 /// Everything that fits the readings.
@@ -91,16 +96,14 @@ void add_poses(const Problem& problem, Answer& answer) {
   }
 }
 
-}  // namespace
-
-bool has_reach(const Finger& finger) { return finger.outline() == nullptr; }
-
-Reach reach_of(const Part& part, const Finger& finger) {
-  return finger.is_disk() ? reach_of_disk(part, finger.disk()->radius) : reach_of_jaw(part);
+/// Rows of a log that jump away are no part of the roll, however robust the weighing of the others is.
+Problem without_jumps(const Problem& problem, std::vector<std::size_t>& strays) {
+  Problem result = problem;
+  result.felt.log = without_strays(*problem.felt.log, problem.part, problem.fingers, *problem.noise, &strays);
+  return result;
 }
 
-Answer solve(const Problem& problem) {
-  require_consistent(problem);
+Answer solve_roll(const Problem& problem) {
   const Observation observed = observe(problem);
   std::optional<Belief> belief = believe(problem, observed);
   Answer answer{problem.part, problem.fingers};
@@ -111,10 +114,37 @@ Answer solve(const Problem& problem) {
   answer.lengths_reversed = observed.lengths_reversed;
   answer.tolerance = tolerance_of(problem, observed, belief);
   search(problem, answer);
-  if (belief) weigh(problem, *belief, answer);
+  if (belief) weigh(problem, observed, *belief, answer);
   drop_impossible(observed, answer);
   if (belief) conclude(*belief, answer);
   add_poses(problem, answer);
+  if (!belief && problem.felt.is_log() && !problem.tolerance && problem.at.empty())
+    check_rows(problem, observed, answer);
+  return answer;
+}
+
+}  // namespace
+
+bool has_reach(const Finger& finger) { return finger.outline() == nullptr; }
+
+Reach reach_of(const Part& part, const Finger& finger) {
+  return finger.is_disk() ? reach_of_disk(part, finger.disk()->radius) : reach_of_jaw(part);
+}
+
+Answer solve(const Problem& problem) {
+  require_consistent(problem);
+  if (problem.mirrored) {
+    Problem seen = in_mirror(problem);
+    seen.mirrored = false;
+    Answer answer = solve(seen);
+    out_of_mirror(answer);
+    return answer;
+  }
+  std::vector<std::size_t> strays;
+  if (!problem.robust || !problem.felt.is_log()) return solve_roll(problem);
+  const Problem cleaned = without_jumps(problem, strays);
+  Answer answer = solve_roll(cleaned);
+  answer.strays = std::move(strays);
   return answer;
 }
 

@@ -13,6 +13,8 @@ namespace {
 
 /// A curvature that grows by more than this factor within half the rounding of a length is a spike.
 constexpr double kSpike = 2;
+/// A part that was measured may be off by so many standard deviations: what noise is let pass as well.
+constexpr double kFarthestPart = 4.5;
 
 /// The largest curvature that lasts for at least `length`, or a little more than it. What turns in less than that, a
 /// sharp rounding or the end of a curve that starts at rest, is a corner to whoever measures lengths to that accuracy.
@@ -61,16 +63,37 @@ class LastingCurvature {
   double length_;
 };
 
+/// What the outline's accuracy can make of the turn over any of these rolls, at worst.
+double off_on(const Part& part, const std::vector<Reading>& readings) {
+  const Accuracy& accuracy = part.outline().accuracy;
+  double most = 0;
+  for (const Reading& reading : readings) {
+    double variance = 0;
+    for (const double length : reading.length) {
+      const double by_length = LastingCurvature(part.turning(), accuracy.length * std::abs(length)).value();
+      variance += 2 * accuracy.turn * accuracy.turn + accuracy.walk * accuracy.walk * std::abs(length) +
+                  std::pow(by_length * accuracy.length * length, 2);
+    }
+    most = std::max(most, kFarthestPart * std::sqrt(variance));
+  }
+  return most;
+}
+
 }  // namespace
 
 /// The larger of the smallest and what the rounding of a reading can make of the total curvature: a length that is off
 /// by h changes it by at most h times the largest curvature, but for stretches shorter than h, which count as corners.
-Tolerance tolerance_from_digits(const Part& part, const std::vector<Rounding>& roundings) {
+/// A part that was measured is off as well.
+Tolerance tolerance_from_digits(const Part& part, const std::vector<Rounding>& roundings,
+                                const std::vector<Reading>& readings) {
   const double smallest = LocateOptions().tolerance;
   double value = 0;
   for (const Rounding& rounding : roundings) {
     value =
         std::max(value, rounding.turn + rounding.length * LastingCurvature(part.turning(), rounding.length).value());
+  }
+  if (!part.outline().accuracy.is_exact()) {
+    return {std::max(smallest, value + off_on(part, readings)), Tolerance::Source::part};
   }
   if (value <= smallest) return {smallest, Tolerance::Source::smallest};
   return {value, Tolerance::Source::digits};

@@ -1,13 +1,25 @@
 #include "weighing.hpp"
 
+#include "diagnosis.hpp"
+
 #include <algorithm>
+#include <cmath>
 #include <utility>
+
+#include "rollfix/error.hpp"
 
 namespace rollfix {
 namespace {
 
 // A posterior of two fingers is complete when it leaves out no more than this.
 constexpr double kMostRest = 0.01;
+// Centres that nothing was said of are taken to be off by so many times a contact's noise, or this share of the
+// perimeter, and a few rows are looked at first.
+constexpr double kBadCentre = 5;
+constexpr double kLeastCentre = 2e-4;
+constexpr std::size_t kRowsOfGlance = 96;
+// What was said of a log is not held to be less likely than exp(-this).
+constexpr double kMostDoubt = 30;
 
 LogKind kind_of(const Problem& problem) { return problem.felt.is_log() ? problem.felt.log->kind : LogKind::travelled; }
 
@@ -30,6 +42,17 @@ double curvature(const Problem& problem, std::size_t which, std::size_t row) {
   return finger_of(problem.fingers, which)->curvature(u);
 }
 
+void add_contacts(const Problem& problem, const Observation& observed, std::size_t row, bool has_centres,
+                  Sample& sample) {
+  const std::vector<FingerRows>& fingers = problem.felt.log->fingers;
+  sample.contact = PerFinger<Contact>::of(fingers.size());
+  if (has_centres) sample.centre = PerFinger<Vec2>::of(fingers.size(), Vec2::Zero());
+  for (std::size_t which = 0; which < fingers.size(); ++which) {
+    (*sample.contact)[which] = (*observed.contacts)[which][row];
+    if (has_centres) (*sample.centre)[which] = Vec2(fingers[which].x[row], fingers[which].y[row]);
+  }
+}
+
 void add_pose_spreads(const Problem& problem, Belief& belief, std::vector<Placement>& placements) {
   if (placements.empty()) return;
   PerFinger<FeltContact> felt = PerFinger<FeltContact>::of(placements.front().start.size());
@@ -41,39 +64,95 @@ void add_pose_spreads(const Problem& problem, Belief& belief, std::vector<Placem
   for (std::size_t k = 0; k < placements.size(); ++k) placements[k].pose_spread = belief.pose_spread(k, felt);
 }
 
+/// With what was doubted: where something else explains the rows as well, what was said of them is in doubt. As likely
+/// as the rows are with what they leave of each (a normal distribution whose deviation is not known).
+double trust(const Answer& answer) {
+  if (answer.diagnoses.empty()) return 1;
+  const Fit& fit = answer.weighing->fit;
+  const Diagnosis& likeliest = answer.diagnoses.front();
+  if (likeliest.cause == Cause::noise || likeliest.cause == Cause::correlation) return 1;
+  const double ratio = std::log(std::max(1.0, fit.excess / likeliest.excess));
+  return 1 / (1 + std::exp(std::min(kMostDoubt, fit.freedom * ratio)));
+}
+
+/// Centres that are not said to be evidence still must not contradict the answer: they are held against it as if they
+/// were known badly. What is wrong if they do; nothing else. One finger's.
+std::vector<Diagnosis> diagnoses_by_centres(const Problem& problem, const Observation& observed) {
+  const bool has_centres = problem.felt.is_log() && observed.contacts && !problem.fingers.empty() &&
+                           problem.felt.log->fingers.size() == 1 && !problem.felt.log->fingers[0].x.empty();
+  if (!has_centres || problem.noise->position > 0 || problem.robust) return {};
+  Problem looked_at = problem;
+  looked_at.noise->position = kBadCentre * std::max(problem.noise->contact, kLeastCentre * problem.part.perimeter());
+  if (!believe(looked_at, observed, {0, kRowsOfGlance})->fit().is_bad()) return {};
+  std::optional<Belief> belief = believe(looked_at, observed);
+  return diagnose(looked_at, observed, *belief);
+}
+
 }  // namespace
 
-std::optional<Belief> believe(const Problem& problem, const Observation& observed) {
+std::optional<Belief> believe(const Problem& problem, const Observation& observed, const Supposed& supposed) {
   if (!problem.noise) return std::nullopt;
   const std::size_t fingers = observed.readings.front().fingers();
-  Contacts contacts{PerFinger<double>::of(fingers), observed.facing};
+  Contacts contacts{PerFinger<double>::of(fingers), observed.facing, problem.fingers};
+  const bool has_centres = observed.contacts && problem.felt.log->fingers.front().x.size() == problem.felt.log->rows();
+  if (problem.noise->position > 0 && !has_centres) {
+    throw InputError(
+        "`noise`: position is of the fingers' centres, expected a log of u and psi with their columns x and y");
+  }
   for (std::size_t which = 0; which < fingers; ++which) contacts.finger_curvature[which] = curvature(problem, which, 0);
-  const BeliefOptions options{*problem.noise, problem.prior, problem.robust, !problem.felt.is_log()};
+  BeliefOptions options;
+  options.noise = *problem.noise;
+  options.prior = problem.prior;
+  options.pose = problem.pose;
+  options.robust = problem.robust;
+  options.scale_sd = supposed.scale_sd;
+  options.bare = !problem.felt.is_log();
+  if (problem.pose && (!observed.contacts || problem.fingers.empty())) {
+    throw InputError("`pose`: the fingers tell how the part lies by u and psi, expected a log of them");
+  }
+  if (problem.pose && std::isfinite(problem.pose->place_sd) && !has_centres) {
+    throw InputError(
+        "`pose`: the fingers tell where the part is by their centres, expected a log with columns x and y");
+  }
   Belief belief(problem.part, kind_of(problem), options, contacts);
+  const bool has_times = problem.felt.is_log() && !problem.felt.log->time.empty();
+  require_times(*problem.noise, has_times, problem.felt.is_log() ? problem.felt.log->name : "`readings`");
   const std::vector<Reading>& readings = problem.felt.is_log() ? observed.rolls : observed.readings;
-  for (std::size_t k = 0; k < readings.size(); ++k) {
+  const std::size_t stride = std::max<std::size_t>(1, readings.size() / std::max<std::size_t>(1, supposed.rows));
+  for (std::size_t k = 0; k < readings.size(); k += stride) {
     Sample sample;
     sample.reading = readings[k];
+    if (has_times) sample.time = problem.felt.log->time[k];
     sample.finger_curvature = PerFinger<double>::of(fingers);
     for (std::size_t which = 0; which < fingers; ++which) sample.finger_curvature[which] = curvature(problem, which, k);
+    if (observed.contacts) add_contacts(problem, observed, k, has_centres, sample);
     belief.add(sample);
   }
   return belief;
 }
 
-void weigh(const Problem& problem, Belief& belief, Answer& answer) {
-  Weighing weighing{*problem.noise, problem.prior, problem.robust};
+void weigh(const Problem& problem, const Observation& observed, Belief& belief, Answer& answer) {
+  Weighing weighing;
+  weighing.noise = *problem.noise;
+  weighing.prior = problem.prior;
+  weighing.robust = problem.robust;
   weighing.samples = belief.samples();
-  weighing.excess = belief.excess();
+
   weighing.rest = belief.rest();
-  weighing.diagnosis = belief.diagnosis();
+  weighing.fit = belief.fit();
+  answer.diagnoses = diagnose(problem, observed, belief);
+  weighing.density = belief.density();
   answer.verdict = belief.verdict();
+  if (answer.diagnoses.empty()) {
+    answer.diagnoses = diagnoses_by_centres(problem, observed);
+    if (!answer.diagnoses.empty()) answer.verdict.fits_badly = true;
+  }
   Search found;
   found.placements = std::move(answer.placements);
   Weighed weighed = weigh(answer.part, answer.readings, answer.facing, found, belief);
   weighing.improbable = std::move(weighed.improbable);
   add_pose_spreads(problem, belief, weighed.placements);
-  if (weighing.diagnosis.cause != Cause::none) {
+  if (answer.verdict.name == Verdict::inconsistent) {
     for (Placement& placement : weighed.placements) weighing.improbable.push_back(std::move(placement));
     weighed.placements.clear();
   }
@@ -86,12 +165,18 @@ void weigh(const Problem& problem, Belief& belief, Answer& answer) {
 }
 
 void conclude(Belief& belief, Answer& answer) {
-  if (answer.impossible.empty()) return;
-  double total = 0;
-  for (const Placement& placement : answer.placements) total += placement.probability;
-  for (Placement& placement : answer.placements) placement.probability /= total;
-  answer.weighing->rest = std::min(1.0, answer.weighing->rest / std::max(total, 1e-300));
-  answer.verdict = belief.verdict_on(answer.placements);
+  if (!answer.impossible.empty()) {
+    double total = 0;
+    for (const Placement& placement : answer.placements) total += placement.probability;
+    for (Placement& placement : answer.placements) placement.probability /= total;
+    answer.weighing->rest = std::min(1.0, answer.weighing->rest / std::max(total, 1e-300));
+    const bool fits_badly = answer.verdict.fits_badly;
+    answer.verdict = belief.verdict_on(answer.placements);
+    answer.verdict.fits_badly |= fits_badly;
+  }
+  const double as_said = trust(answer);
+  for (Placement& placement : answer.placements) placement.probability *= as_said;
+  answer.weighing->rest = 1 - as_said * (1 - answer.weighing->rest);
 }
 
 }  // namespace rollfix

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <optional>
 
 #include "observation.hpp"
@@ -8,10 +10,15 @@
 namespace rollfix {
 
 /// Nothing without noise.
-std::optional<Belief> believe(const Problem& problem, const Observation& observed);
+/// What a problem is tried with that it does not say.
+struct Supposed {
+  double scale_sd = 0;                                         // of all lengths by one factor
+  std::size_t rows = std::numeric_limits<std::size_t>::max();  // no more than about so many are looked at
+};
+std::optional<Belief> believe(const Problem& problem, const Observation& observed, const Supposed& supposed = {});
 
 /// Puts what the samples leave in place of what the search found. What nothing explains is not listed.
-void weigh(const Problem& problem, Belief& belief, Answer& answer);
+void weigh(const Problem& problem, const Observation& observed, Belief& belief, Answer& answer);
 
 /// After the fingers dropped some: the others' probabilities, as if there were no more.
 void conclude(Belief& belief, Answer& answer);

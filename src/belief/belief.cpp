@@ -18,6 +18,8 @@ using namespace belief;
 
 // Even the only place is not known where it holds more than this share of the boundary.
 constexpr double kWide = 0.1;
+// Angles that are noisier, radians, would be taken for more than they say.
+constexpr double kMostAngle = 0.5;
 // An explanation that leaves no more than this many times the excess of another is about as good.
 constexpr double kAboutAsGood = 1.3;
 
@@ -29,6 +31,12 @@ void require_valid(const BeliefOptions& options, const Contacts& contacts) {
         "noise: expected a standard deviation of the contact or of the angle above 0, found neither; without noise "
         "there is nothing to be unsure of");
   }
+  if (noise.angle > kMostAngle) {
+    throw InputError(fmt::format(
+        "noise: an angle's standard deviation of {} rad is {:.3g} deg, expected at most {} rad: beyond that a "
+        "row says nothing; degrees are written {}deg",
+        noise.angle, noise.angle * 180 / std::numbers::pi, kMostAngle, noise.angle));
+  }
   if (options.prior &&
       !(std::isfinite(options.prior->s) && std::isfinite(options.prior->sd) && options.prior->sd > 0)) {
     throw InputError(fmt::format("prior: expected a place and a standard deviation above 0, found {} and {}",
@@ -39,12 +47,29 @@ void require_valid(const BeliefOptions& options, const Contacts& contacts) {
   }
 }
 
-/// Which explanation it is, given what both leave. Slip here and there explains a wrong scale as well: the simpler one
-/// counts, where it is about as good.
-Diagnosis likelier(const Diagnosis& radius, const Diagnosis& slip, double excess) {
-  if (radius.excess <= kMostExcess && radius.excess <= kAboutAsGood * slip.excess) return radius;
-  if (slip.excess <= kMostExcess) return {Cause::slip, slip.excess, 1};
-  return {Cause::part, excess, 1};
+/// Which explanation it is. Slip here and there explains a wrong scale as well: the simpler one counts, where it is
+/// about as good.
+Diagnosis likelier(const Fit& as_said, const Fit& radius, const Fit& slip) {
+  Diagnosis diagnosis;
+  diagnosis.cause = Cause::part;
+  diagnosis.excess = as_said.excess;
+  if (!as_said.is_correlated() && as_said.excess <= kMostExcess) {
+    diagnosis.cause = Cause::noise;
+    diagnosis.noise_scale = as_said.excess;
+  } else if (radius.excess <= kMostExcess && radius.excess <= kAboutAsGood * slip.excess &&
+             (!radius.is_correlated() || slip.is_correlated())) {
+    std::size_t worst = 0;  // of two the one further off
+    const PerFinger<double>& scale = radius.length_scale;
+    if (scale.size() == 2 && std::abs(scale[1] - 1) > std::abs(scale[0] - 1)) worst = 1;
+    diagnosis.cause = Cause::radius;
+    diagnosis.excess = radius.excess;
+    diagnosis.length_scale = scale[worst];
+    diagnosis.length_scale_sd = radius.length_scale_sd[worst];
+  } else if (slip.excess <= kMostExcess) {
+    diagnosis.cause = Cause::slip;
+    diagnosis.excess = slip.excess;
+  }
+  return diagnosis;
 }
 
 }  // namespace
@@ -53,6 +78,8 @@ struct Belief::State {
   void settle();
   template <class Remaining>
   Verdict verdict_on(const std::vector<Remaining>& remaining);
+  template <class Remaining>
+  Verdict places_of(const std::vector<Remaining>& remaining);
 
   Part part;
   BeliefOptions options;
@@ -73,7 +100,15 @@ template <class Remaining>
 Verdict Belief::State::verdict_on(const std::vector<Remaining>& remaining) {
   settle();
   if (!posterior->has_begun()) return {Verdict::unobservable};
-  if (outcome.excess > kMostExcess || remaining.empty()) return {Verdict::inconsistent};
+  if (outcome.fit.excess > kMostExcess || remaining.empty()) return {Verdict::inconsistent};
+  Verdict verdict = places_of(remaining);
+  verdict.fits_badly = outcome.fit.is_bad();
+  return verdict;
+}
+
+/// As if they fitted.
+template <class Remaining>
+Verdict Belief::State::places_of(const std::vector<Remaining>& remaining) {
   std::vector<PerFinger<Interval>> that_count;
   for (const Remaining& each : remaining) {
     if (each.probability >= kCounts) that_count.push_back(each.interval);
@@ -88,10 +123,12 @@ Verdict Belief::State::verdict_on(const std::vector<Remaining>& remaining) {
 
 Belief::Belief(const Part& part, LogKind kind, const BeliefOptions& options, const Contacts& contacts) {
   require_valid(options, contacts);
+  BeliefOptions on_part = options;
+  on_part.noise = noise_on(part, options.noise);
   const bool is_one = contacts.finger_curvature.size() == 1;
   state_ = std::make_unique<State>(
-      State{part, options, contacts,
-            is_one ? posterior_of_one(part, kind, options) : posterior_of_two(part, kind, options, contacts),
+      State{part, on_part, contacts,
+            is_one ? posterior_of_one(part, kind, on_part, contacts) : posterior_of_two(part, kind, on_part, contacts),
             std::numeric_limits<std::size_t>::max(), Outcome{}});
 }
 Belief::~Belief() = default;
@@ -128,22 +165,29 @@ double Belief::rest() {
   return std::min(1.0, std::max(0.0, 1 - listed) + state_->outcome.unresolved);
 }
 
-double Belief::excess() {
+PerFinger<Density> Belief::density() {
   state_->settle();
-  return state_->outcome.excess;
+  return state_->posterior->density(state_->outcome.modes);
+}
+
+double Belief::excess() { return fit().excess; }
+
+const Fit& Belief::fit() {
+  state_->settle();
+  return state_->outcome.fit;
 }
 
 double Belief::tolerance(const std::vector<Reading>& readings) {
   state_->settle();
   if (!state_->posterior->has_begun()) return std::numbers::pi;
   const double variance = state_->posterior->variance_of_miss(readings, state_->outcome.modes);
-  return kFarthest * std::min(excess(), kMostExcess) * std::sqrt(variance);
+  return kFarthest * std::min(fit().widened, kMostExcess) * std::sqrt(variance);
 }
 
 Diagnosis Belief::diagnosis() {
-  if (!(excess() > kMostExcess)) return {Cause::none, excess(), 1};
+  if (!fit().is_bad()) return {};
   const Posterior& posterior = *state_->posterior;
-  return likelier(posterior.supposing(Cause::radius), posterior.supposing(Cause::slip), excess());
+  return likelier(fit(), posterior.supposing(Cause::radius), posterior.supposing(Cause::slip));
 }
 
 Verdict Belief::verdict() { return verdict_on(modes()); }

@@ -22,6 +22,9 @@ constexpr double kMostSlipHereAndThere = 1;
 // Slip is one and the same over this share of the perimeter.
 constexpr double kSlipPatch = 0.01;
 
+// A row that says the same again is worth this much of one: it keeps variances finite.
+constexpr double kLeastWorth = 1e-6;
+
 // Explanations that are tried where nothing fits: lengths off by a fifth throughout, or by as much here and there.
 constexpr double kOtherScale = 0.2;
 constexpr double kOtherSlip = 0.2;
@@ -35,6 +38,7 @@ SensorErrors::SensorErrors(const BeliefOptions& options, LogKind log_kind, doubl
     : kind(log_kind),
       bare(options.bare),
       noise(options.noise),
+      scale_sd(options.scale_sd),
       contact_variance(square(std::max(options.noise.contact, kLeastContactShare * the_perimeter))),
       angle_variance(square(std::max(options.noise.angle, kLeastAngle))),
       row_share(log_kind == LogKind::increments ? kShareUnderWay : 1),
@@ -44,7 +48,7 @@ SensorErrors::SensorErrors(const BeliefOptions& options, LogKind log_kind, doubl
 
 double SensorErrors::scale_variance(double finger_curvature) const {
   if (supposed == Cause::radius) return square(kOtherScale);
-  return square(noise.slip) + square(noise.radius * finger_curvature);
+  return square(noise.slip) + square(noise.radius * finger_curvature) + square(scale_sd) + square(noise.part.length);
 }
 
 // What slips at one place has nothing to do with what slips a hundredth of the boundary further on.
@@ -52,9 +56,22 @@ double SensorErrors::slipped(double length) const {
   return square(slip_here_and_there) * std::abs(length) * kSlipPatch * perimeter;
 }
 
-// An integrated gyroscope drifts: over a whole perimeter as much as one row is off.
-double SensorErrors::drifted(double length) const {
-  return is_gyroscope() ? angle_variance * std::abs(length) / perimeter : 0;
+// The integral of a correlation that falls off over a length is twice that length.
+double SensorErrors::worth(double step) const {
+  if (noise.correlation <= 0 || gathers_rows()) return 1;
+  return std::clamp(0.5 * std::abs(step) / noise.correlation, kLeastWorth, 1.0);
+}
+
+// A gyroscope drifts, and so may the part's outline.
+double SensorErrors::drifted(double length, const Interval& seconds) const {
+  const double gyroscope = bare ? 0 : drift_variance(noise, kind, std::abs(length) / perimeter, seconds);
+  return gyroscope + square(noise.part.walk) * std::abs(length);
+}
+
+double SensorErrors::rows_alike(double rows, double range) const {
+  const double boundary = std::min(range, perimeter);  // what is rolled over again is off as it was
+  const bool is_farther = noise.part.alike < boundary;
+  return is_farther ? std::max(1.0, rows * noise.part.alike / boundary) : std::max(1.0, rows);
 }
 
 ErrorModel::ErrorModel(const BeliefOptions& options, LogKind kind, double finger_curvature, double perimeter,
@@ -69,24 +86,33 @@ ErrorModel::ErrorModel(const BeliefOptions& options, LogKind kind, double finger
     start_(0, 0) = sensor_.contact_variance;
     start_(1, 1) = sensor_.angle_variance;
   }
+  start_(1, 1) += sensor_.part_variance();  // the tangent of the start, which every turn is measured from
   start_(2, 2) = sensor_.scale_variance(finger_curvature);
+  start_(3, 3) = start_(4, 4) = centre_variance();
 }
 
-RowCovariance ErrorModel::row(double finger_curvature) const {
+double ErrorModel::radius_share(double finger_curvature) const {
+  const double all = sensor_.scale_variance(finger_curvature);
+  return all > 0 ? square(sensor_.noise.radius * finger_curvature) / all : 0;
+}
+
+double ErrorModel::worth(double step) const { return sensor_.worth(step); }
+
+RowCovariance ErrorModel::row(double finger_curvature, double alike) const {
   const double contact = sensor_.row_share * sensor_.contact_variance;
-  const double angle = sensor_.row_share * sensor_.angle_variance;
+  const double angle = sensor_.row_share * sensor_.angle_variance + alike * sensor_.part_variance();
   if (sensor_.kind != LogKind::contact) return {contact, 0, angle};
   return {contact, -finger_curvature * contact, square(finger_curvature) * contact + angle};
 }
 
-RowCovariance ErrorModel::gathered(double length) const {
+RowCovariance ErrorModel::gathered(double length, const Interval& seconds) const {
   RowCovariance sum;
   sum.length = sensor_.slipped(length);
   if (sensor_.gathers_rows()) {
     sum.length += sensor_.contact_variance;
     sum.turn += sensor_.angle_variance;
   }
-  sum.turn += sensor_.drifted(length);
+  sum.turn += sensor_.drifted(length, seconds);
   return sum;
 }
 
@@ -104,13 +130,14 @@ PairErrors::PairErrors(const BeliefOptions& options, LogKind kind, const std::ar
     if (has_offsets) start_(i, i) = contact_variance_;
     start_(2 + i, 2 + i) = sensor_.scale_variance(finger_curvature[finger]);
   }
-  if (!absolute_ && has_offsets) start_(4, 4) = turn_variance_;
+  if (!absolute_) start_(4, 4) = (has_offsets ? turn_variance_ : 0) + part_variance();
 }
 
 double PairErrors::contact_sd() const { return std::sqrt(contact_variance_); }
 
 bool PairErrors::drifts() const {
-  return sensor_.slip_here_and_there > 0 || sensor_.gathers_rows() || sensor_.is_gyroscope();
+  return sensor_.slip_here_and_there > 0 || sensor_.gathers_rows() || sensor_.is_gyroscope() ||
+         sensor_.noise.part.walk > 0;
 }
 
 PairShared PairErrors::gathered(double rows, const std::array<double, 2>& travelled) const {
@@ -122,7 +149,7 @@ PairShared PairErrors::gathered(double rows, const std::array<double, 2>& travel
     sum[1] += rows * sensor_.contact_variance;
     sum[4] += rows * 2 * sensor_.angle_variance;
   }
-  sum[4] += sensor_.drifted(std::abs(travelled[0]) + std::abs(travelled[1]));
+  sum[4] += sensor_.drifted(std::abs(travelled[0]) + std::abs(travelled[1]), {});
   return sum;
 }
 

@@ -17,9 +17,16 @@ struct SensorErrors {
 
   /// Of the scale of lengths: slip all along, and a radius that is off by a share has every length off by it.
   double scale_variance(double finger_curvature) const;
-  /// Of the length, and of the turn, that is gathered on the way over a length.
+  /// Of the length, and of the turn, that is gathered on the way over a length, in these seconds from the start.
   double slipped(double length) const;
-  double drifted(double length) const;
+  double drifted(double length, const Interval& seconds) const;
+  /// As many rows' worth as one is, this far from the one before: less than 1 where rows close together are off alike.
+  double worth(double step) const;
+  /// Of a tangent's direction, as the part's outline has it.
+  double part_variance() const { return noise.part.turn * noise.part.turn; }
+  /// Among so many rows, spread over so much of the boundary, the number that the part's outline is off for alike: each
+  /// tells of it only its share, and counts as if its own error were so many times larger.
+  double rows_alike(double rows, double range) const;
 
   bool gathers_rows() const { return kind == LogKind::increments; }  // every row adds its own to all that follow
   bool is_gyroscope() const { return kind == LogKind::travelled && !bare; }
@@ -27,6 +34,7 @@ struct SensorErrors {
   LogKind kind;
   bool bare;
   Noise noise;
+  double scale_sd;
   double contact_variance;  // of a contact's place
   double angle_variance;    // of a finger's orientation
   double row_share;         // of both, what a row has on its own: of increments the part that is under way
@@ -35,9 +43,12 @@ struct SensorErrors {
   Cause supposed;
 };
 
-/// Errors that a whole roll of one finger shares: of a length and of a turn as measured, and of the scale of lengths.
-using Shared = Eigen::Vector3d;
-using SharedCovariance = Eigen::Matrix3d;
+/// Errors that a whole roll of one finger shares: of a length and of a turn as measured, of the scale of lengths, and
+/// of the centre as it is known at the first contact, x and y.
+using Shared = Eigen::Matrix<double, 5, 1>;
+using SharedCovariance = Eigen::Matrix<double, 5, 5>;
+/// The first of them, which lengths and turns tell of.
+inline constexpr int kRolling = 3;
 
 /// Errors of one row on its own, or of what a row adds to the rows before: variances of length and turn.
 struct RowCovariance {
@@ -45,6 +56,9 @@ struct RowCovariance {
   double both = 0;
   double turn = 0;
 };
+
+// Of an angle, radians: from about here on what rows share is seen to be out of line.
+inline constexpr double kWideAngle = 0.02;
 
 /// How the noise enters the measured length and turn of one finger's roll. Measured are
 ///   L (1 + scale) + offset of length + the row's own,   theta + offset of turn + the row's own.
@@ -56,10 +70,20 @@ class ErrorModel {
 
   /// Of the shared errors before the first row.
   const SharedCovariance& start() const { return start_; }
-  /// Of a row on its own, with the finger's curvature where it touches.
-  RowCovariance row(double finger_curvature) const;
-  /// What the offsets gather over one row that travels over this length.
-  RowCovariance gathered(double length) const;
+  /// Of a centre's coordinate, each row on its own; 0: centres are not looked at.
+  double centre_variance() const { return sensor_.noise.position * sensor_.noise.position; }
+  /// As far as the scale's variance is that of a wrong radius.
+  double radius_share(double finger_curvature) const;
+  /// As many rows' worth as one is, this far from the one before.
+  double worth(double step) const;
+  /// Angles are too noisy for one look at every row to do.
+  bool is_wide() const { return start_(1, 1) > kWideAngle * kWideAngle; }
+  /// Of a row on its own, with the finger's curvature where it touches, and so many rows that the part is off for
+  /// alike.
+  RowCovariance row(double finger_curvature, double alike = 1) const;
+  double rows_alike(double rows, double range) const { return sensor_.rows_alike(rows, range); }
+  /// What the offsets gather over one row that travels over this length, in these seconds from the roll's start.
+  RowCovariance gathered(double length, const Interval& seconds) const;
 
  private:
   SensorErrors sensor_;
@@ -91,9 +115,16 @@ class PairErrors {
   double turn_variance() const { return turn_variance_; }        // of a row's turn, on its own
   double contact_variance() const { return contact_variance_; }  // of a row's length, on its own
   double contact_sd() const;
-  double facing_variance() const { return 2 * sensor_.angle_variance; }
+  double facing_variance() const { return 2 * sensor_.angle_variance + part_variance(); }
+  /// Of the difference of two tangents' directions, as the part's outline has it.
+  double part_variance() const { return 2 * sensor_.part_variance(); }
+  double rows_alike(double rows, double range) const { return sensor_.rows_alike(rows, range); }
   /// With the place u, its error turns the normal that it tells: 1/r for logs of u, else 0.
   double normal_turn(std::size_t finger) const { return normal_turn_[finger]; }
+  double worth(double step) const { return sensor_.worth(step); }
+  /// Of a centre's coordinate, each row on its own; 0: centres are not looked at.
+  double centre_variance() const { return sensor_.noise.position * sensor_.noise.position; }
+  double angle_variance() const { return sensor_.angle_variance; }  // of one finger's orientation, each row on its own
   double perimeter() const { return sensor_.perimeter; }
 
  private:

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "belief/pair_filter.hpp"
 #include "belief/posterior.hpp"
+#include "belief/two/pair_filter.hpp"
 #include "rollfix/part/boundary.hpp"
 
 namespace rollfix::belief {

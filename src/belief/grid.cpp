@@ -1,35 +1,55 @@
 #include "belief/grid.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "belief/posterior.hpp"
+#include "outline/turn.hpp"
 #include "rollfix/part/boundary.hpp"
 
 namespace rollfix::belief {
 
 namespace {
 
-// The grid begins with this many cells, and with every end of a smooth piece, seen from the first contact and from
-// this many instants of the roll: between them the likelihood has no corners that a few cells would step over.
-constexpr double kFirstCells = 256;
+// The grid begins with this many cells, and with every kink, seen from the first contact and from this many instants of
+// the roll: between them the likelihood has no corners that a few cells would step over.
+constexpr double kFirstCells = 64;
 constexpr std::size_t kInstants = 8;
+// Where its mass is, cells are not wider than of this many, unless the density and the boundary are even in them: the
+// logarithm of the one a cubic, to so much, and the other straight, to that share.
+constexpr double kMostCells = 256;
+constexpr double kEvenRise = 0.05;
+constexpr double kEvenSlope = 0.1;
+constexpr double kShallow = 12;
+// So many of the nodes tell which of the first points to look at first.
+constexpr std::size_t kTrialNodes = 6;
 // The distance's rate of change varies within a cell: it is taken as this much larger than at the ends.
 constexpr double kSlopeSafety = 2;
 // Cells whose mass is below this share of the best one's are not looked into: exp(-25) = 1e-11.
 constexpr double kNegligible = 25;
 // A cell is resolved when the distance changes by no more than this within it, in standard deviations.
 constexpr double kFineStep = 0.5;
-// By how much the log-likelihood's middle can be off the mean of its ends in such a cell, about h^2 F / 8.
-constexpr double kMostBend = 0.125;
+// ... and by once more as much for each factor of exp(-kDepth) by which it holds less than the best: far out a cell is
+// only summed.
+constexpr double kDepth = 4;
+// By how much the log-likelihood's middle can be off the mean of its ends in a cell, of the distance's change squared:
+// four times what the information makes of it, h^2 F / 8.
+constexpr double kMostBend = 0.5;
 // A point whose deviance is further above another's than this takes no more samples: neither it nor what is near it can
-// matter. (What can matter is 100 above; points that stop early say less about what lies between them.)
-constexpr double kBeyondMatter = 10000;
+// matter. (What can matter is 50 above; points that stop early say less about what lies between them.)
+constexpr double kBeyondMatter = 300;
+// A boundary whose s grows less with w than this share of what a straight one's does, is a corner.
+constexpr double kCornerSlope = 1e-6;
 // Cells are not made smaller than this share of the boundary.
 constexpr double kLeastCell = 1e-13;
+// Where angles are so noisy that a row is not linear in what all rows share, it is gone through so many times.
+constexpr int kPassesOfWide = 3;
 // Rounds of halving: 2^-kMostRounds of the first cells is below kLeastCell.
 constexpr int kMostRounds = 50;
+// A density that changes by less than this share is even.
+constexpr double kEven = 1e-6;
 // A grid does not grow beyond this; what is not resolved by then counts as rest.
 constexpr std::size_t kMostPoints = 400000;
 
@@ -50,9 +70,16 @@ Bound bound_of(const Score& lo, const Score& hi, double h, double heat) {
 
 }  // namespace
 
+double GridCell::quantile(double share_of_mass) const {
+  // The density as an exponential: its integral, solved for where it ends.
+  if (std::abs(rise) < kEven) return share_of_mass;
+  return std::log1p(share_of_mass * std::expm1(rise)) / rise;
+}
+
 Grid::Grid(const TiltedBoundary& boundary, const ErrorModel& errors, const BeliefOptions& options,
-           const Boundary& places, double corner_length)
+           const Boundary& places, double corner_length, const CentreModel* centres)
     : boundary_(&boundary),
+      centres_(centres),
       errors_(errors),
       options_(options),
       outliers_{options.robust ? kOutlierShare : 0, places.perimeter},
@@ -61,16 +88,10 @@ Grid::Grid(const TiltedBoundary& boundary, const ErrorModel& errors, const Belie
   for (const TiltedArc& arc : boundary.arcs()) length_ += arc.hi() - arc.lo();
 }
 
-std::size_t Grid::points() const {
-  std::size_t count = 0;
-  for (const std::vector<GridPoint>& arc : points_) count += arc.size();
-  return count;
-}
-
 const GridPoint& Grid::best() const { return points_[best_arc_][best_index_]; }
 
 GridPoint Grid::make(const TiltedArc& arc, double w) const {
-  const RollFilter fresh(arc, boundary_->tilt(), w, errors_.start());
+  const RollFilter fresh(arc, boundary_->tilt(), w, errors_.start(), centres_);
   return {fresh, 0, 0, static_cast<std::size_t>(-1), fresh, {}};
 }
 
@@ -93,7 +114,14 @@ void Grid::refresh(GridPoint& point, const Nodes& nodes) {
     point.rows = static_cast<std::size_t>(-1);
     return;
   }
-  if (const std::optional<Node> pending = nodes.pending()) point.now.update(*pending, outliers_);
+  const std::optional<Node> pending = nodes.pending();
+  if (pending) point.now.update(*pending, outliers_);
+  for (int pass = 1; errors_.is_wide() && pass < kPassesOfWide; ++pass) {
+    RollFilter again = point.now.again(errors_.start());
+    for (const Node& node : complete) again.update(node, outliers_);
+    if (pending) again.update(*pending, outliers_);
+    point.now = again;
+  }
   point.rows = nodes.rows();
   point.score = {point.now.cost(), point.now.log_volume(), point.now.slope(), point.now.information()};
   if (options_.prior) {
@@ -105,7 +133,27 @@ void Grid::refresh(GridPoint& point, const Nodes& nodes) {
     point.score.slope -= off * place.slope * precision;
     point.score.information += square(place.slope) * precision;
   }
+  if (options_.pose) add_pose_prior(point);
   lower_limit(point.score.cost + point.score.log_volume, nodes);
+}
+
+void Grid::add_pose_prior(GridPoint& point) const {
+  const PosePrior& prior = *options_.pose;
+  Eigen::Vector3d by_w;
+  const PoseSpread pose = point.now.pose(&by_w);
+  Eigen::Vector3d off(pose.mean.x - prior.mean.x, pose.mean.y - prior.mean.y,
+                      nearest_angle(pose.mean.heading - prior.mean.heading));
+  Eigen::Matrix3d precision = Eigen::Matrix3d::Zero();
+  if (std::isfinite(prior.place_sd)) {
+    Eigen::Matrix3d variance = pose.covariance;
+    variance.diagonal() += Eigen::Vector3d(square(prior.place_sd), square(prior.place_sd), square(prior.heading_sd));
+    precision = variance.inverse();
+  } else {
+    precision(2, 2) = 1 / (pose.covariance(2, 2) + square(prior.heading_sd));
+  }
+  point.score.cost += off.dot(precision * off);
+  point.score.slope -= off.dot(precision * by_w);
+  point.score.information += by_w.dot(precision * by_w);
 }
 
 void Grid::lower_limit(double deviance, const Nodes& nodes) {
@@ -123,11 +171,12 @@ void Grid::lay_out(const Nodes& nodes) {
     rolls.push_back(node.turn + boundary_->tilt() * node.length);
   }
   points_.clear();
+  count_ = 0;
   for (const TiltedArc& arc : boundary_->arcs()) {
     std::vector<double> ws;
-    for (const double end : arc.breaks()) {
+    for (const double kink : arc.kinks()) {
       for (const double roll : rolls) {
-        const double w = arc.loop() ? arc.lo() + wrap(end - roll - arc.lo(), arc.hi() - arc.lo()).base : end - roll;
+        const double w = arc.loop() ? arc.lo() + wrap(kink - roll - arc.lo(), arc.hi() - arc.lo()).base : kink - roll;
         if (w > arc.lo() && w < arc.hi()) ws.push_back(w);
       }
     }
@@ -143,14 +192,36 @@ void Grid::lay_out(const Nodes& nodes) {
       points_.back().push_back(make(arc, w));
       last = w;
     }
+    count_ += points_.back().size();
   }
 }
 
-double Grid::log_prior(const TiltedPlace& middle) const {
-  return std::log(middle.slope > 0 ? middle.slope : corner_length_);
+void Grid::refresh_all(const Nodes& nodes) {
+  const std::vector<Node> trial = some_of(nodes.complete(), kTrialNodes);
+  struct Candidate {
+    double deviance;
+    GridPoint* point;
+  };
+  std::vector<Candidate> candidates;
+  candidates.reserve(count_);
+  for (std::vector<GridPoint>& arc : points_) {
+    for (GridPoint& point : arc) {
+      RollFilter filter = point.filter;
+      for (const Node& node : trial) filter.update(node, outliers_);
+      candidates.push_back({filter.deviance(), &point});
+    }
+  }
+  std::sort(candidates.begin(), candidates.end(),
+            [](const Candidate& a, const Candidate& b) { return a.deviance < b.deviance; });
+  for (const Candidate& candidate : candidates) refresh(*candidate.point, nodes);
 }
 
-void Grid::measure_excess(const Nodes& nodes) {
+double Grid::log_prior(double length, double h) const {
+  const double slope = length / h;
+  return std::log(slope * boundary_->tilt() > kCornerSlope ? slope : corner_length_);
+}
+
+void Grid::measure_fit(const Nodes& nodes) {
   const GridPoint* best = nullptr;
   for (std::size_t a = 0; a < points_.size(); ++a) {
     for (std::size_t k = 0; k < points_[a].size(); ++k) {
@@ -163,65 +234,116 @@ void Grid::measure_excess(const Nodes& nodes) {
     }
   }
   best_ = best->score.log_likelihood();
-  const double freedom = static_cast<double>(nodes.complete().size() + (nodes.pending() ? 1 : 0));
-  excess_ = excess_of(best->score.cost, freedom, options_.robust);
+  farthest_ = limit_ - best->score.log_volume;
+  const double freedom = nodes.freedom();
+  fit_ = options_.robust ? fit_of(best->now.right_cost(), best->now.right_rows(), best->now.whiteness())
+                         : fit_of(best->now.cost(), freedom, best->now.whiteness());
+  fit_.stray = options_.robust ? freedom - best->now.right_rows() : 0;
+  if (options_.prior) {
+    fit_.prior_sigmas = std::abs(places_.offset(options_.prior->s, best->now.place().s)) / options_.prior->sd;
+  }
+  if (options_.pose) {
+    GridPoint as_told = *best;
+    as_told.score = Score{};
+    add_pose_prior(as_told);
+    fit_.prior_sigmas = std::max(fit_.prior_sigmas, std::sqrt(as_told.score.cost));
+  }
+  const Shared& errors = best->now.errors();
+  fit_.length_scale = 1 / (1 + errors[2]);
+  fit_.length_scale_sd = fit_.widened * std::sqrt(best->now.covariance()(2, 2));
   // A peak is about one standard deviation wide, and no wider than the boundary.
-  const double width = 1 / (std::sqrt(best->score.information) / excess_ + 1 / length_);
-  best_mass_ = best_ / square(excess_) + log_prior(best->now.place()) + std::log(width);
+  const double width = 1 / (std::sqrt(best->score.information) / fit_.widened + 1 / length_);
+  best_mass_ = best_ / square(fit_.widened) + log_prior(best->now.place().slope, 1) + std::log(width);
+}
+
+bool Grid::is_even(const GridPoint& lo, const GridPoint& hi, double length) const {
+  const double h = hi.filter.w() - lo.filter.w();
+  const double heat = square(fit_.widened);
+  const double rise = hi.score.log_likelihood() - lo.score.log_likelihood();
+  const double off = rise - 0.5 * h * (lo.score.slope + hi.score.slope);
+  const double bend = 0.125 * h * (lo.score.slope - hi.score.slope);
+  const double slope = lo.filter.place().slope;
+  return std::abs(off) <= kEvenRise * heat && std::abs(bend) <= kEvenRise * heat &&
+         std::abs(length - slope * h) <= kEvenSlope * length;
+}
+
+Score Grid::at_least(const GridPoint& point) const {
+  Score score = point.score;
+  // What stopped on the way, and what did not although it is as far off, must look alike: else the grid would be made
+  // ever finer between them.
+  if (point.filter.deviance() > limit_) {
+    score.cost = farthest_;
+    score.log_volume = limit_ - farthest_;
+  }
+  score.cost = std::min(score.cost, farthest_);
+  return score;
 }
 
 bool Grid::refine(const Nodes& nodes) {
-  const double heat = square(excess_);
+  const double heat = square(fit_.widened);
   bool changed = false;
   cells_.clear();
   rest_ = 0;
   for (std::size_t a = 0; a < points_.size(); ++a) {
     const TiltedArc& arc = boundary_->arcs()[a];
     const double least = kLeastCell * (arc.hi() - arc.lo());
+    const double narrow = length_ / kMostCells;
     std::vector<GridPoint>& points = points_[a];
     std::vector<double> added;
     for (std::size_t k = 0; k + 1 < points.size(); ++k) {
-      const double h = points[k + 1].filter.w() - points[k].filter.w();
-      GridCell cell{a, k, points[k].filter.w(), points[k + 1].filter.w(), arc.at(points[k].filter.w() + 0.5 * h)};
-      const double log_width = log_prior(cell.middle) + std::log(h);
-      Bound bound = bound_of(points[k].score, points[k + 1].score, h, heat);
+      GridPoint& lo = points[k];
+      GridPoint& hi = points[k + 1];
+      GridCell cell{a, k, lo.filter.w(), hi.filter.w(), {lo.filter.place().s, hi.filter.place().s}};
+      const double h = cell.hi - cell.lo;
+      const double log_width = log_prior(cell.s.width(), h) + std::log(h);
+      Bound bound = bound_of(at_least(lo), at_least(hi), h, heat);
       // A cost only grows with more samples: one that was too large before is so now.
-      const bool stale = is_stale(points[k], nodes) || is_stale(points[k + 1], nodes);
-      if (stale && bound.log_density + log_width - best_mass_ > -2 * kNegligible) {
-        refresh(points[k], nodes);
-        refresh(points[k + 1], nodes);
-        bound = bound_of(points[k].score, points[k + 1].score, h, heat);
-        changed = changed || (!is_stale(points[k], nodes) && !is_stale(points[k + 1], nodes));
+      const bool stale = is_stale(lo, nodes) || is_stale(hi, nodes);
+      if (stale && bound.log_density + log_width - best_mass_ > -kNegligible) {
+        refresh(lo, nodes);
+        refresh(hi, nodes);
+        bound = bound_of(at_least(lo), at_least(hi), h, heat);
+        changed = changed || (!is_stale(lo, nodes) && !is_stale(hi, nodes));
       }
       const double most = bound.log_density + log_width;
-      const bool negligible = most - best_mass_ < -kNegligible;
-      cell.fine = !negligible && (bound.rate * h <= kFineStep * excess_ || h <= 2 * least);
-      if (!negligible && !cell.fine && Grid::points() + added.size() < kMostPoints) {
-        added.push_back(points[k].filter.w() + 0.5 * h);
+      const double depth = best_mass_ - most;
+      const bool negligible = depth > kNegligible;
+      cell.steps = bound.rate * h / fit_.widened;
+      const bool is_resolved = cell.steps <= kFineStep * (1 + std::max(0.0, depth) / kDepth) &&
+                               (h <= narrow || depth > kShallow || is_even(lo, hi, cell.s.width()));
+      cell.fine = !negligible && (is_resolved || h <= 2 * least);
+      if (!negligible && !cell.fine && count_ + added.size() < kMostPoints) {
+        added.push_back(cell.lo + 0.5 * h);
       } else if (!cell.fine) {
         rest_ += std::exp(std::min(0.0, most - best_ / heat));
       }
       cells_.push_back(cell);
     }
-    if (added.empty()) continue;
-    changed = true;
-    std::vector<GridPoint> merged;
-    merged.reserve(points.size() + added.size());
-    std::size_t next = 0;
-    for (GridPoint& point : points) {
-      while (next < added.size() && added[next] < point.filter.w()) {
-        merged.push_back(make(arc, added[next++]));
-        refresh(merged.back(), nodes);
-      }
-      merged.push_back(std::move(point));
-    }
-    points = std::move(merged);
+    changed = split(a, added, nodes) || changed;
   }
   return changed;
 }
 
+bool Grid::split(std::size_t arc, const std::vector<double>& added, const Nodes& nodes) {
+  if (added.empty()) return false;
+  std::vector<GridPoint>& points = points_[arc];
+  std::vector<GridPoint> merged;
+  merged.reserve(points.size() + added.size());
+  std::size_t next = 0;
+  for (GridPoint& point : points) {
+    while (next < added.size() && added[next] < point.filter.w()) {
+      merged.push_back(make(boundary_->arcs()[arc], added[next++]));
+      refresh(merged.back(), nodes);
+    }
+    merged.push_back(std::move(point));
+  }
+  count_ += added.size();
+  points = std::move(merged);
+  return true;
+}
+
 void Grid::weigh() {
-  const double heat = square(excess_);
+  const double heat = square(fit_.widened);
   double total = 0;
   for (GridCell& cell : cells_) {
     if (!cell.fine) {
@@ -236,9 +358,11 @@ void Grid::weigh() {
     // Hermite's cubic through both ends, and Simpson's rule. At a kink the slopes mislead: the middle is no further off
     // than a resolved cell allows.
     const double bend = 0.125 * h * (lo.slope - hi.slope) / heat;
-    const double at_middle = 0.5 * (at_lo + at_hi) + std::clamp(bend, -kMostBend, kMostBend);
+    const double most_bend = kMostBend * square(cell.steps);
+    const double at_middle = 0.5 * (at_lo + at_hi) + std::clamp(bend, -most_bend, most_bend);
     const double mean = (std::exp(at_lo) + 4 * std::exp(at_middle) + std::exp(at_hi)) / 6;
-    cell.log_density = std::log(mean) + log_prior(cell.middle);
+    cell.log_density = std::log(mean) + log_prior(cell.s.width(), h);
+    cell.rise = at_hi - at_lo;
     cell.share = std::exp(cell.log_density) * h;
     total += cell.share;
   }
@@ -255,9 +379,7 @@ void Grid::settle(const Nodes& nodes) {
     lay_out(nodes);
     generation_ = nodes.generation();
     laid_out_at_ = std::max<std::size_t>(1, nodes.rows());
-    for (std::vector<GridPoint>& arc : points_) {
-      for (GridPoint& point : arc) refresh(point, nodes);
-    }
+    refresh_all(nodes);
   } else {
     for (const GridCell& cell : cells_) {
       if (!cell.fine) continue;
@@ -266,10 +388,10 @@ void Grid::settle(const Nodes& nodes) {
     }
   }
   for (int round = 0; round < kMostRounds; ++round) {
-    measure_excess(nodes);
+    measure_fit(nodes);
     if (!refine(nodes)) break;
   }
-  measure_excess(nodes);
+  measure_fit(nodes);
   weigh();
 }
 

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -22,7 +26,11 @@ struct Outliers {
 /// samples' likelihood along the way, and how that changes with the place.
 class RollFilter {
  public:
-  RollFilter(const TiltedArc& arc, double tilt, double w, const SharedCovariance& start);
+  /// `centres`: nullptr where they are not looked at.
+  RollFilter(const TiltedArc& arc, double tilt, double w, const SharedCovariance& start, const CentreModel* centres);
+  /// The same again, with what the rows were found to share: rows are linearised about that offset of turn, from the
+  /// first one on.
+  RollFilter again(const SharedCovariance& start) const;
 
   void update(const Node& node, const Outliers& outliers);
 
@@ -38,11 +46,20 @@ class RollFilter {
   /// Its derivative by w, and the (expected) information on w: the square of the distance's rate of change.
   double slope() const { return -slope_; }
   double information() const { return information_; }
+  /// The least white of the equations' innovations.
+  const Whiteness& whiteness() const { return least_white(whiteness_); }
+  /// Of the rows that are not stray: as many, and their part of the cost.
+  double right_rows() const { return right_rows_; }
+  double right_cost() const { return right_cost_; }
   const Shared& errors() const { return x_; }
   const SharedCovariance& covariance() const { return p_; }
 
   /// Where the contact is after a roll that is measured as this.
   TiltedPlace after(const Reading& measured) const;
+  /// Where the part is, as far as the rows tell it for this first contact, and how that changes with w. REQUIRES that
+  /// the finger's first contact is known; x and y mean something where has_place().
+  PoseSpread pose(Eigen::Vector3d* by_w = nullptr) const;
+  bool has_place() const { return centres_ != nullptr && centres_->has_place; }
   /// The variance of that place from the shared errors and the row's own.
   double variance_after(const Reading& measured, const RowCovariance& own) const;
 
@@ -51,12 +68,36 @@ class RollFilter {
     double length;
     double turn;
   };
-  Corrected corrected(double length, double turn) const { return {(length - x_[0]) / (1 + x_[2]), turn - x_[1]}; }
+  using Own = Eigen::Vector2d;  // of a row's length and turn
+  /// A row as N equations e = 0, linear in the errors: of the roll, and with the centre's two coordinates three.
+  template <int N>
+  struct Equations {
+    Eigen::Matrix<double, N, 1> miss;
+    Eigen::Matrix<double, N, 5> by_errors;
+    Eigen::Matrix<double, N, 2> by_own;
+    Eigen::Matrix<double, N, 1> by_w;
+    Eigen::Matrix<double, N, N> own_variance;  // with what the straight line leaves
+  };
+  template <int N>
+  Equations<N> equations_at(double w, const Corrected& roll, double w_variance, const Node& node) const;
+  template <int N>
+  void absorb(const Node& node, const Outliers& outliers);
+  void add_centre(const SpreadPlace& end, double w, const Corrected& roll, const Node& node, Equations<3>& rows) const;
+  /// What the shared errors are when a row is looked at: the guess of the turn's, else as they are estimated so far.
+  Shared about() const {
+    Shared errors = x_;
+    if (guess_) errors[1] = *guess_;
+    return errors;
+  }
+  Corrected corrected(double length, double turn, const Shared& errors) const {
+    return {(length - errors[0]) / (1 + errors[2]), turn - errors[1]};
+  }
 
   /// The variance of theta + c L, from the shared errors and a row's own.
   double variance_of_roll(double length, const RowCovariance& own) const;
 
   const TiltedArc* arc_;
+  const CentreModel* centres_;
   double tilt_;
   double w_;
   TiltedPlace place_;
@@ -68,6 +109,10 @@ class RollFilter {
   double log_volume_ = 0;
   double slope_ = 0;
   double information_ = 0;
+  std::array<Whiteness, 3> whiteness_;
+  double right_rows_ = 0;
+  double right_cost_ = 0;
+  std::optional<double> guess_;  // of the offset of turn
 };
 
 /// What a first contact on trial is worth, the prior included; see RollFilter.
@@ -96,10 +141,17 @@ struct GridCell {
   std::size_t first = 0;  // the point at its lower end
   double lo = 0;          // in w
   double hi = 0;
-  TiltedPlace middle;
+  Interval s;              // unwrapped
   double share = 0;        // of the posterior's mass
-  double log_density = 0;  // of it, by w, up to a constant
+  double log_density = 0;  // of it, by w, on average and up to a constant; ...
+  double rise = 0;         // ... from the lower end to the upper one it changes by this
+  double steps = 0;        // in standard deviations, what the distance changes by at most
   bool fine = false;       // resolved; else it is known to hold next to nothing
+
+  /// Up to which share of its width, from the lower end on, it holds this share of its mass.
+  double quantile(double share_of_mass) const;
+  /// Where, likewise, the mean of its mass is.
+  double mean() const { return 0.5 + 0.5 * std::tanh(rise / 6); }
 };
 
 /// The posterior density of a roll's first contact over the whole boundary, on points that lie as close together as it
@@ -107,51 +159,60 @@ struct GridCell {
 class Grid {
  public:
   Grid(const TiltedBoundary& boundary, const ErrorModel& errors, const BeliefOptions& options, const Boundary& places,
-       double corner_length);
+       double corner_length, const CentreModel* centres);
 
   /// Brings all up to date with the samples.
   void settle(const Nodes& nodes);
 
   const std::vector<GridCell>& cells() const { return cells_; }
   const GridPoint& point(std::size_t arc, std::size_t index) const { return points_[arc][index]; }
-  /// By how much the samples are off more than the noise allows, as a factor of standard deviations; 1 where they are
-  /// not. All probabilities are as with that much more noise.
-  double excess() const { return excess_; }
+  /// How well the likeliest point fits. All probabilities are as with Fit::widened times the noise.
+  const Fit& fit() const { return fit_; }
   /// The likeliest point. Not before settle().
   const GridPoint& best() const;
-  std::size_t points() const;
+  std::size_t points() const { return count_; }
   /// A bound on the share of the mass in the cells that are not resolved.
   double rest() const { return rest_; }
 
  private:
   void lay_out(const Nodes& nodes);
+  void refresh_all(const Nodes& nodes);
+  bool split(std::size_t arc, const std::vector<double>& added, const Nodes& nodes);
   GridPoint make(const TiltedArc& arc, double w) const;
   /// Lets the point take the nodes that it has not. Beyond the limit of what can matter it takes no more: it stays
   /// stale, and what it has cost by then is a bound.
   void refresh(GridPoint& point, const Nodes& nodes);
   bool is_stale(const GridPoint& point, const Nodes& nodes) const { return point.rows != nodes.rows(); }
+  /// What the point costs, or as much as is known of one that stopped early.
+  Score at_least(const GridPoint& point) const;
+  bool is_even(const GridPoint& lo, const GridPoint& hi, double length) const;
   bool refine(const Nodes& nodes);
   void weigh();
-  void measure_excess(const Nodes& nodes);
+  void measure_fit(const Nodes& nodes);
+  void add_pose_prior(GridPoint& point) const;
   void lower_limit(double deviance, const Nodes& nodes);
-  double log_prior(const TiltedPlace& middle) const;
+  /// Of the density by w, between two places that far apart.
+  double log_prior(double length, double h) const;
 
   const TiltedBoundary* boundary_;
+  const CentreModel* centres_;  // nullptr: they are not looked at
   ErrorModel errors_;
   BeliefOptions options_;
   Outliers outliers_;
   Boundary places_;
   double corner_length_;
-  double excess_ = 1;
+  Fit fit_;
   std::size_t best_arc_ = 0;
   std::size_t best_index_ = 0;
   double rest_ = 0;
   double length_ = 0;     // of the whole boundary, in w
   double best_ = 0;       // the largest log-likelihood of a point
-  double limit_ = 0;      // of a deviance that can matter
+  double limit_ = 0;      // of a deviance that can matter, ...
+  double farthest_ = 0;   // ... and of the cost in it
   double best_mass_ = 0;  // about the logarithm of the mass around it
   std::size_t laid_out_at_ = 0;
   std::size_t generation_ = 0;                  // of the nodes that were laid out for
+  std::size_t count_ = 0;                       // of points
   std::vector<std::vector<GridPoint>> points_;  // of each arc, by w
   std::vector<GridCell> cells_;
 };
@@ -168,8 +229,11 @@ struct ModeQuestion {
 /// where it falls far enough between them.
 std::vector<Mode> modes_of(const Grid& grid, const ModeQuestion& question);
 
-/// The cells that hold the mass, in order.
-std::vector<Piece> pieces_of(const Grid& grid, const TiltedBoundary& boundary, double perimeter);
+/// The cells that hold the mass, in order, with the part's pose where the rows tell it.
+std::vector<Piece> pieces_of(const Grid& grid, const TiltedBoundary& boundary);
+
+/// The same as intervals, in order of s.
+Density density_of(const Grid& grid, const Boundary& places);
 
 /// The length of the boundary that holds 95 % of the mass, as short as can be.
 double credible_length(const Grid& grid);

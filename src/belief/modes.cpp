@@ -4,11 +4,15 @@
 
 #include "belief/grid.hpp"
 #include "belief/posterior.hpp"
+#include "outline/turn.hpp"
 #include "rollfix/part/boundary.hpp"
 
 namespace rollfix::belief {
 
 namespace {
+
+// For what holds 95 %, cells are taken apart where their density changes by more than this, as a logarithm.
+constexpr double kRisePerPart = 0.25;
 
 /// A run of cells; `turns`: how often each of them lies beyond the seam of a closed boundary.
 struct Run {
@@ -125,19 +129,21 @@ class ModeOfRun {
     double square = 0;
     double end_sum = 0;
     double end_square = 0;
-    const double near = run_.cells.front()->middle.s;
+    const double near = run_.cells.front()->s.middle();
     for (std::size_t k = 0; k < run_.cells.size(); ++k) {
       const GridCell& cell = *run_.cells[k];
       if (!cell.fine) continue;
-      const double lo = arc().at(cell.lo).s + run_.turns[k] * P;
-      const double hi = upper(k);
-      const double at = 0.5 * (lo + hi) - near;
-      const RollFilter& filter = grid_.point(cell.arc, cell.first).now;
-      const double end = filter.after(question_.last).s + run_.turns[k] * P + 0.5 * (hi - lo) - near;
-      const double end_variance = filter.variance_after(question_.last, question_.own);
+      const double turn = run_.turns[k] * P - near;
+      const double width = cell.s.width();
+      const double at = cell.s.lo + cell.mean() * width + turn;
+      const RollFilter& lower = grid_.point(cell.arc, cell.first).now;
+      const RollFilter& upper = grid_.point(cell.arc, cell.first + 1).now;
+      const Interval ends{lower.after(question_.last).s, upper.after(question_.last).s};
+      const double end = ends.lo + cell.mean() * ends.width() + turn;
+      const double end_variance = lower.variance_after(question_.last, question_.own);
       total += cell.share;
       sum += cell.share * at;
-      square += cell.share * (at * at + (hi - lo) * (hi - lo) / 12);
+      square += cell.share * (at * at + width * width / 12);
       end_sum += cell.share * end;
       end_square += cell.share * (end * end + end_variance);
     }
@@ -160,17 +166,15 @@ class ModeOfRun {
     while (!run_.cells[first]->fine) ++first;
     std::size_t last = run_.cells.size() - 1;
     while (!run_.cells[last]->fine) --last;
-    const double lo = arc().at(run_.cells[first]->lo).s + run_.turns[first] * question_.places.perimeter;
-    const double at = question_.places.on_first_lap(lo);
-    return {at, at + (upper(last) - lo)};
+    const double lo = at(first, 0);
+    const double from = question_.places.on_first_lap(lo);
+    return {from, from + (at(last, 1) - lo)};
   }
 
-  /// s at a cell's upper end; a loop's last cell ends at its seam.
-  double upper(std::size_t k) const {
+  /// s in a cell, this share of its width above its lower end.
+  double at(std::size_t k, double share) const {
     const GridCell& cell = *run_.cells[k];
-    const bool at_seam = arc().loop() && cell.hi >= arc().hi();
-    const double s = at_seam ? arc().at(arc().lo()).s + question_.places.perimeter : arc().at(cell.hi).s;
-    return s + run_.turns[k] * question_.places.perimeter;
+    return cell.s.lo + share * cell.s.width() + run_.turns[k] * question_.places.perimeter;
   }
 
   /// The place up to which there is this much mass.
@@ -183,10 +187,9 @@ class ModeOfRun {
         continue;
       }
       if (cell.share <= 0) continue;
-      const double lo = arc().at(cell.lo).s + run_.turns[k] * question_.places.perimeter;
-      return lo + (upper(k) - lo) * (mass - before) / cell.share;
+      return at(k, cell.quantile((mass - before) / cell.share));
     }
-    return upper(run_.cells.size() - 1);
+    return at(run_.cells.size() - 1, 1);
   }
 
   const Grid& grid_;
@@ -210,16 +213,29 @@ std::vector<Mode> modes_of(const Grid& grid, const ModeQuestion& question) {
   return modes;
 }
 
-std::vector<Piece> pieces_of(const Grid& grid, const TiltedBoundary& boundary, double perimeter) {
+namespace {
+
+/// Of the part for first contacts in a cell: between what its ends say.
+std::optional<PoseSpread> pose_of(const Grid& grid, const GridCell& cell) {
+  const RollFilter& lo = grid.point(cell.arc, cell.first).now;
+  const RollFilter& hi = grid.point(cell.arc, cell.first + 1).now;
+  if (!lo.has_place()) return std::nullopt;
+  PoseSpread pose = lo.pose();
+  const Pose other = hi.pose().mean;
+  pose.mean.x += 0.5 * (other.x - pose.mean.x);
+  pose.mean.y += 0.5 * (other.y - pose.mean.y);
+  pose.mean.heading += 0.5 * nearest_angle(other.heading - pose.mean.heading);
+  return pose;
+}
+
+}  // namespace
+
+std::vector<Piece> pieces_of(const Grid& grid, const TiltedBoundary& boundary) {
   std::vector<Piece> pieces;
   for (const GridCell& cell : grid.cells()) {
     if (!(cell.share > kLeastShare)) continue;
-    const TiltedArc& arc = boundary.arcs()[cell.arc];
-    const double lo = arc.at(cell.lo).s;
-    const double hi = arc.loop() && cell.hi >= arc.hi() ? arc.at(arc.lo()).s + perimeter : arc.at(cell.hi).s;
-    const Interval s{lo, hi};
-    const Interval tangent{cell.lo - boundary.tilt() * lo, cell.hi - boundary.tilt() * hi};
-    pieces.push_back({s.middle(), tangent.middle(), cell.share, 0.0, Eigen::Matrix2d::Zero()});
+    const Interval tangent{cell.lo - boundary.tilt() * cell.s.lo, cell.hi - boundary.tilt() * cell.s.hi};
+    pieces.push_back({cell.s.middle(), tangent.middle(), cell.share, pose_of(grid, cell)});
   }
   return pieces;
 }
@@ -232,8 +248,17 @@ double credible_length(const Grid& grid) {
   };
   std::vector<Stretch> stretches;
   for (const GridCell& cell : grid.cells()) {
-    const double length = cell.middle.slope * (cell.hi - cell.lo);
-    if (cell.share > 0) stretches.push_back({cell.share / std::max(length, 1e-300), cell.share, length});
+    if (!(cell.share > 0)) continue;
+    // The density changes within a cell: its parts are looked at by themselves.
+    const auto parts = static_cast<int>(std::ceil(std::max(1.0, std::abs(cell.rise) / kRisePerPart)));
+    double before = 0;
+    for (int k = 1; k <= parts; ++k) {
+      const double share = static_cast<double>(k) / parts;
+      const double to = cell.quantile(share);
+      const double length = (to - before) * cell.s.width();
+      stretches.push_back({cell.share / parts / std::max(length, 1e-300), cell.share / parts, length});
+      before = to;
+    }
   }
   std::sort(stretches.begin(), stretches.end(),
             [](const Stretch& a, const Stretch& b) { return a.density > b.density; });

@@ -5,8 +5,10 @@
 #include <optional>
 #include <vector>
 
+#include "belief/centres.hpp"
 #include "belief/error_model.hpp"
 #include "rollfix/contact/reading.hpp"
+#include "rollfix/outline/curve.hpp"
 
 namespace rollfix::belief {
 
@@ -20,6 +22,8 @@ struct Node {
   double spread = 0;       // variance of turn + tilt times length among the rows
   RowCovariance own;       // of the mean
   RowCovariance gathered;  // by the offsets since the node before
+  double worth = 0;        // as many rows on their own; less than there are where they are off alike
+  FeltCentre felt{};       // where centres are looked at: means
 
   /// The least variance that what a place makes of such a node can have, whatever the curvature there.
   double least_variance(double tilt) const {
@@ -34,8 +38,9 @@ class Nodes {
   /// `robust`: of rows that make a node together medians are taken first, so that a stray one does not move it.
   Nodes(const ErrorModel& errors, double tilt, bool robust) : errors_(errors), tilt_(tilt), robust_(robust) {}
 
-  /// `finger_curvature`: where the finger touches.
-  void add(const Reading& reading, double finger_curvature);
+  /// `finger_curvature`: where the finger touches. `seconds`: since the roll's start. `felt`: where its centre is, if
+  /// that is looked at.
+  void add(const Reading& reading, double finger_curvature, double seconds, const FeltCentre& felt = {});
 
   /// Those that will not change until `generation` does.
   const std::vector<Node>& complete() const { return nodes_; }
@@ -43,9 +48,16 @@ class Nodes {
   /// The rows after them.
   std::optional<Node> pending() const;
   std::size_t rows() const { return rows_; }
+  /// As many independent equations as the nodes are.
+  double freedom() const;
 
  private:
-  void close_block(Node& sum, double& blocks) const;
+  struct Row {
+    Reading reading;
+    FeltCentre felt;
+    double worth = 1;
+  };
+  void close_block(Node& sum, double& weight) const;
   void join_neighbours();
 
   ErrorModel errors_;
@@ -55,30 +67,49 @@ class Nodes {
   std::size_t generation_ = 0;
   std::size_t rows_ = 0;
   double length_ = 0;  // of the row before
+  double seconds_ = 0;
+  Interval range_;  // of all lengths so far
   std::vector<Node> nodes_;
   // Of the node that is being made: sums over blocks of rows, and the rows of the block that is being filled.
   Node sum_;
-  double blocks_ = 0;
+  double blocks_ = 0;  // their weight
   std::size_t pending_rows_ = 0;
-  std::vector<Reading> block_;
+  std::vector<Row> block_;
   RowCovariance block_own_;  // of one of its rows
+};
+
+/// Some of the nodes, evenly, the first and the last among them.
+std::vector<Node> some_of(const std::vector<Node>& nodes, std::size_t most);
+
+/// Where two fingers' centres are as seen from one to the other, however the part has moved meanwhile.
+struct PairCentres {
+  double distance = 0;
+  double direction = 0;      // of b from a, less the middle of both contacts' normals; radians, up to half turns
+  std::array<Arm, 2> arm{};  // to the contacts
+
+  /// `facing`: of both contacts, N(u) + psi.
+  static PairCentres of(const PerFinger<FeltCentre>& felt, const PerFinger<double>& facing);
 };
 
 /// Neighbouring rows of two fingers' roll as one.
 struct PairNode {
-  bool is_facing = false;             // the first contacts' facing: a row of its own, without lengths
-  std::array<double, 2> length{};     // of finger a and of finger b
-  double turn = 0;                    // what Theta(s) - Theta(t) should be there, or how much it should have changed
-  double rows = 1;                    // as many rows' worth
-  double gathered = 0;                // rows since the node before
-  std::array<double, 2> travelled{};  // length since the node before
+  bool is_facing = false;                // the first contacts' facing: a row of its own, without lengths
+  std::array<double, 2> length{};        // of finger a and of finger b
+  double turn = 0;                       // what Theta(s) - Theta(t) should be there, or how much it should have changed
+  double rows = 1;                       // as many rows' worth
+  double alike = 1;                      // so many nodes the part's outline is off for alike
+  double gathered = 0;                   // rows since the node before
+  std::array<double, 2> travelled{};     // length since the node before
+  std::optional<PairCentres> centres{};  // where they are looked at: means
 };
 
 /// A roll's rows as at most kMostNodes nodes. `facing`: the first contacts', then the first node. `robust`: as above.
-std::vector<PairNode> pair_nodes(const std::vector<Reading>& rows, const std::optional<double>& facing, bool absolute,
-                                 bool robust);
+/// `centres`: of the first contacts, then of every row; empty where they are not looked at.
+std::vector<PairNode> pair_nodes(const std::vector<Reading>& rows, const std::vector<PairCentres>& centres,
+                                 const std::optional<double>& facing, bool absolute, bool robust,
+                                 const PairErrors& errors);
 
-/// Some of the nodes, evenly, the first and the last among them.
+/// See above.
 std::vector<PairNode> some_of(const std::vector<PairNode>& nodes, std::size_t most);
 
 }  // namespace rollfix::belief

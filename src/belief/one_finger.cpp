@@ -10,14 +10,31 @@ namespace rollfix::belief {
 
 namespace {
 
+/// Where a finger's centre was felt at the first contact, if it was, and where that contact's normal points: N(u) +
+/// psi.
+struct FirstCentre {
+  FeltCentre felt;
+  bool has_place = false;
+  double facing = 0;
+};
+
 /// What decides how a finger's samples are weighed; from the first one on.
 struct OneFingersGrid {
-  OneFingersGrid(const Part& part, LogKind kind, const BeliefOptions& options, double curvature)
+  /// `first`: where the finger's centre was felt at the first contact, with the contact's normal; nothing where centres
+  /// are not looked at.
+  OneFingersGrid(const Part& part, LogKind kind, const BeliefOptions& options, double curvature,
+                 const std::optional<FirstCentre>& first)
       : finger_curvature(curvature),
         errors(options, kind, curvature, part.perimeter()),
+        path(first && first->has_place && options.noise.position > 0 ? std::make_unique<BoundaryPath>(part) : nullptr),
+        has_first(first.has_value()),
+        centres(model(part, first)),
         boundary(part, tilt(part, errors.row(curvature)), accuracy(part, errors.row(curvature))),
         nodes(errors, boundary.tilt(), options.robust),
-        grid(boundary, errors, options, part.boundary(), corner_length(curvature, part)) {}
+        grid(boundary, errors, options, part.boundary(), corner_length(curvature, part),
+             has_first ? &centres : nullptr) {}
+  OneFingersGrid(const OneFingersGrid&) = delete;
+  OneFingersGrid& operator=(const OneFingersGrid&) = delete;
 
   /// A disk's curvature; else what makes lengths and angles, as uncertain as they are, count alike.
   double tilt(const Part& part, const RowCovariance& own) const {
@@ -27,8 +44,22 @@ struct OneFingersGrid {
     return accuracy_of(std::sqrt(own.length), part);
   }
 
+  CentreModel model(const Part& part, const std::optional<FirstCentre>& first) const {
+    if (!first) return {};
+    return {&part,
+            path.get(),
+            first->has_place,
+            first->felt,
+            first->facing,
+            errors.centre_variance(),
+            errors.radius_share(finger_curvature)};
+  }
+
   double finger_curvature;  // at the first contact
   ErrorModel errors;
+  std::unique_ptr<BoundaryPath> path;  // where centres are evidence
+  bool has_first;
+  CentreModel centres;
   TiltedBoundary boundary;
   Nodes nodes;
   Grid grid;
@@ -36,16 +67,25 @@ struct OneFingersGrid {
 
 class OneFingersPosterior : public Posterior {
  public:
-  OneFingersPosterior(const Part& part, LogKind kind, const BeliefOptions& options)
-      : part_(part), kind_(kind), options_(options) {}
+  OneFingersPosterior(const Part& part, LogKind kind, const BeliefOptions& options, const Contacts& contacts)
+      : part_(part), kind_(kind), options_(options), contacts_(contacts) {}
 
   void add(const Sample& sample) override {
     const bool is_first = !state_;
     last_ = sample;
-    if (is_first) state_.emplace(part_, kind_, options_, sample.finger_curvature[0]);
+    require_times(options_.noise, sample.time.has_value(), "the samples");
+    const std::optional<FeltCentre> felt = felt_centre(sample);
+    if (is_first) {
+      std::optional<FirstCentre> first;
+      if (felt)
+        first = FirstCentre{*felt, sample.centre.has_value(), facing(contacts_.fingers.front(), (*sample.contact)[0])};
+      state_.emplace(part_, kind_, options_, sample.finger_curvature[0], first);
+      first_time_ = sample.time.value_or(0);
+    }
     // Row 1 of a log of contacts is what all others are measured from: it says nothing by itself.
     if (is_first && kind_ == LogKind::contact) return;
-    state_->nodes.add(sample.reading, sample.finger_curvature[0]);
+    state_->nodes.add(sample.reading, sample.finger_curvature[0], sample.time.value_or(0) - first_time_,
+                      felt.value_or(FeltCentre{}));
   }
 
   std::size_t samples() const override { return state_ ? state_->nodes.rows() : 0; }
@@ -56,7 +96,7 @@ class OneFingersPosterior : public Posterior {
     state_->grid.settle(state_->nodes);
     const ModeQuestion question{&state_->boundary, last_.reading, state_->errors.row(last_.finger_curvature[0]),
                                 part_.boundary()};
-    return {modes_of(state_->grid, question), state_->grid.excess(), state_->grid.rest()};
+    return {modes_of(state_->grid, question), state_->grid.fit(), state_->grid.rest()};
   }
 
   double credible_length(const std::vector<PerFinger<Interval>>& /*intervals*/) const override {
@@ -70,45 +110,66 @@ class OneFingersPosterior : public Posterior {
     for (const Mode& mode : modes) {
       const double kappa = part_.turning().curvature(mode.end[0]);
       // f is off by the turn's error less kappa times the length's.
-      const Eigen::Vector3d by_error(-kappa, 1, -kappa * last_.reading.length[0]);
+      Shared by_error = Shared::Zero();
+      by_error.head<kRolling>() << -kappa, 1, -kappa * last_.reading.length[0];
+      const double gathered = square(options_.noise.part.walk) * std::abs(last_.reading.length[0]);
       const double variance =
-          by_error.dot(shared * by_error) + own.turn - 2 * kappa * own.both + kappa * kappa * own.length;
+          by_error.dot(shared * by_error) + gathered + own.turn - 2 * kappa * own.both + kappa * kappa * own.length;
       most = std::max(most, variance);
     }
     return most;
   }
 
   /// With other errors the samples' nodes stay what they are; what the rows gather is looked at by lengths alone.
-  Diagnosis supposing(Cause cause) const override {
+  Fit supposing(Cause cause) const override {
     const ErrorModel other(options_, kind_, state_->finger_curvature, part_.perimeter(), cause);
     Nodes nodes(other, state_->boundary.tilt(), options_.robust);
-    for (const Node& node : state_->nodes.complete()) nodes.add({node.length, node.turn}, last_.finger_curvature[0]);
-    Grid grid(state_->boundary, other, options_, part_.boundary(), corner_length(last_.finger_curvature[0], part_));
+    for (const Node& node : state_->nodes.complete()) {
+      nodes.add({node.length, node.turn}, last_.finger_curvature[0], 0, node.felt);
+    }
+    Grid grid(state_->boundary, other, options_, part_.boundary(), corner_length(last_.finger_curvature[0], part_),
+              centres());
     grid.settle(nodes);
-    return {cause, grid.excess(), 1 / (1 + grid.best().now.errors()[2])};
+    return grid.fit();
   }
 
   std::vector<Piece> pieces(std::size_t /*index*/, const Mode& mode) const override {
     std::vector<Piece> pieces;
-    pieces.push_back({mode.start, mode.tangent, 0, 0.0, Eigen::Matrix2d::Zero()});
-    for (Piece& piece : pieces_of(state_->grid, state_->boundary, part_.perimeter())) {
+    pieces.push_back({mode.start, mode.tangent});
+    for (Piece& piece : pieces_of(state_->grid, state_->boundary)) {
       if (part_.boundary().contains(mode.region[0], piece.s[0])) pieces.push_back(std::move(piece));
     }
+    if (pieces.size() > 1) pieces.front().pose = pieces[1].pose;
     return pieces;
   }
 
+  PerFinger<Density> density(const std::vector<Mode>& /*modes*/) const override {
+    return has_begun() ? density_of(state_->grid, part_.boundary()) : Density{};
+  }
+
  private:
+  /// Nothing where the finger is not known, or what it felt.
+  std::optional<FeltCentre> felt_centre(const Sample& sample) const {
+    if (kind_ != LogKind::contact || !sample.contact || contacts_.fingers.empty()) return std::nullopt;
+    const Vec2 centre = sample.centre ? (*sample.centre)[0] : Vec2(0, 0);
+    return FeltCentre{centre, arm_of(contacts_.fingers.front(), (*sample.contact)[0].u)};
+  }
+  const CentreModel* centres() const { return state_->has_first ? &state_->centres : nullptr; }
+
   Part part_;
   LogKind kind_;
   BeliefOptions options_;
+  Contacts contacts_;
   std::optional<OneFingersGrid> state_;
   Sample last_;
+  double first_time_ = 0;
 };
 
 }  // namespace
 
-std::unique_ptr<Posterior> posterior_of_one(const Part& part, LogKind kind, const BeliefOptions& options) {
-  return std::make_unique<OneFingersPosterior>(part, kind, options);
+std::unique_ptr<Posterior> posterior_of_one(const Part& part, LogKind kind, const BeliefOptions& options,
+                                            const Contacts& contacts) {
+  return std::make_unique<OneFingersPosterior>(part, kind, options, contacts);
 }
 
 }  // namespace rollfix::belief

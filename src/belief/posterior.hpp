@@ -2,10 +2,12 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "rollfix/belief/belief.hpp"
@@ -26,7 +28,9 @@ inline constexpr double kCounts = 0.01;
 // Of samples that are asked to be robust, this share is taken to be stray.
 inline constexpr double kOutlierShare = 0.02;
 // The samples' cost is beyond what chance makes of it: this many standard deviations of a chi-square.
-inline constexpr double kExcessSigma = 3;
+inline constexpr double kExcessSigma = Fit::kMostSigmas;
+// Neighbouring samples are not taken to be more alike than this.
+inline constexpr double kMostAlike = 0.95;
 
 // The scale of lengths is not believed beyond these many standard deviations, nor beyond this share.
 inline constexpr double kMostSigmas = 8;
@@ -48,11 +52,70 @@ inline double normal_deviate(double chi_square, double freedom) {
   return (std::cbrt(chi_square / freedom) - (1 - spread)) / std::sqrt(spread);
 }
 
-/// By how many times more the samples are off than the noise allows, given what the best place costs.
-inline double excess_of(double cost, double freedom, bool robust) {
-  const bool is_excess = freedom > 0 && !robust && normal_deviate(cost, freedom) > kExcessSigma;
-  return is_excess ? std::max(1.0, std::sqrt(cost / freedom)) : 1.0;
+/// Whether what should be independent is: sums over a filter's innovations, each in its standard deviations.
+class Whiteness {
+ public:
+  void add(double innovation) {
+    lag_ += innovation * last_;
+    last_ = innovation;
+    squares_ += innovation * innovation;
+    sum_ += innovation;
+    sums_ += sum_ * sum_;
+    ++count_;
+  }
+
+  /// Of neighbours, below 1. Errors far smaller than said are not told apart: they do no harm.
+  double correlation() const { return count_ > 0 ? lag_ / std::max(squares_, count_) : 0; }
+  /// How unlikely it is that independent ones run like these: as a standard normal deviate.
+  double sigmas() const {
+    if (count_ < kFewestToCompare) return 0;
+    const double neighbours = correlation() * std::sqrt(count_);
+    // The integral of a squared Wiener process: nearly all of it is 4 / pi^2 times a chi-square of one degree.
+    const double wander = sums_ / (count_ * std::max(squares_, count_));
+    const double drift = std::sqrt(std::max(0.0, wander - kWanderOfRest) / kWanderOfFirst);
+    return std::max(neighbours, drift);
+  }
+
+ private:
+  static constexpr double kFewestToCompare = 8;
+  static constexpr double kWanderOfFirst = 4 / (std::numbers::pi * std::numbers::pi);
+  static constexpr double kWanderOfRest = 0.5 - kWanderOfFirst;
+
+  double last_ = 0;
+  double lag_ = 0;
+  double sum_ = 0;
+  double sums_ = 0;
+  double squares_ = 0;
+  double count_ = 0;
+};
+
+/// Of several equations' innovations.
+inline const Whiteness& least_white(const std::array<Whiteness, 3>& all) {
+  return *std::max_element(all.begin(), all.end(),
+                           [](const Whiteness& a, const Whiteness& b) { return a.sigmas() < b.sigmas(); });
 }
+
+/// What the likeliest place leaves of the samples: its cost, as much as is to be expected of it, and how it runs.
+inline Fit fit_of(double cost, double freedom, const Whiteness& whiteness) {
+  Fit fit;
+  fit.chi_square = cost;
+  fit.freedom = freedom;
+  if (!(freedom > 0)) return fit;
+  fit.sigmas = normal_deviate(cost, freedom);
+  fit.correlation = whiteness.correlation();
+  fit.correlation_sigmas = whiteness.sigmas();
+  if (fit.sigmas > kExcessSigma) fit.excess = std::max(1.0, std::sqrt(cost / freedom));
+  fit.widened = fit.excess;
+  if (fit.is_correlated()) {
+    // So many rows are worth one (Bartlett 1935).
+    const double alike = std::clamp(fit.correlation, 0.0, kMostAlike);
+    fit.widened *= std::sqrt((1 + alike) / (1 - alike));
+  }
+  return fit;
+}
+
+/// The highest density of a normal distribution, given the inverse of its variance.
+inline double peak_of(double inverse) { return std::sqrt(inverse / (2 * std::numbers::pi)); }
 
 /// How far a scale of lengths is believed, given its variance.
 inline double most_scale(double variance) { return std::min(kMostScale, kMostSigmas * std::sqrt(variance)); }
@@ -64,10 +127,10 @@ struct Mixture {
   double density;  // ... which is this
 };
 
-/// `stray`: density of a stray row. `inverse`: of the variance of a right one, which is off by so much, squared, in
-/// standard deviations.
-inline Mixture mixture_of(double share, double stray, double inverse, double squared) {
-  const double right = (1 - share) * std::sqrt(inverse / (2 * std::numbers::pi));
+/// `stray`: density of a stray row. `peak`: the highest of a right one, which is off by so much, squared, in standard
+/// deviations.
+inline Mixture mixture_of(double share, double stray, double peak, double squared) {
+  const double right = (1 - share) * peak;
   const double fits = right * std::exp(-0.5 * squared);
   return {fits / (fits + stray), -2 * std::log((fits + stray) / (right + stray)), right + stray};
 }
@@ -77,14 +140,15 @@ struct Piece {
   PerFinger<double> s;        // unwrapped
   PerFinger<double> tangent;  // radians, unwrapped
   double share = 0;
-  PerFinger<double> slid;  // how much further round each finger the first contact was than felt, length
+  std::optional<PoseSpread> pose{};  // of one finger: of the part, as far as the rows tell it for these
+  PerFinger<double> slid{};          // how much further round each finger the first contact was than felt, length
   Eigen::Matrix2d slid_covariance = Eigen::Matrix2d::Zero();
 };
 
 /// What all samples together come to.
 struct Outcome {
   std::vector<Mode> modes;  // the most probable first
-  double excess = 1;
+  Fit fit;
   double unresolved = 0;  // bound on the probability where the density was not looked at closely
 };
 
@@ -106,14 +170,21 @@ class Posterior {
   /// Of f of these readings, at these modes, the largest.
   virtual double variance_of_miss(const std::vector<Reading>& readings, const std::vector<Mode>& modes) const = 0;
   /// How well another cause explains the samples.
-  virtual Diagnosis supposing(Cause cause) const = 0;
+  virtual Fit supposing(Cause cause) const = 0;
   /// Of a mode. The first is the one that poses are compared with; its share may be 0.
   virtual std::vector<Piece> pieces(std::size_t index, const Mode& mode) const = 0;
+  /// See Belief::density. `modes`: of settle().
+  virtual PerFinger<Density> density(const std::vector<Mode>& modes) const = 0;
 };
 
-std::unique_ptr<Posterior> posterior_of_one(const Part& part, LogKind kind, const BeliefOptions& options);
+std::unique_ptr<Posterior> posterior_of_one(const Part& part, LogKind kind, const BeliefOptions& options,
+                                            const Contacts& contacts);
 std::unique_ptr<Posterior> posterior_of_two(const Part& part, LogKind kind, const BeliefOptions& options,
                                             const Contacts& contacts);
+
+/// The pieces of a mode, added up along one finger's boundary.
+void add_density(const std::vector<Piece>& pieces, const Mode& mode, std::size_t finger, const Boundary& places,
+                 Density& density);
 
 /// See Belief::pose_spread. `pieces`: of the mode.
 PoseSpread pose_spread_of(const Part& part, const std::vector<Piece>& pieces, const PerFinger<FeltContact>& felt,

@@ -124,7 +124,6 @@ void TiltedArc::join(std::size_t begin, double w) {
   cut = {w, cut.s + cubic.at(x), {cubic.slope(x), cubic.b + 3 * x * cubic.c, cubic.c}, 0, 0};
   cells_.erase(cells_.begin() + static_cast<std::ptrdiff_t>(before),
                cells_.begin() + static_cast<std::ptrdiff_t>(after));
-  while (breaks_.size() > 1 && breaks_.back() >= w) breaks_.pop_back();
 }
 
 void TiltedArc::mark_kinks() {
@@ -135,13 +134,14 @@ void TiltedArc::mark_kinks() {
     const double x = (k == 0 ? hi_ : cells_[k].w) - cell.w;
     return cell.cubic.slope(x);
   };
-  std::vector<double> kinks;
   for (std::size_t k = 0; k < count; ++k) {
     const double before = slope_before(k);
-    if (std::abs(cells_[k].cubic.a - before) > kKink * std::max(cells_[k].cubic.a, before))
-      kinks.push_back(cells_[k].w);
+    if (std::abs(cells_[k].cubic.a - before) > kKink * std::max(cells_[k].cubic.a, before)) {
+      kinks_.push_back(cells_[k].w);
+    }
   }
-  if (!loop_) kinks.push_back(hi_);
+  if (!loop_) kinks_.push_back(hi_);
+  std::vector<double> kinks = kinks_;
   if (loop_ && !kinks.empty()) {
     const double last = kinks.back();
     kinks.push_back(kinks.front() + (hi_ - lo()));
@@ -192,23 +192,15 @@ TiltedBoundary::TiltedBoundary(const Part& part, double least, double accuracy) 
     const bool goes_on = n > 0 && jump > -kJointTurn;
     if ((goes_on || arc.loop_) && jump > kTurnAccuracy) {
       arc.cells_.push_back({w - jump, s, {}, 0, 0});  // a convex corner: w grows, s stays
-      arc.breaks_.push_back(w - jump);
     }
     const std::size_t spiral_begin = arc.cells_.size();
     add_spiral(turning, spirals[k], winding, accuracy, arc);
-    double start = w;
-    if (goes_on && jump < 0) {
-      // Rounded digits turned inwards: the finger touches both sides at once, and goes from one to the other.
-      start = w - 0.5 * jump;
-      arc.join(spiral_begin, start);
-    }
-    arc.breaks_.push_back(start);
+    // Rounded digits turned inwards: the finger touches both sides at once, and goes from one to the other.
+    if (goes_on && jump < 0) arc.join(spiral_begin, w - 0.5 * jump);
   }
   for (TiltedArc& arc : arcs_) {
     if (arc.loop_) arc.hi_ = arc.lo() + tilt_ * turning.perimeter() + turning.period_turn();
     while (arc.cells_.back().w >= arc.hi_) arc.cells_.pop_back();
-    while (arc.breaks_.back() >= arc.hi_) arc.breaks_.pop_back();
-    arc.breaks_.push_back(arc.hi_);
     arc.mark_kinks();
     std::vector<double> starts;
     for (const TiltedArc::Cell& cell : arc.cells_) starts.push_back(cell.w);

@@ -72,8 +72,10 @@ class TiltedArc {
   double lo() const { return cells_.front().w; }
   double hi() const { return hi_; }
   bool loop() const { return loop_; }
-  /// The ends of the pieces on which s is smooth in w, lo() and hi() included.
-  const std::vector<double>& breaks() const { return breaks_; }
+  /// Where the slope jumps, within [lo(), hi()]: at corners, joints of the curvature and an arc's ends. A spline
+  /// through points has none, however many points there are.
+  const std::vector<double>& kinks() const { return kinks_; }
+  std::size_t cells() const { return cells_.size(); }
 
  private:
   friend class TiltedBoundary;
@@ -108,7 +110,7 @@ class TiltedArc {
   double hi_ = 0;
   double end_ = 0;  // s at hi
   std::vector<Cell> cells_;
-  std::vector<double> breaks_;
+  std::vector<double> kinks_;
   Buckets buckets_;
 };
 

@@ -143,6 +143,17 @@ Vec2 centre_of(const Finger& finger, const Vec2& point, const Contact& contact) 
   return point - (on_finger.x() * x + on_finger.y() * Vec2(-x.y(), x.x()));
 }
 
+Arm arm_of(const Finger& finger, double u) {
+  if (finger.is_disk()) return {Vec2(finger.length_per_u(), 0), Vec2::Zero()};
+  const Vec2 normal = unit_vector(finger.normal(u));
+  const Vec2 point = finger.point(u);
+  Arm arm;
+  arm.at = {normal.dot(point), normal.x() * point.y() - normal.y() * point.x()};
+  // The contact goes across the normal, and the normal turns.
+  arm.per_length = Vec2(0, 1) - finger.curvature(u) * Vec2(-arm.at.y(), arm.at.x());
+  return arm;
+}
+
 Reading together(const PerFinger<Reading>& each) {
   if (each.size() == 1) return each[0];
   return {each[0].length[0], each[1].length[0], each[0].turn - each[1].turn};  // eqs. (7)-(9)

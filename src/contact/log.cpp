@@ -71,7 +71,12 @@ class LogMaker {
   void start_roll() {
     roll_.name = reader_.name();
     roll_.kind = reader_.kind();
+    roll_.unit = reader_.unit();
     roll_.fingers.assign(reader_.columns().size(), FingerRows{});
+    for (std::size_t k = 0; k < roll_.fingers.size(); ++k) {
+      roll_.fingers[k].u_dimension = reader_.columns()[k].u_dimension;
+    }
+    roundings_.assign(roll_.fingers.size(), FingerRounding{});
     odometers_.assign(roll_.fingers.size(), Odometer(reader_.kind(), is_later_roll_));
   }
 
@@ -80,8 +85,10 @@ class LogMaker {
     for (std::size_t k = 0; k < roll_.fingers.size(); ++k) {
       FingerRows& finger = roll_.fingers[k];
       const FingerCells& cells = row.fingers[k];
-      cells.place.sharpen(finger.place_rounding);
-      cells.angle.sharpen(finger.angle_rounding);
+      roundings_[k].place.add(cells.place);
+      roundings_[k].angle.add(cells.angle);
+      finger.place_rounding = roundings_[k].place.value();
+      finger.angle_rounding = roundings_[k].angle.value();
       if (roll_.kind == LogKind::contact) {
         finger.u.push_back(cells.place.value);
         finger.psi.push_back(cells.angle.value);
@@ -120,6 +127,7 @@ class LogMaker {
   Splitting splitting_;
   Log roll_;  // that goes on
   std::vector<Odometer> odometers_;
+  std::vector<FingerRounding> roundings_;  // of each finger's columns
   std::vector<Log> rolls_;
   std::size_t lost_line_ = 0;
   bool is_later_roll_ = false;
@@ -128,8 +136,8 @@ class LogMaker {
 };
 
 /// Runs a stream of lines to its end.
-std::vector<Log> rolls_in(LogLines& lines, Splitting splitting) {
-  RowReader reader(lines.name());
+std::vector<Log> rolls_in(LogLines& lines, Splitting splitting, const LogOptions& options) {
+  RowReader reader(lines.name(), options);
   LogMaker maker(reader, splitting);
   LogRow row;
   std::string_view line;
@@ -141,15 +149,28 @@ std::vector<Log> rolls_in(LogLines& lines, Splitting splitting) {
   return maker.finish();
 }
 
-std::vector<Log> rolls_of_text(std::string_view text, const std::string& name, Splitting splitting) {
+std::vector<Log> rolls_of_text(std::string_view text, const std::string& name, Splitting splitting,
+                               const LogOptions& options) {
   LogLines lines(text, name);
-  return rolls_in(lines, splitting);
+  return rolls_in(lines, splitting, options);
 }
 
-std::vector<Log> rolls_of_file(const std::string& path, Splitting splitting) {
+std::vector<Log> rolls_of_file(const std::string& path, Splitting splitting, const LogOptions& options) {
   const OpenFile file = open_text(path);
   LogLines lines(file.get(), path == "-" ? "standard input" : path);
-  return rolls_in(lines, splitting);
+  return rolls_in(lines, splitting, options);
+}
+
+/// What the options say of one of two files.
+LogOptions options_for(const LogOptions& options, std::size_t finger) {
+  LogOptions result{{}, options.unit};
+  for (ColumnSource source : options.columns) {
+    const std::string end = source.column.size() > 2 ? source.column.substr(source.column.size() - 2) : "";
+    if (end == kFingerSuffixes[1 - finger]) continue;
+    if (end == kFingerSuffixes[finger]) source.column.resize(source.column.size() - 2);
+    result.columns.push_back(source);
+  }
+  return result;
 }
 
 // Two clocks' readings of one instant may differ by this share of the roll's duration: rounding, not a delay.
@@ -251,24 +272,29 @@ void require_same_rows(const Log& a, const Log& b) {
 
 }  // namespace
 
-Log parse_log(std::string_view text, const std::string& name) {
-  return std::move(rolls_of_text(text, name, Splitting::refused).front());
+Log parse_log(std::string_view text, const std::string& name, const LogOptions& options) {
+  return std::move(rolls_of_text(text, name, Splitting::refused, options).front());
 }
 
-Log read_log(const std::string& path) { return std::move(rolls_of_file(path, Splitting::refused).front()); }
+Log read_log(const std::string& path, const LogOptions& options) {
+  return std::move(rolls_of_file(path, Splitting::refused, options).front());
+}
 
-Log read_log(const std::string& path_a, const std::string& path_b) {
+Log read_log(const std::string& path_a, const std::string& path_b, const LogOptions& options) {
   if (path_a == "-" && path_b == "-") {
     throw InputError("the logs of both fingers can't come from standard input: give one of them as a file");
   }
-  return paired(read_log(path_a), read_log(path_b));
+  Log a = read_log(path_a, options_for(options, 0));  // first, so that its errors come first
+  return paired(std::move(a), read_log(path_b, options_for(options, 1)));
 }
 
-std::vector<Log> parse_rolls(std::string_view text, const std::string& name) {
-  return rolls_of_text(text, name, Splitting::into_rolls);
+std::vector<Log> parse_rolls(std::string_view text, const std::string& name, const LogOptions& options) {
+  return rolls_of_text(text, name, Splitting::into_rolls, options);
 }
 
-std::vector<Log> read_rolls(const std::string& path) { return rolls_of_file(path, Splitting::into_rolls); }
+std::vector<Log> read_rolls(const std::string& path, const LogOptions& options) {
+  return rolls_of_file(path, Splitting::into_rolls, options);
+}
 
 Log paired(Log a, Log b) {
   require_one_finger(a);
@@ -286,7 +312,7 @@ Log paired(Log a, Log b) {
 
 Log one_finger(const Log& log, std::size_t finger) {
   const FingerRows& rows = log.fingers[finger];
-  return {rows.name.empty() ? log.name : rows.name, log.kind, log.time, {rows}, log.contact_was_off};
+  return {rows.name.empty() ? log.name : rows.name, log.kind, log.time, {rows}, log.contact_was_off, log.unit};
 }
 
 }  // namespace rollfix

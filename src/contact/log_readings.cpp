@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "contact/log_rows.hpp"
 #include "contact/roll_check.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/contact/log.hpp"
@@ -53,7 +54,10 @@ class Courses {
  public:
   Courses(const Log& log, const std::vector<Finger>& fingers) {
     require_fingers(fingers, log.fingers.size(), log.kind == LogKind::contact, log.name);
-    for (std::size_t k = 0; k < log.fingers.size(); ++k) courses_.emplace_back(log, fingers, k);
+    for (std::size_t k = 0; k < log.fingers.size(); ++k) {
+      require_unit_of_u(log.fingers[k].u_dimension, finger_of(fingers, k), log.name);
+      courses_.emplace_back(log, fingers, k);
+    }
   }
 
   PerFinger<Reading> each(std::size_t row) const {
@@ -66,8 +70,32 @@ class Courses {
   std::vector<FingerCourse> courses_;
 };
 
+/// Whether a column of angles in radians looks like one of degrees: no further from 0 than one turn in degrees, and it
+/// wraps by such a turn, at this row.
+bool looks_like_degrees(const std::vector<double>& angles, std::size_t row) {
+  constexpr double kOneTurn = 360;
+  constexpr double kNearlyOne = 300;  // the last step before the wrap may be a long one
+  const auto [least, most] = std::minmax_element(angles.begin(), angles.end());
+  return *least >= -kOneTurn && *most <= kOneTurn && std::abs(angles[row] - angles[row - 1]) >= kNearlyOne;
+}
+
+/// What to do about a jump: a log in degrees that is read as radians has one wherever its degrees wrap.
+std::string cure_of_jump(const Log& log, const std::vector<Finger>& fingers, std::size_t finger, std::size_t row) {
+  const FingerRows& rows = log.fingers[finger];
+  const Finger* const shape = finger_of(fingers, finger);
+  const std::string suffix = log.fingers.size() == 1 ? "" : kFingerSuffixes[finger];
+  const bool has_angle_u = shape != nullptr && shape->is_disk();
+  std::string split = "split the log there, or let stray rows pass with `robust` (and `noise`)";
+  if (log.kind != LogKind::contact) return split;
+  if (!looks_like_degrees(rows.psi, row) && !(has_angle_u && looks_like_degrees(rows.u, row))) return split;
+  const std::string u = has_angle_u ? fmt::format("u{0}=u{0}:deg,", suffix) : "";
+  return fmt::format("{0}; if the angles are in degrees, that is written `columns` {1}psi{2}=psi{2}:deg", split, u,
+                     suffix);
+}
+
 /// Throws InputError where a finger is beyond its ends or goes where none can: see RollCheck.
-void require_physical(const Log& log, const Courses& courses, const Part& part, RollCheck check) {
+void require_physical(const Log& log, const Courses& courses, const Part& part, const std::vector<Finger>& fingers,
+                      RollCheck check) {
   const std::size_t count = log.fingers.size();
   for (std::size_t k = 0; k < count && log.kind == LogKind::contact; ++k) {
     const FingerRows& rows = log.fingers[k];
@@ -87,8 +115,9 @@ void require_physical(const Log& log, const Courses& courses, const Part& part, 
     }
     const auto time = log.time.empty() ? std::nullopt : std::optional<double>(log.time[row]);
     if (const auto jump = check.jump(line, before, now, time)) {
-      throw InputError(fmt::format("{}: expected a roll that goes on, found a jump: {}; split the log there",
-                                   place_of(log, jump->finger, row), jump->why));
+      throw InputError(fmt::format("{}: expected a roll that goes on, found a jump: {}; {}",
+                                   place_of(log, jump->finger, row), jump->why,
+                                   cure_of_jump(log, fingers, jump->finger, row)));
     }
     before = now;
   }
@@ -118,6 +147,26 @@ std::size_t nearest_row(const std::vector<double>& time, double instant) {
   throw InputError(fmt::format(
       "{}: there is no row at the instant {} of this log, {}: expected an instant within half a row's distance of one",
       log.name, instant, found));
+}
+
+/// Throws InputError: the first contact, from which a reading is measured, is none itself.
+void require_reading(const Log& log, std::size_t row, double instant) {
+  if (row > 0 || log.kind != LogKind::contact) return;
+  throw InputError(
+      fmt::format("{}: the instant {} means the row of the first contact, at {}, from which readings are measured: "
+                  "there L and theta are 0, which fits everywhere; expected a later one (`at`), up to {}",
+                  log.name, instant, log.time.front(), log.time.back()));
+}
+
+/// Throws InputError: a row that another instant meant already would count twice.
+void require_another(const Log& log, const std::vector<std::size_t>& rows, std::size_t row,
+                     const std::vector<double>& times) {
+  const auto before = std::find(rows.begin(), rows.end(), row);
+  if (before == rows.end()) return;
+  const double earlier = times[static_cast<std::size_t>(before - rows.begin())];
+  throw InputError(fmt::format("{}: the instants {} and {} mean the same row, at {}: leave one out (`at`){}", log.name,
+                               earlier, times[rows.size()], log.time[row],
+                               earlier == times[rows.size()] ? "" : "; the rows are farther apart than these"));
 }
 
 std::vector<std::size_t> usual_rows(const Log& log) {
@@ -155,6 +204,8 @@ std::vector<std::size_t> rows_at(const Log& log, const std::vector<double>& time
     if (!std::isfinite(instant)) refuse_instant(log, instant);
     const std::size_t row = nearest_row(log.time, instant);
     if (!(std::abs(log.time[row] - instant) <= reach_of(log.time, row))) refuse_instant(log, instant);
+    require_reading(log, row, instant);
+    require_another(log, rows, row, times);
     rows.push_back(row);
   }
   return rows;
@@ -170,7 +221,7 @@ std::vector<Reading> readings_as_given(const Log& log, const std::vector<Finger>
 std::vector<Reading> readings(const Log& log, const Part& part, const std::vector<Finger>& fingers,
                               const std::vector<double>& times, const Noise& noise) {
   const Courses courses(log, fingers);
-  require_physical(log, courses, part, RollCheck(part, log.kind, fingers, log.fingers.size(), noise));
+  require_physical(log, courses, part, fingers, RollCheck(part, log.kind, fingers, log.fingers.size(), noise));
   std::vector<Reading> result;
   for (const std::size_t row : rows_at(log, times)) {
     // A contact log needs no change of direction: the finger rolls on the part, however that was drawn.
@@ -178,6 +229,14 @@ std::vector<Reading> readings(const Log& log, const Part& part, const std::vecto
     result.push_back(log.kind == LogKind::contact ? reading : in_stored_direction(reading, part));
   }
   return result;
+}
+
+std::vector<Contact> contacts_of(const FingerRows& rows, const Finger& finger) {
+  const std::vector<double> u = unwrapped(rows.u, rows.place_rounding, finger.period());
+  const std::vector<double> psi = unwrapped(rows.psi, rows.angle_rounding);
+  std::vector<Contact> contacts;
+  for (std::size_t row = 0; row < u.size(); ++row) contacts.push_back({u[row], psi[row]});
+  return contacts;
 }
 
 std::optional<double> facing(const Log& log, const std::vector<Finger>& fingers) {

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
+#include "contact/header/log_header.hpp"
 #include "rollfix/error.hpp"
 #include "text/number.hpp"
 
@@ -61,6 +63,22 @@ double turns_in(double step, double period) { return std::abs(step) > period / 2
 
 }  // namespace
 
+void ColumnRounding::add(const WrittenValue& written) {
+  if (!(written.half_unit > 0)) return;
+  if (finest_ == 0 || written.half_unit < finest_) finest_ = written.half_unit;
+  if (written.value == 0) return;
+  const double first = std::floor(std::log10(std::abs(written.value)));
+  const double last = std::round(std::log10(2 * written.half_unit));
+  digits_ = std::max(digits_, first - last + 1);
+  largest_ = is_empty_ ? first : std::max(largest_, first);
+  is_empty_ = false;
+}
+
+double ColumnRounding::value() const {
+  if (is_empty_) return finest_;
+  return std::max(finest_, 0.5 * std::pow(10.0, largest_ + 1 - digits_));
+}
+
 void RowReader::come_from(Source source) {
   if (source_ == Source::unknown) source_ = source;
   if (source_ == source) return;
@@ -91,10 +109,10 @@ bool RowReader::take_header() {
   const bool may_come = columns_.empty() || header_may_come_;
   if (!may_come) return false;
   if (is_data(table_row_)) {
-    if (columns_.empty()) columns_ = {bare_columns(table_row_, name_)};
+    if (columns_.empty()) columns_ = {bare_columns(table_row_, name_, options_)};
     return false;
   }
-  std::vector<Columns> found = rollfix::columns_of(table_row_, name_);
+  std::vector<Columns> found = rollfix::columns_of(table_row_, name_, options_);
   if (!columns_.empty() && (found.size() != columns_.size() || found.front().kind != kind())) {
     throw InputError(fmt::format("{}: the header '{}' is of another kind of log than the one before it",
                                  where(name_, table_row_.line), shown(table_row_.text)));
@@ -122,6 +140,7 @@ RowKind RowReader::read(const std::optional<double>& time, const std::optional<P
     const Touch& touch = (*fingers)[k];
     require_finite(name_, lines_, columns_[k], touch);
     row.fingers[k] = {{touch.u, 0}, {touch.psi, 0}, touch.x.value_or(0), touch.y.value_or(0)};
+    turn_to_part(row.fingers[k]);
   }
   return RowKind::touching;
 }
@@ -168,13 +187,18 @@ std::string_view RowReader::cell(const Columns& columns, Column column) const {
                                shown(table_row_.text), columns.called(column), k + 1));
 }
 
-double RowReader::number(const Columns& columns, Column column) const {
+WrittenValue RowReader::written(const Columns& columns, Column column) const {
   const std::string_view text = cell(columns, column);
-  const auto value = is_angle(column) ? parse_angle(text) : parse_number(text);
-  if (value && std::isfinite(*value)) return *value;
-  throw InputError(fmt::format("{}: {} is '{}', expected a {}number{}", where(name_, lines_), columns.called(column),
+  const Conversion& convert = columns.conversion_of(column);
+  const bool is_length = column == Column::u && columns.u_dimension == Dimension::length;
+  const bool may_say_degrees = is_angle(column) && !is_length;
+  const auto number = parse_number(text);
+  const auto value = number ? convert(*number) : may_say_degrees ? parse_angle(text) : std::nullopt;
+  if (value && std::isfinite(*value)) return {*value, number ? convert(rounding_of(text)) : rounding_of(text)};
+  throw InputError(fmt::format("{}: {} is '{}', expected a {}number{}{}", where(name_, lines_), columns.called(column),
                                shown(text), value ? "finite " : "",
-                               is_angle(column) ? " such as 1.25 (radians) or 73deg" : " such as 1.25"));
+                               may_say_degrees ? " such as 1.25 (radians) or 73deg" : " such as 1.25",
+                               decimal_comma_hint(text)));
 }
 
 bool RowReader::touches(const Columns& columns) const {
@@ -200,10 +224,6 @@ void RowReader::require_later(double time, std::string_view written, std::size_t
                                shown(written), time_, time_line_));
 }
 
-WrittenValue RowReader::written(const Columns& columns, Column column) const {
-  return {number(columns, column), rounding_of(cell(columns, column))};
-}
-
 FingerCells RowReader::cells(const Columns& columns) const {
   const auto [place, angle] = kColumnPairs[static_cast<std::size_t>(columns.kind)];
   FingerCells result;
@@ -213,7 +233,18 @@ FingerCells RowReader::cells(const Columns& columns) const {
     result.x = number(columns, Column::x);
     result.y = number(columns, Column::y);
   }
+  turn_to_part(result);
   return result;
+}
+
+void RowReader::turn_to_part(FingerCells& cells) const {
+  if (options_.mirrored) {
+    cells.place.value = -cells.place.value;
+    cells.angle.value =
+        (kind() == LogKind::contact ? std::numbers::pi : 0) - cells.angle.value;  // a direction or a turn
+    cells.x = -cells.x;
+  }
+  if (options_.clockwise && kind() != LogKind::contact) cells.place.value = -cells.place.value;
 }
 
 /// Throws InputError when the row has more cells than the table has columns.
@@ -267,6 +298,18 @@ double GrowingAngle::add(double angle, double rounding) {
   const bool is_wrapped = (turns != 0 || turns_ != 0) && may_be_wrapped(range_, count_, rounding, period_);
   before_ = is_wrapped ? last + turns * period_ : last;
   return is_wrapped && turns_ != 0 ? angle + turns_ * period_ : angle;
+}
+
+void require_unit_of_u(const std::optional<Dimension>& dimension, const Finger* finger, const std::string& log) {
+  if (!dimension || finger == nullptr || finger->is_disk() == (*dimension == Dimension::angle)) return;
+  if (finger->is_disk()) {
+    throw InputError(fmt::format(
+        "{}: u is in a unit of length, and of a disk it is the contact's angle: expected radians or degrees, which is "
+        "the length on the skin divided by the radius; or give the finger as an outline",
+        log));
+  }
+  throw InputError(fmt::format(
+      "{}: u is in a unit of an angle, and of a jaw or an outline it is the place along it: expected a length", log));
 }
 
 void require_readable(const FingerRows& rows, const std::string& log) {

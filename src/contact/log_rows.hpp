@@ -9,6 +9,7 @@
 
 #include "contact/log_table.hpp"
 #include "rollfix/contact/log.hpp"
+#include "rollfix/contact/log_options.hpp"
 #include "rollfix/outline/curve.hpp"
 
 namespace rollfix {
@@ -17,11 +18,28 @@ namespace rollfix {
 struct WrittenValue {
   double value = 0;
   double half_unit = 0;
+};
 
-  /// The half unit of the most precise of several, of which this is another.
-  void sharpen(double& rounding) const {
-    if (half_unit > 0 && (rounding == 0 || half_unit < rounding)) rounding = half_unit;
-  }
+/// How far the digits of a column may be off, as it grows. Trailing zeros are often left off, so all numbers are taken
+/// to be written alike: with as many decimals as the one that shows most of them, or, where that one is small and the
+/// large ones don't show them, with as many significant digits as any.
+class ColumnRounding {
+ public:
+  void add(const WrittenValue& written);
+  /// Half a unit of the last digit of the largest; 0 where all are exact.
+  double value() const;
+
+ private:
+  double finest_ = 0;
+  double digits_ = 0;   // significant ones, of the number that has most
+  double largest_ = 0;  // power of ten of the largest number's first digit
+  bool is_empty_ = true;
+};
+
+/// Of one finger.
+struct FingerRounding {
+  ColumnRounding place;
+  ColumnRounding angle;
 };
 
 /// What a row says of one finger that touches.
@@ -51,7 +69,8 @@ struct LogRow {
 class RowReader {
  public:
   /// `name`: of the log, for messages.
-  explicit RowReader(std::string name) : name_(std::move(name)) {}
+  explicit RowReader(std::string name, LogOptions options = {})
+      : name_(std::move(name)), options_(std::move(options)) {}
 
   /// The next line. Throws InputError: before the columns are known because they can't be, later because of this line
   /// only. A row leaves no trace before it is accepted.
@@ -72,6 +91,7 @@ class RowReader {
   bool has_centre() const;
   std::size_t lines() const { return lines_; }
   const std::string& name() const { return name_; }
+  const std::string& unit() const { return options_.unit; }  // of lengths; empty: not known
 
  private:
   enum class Source { unknown, lines, numbers };
@@ -83,12 +103,14 @@ class RowReader {
   bool touches(const Columns& columns) const;
   std::optional<double> time() const;
   std::string_view cell(const Columns& columns, Column column) const;
-  double number(const Columns& columns, Column column) const;
+  double number(const Columns& columns, Column column) const { return written(columns, column).value; }
   WrittenValue written(const Columns& columns, Column column) const;
   FingerCells cells(const Columns& columns) const;
+  void turn_to_part(FingerCells& cells) const;
   void require_later(double time, std::string_view written, std::size_t line) const;
 
   std::string name_;
+  LogOptions options_;
   Source source_ = Source::unknown;
   TableCutter cutter_;
   TableRow table_row_;
@@ -126,6 +148,9 @@ class Odometer {
   ExactSum length_;
   ExactSum turn_;
 };
+
+/// Throws InputError where a log says that u is an angle, or a length, and of this finger it is the other.
+void require_unit_of_u(const std::optional<Dimension>& dimension, const Finger* finger, const std::string& log);
 
 /// Throws InputError when a reader of these rows of a log would take angles as wrapped that are not.
 void require_readable(const FingerRows& rows, const std::string& log);

@@ -22,11 +22,16 @@ struct OngoingRoll {
   Contact first;  // of u and psi
   GrowingAngle u;
   GrowingAngle psi{2 * std::numbers::pi};
-  double place_rounding = 0;
-  double angle_rounding = 0;
+  FingerRounding rounding;
   Odometer odometer;  // of everything else
   Reading last;
 };
+
+/// Lengths of a stream come out in the part's unit, unless another is asked for.
+LogOptions in_unit_of(const Part& part, LogOptions options) {
+  if (options.unit.empty()) options.unit = part.unit();
+  return options;
+}
 
 /// Each finger's reading of a row, and what the row before it says by now.
 struct Steps {
@@ -37,8 +42,13 @@ struct Steps {
 }  // namespace
 
 struct LogStream::State {
-  State(std::string name, const Part& on, std::vector<Finger> by, const Noise& noise_of)
-      : reader(std::move(name)), part(on), fingers(std::move(by)), noise(noise_of) {
+  State(std::string name, const Part& on, std::vector<Finger> by, const Noise& noise_of, LogOptions options,
+        bool is_robust)
+      : reader(std::move(name), in_unit_of(on, std::move(options))),
+        part(on),
+        fingers(std::move(by)),
+        noise(noise_of),
+        robust(is_robust) {
     require_fingers(fingers, 2, false, reader.name());
   }
 
@@ -51,6 +61,7 @@ struct LogStream::State {
   Part part;
   std::vector<Finger> fingers;
   Noise noise;
+  bool robust;
   std::size_t malformed = 0;
 
  private:
@@ -68,10 +79,14 @@ struct LogStream::State {
   std::optional<RollCheck> check_;  // none before the columns are known
   std::vector<OngoingRoll> rolls_;  // of each finger; none while there is no contact
   bool is_later_roll_ = false;
+  std::size_t strays_ = 0;  // since the last row of the roll
 };
 
 void LogStream::State::start() {
   require_fingers(fingers, count(), kind() == LogKind::contact, reader.name());
+  for (std::size_t k = 0; k < count(); ++k) {
+    require_unit_of_u(reader.columns()[k].u_dimension, finger_of(fingers, k), reader.name());
+  }
   check_.emplace(part, kind(), fingers, count(), noise);
 }
 
@@ -112,6 +127,7 @@ LogLine LogStream::State::skip(const InputError& error) {
 
 void LogStream::State::begin_roll() {
   rolls_.clear();
+  strays_ = 0;
   for (std::size_t k = 0; k < count(); ++k) rolls_.emplace_back(kind(), finger_of(fingers, k), is_later_roll_);
   is_later_roll_ = true;
   check_->restart();
@@ -129,10 +145,10 @@ Reading LogStream::State::measure_contact(std::size_t which, Sample& sample, Rea
   OngoingRoll& roll = rolls_[which];
   const FingerCells& cells = row_.fingers[which];
   const Finger& finger = *finger_of(fingers, which);
-  cells.place.sharpen(roll.place_rounding);
-  cells.angle.sharpen(roll.angle_rounding);
-  const Contact contact{roll.u.add(cells.place.value, roll.place_rounding),
-                        roll.psi.add(cells.angle.value, roll.angle_rounding)};
+  roll.rounding.place.add(cells.place);
+  roll.rounding.angle.add(cells.angle);
+  const Contact contact{roll.u.add(cells.place.value, roll.rounding.place.value()),
+                        roll.psi.add(cells.angle.value, roll.rounding.angle.value())};
   if (!roll.has_first) roll.first = contact;
   roll.has_first = true;
   (*sample.contact)[which] = contact;
@@ -169,8 +185,19 @@ LogLine LogStream::State::take() {
   const auto lines = PerFinger<std::size_t>::of(count(), row_.line);
   result.kind = rolls_.empty() ? LineKind::first : LineKind::sample;
   if (rolls_.empty()) begin_roll();
+  const std::vector<OngoingRoll> as_it_was = robust ? rolls_ : std::vector<OngoingRoll>{};
   Steps steps = measure(sample);
-  if (const auto jump = check_->jump(lines, steps.before, steps.now, row_.time)) {
+  const auto jump = check_->jump(lines, steps.before, steps.now, row_.time);
+  if (jump && robust && strays_ < kMostStrays) {
+    ++strays_;
+    rolls_ = as_it_was;
+    check_->disregard();
+    result.kind = LineKind::stray;
+    result.message = fmt::format("{}: a stray row: {}", where(reader.name(), row_.line), jump->why);
+    return result;
+  }
+  strays_ = 0;
+  if (jump) {
     result.kind = LineKind::jump;
     result.message =
         fmt::format("{}: expected a roll that goes on, found a jump: {}", where(reader.name(), row_.line), jump->why);
@@ -186,8 +213,9 @@ void LogStream::State::resume() {
   if (check_) check_->skip();
 }
 
-LogStream::LogStream(std::string name, const Part& part, std::vector<Finger> fingers, const Noise& noise)
-    : state_(std::make_unique<State>(std::move(name), part, std::move(fingers), noise)) {}
+LogStream::LogStream(std::string name, const Part& part, std::vector<Finger> fingers, const Noise& noise,
+                     LogOptions options, bool robust)
+    : state_(std::make_unique<State>(std::move(name), part, std::move(fingers), noise, std::move(options), robust)) {}
 LogStream::~LogStream() = default;
 LogStream::LogStream(LogStream&&) noexcept = default;
 LogStream& LogStream::operator=(LogStream&&) noexcept = default;

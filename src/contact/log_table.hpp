@@ -3,11 +3,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "rollfix/contact/log.hpp"
+#include "rollfix/units.hpp"
 #include "text/text.hpp"
 
 namespace rollfix {
@@ -90,15 +92,18 @@ inline constexpr std::array<ColumnPair, 3> kColumnPairs = {
 struct Columns {
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-  std::array<std::size_t, kColumnCount> cell;  // kNone: the log does not have it
-  std::size_t count = 0;                       // cells of a row
+  std::array<std::size_t, kColumnCount> cell;       // kNone: the log does not have it
+  std::array<Conversion, kColumnCount> conversion;  // of its numbers to radians, seconds, the part's unit
+  std::size_t count = 0;                            // cells of a row
   LogKind kind = LogKind::contact;
-  std::string suffix;              // of the finger's columns
-  bool contact_is_shared = false;  // one column `contact` for both fingers
+  std::string suffix;                      // of the finger's columns
+  bool contact_is_shared = false;          // one column `contact` for both fingers
+  std::optional<Dimension> u_dimension{};  // where the log says what u is in
 
   Columns() { cell.fill(kNone); }
   bool has(Column column) const { return (*this)[column] != kNone; }
   std::size_t operator[](Column column) const { return cell[static_cast<std::size_t>(column)]; }
+  const Conversion& conversion_of(Column column) const { return conversion[static_cast<std::size_t>(column)]; }
   /// The column's name in the header.
   std::string called(Column column) const {
     const bool is_common = column == Column::time || (column == Column::contact && contact_is_shared);
@@ -108,12 +113,5 @@ struct Columns {
 
 /// Whether the row consists of numbers only: a log without a header.
 bool is_data(const TableRow& row);
-
-/// The columns of a log with this header, of one finger or of two. Throws InputError: no known column, half of a pair,
-/// two kinds of log at once, only one of two fingers, or the same column twice. `log`: its name, for messages.
-std::vector<Columns> columns_of(const TableRow& header, const std::string& log);
-
-/// The columns of a log without a header. Throws InputError unless there are two.
-Columns bare_columns(const TableRow& row, const std::string& log);
 
 }  // namespace rollfix

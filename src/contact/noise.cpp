@@ -49,6 +49,17 @@ void let_slip(FingerRows& rows, const Finger& finger, double slip) {
   }
 }
 
+/// A gyroscope that tells psi drifts with time.
+void let_drift(FingerRows& rows, const std::vector<double>& time, const Noise& noise, NormalNumbers& normal) {
+  if (noise.drift == 0 && noise.walk == 0) return;
+  const double bias = normal.next(noise.drift);
+  double walked = 0;
+  for (std::size_t row = 1; row < rows.psi.size(); ++row) {
+    walked += normal.next(noise.walk * std::sqrt(time[row] - time[row - 1]));
+    rows.psi[row] += bias * (time[row] - time.front()) + walked;
+  }
+}
+
 void add_noise(FingerRows& rows, const Finger& finger, const Noise& noise, NormalNumbers& normal) {
   for (std::size_t row = 0; row < rows.u.size(); ++row) {
     rows.u[row] += normal.next(noise.contact) / finger.length_per_u();
@@ -63,6 +74,8 @@ void let_sense(NoisyRoll& roll, const std::vector<Finger>& fingers, const Noise&
     FingerRows& rows = roll.log.fingers[k];
     if (roll.error[k].slip != 0) let_slip(rows, fingers[k], roll.error[k].slip);
     add_noise(rows, fingers[k], noise, normal);
+    require_times(noise, !roll.log.time.empty(), roll.log.name);
+    let_drift(rows, roll.log.time, noise, normal);
     require_readable(rows, roll.log.name);
   }
 }
@@ -75,6 +88,28 @@ void require_valid(const Noise& noise) {
     if (sd >= 0 && std::isfinite(sd)) continue;
     throw InputError(fmt::format("{} noise of {}: expected finite standard deviations of at least 0", kind.name, sd));
   }
+}
+
+double drift_variance(const Noise& noise, LogKind kind, double laps, const Interval& seconds) {
+  if (noise.drift > 0 || noise.walk > 0) {
+    // A bias turns by as much in every second: its variance grows with the square of the time.
+    return noise.walk * noise.walk * seconds.width() +
+           noise.drift * noise.drift * (seconds.hi * seconds.hi - seconds.lo * seconds.lo);
+  }
+  return kind == LogKind::travelled ? noise.angle * noise.angle * laps : 0;
+}
+
+Noise noise_on(const Part& part, const Noise& sensors) {
+  Noise noise = sensors;
+  noise.part = part.outline().accuracy;
+  return noise;
+}
+
+void require_times(const Noise& noise, bool has_times, const std::string& what) {
+  if (has_times || (noise.drift == 0 && noise.walk == 0)) return;
+  throw InputError(fmt::format(
+      "{}: has no times, and the noise's {} gathers with time: give a log with a column 'time', or leave {} out", what,
+      noise.drift > 0 ? "drift" : "walk", noise.drift > 0 && noise.walk > 0 ? "drift and walk" : "it"));
 }
 
 NoisyRoll noisy_roll(const Part& part, const Finger& finger, const RollPlan& plan, const Noise& noise,
@@ -107,6 +142,7 @@ NoisyRoll noisy_roll_free(const Part& part, const FreePlan& plan, const Noise& n
 NoisyIncrements noisy_increments(const Part& part, double start, double length, std::size_t rows, const Noise& noise,
                                  std::uint64_t seed) {
   require_valid(noise);
+  require_times(noise, false, "the increments on " + part.name());
   if (rows == 0) throw InputError("expected at least 1 row of a log, found 0");
   if (!std::isfinite(start) || !std::isfinite(length)) {
     throw InputError(fmt::format("expected a finite start and length of a roll, found {} and {}", start, length));

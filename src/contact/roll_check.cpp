@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "contact/log_table.hpp"
 #include "outline/turn.hpp"
@@ -89,8 +90,8 @@ std::optional<RollCheck::Jump> RollCheck::jump(const PerFinger<std::size_t>& lin
   const double duration = time && time_ ? *time - *time_ : 1;
   const bool is_first = !has_row_;
   const bool may_be_far = may_be_far_;
-  time_ = time;
-  line_ = line;
+  time_before_ = std::exchange(time_, time);
+  line_before_ = std::exchange(line_, line);
   has_row_ = true;
   may_be_far_ = false;
   if (is_first) return std::nullopt;
@@ -116,6 +117,11 @@ std::optional<RollCheck::Jump> RollCheck::jump(const PerFinger<std::size_t>& lin
   for (std::size_t k = 0; k < count; ++k) recent_[k][steps_ % kRecent] = speed[k];
   ++steps_;
   return std::nullopt;
+}
+
+void RollCheck::disregard() {
+  time_ = time_before_;
+  line_ = line_before_;
 }
 
 /// "the length changes by ... since line 3", "the length of finger b ...".

@@ -33,6 +33,9 @@ class TurnRange {
   std::vector<Cell> cells_;  // equal ones
 };
 
+/// A row that jumps away is a stray one if the roll comes back within so many of them.
+inline constexpr std::size_t kMostStrays = 3;
+
 /// What the rows of a roll have to be, of each finger: the one place for files and streams.
 ///
 /// u is on the finger. And between neighbouring rows there is no jump: no finger
@@ -63,6 +66,9 @@ class RollCheck {
   /// comes after this one.
   std::optional<Jump> jump(const PerFinger<std::size_t>& line, const PerFinger<Reading>& before,
                            const PerFinger<Reading>& now, const std::optional<double>& time);
+
+  /// The row that was a jump is a stray one: the next row comes after the one before it.
+  void disregard();
 
   /// The next row starts a roll.
   void restart() { has_row_ = false; }
@@ -103,6 +109,8 @@ class RollCheck {
   bool has_row_ = false;
   PerFinger<std::size_t> line_;
   std::optional<double> time_;
+  PerFinger<std::size_t> line_before_;  // of the row before that
+  std::optional<double> time_before_;
   bool may_be_far_ = false;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace rollfix::draw {
@@ -56,14 +57,25 @@ Paint with_rim(std::string_view colour, std::string_view rim, double width) {
   return paint;
 }
 
-void draw_sign(Svg& svg, Sign sign, const Vec2& at, std::string_view colour, double size) {
+void draw_sign(Svg& svg, Sign sign, const Vec2& at, std::string_view colour, double size, std::string_view dash) {
   const auto moved = [&](double x, double y) { return Vec2(at + size * Vec2(x, y)); };
   Paint paint = with_rim(kPaper, colour, 0.6 + 0.6 * size);
   switch (sign) {
     case Sign::line:
       paint.width = 2.4;
+      paint.dash = dash;
       svg.segments({moved(-8, 0), moved(8, 0)}, paint);
       break;
+    case Sign::area: {
+      paint = with_rim(colour, kInk, 1);
+      std::vector<Vec2> rim;
+      for (int k = 0; k < 32; ++k) {
+        const double angle = 2 * std::numbers::pi * k / 32;
+        rim.push_back(moved(8 * std::cos(angle), 4.5 * std::sin(angle)));
+      }
+      svg.polygon(rim, paint);
+      break;
+    }
     case Sign::inflection:
       svg.polygon({moved(0, -4), moved(4, 0), moved(0, 4), moved(-4, 0)}, paint);
       break;
@@ -84,6 +96,7 @@ std::string_view sign_colour(Sign sign) {
     case Sign::vertex:
       return kPalette[0];
     case Sign::line:
+    case Sign::area:
     case Sign::corner:
       break;
   }
@@ -109,7 +122,7 @@ void Legend::draw(Svg& svg, double top) const {
     const std::size_t column = i / rows_, row = i % rows_;
     const Vec2 at(kPageMargin + column_width * static_cast<double>(column),
                   top + 14 + kRowHeight * static_cast<double>(row));
-    draw_sign(svg, entries_[i].sign, at + Vec2(10, 0), entries_[i].colour);
+    draw_sign(svg, entries_[i].sign, at + Vec2(10, 0), entries_[i].colour, 1, entries_[i].dash);
     svg.text(at + Vec2(kTextIndent, 4), entries_[i].text, {kTextSize});
   }
   svg.close_group();

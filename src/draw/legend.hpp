@@ -32,10 +32,13 @@ Paint filled(std::string_view colour, double opacity = 1);
 Paint with_rim(std::string_view colour, std::string_view rim, double width);
 
 /// Signs for points of a boundary, to be told apart without colour as well.
-enum class Sign { line, inflection, vertex, corner };
+enum class Sign { line, area, inflection, vertex, corner };
 
-/// A diamond, a triangle or a square at a point; for Sign::line a short stroke. `size` is 1 for the usual one.
-void draw_sign(Svg& svg, Sign sign, const Vec2& at, std::string_view colour, double size = 1);
+/// A diamond, a triangle or a square at a point; for Sign::line a short stroke with the line's own dashes, for
+/// Sign::area a filled oval. `size` is 1
+/// for the usual one.
+void draw_sign(Svg& svg, Sign sign, const Vec2& at, std::string_view colour, double size = 1,
+               std::string_view dash = "");
 
 /// The colour that goes with a sign of a point.
 std::string_view sign_colour(Sign sign);
@@ -53,6 +56,7 @@ struct LegendEntry {
   Sign sign = Sign::line;
   std::string_view colour;
   Text text;
+  std::string dash{};  // of a line
 };
 
 /// Entries in as many columns as fit, filled column by column.

@@ -11,6 +11,7 @@
 #include "plot.hpp"
 #include "rollfix/error.hpp"
 #include "scene.hpp"
+#include "taught_rows.hpp"
 #include "text/text.hpp"
 
 namespace rollfix {
@@ -55,8 +56,10 @@ std::string blocked_text(const Reach& reach) {
   return fmt::format("out of reach of {}: {} % of the boundary", finger, pretty(100 * (1 - reach.share()), 3));
 }
 
-Legend legend_of(const Part& part, const std::optional<Reach>& reach, double width) {
-  std::vector<LegendEntry> entries;
+Legend legend_of(const PartFigure& figure) {
+  const Part& part = *figure.part;
+  const std::optional<Reach>& reach = figure.reach;
+  std::vector<LegendEntry> entries = entries_of(figure.taught, part);
   const auto add = [&](Sign sign, std::size_t count, const std::string& one, const std::string& many) {
     if (count == 0) return;
     std::string text = counted(count, one, many);
@@ -69,7 +72,7 @@ Legend legend_of(const Part& part, const std::optional<Reach>& reach, double wid
       "vertices (\u03ba\u2032 changes sign)");
   add(Sign::corner, part.corners().size(), "corner (\u0398 jumps)", "corners (\u0398 jumps)");
   if (reach) entries.push_back({Sign::line, kBlocked, {{blocked_text(*reach)}}});
-  return {std::move(entries), width};
+  return {std::move(entries), figure.width};
 }
 
 /// The part above, its curvature and turning function below.
@@ -79,29 +82,36 @@ class PartPicture {
       : figure_(figure),
         part_(*figure.part),
         framing_(framing()),
-        legend_(legend_of(part_, figure.reach, figure.width)),
+        legend_(legend_of(figure)),
+        turns_off_(turns_off(part_, figure.taught)),
         plots_top_(kHeaderHeight + drawing_height(framing_) + legend_.height()),
-        svg_(figure.width, plots_top_ + 2 * (kPlotGap + kPlotHeight) + kPlotEnd),
+        svg_(figure.width, plots_top_ + plots() * (kPlotGap + kPlotHeight) + kPlotEnd),
         scene_(make_scene(part_, framing_, Vec2(0, kHeaderHeight))),
         obstacles_(figure.width, scene_.area.max().y()),
         events_(events_of(part_)),
         s_ticks_(round_ticks({0, part_.perimeter()}, 10)) {}
 
   Svg draw() {
-    draw_header(svg_, figure_.title.empty() ? part_.name() : figure_.title,
-                fmt::format("{} {}", part_.closed() ? "perimeter" : "length", pretty(part_.perimeter(), 6)),
-                {{summary()}});
+    draw_header(
+        svg_, figure_.title.empty() ? part_.name() : figure_.title,
+        fmt::format("{} {}", part_.closed() ? "perimeter" : "length", with_unit(pretty(part_.perimeter(), 6), part_)),
+        {{summary()}});
     shape();
     legend_.draw(svg_, scene_.area.max().y());
     curvature_plot();
     turning_plot();
+    rows_plot();
     return std::move(svg_);
   }
 
  private:
+  double plots() const { return turns_off_.empty() ? 2 : 3; }
+
   Framing framing() const {
     Framing framing;
     framing.part = part_bounds(part_);
+    framing.extras = bounds_of(figure_.others, framing.part);
+    framing.extras.extend(bounds_of(figure_.taught, framing.part));
     framing.margin = kMargin;
     framing.width = figure_.width;
     framing.least_height = 0.22 * figure_.width;
@@ -132,7 +142,9 @@ class PartPicture {
   void shape() {
     svg_.open_clip(scene_.area.min().x(), scene_.area.min().y(), scene_.area.sizes().x(), scene_.area.sizes().y());
     draw_material(svg_, scene_, part_);
+    draw_others(svg_, scene_, figure_.others);
     draw_boundary(svg_, scene_, part_);
+    draw_rows(svg_, scene_, figure_.taught, labels_, obstacles_);
     blocked_arcs();
     obstacles_.add(scene_.boundary.points);
     draw_origin(svg_, scene_, obstacles_);
@@ -144,7 +156,7 @@ class PartPicture {
       obstacles_.add_box(at - half, at + half);
     }
     svg_.close_group();
-    draw_scale_bar(svg_, scene_);
+    draw_scale_bar(svg_, scene_, part_);
     labels_.draw(svg_, obstacles_);
     svg_.close_group();
   }
@@ -218,13 +230,19 @@ class PartPicture {
     const auto value = [](const Turning& turning) { return turning.curvature; };
     const std::vector<Vec2> points = graph(part_, frame, value);
     svg_.open_group("curvature");
-    draw_axes(svg_, frame, s_ticks_, ticks, {{"curvature "}, {"\u03ba", true, false, false}}, note);
+    draw_axes(svg_, frame, s_ticks_, ticks, curvature_name(), note);
     blocked_bands(frame);
     corner_lines(frame);
     draw_graph(svg_, frame, points, stroke(kGraphColour, 1.4));
     cut_marks(frame, points);
     events_on(frame, value);
     svg_.close_group();
+  }
+
+  Text curvature_name() const {
+    Text name = {{"curvature "}, {"\u03ba", true, false, false}};
+    if (!unit_of(part_).empty()) name.push_back({", 1/" + unit_of(part_)});
+    return name;
   }
 
   void turning_plot() {
@@ -238,7 +256,23 @@ class PartPicture {
     corner_lines(frame);
     draw_graph(svg_, frame, graph(part_, frame, value), stroke(kGraphColour, 1.4));
     events_on(frame, value);
-    draw_x_name(svg_, frame, {{"arc length "}, {"s", true, false, false}});
+    if (turns_off_.empty()) name_s(frame);
+    svg_.close_group();
+  }
+
+  void name_s(const Axes& frame) {
+    draw_x_name(svg_, frame, with_unit(Text{{"arc length "}, {"s", true, false, false}}, part_));
+  }
+
+  /// Of a part that was taught.
+  void rows_plot() {
+    if (turns_off_.empty()) return;
+    const Axes frame = axes(2, range_of_turns(turns_off_));
+    svg_.open_group("row-turns");
+    draw_axes(svg_, frame, s_ticks_, round_ticks(frame.y, 5),
+              {{"turn of the rows as logged, less "}, {"\u0398", true, false, false}, {", degrees"}}, "");
+    draw_turns_off(svg_, frame, turns_off_);
+    name_s(frame);
     svg_.close_group();
   }
 
@@ -286,6 +320,7 @@ class PartPicture {
   const Part& part_;
   Framing framing_;
   Legend legend_;
+  std::vector<Vec2> turns_off_;
   double plots_top_;
   Svg svg_;
   Scene scene_;

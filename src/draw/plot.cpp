@@ -40,6 +40,55 @@ std::string pretty(double value, int digits) {
 
 std::string pretty_degrees(double radians, int digits) { return pretty(radians / kDegree, digits) + "\u00b0"; }
 
+std::string percent(double probability) {
+  if (probability > 0.999) return "> 99.9 %";
+  if (probability < 0.001) return "< 0.1 %";
+  return pretty(100 * probability, probability < 0.1 ? 2 : 3) + " %";
+}
+
+namespace {
+
+/// Decimals that show two digits of a standard deviation.
+int decimals_of(double sd) { return std::clamp(1 - static_cast<int>(std::floor(std::log10(sd))), 0, 12); }
+
+std::string fixed(double value, int decimals) { return with_minus(fmt::format("{:.{}f}", value, decimals)); }
+
+}  // namespace
+
+std::string as_sure_as(double value, double sd) { return sd > 0 ? fixed(value, decimals_of(sd)) : pretty(value, 6); }
+
+std::string with_sd(double value, double sd) {
+  if (!(sd > 0)) return pretty(value, 6);
+  return fmt::format("{} \u00b1 {}", as_sure_as(value, sd), fixed(sd, decimals_of(sd)));
+}
+
+namespace {
+
+/// Of a part that knows its unit.
+template <class P>
+std::string unit_if_known(const P& part) {
+  if constexpr (requires { part.unit(); }) {
+    return part.unit();
+  } else {
+    return {};
+  }
+}
+
+}  // namespace
+
+std::string unit_of(const Part& part) { return unit_if_known(part); }
+
+std::string with_unit(const std::string& length, const Part& part) {
+  const std::string unit = unit_of(part);
+  return unit.empty() ? length : length + " " + unit;
+}
+
+Text with_unit(Text name, const Part& part) {
+  const std::string unit = unit_of(part);
+  if (!unit.empty()) name.push_back({", " + unit});
+  return name;
+}
+
 double round_below(double value) {
   const double power = std::pow(10.0, std::floor(std::log10(value)));
   for (const double digit : {5.0, 2.0}) {

@@ -16,6 +16,21 @@ std::string pretty(double value, int digits = 4);
 /// An angle in radians shown in degrees.
 std::string pretty_degrees(double radians, int digits = 4);
 
+/// A probability as a percentage; never 0 % or 100 %, which nothing is.
+std::string percent(double probability);
+
+/// A number with as many digits as its standard deviation leaves meaningful, and that: "1.410 \u00b1 0.053".
+std::string with_sd(double value, double sd);
+/// The number alone, with these digits.
+std::string as_sure_as(double value, double sd);
+
+/// What a part's lengths are in; empty: nobody said. All labels ask here.
+std::string unit_of(const Part& part);
+/// A length with its unit, if any.
+std::string with_unit(const std::string& length, const Part& part);
+/// What an axis is called, with its unit, if any.
+Text with_unit(Text name, const Part& part);
+
 /// Values for the marks of an axis.
 struct Ticks {
   std::vector<double> at;

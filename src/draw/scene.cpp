@@ -126,15 +126,56 @@ void draw_origin(Svg& svg, const Scene& scene, Obstacles& obstacles) {
   obstacles.add(arrow);
 }
 
-void draw_scale_bar(Svg& svg, const Scene& scene) {
+void draw_scale_bar(Svg& svg, const Scene& scene, const Part& part) {
   const double length = round_below(kScaleBarWidth * scene.area.sizes().x() / scene.view.scale);
   const double width = scene.pixels(length);
   const Vec2 left(scene.area.min().x() + 14, scene.area.max().y() - 8);
   const Vec2 right = left + Vec2(width, 0), up(0, -4);
   svg.open_group("scale-bar");
   svg.segments({left, right, left, left + up, right, right + up}, stroke(kSoftInk, 1.2));
-  svg.text(right + Vec2(6, 1), {{pretty(length)}}, {10, Align::start, std::string(kSoftInk)});
+  svg.text(right + Vec2(6, 1), {{with_unit(pretty(length), part)}}, {10, Align::start, std::string(kSoftInk)});
   svg.close_group();
+}
+
+namespace {
+
+constexpr int kOtherSteps = 200;       // of each curve that is not used
+constexpr double kMostOtherReach = 1;  // beyond the part, as a fraction of its size
+constexpr double kOtherWidth = 0.7;    // pixels
+
+}  // namespace
+
+std::vector<Vec2> polyline_of(const Outline& outline) {
+  std::vector<Vec2> points;
+  for (const Curve& curve : outline.curves) {
+    const Interval range = curve.domain();
+    for (int k = points.empty() ? 0 : 1; k <= kOtherSteps; ++k) {
+      points.push_back(curve.position(range.lo + range.width() * k / kOtherSteps));
+    }
+  }
+  return points;
+}
+
+void draw_others(Svg& svg, const Scene& scene, const std::vector<Outline>& others) {
+  if (others.empty()) return;
+  svg.open_group("others");
+  for (const Outline& other : others) {
+    std::vector<Vec2> path;
+    for (const Vec2& point : polyline_of(other)) path.push_back(scene.view(point));
+    svg.polyline(pick(path, simplify(path, kInvisible, kMostVertices)), stroke(kSoftInk, kOtherWidth));
+  }
+  svg.close_group();
+}
+
+Box bounds_of(const std::vector<Outline>& others, const Box& bounds) {
+  const Vec2 reach = Vec2::Constant(kMostOtherReach * bounds.sizes().maxCoeff());
+  Box box;
+  for (const Outline& other : others) {
+    for (const Vec2& point : polyline_of(other)) {
+      box.extend(point.cwiseMax(bounds.min() - reach).cwiseMin(bounds.max() + reach));
+    }
+  }
+  return box;
 }
 
 void draw_arrowhead(Svg& svg, const std::vector<Vec2>& path, double size, std::string_view colour) {

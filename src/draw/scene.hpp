@@ -60,8 +60,16 @@ void draw_corners(Svg& svg, const Scene& scene, const Part& part, Obstacles& obs
 /// A tick across the boundary at s = 0 with an arrow in the direction of growing s. The label is the caller's.
 void draw_origin(Svg& svg, const Scene& scene, Obstacles& obstacles);
 
-/// A length in the outline's unit, at the lower left of the area.
-void draw_scale_bar(Svg& svg, const Scene& scene);
+/// A length in the outline's unit, with its name, at the lower left of the area.
+void draw_scale_bar(Svg& svg, const Scene& scene, const Part& part);
+
+/// An outline's points, near enough to be drawn thin.
+std::vector<Vec2> polyline_of(const Outline& outline);
+
+/// What else a drawing holds, thin.
+void draw_others(Svg& svg, const Scene& scene, const std::vector<Outline>& others);
+/// As much room as that takes, unless it reaches too far beyond the part (of these bounds).
+Box bounds_of(const std::vector<Outline>& others, const Box& bounds);
 
 /// A filled triangle with its tip at the end of the path. The line itself should end before it, see without_tip.
 void draw_arrowhead(Svg& svg, const std::vector<Vec2>& path, double size, std::string_view colour);

@@ -8,6 +8,8 @@
 #include <variant>
 
 #include "files/formats.hpp"
+#include "files/noisy_points.hpp"
+#include "files/sparse_corners.hpp"
 #include "outline/naming.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/files/saved_part.hpp"
@@ -112,7 +114,44 @@ void require_options_for(FileKind kind, const std::string& name, const LoadOptio
 }
 
 LoadedPart of_outline(Outline outline, const LoadOptions& options) {
-  return {Part(std::move(outline), {options.allow_crossing}), "", {}, 0, {}};
+  std::string unit = outline.unit;
+  return {Part(std::move(outline), {options.allow_crossing}), std::move(unit), {}, 0, {}};
+}
+
+/// Pixels are no length: what a drawing in them measures, nobody said.
+constexpr const char* kPixels = "px";
+
+bool states_a_length(const std::string& unit) { return !unit.empty() && unit != kPixels; }
+
+/// The unit that a file's lengths come out in, and how.
+struct Unified {
+  std::string unit;
+  double factor = 1;
+};
+
+Unified unified(const std::string& name, const std::string& stated, const std::string& wanted,
+                std::vector<std::string>& notes) {
+  if (wanted.empty() || wanted == stated) return {stated, 1};
+  if (!states_a_length(stated)) {
+    if (!stated.empty()) notes.push_back(fmt::format("its lengths, {}, are taken as {}", stated, wanted));
+    return {wanted, 1};
+  }
+  const double factor = length_conversion(stated, wanted, name)(1);
+  notes.push_back(fmt::format("converted from {} to {}", stated, wanted));
+  return {wanted, factor};
+}
+
+/// Throws InputError: a unit that is not one of length.
+LoadOptions with_known_unit(const LoadOptions& options) {
+  LoadOptions result = options;
+  if (options.points.unit.empty()) return result;
+  const std::optional<Unit> unit = unit_named(options.points.unit);
+  if (!unit || unit->dimension != Dimension::length) {
+    throw InputError(
+        fmt::format("`unit` {}: expected a unit of length: {}", options.points.unit, unit_names(Dimension::length)));
+  }
+  result.points.unit = unit->name;
+  return result;
 }
 
 [[noreturn]] void refuse_open(const std::string& name, const Loop& longest) {
@@ -164,7 +203,7 @@ std::vector<std::string> notes_on(const Drawing& drawing, const Loops& found, st
 }
 
 /// The ends of a loop's lines as points of a scan, to be smoothed.
-Outline smoothed(const Loop& loop, const std::string& name, const LoadOptions& options,
+Outline smoothed(const Loop& loop, const std::string& name, const LoadOptions& options, const std::string& unit,
                  std::vector<std::string>& notes) {
   std::vector<Vec2> points;
   for (const Curve& curve : loop.outline.curves) {
@@ -179,33 +218,81 @@ Outline smoothed(const Loop& loop, const std::string& name, const LoadOptions& o
   }
   OutlineOptions as_points = options.points;
   as_points.open = !loop.outline.closed;
+  as_points.unit = unit;
   if (as_points.open) points.push_back(loop.outline.curves.back().back());
   Outline outline = outline_through(points, name, as_points, &notes);
   outline.hole = loop.outline.hole;
   return outline;
 }
 
-LoadedPart of_drawing(const Drawing& drawing, const LoadOptions& options) {
-  const Loops found = loops(drawing, {options.gap});
+LoadedPart of_drawing(Drawing drawing, const LoadOptions& options) {
+  const auto [unit, factor] = unified(drawing.name, drawing.unit, options.points.unit, drawing.notes);
+  if (factor != 1) {
+    for (DrawnCurve& one : drawing.curves) one.curve = scaled(one.curve, factor);
+  }
+  LoopOptions joining;
+  if (options.gap) joining.gap = in_unit(*options.gap, states_a_length(unit) ? unit : "", "`gap`");
+  Loops found = loops(drawing, joining);
+  for (std::vector<Loop>* some : {&found.closed, &found.open}) {
+    for (Loop& loop : *some) loop.outline.unit = unit;
+  }
   std::vector<Loop> all = found.closed;
   all.insert(all.end(), found.open.begin(), found.open.end());
   const std::size_t chosen = choice(drawing.name, found, options);
   std::vector<std::string> notes = notes_on(drawing, found, chosen, all[chosen], options);
   const bool corner_angle_alone = !options.points.smooth && options.points.corner_angle.has_value();
   refuse(corner_angle_alone ? "`corner_angle`" : "", "points", drawing.name, "a drawing");
-  Outline outline = options.points.smooth ? smoothed(all[chosen], drawing.name, options, notes) : all[chosen].outline;
+  Outline outline =
+      options.points.smooth ? smoothed(all[chosen], drawing.name, options, unit, notes) : all[chosen].outline;
   Part part(std::move(outline), {options.allow_crossing});
-  return {std::move(part), drawing.unit, std::move(all), chosen + 1, std::move(notes)};
+  return {std::move(part), unit, std::move(all), chosen + 1, std::move(notes)};
 }
 
 LoadedPart of_json(const std::string& text, const std::string& name, const LoadOptions& options) {
   std::variant<Outline, Drawing> content = parse_json_outline(text, name);
-  if (const Drawing* drawing = std::get_if<Drawing>(&content)) {
+  if (Drawing* drawing = std::get_if<Drawing>(&content)) {
     require_options_for(FileKind::json, name, options);
-    return of_drawing(*drawing, options);
+    return of_drawing(std::move(*drawing), options);
   }
   require_options_for(FileKind::gallery, name, options);
-  return of_outline(std::move(std::get<Outline>(content)), options);
+  auto& outline = std::get<Outline>(content);
+  outline.unit = options.points.unit;
+  return of_outline(std::move(outline), options);
+}
+
+LoadedPart of_points(const std::string& text, const std::string& name, const LoadOptions& options) {
+  std::vector<std::string> notes;
+  OutlineOptions known = options.points;
+  const std::vector<Vec2> points = parse_points(text, name, options.points, &notes, &known.unit);
+  Outline outline = outline_through(points, name, known, &notes);
+  LoadedPart loaded = [&] {
+    try {
+      return of_outline(std::move(outline), options);
+    } catch (const InputError& error) {
+      const std::string message = error.what();
+      const bool crosses = message.find("`allow_crossing`") != std::string::npos;
+      throw InputError(message + (crosses ? noisy_crossing_hint(points, known) : ""));
+    }
+  }();
+  for (const std::string& note :
+       {sparse_corners_note(points, known, loaded.part), noisy_points_note(points, known, loaded.part)}) {
+    if (!note.empty()) notes.push_back(note);
+  }
+  loaded.notes = std::move(notes);
+  return loaded;
+}
+
+/// What was saved stays, to the bit, unless it is to be in another unit.
+LoadedPart of_saved_part(const std::string& text, const std::string& name, const LoadOptions& options) {
+  Part part = parse_part(text, name);
+  std::vector<std::string> notes;
+  const auto [unit, factor] = unified(name, part.unit(), options.points.unit, notes);
+  if (unit != part.unit()) {
+    const PartOptions as_it_is{true};  // whoever saved it allowed what there is
+    part = factor == 1 ? with_unit(part, unit) : Part(scaled(part.outline(), factor, unit), as_it_is);
+  }
+  for (std::string& note : notes) note.insert(0, name + ": ");
+  return {std::move(part), unit, {}, 0, std::move(notes)};
 }
 
 LoadedPart of_file(FileKind kind, const std::string& text, const std::string& name, const LoadOptions& options) {
@@ -215,33 +302,31 @@ LoadedPart of_file(FileKind kind, const std::string& text, const std::string& na
     case FileKind::svg:
       return of_drawing(parse_svg(text, name), options);
     case FileKind::saved_part:
-      return {parse_part(text, name), "", {}, 0, {}};
+      return of_saved_part(text, name, options);
     case FileKind::json:
       return of_json(text, name, options);
-    default: {
-      std::vector<std::string> notes;
-      const std::vector<Vec2> points = parse_points(text, name, options.points, &notes);
-      LoadedPart loaded = of_outline(outline_through(points, name, options.points, &notes), options);
-      loaded.notes = std::move(notes);
-      return loaded;
-    }
+    default:
+      return of_points(text, name, options);
   }
 }
 
 }  // namespace
 
 LoadedPart load_part(const std::string& argument, const LoadOptions& options) {
+  const LoadOptions known = with_known_unit(options);
   const std::string name = argument == "-" ? kStandardInput : argument;
   try {
     const FileKind by_name = kind_by_name(argument);
     if (by_name == FileKind::gallery) {
-      require_options_for(by_name, name, options);
-      return of_outline(load_outline(argument), options);
+      require_options_for(by_name, name, known);
+      Outline outline = load_outline(argument);
+      outline.unit = known.points.unit;
+      return of_outline(std::move(outline), known);
     }
     const std::string text = read_text(argument);
     const FileKind kind = kind_by_content(by_name, argument == "-", text);
-    if (kind != FileKind::json) require_options_for(kind, name, options);
-    return of_file(kind, text, name, options);
+    if (kind != FileKind::json) require_options_for(kind, name, known);
+    return of_file(kind, text, name, known);
   } catch (const InputError& error) {
     const std::string message = error.what();
     const bool named = argument.rfind("gallery:", 0) == 0 || message.find(name) != std::string::npos;

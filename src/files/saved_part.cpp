@@ -156,6 +156,16 @@ std::vector<Curve> curves_from(const Json& runs, ByteReader& numbers) {
   return curves;
 }
 
+Json accuracy_json(const Accuracy& accuracy) {
+  return {{"length", accuracy.length}, {"turn", accuracy.turn}, {"alike", accuracy.alike}, {"walk", accuracy.walk}};
+}
+
+/// Files from before parts had one have none: exact.
+Accuracy accuracy_from(const Json& json) {
+  return {json.at("length").get<double>(), json.at("turn").get<double>(), json.at("alike").get<double>(),
+          json.at("walk").get<double>()};
+}
+
 [[noreturn]] void refuse(const std::string& name, const std::string& what) {
   throw InputError(fmt::format("{}: {}: make it again with rollfix inspect PART -o {}", name, what, name));
 }
@@ -187,6 +197,8 @@ std::string format_part(const Part& part) {
   json["closed"] = outline.closed;
   json["reversed"] = outline.reversed;
   json["hole"] = outline.hole;
+  if (!outline.unit.empty()) json["unit"] = outline.unit;
+  if (!outline.accuracy.is_exact()) json["accuracy"] = accuracy_json(outline.accuracy);
   if (outline.gallery.empty() || outline.reversed) {
     json["curves"] = curves_json(outline, writing.bytes);
   } else {
@@ -230,6 +242,8 @@ Part parse_part(std::string_view text, const std::string& name) {
     data.outline.closed = json.at("closed").get<bool>();
     data.outline.reversed = json.at("reversed").get<bool>();
     data.outline.hole = json.at("hole").get<bool>();
+    if (json.contains("unit")) data.outline.unit = json.at("unit").get<std::string>();
+    if (json.contains("accuracy")) data.outline.accuracy = accuracy_from(json.at("accuracy"));
     reading(data.outline.gap);
     pass_part(reading, data);
     Access::set_closed(data.turning, data.outline.closed);

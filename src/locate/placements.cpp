@@ -176,7 +176,9 @@ const char* name_of(Kind kind) {
   return "corner";
 }
 
-std::string Verdict::text() const {
+std::string Verdict::text() const { return fits_badly ? places_text() + ", but the rows fit badly" : places_text(); }
+
+std::string Verdict::places_text() const {
   switch (name) {
     case unique:
       return "unique";

@@ -51,9 +51,33 @@ struct Reversed {
   }
 };
 
+/// What the record of a scaled curve has before its kind; the factor is its last number.
+constexpr std::string_view kScaledPrefix = "scaled ";
+
+struct Scaled {
+  Curve original;
+  double factor;
+
+  Interval domain() const { return original.domain(); }
+  Jet jet(double u) const {
+    const Jet jet = original.jet(u);
+    return {factor * jet.position, factor * jet.first, factor * jet.second, factor * jet.third};
+  }
+  Vec2 velocity(double u) const { return factor * original.velocity(u); }
+  std::optional<CurveRecord> record() const {
+    std::optional<CurveRecord> record = original.record();
+    if (!record) return record;
+    record->kind.insert(0, kScaledPrefix);
+    record->numbers.push_back(factor);
+    return record;
+  }
+};
+
 }  // namespace
 
 Curve reversed(const Curve& curve) { return Reversed{curve}; }
+
+Curve scaled(const Curve& curve, double factor) { return Scaled{curve, factor}; }
 
 namespace {
 
@@ -133,6 +157,14 @@ constexpr std::array<Kind, 11> kKinds = {{
 Curve curve_from(const CurveRecord& record) {
   if (record.kind.rfind(kReversedPrefix, 0) == 0) {
     return reversed(curve_from({record.kind.substr(kReversedPrefix.size()), record.numbers}));
+  }
+  if (record.kind.rfind(kScaledPrefix, 0) == 0) {
+    if (record.numbers.empty() || !(record.numbers.back() > 0)) {
+      throw InputError(fmt::format("a curve of kind '{}' ends with a factor above 0", record.kind));
+    }
+    return scaled(
+        curve_from({record.kind.substr(kScaledPrefix.size()), {record.numbers.begin(), record.numbers.end() - 1}}),
+        record.numbers.back());
   }
   const auto* const kind =
       std::find_if(kKinds.begin(), kKinds.end(), [&](const Kind& one) { return one.name == record.kind; });

@@ -7,6 +7,7 @@
 
 #include "outline/shapes/shapes.hpp"
 #include "rollfix/error.hpp"
+#include "text/number.hpp"
 #include "text/text.hpp"
 
 namespace rollfix {
@@ -231,7 +232,8 @@ Outline gallery(const std::string& specification) {
     const std::size_t equals = parts[i].find('=');
     if (equals == std::string_view::npos) {
       throw InputError(
-          fmt::format("'{}' in '{}': expected a parameter as in gallery:ellipse,a=2,b=1", parts[i], specification));
+          fmt::format("'{}' in '{}': expected a parameter as in gallery:ellipse,a=2,b=1{}", parts[i], specification,
+                      parse_number(trimmed(parts[i])) ? "; numbers take a decimal point, not a comma" : ""));
     }
     parameters.emplace_back(trimmed(parts[i].substr(0, equals)), trimmed(parts[i].substr(equals + 1)));
   }

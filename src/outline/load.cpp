@@ -33,11 +33,14 @@ Outline load_outline(const std::string& argument, const OutlineOptions& options,
   if (argument.rfind("gallery:", 0) == 0) {
     Outline outline = gallery(argument);
     outline.name = argument;
+    outline.unit = options.unit;
     return outline;
   }
   const std::string ending = ending_of(argument);
   if (argument == "-" || ending == ".csv" || ending == ".dat" || ending == ".txt") {
-    return outline_through(read_points(argument, options, notes), argument, options, notes);
+    OutlineOptions known = options;
+    const std::vector<Vec2> points = read_points(argument, options, notes, &known.unit);
+    return outline_through(points, argument, known, notes);
   }
   if (ending == ".json" || ending == ".dxf" || ending == ".svg") {
     throw InputError(

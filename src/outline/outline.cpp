@@ -250,12 +250,24 @@ Outline reversed(const Outline& outline) {
   result.reversed = !outline.reversed;
   result.hole = outline.hole;
   result.gallery = outline.gallery;
+  result.unit = outline.unit;
   result.gap = outline.gap;
+  result.accuracy = outline.accuracy;
   result.curves.reserve(outline.curves.size());
   // A closed outline's first point is also the end of its last curve, and so stays the first point.
   for (auto curve = outline.curves.rbegin(); curve != outline.curves.rend(); ++curve) {
     result.curves.push_back(reversed(*curve));
   }
+  return result;
+}
+
+Outline scaled(const Outline& outline, double factor, const std::string& unit) {
+  Outline result = outline;
+  result.unit = unit;
+  if (factor == 1) return result;
+  result.gallery.clear();
+  result.gap *= factor;
+  for (Curve& curve : result.curves) curve = scaled(curve, factor);
   return result;
 }
 

@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 
 #include "outline/box.hpp"
+#include "outline/point_table.hpp"
 #include "rollfix/error.hpp"
-#include "text/number.hpp"
 #include "text/text.hpp"
 
 namespace rollfix {
@@ -25,106 +24,6 @@ constexpr double kMostChordCoordinate = 1.5;
 constexpr double kChordSlack = 0.02;
 /// Fewer points are not taken for an airfoil's.
 constexpr std::size_t kLeastAirfoilPoints = 6;
-
-/// Points with the lines of the file that they came from.
-struct NumberedPoints {
-  std::vector<Vec2> points;
-  std::vector<std::size_t> lines;
-  bool has_title = false;
-};
-
-/// What a line holds.
-enum class LineKind { blank, point, words, one_number, mixed_separators };
-
-bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r'; }
-bool is_mark(char c) { return c == ',' || c == ';'; }
-
-/// Between two fields: blanks with at most one comma or semicolon among them. Returns the mark, a blank when there
-/// is none, or 0 when the line ends or nothing separates.
-char skip_separator(const char*& cursor, const char* end) {
-  const char* const start = cursor;
-  char mark = ' ';
-  while (cursor != end && is_space(*cursor)) ++cursor;
-  if (cursor != end && is_mark(*cursor)) {
-    mark = *cursor++;
-    while (cursor != end && is_space(*cursor)) ++cursor;
-  }
-  const bool line_ends = cursor == end && mark == ' ';
-  return line_ends || cursor == start ? '\0' : mark;
-}
-
-LineKind read_line(const char* cursor, const char* end, Vec2& point) {
-  while (cursor != end && is_space(*cursor)) ++cursor;
-  if (cursor == end) return LineKind::blank;
-  if (!scan_number(cursor, end, point.x())) return LineKind::words;
-  const char first_mark = skip_separator(cursor, end);
-  if (first_mark == '\0') return cursor == end ? LineKind::one_number : LineKind::words;
-  if (cursor == end) return LineKind::one_number;  // "1,"
-  if (!scan_number(cursor, end, point.y())) return LineKind::words;
-  const char second_mark = skip_separator(cursor, end);
-  if (second_mark == '\0') return cursor == end ? LineKind::point : LineKind::words;
-  // "1,5;2,5" or "1,5 2,5": a decimal comma, most likely, and nothing that could be taken for a point by mistake.
-  return is_mark(first_mark) && second_mark != first_mark ? LineKind::mixed_separators : LineKind::point;
-}
-
-[[noreturn]] void refuse_line(const std::string& name, std::size_t number, std::string_view line, LineKind kind) {
-  const std::string where = fmt::format("{}:{}: '{}'", name, number, shown(line));
-  switch (kind) {
-    case LineKind::one_number:
-      throw InputError(where + " is only one number, expected two as in '1.5 2'; a title goes behind a #");
-    case LineKind::mixed_separators:
-      throw InputError(where + " mixes separators, expected 'x y' or 'x,y' with decimal points, not commas");
-    default:
-      throw InputError(where + " is not two numbers, expected a point as in '1.5 2' or '1.5,2'");
-  }
-}
-
-void refuse_binary(std::string_view text, const std::string& name) {
-  const std::string_view head = text.substr(0, 1024);
-  if (has_utf16_mark(text))
-    throw InputError(fmt::format("{}: is UTF-16 text, expected plain text; save it as UTF-8", name));
-  if (head.find('\0') != std::string_view::npos) {
-    throw InputError(fmt::format("{}: is not a text file, expected one point 'x y' per line", name));
-  }
-}
-
-/// One pass over the text.
-NumberedPoints read_lines(std::string_view text, const std::string& name) {
-  refuse_binary(text, name);
-  text = without_mark(text);
-  NumberedPoints result;
-  bool title_may_come = true;
-  std::size_t number = 0;
-  const char* cursor = text.data();
-  const char* const end = text.data() + text.size();
-  while (cursor != end) {
-    ++number;
-    const auto rest = static_cast<std::size_t>(end - cursor);
-    const auto* const newline = static_cast<const char*>(std::memchr(cursor, '\n', rest));
-    const char* const line_end = newline != nullptr ? newline : end;
-    const std::string_view line(cursor, static_cast<std::size_t>(line_end - cursor));
-    cursor = newline != nullptr ? newline + 1 : end;
-
-    const std::string_view data = line.substr(0, line.find('#'));
-    Vec2 point;
-    const LineKind kind = read_line(data.data(), data.data() + data.size(), point);
-    if (kind == LineKind::blank) continue;
-    const bool is_title = kind == LineKind::words && title_may_come;
-    title_may_come = false;
-    if (is_title) {
-      result.has_title = true;
-      continue;
-    }
-    if (kind != LineKind::point) refuse_line(name, number, line, kind);
-    if (!(point.cwiseAbs().maxCoeff() <= kMostCoordinate) || point.hasNaN()) {
-      throw InputError(fmt::format("{}:{}: the point ({}, {}) is out of range, expected finite numbers of at most {}",
-                                   name, number, point.x(), point.y(), kMostCoordinate));
-    }
-    result.points.push_back(point);
-    result.lines.push_back(number);
-  }
-  return result;
-}
 
 // ---- airfoils
 
@@ -178,6 +77,8 @@ std::size_t lednicer_count(const NumberedPoints& data, const std::string& name) 
 void reorder(NumberedPoints& data, std::size_t above) {
   NumberedPoints loop;
   loop.has_title = data.has_title;
+  loop.unit = data.unit;
+  loop.notes = data.notes;
   const auto take = [&](std::size_t i) {
     loop.points.push_back(data.points[i]);
     loop.lines.push_back(data.lines[i]);
@@ -268,13 +169,29 @@ void refuse_flat(const std::vector<Vec2>& points, double size, const std::string
                                name, points.size()));
 }
 
+/// Brings points whose header states a unit to the one that is wanted; without it they are taken to be in that.
+void convert(NumberedPoints& data, const std::string& name, const std::string& wanted) {
+  if (wanted.empty() || data.unit == wanted) return;
+  if (!data.unit.empty()) {
+    const Conversion to = length_conversion(data.unit, wanted, name);
+    for (Vec2& point : data.points) point = {to(point.x()), to(point.y())};
+    data.notes.push_back(fmt::format("converted from {} to {}", data.unit, wanted));
+  }
+  data.unit = wanted;
+}
+
 }  // namespace
 
 std::vector<Vec2> parse_points(std::string_view text, const std::string& name, const OutlineOptions& options,
-                               std::vector<std::string>* notes) {
-  NumberedPoints data = read_lines(text, name);
+                               std::vector<std::string>* notes, std::string* unit) {
+  NumberedPoints data = read_point_table(text, name);
   const std::string airfoil = order_airfoil(data, name);
-  if (!airfoil.empty() && notes != nullptr) notes->push_back(fmt::format("{}: {}", name, airfoil));
+  if (!airfoil.empty()) data.notes.push_back(airfoil);
+  convert(data, name, options.unit);
+  if (unit != nullptr) *unit = data.unit;
+  for (std::size_t k = 0; notes != nullptr && k < data.notes.size(); ++k) {
+    notes->push_back(fmt::format("{}: {}", name, data.notes[k]));
+  }
   if (data.points.size() < 2) require_enough(data, name, options);
   const double size = box_around(data.points).diagonal().norm();
   if (!(size > 0)) {
@@ -292,8 +209,9 @@ std::vector<Vec2> parse_points(std::string_view text, const std::string& name, c
   return std::move(data.points);
 }
 
-std::vector<Vec2> read_points(const std::string& path, const OutlineOptions& options, std::vector<std::string>* notes) {
-  return parse_points(read_text(path), path == "-" ? "standard input" : path, options, notes);
+std::vector<Vec2> read_points(const std::string& path, const OutlineOptions& options, std::vector<std::string>* notes,
+                              std::string* unit) {
+  return parse_points(read_text(path), path == "-" ? "standard input" : path, options, notes, unit);
 }
 
 Outline outline_through(const std::vector<Vec2>& points, const std::string& name, const OutlineOptions& options,
@@ -301,15 +219,17 @@ Outline outline_through(const std::vector<Vec2>& points, const std::string& name
   Outline outline;
   outline.name = name;
   outline.closed = !options.open;
+  outline.unit = options.unit;
   const double corner_angle = options.corner_angle.value_or(kCornerAngle);
   if (!options.smooth) {
     outline.curves = spline_through(points, outline.closed, corner_angle);
     return outline;
   }
-  Smoothing smoothing = smooth_spline(points, outline.closed, *options.smooth, corner_angle);
+  const double within = in_unit(*options.smooth, options.unit, "`smooth`");
+  Smoothing smoothing = smooth_spline(points, outline.closed, within, corner_angle);
   if (notes != nullptr) {
     notes->push_back(fmt::format("smoothed: within {:.6g} of all {} points (largest deviation {:.4g}), {} curves, {}",
-                                 *options.smooth, points.size(), smoothing.deviation, smoothing.curves.size(),
+                                 within, points.size(), smoothing.deviation, smoothing.curves.size(),
                                  counted(smoothing.corners.size(), "corner", "corners")));
   }
   outline.curves = std::move(smoothing.curves);

@@ -171,6 +171,12 @@ std::vector<Vec2> Part::polyline(double lo, double hi, int count) const {
   return points;
 }
 
+Part with_unit(const Part& part, const std::string& unit) {
+  PartAccess::Data data = PartAccess::data(part);
+  data.outline.unit = unit;
+  return PartAccess::part(std::move(data));
+}
+
 Part load_part(const std::string& source) { return Part(load_outline(source)); }
 
 std::vector<double> find_inflections(const TurningFunction& turning) {

@@ -42,6 +42,26 @@ std::optional<double> parse_angle(std::string_view text) {
   return *value * kRadiansOfDegree;
 }
 
+std::string decimal_comma_hint(std::string_view text) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const auto digits_from = [&](std::size_t k) {
+    const std::size_t start = k;
+    while (k < text.size() && is_digit(text[k])) ++k;
+    return k - start;
+  };
+  const std::size_t start = !text.empty() && (text.front() == '-' || text.front() == '+') ? 1 : 0;
+  const std::size_t before = digits_from(start);
+  const std::size_t comma = start + before;
+  if (before == 0 || comma >= text.size() || text[comma] != ',') return "";
+  const std::size_t after = digits_from(comma + 1);
+  if (after == 0) return "";
+  const std::string_view rest = text.substr(comma + 1 + after);
+  const bool has_more = std::any_of(rest.begin(), rest.end(), [&](char c) { return is_digit(c) || c == ','; });
+  if (has_more) return "";
+  return "; numbers take a decimal point, as in " + std::string(text.substr(0, comma)) + "." +
+         std::string(text.substr(comma + 1)) + ", not a comma";
+}
+
 double rounding_of(std::string_view number) {
   const double unit = strip_degrees(number) ? kRadiansOfDegree : 1;
   bool after_point = false;

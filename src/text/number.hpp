@@ -3,6 +3,7 @@
 #include <fast_float/fast_float.h>
 
 #include <optional>
+#include <string>
 #include <string_view>
 #include <system_error>
 
@@ -34,6 +35,10 @@ inline std::optional<double> parse_number(std::string_view text) {
 /// An angle as a user writes it, in radians: "1.27" is radians, "73deg" degrees. Nothing when it is neither.
 /// "nan" and "inf" are numbers here, for the caller to refuse.
 std::optional<double> parse_angle(std::string_view text);
+
+/// "; numbers take a decimal point, as in 0.5, not a comma" of a number with a decimal comma, such as "0,5",
+/// "-12,25deg" or "8,5mm": the end of a message that refuses it. Empty of all else.
+std::string decimal_comma_hint(std::string_view text);
 
 /// How far rounding can have moved a number that is written like this: half a unit of its last digit, so 0.005 for
 /// "1.20", 5e-7 for "1.5e-6", in radians for "73.5deg". 0 for what is taken as exact: a whole number without decimals

@@ -16,6 +16,8 @@ namespace rollfix {
 
 namespace {
 
+constexpr std::size_t kLeastBeginning = 4;  // of a name: so many letters may stand for it
+
 bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xc0U) == 0x80U; }
 
 /// Optimal string alignment distance.
@@ -103,7 +105,10 @@ std::string nearest_name(const std::string& typed, const std::vector<std::string
       nearest = name;
     }
   }
-  return nearest;
+  if (!nearest.empty() || typed.size() < kLeastBeginning) return nearest;
+  const auto begun = std::find_if(names.begin(), names.end(),
+                                  [&](const std::string& name) { return name.compare(0, typed.size(), typed) == 0; });
+  return begun == names.end() ? "" : *begun;
 }
 
 std::string known_names(const std::string& typed, const std::vector<std::string>& names) {

@@ -34,7 +34,7 @@ std::string shown(std::string_view text);
 std::string counted(std::size_t count, std::string_view one, std::string_view many);
 
 /// The name that takes the fewest edits (letters inserted, dropped, changed, or two neighbours swapped) to get
-/// from what was typed; empty when none is near enough to be what was meant.
+/// from what was typed, or else one that begins with it; empty when none is near enough to be what was meant.
 std::string nearest_name(const std::string& typed, const std::vector<std::string>& names);
 
 /// For an error message: "did you mean 'ellipse'? Known are: circle, ellipse", the question only where a name is near.

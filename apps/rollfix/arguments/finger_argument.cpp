@@ -8,6 +8,8 @@
 #include "rollfix/arguments/typed_number.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/files/load_part.hpp"
+#include "rollfix/units.hpp"
+#include "text/number.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::app {
@@ -16,14 +18,26 @@ namespace {
 constexpr const char* kJaw = "jaw";
 constexpr std::string_view kOpen = ",open";
 
-DiskFinger read_disk(const std::string& text) {
+/// "did you mean disk,r=10? ", of what looks like a disk: "disc,r=10", "circle,r=10", "disk,10", "r=10".
+std::string question_about(const std::vector<std::string_view>& fields) {
+  std::string_view radius = fields.back();
+  for (const std::string_view mark : {"r=", "radius=", "R="}) {
+    if (radius.substr(0, mark.size()) == mark) radius.remove_prefix(mark.size());
+  }
+  if (fields.size() > 2 || !parse_length(radius)) return "";
+  return fmt::format("did you mean disk,r={}? ", radius);
+}
+
+DiskFinger read_disk(const std::string& text, const std::string& unit) {
   const std::string what = fmt::format("--finger {}", text);
   const std::vector<std::string_view> fields = split(text, ',');
   const bool is_disk = fields.size() == 2 && fields[0] == "disk" && fields[1].substr(0, 2) == "r=";
   if (!is_disk) {
-    throw InputError(what + ": expected a disk with its radius, as in disk,r=0.1, or jaw, or the file of an outline");
+    throw InputError(fmt::format(
+        "{}: {}expected a disk with its radius, as in disk,r=0.1, or jaw, or the file of an outline{}", what,
+        question_about(fields), fields.size() == 3 ? decimal_comma_hint(text.substr(text.find('=') + 1)) : ""));
   }
-  const DiskFinger finger{read_number(fields[1].substr(2), what)};
+  const DiskFinger finger{read_length(fields[1].substr(2), what, unit)};
   try {
     require_valid(finger);
   } catch (const InputError& error) {
@@ -33,8 +47,9 @@ DiskFinger read_disk(const std::string& text) {
 }
 
 /// "pad.csv", "pad.csv,open", "gallery:stadium".
-Finger read_outlined(const std::string& text) {
+Finger read_outlined(const std::string& text, const std::string& unit) {
   LoadOptions options;
+  options.points.unit = unit;
   std::string name = text;
   if (text.size() > kOpen.size() && text.substr(text.size() - kOpen.size()) == kOpen) {
     options.points.open = true;
@@ -55,24 +70,24 @@ bool names_outline(const std::string& text) {
          std::isalpha(static_cast<unsigned char>(text[dot + 1])) != 0;
 }
 
-Finger read_any(const std::string& text) {
+Finger read_any(const std::string& text, const std::string& unit) {
   if (text == kJaw) return jaw();
-  return names_outline(text) ? read_outlined(text) : Finger(read_disk(text));
+  return names_outline(text) ? read_outlined(text, unit) : Finger(read_disk(text, unit));
 }
 
 }  // namespace
 
 void add_finger_argument(CLI::App& command, std::vector<std::string>& fingers) {
   command
-      .add_option(
-          "--finger", fingers,
-          "the finger: disk,r=RADIUS, in the outline's unit, or jaw, a flat one, or the file of a convex outline, with "
-          ",open behind it where it is open; for two fingers once or, where they differ, twice")
+      .add_option("--finger", fingers,
+                  "the finger: disk,r=RADIUS, in the part's unit or with its own as in r=8mm, or jaw, a flat one, or "
+                  "the file of a convex outline, with "
+                  ",open behind it where it is open; for two fingers once or, where they differ, twice")
       ->type_name("FINGER")
       ->allow_extra_args(false);
 }
 
-std::vector<Finger> read_fingers(const std::vector<std::string>& fingers, std::size_t most) {
+std::vector<Finger> read_fingers(const std::vector<std::string>& fingers, std::size_t most, const std::string& unit) {
   if (fingers.size() > most && most == 1) {
     throw InputError("--finger is given twice, which is two fingers, and the rest is about one; leave one out");
   }
@@ -80,7 +95,7 @@ std::vector<Finger> read_fingers(const std::vector<std::string>& fingers, std::s
     throw InputError(fmt::format("--finger is given {} times, expected at most two fingers", fingers.size()));
   }
   std::vector<Finger> read;
-  for (const std::string& text : fingers) read.push_back(read_any(text));
+  for (const std::string& text : fingers) read.push_back(read_any(text, unit));
   return read;
 }
 

@@ -13,8 +13,9 @@ namespace rollfix::app {
 void add_finger_argument(CLI::App& command, std::vector<std::string>& fingers);
 
 /// The fingers as typed, none or up to `most`: disk,r=R, jaw, or an outline. Where two are meant and one is given, both
-/// are alike. Throws InputError: no such finger, or too many.
-std::vector<Finger> read_fingers(const std::vector<std::string>& fingers, std::size_t most);
+/// are alike. `unit`: the part's, empty where it is not known; a finger's drawing in another is converted to it. Throws
+/// InputError: no such finger, or too many.
+std::vector<Finger> read_fingers(const std::vector<std::string>& fingers, std::size_t most, const std::string& unit);
 
 /// Throws InputError where one is no disk; `what` says for what it must be.
 void require_disks(const std::vector<Finger>& fingers, const std::string& what);

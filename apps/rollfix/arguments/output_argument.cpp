@@ -8,15 +8,21 @@
 #include "rollfix/error.hpp"
 #include "rollfix/files/saved_part.hpp"
 #include "rollfix/output/files.hpp"
+#include "rollfix/output/outline_numbers.hpp"
 #include "rollfix/usage.hpp"
 
 namespace rollfix::app {
 
 namespace {
 
-/// A saved part is known by its ending, which no figure has.
+// Saved parts and tables are known by their endings, which no figure has.
+
 bool names_a_part(const OutputArgument& argument) {
   return std::filesystem::path(argument.file).extension() == ".json";
+}
+
+bool names_a_table(const OutputArgument& argument) {
+  return std::filesystem::path(argument.file).extension() == ".csv";
 }
 
 }  // namespace
@@ -46,8 +52,18 @@ void add_figure(const OutputArgument& argument, const Svg& figure, Report& repor
   report.notes.push_back(fmt::format("wrote {}", argument.file));
 }
 
+void add_table(const OutputArgument& argument, const std::string& table, Report& report) {
+  if (argument.file == "-") {
+    report.notes.push_back(report.data.substr(0, report.data.find('\n')));
+    report.data = table;
+    return;
+  }
+  report.files.push_back({argument.file, table});
+  report.notes.push_back(fmt::format("wrote {}", argument.file));
+}
+
 void require_part_output(const OutputArgument& argument, bool json) {
-  if (names_a_part(argument)) {
+  if (names_a_part(argument) || names_a_table(argument)) {
     require_writable(argument.file, argument.force);
   } else {
     require_figure_output(argument, json);
@@ -57,11 +73,11 @@ void require_part_output(const OutputArgument& argument, bool json) {
 void add_part_output(const OutputArgument& argument, const Part& part, const std::function<Svg()>& figure,
                      Report& report) {
   if (argument.file.empty()) return;
-  if (!names_a_part(argument)) {
+  if (!names_a_part(argument) && !names_a_table(argument)) {
     add_figure(argument, figure(), report);
     return;
   }
-  report.files.push_back({argument.file, format_part(part)});
+  report.files.push_back({argument.file, names_a_part(argument) ? format_part(part) : outline_table(part)});
   report.notes.push_back(fmt::format("wrote {}", argument.file));
 }
 

@@ -26,10 +26,13 @@ void require_figure_output(const OutputArgument& argument, bool json);
 /// line is narrated.
 void add_figure(const OutputArgument& argument, const Svg& figure, Report& report);
 
-/// The same where -o may also name a saved part: a file that ends in .json.
+/// The same of a table.
+void add_table(const OutputArgument& argument, const std::string& table, Report& report);
+
+/// The same where -o may also name a saved part, a file that ends in .json, or the outline as numbers, .csv.
 void require_part_output(const OutputArgument& argument, bool json);
 
-/// Adds what -o asks for, if it is given: the part or a figure of it.
+/// Adds what -o asks for, if it is given: the part, its outline as numbers, or a figure of it.
 void add_part_output(const OutputArgument& argument, const Part& part, const std::function<Svg()>& figure,
                      Report& report);
 

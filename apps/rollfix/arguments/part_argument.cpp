@@ -15,15 +15,24 @@ LoadOptions options_of(const PartArgument& argument) {
   LoadOptions options;
   options.points.open = argument.open;
   if (!argument.corner_angle.empty()) options.points.corner_angle = read_angle(argument.corner_angle, "--corner-angle");
-  if (!argument.smooth.empty()) options.points.smooth = read_number(argument.smooth, "--smooth");
+  if (!argument.smooth.empty()) options.points.smooth = read_given_length(argument.smooth, "--smooth");
   if (!argument.loop.empty()) options.loop = read_count(argument.loop, "--loop", 1);
-  if (!argument.gap.empty()) options.gap = read_number(argument.gap, "--gap");
+  if (!argument.gap.empty()) options.gap = read_given_length(argument.gap, "--gap");
   options.layer = argument.layer;
+  options.points.unit = argument.unit;
   options.allow_crossing = argument.allow_crossing;
   return options;
 }
 
 }  // namespace
+
+void add_unit_argument(CLI::App& command, std::string& unit) {
+  command
+      .add_option("--unit", unit,
+                  "the unit of all lengths, typed and printed: mm, cm, m, in, ...; a part whose file states another is "
+                  "converted to it, one whose file states none is in it")
+      ->type_name("UNIT");
+}
 
 void add_part_argument(CLI::App& command, PartArgument& argument) {
   command
@@ -47,6 +56,7 @@ void add_part_argument(CLI::App& command, PartArgument& argument) {
       .add_option("--smooth", argument.smooth,
                   "the points are a scan: stay within this length of each, and leave out noise and pixel stairs")
       ->type_name("TOL");
+  add_unit_argument(command, argument.unit);
   add_switch(command, "--allow-crossing", argument.allow_crossing, "take an outline that crosses itself");
 }
 
@@ -57,8 +67,17 @@ LoadedPart load(const PartArgument& argument) {
   return rollfix::load_part(argument.part, options_of(argument));
 }
 
-Part load_part(const PartArgument& argument, std::vector<std::string>& notes) {
+std::vector<Outline> other_loops(const LoadedPart& loaded) {
+  std::vector<Outline> others;
+  for (std::size_t k = 0; k < loaded.loops.size(); ++k) {
+    if (k + 1 != loaded.loop) others.push_back(loaded.loops[k].outline);
+  }
+  return others;
+}
+
+Part load_part(const PartArgument& argument, std::vector<std::string>& notes, std::vector<Outline>* others) {
   LoadedPart loaded = load(argument);
+  if (others != nullptr) *others = other_loops(loaded);
   notes.insert(notes.end(), loaded.notes.begin(), loaded.notes.end());
   if (loaded.loops.size() > 1 && argument.loop.empty()) notes.emplace_back("inspect lists all loops");
   return std::move(loaded.part);

@@ -17,6 +17,7 @@ struct PartArgument {
   std::string loop;
   std::string gap;
   std::string layer;
+  std::string unit;
   bool open = false;
   bool allow_crossing = false;
 };
@@ -24,12 +25,19 @@ struct PartArgument {
 /// Adds PART and these options to a command.
 void add_part_argument(CLI::App& command, PartArgument& argument);
 
+/// Adds --unit alone.
+void add_unit_argument(CLI::App& command, std::string& unit);
+
 /// The part and what its file says besides. Throws InputError: no PART, an option that is not what it should be, or
 /// what rollfix::load_part throws.
 LoadedPart load(const PartArgument& argument);
 
-/// The part alone. What the user should know of how it was taken is added to the notes.
-Part load_part(const PartArgument& argument, std::vector<std::string>& notes);
+/// Of a drawing what it holds besides the part: its other loops.
+std::vector<Outline> other_loops(const LoadedPart& loaded);
+
+/// The part alone, and what else its drawing holds where that is asked for. What the user should know of how it was
+/// taken is added to the notes.
+Part load_part(const PartArgument& argument, std::vector<std::string>& notes, std::vector<Outline>* others = nullptr);
 
 /// That a part was given clockwise, and what follows from it.
 std::string reversed_note(const Part& part);

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <string_view>
 #include <utility>
 
 #include "outline/turn.hpp"
 #include "rollfix/arguments/finger_argument.hpp"
+#include "rollfix/arguments/gyroscope_number.hpp"
 #include "rollfix/arguments/typed_number.hpp"
 #include "rollfix/contact/log.hpp"
 #include "rollfix/error.hpp"
@@ -32,15 +34,17 @@ double half_unit(std::string_view number) {
 }
 
 /// Trailing zeros are often left off, so all numbers are taken to be rounded alike: to the decimals of the one that
-/// shows most of them. Of a turn in degrees.
-Rounding common_rounding(const std::vector<std::string_view>& fields) {
+/// shows most of them, each in its own unit. `lengths`: as typed.
+Rounding common_rounding(const std::vector<std::string_view>& fields, const std::vector<Length>& lengths,
+                         const std::string& unit) {
   double finest = 0;
   for (const std::string_view field : fields) {
     const double one = half_unit(field);
     if (one > 0 && (finest == 0 || one < finest)) finest = one;
   }
-  const auto lengths = static_cast<double>(fields.size() - 1);
-  return {lengths * finest, finest * (in_degrees(fields.back()) ? kDegree : 1)};
+  double length = 0;
+  for (const Length& one : lengths) length += in_unit({finest, one.unit}, unit, "");
+  return {length, finest * (in_degrees(fields.back()) ? kDegree : 1)};
 }
 
 std::string found_instead(std::size_t count) {
@@ -49,7 +53,7 @@ std::string found_instead(std::size_t count) {
 }
 
 /// LENGTH,TURN of one finger, or LENGTH_A,LENGTH_B,TURN of two.
-void read_reading(const std::string& text, bool of_two, Felt& felt) {
+void read_reading(const std::string& text, bool of_two, const std::string& unit, Felt& felt) {
   const std::string what = fmt::format("--reading {}", text);
   const std::vector<std::string_view> fields = split(text, ',');
   if (of_two && fields.size() != 3) {
@@ -61,17 +65,19 @@ void read_reading(const std::string& text, bool of_two, Felt& felt) {
         fmt::format("{}: expected LENGTH,TURN as in 0.5,73deg, or of two fingers LENGTH_A,LENGTH_B,TURN, found {}",
                     what, found_instead(fields.size())));
   }
-  const double length = read_number(fields[0], what);
-  felt.readings.push_back(of_two ? Reading(length, read_number(fields[1], what), read_angle(fields[2], what))
-                                 : Reading(length, read_angle(fields[1], what)));
-  felt.roundings.push_back(common_rounding(fields));
+  std::vector<Length> lengths;
+  for (std::size_t k = 0; k + 1 < fields.size(); ++k) lengths.push_back(read_given_length(fields[k], what));
+  const auto length = [&](std::size_t k) { return in_unit(lengths[k], unit, what); };
+  const double turn = read_angle(fields.back(), what);
+  felt.readings.push_back(of_two ? Reading(length(0), length(1), turn) : Reading(length(0), turn));
+  felt.roundings.push_back(common_rounding(fields, lengths, unit));
 }
 
-Felt read_readings(const RollArguments& arguments) {
+Felt read_readings(const RollArguments& arguments, const std::string& unit) {
   Felt felt(std::vector<Reading>{});
   const bool of_two = std::any_of(arguments.readings.begin(), arguments.readings.end(),
                                   [](const std::string& text) { return split(text, ',').size() == 3; });
-  for (const std::string& text : arguments.readings) read_reading(text, of_two, felt);
+  for (const std::string& text : arguments.readings) read_reading(text, of_two, unit, felt);
   return felt;
 }
 
@@ -84,19 +90,31 @@ std::vector<double> read_instants(const std::string& text) {
   return instants;
 }
 
-Log read_both_logs(const std::vector<std::string>& paths) {
-  if (paths.size() == 2) return read_log(paths.front(), paths.back());
+Log read_both_logs(const std::vector<std::string>& paths, const LogOptions& options) {
+  if (paths.size() == 2) return read_log(paths.front(), paths.back(), options);
   throw InputError(
       fmt::format("--log is given {} times, expected one log, or one of each of two fingers", paths.size()));
+}
+
+double read_sd(std::string_view value, NoiseKind::Unit unit, const std::string& what) {
+  switch (unit) {
+    case NoiseKind::Unit::angle:
+      return read_angle(value, what);
+    case NoiseKind::Unit::rate:
+      return read_rate(value, what);
+    case NoiseKind::Unit::walk:
+      return read_walk(value, what);
+    default:
+      return read_number(value, what);
+  }
 }
 
 /// "contact=LENGTH,angle=ANGLE,...".
 std::string noise_form() {
   std::vector<std::string> fields;
   for (const NoiseKind& kind : kNoiseKinds) {
-    const bool is_angle = kind.unit == NoiseKind::Unit::angle;
-    const char* unit = is_angle ? "ANGLE" : kind.unit == NoiseKind::Unit::length ? "LENGTH" : "PER_LENGTH";
-    fields.push_back(fmt::format("{}={}", kind.name, unit));
+    constexpr std::array<const char*, 5> kForms = {"LENGTH", "ANGLE", "PER_LENGTH", "10deg/h", "0.3deg/sqrt(h)"};
+    fields.push_back(fmt::format("{}={}", kind.name, kForms[static_cast<std::size_t>(kind.unit)]));
   }
   return fmt::format("{}", fmt::join(fields, ","));
 }
@@ -105,6 +123,7 @@ std::string noise_form() {
 void require_sensible(const RollArguments& arguments) {
   const bool from_log = !arguments.logs.empty();
   if (!arguments.roll.empty() && !from_log) throw InputError("--roll chooses from a log: give a --log as well");
+  if (!arguments.columns.empty() && !from_log) throw InputError("--columns is about a log: give a --log as well");
   if (!arguments.instants.empty() && !from_log) throw InputError("--at picks instants of a log: give a --log as well");
   if (from_log && arguments.logs.front() == "-" && arguments.part.part == "-") {
     throw InputError("the part and the log can't both come from standard input: give one of them as a file");
@@ -118,7 +137,15 @@ void require_sensible(const RollArguments& arguments) {
 
 }  // namespace
 
-void add_log_arguments(CLI::App& command, std::vector<std::string>& logs, std::string& roll) {
+void add_columns_argument(CLI::App& command, std::string& columns) {
+  command
+      .add_option("--columns", columns,
+                  "what the log's header calls its columns, and in what they are, where it does not say that itself: "
+                  "u=contact_deg:deg,psi=yaw_deg:deg,time=stamp:ms")
+      ->type_name("COLUMN=NAME:UNIT,...");
+}
+
+void add_log_arguments(CLI::App& command, std::vector<std::string>& logs, std::string& roll, std::string& columns) {
   command.add_option("--log", logs, "a tactile log, - for stdin; of two fingers one file or two")
       ->type_name("FILE")
       ->allow_extra_args(false);
@@ -126,6 +153,7 @@ void add_log_arguments(CLI::App& command, std::vector<std::string>& logs, std::s
       .add_option("--roll", roll,
                   "which roll of a log in which contact is lost and found again, from 1; default the last")
       ->type_name("N");
+  add_columns_argument(command, columns);
 }
 
 void add_noise_argument(CLI::App& command, std::string& noise) {
@@ -144,6 +172,24 @@ void add_noise_arguments(CLI::App& command, std::string& noise, std::string& pri
   add_switch(command, "--robust", robust, "with --noise: stray rows don't count");
 }
 
+void add_side_arguments(CLI::App& command, bool& mirror, std::string& direction) {
+  add_switch(command, "--mirror", mirror,
+             "the part lies face down: what is felt is the outline's mirror image; places are told along the outline "
+             "as it was drawn");
+  command
+      .add_option("--direction", direction,
+                  "which way round the part, as the robot sees it, lengths and distances count as positive: ccw, the "
+                  "default, or cw; u and psi say that themselves")
+      ->type_name("ccw|cw");
+}
+
+bool counts_clockwise(const std::string& direction) {
+  if (direction.empty() || direction == "ccw") return false;
+  if (direction == "cw") return true;
+  throw InputError(fmt::format("--direction {}: expected ccw or cw{}", direction,
+                               direction == "either" ? "; to try both, ask twice" : ""));
+}
+
 void add_roll_arguments(CLI::App& command, RollArguments& arguments) {
   add_part_argument(command, arguments.part);
   command
@@ -152,7 +198,7 @@ void add_roll_arguments(CLI::App& command, RollArguments& arguments) {
                   "of two fingers both lengths and finger a's turn less finger b's: LA,LB,THETA")
       ->type_name("L,THETA")
       ->allow_extra_args(false);
-  add_log_arguments(command, arguments.logs, arguments.roll);
+  add_log_arguments(command, arguments.logs, arguments.roll, arguments.columns);
   add_finger_argument(command, arguments.fingers);
   command
       .add_option("--tolerance", arguments.tolerance,
@@ -160,9 +206,22 @@ void add_roll_arguments(CLI::App& command, RollArguments& arguments) {
                   "or what --noise makes of it")
       ->type_name("ANGLE");
   add_noise_arguments(command, arguments.noise, arguments.prior, arguments.robust);
+  command
+      .add_option(
+          "--heading", arguments.heading,
+          "with --noise and a log of u and psi: about how the part is turned in the world at the first contact, "
+          "and how sure that is")
+      ->type_name("ANGLE,SD");
+  command
+      .add_option(
+          "--pose", arguments.pose,
+          "the same with where it lies, of a log with x and y: X,Y,HEADING and the standard deviations of x and "
+          "y and of the heading")
+      ->type_name("X,Y,HEADING,SD,SD_HEADING");
+  add_side_arguments(command, arguments.mirror, arguments.direction);
 }
 
-std::optional<Noise> read_noise(const std::string& text) {
+std::optional<Noise> read_noise(const std::string& text, const std::string& unit) {
   if (text.empty()) return std::nullopt;
   Noise noise;
   std::set<std::string, std::less<>> seen;
@@ -174,41 +233,85 @@ std::optional<Noise> read_noise(const std::string& text) {
     if (kind == kNoiseKinds.end() || mark == std::string_view::npos) {
       std::vector<std::string> names;
       for (const NoiseKind& one : kNoiseKinds) names.emplace_back(one.name);
-      throw InputError(fmt::format("--noise {}: '{}' is not NAME=SD; {}", text, field, known_names(name, names)));
+      const bool may_be_decimals = !seen.empty() && parse_angle(field).has_value();  // "contact=0,1"
+      throw InputError(fmt::format("--noise {}: '{}' is not NAME=SD; {}{}", text, field,
+                                   may_be_decimals ? "numbers take a decimal point, as in 0.5, not a comma; " : "",
+                                   known_names(name, names)));
     }
     if (!seen.insert(name).second) throw InputError(fmt::format("--noise {}: {} is given twice", text, name));
     const std::string what = fmt::format("--noise {}", text);
     const std::string_view value = field.substr(mark + 1);
     double& sd = noise.*kind->sd;
-    sd = kind->unit == NoiseKind::Unit::angle ? read_angle(value, what) : read_number(value, what);
+    sd = kind->unit == NoiseKind::Unit::length ? read_length(value, what, unit) : read_sd(value, kind->unit, what);
     if (sd < 0) throw InputError(fmt::format("--noise {}: {} is below 0, expected a standard deviation", text, name));
   }
   return noise;
 }
 
-std::optional<Prior> read_prior(const std::string& text) {
+std::optional<Prior> read_prior(const std::string& text, const std::string& unit) {
   if (text.empty()) return std::nullopt;
   const std::vector<std::string_view> fields = split(text, ',');
   if (fields.size() != 2) {
     throw InputError(
         fmt::format("--prior {}: expected S,SD: about where the finger started, along the stored outline, and its "
-                    "standard deviation",
-                    text));
+                    "standard deviation{}",
+                    text, fields.size() > 2 ? "; numbers take a decimal point, as in 0.5, not a comma" : ""));
   }
   const std::string what = "--prior " + text;
-  const Prior prior{read_number(fields[0], what), read_number(fields[1], what)};
+  const Prior prior{read_length(fields[0], what, unit), read_length(fields[1], what, unit)};
   if (!(prior.sd > 0))
     throw InputError(fmt::format("{}: '{}' is not above 0, expected a standard deviation", what, fields[1]));
   return prior;
 }
 
-Log read_roll(const std::vector<std::string>& paths, const std::string& roll, std::vector<std::string>& notes) {
+LogOptions read_log_options(const std::string& columns, const std::string& unit) {
+  return {columns.empty() ? std::vector<ColumnSource>{} : parse_columns(columns), unit};
+}
+
+namespace {
+
+/// --heading ANGLE,SD, or --pose X,Y,HEADING,SD,SD_HEADING.
+std::optional<PosePrior> read_pose(const RollArguments& arguments, const std::string& unit) {
+  if (arguments.heading.empty() && arguments.pose.empty()) return std::nullopt;
+  if (!arguments.heading.empty() && !arguments.pose.empty()) {
+    throw InputError("--heading and --pose both say how the part is turned: leave one out");
+  }
+  const bool is_pose = !arguments.pose.empty();
+  const std::string what = is_pose ? "--pose " + arguments.pose : "--heading " + arguments.heading;
+  const std::vector<std::string_view> fields = split(is_pose ? arguments.pose : arguments.heading, ',');
+  if (fields.size() != (is_pose ? 5U : 2U)) {
+    throw InputError(what + (is_pose
+                                 ? ": expected X,Y,HEADING,SD,SD_HEADING as in 100,40,12deg,0.5,2deg: where the part "
+                                   "lies in the world at the first contact, and the standard deviations of x and y "
+                                   "and of the heading"
+                                 : ": expected ANGLE,SD as in 12deg,2deg: how the part is turned in the world at the "
+                                   "first contact, and its standard deviation"));
+  }
+  PosePrior prior;
+  const std::size_t angle = is_pose ? 2 : 0;
+  prior.mean.heading = read_angle(fields[angle], what);
+  prior.heading_sd = read_angle(fields.back(), what);
+  if (is_pose) {
+    prior.mean.x = read_length(fields[0], what, unit);
+    prior.mean.y = read_length(fields[1], what, unit);
+    prior.place_sd = read_length(fields[3], what, unit);
+  }
+  if (!(prior.heading_sd > 0) || !(prior.place_sd > 0)) {
+    throw InputError(what + ": expected standard deviations above 0");
+  }
+  return prior;
+}
+
+}  // namespace
+
+Log read_roll(const std::vector<std::string>& paths, const std::string& roll, const LogOptions& options,
+              std::vector<std::string>& notes) {
   const std::size_t number = roll.empty() ? 0 : read_count(roll, "--roll", 1);
   if (paths.size() != 1) {
     if (number > 0) throw InputError("--roll chooses from one log, and --log is given more than once; split the logs");
-    return read_both_logs(paths);
+    return read_both_logs(paths, options);
   }
-  std::vector<Log> rolls = read_rolls(paths.front());
+  std::vector<Log> rolls = read_rolls(paths.front(), options);
   const std::size_t count = rolls.size();
   if (number > count) {
     throw InputError(fmt::format("--roll {}: {} holds {}, expected a number from 1 to {}", number, paths.front(),
@@ -223,19 +326,38 @@ Log read_roll(const std::vector<std::string>& paths, const std::string& roll, st
   return log;
 }
 
-Problem read_problem(const RollArguments& arguments, std::vector<std::string>& notes) {
+Problem read_problem(const RollArguments& arguments, std::vector<std::string>& notes, std::vector<Outline>* others) {
   require_sensible(arguments);
-  Felt felt =
-      arguments.logs.empty() ? read_readings(arguments) : Felt(read_roll(arguments.logs, arguments.roll, notes));
+  std::vector<std::string> part_notes;
+  Part part = load_part(arguments.part, part_notes, others);
+  const std::string& unit = part.outline().unit;
+  LogOptions log_options = read_log_options(arguments.columns, unit);
+  log_options.clockwise = counts_clockwise(arguments.direction);
+  Felt felt = arguments.logs.empty() ? read_readings(arguments, unit)
+                                     : Felt(read_roll(arguments.logs, arguments.roll, log_options, notes));
+  notes.insert(notes.end(), part_notes.begin(), part_notes.end());
+  if (counts_clockwise(arguments.direction)) {
+    for (Reading& reading : felt.readings) {
+      for (double& length : reading.length) length = -length;
+    }
+    if (felt.is_log() && felt.log->kind == LogKind::contact) {
+      throw InputError(fmt::format("--direction: {} has u and psi, which say the direction themselves: leave it out",
+                                   felt.log->name));
+    }
+  }
   const bool of_two = felt.is_log() ? felt.log->fingers.size() == 2 : felt.readings.front().fingers() == 2;
   if (!arguments.facing.empty()) {
     if (!of_two) throw InputError("--facing compares two fingers: expected --reading LA,LB,THETA with it");
     if (felt.is_log()) throw InputError("--facing goes with --reading: a log of two fingers has it in u and psi");
   }
-  std::vector<Finger> fingers = read_fingers(arguments.fingers, of_two ? 2 : 1);
-  Problem problem{load_part(arguments.part, notes), std::move(felt), std::move(fingers), read_noise(arguments.noise)};
-  problem.prior = read_prior(arguments.prior);
+  std::vector<Finger> fingers = read_fingers(arguments.fingers, of_two ? 2 : 1, unit);
+  const std::optional<Noise> noise = read_noise(arguments.noise, unit);
+  const std::optional<Prior> prior = read_prior(arguments.prior, unit);
+  Problem problem{std::move(part), std::move(felt), std::move(fingers), noise};
+  problem.prior = prior;
+  problem.pose = read_pose(arguments, unit);
   problem.robust = arguments.robust;
+  problem.mirrored = arguments.mirror;
   problem.at = read_instants(arguments.instants);
   if (!arguments.facing.empty()) {
     problem.facing = read_angle(arguments.facing, "--facing");

@@ -16,12 +16,17 @@ struct RollArguments {
   std::vector<std::string> logs;
   std::vector<std::string> fingers;
   std::string roll;
+  std::string columns;
   std::string facing;
   std::string instants;
   std::string tolerance;
   std::string budget;
   std::string noise;
   std::string prior;
+  std::string heading;
+  std::string pose;
+  std::string direction;
+  bool mirror = false;
   bool robust = false;
 };
 
@@ -29,23 +34,35 @@ struct RollArguments {
 void add_roll_arguments(CLI::App& command, RollArguments& arguments);
 /// Adds --noise alone.
 void add_noise_argument(CLI::App& command, std::string& noise);
-/// Adds --log and --roll alone.
-void add_log_arguments(CLI::App& command, std::vector<std::string>& logs, std::string& roll);
+/// Adds --log, --roll and --columns alone.
+void add_log_arguments(CLI::App& command, std::vector<std::string>& logs, std::string& roll, std::string& columns);
+/// Adds --mirror and --direction.
+void add_side_arguments(CLI::App& command, bool& mirror, std::string& direction);
+/// Whether --direction says that lengths count against the outline. Throws InputError.
+bool counts_clockwise(const std::string& direction);
+/// Adds --columns alone.
+void add_columns_argument(CLI::App& command, std::string& columns);
 /// Adds --noise, --prior and --robust.
 void add_noise_arguments(CLI::App& command, std::string& noise, std::string& prior, bool& robust);
 
 /// The problem that is meant, every argument read once. What the user should know of how it was taken is added to the
-/// notes. Throws InputError.
-Problem read_problem(const RollArguments& arguments, std::vector<std::string>& notes);
+/// notes. `others`, where asked for: see load_part. Throws InputError.
+Problem read_problem(const RollArguments& arguments, std::vector<std::string>& notes,
+                     std::vector<Outline>* others = nullptr);
+
+// `unit`: the part's, empty where it is not known.
 
 /// --noise as typed; nothing where it is not. Throws InputError.
-std::optional<Noise> read_noise(const std::string& text);
+std::optional<Noise> read_noise(const std::string& text, const std::string& unit);
 /// --prior as typed. Throws InputError.
-std::optional<Prior> read_prior(const std::string& text);
+std::optional<Prior> read_prior(const std::string& text, const std::string& unit);
+/// --columns as typed, and the part's unit. Throws InputError.
+LogOptions read_log_options(const std::string& columns, const std::string& unit);
 
 /// One roll of what --log names: one file of one finger or of two, or two files of one each. Of a file with several
 /// rolls the one that --roll names, from 1; the last where it is empty, because that is where the finger is now.
 /// Throws InputError.
-Log read_roll(const std::vector<std::string>& paths, const std::string& roll, std::vector<std::string>& notes);
+Log read_roll(const std::vector<std::string>& paths, const std::string& roll, const LogOptions& options,
+              std::vector<std::string>& notes);
 
 }  // namespace rollfix::app

@@ -21,6 +21,7 @@ constexpr const char* kInspectExamples = R"(Examples:
   rollfix inspect gallery:spline,seed=7 --json
   rollfix inspect plate.dxf                    # from rollfix demo; lists its loops, --loop 2 takes the hole
   rollfix inspect wing.csv --smooth 0.05 -o wing.json    # as a scan; saved, and taken by every command
+  rollfix inspect wing.csv -o outline.csv    # as numbers: s, x, y, the tangent's direction and the curvature
   rollfix inspect gallery:gear --finger disk,r=0.1 -o reach.svg    # where can that finger touch at all?
 )";
 
@@ -33,13 +34,13 @@ struct InspectArguments {
 
 Report inspect(const InspectArguments& arguments) {
   require_part_output(arguments.output, arguments.json);
-  const std::vector<Finger> fingers = read_fingers(arguments.fingers, 1);
+  const LoadedPart loaded = load(arguments.part);
+  const std::vector<Finger> fingers = read_fingers(arguments.fingers, 1, loaded.part.unit());
   const std::optional<Finger> finger = fingers.empty() ? std::nullopt : std::optional<Finger>(fingers.front());
   if (finger && !has_reach(*finger)) {
     throw InputError(
         fmt::format("--finger {}: where a finger can touch is known of disks and jaws only", finger->name()));
   }
-  const LoadedPart loaded = load(arguments.part);
   const Part& part = loaded.part;
   InspectOutcome outcome = look_at(loaded);
   outcome.finger = finger;
@@ -51,7 +52,7 @@ Report inspect(const InspectArguments& arguments) {
   add_part_output(
       arguments.output, part,
       [&] {
-        return draw_part({&part, "", 640, outcome.reach});
+        return draw_part({&part, "", 640, outcome.reach, other_loops(loaded)});
       },
       report);
   return report;
@@ -66,9 +67,10 @@ void add_inspect_command(CLI::App& program, Command& chosen) {
   command->footer(kInspectExamples);
   add_part_argument(*command, arguments->part);
   add_finger_argument(*command, arguments->fingers);
-  add_output_argument(
-      *command, arguments->output,
-      "a figure of the part: .svg, .png or .pdf, - for SVG on stdout; or .json: the part with all that was computed");
+  add_output_argument(*command, arguments->output,
+                      "a figure of the part: .svg, .png or .pdf, - for SVG on stdout; .json: the part with all that "
+                      "was computed; .csv: "
+                      "the outline as numbers, s,x,y,tangent,curvature");
   add_switch(*command, "--json", arguments->json, "print JSON (rollfix/inspect/1)");
   command->callback([arguments, &chosen] { chosen = [arguments] { return inspect(*arguments); }; });
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "rollfix/output/answer_output.hpp"
+#include "rollfix/output/outline_numbers.hpp"
 #include "rollfix/output/table.hpp"
 
 namespace rollfix::app {
@@ -203,6 +204,7 @@ Json inspect_json(const InspectOutcome& outcome) {
   return {{"schema", "rollfix/inspect/1"},
           {"part", part_json(part)},
           {"unit", outcome.unit.empty() ? Json(nullptr) : Json(outcome.unit)},
+          {"accuracy", accuracy_json(part.outline().accuracy)},
           {"loops", loops_json(outcome)},
           {"area", part.closed() ? json_number(enclosed_area(part.outline())) : Json(nullptr)},
           {"total_turn", json_number(part.total_turn())},
@@ -216,7 +218,8 @@ Json inspect_json(const InspectOutcome& outcome) {
           {"vertices", json_numbers(part.vertices())},
           {"corners", corners_json(part)},
           {"ambiguity", ambiguity_json(outcome)},
-          {"reach", reach_json(outcome)}};
+          {"reach", reach_json(outcome)},
+          {"outline", outline_json(part)}};
 }
 
 std::string inspect_text(const InspectOutcome& outcome) {
@@ -230,6 +233,9 @@ std::string inspect_text(const InspectOutcome& outcome) {
   text += loops_text(outcome);
   if (!outcome.unit.empty()) line("unit", outcome.unit);
   line("shape", shape_text(part));
+  if (const Accuracy& accuracy = part.outline().accuracy; !accuracy.is_exact()) {
+    line("accuracy", accuracy_text(accuracy));
+  }
   line("perimeter", fixed(part.perimeter(), decimals));
   if (part.closed()) line("area", fmt::format("{:.8g}", enclosed_area(part.outline())));
   line("size", fmt::format("{} x {}, from ({}, {}) to ({}, {})", fixed(size.x(), decimals), fixed(size.y(), decimals),

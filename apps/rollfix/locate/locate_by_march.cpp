@@ -242,8 +242,9 @@ std::string table_of(const Part& part, const Marched& marched) {
 std::string march_text(const Part& part, const MarchQuestion& question, const Marched& marched) {
   const int decimals = decimals_for(part.perimeter());
   const auto loop = static_cast<double>(marched.steps_per_loop);
-  std::string text = fmt::format("{}: by the paper's march\n\npart       {}, {}, perimeter {}\n", verdict_of(marched),
-                                 part.name(), part.closed() ? "closed" : "open", fixed(part.perimeter(), decimals));
+  std::string text =
+      fmt::format("{}: by the paper's march\n\npart       {}, {}, perimeter {}{}\n", verdict_of(marched), part.name(),
+                  part.closed() ? "closed" : "open", fixed(part.perimeter(), decimals), behind(part.unit()));
   for (const MarchReading& reading : question.readings) {
     std::string lengths = fixed(reading.length[0], decimals);
     if (reading.length.size() == 2) lengths += " and " + fixed(reading.length[1], decimals);

@@ -1,6 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "answer/observation.hpp"
 #include "rollfix/answer/solve.hpp"
@@ -11,8 +15,10 @@
 #include "rollfix/draw/answer_figure.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate/locate_by_march.hpp"
+#include "rollfix/locate/map_points.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/usage.hpp"
+#include "text/text.hpp"
 
 namespace rollfix::app {
 namespace {
@@ -34,6 +40,7 @@ struct LocateArguments {
   RollArguments roll;
   bool json = false;
   bool explain = false;
+  std::vector<std::string> maps;
   OutputArgument output;
   MarchArguments march;
 };
@@ -62,6 +69,8 @@ void require_march(const LocateArguments& arguments) {
   refuse(!roll.budget.empty(), "--budget");
   refuse(!arguments.output.file.empty(), "-o");
   refuse(arguments.explain, "--explain");
+  refuse(roll.mirror, "--mirror");
+  refuse(!arguments.maps.empty(), "--map");
 }
 
 /// The same readings, asked of the paper's algorithm.
@@ -70,8 +79,9 @@ Report march_report(const LocateArguments& arguments) {
   std::vector<std::string> notes;
   const Problem problem = read_problem(arguments.roll, notes);
   const Observation observed = observe(problem);
-  const Tolerance tolerance =
-      problem.tolerance ? tolerance_given(*problem.tolerance) : tolerance_from_digits(problem.part, observed.roundings);
+  const Tolerance tolerance = problem.tolerance
+                                  ? tolerance_given(*problem.tolerance)
+                                  : tolerance_from_digits(problem.part, observed.roundings, observed.readings);
   MarchQuestion question{{}, tolerance.value, read_step(arguments.march), arguments.json};
   for (const Reading& reading : observed.readings) {
     question.readings.push_back({{reading.length.begin(), reading.length.end()}, reading.turn});
@@ -83,17 +93,42 @@ Report march_report(const LocateArguments& arguments) {
 
 Report locate_report(const LocateArguments& arguments) {
   require_sensible(arguments);
-  require_figure_output(arguments.output, arguments.json);
+  const OutputArgument& output = arguments.output;
+  if (arguments.maps.empty()) require_figure_output(output, arguments.json);
+  require_map_output(arguments.maps, output.file, output.force, arguments.json, !arguments.roll.logs.empty(),
+                     !arguments.roll.fingers.empty());
   read_step(arguments.march);
   if (arguments.march.march) return march_report(arguments);
   Report report;
-  const Answer answer = solve(read_problem(arguments.roll, report.notes));
+  std::vector<Outline> others;
+  Problem problem = read_problem(arguments.roll, report.notes, &others);
+  const Answer answer = solve(problem);
   add_notes(answer, report);
   report.exit_code = exit_code_of(answer);
   report.data =
       arguments.json ? json_text(answer_json(answer, arguments.explain)) : answer_text(answer, arguments.explain);
-  if (!arguments.output.file.empty()) add_figure(arguments.output, draw_answer(answer), report);
+  if (!arguments.maps.empty()) {
+    add_table(output, mapped_points(answer, arguments.maps, others, report.notes), report);
+  } else if (!output.file.empty()) {
+    AnswerFigure figure{&answer};
+    figure.others = std::move(others);
+    if (!answer.strays.empty()) {
+      problem.felt.log = without_strays(*problem.felt.log, problem.part, problem.fingers, *problem.noise);
+    }
+    if (problem.felt.is_log() && !answer.mirrored) figure.log = &*problem.felt.log;
+    add_figure(arguments.output, draw_answer(figure), report);
+  }
   return report;
+}
+
+/// "left out 2 stray rows, lines 17 and 40, ...".
+std::string strays_note(const std::vector<std::size_t>& lines) {
+  constexpr std::size_t kMostNamed = 8;
+  const std::vector<std::size_t> named(lines.begin(),
+                                       lines.begin() + static_cast<std::ptrdiff_t>(std::min(lines.size(), kMostNamed)));
+  return fmt::format("left out {} that the roll jumps to and comes back from: {} {}{}",
+                     counted(lines.size(), "stray row", "stray rows"), lines.size() == 1 ? "line" : "lines",
+                     fmt::join(named, ", "), lines.size() > kMostNamed ? ", ..." : "");
 }
 
 }  // namespace
@@ -110,6 +145,7 @@ void add_notes(const Answer& answer, Report& report) {
     break;
   }
   if (answer.part.reversed()) report.notes.push_back(reversed_note(answer.part));
+  if (!answer.strays.empty()) report.notes.push_back(strays_note(answer.strays));
   if (answer.lengths_reversed) report.notes.emplace_back("the log's lengths changed their signs to match");
 }
 
@@ -137,6 +173,7 @@ void add_locate_command(CLI::App& program, Command& chosen) {
                       "a figure of the placements: .svg, .png or .pdf, - for SVG on stdout");
   add_switch(*command, "--explain", arguments->explain,
              "list what fits and was dropped all the same, because the finger can't get there, and why");
+  add_map_argument(*command, arguments->maps);
   add_march_arguments(*command, arguments->march);
   add_switch(*command, "--json", arguments->json, "print JSON (rollfix/locate/1)");
   command->callback([arguments, &chosen] { chosen = [arguments] { return locate_report(*arguments); }; });

@@ -93,6 +93,7 @@ Json placement_json(const Placement& placement, const Answer& answer) {
   json["pose"] = off ? list_of(placement.pose, pose_json) : Json(nullptr);
   json["pose_residual"] =
       off ? Json{{"length", json_number(off->length)}, {"turn", json_number(off->turn)}} : Json(nullptr);
+  if (!answer.weighing) json["contradicted"] = placement.is_contradicted;
   if (answer.weighing) add_weight(placement, fingers, json);
   return json;
 }
@@ -148,28 +149,25 @@ Json dropped_json(const Answer& answer) {
   return dropped;
 }
 
+Json fit_json(const Fit& fit) {
+  return {{"chi_square", json_number(fit.chi_square)},
+          {"freedom", json_number(fit.freedom)},
+          {"sigmas", json_number(fit.sigmas)},
+          {"correlation", json_number(fit.correlation)},
+          {"correlation_sigmas", json_number(fit.correlation_sigmas)},
+          {"widened", json_number(fit.widened)},
+          {"length_scale", json_numbers(fit.length_scale)},
+          {"length_scale_sd", json_numbers(fit.length_scale_sd)}};
+}
+
 void add_weighing(const Weighing& weighing, Json& document) {
   document["noise"] = noise_json(weighing.noise);
   document["prior"] = weighing.prior ? pair_json(weighing.prior->s, weighing.prior->sd) : Json(nullptr);
   document["robust"] = weighing.robust;
   document["samples"] = weighing.samples;
-  document["excess"] = json_number(weighing.excess);
+  document["excess"] = json_number(weighing.fit.excess);
   document["rest"] = json_number(weighing.rest);
-  document["diagnosis"] = diagnosis_json(weighing.diagnosis);
-}
-
-const char* name_of(Cause cause) {
-  switch (cause) {
-    case Cause::none:
-      break;
-    case Cause::radius:
-      return "radius";
-    case Cause::slip:
-      return "slip";
-    case Cause::part:
-      return "part";
-  }
-  return "none";
+  document["fit"] = fit_json(weighing.fit);
 }
 
 }  // namespace
@@ -177,14 +175,46 @@ const char* name_of(Cause cause) {
 Json diagnosis_json(const Diagnosis& diagnosis) {
   if (diagnosis.cause == Cause::none) return nullptr;
   return {{"cause", name_of(diagnosis.cause)},
+          {"what", about(diagnosis)},
           {"length_scale", json_number(diagnosis.length_scale)},
+          {"length_scale_sd", json_number(diagnosis.length_scale_sd)},
+          {"noise_scale", json_number(diagnosis.noise_scale)},
           {"excess", json_number(diagnosis.excess)}};
+}
+
+Json diagnoses_json(const Answer& answer) {
+  const std::vector<Diagnosis>& diagnoses = answer.diagnoses;
+  if (diagnoses.empty()) return nullptr;
+  const auto one = [&](const Diagnosis& diagnosis) {
+    Json json = diagnosis_json(diagnosis);
+    json["cure"] = cure_of(diagnosis, answer.fingers, answer.weighing ? answer.weighing->noise : Noise{});
+    json["verdict"] = diagnosis.modes.empty() ? Json(nullptr) : Json(diagnosis.verdict.text());
+    json["placements"] = list_of(diagnosis.modes, [](const Mode& mode) {
+      return Json{{"start", json_numbers(mode.start)},
+                  {"sd", json_numbers(mode.sd)},
+                  {"interval", intervals_json(mode.interval)},
+                  {"probability", json_number(mode.probability)}};
+    });
+    return json;
+  };
+  Json document = one(diagnoses.front());
+  document["others"] = Json::array();
+  for (std::size_t k = 1; k < diagnoses.size(); ++k) document["others"].push_back(one(diagnoses[k]));
+  return document;
 }
 
 Json noise_json(const Noise& noise) {
   Json json = Json::object();
   for (const NoiseKind& kind : kNoiseKinds) json[kind.name] = json_number(noise.*kind.sd);
   return json;
+}
+
+Json accuracy_json(const Accuracy& accuracy) {
+  if (accuracy.is_exact()) return nullptr;
+  return {{"length", json_number(accuracy.length)},
+          {"turn", json_number(accuracy.turn)},
+          {"alike", json_number(accuracy.alike)},
+          {"walk", json_number(accuracy.walk)}};
 }
 
 Json part_json(const Part& part) {
@@ -195,7 +225,8 @@ Json part_json(const Part& part) {
           {"turns", part.turns()},
           {"inflections", part.inflections().size()},
           {"vertices", part.vertices().size()},
-          {"corners", part.corners().size()}};
+          {"corners", part.corners().size()},
+          {"unit", part.unit().empty() ? Json(nullptr) : Json(part.unit())}};
 }
 
 Json answer_json(const Answer& answer, bool explain) {
@@ -209,17 +240,20 @@ Json answer_json(const Answer& answer, bool explain) {
                    {"verdict", answer.verdict.text()},
                    {"part", part_json(answer.part)},
                    {"fingers", fingers},
-                   {"readings", readings_json(answer)}};
+                   {"readings", readings_json(answer)},
+                   {"mirrored", answer.mirrored}};
   if (fingers == 2) document["facing"] = answer.facing ? json_number(*answer.facing) : Json(nullptr);
   document["tolerance"] = json_number(answer.tolerance.value);
   document["placements"] =
       list_of(answer.placements, [&](const Placement& placement) { return placement_json(placement, answer); });
   document["pose_time"] = answer.pose_time.empty() ? Json(nullptr) : json_numbers(answer.pose_time);
   document["dropped"] = dropped_json(answer);
+  if (answer.weighing) document["stray_lines"] = answer.strays;
   document["unresolved"] = list_of(answer.unresolved, open);
   document["counts"] = {{fingers == 1 ? "intervals" : "boxes", answer.counts.intervals},
                         {"evaluations", answer.counts.evaluations}};
   if (answer.weighing) add_weighing(*answer.weighing, document);
+  document["diagnosis"] = diagnoses_json(answer);
   if (explain) document["impossible"] = list_of(answer.impossible, impossible_json);
   return document;
 }

@@ -21,18 +21,27 @@ ExitCode exit_code_of(const Answer& answer);
 /// whose reach is not known.
 void add_notes(const Answer& answer, Report& report);
 
-/// "the part is at x = 1, y = 2, heading 12.000 deg; the contacts agree": the last pose.
-std::string about_pose(const Placement& placement, const Part& part);
+/// "the part is at x = 1, y = 2, heading 12.000 deg; the contacts agree": the last pose. With noise "at the first
+/// contact, at 0 s, the part was at x = 1 ± 0.1, ...": standard deviations.
+std::string about_pose(const Placement& placement, const Answer& answer);
 
 /// "touching at s = 1.0 the finger would hit the part at s = 2.0, ...": where a roll can't go on.
 std::string about(const Obstruction& obstruction, const Part& part);
 
 /// What would have to be otherwise for something to fit; empty where something does.
 std::string about(const Diagnosis& diagnosis);
+const char* name_of(Cause cause);
+/// What to give instead, with these fingers and this noise as given.
+std::string cure_of(const Diagnosis& diagnosis, const std::vector<Finger>& fingers, const Noise& noise);
 
 /// What --json says of a part (`inspect` says more), of a diagnosis (null where something fits) and of noise.
 Json part_json(const Part& part);
 Json diagnosis_json(const Diagnosis& diagnosis);
+Json diagnoses_json(const Answer& answer);
 Json noise_json(const Noise& noise);
+
+/// How far a part that was measured may be off, as text and as JSON; null where it is exact.
+std::string accuracy_text(const Accuracy& accuracy);
+Json accuracy_json(const Accuracy& accuracy);
 
 }  // namespace rollfix::app

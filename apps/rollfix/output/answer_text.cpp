@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "outline/turn.hpp"
+#include "rollfix/answer/part_facts.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/table.hpp"
 #include "text/text.hpp"
@@ -14,6 +15,7 @@
 namespace rollfix::app {
 namespace {
 
+constexpr double kSurely = 3;        // standard deviations within which two lengths are taken as equal
 constexpr double kAgreement = 1e-9;  // contacts closer together than this share of the perimeter are the same
 
 using Rows = std::vector<std::string>;
@@ -22,10 +24,13 @@ using Rows = std::vector<std::string>;
 class AnswerText {
  public:
   explicit AnswerText(const Answer& answer)
-      : answer_(answer), fingers_(answer.finger_count()), decimals_(decimals_for(answer.part.perimeter())) {}
+      : answer_(answer),
+        fingers_(answer.finger_count()),
+        decimals_(decimals_for(answer.part.perimeter())),
+        unit_(behind(answer.part.unit())) {}
 
   std::string text(bool explain) const {
-    std::string text = advice() + "\n\n" + head() + dropped_lines(explain);
+    std::string text = advice() + "\n" + diagnosis_lines() + "\n" + head() + dropped_lines(explain);
     if (!answer_.placements.empty()) text += "\n" + (answer_.weighing ? weighed_table() : placement_table());
     const std::string below = remarks() + pose_lines() + unresolved_lines();
     if (!below.empty()) text += "\n" + below;
@@ -42,13 +47,16 @@ class AnswerText {
     return fingers_ == 1 ? what : what + (finger == 0 ? " a" : " b");
   }
   std::string place(double s) const { return fixed(s, decimals_); }
+  /// In a text, with the unit.
+  std::string at(double s) const { return place(s) + unit_; }
   std::string span(const Interval& interval) const {
-    return fmt::format("from {} to {}", place(interval.lo), place(interval.hi));
+    return fmt::format("from {} to {}", place(interval.lo), at(interval.hi));
   }
+  std::string over_lengths(const std::string& title) const { return title_in(title, answer_.part.unit()); }
   std::string where(const Placement& placement) const {
-    if (fingers_ == 1) return fmt::format("s = {:.6g}, sd {:.2g}", placement.start[0], placement.sd[0]);
-    return fmt::format("finger a at s = {:.6g}, sd {:.2g}, finger b at {:.6g}, sd {:.2g}", placement.start[0],
-                       placement.sd[0], placement.start[1], placement.sd[1]);
+    if (fingers_ == 1) return fmt::format("s = {:.6g}, sd {:.2g}{}", placement.start[0], placement.sd[0], unit_);
+    return fmt::format("finger a at s = {:.6g}, sd {:.2g}, finger b at {:.6g}, sd {:.2g}{}", placement.start[0],
+                       placement.sd[0], placement.start[1], placement.sd[1], unit_);
   }
   std::string more_line(std::size_t count) const {
     return count <= kMostRows ? "" : fmt::format("... and {} more; --json lists them all\n", count - kMostRows);
@@ -70,6 +78,17 @@ class AnswerText {
   }
 
   std::string searched_advice() const {
+    const auto contradicted =
+        static_cast<std::size_t>(std::count_if(answer_.placements.begin(), answer_.placements.end(),
+                                               [](const Placement& placement) { return placement.is_contradicted; }));
+    if (contradicted > 0) {
+      const std::size_t left = answer_.placements.size() - contradicted;
+      return fmt::format(
+          "{}; {} that the readings allow, which other rows of the log or the contacts in the world "
+          "contradict, {} last",
+          left == 1 ? advice_on_one(answer_.placements.front()) : "", contradicted,
+          contradicted == 1 ? "comes" : "come");
+    }
     if (answer_.placements.empty() && !answer_.impossible.empty()) {
       return fmt::format(": {} would fit, but the finger can't get there; check the finger's size, or see --explain",
                          counted(answer_.impossible.size(), "placement", "placements"));
@@ -79,16 +98,42 @@ class AnswerText {
                          fingers_ == 1 ? "finger's radius" : "fingers' radii");
     }
     if (answer_.verdict.name == Verdict::unobservable && fingers_ == 2) {
-      return ": pairs all the way round the boundary fit; no such roll, however long, can tell them apart";
+      return all_the_way_round();
     }
     if (answer_.placements.size() > 1) return ": roll on to tell them apart";
     return advice_on_one(answer_.placements.front());
   }
 
+  /// Whether it is the part's shape, or the roll's, that lets every place fit, and not the tolerance: the part looks
+  /// the same all round, or the roll told nothing: none at all, or of two fingers equal ones under a part that did not
+  /// turn.
+  bool looks_the_same() const {
+    const auto is_whole = [](const Placement& placement) {
+      return placement.kind == Kind::stretch &&
+             std::any_of(placement.whole_loop.begin(), placement.whole_loop.end(), [](bool b) { return b; });
+    };
+    if (!answer_.weighing) return std::any_of(answer_.placements.begin(), answer_.placements.end(), is_whole);
+    if (symmetry(answer_.part) == 0) return true;
+    const Noise& noise = answer_.weighing->noise;
+    const double most_length = std::max(kAgreement * answer_.part.perimeter(), kSurely * noise.contact);
+    return std::all_of(answer_.readings.begin(), answer_.readings.end(), [&](const Reading& reading) {
+      const double length = fingers_ == 1 ? reading.length[0] : reading.length[0] - reading.length[1];
+      return std::abs(length) <= most_length && std::abs(reading.turn) <= answer_.tolerance.value;
+    });
+  }
+  std::string all_the_way_round() const {
+    if (looks_the_same()) {
+      return ": pairs all the way round the boundary fit; no such roll, however long, can tell them apart";
+    }
+    return fmt::format(": within the {} pairs all the way round the boundary fit; roll further, or {}",
+                       answer_.weighing ? "noise" : "tolerance",
+                       answer_.weighing ? "measure better" : "give more digits");
+  }
+
   std::string advice_on_one(const Placement& only) const {
     if (fingers_ == 2) {
       if (answer_.verdict.name != Verdict::unique) return ": roll on to tell them apart";
-      return fmt::format(": finger a started at s = {}, finger b at {}", place(only.start[0]), place(only.start[1]));
+      return fmt::format(": finger a started at s = {}, finger b at {}", at(only.start[0]), at(only.start[1]));
     }
     if (only.kind == Kind::stretch) {
       return only.whole_loop[0] ? ": this roll looks the same from every place on the boundary"
@@ -97,13 +142,12 @@ class AnswerText {
     if (only.whole_loop[0]) return ": within the tolerance every place fits; give more digits, or roll further";
     const std::string lo = place(only.extent[0].lo);
     const std::string hi = place(only.extent[0].hi);
-    if (lo == hi) return fmt::format(": the finger started at s = {}", place(only.start[0]));
-    return fmt::format(": the finger started between s = {} and {}", lo, hi);
+    if (lo == hi) return fmt::format(": the finger started at s = {}", at(only.start[0]));
+    return fmt::format(": the finger started between s = {} and {}{}", lo, hi, unit_);
   }
 
   std::string weighed_advice() const {
-    const Diagnosis& diagnosis = answer_.weighing->diagnosis;
-    if (diagnosis.cause != Cause::none) return ": nothing fits; " + about(diagnosis);
+    if (answer_.verdict.name == Verdict::inconsistent && !answer_.diagnoses.empty()) return ": nothing fits";
     if (answer_.placements.empty()) return ": nothing that fits is within the finger's reach";
     const Placement& first = answer_.placements.front();
     const Verdict& verdict = answer_.verdict;
@@ -111,9 +155,9 @@ class AnswerText {
       return (fingers_ == 1 ? ": the finger started at " : ": the roll started with ") + where(first);
     }
     if (verdict.name == Verdict::unobservable) {
-      return fingers_ == 1
-                 ? ": this roll looks the same from every place on the boundary"
-                 : ": pairs all the way round the boundary fit; no such roll, however long, can tell them apart";
+      if (fingers_ == 2) return all_the_way_round();
+      return looks_the_same() ? ": this roll looks the same from every place on the boundary"
+                              : ": within the noise every place fits; roll further, or measure better";
     }
     if (fingers_ == 1 && (answer_.placements.size() == 1 || verdict.stretches > 0)) {
       return fmt::format(": the likeliest start is {}; roll on to know it better", where(first));
@@ -122,13 +166,38 @@ class AnswerText {
                        first.probability);
   }
 
+  /// What may be wrong, with the option that mends it and the answer then.
+  std::string diagnosis_lines() const {
+    std::string text;
+    for (const Diagnosis& diagnosis : answer_.diagnoses) {
+      const bool is_first = text.empty();
+      text += fmt::format("{} {}\n  {}{}\n", is_first ? "likeliest:" : "or:       ", about(diagnosis),
+                          cure_of(diagnosis, answer_.fingers, answer_.weighing ? answer_.weighing->noise : Noise{}),
+                          then(diagnosis));
+    }
+    return text;
+  }
+  std::string then(const Diagnosis& diagnosis) const {
+    if (diagnosis.modes.empty()) return "";
+    const Mode& first = diagnosis.modes.front();
+    const std::string start = fingers_ == 1
+                                  ? fmt::format("s = {:.6g}, sd {:.2g}", first.start[0], first.sd[0])
+                                  : fmt::format("a at s = {:.6g}, b at {:.6g}", first.start[0], first.start[1]);
+    return fmt::format("; then {}: {}", diagnosis.verdict.text(), start);
+  }
+
   // ---- what was asked ----
 
   std::string head() const {
     const Part& part = answer_.part;
     return fmt::format("part       {}, {}, perimeter {}\n", part.name(), part.closed() ? "closed" : "open",
-                       place(part.perimeter())) +
-           reading_lines() + tolerance_line() + (answer_.weighing ? weighing_lines() : "");
+                       at(part.perimeter())) +
+           accuracy_line() + reading_lines() + tolerance_line() + (answer_.weighing ? weighing_lines() : "");
+  }
+
+  std::string accuracy_line() const {
+    const Accuracy& accuracy = answer_.part.outline().accuracy;
+    return accuracy.is_exact() ? "" : fmt::format("accuracy   of the part: {}\n", accuracy_text(accuracy));
   }
 
   std::string reading_lines() const {
@@ -136,8 +205,8 @@ class AnswerText {
     for (std::size_t i = 0; i < answer_.readings.size(); ++i) {
       const Reading& reading = answer_.readings[i];
       const std::string lengths =
-          fingers_ == 1 ? "length " + place(reading.length[0])
-                        : fmt::format("lengths {} and {}", place(reading.length[0]), place(reading.length[1]));
+          fingers_ == 1 ? "length " + at(reading.length[0])
+                        : fmt::format("lengths {} and {}", place(reading.length[0]), at(reading.length[1]));
       const std::string when = answer_.times.empty() ? "" : fmt::format(" at {:.6g} s", answer_.times[i]);
       text += fmt::format("reading    {}, turn {} deg{}\n", lengths, degrees(reading.turn), when);
     }
@@ -146,8 +215,9 @@ class AnswerText {
   }
 
   std::string tolerance_line() const {
-    constexpr std::array<const char*, 5> kSources = {"default", "from the digits given", "from the noise", "as given",
-                                                     "the least there is"};
+    constexpr std::array<const char*, 6> kSources = {
+        "default",  "from the digits given", "from the noise",
+        "as given", "the least there is",    "from the accuracy of the taught part"};
     const Tolerance& tolerance = answer_.tolerance;
     return fmt::format("tolerance  {:.3g} deg = {:.3g} rad, {}\n", tolerance.value / kDegree, tolerance.value,
                        kSources[static_cast<std::size_t>(tolerance.source)]);
@@ -159,19 +229,58 @@ class AnswerText {
     std::vector<std::string> noise;
     for (const NoiseKind& kind : kNoiseKinds) {
       const double sd = weighing.noise.*kind.sd;
+      const bool is_of_gyroscope = kind.unit == NoiseKind::Unit::rate || kind.unit == NoiseKind::Unit::walk;
+      if (is_of_gyroscope && sd == 0) continue;
+      if (is_of_gyroscope) {
+        const bool is_rate = kind.unit == NoiseKind::Unit::rate;
+        noise.push_back(fmt::format("{} {:.4g} {}", kind.name, sd / kDegree * (is_rate ? 3600 : 60),
+                                    is_rate ? "deg/h" : "deg/sqrt(h)"));
+        continue;
+      }
+      const std::string& unit = kind.unit == NoiseKind::Unit::length ? unit_ : "";
       noise.push_back(kind.unit == NoiseKind::Unit::angle ? fmt::format("{} {} deg", kind.name, degrees(sd))
-                                                          : fmt::format("{} {:.4g}", kind.name, sd));
+                                                          : fmt::format("{} {:.4g}{}", kind.name, sd, unit));
     }
     std::string text = fmt::format("noise      {}{}\n", fmt::join(noise, ", "), weighing.robust ? "; robust" : "");
     if (weighing.prior) {
-      text += fmt::format("prior      s = {:.6g}, sd {:.4g}\n", weighing.prior->s, weighing.prior->sd);
+      text += fmt::format("prior      s = {:.6g}, sd {:.4g}{}\n", weighing.prior->s, weighing.prior->sd, unit_);
     }
+    text += scale_lines();
     text += fmt::format("samples    {}", weighing.samples);
-    if (weighing.excess > 1) text += fmt::format("; off by {:.2f} times the noise, widened by that", weighing.excess);
+    if (weighing.fit.excess > 1)
+      text += fmt::format("; off by {:.2f} times the noise, widened by that", weighing.fit.excess);
     text += '\n';
     if (answer_.dropped.improbable > 0) {
       text += fmt::format("dropped    {} that the readings alone allow, but not all samples together\n",
                           answer_.dropped.improbable);
+    }
+    return text;
+  }
+
+  /// What the rows say of the lengths, and what was taken as exact.
+  std::string scale_lines() const {
+    const Weighing& weighing = *answer_.weighing;
+    std::string text;
+    for (std::size_t finger = 0; finger < fingers_; ++finger) {
+      const double sd = weighing.fit.length_scale_sd[finger];
+      if (!(sd > 0)) continue;
+      const double scale = weighing.fit.length_scale[finger];
+      const std::string whose = fingers_ == 1 ? "" : finger == 0 ? "of finger a " : "of finger b ";
+      text += fmt::format("lengths    {}{:.4f} +- {:.2g} times what was measured", whose, scale, sd);
+      const double off = 100 * (scale - 1);
+      if (std::abs(scale - 1) > 2 * sd) {
+        text += fmt::format(": they are {:.2g} % {}", std::abs(off), off > 0 ? "longer" : "shorter");
+      }
+      text += '\n';
+    }
+    std::vector<std::string> exact;
+    if (weighing.noise.slip <= 0) exact.emplace_back("slip");
+    if (weighing.noise.radius <= 0 && !answer_.fingers.empty() && answer_.fingers.front().is_disk()) {
+      exact.emplace_back("the finger's radius");
+    }
+    if (!exact.empty()) text += fmt::format("exact      {}: taken to be as said\n", fmt::join(exact, ", "));
+    if (weighing.noise.position <= 0 && !answer_.placements.empty() && answer_.placements.front().pose_spread) {
+      text += "centres    x and y only tell where the part is; --noise position=SD makes them evidence\n";
     }
     return text;
   }
@@ -212,7 +321,7 @@ class AnswerText {
 
   /// Columns of one title, or one for each finger.
   void add_columns(Table& table, const std::string& title) const {
-    for (std::size_t finger = 0; finger < fingers_; ++finger) table.add_column(of(title, finger));
+    for (std::size_t finger = 0; finger < fingers_; ++finger) table.add_column(over_lengths(of(title, finger)));
   }
   template <class ToText>
   void add_cells(Rows& cells, const ToText& to_text) const {
@@ -226,9 +335,9 @@ class AnswerText {
     cells.push_back(place(placement.point[0].y()));
   }
   void add_position_columns(Table& table) const {
-    for (const char* title : {"tangent [deg]", "x", "y"}) {
-      if (fingers_ == 1) table.add_column(title);
-    }
+    if (fingers_ == 2) return;
+    table.add_column("tangent [deg]");
+    for (const char* title : {"x", "y"}) table.add_column(over_lengths(title));
   }
 
   /// The largest by size; of one reading simply its own.
@@ -255,10 +364,10 @@ class AnswerText {
     add_position_columns(table);
     for (std::size_t finger = 0; finger < fingers_; ++finger) {
       const char* change = fingers_ == 1 ? "ds" : finger == 0 ? "da" : "db";
-      table.add_column(fmt::format("{}{}/dturn [/deg]", most, change));
+      table.add_column(fmt::format("{}{}/dturn [{}/deg]", most, change, answer_.part.unit()));
     }
     if (fingers_ == 1) table.add_column(most + "ds/dlength");
-    table.add_column("error");
+    table.add_column(over_lengths("error"));
     for (std::size_t i = 0; i < std::min(answer_.placements.size(), kMostRows); ++i) {
       const Placement& placement = answer_.placements[i];
       Rows cells{label(i), name_of(placement.kind)};
@@ -284,7 +393,8 @@ class AnswerText {
     table.add_column("", fingers_ == 1 ? Table::Align::left : Table::Align::right);
     table.add_column("probability");
     for (std::size_t finger = 0; finger < fingers_; ++finger) {
-      for (const char* title : {"start", "sd", "95 % from", "to", "end"}) table.add_column(of(title, finger));
+      for (const char* title : {"start", "sd", "95 % from", "to", "end"})
+        table.add_column(over_lengths(of(title, finger)));
     }
     add_position_columns(table);
     for (std::size_t i = 0; i < std::min(answer_.placements.size(), kMostRows); ++i) {
@@ -357,7 +467,7 @@ class AnswerText {
     std::string text;
     for (std::size_t i = 0; i < std::min(answer_.placements.size(), kMostNotes); ++i) {
       const Placement& placement = answer_.placements[i];
-      if (!placement.pose.empty()) text += fmt::format("{}: {}\n", label(i), about_pose(placement, answer_.part));
+      if (!placement.pose.empty()) text += fmt::format("{}: {}\n", label(i), about_pose(placement, answer_));
     }
     return text;
   }
@@ -379,6 +489,7 @@ class AnswerText {
   const Answer& answer_;
   std::size_t fingers_;
   int decimals_;
+  std::string unit_;  // behind a length
 };
 
 std::string place_text(const Part& part, double s, const Vec2& point) {
@@ -397,31 +508,47 @@ std::string about(const Obstruction& obstruction, const Part& part) {
                      place_text(part, obstruction.hit.s, obstruction.hit.point), rough(obstruction.hit.depth));
 }
 
-std::string about(const Diagnosis& diagnosis) {
-  switch (diagnosis.cause) {
-    case Cause::none:
-      break;
-    case Cause::radius:
-      return fmt::format(
-          "it would if all lengths were {:.4g} times as long: likeliest is a wrong radius of the finger, or a wrong "
-          "unit",
-          diagnosis.length_scale);
-    case Cause::slip:
-      return "it would if lengths were off here and there: likeliest is that the finger slipped";
-    case Cause::part:
-      return "neither other lengths nor slip explain it: likeliest is another part, another side of it, or wrong signs";
+std::string accuracy_text(const Accuracy& accuracy) {
+  std::vector<std::string> sds;
+  if (accuracy.turn > 0) {
+    sds.push_back(fmt::format("tangents sd {:.3g} deg (alike over {:.3g})", accuracy.turn / kDegree, accuracy.alike));
   }
-  return "";
+  if (accuracy.walk > 0) {
+    sds.push_back(fmt::format("turns sd {:.3g} deg per square root of length", accuracy.walk / kDegree));
+  }
+  if (accuracy.length > 0) sds.push_back(fmt::format("lengths sd {:.3g} %", 100 * accuracy.length));
+  return fmt::format("{}", fmt::join(sds, ", "));
 }
 
-std::string about_pose(const Placement& placement, const Part& part) {
+namespace {
+
+/// With noise: where the part was at the first contacts, as all rows have it, and how sure that is.
+std::string about_spread(const PoseSpread& spread, const Answer& answer) {
+  const int decimals = decimals_for(answer.part.perimeter());
+  const auto sd = [&](int k) { return std::sqrt(std::max(0.0, spread.covariance(k, k))); };
+  const std::string instant = answer.pose_time.empty() ? "" : fmt::format(", at {:.6g} s,", answer.pose_time.front());
+  const std::string heading =
+      sd(2) < std::numbers::pi
+          ? fmt::format("heading {} ± {} deg", degrees(spread.mean.heading), rough(sd(2) / kDegree))
+          : "its heading unknown";
+  return fmt::format("at the first contact{} the part was at x = {} ± {}, y = {} ± {}{}, {}", instant,
+                     fixed(spread.mean.x, decimals), rough(sd(0)), fixed(spread.mean.y, decimals), rough(sd(1)),
+                     behind(answer.part.unit()), heading);
+}
+
+}  // namespace
+
+std::string about_pose(const Placement& placement, const Answer& answer) {
+  const Part& part = answer.part;
   const int decimals = decimals_for(part.perimeter());
   const Pose& last = placement.pose.back();
   const double off = placement.pose_residual->length;
   const std::string agreement =
       off <= kAgreement * part.perimeter() ? "the contacts agree" : fmt::format("contacts off by {}", rough(off));
-  return fmt::format("the part is at x = {}, y = {}, heading {} deg; {}", fixed(last.x, decimals),
-                     fixed(last.y, decimals), degrees(last.heading), agreement);
+  const std::string face = answer.mirrored ? " face down" : "";
+  if (placement.pose_spread) return about_spread(*placement.pose_spread, answer) + face + "; " + agreement;
+  return fmt::format("the part is{} at x = {}, y = {}{}, heading {} deg; {}", face, fixed(last.x, decimals),
+                     fixed(last.y, decimals), behind(part.unit()), degrees(last.heading), agreement);
 }
 
 std::string answer_text(const Answer& answer, bool explain) { return AnswerText(answer).text(explain); }

@@ -36,6 +36,12 @@ std::string Table::str() const {
   return text;
 }
 
+std::string title_in(const std::string& title, const std::string& unit) {
+  return unit.empty() ? title : fmt::format("{} [{}]", title, unit);
+}
+
+std::string behind(const std::string& unit) { return unit.empty() ? "" : " " + unit; }
+
 int decimals_for(double size) {
   constexpr int kDigits = 7;
   constexpr int kMostDecimals = 15;

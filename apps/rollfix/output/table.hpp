@@ -29,6 +29,11 @@ class Table {
 /// How many decimals show a part of this size to about seven digits.
 int decimals_for(double size);
 
+/// "start [mm]": a title over lengths in a part's unit, "start" where that is not known.
+std::string title_in(const std::string& title, const std::string& unit);
+/// "12.5 mm" behind a length.
+std::string behind(const std::string& unit);
+
 /// With that many decimals; never "-0.000".
 std::string fixed(double value, int decimals);
 

@@ -67,6 +67,8 @@ void add_simulate_command(CLI::App& program, Command& chosen) {
   command->add_option("--samples", arguments->samples, "rows of the log, at equal times; default 101")->type_name("N");
   add_repeated(*command, "-o", arguments->files, "FILE",
                "the log, - for stdout, which is the default; twice: a log for each of two fingers");
+  add_switch(*command, "--mirror", arguments->mirror,
+             "the part lies face down; --start and --length are along the outline as it was drawn all the same");
   add_switch(*command, "--force", arguments->force, "replace files that exist");
   command->callback([arguments, &chosen] {
     chosen = [arguments] { return is_of_two(*arguments) ? simulate_two(*arguments) : simulate_one(*arguments); };

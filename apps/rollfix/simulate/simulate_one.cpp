@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "rollfix/answer/solve.hpp"
 #include "rollfix/arguments/finger_argument.hpp"
 #include "rollfix/arguments/typed_number.hpp"
 #include "rollfix/contact/log.hpp"
@@ -33,14 +34,16 @@ void place_contact(const SimulateArguments& arguments, const Part& part, const F
   if (!arguments.contact_angles.empty()) {
     throw InputError("--contact-angle is of a disk; a jaw or an outline has --contact, an arc length");
   }
-  if (!arguments.contact.empty()) plan.u = read_number(arguments.contact, "--contact");
+  if (!arguments.contact.empty()) plan.u = read_length(arguments.contact, "--contact", part.unit());
 }
 
 /// Lengths are along the stored outline, as everywhere.
 RollPlan plan_of(const SimulateArguments& arguments, const Part& part, const Finger& finger) {
   RollPlan plan;
-  plan.start = read_number(arguments.starts.front(), "--start");
-  if (!arguments.lengths.empty()) plan.distance = read_number(arguments.lengths.front(), "--length");
+  plan.start = read_length(arguments.starts.front(), "--start", part.unit());
+  if (!arguments.lengths.empty()) {
+    plan.distance = read_length(arguments.lengths.front(), "--length", part.unit());
+  }
   if (!arguments.rotation.empty()) plan.rotation = read_angle(arguments.rotation, "--rotation");
   if (!arguments.samples.empty()) plan.rows = read_count(arguments.samples, "--samples", 2);
   place_contact(arguments, part, finger, plan);
@@ -53,10 +56,13 @@ Report simulate_one(const SimulateArguments& arguments) {
   require_one_finger(arguments);
   const std::string file = arguments.files.empty() ? "-" : arguments.files.front();
   require_writable_log(file, arguments.force);
-  const std::optional<SimulatedNoise> noise = read_simulated_noise(arguments);
-  const Finger finger = read_fingers(arguments.fingers, 1).front();
   Report report;
   const Part part = load_part(arguments.part, report.notes);
+  const std::optional<SimulatedNoise> noise = read_simulated_noise(arguments, part.unit());
+  const Finger finger = read_fingers(arguments.fingers, 1, part.unit()).front();
+  if (arguments.mirror && !has_reach(finger)) {
+    throw InputError(fmt::format("--mirror: the finger {} has an outline: expected a disk or a jaw", finger.name()));
+  }
   const RollPlan plan = plan_of(arguments, part, finger);
   NoisyRoll noisy;
   if (noise) {
@@ -71,7 +77,7 @@ Report simulate_one(const SimulateArguments& arguments) {
   report.notes.push_back(roll_text(part, roll.s[0], roll.angle[0]));
   add_reach_note(report, beyond_reach_note(part, finger, roll.s[0], "a real finger "));
   if (noise) report.notes.push_back(roll_error_text(finger, noisy.error[0]));
-  add_log(report, file, format_log(noisy.log));
+  add_log(report, file, format_log(arguments.mirror ? in_mirror(noisy.log) : noisy.log));
   return report;
 }
 

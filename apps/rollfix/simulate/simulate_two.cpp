@@ -49,8 +49,8 @@ void require_two_fingers(const SimulateArguments& arguments) {
 FreeFinger plan_of(const SimulateArguments& arguments, const Part& part, const Finger& disk, std::size_t which) {
   FreeFinger finger;
   finger.finger = disk;
-  finger.start = read_number(arguments.starts[which], "--start");
-  finger.distance = read_number(arguments.lengths[which], "--length");
+  finger.start = read_length(arguments.starts[which], "--start", part.unit());
+  finger.distance = read_length(arguments.lengths[which], "--length", part.unit());
   finger.psi = orientation_at(part, finger.start, arguments, which);
   return finger;
 }
@@ -87,13 +87,13 @@ void add_logs(Report& report, const std::vector<std::string>& files, const Log& 
 Report simulate_two(const SimulateArguments& arguments) {
   require_two_fingers(arguments);
   for (const std::string& file : arguments.files) require_writable_log(file, arguments.force);
-  const std::optional<SimulatedNoise> noise = read_simulated_noise(arguments);
   if (!arguments.contact.empty())
     throw InputError("--contact is of one finger with an outline; disks have --contact-angle");
-  const std::vector<Finger> fingers = read_fingers(arguments.fingers, 2);
-  require_disks(fingers, "simulate with two fingers");
   Report report;
   const Part part = load_part(arguments.part, report.notes);
+  const std::optional<SimulatedNoise> noise = read_simulated_noise(arguments, part.unit());
+  const std::vector<Finger> fingers = read_fingers(arguments.fingers, 2, part.unit());
+  require_disks(fingers, "simulate with two fingers");
   const FreePlan plan = plan_of(arguments, part, fingers);
   NoisyRoll noisy;
   if (noise) {
@@ -117,7 +117,7 @@ Report simulate_two(const SimulateArguments& arguments) {
   for (std::size_t which = 0; which < 2 && noise; ++which) {
     report.notes.push_back(names[which] + ": " + roll_error_text(*finger_of(fingers, which), noisy.error[which]));
   }
-  add_logs(report, arguments.files, noisy.log);
+  add_logs(report, arguments.files, arguments.mirror ? in_mirror(noisy.log) : noisy.log);
   return report;
 }
 

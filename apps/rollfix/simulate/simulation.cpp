@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <numbers>
+#include <string_view>
 
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/arguments/finger_argument.hpp"
@@ -12,6 +14,7 @@
 #include "rollfix/error.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/table.hpp"
+#include "text/text.hpp"
 
 namespace rollfix::app {
 namespace {
@@ -32,12 +35,12 @@ double orientation_at(const Part& part, double s, const SimulateArguments& argum
 
 std::string roll_text(const Part& part, const std::vector<double>& s, const std::vector<double>& angle) {
   const int decimals = decimals_for(part.perimeter());
-  return fmt::format("rolled from s = {} over length {}; the tangent turned by {} deg", fixed(s.front(), decimals),
-                     fixed(s.back() - s.front(), decimals), degrees(angle.back() - angle.front()));
+  return fmt::format("rolled from s = {} over length {}{}; the tangent turned by {} deg", fixed(s.front(), decimals),
+                     fixed(s.back() - s.front(), decimals), behind(part.unit()), degrees(angle.back() - angle.front()));
 }
 
-std::optional<SimulatedNoise> read_simulated_noise(const SimulateArguments& arguments) {
-  const std::optional<Noise> noise = read_noise(arguments.noise);
+std::optional<SimulatedNoise> read_simulated_noise(const SimulateArguments& arguments, const std::string& unit) {
+  const std::optional<Noise> noise = read_noise(arguments.noise, unit);
   if (!noise && !arguments.seed.empty()) throw InputError("--seed is of --noise: give that as well");
   if (!noise) return std::nullopt;
   return SimulatedNoise{*noise, arguments.seed.empty() ? 0 : read_count(arguments.seed, "--seed", 0)};
@@ -63,8 +66,25 @@ void add_reach_note(Report& report, const std::string& note) {
   if (!note.empty()) report.notes.push_back(note);
 }
 
+Log in_mirror(Log log) {
+  for (FingerRows& rows : log.fingers) {
+    for (auto* column : {&rows.u, &rows.x}) {
+      for (double& value : *column) value = 0.0 - value;  // no -0
+    }
+    for (double& psi : rows.psi) psi = std::numbers::pi - psi;
+  }
+  return log;
+}
+
 void require_writable_log(const std::string& file, bool force) {
-  if (!is_stdout(file)) require_writable(file, force);
+  if (is_stdout(file)) return;
+  constexpr std::array<std::string_view, 6> kOthers = {".json", ".svg", ".png", ".pdf", ".dxf", ".db"};
+  const std::string ending = ending_of(file);
+  if (std::find(kOthers.begin(), kOthers.end(), ending) != kOthers.end()) {
+    throw InputError(fmt::format("-o {0}: a log is a table, expected a name as in {1}.csv, found the ending {2}", file,
+                                 file.substr(0, file.size() - ending.size()), ending));
+  }
+  require_writable(file, force);
 }
 
 void add_log(Report& report, const std::string& file, const std::string& text) {

@@ -28,6 +28,7 @@ struct SimulateArguments {
   std::string rotation;
   std::string part_rotation;
   std::string samples;
+  bool mirror = false;
   bool force = false;
 };
 
@@ -45,7 +46,7 @@ struct SimulatedNoise {
   Noise noise;
   std::uint64_t seed = 0;
 };
-std::optional<SimulatedNoise> read_simulated_noise(const SimulateArguments& arguments);
+std::optional<SimulatedNoise> read_simulated_noise(const SimulateArguments& arguments, const std::string& unit);
 
 /// "slipped by 0.01 %; its radius really is 0.201": what was drawn for a whole roll.
 std::string roll_error_text(const Finger& finger, const RollError& error);
@@ -60,6 +61,9 @@ std::string beyond_reach_note(const Part& part, const Finger& finger, const std:
 
 /// Adds it, unless it is empty.
 void add_reach_note(Report& report, const std::string& note);
+
+/// The log of the same roll on the part face down: see in_mirror.
+Log in_mirror(Log log);
 
 /// Throws InputError when a log can't be written to this -o; stdout always can.
 void require_writable_log(const std::string& file, bool force);

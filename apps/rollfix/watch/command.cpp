@@ -35,15 +35,19 @@ Examples:
   rollfix watch part.dxf --finger disk,r=5 --noise contact=0.1,angle=0.5deg --log roll.csv
   rollfix watch part.dxf --finger disk,r=5 --noise contact=0.1,angle=0.5deg --log /dev/ttyUSB0 --baud 921600
   rollfix watch track.csv --noise angle=0.2deg,slip=0.002 --log tcp:robot.local:7000 --jsonl | ./drive
+  robot-log | rollfix watch part.dxf --finger disk,r=5mm --noise angle=0.5deg --columns u=skin:deg,psi=yaw:deg
   rollfix watch gallery:cam --finger disk,r=0.2 --noise contact=0.002,angle=0.2deg --log roll.csv --once
 )";
 
 struct WatchArguments {
   PartArgument part;
   std::string log;
+  std::string columns;
   std::vector<std::string> fingers;
   std::string noise;
   std::string prior;
+  std::string direction;
+  bool mirror = false;
   bool robust = false;
   std::string baud;
   std::string every;
@@ -53,9 +57,9 @@ struct WatchArguments {
   bool jsonl = false;
 };
 
-BeliefOptions belief_options(const WatchArguments& arguments) {
-  if (const std::optional<Noise> noise = read_noise(arguments.noise)) {
-    return {*noise, read_prior(arguments.prior), arguments.robust};
+BeliefOptions belief_options(const WatchArguments& arguments, const std::string& unit) {
+  if (const std::optional<Noise> noise = read_noise(arguments.noise, unit)) {
+    return {*noise, read_prior(arguments.prior, unit), arguments.robust};
   }
   throw InputError(
       "watch: expected --noise, as in --noise contact=0.1,angle=0.5deg: how sure an answer is follows from how far the "
@@ -81,11 +85,19 @@ void require_sensible(const WatchArguments& arguments, const std::string& log) {
   }
 }
 
-WatchOptions watch_options(const WatchArguments& arguments, const std::string& log) {
+WatchOptions watch_options(const WatchArguments& arguments, const std::string& log, const std::string& unit) {
   WatchOptions options;
   options.name = log == "-" ? "standard input" : log;
-  options.fingers = read_fingers(arguments.fingers, 1);
-  options.belief = belief_options(arguments);
+  options.fingers = read_fingers(arguments.fingers, 1, unit);
+  options.belief = belief_options(arguments, unit);
+  options.log = read_log_options(arguments.columns, unit);
+  options.log.mirrored = arguments.mirror;
+  options.log.clockwise = counts_clockwise(arguments.direction);
+  for (const Finger& finger : options.fingers) {
+    if (arguments.mirror && finger.outline() != nullptr) {
+      throw InputError(fmt::format("--mirror: the finger {} has an outline: expected a disk or a jaw", finger.name()));
+    }
+  }
   options.live = !arguments.once;
   if (!arguments.every.empty()) options.every = read_count(arguments.every, "--every", 1);
   return options;
@@ -215,10 +227,10 @@ void require_rows(WatchEnd why, const Watcher& watcher, const std::string& name)
 Report watch(const WatchArguments& arguments, std::ostream& out, std::ostream& err) {
   const std::string log = log_name(arguments);
   require_sensible(arguments, log);
-  const WatchOptions options = watch_options(arguments, log);
   const std::optional<Seconds> idle_timeout = idle_timeout_of(arguments);
   std::vector<std::string> notes;
   const Part part = load_part(arguments.part, notes);
+  const WatchOptions options = watch_options(arguments, log, part.unit());
   if (part.reversed()) notes.push_back(reversed_note(part));
 
   const auto io = std::make_shared<asio::io_context>();
@@ -253,8 +265,10 @@ void add_watch_command(CLI::App& program, Command& chosen, std::ostream& out, st
                    "the growing log: a file, which is followed as tail -F does; a serial device; tcp:HOST:PORT or "
                    "tcp:PORT, a server to connect to; - for stdin, the default")
       ->type_name("SOURCE");
+  add_columns_argument(*command, arguments->columns);
   add_finger_argument(*command, arguments->fingers);
   add_noise_arguments(*command, arguments->noise, arguments->prior, arguments->robust);
+  add_side_arguments(*command, arguments->mirror, arguments->direction);
   add_switch(*command, "--on-change", arguments->on_change,
              "print when the verdict, the number of places or the most probable one changes: the default");
   command->add_option("--every", arguments->every, "print after every N samples instead")->type_name("N");

@@ -26,12 +26,15 @@ std::string percent(double probability) { return fixed(100 * probability, 1) + "
 class TextWriter : public WatchWriter {
  public:
   TextWriter(const Part& part, std::ostream& out, std::ostream& err, std::function<bool()> is_ready)
-      : WatchWriter(out, err, std::move(is_ready)), decimals_(std::max(0, decimals_for(part.perimeter()) - 2)) {}
+      : WatchWriter(out, err, std::move(is_ready)),
+        decimals_(std::max(0, decimals_for(part.perimeter()) - 2)),
+        unit_(part.unit()) {}
 
   void begin(const Part& part, const WatchOptions& options) override {
     const int decimals = decimals_for(part.perimeter());
-    announce(fmt::format("part  {}, {}, perimeter {}\nlog   {}\n\n", part.name(), part.closed() ? "closed" : "open",
-                         fixed(part.perimeter(), decimals), options.name) +
+    const std::string unit = unit_.empty() ? "" : fmt::format(" {}; all lengths are in {}", unit_, unit_);
+    announce(fmt::format("part  {}, {}, perimeter {}{}\nlog   {}\n\n", part.name(), part.closed() ? "closed" : "open",
+                         fixed(part.perimeter(), decimals), unit, options.name) +
              row("line", "time [s]", "length", "turn [deg]", "verdict",
                  fmt::format("{:>10}  {:>10}  {:>8}  {:>7}", "start", "now", "sd", "p")));
   }
@@ -99,11 +102,12 @@ class TextWriter : public WatchWriter {
     }
     if (last.verdict.name != Verdict::unique) return last.verdict.text();
     const Mode& only = last.modes.front();
-    return fmt::format("{}: roll {} started at s = {} +- {}", last.verdict.text(), last.roll,
-                       fixed(only.mean[0], decimals_), rough(only.sd[0]));
+    return fmt::format("{}: roll {} started at s = {} +- {}{}", last.verdict.text(), last.roll,
+                       fixed(only.mean[0], decimals_), rough(only.sd[0]), behind(unit_));
   }
 
   int decimals_;
+  std::string unit_;            // the part's
   std::size_t roll_shown_ = 0;  // the last row was of this answer
   std::size_t samples_shown_ = 0;
 };

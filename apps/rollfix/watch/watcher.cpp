@@ -88,6 +88,9 @@ void Watcher::push(std::string_view line) {
       end_roll(RollEnd::jump);
       begin_roll(row.sample);
       return;
+    case LineKind::stray:
+      listener_.note(row.message);
+      return;
     case LineKind::malformed:
       ++counts_.malformed;
       listener_.note(row.message);
@@ -108,7 +111,7 @@ void Watcher::restart() {
 void Watcher::finish() { end_roll(RollEnd::ended); }
 
 LogStream Watcher::new_stream() const {
-  return LogStream(options_.name, part_, options_.fingers, options_.belief.noise);
+  return LogStream(options_.name, part_, options_.fingers, options_.belief.noise, options_.log, options_.belief.robust);
 }
 
 LogLine Watcher::read(std::string_view line) {
@@ -184,7 +187,7 @@ void Watcher::look() {
 void Watcher::end_roll(RollEnd why) {
   if (!belief_) return;
   if (answer_.samples < samples_) look();
-  if (answer_.verdict.name == Verdict::inconsistent) answer_.diagnosis = belief_->diagnosis();
+  answer_.diagnosis = belief_->diagnosis();
   belief_.reset();
   has_news_ = false;
   listener_.over(answer_, why);

@@ -62,6 +62,7 @@ struct WatchOptions {
   std::string name;             // of the log, for messages
   std::vector<Finger> fingers;  // for logs of u and psi: at most one
   BeliefOptions belief;
+  LogOptions log;         // what its columns are called, and the part's unit
   std::size_t every = 0;  // tell every so many samples; 0: when there is news
   bool live = false;      // somebody waits: nothing that is new is kept back for longer than kMostDelay
 };

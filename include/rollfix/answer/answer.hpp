@@ -45,12 +45,14 @@ struct Problem {
   std::vector<double> at{};             // instants of a log, seconds; none: its last row, of two fingers the middle one
                                         // as well
   std::optional<Prior> prior{};         // with noise: about where finger a started
-  bool robust = false;                  // with noise: stray rows don't count
+  std::optional<PosePrior> pose{};      // with noise: about how the part lay then
+  bool mirrored = false;                // the part lies face down: the fingers felt the outline's mirror image
+  bool robust = false;                  // with noise: stray rows don't count, and rows that jump away are left out
 };
 
 /// The search's tolerance and where it comes from.
 struct Tolerance {
-  enum class Source { smallest, digits, noise, given, least };
+  enum class Source { smallest, digits, noise, given, least, part };
   double value = 0;  // radians
   Source source = Source::smallest;
 };
@@ -68,10 +70,10 @@ struct Weighing {
   std::optional<Prior> prior{};
   bool robust = false;
   std::size_t samples = 0;
-  double excess = 1;  // by how many times the samples are off more than the noise allows
-  double rest = 0;    // probability of what is not listed
-  Diagnosis diagnosis{};
+  Fit fit;          // of the rows to the likeliest place
+  double rest = 0;  // probability of what is not listed
   std::vector<Placement> improbable{};
+  PerFinger<Density> density{};  // of the first contacts, see Belief::density
 };
 
 /// Every place where the roll can have started, and what is known of each.
@@ -92,6 +94,9 @@ struct Answer {
   std::vector<PerFinger<Interval>> unresolved{};
   SearchCounts counts{};
   std::optional<Weighing> weighing{};  // with noise
+  std::vector<Diagnosis> diagnoses{};  // where the rows fit badly: what explains them, the likeliest first; never empty
+  std::vector<std::size_t> strays{};   // robust, of a log: lines that jump away and were left out
+  bool mirrored = false;               // places are along the outline as stored; poses are of the part face down
   bool lengths_reversed = false;       // a log's lengths changed their signs, as the part is stored the other way round
 
   std::size_t finger_count() const { return readings.front().fingers(); }

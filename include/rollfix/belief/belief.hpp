@@ -2,10 +2,12 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "rollfix/contact/finger.hpp"
 #include "rollfix/contact/log.hpp"
 #include "rollfix/contact/noise.hpp"
 #include "rollfix/locate/placement.hpp"
@@ -22,17 +24,27 @@ struct Prior {
   double sd = 0;  // length, above 0
 };
 
+/// What is known of the part's pose at the first contacts before the roll: normal distributions, of x and y alike.
+struct PosePrior {
+  Pose mean;
+  double heading_sd = 0;                                      // radians, above 0
+  double place_sd = std::numeric_limits<double>::infinity();  // length; infinite: only the heading is known
+};
+
 struct BeliefOptions {
   Noise noise;
-  std::optional<Prior> prior{};  // none: every place alike
-  bool robust = false;           // a stray sample counts no more than its share
-  bool bare = false;             // readings whose first contact is exact and that do not drift
+  std::optional<Prior> prior{};     // none: every place alike
+  bool robust = false;              // a stray sample counts no more than its share
+  bool bare = false;                // readings whose first contact is exact and that do not drift
+  double scale_sd = 0;              // of all lengths by one factor, besides what slip and radius make of them
+  std::optional<PosePrior> pose{};  // for logs of u and psi and known fingers; places take x and y in the log as well
 };
 
 /// What is known of the fingers, one or two.
 struct Contacts {
   PerFinger<double> finger_curvature;  // at the first contact: 1/r of a disk; 0 of a jaw, or where it is not known
   std::optional<double> facing{};      // of two: (u + psi)_a - (u + psi)_b at the first contacts, radians
+  std::vector<Finger> fingers{};       // none: not known, and centres say nothing; one serves both of two
 };
 
 /// Where the posterior has its mass: one of several places, or of two fingers pairs of places, that remain.
@@ -50,18 +62,70 @@ struct Mode {
   PerFinger<double> end_sd;
 };
 
-/// Why nothing fits, if nothing does.
-enum class Cause {
-  none,    // something fits
-  radius,  // lengths by one factor throughout would: the finger's radius, or the unit
-  slip,    // lengths that are off now and then would
-  part     // not even that: another part, another finger, or another side of it
+/// A little of the posterior along the boundary: so much of the probability, evenly spread over an interval. In a
+/// corner the interval is a point.
+struct DensityPiece {
+  Interval s;  // of the first contact; lo in [0, P), hi may exceed P
+  double probability = 0;
+};
+/// Of one finger's first contact, in order; what they hold together is 1, but for Belief::rest().
+using Density = std::vector<DensityPiece>;
+
+/// How well the samples fit the likeliest place, as noisy as they are said to be.
+struct Fit {
+  // What a standard normal deviate is beyond once in some thousand times.
+  static constexpr double kMostSigmas = 3.3;
+
+  double chi_square = 0;          // of the samples about that place
+  double freedom = 0;             // as much is to be expected of it
+  double sigmas = 0;              // how unlikely such a chi-square is: a standard normal deviate
+  double correlation = 0;         // of neighbouring samples' errors, which should be independent
+  double correlation_sigmas = 0;  // how unlikely that is
+  double stray = 0;               // robust: as many rows are
+  double prior_sigmas = 0;        // how far the place is from where the prior has it, in the prior's deviations
+  double excess = 1;              // by how many times the samples are off more than the noise allows; 1: they are not
+  double widened = 1;             // all that is said is as with this many times the noise: the excess, and what
+                                  // samples that are alike are worth
+  PerFinger<double> length_scale = 1.0;     // lengths are this many times what was measured, ...
+  PerFinger<double> length_scale_sd = 0.0;  // ... give or take; 0: they were said to be exact
+
+  bool is_correlated() const { return correlation_sigmas > kMostSigmas; }
+  bool is_bad() const { return sigmas > kMostSigmas || is_correlated() || prior_sigmas > kMostSigmas; }
 };
 
+/// What is wrong with a log, or with what was said of it, where its rows fit badly.
+enum class Cause {
+  none,              // nothing: they fit
+  unsaid_noise,      // rows that were not said to be noisy jitter
+  noise,             // the rows are noisier than said, each on its own
+  correlation,       // they are as noisy as said, and neighbours are off alike
+  prior,             // what was said of the first contact beforehand
+  radius,            // all lengths are off by one factor: the finger's radius, or the unit
+  u_degrees,         // u is in degrees
+  psi_degrees,       // psi is
+  angles_degrees,    // both are
+  turn_degrees,      // of a log without u and psi: the turn is
+  u_clockwise,       // u is counted clockwise
+  psi_clockwise,     // psi is
+  both_clockwise,    // all angles are, or the part lies face down
+  length_backwards,  // of a log without u and psi: the length is counted against the outline's direction
+  turn_clockwise,    // the turn is counted clockwise
+  stray,             // a few rows are anything
+  slip,              // lengths are off here and there
+  part               // nothing of all that: another part, another finger, another side of it
+};
+
+/// A mistake, and what would be the answer without it.
 struct Diagnosis {
   Cause cause = Cause::none;
-  double excess = 1;        // of the samples with that explanation, see Belief::excess
-  double length_scale = 1;  // radius: lengths would have to be this many times what was measured
+  double excess = 1;           // of the rows without that mistake, see Fit
+  double length_scale = 1;     // radius: lengths are this many times what was measured, ...
+  double length_scale_sd = 0;  // ... give or take
+  double noise_scale = 1;      // noise: it is this many times what was said
+  Noise noise{};               // unsaid_noise: what they seem to have
+  std::size_t stray = 0;       // rows
+  Verdict verdict{};           // the answer
+  std::vector<Mode> modes{};   // likewise, the most probable first
 };
 
 /// What a finger feels at an instant: where its contact is in the world, and where the part's inward normal points
@@ -96,16 +160,20 @@ class Belief {
   const std::vector<Mode>& modes();
   double rest();
 
-  /// By how many times the samples are off more than the noise allows; 1 where they are not. What modes() says is as
-  /// with that much more noise.
-  double excess();
+  /// The same for every place: the density along the boundary, of either finger by itself. Of one finger as fine as it
+  /// was computed; of two by steps of a third of a mode's standard deviation. Empty before the first sample.
+  PerFinger<Density> density();
+
+  /// How well they fit. What modes() says is as with Fit::widened times the noise.
+  const Fit& fit();
+  double excess();  // of it
 
   /// How far f can be from 0 at what remains, radians: a tolerance for a search with these readings that lets all of it
   /// pass. Of one finger that of the last sample, whose f is the least certain.
   double tolerance(const std::vector<Reading>& readings);
 
-  /// Which explanation is the likeliest where nothing fits: the samples are weighed again with errors that they were
-  /// not said to have.
+  /// What may be wrong where they fit badly, as far as the samples tell by themselves: they are weighed again with
+  /// errors that they were not said to have. `diagnose` knows more.
   Diagnosis diagnosis();
 
   Verdict verdict();

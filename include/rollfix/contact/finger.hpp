@@ -111,6 +111,14 @@ Contact contact_at(const Finger& finger, double tangent, double u);
 /// Where the origin of the finger's frame is in the world, a disk's centre, when it touches at this point.
 Vec2 centre_of(const Finger& finger, const Vec2& point, const Contact& contact);
 
+/// Where a finger's contact is as seen from the origin of its frame, a disk's centre, along the contact's normal (out
+/// of the finger, into the part) and across it, counter-clockwise: of a disk (r, 0), of a jaw (0, u).
+struct Arm {
+  Vec2 at = Vec2::Zero();
+  Vec2 per_length = Vec2::Zero();  // how it changes along the finger, counter-clockwise
+};
+Arm arm_of(const Finger& finger, double u);
+
 /// What the fingers say together, each of which has a reading of its own: of one its own, of two eqs. (7)-(9). The
 /// turns of two may hold that of the part, which cancels.
 Reading together(const PerFinger<Reading>& each);

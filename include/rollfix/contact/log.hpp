@@ -9,10 +9,12 @@
 #include <vector>
 
 #include "rollfix/contact/finger.hpp"
+#include "rollfix/contact/log_options.hpp"
 #include "rollfix/contact/noise.hpp"
 #include "rollfix/contact/reading.hpp"
 #include "rollfix/part/part.hpp"
 #include "rollfix/per_finger.hpp"
+#include "rollfix/units.hpp"
 
 namespace rollfix {
 
@@ -36,6 +38,7 @@ struct FingerRows {
   double u_period = 2 * std::numbers::pi;  // of a simulated log: what once around the finger adds to u
   double place_rounding = 0;               // half a unit of the most precise u (radians) or length or distance
   double angle_rounding = 0;               // the same of psi or turn or dturn
+  std::optional<Dimension> u_dimension{};  // where the log says whether u is an angle or a length
 };
 
 /// What one finger, or two together, recorded of one roll, while all of them touched the part.
@@ -45,36 +48,39 @@ struct Log {
   std::vector<double> time;                       // seconds, strictly growing; empty where there are none
   std::vector<FingerRows> fingers{FingerRows{}};  // one or two; row k of all is the same instant
   bool contact_was_off = false;                   // rows without contact, before these or after them, were left out
+  std::string unit{};                             // of its lengths, as the options had it; empty: not known
 
   std::size_t rows() const { return kind == LogKind::contact ? fingers[0].u.size() : fingers[0].length.size(); }
 };
 
 /// Reads a log of one finger or, with u_a, psi_a, u_b, psi_b and so on in columns side by side, of two: columns by name
 /// in any order, unknown ones ignored; two columns without a header are distance and dturn. Separated by commas,
-/// semicolons, tabs or blanks. Angles may be written 73deg. `#` comments, blank lines, quotes, a byte order mark and
-/// both kinds of line ends are allowed. Rows with contact 0, of either finger, before the first contact and after the
-/// last are skipped, whatever they hold. "-" is standard input. Throws InputError with file, line and value: no such
-/// file, no known header, a cell that is missing or not a finite number, a time that does not grow, contact lost and
-/// found again, too few rows.
-Log read_log(const std::string& path);
+/// semicolons, tabs or blanks. Angles may be written 73deg; a unit may stand behind a column's name, in brackets: psi
+/// [deg], x (mm). `options` says what columns are called where they are not called that, and in what unit. `#`
+/// comments, blank lines, quotes, a byte order mark and both kinds of line ends are allowed. Rows with contact 0, of
+/// either finger, before the first contact and after the last are skipped, whatever they hold. "-" is standard input.
+/// Throws InputError with file, line and value: no such file, no known header, a cell that is missing or not a finite
+/// number, a time that does not grow, contact lost and found again, too few rows.
+Log read_log(const std::string& path, const LogOptions& options = {});
 
 /// The same from a text; `name` is what messages call it.
-Log parse_log(std::string_view text, const std::string& name);
+Log parse_log(std::string_view text, const std::string& name, const LogOptions& options = {});
 
 /// The same of a log in which contact is lost and found again: every unbroken roll with at least a reading is a log of
 /// its own, in order, each with its own first contact. Where there are several their names say the lines: "run.csv,
 /// lines 12 to 90". A later roll of length and turn, or of distance and dturn, is measured from its own first row: what
 /// was counted while the finger was off the part does not count.
-std::vector<Log> read_rolls(const std::string& path);
-std::vector<Log> parse_rolls(std::string_view text, const std::string& name);
+std::vector<Log> read_rolls(const std::string& path, const LogOptions& options = {});
+std::vector<Log> parse_rolls(std::string_view text, const std::string& name, const LogOptions& options = {});
 
 /// Two logs of one finger each as one of two fingers, by row. Where a contact column left out rows of one of them, both
 /// are cut to the times that they share. Throws InputError: logs of different kinds, different times, different numbers
 /// of rows (naming the lines), too few rows together, or one that is of two fingers already.
 Log paired(Log a, Log b);
 
-/// Reads two logs, one of each finger, with the same times. Throws InputError as read_log and `paired` do.
-Log read_log(const std::string& path_a, const std::string& path_b);
+/// Reads two logs, one of each finger, with the same times. Columns of the options that end in _a or _b are of that
+/// file alone. Throws InputError as read_log and `paired` do.
+Log read_log(const std::string& path_a, const std::string& path_b, const LogOptions& options = {});
 
 /// time,u,psi,x,y (or time,length,turn), of two fingers time,u_a,psi_a,x_a,y_a,u_b,..., 17 significant digits each:
 /// reading it back gives the same bits. Throws InputError when columns differ in length, and when neighbouring rows are
@@ -96,8 +102,8 @@ std::vector<double> unwrapped(const std::vector<double>& angles, double rounding
 
 /// The rows that are meant by these instants: each must be within half the distance of a row from its neighbours in
 /// time. No instants: of one finger the last row; of two the middle row and the last, because two fingers need two
-/// readings, or only the last where the log is too short for both. Throws InputError: no such row, or a log without
-/// times.
+/// readings, or only the last where the log is too short for both. Throws InputError: no such row, that of the first
+/// contact, which is no reading, a row that is meant twice, or a log without times.
 std::vector<std::size_t> rows_at(const Log& log, const std::vector<double>& times);
 
 // In what follows `fingers` are those that rolled: none where they are not known, one that holds for both, or a and b.
@@ -111,6 +117,15 @@ std::vector<Reading> readings_as_given(const Log& log, const std::vector<Finger>
 /// is farther from the next than is physical: see docs/rolling.md. `noise` widens what is.
 std::vector<Reading> readings(const Log& log, const Part& part, const std::vector<Finger>& fingers,
                               const std::vector<double>& times = {}, const Noise& noise = {});
+
+/// The same log without its stray rows: up to three in a row that are farther from the roll than is physical, if the
+/// roll goes on behind them where it was before (or ends). A jump from which no row comes back is no stray, and stays.
+/// `lines`, where asked for: those that were left out, of simulated rows their numbers.
+Log without_strays(const Log& log, const Part& part, const std::vector<Finger>& fingers, const Noise& noise = {},
+                   std::vector<std::size_t>* lines = nullptr);
+
+/// Where each row's contact is on the finger, and how that is turned, both unwrapped.
+std::vector<Contact> contacts_of(const FingerRows& rows, const Finger& finger);
 
 /// (N(u) + psi) of finger a less that of finger b, u + psi of disks, at the first contacts, which is Theta(s) -
 /// Theta(t) up to whole turns, in (-pi, pi]. Nothing of one finger, and where the log does not have it: length and
@@ -138,13 +153,14 @@ enum class LineKind {
   sample,     // a further row of the roll
   lost,       // contact is lost: the roll is over
   malformed,  // can't be read: skipped and counted
+  stray,      // farther away than is physical, of a stream that is robust: skipped, the roll goes on
   jump        // more than is physical since the row before: the roll is over, this row starts a new one
 };
 
 struct LogLine {
   LineKind kind = LineKind::nothing;
   Sample sample;        // of first, sample and jump
-  std::string message;  // of malformed and jump: "name:line: expected ..., found ..."
+  std::string message;  // of malformed, stray and jump: "name:line: expected ..., found ..."
 };
 
 /// What a finger that touches says of one instant, as numbers.
@@ -161,8 +177,11 @@ struct Touch {
 /// from its own first row, as read_rolls does. docs/rolling.md says what a jump is.
 class LogStream {
  public:
-  /// `fingers`: for logs of u and psi. `noise`: widens what counts as a jump. `name`: for messages.
-  LogStream(std::string name, const Part& part, std::vector<Finger> fingers, const Noise& noise = {});
+  /// `fingers`: for logs of u and psi. `noise`: widens what counts as a jump. `name`: for messages. `options`: as for
+  /// read_log; rows of numbers are radians, seconds and the part's unit. `robust`: up to three rows in a row that jump
+  /// away are stray ones, and skipped; where the next one is away as well it starts a new roll.
+  LogStream(std::string name, const Part& part, std::vector<Finger> fingers, const Noise& noise = {},
+            LogOptions options = {}, bool robust = false);
   ~LogStream();
   LogStream(LogStream&&) noexcept;
   LogStream& operator=(LogStream&&) noexcept;

@@ -44,7 +44,8 @@ struct Taught {
   double gap_allowed = 0;   // as much the drift explains
   double bridge = 0;        // length of the bridging piece
   double correction = 0;    // the largest change of a tangent's direction by spreading, radians
-  double deviation = 0;     // the largest difference between a row's turn and the fitted one, before spreading, radians
+  double deviation = 0;     // the largest difference between a row's turn and the fitted one, drift taken off, radians
+  double row_sd = 0;        // with noise: standard deviation of the rows' turns about the fitted one, radians
   std::size_t rows = 0;     // in the lap
   std::size_t corners = 0;
   std::vector<std::string> notes;  // all that, for the user to read
@@ -52,15 +53,20 @@ struct Taught {
 
 /// The outline that a roll goes around, from nothing but its log: the turning function Theta(s) is made of the rows
 /// (L, theta), and the curves' positions are its integral (TurningSpan).
-///  * Theta is a cubic between nodes with a continuous curvature, and monotone where the rows are. Without noise every
-///    row is a node. With noise, rows nearer together than it are averaged, and nodes are added only until Theta is
-///    within 4.5 standard deviations of the rows (the farthest of ten thousand is)
+///  * Theta is a cubic between nodes with a continuous curvature. Without noise every row is a node, and Theta monotone
+///    where the rows are. With noise it is a spline of least squares, with as few knots as the noise allows: a span is
+///    halved while its rows are off by more than chance makes of the noise. Increments add their errors up: there the
+///    slopes are fitted
 ///  * a corner is where theta changes and L does not, or where it changes by at least corner_angle within a row
-///  * a lap ends where the roll comes back to its start, as far as the drift allows; what goes on is left out
-///  * the drift is taken as three standard deviations: turn by `angle`; position by `contact`, by `slip` times the lap,
-///    and by `angle` times the part's size; and what the rows' rounding and distance leave open
-///  * within the drift the turn is closed to the nearest multiple of 2 pi in proportion to length, and the gap by the
-///    least change (in the mean square) of Theta that does it; beyond, nothing is spread
+///  * a lap ends where the roll comes back to its start, as far as the drift allows. What goes on is laid over the
+///    beginning: the lap's length is that at which both passes turn alike, and noisy rows of all passes count alike
+///  * the drift is taken as three standard deviations: of the turn, both ends' rows and what a gyroscope gathers
+///    (`drift_variance`); of the position, `contact`, `slip` times the lap, and the turn's times the part's size; and
+///    what the rows' rounding and distance leave open
+///  * within the drift the turn is closed to the nearest multiple of 2 pi in proportion to length (or to time, where
+///    `drift` or `walk` say that it drifts with that), and the gap by the least change (in the mean square) of Theta
+///    that does it; beyond, nothing is spread. The gap is that of the rows
+///  * the outline has its accuracy: see Accuracy
 ///  * s = 0 is the first contact; a log that goes backwards (L below 0) gives the same outline as its reverse. The
 ///    outline's direction is that in which L grows: a course driven clockwise stays one, and Part says `reversed`. A
 ///    finger's log (u and psi) that turns clockwise has the material outside: a hole

@@ -13,17 +13,19 @@ namespace rollfix {
 
 /// How to take what the user names. What does not apply to the kind of file is refused, never ignored.
 struct LoadOptions {
-  OutlineOptions points;            // `open` is for drawings as well: the longest open chain
+  OutlineOptions points;            // `open` and `unit` are for drawings as well: the longest open chain
   std::optional<std::size_t> loop;  // of a drawing, counted from 1 as in LoadedPart::loops
-  std::optional<double> gap;        // of a drawing: ends this close together meet, in its unit; default see LoopOptions
+  std::optional<Length> gap;        // of a drawing: ends this close together meet; default see LoopOptions
   std::string layer;                // of a DXF: only this one
   bool allow_crossing = false;      // see PartOptions
 };
 
-/// A part with what its file said besides.
+/// A part with what its file said besides. Its unit is that of the options: where the file states another, the part is
+/// converted; where it states none (points without a unit in their header, the pixels of an SVG, the gallery) the
+/// numbers are taken to be in it.
 struct LoadedPart {
   Part part;
-  std::string unit;         // of a drawing: "mm", "in", ...; empty where the file does not say
+  std::string unit;         // of all lengths: "mm", "in", ...; empty where neither the file nor the options say
   std::vector<Loop> loops;  // of a drawing: the closed ones by falling area, then the open ones by falling length
   std::size_t loop = 0;     // the one that was taken, counted from 1; 0: not a drawing
   std::vector<std::string> notes;  // all that was left out, joined or chosen: for the user to read

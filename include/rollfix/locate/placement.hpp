@@ -43,11 +43,16 @@ struct Verdict {
   Name name = undecided;
   std::size_t places = 0;     // of ambiguous: that remain, and ...
   std::size_t stretches = 0;  // ... how many of them are continua
+  bool fits_badly = false;    // with noise: the rows are off more than it allows, or not independently
 
-  /// "unique", "ambiguous (4)", "ambiguous (1 stretch)", "ambiguous (3, of them 1 stretch)", ...
+  /// "unique", "ambiguous (4)", "ambiguous (1 stretch)", "ambiguous (3, of them 1 stretch)", ...; where they fit badly
+  /// "unique, but the rows fit badly" and so on.
   std::string text() const;
 
   bool operator==(const Verdict& other) const = default;
+
+ private:
+  std::string places_text() const;
 };
 
 /// How a placement's first contacts move when a reading does. Empty where that is undefined; NaN where it is for one.
@@ -102,7 +107,8 @@ struct Placement {
   // From a log that has the fingers' orientation and place in the world.
   std::vector<Pose> pose;                     // the part's, at each row
   std::optional<PoseResidual> pose_residual;  // over all rows
-  std::optional<PoseSpread> pose_spread;      // with noise: at the first contacts
+  bool is_contradicted = false;           // without noise: by other rows of the log, or by the contacts in the world
+  std::optional<PoseSpread> pose_spread;  // with noise: at the first contacts
 };
 
 /// The work that a search did.

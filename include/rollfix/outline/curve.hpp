@@ -115,6 +115,9 @@ class Curve {
 /// The same points in the opposite direction; the parameter runs over the same interval.
 Curve reversed(const Curve& curve);
 
+/// The same curve with all lengths so many times as long, seen from the origin; factor above 0.
+Curve scaled(const Curve& curve, double factor);
+
 /// The curve that has this record, to the bit. Throws InputError: a kind that is not known, another number of numbers
 /// than it takes, or numbers that its constructor refuses.
 Curve curve_from(const CurveRecord& record);

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "rollfix/outline/accuracy.hpp"
 #include "rollfix/outline/curve.hpp"
 
 namespace rollfix {
@@ -16,11 +17,16 @@ struct Outline {
   bool reversed = false;      // true: the user gave it in the opposite direction
   bool hole = false;          // closed, and the material is outside: stored clockwise
   std::string gallery{};      // the gallery's specification that gives these curves again; empty: not from there
+  std::string unit{};         // of its lengths: "mm", "in", ...; empty where nobody said
   double gap = 0;             // curves may start this far from where the one before ends: a drawing's rounded digits
+  Accuracy accuracy{};        // of an outline that was measured, by a roll around it; else exact
 };
 
 /// The same boundary in the opposite direction with the same first point; `reversed` is toggled.
 Outline reversed(const Outline& outline);
+
+/// The same outline with all lengths so many times as long, in another unit.
+Outline scaled(const Outline& outline, double factor, const std::string& unit);
 
 /// What is wrong with an outline, in words that a user can act on; empty when nothing is.
 ///  * derivatives: each order against differences of the order below it, at `samples` points per curve

@@ -41,7 +41,8 @@ class Part {
   explicit Part(Outline outline, const PartOptions& options = {});
 
   const std::string& name() const;
-  const Outline& outline() const;  // as stored: counter-clockwise when closed
+  const Outline& outline() const;                             // as stored: counter-clockwise when closed
+  const std::string& unit() const { return outline().unit; }  // of lengths: "mm", ...; empty: not known
   bool closed() const;
   bool reversed() const;     // stored against the direction in which the user gave it
   double perimeter() const;  // total arc length P, in the outline's unit; relative error 1e-12
@@ -69,6 +70,9 @@ class Part {
   explicit Part(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
   std::shared_ptr<const Data> data_;
 };
+
+/// The same part with a name for the unit of its lengths, which stay the numbers that they are.
+Part with_unit(const Part& part, const std::string& unit);
 
 /// The part of what load_outline takes: "gallery:NAME,key=value,...", or points in .csv, .dat or .txt. Throws
 /// InputError as that does and as Part does. Drawings, saved parts, and options: rollfix/files/load_part.hpp.

@@ -146,7 +146,7 @@ class Walker {
     constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
     const auto size = [&](const char* name, bool& is_physical) {
       const std::optional<Value> value = document_.attribute(root, name);
-      const std::optional<Length> length = value && !value->text.empty() ? parse_length(*value) : std::nullopt;
+      const std::optional<svg::Length> length = value && !value->text.empty() ? parse_length(*value) : std::nullopt;
       if (!length) return kUnknown;
       is_physical = is_physical || length->is_physical();
       const double result = length->in_user_units(kUnknown).value_or(kUnknown);

@@ -1,0 +1,146 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "rollfix/output/answer_output.hpp"
+#include "rollfix/output/table.hpp"
+#include "text/text.hpp"
+
+namespace rollfix::app {
+namespace {
+
+struct CauseText {
+  Cause cause;
+  const char* name;  // in JSON
+  const char* what;
+  const char* cure;
+};
+
+// What is wrong, and what to give instead; where numbers belong in them they are put together below.
+constexpr std::array<CauseText, 17> kCauses = {{
+    {Cause::none, "none", "", ""},
+    {Cause::unsaid_noise, "unsaid_noise", "the rows are off by more than their digits say, and were taken as exact",
+     ""},
+    {Cause::noise, "noise", "", ""},
+    {Cause::correlation, "correlation",
+     "rows are not off independently: neighbours are off alike, as of a sensor that wobbles or repeats its digits",
+     "--noise correlation=LENGTH, over how long a roll they are alike"},
+    {Cause::prior, "prior", "what --prior, --heading or --pose says contradicts the rows", "leave it out"},
+    {Cause::radius, "radius", "", ""},
+    {Cause::u_degrees, "u_degrees", "u is in degrees", "--columns u=u:deg"},
+    {Cause::psi_degrees, "psi_degrees", "psi is in degrees", "--columns psi=psi:deg"},
+    {Cause::angles_degrees, "angles_degrees", "u and psi are in degrees", "--columns u=u:deg,psi=psi:deg"},
+    {Cause::turn_degrees, "turn_degrees", "turns are in degrees",
+     "--columns turn=turn:deg, of a log of increments dturn=dturn:deg; of readings 73deg"},
+    {Cause::u_clockwise, "u_clockwise", "u is counted clockwise", "counter-clockwise angles: change the sign of u"},
+    {Cause::psi_clockwise, "psi_clockwise", "psi is counted clockwise",
+     "counter-clockwise angles: change the sign of psi"},
+    {Cause::both_clockwise, "both_clockwise", "the part lies face down, or all angles are counted clockwise",
+     "--mirror, or change the signs of the angles"},
+    {Cause::length_backwards, "length_backwards", "lengths are counted against the outline's direction",
+     "--direction, or change the sign of the lengths"},
+    {Cause::turn_clockwise, "turn_clockwise", "turns are counted clockwise",
+     "counter-clockwise angles: change the sign of the turn"},
+    {Cause::stray, "stray", "", "--robust"},
+    {Cause::slip, "slip", "lengths are off here and there: likeliest is that the finger slipped",
+     "--noise slip=PER_LENGTH, larger than now"},
+}};
+constexpr CauseText kAnotherPart = {Cause::part, "part",
+                                    "neither other lengths, other signs or units, nor slip explain the rows: likeliest "
+                                    "is another part, another finger, or another side of it",
+                                    "check the part and the finger"};
+
+const CauseText& text_of(Cause cause) {
+  const auto* const found =
+      std::find_if(kCauses.begin(), kCauses.end(), [&](const CauseText& one) { return one.cause == cause; });
+  return found == kCauses.end() ? kAnotherPart : *found;
+}
+
+/// A mistake in units that a factor of lengths is known by.
+struct KnownScale {
+  double scale;
+  const char* what;
+};
+constexpr std::array<KnownScale, 14> kKnownScales = {{{0.5, "a diameter was given for the radius"},
+                                                      {2, "the radius was given for the diameter's half"},
+                                                      {10, "centimetres were taken for millimetres"},
+                                                      {0.1, "millimetres were taken for centimetres"},
+                                                      {1000, "metres were taken for millimetres"},
+                                                      {0.001, "millimetres were taken for metres"},
+                                                      {100, "metres were taken for centimetres"},
+                                                      {0.01, "centimetres were taken for metres"},
+                                                      {25.4, "inches were taken for millimetres"},
+                                                      {1 / 25.4, "millimetres were taken for inches"},
+                                                      {2.54, "inches were taken for centimetres"},
+                                                      {1 / 2.54, "centimetres were taken for inches"},
+                                                      {39.37007874, "metres were taken for inches"},
+                                                      {0.0254, "inches were taken for metres"}}};
+// A scale is taken for a known one where it is within these many standard deviations of it, and within this share.
+constexpr double kKnownSigmas = 4;
+constexpr double kKnownShare = 0.02;
+
+std::string known_scale(const Diagnosis& diagnosis) {
+  for (const KnownScale& known : kKnownScales) {
+    const double off = std::abs(diagnosis.length_scale - known.scale);
+    if (off <= std::max(kKnownSigmas * diagnosis.length_scale_sd, 1e-3 * known.scale) &&
+        off <= kKnownShare * known.scale) {
+      return known.what;
+    }
+  }
+  return "";
+}
+
+std::string noise_option(const Noise& noise, double scale) {
+  std::vector<std::string> fields;
+  for (const NoiseKind& kind : kNoiseKinds) {
+    const double sd = noise.*kind.sd;
+    if (sd <= 0) continue;
+    const bool is_of_rows = &(noise.*kind.sd) == &noise.contact || &(noise.*kind.sd) == &noise.angle;
+    const double now = is_of_rows ? scale * sd : sd;
+    const bool is_angle = kind.unit == NoiseKind::Unit::angle;
+    fields.push_back(is_angle ? fmt::format("{}={:.3g}deg", kind.name, now * 180 / std::numbers::pi)
+                              : fmt::format("{}={:.3g}", kind.name, now));
+  }
+  return fmt::format("--noise {}", fmt::join(fields, ","));
+}
+
+}  // namespace
+
+const char* name_of(Cause cause) { return text_of(cause).name; }
+
+std::string about(const Diagnosis& diagnosis) {
+  switch (diagnosis.cause) {
+    case Cause::noise:
+      return fmt::format("the rows are {:.3g} times as noisy as said", diagnosis.noise_scale);
+    case Cause::radius: {
+      const std::string known = known_scale(diagnosis);
+      const std::string scale = fmt::format("all lengths are {:.5g} times what was measured, give or take {:.2g}",
+                                            diagnosis.length_scale, diagnosis.length_scale_sd);
+      return scale + (known.empty() ? ": a wrong radius of the finger, or a wrong unit" : ": " + known);
+    }
+    case Cause::stray:
+      return fmt::format("{} {} stray", counted(diagnosis.stray, "row", "rows"), diagnosis.stray == 1 ? "is" : "are");
+    default:
+      return text_of(diagnosis.cause).what;
+  }
+}
+
+std::string cure_of(const Diagnosis& diagnosis, const std::vector<Finger>& fingers, const Noise& noise) {
+  if (diagnosis.cause == Cause::unsaid_noise)
+    return noise_option(diagnosis.noise, 1) + ", and slip= and radius= as far as they are not exact";
+  if (diagnosis.cause == Cause::noise) return noise_option(noise, diagnosis.noise_scale);
+  if (diagnosis.cause == Cause::radius) {
+    const bool of_disks = !fingers.empty() && std::all_of(fingers.begin(), fingers.end(),
+                                                          [](const Finger& finger) { return finger.is_disk(); });
+    if (!of_disks) return fmt::format("lengths that are {:.5g} times as long", diagnosis.length_scale);
+    std::vector<std::string> options;
+    for (const Finger& finger : fingers)
+      options.push_back(fmt::format("--finger disk,r={:.5g}", diagnosis.length_scale * finger.disk()->radius));
+    return fmt::format("{}", fmt::join(options, " "));
+  }
+  return text_of(diagnosis.cause).cure;
+}
+
+}  // namespace rollfix::app

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "rollfix/output/json_output.hpp"
+#include "rollfix/part/part.hpp"
+
+namespace rollfix::app {
+
+/// The boundary as samples_of gives it, as CSV with a line of titles: s,x,y,tangent,curvature; the tangent in radians.
+/// Numbers read back as the same doubles.
+std::string outline_table(const Part& part);
+
+/// The same as JSON: a list for each of these names.
+Json outline_json(const Part& part);
+
+}  // namespace rollfix::app

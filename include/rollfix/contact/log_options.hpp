@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rollfix {
+
+/// Where a log's header has one of the columns, when it does not have it under its known name.
+struct ColumnSource {
+  std::string column;  // the known name: "u", "psi", "time", "x"; of one of two fingers "u_a"
+  std::string name;    // what the header calls it
+  std::string unit{};  // deg, rad, mm, cm, m, in, s, ms, us, ns, ...; empty: what the header says, else radians,
+                       // seconds, or the part's unit
+};
+
+/// How to read a log: see docs/rolling.md.
+struct LogOptions {
+  /// A column that is named here is found by that name only. A pair that is named here (u and psi, ...) is the one that
+  /// is read, whatever else the log has. Without _a or _b: of the log's one finger; of two files of both.
+  std::vector<ColumnSource> columns{};
+  /// The part's: columns with a unit of length are converted to it. Empty: not known.
+  std::string unit{};
+  /// As a mirror shows it: u, length, turn, distance, dturn and x with the other sign, pi - psi for psi. What is felt
+  /// of a part that lies face down reads so like what is felt of the part as it was drawn.
+  bool mirrored = false;
+  /// Lengths and distances count against the outline: they get the other sign. Of u and psi that is not meant.
+  bool clockwise = false;
+};
+
+/// "u=contact_deg:deg,psi=yaw_deg:deg,time=stamp:ms": COLUMN=NAME or COLUMN=NAME:UNIT, any number of them. Throws
+/// InputError: not of this form, a column that is not known or there twice, a unit that is not known or not the
+/// column's.
+std::vector<ColumnSource> parse_columns(std::string_view text);
+
+}  // namespace rollfix

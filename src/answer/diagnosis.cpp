@@ -1,0 +1,351 @@
+#include "diagnosis.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <utility>
+
+#include "outline/turn.hpp"
+#include "rollfix/error.hpp"
+#include "weighing.hpp"
+
+namespace rollfix {
+namespace {
+
+// Scales of lengths are tried as far apart as this, each with an open scale about it of this standard deviation.
+constexpr double kScaleStep = 1.08;
+constexpr double kOpenScale = 0.04;
+// From a thousandth of what was measured, a unit that is taken for another, to where the turn forbids it.
+constexpr double kLeastScale = 0.9e-3;
+constexpr double kMostScale = 1.1e3;
+constexpr std::array<double, 17> kScalesOfTwo = {0.5,      0.79, 0.86, 0.93, 1.0,   1.08,  1.16, 1.26, 2.0,
+                                                 1 / 25.4, 0.1,  10.0, 25.4, 0.001, 1000., 0.01, 100.0};
+// Beyond what Theta's own range allows, radians: noise.
+constexpr double kTurnBeyond = 0.5;
+constexpr double kTurnSigmas = 6;
+// Rows that scales are compared by, and scales that are looked at with all rows.
+constexpr std::size_t kRowsToCompare = 48;
+constexpr std::size_t kScalesToCompare = 5;
+// Those only that fit so many times as badly as the best one, give or take as much as there are rows.
+constexpr double kCloseCost = 3;
+constexpr int kMostSteps = 6;
+// A step of the scale that is this much of its standard deviation is the last one.
+constexpr double kSmallStep = 0.2;
+// A scale that differs from 1 by less, in standard deviations, explains nothing.
+constexpr double kOtherScale = 3;
+// What a few rows fit no better than this, and not much better than before, is not looked at with all of them.
+constexpr double kWorthALook = 1.5;
+// An explanation with which the rows are off by this share of what they are without it is better, where none is right.
+constexpr double kMuchBetter = 0.6;
+// No more rows than this share, or this many, are stray.
+constexpr double kMostStrayShare = 0.05;
+constexpr double kMostStray = 3;
+// An explanation is the likelier one where its evidence is larger, in steps of this much of a logarithm: what is about
+// as likely stays in the order of how common it is.
+constexpr double kEvidenceStep = 6;
+// Slip of that much per length all along, and five times as much here and there, is what nobody says beforehand.
+constexpr double kUnsaidSlip = 0.04;
+
+/// A problem as it would be without a mistake, and what the rows make of it.
+struct Trial {
+  Diagnosis diagnosis;
+  bool is_right = false;  // the rows fit
+  double log_evidence = 0;
+};
+
+/// All lengths this many times as long: of a disk with a radius that is.
+Problem with_lengths(const Problem& problem, double scale) {
+  Problem scaled = problem;
+  for (Finger& finger : scaled.fingers) {
+    if (finger.is_disk()) finger = disk(scale * finger.disk()->radius);
+  }
+  return scaled;
+}
+
+Observation with_lengths(const Observation& observed, double scale) {
+  Observation scaled = observed;
+  for (std::vector<Reading>* readings : {&scaled.readings, &scaled.rolls}) {
+    for (Reading& reading : *readings) {
+      for (double& length : reading.length) length *= scale;
+    }
+  }
+  return scaled;
+}
+
+class Diagnostician {
+ public:
+  Diagnostician(const Problem& problem, const Observation& observed, Belief& belief)
+      : problem_(problem), observed_(observed), as_said_(belief.fit()), verdict_(belief.verdict()) {}
+
+  std::vector<Diagnosis> diagnoses() {
+    try_noise();
+    if (problem_.prior || problem_.pose) try_prior();
+    try_slips_of_the_pen();
+    try_scale();
+    if (!problem_.robust) try_robust();
+    if (none_is_right()) try_slip();
+    std::vector<Diagnosis> found;
+    std::stable_sort(trials_.begin(), trials_.end(), [](const Trial& a, const Trial& b) {
+      return a.is_right != b.is_right
+                 ? a.is_right
+                 : std::round(a.log_evidence / kEvidenceStep) > std::round(b.log_evidence / kEvidenceStep);
+    });
+    const bool any_right = !none_is_right();
+    for (Trial& trial : trials_) {
+      if (trial.is_right || !any_right) found.push_back(std::move(trial.diagnosis));
+    }
+    if (found.empty()) {
+      found.push_back(as_it_is(as_said_.sigmas <= Fit::kMostSigmas ? Cause::correlation : Cause::part));
+    }
+    return found;
+  }
+
+ private:
+  bool none_is_right() const {
+    return std::none_of(trials_.begin(), trials_.end(), [](const Trial& trial) { return trial.is_right; });
+  }
+
+  /// As noisy as they are, the rows may be nothing but that.
+  void try_noise() {
+    if (as_said_.prior_sigmas > Fit::kMostSigmas) return;
+    // Errors that are alike are what every other mistake looks like as well: they come last.
+    if (as_said_.is_correlated()) return;
+    Diagnosis diagnosis = as_it_is(Cause::noise);
+    diagnosis.noise_scale = as_said_.excess;
+    const double scale = as_said_.excess;
+    trials_.push_back({std::move(diagnosis), true,
+                       -0.5 * as_said_.chi_square / (scale * scale) - as_said_.freedom * std::log(scale)});
+  }
+
+  Diagnosis as_it_is(Cause cause) const {
+    Diagnosis diagnosis;
+    diagnosis.cause = cause;
+    diagnosis.excess = as_said_.excess;
+    return diagnosis;
+  }
+
+  void try_prior() {
+    Problem without = problem_;
+    without.prior.reset();
+    without.pose.reset();
+    take(Cause::prior, without);
+  }
+
+  /// Angles in degrees, angles that are counted clockwise, and lengths that are counted the other way.
+  void try_slips_of_the_pen() {
+    struct Slip {
+      Cause cause;
+      std::function<void(FingerRows&)> mend;
+      int in_degrees = 0;  // columns
+    };
+    const auto scale = [](std::vector<double>& values, double by) {
+      for (double& value : values) value *= by;
+    };
+    const std::vector<Slip> of_contacts = {
+        {Cause::both_clockwise, [&](FingerRows& rows) { scale(rows.u, -1), scale(rows.psi, -1); }},
+        {Cause::u_clockwise, [&](FingerRows& rows) { scale(rows.u, -1); }},
+        {Cause::psi_clockwise, [&](FingerRows& rows) { scale(rows.psi, -1); }},
+        {Cause::u_degrees, [&](FingerRows& rows) { scale(rows.u, kDegree); }, 1},
+        {Cause::psi_degrees, [&](FingerRows& rows) { scale(rows.psi, kDegree); }, 1},
+        {Cause::angles_degrees, [&](FingerRows& rows) { scale(rows.u, kDegree), scale(rows.psi, kDegree); }, 2}};
+    const std::vector<Slip> of_courses = {
+        {Cause::both_clockwise, [&](FingerRows& rows) { scale(rows.length, -1), scale(rows.turn, -1); }},
+        {Cause::length_backwards, [&](FingerRows& rows) { scale(rows.length, -1); }},
+        {Cause::turn_clockwise, [&](FingerRows& rows) { scale(rows.turn, -1); }},
+        {Cause::turn_degrees, [&](FingerRows& rows) { scale(rows.turn, kDegree); }, 1}};
+    const bool of_contact = problem_.felt.is_log() && problem_.felt.log->kind == LogKind::contact;
+    for (const Slip& slip : of_contact ? of_contacts : of_courses) {
+      Problem mended = problem_;
+      if (mended.felt.is_log()) {
+        for (FingerRows& rows : mended.felt.log->fingers) slip.mend(rows);
+      } else {
+        for (Reading& reading : mended.felt.readings) {
+          FingerRows rows;
+          rows.length = {reading.length.begin(), reading.length.end()};
+          rows.turn = {reading.turn};
+          slip.mend(rows);
+          for (std::size_t k = 0; k < reading.fingers(); ++k) reading.length[k] = rows.length[k];
+          reading.turn = rows.turn.front();
+        }
+      }
+      take(slip.cause, mended, slip.in_degrees * std::log(kDegree));
+    }
+  }
+
+  /// Lengths by one factor, of any size.
+  void try_scale() {
+    std::vector<std::pair<double, double>> by_cost;
+    for (const double scale : scales()) {
+      if (const std::optional<Fit> fit = fit_with(scale, kRowsToCompare)) by_cost.emplace_back(fit->chi_square, scale);
+    }
+    std::sort(by_cost.begin(), by_cost.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    std::vector<std::pair<double, double>> valleys;
+    for (std::size_t k = 0; k < by_cost.size(); ++k) {
+      const bool is_valley = (k == 0 || by_cost[k - 1].first >= by_cost[k].first) &&
+                             (k + 1 == by_cost.size() || by_cost[k + 1].first >= by_cost[k].first);
+      if (is_valley) valleys.push_back(by_cost[k]);
+    }
+    std::sort(valleys.begin(), valleys.end());
+    if (valleys.size() > kScalesToCompare) valleys.resize(kScalesToCompare);
+    for (const auto& [cost, scale] : valleys) {
+      if (cost <= kCloseCost * (valleys.front().first + kRowsToCompare)) settle_scale(scale);
+    }
+  }
+
+  /// Those to try: two fingers, whose search takes long, about 1 and where units are mistaken.
+  std::vector<double> scales() const {
+    if (observed_rows().front().fingers() == 2) return {kScalesOfTwo.begin(), kScalesOfTwo.end()};
+    std::vector<double> scales;
+    for (double scale = kLeastScale; scale < kMostScale; scale *= kScaleStep) {
+      if (may_be(scale)) scales.push_back(scale);
+    }
+    return scales;
+  }
+
+  /// Theta's own range and the turn that was felt confine what a length can be.
+  bool may_be(double scale) const {
+    const TurningFunction& turning = problem_.part.turning();
+    const double P = problem_.part.perimeter();
+    if (turn_beyond_ < 0) {
+      double lo = 0;
+      double hi = 0;
+      const double per_length = turning.period_turn() / P;
+      for (const Spiral& spiral : turning.spirals()) {
+        for (const double off :
+             {spiral.start.angle - per_length * spiral.lo, spiral.end.angle - per_length * spiral.hi}) {
+          lo = std::min(lo, off);
+          hi = std::max(hi, off);
+        }
+      }
+      turn_beyond_ = 2 * (hi - lo) + kTurnBeyond + kTurnSigmas * problem_.noise->angle;
+    }
+    if (!problem_.part.closed()) {
+      return std::all_of(observed_rows().begin(), observed_rows().end(),
+                         [&](const Reading& row) { return std::abs(row.length[0]) * scale <= 1.1 * P; });
+    }
+    return std::all_of(observed_rows().begin(), observed_rows().end(), [&](const Reading& row) {
+      return std::abs(row.turn - turning.period_turn() * row.length[0] * scale / P) <= turn_beyond_;
+    });
+  }
+
+  void settle_scale(double scale) {
+    std::optional<Belief> belief;
+    Fit fit;
+    for (int step = 0; step < kMostSteps; ++step) {
+      belief = belief_with(scale, observed_rows().size());
+      if (!belief) return;
+      fit = belief->fit();
+      const double by = common_scale(fit.length_scale);
+      const double sd = std::max(fit.length_scale_sd[0], 1e-12);
+      scale *= by;
+      if (std::abs(by - 1) < kSmallStep * sd) break;
+    }
+    const double sd = scale * fit.length_scale_sd[0];
+    if (std::abs(scale - 1) < kOtherScale * sd) return;
+    for (const Trial& trial : trials_) {
+      const Diagnosis& known = trial.diagnosis;
+      if (known.cause == Cause::radius && std::abs(known.length_scale - scale) < kOtherScale * sd) return;
+    }
+    Diagnosis diagnosis = of(Cause::radius, fit);
+    diagnosis.length_scale = scale;
+    diagnosis.length_scale_sd = sd;
+    add(std::move(diagnosis), fit, *belief, std::log(scale));
+  }
+
+  static Diagnosis of(Cause cause, const Fit& fit) {
+    Diagnosis diagnosis;
+    diagnosis.cause = cause;
+    diagnosis.excess = fit.excess;
+    return diagnosis;
+  }
+
+  static double common_scale(const PerFinger<double>& scale) {
+    if (scale.size() == 1) return scale[0];
+    return std::sqrt(scale[0] * scale[1]);
+  }
+
+  void try_robust() {
+    Problem robust = problem_;
+    robust.robust = true;
+    std::optional<Belief> belief = believe(robust, observed_);
+    const Fit fit = belief->fit();
+    const auto rows = static_cast<double>(belief->samples());
+    if (fit.stray < 1 || fit.stray > std::max(kMostStray, kMostStrayShare * rows)) return;
+    Diagnosis diagnosis = of(Cause::stray, fit);
+    diagnosis.stray = static_cast<std::size_t>(fit.stray);
+    add(std::move(diagnosis), fit, *belief);
+  }
+
+  void try_slip() {
+    Problem slipping = problem_;
+    slipping.noise->slip = std::max(slipping.noise->slip, kUnsaidSlip);
+    std::optional<Belief> belief = believe(slipping, observed_);
+    add(of(Cause::slip, belief->fit()), belief->fit(), *belief);
+  }
+
+  /// `log_stretch`: by how much each row's numbers are stretched, their density with them.
+  void take(Cause cause, const Problem& mended, double log_stretch = 0) {
+    try {
+      const Observation observed = observe(mended);
+      const Fit glance = believe(mended, observed, {0, kRowsToCompare})->fit();
+      if (glance.is_bad() && glance.excess > std::max(kWorthALook, kMuchBetter * glance_excess())) return;
+      std::optional<Belief> belief = believe(mended, observed);
+      add(of(cause, belief->fit()), belief->fit(), *belief, log_stretch);
+    } catch (const InputError&) {  // what no log can be explains nothing
+    }
+  }
+
+  /// What the rows leave as they are, by a few of them.
+  double glance_excess() {
+    if (glance_excess_ <= 0) glance_excess_ = believe(problem_, observed_, {0, kRowsToCompare})->fit().excess;
+    return glance_excess_;
+  }
+
+  /// Counts where it explains the rows, or explains them much better.
+  void add(Diagnosis diagnosis, const Fit& fit, Belief& belief, double log_stretch = 0) {
+    const bool is_right = !fit.is_bad();
+    const bool is_better = !fit.is_correlated() && fit.excess < kMuchBetter * as_said_.excess;
+    if (!is_right && !is_better) return;
+    diagnosis.verdict = belief.verdict();
+    diagnosis.modes = belief.modes();
+    // What would have any place fit explains nothing, unless they all look alike.
+    const bool is_empty = diagnosis.verdict.name == Verdict::unobservable && verdict_.name != Verdict::unobservable;
+    if (diagnosis.modes.empty() || is_empty) return;
+    trials_.push_back({std::move(diagnosis), is_right, -0.5 * fit.chi_square + fit.freedom * log_stretch});
+  }
+
+  const std::vector<Reading>& observed_rows() const {
+    return problem_.felt.is_log() ? observed_.rolls : observed_.readings;
+  }
+
+  std::optional<Belief> belief_with(double scale, std::size_t rows) const {
+    try {
+      return believe(with_lengths(problem_, scale), with_lengths(observed_, scale), {kOpenScale, rows});
+    } catch (const InputError&) {
+      return std::nullopt;
+    }
+  }
+  std::optional<Fit> fit_with(double scale, std::size_t rows) const {
+    std::optional<Belief> belief = belief_with(scale, rows);
+    return belief ? std::optional<Fit>(belief->fit()) : std::nullopt;
+  }
+
+  const Problem& problem_;
+  const Observation& observed_;
+  Fit as_said_;
+  Verdict verdict_;  // with it
+  std::vector<Trial> trials_;
+  double glance_excess_ = 0;
+  mutable double turn_beyond_ = -1;
+};
+
+}  // namespace
+
+std::vector<Diagnosis> diagnose(const Problem& problem, const Observation& observed, Belief& belief) {
+  if (!belief.fit().is_bad()) return {};
+  return Diagnostician(problem, observed, belief).diagnoses();
+}
+
+}  // namespace rollfix

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+
+#include "observation.hpp"
+#include "rollfix/answer/answer.hpp"
+
+// Without noise: a few rows of a log are searched with, and all of them are held against what was found.
+namespace rollfix {
+
+/// The noise that a log's rows seem to have, as they jitter beside a smooth course: none where they don't, or where
+/// there are too few to tell.
+std::optional<Noise> noise_that_shows(const Log& log, const std::vector<Finger>& fingers);
+
+/// Marks placements that other rows of the log contradict, or the contacts in the world, and puts them last; the
+/// verdict is of the others. Where none is left it says that the rows fit badly, and why. REQUIRES a log, and poses
+/// where it has them.
+void check_rows(const Problem& problem, const Observation& observed, Answer& answer);
+
+}  // namespace rollfix

@@ -1,0 +1,73 @@
+// The posterior as a function of the place along the boundary.
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "belief/grid.hpp"
+#include "belief/posterior.hpp"
+#include "rollfix/part/boundary.hpp"
+
+namespace rollfix::belief {
+
+namespace {
+
+// A piece of one finger's density changes by no more than this within it, of a logarithm.
+constexpr double kRiseOfPart = 0.05;
+// Of two fingers the density along one boundary is told by steps of this many standard deviations of a mode ...
+constexpr double kDensityStep = 1.0 / 3;
+// ... which are no more than this many.
+constexpr double kMostDensitySteps = 300;
+
+DensityPiece piece_on(const Boundary& places, double lo, double hi, double probability) {
+  const double at = places.on_first_lap(lo);
+  return {{at, at + (hi - lo)}, probability};
+}
+
+void sort_by_place(Density& density) {
+  std::stable_sort(density.begin(), density.end(),
+                   [](const DensityPiece& a, const DensityPiece& b) { return a.s.lo < b.s.lo; });
+}
+
+}  // namespace
+
+Density density_of(const Grid& grid, const Boundary& places) {
+  Density density;
+  for (const GridCell& cell : grid.cells()) {
+    if (!(cell.share > kLeastShare)) continue;
+    // The density changes within a cell: parts of the same mass are even enough.
+    const auto parts = static_cast<int>(std::ceil(std::max(1.0, std::abs(cell.rise) / kRiseOfPart)));
+    double lo = cell.s.lo;
+    for (int k = 1; k <= parts; ++k) {
+      const double hi =
+          k < parts ? cell.s.lo + cell.s.width() * cell.quantile(static_cast<double>(k) / parts) : cell.s.hi;
+      density.push_back(piece_on(places, lo, hi, cell.share / parts));
+      lo = hi;
+    }
+  }
+  sort_by_place(density);
+  return density;
+}
+
+void add_density(const std::vector<Piece>& pieces, const Mode& mode, std::size_t finger, const Boundary& places,
+                 Density& density) {
+  if (pieces.empty()) return;
+  const auto [first, last] = std::minmax_element(
+      pieces.begin(), pieces.end(), [&](const Piece& a, const Piece& b) { return a.s[finger] < b.s[finger]; });
+  const Interval range{first->s[finger], last->s[finger]};
+  const double wanted = range.width() / std::max(kDensityStep * mode.sd[finger], 1e-300);
+  const double count = range.width() > 0 ? std::clamp(std::ceil(wanted), 1.0, kMostDensitySteps) : 1;
+  const double step = range.width() / count;
+  std::vector<double> held(static_cast<std::size_t>(count), 0.0);
+  for (const Piece& piece : pieces) {
+    const double at = step > 0 ? std::floor((piece.s[finger] - range.lo) / step) : 0;
+    held[static_cast<std::size_t>(std::clamp(at, 0.0, count - 1))] += piece.share;
+  }
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    const double lo = range.lo + static_cast<double>(k) * step;
+    if (held[k] > 0) density.push_back(piece_on(places, lo, lo + step, held[k]));
+  }
+  sort_by_place(density);
+}
+
+}  // namespace rollfix::belief

@@ -1,0 +1,168 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "belief/two/pair_density.hpp"
+#include "outline/turn.hpp"
+
+namespace rollfix::belief {
+
+namespace {
+
+// Rows that squares are held against: more refuse earlier, and cost more.
+constexpr std::size_t kRowsOfSearch = 25;
+// The search begins with this many squares along a perimeter, ...
+constexpr std::uint32_t kFirstSquares = 64;
+// ... and stops halving them when there are more than this.
+constexpr std::size_t kMostSquares = 1500;
+// Of robust rows no single one may refuse a square: each counts at most this many standard deviations, squared, ...
+constexpr double kMostOfRow = 9;
+// ... and as many may be stray: a share of them, three at least.
+constexpr double kMostStray = 0.15;
+
+/// A row as the search sees it: f is within what its contacts' ranges leave, give or take its own error.
+struct RangeRow {
+  bool is_facing = false;
+  std::array<double, 2> length{};
+  std::array<double, 2> margin{};  // how far a contact may be from where it was felt
+  double turn = 0;
+  double precision = 0;
+};
+
+std::vector<RangeRow> rows_for(const PairModel& model, const std::vector<PairNode>& nodes, double sigmas) {
+  const PairErrors& errors = *model.errors;
+  const PairSharedCovariance& start = errors.start();
+  PairShared gathered = PairShared::Zero();
+  std::vector<RangeRow> rows;
+  for (const PairNode& node : some_of(nodes, kRowsOfSearch)) {
+    gathered += errors.gathered(node.gathered, node.travelled);
+    RangeRow row;
+    row.is_facing = node.is_facing;
+    row.turn = node.turn;
+    double variance = node.is_facing ? errors.facing_variance()
+                                     : errors.turn_variance() / node.rows + errors.part_variance() * node.alike;
+    if (!node.is_facing && !errors.absolute()) variance += start(4, 4) + gathered[4];
+    for (const std::size_t finger : {0U, 1U}) {
+      const auto i = static_cast<Eigen::Index>(finger);
+      const double length = node.length[finger];
+      const double kf = errors.normal_turn(finger);
+      const double own = errors.contact_variance() / node.rows;
+      variance += kf * kf * (node.is_facing ? start(i, i) : own + (errors.absolute() ? 0 : start(i, i)));
+      row.length[finger] = length;
+      if (node.is_facing) continue;
+      row.margin[finger] = sigmas * std::sqrt(start(i, i) + gathered[i] + start(2 + i, 2 + i) * length * length + own) +
+                           (node.rows > 1 ? std::abs(node.travelled[finger]) : 0);
+    }
+    row.precision = 1 / (variance * sigmas * sigmas);
+    rows.push_back(row);
+  }
+  // From far apart to close together: neighbours refuse the same squares.
+  constexpr std::size_t kApart = 8;
+  std::vector<RangeRow> ordered;
+  for (std::size_t offset = 0; offset < kApart; ++offset) {
+    for (std::size_t k = offset; k < rows.size(); k += kApart) ordered.push_back(rows[k]);
+  }
+  return ordered;
+}
+
+/// Refuses squares in which no pair explains the rows.
+class PairSieve {
+ public:
+  PairSieve(const PairModel& model, const TurningRange& range, const std::vector<PairNode>& nodes, double sigmas)
+      : model_(model), range_(range), rows_(rows_for(model, nodes, sigmas)) {
+    // A sum of as many squares, in units of sigmas^2.
+    most_ = (rows() + sigmas * std::sqrt(2 * rows()) + sigmas * sigmas) / (sigmas * sigmas);
+    if (model.outlier_share <= 0) return;
+    most_of_row_ = kMostOfRow / (sigmas * sigmas);
+    most_ += most_of_row_ * std::max(3.0, kMostStray * rows());
+  }
+
+  double rows() const { return static_cast<double>(rows_.size()); }
+
+  /// The square around (s, t), half as wide as this.
+  bool is_possible(double s, double t, double half) const {
+    const double P = model_.perimeter();
+    const bool absolute = model_.errors->absolute();
+    const Interval at_s = absolute ? Interval{} : range_.over(s - half, s + half);
+    const Interval at_t = absolute ? Interval{} : range_.over(t - half, t + half);
+    double sum = 0;
+    for (const RangeRow& row : rows_) {
+      const double reach_a = half + row.margin[0];
+      const double reach_b = half + row.margin[1];
+      const double a_at = s + row.length[0];
+      const double b_at = t + row.length[1];
+      if (!model_.places.closed &&
+          (a_at + reach_a < 0 || a_at - reach_a > P || b_at + reach_b < 0 || b_at - reach_b > P)) {
+        return false;
+      }
+      const Interval a = range_.over(a_at - reach_a, a_at + reach_a);
+      const Interval b = range_.over(b_at - reach_b, b_at + reach_b);
+      double lo = a.lo - b.hi - row.turn;
+      double hi = a.hi - b.lo - row.turn;
+      if (!absolute && !row.is_facing) {
+        lo += at_t.lo - at_s.hi;
+        hi += at_t.hi - at_s.lo;
+      }
+      double middle = 0.5 * (lo + hi);
+      if (absolute || row.is_facing) middle -= kFullTurn * std::floor(middle / kFullTurn + 0.5);
+      const double off = std::max(0.0, std::abs(middle) - 0.5 * (hi - lo));
+      sum += std::min(most_of_row_, off * off * row.precision);
+      if (sum > most_) return false;
+    }
+    return true;
+  }
+
+ private:
+  const PairModel& model_;
+  const TurningRange& range_;
+  std::vector<RangeRow> rows_;
+  double most_ = 0;
+  double most_of_row_ = 1e300;
+};
+
+}  // namespace
+
+PairCandidates pair_candidates(const PairModel& model, const TurningRange& range, const std::vector<PairNode>& nodes,
+                               double sigmas, double resolution) {
+  const double P = model.perimeter();
+  const PairSieve sieve(model, range, nodes, sigmas);
+  PairCandidates candidates;
+  candidates.cells = kFirstSquares;
+  candidates.missed = std::min(1.0, (2 * sieve.rows() + 1) * std::erfc(sigmas / std::numbers::sqrt2));
+  const auto centre = [&](std::uint32_t index) {
+    return P * (static_cast<double>(index) + 0.5) / static_cast<double>(candidates.cells);
+  };
+  for (std::uint32_t i = 0; i < kFirstSquares; ++i) {
+    for (std::uint32_t j = 0; j < kFirstSquares; ++j) {
+      if (sieve.is_possible(centre(i), centre(j), 0.5 * P / kFirstSquares)) candidates.squares.push_back({i, j});
+    }
+  }
+  const double most_cells = std::min(P / resolution, static_cast<double>(kRangeCells) / 2);
+  while (candidates.cells < most_cells && candidates.squares.size() <= kMostSquares) {
+    candidates.cells *= 2;
+    const double half = 0.5 * P / static_cast<double>(candidates.cells);
+    std::vector<PairSquare> finer;
+    for (const PairSquare& square : candidates.squares) {
+      for (const std::uint32_t di : {0U, 1U}) {
+        for (const std::uint32_t dj : {0U, 1U}) {
+          const PairSquare quarter{2 * square.i + di, 2 * square.j + dj};
+          if (sieve.is_possible(centre(quarter.i), centre(quarter.j), half)) finer.push_back(quarter);
+        }
+      }
+    }
+    candidates.squares = std::move(finer);
+  }
+  return candidates;
+}
+
+PairCandidates all_squares() {
+  PairCandidates candidates;
+  candidates.cells = kFirstSquares;
+  for (std::uint32_t i = 0; i < kFirstSquares; ++i) {
+    for (std::uint32_t j = 0; j < kFirstSquares; ++j) candidates.squares.push_back({i, j});
+  }
+  return candidates;
+}
+
+}  // namespace rollfix::belief

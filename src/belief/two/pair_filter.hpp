@@ -1,0 +1,105 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "belief/error_model.hpp"
+#include "belief/nodes.hpp"
+#include "belief/posterior.hpp"
+#include "belief/tilted_boundary.hpp"
+#include "rollfix/part/turning_function.hpp"
+
+namespace rollfix::belief {
+
+/// What a contact's normal, as it is measured, tells of the tangent's angle where it was felt: the place is known no
+/// better than to a standard deviation, and with the place the measured normal is off.
+struct Felt {
+  double angle = 0;     // its mean, radians, unwrapped
+  double slope = 0;     // of that by the place, radians per length
+  double variance = 0;  // radians^2
+};
+
+/// Theta(s + n) + n / r with n ~ N(0, sd): mean and variance, as a table. Where Theta is smooth they are Theta and
+/// ((kappa + 1/r) sd)^2. At a convex corner a finger stays while it pivots, so that a contact which is felt near it is
+/// likely to be at it, pointing anywhere in between.
+class FeltTurning {
+ public:
+  /// `sd`: of a place, length, above 0. `corner_length`: how far a finger's centre goes per radian that it pivots.
+  /// `normal_turn`: 1/r, by how much a place that is off turns the measured normal; 0 where normals are not measured by
+  /// places. `accuracy`: of the angle, radians.
+  FeltTurning(const TurningFunction& turning, double sd, double corner_length, double normal_turn, double accuracy);
+
+  /// Any s on a closed outline; beyond an open one's ends the tangent goes on as it is there.
+  Felt at(double s) const;
+
+ private:
+  struct Knot {
+    double s = 0;
+    Felt felt;
+  };
+
+  /// By integration.
+  Felt integrated(double s) const;
+  void add_knots(double spacing, double accuracy);
+
+  const TurningFunction* turning_;
+  double sd_;
+  double corner_length_;
+  double normal_turn_;
+  double lo_ = 0;
+  double hi_ = 0;
+  std::vector<Knot> knots_;
+  Buckets buckets_;
+};
+
+/// Two first contacts on trial, each by its tilted turning: at a convex corner that tells how far it has pivoted.
+struct PairStart {
+  std::array<const TiltedArc*, 2> arc{};
+  std::array<double, 2> w{};
+};
+
+/// What it is worth: minus twice the logarithm of the likelihood is cost + log_volume, up to what is the same
+/// everywhere.
+struct PairScore {
+  double cost = 0;
+  double direct_cost = 0;  // with the errors about which it was linearised: more than the cost, unless that served
+                           // badly
+  double log_volume = 0;
+  std::array<Whiteness, 3> whiteness;
+  double right_rows = 0;                                  // robust: that are not stray, ...
+  double right_cost = 0;                                  // ... and their part of the cost
+  Eigen::Vector2d slope = Eigen::Vector2d::Zero();        // of the log-likelihood by (w_a, w_b), the volume's left out
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();  // expected, by them
+  PairShared errors = PairShared::Zero();
+  PairSharedCovariance covariance = PairSharedCovariance::Zero();
+  Eigen::Matrix<double, 5, 2> errors_by_start = Eigen::Matrix<double, 5, 2>::Zero();
+
+  double log_likelihood() const { return -0.5 * (cost + log_volume); }
+};
+
+/// What all hypotheses have in common.
+struct PairModel {
+  const PairErrors* errors = nullptr;
+  std::array<const TiltedBoundary*, 2> boundary{};
+  std::array<const FeltTurning*, 2> felt{};
+  const BoundaryPath* path = nullptr;  // where centres are looked at
+  double outlier_share = 0;            // of rows whose turn is anything
+  std::optional<Prior> prior;          // of finger a's first contact
+  std::optional<PosePrior> pose;       // of the part at the first contacts, ...
+  std::array<FeltContact, 2> first{};  // ... as they were felt
+  const Part* part = nullptr;
+  Boundary places;
+
+  double perimeter() const { return places.perimeter; }
+};
+
+/// The likelihood of two first contacts: a Kalman filter of the errors that the whole roll shares, linearised about
+/// what they come out as (an iterated one: Gauss-Newton), or where they drift about its own estimate as it goes.
+/// `guess`: of the shared errors; passes go on until it agrees with what comes out, at most `most_passes`.
+PairScore score_of(const PairModel& model, const PairStart& start, const std::vector<PairNode>& nodes,
+                   const PairShared& guess, int most_passes);
+
+}  // namespace rollfix::belief

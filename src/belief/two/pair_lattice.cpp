@@ -1,0 +1,304 @@
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+
+#include "belief/two/pair_density.hpp"
+
+namespace rollfix::belief {
+
+namespace {
+
+// Squares whose density is below this share of the best one's are not looked into: exp(-12.5), five standard
+// deviations.
+constexpr double kNegligiblePair = 12.5;
+// A square is resolved when the distance changes by no more than this within it, in standard deviations: a quadratic
+// of its own serves there.
+constexpr double kFinePairStep = 1.6;
+// The distance's rate of change varies within a square: it is taken as this much larger.
+constexpr double kPairRateSafety = 1.3;
+// Squares are no longer than this share of the boundary, ...
+constexpr double kLongestSquare = 1.0 / 96;
+// ... and not halved more often than this.
+constexpr int kMostPairHalvings = 8;
+// Hypotheses looked at; what is not resolved by then counts as rest.
+constexpr std::size_t kMostHypotheses = 60000;
+// A region of more whole squares than this has them too small, and is begun again with larger ones, ...
+constexpr std::size_t kManySquares = 2500;
+// ... by this factor, so often at most.
+constexpr double kLargerSquares = 3;
+constexpr int kMostBeginnings = 4;
+constexpr double kOffTop = 4;
+constexpr int kGrainsAcross = 3;
+constexpr int kPasses = 4;
+
+std::uint64_t square_key(const Eigen::Vector2d& y) {
+  const auto i = static_cast<std::int32_t>(std::floor(y[0] + 0.5));
+  const auto j = static_cast<std::int32_t>(std::floor(y[1] + 0.5));
+  return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(i)) << 32) | static_cast<std::uint32_t>(j);
+}
+
+double span(const TiltedArc& arc) { return arc.hi() - arc.lo(); }
+
+/// Is a point as far from a region's origin as the region goes: half a loop either way, and to the ends of an arc.
+bool is_within(const PairStart& origin, const Eigen::Vector2d& by) {
+  for (const std::size_t finger : {0U, 1U}) {
+    const TiltedArc& arc = *origin.arc[finger];
+    const double off = by[static_cast<Eigen::Index>(finger)];
+    const double at = origin.w[finger] + off;
+    if (arc.loop() ? !(off >= -0.5 * span(arc) && off < 0.5 * span(arc)) : !(at >= arc.lo() && at <= arc.hi())) {
+      return false;
+    }
+  }
+  return true;
+}
+
+class Spreading {
+ public:
+  Spreading(const PairModel& model, const std::vector<PairNode>& nodes, double excess,
+            const std::array<double, 2>& corner_length, double best, PairDensity& density)
+      : model_(model),
+        nodes_(nodes),
+        heat_(excess * excess),
+        corner_length_(corner_length),
+        best_(best),
+        density_(density) {}
+
+  void from(const PairPeak& peak);
+  double total() const { return total_; }
+  double unresolved() const { return unresolved_; }
+
+ private:
+  enum class Outcome { negligible, resolved, outside };
+  struct Task {
+    Eigen::Vector2d centre;
+    double size;
+    int depth;
+    PairShared guess;
+    Eigen::Vector2d guess_at;  // w from the origin, of the guess
+    Eigen::Matrix<double, 5, 2> by_start;
+  };
+
+  bool spread(PairRegion& region, const PairPeak& peak, std::size_t most_squares);
+  bool look_into(PairRegion& region, const Task& task, std::vector<std::size_t>& leaves);
+  void weigh(const PairRegion& region, PairLeaf& leaf) const;
+  double log_prior(const PairStart& start) const;
+
+  const PairModel& model_;
+  const std::vector<PairNode>& nodes_;
+  double heat_;
+  std::array<double, 2> corner_length_;
+  double best_;
+  PairDensity& density_;
+  std::size_t hypotheses_ = 0;
+  double total_ = 0;
+  double unresolved_ = 0;
+};
+
+double Spreading::log_prior(const PairStart& start) const {
+  double sum = 0;
+  for (const std::size_t finger : {0U, 1U}) {
+    const double slope = start.arc[finger]->at(start.w[finger]).slope;
+    sum += std::log(slope > 0 ? slope : corner_length_[finger]);
+  }
+  return sum;
+}
+
+void Spreading::weigh(const PairRegion& region, PairLeaf& leaf) const {
+  const double step = leaf.size / kGrainsAcross;
+  const double area = step * step * std::abs(region.frame.determinant());
+  const double base = (leaf.score.log_likelihood() - best_) / heat_;
+  for (int i = 0; i < kGrainsAcross; ++i) {
+    for (int j = 0; j < kGrainsAcross; ++j) {
+      const Eigen::Vector2d off(step * (i - 0.5 * (kGrainsAcross - 1)), step * (j - 0.5 * (kGrainsAcross - 1)));
+      const Eigen::Vector2d by = region.frame * (leaf.centre + off);
+      if (!is_within(region.origin, by)) continue;
+      const Eigen::Vector2d from_centre = region.frame * off;
+      const double gain =
+          leaf.score.slope.dot(from_centre) - 0.5 * from_centre.dot(leaf.score.information * from_centre);
+      PairGrain grain;
+      grain.share = area * std::exp(base + gain / heat_);
+      for (const std::size_t finger : {0U, 1U}) {
+        const TiltedArc& arc = *region.origin.arc[finger];
+        const double w = region.origin.w[finger] + by[static_cast<Eigen::Index>(finger)];
+        const TiltedPlace place = arc.at(w);
+        grain.share *= place.slope > 0 ? place.slope : corner_length_[finger];
+        grain.s[finger] = place.s;
+        grain.angle[finger] = w - model_.boundary[finger]->tilt() * place.s;
+      }
+      leaf.share += grain.share;
+      leaf.grains.push_back(grain);
+    }
+  }
+}
+
+/// True where the density of a square, or of some part of it, is not negligible.
+bool Spreading::look_into(PairRegion& region, const Task& task, std::vector<std::size_t>& leaves) {
+  const Eigen::Vector2d by = region.frame * task.centre;
+  PairLeaf leaf;
+  leaf.centre = task.centre;
+  leaf.size = task.size;
+  leaf.start = moved(region.origin, by);
+  const PairShared guess = task.guess + task.by_start * (by - task.guess_at);
+  leaf.score = score_of(model_, leaf.start, nodes_, guess, kPasses);
+  ++hypotheses_;
+  // No more than this can be in the square: the distance can't fall faster than it changes.
+  const Eigen::Matrix2d information = region.frame.transpose() * leaf.score.information * region.frame;
+  const double trace = information.trace();
+  const double gap = std::hypot(information(0, 0) - information(1, 1), 2 * information(0, 1));
+  const double rate = std::sqrt(std::max(0.0, 0.5 * (trace + gap)));
+  const double reach = kPairRateSafety * rate * task.size * std::sqrt(0.5);
+  const double distance = std::max(0.0, std::sqrt(leaf.score.cost) - reach);
+  const double most = -0.5 * (std::min(leaf.score.cost, distance * distance) + leaf.score.log_volume);
+  if ((most - best_) / heat_ < -kNegligiblePair) return false;
+  const bool is_fine = rate * task.size <= kFinePairStep * std::sqrt(heat_);
+  if (!is_fine && task.depth < kMostPairHalvings && hypotheses_ < kMostHypotheses) {
+    bool matters = false;
+    for (const double x : {-0.25, 0.25}) {
+      for (const double y : {-0.25, 0.25}) {
+        const Task quarter{task.centre + task.size * Eigen::Vector2d(x, y),
+                           0.5 * task.size,
+                           task.depth + 1,
+                           leaf.score.errors,
+                           by,
+                           leaf.score.errors_by_start};
+        matters = look_into(region, quarter, leaves) || matters;
+      }
+    }
+    return matters;
+  }
+  leaf.log_density = (leaf.score.log_likelihood() - best_) / heat_ + log_prior(leaf.start);
+  weigh(region, leaf);
+  if (!is_fine) unresolved_ += leaf.share;
+  leaves.push_back(region.leaves.size());
+  region.leaves.push_back(std::move(leaf));
+  return true;
+}
+
+/// False where there are too many squares.
+bool Spreading::spread(PairRegion& region, const PairPeak& peak, std::size_t most_squares) {
+  std::deque<Task> tasks;
+  std::unordered_map<std::uint64_t, bool> seen;
+  tasks.push_back(
+      {Eigen::Vector2d::Zero(), 1, 0, peak.score.errors, Eigen::Vector2d::Zero(), peak.score.errors_by_start});
+  seen[square_key(tasks.back().centre)] = true;
+  while (!tasks.empty()) {
+    const Task task = tasks.front();
+    tasks.pop_front();
+    if (hypotheses_ >= kMostHypotheses) {
+      unresolved_ = std::numeric_limits<double>::infinity();
+      return true;
+    }
+    std::vector<std::size_t> leaves;
+    const bool matters = look_into(region, task, leaves);
+    if (leaves.empty() || !matters) continue;
+    if (region.leaves_of.size() >= most_squares) return false;
+    const PairScore& score = region.leaves[leaves.front()].score;
+    const Eigen::Vector2d at = region.frame * region.leaves[leaves.front()].centre;
+    region.leaves_of[square_key(task.centre)] = std::move(leaves);
+    for (const Eigen::Vector2d& side :
+         {Eigen::Vector2d(1, 0), Eigen::Vector2d(-1, 0), Eigen::Vector2d(0, 1), Eigen::Vector2d(0, -1)}) {
+      const Eigen::Vector2d next = task.centre + side;
+      if (!seen.emplace(square_key(next), true).second) continue;
+      const Eigen::Vector2d by = region.frame * next;
+      if (!is_within(region.origin, by)) {
+        // The squares at the edge reach over it; what is further belongs to another region, round the loop.
+        if (!is_within(region.origin, region.frame * task.centre)) {
+          region.beyond.push_back(moved(region.origin, region.frame * task.centre));
+          continue;
+        }
+      }
+      const PairStart start = moved(region.origin, by);
+      const bool is_taken = std::any_of(density_.regions.begin(), density_.regions.end(),
+                                        [&](const PairRegion& other) { return other.covers(start); });
+      if (!is_taken) tasks.push_back({next, 1, 0, score.errors, at, score.errors_by_start});
+    }
+  }
+  return true;
+}
+
+void Spreading::from(const PairPeak& peak) {
+  // One that is off its hill's top may still lead to it.
+  if ((peak.score.log_likelihood() - best_) / heat_ < -kOffTop * kNegligiblePair) return;
+  for (const PairRegion& region : density_.regions) {
+    if (region.covers(peak.start)) return;
+  }
+  const double longest = kLongestSquare * std::min(span(*peak.start.arc[0]), span(*peak.start.arc[1]));
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(peak.score.information / heat_);
+  double factor = 1;
+  for (int beginning = 0; beginning < kMostBeginnings; ++beginning, factor *= kLargerSquares) {
+    PairRegion region;
+    region.origin = peak.start;
+    for (const Eigen::Index i : {0, 1}) {
+      const double precision = std::max(0.0, solver.eigenvalues()[i]);
+      const double step = std::min(longest, precision > 0 ? factor / std::sqrt(precision) : longest);
+      region.frame.col(i) = step * solver.eigenvectors().col(i);
+    }
+    region.back = region.frame.inverse();
+    for (const std::size_t finger : {0U, 1U}) {
+      region.origin_s[finger] = region.origin.arc[finger]->at(region.origin.w[finger]).s;
+    }
+    const double unresolved = unresolved_;
+    const bool is_last = beginning + 1 == kMostBeginnings;
+    if (!spread(region, peak, is_last ? kMostHypotheses : kManySquares)) {
+      unresolved_ = unresolved;
+      continue;
+    }
+    if (region.leaves.empty()) return;
+    for (const PairLeaf& leaf : region.leaves) total_ += leaf.share;
+    density_.regions.push_back(std::move(region));
+    return;
+  }
+}
+
+}  // namespace
+
+std::size_t PairRegion::leaf_at(const Eigen::Vector2d& y) const {
+  const auto found = leaves_of.find(square_key(y));
+  if (found == leaves_of.end()) return leaves.size();
+  for (const std::size_t k : found->second) {
+    if ((leaves[k].centre - y).cwiseAbs().maxCoeff() <= 0.5 * leaves[k].size) return k;
+  }
+  return leaves.size();
+}
+
+bool PairRegion::covers(const PairStart& start) const {
+  if (start.arc != origin.arc) return false;
+  Eigen::Vector2d by;
+  for (const std::size_t finger : {0U, 1U}) {
+    const auto i = static_cast<Eigen::Index>(finger);
+    by[i] = start.w[finger] - origin.w[finger];
+    if (origin.arc[finger]->loop()) by[i] = std::remainder(by[i], span(*origin.arc[finger]));
+  }
+  if (!is_within(origin, by)) return false;
+  return leaves_of.count(square_key(back * by)) > 0;
+}
+
+PairDensity pair_density(const PairModel& model, const std::vector<PairPeak>& peaks, const std::vector<PairNode>& nodes,
+                         double excess, const std::array<double, 2>& corner_length) {
+  PairDensity density;
+  if (peaks.empty()) return density;
+  Spreading spreading(model, nodes, excess, corner_length, peaks.front().score.log_likelihood(), density);
+  for (const PairPeak& peak : peaks) spreading.from(peak);
+  // What goes on round the loop makes more regions.
+  std::size_t next = 0;
+  while (next < density.regions.size()) {
+    const std::vector<PairStart> beyond = density.regions[next++].beyond;
+    for (const PairStart& start : beyond) {
+      spreading.from({start, score_of(model, start, nodes, PairShared::Zero(), 3)});
+    }
+  }
+  const double total = spreading.total();
+  for (PairRegion& region : density.regions) {
+    for (PairLeaf& leaf : region.leaves) {
+      leaf.share /= total;
+      for (PairGrain& grain : leaf.grains) grain.share /= total;
+    }
+  }
+  density.rest = std::min(1.0, spreading.unresolved() / total);
+  return density;
+}
+
+}  // namespace rollfix::belief

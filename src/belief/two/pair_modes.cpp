@@ -1,0 +1,248 @@
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <unordered_map>
+
+#include "belief/posterior.hpp"
+#include "belief/two/pair_density.hpp"
+#include "rollfix/part/boundary.hpp"
+
+namespace rollfix::belief {
+
+namespace {
+
+/// Leaves of one region beside this one: what lies just across its sides.
+std::vector<std::size_t> beside(const PairRegion& region, const PairLeaf& leaf) {
+  std::vector<std::size_t> found;
+  for (const double along : {-0.375, -0.125, 0.125, 0.375}) {
+    for (const double side : {-0.501, 0.501}) {
+      for (const Eigen::Vector2d& off : {Eigen::Vector2d(side, along), Eigen::Vector2d(along, side)}) {
+        const std::size_t k = region.leaf_at(leaf.centre + leaf.size * off);
+        if (k < region.leaves.size()) found.push_back(k);
+      }
+    }
+  }
+  return found;
+}
+
+/// For each leaf of a region the leaf at the top of its hill.
+std::vector<std::size_t> hills(const PairRegion& region) {
+  const std::size_t count = region.leaves.size();
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto height = [&](std::size_t k) { return region.leaves[k].log_density; };
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return height(a) > height(b); });
+  std::vector<std::size_t> up(count, count);
+  const auto top = [&](std::size_t k) {
+    while (up[k] != k) {
+      up[k] = up[up[k]];
+      k = up[k];
+    }
+    return k;
+  };
+  // The tide falls: hills that emerge join where they meet, unless both stand out far enough.
+  for (const std::size_t k : order) {
+    up[k] = k;
+    std::size_t highest = k;
+    const std::vector<std::size_t> neighbours = beside(region, region.leaves[k]);
+    for (const std::size_t other : neighbours) {
+      if (up[other] == count) continue;
+      if (highest == k || height(top(other)) > height(highest)) highest = top(other);
+    }
+    if (highest == k) continue;
+    up[k] = highest;
+    for (const std::size_t other : neighbours) {
+      if (up[other] == count || other == k) continue;
+      const std::size_t peak = top(other);
+      if (peak != highest && height(peak) - height(k) < kValley) up[peak] = highest;
+    }
+  }
+  std::vector<std::size_t> result(count);
+  for (std::size_t k = 0; k < count; ++k) result[k] = top(k);
+  return result;
+}
+
+/// A share of the mass, at one finger's place.
+struct Grain {
+  double s;
+  double share;
+};
+
+/// The place up to which there is this much mass. `grains`: in order of s. A grain's mass lies around it: half of it
+/// before.
+double quantile(const std::vector<Grain>& grains, double mass) {
+  double before = 0;
+  for (const Grain& grain : grains) {
+    if (before + 0.5 * grain.share >= mass) return grain.s;
+    before += grain.share;
+  }
+  return grains.back().s;
+}
+
+/// Leaves of a hill, weighed.
+class PairHill {
+ public:
+  PairHill(const PairRegion& region, std::vector<std::size_t> leaves, const PairModel& model, const Reading& last)
+      : region_(region), leaves_(std::move(leaves)), model_(model), last_(last.length) {}
+
+  double probability() const {
+    double sum = 0;
+    for (const std::size_t k : leaves_) sum += region_.leaves[k].share;
+    return sum;
+  }
+
+  Mode mode() const {
+    Mode mode = empty_mode();
+    mode.probability = probability();
+    const PairLeaf& best = peak();
+    const PairStart start = moved(best.start, step_to_peak(best));
+    for (const std::size_t finger : {0U, 1U}) {
+      const double s = start.arc[finger]->at(start.w[finger]).s;
+      mode.start[finger] = model_.places.on_first_lap(s);
+      mode.tangent[finger] = start.w[finger] - model_.boundary[finger]->tilt() * s;
+      mode.end[finger] = model_.places.on_first_lap(s + rolled(best, finger));
+    }
+    add_spread(mode);
+    return mode;
+  }
+
+ private:
+  /// One with room for both fingers.
+  static Mode empty_mode() {
+    const PerFinger<double> zeros(0, 0);
+    const PerFinger<Interval> nothing{Interval{}, Interval{}};
+    Mode mode;
+    mode.start = mode.end = mode.tangent = mode.mean = mode.sd = mode.end_mean = mode.end_sd = zeros;
+    mode.interval = mode.region = nothing;
+    return mode;
+  }
+
+  const PairLeaf& peak() const {
+    std::size_t best = leaves_.front();
+    for (const std::size_t k : leaves_) {
+      if (region_.leaves[k].score.log_likelihood() > region_.leaves[best].score.log_likelihood()) best = k;
+    }
+    return region_.leaves[best];
+  }
+
+  /// One step of Newton's method, no further than the leaf goes.
+  Eigen::Vector2d step_to_peak(const PairLeaf& leaf) const {
+    const Eigen::Matrix2d information = region_.frame.transpose() * leaf.score.information * region_.frame;
+    const Eigen::Vector2d slope = region_.frame.transpose() * leaf.score.slope;
+    Eigen::Vector2d step = Eigen::Vector2d::Zero();
+    const Eigen::Matrix2d ridged = information + 1e-9 * (information.trace() + 1e-300) * Eigen::Matrix2d::Identity();
+    step = ridged.inverse() * slope;
+    const double most = step.cwiseAbs().maxCoeff();
+    if (!std::isfinite(most)) return Eigen::Vector2d::Zero();
+    if (most > 0.5 * leaf.size) step *= 0.5 * leaf.size / most;
+    return region_.frame * step;
+  }
+
+  double rolled(const PairLeaf& leaf, std::size_t finger) const {
+    const auto i = static_cast<Eigen::Index>(finger);
+    return (last_[finger] + leaf.score.errors[i]) / (1 + leaf.score.errors[2 + i]);
+  }
+
+  double variance_rolled(const PairLeaf& leaf, std::size_t finger) const {
+    const auto i = static_cast<Eigen::Index>(finger);
+    const double length = rolled(leaf, finger);
+    const PairSharedCovariance& P = leaf.score.covariance;
+    return std::max(0.0, P(i, i) - 2 * length * P(i, 2 + i) + length * length * P(2 + i, 2 + i)) +
+           model_.errors->contact_variance();
+  }
+
+  void add_spread(Mode& mode) const {
+    double total = 0;
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+    Eigen::Vector2d end_sum = Eigen::Vector2d::Zero();
+    Eigen::Vector2d end_squares = Eigen::Vector2d::Zero();
+    std::array<std::vector<Grain>, 2> grains;
+    for (const std::size_t k : leaves_) {
+      const PairLeaf& leaf = region_.leaves[k];
+      for (const PairGrain& grain : leaf.grains) {
+        Eigen::Vector2d off;
+        for (const std::size_t finger : {0U, 1U}) {
+          const auto i = static_cast<Eigen::Index>(finger);
+          off[i] = grain.s[finger] - region_.origin_s[finger];
+          const double end = off[i] + rolled(leaf, finger);
+          end_sum[i] += grain.share * end;
+          end_squares[i] += grain.share * (end * end + variance_rolled(leaf, finger));
+          grains[finger].push_back({off[i], grain.share});
+        }
+        total += grain.share;
+        sum += grain.share * off;
+        squares += grain.share * off * off.transpose();
+      }
+    }
+    const Eigen::Vector2d mean = sum / total;
+    mode.covariance = squares / total - mean * mean.transpose();
+    for (const std::size_t finger : {0U, 1U}) {
+      const auto i = static_cast<Eigen::Index>(finger);
+      const double origin = region_.origin_s[finger];
+      mode.mean[finger] = model_.places.on_first_lap(origin + mean[i]);
+      mode.sd[finger] = std::sqrt(std::max(0.0, mode.covariance(i, i)));
+      const double end = end_sum[i] / total;
+      mode.end_mean[finger] = model_.places.on_first_lap(origin + end);
+      mode.end_sd[finger] = std::sqrt(std::max(0.0, end_squares[i] / total - end * end));
+      std::vector<Grain>& of_finger = grains[finger];
+      std::sort(of_finger.begin(), of_finger.end(), [](const Grain& a, const Grain& b) { return a.s < b.s; });
+      const auto as_interval = [&](double lo, double hi) {
+        const double at = model_.places.on_first_lap(origin + lo);
+        return Interval{at, at + std::min(hi - lo, model_.perimeter())};
+      };
+      mode.interval[finger] = as_interval(quantile(of_finger, 0.5 * (1 - kCredible) * total),
+                                          quantile(of_finger, 0.5 * (1 + kCredible) * total));
+      mode.region[finger] = as_interval(of_finger.front().s, of_finger.back().s);
+    }
+  }
+
+  const PairRegion& region_;
+  std::vector<std::size_t> leaves_;
+  const PairModel& model_;
+  PerFinger<double> last_;
+};
+
+}  // namespace
+
+PairModes modes_of(const PairDensity& density, const PairModel& model, const Reading& last) {
+  struct Found {
+    Mode mode;
+    std::vector<Piece> pieces;
+  };
+  std::vector<Found> all;
+  for (const PairRegion& region : density.regions) {
+    const std::vector<std::size_t> tops = hills(region);
+    std::unordered_map<std::size_t, std::vector<std::size_t>> by_top;
+    for (std::size_t k = 0; k < tops.size(); ++k) by_top[tops[k]].push_back(k);
+    std::vector<std::size_t> order;
+    for (const auto& [top, leaves] : by_top) order.push_back(top);
+    std::sort(order.begin(), order.end());
+    for (const std::size_t top : order) {
+      const PairHill hill(region, by_top[top], model, last);
+      if (hill.probability() < kLeastProbability) continue;
+      Found found{hill.mode(), {}};
+      for (const std::size_t k : by_top[top]) {
+        const PairScore& score = region.leaves[k].score;
+        for (const PairGrain& grain : region.leaves[k].grains) {
+          if (!(grain.share > kLeastShare)) continue;
+          found.pieces.push_back({grain.s, grain.angle, grain.share, std::nullopt,
+                                  PerFinger<double>(score.errors[0], score.errors[1]),
+                                  score.covariance.topLeftCorner<2, 2>()});
+        }
+      }
+      all.push_back(std::move(found));
+    }
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Found& a, const Found& b) { return a.mode.probability > b.mode.probability; });
+  PairModes result;
+  for (Found& found : all) {
+    result.modes.push_back(found.mode);
+    result.pieces.push_back(std::move(found.pieces));
+  }
+  return result;
+}
+
+}  // namespace rollfix::belief

@@ -1,0 +1,249 @@
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "belief/two/pair_density.hpp"
+#include "rollfix/part/boundary.hpp"
+
+namespace rollfix::belief {
+
+namespace {
+
+// Rows that candidates are compared by, and that the first steps from them take.
+constexpr std::size_t kVeryFewRows = 20;
+constexpr std::size_t kFewRows = 40;
+constexpr int kCoarseSteps = 12;
+constexpr int kFineSteps = 8;
+// Candidates whose deviance with few rows is further above the best one's than this, in units of how badly the best
+// fits itself, can't be the answer.
+constexpr double kHopeless = 120;
+constexpr std::size_t kMostStarts = 400;
+constexpr std::size_t kMostPeaks = 200;
+constexpr double kSmallStep = 1e-3;  // in standard deviations
+// Near corners variances change so fast that the cost's slope misleads: from where it leads to, steps along and across
+// are tried, from this many standard deviations down to that many.
+constexpr double kFirstTrial = 6;
+constexpr double kLastTrial = 0.2;
+constexpr int kMostTrials = 100;
+constexpr double kLongestTrial = 0.01;  // of an arc
+// Only where the deviance is within this of the best one's.
+constexpr double kWorthTrying = 80;
+
+double deviance(const PairScore& score) { return score.cost + score.log_volume; }
+
+PairPeak climb(const PairModel& model, PairPeak peak, const std::vector<PairNode>& nodes, int steps) {
+  double damping = 1e-3;
+  for (int k = 0; k < steps; ++k) {
+    Eigen::Matrix2d information = peak.score.information;
+    const double floor = 1e-9 * information.trace() + 1e-300;
+    information(0, 0) += damping * information(0, 0) + floor;
+    information(1, 1) += damping * information(1, 1) + floor;
+    Eigen::Vector2d step = information.ldlt().solve(peak.score.slope);
+    // No further than from one side of the part to the other.
+    for (const std::size_t finger : {0U, 1U}) {
+      const auto i = static_cast<Eigen::Index>(finger);
+      const double most = 0.05 * (peak.start.arc[finger]->hi() - peak.start.arc[finger]->lo());
+      if (std::abs(step[i]) > most) step *= most / std::abs(step[i]);
+    }
+    if (!std::isfinite(step[0]) || !std::isfinite(step[1])) break;
+    const PairStart start = moved(peak.start, step);
+    PairScore score = score_of(model, start, nodes, peak.score.errors, 2);
+    if (deviance(score) <= deviance(peak.score)) {
+      const double length = std::sqrt(std::max(0.0, step.dot(peak.score.information * step)));
+      peak.start = start;
+      peak.score = score;
+      damping = std::max(1e-6, 0.1 * damping);
+      if (length < kSmallStep) break;
+    } else {
+      damping = std::max(1e-2, 8 * damping);
+      if (damping > 1e6) break;
+    }
+  }
+  return peak;
+}
+
+PairPeak search_around(const PairModel& model, PairPeak peak, const std::vector<PairNode>& nodes) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(peak.score.information);
+  Eigen::Matrix2d frame;
+  double longest = 1e300;
+  for (const TiltedArc* arc : peak.start.arc) longest = std::min(longest, kLongestTrial * (arc->hi() - arc->lo()));
+  for (const Eigen::Index i : {0, 1}) {
+    const double precision = std::max(1e-300, solver.eigenvalues()[i]);
+    frame.col(i) = std::min(longest, 1 / std::sqrt(precision)) * solver.eigenvectors().col(i);
+  }
+  int trials = 0;
+  for (double size = kFirstTrial; size > kLastTrial && trials < kMostTrials;) {
+    bool is_better = false;
+    for (int k = 0; k < 4 && !is_better; ++k) {
+      const Eigen::Vector2d step = (k % 2 == 0 ? size : -size) * frame.col(k / 2);
+      const PairStart start = moved(peak.start, step);
+      const PairScore score = score_of(model, start, nodes, peak.score.errors, 2);
+      ++trials;
+      if (deviance(score) < deviance(peak.score)) {
+        peak = {start, score};
+        is_better = true;
+      }
+    }
+    size *= is_better ? 1.5 : 0.5;
+  }
+  return peak;
+}
+
+std::vector<PairNode> without_centres(std::vector<PairNode> nodes) {
+  for (PairNode& node : nodes) node.centres.reset();
+  return nodes;
+}
+
+bool by_deviance(const PairPeak& one, const PairPeak& other) { return deviance(one.score) < deviance(other.score); }
+
+/// The first contacts at arc lengths s and t, where a finger can be there.
+std::vector<PairStart> starts_at(const PairModel& model, double s, double t) {
+  struct OnArc {
+    const TiltedArc* arc;
+    double w;
+  };
+  const auto on_arcs = [&](std::size_t finger, double place) {
+    std::vector<OnArc> found;
+    const TiltedBoundary& boundary = *model.boundary[finger];
+    for (const TiltedArc& arc : boundary.arcs()) {
+      const double lo = arc.at(arc.lo()).s;
+      const double from_lo = model.places.ahead(lo, place);
+      // s grows with w: halve until w is found.
+      double below = arc.lo();
+      double above = arc.hi();
+      const double end = arc.loop() ? lo + model.perimeter() : arc.at(arc.hi()).s;
+      if (from_lo < 0 || from_lo > end - lo) continue;
+      for (int k = 0; k < 40; ++k) {
+        const double middle = 0.5 * (below + above);
+        (arc.at(middle).s - lo < from_lo ? below : above) = middle;
+      }
+      found.push_back({&arc, below});
+    }
+    return found;
+  };
+  std::vector<PairStart> starts;
+  for (const OnArc& a : on_arcs(0, s)) {
+    for (const OnArc& b : on_arcs(1, t)) starts.push_back({{a.arc, b.arc}, {a.w, b.w}});
+  }
+  return starts;
+}
+
+/// The candidates by few rows: no arc where a finger can't be there.
+std::vector<PairPeak> scored(const PairModel& model, const PairCandidates& candidates,
+                             const std::vector<PairNode>& nodes) {
+  const double step = model.perimeter() / static_cast<double>(candidates.cells);
+  // The places of all rows and columns of the grid that are in use.
+  std::unordered_map<std::uint32_t, PairStart> diagonal;
+  const auto on_diagonal = [&](std::uint32_t i) {
+    auto found = diagonal.find(i);
+    if (found == diagonal.end()) {
+      const double at = (static_cast<double>(i) + 0.5) * step;
+      const std::vector<PairStart> starts = starts_at(model, at, at);
+      found = diagonal.emplace(i, starts.empty() ? PairStart{} : starts.front()).first;
+    }
+    return found->second;
+  };
+  std::vector<PairPeak> peaks(candidates.squares.size());
+  for (std::size_t k = 0; k < peaks.size(); ++k) {
+    const PairStart a = on_diagonal(candidates.squares[k].i);
+    const PairStart b = on_diagonal(candidates.squares[k].j);
+    if (a.arc[0] == nullptr || b.arc[0] == nullptr) continue;
+    peaks[k].start = {{a.arc[0], b.arc[1]}, {a.w[0], b.w[1]}};
+    peaks[k].score = score_of(model, peaks[k].start, nodes, PairShared::Zero(), 1);
+  }
+  return peaks;
+}
+
+/// The candidates that no neighbour of theirs surpasses.
+std::vector<PairPeak> best_of_neighbours(const PairModel& model, const PairCandidates& candidates,
+                                         const std::vector<PairNode>& nodes) {
+  const std::vector<PairPeak> peaks = scored(model, candidates, nodes);
+  const auto key = [](std::uint32_t i, std::uint32_t j) { return (static_cast<std::uint64_t>(i) << 32) | j; };
+  std::unordered_map<std::uint64_t, std::size_t> index;
+  for (std::size_t k = 0; k < peaks.size(); ++k) index[key(candidates.squares[k].i, candidates.squares[k].j)] = k;
+  std::vector<PairPeak> best;
+  for (std::size_t k = 0; k < peaks.size(); ++k) {
+    if (peaks[k].start.arc[0] == nullptr) continue;
+    const PairSquare& square = candidates.squares[k];
+    bool is_best = true;
+    // An open part's last square is beside no first one: its number is of no square.
+    const std::uint32_t n = candidates.cells;
+    const auto stepped = [&](std::uint32_t at, std::uint32_t by) {
+      return model.places.closed ? (at + n + by - 1) % n : at + by - 1;
+    };
+    for (std::uint32_t di = 0; di < 3 && is_best; ++di) {
+      for (std::uint32_t dj = 0; dj < 3 && is_best; ++dj) {
+        const auto beside = index.find(key(stepped(square.i, di), stepped(square.j, dj)));
+        if (beside == index.end() || beside->second == k || peaks[beside->second].start.arc[0] == nullptr) continue;
+        is_best = deviance(peaks[beside->second].score) >= deviance(peaks[k].score);
+      }
+    }
+    if (is_best) best.push_back(peaks[k]);
+  }
+  return best;
+}
+
+/// Of peaks, the best first, those that may be the answer, each once. `rows`: by which they were compared.
+std::vector<PairPeak> distinct(const std::vector<PairPeak>& peaks, double rows) {
+  std::vector<PairPeak> found;
+  for (const PairPeak& peak : peaks) {
+    const double scale = std::max(1.0, peaks.front().score.cost / rows);
+    if (deviance(peak.score) > deviance(peaks.front().score) + kHopeless * scale) break;
+    if (found.size() == kMostPeaks) break;
+    const bool is_known = std::any_of(found.begin(), found.end(), [&](const PairPeak& other) {
+      if (other.start.arc != peak.start.arc) return false;
+      const Eigen::Vector2d off(peak.start.w[0] - other.start.w[0], peak.start.w[1] - other.start.w[1]);
+      return off.dot(peak.score.information * off) < 1e-2 &&
+             off.norm() < 1e-3 * (peak.start.arc[0]->hi() - peak.start.arc[0]->lo());
+    });
+    if (!is_known) found.push_back(peak);
+  }
+  return found;
+}
+
+}  // namespace
+
+PairStart moved(const PairStart& start, const Eigen::Vector2d& by) {
+  PairStart next = start;
+  for (const std::size_t finger : {0U, 1U}) {
+    const TiltedArc& arc = *start.arc[finger];
+    double& w = next.w[finger];
+    w += by[static_cast<Eigen::Index>(finger)];
+    w = arc.loop() ? arc.lo() + wrap(w - arc.lo(), arc.hi() - arc.lo()).base : std::clamp(w, arc.lo(), arc.hi());
+  }
+  return next;
+}
+
+std::vector<PairPeak> pair_peaks(const PairModel& model, const PairCandidates& candidates,
+                                 const std::vector<PairNode>& nodes) {
+  // What the centres tell is so sharp that it leads astray from far away: it counts with all rows.
+  const std::vector<PairNode> few = without_centres(some_of(nodes, kFewRows));
+  std::vector<PairPeak> chosen = best_of_neighbours(model, candidates, without_centres(some_of(nodes, kVeryFewRows)));
+  std::sort(chosen.begin(), chosen.end(), by_deviance);
+  if (chosen.size() > kMostStarts) chosen.resize(kMostStarts);
+  for (PairPeak& peak : chosen) {
+    peak.score = score_of(model, peak.start, few, PairShared::Zero(), 1);
+    peak = climb(model, peak, few, kCoarseSteps);
+  }
+  std::sort(chosen.begin(), chosen.end(), by_deviance);
+  std::vector<PairPeak> found = distinct(chosen, static_cast<double>(few.size()));
+  if (few.size() < nodes.size() || nodes.back().centres) {
+    for (PairPeak& peak : found) {
+      peak.score = score_of(model, peak.start, nodes, peak.score.errors, 3);
+      peak = climb(model, peak, nodes, kFineSteps);
+    }
+    std::sort(found.begin(), found.end(), by_deviance);
+  }
+  for (PairPeak& peak : found) {
+    const double scale = std::max(1.0, found.front().score.cost / static_cast<double>(nodes.size()));
+    if (deviance(peak.score) <= deviance(found.front().score) + kWorthTrying * scale) {
+      peak = search_around(model, peak, nodes);
+    }
+  }
+  std::sort(found.begin(), found.end(), by_deviance);
+  return found;
+}
+
+}  // namespace rollfix::belief

@@ -1,0 +1,281 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "belief/posterior.hpp"
+#include "belief/two/pair_density.hpp"
+#include "rollfix/error.hpp"
+
+namespace rollfix::belief {
+
+namespace {
+
+// The tangent where a contact is felt is known to this share of the angles' noise.
+constexpr double kShareOfAngle = 1e-3;
+// Where errors of kFarthest leave nothing good, larger ones are let pass, up to this many standard deviations.
+constexpr double kFarthestOfAll = 40;
+constexpr double kWider = 3;
+// Squares of the search are as long as so many standard deviations of a contact's place.
+constexpr double kSquareSigmas = 3;
+constexpr double kLargestSquareShare = 1.0 / 128;
+
+/// The peaks that some errors leave.
+struct Peaks {
+  std::vector<PairPeak> peaks;  // the likeliest first
+  Fit fit;
+  double missed = 1;  // the chance that the true one is not among them
+};
+
+/// How many nodes a taught part's outline is off for alike.
+void let_part_be_off(std::vector<PairNode>& nodes, const PairErrors& errors) {
+  double range = 0;
+  for (const PairNode& node : nodes) {
+    for (const double length : node.length) range = std::max(range, std::abs(length));
+  }
+  const double alike = errors.rows_alike(static_cast<double>(nodes.size()), range);
+  for (PairNode& node : nodes) node.alike = alike;
+}
+
+class TwoFingersPosterior : public Posterior {
+ public:
+  TwoFingersPosterior(const Part& part, LogKind kind, const BeliefOptions& options, const Contacts& contacts)
+      : part_(part),
+        kind_(kind),
+        options_(options),
+        contacts_(contacts),
+        errors_(errors_supposing(Cause::none)),
+        boundary_{boundary(0), boundary(1)},
+        range_(part_.turning(), kRangeCells) {
+    if (options.noise.position > 0) path_.emplace(part_);
+    if (options.noise.drift == 0 && options.noise.walk == 0) return;
+    throw InputError("noise: drift and walk are a gyroscope's beside one finger, found two fingers: leave them out");
+  }
+
+  void add(const Sample& sample) override {
+    const Reading& row = sample.reading;
+    if (const auto centres = centres_of(sample)) centres_.push_back(*centres);
+    if (rows_.empty() && !has_first_) keep_first(sample);
+    const bool is_first = rows_.empty() && row.length[0] == 0 && row.length[1] == 0 && row.turn == 0;
+    // The first contacts are what the others are measured from; their facing is a row of its own.
+    if (is_first && kind_ == LogKind::contact) return;
+    rows_.push_back(row);
+  }
+
+  std::size_t samples() const override { return rows_.size(); }
+  bool has_begun() const override { return !rows_.empty() || contacts_.facing.has_value(); }
+
+  Outcome settle() override {
+    const Question question(*this, errors_);
+    const Peaks found = peaks_of(question);
+    Outcome outcome;
+    outcome.fit = found.fit;
+    pieces_.clear();
+    if (found.peaks.empty()) return outcome;
+    const PairDensity density =
+        pair_density(question.model, found.peaks, question.nodes, found.fit.widened, {corner(0), corner(1)});
+    PairModes modes = modes_of(density, question.model, rows_.empty() ? Reading(0, 0, 0) : rows_.back());
+    outcome.modes = std::move(modes.modes);
+    pieces_ = std::move(modes.pieces);
+    outcome.unresolved = density.rest + found.missed;
+    return outcome;
+  }
+
+  /// The widest: where one mode goes all the way round, no such roll can tell.
+  double credible_length(const std::vector<PerFinger<Interval>>& intervals) const override {
+    double most = 0;
+    for (const PerFinger<Interval>& each : intervals) most = std::max({most, each[0].width(), each[1].width()});
+    return most;
+  }
+
+  double variance_of_miss(const std::vector<Reading>& readings, const std::vector<Mode>& modes) const override {
+    const TurningFunction& turning = part_.turning();
+    double most = contacts_.facing ? errors_.facing_variance() : 0;
+    for (const Mode& mode : modes) {
+      for (const Reading& reading : readings) {
+        double variance = errors_.turn_variance() + errors_.facing_variance() + errors_.part_variance();
+        for (const std::size_t finger : {0U, 1U}) {
+          const auto i = static_cast<Eigen::Index>(finger);
+          const double length = reading.length[finger];
+          const double kappa = turning.curvature(mode.start[finger] + length);
+          const double gain = std::abs(kappa) + errors_.normal_turn(finger);
+          variance += gain * gain * (errors_.contact_variance() + errors_.start()(i, i)) +
+                      kappa * kappa * errors_.start()(2 + i, 2 + i) * length * length;
+        }
+        most = std::max(most, variance);
+      }
+    }
+    return most;
+  }
+
+  Fit supposing(Cause cause) const override {
+    const PairErrors other = errors_supposing(cause);
+    return peaks_of(Question(*this, other)).fit;
+  }
+
+  std::vector<Piece> pieces(std::size_t index, const Mode& /*mode*/) const override {
+    std::vector<Piece> pieces = pieces_[index];
+    const auto best = std::max_element(pieces.begin(), pieces.end(),
+                                       [](const Piece& a, const Piece& b) { return a.share < b.share; });
+    if (best == pieces.end()) return pieces;
+    const Piece reference = *best;
+    pieces.insert(pieces.begin(), reference);
+    pieces.front().share = 0;
+    return pieces;
+  }
+
+  PerFinger<Density> density(const std::vector<Mode>& modes) const override {
+    PerFinger<Density> density{Density{}, Density{}};
+    for (std::size_t k = 0; k < modes.size(); ++k) {
+      for (const std::size_t finger : {0U, 1U}) {
+        add_density(pieces_[k], modes[k], finger, part_.boundary(), density[finger]);
+      }
+    }
+    return density;
+  }
+
+ private:
+  /// All that hypotheses are held against, with some errors.
+  struct Question {
+    Question(const TwoFingersPosterior& of, const PairErrors& errors)
+        : nodes(pair_nodes(of.rows_, of.looked_at_centres(), of.contacts_.facing, errors.absolute(), of.options_.robust,
+                           errors)) {
+      let_part_be_off(nodes, errors);
+      const double accuracy = kShareOfAngle * std::sqrt(errors.turn_variance());
+      const PerFinger<double>& curvature = of.contacts_.finger_curvature;
+      const bool alike = curvature[0] == curvature[1];
+      for (const std::size_t finger : {0U, 1U}) {
+        if (finger == 1 && alike) break;
+        felt[finger].emplace(of.part_.turning(), errors.contact_sd(), of.corner(finger), errors.normal_turn(finger),
+                             accuracy);
+      }
+      model.errors = &errors;
+      model.boundary = {&of.boundary_[0], &of.boundary_[1]};
+      model.felt = {&*felt[0], alike ? &*felt[0] : &*felt[1]};
+      model.outlier_share = of.options_.robust ? kOutlierShare : 0;
+      model.prior = of.options_.prior;
+      model.part = &of.part_;
+      if (of.has_first_) model.pose = of.options_.pose;
+      model.first = of.first_;
+      model.path = of.path_ && errors.absolute() ? &*of.path_ : nullptr;
+      model.places = of.part_.boundary();
+    }
+    Question(const Question&) = delete;
+    Question& operator=(const Question&) = delete;
+
+    std::vector<PairNode> nodes;
+    std::array<std::optional<FeltTurning>, 2> felt;
+    PairModel model;
+  };
+
+  Peaks peaks_of(const Question& question) const;
+
+  void keep_first(const Sample& sample) {
+    if (!sample.contact || contacts_.fingers.empty()) return;
+    for (const std::size_t which : {0U, 1U}) {
+      const Finger& finger = *finger_of(contacts_.fingers, which);
+      const Contact& contact = (*sample.contact)[which];
+      const Vec2 centre = sample.centre ? (*sample.centre)[which] : Vec2(0, 0);
+      first_[which] = {centre - centre_of(finger, Vec2::Zero(), contact), facing(finger, contact),
+                       finger.curvature(contact.u)};
+    }
+    has_first_ = true;
+  }
+
+  /// Nothing where centres are not looked at.
+  std::optional<PairCentres> centres_of(const Sample& sample) const {
+    if (!path_ || !sample.centre || !sample.contact || contacts_.fingers.empty()) return std::nullopt;
+    PerFinger<FeltCentre> felt(FeltCentre{}, FeltCentre{});
+    PerFinger<double> normals(0, 0);
+    for (const std::size_t which : {0U, 1U}) {
+      const Finger& finger = *finger_of(contacts_.fingers, which);
+      const Contact& contact = (*sample.contact)[which];
+      felt[which] = {(*sample.centre)[which], arm_of(finger, contact.u)};
+      normals[which] = facing(finger, contact);
+    }
+    return PairCentres::of(felt, normals);
+  }
+  /// Of the first contacts and of every row, or none.
+  std::vector<PairCentres> looked_at_centres() const {
+    const bool is_whole = path_ && errors_.absolute() && centres_.size() == rows_.size() + 1;
+    return is_whole ? centres_ : std::vector<PairCentres>{};
+  }
+
+  PairErrors errors_supposing(Cause cause) const {
+    const PerFinger<double>& curvature = contacts_.finger_curvature;
+    return {options_, kind_, {curvature[0], curvature[1]}, contacts_.facing.has_value(), part_.perimeter(), cause};
+  }
+
+  TiltedBoundary boundary(std::size_t finger) const {
+    const double even = std::sqrt(0.5 * errors_.turn_variance() / errors_.contact_variance());
+    return {part_, tilt_of(contacts_.finger_curvature[finger], even, part_), accuracy_of(errors_.contact_sd(), part_)};
+  }
+
+  double corner(std::size_t finger) const { return corner_length(contacts_.finger_curvature[finger], part_); }
+
+  Part part_;
+  LogKind kind_;
+  BeliefOptions options_;
+  Contacts contacts_;
+  PairErrors errors_;
+  std::array<TiltedBoundary, 2> boundary_;
+  TurningRange range_;
+  std::optional<BoundaryPath> path_;  // where centres are evidence
+  std::vector<Reading> rows_;
+  bool has_first_ = false;
+  std::array<FeltContact, 2> first_;        // as felt at the first contacts
+  std::vector<PairCentres> centres_;        // of the first contacts, then of each row
+  std::vector<std::vector<Piece>> pieces_;  // of each mode
+};
+
+/// Where the noise is larger than said, what it allows is wider.
+Peaks TwoFingersPosterior::peaks_of(const Question& question) const {
+  const PairErrors& errors = *question.model.errors;
+  double freedom = 0;
+  for (const PairNode& node : question.nodes) freedom += std::min(1.0, node.rows) * (node.centres ? 3 : 1);
+  const auto fit = [&](const PairPeak& peak) {
+    const PairScore& best = peak.score;
+    Fit of_best = options_.robust ? fit_of(best.right_cost, best.right_rows, least_white(best.whiteness))
+                                  : fit_of(best.cost, freedom, least_white(best.whiteness));
+    of_best.stray = options_.robust ? freedom - best.right_rows : 0;
+    if (options_.prior) {
+      const double s = peak.start.arc[0]->at(peak.start.w[0]).s;
+      of_best.prior_sigmas = std::abs(part_.boundary().offset(options_.prior->s, s)) / options_.prior->sd;
+    }
+    of_best.length_scale = {1 / (1 + best.errors[2]), 1 / (1 + best.errors[3])};
+    of_best.length_scale_sd = {of_best.widened * std::sqrt(best.covariance(2, 2)),
+                               of_best.widened * std::sqrt(best.covariance(3, 3))};
+    return of_best;
+  };
+  const double resolution =
+      std::clamp(kSquareSigmas * errors.contact_sd(), 0.0, kLargestSquareShare * part_.perimeter());
+  Peaks found;
+  std::vector<PairPeak>& peaks = found.peaks;
+  double sigmas = kFarthest;
+  while (true) {
+    const PairCandidates candidates = pair_candidates(question.model, range_, question.nodes, sigmas, resolution);
+    const std::vector<PairPeak> again = pair_peaks(question.model, candidates, question.nodes);
+    if (!again.empty() &&
+        (peaks.empty() || again.front().score.log_likelihood() >= peaks.front().score.log_likelihood())) {
+      peaks = again;
+    }
+    found.missed = candidates.missed;
+    const double needed = peaks.empty() ? kWider * sigmas : kFarthest * fit(peaks.front()).excess;
+    if (needed <= 1.2 * sigmas || sigmas >= kFarthestOfAll) break;
+    sigmas = std::min(kFarthestOfAll, std::max(needed, kWider * sigmas));
+  }
+  if (peaks.empty()) peaks = pair_peaks(question.model, all_squares(), question.nodes);
+  found.fit.excess = std::numeric_limits<double>::infinity();
+  if (!peaks.empty()) found.fit = fit(peaks.front());
+  return found;
+}
+
+}  // namespace
+
+std::unique_ptr<Posterior> posterior_of_two(const Part& part, LogKind kind, const BeliefOptions& options,
+                                            const Contacts& contacts) {
+  return std::make_unique<TwoFingersPosterior>(part, kind, options, contacts);
+}
+
+}  // namespace rollfix::belief

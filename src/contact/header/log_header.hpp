@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "contact/log_table.hpp"
+#include "rollfix/contact/log_options.hpp"
+
+namespace rollfix {
+
+/// What stands in a header over one column.
+struct HeaderName {
+  std::string_view text;  // "u [deg]"
+  std::string_view name;  // "u"
+  std::string_view unit;  // "deg", or whatever stands in the brackets; empty: none
+};
+
+/// The columns of a log with this header, of one finger or of two. Throws InputError: no known column, half of a pair,
+/// two kinds of log at once, only one of two fingers, the same column twice, a column of the options that is not there,
+/// a unit that is not known or not one of the column's, one of length where the part's is not known. `log`: its name,
+/// for messages.
+std::vector<Columns> columns_of(const TableRow& header, const std::string& log, const LogOptions& options = {});
+
+/// The columns of a log without a header. Throws InputError unless there are two.
+Columns bare_columns(const TableRow& row, const std::string& log, const LogOptions& options = {});
+
+/// Whether the unit can be one of the column.
+bool takes(Column column, Dimension dimension);
+/// "an angle: rad, deg", "an angle or a length: ...".
+std::string what_it_takes(Column column);
+
+/// The unit that a name ends in, where it would change the column's numbers: "deg" of yaw_deg, "ms" of stamp_ms, "mm"
+/// of dist_mm. Empty where there is none.
+std::string unit_in_name(std::string_view name, Column column, const std::string& part_unit);
+
+/// What to write for the columns that a log of this kind needs and the header does not have, by what its names sound
+/// like: "u=contact_deg:deg,psi=yaw_deg:deg". Only for people to read and judge: nothing is read by it.
+std::string suggested_columns(const std::vector<HeaderName>& header, const Columns& found);
+
+}  // namespace rollfix

@@ -1,0 +1,161 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "contact/header/log_header.hpp"
+#include "text/text.hpp"
+
+namespace rollfix {
+
+namespace {
+
+/// What people call a column, the likeliest first.
+struct Habit {
+  Column column;
+  std::array<std::string_view, 10> words;
+};
+
+constexpr std::array kHabits = {
+    Habit{Column::time, {"time", "stamp", "timestamp", "t", "clock", "ts"}},
+    Habit{Column::u, {"u", "contact", "skin", "tactile", "taxel", "cop", "touch", "pad", "angle"}},
+    Habit{Column::psi, {"psi", "yaw", "orientation", "heading", "rotation", "rot", "joint", "theta", "phi", "finger"}},
+    Habit{Column::x, {"x", "px", "posx"}},
+    Habit{Column::y, {"y", "py", "posy"}},
+    Habit{Column::length,
+          {"length", "travelled", "traveled", "path", "arc", "odometer", "odo", "dist", "distance", "s"}},
+    Habit{Column::turn, {"turn", "tangent", "heading", "yaw", "theta", "angle", "psi"}},
+    Habit{Column::distance, {"distance", "step", "encoder", "dist", "ds", "dl", "wheel", "delta"}},
+    Habit{Column::dturn, {"dturn", "gyro", "dtheta", "dyaw", "dpsi", "dheading"}},
+};
+
+/// "contact_deg" as contact, deg.
+std::vector<std::string> words_of(std::string_view name) {
+  std::vector<std::string> words(1);
+  for (const char c : lower_case(name)) {
+    const bool is_letter = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+    if (is_letter) {
+      words.back() += c;
+    } else if (!words.back().empty()) {
+      words.emplace_back();
+    }
+  }
+  if (words.back().empty() && words.size() > 1) words.pop_back();
+  return words;
+}
+
+/// How much a name sounds like a column: 0 not at all.
+int likeness(const HeaderName& header, Column column) {
+  const auto* const habit =
+      std::find_if(kHabits.begin(), kHabits.end(), [&](const Habit& one) { return one.column == column; });
+  if (habit == kHabits.end()) return 0;
+  int best = 0;
+  for (std::size_t k = 0; k < habit->words.size() && !habit->words[k].empty(); ++k) {
+    const std::string_view word = habit->words[k];
+    const int worth = static_cast<int>(habit->words.size() - k);
+    for (const std::string& said : words_of(header.name)) {
+      if (said == word) best = std::max(best, 20 + worth);
+      if (word.size() > 2 && said.find(word) != std::string::npos) best = std::max(best, worth);
+    }
+  }
+  return best;
+}
+
+/// A header's column that may be one of ours.
+struct Guess {
+  Column column = Column::u;
+  std::size_t cell = Columns::kNone;
+  int likeness = 0;
+};
+
+/// Says what the columns might be, each of the header's used once.
+class Guesses {
+ public:
+  Guesses(const std::vector<HeaderName>& header, const Columns& found) : header_(header), found_(found) {
+    for (const std::size_t cell : found.cell) {
+      if (cell != Columns::kNone) taken_.push_back(cell);
+    }
+  }
+
+  /// A column that the header does not have; nothing where it does.
+  void add(Column column, bool is_needed) {
+    if (found_.has(column)) return;
+    Guess best{column};
+    for (std::size_t k = 0; k < header_.size(); ++k) {
+      if (std::find(taken_.begin(), taken_.end(), k) != taken_.end()) continue;
+      const int here = likeness(header_[k], column);
+      if (here > best.likeness) best = {column, k, here};
+    }
+    if (best.likeness == 0 && !is_needed) return;
+    if (best.likeness > 0) taken_.push_back(best.cell);
+    guesses_.push_back(best);
+  }
+
+  int likeness_of_all() const {
+    int sum = 0;
+    for (const Guess& guess : guesses_) sum += guess.likeness > 0 ? 100 + guess.likeness : 0;
+    return sum;
+  }
+
+  std::string text() const {
+    std::vector<std::string> fields;
+    bool has_blank = false;
+    for (const Guess& guess : guesses_) {
+      const std::string column = found_.called(guess.column);
+      if (guess.likeness == 0) {
+        fields.push_back(fmt::format("{}=NAME", column));
+        continue;
+      }
+      const HeaderName& header = header_[guess.cell];
+      const std::string unit = header.unit.empty() ? unit_in_name(header.name, guess.column, "") : "";
+      has_blank = has_blank || header.name.find(' ') != std::string_view::npos;
+      fields.push_back(fmt::format("{}={}{}", column, header.name, unit.empty() ? "" : ":" + unit));
+    }
+    const std::string all = fmt::format("{}", fmt::join(fields, ","));
+    return has_blank ? fmt::format("\"{}\"", all) : all;
+  }
+
+ private:
+  const std::vector<HeaderName>& header_;
+  const Columns& found_;
+  std::vector<std::size_t> taken_;
+  std::vector<Guess> guesses_;
+};
+
+}  // namespace
+
+std::string unit_in_name(std::string_view name, Column column, const std::string& part_unit) {
+  const std::vector<std::string> words = words_of(name);
+  if (words.size() < 2) return "";
+  const std::optional<Unit> unit = unit_named(words.back());
+  if (!unit || !takes(column, unit->dimension)) return "";
+  const bool changes =
+      unit->dimension == Dimension::length ? unit->name != part_unit : !conversion_to_plain(*unit).is_identity();
+  return changes ? std::string(unit->name) : "";
+}
+
+std::string suggested_columns(const std::vector<HeaderName>& header, const Columns& found) {
+  const auto half = [&](const ColumnPair& pair) { return found.has(pair.place) != found.has(pair.angle); };
+  const bool any_half = std::any_of(kColumnPairs.begin(), kColumnPairs.end(), half);
+  const auto whole = [&](const ColumnPair& pair) { return found.has(pair.place) && found.has(pair.angle); };
+  const bool any_whole = std::any_of(kColumnPairs.begin(), kColumnPairs.end(), whole);
+  std::optional<Guesses> best;
+  for (const ColumnPair& pair : kColumnPairs) {
+    if (any_half ? !half(pair) : any_whole && !whole(pair)) continue;
+    Guesses guesses(header, found);
+    guesses.add(pair.place, true);
+    guesses.add(pair.angle, true);
+    if (!best || guesses.likeness_of_all() > best->likeness_of_all()) best.emplace(guesses);
+  }
+  best->add(Column::time, false);
+  best->add(Column::x, found.has(Column::y));
+  best->add(Column::y, found.has(Column::x));
+  return best->text();
+}
+
+}  // namespace rollfix

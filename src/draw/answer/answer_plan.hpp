@@ -1,0 +1,123 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "draw/legend.hpp"
+#include "draw/plot.hpp"
+#include "draw/rolls.hpp"
+#include "draw/scene.hpp"
+#include "rollfix/draw/answer_figure.hpp"
+
+namespace rollfix::draw {
+
+/// A placement's roll of one finger, drawn beside the boundary.
+struct Way {
+  std::size_t placement = 0;
+  std::size_t finger = 0;
+};
+
+/// One equation f(s, t) = 0 of two fingers: a reading's, or the facing.
+struct PairLine {
+  std::optional<std::size_t> reading;  // none: the facing
+  std::string_view colour;
+  std::string dash;
+  Text name;
+};
+
+/// Everything about a figure of an answer that is decided before it is drawn: what is shown, and on which lane.
+struct Plan {
+  const AnswerFigure* figure = nullptr;
+  std::optional<std::size_t> shown;  // of two fingers the placement whose rolls are drawn
+  std::array<Roll, 2> rolls;         // of either finger
+  std::vector<Way> ways;             // of one finger every placement's, of two those of the shown one
+  Lanes lanes;                       // of the ways
+  double spacing = kLaneSpacing;     // between lanes, pixels
+  Framing framing;                   // of the part; beside it is the square of two fingers
+  std::vector<PairLine> lines;       // what the square shows
+
+  bool has_pairs() const { return figure->answer->finger_count() == 2; }
+  const Part& part() const { return figure->answer->part; }
+  const std::vector<Placement>& placements() const { return figure->answer->placements; }
+  const Placement& placement(const Way& way) const { return placements()[way.placement]; }
+  const Roll& roll(const Way& way) const { return rolls[way.finger]; }
+  /// What holds 95 % of a placement, with noise; nearly all of a closed boundary is all of it.
+  Interval held(std::size_t placement, std::size_t finger) const;
+  bool is_anywhere(std::size_t placement, std::size_t finger) const;
+  double start(const Way& way) const { return placement(way).start[way.finger]; }
+
+  /// With probabilities.
+  bool has_noise() const { return figure->answer->weighing.has_value(); }
+  bool has_arcs() const;
+  /// The log says where the fingers were in the world, and the answer where the part was.
+  bool has_world() const;
+  /// The placement that is looked at there.
+  std::size_t world_placement() const;
+  bool has_labels() const;
+  bool has_list() const;
+  bool has_finger(const Way& way) const;
+  /// What areas and bands mean, and what the figure leaves out because there is too much of it; empty: nothing.
+  std::string key() const;
+  /// Whether contact k = 0, 1, 2, ... has a name of its own (the first and the last have in any case).
+  bool is_named(std::size_t k) const;
+
+  std::size_t number(std::size_t placement) const;
+  std::string_view colour_of(const Way& way) const;
+  /// Of a placement's mark or its area: of one finger its own colour, of two the finger's.
+  std::string_view colour_of(std::size_t placement, std::size_t finger) const {
+    return colour_of(Way{placement, finger});
+  }
+  double line_width(const Way& way) const;
+  /// Of a finger that is a disk and known.
+  std::optional<double> radius(std::size_t finger) const;
+  double width() const;  // of the page, pixels, as given or by the number of fingers
+
+  /// The length travelled at contact k, and where it is.
+  double travelled(const Way& way, std::size_t k) const { return k == 0 ? 0 : roll(way).contacts[k - 1]; }
+  double place(const Way& way, std::size_t k) const;
+  /// Distance in pixels from the boundary of a run of ways[way], `travelled` along the run.
+  double offset(std::size_t way, const Run& run, double travelled) const;
+};
+
+/// Throws InputError: no answer, or an index that is out of range. The figure has to outlive the plan.
+Plan plan_of(const AnswerFigure& figure);
+
+inline constexpr std::array<std::string_view, 2> kFingerColours = {kPalette[0], kPalette[1]};
+
+/// The name of contact k: of one finger a0, b0, with the placement's number, of two s0, s1 and t0, t1.
+Text contact_name(const Plan& plan, const Way& way, std::size_t k);
+
+/// The name of a first contact, with noise and its probability where there are several.
+Text start_name(const Plan& plan, const Way& way);
+
+/// The line below the title: the readings of one finger, or whose rolls of two are shown.
+Text small_print(const Plan& plan);
+
+/// What lies below the drawing: of one finger the placements with their contacts, unless there are many; of two both
+/// fingers' contacts and the equations.
+Legend legend_of(const Plan& plan);
+
+/// What the square of all pairs takes of a page of this width, at the right of the part: pixels.
+double plane_width(double page_width);
+double plane_height(double page_width);
+
+/// How dense the first contacts are, as areas outside of the boundary.
+void draw_ribbons(Svg& svg, const Plan& plan, const Scene& scene, const Clearance& clearance, Obstacles& obstacles);
+
+/// Below the legend, with noise: the density over s, of two fingers the likeliest pairs. Pixels.
+double spread_width(const Plan& plan);
+double spread_height(const Plan& plan);
+void draw_spread(Svg& svg, const Plan& plan, double top);
+
+/// The part and the fingers in the world: beside the part, of two fingers below it at the right. 0: not shown.
+double world_width(const Plan& plan);
+void draw_world(Svg& svg, const Plan& plan, const Box& area);
+
+/// The square of all pairs with its lines and placements.
+void draw_pair_plane(Svg& svg, const Plan& plan);
+
+}  // namespace rollfix::draw

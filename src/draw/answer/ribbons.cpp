@@ -1,0 +1,122 @@
+// How dense the first contacts are, as areas outside of the boundary.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "draw/answer/answer_plan.hpp"
+#include "draw/density_profile.hpp"
+
+namespace rollfix::draw {
+namespace {
+
+constexpr double kRibbonHeight = 34;   // of the highest, pixels
+constexpr double kRibbonBin = 1.5;     // along the boundary, pixels
+constexpr double kRibbonSmooth = 2.5;  // bins: a sharper peak would be seen as a line, and a broad one not at all
+constexpr double kLeastHeight = 0.4;   // pixels
+constexpr std::size_t kMostBins = 6000;
+
+class Ribbons {
+ public:
+  Ribbons(Svg& svg, const Plan& plan, const Scene& scene, const Clearance& clearance, Obstacles& obstacles,
+          std::size_t finger)
+      : svg_(svg),
+        plan_(plan),
+        scene_(scene),
+        clearance_(clearance),
+        obstacles_(obstacles),
+        finger_(finger),
+        places_(plan.part().boundary()) {
+    const double wanted = std::ceil(scene.pixels(places_.perimeter) / kRibbonBin);
+    const std::size_t count = std::clamp(static_cast<std::size_t>(wanted), std::size_t{8}, kMostBins);
+    const Density& density = plan.figure->answer->weighing->density[finger];
+    heights_ = smoothed(binned(density, places_, places_.full_arc(), count), kRibbonSmooth, places_.closed);
+    step_ = places_.perimeter / static_cast<double>(count);
+  }
+
+  double most() const { return *std::max_element(heights_.begin(), heights_.end()); }
+
+  void draw(double most) {
+    if (!(most > 0)) return;
+    for (double& height : heights_) height *= kRibbonHeight / most;
+    const std::size_t first = valley();
+    std::size_t begin = first;
+    for (std::size_t k = first; k < first + heights_.size(); ++k) {
+      const bool is_last = k + 1 == first + heights_.size();
+      if (!is_last && is_drawn(k) == is_drawn(k + 1) && owner(k) == owner(k + 1)) continue;
+      if (is_drawn(k)) area(begin, k + 1);
+      begin = k + 1;
+    }
+  }
+
+ private:
+  double height(std::size_t k) const { return heights_[k % heights_.size()]; }
+  bool is_drawn(std::size_t k) const { return height(k) > kLeastHeight; }
+
+  /// Where to begin on a closed boundary: where nothing is cut in two.
+  std::size_t valley() const {
+    if (!places_.closed) return 0;
+    return static_cast<std::size_t>(std::min_element(heights_.begin(), heights_.end()) - heights_.begin());
+  }
+
+  /// The placement that a bin belongs to: the nearest.
+  std::size_t owner(std::size_t k) const {
+    const double s = (static_cast<double>(k) + 0.5) * step_;
+    std::size_t nearest = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < plan_.placements().size(); ++i) {
+      const double off = places_.distance(plan_.placements()[i].interval[finger_], places_.base(s));
+      if (off >= least) continue;
+      least = off;
+      nearest = i;
+    }
+    return nearest;
+  }
+
+  void area(std::size_t begin, std::size_t end) {
+    const double lo = static_cast<double>(begin) * step_, hi = static_cast<double>(end) * step_;
+    const Trace stretch = slice(scene_.boundary, lo, hi);
+    const auto offset = [&](double s) {
+      const double at = std::clamp((s - lo) / step_ - 0.5, 0.0, static_cast<double>(end - begin - 1));
+      const auto k = static_cast<std::size_t>(at);
+      const std::size_t next = std::min(begin + k + 1, end - 1);
+      return std::lerp(height(begin + k), height(next), at - static_cast<double>(k));
+    };
+    const std::vector<Vec2> rim = path_beside(stretch, clearance_, offset);
+    std::vector<Vec2> polygon = stretch.points;
+    polygon.insert(polygon.end(), rim.rbegin(), rim.rend());
+    polygon = pick(polygon, simplify(polygon, kInvisible, kMostVertices));
+    const std::string_view colour = plan_.colour_of(owner(begin), finger_);
+    svg_.open_group("density");
+    svg_.polygon(polygon, filled(colour, 0.28));
+    svg_.polyline(pick(rim, simplify(rim, kInvisible, kMostVertices)), stroke(colour, 0.9, "", 0.8));
+    svg_.close_group();
+    obstacles_.add(rim);
+    obstacles_.add(path_beside(stretch, clearance_, [&](double s) { return 0.5 * offset(s); }));
+  }
+
+  Svg& svg_;
+  const Plan& plan_;
+  const Scene& scene_;
+  const Clearance& clearance_;
+  Obstacles& obstacles_;
+  std::size_t finger_;
+  Boundary places_;
+  std::vector<double> heights_;
+  double step_ = 1;
+};
+
+}  // namespace
+
+void draw_ribbons(Svg& svg, const Plan& plan, const Scene& scene, const Clearance& clearance, Obstacles& obstacles) {
+  std::vector<Ribbons> fingers;
+  double most = 0;
+  for (std::size_t finger = 0; finger < plan.figure->answer->finger_count(); ++finger) {
+    if (plan.figure->answer->weighing->density[finger].empty()) return;
+    fingers.emplace_back(svg, plan, scene, clearance, obstacles, finger);
+    most = std::max(most, fingers.back().most());
+  }
+  for (Ribbons& ribbons : fingers) ribbons.draw(most);
+}
+
+}  // namespace rollfix::draw

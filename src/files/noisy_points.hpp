@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "rollfix/outline/points.hpp"
+#include "rollfix/part/part.hpp"
+
+namespace rollfix {
+
+/// How far points of a closed or open outline scatter about a smooth curve, by their fourth differences; 0 where there
+/// are too few of them.
+double scatter_of(const std::vector<Vec2>& points, bool closed);
+
+/// What to tell who gave these points, of which the part was made: that the curve through them wriggles as only noise
+/// does, with an inflection for nearly every second one, and how to smooth them. Empty where it does not.
+std::string noisy_points_note(const std::vector<Vec2>& points, const OutlineOptions& options, const Part& part);
+
+/// The end of a message that refuses these points because the curve through them crosses itself: `smooth`, with a
+/// tolerance. Empty where they were smoothed, and where they hardly scatter.
+std::string noisy_crossing_hint(const std::vector<Vec2>& points, const OutlineOptions& options);
+
+}  // namespace rollfix

@@ -1,0 +1,310 @@
+#include "outline/point_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "rollfix/error.hpp"
+#include "rollfix/units.hpp"
+#include "text/number.hpp"
+#include "text/text.hpp"
+
+namespace rollfix {
+
+namespace {
+
+/// What a line holds.
+enum class LineKind { blank, point, words, one_number, mixed_separators };
+
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+bool is_mark(char c) { return c == ',' || c == ';'; }
+
+/// Between two fields: blanks with at most one comma or semicolon among them. Returns the mark, a blank when there
+/// is none, or 0 when the line ends or nothing separates.
+char skip_separator(const char*& cursor, const char* end) {
+  const char* const start = cursor;
+  char mark = ' ';
+  while (cursor != end && is_space(*cursor)) ++cursor;
+  if (cursor != end && is_mark(*cursor)) {
+    mark = *cursor++;
+    while (cursor != end && is_space(*cursor)) ++cursor;
+  }
+  const bool line_ends = cursor == end && mark == ' ';
+  return line_ends || cursor == start ? '\0' : mark;
+}
+
+LineKind read_line(std::string_view line, Vec2& point) {
+  const char* cursor = line.data();
+  const char* const end = line.data() + line.size();
+  while (cursor != end && is_space(*cursor)) ++cursor;
+  if (cursor == end) return LineKind::blank;
+  if (!scan_number(cursor, end, point.x())) return LineKind::words;
+  const char first_mark = skip_separator(cursor, end);
+  if (first_mark == '\0') return cursor == end ? LineKind::one_number : LineKind::words;
+  if (cursor == end) return LineKind::one_number;  // "1,"
+  if (!scan_number(cursor, end, point.y())) return LineKind::words;
+  const char second_mark = skip_separator(cursor, end);
+  if (second_mark == '\0') return cursor == end ? LineKind::point : LineKind::words;
+  // "1,5;2,5" or "1,5 2,5": a decimal comma, most likely, and nothing that could be taken for a point by mistake.
+  return is_mark(first_mark) && second_mark != first_mark ? LineKind::mixed_separators : LineKind::point;
+}
+
+[[noreturn]] void refuse_line(const std::string& name, std::size_t number, std::string_view line, LineKind kind) {
+  const std::string where = fmt::format("{}:{}: '{}'", name, number, shown(line));
+  switch (kind) {
+    case LineKind::one_number:
+      throw InputError(where + " is only one number, expected two as in '1.5 2'; a title goes behind a #");
+    case LineKind::mixed_separators:
+      throw InputError(where + " mixes separators, expected 'x y' or 'x,y' with decimal points, not commas");
+    default:
+      throw InputError(where + " is not two numbers, expected a point as in '1.5 2' or '1.5,2'");
+  }
+}
+
+void refuse_binary(std::string_view text, const std::string& name) {
+  const std::string_view head = text.substr(0, 1024);
+  if (has_utf16_mark(text))
+    throw InputError(fmt::format("{}: is UTF-16 text, expected plain text; save it as UTF-8", name));
+  if (head.find('\0') != std::string_view::npos) {
+    throw InputError(fmt::format("{}: is not a text file, expected one point 'x y' per line", name));
+  }
+}
+
+// ---- headers
+
+/// What separates the cells of a row: a mark, or blanks.
+char separator_in(std::string_view row) {
+  for (const char mark : {',', ';', '\t'}) {
+    if (row.find(mark) != std::string_view::npos) return mark;
+  }
+  return ' ';
+}
+
+std::string_view without_quotes(std::string_view cell) {
+  const bool is_quoted = cell.size() >= 2 && cell.front() == '"' && cell.back() == '"';
+  return is_quoted ? trimmed(cell.substr(1, cell.size() - 2)) : cell;
+}
+
+std::vector<std::string_view> cells_of(std::string_view row, char separator) {
+  std::vector<std::string_view> cells;
+  for (const std::string_view cell : split(trimmed(row), separator)) {
+    if (separator != ' ' || !cell.empty()) cells.push_back(without_quotes(cell));
+  }
+  return cells;
+}
+
+/// "X [mm]" as x and mm.
+struct Title {
+  std::string name;  // in lower case
+  std::string unit;
+};
+
+Title title_of(std::string_view cell) {
+  const char open = cell.empty() ? '\0' : cell.back() == ']' ? '[' : cell.back() == ')' ? '(' : '\0';
+  const std::size_t at = open == '\0' ? std::string_view::npos : cell.rfind(open);
+  if (at == std::string_view::npos) return {lower_case(cell), ""};
+  return {lower_case(trimmed(cell.substr(0, at))), std::string(trimmed(cell.substr(at + 1, cell.size() - at - 2)))};
+}
+
+/// The line that says which column is which.
+struct Header {
+  char separator = ',';
+  std::vector<Title> titles;
+  std::size_t x = 0;  // the columns to read
+  std::size_t y = 1;
+
+  bool is_plain() const { return x == 0 && y == 1; }
+  std::optional<std::size_t> find(std::string_view name) const {
+    const auto at = std::find_if(titles.begin(), titles.end(), [&](const Title& one) { return one.name == name; });
+    if (at == titles.end()) return std::nullopt;
+    return static_cast<std::size_t>(at - titles.begin());
+  }
+  bool has(std::string_view name) const { return find(name).has_value(); }
+};
+
+/// The columns that only logs have, and what they have in pairs.
+constexpr std::array<std::string_view, 9> kOfLogs = {"u",   "psi",   "dturn",  "u_a",     "psi_a",
+                                                     "u_b", "psi_b", "turn_a", "length_a"};
+constexpr std::array<std::array<std::string_view, 2>, 3> kLogPairs = {
+    {{"u", "psi"}, {"length", "turn"}, {"distance", "dturn"}}};
+
+/// Throws InputError: a header of a log. Between commas one of its names is enough, unless x and y are there as well.
+/// The words of a title ("length and turn") are not names, but u and psi are no words.
+void refuse_log(const Header& header, bool is_header, std::string_view line, std::size_t number,
+                const std::string& name) {
+  const auto has = [&](std::string_view title) { return header.has(title); };
+  const bool has_pair = std::any_of(kLogPairs.begin(), kLogPairs.end(), [&](const auto& pair) {
+    return has(pair[0]) && has(pair[1]) && (is_header || pair[0] != "length");
+  });
+  const bool has_one =
+      header.separator != ' ' && !(has("x") && has("y")) && std::any_of(kOfLogs.begin(), kOfLogs.end(), has);
+  if (!has_pair && !has_one) return;
+  throw InputError(
+      fmt::format("{}:{}: '{}' is the header of a log, expected the points of a part, one 'x y' per line; the part "
+                  "comes first and the log behind --log, as in rollfix locate part.csv --log {}",
+                  name, number, shown(line), name));
+}
+
+/// Whether the next line goes on as this header begins: numbers where it has x and y.
+bool is_followed_by_points(const Header& header, std::string_view next) {
+  const std::vector<std::string_view> cells = cells_of(next, header.separator);
+  return cells.size() == header.titles.size() && parse_number(cells[header.x]) && parse_number(cells[header.y]);
+}
+
+class TableReader {
+ public:
+  TableReader(std::string_view text, const std::string& name) : rest_(text), name_(name) {}
+
+  NumberedPoints run() {
+    while (next_line()) {
+      Vec2 point;
+      if (header_ && !header_->is_plain()) {
+        if (trimmed(data_).empty()) continue;
+        point = point_in_table();
+      } else {
+        const LineKind kind = read_line(data_, point);
+        if (kind == LineKind::blank) continue;
+        if (kind == LineKind::words && may_be_title()) {
+          take_title();
+          continue;
+        }
+        if (kind != LineKind::point) refuse_line(name_, number_, line_, kind);
+      }
+      add(point);
+    }
+    if (titles_ > 1) result_.notes.push_back(fmt::format("{} title lines were passed over", titles_));
+    return std::move(result_);
+  }
+
+ private:
+  bool next_line() {
+    if (rest_.empty()) return false;
+    const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+    line_ = rest_.substr(0, end);
+    rest_.remove_prefix(std::min(end + 1, rest_.size()));
+    data_ = line_.substr(0, line_.find('#'));
+    ++number_;
+    return true;
+  }
+
+  /// The next line that is not blank, as far as it is data.
+  std::string_view line_ahead() const {
+    TableReader ahead(rest_, name_);
+    while (ahead.next_line()) {
+      if (!trimmed(ahead.data_).empty()) return ahead.data_;
+    }
+    return {};
+  }
+
+  /// In front of the points. A second one must not look like a point with a slip of the pen: "1.0 O.5".
+  bool may_be_title() const {
+    if (!result_.points.empty() || header_) return false;
+    const char* cursor = data_.data();
+    const char* const end = cursor + data_.size();
+    double number = 0;
+    while (cursor != end && is_space(*cursor)) ++cursor;
+    const bool begins_like_a_point = scan_number(cursor, end, number) && skip_separator(cursor, end) != '\0';
+    return titles_ == 0 || !begins_like_a_point;
+  }
+
+  void take_title() {
+    ++titles_;
+    result_.has_title = true;
+    Header header;
+    header.separator = separator_in(data_);
+    for (const std::string_view cell : cells_of(data_, header.separator)) header.titles.push_back(title_of(cell));
+    const std::optional<std::size_t> x = header.find("x");
+    const std::optional<std::size_t> y = header.find("y");
+    if (x && y) {
+      header.x = *x;
+      header.y = *y;
+    }
+    const bool is_header =
+        header.titles.size() > 1 && (header.separator != ' ' || is_followed_by_points(header, line_ahead()));
+    refuse_log(header, is_header, line_, number_, name_);
+    if (!is_header) return;
+    if (x && y) {
+      --titles_;
+      take_unit(header);
+      header_ = header;
+      return;
+    }
+    require_no_half(x, y);
+    note_first_two(header);
+  }
+
+  /// "y,z", "id,x": what is not x or y can't be told from the name, and one of them stands where the other belongs.
+  void require_no_half(const std::optional<std::size_t>& x, const std::optional<std::size_t>& y) const {
+    if ((!x || *x == 0) && (!y || *y == 1)) return;
+    throw InputError(fmt::format("{}:{}: the header '{}' has a column '{}' but no '{}', expected both", name_, number_,
+                                 shown(line_), x ? "x" : "y", x ? "y" : "x"));
+  }
+
+  void note_first_two(const Header& header) {
+    if (header.titles.size() < 3 || !is_followed_by_points(header, line_ahead())) return;
+    result_.notes.push_back(fmt::format("the header '{}' names no x and y: the first two columns, {} and {}, are taken",
+                                        shown(line_), header.titles[0].name, header.titles[1].name));
+  }
+
+  void take_unit(const Header& header) {
+    const std::string& stated = header.titles[header.x].unit;
+    if (stated.empty() && header.titles[header.y].unit.empty()) return;
+    const std::optional<Unit> unit = unit_named(stated);
+    if (!unit || unit->dimension != Dimension::length || header.titles[header.y].unit != stated) {
+      throw InputError(fmt::format(
+          "{}:{}: the header '{}' has x in '{}' and y in '{}', expected the same unit of "
+          "length: {}",
+          name_, number_, shown(line_), stated, header.titles[header.y].unit, unit_names(Dimension::length)));
+    }
+    result_.unit = unit->name;
+  }
+
+  Vec2 point_in_table() const {
+    const bool is_alike = data_.find(header_->separator) != std::string_view::npos;
+    const std::vector<std::string_view> cells = cells_of(data_, is_alike ? header_->separator : separator_in(data_));
+    const auto number = [&](std::size_t k) {
+      const std::optional<double> value = k < cells.size() ? parse_number(cells[k]) : std::nullopt;
+      if (value) return *value;
+      throw InputError(fmt::format(
+          "{}:{}: '{}' has no number in the column '{}', number {}, expected one such as 1.5{}", name_, number_,
+          shown(line_), header_->titles[k].name, k + 1, k < cells.size() ? decimal_comma_hint(cells[k]) : ""));
+    };
+    if (cells.size() > header_->titles.size() && header_->separator == ',') {
+      throw InputError(
+          fmt::format("{}:{}: '{}' has {} cells, expected {} as in the header; numbers take a decimal "
+                      "point, not a comma",
+                      name_, number_, shown(line_), cells.size(), header_->titles.size()));
+    }
+    return {number(header_->x), number(header_->y)};
+  }
+
+  void add(const Vec2& point) {
+    if (!(point.cwiseAbs().maxCoeff() <= kMostCoordinate) || point.hasNaN()) {
+      throw InputError(fmt::format("{}:{}: the point ({}, {}) is out of range, expected finite numbers of at most {}",
+                                   name_, number_, point.x(), point.y(), kMostCoordinate));
+    }
+    result_.points.push_back(point);
+    result_.lines.push_back(number_);
+  }
+
+  std::string_view rest_;
+  std::string_view line_;
+  std::string_view data_;  // without a comment
+  const std::string& name_;
+  std::size_t number_ = 0;
+  std::size_t titles_ = 0;
+  std::optional<Header> header_;
+  NumberedPoints result_;
+};
+
+}  // namespace
+
+NumberedPoints read_point_table(std::string_view text, const std::string& name) {
+  refuse_binary(text, name);
+  return TableReader(without_mark(text), name).run();
+}
+
+}  // namespace rollfix

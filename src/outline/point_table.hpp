@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rollfix/outline/curve.hpp"
+
+namespace rollfix {
+
+/// Points with the lines of the file that they came from.
+struct NumberedPoints {
+  std::vector<Vec2> points;
+  std::vector<std::size_t> lines;
+  bool has_title = false;
+  std::string unit{};                // that a header states, as in "x [mm],y [mm]"; empty: none
+  std::vector<std::string> notes{};  // what of the file's beginning was passed over
+};
+
+/// The table of points that a text is, in one pass: titles, a header or none, and a point in each line. Throws
+/// InputError naming the line.
+NumberedPoints read_point_table(std::string_view text, const std::string& name);
+
+}  // namespace rollfix

@@ -1,0 +1,134 @@
+// A part face down, and lengths that count the other way round. The witness is the outline's mirror image as a file of
+// its own: what is felt of that one is what is felt of the part face down.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "cli.hpp"
+
+namespace cli_mirror_test {
+namespace {
+
+using cli::Json;
+using cli::run;
+using testing::HasSubstr;
+
+/// A loop without any symmetry, and its mirror image with the same first point.
+void write_parts(const cli::Folder& folder) {
+  std::string drawn;
+  std::string image;
+  for (int k = 0; k < 60; ++k) {
+    const double angle = k * std::numbers::pi / 30;
+    const double r = 10 + 1.5 * std::cos(2 * angle + 0.4) + 0.8 * std::cos(3 * angle + 1.1);
+    drawn += fmt::format("{} {}\n", r * std::cos(angle), r * std::sin(angle));
+    image += fmt::format("{} {}\n", -r * std::cos(angle), r * std::sin(angle));
+  }
+  folder.write("part.csv", drawn);
+  folder.write("image.csv", image);
+}
+
+double perimeter() { return run("inspect part.csv --json").json()["part"]["perimeter"]; }
+
+TEST(CliMirror, a_log_felt_face_down_is_placed_along_the_outline_as_drawn) {
+  const cli::Folder folder;
+  write_parts(folder);
+  ASSERT_EQ(run("simulate image.csv --finger disk,r=1 --start 12.5 --length 30 --samples 200 -o roll.csv").code, 0);
+  const Json image = run("locate image.csv --finger disk,r=1 --at 20,32.4 --log roll.csv --json").json();
+  const Json found = run("locate part.csv --finger disk,r=1 --at 20,32.4 --log roll.csv --mirror --json").json();
+  EXPECT_TRUE(found["mirrored"]);
+  ASSERT_EQ(found["placements"].size(), image["placements"].size());
+  ASSERT_EQ(found["placements"].size(), 1U);
+  const Json& placement = found["placements"][0];
+  EXPECT_NEAR(placement["start"][0], perimeter() - 12.5, 1e-6);
+  EXPECT_NEAR(placement["end"][0], perimeter() - image["placements"][0]["end"][0].get<double>(), 1e-6);
+  // The image lies at rest as it was drawn.
+  for (const double value : placement["pose"].back().get<std::vector<double>>()) EXPECT_NEAR(value, 0, 1e-6);
+  EXPECT_EQ(found["readings"], image["readings"]);
+}
+
+TEST(CliMirror, sensitivities_are_those_of_the_image_along_the_outline) {
+  const cli::Folder folder;
+  write_parts(folder);
+  ASSERT_EQ(run("simulate image.csv --finger disk,r=1 --start 12.5 --length 30 --samples 200 -o roll.csv").code, 0);
+  const Json image = run("locate image.csv --finger disk,r=1 --at 20,32.4 --log roll.csv --json").json();
+  const Json found = run("locate part.csv --finger disk,r=1 --at 20,32.4 --log roll.csv --mirror --json").json();
+  const auto per_turn = [](const Json& answer) {
+    return answer["placements"][0]["sensitivity"]["per_turn"][0][0].get<double>();
+  };
+  EXPECT_NEAR(per_turn(found), -per_turn(image), 1e-6 * std::abs(per_turn(image)));
+}
+
+TEST(CliMirror, readings_two_fingers_and_watch_are_mirrored_alike) {
+  const cli::Folder folder;
+  write_parts(folder);
+  ASSERT_EQ(
+      run("simulate image.csv --finger disk,r=1 --start 5 --start 30 --length 8 --length -6 --part-rotation 20deg "
+          "-o pair.csv")
+          .code,
+      0);
+  const Json pair = run("locate part.csv --finger disk,r=1 --log pair.csv --mirror --json").json();
+  ASSERT_EQ(pair["placements"].size(), 1U);
+  EXPECT_NEAR(pair["placements"][0]["start"][0], perimeter() - 5, 1e-6);
+  EXPECT_NEAR(pair["placements"][0]["start"][1], perimeter() - 30, 1e-6);
+
+  ASSERT_EQ(run("simulate image.csv --finger disk,r=1 --start 12.5 --length 30 --samples 200 -o roll.csv").code, 0);
+  const Json read = run("locate image.csv --finger disk,r=1 --at 20,32.4 --log roll.csv --json").json()["readings"][0];
+  const std::string reading = fmt::format("{},{}", read["length"][0].get<double>(), read["turn"].get<double>());
+  const Json bare = run("locate part.csv --mirror --tolerance 1e-9 --json --reading " + reading).json();
+  ASSERT_FALSE(bare["placements"].empty());
+  bool holds_truth = false;
+  for (const Json& placement : bare["placements"]) {
+    holds_truth |= std::abs(placement["start"][0].get<double>() - (perimeter() - 12.5)) < 1e-4;
+  }
+  EXPECT_TRUE(holds_truth);
+
+  const cli::Ran watched =
+      run("watch part.csv --finger disk,r=1 --noise contact=1e-3,angle=1e-3 --mirror --once --jsonl --log roll.csv");
+  const std::size_t last = watched.out.rfind('\n', watched.out.size() - 2);
+  EXPECT_THAT(watched.out.substr(last), HasSubstr("unique"));
+}
+
+TEST(CliMirror, simulate_writes_what_locate_understands) {
+  const cli::Folder folder;
+  write_parts(folder);
+  ASSERT_EQ(run("simulate part.csv --mirror --finger disk,r=1 --start 12.5 --length 30 --samples 200 -o roll.csv").code,
+            0);
+  const Json found = run("locate part.csv --finger disk,r=1 --at 20,32.4 --log roll.csv --mirror --json").json();
+  ASSERT_EQ(found["placements"].size(), 1U);
+  EXPECT_NEAR(found["placements"][0]["start"][0], 12.5, 1e-6);
+}
+
+TEST(CliMirror, a_finger_with_an_outline_is_refused) {
+  const cli::Folder folder;
+  write_parts(folder);
+  folder.write("roll.csv", "u,psi\n0,0\n1,0.2\n2,0.5\n");
+  const cli::Ran ran = run("locate part.csv --finger gallery:ellipse --log roll.csv --mirror");
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_THAT(ran.err, HasSubstr("--mirror"));
+}
+
+TEST(CliDirection, lengths_that_count_clockwise_change_their_signs) {
+  const cli::Folder folder;
+  write_parts(folder);
+  EXPECT_EQ(run("locate part.csv --json --reading 5,0.5").json()["placements"],
+            run("locate part.csv --json --direction cw --reading -5,0.5").json()["placements"]);
+  folder.write("ccw.csv", "distance,dturn\n2.5,0.2\n2.5,0.3\n");
+  folder.write("cw.csv", "distance,dturn\n-2.5,0.2\n-2.5,0.3\n");
+  EXPECT_EQ(run("locate part.csv --json --direction ccw --log ccw.csv").json()["placements"],
+            run("locate part.csv --json --direction cw --log cw.csv").json()["placements"]);
+}
+
+TEST(CliDirection, logs_that_say_it_themselves_and_other_words_are_refused) {
+  const cli::Folder folder;
+  write_parts(folder);
+  folder.write("roll.csv", "u,psi\n0,0\n-1,1.2\n-2,2.5\n");
+  EXPECT_THAT(run("locate part.csv --finger disk,r=1 --direction cw --log roll.csv").err, HasSubstr("u and psi"));
+  EXPECT_THAT(run("locate part.csv --reading 5,0.5 --direction left").err, HasSubstr("expected ccw or cw"));
+}
+
+}  // namespace
+}  // namespace cli_mirror_test
