@@ -1,5 +1,7 @@
 #pragma once
 
+#include "rollfix/cpp20.hpp"  // IWYU pragma: keep
+
 namespace rollfix {
 
 /// How far an outline that was measured may be off the part, as standard deviations: what `teach` says of its outline.
