@@ -56,7 +56,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(BeliefWide, of_nothing_but_noise_nothing_is_known) {
   const Part part = part_of("cam");
   const double P = part.perimeter();
-  const Noise noise = noise_on(part, 1e-3, 1, 0);
+  const Noise noise = noise_on(part, 1e-3, 0.5, 0);
   const NoisyRoll roll = roll_on(part, kRadiusShare * P, 0.2 * P, 0.02 * P, 20, noise, test_seed());
   BeliefOptions options;
   options.noise = noise;

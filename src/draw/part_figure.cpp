@@ -241,7 +241,7 @@ class PartPicture {
 
   Text curvature_name() const {
     Text name = {{"curvature "}, {"\u03ba", true, false, false}};
-    if (!unit_of(part_).empty()) name.push_back({", 1/" + unit_of(part_)});
+    if (!part_.unit().empty()) name.push_back({", 1/" + part_.unit()});
     return name;
   }
 

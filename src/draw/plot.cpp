@@ -62,29 +62,13 @@ std::string with_sd(double value, double sd) {
   return fmt::format("{} \u00b1 {}", as_sure_as(value, sd), fixed(sd, decimals_of(sd)));
 }
 
-namespace {
-
-/// Of a part that knows its unit.
-template <class P>
-std::string unit_if_known(const P& part) {
-  if constexpr (requires { part.unit(); }) {
-    return part.unit();
-  } else {
-    return {};
-  }
-}
-
-}  // namespace
-
-std::string unit_of(const Part& part) { return unit_if_known(part); }
-
 std::string with_unit(const std::string& length, const Part& part) {
-  const std::string unit = unit_of(part);
+  const std::string unit = part.unit();
   return unit.empty() ? length : length + " " + unit;
 }
 
 Text with_unit(Text name, const Part& part) {
-  const std::string unit = unit_of(part);
+  const std::string unit = part.unit();
   if (!unit.empty()) name.push_back({", " + unit});
   return name;
 }

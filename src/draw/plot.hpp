@@ -24,11 +24,9 @@ std::string with_sd(double value, double sd);
 /// The number alone, with these digits.
 std::string as_sure_as(double value, double sd);
 
-/// What a part's lengths are in; empty: nobody said. All labels ask here.
-std::string unit_of(const Part& part);
-/// A length with its unit, if any.
+/// A length with the part's unit, if any.
 std::string with_unit(const std::string& length, const Part& part);
-/// What an axis is called, with its unit, if any.
+/// What an axis is called, with the part's unit, if any.
 Text with_unit(Text name, const Part& part);
 
 /// Values for the marks of an axis.

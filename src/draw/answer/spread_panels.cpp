@@ -131,7 +131,7 @@ class DensityPlot {
 Text density_title(const Plan& plan, const Text& subject) {
   Text title = {{"density of "}};
   append(title, subject);
-  if (!unit_of(plan.part()).empty()) title.push_back({", 1/" + unit_of(plan.part())});
+  if (!plan.part().unit().empty()) title.push_back({", 1/" + plan.part().unit()});
   return title;
 }
 

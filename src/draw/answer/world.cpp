@@ -153,7 +153,7 @@ class WorldPicture {
 
   Text title() const {
     Text text = {{"in the world"}};
-    if (!unit_of(plan_.part()).empty()) text.push_back({", " + unit_of(plan_.part())});
+    if (!plan_.part().unit().empty()) text.push_back({", " + plan_.part().unit()});
     return text;
   }
 
