@@ -15,7 +15,6 @@
 namespace belief_test {
 
 using namespace belief_cases;
-using rollfix::Cause;
 using rollfix::InputError;
 using rollfix::LogKind;
 using rollfix::Reading;
@@ -243,34 +242,6 @@ TEST(Belief, noise_that_is_understated_widens_the_answer) {
   EXPECT_NEAR(right.excess(), 1, 0.1);
   EXPECT_NEAR(wrong.excess(), 2, 0.2);
   EXPECT_NEAR(wrong.modes().front().sd[0], right.modes().front().sd[0], 0.2 * right.modes().front().sd[0]);
-}
-
-TEST(Belief, a_wrong_radius_is_told_from_a_wrong_part) {
-  const Part part = part_of("cam");
-  const Noise noise = noise_on(part, 2e-4, 2e-3, 1e-3);
-  const rollfix::Log log = roll_on(part, 0.2, 2, 5, 300, noise, 1).log;
-  Belief radius = belief_in(part, log, 0.2 * 1.1, with(noise));
-  EXPECT_EQ(radius.verdict().text(), "inconsistent");
-  EXPECT_EQ(radius.diagnosis().cause, Cause::radius);
-  EXPECT_NEAR(radius.diagnosis().length_scale, 1 / 1.1, 0.01);
-  Belief other = belief_in(part_of("gear"), log, 0.2, with(noise));
-  EXPECT_EQ(other.verdict().text(), "inconsistent");
-  EXPECT_EQ(other.diagnosis().cause, Cause::part);
-}
-
-TEST(Belief, a_finger_that_slipped_once_is_told_of) {
-  const Part part = part_of("spline,n=9,seed=7,wobble=0.2");
-  const Noise noise = noise_on(part, 2e-4, 2e-3, 1e-3);
-  const NoisyRoll roll = roll_on(part, 0.1, 2, 3, 300, noise, 1);
-  Belief belief(part, LogKind::contact, with(noise));
-  const std::vector<Reading> rows = rollfix::readings_as_given(roll.log, {DiskFinger{0.1}});
-  // Half way, within a tenth of the rows, the finger is dragged along: the length it felt falls short by 0.25.
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    const double dragged = std::clamp((static_cast<double>(k) - 135) / 30, 0.0, 1.0) * 0.25;
-    belief.add(sample_of({rows[k].length[0] - dragged, rows[k].turn}, 10));
-  }
-  EXPECT_EQ(belief.verdict().text(), "inconsistent");
-  EXPECT_EQ(belief.diagnosis().cause, Cause::slip);
 }
 
 TEST(Belief, a_million_rows_are_few_nodes) {

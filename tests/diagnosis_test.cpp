@@ -62,12 +62,23 @@ Case one_finger(const std::string& shape, std::uint64_t seed = 1) {
 Case two_fingers(const std::string& shape, std::uint64_t seed = 1) {
   const Part part = part_of(shape);
   const double P = part.perimeter();
-  const std::array<double, 2> start = {0.2 * P, 0.65 * P};
+  const std::array<double, 2> start = {0.1 * P, 0.5 * P};
   const double radius = kRadiusShare * P;
-  rollfix::FreePlan plan = free_rolls::by_distances(radius, start[0], 0.5 * P, radius, start[1], 0.4 * P, 0.4);
+  rollfix::FreePlan plan = free_rolls::by_distances(radius, start[0], 0.6 * P, radius, start[1], 0.3 * P, -0.3);
   plan.rows = 300;
   const rollfix::NoisyRoll roll = rollfix::noisy_roll_free(part, plan, noise_on(part), test_seed() + seed);
   return {{part, roll.log, {rollfix::disk(radius)}, noise_on(part)}, {start[0], start[1]}};
+}
+
+/// From row 135 to row 165 the finger slides along the part by so much more than it rolls.
+void drag(Case& log, double length) {
+  FingerRows& rows = log.rows()[0];
+  const double angle = length / log.problem.fingers[0].disk()->radius;
+  for (std::size_t k = 0; k < rows.u.size(); ++k) {
+    const double so_far = std::clamp((static_cast<double>(k) - 135) / 30, 0.0, 1.0) * angle;
+    rows.u[k] -= so_far;
+    rows.psi[k] += so_far;
+  }
 }
 
 bool holds(const rollfix::Mode& mode, const Case& of) {
@@ -149,7 +160,7 @@ TEST_P(DiagnosisOfLengths, estimates_the_radius_that_was_said_wrong_whatever_its
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Factors, DiagnosisOfLengths, testing::Values(0.94),
+INSTANTIATE_TEST_SUITE_P(Factors, DiagnosisOfLengths, testing::Values(0.94, 1.06, 0.5, 2, 10, 25.4),
                          [](const auto& of) { return "case" + std::to_string(of.index); });
 
 TEST(Diagnosis, names_u_that_is_counted_clockwise) {
@@ -169,12 +180,38 @@ TEST(Diagnosis, names_psi_in_degrees) {
   expect_cured_everywhere([](Case& log) { scale(log.rows()[0].psi, kDegrees); }, Cause::psi_degrees);
 }
 
+TEST(Diagnosis, names_one_stray_row) {
+  expect_cured_everywhere([](Case& log) { log.rows()[0].psi[170] += 0.2; }, Cause::stray);
+}
+
+TEST(Diagnosis, measures_the_noise_that_was_said_three_times_too_small) {
+  for (const std::string& shape : shapes()) {
+    SCOPED_TRACE(shape);
+    Case spoilt = one_finger(shape);
+    spoilt.problem.noise->contact /= 3;
+    spoilt.problem.noise->angle /= 3;
+    EXPECT_NEAR(expect_cured(spoilt, Cause::noise).noise_scale, 3, 0.4);
+  }
+}
+
 TEST(Diagnosis, names_a_prior_that_the_rows_contradict) {
   expect_cured_everywhere(
       [](Case& log) {
         log.problem.prior = rollfix::Prior{log.start[0] + 0.4 * log.perimeter(), 0.02 * log.perimeter()};
       },
       Cause::prior);
+}
+
+TEST(Diagnosis, names_a_finger_that_was_dragged_along_once) {
+  // Half way, within a tenth of the rows, the length that it felt falls short by so much of the perimeter.
+  for (const double share : {0.01, 0.03}) {
+    for (const std::string& shape : shapes()) {
+      SCOPED_TRACE(shape + ", " + std::to_string(share));
+      Case spoilt = one_finger(shape);
+      drag(spoilt, share * spoilt.perimeter());
+      expect_cured(spoilt, Cause::slip);
+    }
+  }
 }
 
 TEST(Diagnosis, of_another_part_is_never_sure_of_a_place) {
@@ -197,6 +234,26 @@ TEST(DiagnosisOfTwo, says_nothing_of_an_honest_log) {
     EXPECT_FALSE(admits_it(answer)) << listing(answer);
     EXPECT_TRUE(answer.diagnoses.empty()) << listing(answer);
   }
+}
+
+TEST(DiagnosisOfTwo, estimates_a_radius_that_is_a_tenth_too_small) {
+  Case spoilt = two_fingers("cam");
+  spoilt.say_radius(0.9);
+  const Diagnosis diagnosis = expect_cured(spoilt, Cause::radius);
+  EXPECT_NEAR(diagnosis.length_scale * 0.9, 1, 4 * diagnosis.length_scale_sd * 0.9);
+}
+
+TEST(DiagnosisOfTwo, names_u_that_is_counted_clockwise) {
+  Case spoilt = two_fingers("cam");
+  for (FingerRows& rows : spoilt.rows()) scale(rows.u, -1);
+  expect_cured(spoilt, Cause::u_clockwise);
+}
+
+TEST(DiagnosisOfTwo, measures_the_noise_that_was_said_three_times_too_small) {
+  Case spoilt = two_fingers("cam");
+  spoilt.problem.noise->contact /= 3;
+  spoilt.problem.noise->angle /= 3;
+  EXPECT_NEAR(expect_cured(spoilt, Cause::noise).noise_scale, 3, 0.4);
 }
 
 }  // namespace diagnosis_test

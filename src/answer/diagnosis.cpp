@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "mirror.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"
 #include "weighing.hpp"
@@ -33,8 +34,10 @@ constexpr double kCloseCost = 3;
 constexpr int kMostSteps = 6;
 // A step of the scale that is this much of its standard deviation is the last one.
 constexpr double kSmallStep = 0.2;
-// A scale that differs from 1 by less, in standard deviations, explains nothing.
-constexpr double kOtherScale = 3;
+// A scale that differs from 1 by less, in standard deviations, explains nothing, and two that differ by less than this
+// are the same.
+constexpr double kOtherScale = 1;
+constexpr double kSameScale = 3;
 // What a few rows fit no better than this, and not much better than before, is not looked at with all of them.
 constexpr double kWorthALook = 1.5;
 // An explanation with which the rows are off by this share of what they are without it is better, where none is right.
@@ -45,8 +48,12 @@ constexpr double kMostStray = 3;
 // An explanation is the likelier one where its evidence is larger, in steps of this much of a logarithm: what is about
 // as likely stays in the order of how common it is.
 constexpr double kEvidenceStep = 6;
-// Slip of that much per length all along, and five times as much here and there, is what nobody says beforehand.
-constexpr double kUnsaidSlip = 0.04;
+// ... and what is this much less likely than the likeliest is not worth a word.
+constexpr double kFarLessLikely = 12;
+// Rows that are this much less noisy than said are exact.
+constexpr double kLeastNoise = 1e-3;
+// Slip of so much per length all along, and five times as much here and there, is what nobody says beforehand.
+constexpr std::array<double, 2> kUnsaidSlips = {0.04, 0.2};
 
 /// A problem as it would be without a mistake, and what the rows make of it.
 struct Trial {
@@ -77,7 +84,11 @@ Observation with_lengths(const Observation& observed, double scale) {
 class Diagnostician {
  public:
   Diagnostician(const Problem& problem, const Observation& observed, Belief& belief)
-      : problem_(problem), observed_(observed), as_said_(belief.fit()), verdict_(belief.verdict()) {}
+      : problem_(problem),
+        observed_(observed),
+        as_said_(belief.fit()),
+        log_evidence_(with_noise_as_it_seems(belief.evidence(), as_said_)),
+        verdict_(belief.verdict()) {}
 
   std::vector<Diagnosis> diagnoses() {
     try_noise();
@@ -85,16 +96,15 @@ class Diagnostician {
     try_slips_of_the_pen();
     try_scale();
     if (!problem_.robust) try_robust();
-    if (none_is_right()) try_slip();
-    std::vector<Diagnosis> found;
+    try_slip();
     std::stable_sort(trials_.begin(), trials_.end(), [](const Trial& a, const Trial& b) {
-      return a.is_right != b.is_right
-                 ? a.is_right
-                 : std::round(a.log_evidence / kEvidenceStep) > std::round(b.log_evidence / kEvidenceStep);
+      return a.is_right != b.is_right ? a.is_right : steps_of(a) > steps_of(b);
     });
-    const bool any_right = !none_is_right();
+    std::vector<Diagnosis> found;
     for (Trial& trial : trials_) {
-      if (trial.is_right || !any_right) found.push_back(std::move(trial.diagnosis));
+      const Trial& likeliest = trials_.front();
+      if (trial.is_right != likeliest.is_right) break;
+      if (trial.log_evidence > likeliest.log_evidence - kFarLessLikely) found.push_back(std::move(trial.diagnosis));
     }
     if (found.empty()) {
       found.push_back(as_it_is(as_said_.sigmas <= Fit::kMostSigmas ? Cause::correlation : Cause::part));
@@ -103,8 +113,13 @@ class Diagnostician {
   }
 
  private:
-  bool none_is_right() const {
-    return std::none_of(trials_.begin(), trials_.end(), [](const Trial& trial) { return trial.is_right; });
+  static double steps_of(const Trial& trial) { return std::round(trial.log_evidence / kEvidenceStep); }
+
+  /// How noisy the rows are is not known better than they say themselves: what was said may be too much as well.
+  static double with_noise_as_it_seems(const Evidence& evidence, const Fit& fit) {
+    const double times = std::max(kLeastNoise, std::sqrt(fit.chi_square / std::max(1.0, fit.freedom)));
+    const double less = 0.5 * fit.chi_square * (1 - 1 / (times * times));
+    return evidence.with(1) + less - fit.freedom * std::log(times);
   }
 
   /// As noisy as they are, the rows may be nothing but that.
@@ -112,11 +127,15 @@ class Diagnostician {
     if (as_said_.prior_sigmas > Fit::kMostSigmas) return;
     // Errors that are alike are what every other mistake looks like as well: they come last.
     if (as_said_.is_correlated()) return;
-    Diagnosis diagnosis = as_it_is(Cause::noise);
+    Problem noisier = problem_;
+    noisier.noise->contact *= as_said_.excess;
+    noisier.noise->angle *= as_said_.excess;
+    noisier.noise->position *= as_said_.excess;
+    if (noisier.noise->angle > BeliefOptions::kMostAngle) return;
+    std::optional<Belief> belief = believe(noisier, observed_);
+    Diagnosis diagnosis = of(Cause::noise, belief->fit());
     diagnosis.noise_scale = as_said_.excess;
-    const double scale = as_said_.excess;
-    trials_.push_back({std::move(diagnosis), true,
-                       -0.5 * as_said_.chi_square / (scale * scale) - as_said_.freedom * std::log(scale)});
+    add(std::move(diagnosis), *belief, -std::log(as_said_.excess));
   }
 
   Diagnosis as_it_is(Cause cause) const {
@@ -172,13 +191,17 @@ class Diagnostician {
       }
       take(slip.cause, mended, slip.in_degrees * std::log(kDegree));
     }
+    // Of a part that lies face down the centres go as they are seen: only angles would not do.
+    const bool has_places = problem_.noise->position > 0 || problem_.pose;
+    if (of_contact && has_places) take(Cause::both_clockwise, in_mirror(problem_));
   }
 
   /// Lengths by one factor, of any size.
   void try_scale() {
     std::vector<std::pair<double, double>> by_cost;
     for (const double scale : scales()) {
-      if (const std::optional<Fit> fit = fit_with(scale, kRowsToCompare)) by_cost.emplace_back(fit->chi_square, scale);
+      const std::optional<Fit> fit = fit_with(scale, kRowsToCompare);
+      if (fit && std::isfinite(fit->chi_square)) by_cost.emplace_back(fit->chi_square, scale);
     }
     std::sort(by_cost.begin(), by_cost.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
     std::vector<std::pair<double, double>> valleys;
@@ -246,12 +269,12 @@ class Diagnostician {
     if (std::abs(scale - 1) < kOtherScale * sd) return;
     for (const Trial& trial : trials_) {
       const Diagnosis& known = trial.diagnosis;
-      if (known.cause == Cause::radius && std::abs(known.length_scale - scale) < kOtherScale * sd) return;
+      if (known.cause == Cause::radius && std::abs(known.length_scale - scale) < kSameScale * sd) return;
     }
     Diagnosis diagnosis = of(Cause::radius, fit);
     diagnosis.length_scale = scale;
     diagnosis.length_scale_sd = sd;
-    add(std::move(diagnosis), fit, *belief, std::log(scale));
+    add(std::move(diagnosis), *belief, std::log(scale));
   }
 
   static Diagnosis of(Cause cause, const Fit& fit) {
@@ -275,45 +298,55 @@ class Diagnostician {
     if (fit.stray < 1 || fit.stray > std::max(kMostStray, kMostStrayShare * rows)) return;
     Diagnosis diagnosis = of(Cause::stray, fit);
     diagnosis.stray = static_cast<std::size_t>(fit.stray);
-    add(std::move(diagnosis), fit, *belief);
+    add(std::move(diagnosis), *belief);
   }
 
   void try_slip() {
-    Problem slipping = problem_;
-    slipping.noise->slip = std::max(slipping.noise->slip, kUnsaidSlip);
-    std::optional<Belief> belief = believe(slipping, observed_);
-    add(of(Cause::slip, belief->fit()), belief->fit(), *belief);
+    for (const double slip : kUnsaidSlips) {
+      if (slip <= problem_.noise->slip) continue;
+      Problem slipping = problem_;
+      slipping.noise->slip = slip;
+      std::optional<Belief> belief = believe(slipping, observed_);
+      Diagnosis diagnosis = of(Cause::slip, belief->fit());
+      diagnosis.slip = slip;
+      if (add(std::move(diagnosis), *belief)) return;
+    }
   }
 
   /// `log_stretch`: by how much each row's numbers are stretched, their density with them.
   void take(Cause cause, const Problem& mended, double log_stretch = 0) {
     try {
       const Observation observed = observe(mended);
-      const Fit glance = believe(mended, observed, {0, kRowsToCompare})->fit();
+      const Fit glance = believe(mended, observed, {0, kRowsToCompare, true})->fit();
+      if (!std::isfinite(glance.excess)) return;
       if (glance.is_bad() && glance.excess > std::max(kWorthALook, kMuchBetter * glance_excess())) return;
       std::optional<Belief> belief = believe(mended, observed);
-      add(of(cause, belief->fit()), belief->fit(), *belief, log_stretch);
+      add(of(cause, belief->fit()), *belief, log_stretch);
     } catch (const InputError&) {  // what no log can be explains nothing
     }
   }
 
   /// What the rows leave as they are, by a few of them.
   double glance_excess() {
-    if (glance_excess_ <= 0) glance_excess_ = believe(problem_, observed_, {0, kRowsToCompare})->fit().excess;
+    if (glance_excess_ <= 0) glance_excess_ = believe(problem_, observed_, {0, kRowsToCompare, true})->fit().excess;
     return glance_excess_;
   }
 
-  /// Counts where it explains the rows, or explains them much better.
-  void add(Diagnosis diagnosis, const Fit& fit, Belief& belief, double log_stretch = 0) {
+  /// Counts where it explains the rows, which is returned, or explains them much better.
+  bool add(Diagnosis diagnosis, Belief& belief, double log_stretch = 0) {
+    const Fit& fit = belief.fit();
     const bool is_right = !fit.is_bad();
     const bool is_better = !fit.is_correlated() && fit.excess < kMuchBetter * as_said_.excess;
-    if (!is_right && !is_better) return;
+    if (!is_right && !is_better) return false;
     diagnosis.verdict = belief.verdict();
     diagnosis.modes = belief.modes();
     // What would have any place fit explains nothing, unless they all look alike.
     const bool is_empty = diagnosis.verdict.name == Verdict::unobservable && verdict_.name != Verdict::unobservable;
-    if (diagnosis.modes.empty() || is_empty) return;
-    trials_.push_back({std::move(diagnosis), is_right, -0.5 * fit.chi_square + fit.freedom * log_stretch});
+    if (diagnosis.modes.empty() || is_empty) return false;
+    const double log_evidence = with_noise_as_it_seems(belief.evidence(), fit) + fit.freedom * log_stretch;
+    diagnosis.log_odds = log_evidence - log_evidence_;
+    trials_.push_back({std::move(diagnosis), is_right, log_evidence});
+    return is_right;
   }
 
   const std::vector<Reading>& observed_rows() const {
@@ -322,7 +355,7 @@ class Diagnostician {
 
   std::optional<Belief> belief_with(double scale, std::size_t rows) const {
     try {
-      return believe(with_lengths(problem_, scale), with_lengths(observed_, scale), {kOpenScale, rows});
+      return believe(with_lengths(problem_, scale), with_lengths(observed_, scale), {kOpenScale, rows, true});
     } catch (const InputError&) {
       return std::nullopt;
     }
@@ -335,7 +368,8 @@ class Diagnostician {
   const Problem& problem_;
   const Observation& observed_;
   Fit as_said_;
-  Verdict verdict_;  // with it
+  double log_evidence_;  // with it, and with as much noise as the rows seem to have
+  Verdict verdict_;      // with it
   std::vector<Trial> trials_;
   double glance_excess_ = 0;
   mutable double turn_beyond_ = -1;

@@ -64,15 +64,28 @@ void add_pose_spreads(const Problem& problem, Belief& belief, std::vector<Placem
   for (std::size_t k = 0; k < placements.size(); ++k) placements[k].pose_spread = belief.pose_spread(k, felt);
 }
 
-/// With what was doubted: where something else explains the rows as well, what was said of them is in doubt. As likely
-/// as the rows are with what they leave of each (a normal distribution whose deviation is not known).
+/// Where something else explains the rows as well, what was said of them is in doubt. Rows that are off alike tell
+/// less.
 double trust(const Answer& answer) {
   if (answer.diagnoses.empty()) return 1;
   const Fit& fit = answer.weighing->fit;
   const Diagnosis& likeliest = answer.diagnoses.front();
   if (likeliest.cause == Cause::noise || likeliest.cause == Cause::correlation) return 1;
-  const double ratio = std::log(std::max(1.0, fit.excess / likeliest.excess));
-  return 1 / (1 + std::exp(std::min(kMostDoubt, fit.freedom * ratio)));
+  const double alike = fit.widened * fit.widened / (fit.excess * fit.excess);
+  return 1 / (1 + std::exp(std::clamp(likeliest.log_odds / alike, 0.0, kMostDoubt)));
+}
+
+/// How probable it is, if that diagnosis holds, that the place is this one, as far as intervals tell.
+double probability_if(const Diagnosis& diagnosis, const Placement& placement, const Boundary& places) {
+  double sum = 0;
+  for (const Mode& mode : diagnosis.modes) {
+    bool is_same = true;
+    for (std::size_t which = 0; which < mode.interval.size(); ++which) {
+      is_same = is_same && places.intersects(mode.interval[which], placement.interval[which]);
+    }
+    if (is_same) sum += mode.probability;
+  }
+  return sum;
 }
 
 /// Centres that are not said to be evidence still must not contradict the answer: they are held against it as if they
@@ -106,6 +119,7 @@ std::optional<Belief> believe(const Problem& problem, const Observation& observe
   options.pose = problem.pose;
   options.robust = problem.robust;
   options.scale_sd = supposed.scale_sd;
+  options.glance = supposed.glance;
   options.bare = !problem.felt.is_log();
   if (problem.pose && (!observed.contacts || problem.fingers.empty())) {
     throw InputError("`pose`: the fingers tell how the part lies by u and psi, expected a log of them");
@@ -175,8 +189,15 @@ void conclude(Belief& belief, Answer& answer) {
     answer.verdict.fits_badly |= fits_badly;
   }
   const double as_said = trust(answer);
-  for (Placement& placement : answer.placements) placement.probability *= as_said;
-  answer.weighing->rest = 1 - as_said * (1 - answer.weighing->rest);
+  if (as_said == 1) return;
+  double listed = 0;
+  for (Placement& placement : answer.placements) {
+    placement.probability *= as_said;
+    placement.probability +=
+        (1 - as_said) * probability_if(answer.diagnoses.front(), placement, answer.part.boundary());
+    listed += placement.probability;
+  }
+  answer.weighing->rest = std::max(0.0, 1 - listed);
 }
 
 }  // namespace rollfix

@@ -18,10 +18,6 @@ using namespace belief;
 
 // Even the only place is not known where it holds more than this share of the boundary.
 constexpr double kWide = 0.1;
-// Angles that are noisier, radians, would be taken for more than they say.
-constexpr double kMostAngle = 0.5;
-// An explanation that leaves no more than this many times the excess of another is about as good.
-constexpr double kAboutAsGood = 1.3;
 
 void require_valid(const BeliefOptions& options, const Contacts& contacts) {
   const Noise& noise = options.noise;
@@ -31,11 +27,11 @@ void require_valid(const BeliefOptions& options, const Contacts& contacts) {
         "noise: expected a standard deviation of the contact or of the angle above 0, found neither; without noise "
         "there is nothing to be unsure of");
   }
-  if (noise.angle > kMostAngle) {
+  if (noise.angle > BeliefOptions::kMostAngle) {
     throw InputError(fmt::format(
         "noise: an angle's standard deviation of {} rad is {:.3g} deg, expected at most {} rad: beyond that a "
         "row says nothing; degrees are written {}deg",
-        noise.angle, noise.angle * 180 / std::numbers::pi, kMostAngle, noise.angle));
+        noise.angle, noise.angle * 180 / std::numbers::pi, BeliefOptions::kMostAngle, noise.angle));
   }
   if (options.prior &&
       !(std::isfinite(options.prior->s) && std::isfinite(options.prior->sd) && options.prior->sd > 0)) {
@@ -45,31 +41,6 @@ void require_valid(const BeliefOptions& options, const Contacts& contacts) {
   if (contacts.facing && !std::isfinite(*contacts.facing)) {
     throw InputError(fmt::format("expected a finite facing angle, found {}", *contacts.facing));
   }
-}
-
-/// Which explanation it is. Slip here and there explains a wrong scale as well: the simpler one counts, where it is
-/// about as good.
-Diagnosis likelier(const Fit& as_said, const Fit& radius, const Fit& slip) {
-  Diagnosis diagnosis;
-  diagnosis.cause = Cause::part;
-  diagnosis.excess = as_said.excess;
-  if (!as_said.is_correlated() && as_said.excess <= kMostExcess) {
-    diagnosis.cause = Cause::noise;
-    diagnosis.noise_scale = as_said.excess;
-  } else if (radius.excess <= kMostExcess && radius.excess <= kAboutAsGood * slip.excess &&
-             (!radius.is_correlated() || slip.is_correlated())) {
-    std::size_t worst = 0;  // of two the one further off
-    const PerFinger<double>& scale = radius.length_scale;
-    if (scale.size() == 2 && std::abs(scale[1] - 1) > std::abs(scale[0] - 1)) worst = 1;
-    diagnosis.cause = Cause::radius;
-    diagnosis.excess = radius.excess;
-    diagnosis.length_scale = scale[worst];
-    diagnosis.length_scale_sd = radius.length_scale_sd[worst];
-  } else if (slip.excess <= kMostExcess) {
-    diagnosis.cause = Cause::slip;
-    diagnosis.excess = slip.excess;
-  }
-  return diagnosis;
 }
 
 }  // namespace
@@ -177,17 +148,16 @@ const Fit& Belief::fit() {
   return state_->outcome.fit;
 }
 
+const Evidence& Belief::evidence() {
+  state_->settle();
+  return state_->outcome.evidence;
+}
+
 double Belief::tolerance(const std::vector<Reading>& readings) {
   state_->settle();
   if (!state_->posterior->has_begun()) return std::numbers::pi;
   const double variance = state_->posterior->variance_of_miss(readings, state_->outcome.modes);
   return kFarthest * std::min(fit().widened, kMostExcess) * std::sqrt(variance);
-}
-
-Diagnosis Belief::diagnosis() {
-  if (!fit().is_bad()) return {};
-  const Posterior& posterior = *state_->posterior;
-  return likelier(fit(), posterior.supposing(Cause::radius), posterior.supposing(Cause::slip));
 }
 
 Verdict Belief::verdict() { return verdict_on(modes()); }

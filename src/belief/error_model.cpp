@@ -25,16 +25,11 @@ constexpr double kSlipPatch = 0.01;
 // A row that says the same again is worth this much of one: it keeps variances finite.
 constexpr double kLeastWorth = 1e-6;
 
-// Explanations that are tried where nothing fits: lengths off by a fifth throughout, or by as much here and there.
-constexpr double kOtherScale = 0.2;
-constexpr double kOtherSlip = 0.2;
-
 double here_and_there(const Noise& noise) { return std::min(kSlipHereAndThere * noise.slip, kMostSlipHereAndThere); }
 
 }  // namespace
 
-SensorErrors::SensorErrors(const BeliefOptions& options, LogKind log_kind, double the_perimeter, double here_and_there,
-                           Cause the_supposed)
+SensorErrors::SensorErrors(const BeliefOptions& options, LogKind log_kind, double the_perimeter, double here_and_there)
     : kind(log_kind),
       bare(options.bare),
       noise(options.noise),
@@ -43,11 +38,9 @@ SensorErrors::SensorErrors(const BeliefOptions& options, LogKind log_kind, doubl
       angle_variance(square(std::max(options.noise.angle, kLeastAngle))),
       row_share(log_kind == LogKind::increments ? kShareUnderWay : 1),
       perimeter(the_perimeter),
-      slip_here_and_there(the_supposed == Cause::slip ? kOtherSlip : here_and_there),
-      supposed(the_supposed) {}
+      slip_here_and_there(here_and_there) {}
 
 double SensorErrors::scale_variance(double finger_curvature) const {
-  if (supposed == Cause::radius) return square(kOtherScale);
   return square(noise.slip) + square(noise.radius * finger_curvature) + square(scale_sd) + square(noise.part.length);
 }
 
@@ -74,9 +67,8 @@ double SensorErrors::rows_alike(double rows, double range) const {
   return is_farther ? std::max(1.0, rows * noise.part.alike / boundary) : std::max(1.0, rows);
 }
 
-ErrorModel::ErrorModel(const BeliefOptions& options, LogKind kind, double finger_curvature, double perimeter,
-                       Cause supposed)
-    : sensor_(options, kind, perimeter, here_and_there(options.noise), supposed) {
+ErrorModel::ErrorModel(const BeliefOptions& options, LogKind kind, double finger_curvature, double perimeter)
+    : sensor_(options, kind, perimeter, here_and_there(options.noise)) {
   if (kind == LogKind::contact) {
     // u0 and psi0 are measured once and taken off every row: offsets n0 of length and -(kappa n0 + a0) of turn.
     start_(0, 0) = sensor_.contact_variance;
@@ -117,8 +109,8 @@ RowCovariance ErrorModel::gathered(double length, const Interval& seconds) const
 }
 
 PairErrors::PairErrors(const BeliefOptions& options, LogKind kind, const std::array<double, 2>& finger_curvature,
-                       bool facing, double perimeter, Cause supposed)
-    : sensor_(options, kind, perimeter, 0, supposed),
+                       bool facing, double perimeter)
+    : sensor_(options, kind, perimeter, 0),
       absolute_(facing && kind == LogKind::contact),
       contact_variance_(sensor_.row_share * sensor_.contact_variance),
       turn_variance_(sensor_.row_share * 2 * sensor_.angle_variance) {  // both fingers'
@@ -130,6 +122,7 @@ PairErrors::PairErrors(const BeliefOptions& options, LogKind kind, const std::ar
     if (has_offsets) start_(i, i) = contact_variance_;
     start_(2 + i, 2 + i) = sensor_.scale_variance(finger_curvature[finger]);
   }
+  start_(2, 3) = start_(3, 2) = sensor_.scale_sd * sensor_.scale_sd;  // one factor for both
   if (!absolute_) start_(4, 4) = (has_offsets ? turn_variance_ : 0) + part_variance();
 }
 

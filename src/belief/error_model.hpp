@@ -11,9 +11,8 @@ namespace rollfix::belief {
 /// How far the sensors of a finger are off, which of their errors a row has on its own and which a roll gathers: the
 /// same for one finger and for each of two. docs/belief.md derives it.
 struct SensorErrors {
-  /// `supposed`: a cause that errors are looked at with which they were not said to have. `here_and_there`: slip over
-  /// short stretches, per length.
-  SensorErrors(const BeliefOptions& options, LogKind kind, double perimeter, double here_and_there, Cause supposed);
+  /// `here_and_there`: slip over short stretches, per length.
+  SensorErrors(const BeliefOptions& options, LogKind kind, double perimeter, double here_and_there);
 
   /// Of the scale of lengths: slip all along, and a radius that is off by a share has every length off by it.
   double scale_variance(double finger_curvature) const;
@@ -40,7 +39,6 @@ struct SensorErrors {
   double row_share;         // of both, what a row has on its own: of increments the part that is under way
   double perimeter;
   double slip_here_and_there;
-  Cause supposed;
 };
 
 /// Errors that a whole roll of one finger shares: of a length and of a turn as measured, of the scale of lengths, and
@@ -65,8 +63,7 @@ inline constexpr double kWideAngle = 0.02;
 class ErrorModel {
  public:
   /// `finger_curvature`: of the finger where it first touched.
-  ErrorModel(const BeliefOptions& options, LogKind kind, double finger_curvature, double perimeter,
-             Cause supposed = Cause::none);
+  ErrorModel(const BeliefOptions& options, LogKind kind, double finger_curvature, double perimeter);
 
   /// Of the shared errors before the first row.
   const SharedCovariance& start() const { return start_; }
@@ -101,7 +98,7 @@ class PairErrors {
   /// `finger_curvature`: of both disks; 0 where it is not known or a jaw. `facing`: the first contacts' facing is
   /// known.
   PairErrors(const BeliefOptions& options, LogKind kind, const std::array<double, 2>& finger_curvature, bool facing,
-             double perimeter, Cause supposed = Cause::none);
+             double perimeter);
 
   /// Of the shared errors before the first row.
   const PairSharedCovariance& start() const { return start_; }

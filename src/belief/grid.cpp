@@ -248,9 +248,6 @@ void Grid::measure_fit(const Nodes& nodes) {
     add_pose_prior(as_told);
     fit_.prior_sigmas = std::max(fit_.prior_sigmas, std::sqrt(as_told.score.cost));
   }
-  const Shared& errors = best->now.errors();
-  fit_.length_scale = 1 / (1 + errors[2]);
-  fit_.length_scale_sd = fit_.widened * std::sqrt(best->now.covariance()(2, 2));
   // A peak is about one standard deviation wide, and no wider than the boundary.
   const double width = 1 / (std::sqrt(best->score.information) / fit_.widened + 1 / length_);
   best_mass_ = best_ / square(fit_.widened) + log_prior(best->now.place().slope, 1) + std::log(width);
@@ -367,7 +364,27 @@ void Grid::weigh() {
     total += cell.share;
   }
   for (GridCell& cell : cells_) cell.share /= total;
+  log_total_ = std::log(total);
   rest_ = std::min(1.0, rest_ / total);
+}
+
+/// Whatever the place: another start asks for another scale.
+void Grid::measure_scale() {
+  double own = 0;  // for one place
+  double mean = 0;
+  double square_of = 0;
+  for (const GridCell& cell : cells_) {
+    if (!cell.fine) continue;
+    for (const std::size_t end : {cell.first, cell.first + 1}) {
+      const RollFilter& filter = points_[cell.arc][end].now;
+      const double scale = filter.errors()[2];
+      own += 0.5 * cell.share * filter.covariance()(2, 2);
+      mean += 0.5 * cell.share * scale;
+      square_of += 0.5 * cell.share * scale * scale;
+    }
+  }
+  fit_.length_scale = 1 / (1 + mean);
+  fit_.length_scale_sd = std::sqrt(square(fit_.widened) * own + std::max(0.0, square_of - mean * mean));
 }
 
 void Grid::settle(const Nodes& nodes) {
@@ -393,6 +410,7 @@ void Grid::settle(const Nodes& nodes) {
   }
   measure_fit(nodes);
   weigh();
+  measure_scale();
 }
 
 }  // namespace rollfix::belief

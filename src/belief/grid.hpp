@@ -46,8 +46,8 @@ class RollFilter {
   /// Its derivative by w, and the (expected) information on w: the square of the distance's rate of change.
   double slope() const { return -slope_; }
   double information() const { return information_; }
-  /// The least white of the equations' innovations.
-  const Whiteness& whiteness() const { return least_white(whiteness_); }
+  /// Of each equation's innovations.
+  const std::array<Whiteness, 3>& whiteness() const { return whiteness_; }
   /// Of the rows that are not stray: as many, and their part of the cost.
   double right_rows() const { return right_rows_; }
   double right_cost() const { return right_cost_; }
@@ -168,6 +168,7 @@ class Grid {
   const GridPoint& point(std::size_t arc, std::size_t index) const { return points_[arc][index]; }
   /// How well the likeliest point fits. All probabilities are as with Fit::widened times the noise.
   const Fit& fit() const { return fit_; }
+  Evidence evidence() const { return {best_, log_total_}; }
   /// The likeliest point. Not before settle().
   const GridPoint& best() const;
   std::size_t points() const { return count_; }
@@ -188,6 +189,7 @@ class Grid {
   bool is_even(const GridPoint& lo, const GridPoint& hi, double length) const;
   bool refine(const Nodes& nodes);
   void weigh();
+  void measure_scale();
   void measure_fit(const Nodes& nodes);
   void add_pose_prior(GridPoint& point) const;
   void lower_limit(double deviance, const Nodes& nodes);
@@ -209,6 +211,7 @@ class Grid {
   double best_ = 0;       // the largest log-likelihood of a point
   double limit_ = 0;      // of a deviance that can matter, ...
   double farthest_ = 0;   // ... and of the cost in it
+  double log_total_ = 0;  // of the density's integral, as a share of the best point's
   double best_mass_ = 0;  // about the logarithm of the mass around it
   std::size_t laid_out_at_ = 0;
   std::size_t generation_ = 0;                  // of the nodes that were laid out for

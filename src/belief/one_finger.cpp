@@ -96,7 +96,7 @@ class OneFingersPosterior : public Posterior {
     state_->grid.settle(state_->nodes);
     const ModeQuestion question{&state_->boundary, last_.reading, state_->errors.row(last_.finger_curvature[0]),
                                 part_.boundary()};
-    return {modes_of(state_->grid, question), state_->grid.fit(), state_->grid.rest()};
+    return {modes_of(state_->grid, question), state_->grid.fit(), state_->grid.evidence(), state_->grid.rest()};
   }
 
   double credible_length(const std::vector<PerFinger<Interval>>& /*intervals*/) const override {
@@ -118,19 +118,6 @@ class OneFingersPosterior : public Posterior {
       most = std::max(most, variance);
     }
     return most;
-  }
-
-  /// With other errors the samples' nodes stay what they are; what the rows gather is looked at by lengths alone.
-  Fit supposing(Cause cause) const override {
-    const ErrorModel other(options_, kind_, state_->finger_curvature, part_.perimeter(), cause);
-    Nodes nodes(other, state_->boundary.tilt(), options_.robust);
-    for (const Node& node : state_->nodes.complete()) {
-      nodes.add({node.length, node.turn}, last_.finger_curvature[0], 0, node.felt);
-    }
-    Grid grid(state_->boundary, other, options_, part_.boundary(), corner_length(last_.finger_curvature[0], part_),
-              centres());
-    grid.settle(nodes);
-    return grid.fit();
   }
 
   std::vector<Piece> pieces(std::size_t /*index*/, const Mode& mode) const override {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
@@ -52,10 +53,11 @@ inline double normal_deviate(double chi_square, double freedom) {
   return (std::cbrt(chi_square / freedom) - (1 - spread)) / std::sqrt(spread);
 }
 
-/// Whether what should be independent is: sums over a filter's innovations, each in its standard deviations.
+/// Whether a filter's innovations, each in its standard deviations, are as they should be: independent, none far out.
 class Whiteness {
  public:
   void add(double innovation) {
+    most_ = std::max(most_, innovation * innovation);
     lag_ += innovation * last_;
     last_ = innovation;
     squares_ += innovation * innovation;
@@ -75,6 +77,8 @@ class Whiteness {
     const double drift = std::sqrt(std::max(0.0, wander - kWanderOfRest) / kWanderOfFirst);
     return std::max(neighbours, drift);
   }
+  /// How unlikely it is that the farthest of so many is so far out (Bonferroni: n normal tails of exp(-x^2 / 2) each).
+  double farthest() const { return std::sqrt(std::max(0.0, most_ - 2 * std::log(std::max(1.0, count_)))); }
 
  private:
   static constexpr double kFewestToCompare = 8;
@@ -82,6 +86,7 @@ class Whiteness {
   static constexpr double kWanderOfRest = 0.5 - kWanderOfFirst;
 
   double last_ = 0;
+  double most_ = 0;
   double lag_ = 0;
   double sum_ = 0;
   double sums_ = 0;
@@ -89,21 +94,32 @@ class Whiteness {
   double count_ = 0;
 };
 
-/// Of several equations' innovations.
-inline const Whiteness& least_white(const std::array<Whiteness, 3>& all) {
-  return *std::max_element(all.begin(), all.end(),
-                           [](const Whiteness& a, const Whiteness& b) { return a.sigmas() < b.sigmas(); });
+/// Of a row's N equations, given the inverse of their covariance, made independent of each other.
+template <int N>
+void add_innovation(const Eigen::Matrix<double, N, N>& inverse, const Eigen::Matrix<double, N, 1>& innovation,
+                    std::array<Whiteness, 3>& equations) {
+  if constexpr (N == 1) {
+    equations[0].add(std::sqrt(inverse(0, 0)) * innovation[0]);
+  } else {
+    const Eigen::Matrix<double, N, 1> independent = inverse.llt().matrixU() * innovation;
+    for (int k = 0; k < N; ++k) equations[static_cast<std::size_t>(k)].add(independent[k]);
+  }
 }
 
-/// What the likeliest place leaves of the samples: its cost, as much as is to be expected of it, and how it runs.
-inline Fit fit_of(double cost, double freedom, const Whiteness& whiteness) {
+/// What the likeliest place leaves of the samples: its cost, as much as is to be expected of it, and how the
+/// innovations of each equation run.
+inline Fit fit_of(double cost, double freedom, const std::array<Whiteness, 3>& equations) {
   Fit fit;
   fit.chi_square = cost;
   fit.freedom = freedom;
   if (!(freedom > 0)) return fit;
   fit.sigmas = normal_deviate(cost, freedom);
-  fit.correlation = whiteness.correlation();
-  fit.correlation_sigmas = whiteness.sigmas();
+  for (const Whiteness& each : equations) fit.row_sigmas = std::max(fit.row_sigmas, each.farthest());
+  const Whiteness& least_white =
+      *std::max_element(equations.begin(), equations.end(),
+                        [](const Whiteness& a, const Whiteness& b) { return a.sigmas() < b.sigmas(); });
+  fit.correlation = least_white.correlation();
+  fit.correlation_sigmas = least_white.sigmas();
   if (fit.sigmas > kExcessSigma) fit.excess = std::max(1.0, std::sqrt(cost / freedom));
   fit.widened = fit.excess;
   if (fit.is_correlated()) {
@@ -149,6 +165,7 @@ struct Piece {
 struct Outcome {
   std::vector<Mode> modes;  // the most probable first
   Fit fit;
+  Evidence evidence{};
   double unresolved = 0;  // bound on the probability where the density was not looked at closely
 };
 
@@ -169,8 +186,6 @@ class Posterior {
   virtual double credible_length(const std::vector<PerFinger<Interval>>& intervals) const = 0;
   /// Of f of these readings, at these modes, the largest.
   virtual double variance_of_miss(const std::vector<Reading>& readings, const std::vector<Mode>& modes) const = 0;
-  /// How well another cause explains the samples.
-  virtual Fit supposing(Cause cause) const = 0;
   /// Of a mode. The first is the one that poses are compared with; its share may be 0.
   virtual std::vector<Piece> pieces(std::size_t index, const Mode& mode) const = 0;
   /// See Belief::density. `modes`: of settle().

@@ -172,9 +172,7 @@ void RollFilter::absorb(const Node& node, const Outliers& outliers) {
     cost_ += squared;
     log_volume_ += std::log(own / volume);
   }
-  for (int k = 0; k < N; ++k) {
-    whiteness_[static_cast<std::size_t>(k)].add(std::sqrt(weight * inverse(k, k)) * innovation[k]);
-  }
+  add_innovation<N>(inverse, std::sqrt(weight) * innovation, whiteness_);
   const Eigen::Matrix<double, kErrors, N> gain = weight * of_errors * inverse;
   slope_ += weight * innovation.dot(inverse * by_w);
   information_ += weight * by_w.dot(inverse * by_w);

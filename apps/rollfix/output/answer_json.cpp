@@ -155,6 +155,7 @@ Json fit_json(const Fit& fit) {
           {"sigmas", json_number(fit.sigmas)},
           {"correlation", json_number(fit.correlation)},
           {"correlation_sigmas", json_number(fit.correlation_sigmas)},
+          {"row_sigmas", json_number(fit.row_sigmas)},
           {"widened", json_number(fit.widened)},
           {"length_scale", json_numbers(fit.length_scale)},
           {"length_scale_sd", json_numbers(fit.length_scale_sd)}};
@@ -170,24 +171,23 @@ void add_weighing(const Weighing& weighing, Json& document) {
   document["fit"] = fit_json(weighing.fit);
 }
 
-}  // namespace
-
 Json diagnosis_json(const Diagnosis& diagnosis) {
-  if (diagnosis.cause == Cause::none) return nullptr;
   return {{"cause", name_of(diagnosis.cause)},
           {"what", about(diagnosis)},
           {"length_scale", json_number(diagnosis.length_scale)},
           {"length_scale_sd", json_number(diagnosis.length_scale_sd)},
           {"noise_scale", json_number(diagnosis.noise_scale)},
-          {"excess", json_number(diagnosis.excess)}};
+          {"excess", json_number(diagnosis.excess)},
+          {"log_odds", json_number(diagnosis.log_odds)}};
 }
 
-Json diagnoses_json(const Answer& answer) {
-  const std::vector<Diagnosis>& diagnoses = answer.diagnoses;
+}  // namespace
+
+Json diagnoses_json(const std::vector<Diagnosis>& diagnoses, const std::vector<Finger>& fingers, const Noise& noise) {
   if (diagnoses.empty()) return nullptr;
   const auto one = [&](const Diagnosis& diagnosis) {
     Json json = diagnosis_json(diagnosis);
-    json["cure"] = cure_of(diagnosis, answer.fingers, answer.weighing ? answer.weighing->noise : Noise{});
+    json["cure"] = cure_of(diagnosis, fingers, noise);
     json["verdict"] = diagnosis.modes.empty() ? Json(nullptr) : Json(diagnosis.verdict.text());
     json["placements"] = list_of(diagnosis.modes, [](const Mode& mode) {
       return Json{{"start", json_numbers(mode.start)},
@@ -253,7 +253,8 @@ Json answer_json(const Answer& answer, bool explain) {
   document["counts"] = {{fingers == 1 ? "intervals" : "boxes", answer.counts.intervals},
                         {"evaluations", answer.counts.evaluations}};
   if (answer.weighing) add_weighing(*answer.weighing, document);
-  document["diagnosis"] = diagnoses_json(answer);
+  document["diagnosis"] =
+      diagnoses_json(answer.diagnoses, answer.fingers, answer.weighing ? answer.weighing->noise : Noise{});
   if (explain) document["impossible"] = list_of(answer.impossible, impossible_json);
   return document;
 }

@@ -34,10 +34,9 @@ const char* name_of(Cause cause);
 /// What to give instead, with these fingers and this noise as given.
 std::string cure_of(const Diagnosis& diagnosis, const std::vector<Finger>& fingers, const Noise& noise);
 
-/// What --json says of a part (`inspect` says more), of a diagnosis (null where something fits) and of noise.
+/// What --json says of a part (`inspect` says more), of diagnoses (null where the rows fit) and of noise.
 Json part_json(const Part& part);
-Json diagnosis_json(const Diagnosis& diagnosis);
-Json diagnoses_json(const Answer& answer);
+Json diagnoses_json(const std::vector<Diagnosis>& diagnoses, const std::vector<Finger>& fingers, const Noise& noise);
 Json noise_json(const Noise& noise);
 
 /// How far a part that was measured may be off, as text and as JSON; null where it is exact.

@@ -44,8 +44,7 @@ constexpr std::array<CauseText, 17> kCauses = {{
     {Cause::turn_clockwise, "turn_clockwise", "turns are counted clockwise",
      "counter-clockwise angles: change the sign of the turn"},
     {Cause::stray, "stray", "", "--robust"},
-    {Cause::slip, "slip", "lengths are off here and there: likeliest is that the finger slipped",
-     "--noise slip=PER_LENGTH, larger than now"},
+    {Cause::slip, "slip", "lengths are off here and there: likeliest is that the finger slipped", ""},
 }};
 constexpr CauseText kAnotherPart = {Cause::part, "part",
                                     "neither other lengths, other signs or units, nor slip explain the rows: likeliest "
@@ -130,6 +129,7 @@ std::string about(const Diagnosis& diagnosis) {
 std::string cure_of(const Diagnosis& diagnosis, const std::vector<Finger>& fingers, const Noise& noise) {
   if (diagnosis.cause == Cause::unsaid_noise)
     return noise_option(diagnosis.noise, 1) + ", and slip= and radius= as far as they are not exact";
+  if (diagnosis.cause == Cause::slip) return fmt::format("--noise slip={:.2g}, besides what is given", diagnosis.slip);
   if (diagnosis.cause == Cause::noise) return noise_option(noise, diagnosis.noise_scale);
   if (diagnosis.cause == Cause::radius) {
     const bool of_disks = !fingers.empty() && std::all_of(fingers.begin(), fingers.end(),

@@ -67,6 +67,8 @@ class JsonlWriter : public WatchWriter {
       : WatchWriter(out, err, std::move(is_ready)), part_(part) {}
 
   void begin(const Part& part, const WatchOptions& options) override {
+    fingers_ = options.fingers;
+    noise_ = options.belief.noise;
     Json event = event_json("begin");
     event["part"] = part_json(part);
     event["fingers"] = 1;
@@ -86,7 +88,7 @@ class JsonlWriter : public WatchWriter {
   void over(const WatchAnswer& answer, RollEnd why) override {
     Json event = answer_json("over", answer, part_);
     event["why"] = kWhyOver.at(static_cast<std::size_t>(why));
-    event["diagnosis"] = diagnosis_json(answer.diagnosis);
+    event["diagnosis"] = diagnoses_json(answer.diagnoses, fingers_, noise_);
     write_event(event);
   }
 
@@ -112,6 +114,8 @@ class JsonlWriter : public WatchWriter {
   void write_event(const Json& event) { write(line_of(event)); }
 
   Part part_;
+  std::vector<Finger> fingers_;  // and the noise, as given: cures name them
+  Noise noise_;
 };
 
 }  // namespace

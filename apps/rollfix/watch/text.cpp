@@ -33,6 +33,8 @@ class TextWriter : public WatchWriter {
   void begin(const Part& part, const WatchOptions& options) override {
     const int decimals = decimals_for(part.perimeter());
     const std::string unit = unit_.empty() ? "" : fmt::format(" {}; all lengths are in {}", unit_, unit_);
+    fingers_ = options.fingers;
+    noise_ = options.belief.noise;
     announce(fmt::format("part  {}, {}, perimeter {}{}\nlog   {}\n\n", part.name(), part.closed() ? "closed" : "open",
                          fixed(part.perimeter(), decimals), unit, options.name) +
              row("line", "time [s]", "length", "turn [deg]", "verdict",
@@ -96,17 +98,23 @@ class TextWriter : public WatchWriter {
 
   std::string conclusion(const WatchAnswer& last) const {
     if (last.roll == 0) return "no contact came";
-    if (last.verdict.name == Verdict::inconsistent) {
-      const std::string why = about(last.diagnosis);
-      return last.verdict.text() + ": nothing fits" + (why.empty() ? "" : "; " + why);
-    }
-    if (last.verdict.name != Verdict::unique) return last.verdict.text();
+    if (last.verdict.name == Verdict::inconsistent) return last.verdict.text() + ": nothing fits" + why(last);
+    if (last.verdict.name != Verdict::unique) return last.verdict.text() + why(last);
     const Mode& only = last.modes.front();
-    return fmt::format("{}: roll {} started at s = {} +- {}{}", last.verdict.text(), last.roll,
-                       fixed(only.mean[0], decimals_), rough(only.sd[0]), behind(unit_));
+    return fmt::format("{}: roll {} started at s = {} +- {}{}{}", last.verdict.text(), last.roll,
+                       fixed(only.mean[0], decimals_), rough(only.sd[0]), behind(unit_), why(last));
+  }
+
+  /// Where its rows fit badly: what explains them, and the cure.
+  std::string why(const WatchAnswer& last) const {
+    if (last.diagnoses.empty()) return "";
+    const Diagnosis& likeliest = last.diagnoses.front();
+    return fmt::format("\nlikeliest: {}\n  {}", about(likeliest), cure_of(likeliest, fingers_, noise_));
   }
 
   int decimals_;
+  std::vector<Finger> fingers_;  // and the noise, as given: cures name them
+  Noise noise_;
   std::string unit_;            // the part's
   std::size_t roll_shown_ = 0;  // the last row was of this answer
   std::size_t samples_shown_ = 0;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "rollfix/answer/solve.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/part/boundary.hpp"
 
@@ -20,6 +21,9 @@ constexpr double kGrowth = 0.1;
 
 constexpr double kOtherProbability = 0.1;  // below that nobody decides otherwise
 constexpr double kTwiceAsSure = 0.5;       // the new standard deviation, as a share of the old one
+
+// A roll that fits badly is looked at again as a whole, by no more samples than these, evenly spread.
+constexpr std::size_t kMostKept = 4096;
 
 /// Adds the time that passes while it lives.
 class WorkTime {
@@ -48,6 +52,29 @@ const Mode& nearest_to(const Mode& mode, const std::vector<Mode>& known, const P
 bool is_news_of_a_place(const Mode& said, const Mode& now, const Part& part) {
   return distance_on(part, said.mean[0], now.mean[0]) > said.sd[0] || now.sd[0] < kTwiceAsSure * said.sd[0] ||
          std::abs(now.probability - said.probability) > kOtherProbability;
+}
+
+/// The log that these samples are of, as the user gave it.
+Log log_of(const std::vector<Sample>& samples, LogKind kind, const Part& part) {
+  Log log;
+  log.kind = kind;
+  FingerRows& rows = log.fingers.front();
+  rows.u_period = std::numeric_limits<double>::infinity();  // a sample's angles are unwrapped
+  for (const Sample& sample : samples) {
+    if (sample.time) log.time.push_back(*sample.time);
+    if (kind == LogKind::contact) {
+      rows.u.push_back((*sample.contact)[0].u);
+      rows.psi.push_back((*sample.contact)[0].psi);
+    } else {
+      const Reading as_given = in_stored_direction(sample.reading, part);  // back again
+      rows.length.push_back(as_given.length[0]);
+      rows.turn.push_back(as_given.turn);
+    }
+    if (!sample.centre) continue;
+    rows.x.push_back((*sample.centre)[0].x());
+    rows.y.push_back((*sample.centre)[0].y());
+  }
+  return log;
 }
 
 }  // namespace
@@ -138,6 +165,8 @@ void Watcher::begin_roll(const Sample& sample) {
   }
   ++counts_.rolls;
   samples_ = 0;
+  kept_.clear();
+  kept_every_ = 1;
   take(sample);
   look();
   said_ = answer_;
@@ -161,8 +190,18 @@ void Watcher::take(const Sample& sample) {
   const WorkTime time(counts_.seconds);
   belief_->add(sample);
   ++counts_.samples;
+  keep(sample);
   ++samples_;
   last_ = sample;
+}
+
+void Watcher::keep(const Sample& sample) {
+  if (samples_ % kept_every_ != 0) return;
+  kept_.push_back(sample);
+  if (kept_.size() < kMostKept) return;
+  for (std::size_t k = 0; 2 * k < kept_.size(); ++k) kept_[k] = kept_[2 * k];
+  kept_.resize((kept_.size() + 1) / 2);
+  kept_every_ *= 2;
 }
 
 bool Watcher::is_time_to_look() const {
@@ -174,6 +213,7 @@ bool Watcher::is_time_to_look() const {
 void Watcher::look() {
   const WorkTime time(counts_.seconds);
   answer_.roll = counts_.rolls;
+  answer_.diagnoses.clear();
   answer_.samples = samples_;
   answer_.sample = last_;
   answer_.verdict = belief_->verdict();
@@ -184,10 +224,22 @@ void Watcher::look() {
   if (options_.live) looked_ = WorkClock::now();
 }
 
+/// Why the rows fit badly, if they do.
+void Watcher::look_again() {
+  if (!belief_->fit().is_bad()) return;
+  Problem problem{part_, log_of(kept_, stream_.kind(), part_), options_.fingers, options_.belief.noise};
+  problem.prior = options_.belief.prior;
+  problem.robust = options_.belief.robust;
+  try {
+    answer_.diagnoses = solve(problem).diagnoses;
+  } catch (const InputError&) {  // so few of its samples are no roll any more: what is wrong is not known
+  }
+}
+
 void Watcher::end_roll(RollEnd why) {
   if (!belief_) return;
   if (answer_.samples < samples_) look();
-  answer_.diagnosis = belief_->diagnosis();
+  look_again();
   belief_.reset();
   has_news_ = false;
   listener_.over(answer_, why);

@@ -25,7 +25,7 @@ struct WatchAnswer {
   std::vector<Mode> modes;  // the most probable first
   double rest = 0;          // probability outside of them
   double excess = 1;        // by how many times the samples are off more than the noise allows
-  Diagnosis diagnosis;      // of a roll that is over and that nothing fits: why
+  std::vector<Diagnosis> diagnoses;  // of a roll that is over, where its rows fit badly: why, see Answer
 };
 
 /// Whether somebody who knows the one answer wants to hear the other: another verdict, or the most probable place is
@@ -115,6 +115,8 @@ class Watcher {
   void take(const Sample& sample);
   bool is_time_to_look() const;
   void look();
+  void keep(const Sample& sample);
+  void look_again();
   void end_roll(RollEnd why);
   void tell_news();
   void tell();
@@ -126,6 +128,8 @@ class Watcher {
   std::optional<Belief> belief_;  // of the roll that goes on
   std::size_t samples_ = 0;       // of this roll
   Sample last_;                   // of these
+  std::vector<Sample> kept_;      // of these every kept_every_-th, for a second look
+  std::size_t kept_every_ = 1;
   WatchAnswer answer_;            // when it was last worked out
   WatchAnswer said_;              // what the listener knows
   std::chrono::steady_clock::time_point looked_{};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <memory>
@@ -32,11 +33,15 @@ struct PosePrior {
 };
 
 struct BeliefOptions {
+  /// Angles that are noisier, radians, would be taken for more than they say.
+  static constexpr double kMostAngle = 0.5;
+
   Noise noise;
   std::optional<Prior> prior{};     // none: every place alike
   bool robust = false;              // a stray sample counts no more than its share
   bool bare = false;                // readings whose first contact is exact and that do not drift
   double scale_sd = 0;              // of all lengths by one factor, besides what slip and radius make of them
+  bool glance = false;              // of two fingers: where nothing fits there are no modes, and Fit says no more
   std::optional<PosePrior> pose{};  // for logs of u and psi and known fingers; places take x and y in the log as well
 };
 
@@ -81,6 +86,7 @@ struct Fit {
   double sigmas = 0;              // how unlikely such a chi-square is: a standard normal deviate
   double correlation = 0;         // of neighbouring samples' errors, which should be independent
   double correlation_sigmas = 0;  // how unlikely that is
+  double row_sigmas = 0;          // how unlikely it is that the row that is farthest off is so far off
   double stray = 0;               // robust: as many rows are
   double prior_sigmas = 0;        // how far the place is from where the prior has it, in the prior's deviations
   double excess = 1;              // by how many times the samples are off more than the noise allows; 1: they are not
@@ -90,7 +96,17 @@ struct Fit {
   PerFinger<double> length_scale_sd = 0.0;  // ... give or take; 0: they were said to be exact
 
   bool is_correlated() const { return correlation_sigmas > kMostSigmas; }
-  bool is_bad() const { return sigmas > kMostSigmas || is_correlated() || prior_sigmas > kMostSigmas; }
+  bool is_bad() const { return std::max({sigmas, correlation_sigmas, row_sigmas, prior_sigmas}) > kMostSigmas; }
+};
+
+/// How likely all samples are together, whatever the first contact: to weigh one belief against another whose samples
+/// are as many, and said to be as noisy. Logarithms, up to what is the same in both.
+struct Evidence {
+  double peak = -std::numeric_limits<double>::infinity();  // of the likelihood at the likeliest place, ...
+  double volume = 0;                                       // ... and of how much of the boundary is about as likely
+
+  /// As with so many times the noise: see Fit::widened.
+  double with(double widened) const { return peak / (widened * widened) + volume; }
 };
 
 /// What is wrong with a log, or with what was said of it, where its rows fit badly.
@@ -119,11 +135,13 @@ enum class Cause {
 struct Diagnosis {
   Cause cause = Cause::none;
   double excess = 1;           // of the rows without that mistake, see Fit
+  double log_odds = 0;         // of it against a log that is as noisy as its rows make it seem, but without mistake
   double length_scale = 1;     // radius: lengths are this many times what was measured, ...
   double length_scale_sd = 0;  // ... give or take
   double noise_scale = 1;      // noise: it is this many times what was said
   Noise noise{};               // unsaid_noise: what they seem to have
   std::size_t stray = 0;       // rows
+  double slip = 0;             // slip: so much per length would allow it
   Verdict verdict{};           // the answer
   std::vector<Mode> modes{};   // likewise, the most probable first
 };
@@ -167,14 +185,11 @@ class Belief {
   /// How well they fit. What modes() says is as with Fit::widened times the noise.
   const Fit& fit();
   double excess();  // of it
+  const Evidence& evidence();
 
   /// How far f can be from 0 at what remains, radians: a tolerance for a search with these readings that lets all of it
   /// pass. Of one finger that of the last sample, whose f is the least certain.
   double tolerance(const std::vector<Reading>& readings);
-
-  /// What may be wrong where they fit badly, as far as the samples tell by themselves: they are weighed again with
-  /// errors that they were not said to have. `diagnose` knows more.
-  Diagnosis diagnosis();
 
   Verdict verdict();
   /// The same where only some are left, of these probabilities, the most probable first, and with these intervals that

@@ -90,7 +90,8 @@ struct PairRegion {
 /// The posterior of two first contacts where it is not negligible.
 struct PairDensity {
   std::vector<PairRegion> regions;
-  double rest = 0;  // a bound on the share of what was not resolved
+  double total = 0;  // its integral, as a share of the likeliest peak's density
+  double rest = 0;   // a bound on the share of what was not resolved
 };
 
 /// Spreads from the peaks, the likeliest first. `excess`: by how much the rows are off more than their noise.

@@ -258,7 +258,8 @@ class PairPass {
           mixture_of(model_.outlier_share, model_.outlier_share / range, peak_of(density) / flat, squared);
       weight = mixture.weight;
       score_.cost += mixture.cost;
-      score_.log_volume -= 2 * std::log(mixture.density);
+      const double usual = peak_of(N == 1 ? unit_ : unit_ / (own(1, 1) * own(2, 2))) / flat;
+      score_.log_volume -= 2 * std::log(mixture.density / usual);
       score_.right_rows += N * weight;
       score_.right_cost += weight * squared;
     } else {
@@ -266,9 +267,7 @@ class PairPass {
       // With the centres' own variances left out, which are about the same everywhere.
       volume_.add(N == 1 ? unit_ / density : unit_ / (density * own(1, 1) * own(2, 2)));
     }
-    for (int k = 0; k < N; ++k) {
-      score_.whiteness[static_cast<std::size_t>(k)].add(std::sqrt(weight * inverse(k, k)) * innovation[k]);
-    }
+    add_innovation<N>(inverse, std::sqrt(weight) * innovation, score_.whiteness);
     score_.cost += rows.beyond;
     score_.direct_cost += rows.f.dot(own.inverse() * rows.f) + rows.beyond;
     const Eigen::Matrix<double, 5, N> gain = weight * of_errors * inverse;

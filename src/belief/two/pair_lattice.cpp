@@ -291,6 +291,7 @@ PairDensity pair_density(const PairModel& model, const std::vector<PairPeak>& pe
     }
   }
   const double total = spreading.total();
+  density.total = total;
   for (PairRegion& region : density.regions) {
     for (PairLeaf& leaf : region.leaves) {
       leaf.share /= total;

@@ -45,7 +45,8 @@ class TwoFingersPosterior : public Posterior {
         kind_(kind),
         options_(options),
         contacts_(contacts),
-        errors_(errors_supposing(Cause::none)),
+        errors_(options, kind, {contacts.finger_curvature[0], contacts.finger_curvature[1]},
+                contacts.facing.has_value(), part.perimeter()),
         boundary_{boundary(0), boundary(1)},
         range_(part_.turning(), kRangeCells) {
     if (options.noise.position > 0) path_.emplace(part_);
@@ -78,6 +79,7 @@ class TwoFingersPosterior : public Posterior {
     PairModes modes = modes_of(density, question.model, rows_.empty() ? Reading(0, 0, 0) : rows_.back());
     outcome.modes = std::move(modes.modes);
     pieces_ = std::move(modes.pieces);
+    outcome.evidence = {found.peaks.front().score.log_likelihood(), std::log(density.total)};
     outcome.unresolved = density.rest + found.missed;
     return outcome;
   }
@@ -107,11 +109,6 @@ class TwoFingersPosterior : public Posterior {
       }
     }
     return most;
-  }
-
-  Fit supposing(Cause cause) const override {
-    const PairErrors other = errors_supposing(cause);
-    return peaks_of(Question(*this, other)).fit;
   }
 
   std::vector<Piece> pieces(std::size_t index, const Mode& /*mode*/) const override {
@@ -202,11 +199,6 @@ class TwoFingersPosterior : public Posterior {
     return is_whole ? centres_ : std::vector<PairCentres>{};
   }
 
-  PairErrors errors_supposing(Cause cause) const {
-    const PerFinger<double>& curvature = contacts_.finger_curvature;
-    return {options_, kind_, {curvature[0], curvature[1]}, contacts_.facing.has_value(), part_.perimeter(), cause};
-  }
-
   TiltedBoundary boundary(std::size_t finger) const {
     const double even = std::sqrt(0.5 * errors_.turn_variance() / errors_.contact_variance());
     return {part_, tilt_of(contacts_.finger_curvature[finger], even, part_), accuracy_of(errors_.contact_sd(), part_)};
@@ -236,16 +228,23 @@ Peaks TwoFingersPosterior::peaks_of(const Question& question) const {
   for (const PairNode& node : question.nodes) freedom += std::min(1.0, node.rows) * (node.centres ? 3 : 1);
   const auto fit = [&](const PairPeak& peak) {
     const PairScore& best = peak.score;
-    Fit of_best = options_.robust ? fit_of(best.right_cost, best.right_rows, least_white(best.whiteness))
-                                  : fit_of(best.cost, freedom, least_white(best.whiteness));
+    Fit of_best = options_.robust ? fit_of(best.right_cost, best.right_rows, best.whiteness)
+                                  : fit_of(best.cost, freedom, best.whiteness);
     of_best.stray = options_.robust ? freedom - best.right_rows : 0;
     if (options_.prior) {
       const double s = peak.start.arc[0]->at(peak.start.w[0]).s;
       of_best.prior_sigmas = std::abs(part_.boundary().offset(options_.prior->s, s)) / options_.prior->sd;
     }
     of_best.length_scale = {1 / (1 + best.errors[2]), 1 / (1 + best.errors[3])};
-    of_best.length_scale_sd = {of_best.widened * std::sqrt(best.covariance(2, 2)),
-                               of_best.widened * std::sqrt(best.covariance(3, 3))};
+    // With that of the places: another start asks for another scale.
+    const Eigen::Matrix2d whole = Eigen::Matrix2d::Identity() / square(part_.perimeter());  // nothing is known less
+    const Eigen::Matrix2d of_start = (best.information + whole).inverse();
+    for (const std::size_t finger : {0U, 1U}) {
+      const auto scale = static_cast<Eigen::Index>(2 + finger);
+      const Eigen::RowVector2d by_start = best.errors_by_start.row(scale);
+      of_best.length_scale_sd[finger] =
+          of_best.widened * std::sqrt(best.covariance(scale, scale) + by_start.dot(by_start * of_start));
+    }
     return of_best;
   };
   const double resolution =
@@ -261,13 +260,18 @@ Peaks TwoFingersPosterior::peaks_of(const Question& question) const {
       peaks = again;
     }
     found.missed = candidates.missed;
+    if (options_.glance) break;
     const double needed = peaks.empty() ? kWider * sigmas : kFarthest * fit(peaks.front()).excess;
     if (needed <= 1.2 * sigmas || sigmas >= kFarthestOfAll) break;
     sigmas = std::min(kFarthestOfAll, std::max(needed, kWider * sigmas));
   }
-  if (peaks.empty()) peaks = pair_peaks(question.model, all_squares(), question.nodes);
-  found.fit.excess = std::numeric_limits<double>::infinity();
-  if (!peaks.empty()) found.fit = fit(peaks.front());
+  if (peaks.empty() && !options_.glance) peaks = pair_peaks(question.model, all_squares(), question.nodes);
+  if (peaks.empty()) {
+    found.fit.chi_square = found.fit.sigmas = found.fit.excess = std::numeric_limits<double>::infinity();
+    return found;
+  }
+  found.fit = fit(peaks.front());
+  if (options_.glance && found.fit.excess > 1) peaks.clear();
   return found;
 }
 
