@@ -127,7 +127,7 @@ TEST(CliDirection, logs_that_say_it_themselves_and_other_words_are_refused) {
   write_parts(folder);
   folder.write("roll.csv", "u,psi\n0,0\n-1,1.2\n-2,2.5\n");
   EXPECT_THAT(run("locate part.csv --finger disk,r=1 --direction cw --log roll.csv").err, HasSubstr("u and psi"));
-  EXPECT_THAT(run("locate part.csv --reading 5,0.5 --direction left").err, HasSubstr("expected ccw or cw"));
+  EXPECT_THAT(run("locate part.csv --reading 5,0.5 --direction left").err, HasSubstr("expected ccw, cw or either"));
 }
 
 }  // namespace

@@ -214,6 +214,7 @@ Report advise_report(const AdviseArguments& arguments) {
   if (roll.readings.empty() == roll.logs.empty()) {
     throw InputError("advise: expected --reading LENGTH,TURN or --log FILE of the roll so far");
   }
+  counts_clockwise(roll.direction);  // one way or the other, not either
   require_figure_output(arguments.output, arguments.json);
   Report report;
   const Problem problem = read_problem(roll, report.notes);

@@ -1,12 +1,15 @@
 #include "rollfix/answer/solve.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "either_way.hpp"
 #include "mirror.hpp"
 #include "observation.hpp"
 #include "rollfix/contact/pose.hpp"
@@ -103,7 +106,7 @@ Problem without_jumps(const Problem& problem, std::vector<std::size_t>& strays) 
   return result;
 }
 
-Answer solve_roll(const Problem& problem) {
+Answer solve_roll(const Problem& problem, bool explains) {
   const Observation observed = observe(problem);
   std::optional<Belief> belief = believe(problem, observed);
   Answer answer{problem.part, problem.fingers};
@@ -114,13 +117,51 @@ Answer solve_roll(const Problem& problem) {
   answer.lengths_reversed = observed.lengths_reversed;
   answer.tolerance = tolerance_of(problem, observed, belief);
   search(problem, answer);
-  if (belief) weigh(problem, observed, *belief, answer);
+  if (belief) weigh(problem, observed, explains, *belief, answer);
   drop_impossible(observed, answer);
   if (belief) conclude(*belief, answer);
   add_poses(problem, answer);
   if (!belief && problem.felt.is_log() && !problem.tolerance && problem.at.empty())
-    check_rows(problem, observed, answer);
+    check_rows(problem, observed, explains, answer);
   return answer;
+}
+
+/// Of one way round. `explains`: what may be wrong is looked for where the rows fit badly, which takes a while.
+Answer solve_one_way(const Problem& problem, bool explains = true) {
+  if (!problem.robust || !problem.felt.is_log()) return solve_roll(problem, explains);
+  std::vector<std::size_t> strays;
+  const Problem cleaned = without_jumps(problem, strays);
+  Answer answer = solve_roll(cleaned, explains);
+  answer.strays = std::move(strays);
+  return answer;
+}
+
+/// Nothing, and why, where the rows can't follow from one another.
+std::optional<Answer> try_one_way(const Problem& problem, std::string& why_not) {
+  try {
+    return solve_one_way(problem, false);
+  } catch (const InputError& error) {
+    why_not = error.what();
+    return std::nullopt;
+  }
+}
+
+/// Both ways round. What can't be one way can be the other way: that is no mistake then.
+Answer solve_either_way(const Problem& problem) {
+  const std::array<Problem, 2> ways{problem, counted_clockwise(problem)};
+  std::array<std::string, 2> why_not;
+  std::array<std::optional<Answer>, 2> answers{try_one_way(ways[0], why_not[0]), try_one_way(ways[1], why_not[1])};
+  if (!answers[0] && !answers[1]) throw InputError(why_not[0]);
+  const auto both = [&] {
+    if (answers[0] && answers[1]) return either_of(*answers[0], *answers[1]);
+    return answers[0] ? only_way(*answers[0], false, why_not[1]) : only_way(*answers[1], true, why_not[0]);
+  };
+  Answer answer = both();
+  if (!answer.verdict.fits_badly && answer.verdict.name != Verdict::inconsistent) return answer;
+  for (const std::size_t way : {0U, 1U}) {
+    if (answers[way]) answers[way] = solve_one_way(ways[way]);
+  }
+  return both();
 }
 
 }  // namespace
@@ -140,12 +181,8 @@ Answer solve(const Problem& problem) {
     out_of_mirror(answer);
     return answer;
   }
-  std::vector<std::size_t> strays;
-  if (!problem.robust || !problem.felt.is_log()) return solve_roll(problem);
-  const Problem cleaned = without_jumps(problem, strays);
-  Answer answer = solve_roll(cleaned);
-  answer.strays = std::move(strays);
-  return answer;
+  if (problem.either_way) return solve_either_way(problem);
+  return solve_one_way(problem);
 }
 
 }  // namespace rollfix

@@ -175,7 +175,7 @@ std::optional<Noise> noise_that_shows(const Log& log, const std::vector<Finger>&
   return noise;
 }
 
-void check_rows(const Problem& problem, const Observation& observed, Answer& answer) {
+void check_rows(const Problem& problem, const Observation& observed, bool explains, Answer& answer) {
   const RowsCheck check(problem, observed, answer);
   Search agreeing;
   agreeing.status = answer.status;
@@ -192,7 +192,7 @@ void check_rows(const Problem& problem, const Observation& observed, Answer& ans
     return;
   }
   answer.verdict.fits_badly = true;
-  answer.diagnoses = diagnoses_of(problem, observed);
+  if (explains) answer.diagnoses = diagnoses_of(problem, observed);
 }
 
 }  // namespace rollfix

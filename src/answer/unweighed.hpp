@@ -13,8 +13,8 @@ namespace rollfix {
 std::optional<Noise> noise_that_shows(const Log& log, const std::vector<Finger>& fingers);
 
 /// Marks placements that other rows of the log contradict, or the contacts in the world, and puts them last; the
-/// verdict is of the others. Where none is left it says that the rows fit badly, and why. REQUIRES a log, and poses
-/// where it has them.
-void check_rows(const Problem& problem, const Observation& observed, Answer& answer);
+/// verdict is of the others. Where none is left it says that the rows fit badly, and why, if it `explains`. REQUIRES a
+/// log, and poses where it has them.
+void check_rows(const Problem& problem, const Observation& observed, bool explains, Answer& answer);
 
 }  // namespace rollfix

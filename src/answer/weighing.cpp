@@ -145,7 +145,7 @@ std::optional<Belief> believe(const Problem& problem, const Observation& observe
   return belief;
 }
 
-void weigh(const Problem& problem, const Observation& observed, Belief& belief, Answer& answer) {
+void weigh(const Problem& problem, const Observation& observed, bool explains, Belief& belief, Answer& answer) {
   Weighing weighing;
   weighing.noise = *problem.noise;
   weighing.prior = problem.prior;
@@ -154,10 +154,11 @@ void weigh(const Problem& problem, const Observation& observed, Belief& belief, 
 
   weighing.rest = belief.rest();
   weighing.fit = belief.fit();
-  answer.diagnoses = diagnose(problem, observed, belief);
+  weighing.evidence = belief.evidence();
+  if (explains) answer.diagnoses = diagnose(problem, observed, belief);
   weighing.density = belief.density();
   answer.verdict = belief.verdict();
-  if (answer.diagnoses.empty()) {
+  if (explains && answer.diagnoses.empty()) {
     answer.diagnoses = diagnoses_by_centres(problem, observed);
     if (!answer.diagnoses.empty()) answer.verdict.fits_badly = true;
   }
@@ -184,6 +185,7 @@ void conclude(Belief& belief, Answer& answer) {
     for (const Placement& placement : answer.placements) total += placement.probability;
     for (Placement& placement : answer.placements) placement.probability /= total;
     answer.weighing->rest = std::min(1.0, answer.weighing->rest / std::max(total, 1e-300));
+    answer.weighing->evidence.volume += std::log(total);
     const bool fits_badly = answer.verdict.fits_badly;
     answer.verdict = belief.verdict_on(answer.placements);
     answer.verdict.fits_badly |= fits_badly;

@@ -18,8 +18,9 @@ struct Supposed {
 };
 std::optional<Belief> believe(const Problem& problem, const Observation& observed, const Supposed& supposed = {});
 
-/// Puts what the samples leave in place of what the search found. What nothing explains is not listed.
-void weigh(const Problem& problem, const Observation& observed, Belief& belief, Answer& answer);
+/// Puts what the samples leave in place of what the search found. What nothing explains is not listed. Unless it
+/// `explains`, nothing is said of what may be wrong.
+void weigh(const Problem& problem, const Observation& observed, bool explains, Belief& belief, Answer& answer);
 
 /// After the fingers dropped some: the others' probabilities, as if there were no more.
 void conclude(Belief& belief, Answer& answer);

@@ -179,15 +179,17 @@ void add_side_arguments(CLI::App& command, bool& mirror, std::string& direction)
   command
       .add_option("--direction", direction,
                   "which way round the part, as the robot sees it, lengths and distances count as positive: ccw, the "
-                  "default, or cw; u and psi say that themselves")
-      ->type_name("ccw|cw");
+                  "default, cw, or either (locate), where that is not known; u and psi say that themselves")
+      ->type_name("ccw|cw|either");
 }
 
 bool counts_clockwise(const std::string& direction) {
   if (direction.empty() || direction == "ccw") return false;
   if (direction == "cw") return true;
-  throw InputError(fmt::format("--direction {}: expected ccw or cw{}", direction,
-                               direction == "either" ? "; to try both, ask twice" : ""));
+  if (direction == "either") {
+    throw InputError("--direction either: both ways round are tried by locate alone; expected ccw or cw");
+  }
+  throw InputError(fmt::format("--direction {}: expected ccw, cw or either", direction));
 }
 
 void add_roll_arguments(CLI::App& command, RollArguments& arguments) {
@@ -332,17 +334,19 @@ Problem read_problem(const RollArguments& arguments, std::vector<std::string>& n
   Part part = load_part(arguments.part, part_notes, others);
   const std::string& unit = part.outline().unit;
   LogOptions log_options = read_log_options(arguments.columns, unit);
-  log_options.clockwise = counts_clockwise(arguments.direction);
+  const bool is_either = arguments.direction == "either";
+  const bool is_clockwise = !is_either && counts_clockwise(arguments.direction);
+  log_options.clockwise = is_clockwise;
   Felt felt = arguments.logs.empty() ? read_readings(arguments, unit)
                                      : Felt(read_roll(arguments.logs, arguments.roll, log_options, notes));
   notes.insert(notes.end(), part_notes.begin(), part_notes.end());
-  if (counts_clockwise(arguments.direction)) {
+  if ((is_clockwise || is_either) && felt.is_log() && felt.log->kind == LogKind::contact) {
+    throw InputError(
+        fmt::format("--direction: {} has u and psi, which say the direction themselves: leave it out", felt.log->name));
+  }
+  if (is_clockwise) {
     for (Reading& reading : felt.readings) {
       for (double& length : reading.length) length = -length;
-    }
-    if (felt.is_log() && felt.log->kind == LogKind::contact) {
-      throw InputError(fmt::format("--direction: {} has u and psi, which say the direction themselves: leave it out",
-                                   felt.log->name));
     }
   }
   const bool of_two = felt.is_log() ? felt.log->fingers.size() == 2 : felt.readings.front().fingers() == 2;
@@ -358,6 +362,7 @@ Problem read_problem(const RollArguments& arguments, std::vector<std::string>& n
   problem.pose = read_pose(arguments, unit);
   problem.robust = arguments.robust;
   problem.mirrored = arguments.mirror;
+  problem.either_way = is_either;
   problem.at = read_instants(arguments.instants);
   if (!arguments.facing.empty()) {
     problem.facing = read_angle(arguments.facing, "--facing");

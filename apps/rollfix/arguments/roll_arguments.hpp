@@ -38,7 +38,7 @@ void add_noise_argument(CLI::App& command, std::string& noise);
 void add_log_arguments(CLI::App& command, std::vector<std::string>& logs, std::string& roll, std::string& columns);
 /// Adds --mirror and --direction.
 void add_side_arguments(CLI::App& command, bool& mirror, std::string& direction);
-/// Whether --direction says that lengths count against the outline. Throws InputError.
+/// Whether --direction says that lengths count against the outline. Throws InputError: neither ccw nor cw.
 bool counts_clockwise(const std::string& direction);
 /// Adds --columns alone.
 void add_columns_argument(CLI::App& command, std::string& columns);

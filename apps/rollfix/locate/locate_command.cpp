@@ -70,6 +70,7 @@ void require_march(const LocateArguments& arguments) {
   refuse(!arguments.output.file.empty(), "-o");
   refuse(arguments.explain, "--explain");
   refuse(roll.mirror, "--mirror");
+  refuse(roll.direction == "either", "--direction either");
   refuse(!arguments.maps.empty(), "--map");
 }
 
@@ -102,6 +103,9 @@ Report locate_report(const LocateArguments& arguments) {
   Report report;
   std::vector<Outline> others;
   Problem problem = read_problem(arguments.roll, report.notes, &others);
+  if (problem.either_way && !output.file.empty() && !problem.felt.is_log() && problem.felt.readings[0].fingers() == 2) {
+    throw InputError("-o: a figure of two fingers is of one way round: expected --direction ccw or cw, found either");
+  }
   const Answer answer = solve(problem);
   add_notes(answer, report);
   report.exit_code = exit_code_of(answer);
@@ -146,6 +150,7 @@ void add_notes(const Answer& answer, Report& report) {
   }
   if (answer.part.reversed()) report.notes.push_back(reversed_note(answer.part));
   if (!answer.strays.empty()) report.notes.push_back(strays_note(answer.strays));
+  if (!answer.other_way.empty()) report.notes.push_back("the other way round no such roll can be: " + answer.other_way);
   if (answer.lengths_reversed) report.notes.emplace_back("the log's lengths changed their signs to match");
 }
 

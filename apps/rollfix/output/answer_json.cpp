@@ -87,6 +87,7 @@ Json placement_json(const Placement& placement, const Answer& answer) {
     json["family"] = is_stretch ? list_of(placement.family, places_json) : Json(nullptr);
     json["family_error"] = is_stretch ? json_number(placement.family_error) : Json(nullptr);
   }
+  if (answer.either_way) json["direction"] = placement.clockwise ? "cw" : "ccw";
   json["pivot"] = pivot_json(placement.pivot);
   json["probability"] = json_number(placement.probability);
   const std::optional<PoseResidual>& off = placement.pose_residual;

@@ -54,9 +54,16 @@ class AnswerText {
   }
   std::string over_lengths(const std::string& title) const { return title_in(title, answer_.part.unit()); }
   std::string where(const Placement& placement) const {
-    if (fingers_ == 1) return fmt::format("s = {:.6g}, sd {:.2g}{}", placement.start[0], placement.sd[0], unit_);
-    return fmt::format("finger a at s = {:.6g}, sd {:.2g}, finger b at {:.6g}, sd {:.2g}{}", placement.start[0],
-                       placement.sd[0], placement.start[1], placement.sd[1], unit_);
+    if (fingers_ == 1) {
+      return fmt::format("s = {:.6g}, sd {:.2g}{}{}", placement.start[0], placement.sd[0], unit_, way_of(placement));
+    }
+    return fmt::format("finger a at s = {:.6g}, sd {:.2g}, finger b at {:.6g}, sd {:.2g}{}{}", placement.start[0],
+                       placement.sd[0], placement.start[1], placement.sd[1], unit_, way_of(placement));
+  }
+  /// ", lengths counted cw", where that was to be found out.
+  std::string way_of(const Placement& placement) const {
+    if (!answer_.either_way) return "";
+    return placement.clockwise ? ", lengths counted cw" : ", lengths counted ccw";
   }
   std::string more_line(std::size_t count) const {
     return count <= kMostRows ? "" : fmt::format("... and {} more; --json lists them all\n", count - kMostRows);
@@ -133,7 +140,8 @@ class AnswerText {
   std::string advice_on_one(const Placement& only) const {
     if (fingers_ == 2) {
       if (answer_.verdict.name != Verdict::unique) return ": roll on to tell them apart";
-      return fmt::format(": finger a started at s = {}, finger b at {}", at(only.start[0]), at(only.start[1]));
+      return fmt::format(": finger a started at s = {}, finger b at {}{}", at(only.start[0]), at(only.start[1]),
+                         way_of(only));
     }
     if (only.kind == Kind::stretch) {
       return only.whole_loop[0] ? ": this roll looks the same from every place on the boundary"
@@ -142,8 +150,8 @@ class AnswerText {
     if (only.whole_loop[0]) return ": within the tolerance every place fits; give more digits, or roll further";
     const std::string lo = place(only.extent[0].lo);
     const std::string hi = place(only.extent[0].hi);
-    if (lo == hi) return fmt::format(": the finger started at s = {}", at(only.start[0]));
-    return fmt::format(": the finger started between s = {} and {}{}", lo, hi, unit_);
+    if (lo == hi) return fmt::format(": the finger started at s = {}{}", at(only.start[0]), way_of(only));
+    return fmt::format(": the finger started between s = {} and {}{}{}", lo, hi, unit_, way_of(only));
   }
 
   std::string weighed_advice() const {
@@ -192,7 +200,8 @@ class AnswerText {
     const Part& part = answer_.part;
     return fmt::format("part       {}, {}, perimeter {}\n", part.name(), part.closed() ? "closed" : "open",
                        at(part.perimeter())) +
-           accuracy_line() + reading_lines() + tolerance_line() + (answer_.weighing ? weighing_lines() : "");
+           accuracy_line() + reading_lines() + direction_line() + tolerance_line() +
+           (answer_.weighing ? weighing_lines() : "");
   }
 
   std::string accuracy_line() const {
@@ -212,6 +221,24 @@ class AnswerText {
     }
     if (answer_.facing) text += fmt::format("facing     {} deg\n", degrees(*answer_.facing));
     return text;
+  }
+
+  /// Where either way round was tried: what each has.
+  std::string direction_line() const {
+    if (!answer_.either_way) return "";
+    double probability = 0;
+    std::size_t count = 0;
+    for (const Placement& placement : answer_.placements) {
+      if (!placement.clockwise) continue;
+      probability += placement.probability;
+      ++count;
+    }
+    const auto placements = [](std::size_t n) { return counted(n, "placement", "placements"); };
+    if (!answer_.weighing) {
+      return fmt::format("direction  either: {} with lengths counted ccw, {} with lengths counted cw\n",
+                         placements(answer_.placements.size() - count), placements(count));
+    }
+    return fmt::format("direction  either: lengths counted cw with probability {:.4f}\n", probability);
   }
 
   std::string tolerance_line() const {
@@ -360,6 +387,7 @@ class AnswerText {
     Table table;
     table.add_column("", fingers_ == 1 ? Table::Align::left : Table::Align::right);
     table.add_column("kind", Table::Align::left);
+    if (answer_.either_way) table.add_column("way", Table::Align::left);
     for (const char* title : {"start", "end", "width"}) add_columns(table, title);
     add_position_columns(table);
     for (std::size_t finger = 0; finger < fingers_; ++finger) {
@@ -371,6 +399,7 @@ class AnswerText {
     for (std::size_t i = 0; i < std::min(answer_.placements.size(), kMostRows); ++i) {
       const Placement& placement = answer_.placements[i];
       Rows cells{label(i), name_of(placement.kind)};
+      if (answer_.either_way) cells.emplace_back(placement.clockwise ? "cw" : "ccw");
       add_cells(cells, [&](std::size_t finger) { return place(placement.start[finger]); });
       add_cells(cells, [&](std::size_t finger) { return place(placement.end[finger]); });
       add_cells(cells, [&](std::size_t finger) { return rough(placement.extent[finger].width()); });
@@ -392,6 +421,7 @@ class AnswerText {
     Table table;
     table.add_column("", fingers_ == 1 ? Table::Align::left : Table::Align::right);
     table.add_column("probability");
+    if (answer_.either_way) table.add_column("way", Table::Align::left);
     for (std::size_t finger = 0; finger < fingers_; ++finger) {
       for (const char* title : {"start", "sd", "95 % from", "to", "end"})
         table.add_column(over_lengths(of(title, finger)));
@@ -400,6 +430,7 @@ class AnswerText {
     for (std::size_t i = 0; i < std::min(answer_.placements.size(), kMostRows); ++i) {
       const Placement& placement = answer_.placements[i];
       Rows cells{label(i), fmt::format("{:.4f}", placement.probability)};
+      if (answer_.either_way) cells.emplace_back(placement.clockwise ? "cw" : "ccw");
       for (std::size_t finger = 0; finger < fingers_; ++finger) {
         cells.push_back(place(placement.start[finger]));
         cells.push_back(rough(placement.sd[finger]));

@@ -47,7 +47,8 @@ struct Problem {
   std::optional<Prior> prior{};         // with noise: about where finger a started
   std::optional<PosePrior> pose{};      // with noise: about how the part lay then
   bool mirrored = false;                // the part lies face down: the fingers felt the outline's mirror image
-  bool robust = false;                  // with noise: stray rows don't count, and rows that jump away are left out
+  bool either_way = false;  // lengths, of readings or of a log without u and psi, may count clockwise: both are tried
+  bool robust = false;      // with noise: stray rows don't count, and rows that jump away are left out
 };
 
 /// The search's tolerance and where it comes from.
@@ -70,10 +71,11 @@ struct Weighing {
   std::optional<Prior> prior{};
   bool robust = false;
   std::size_t samples = 0;
-  Fit fit;          // of the rows to the likeliest place
-  double rest = 0;  // probability of what is not listed
+  Fit fit;              // of the rows to the likeliest place
+  Evidence evidence{};  // of all samples, with what the fingers can do
+  double rest = 0;      // probability of what is not listed
   std::vector<Placement> improbable{};
-  PerFinger<Density> density{};  // of the first contacts, see Belief::density
+  PerFinger<Density> density{};  // of the first contacts, see Belief::density; either way: of both, one over the other
 };
 
 /// Every place where the roll can have started, and what is known of each.
@@ -97,6 +99,8 @@ struct Answer {
   std::vector<Diagnosis> diagnoses{};  // where the rows fit badly: what explains them, the likeliest first; never empty
   std::vector<std::size_t> strays{};   // robust, of a log: lines that jump away and were left out
   bool mirrored = false;               // places are along the outline as stored; poses are of the part face down
+  bool either_way = false;             // as in the problem: each placement says which; readings are as given
+  std::string other_way{};             // of that: why the rows can't have gone one of the ways at all; empty: they can
   bool lengths_reversed = false;       // a log's lengths changed their signs, as the part is stored the other way round
 
   std::size_t finger_count() const { return readings.front().fingers(); }

@@ -95,6 +95,8 @@ struct Placement {
                                           // unwrapped; it may go over parts of itself again where branches meet
   double family_error = 0;                // no pair of the stretch is further from that line, length
 
+  bool clockwise = false;  // of Problem::either_way: for lengths that count clockwise
+
   // With noise: what all samples together say of it.
   double probability = std::numeric_limits<double>::quiet_NaN();  // of the first contacts being in here; NaN: no noise
   PerFinger<double> mean;                                         // of them, given that they are in here; in [0, P)

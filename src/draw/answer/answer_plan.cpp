@@ -166,6 +166,11 @@ Plan plan_of(const AnswerFigure& figure) {
   for (std::size_t finger = 0; finger < figure.answer->finger_count(); ++finger) {
     plan.rolls[finger] = roll_of(figure.answer->readings, plan.part().boundary(), finger);
   }
+  if (figure.answer->either_way && !pairs) {
+    std::vector<Reading> readings = figure.answer->readings;
+    for (Reading& reading : readings) reading.length[0] = -reading.length[0];
+    plan.clockwise_roll = roll_of(readings, plan.part().boundary());
+  }
   plan.ways = ways_of(plan);
   const double width = plan.width();
   plan.framing.width = width - (pairs ? plane_width(width) : world_width(plan));

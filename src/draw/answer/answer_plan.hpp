@@ -34,6 +34,7 @@ struct Plan {
   const AnswerFigure* figure = nullptr;
   std::optional<std::size_t> shown;  // of two fingers the placement whose rolls are drawn
   std::array<Roll, 2> rolls;         // of either finger
+  Roll clockwise_roll;               // of one, where placements are of either way round
   std::vector<Way> ways;             // of one finger every placement's, of two those of the shown one
   Lanes lanes;                       // of the ways
   double spacing = kLaneSpacing;     // between lanes, pixels
@@ -44,7 +45,7 @@ struct Plan {
   const Part& part() const { return figure->answer->part; }
   const std::vector<Placement>& placements() const { return figure->answer->placements; }
   const Placement& placement(const Way& way) const { return placements()[way.placement]; }
-  const Roll& roll(const Way& way) const { return rolls[way.finger]; }
+  const Roll& roll(const Way& way) const { return placement(way).clockwise ? clockwise_roll : rolls[way.finger]; }
   /// What holds 95 % of a placement, with noise; nearly all of a closed boundary is all of it.
   Interval held(std::size_t placement, std::size_t finger) const;
   bool is_anywhere(std::size_t placement, std::size_t finger) const;

@@ -1,0 +1,223 @@
+#include "either_way.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "belief/posterior.hpp"
+#include "rollfix/error.hpp"
+
+namespace rollfix {
+namespace {
+
+/// Sensitivities are to the lengths as they were given.
+void count_clockwise(Placement& placement) {
+  placement.clockwise = true;
+  for (auto& readings : placement.sensitivity.per_length) {
+    for (auto& lengths : readings) {
+      for (double& value : lengths) value = -value;
+    }
+  }
+}
+
+void count_clockwise(Answer& answer) {
+  for (Placement& placement : answer.placements) count_clockwise(placement);
+  for (Impossible& item : answer.impossible) count_clockwise(item.placement);
+  if (!answer.weighing) return;
+  for (Placement& placement : answer.weighing->improbable) count_clockwise(placement);
+}
+
+template <class Entries>
+void append(Entries& all, const Entries& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+/// What is of the search, and what the fingers can't do.
+void add_search(const Answer& other, Answer& answer) {
+  append(answer.placements, other.placements);
+  append(answer.impossible, other.impossible);
+  append(answer.unresolved, other.unresolved);
+  answer.dropped.reach += other.dropped.reach;
+  answer.dropped.overlap += other.dropped.overlap;
+  answer.counts.intervals += other.counts.intervals;
+  answer.counts.evaluations += other.counts.evaluations;
+  answer.tolerance.value = std::max(answer.tolerance.value, other.tolerance.value);
+  if (other.status == Status::incomplete) answer.status = Status::incomplete;
+}
+
+bool fits(const Answer& answer) {
+  return std::any_of(answer.placements.begin(), answer.placements.end(),
+                     [](const Placement& placement) { return !placement.is_contradicted; });
+}
+
+/// Both ways round were tried: that lengths are counted the other way is no explanation.
+void drop_other_way(std::vector<Diagnosis>& diagnoses) {
+  if (diagnoses.empty()) return;
+  const auto is_other_way = [](const Diagnosis& one) { return one.cause == Cause::length_backwards; };
+  diagnoses.erase(std::remove_if(diagnoses.begin(), diagnoses.end(), is_other_way), diagnoses.end());
+  if (!diagnoses.empty()) return;
+  diagnoses.emplace_back();
+  diagnoses.back().cause = Cause::part;
+}
+
+/// Without noise: everything that fits, either way.
+Answer either_searched(Answer one, const Answer& other) {
+  const bool one_fits = fits(one);
+  const bool other_fits = fits(other);
+  if (other_fits && !one_fits) {
+    one.verdict = other.verdict;
+    one.diagnoses = other.diagnoses;
+  }
+  add_search(other, one);
+  drop_other_way(one.diagnoses);
+  std::stable_sort(one.placements.begin(), one.placements.end(), [](const Placement& a, const Placement& b) {
+    if (a.is_contradicted != b.is_contradicted) return b.is_contradicted;
+    return a.start[0] < b.start[0];
+  });
+  Search found;
+  found.status = one.status;
+  for (const Placement& placement : one.placements) {
+    if (!placement.is_contradicted) found.placements.push_back(placement);
+  }
+  if (one.status == Status::incomplete || (one_fits && other_fits)) one.verdict = found.verdict();
+  return one;
+}
+
+/// The probability that the roll went the second way, and not the first.
+double probability_of_other(const Weighing& one, const Weighing& other) {
+  // Of both as with the noise that the rows of the one that fits better seem to have.
+  const bool is_better = one.fit.excess <= other.fit.excess;
+  const double widened = (is_better ? one : other).fit.widened;
+  const double with_one = one.evidence.with(widened);
+  const double with_other = other.evidence.with(widened);
+  if (!std::isfinite(with_one) && !std::isfinite(with_other)) return is_better ? 0 : 1;
+  return 1 / (1 + std::exp(with_one - with_other));
+}
+
+void scale(Answer& answer, double share) {
+  for (Placement& placement : answer.placements) placement.probability *= share;
+  Weighing& weighing = *answer.weighing;
+  weighing.rest *= share;
+  for (Density& of_finger : weighing.density) {
+    for (DensityPiece& piece : of_finger) piece.probability *= share;
+  }
+}
+
+void add_weighing(Weighing& other, Weighing& weighing) {
+  weighing.rest += other.rest;
+  append(weighing.improbable, other.improbable);
+  for (std::size_t finger = 0; finger < weighing.density.size(); ++finger) {
+    Density& density = weighing.density[finger];
+    append(density, other.density[finger]);
+    std::stable_sort(density.begin(), density.end(),
+                     [](const DensityPiece& a, const DensityPiece& b) { return a.s.lo < b.s.lo; });
+  }
+}
+
+/// What is next to impossible because the roll went the other way is not listed.
+void drop_improbable(Answer& answer) {
+  Weighing& weighing = *answer.weighing;
+  const auto first = std::stable_partition(
+      answer.placements.begin(), answer.placements.end(),
+      [](const Placement& placement) { return placement.probability >= belief::kLeastProbability; });
+  for (auto placement = first; placement != answer.placements.end(); ++placement) {
+    weighing.rest += placement->probability;
+    weighing.improbable.push_back(*placement);
+  }
+  answer.placements.erase(first, answer.placements.end());
+  weighing.rest = std::min(1.0, weighing.rest);
+  answer.dropped.improbable = weighing.improbable.size();
+}
+
+/// Of what remains of both; as Belief has it of one.
+Verdict verdict_of(const Answer& both, const Verdict& likelier, const Verdict& other, bool likelier_is_clockwise) {
+  if (both.placements.empty() || likelier.name == Verdict::inconsistent) return likelier;
+  const auto verdict_on = [&](const Placement& placement) -> const Verdict& {
+    return placement.clockwise == likelier_is_clockwise ? likelier : other;
+  };
+  std::size_t count = 0;
+  std::array<bool, 2> counts{};
+  for (const Placement& placement : both.placements) {
+    if (placement.probability < belief::kCounts) continue;
+    ++count;
+    counts.at(placement.clockwise == likelier_is_clockwise ? 0 : 1) = true;
+  }
+  Verdict verdict = likelier;
+  if (!counts[1]) return verdict;
+  if (both.placements.front().probability >= belief::kCertain) return verdict_on(both.placements.front());
+  verdict.fits_badly |= other.fits_badly;
+  if (likelier.name == Verdict::unobservable || other.name == Verdict::unobservable) {
+    verdict.name = Verdict::unobservable;
+    return verdict;
+  }
+  verdict.name = Verdict::ambiguous;
+  verdict.places = count;
+  verdict.stretches = (counts[0] ? likelier.stretches : 0) + other.stretches;
+  return verdict;
+}
+
+/// With noise: the likelier way first.
+Answer either_weighed(Answer one, Answer other) {
+  const bool one_fits = one.verdict.name != Verdict::inconsistent;
+  const bool other_fits = other.verdict.name != Verdict::inconsistent;
+  double of_other = probability_of_other(*one.weighing, *other.weighing);
+  if (one_fits != other_fits) of_other = other_fits ? 1 : 0;
+  scale(one, 1 - of_other);
+  scale(other, of_other);
+  const bool is_clockwise = of_other > 0.5;
+  Answer& likelier = is_clockwise ? other : one;
+  Answer& unlikelier = is_clockwise ? one : other;
+  Answer both = likelier;
+  both.readings = one.readings;
+  add_search(unlikelier, both);
+  add_weighing(*unlikelier.weighing, *both.weighing);
+  drop_other_way(both.diagnoses);
+  std::stable_sort(both.placements.begin(), both.placements.end(),
+                   [](const Placement& a, const Placement& b) { return a.probability > b.probability; });
+  drop_improbable(both);
+  both.verdict = verdict_of(both, likelier.verdict, unlikelier.verdict, is_clockwise);
+  return both;
+}
+
+}  // namespace
+
+Problem counted_clockwise(const Problem& problem) {
+  Problem result = problem;
+  for (Reading& reading : result.felt.readings) {
+    for (double& length : reading.length) length = -length;
+  }
+  if (!result.felt.is_log()) return result;
+  if (result.felt.log->kind == LogKind::contact) {
+    throw InputError("`either_way`: " + result.felt.log->name +
+                     " has u and psi, which say themselves which way round it went: expected a log of lengths");
+  }
+  for (FingerRows& rows : result.felt.log->fingers) {
+    for (double& length : rows.length) length = -length;
+  }
+  return result;
+}
+
+Answer only_way(Answer answer, bool is_clockwise, const std::string& why_not_the_other) {
+  if (is_clockwise) {
+    count_clockwise(answer);
+    for (Reading& reading : answer.readings) {
+      for (double& length : reading.length) length = -length;
+    }
+  }
+  drop_other_way(answer.diagnoses);
+  answer.either_way = true;
+  answer.other_way = why_not_the_other;
+  return answer;
+}
+
+Answer either_of(Answer counter_clockwise, Answer clockwise) {
+  count_clockwise(clockwise);
+  Answer both = counter_clockwise.weighing ? either_weighed(std::move(counter_clockwise), std::move(clockwise))
+                                           : either_searched(std::move(counter_clockwise), clockwise);
+  both.either_way = true;
+  return both;
+}
+
+}  // namespace rollfix

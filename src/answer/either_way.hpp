@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "rollfix/answer/answer.hpp"
+
+namespace rollfix {
+
+/// The problem with lengths that count clockwise: all of them change their signs. Throws InputError: a log of u and
+/// psi, which say themselves which way round it went.
+Problem counted_clockwise(const Problem& problem);
+
+/// Both answers to one roll as one: every placement says which way round it is an answer. With noise each way is
+/// weighed by its evidence, both being as likely beforehand.
+Answer either_of(Answer counter_clockwise, Answer clockwise);
+/// The one answer there is, where the rows can't have gone the other way at all, and why they can't.
+Answer only_way(Answer answer, bool is_clockwise, const std::string& why_not_the_other);
+
+}  // namespace rollfix
