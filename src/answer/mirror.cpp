@@ -64,6 +64,7 @@ Problem in_mirror(const Problem& problem) {
   Problem result = problem;
   for (Reading& reading : result.felt.readings) reading = mirrored(reading);
   if (result.facing) result.facing = -*result.facing;
+  if (result.pose) result.pose->mean = mirrored(result.pose->mean);
   if (!result.felt.is_log()) return result;
   for (FingerRows& rows : result.felt.log->fingers) {
     negate_angles(rows.u);
@@ -82,6 +83,7 @@ void out_of_mirror(Answer& answer) {
   for (Placement& placement : answer.placements) mirror(placement);
   for (Impossible& item : answer.impossible) mirror(item.placement);
   if (!answer.weighing) return;
+  if (answer.weighing->pose) answer.weighing->pose->mean = mirrored(answer.weighing->pose->mean);
   for (Placement& placement : answer.weighing->improbable) mirror(placement);
 }
 

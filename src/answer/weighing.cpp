@@ -149,6 +149,7 @@ void weigh(const Problem& problem, const Observation& observed, bool explains, B
   Weighing weighing;
   weighing.noise = *problem.noise;
   weighing.prior = problem.prior;
+  weighing.pose = problem.pose;
   weighing.robust = problem.robust;
   weighing.samples = belief.samples();
 

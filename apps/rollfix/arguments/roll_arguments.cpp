@@ -132,6 +132,10 @@ void require_sensible(const RollArguments& arguments) {
   if (!arguments.prior.empty()) {
     throw InputError("--prior weighs places against noisy readings: give --noise as well");
   }
+  if (!arguments.pose.heading.empty() || !arguments.pose.pose.empty()) {
+    throw InputError(fmt::format("--{} is weighed against noisy rows: give --noise as well",
+                                 arguments.pose.pose.empty() ? "heading" : "pose"));
+  }
   if (arguments.robust) throw InputError("--robust is about noise: give --noise as well");
 }
 
@@ -172,6 +176,21 @@ void add_noise_arguments(CLI::App& command, std::string& noise, std::string& pri
   add_switch(command, "--robust", robust, "with --noise: stray rows don't count");
 }
 
+void add_pose_arguments(CLI::App& command, PoseArguments& arguments) {
+  command
+      .add_option(
+          "--heading", arguments.heading,
+          "with --noise and a log of u and psi: about how the part is turned in the world at the first contact, "
+          "and how sure that is")
+      ->type_name("ANGLE,SD");
+  command
+      .add_option(
+          "--pose", arguments.pose,
+          "the same with where it lies, of a log with x and y: X,Y,HEADING and the standard deviations of x and "
+          "y and of the heading")
+      ->type_name("X,Y,HEADING,SD,SD_HEADING");
+}
+
 void add_side_arguments(CLI::App& command, bool& mirror, std::string& direction) {
   add_switch(command, "--mirror", mirror,
              "the part lies face down: what is felt is the outline's mirror image; places are told along the outline "
@@ -208,18 +227,7 @@ void add_roll_arguments(CLI::App& command, RollArguments& arguments) {
                   "or what --noise makes of it")
       ->type_name("ANGLE");
   add_noise_arguments(command, arguments.noise, arguments.prior, arguments.robust);
-  command
-      .add_option(
-          "--heading", arguments.heading,
-          "with --noise and a log of u and psi: about how the part is turned in the world at the first contact, "
-          "and how sure that is")
-      ->type_name("ANGLE,SD");
-  command
-      .add_option(
-          "--pose", arguments.pose,
-          "the same with where it lies, of a log with x and y: X,Y,HEADING and the standard deviations of x and "
-          "y and of the heading")
-      ->type_name("X,Y,HEADING,SD,SD_HEADING");
+  add_pose_arguments(command, arguments.pose);
   add_side_arguments(command, arguments.mirror, arguments.direction);
 }
 
@@ -270,10 +278,7 @@ LogOptions read_log_options(const std::string& columns, const std::string& unit)
   return {columns.empty() ? std::vector<ColumnSource>{} : parse_columns(columns), unit};
 }
 
-namespace {
-
-/// --heading ANGLE,SD, or --pose X,Y,HEADING,SD,SD_HEADING.
-std::optional<PosePrior> read_pose(const RollArguments& arguments, const std::string& unit) {
+std::optional<PosePrior> read_pose(const PoseArguments& arguments, const std::string& unit) {
   if (arguments.heading.empty() && arguments.pose.empty()) return std::nullopt;
   if (!arguments.heading.empty() && !arguments.pose.empty()) {
     throw InputError("--heading and --pose both say how the part is turned: leave one out");
@@ -290,8 +295,7 @@ std::optional<PosePrior> read_pose(const RollArguments& arguments, const std::st
                                    "first contact, and its standard deviation"));
   }
   PosePrior prior;
-  const std::size_t angle = is_pose ? 2 : 0;
-  prior.mean.heading = read_angle(fields[angle], what);
+  prior.mean.heading = read_angle(fields[is_pose ? 2 : 0], what);
   prior.heading_sd = read_angle(fields.back(), what);
   if (is_pose) {
     prior.mean.x = read_length(fields[0], what, unit);
@@ -303,8 +307,6 @@ std::optional<PosePrior> read_pose(const RollArguments& arguments, const std::st
   }
   return prior;
 }
-
-}  // namespace
 
 Log read_roll(const std::vector<std::string>& paths, const std::string& roll, const LogOptions& options,
               std::vector<std::string>& notes) {
@@ -359,7 +361,7 @@ Problem read_problem(const RollArguments& arguments, std::vector<std::string>& n
   const std::optional<Prior> prior = read_prior(arguments.prior, unit);
   Problem problem{std::move(part), std::move(felt), std::move(fingers), noise};
   problem.prior = prior;
-  problem.pose = read_pose(arguments, unit);
+  problem.pose = read_pose(arguments.pose, unit);
   problem.robust = arguments.robust;
   problem.mirrored = arguments.mirror;
   problem.either_way = is_either;

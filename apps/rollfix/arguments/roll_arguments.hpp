@@ -9,6 +9,12 @@
 
 namespace rollfix::app {
 
+/// What is known of how the part lies, as typed: at most one of both.
+struct PoseArguments {
+  std::string heading;
+  std::string pose;
+};
+
 /// What `locate` and `advise` are given of a roll, as typed; empty: not given.
 struct RollArguments {
   PartArgument part;
@@ -23,8 +29,7 @@ struct RollArguments {
   std::string budget;
   std::string noise;
   std::string prior;
-  std::string heading;
-  std::string pose;
+  PoseArguments pose;
   std::string direction;
   bool mirror = false;
   bool robust = false;
@@ -36,6 +41,8 @@ void add_roll_arguments(CLI::App& command, RollArguments& arguments);
 void add_noise_argument(CLI::App& command, std::string& noise);
 /// Adds --log, --roll and --columns alone.
 void add_log_arguments(CLI::App& command, std::vector<std::string>& logs, std::string& roll, std::string& columns);
+/// Adds --heading and --pose.
+void add_pose_arguments(CLI::App& command, PoseArguments& arguments);
 /// Adds --mirror and --direction.
 void add_side_arguments(CLI::App& command, bool& mirror, std::string& direction);
 /// Whether --direction says that lengths count against the outline. Throws InputError: neither ccw nor cw.
@@ -56,6 +63,8 @@ Problem read_problem(const RollArguments& arguments, std::vector<std::string>& n
 std::optional<Noise> read_noise(const std::string& text, const std::string& unit);
 /// --prior as typed. Throws InputError.
 std::optional<Prior> read_prior(const std::string& text, const std::string& unit);
+/// --heading or --pose as typed. Throws InputError.
+std::optional<PosePrior> read_pose(const PoseArguments& arguments, const std::string& unit);
 /// --columns as typed, and the part's unit. Throws InputError.
 LogOptions read_log_options(const std::string& columns, const std::string& unit);
 

@@ -165,6 +165,7 @@ Json fit_json(const Fit& fit) {
 void add_weighing(const Weighing& weighing, Json& document) {
   document["noise"] = noise_json(weighing.noise);
   document["prior"] = weighing.prior ? pair_json(weighing.prior->s, weighing.prior->sd) : Json(nullptr);
+  document["pose_prior"] = pose_prior_json(weighing.pose);
   document["robust"] = weighing.robust;
   document["samples"] = weighing.samples;
   document["excess"] = json_number(weighing.fit.excess);
@@ -208,6 +209,16 @@ Json noise_json(const Noise& noise) {
   Json json = Json::object();
   for (const NoiseKind& kind : kNoiseKinds) json[kind.name] = json_number(noise.*kind.sd);
   return json;
+}
+
+Json pose_prior_json(const std::optional<PosePrior>& prior) {
+  if (!prior) return nullptr;
+  const bool has_place = std::isfinite(prior->place_sd);
+  return {{"x", has_place ? json_number(prior->mean.x) : Json(nullptr)},
+          {"y", has_place ? json_number(prior->mean.y) : Json(nullptr)},
+          {"heading", json_number(prior->mean.heading)},
+          {"place_sd", has_place ? json_number(prior->place_sd) : Json(nullptr)},
+          {"heading_sd", json_number(prior->heading_sd)}};
 }
 
 Json accuracy_json(const Accuracy& accuracy) {

@@ -38,6 +38,8 @@ std::string cure_of(const Diagnosis& diagnosis, const std::vector<Finger>& finge
 Json part_json(const Part& part);
 Json diagnoses_json(const std::vector<Diagnosis>& diagnoses, const std::vector<Finger>& fingers, const Noise& noise);
 Json noise_json(const Noise& noise);
+/// null without; x and y are null where only the heading is known.
+Json pose_prior_json(const std::optional<PosePrior>& prior);
 
 /// How far a part that was measured may be off, as text and as JSON; null where it is exact.
 std::string accuracy_text(const Accuracy& accuracy);

@@ -272,6 +272,7 @@ class AnswerText {
     if (weighing.prior) {
       text += fmt::format("prior      s = {:.6g}, sd {:.4g}{}\n", weighing.prior->s, weighing.prior->sd, unit_);
     }
+    if (weighing.pose) text += "prior      " + prior_text(*weighing.pose) + '\n';
     text += scale_lines();
     text += fmt::format("samples    {}", weighing.samples);
     if (weighing.fit.excess > 1)
@@ -282,6 +283,14 @@ class AnswerText {
                           answer_.dropped.improbable);
     }
     return text;
+  }
+
+  std::string prior_text(const PosePrior& prior) const {
+    const std::string heading =
+        fmt::format("heading {} deg, sd {} deg", degrees(prior.mean.heading), rough(prior.heading_sd / kDegree));
+    if (!std::isfinite(prior.place_sd)) return "the part's " + heading;
+    return fmt::format("the part at x = {:.6g}, y = {:.6g}, sd {:.4g}{}, {}", prior.mean.x, prior.mean.y,
+                       prior.place_sd, unit_, heading);
   }
 
   /// What the rows say of the lengths, and what was taken as exact.

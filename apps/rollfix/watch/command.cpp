@@ -46,6 +46,7 @@ struct WatchArguments {
   std::vector<std::string> fingers;
   std::string noise;
   std::string prior;
+  PoseArguments pose;
   std::string direction;
   bool mirror = false;
   bool robust = false;
@@ -59,7 +60,9 @@ struct WatchArguments {
 
 BeliefOptions belief_options(const WatchArguments& arguments, const std::string& unit) {
   if (const std::optional<Noise> noise = read_noise(arguments.noise, unit)) {
-    return {*noise, read_prior(arguments.prior, unit), arguments.robust};
+    BeliefOptions options{*noise, read_prior(arguments.prior, unit), arguments.robust};
+    options.pose = read_pose(arguments.pose, unit);
+    return options;
   }
   throw InputError(
       "watch: expected --noise, as in --noise contact=0.1,angle=0.5deg: how sure an answer is follows from how far the "
@@ -268,6 +271,7 @@ void add_watch_command(CLI::App& program, Command& chosen, std::ostream& out, st
   add_columns_argument(*command, arguments->columns);
   add_finger_argument(*command, arguments->fingers);
   add_noise_arguments(*command, arguments->noise, arguments->prior, arguments->robust);
+  add_pose_arguments(*command, arguments->pose);
   add_side_arguments(*command, arguments->mirror, arguments->direction);
   add_switch(*command, "--on-change", arguments->on_change,
              "print when the verdict, the number of places or the most probable one changes: the default");

@@ -78,6 +78,7 @@ class JsonlWriter : public WatchWriter {
     if (const auto& prior = options.belief.prior) {
       event["prior"] = Json::array({json_number(prior->s), json_number(prior->sd)});
     }
+    event["pose_prior"] = pose_prior_json(options.belief.pose);
     event["robust"] = options.belief.robust;
     announce(line_of(event));
   }

@@ -158,10 +158,35 @@ LogLine Watcher::read(std::string_view line) {
   return row;
 }
 
+void Watcher::require_evidence(const Sample& first) const {
+  const BeliefOptions& belief = options_.belief;
+  const auto refuse = [&](const char* what) {
+    throw InputError(fmt::format("{}: {}, found none", options_.name, what));
+  };
+  if (belief.noise.position > 0 && !first.centre) {
+    refuse("--noise position is of the finger's centre, expected a log of u and psi with columns x and y");
+  }
+  if (!belief.pose) return;
+  if (!first.contact) refuse("--heading and --pose: the finger tells how the part lies by u and psi, expected both");
+  if (std::isfinite(belief.pose->place_sd) && !first.centre) {
+    refuse("--pose: the finger tells where the part is by its centre, expected columns x and y");
+  }
+}
+
+Belief Watcher::new_belief(const Sample& first) const {
+  BeliefOptions options = options_.belief;
+  if (options.pose && options_.log.mirrored) {  // as the log is read: see LogOptions
+    options.pose->mean.x *= -1;
+    options.pose->mean.heading *= -1;
+  }
+  return {part_, stream_.kind(), options, {first.finger_curvature, {}, options_.fingers}};
+}
+
 void Watcher::begin_roll(const Sample& sample) {
+  require_evidence(sample);
   {
     const WorkTime time(counts_.seconds);
-    belief_.emplace(part_, stream_.kind(), options_.belief);
+    belief_.emplace(new_belief(sample));
   }
   ++counts_.rolls;
   samples_ = 0;

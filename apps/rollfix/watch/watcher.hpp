@@ -61,10 +61,10 @@ class WatchListener {
 struct WatchOptions {
   std::string name;             // of the log, for messages
   std::vector<Finger> fingers;  // for logs of u and psi: at most one
-  BeliefOptions belief;
-  LogOptions log;         // what its columns are called, and the part's unit
-  std::size_t every = 0;  // tell every so many samples; 0: when there is news
-  bool live = false;      // somebody waits: nothing that is new is kept back for longer than kMostDelay
+  BeliefOptions belief;         // a pose's prior is of every roll's first contact
+  LogOptions log;               // what its columns are called, and the part's unit
+  std::size_t every = 0;        // tell every so many samples; 0: when there is news
+  bool live = false;            // somebody waits: nothing that is new is kept back for longer than kMostDelay
 };
 
 /// Somebody who watches a screen, and a robot's next decision, can wait this long.
@@ -110,6 +110,9 @@ class Watcher {
  private:
   LogStream new_stream() const;
   LogLine read(std::string_view line);
+  /// Throws InputError: the log does not have what the noise or the pose's prior is about.
+  void require_evidence(const Sample& first) const;
+  Belief new_belief(const Sample& first) const;
   void begin_roll(const Sample& sample);
   void add(const Sample& sample);
   void take(const Sample& sample);

@@ -69,6 +69,7 @@ struct DroppedCounts {
 struct Weighing {
   Noise noise;
   std::optional<Prior> prior{};
+  std::optional<PosePrior> pose{};
   bool robust = false;
   std::size_t samples = 0;
   Fit fit;              // of the rows to the likeliest place
