@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "cli.hpp"
 
@@ -102,13 +103,78 @@ TEST(CliMirror, simulate_writes_what_locate_understands) {
   EXPECT_NEAR(found["placements"][0]["start"][0], 12.5, 1e-6);
 }
 
-TEST(CliMirror, a_finger_with_an_outline_is_refused) {
+/// Fingers that are no mirror images of themselves: the image of the part is felt by the finger as it is.
+class CliMirrorFinger : public testing::TestWithParam<std::string> {};
+
+TEST_P(CliMirrorFinger, with_an_outline_is_turned_over_with_the_part) {
   const cli::Folder folder;
   write_parts(folder);
-  folder.write("roll.csv", "u,psi\n0,0\n1,0.2\n2,0.5\n");
-  const cli::Ran ran = run("locate part.csv --finger gallery:ellipse --log roll.csv --mirror");
-  EXPECT_EQ(ran.code, 2);
-  EXPECT_THAT(ran.err, HasSubstr("--mirror"));
+  std::string pad;
+  for (int k = 0; k < 40; ++k) {
+    const double angle = k * std::numbers::pi / 20;
+    const double r = 2 + 0.1 * std::cos(2 * angle + 0.3) + 0.04 * std::cos(3 * angle);
+    pad += fmt::format("{} {}\n", r * std::cos(angle), r * std::sin(angle));
+  }
+  folder.write("pad.csv", pad);
+  folder.write("bow.csv", "-6 0.5\n-3 -0.6\n0 -1.2\n3 -1\n6 -0.2\n9 1.2\n12 3.6\n");
+  const std::string finger = " --finger " + GetParam();
+  ASSERT_EQ(run("simulate image.csv --start 12.5 --length 7 --samples 100 -o roll.csv" + finger).code, 0);
+  const Json image = run("locate image.csv --log roll.csv --json" + finger).json();
+  const Json found = run("locate part.csv --log roll.csv --mirror --json" + finger).json();
+  ASSERT_EQ(found["placements"].size(), image["placements"].size());
+  EXPECT_EQ(found["verdict"], image["verdict"]);
+  EXPECT_NEAR(found["readings"][0]["length"][0], image["readings"][0]["length"][0], 1e-9);
+  EXPECT_NEAR(found["readings"][0]["turn"], image["readings"][0]["turn"], 1e-9);
+  const Json& placement = found["placements"][0];
+  EXPECT_NEAR(placement["start"][0], perimeter() - 12.5, 1e-5);
+  // The image lies at rest as it was drawn.
+  for (const double value : placement["pose"].back().get<std::vector<double>>()) EXPECT_NEAR(value, 0, 1e-5);
+}
+
+TEST_P(CliMirrorFinger, is_simulated_as_it_is_felt) {
+  const cli::Folder folder;
+  write_parts(folder);
+  folder.write("pad.csv", "2 0\n1.5 1.2\n0 1.6\n-1.4 1.1\n-1.8 0\n-1.2 -1.3\n0 -1.9\n1.4 -1.4\n");
+  folder.write("bow.csv", "-6 0.5\n-3 -0.6\n0 -1.2\n3 -1\n6 -0.2\n9 1.2\n12 3.6\n");
+  const std::string finger = " --finger " + GetParam();
+  // Backwards along the outline as drawn is forwards round the image.
+  ASSERT_EQ(run("simulate image.csv --start 12.5 --length 3 --samples 50 --contact 8 -o image-roll.csv" + finger).code,
+            0);
+  const std::string start = fmt::format(" --start {:.17g}", perimeter() - 12.5);
+  ASSERT_EQ(run("simulate part.csv --mirror --length -3 --samples 50 --contact 8 -o roll.csv" + start + finger).code,
+            0);
+  const Json image = run("locate image.csv --log image-roll.csv --json" + finger).json()["readings"][0];
+  const Json felt = run("locate image.csv --log roll.csv --json" + finger).json()["readings"][0];
+  EXPECT_NEAR(felt["length"][0], image["length"][0], 1e-6);
+  EXPECT_NEAR(felt["turn"], image["turn"], 1e-6);
+}
+
+INSTANTIATE_TEST_SUITE_P(, CliMirrorFinger, testing::Values("pad.csv", "bow.csv,open"),
+                         [](const auto& one) { return one.index == 0 ? "closed" : "open"; });
+
+TEST(CliMirror, a_jaw_with_places_above_0_is_where_it_was_felt) {
+  const cli::Folder folder;
+  write_parts(folder);
+  ASSERT_EQ(run("simulate image.csv --finger jaw --start 4 --length 5 --contact 30 --samples 100 -o roll.csv").code, 0);
+  const Json found = run("locate part.csv --finger jaw --log roll.csv --mirror --json").json();
+  bool is_at_rest = false;
+  for (const Json& placement : found["placements"]) {
+    const Json& pose = placement["pose"].back();
+    is_at_rest |= std::hypot(pose[0].get<double>(), pose[1].get<double>()) < 1e-5;
+  }
+  EXPECT_TRUE(is_at_rest);
+}
+
+TEST(CliMirror, watch_turns_closed_outlines_over_and_says_that_it_does_not_open_ones) {
+  const cli::Folder folder;
+  write_parts(folder);
+  folder.write("pad.csv", "2 0\n1.5 1.2\n0 1.6\n-1.4 1.1\n-1.8 0\n-1.2 -1.3\n0 -1.9\n1.4 -1.4\n");
+  folder.write("bow.csv", "-6 0.5\n-3 -0.6\n0 -1.2\n3 -1\n6 -0.2\n9 1.2\n12 3.6\n");
+  ASSERT_EQ(run("simulate image.csv --start 12.5 --length 30 --samples 300 -o roll.csv --finger pad.csv").code, 0);
+  const std::string watch = "watch part.csv --noise contact=0.01,angle=0.2deg --log roll.csv --once --mirror --finger ";
+  // 12.5 less than the perimeter, 65.086.
+  EXPECT_THAT(run(watch + "pad.csv").out, HasSubstr("unique: roll 1 started at s = 52.5"));
+  EXPECT_THAT(run(watch + "bow.csv,open").err, HasSubstr("bow.csv is open, which watch does not turn over"));
 }
 
 TEST(CliDirection, lengths_that_count_clockwise_change_their_signs) {

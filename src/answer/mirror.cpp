@@ -1,11 +1,9 @@
 #include "mirror.hpp"
 
-#include <fmt/format.h>
+#include <cstddef>
+#include <vector>
 
-#include <algorithm>
-#include <numbers>
-
-#include "rollfix/error.hpp"
+#include "contact/mirrored.hpp"
 
 namespace rollfix {
 namespace {
@@ -14,17 +12,6 @@ Reading mirrored(Reading reading) {
   for (double& length : reading.length) length = -length;
   reading.turn = -reading.turn;
   return reading;
-}
-
-void negate(std::vector<double>& values) {
-  for (double& value : values) value = -value;
-}
-
-/// Of angles that may be wrapped to [0, 2 pi], which stay there.
-void negate_angles(std::vector<double>& angles) {
-  const bool is_above = std::all_of(angles.begin(), angles.end(), [](double angle) { return angle >= 0; });
-  const double most = is_above ? 2 * std::numbers::pi : 0;
-  for (double& angle : angles) angle = most - angle;
 }
 
 Pose mirrored(const Pose& pose) { return {-pose.x, pose.y, -pose.heading}; }
@@ -54,30 +41,22 @@ void mirror(Placement& placement) {
 }  // namespace
 
 Problem in_mirror(const Problem& problem) {
-  for (const Finger& finger : problem.fingers) {
-    if (finger.outline() == nullptr) continue;
-    throw InputError(fmt::format(
-        "`mirror`: the finger {} has an outline: expected a disk or a jaw, or the mirror image of the part's outline "
-        "and no `mirror`",
-        finger.name()));
-  }
   Problem result = problem;
+  for (Finger& finger : result.fingers) finger = rollfix::mirrored(finger);
   for (Reading& reading : result.felt.readings) reading = mirrored(reading);
   if (result.facing) result.facing = -*result.facing;
   if (result.pose) result.pose->mean = mirrored(result.pose->mean);
   if (!result.felt.is_log()) return result;
-  for (FingerRows& rows : result.felt.log->fingers) {
-    negate_angles(rows.u);
-    for (double& psi : rows.psi) psi = std::numbers::pi - psi;
-    negate(rows.length);
-    negate(rows.turn);
-    negate(rows.x);
+  std::vector<FingerRows>& fingers = result.felt.log->fingers;
+  for (std::size_t which = 0; which < fingers.size(); ++which) {
+    mirror(fingers[which], finger_of(problem.fingers, which));
   }
   return result;
 }
 
-void out_of_mirror(Answer& answer) {
+void out_of_mirror(const Problem& problem, Answer& answer) {
   answer.mirrored = true;
+  answer.fingers = problem.fingers;
   for (Reading& reading : answer.readings) reading = mirrored(reading);
   if (answer.facing) answer.facing = -*answer.facing;
   for (Placement& placement : answer.placements) mirror(placement);

@@ -178,7 +178,7 @@ Answer solve(const Problem& problem) {
     Problem seen = in_mirror(problem);
     seen.mirrored = false;
     Answer answer = solve(seen);
-    out_of_mirror(answer);
+    out_of_mirror(problem, answer);
     return answer;
   }
   if (problem.either_way) return solve_either_way(problem);

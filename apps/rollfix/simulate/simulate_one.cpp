@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "contact/mirrored.hpp"
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/arguments/finger_argument.hpp"
 #include "rollfix/arguments/typed_number.hpp"
@@ -60,15 +61,15 @@ Report simulate_one(const SimulateArguments& arguments) {
   const Part part = load_part(arguments.part, report.notes);
   const std::optional<SimulatedNoise> noise = read_simulated_noise(arguments, part.unit());
   const Finger finger = read_fingers(arguments.fingers, 1, part.unit()).front();
-  if (arguments.mirror && !has_reach(finger)) {
-    throw InputError(fmt::format("--mirror: the finger {} has an outline: expected a disk or a jaw", finger.name()));
-  }
-  const RollPlan plan = plan_of(arguments, part, finger);
+  // What rolls on the drawn outline is what a mirror shows of the finger.
+  const Finger seen = arguments.mirror ? mirrored(finger) : finger;
+  RollPlan plan = plan_of(arguments, part, finger);
+  if (arguments.mirror && plan.u) plan.u = mirrored_u(finger, *plan.u);
   NoisyRoll noisy;
   if (noise) {
-    noisy = noisy_roll(part, finger, plan, noise->noise, noise->seed);
+    noisy = noisy_roll(part, seen, plan, noise->noise, noise->seed);
   } else {
-    noisy.truth = rollfix::roll(part, finger, plan);
+    noisy.truth = rollfix::roll(part, seen, plan);
     noisy.log = noisy.truth.log;
   }
   const Roll& roll = noisy.truth;
@@ -77,7 +78,7 @@ Report simulate_one(const SimulateArguments& arguments) {
   report.notes.push_back(roll_text(part, roll.s[0], roll.angle[0]));
   add_reach_note(report, beyond_reach_note(part, finger, roll.s[0], "a real finger "));
   if (noise) report.notes.push_back(roll_error_text(finger, noisy.error[0]));
-  add_log(report, file, format_log(arguments.mirror ? in_mirror(noisy.log) : noisy.log));
+  add_log(report, file, format_log(arguments.mirror ? in_mirror(noisy.log, seen) : noisy.log));
   return report;
 }
 

@@ -117,7 +117,7 @@ Report simulate_two(const SimulateArguments& arguments) {
   for (std::size_t which = 0; which < 2 && noise; ++which) {
     report.notes.push_back(names[which] + ": " + roll_error_text(*finger_of(fingers, which), noisy.error[which]));
   }
-  add_logs(report, arguments.files, arguments.mirror ? in_mirror(noisy.log) : noisy.log);
+  add_logs(report, arguments.files, arguments.mirror ? in_mirror(noisy.log, fingers.front()) : noisy.log);
   return report;
 }
 

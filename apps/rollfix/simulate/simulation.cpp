@@ -1,4 +1,5 @@
 #include "rollfix/simulate/simulation.hpp"
+#include "contact/mirrored.hpp"
 
 #include <fmt/format.h>
 
@@ -7,6 +8,7 @@
 #include <numbers>
 #include <string_view>
 
+#include "contact/mirrored.hpp"
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/arguments/finger_argument.hpp"
 #include "rollfix/arguments/roll_arguments.hpp"
@@ -66,12 +68,11 @@ void add_reach_note(Report& report, const std::string& note) {
   if (!note.empty()) report.notes.push_back(note);
 }
 
-Log in_mirror(Log log) {
+Log in_mirror(Log log, const Finger& seen) {
   for (FingerRows& rows : log.fingers) {
-    for (auto* column : {&rows.u, &rows.x}) {
-      for (double& value : *column) value = 0.0 - value;  // no -0
-    }
-    for (double& psi : rows.psi) psi = std::numbers::pi - psi;
+    for (double& u : rows.u) u = mirrored_u(seen, u);
+    for (double& x : rows.x) x = 0.0 - x;  // no -0
+    for (double& psi : rows.psi) psi = mirrored_psi(&seen, psi);
   }
   return log;
 }

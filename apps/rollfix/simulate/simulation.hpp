@@ -62,8 +62,9 @@ std::string beyond_reach_note(const Part& part, const Finger& finger, const std:
 /// Adds it, unless it is empty.
 void add_reach_note(Report& report, const std::string& note);
 
-/// The log of the same roll on the part face down: see in_mirror.
-Log in_mirror(Log log);
+/// The log of the same roll on the part face down. `seen`: what rolled on the drawn outline, the mirror's image of the
+/// finger, or of both.
+Log in_mirror(Log log, const Finger& seen);
 
 /// Throws InputError when a log can't be written to this -o; stdout always can.
 void require_writable_log(const std::string& file, bool force);

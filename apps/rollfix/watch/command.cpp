@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "contact/mirrored.hpp"
 #include "rollfix/arguments/finger_argument.hpp"
 #include "rollfix/arguments/part_argument.hpp"
 #include "rollfix/arguments/roll_arguments.hpp"
@@ -96,10 +97,20 @@ WatchOptions watch_options(const WatchArguments& arguments, const std::string& l
   options.log = read_log_options(arguments.columns, unit);
   options.log.mirrored = arguments.mirror;
   options.log.clockwise = counts_clockwise(arguments.direction);
-  for (const Finger& finger : options.fingers) {
-    if (arguments.mirror && finger.outline() != nullptr) {
-      throw InputError(fmt::format("--mirror: the finger {} has an outline: expected a disk or a jaw", finger.name()));
+  for (Finger& finger : options.fingers) {
+    if (!arguments.mirror) break;
+    if (finger.outline() != nullptr && !finger.outline()->closed()) {
+      throw InputError(fmt::format(
+          "--mirror: the outline of the finger {} is open, which watch does not turn over: expected a closed "
+          "one, a disk or a jaw; locate takes it",
+          finger.name()));
     }
+    if (finger.is_jaw() && (options.belief.pose || options.belief.noise.position > 0)) {
+      throw InputError(
+          "--mirror: watch does not ask where a jaw has a part that lies face down: leave out --heading, --pose and "
+          "--noise position, or ask locate");
+    }
+    finger = mirrored(finger);
   }
   options.live = !arguments.once;
   if (!arguments.every.empty()) options.every = read_count(arguments.every, "--every", 1);
