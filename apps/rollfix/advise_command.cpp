@@ -211,6 +211,7 @@ Json advise_json(const AdviseOutcome& outcome) {
 
 Report advise_report(const AdviseArguments& arguments) {
   const RollArguments& roll = arguments.roll;
+  require_part(roll.part);
   if (roll.readings.empty() == roll.logs.empty()) {
     throw InputError("advise: expected --reading LENGTH,TURN or --log FILE of the roll so far");
   }

@@ -121,6 +121,9 @@ void refuse_leftovers(const CLI::App& program) {
     const std::string whose = chosen.empty() ? "" : " " + command.get_name();
     throw InputError(fmt::format("there is no command 'help'; did you mean 'rollfix{} --help'?", whose));
   }
+  if (chosen.empty() && leftovers.front() == "version") {
+    throw InputError("there is no command 'version'; did you mean 'rollfix --version'?");
+  }
   if (chosen.empty()) {
     throw InputError(fmt::format("there is no command '{}'; {}", leftovers.front(),
                                  known_names(leftovers.front(), command_names(program))));

@@ -176,7 +176,10 @@ const char* name_of(Kind kind) {
   return "corner";
 }
 
-std::string Verdict::text() const { return fits_badly ? places_text() + ", but the rows fit badly" : places_text(); }
+std::string Verdict::text() const {
+  const bool is_said = fits_badly && name != inconsistent;  // where nothing fits, nothing fits badly
+  return is_said ? places_text() + ", but the rows fit badly" : places_text();
+}
 
 std::string Verdict::places_text() const {
   switch (name) {

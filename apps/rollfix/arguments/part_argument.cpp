@@ -60,10 +60,13 @@ void add_part_argument(CLI::App& command, PartArgument& argument) {
   add_switch(command, "--allow-crossing", argument.allow_crossing, "take an outline that crosses itself");
 }
 
+void require_part(const PartArgument& argument) {
+  if (!argument.part.empty()) return;
+  throw InputError("expected a PART: a file with points, a drawing or a saved part, or gallery:ellipse,a=2,b=1");
+}
+
 LoadedPart load(const PartArgument& argument) {
-  if (argument.part.empty()) {
-    throw InputError("expected a PART: a file with points, a drawing or a saved part, or gallery:ellipse,a=2,b=1");
-  }
+  require_part(argument);
   return rollfix::load_part(argument.part, options_of(argument));
 }
 

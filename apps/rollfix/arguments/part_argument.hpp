@@ -31,6 +31,8 @@ void add_unit_argument(CLI::App& command, std::string& unit);
 /// The part and what its file says besides. Throws InputError: no PART, an option that is not what it should be, or
 /// what rollfix::load_part throws.
 LoadedPart load(const PartArgument& argument);
+/// Throws InputError: none is given.
+void require_part(const PartArgument& argument);
 
 /// Of a drawing what it holds besides the part: its other loops.
 std::vector<Outline> other_loops(const LoadedPart& loaded);

@@ -191,15 +191,17 @@ void add_pose_arguments(CLI::App& command, PoseArguments& arguments) {
       ->type_name("X,Y,HEADING,SD,SD_HEADING");
 }
 
-void add_side_arguments(CLI::App& command, bool& mirror, std::string& direction) {
+void add_side_arguments(CLI::App& command, bool& mirror, std::string& direction, bool takes_either) {
   add_switch(command, "--mirror", mirror,
              "the part lies face down: what is felt is the outline's mirror image; places are told along the outline "
              "as it was drawn");
   command
-      .add_option("--direction", direction,
-                  "which way round the part, as the robot sees it, lengths and distances count as positive: ccw, the "
-                  "default, cw, or either (locate), where that is not known; u and psi say that themselves")
-      ->type_name("ccw|cw|either");
+      .add_option(
+          "--direction", direction,
+          std::string("which way round the part, as the robot sees it, lengths and distances count as positive: "
+                      "ccw, the default, ") +
+              (takes_either ? "cw, or either, where that is not known" : "or cw") + "; u and psi say that themselves")
+      ->type_name(takes_either ? "ccw|cw|either" : "ccw|cw");
 }
 
 bool counts_clockwise(const std::string& direction) {
@@ -211,7 +213,7 @@ bool counts_clockwise(const std::string& direction) {
   throw InputError(fmt::format("--direction {}: expected ccw, cw or either", direction));
 }
 
-void add_roll_arguments(CLI::App& command, RollArguments& arguments) {
+void add_roll_arguments(CLI::App& command, RollArguments& arguments, bool takes_either) {
   add_part_argument(command, arguments.part);
   command
       .add_option("--reading", arguments.readings,
@@ -228,7 +230,7 @@ void add_roll_arguments(CLI::App& command, RollArguments& arguments) {
       ->type_name("ANGLE");
   add_noise_arguments(command, arguments.noise, arguments.prior, arguments.robust);
   add_pose_arguments(command, arguments.pose);
-  add_side_arguments(command, arguments.mirror, arguments.direction);
+  add_side_arguments(command, arguments.mirror, arguments.direction, takes_either);
 }
 
 std::optional<Noise> read_noise(const std::string& text, const std::string& unit) {
@@ -330,6 +332,18 @@ Log read_roll(const std::vector<std::string>& paths, const std::string& roll, co
   return log;
 }
 
+namespace {
+
+/// What --heading and --pose are held against.
+void require_u_and_psi(const Problem& problem, const PoseArguments& pose) {
+  if (problem.felt.is_log() && problem.felt.log->kind == LogKind::contact) return;
+  throw InputError(fmt::format("--{}: a finger tells how the part lies by u and psi, expected a log of them, found {}",
+                               pose.pose.empty() ? "heading" : "pose",
+                               problem.felt.is_log() ? "one of lengths and turns" : "readings"));
+}
+
+}  // namespace
+
 Problem read_problem(const RollArguments& arguments, std::vector<std::string>& notes, std::vector<Outline>* others) {
   require_sensible(arguments);
   std::vector<std::string> part_notes;
@@ -362,6 +376,7 @@ Problem read_problem(const RollArguments& arguments, std::vector<std::string>& n
   Problem problem{std::move(part), std::move(felt), std::move(fingers), noise};
   problem.prior = prior;
   problem.pose = read_pose(arguments.pose, unit);
+  if (problem.pose) require_u_and_psi(problem, arguments.pose);
   problem.robust = arguments.robust;
   problem.mirrored = arguments.mirror;
   problem.either_way = is_either;

@@ -35,8 +35,9 @@ struct RollArguments {
   bool robust = false;
 };
 
-/// Adds PART, --reading, --log, --roll, --finger, --tolerance, --noise, --prior and --robust to a command.
-void add_roll_arguments(CLI::App& command, RollArguments& arguments);
+/// Adds PART, --reading, --log, --roll, --finger, --tolerance, --noise, --prior, --robust, --heading, --pose, --mirror
+/// and --direction to a command. `takes_either`: the last one may be `either`.
+void add_roll_arguments(CLI::App& command, RollArguments& arguments, bool takes_either = false);
 /// Adds --noise alone.
 void add_noise_argument(CLI::App& command, std::string& noise);
 /// Adds --log, --roll and --columns alone.
@@ -44,7 +45,7 @@ void add_log_arguments(CLI::App& command, std::vector<std::string>& logs, std::s
 /// Adds --heading and --pose.
 void add_pose_arguments(CLI::App& command, PoseArguments& arguments);
 /// Adds --mirror and --direction.
-void add_side_arguments(CLI::App& command, bool& mirror, std::string& direction);
+void add_side_arguments(CLI::App& command, bool& mirror, std::string& direction, bool takes_either = false);
 /// Whether --direction says that lengths count against the outline. Throws InputError: neither ccw nor cw.
 bool counts_clockwise(const std::string& direction);
 /// Adds --columns alone.

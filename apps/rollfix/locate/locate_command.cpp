@@ -47,6 +47,7 @@ struct LocateArguments {
 
 void require_sensible(const LocateArguments& arguments) {
   const RollArguments& roll = arguments.roll;
+  require_part(roll.part);
   if (roll.readings.empty() && roll.logs.empty()) {
     throw InputError("locate: expected --reading LENGTH,TURN or --log FILE, found neither");
   }
@@ -159,7 +160,7 @@ void add_locate_command(CLI::App& program, Command& chosen) {
   CLI::App* command = program.add_subcommand("locate", "Every place on a part where a roll can have started.");
   command->footer(kLocateExamples);
   RollArguments& roll = arguments->roll;
-  add_roll_arguments(*command, roll);
+  add_roll_arguments(*command, roll, true);
   command
       ->add_option("--at", roll.instants,
                    "instants of the log to use, seconds; default its last row, of two fingers also the middle one")

@@ -88,18 +88,12 @@ class AnswerText {
     const auto contradicted =
         static_cast<std::size_t>(std::count_if(answer_.placements.begin(), answer_.placements.end(),
                                                [](const Placement& placement) { return placement.is_contradicted; }));
-    if (contradicted > 0) {
-      const std::size_t left = answer_.placements.size() - contradicted;
-      return fmt::format(
-          "{}; {} that the readings allow, which other rows of the log or the contacts in the world "
-          "contradict, {} last",
-          left == 1 ? advice_on_one(answer_.placements.front()) : "", contradicted,
-          contradicted == 1 ? "comes" : "come");
-    }
+    if (contradicted > 0) return advice_on_contradicted(contradicted);
     if (answer_.placements.empty() && !answer_.impossible.empty()) {
       return fmt::format(": {} would fit, but the finger can't get there; check the finger's size, or see --explain",
                          counted(answer_.impossible.size(), "placement", "placements"));
     }
+    if (answer_.placements.empty() && !answer_.diagnoses.empty()) return ": nothing fits";
     if (answer_.placements.empty()) {
       return fmt::format(": nothing fits; check the units, the signs (positive along the outline), and the {}",
                          fingers_ == 1 ? "finger's radius" : "fingers' radii");
@@ -109,6 +103,19 @@ class AnswerText {
     }
     if (answer_.placements.size() > 1) return ": roll on to tell them apart";
     return advice_on_one(answer_.placements.front());
+  }
+
+  /// Without noise, where rows that were not searched with, or centres, don't go with some of what was found.
+  std::string advice_on_contradicted(std::size_t count) const {
+    constexpr const char* kBy = "contradicted by other rows of the log or by the contacts in the world";
+    const std::size_t left = answer_.placements.size() - count;
+    if (left > 0) {
+      return fmt::format("{}; {} more that the readings allow {} {}, and {} last",
+                         left == 1 ? advice_on_one(answer_.placements.front()) : "", count, count == 1 ? "is" : "are",
+                         kBy, count == 1 ? "comes" : "come");
+    }
+    return fmt::format(": {} {}",
+                       count == 1 ? "the place that the readings allow is" : "all that the readings allow are", kBy);
   }
 
   /// Whether it is the part's shape, or the roll's, that lets every place fit, and not the tolerance: the part looks
@@ -159,6 +166,13 @@ class AnswerText {
     if (answer_.placements.empty()) return ": nothing that fits is within the finger's reach";
     const Placement& first = answer_.placements.front();
     const Verdict& verdict = answer_.verdict;
+    if (is_doubted() && verdict.name != Verdict::unobservable) {
+      return fmt::format(": taken as said, the {} {}, but what follows is likelier",
+                         verdict.name != Verdict::unique ? "likeliest start is"
+                         : fingers_ == 1                 ? "finger started at"
+                                                         : "roll started with",
+                         where(first));
+    }
     if (verdict.name == Verdict::unique) {
       return (fingers_ == 1 ? ": the finger started at " : ": the roll started with ") + where(first);
     }
@@ -172,6 +186,14 @@ class AnswerText {
     }
     return fmt::format(": the likeliest start is {}, with probability {:.2f}; roll on to tell them apart", where(first),
                        first.probability);
+  }
+
+  /// Whether something else explains the rows better than what was said of them.
+  bool is_doubted() const {
+    double total = 0;
+    for (const Placement& placement : answer_.placements) total += placement.probability;
+    constexpr double kDoubtful = 0.25;  // what is said is not more than a third as likely as what else there is
+    return !answer_.diagnoses.empty() && total < kDoubtful;
   }
 
   /// What may be wrong, with the option that mends it and the answer then.
@@ -206,7 +228,7 @@ class AnswerText {
 
   std::string accuracy_line() const {
     const Accuracy& accuracy = answer_.part.outline().accuracy;
-    return accuracy.is_exact() ? "" : fmt::format("accuracy   of the part: {}\n", accuracy_text(accuracy));
+    return accuracy.is_exact() ? "" : fmt::format("accuracy   of the taught part: {}\n", accuracy_text(accuracy));
   }
 
   std::string reading_lines() const {
@@ -256,8 +278,8 @@ class AnswerText {
     std::vector<std::string> noise;
     for (const NoiseKind& kind : kNoiseKinds) {
       const double sd = weighing.noise.*kind.sd;
+      if (sd == 0) continue;
       const bool is_of_gyroscope = kind.unit == NoiseKind::Unit::rate || kind.unit == NoiseKind::Unit::walk;
-      if (is_of_gyroscope && sd == 0) continue;
       if (is_of_gyroscope) {
         const bool is_rate = kind.unit == NoiseKind::Unit::rate;
         noise.push_back(fmt::format("{} {:.4g} {}", kind.name, sd / kDegree * (is_rate ? 3600 : 60),
@@ -425,6 +447,12 @@ class AnswerText {
     return table.str() + more_line(answer_.placements.size());
   }
 
+  /// Nothing that is listed is impossible.
+  static std::string probability_text(double probability) {
+    constexpr double kLeast = 0.00005;
+    return probability < kLeast ? "<0.0001" : fmt::format("{:.4f}", probability);
+  }
+
   /// With noise: how probable each is, and how well it is known.
   std::string weighed_table() const {
     Table table;
@@ -438,7 +466,7 @@ class AnswerText {
     add_position_columns(table);
     for (std::size_t i = 0; i < std::min(answer_.placements.size(), kMostRows); ++i) {
       const Placement& placement = answer_.placements[i];
-      Rows cells{label(i), fmt::format("{:.4f}", placement.probability)};
+      Rows cells{label(i), probability_text(placement.probability)};
       if (answer_.either_way) cells.emplace_back(placement.clockwise ? "cw" : "ccw");
       for (std::size_t finger = 0; finger < fingers_; ++finger) {
         cells.push_back(place(placement.start[finger]));
@@ -549,14 +577,16 @@ std::string about(const Obstruction& obstruction, const Part& part) {
 }
 
 std::string accuracy_text(const Accuracy& accuracy) {
+  constexpr double kExact = 1e-8;  // radians, or a share: rounding
   std::vector<std::string> sds;
-  if (accuracy.turn > 0) {
+  if (accuracy.turn > kExact) {
     sds.push_back(fmt::format("tangents sd {:.3g} deg (alike over {:.3g})", accuracy.turn / kDegree, accuracy.alike));
   }
   if (accuracy.walk > 0) {
     sds.push_back(fmt::format("turns sd {:.3g} deg per square root of length", accuracy.walk / kDegree));
   }
-  if (accuracy.length > 0) sds.push_back(fmt::format("lengths sd {:.3g} %", 100 * accuracy.length));
+  if (accuracy.length > kExact) sds.push_back(fmt::format("lengths sd {:.3g} %", 100 * accuracy.length));
+  if (sds.empty()) return "that of exact rows: off by rounding alone";
   return fmt::format("{}", fmt::join(sds, ", "));
 }
 

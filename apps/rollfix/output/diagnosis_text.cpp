@@ -21,8 +21,7 @@ struct CauseText {
 // What is wrong, and what to give instead; where numbers belong in them they are put together below.
 constexpr std::array<CauseText, 17> kCauses = {{
     {Cause::none, "none", "", ""},
-    {Cause::unsaid_noise, "unsaid_noise", "the rows are off by more than their digits say, and were taken as exact",
-     ""},
+    {Cause::unsaid_noise, "unsaid_noise", "the rows jitter by more than their digits say, and were taken as exact", ""},
     {Cause::noise, "noise", "", ""},
     {Cause::correlation, "correlation",
      "rows are not off independently: neighbours are off alike, as of a sensor that wobbles or repeats its digits",
@@ -63,7 +62,7 @@ struct KnownScale {
   const char* what;
 };
 constexpr std::array<KnownScale, 14> kKnownScales = {{{0.5, "a diameter was given for the radius"},
-                                                      {2, "the radius was given for the diameter's half"},
+                                                      {2, "the radius was halved, as if it were a diameter"},
                                                       {10, "centimetres were taken for millimetres"},
                                                       {0.1, "millimetres were taken for centimetres"},
                                                       {1000, "metres were taken for millimetres"},
@@ -115,8 +114,11 @@ std::string about(const Diagnosis& diagnosis) {
       return fmt::format("the rows are {:.3g} times as noisy as said", diagnosis.noise_scale);
     case Cause::radius: {
       const std::string known = known_scale(diagnosis);
-      const std::string scale = fmt::format("all lengths are {:.5g} times what was measured, give or take {:.2g}",
-                                            diagnosis.length_scale, diagnosis.length_scale_sd);
+      constexpr double kExact = 5e-6;  // of the scale: what its digits don't show
+      std::string scale = fmt::format("all lengths are {:.5g} times what was measured", diagnosis.length_scale);
+      if (diagnosis.length_scale_sd > kExact * diagnosis.length_scale) {
+        scale += fmt::format(", give or take {:.2g}", diagnosis.length_scale_sd);
+      }
       return scale + (known.empty() ? ": a wrong radius of the finger, or a wrong unit" : ": " + known);
     }
     case Cause::stray:

@@ -35,6 +35,8 @@ constexpr double kUnseen = 1.2;
 constexpr double kLeastCorner = 0.1;
 /// What rounding alone leaves: of lengths a share, of turns radians.
 constexpr double kRounding = 1e-9;
+/// Of tangents, radians, and of lengths, a share: what is known better is exact for all that anyone sees.
+constexpr double kExact = 1e-8;
 /// Rows within this share of the length are at one place, whatever their digits.
 constexpr double kSamePlace = 1e-12;
 /// No part turns further, radians: a thousand times round. What does is a mistake in units.
@@ -487,6 +489,10 @@ class Teacher {
 
   void tell_accuracy() {
     const Accuracy& accuracy = taught_.outline.accuracy;
+    if (accuracy.turn <= kExact && accuracy.length <= kExact && accuracy.walk == 0) {
+      say("it is as exact as the rows: what rounding leaves is next to nothing");
+      return;
+    }
     std::string text =
         fmt::format("its tangents are known with a standard deviation of {:.2g} deg", accuracy.turn / kDegree);
     if (accuracy.walk > 0) {
@@ -503,9 +509,11 @@ class Teacher {
   }
 
   void tell() {
-    say(fmt::format("taught from {} places: {:.6g} long, turn {:.6g} deg, {}, rows' turns within {:.2g} deg",
-                    taught_.rows, taught_.lap, taught_.turn / kDegree, counted(taught_.corners, "corner", "corners"),
-                    taught_.deviation / kDegree));
+    const std::string met = taught_.deviation <= kExact
+                                ? "through all rows"
+                                : fmt::format("rows' turns within {:.2g} deg", taught_.deviation / kDegree);
+    say(fmt::format("taught from {} places: {:.6g} long, turn {:.6g} deg, {}, {}", taught_.rows, taught_.lap,
+                    taught_.turn / kDegree, counted(taught_.corners, "corner", "corners"), met));
     tell_accuracy();
     if (taught_.overlap > 0) {
       say(fmt::format("the roll is back at its start after {:.6g}; the {:.6g} that it goes on from there {}",
