@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "rollfix/answer/answer.hpp"
+
+// What an answer's text consists of, section by section.
+namespace rollfix::app {
+
+/// The verdict with what to do next, and below it what may be wrong.
+std::string verdict_lines(const Answer& answer);
+
+/// What was asked: the part, the readings, the tolerance, the noise and what the rows are like.
+std::string asked_lines(const Answer& answer);
+
+/// What was dropped because the fingers can't do it; `explain`: one by one.
+std::string dropped_lines(const Answer& answer, bool explain);
+
+/// The placements, with noise their probabilities. REQUIRES some.
+std::string placements_table(const Answer& answer);
+
+}  // namespace rollfix::app

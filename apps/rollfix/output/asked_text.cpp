@@ -1,0 +1,163 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "outline/turn.hpp"
+#include "rollfix/output/answer_output.hpp"
+#include "rollfix/output/answer_sections.hpp"
+#include "rollfix/output/answer_words.hpp"
+
+namespace rollfix::app {
+namespace {
+
+class AskedText : AnswerWords {
+ public:
+  explicit AskedText(const Answer& answer) : AnswerWords(answer) {}
+
+  std::string text() const {
+    const Part& part = answer_.part;
+    return fmt::format("part       {}, {}, perimeter {}\n", part.name(), part.closed() ? "closed" : "open",
+                       at(part.perimeter())) +
+           accuracy_line() + reading_lines() + direction_line() + tolerance_line() +
+           (answer_.weighing ? weighing_lines() : "");
+  }
+
+ private:
+  std::string accuracy_line() const {
+    const Accuracy& accuracy = answer_.part.outline().accuracy;
+    return accuracy.is_exact() ? "" : fmt::format("accuracy   of the taught part: {}\n", accuracy_text(accuracy));
+  }
+
+  std::string reading_lines() const {
+    std::string text;
+    for (std::size_t i = 0; i < answer_.readings.size(); ++i) {
+      const Reading& reading = answer_.readings[i];
+      const std::string lengths =
+          fingers_ == 1 ? "length " + at(reading.length[0])
+                        : fmt::format("lengths {} and {}", place(reading.length[0]), at(reading.length[1]));
+      const std::string when = answer_.times.empty() ? "" : fmt::format(" at {:.6g} s", answer_.times[i]);
+      text += fmt::format("reading    {}, turn {} deg{}\n", lengths, degrees(reading.turn), when);
+    }
+    if (answer_.facing) text += fmt::format("facing     {} deg\n", degrees(*answer_.facing));
+    return text;
+  }
+
+  /// Where either way round was tried: what each has.
+  std::string direction_line() const {
+    if (!answer_.either_way) return "";
+    double probability = 0;
+    std::size_t count = 0;
+    for (const Placement& placement : answer_.placements) {
+      if (!placement.clockwise) continue;
+      probability += placement.probability;
+      ++count;
+    }
+    const auto placements = [](std::size_t n) { return counted(n, "placement", "placements"); };
+    if (!answer_.weighing) {
+      return fmt::format("direction  either: {} with lengths counted ccw, {} with lengths counted cw\n",
+                         placements(answer_.placements.size() - count), placements(count));
+    }
+    return fmt::format("direction  either: lengths counted cw with probability {:.4f}\n", probability);
+  }
+
+  std::string tolerance_line() const {
+    constexpr std::array<const char*, 6> kSources = {
+        "default",  "from the digits given", "from the noise",
+        "as given", "the least there is",    "from the accuracy of the taught part"};
+    const Tolerance& tolerance = answer_.tolerance;
+    return fmt::format("tolerance  {:.3g} deg = {:.3g} rad, {}\n", tolerance.value / kDegree, tolerance.value,
+                       kSources[static_cast<std::size_t>(tolerance.source)]);
+  }
+
+  /// "noise      contact 0.1, ..." and what the samples are like.
+  std::string weighing_lines() const {
+    const Weighing& weighing = *answer_.weighing;
+    std::vector<std::string> noise;
+    for (const NoiseKind& kind : kNoiseKinds) {
+      const double sd = weighing.noise.*kind.sd;
+      if (sd == 0) continue;
+      const bool is_of_gyroscope = kind.unit == NoiseKind::Unit::rate || kind.unit == NoiseKind::Unit::walk;
+      if (is_of_gyroscope) {
+        const bool is_rate = kind.unit == NoiseKind::Unit::rate;
+        noise.push_back(fmt::format("{} {:.4g} {}", kind.name, sd / kDegree * (is_rate ? 3600 : 60),
+                                    is_rate ? "deg/h" : "deg/sqrt(h)"));
+        continue;
+      }
+      const std::string& unit = kind.unit == NoiseKind::Unit::length ? unit_ : "";
+      noise.push_back(kind.unit == NoiseKind::Unit::angle ? fmt::format("{} {} deg", kind.name, degrees(sd))
+                                                          : fmt::format("{} {:.4g}{}", kind.name, sd, unit));
+    }
+    std::string text = fmt::format("noise      {}{}\n", fmt::join(noise, ", "), weighing.robust ? "; robust" : "");
+    if (weighing.prior) {
+      text += fmt::format("prior      s = {:.6g}, sd {:.4g}{}\n", weighing.prior->s, weighing.prior->sd, unit_);
+    }
+    if (weighing.pose) text += "prior      " + prior_text(*weighing.pose) + '\n';
+    text += scale_lines();
+    text += fmt::format("samples    {}", weighing.samples);
+    if (weighing.fit.excess > 1)
+      text += fmt::format("; off by {:.2f} times the noise, widened by that", weighing.fit.excess);
+    text += '\n';
+    if (answer_.dropped.improbable > 0) {
+      text += fmt::format("dropped    {} that the readings alone allow, but not all samples together\n",
+                          answer_.dropped.improbable);
+    }
+    return text;
+  }
+
+  std::string prior_text(const PosePrior& prior) const {
+    const std::string heading =
+        fmt::format("heading {} deg, sd {} deg", degrees(prior.mean.heading), rough(prior.heading_sd / kDegree));
+    if (!std::isfinite(prior.place_sd)) return "the part's " + heading;
+    return fmt::format("the part at x = {:.6g}, y = {:.6g}, sd {:.4g}{}, {}", prior.mean.x, prior.mean.y,
+                       prior.place_sd, unit_, heading);
+  }
+
+  /// What the rows say of the lengths, and what was taken as exact.
+  std::string scale_lines() const {
+    const Weighing& weighing = *answer_.weighing;
+    std::string text;
+    for (std::size_t finger = 0; finger < fingers_; ++finger) {
+      const double sd = weighing.fit.length_scale_sd[finger];
+      if (!(sd > 0)) continue;
+      const double scale = weighing.fit.length_scale[finger];
+      const std::string whose = fingers_ == 1 ? "" : finger == 0 ? "of finger a " : "of finger b ";
+      text += fmt::format("lengths    {}{:.4f} +- {:.2g} times what was measured", whose, scale, sd);
+      const double off = 100 * (scale - 1);
+      if (std::abs(scale - 1) > 2 * sd) {
+        text += fmt::format(": they are {:.2g} % {}", std::abs(off), off > 0 ? "longer" : "shorter");
+      }
+      text += '\n';
+    }
+    std::vector<std::string> exact;
+    if (weighing.noise.slip <= 0) exact.emplace_back("slip");
+    if (weighing.noise.radius <= 0 && !answer_.fingers.empty() && answer_.fingers.front().is_disk()) {
+      exact.emplace_back("the finger's radius");
+    }
+    if (!exact.empty()) text += fmt::format("exact      {}: taken to be as said\n", fmt::join(exact, ", "));
+    if (weighing.noise.position <= 0 && !answer_.placements.empty() && answer_.placements.front().pose_spread) {
+      text += "centres    x and y only tell where the part is; --noise position=SD makes them evidence\n";
+    }
+    return text;
+  }
+};
+
+}  // namespace
+
+std::string asked_lines(const Answer& answer) { return AskedText(answer).text(); }
+
+std::string accuracy_text(const Accuracy& accuracy) {
+  constexpr double kExact = 1e-8;  // radians, or a share: rounding
+  std::vector<std::string> sds;
+  if (accuracy.turn > kExact) {
+    sds.push_back(fmt::format("tangents sd {:.3g} deg (alike over {:.3g})", accuracy.turn / kDegree, accuracy.alike));
+  }
+  if (accuracy.walk > 0) {
+    sds.push_back(fmt::format("turns sd {:.3g} deg per square root of length", accuracy.walk / kDegree));
+  }
+  if (accuracy.length > kExact) sds.push_back(fmt::format("lengths sd {:.3g} %", 100 * accuracy.length));
+  if (sds.empty()) return "that of exact rows: off by rounding alone";
+  return fmt::format("{}", fmt::join(sds, ", "));
+}
+
+}  // namespace rollfix::app
