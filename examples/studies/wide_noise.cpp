@@ -1,0 +1,125 @@
+// How often the 95 % interval holds the true start where angles are very noisy, and after short rolls of many rows.
+// Prints docs/belief.md's table: study_wide_noise 40, with as many logs of each of nine families of parts; left out 1,
+// and without the longest ones. Fails where far too few or too many are within.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <random>
+#include <string>
+
+#include "rollfix/belief/belief.hpp"
+#include "rollfix/contact/log.hpp"
+#include "rollfix/contact/rolling.hpp"
+#include "rollfix/outline/gallery.hpp"
+#include "rollfix/part/boundary.hpp"
+#include "rollfix/part/part.hpp"
+
+namespace {
+
+using rollfix::Part;
+
+constexpr double kContactShare = 1e-3;  // of the perimeter: standard deviation
+constexpr double kSlip = 5e-3;
+constexpr double kSlipsHere = 5;  // times as much, on its own over each hundredth of the perimeter
+constexpr double kSigmas = 5;     // of a binomial count
+
+struct Family {
+  const char* shape;
+  double radius_share;  // of the perimeter: the finger's
+};
+constexpr std::array<Family, 9> kFamilies = {{{"ellipse,a=2,b=1", 0.03},
+                                              {"cam", 0.03},
+                                              {"spline,n=9,seed=7,wobble=0.2", 0.03},
+                                              {"limacon", 0.03},
+                                              {"gear", 0.002},
+                                              {"stadium", 0.03},
+                                              {"reuleaux", 0.03},
+                                              {"superellipse", 0.03},
+                                              {"naca", 0.03}}};
+
+struct Line {
+  double angle;  // noise, radians
+  std::size_t rows;
+  double length_share;  // of the roll, of the perimeter
+};
+constexpr std::array<Line, 12> kLines = {{{0.005, 100, 0.4},
+                                          {0.005, 1000, 0.4},
+                                          {0.1, 10, 0.02},
+                                          {0.1, 100, 0.02},
+                                          {0.1, 100, 0.4},
+                                          {0.1, 1000, 1.5},
+                                          {0.1, 10000, 0.4},
+                                          {0.5, 10, 0.02},
+                                          {0.5, 100, 0.02},
+                                          {0.5, 100, 0.4},
+                                          {0.5, 1000, 1.5},
+                                          {0.5, 10000, 0.4}}};
+constexpr std::size_t kManyRows = 10000;
+
+/// What slips leaves the normal where it is.
+void slip_here_and_there(rollfix::NoisyRoll& roll, const Part& part, double radius, std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  double slipped = 0;
+  for (std::size_t row = 1; row < roll.log.rows(); ++row) {
+    const double length = std::abs(roll.truth.s[0][row] - roll.truth.s[0][row - 1]);
+    slipped += kSlipsHere * kSlip * std::sqrt(0.01 * part.perimeter() * length) * normal(random);
+    roll.log.fingers[0].u[row] += slipped / radius;
+    roll.log.fingers[0].psi[row] -= slipped / radius;
+  }
+}
+
+/// Whether the interval of the place that holds the truth does so.
+bool is_within(const Part& part, double radius, const Line& line, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> share;
+  const double P = part.perimeter();
+  rollfix::RollPlan plan;
+  plan.start = share(random) * P;
+  plan.distance = (share(random) < 0.5 ? -1 : 1) * line.length_share * P;
+  plan.rows = line.rows;
+  rollfix::BeliefOptions options;
+  options.noise = {kContactShare * P, line.angle, kSlip, 0};
+  const rollfix::DiskFinger finger{radius};
+  rollfix::NoisyRoll roll = rollfix::noisy_roll(part, finger, plan, options.noise, random());
+  slip_here_and_there(roll, part, radius, random);
+  rollfix::Belief belief(part, rollfix::LogKind::contact, options);
+  for (const rollfix::Reading& reading : rollfix::readings_as_given(roll.log, {finger})) {
+    rollfix::Sample sample;
+    sample.reading = reading;
+    sample.finger_curvature = 1 / radius;
+    belief.add(sample);
+  }
+  for (const rollfix::Mode& mode : belief.modes()) {
+    if (part.boundary().contains(mode.region[0], plan.start)) {
+      return part.boundary().contains(mode.interval[0], plan.start);
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+int main(int count, char** values) {
+  const int logs = count > 1 ? std::atoi(values[1]) : 1;
+  std::mt19937_64 random(20010529);
+  bool is_right = true;
+  fmt::print("| angle [rad] | rows | roll | in 95 % |\n| --- | --- | --- | --- |\n");
+  for (const Line& line : kLines) {
+    if (count <= 1 && line.rows >= kManyRows) continue;
+    int cases = 0;
+    int within = 0;
+    for (const Family& family : kFamilies) {
+      const Part part(rollfix::gallery(family.shape));
+      for (int k = 0; k < logs; ++k, ++cases) {
+        within += is_within(part, family.radius_share * part.perimeter(), line, random) ? 1 : 0;
+      }
+    }
+    const double off = std::abs(within - 0.95 * cases) - 0.03 * cases;
+    is_right = is_right && off <= kSigmas * std::sqrt(0.95 * 0.05 * cases);
+    fmt::print("| {} | {} | {} P | {:.1f} % |\n", line.angle, line.rows, line.length_share, 100.0 * within / cases);
+    std::fflush(stdout);
+  }
+  return is_right ? 0 : 1;
+}
