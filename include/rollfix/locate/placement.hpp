@@ -46,7 +46,7 @@ struct Verdict {
   bool fits_badly = false;    // with noise: the rows are off more than it allows, or not independently
 
   /// "unique", "ambiguous (4)", "ambiguous (1 stretch)", "ambiguous (3, of them 1 stretch)", ...; where they fit badly
-  /// "unique, but the rows fit badly" and so on.
+  /// "unique, but the rows fit badly" and so on; "inconsistent" says that itself.
   std::string text() const;
 
   bool operator==(const Verdict& other) const = default;
