@@ -254,6 +254,7 @@ void Watcher::look_again() {
   if (!belief_->fit().is_bad()) return;
   Problem problem{part_, log_of(kept_, stream_.kind(), part_), options_.fingers, options_.belief.noise};
   problem.prior = options_.belief.prior;
+  problem.pose = options_.belief.pose;
   problem.robust = options_.belief.robust;
   try {
     answer_.diagnoses = solve(problem).diagnoses;

@@ -109,16 +109,6 @@ struct Evidence {
   double with(double widened) const { return peak / (widened * widened) + volume; }
 };
 
-/// How likely all samples are together, whatever the first contact: to weigh one belief against another whose samples
-/// are as many, and said to be as noisy. Logarithms, up to what is the same in both.
-struct Evidence {
-  double peak = -std::numeric_limits<double>::infinity();  // of the likelihood at the likeliest place, ...
-  double volume = 0;                                       // ... and of how much of the boundary is about as likely
-
-  /// As with so many times the noise: see Fit::widened.
-  double with(double widened) const { return peak / (widened * widened) + volume; }
-};
-
 /// What is wrong with a log, or with what was said of it, where its rows fit badly.
 enum class Cause {
   none,              // nothing: they fit
