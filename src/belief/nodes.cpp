@@ -118,7 +118,7 @@ void Nodes::add(const Reading& reading, double finger_curvature, double seconds,
   blocks_ = 0;
   pending_rows_ = 0;
   block_.clear();
-  if (nodes_.size() >= kMostNodes) join_neighbours();
+  if (nodes_.size() >= most_) join_neighbours();
 }
 
 std::optional<Node> Nodes::pending() const {

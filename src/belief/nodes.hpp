@@ -12,8 +12,10 @@
 
 namespace rollfix::belief {
 
-// A roll's rows are joined to at most this many nodes, however many rows there are.
+// A roll's rows are joined to at most this many nodes, however many rows there are, ...
 inline constexpr std::size_t kMostNodes = 512;
+// ... on a boundary that turns to and fro to as many more, up to so many times: a mean over rows on a bend is off it.
+inline constexpr double kMostFiner = 4;
 
 /// Neighbouring rows of a roll as one: their mean, which is as good as all of them where they are close together.
 struct Node {
@@ -31,12 +33,13 @@ struct Node {
   }
 };
 
-/// A roll's rows as at most kMostNodes nodes, however many rows there are: when they are too many, neighbours are
-/// joined, and from then on twice as many rows make one.
+/// A roll's rows as no more than a fixed number of nodes, however many rows there are: when they are too many,
+/// neighbours are joined, and from then on twice as many rows make one.
 class Nodes {
  public:
   /// `robust`: of rows that make a node together medians are taken first, so that a stray one does not move it.
-  Nodes(const ErrorModel& errors, double tilt, bool robust) : errors_(errors), tilt_(tilt), robust_(robust) {}
+  Nodes(const ErrorModel& errors, double tilt, bool robust, std::size_t most = kMostNodes)
+      : errors_(errors), tilt_(tilt), robust_(robust), most_(most) {}
 
   /// `finger_curvature`: where the finger touches. `seconds`: since the roll's start. `felt`: where its centre is, if
   /// that is looked at.
@@ -63,6 +66,7 @@ class Nodes {
   ErrorModel errors_;
   double tilt_;
   bool robust_;
+  std::size_t most_;
   std::size_t stride_ = 1;  // rows of a node
   std::size_t generation_ = 0;
   std::size_t rows_ = 0;

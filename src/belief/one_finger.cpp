@@ -30,7 +30,7 @@ struct OneFingersGrid {
         has_first(first.has_value()),
         centres(model(part, first)),
         boundary(part, tilt(part, errors.row(curvature)), accuracy(part, errors.row(curvature))),
-        nodes(errors, boundary.tilt(), options.robust),
+        nodes(errors, boundary.tilt(), options.robust, most_nodes(part)),
         grid(boundary, errors, options, part.boundary(), corner_length(curvature, part),
              has_first ? &centres : nullptr) {}
   OneFingersGrid(const OneFingersGrid&) = delete;
@@ -39,6 +39,13 @@ struct OneFingersGrid {
   /// A disk's curvature; else what makes lengths and angles, as uncertain as they are, count alike.
   double tilt(const Part& part, const RowCovariance& own) const {
     return tilt_of(finger_curvature, std::sqrt(own.turn / own.length), part);
+  }
+  /// As many as the boundary turns, to and fro, more than once around.
+  static std::size_t most_nodes(const Part& part) {
+    double turned = 0;
+    for (const Spiral& spiral : part.turning().spirals()) turned += std::abs(spiral.end.angle - spiral.start.angle);
+    const double finer = std::clamp(turned / (2 * std::numbers::pi), 1.0, kMostFiner);
+    return static_cast<std::size_t>(finer * static_cast<double>(kMostNodes));
   }
   static double accuracy(const Part& part, const RowCovariance& own) {
     return accuracy_of(std::sqrt(own.length), part);
