@@ -52,8 +52,13 @@ constexpr double kEvidenceStep = 6;
 constexpr double kFarLessLikely = 12;
 // Rows that are this much less noisy than said are exact.
 constexpr double kLeastNoise = 1e-3;
-// Slip of so much per length all along, and five times as much here and there, is what nobody says beforehand.
-constexpr std::array<double, 2> kUnsaidSlips = {0.04, 0.2};
+// Slip of so much per length all along, and five times as much here and there, is what nobody says beforehand; the
+// larger the rarer: the logarithm of the odds against it. It explains nearly anything.
+struct RareSlip {
+  double slip;
+  double log_odds;
+};
+constexpr std::array<RareSlip, 2> kUnsaidSlips = {{{0.04, 6}, {0.2, 18}}};
 
 /// A problem as it would be without a mistake, and what the rows make of it.
 struct Trial {
@@ -302,14 +307,14 @@ class Diagnostician {
   }
 
   void try_slip() {
-    for (const double slip : kUnsaidSlips) {
+    for (const auto& [slip, log_odds] : kUnsaidSlips) {
       if (slip <= problem_.noise->slip) continue;
       Problem slipping = problem_;
       slipping.noise->slip = slip;
       std::optional<Belief> belief = believe(slipping, observed_);
       Diagnosis diagnosis = of(Cause::slip, belief->fit());
       diagnosis.slip = slip;
-      if (add(std::move(diagnosis), *belief)) return;
+      if (add(std::move(diagnosis), *belief, 0, log_odds)) return;
     }
   }
 
@@ -333,7 +338,7 @@ class Diagnostician {
   }
 
   /// Counts where it explains the rows, which is returned, or explains them much better.
-  bool add(Diagnosis diagnosis, Belief& belief, double log_stretch = 0) {
+  bool add(Diagnosis diagnosis, Belief& belief, double log_stretch = 0, double log_odds_against = 0) {
     const Fit& fit = belief.fit();
     const bool is_right = !fit.is_bad();
     const bool is_better = !fit.is_correlated() && fit.excess < kMuchBetter * as_said_.excess;
@@ -343,7 +348,8 @@ class Diagnostician {
     // What would have any place fit explains nothing, unless they all look alike.
     const bool is_empty = diagnosis.verdict.name == Verdict::unobservable && verdict_.name != Verdict::unobservable;
     if (diagnosis.modes.empty() || is_empty) return false;
-    const double log_evidence = with_noise_as_it_seems(belief.evidence(), fit) + fit.freedom * log_stretch;
+    const double log_evidence =
+        with_noise_as_it_seems(belief.evidence(), fit) + fit.freedom * log_stretch - log_odds_against;
     diagnosis.log_odds = log_evidence - log_evidence_;
     trials_.push_back({std::move(diagnosis), is_right, log_evidence});
     return is_right;
