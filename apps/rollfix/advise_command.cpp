@@ -4,15 +4,14 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <numbers>
 
-#include "rollfix/answer/part_facts.hpp"
+#include "files/documents/documents.hpp"
+#include "rollfix/answer/next_roll.hpp"
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/arguments/finger_argument.hpp"
 #include "rollfix/arguments/output_argument.hpp"
 #include "rollfix/arguments/roll_arguments.hpp"
 #include "rollfix/arguments/typed_number.hpp"
-#include "rollfix/belief/advise.hpp"
 #include "rollfix/commands.hpp"
 #include "rollfix/draw/advice_figure.hpp"
 #include "rollfix/error.hpp"
@@ -30,8 +29,6 @@ constexpr const char* kAdviseExamples = R"(Examples (wing.csv and wing-roll.csv:
   rollfix advise wing.csv --log wing-roll.csv --finger disk,r=10 --noise contact=0.05,angle=0.2deg --json
 )";
 
-// Without noise a turn can be read this well: well below what tells two places apart, well above rounding.
-constexpr double kTurnSd = 1e-4;
 // Placements in the table.
 constexpr std::size_t kMostContenders = 20;
 
@@ -60,67 +57,7 @@ Interval read_travel(const std::string& text, const std::string& unit) {
   return travel;
 }
 
-/// What was found so far, and what to do next.
-struct AdviseOutcome {
-  Answer answer;
-  std::vector<Contender> contenders;
-  std::optional<Advice> advice;  // nothing where there is nothing to tell apart
-  std::string why;               // ... or where no roll will, and why
-};
-
-/// Why a part can't be told apart from itself.
-std::string why_no_roll(const Part& part) {
-  const int fold = symmetry(part);
-  if (fold == 0) return "the part looks the same from every place on its boundary";
-  if (fold > 1) return fmt::format("the part looks the same from {} places", fold);
-  return "within the travel the places that remain look alike";
-}
-
-AdviceOptions options_of(const Answer& answer, const std::optional<Interval>& travel) {
-  AdviceOptions options;
-  options.turn_sd = kTurnSd;
-  if (answer.weighing) {
-    const Noise& noise = answer.weighing->noise;
-    const double curvature = answer.fingers.empty() ? 0 : answer.fingers.front().curvature(0);
-    // From one row to another: the errors of both.
-    options.turn_sd = std::max(std::hypot(noise.angle, noise.contact * curvature) * std::numbers::sqrt2, kTurnAccuracy);
-    options.length_sd = noise.contact * std::numbers::sqrt2;
-    options.length_share_sd = std::hypot(noise.slip, noise.radius * curvature);
-  }
-  options.travel = travel;
-  return options;
-}
-
-AdviseOutcome advise_on(const Problem& problem, const std::optional<Interval>& travel) {
-  AdviseOutcome outcome{solve(problem), {}, {}, ""};
-  const Answer& answer = outcome.answer;
-  outcome.contenders = contenders_of(answer.part, answer.placements);
-  if (outcome.contenders.empty()) {
-    outcome.why = "nothing fits: there is nothing to tell apart";
-    return outcome;
-  }
-  if (outcome.contenders.size() == 1 || (answer.weighing && answer.verdict.name == Verdict::unique)) {
-    outcome.why = "there is only one place left";
-    return outcome;
-  }
-  AdviceOptions options = options_of(answer, travel);
-  std::optional<Reach> reach;
-  if (!answer.fingers.empty() && has_reach(answer.fingers.front())) {
-    reach = reach_of(answer.part, answer.fingers.front());
-  }
-  if (reach) options.reach = &*reach;
-  outcome.advice = advise(answer.part, outcome.contenders, options);
-  if (!outcome.advice->helps) outcome.why = why_no_roll(answer.part);
-  return outcome;
-}
-
-/// How far the tangent would turn along the advised roll, were this the place.
-double turn_ahead(const AdviseOutcome& outcome, const Contender& contender) {
-  const TurningFunction& turning = outcome.answer.part.turning();
-  return turning.angle(contender.place + outcome.advice->advised().length) - turning.angle(contender.place);
-}
-
-std::string headline(const AdviseOutcome& outcome) {
+std::string headline(const NextRoll& outcome) {
   const std::string verdict = outcome.answer.verdict.text();
   if (!outcome.advice) return fmt::format("{}: {}", verdict, outcome.why);
   if (!outcome.advice->helps) return fmt::format("{}: no roll will tell them apart: {}", verdict, outcome.why);
@@ -148,9 +85,9 @@ struct Expected {
 
 std::string span_of(const std::string& lo, const std::string& hi) { return lo == hi ? lo : lo + " to " + hi; }
 
-std::string advise_text(const AdviseOutcome& outcome) {
+std::string advise_text(const NextRoll& outcome) {
   std::string text = headline(outcome) + "\n";
-  if (!outcome.advice || !outcome.advice->helps) return text;
+  if (!outcome.helps()) return text;
   const int decimals = decimals_for(outcome.answer.part.perimeter());
   Table table;
   table.add_column("", Table::Align::left);
@@ -162,7 +99,7 @@ std::string advise_text(const AdviseOutcome& outcome) {
     // A wide placement is several contenders: one row.
     Expected row;
     const std::size_t label = all[k].label;
-    for (; k < all.size() && all[k].label == label; ++k) row.add(all[k], turn_ahead(outcome, all[k]));
+    for (; k < all.size() && all[k].label == label; ++k) row.add(all[k], outcome.turn_ahead(all[k]));
     if (++placements <= kMostContenders) {
       table.add_row({fmt::format("a{}", label), span_of(fixed(row.first, decimals), fixed(row.last, decimals)),
                      fmt::format("{:.4f}", row.probability), span_of(degrees(row.turn.lo), degrees(row.turn.hi))});
@@ -173,40 +110,6 @@ std::string advise_text(const AdviseOutcome& outcome) {
     text += fmt::format("... and {} more; --json lists them all\n", placements - kMostContenders);
   }
   return text;
-}
-
-Json advise_json(const AdviseOutcome& outcome) {
-  Json contenders = Json::array();
-  for (const Contender& contender : outcome.contenders) {
-    contenders.push_back({{"placement", contender.label},
-                          {"contact", json_number(contender.place)},
-                          {"sd", json_number(contender.sd)},
-                          {"probability", json_number(contender.probability)},
-                          {"turn", outcome.advice && outcome.advice->helps ? json_number(turn_ahead(outcome, contender))
-                                                                           : Json(nullptr)}});
-  }
-  Json document = {{"schema", "rollfix/advise/1"},
-                   {"verdict", outcome.answer.verdict.text()},
-                   {"part", part_json(outcome.answer.part)},
-                   {"helps", outcome.advice && outcome.advice->helps},
-                   {"why", outcome.why.empty() ? Json(nullptr) : Json(outcome.why)},
-                   {"length", nullptr},
-                   {"expected_placements", nullptr},
-                   {"bits", nullptr},
-                   {"bits_wanted", nullptr},
-                   {"contenders", contenders},
-                   {"prospects", Json::array()}};
-  if (!outcome.advice) return document;
-  const Advice& advice = *outcome.advice;
-  if (advice.helps) document["length"] = json_number(advice.advised().length);
-  document["expected_placements"] = json_number(advice.advised().placements);
-  document["bits"] = json_number(advice.advised().bits);
-  document["bits_wanted"] = json_number(advice.bits_wanted);
-  for (const Prospect& prospect : advice.prospects) {
-    document["prospects"].push_back(
-        Json::array({json_number(prospect.length), json_number(prospect.placements), json_number(prospect.bits)}));
-  }
-  return document;
 }
 
 Report advise_report(const AdviseArguments& arguments) {
@@ -224,10 +127,10 @@ Report advise_report(const AdviseArguments& arguments) {
   if (problem.felt.is_log() ? problem.felt.log->fingers.size() == 2 : problem.felt.readings.front().fingers() == 2) {
     throw InputError("advise: expected what one finger read, found two fingers");
   }
-  const AdviseOutcome outcome = advise_on(problem, travel);
+  const NextRoll outcome = next_roll(solve(problem), travel);
   add_notes(outcome.answer, report);
   report.exit_code = exit_code_of(outcome.answer);
-  report.data = arguments.json ? json_text(advise_json(outcome)) : advise_text(outcome);
+  report.data = arguments.json ? json_text(next_roll_json(outcome)) : advise_text(outcome);
   if (!arguments.output.file.empty()) {
     if (!outcome.advice) {  // an answer all the same
       report.notes.push_back(fmt::format("-o {}: nothing is drawn: {}", arguments.output.file, outcome.why));

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "files/documents/documents.hpp"
 #include "rollfix/arguments/finger_argument.hpp"
 #include "rollfix/arguments/output_argument.hpp"
 #include "rollfix/arguments/part_argument.hpp"
@@ -15,6 +16,7 @@
 #include "rollfix/contact/teach.hpp"
 #include "rollfix/draw/part_figure.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/files/documents.hpp"
 #include "rollfix/inspect/inspect_outcome.hpp"
 #include "rollfix/usage.hpp"
 
@@ -42,36 +44,6 @@ struct TeachArguments {
   bool json = false;
 };
 
-const char* word_for(Closing closing) {
-  switch (closing) {
-    case Closing::spread:
-      return "spread";
-    case Closing::bridged:
-      return "bridged";
-    case Closing::kept_open:
-      return "kept_open";
-    case Closing::not_asked:
-      break;
-  }
-  return "open";
-}
-
-Json taught_json(const Taught& taught) {
-  return {{"closing", word_for(taught.closing)},
-          {"rolled", taught.rolled},
-          {"lap", taught.lap},
-          {"overlap", taught.overlap},
-          {"turns", taught.turns},
-          {"turn_gap", taught.turn_gap},
-          {"turn_allowed", taught.turn_allowed},
-          {"gap", taught.gap},
-          {"gap_allowed", taught.gap_allowed},
-          {"bridge", taught.bridge},
-          {"correction", taught.correction},
-          {"deviation", taught.deviation},
-          {"row_sd", taught.row_sd}};
-}
-
 TeachOptions options_of(const TeachArguments& arguments) {
   TeachOptions options;
   const std::vector<Finger> fingers = read_fingers(arguments.fingers, 1, arguments.unit);
@@ -88,7 +60,7 @@ TeachOptions options_of(const TeachArguments& arguments) {
 
 /// What the figure shows of the roll.
 TaughtRows rows_of(const Log& log, const TeachOptions& options, const Taught& taught) {
-  const std::string closing = taught.closing == Closing::kept_open ? "kept open" : word_for(taught.closing);
+  const std::string closing = taught.closing == Closing::kept_open ? "kept open" : name_of(taught.closing);
   const bool closes = taught.closing != Closing::not_asked;
   return {dead_reckoned(log, options.finger), taught.lap, taught.gap, closes, closes ? closing : "kept open as asked"};
 }
@@ -103,12 +75,9 @@ Report teach_report(const TeachArguments& arguments) {
 
   Report report;
   report.notes = taught.notes;
-  const InspectOutcome outcome = look_at(loaded);
+  const Inspection outcome = inspect(loaded);
   if (arguments.json) {
-    Json json = inspect_json(outcome);
-    json["schema"] = "rollfix/teach/1";
-    json["taught"] = taught_json(taught);
-    report.data = json_text(json);
+    report.data = format_taught(outcome, taught);
   } else {
     report.data = inspect_text(outcome);
   }

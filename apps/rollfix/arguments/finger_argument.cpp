@@ -106,11 +106,6 @@ void require_disks(const std::vector<Finger>& fingers, const std::string& what) 
   }
 }
 
-std::string name_of(const Finger& finger) {
-  const std::optional<DiskFinger> disk = finger.disk();
-  return disk ? fmt::format("disk,r={}", disk->radius) : finger.name();
-}
-
 std::string no_reach_note(const Finger& finger) {
   return fmt::format(
       "whether the finger {} would hit the part elsewhere is not looked at: that is known of disks and "

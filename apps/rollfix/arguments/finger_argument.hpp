@@ -20,9 +20,6 @@ std::vector<Finger> read_fingers(const std::vector<std::string>& fingers, std::s
 /// Throws InputError where one is no disk; `what` says for what it must be.
 void require_disks(const std::vector<Finger>& fingers, const std::string& what);
 
-/// "disk,r=0.1", "jaw", or the outline's name.
-std::string name_of(const Finger& finger);
-
 /// That it is not known where such a finger can touch a part.
 std::string no_reach_note(const Finger& finger);
 

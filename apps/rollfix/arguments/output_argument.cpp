@@ -4,11 +4,11 @@
 
 #include <filesystem>
 
+#include "files/documents/outline_numbers.hpp"
 #include "rollfix/draw/svg.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/files/saved_part.hpp"
 #include "rollfix/output/files.hpp"
-#include "rollfix/output/outline_numbers.hpp"
 #include "rollfix/usage.hpp"
 
 namespace rollfix::app {

@@ -9,6 +9,7 @@
 #include "rollfix/commands.hpp"
 #include "rollfix/draw/part_figure.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/files/documents.hpp"
 #include "rollfix/inspect/inspect_outcome.hpp"
 #include "rollfix/usage.hpp"
 
@@ -32,7 +33,7 @@ struct InspectArguments {
   bool json = false;
 };
 
-Report inspect(const InspectArguments& arguments) {
+Report inspect_report(const InspectArguments& arguments) {
   require_part_output(arguments.output, arguments.json);
   const LoadedPart loaded = load(arguments.part);
   const std::vector<Finger> fingers = read_fingers(arguments.fingers, 1, loaded.part.unit());
@@ -42,12 +43,10 @@ Report inspect(const InspectArguments& arguments) {
         fmt::format("--finger {}: where a finger can touch is known of disks and jaws only", finger->name()));
   }
   const Part& part = loaded.part;
-  InspectOutcome outcome = look_at(loaded);
-  outcome.finger = finger;
-  if (finger) outcome.reach = reach_of(part, *finger);
+  const Inspection outcome = inspect(loaded, finger);
   Report report;
   report.notes = loaded.notes;
-  report.data = arguments.json ? json_text(inspect_json(outcome)) : inspect_text(outcome);
+  report.data = arguments.json ? format_inspection(outcome) : inspect_text(outcome);
   if (part.reversed()) report.notes.push_back(reversed_note(part));
   add_part_output(
       arguments.output, part,
@@ -72,7 +71,7 @@ void add_inspect_command(CLI::App& program, Command& chosen) {
                       "was computed; .csv: "
                       "the outline as numbers, s,x,y,tangent,curvature");
   add_switch(*command, "--json", arguments->json, "print JSON (rollfix/inspect/1)");
-  command->callback([arguments, &chosen] { chosen = [arguments] { return inspect(*arguments); }; });
+  command->callback([arguments, &chosen] { chosen = [arguments] { return inspect_report(*arguments); }; });
 }
 
 }  // namespace rollfix::app

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "files/documents/documents.hpp"
 #include "rollfix/output/answer_output.hpp"
-#include "rollfix/output/outline_numbers.hpp"
 #include "rollfix/output/table.hpp"
 
 namespace rollfix::app {
@@ -15,54 +15,13 @@ namespace {
 constexpr std::size_t kMostPlaces = 8;  // of one sort on the screen
 constexpr std::size_t kMostLoops = 20;  // on the screen
 
-Json point_json(const Vec2& point) { return Json::array({json_number(point.x()), json_number(point.y())}); }
-
-Json corners_json(const Part& part) {
-  Json list = Json::array();
-  for (const Corner& corner : part.corners()) {
-    list.push_back({{"s", json_number(corner.s)}, {"turn", json_number(corner.turn)}});
-  }
-  return list;
-}
-
-Json ambiguity_json(const InspectOutcome& outcome) {
-  Json list = Json::array();
-  for (const Ambiguity& entry : outcome.ambiguity) {
-    list.push_back({{"length", json_number(outcome.part.perimeter() / entry.share)},
-                    {"rolls", entry.rolls},
-                    {"rolls_with_stretch", entry.with_stretch},
-                    {"mean_placements", json_number(entry.mean_placements)},
-                    {"most_placements", entry.most_placements}});
-  }
-  return list;
-}
-
-/// Of a drawing what it holds besides.
-Json loops_json(const InspectOutcome& outcome) {
-  Json list = Json::array();
-  for (std::size_t k = 0; k < outcome.loops.size(); ++k) {
-    const Loop& loop = outcome.loops[k];
-    list.push_back({{"number", k + 1},
-                    {"taken", k + 1 == outcome.loop},
-                    {"closed", loop.outline.closed},
-                    {"hole", loop.outline.hole},
-                    {"depth", loop.depth},
-                    {"curves", loop.outline.curves.size()},
-                    {"length", json_number(loop.length)},
-                    {"area", loop.outline.closed ? json_number(loop.area) : Json(nullptr)},
-                    {"gap", json_number(loop.gap)},
-                    {"start", point_json(loop.outline.curves.front().front())}});
-  }
-  return list;
-}
-
 std::string kind_of(const Loop& loop) {
   if (!loop.outline.closed) return "open chain";
   if (loop.outline.hole) return "hole";
   return loop.depth == 0 ? "outer loop" : "island";
 }
 
-std::string loops_text(const InspectOutcome& outcome) {
+std::string loops_text(const Inspection& outcome) {
   if (outcome.loops.empty()) return "";
   std::string text;
   std::string title = "loops";
@@ -122,30 +81,7 @@ std::string disk_text(double radius) {
       "of radius {:.6g} at most rolls all around, by the curvature (a narrow neck may stop a smaller one)", radius);
 }
 
-/// Where a pivot is not possible all the way, the angles that are.
-Json pivots_json(const Reach& reach) {
-  Json list = Json::array();
-  for (const PivotReach& pivot : reach.pivots) {
-    Json angles = Json::array();
-    for (const Interval& interval : pivot.angles) angles.push_back(json_interval(interval));
-    list.push_back({{"s", json_number(pivot.s)}, {"whole", json_interval(pivot.whole)}, {"angles", angles}});
-  }
-  return list;
-}
-
-Json reach_json(const InspectOutcome& outcome) {
-  if (!outcome.reach) return nullptr;
-  Json arcs = Json::array();
-  for (const Interval& arc : outcome.reach->arcs) arcs.push_back(json_interval(arc));
-  return {{"finger", name_of(*outcome.finger)},
-          {"share", json_number(outcome.reach->share())},
-          {"arcs", arcs},
-          {"pivots", pivots_json(*outcome.reach)},
-          {"slack", json_number(outcome.reach->slack)},
-          {"decided", outcome.reach->decided}};
-}
-
-std::string reach_text(const InspectOutcome& outcome) {
+std::string reach_text(const Inspection& outcome) {
   const Reach& reach = *outcome.reach;
   const int decimals = decimals_for(outcome.part.perimeter());
   const std::string finger = name_of(*outcome.finger);
@@ -186,43 +122,7 @@ std::string ambiguity_text(const std::vector<Ambiguity>& entries) {
 
 }  // namespace
 
-InspectOutcome look_at(const LoadedPart& loaded) {
-  const Part& part = loaded.part;
-  return {part,
-          loaded.unit,
-          loaded.loops,
-          loaded.loop,
-          bounding_box(part),
-          curvature_range(part),
-          largest_disk(part),
-          symmetry(part),
-          ambiguity(part)};
-}
-
-Json inspect_json(const InspectOutcome& outcome) {
-  const Part& part = outcome.part;
-  return {{"schema", "rollfix/inspect/1"},
-          {"part", part_json(part)},
-          {"unit", outcome.unit.empty() ? Json(nullptr) : Json(outcome.unit)},
-          {"accuracy", accuracy_json(part.outline().accuracy)},
-          {"loops", loops_json(outcome)},
-          {"area", part.closed() ? json_number(enclosed_area(part.outline())) : Json(nullptr)},
-          {"total_turn", json_number(part.total_turn())},
-          {"box", Json::array({point_json(outcome.box.lo), point_json(outcome.box.hi)})},
-          {"start", {{"point", point_json(part.point(0))}, {"tangent", json_number(part.tangent(0))}}},
-          {"spirals", part.turning().spirals().size()},
-          {"curvature", Json::array({json_number(outcome.curvature.lo), json_number(outcome.curvature.hi)})},
-          {"largest_disk", json_number(outcome.largest_disk)},
-          {"symmetry", outcome.symmetry == 0 ? Json(nullptr) : Json(outcome.symmetry)},
-          {"inflections", json_numbers(part.inflections())},
-          {"vertices", json_numbers(part.vertices())},
-          {"corners", corners_json(part)},
-          {"ambiguity", ambiguity_json(outcome)},
-          {"reach", reach_json(outcome)},
-          {"outline", outline_json(part)}};
-}
-
-std::string inspect_text(const InspectOutcome& outcome) {
+std::string inspect_text(const Inspection& outcome) {
   const Part& part = outcome.part;
   const int decimals = decimals_for(part.perimeter());
   const Vec2 size = outcome.box.hi - outcome.box.lo;

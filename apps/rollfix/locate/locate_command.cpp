@@ -14,6 +14,7 @@
 #include "rollfix/commands.hpp"
 #include "rollfix/draw/answer_figure.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/files/documents.hpp"
 #include "rollfix/locate/locate_by_march.hpp"
 #include "rollfix/locate/map_points.hpp"
 #include "rollfix/output/answer_output.hpp"
@@ -111,7 +112,7 @@ Report locate_report(const LocateArguments& arguments) {
   add_notes(answer, report);
   report.exit_code = exit_code_of(answer);
   report.data =
-      arguments.json ? json_text(answer_json(answer, arguments.explain)) : answer_text(answer, arguments.explain);
+      arguments.json ? format_answer(answer, Layout::lines, arguments.explain) : answer_text(answer, arguments.explain);
   if (!arguments.maps.empty()) {
     add_table(output, mapped_points(answer, arguments.maps, others, report.notes), report);
   } else if (!output.file.empty()) {

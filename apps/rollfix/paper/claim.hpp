@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/output/json_output.hpp"
+#include "files/documents/json_output.hpp"
 
 namespace rollfix::app {
 

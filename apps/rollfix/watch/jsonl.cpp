@@ -4,8 +4,8 @@
 #include <numbers>
 #include <utility>
 
+#include "files/documents/json_output.hpp"
 #include "rollfix/output/answer_output.hpp"
-#include "rollfix/output/json_output.hpp"
 #include "rollfix/watch/writer.hpp"
 
 namespace rollfix::app {

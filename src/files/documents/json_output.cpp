@@ -1,8 +1,8 @@
-#include "rollfix/output/json_output.hpp"
+#include "json_output.hpp"
 
 #include <cmath>
 
-namespace rollfix::app {
+namespace rollfix {
 namespace {
 
 /// On one line. File names may hold bytes that are no text; JSON can't.
@@ -26,6 +26,8 @@ Json json_interval(const Interval& interval) {
   return Json::array({json_number(interval.lo), json_number(interval.hi)});
 }
 
+std::string json_line(const Json& document) { return compact(document) + '\n'; }
+
 std::string json_text(const Json& document) {
   std::string text = "{";
   bool is_first = true;
@@ -37,4 +39,4 @@ std::string json_text(const Json& document) {
   return text + "\n}\n";
 }
 
-}  // namespace rollfix::app
+}  // namespace rollfix

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rollfix/output/answer_output.hpp"
+#include "documents.hpp"
 
-namespace rollfix::app {
+namespace rollfix {
 namespace {
 
 template <class Entries, class ToJson>
@@ -14,7 +14,6 @@ Json list_of(const Entries& entries, const ToJson& to_json) {
 }
 
 Json pair_json(double one, double two) { return Json::array({json_number(one), json_number(two)}); }
-Json point_json(const Vec2& point) { return pair_json(point.x(), point.y()); }
 Json pose_json(const Pose& pose) {
   return Json::array({json_number(pose.x), json_number(pose.y), json_number(pose.heading)});
 }
@@ -185,6 +184,8 @@ Json diagnosis_json(const Diagnosis& diagnosis) {
 
 }  // namespace
 
+Json point_json(const Vec2& point) { return pair_json(point.x(), point.y()); }
+
 Json diagnoses_json(const std::vector<Diagnosis>& diagnoses, const std::vector<Finger>& fingers, const Noise& noise) {
   if (diagnoses.empty()) return nullptr;
   const auto one = [&](const Diagnosis& diagnosis) {
@@ -271,4 +272,4 @@ Json answer_json(const Answer& answer, bool explain) {
   return document;
 }
 
-}  // namespace rollfix::app
+}  // namespace rollfix

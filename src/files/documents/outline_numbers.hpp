@@ -2,10 +2,10 @@
 
 #include <string>
 
-#include "rollfix/output/json_output.hpp"
+#include "files/documents/json_output.hpp"
 #include "rollfix/part/part.hpp"
 
-namespace rollfix::app {
+namespace rollfix {
 
 /// The boundary as samples_of gives it, as CSV with a line of titles: s,x,y,tangent,curvature; the tangent in radians.
 /// Numbers read back as the same doubles.
@@ -14,4 +14,4 @@ std::string outline_table(const Part& part);
 /// The same as JSON: a list for each of these names.
 Json outline_json(const Part& part);
 
-}  // namespace rollfix::app
+}  // namespace rollfix

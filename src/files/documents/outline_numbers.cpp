@@ -1,4 +1,4 @@
-#include "rollfix/output/outline_numbers.hpp"
+#include "outline_numbers.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 #include "rollfix/part/samples.hpp"
 
-namespace rollfix::app {
+namespace rollfix {
 namespace {
 
 /// A column's name and its value of a sample.
@@ -47,4 +47,4 @@ Json outline_json(const Part& part) {
   return lists;
 }
 
-}  // namespace rollfix::app
+}  // namespace rollfix

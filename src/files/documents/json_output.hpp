@@ -5,7 +5,7 @@
 
 #include "rollfix/outline/curve.hpp"
 
-namespace rollfix::app {
+namespace rollfix {
 
 using Json = nlohmann::ordered_json;
 
@@ -26,4 +26,7 @@ Json json_interval(const Interval& interval);
 /// The text of a document: a field per line, and of a list of objects an object per line.
 std::string json_text(const Json& document);
 
-}  // namespace rollfix::app
+/// The same on one line.
+std::string json_line(const Json& document);
+
+}  // namespace rollfix

@@ -4,11 +4,10 @@
 #include <array>
 #include <cmath>
 
-#include "rollfix/output/answer_output.hpp"
-#include "rollfix/output/table.hpp"
+#include "documents.hpp"
 #include "text/text.hpp"
 
-namespace rollfix::app {
+namespace rollfix {
 namespace {
 
 struct CauseText {
@@ -145,4 +144,4 @@ std::string cure_of(const Diagnosis& diagnosis, const std::vector<Finger>& finge
   return text_of(diagnosis.cause).cure;
 }
 
-}  // namespace rollfix::app
+}  // namespace rollfix

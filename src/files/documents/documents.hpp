@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "files/documents/json_output.hpp"
+#include "rollfix/answer/answer.hpp"
+#include "rollfix/answer/next_roll.hpp"
+#include "rollfix/contact/teach.hpp"
+#include "rollfix/files/inspection.hpp"
+
+// The documents of docs/json.md, and the pieces that several of them share.
+namespace rollfix {
+
+/// "rollfix/locate/1". `explain`: with what the fingers can't do.
+Json answer_json(const Answer& answer, bool explain);
+
+/// "rollfix/inspect/1".
+Json inspection_json(const Inspection& inspection);
+
+/// "rollfix/advise/1".
+Json next_roll_json(const NextRoll& next);
+
+/// The field `taught` of "rollfix/teach/1".
+Json taught_json(const Taught& taught);
+
+/// What would have to be otherwise for something to fit; empty where something does.
+std::string about(const Diagnosis& diagnosis);
+const char* name_of(Cause cause);
+/// What to give instead, with these fingers and this noise as given.
+std::string cure_of(const Diagnosis& diagnosis, const std::vector<Finger>& fingers, const Noise& noise);
+
+/// What was done about a taught course's ends, in one word.
+const char* name_of(Closing closing);
+
+/// "disk,r=0.1", "jaw", or the outline's name.
+std::string name_of(const Finger& finger);
+
+Json point_json(const Vec2& point);
+Json part_json(const Part& part);
+/// Null where the rows fit. `fingers` and `noise` as given, for the cure.
+Json diagnoses_json(const std::vector<Diagnosis>& diagnoses, const std::vector<Finger>& fingers, const Noise& noise);
+Json noise_json(const Noise& noise);
+Json pose_prior_json(const std::optional<PosePrior>& prior);  // null without; x and y are where only the heading is known
+Json accuracy_json(const Accuracy& accuracy);  // null where it is exact
+
+}  // namespace rollfix
