@@ -4,6 +4,11 @@ find_package(Eigen3 3.4 CONFIG REQUIRED)
 find_package(Boost 1.74 CONFIG REQUIRED)
 find_package(fmt 9 CONFIG REQUIRED)
 find_package(FastFloat CONFIG REQUIRED)
+find_package(Threads REQUIRED)
+set(ROLLFIX_FMT fmt::fmt)
+if(ROLLFIX_FMT_HEADER_ONLY)
+  set(ROLLFIX_FMT fmt::fmt-header-only)
+endif()
 
 configure_file(${CMAKE_CURRENT_LIST_DIR}/version.hpp.in ${PROJECT_BINARY_DIR}/include/rollfix/version.hpp @ONLY)
 
@@ -37,13 +42,13 @@ rollfix_library(rollfix rollfix
 # Eigen is part of the interface, fmt is linked; Boost and fast_float are headers that only our sources see.
 target_link_libraries(rollfix
   PUBLIC Eigen3::Eigen
-  PRIVATE fmt::fmt $<BUILD_INTERFACE:Boost::headers> $<BUILD_INTERFACE:FastFloat::fast_float>)
+  PRIVATE ${ROLLFIX_FMT} Threads::Threads $<BUILD_INTERFACE:Boost::headers> $<BUILD_INTERFACE:FastFloat::fast_float>)
 
 rollfix_library(rollfix_march march
   SOURCES ${march_sources}
   HEADERS ${march_headers}
   HEADER_DIRS ${PROJECT_SOURCE_DIR}/include)
-target_link_libraries(rollfix_march PUBLIC rollfix PRIVATE fmt::fmt $<BUILD_INTERFACE:Boost::headers>)
+target_link_libraries(rollfix_march PUBLIC rollfix PRIVATE ${ROLLFIX_FMT} $<BUILD_INTERFACE:Boost::headers>)
 
 if(ROLLFIX_BUILD_FILES)
   find_package(pugixml 1.13 CONFIG REQUIRED)
@@ -54,7 +59,7 @@ if(ROLLFIX_BUILD_FILES)
     HEADER_DIRS ${PROJECT_SOURCE_DIR}/include)
   target_link_libraries(rollfix_files
     PUBLIC rollfix
-    PRIVATE fmt::fmt pugixml::pugixml $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>
+    PRIVATE ${ROLLFIX_FMT} pugixml::pugixml $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>
       $<BUILD_INTERFACE:FastFloat::fast_float>)
 endif()
 
@@ -68,5 +73,5 @@ if(ROLLFIX_BUILD_DRAW)
     HEADER_DIRS ${PROJECT_SOURCE_DIR}/include)
   target_link_libraries(rollfix_draw
     PUBLIC rollfix
-    PRIVATE fmt::fmt PkgConfig::ROLLFIX_RSVG PkgConfig::ROLLFIX_CAIRO)
+    PRIVATE ${ROLLFIX_FMT} PkgConfig::ROLLFIX_RSVG PkgConfig::ROLLFIX_CAIRO)
 endif()

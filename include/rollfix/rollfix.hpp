@@ -2,6 +2,8 @@
 
 // All that a user of the library needs; drawings are apart, in rollfix/files/, and figures, in rollfix/draw/.
 
+#include "rollfix/answer/many.hpp"             // IWYU pragma: export
+#include "rollfix/answer/next_roll.hpp"        // IWYU pragma: export
 #include "rollfix/answer/part_facts.hpp"       // IWYU pragma: export
 #include "rollfix/answer/solve.hpp"            // IWYU pragma: export
 #include "rollfix/belief/advise.hpp"           // IWYU pragma: export

@@ -23,6 +23,8 @@ struct LogOptions {
   std::vector<ColumnSource> columns{};
   /// The part's: columns with a unit of length are converted to it. Empty: not known.
   std::string unit{};
+  /// What columns of angles are in where neither `columns` nor the header says it: "deg". Empty: radians.
+  std::string angles{};
   /// As a mirror shows it: u, length, turn, distance, dturn and x with the other sign, pi - psi for psi. What is felt
   /// of a part that lies face down reads so like what is felt of the part as it was drawn.
   bool mirrored = false;

@@ -207,7 +207,8 @@ void HeaderReader::set(Columns& columns, Column column, std::size_t k) const {
 void HeaderReader::set_unit(Columns& columns, Column column, const HeaderName& header,
                             const std::string& stated) const {
   if (column == Column::contact) return;
-  const std::string_view written = stated.empty() ? header.unit : stated;
+  std::string_view written = stated.empty() ? header.unit : stated;
+  if (written.empty() && is_angle(column)) written = options_.angles;
   const std::string what =
       fmt::format("{}: the column '{}' ({})", where(log_, row_.line), shown(header.text), columns.called(column));
   if (written.empty()) {
@@ -403,6 +404,9 @@ Columns bare_columns(const TableRow& row, const std::string& log, const LogOptio
   columns.kind = LogKind::increments;
   columns.cell[static_cast<std::size_t>(Column::distance)] = 0;
   columns.cell[static_cast<std::size_t>(Column::dturn)] = 1;
+  if (const std::optional<Unit> unit = unit_named(options.angles)) {
+    columns.conversion[static_cast<std::size_t>(Column::dturn)] = conversion_to_plain(*unit);
+  }
   return columns;
 }
 

@@ -1,0 +1,107 @@
+"""Results that are JSON documents: what they hold is read by their fields' names."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any, Dict, Optional, Tuple
+
+if TYPE_CHECKING:
+    from . import _core
+
+
+class Document:
+    """A JSON document of docs/json.md. Its fields are attributes; `to_dict` gives all of them."""
+
+    __slots__ = ("_text", "_fields")
+
+    def __init__(self, text: str) -> None:
+        self._text = text
+        self._fields: Optional[Dict[str, Any]] = None
+
+    def to_dict(self) -> Dict[str, Any]:
+        """The document, a new one each time."""
+        fields: Dict[str, Any] = json.loads(self._text)
+        return fields
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        fields = self.to_dict()
+        if name not in fields:
+            raise AttributeError(f"{type(self).__name__} has no field {name!r}; it has {', '.join(fields)}")
+        return fields[name]
+
+    def __dir__(self) -> Any:
+        return sorted([*super().__dir__(), *self.to_dict()])
+
+    def __eq__(self, other: object) -> bool:
+        return type(other) is type(self) and isinstance(other, Document) and other._text == self._text
+
+    def __hash__(self) -> int:
+        return hash(self._text)
+
+    def __reduce__(self) -> Any:
+        return (type(self), (self._text,))
+
+
+class Inspection(Document):
+    """What a part is: the fields of `rollfix/inspect/1`, see docs/json.md.
+
+    `perimeter` and its like are in `part`; `box`, `curvature`, `largest_disk`, `symmetry`, `ambiguity`, `reach`, ...
+    """
+
+    __slots__ = ()
+
+    def __repr__(self) -> str:
+        part, symmetry = self.part, self.symmetry
+        look = "looks alike from everywhere" if symmetry is None else f"{symmetry}-fold" if symmetry > 1 else "no symmetry"
+        return f"<Inspection of {part['name']!r}: perimeter {part['perimeter']:.6g}, {self.spirals} spirals, {look}>"
+
+
+class Advice(Document):
+    """Which roll tells the remaining placements apart: the fields of `rollfix/advise/1`, see docs/json.md.
+
+    `length` is the advised roll from where the contact is now, positive along the stored outline, or None; `helps`, and
+    where no roll does `why`; `expected_placements`, `bits`, `bits_wanted`, `contenders`, `prospects`.
+    """
+
+    __slots__ = ("_answer", "_travel")
+
+    def __init__(self, answer: "_core.Answer", travel: Optional[Tuple[float, float]]) -> None:
+        from . import _core
+
+        super().__init__(_core.next_roll(answer, travel).document())
+        self._answer = answer
+        self._travel = travel
+
+    def to_svg(self) -> str:
+        """A figure of what is to be expected by length. Throws InputError where there is nothing to tell apart."""
+        return self._figure().svg()
+
+    def save(self, file: Any) -> None:
+        """Writes that figure: .svg, .png or .pdf."""
+        from ._inputs import path
+
+        self._figure().save(path(file, "file"))
+
+    def _figure(self) -> Any:
+        from . import _core, _draw
+
+        return _draw.next_roll_figure(_core.next_roll(self._answer, self._travel))
+
+    def _repr_svg_(self) -> Optional[str]:
+        return self.to_svg() if self.prospects else None
+
+    def __repr__(self) -> str:
+        if not self.helps:
+            return f"<Advice: {self.verdict}; {self.why}>"
+        return f"<Advice: {self.verdict}; roll on by {self.length:.6g}, {self.expected_placements:.2f} placements remain>"
+
+    def __reduce__(self) -> Any:
+        from ._answer import Answer
+
+        return (_advice, (Answer(self._answer), self._travel))
+
+
+def _advice(answer: Any, travel: Optional[Tuple[float, float]]) -> Advice:
+    return Advice(answer._core, travel)

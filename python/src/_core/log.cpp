@@ -1,0 +1,126 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+
+#include "archive.hpp"
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "rollfix/contact/log.hpp"
+
+namespace rollfix::python {
+namespace {
+
+LogOptions log_options(const py::dict& given) {
+  LogOptions options;
+  for (const py::handle one : given["columns"]) {
+    const auto [column, name, unit] = one.cast<std::tuple<std::string, std::string, std::string>>();
+    options.columns.push_back({column, name, unit});
+  }
+  options.unit = given["unit"].cast<std::string>();
+  options.angles = given["angles"].cast<std::string>();
+  options.clockwise = given["clockwise"].cast<bool>();
+  return options;
+}
+
+LogHandle handle_of(Log log) { return {std::make_shared<const Log>(std::move(log))}; }
+
+std::vector<LogHandle> handles_of(std::vector<Log> logs) {
+  std::vector<LogHandle> handles;
+  for (Log& log : logs) handles.push_back(handle_of(std::move(log)));
+  return handles;
+}
+
+std::vector<LogHandle> read_files(const std::vector<std::string>& paths, const py::dict& given) {
+  const LogOptions options = log_options(given);
+  const py::gil_scoped_release others_may_run;
+  if (paths.size() == 2) return {handle_of(read_log(paths[0], paths[1], options))};
+  return handles_of(read_rolls(paths.at(0), options));
+}
+
+std::vector<LogHandle> read_text(const std::string& text, const std::string& name, const py::dict& given) {
+  const LogOptions options = log_options(given);
+  const py::gil_scoped_release others_may_run;
+  return handles_of(parse_rolls(text, name, options));
+}
+
+/// Columns as the text of a log: each number with as few digits as give it back, which are those of the file that it
+/// was read from. So a table is a log like any other, with the same checks and the same rounding.
+std::string table_text(const std::vector<std::string>& names, const std::vector<Numbers>& columns) {
+  std::string text;
+  for (std::size_t k = 0; k < names.size(); ++k) text += (k == 0 ? "\"" : ",\"") + names[k] + "\"";
+  const py::ssize_t rows = columns.empty() ? 0 : columns.front().size();
+  for (py::ssize_t row = 0; row < rows; ++row) {
+    text += '\n';
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      if (k > 0) text += ',';
+      fmt::format_to(std::back_inserter(text), "{}", columns[k].data()[row]);
+    }
+  }
+  return text + '\n';
+}
+
+/// All columns by their names in a file, of two fingers u_a, u_b and so on.
+py::dict columns_of(const LogHandle& handle) {
+  const Log& log = *handle.log;
+  py::dict result;
+  if (!log.time.empty()) result["time"] = array_of(log.time);
+  for (std::size_t which = 0; which < log.fingers.size(); ++which) {
+    const FingerRows& rows = log.fingers[which];
+    const std::string suffix = log.fingers.size() == 1 ? "" : which == 0 ? "_a" : "_b";
+    const auto add = [&](const char* name, const std::vector<double>& values) {
+      if (!values.empty()) result[py::str(name + suffix)] = array_of(values);
+    };
+    add("u", rows.u);
+    add("psi", rows.psi);
+    add("length", rows.length);
+    add("turn", rows.turn);
+    add("x", rows.x);
+    add("y", rows.y);
+  }
+  return result;
+}
+
+const char* kind_of(const LogHandle& handle) {
+  switch (handle.log->kind) {
+    case LogKind::contact:
+      return "contact";
+    case LogKind::travelled:
+      return "travelled";
+    case LogKind::increments:
+      break;
+  }
+  return "increments";
+}
+
+}  // namespace
+
+void bind_log(py::module_& module) {
+  py::class_<LogHandle>(module, "Log")
+      .def_property_readonly("rows", [](const LogHandle& handle) { return handle.log->rows(); })
+      .def_property_readonly("fingers", [](const LogHandle& handle) { return handle.log->fingers.size(); })
+      .def_property_readonly("name", [](const LogHandle& handle) { return handle.log->name; })
+      .def_property_readonly("unit", [](const LogHandle& handle) { return handle.log->unit; })
+      .def_property_readonly("kind", &kind_of)
+      .def("columns", &columns_of)
+      .def("text", [](const LogHandle& handle) { return format_log(*handle.log); })
+      .def("is_same",
+           [](const LogHandle& one, const LogHandle& two) { return bytes_of(*one.log) == bytes_of(*two.log); })
+      .def("paired", [](const LogHandle& a, const LogHandle& b) { return handle_of(paired(*a.log, *b.log)); })
+      .def(py::pickle([](const LogHandle& handle) { return py::bytes(bytes_of(*handle.log)); },
+                      [](const py::bytes& bytes) {
+                        Log log;
+                        read_bytes(std::string(bytes), log);
+                        return handle_of(std::move(log));
+                      }));
+  module.def("read_log_files", &read_files);
+  module.def("read_log_text", &read_text);
+  module.def("parse_columns", [](const std::string& text) {
+    std::vector<std::tuple<std::string, std::string, std::string>> columns;
+    for (const ColumnSource& one : parse_columns(text)) columns.emplace_back(one.column, one.name, one.unit);
+    return columns;
+  });
+  module.def("table_text", &table_text);
+}
+
+}  // namespace rollfix::python

@@ -1,0 +1,120 @@
+#include "rollfix/answer/many.hpp"
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+
+namespace rollfix::python {
+namespace {
+
+/// Problem k of an (n, m, 2) or (n, m, 3) array.
+class ManyReadings {
+ public:
+  ManyReadings(const Numbers& rows, const std::optional<Numbers>& facing)
+      : first_(rows.data()),
+        readings_(static_cast<std::size_t>(rows.shape(1))),
+        numbers_(static_cast<std::size_t>(rows.shape(2))),
+        facing_(facing ? facing->data() : nullptr) {}
+
+  void make(std::size_t k, Problem& problem) const {
+    std::vector<Reading>& readings = problem.felt.readings;
+    readings.resize(readings_);
+    const double* row = first_ + k * readings_ * numbers_;
+    for (Reading& reading : readings) {
+      reading = numbers_ == 3 ? Reading(row[0], row[1], row[2]) : Reading(row[0], row[1]);
+      row += numbers_;
+    }
+    if (facing_ != nullptr) problem.facing = facing_[k];
+  }
+  std::size_t fingers() const { return numbers_ - 1; }
+
+ private:
+  const double* first_;
+  std::size_t readings_;
+  std::size_t numbers_;
+  const double* facing_;
+};
+
+/// Signals, such as Ctrl-C, are looked at by the thread that waits; and somebody may watch the progress.
+ManyOptions many_options(unsigned threads, const py::object& progress) {
+  ManyOptions options;
+  options.threads = threads;
+  options.go_on = [progress](std::size_t done) {
+    const py::gil_scoped_acquire lock;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (!progress.is_none()) progress(done);
+    return true;
+  };
+  return options;
+}
+
+template <class T>
+py::array_t<T> rows(std::vector<T>& values, std::vector<py::ssize_t> shape) {
+  return array_of(std::move(values), std::move(shape));
+}
+
+py::dict dict_of(AnswerTable table) {
+  const auto placements = static_cast<py::ssize_t>(table.kind.size());
+  const auto fingers = static_cast<py::ssize_t>(table.fingers);
+  py::dict errors;
+  for (const auto& [k, message] : table.errors) errors[py::int_(k)] = message;
+  py::dict result;
+  result["fingers"] = table.fingers;
+  result["errors"] = errors;
+  result["offsets"] = array_of(std::move(table.offsets));
+  result["status"] = array_of(std::move(table.status));
+  result["verdict"] = array_of(std::move(table.verdict));
+  result["tolerance"] = array_of(std::move(table.tolerance));
+  result["kind"] = array_of(std::move(table.kind));
+  result["start"] = rows(table.start, {placements, fingers});
+  result["end"] = rows(table.end, {placements, fingers});
+  result["extent"] = rows(table.extent, {placements, fingers, 2});
+  result["point"] = rows(table.point, {placements, fingers, 2});
+  result["tangent"] = rows(table.tangent, {placements, fingers});
+  result["error"] = array_of(std::move(table.error));
+  result["residual"] = array_of(std::move(table.residual));
+  result["probability"] = array_of(std::move(table.probability));
+  result["whole_loop"] = array_of(std::move(table.whole_loop));
+  return result;
+}
+
+py::dict solve_many(const Problem& like, const Numbers& rows, const std::optional<Numbers>& facing, unsigned threads,
+                    const py::object& progress) {
+  const ManyReadings readings(rows, facing);
+  const auto count = static_cast<std::size_t>(rows.shape(0));
+  const ManyOptions options = many_options(threads, progress);
+  AnswerTable table;
+  {
+    const py::gil_scoped_release others_may_run;
+    table = solve_table(
+        like, count, [&](std::size_t k, Problem& problem) { readings.make(k, problem); }, readings.fingers(), options);
+  }
+  return dict_of(std::move(table));
+}
+
+/// Problems that differ in more than their readings: logs, noise, fingers. Each answer whole, or its error.
+py::list solve_problems(const std::vector<Problem>& problems, unsigned threads, const py::object& progress) {
+  const ManyOptions options = many_options(threads, progress);
+  std::vector<Solved> solved;
+  {
+    const py::gil_scoped_release others_may_run;
+    solved = solve(problems, options);
+  }
+  py::list result;
+  for (Solved& one : solved) {
+    if (one.answer) {
+      result.append(AnswerHandle{std::make_shared<const Answer>(std::move(*one.answer))});
+    } else {
+      result.append(one.error);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+void bind_many(py::module_& module) {
+  module.def("solve_many", &solve_many);
+  module.def("solve_problems", &solve_problems);
+}
+
+}  // namespace rollfix::python

@@ -1,0 +1,89 @@
+#include <sstream>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "fingers.hpp"
+#include "rollfix/watch/watcher.hpp"
+#include "rollfix/watch/writer.hpp"
+
+namespace rollfix::python {
+namespace {
+
+/// The program's watcher, whose events are kept as the lines that it would print until somebody takes them.
+class Watch {
+ public:
+  Watch(const PartHandle& handle, app::WatchOptions options)
+      : part_(handle.part()),
+        writer_(app::watch_jsonl(part_, events_, notes_, [] { return true; })),
+        watcher_(part_, begun(std::move(options)), *writer_) {}
+
+  void push(const std::string& lines) {
+    std::istringstream stream(lines);
+    for (std::string line; std::getline(stream, line);) watcher_.push(line);
+  }
+  void catch_up() { watcher_.catch_up(); }
+  void finish() {
+    watcher_.finish();
+    writer_->show();
+    writer_->end(app::WatchEnd::stream, watcher_.last_answer(), watcher_.counts());
+  }
+  void resume() {
+    watcher_.resume();
+    writer_->resumed(watcher_.counts());
+  }
+  /// What was written since the last time: events and notes.
+  std::pair<std::string, std::string> take() {
+    std::pair<std::string, std::string> taken(events_.str(), notes_.str());
+    events_.str("");
+    notes_.str("");
+    return taken;
+  }
+  const app::WatchCounts& counts() const { return watcher_.counts(); }
+
+ private:
+  app::WatchOptions begun(app::WatchOptions options) {
+    writer_->begin(part_, options);
+    return options;
+  }
+
+  Part part_;
+  std::ostringstream events_;
+  std::ostringstream notes_;
+  std::unique_ptr<app::WatchWriter> writer_;
+  app::Watcher watcher_;
+};
+
+std::unique_ptr<Watch> watch(const PartHandle& part, const py::iterable& fingers, const py::dict& noise,
+                             const std::optional<std::pair<double, double>>& prior, bool robust, std::size_t every,
+                             const std::string& name,
+                             const std::vector<std::tuple<std::string, std::string, std::string>>& columns,
+                             const std::string& angles, bool clockwise, bool mirrored, bool live) {
+  app::WatchOptions options;
+  options.name = name;
+  options.fingers = fingers_from(fingers);
+  options.belief.noise = noise_from(noise);
+  if (prior) options.belief.prior = Prior{prior->first, prior->second};
+  options.belief.robust = robust;
+  options.every = every;
+  options.log.unit = part.part().unit();
+  options.log.angles = angles;
+  options.log.clockwise = clockwise;
+  options.log.mirrored = mirrored;
+  options.live = live;
+  for (const auto& [column, called, unit] : columns) options.log.columns.push_back({column, called, unit});
+  return std::make_unique<Watch>(part, std::move(options));
+}
+
+}  // namespace
+
+void bind_watch(py::module_& module) {
+  py::class_<Watch>(module, "Watch")
+      .def(py::init(&watch))
+      .def("push", &Watch::push, py::call_guard<py::gil_scoped_release>())
+      .def("catch_up", &Watch::catch_up, py::call_guard<py::gil_scoped_release>())
+      .def("finish", &Watch::finish, py::call_guard<py::gil_scoped_release>())
+      .def("resume", &Watch::resume)
+      .def("take", &Watch::take);
+}
+
+}  // namespace rollfix::python

@@ -1,0 +1,47 @@
+#include "handles.hpp"
+#include "rollfix/answer/solve.hpp"
+#include "rollfix/draw/advice_figure.hpp"
+#include "rollfix/draw/answer_figure.hpp"
+#include "rollfix/draw/part_figure.hpp"
+
+namespace rollfix::python {
+namespace {
+
+Svg answer_figure(const AnswerHandle& handle, const std::optional<LogHandle>& log,
+                  const std::optional<std::size_t>& highlight, const std::string& title, double width) {
+  AnswerFigure figure{handle.answer.get()};
+  figure.highlight = highlight;
+  figure.title = title;
+  figure.width = width;
+  if (log && !handle.answer->mirrored) figure.log = log->log.get();
+  return draw_answer(figure);
+}
+
+Svg part_figure(const PartHandle& handle, const py::object& reach, const std::string& title, double width) {
+  const Part part = handle.part();
+  PartFigure figure{&part, title, width};
+  if (!reach.is_none()) figure.reach = reach.cast<Reach>();
+  return draw_part(figure);
+}
+
+Svg next_roll_figure(const NextRollHandle& handle) {
+  const NextRoll& next = *handle.next;
+  if (!next.advice) throw InputError("advice: nothing is drawn: " + next.why);
+  return draw_advice({*next.advice, next.answer.part.name(), next.answer.verdict.text()});
+}
+
+}  // namespace
+}  // namespace rollfix::python
+
+PYBIND11_MODULE(_draw, module) {
+  using namespace rollfix::python;
+  using rollfix::Svg;
+  module.doc() = "The figures of rollfix. Use `save` and `to_svg` of what is to be drawn.";
+  py::module_::import("rollfix._core");
+  py::class_<Svg>(module, "Figure").def("svg", &Svg::str).def("save", [](const Svg& figure, const std::string& file) {
+    rollfix::save_figure(figure, file);
+  });
+  module.def("answer_figure", &answer_figure);
+  module.def("part_figure", &part_figure);
+  module.def("next_roll_figure", &next_roll_figure);
+}

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "rollfix/answer/answer.hpp"
+#include "rollfix/answer/next_roll.hpp"
+#include "rollfix/contact/log.hpp"
+#include "rollfix/contact/rolling.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/files/load_part.hpp"
+
+// What Python holds of the library's values. All are immutable and shared, so that a thread that works without the
+// interpreter's lock keeps what it works on, whatever Python does meanwhile.
+namespace rollfix::python {
+
+namespace py = pybind11;
+
+/// A part. Closing it lets go of what was computed; whoever works on it has a share.
+class PartHandle {
+ public:
+  explicit PartHandle(LoadedPart loaded) : loaded_(std::make_shared<const LoadedPart>(std::move(loaded))) {}
+  explicit PartHandle(const Part& part) : PartHandle(LoadedPart{part, part.unit(), {}, 0, {}}) {}
+
+  /// Throws InputError: closed.
+  std::shared_ptr<const LoadedPart> loaded() const {
+    if (!loaded_) throw InputError("part: was closed; make it again, or close it later");
+    return loaded_;
+  }
+  Part part() const { return loaded()->part; }
+  bool is_open_for_use() const { return loaded_ != nullptr; }
+  void close() { loaded_.reset(); }
+
+ private:
+  std::shared_ptr<const LoadedPart> loaded_;
+};
+
+struct AnswerHandle {
+  std::shared_ptr<const Answer> answer;
+};
+
+struct LogHandle {
+  std::shared_ptr<const Log> log;
+};
+
+struct RollHandle {
+  std::shared_ptr<const NoisyRoll> roll;
+};
+
+struct NextRollHandle {
+  std::shared_ptr<const NextRoll> next;
+};
+
+/// One of an answer's placements.
+struct PlacementHandle {
+  std::shared_ptr<const Answer> answer;
+  std::size_t index = 0;
+
+  const Placement& operator*() const { return answer->placements[index]; }
+  const Placement* operator->() const { return &answer->placements[index]; }
+};
+
+}  // namespace rollfix::python

@@ -1,0 +1,220 @@
+#include "rollfix/answer/many.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <limits>
+#include <mutex>
+#include <thread>
+
+#include "rollfix/answer/solve.hpp"
+#include "rollfix/error.hpp"
+
+namespace rollfix {
+namespace {
+
+// Problems that a thread takes at once: so many that taking them costs nothing, so few that all threads end together.
+constexpr std::size_t kBlock = 64;
+// How long nobody is asked whether to go on: short for a person, long for a machine.
+constexpr std::chrono::milliseconds kMostSilence{50};
+
+/// Blocks of work for several threads, and the first exception of one of them.
+class Crew {
+ public:
+  Crew(std::size_t count, std::size_t block) : count_(count), block_(block) {}
+
+  /// `work(lo, hi)` does a block.
+  template <class Work>
+  void run(unsigned threads, const std::function<bool(std::size_t)>& go_on, const Work& work) {
+    const std::size_t blocks = (count_ + block_ - 1) / block_;
+    const std::size_t wanted = threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
+    const std::size_t crew = std::min(wanted, blocks);
+    if (crew <= 1 && !go_on) return serve(work);
+    std::vector<std::thread> all;
+    {
+      const std::lock_guard lock(mutex_);
+      working_ = crew;
+    }
+    for (std::size_t k = 0; k < crew; ++k) {
+      all.emplace_back([&] {
+        serve(work);
+        const std::lock_guard lock(mutex_);
+        --working_;
+        ended_.notify_all();
+      });
+    }
+    wait(go_on);
+    for (std::thread& thread : all) thread.join();
+  }
+
+  /// Throws what a thread threw, and InputError where the work was stopped.
+  void require_done() const {
+    if (thrown_) std::rethrow_exception(thrown_);
+    if (stopped_) throw InputError("solve: stopped before all problems were done");
+  }
+
+ private:
+  template <class Work>
+  void serve(const Work& work) {
+    try {
+      while (!stop_) {
+        const std::size_t lo = next_.fetch_add(block_);
+        if (lo >= count_) return;
+        const std::size_t hi = std::min(lo + block_, count_);
+        work(lo, hi);
+        done_ += hi - lo;
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!thrown_) thrown_ = std::current_exception();
+      stop_ = true;
+    }
+  }
+
+  void wait(const std::function<bool(std::size_t)>& go_on) {
+    std::unique_lock lock(mutex_);
+    while (working_ > 0) {
+      if (!go_on) {
+        ended_.wait(lock);
+        continue;
+      }
+      ended_.wait_for(lock, kMostSilence);
+      if (stopped_) continue;
+      lock.unlock();
+      const bool goes_on = asks(go_on);
+      lock.lock();
+      stopped_ = !goes_on;
+      if (stopped_) stop_ = true;
+    }
+  }
+
+  bool asks(const std::function<bool(std::size_t)>& go_on) {
+    try {
+      return go_on(done_);
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!thrown_) thrown_ = std::current_exception();
+      return false;
+    }
+  }
+
+  std::size_t count_;
+  std::size_t block_;
+  std::atomic<std::size_t> next_{0};
+  std::atomic<std::size_t> done_{0};
+  std::atomic<bool> stop_{false};
+  bool stopped_ = false;  // by go_on
+  std::size_t working_ = 0;
+  std::exception_ptr thrown_;
+  std::mutex mutex_;
+  std::condition_variable ended_;
+};
+
+template <class T>
+void append(std::vector<T>& all, const std::vector<T>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+void add_placement(const Placement& placement, AnswerTable& table) {
+  table.kind.push_back(static_cast<std::uint8_t>(placement.kind));
+  bool whole = true;
+  for (std::size_t which = 0; which < table.fingers; ++which) {
+    table.start.push_back(placement.start[which]);
+    table.end.push_back(placement.end[which]);
+    table.extent.push_back(placement.extent[which].lo);
+    table.extent.push_back(placement.extent[which].hi);
+    table.point.push_back(placement.point[which].x());
+    table.point.push_back(placement.point[which].y());
+    table.tangent.push_back(placement.tangent[which]);
+    whole = whole && placement.whole_loop[which];
+  }
+  table.error.push_back(placement.error);
+  table.residual.push_back(placement.residual);
+  table.probability.push_back(placement.probability);
+  table.whole_loop.push_back(whole ? 1 : 0);
+}
+
+void add_answer(const Answer& answer, AnswerTable& table) {
+  for (const Placement& placement : answer.placements) add_placement(placement, table);
+  table.status.push_back(static_cast<std::uint8_t>(answer.status));
+  table.verdict.push_back(static_cast<std::uint8_t>(answer.verdict.name));
+  table.tolerance.push_back(answer.tolerance.value);
+  table.offsets.push_back(static_cast<std::int64_t>(table.kind.size()));
+}
+
+/// A problem without an answer has a row nowhere.
+void add_error(std::size_t k, const std::string& message, AnswerTable& table) {
+  table.errors.emplace_back(k, message);
+  table.status.push_back(static_cast<std::uint8_t>(Status::incomplete));
+  table.verdict.push_back(static_cast<std::uint8_t>(Verdict::undecided));
+  table.tolerance.push_back(std::numeric_limits<double>::quiet_NaN());
+  table.offsets.push_back(static_cast<std::int64_t>(table.kind.size()));
+}
+
+void append_table(AnswerTable& all, const AnswerTable& more) {
+  const std::int64_t rows = all.offsets.back();
+  for (std::size_t k = 1; k < more.offsets.size(); ++k) all.offsets.push_back(rows + more.offsets[k]);
+  append(all.status, more.status);
+  append(all.verdict, more.verdict);
+  append(all.tolerance, more.tolerance);
+  append(all.errors, more.errors);
+  append(all.kind, more.kind);
+  append(all.start, more.start);
+  append(all.end, more.end);
+  append(all.extent, more.extent);
+  append(all.point, more.point);
+  append(all.tangent, more.tangent);
+  append(all.error, more.error);
+  append(all.residual, more.residual);
+  append(all.probability, more.probability);
+  append(all.whole_loop, more.whole_loop);
+}
+
+}  // namespace
+
+std::vector<Solved> solve(std::span<const Problem> problems, const ManyOptions& options) {
+  std::vector<Solved> solved(problems.size());
+  Crew crew(problems.size(), 1);
+  crew.run(options.threads, options.go_on, [&](std::size_t lo, std::size_t hi) {
+    for (std::size_t k = lo; k < hi; ++k) {
+      try {
+        solved[k].answer = solve(problems[k]);
+      } catch (const InputError& error) {
+        solved[k].error = error.what();
+      }
+    }
+  });
+  crew.require_done();
+  return solved;
+}
+
+AnswerTable solve_table(const Problem& like, std::size_t count, const ProblemMaker& make, std::size_t fingers,
+                        const ManyOptions& options) {
+  std::vector<AnswerTable> blocks((count + kBlock - 1) / kBlock);
+  Crew crew(count, kBlock);
+  crew.run(options.threads, options.go_on, [&](std::size_t lo, std::size_t hi) {
+    AnswerTable& table = blocks[lo / kBlock];
+    table.fingers = fingers;
+    Problem problem = like;
+    for (std::size_t k = lo; k < hi; ++k) {
+      try {
+        make(k, problem);
+        add_answer(solve(problem), table);
+      } catch (const InputError& error) {
+        add_error(k, error.what(), table);
+      }
+    }
+  });
+  crew.require_done();
+  AnswerTable all;
+  all.fingers = fingers;
+  for (AnswerTable& block : blocks) {
+    append_table(all, block);
+    block = {};
+  }
+  return all;
+}
+
+}  // namespace rollfix
