@@ -347,15 +347,21 @@ void require_u_and_psi(const Problem& problem, const PoseArguments& pose) {
 Problem read_problem(const RollArguments& arguments, std::vector<std::string>& notes, std::vector<Outline>* others) {
   require_sensible(arguments);
   std::vector<std::string> part_notes;
-  Part part = load_part(arguments.part, part_notes, others);
-  const std::string& unit = part.outline().unit;
+  const Part part = load_part(arguments.part, part_notes, others);
+  Problem problem = read_problem(arguments, part, notes);
+  notes.insert(notes.end(), part_notes.begin(), part_notes.end());
+  return problem;
+}
+
+Problem read_problem(const RollArguments& arguments, Part part, std::vector<std::string>& notes) {
+  require_sensible(arguments);
+  const std::string unit = part.unit();
   LogOptions log_options = read_log_options(arguments.columns, unit);
   const bool is_either = arguments.direction == "either";
   const bool is_clockwise = !is_either && counts_clockwise(arguments.direction);
   log_options.clockwise = is_clockwise;
   Felt felt = arguments.logs.empty() ? read_readings(arguments, unit)
                                      : Felt(read_roll(arguments.logs, arguments.roll, log_options, notes));
-  notes.insert(notes.end(), part_notes.begin(), part_notes.end());
   if ((is_clockwise || is_either) && felt.is_log() && felt.log->kind == LogKind::contact) {
     throw InputError(
         fmt::format("--direction: {} has u and psi, which say the direction themselves: leave it out", felt.log->name));

@@ -57,6 +57,8 @@ void add_noise_arguments(CLI::App& command, std::string& noise, std::string& pri
 /// notes. `others`, where asked for: see load_part. Throws InputError.
 Problem read_problem(const RollArguments& arguments, std::vector<std::string>& notes,
                      std::vector<Outline>* others = nullptr);
+/// The same on a part that is there already.
+Problem read_problem(const RollArguments& arguments, Part part, std::vector<std::string>& notes);
 
 // `unit`: the part's, empty where it is not known.
 

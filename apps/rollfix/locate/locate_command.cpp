@@ -15,6 +15,7 @@
 #include "rollfix/draw/answer_figure.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/files/documents.hpp"
+#include "rollfix/locate/batch.hpp"
 #include "rollfix/locate/locate_by_march.hpp"
 #include "rollfix/locate/map_points.hpp"
 #include "rollfix/output/answer_output.hpp"
@@ -30,6 +31,7 @@ constexpr const char* kLocateExamples = R"(Examples (wing.csv and wing-roll.csv:
   rollfix locate wing.csv --log wing-roll.csv --finger disk,r=10
   rollfix locate wing.csv --log wing-roll.csv --finger disk,r=10 --at 6.1,12.32 --json
   rollfix locate wing.csv --log wing-roll.csv --finger disk,r=10 --noise contact=0.05,angle=0.2deg,slip=0.002
+  rollfix locate wing.csv --batch problems.jsonl > answers.jsonl
 Two fingers on a part that is free to move:
   rollfix locate gallery:cam --reading 0.7446832,-0.3983439,57.48184deg --reading 1.5,-0.8,110.97000deg
   rollfix locate gallery:cam --reading 1.5,-0.8,110.97000deg --facing -142.40990deg
@@ -42,6 +44,7 @@ struct LocateArguments {
   bool json = false;
   bool explain = false;
   std::vector<std::string> maps;
+  std::string batch;
   OutputArgument output;
   MarchArguments march;
 };
@@ -94,7 +97,23 @@ Report march_report(const LocateArguments& arguments) {
   return report;
 }
 
+/// What a batch has no use for.
+void require_batch(const LocateArguments& arguments) {
+  const auto refuse = [](bool given, const char* option) {
+    if (given) throw InputError(fmt::format("--batch: each line has its own problem; leave {} out", option));
+  };
+  refuse(!arguments.roll.readings.empty(), "--reading");
+  refuse(!arguments.roll.logs.empty(), "--log");
+  refuse(!arguments.output.file.empty(), "-o");
+  refuse(!arguments.maps.empty(), "--map");
+  refuse(arguments.march.march, "--march");
+}
+
 Report locate_report(const LocateArguments& arguments) {
+  if (!arguments.batch.empty()) {
+    require_batch(arguments);
+    return locate_batch(arguments.roll, arguments.batch, arguments.explain);
+  }
   require_sensible(arguments);
   const OutputArgument& output = arguments.output;
   if (arguments.maps.empty()) require_figure_output(output, arguments.json);
@@ -176,6 +195,12 @@ void add_locate_command(CLI::App& program, Command& chosen) {
       ->add_option("--budget", roll.budget,
                    "intervals to look at, beyond the part's own, before giving up; default 1000000")
       ->type_name("N");
+  command
+      ->add_option(
+          "--batch", arguments->batch,
+          "many problems, a JSON object in each line, - for stdin: \"readings\" or \"log\", and the options by "
+          "their names in place of those given here; an answer in each line, in order, on all cores")
+      ->type_name("FILE");
   add_output_argument(*command, arguments->output,
                       "a figure of the placements: .svg, .png or .pdf, - for SVG on stdout");
   add_switch(*command, "--explain", arguments->explain,
