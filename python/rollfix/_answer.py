@@ -9,15 +9,13 @@ from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Optional, Tuple, Un
 import numpy as np
 
 from . import _core
-from ._core import InputError, Placement
+from ._core import InputError, Placement as Placement
 from ._inputs import Finger, array, finger_from, finite, path, travel, whole
 
 if TYPE_CHECKING:
     from ._documents import Advice
     from ._logs import Log
     from ._part import Part
-
-Array = "np.ndarray[Any, np.dtype[np.float64]]"
 
 
 class Answer(SequenceABC):  # type: ignore[type-arg]
@@ -215,8 +213,8 @@ class Answer(SequenceABC):  # type: ignore[type-arg]
             columns["y" + end] = [one.point[k, 1] for one in self]
             columns["tangent" + end] = [one.tangent[k] for one in self]
             if self._core.has_noise:
-                columns["mean" + end] = [one.mean[k] for one in self]
-                columns["sd" + end] = [one.sd[k] for one in self]
+                columns["mean" + end] = [None if one.mean is None else one.mean[k] for one in self]
+                columns["sd" + end] = [None if one.sd is None else one.sd[k] for one in self]
         columns["residual"] = [one.residual for one in self]
         columns["error"] = [one.error for one in self]
         return columns
@@ -310,9 +308,9 @@ def _answer(part: Any, given: Any, state: bytes, log: Optional["Log"]) -> Answer
     return Answer(_core.answer_from_state(part, given, state), log)
 
 
-KINDS = np.array(["crossing", "touching", "stretch", "corner"])
-STATUSES = np.array(["complete", "incomplete"])
-VERDICTS = np.array(["unique", "ambiguous", "unobservable", "inconsistent", "undecided"])
+KINDS: np.ndarray = np.array(["crossing", "touching", "stretch", "corner"])
+STATUSES: np.ndarray = np.array(["complete", "incomplete"])
+VERDICTS: np.ndarray = np.array(["unique", "ambiguous", "unobservable", "inconsistent", "undecided"])
 
 
 class ManyAnswers:
@@ -339,7 +337,7 @@ class ManyAnswers:
     @property
     def offsets(self) -> np.ndarray:
         """ndarray of int64, (problems + 1,): the first row of each problem, and the number of rows."""
-        return self._columns["offsets"]
+        return self._column("offsets")
 
     @property
     def counts(self) -> np.ndarray:
@@ -354,7 +352,7 @@ class ManyAnswers:
     @property
     def status(self) -> np.ndarray:
         """ndarray of str, (problems,): 'complete', 'incomplete', or 'error'."""
-        found = STATUSES.astype("<U10")[self._columns["status"]]
+        found: np.ndarray = STATUSES[self._column("status")]
         if self._columns["errors"]:
             found[list(self._columns["errors"])] = "error"
         return found
@@ -362,12 +360,13 @@ class ManyAnswers:
     @property
     def verdict(self) -> np.ndarray:
         """ndarray of str, (problems,): 'unique', 'ambiguous', 'unobservable', 'inconsistent', 'undecided'."""
-        return VERDICTS[self._columns["verdict"]]
+        names: np.ndarray = VERDICTS[self._column("verdict")]
+        return names
 
     @property
     def tolerance(self) -> np.ndarray:
         """ndarray, (problems,): radians; NaN where there is an error."""
-        return self._columns["tolerance"]
+        return self._column("tolerance")
 
     @property
     def problem(self) -> np.ndarray:
@@ -377,52 +376,53 @@ class ManyAnswers:
     @property
     def kind(self) -> np.ndarray:
         """ndarray of str, (rows,): 'crossing', 'touching', 'stretch', 'corner'."""
-        return KINDS[self._columns["kind"]]
+        names: np.ndarray = KINDS[self._column("kind")]
+        return names
 
     @property
     def start(self) -> np.ndarray:
         """ndarray, (rows, fingers): s of the first contacts, in [0, P)."""
-        return self._columns["start"]
+        return self._column("start")
 
     @property
     def end(self) -> np.ndarray:
         """ndarray, (rows, fingers): s of the contacts at the last reading."""
-        return self._columns["end"]
+        return self._column("end")
 
     @property
     def extent(self) -> np.ndarray:
         """ndarray, (rows, fingers, 2): the connected set of starts that fit."""
-        return self._columns["extent"]
+        return self._column("extent")
 
     @property
     def point(self) -> np.ndarray:
         """ndarray, (rows, fingers, 2): x, y of the first contacts."""
-        return self._columns["point"]
+        return self._column("point")
 
     @property
     def tangent(self) -> np.ndarray:
         """ndarray, (rows, fingers): direction of the boundary there, radians."""
-        return self._columns["tangent"]
+        return self._column("tangent")
 
     @property
     def error(self) -> np.ndarray:
         """ndarray, (rows,): bound on |start - exact root|; infinite where it is not simple."""
-        return self._columns["error"]
+        return self._column("error")
 
     @property
     def residual(self) -> np.ndarray:
         """ndarray, (rows,): largest deviation of the turn at `start`, radians."""
-        return self._columns["residual"]
+        return self._column("residual")
 
     @property
     def probability(self) -> np.ndarray:
         """ndarray, (rows,): with noise; else NaN."""
-        return self._columns["probability"]
+        return self._column("probability")
 
     @property
     def whole_loop(self) -> np.ndarray:
         """ndarray of bool, (rows,): the extent is all of a closed boundary."""
-        return self._columns["whole_loop"].astype(bool)
+        return self._column("whole_loop").astype(bool)
 
     def rows(self, k: int) -> slice:
         """The rows of problem k."""
@@ -443,6 +443,10 @@ class ManyAnswers:
         columns["residual"] = self.residual
         columns["probability"] = self.probability
         return _pandas().DataFrame(columns)
+
+    def _column(self, name: str) -> np.ndarray:
+        column: np.ndarray = self._columns[name]
+        return column
 
     def _number(self, k: int) -> int:
         if not -len(self) <= k < len(self):

@@ -76,7 +76,8 @@ class Advice(Document):
 
     def to_svg(self) -> str:
         """A figure of what is to be expected by length. Throws InputError where there is nothing to tell apart."""
-        return self._figure().svg()
+        svg: str = self._figure().svg()
+        return svg
 
     def save(self, file: Any) -> None:
         """Writes that figure: .svg, .png or .pdf."""

@@ -388,10 +388,22 @@ class Part:
             What can't be meant; the message names the argument.
         """
         if (
-            log is finger is noise is tolerance is facing is at is prior is heading is pose is None
-            and columns is units is roll is rounding is budget is None
-            and type(readings) is float
+            type(readings) is float
             and type(turn) is float
+            and log is None
+            and finger is None
+            and noise is None
+            and tolerance is None
+            and facing is None
+            and at is None
+            and prior is None
+            and heading is None
+            and pose is None
+            and columns is None
+            and units is None
+            and roll is None
+            and rounding is None
+            and budget is None
             and direction == "ccw"
             and not (mirrored or robust or degrees)
         ):
