@@ -496,7 +496,10 @@ class Part:
         rows.flags.writeable = False
         facings = None
         if facing is not None:
-            facings = np.ascontiguousarray(np.broadcast_to(array(facing, "facing"), (len(rows),)))
+            given = finite(array(facing, "facing"), "facing")
+            if given.shape not in ((), (len(rows),)):
+                raise InputError(f"facing: expected one angle, or one for each of {len(rows)}, found shape {given.shape}")
+            facings = np.ascontiguousarray(np.broadcast_to(given, (len(rows),)))
 
         def problem_of(one_facing: Optional[float]) -> _core.Problem:
             problem = self._basic_problem(finger, noise, tolerance, mirrored, budget)
@@ -522,9 +525,10 @@ class Part:
         list of Answer, or of InputError where a log can't be worked with
         """
         problems: List[Any] = []
+        chosen = _log_options(options)
         for log in logs:
             try:
-                problems.append(self._problem(None, None, log, *_log_options(options)))
+                problems.append(self._problem(None, None, log, *chosen))
             except InputError as error:
                 problems.append(error)
         asked = [one for one in problems if not isinstance(one, InputError)]

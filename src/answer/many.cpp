@@ -8,6 +8,7 @@
 #include <limits>
 #include <mutex>
 #include <thread>
+#include <tuple>
 
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/error.hpp"
@@ -112,11 +113,6 @@ class Crew {
   std::condition_variable ended_;
 };
 
-template <class T>
-void append(std::vector<T>& all, const std::vector<T>& more) {
-  all.insert(all.end(), more.begin(), more.end());
-}
-
 void add_placement(const Placement& placement, AnswerTable& table) {
   table.kind.push_back(static_cast<std::uint8_t>(placement.kind));
   bool whole = true;
@@ -153,23 +149,32 @@ void add_error(std::size_t k, const std::string& message, AnswerTable& table) {
   table.offsets.push_back(static_cast<std::int64_t>(table.kind.size()));
 }
 
-void append_table(AnswerTable& all, const AnswerTable& more) {
-  const std::int64_t rows = all.offsets.back();
-  for (std::size_t k = 1; k < more.offsets.size(); ++k) all.offsets.push_back(rows + more.offsets[k]);
-  append(all.status, more.status);
-  append(all.verdict, more.verdict);
-  append(all.tolerance, more.tolerance);
-  append(all.errors, more.errors);
-  append(all.kind, more.kind);
-  append(all.start, more.start);
-  append(all.end, more.end);
-  append(all.extent, more.extent);
-  append(all.point, more.point);
-  append(all.tangent, more.tangent);
-  append(all.error, more.error);
-  append(all.residual, more.residual);
-  append(all.probability, more.probability);
-  append(all.whole_loop, more.whole_loop);
+constexpr auto kColumns = std::make_tuple(
+    &AnswerTable::status, &AnswerTable::verdict, &AnswerTable::tolerance, &AnswerTable::errors, &AnswerTable::kind,
+    &AnswerTable::start, &AnswerTable::end, &AnswerTable::extent, &AnswerTable::point, &AnswerTable::tangent,
+    &AnswerTable::error, &AnswerTable::residual, &AnswerTable::probability, &AnswerTable::whole_loop);
+
+/// One column of all blocks, one after the other; theirs is let go of on the way.
+template <class Column>
+void join_column(std::vector<AnswerTable>& blocks, Column AnswerTable::*column, AnswerTable& all) {
+  std::size_t size = 0;
+  for (const AnswerTable& block : blocks) size += (block.*column).size();
+  (all.*column).reserve(size);
+  for (AnswerTable& block : blocks) {
+    (all.*column).insert((all.*column).end(), (block.*column).begin(), (block.*column).end());
+    Column().swap(block.*column);
+  }
+}
+
+AnswerTable joined(std::vector<AnswerTable>& blocks, std::size_t fingers) {
+  AnswerTable all;
+  all.fingers = fingers;
+  for (const AnswerTable& block : blocks) {
+    const std::int64_t rows = all.offsets.back();
+    for (std::size_t k = 1; k < block.offsets.size(); ++k) all.offsets.push_back(rows + block.offsets[k]);
+  }
+  std::apply([&](auto... columns) { (join_column(blocks, columns, all), ...); }, kColumns);
+  return all;
 }
 
 }  // namespace
@@ -208,13 +213,7 @@ AnswerTable solve_table(const Problem& like, std::size_t count, const ProblemMak
     }
   });
   crew.require_done();
-  AnswerTable all;
-  all.fingers = fingers;
-  for (AnswerTable& block : blocks) {
-    append_table(all, block);
-    block = {};
-  }
-  return all;
+  return joined(blocks, fingers);
 }
 
 }  // namespace rollfix

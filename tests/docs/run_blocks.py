@@ -11,6 +11,9 @@
             <!-- from: FILE --> on the line before a block makes it an excerpt: its lines stand in that file of the
             repository, but for their indent, one after the other or with `...` between; they are not compiled.
             <!-- output --> on the line before the next block of any language makes that the program's exact output.
+    python  A session: lines that start with `>>> ` (`... ` continues one) and what they print, as doctest has it; all
+            blocks of a document are one session. A block without `>>> ` that imports rollfix is a program of its own
+            and must exit with 0; <!-- output --> works for it as well. Of any other the syntax is checked.
     json    Must be JSON, or one JSON value per line.
 Other languages are not run.
 
@@ -31,7 +34,7 @@ import tempfile
 from dataclasses import dataclass, field
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
-ALIASES = {"bash": "sh", "shell": "sh", "console": "sh", "zsh": "sh", "c++": "cpp", "cxx": "cpp", "jsonc": "json"}
+ALIASES = {"py": "python", "bash": "sh", "shell": "sh", "console": "sh", "zsh": "sh", "c++": "cpp", "cxx": "cpp", "jsonc": "json"}
 TIMEOUT = 300  # seconds for one block
 
 
@@ -225,6 +228,37 @@ def check_excerpt(block):
         raise Failure(f"line {block.first_line}: {block.source} {what}")
 
 
+# --- python -----------------------------------------------------------------------------------------------------------
+
+
+def run_python(code, options, scratch, environment, block):
+    environment = dict(environment, PYTHONPATH=str(pathlib.Path(options.python_path).resolve()), MPLBACKEND="Agg",
+                       PYTHONDONTWRITEBYTECODE="1")
+    done = subprocess.run([options.python, "-c", code], cwd=scratch, env=environment, capture_output=True, text=True,
+                          timeout=TIMEOUT)
+    if done.returncode != 0:
+        raise Failure(f"line {block.first_line}: this Python fails:\n{done.stdout}{done.stderr}")
+    return done.stdout
+
+
+SESSION = """
+import doctest, sys
+flags = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
+test = doctest.DocTestParser().get_doctest(TEXT, {"__name__": "__main__"}, "document", "document", 0)
+runner = doctest.DocTestRunner(optionflags=flags)
+runner.run(test)
+sys.exit(1 if runner.failures else 0)
+"""
+
+
+def check_session(blocks, options, scratch, environment):
+    """All sessions of a document, one after the other; numbers of lines are the document's."""
+    lines = []
+    for block in blocks:
+        lines += [""] * (block.first_line - 1 - len(lines)) + block.lines
+    run_python("TEXT = " + repr("\n".join(lines) + "\n") + SESSION, options, scratch, environment, blocks[0])
+
+
 # --- documents --------------------------------------------------------------------------------------------------------
 
 
@@ -257,6 +291,8 @@ def check_document(path, options, corrections):
             blocks = parse_blocks(path.read_text())
         except Failure as failure:
             return [str(failure)]
+        sessions = [block for block in blocks if block.language == "python" and any(
+            line.startswith(">>> ") for line in block.lines)]
         for block in blocks:
             try:
                 if block.is_output:
@@ -282,6 +318,14 @@ def check_document(path, options, corrections):
                         check_fragment(block, compiler, preamble)
                 elif block.language == "json":
                     check_json(block)
+                elif block.language == "python" and sessions[:1] == [block]:
+                    check_session(sessions, options, scratch, environment)
+                elif block.language == "python" and block not in sessions:
+                    printed = None
+                    code = "\n".join(block.lines)
+                    runs = re.search(r"^(import|from) rollfix\b", code, re.MULTILINE)
+                    printed = run_python(code if runs else f"compile({code!r}, 'document', 'exec')", options, scratch,
+                                         environment, block)
             except Failure as failure:
                 failures.append(str(failure))
             except subprocess.TimeoutExpired:
@@ -302,6 +346,8 @@ def main():
     parser.add_argument("documents", nargs="+", type=pathlib.Path)
     parser.add_argument("--program", default=str(REPOSITORY / "build/release/rollfix"))
     parser.add_argument("--prefix", default=str(REPOSITORY / "build/release/prefix"))
+    parser.add_argument("--python", default="/usr/bin/python3", help="the interpreter")
+    parser.add_argument("--python-path", default=str(REPOSITORY / "build/release/python"), help="where rollfix is")
     parser.add_argument("--compile", default="c++ -std=c++20", help="the compiler and its options")
     parser.add_argument("--update", action="store_true")
     options = parser.parse_args()

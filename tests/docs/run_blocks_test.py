@@ -3,6 +3,7 @@
 
 import argparse
 import pathlib
+import sys
 import tempfile
 import unittest
 
@@ -14,7 +15,8 @@ def failures_of(text, update=False):
     with tempfile.TemporaryDirectory() as directory:
         document = pathlib.Path(directory) / "document.md"
         document.write_text(text)
-        options = argparse.Namespace(program=f"{directory}/rollfix", prefix=directory, compile="c++ -std=c++20")
+        options = argparse.Namespace(program=f"{directory}/rollfix", prefix=directory, compile="c++ -std=c++20",
+                                     python=sys.executable, python_path=directory)
         corrections = []
         failures = run_blocks.check_document(document, options, corrections)
         if update:
@@ -25,6 +27,27 @@ def failures_of(text, update=False):
 
 def sh(*lines):
     return "\n".join(["Some prose.", "", "```sh", *lines, "```", "", "More prose.", ""])
+
+
+def python(*lines):
+    return "\n".join(["Some prose.", "", "```python", *lines, "```", "", "More prose.", ""])
+
+
+class Python(unittest.TestCase):
+    def test_a_session_that_prints_what_it_says_passes(self):
+        self.assertEqual(failures_of(python(">>> 1 + 1", "2") + python(">>> x = 3", ">>> x", "3")), [])
+
+    def test_the_blocks_are_one_session(self):
+        self.assertEqual(failures_of(python(">>> x = 3") + python(">>> x", "3")), [])
+
+    def test_other_output_is_shown_with_its_line(self):
+        (failure,) = failures_of(python(">>> 1 + 1", "3"))
+        self.assertIn("Got:", failure)
+        self.assertIn("line 4", failure)
+
+    def test_what_is_no_python_is_found(self):
+        (failure,) = failures_of(python("x = = 3"))
+        self.assertIn("invalid syntax", failure)
 
 
 class Commands(unittest.TestCase):
@@ -121,7 +144,8 @@ class Programs(unittest.TestCase):
             (prefix / "lib/pkgconfig/tiny.pc").write_text(
                 f"Name: tiny\nDescription: tiny\nVersion: 1\nCflags: -I{prefix}/include\n")
             (prefix / "document.md").write_text(text)
-            options = argparse.Namespace(program=f"{directory}/rollfix", prefix=directory, compile="c++ -std=c++20")
+            options = argparse.Namespace(program=f"{directory}/rollfix", prefix=directory, compile="c++ -std=c++20",
+                                     python=sys.executable, python_path=directory)
             return run_blocks.check_document(prefix / "document.md", options, [])
 
     def test_a_program_is_run_and_its_output_compared(self):

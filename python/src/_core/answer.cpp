@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "answer_state.hpp"
@@ -10,14 +11,22 @@
 namespace rollfix::python {
 namespace {
 
-/// The probability density of each finger's first contact at places s, per length; a pivot at a corner is a point, and
-/// not in it.
+/// The probability density of a finger's first contact at s, per length; a pivot at a corner is a point, and not in it.
+/// Pieces are in order and do not overlap; the last may go on across s = 0.
 double density_at(const Density& density, const Boundary& boundary, double s) {
-  double sum = 0;
-  for (const DensityPiece& piece : density) {
-    if (piece.s.width() > 0 && boundary.contains(piece.s, s)) sum += piece.probability / piece.s.width();
-  }
-  return sum;
+  const auto at = [&](double place) {
+    auto next = std::upper_bound(density.begin(), density.end(), place,
+                                 [](double value, const DensityPiece& piece) { return value < piece.s.lo; });
+    while (next != density.begin()) {
+      --next;
+      if (next->s.width() > 0) return place <= next->s.hi ? next->probability / next->s.width() : 0.0;
+    }
+    return 0.0;
+  };
+  if (!boundary.closed && !(s >= 0 && s <= boundary.perimeter)) return 0;
+  const double base = boundary.base(s);
+  const double here = at(base);
+  return here > 0 || !boundary.closed ? here : at(base + boundary.perimeter);
 }
 
 /// Pieces in order, as arrays: (n, 2) of s, (n,) of probability.

@@ -1,0 +1,154 @@
+"""Answers are small immutable values."""
+
+import copy
+import json
+import pickle
+
+import numpy as np
+import pytest
+
+import rollfix
+from rollfix import Disk, Noise
+
+
+@pytest.fixture
+def answer(ellipse):
+    return ellipse.locate(1.0, 0.625)
+
+
+@pytest.fixture(scope="module")
+def weighed(wing, roll_csv, noise):
+    return wing.locate(log=roll_csv, finger=Disk(10), noise=noise)
+
+
+def pair_answer():
+    cam = rollfix.Part.gallery("cam")
+    return cam.locate([[0.7446832, -0.3983439, 1.0032473], [1.5, -0.8, 1.9367925]], tolerance=1e-6)
+
+
+def test_an_answer_is_a_sequence(answer):
+    assert len(answer) == 4 == len(list(answer)) == len(answer[:])
+    assert answer[0] == answer.placements[0] and answer[-1] == answer[3]
+    assert answer[1] in answer
+    with pytest.raises(IndexError):
+        answer[4]
+
+
+def test_repr_tells_the_verdict(answer):
+    assert repr(answer) == "<Answer: ambiguous (4); start 0.3926, 3.4517, 5.2368, 8.2959>"
+    assert repr(answer[0]) == "<Placement crossing: start 0.3926, end 1.3926>"
+
+
+@pytest.mark.parametrize("name", ["verdict", "status", "placements", "tolerance", "anything"])
+def test_an_answer_can_not_be_changed(answer, name):
+    with pytest.raises(AttributeError):
+        setattr(answer, name, 1)
+
+
+@pytest.mark.parametrize("name", ["start", "extent", "point", "roots", "tangent"])
+def test_arrays_can_not_be_written_to(answer, name):
+    with pytest.raises(ValueError):
+        getattr(answer[0], name)[...] = 0
+    with pytest.raises(AttributeError):
+        setattr(answer[0], name, 1)
+
+
+def test_the_document_is_that_of_the_program(answer, program):
+    expected = program("locate", "gallery:ellipse,a=2,b=1", "--reading", "1.0,0.625", "--tolerance", "1e-9", "--json")
+    assert answer.to_dict() == expected
+    assert [one.to_dict() for one in answer] == expected["placements"]
+
+
+def test_the_fields_are_those_of_the_document(weighed):
+    document = weighed.to_dict()
+    for placement, fields in zip(weighed, document["placements"]):
+        for name in ("start", "end", "extent", "point", "tangent", "mean", "sd", "interval", "end_mean", "end_sd", "roots",
+                     "pose", "pose_mean", "pose_covariance"):
+            np.testing.assert_array_equal(getattr(placement, name), np.array(fields[name]).reshape(
+                getattr(placement, name).shape), err_msg=name)
+        for name in ("kind", "probability", "residual", "error", "whole_loop"):
+            assert getattr(placement, name) == fields[name], name
+        np.testing.assert_array_equal(placement.per_turn, fields["sensitivity"]["per_turn"])
+        np.testing.assert_array_equal(placement.per_length, fields["sensitivity"]["per_length"])
+    assert weighed.verdict == document["verdict"] and weighed.status == document["status"]
+    assert weighed.fit == document["fit"] and weighed.diagnosis == document["diagnosis"]
+
+
+@pytest.mark.parametrize("make", [lambda w: w, lambda w: pair_answer(), lambda w: w[0], lambda w: w.part, lambda w: w.log,
+                                  lambda w: Disk(3), lambda w: rollfix.Jaw(), lambda w: Noise(angle=0.1),
+                                  lambda w: w.part.inspect(), lambda w: w.advise(), lambda w: w.part.locate(60.1, 0.0894)])
+def test_results_survive_pickle_and_copy(weighed, make):
+    value = make(weighed)
+    for copied in (pickle.loads(pickle.dumps(value)), copy.deepcopy(value)):
+        assert copied == value and hash(copied) == hash(value) and repr(copied) == repr(value)
+
+
+def test_other_bits_are_another_answer(ellipse, answer):
+    assert answer == ellipse.locate([[1.0, 0.625]])
+    assert answer != ellipse.locate(1.0, np.nextafter(0.625, 1))
+    assert answer != rollfix.Part.gallery("ellipse", a=2, b=1.0000001).locate(1.0, 0.625)
+    assert answer != 3
+
+
+def test_a_table_has_a_row_for_each_placement(answer, weighed):
+    pandas = pytest.importorskip("pandas")
+    frame = answer.to_frame()
+    assert list(frame.start) == [one.start[0] for one in answer]
+    assert list(weighed.to_frame().probability) == [one.probability for one in weighed]
+    assert {"start_a", "start_b"} <= set(pair_answer().to_frame().columns)
+    assert isinstance(frame, pandas.DataFrame)
+
+
+def test_notebooks_show_the_figure_and_the_table(answer, weighed):
+    for one in (answer, weighed, pair_answer()):
+        assert one._repr_svg_().startswith("<svg") or one._repr_svg_().startswith("<?xml")
+        assert "<table>" in one._repr_html_() and one.verdict in one._repr_html_()
+
+
+def test_the_figure_is_that_of_the_program(wing, roll_csv, noise, program, tmp_path):
+    import subprocess
+
+    file = tmp_path / "figure.svg"
+    subprocess.run([program.path, "locate", wing.name, "--log", str(roll_csv), "--finger", "disk,r=10", "--noise",
+                    "contact=0.05,angle=0.006,slip=0.004", "-o", str(file)], check=True, capture_output=True)
+    assert wing.locate(log=roll_csv, finger=Disk(10), noise=noise).to_svg() == file.read_text()
+
+
+def test_figures_are_written_by_their_ending(answer, ellipse, tmp_path):
+    answer.save(tmp_path / "a.png")
+    ellipse.save(tmp_path / "a.pdf")
+    ellipse.save(tmp_path / "a.json")
+    assert (tmp_path / "a.png").read_bytes()[:4] == b"\x89PNG" and (tmp_path / "a.pdf").read_bytes()[:4] == b"%PDF"
+    saved = rollfix.Part(tmp_path / "a.json")
+    assert saved.locate(1.0, 0.625).starts.tobytes() == answer.starts.tobytes()
+    with pytest.raises(rollfix.InputError):
+        answer.save(tmp_path / "a.bmp")
+
+
+def test_plot_draws_on_axes_that_are_given(answer):
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    figure, axes = plt.subplots()
+    assert answer.plot(axes) is axes and len(axes.lines) == 1 + 2 * len(answer)
+    plt.close(figure)
+
+
+def test_the_density_integrates_to_the_probabilities(weighed):
+    pieces, probability = weighed.density()
+    assert probability.sum() == pytest.approx(1, abs=1e-6)
+    s = np.linspace(0, weighed.part.perimeter, 400001)
+    density = weighed.density(s)
+    assert density.shape == s.shape and np.trapz(density, s) == pytest.approx(1, abs=1e-3)
+    assert weighed.density(s.reshape(1, -1)).shape == (1, len(s))
+    assert len(pieces) == len(probability)
+
+
+def test_without_noise_there_is_no_density(answer):
+    with pytest.raises(rollfix.InputError, match="noise"):
+        answer.density([1.0])
+
+
+def test_the_document_is_json(weighed):
+    json.dumps(weighed.to_dict(), allow_nan=False)

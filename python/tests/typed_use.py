@@ -1,0 +1,34 @@
+"""Code as users write it, for mypy --strict: what the types promise."""
+
+from typing import List, Optional, Union
+
+import numpy as np
+
+import rollfix
+
+
+def whole_session(path: str) -> None:
+    part: rollfix.Part = rollfix.Part(path, unit="mm")
+    answer: rollfix.Answer = part.locate(1.0, 0.5)
+    first: rollfix.Placement = answer[0]
+    some: int = len(answer[1:])
+    start: float = float(first.start[0])
+    probability: Optional[float] = first.probability
+    verdict: str = answer.verdict
+    noise = rollfix.Noise(contact=0.05, angle=0.01)
+    weighed = part.locate(log="roll.csv", finger=rollfix.Disk(10), noise=noise, degrees=True, columns={"u": "joint_4"})
+    density: np.ndarray = weighed.density(np.linspace(0, 1, 5))
+    many: rollfix.ManyAnswers = part.locate_many(np.ones((5, 2)), threads=2)
+    rows: np.ndarray = many.start[many.rows(0)]
+    logs: List[Union[rollfix.Answer, rollfix.InputError]] = part.locate_logs(["a.csv"], finger=rollfix.Jaw())
+    for event in part.watch(noise=noise).follow(["1,2"]):
+        name: str = event["event"]
+    reach: rollfix.Reach = part.reach(rollfix.Disk(1.0))
+    print(some, start, probability, verdict, density, rows, logs, name, reach.share, part.advise(1.0, 0.5).length)
+
+
+def mistakes(part: rollfix.Part) -> None:
+    part.locate(1.0, 0.5, finger=3)  # type: ignore[arg-type]
+    part.locate(1.0, 0.5, fingers=None)  # type: ignore[call-arg]
+    part.perimeter = 3.0  # type: ignore[misc]
+    part.locate(1.0, 0.5).verdict = "unique"  # type: ignore[misc]
