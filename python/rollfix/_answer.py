@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Optional, Tuple, Un
 import numpy as np
 
 from . import _core
-from ._core import InputError, Placement as Placement
+from ._core import Answer as CoreAnswer, InputError, Placement as Placement
 from ._inputs import Finger, array, finger_from, finite, path, travel, whole
 
 if TYPE_CHECKING:
@@ -27,10 +27,20 @@ class Answer(SequenceABC):  # type: ignore[type-arg]
 
     __slots__ = ("_core", "_log", "_placements")
 
-    def __init__(self, core: _core.Answer, log: Optional["Log"] = None) -> None:
+    _core: CoreAnswer
+    _log: "Log"  # where there was one
+    _placements: Tuple[Placement, ...]  # once somebody asked
+
+    def __init__(self, core: CoreAnswer, log: Optional["Log"] = None) -> None:
         self._core = core
-        self._log = log
-        self._placements: Optional[Tuple[Placement, ...]] = None
+        if log is not None:
+            self._log = log
+
+    @staticmethod
+    def _of(core: CoreAnswer, new: Any = object.__new__) -> "Answer":
+        answer: Answer = new(Answer)
+        answer._core = core
+        return answer
 
     # --- what it says ---
 
@@ -50,9 +60,11 @@ class Answer(SequenceABC):  # type: ignore[type-arg]
     @property
     def placements(self) -> Tuple[Placement, ...]:
         """tuple of Placement: ordered by start; with noise the most probable first."""
-        if self._placements is None:
+        try:
+            return self._placements
+        except AttributeError:
             self._placements = tuple(self._core.placement(k) for k in range(len(self._core)))
-        return self._placements
+            return self._placements
 
     @property
     def starts(self) -> np.ndarray:
@@ -128,7 +140,7 @@ class Answer(SequenceABC):  # type: ignore[type-arg]
     @property
     def log(self) -> Optional["Log"]:
         """Log or None: what was asked with."""
-        return self._log
+        return getattr(self, "_log", None)
 
     @property
     def notes(self) -> Tuple[str, ...]:
@@ -241,7 +253,7 @@ class Answer(SequenceABC):  # type: ignore[type-arg]
     def _figure(self, highlight: Optional[int], title: str, width: float) -> Any:
         from . import _draw
 
-        log = None if self._log is None or self._core.strays else self._log._core
+        log = None if self.log is None or self._core.strays else self.log._core
         return _draw.answer_figure(self._core, log, highlight, title, width)
 
     def plot(self, ax: Any = None) -> Any:
@@ -301,7 +313,7 @@ class Answer(SequenceABC):  # type: ignore[type-arg]
 
     def __reduce__(self) -> Any:
         part, given, state = self._core.state()
-        return (_answer, (part, given, state, self._log))
+        return (_answer, (part, given, state, self.log))
 
 
 def _answer(part: Any, given: Any, state: bytes, log: Optional["Log"]) -> Answer:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import functools
 import os
-from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, TypeVar, Union, cast
 
 import numpy as np
 
@@ -32,6 +33,19 @@ from ._logs import Columns, Log, Roll, core_log
 from ._watch import Watch
 
 NoiseLike = Union[Noise, Dict[str, float], None]
+Method = TypeVar("Method", bound=Callable[..., Answer])
+
+
+def _quick(locate: Method) -> Method:
+    """One reading of one finger and nothing else, the job of tight loops, takes the shortest way to C++."""
+
+    @functools.wraps(locate)
+    def quick(self: "Part", readings: Any = None, turn: Any = None, **options: Any) -> Answer:
+        if not options and isinstance(readings, float) and isinstance(turn, float):
+            return Answer._of(_core.locate_one(self._core, readings, turn))
+        return locate(self, readings, turn, **options)
+
+    return cast(Method, quick)
 
 
 class Part:
@@ -311,6 +325,7 @@ class Part:
 
     # --- where is the finger ---
 
+    @_quick
     def locate(
         self,
         readings: Any = None,
@@ -387,27 +402,6 @@ class Part:
         InputError
             What can't be meant; the message names the argument.
         """
-        if (
-            type(readings) is float
-            and type(turn) is float
-            and log is None
-            and finger is None
-            and noise is None
-            and tolerance is None
-            and facing is None
-            and at is None
-            and prior is None
-            and heading is None
-            and pose is None
-            and columns is None
-            and units is None
-            and roll is None
-            and rounding is None
-            and budget is None
-            and direction == "ccw"
-            and not (mirrored or robust or degrees)
-        ):
-            return Answer(_core.locate_one(self._core, readings, turn))
         problem, taken = self._problem(
             readings,
             turn,

@@ -149,6 +149,18 @@ void add_error(std::size_t k, const std::string& message, AnswerTable& table) {
   table.offsets.push_back(static_cast<std::int64_t>(table.kind.size()));
 }
 
+/// Room for what a block of problems mostly has.
+void reserve(AnswerTable& table) {
+  constexpr std::size_t kRows = 6 * kBlock;
+  const std::size_t each = kRows * table.fingers;
+  table.offsets.reserve(kBlock + 1);
+  for (auto* column : {&table.status, &table.verdict}) column->reserve(kBlock);
+  for (auto* column : {&table.kind, &table.whole_loop}) column->reserve(kRows);
+  for (auto* column : {&table.error, &table.residual, &table.probability}) column->reserve(kRows);
+  for (auto* column : {&table.start, &table.end, &table.tangent}) column->reserve(each);
+  for (auto* column : {&table.extent, &table.point}) column->reserve(2 * each);
+}
+
 constexpr auto kColumns = std::make_tuple(
     &AnswerTable::status, &AnswerTable::verdict, &AnswerTable::tolerance, &AnswerTable::errors, &AnswerTable::kind,
     &AnswerTable::start, &AnswerTable::end, &AnswerTable::extent, &AnswerTable::point, &AnswerTable::tangent,
@@ -202,6 +214,7 @@ AnswerTable solve_table(const Problem& like, std::size_t count, const ProblemMak
   crew.run(options.threads, options.go_on, [&](std::size_t lo, std::size_t hi) {
     AnswerTable& table = blocks[lo / kBlock];
     table.fingers = fingers;
+    reserve(table);
     Problem problem = like;
     for (std::size_t k = lo; k < hi; ++k) {
       try {

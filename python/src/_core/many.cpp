@@ -1,7 +1,10 @@
 #include "rollfix/answer/many.hpp"
 
+#include <ctime>
+
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "rollfix/answer/solve.hpp"
 
 namespace rollfix::python {
 namespace {
@@ -110,10 +113,30 @@ py::list solve_problems(const std::vector<Problem>& problems, unsigned threads, 
   return result;
 }
 
+/// Seconds of processor time that C++ takes for the same: one problem of each row after the other, or all as a table.
+double seconds_of_rows(const PartHandle& handle, const Numbers& rows, bool as_table) {
+  const Part part = handle.part();
+  const auto count = static_cast<std::size_t>(rows.shape(0));
+  const auto reading = [&](std::size_t k) { return Reading(rows.data()[2 * k], rows.data()[2 * k + 1]); };
+  const py::gil_scoped_release others_may_run;
+  const std::clock_t start = std::clock();
+  if (as_table) {
+    ManyOptions options;
+    options.threads = 1;
+    solve_table(
+        {part, Reading()}, count, [&](std::size_t k, Problem& problem) { problem.felt.readings[0] = reading(k); }, 1,
+        options);
+  } else {
+    for (std::size_t k = 0; k < count; ++k) solve({part, reading(k)});
+  }
+  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+}
+
 }  // namespace
 
 void bind_many(py::module_& module) {
   module.def("solve_many", &solve_many);
+  module.def("seconds_of_rows", &seconds_of_rows);  // for bench/python.py
   module.def("solve_problems", &solve_problems);
 }
 
