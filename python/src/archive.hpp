@@ -194,9 +194,9 @@ void visit(A& a, DensityPiece& v) {
 }
 template <class A>
 void visit(A& a, Fit& v) {
-  auto& [chi_square, freedom, sigmas, correlation, correlation_sigmas, stray, prior_sigmas, excess, widened,
+  auto& [chi_square, freedom, sigmas, correlation, correlation_sigmas, row_sigmas, stray, prior_sigmas, excess, widened,
          length_scale, length_scale_sd] = v;
-  all(a, chi_square, freedom, sigmas, correlation, correlation_sigmas, stray, prior_sigmas, excess, widened,
+  all(a, chi_square, freedom, sigmas, correlation, correlation_sigmas, row_sigmas, stray, prior_sigmas, excess, widened,
       length_scale, length_scale_sd);
 }
 template <class A>
@@ -211,8 +211,8 @@ void visit(A& a, Mode& v) {
 }
 template <class A>
 void visit(A& a, Diagnosis& v) {
-  auto& [cause, excess, length_scale, length_scale_sd, noise_scale, noise, stray, verdict, modes] = v;
-  all(a, cause, excess, length_scale, length_scale_sd, noise_scale, noise, stray, verdict, modes);
+  auto& [cause, excess, log_odds, length_scale, length_scale_sd, noise_scale, noise, stray, slip, verdict, modes] = v;
+  all(a, cause, excess, log_odds, length_scale, length_scale_sd, noise_scale, noise, stray, slip, verdict, modes);
 }
 /// Without the part and the fingers, which Python pickles itself.
 template <class A>

@@ -29,17 +29,24 @@ def test_an_open_curve_keeps_its_ends():
     assert parabola.curvature(parabola.perimeter / 2) == pytest.approx(2, abs=1e-9)
 
 
+def square(u):
+    k = min(int(u), 3)
+    return [(u - k, 0), (1, u - k), (1 - u + k, 1), (0, 1 - u + k)][k]
+
+
+def square_slope(u):
+    return [(1, 0), (0, 1), (-1, 0), (0, -1)][min(int(u), 3)]
+
+
 def test_inner_values_of_the_domain_are_corners():
-    def square(u):
-        k, x = min(int(u), 3), u - min(int(u), 3)
-        return [(x, 0), (1, x), (1 - x, 1), (0, 1 - x)][k]
+    part = Part.from_curve(square, square_slope, lambda u: (0, 0), (0, 1, 2, 3, 4))
+    assert part.perimeter == pytest.approx(4, rel=1e-12)
+    np.testing.assert_allclose(part.corners, [[k, np.pi / 2] for k in range(4)], atol=1e-9)
 
-    def slope(u):
-        return [(1, 0), (0, 1), (-1, 0), (0, -1)][min(int(u), 3)]
 
-    # Each side's own functions end at its corners: a place there belongs to the side that begins.
-    with pytest.raises(InputError, match="domain|df"):
-        Part.from_curve(square, slope, lambda u: (0, 0), (0, 4))
+def test_a_corner_that_is_not_told_is_found():
+    with pytest.raises(InputError, match="^f: is not smooth near 0.3"):
+        Part.from_curve(lambda u: (u, abs(u - 0.3)), lambda u: (1, np.sign(u - 0.3)), lambda u: (0, 0), (-1, 1), closed=False)
 
 
 @pytest.mark.parametrize("change, name", [

@@ -251,6 +251,16 @@ sys.exit(1 if runner.failures else 0)
 """
 
 
+def without_python(blocks):
+    """Neither the blocks of Python nor their outputs."""
+    kept, follows_python = [], False
+    for block in blocks:
+        follows_python = block.language == "python" or (block.is_output and follows_python)
+        if not follows_python:
+            kept.append(block)
+    return kept
+
+
 def check_session(blocks, options, scratch, environment):
     """All sessions of a document, one after the other; numbers of lines are the document's."""
     lines = []
@@ -293,6 +303,8 @@ def check_document(path, options, corrections):
             return [str(failure)]
         sessions = [block for block in blocks if block.language == "python" and any(
             line.startswith(">>> ") for line in block.lines)]
+        if not options.python:
+            blocks = without_python(blocks)
         for block in blocks:
             try:
                 if block.is_output:
@@ -346,7 +358,7 @@ def main():
     parser.add_argument("documents", nargs="+", type=pathlib.Path)
     parser.add_argument("--program", default=str(REPOSITORY / "build/release/rollfix"))
     parser.add_argument("--prefix", default=str(REPOSITORY / "build/release/prefix"))
-    parser.add_argument("--python", default="/usr/bin/python3", help="the interpreter")
+    parser.add_argument("--python", default="/usr/bin/python3", help="the interpreter; empty: Python is left out")
     parser.add_argument("--python-path", default=str(REPOSITORY / "build/release/python"), help="where rollfix is")
     parser.add_argument("--compile", default="c++ -std=c++20", help="the compiler and its options")
     parser.add_argument("--update", action="store_true")
