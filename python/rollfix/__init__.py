@@ -14,7 +14,8 @@ from ._core import InputError, InternalError, Reach, __version__
 from ._documents import Advice, Inspection
 from ._inputs import Disk, Finger, Jaw, Noise, OutlineFinger, RollfixWarning
 from ._logs import Log, Roll, read_log
-from ._part import Part, Taught, gallery_shapes, teach
+from ._part import Part, gallery_shapes
+from ._teach import Taught, teach
 from ._watch import Watch
 
 __all__ = [

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import sys
+import warnings
 from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
@@ -16,6 +18,14 @@ if TYPE_CHECKING:
 
 class RollfixWarning(UserWarning):
     """Something was chosen for the user, such as one of a log's several rolls. The message says how to choose."""
+
+
+def warn(message: str) -> None:
+    """A RollfixWarning at the line of the user's that led to it."""
+    frame, level = sys._getframe(1), 2
+    while frame.f_back is not None and os.path.dirname(frame.f_code.co_filename) == os.path.dirname(__file__):
+        frame, level = frame.f_back, level + 1
+    warnings.warn(message, RollfixWarning, stacklevel=level)
 
 
 class Finger:
@@ -210,7 +220,10 @@ class Noise:
         return f"Noise({', '.join(f'{name}={sd!r}' for name, sd in self._sds.items() if sd != 0)})"
 
 
-def noise(given: Union[Noise, Dict[str, float], None]) -> Optional[Dict[str, float]]:
+NoiseLike = Union[Noise, Dict[str, float], None]
+
+
+def noise(given: NoiseLike) -> Optional[Dict[str, float]]:
     """As the C++ takes it."""
     if given is None:
         return None

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import os
 import re
-import warnings
 from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _core
 from ._core import InputError
-from ._inputs import RollfixWarning, array, path, whole
+from ._inputs import array, path, warn, whole
 
 COLUMNS = ("time", "u", "psi", "x", "y", "contact", "length", "turn", "distance", "dturn")
 Source = Tuple[str, str, str]  # column, name in the log, unit
@@ -222,7 +221,7 @@ def _chosen(rolls: List[_core.Log], roll: Optional[int]) -> _core.Log:
     if roll is None:
         if len(rolls) > 1:
             message = f"log: took roll {len(rolls)} of {len(rolls)}, {rolls[-1].name}; `roll` takes another"
-            warnings.warn(message, RollfixWarning, stacklevel=5)
+            warn(message)
         return rolls[-1]
     number = whole(roll, "roll", 1)
     if number > len(rolls):

@@ -11,11 +11,11 @@ import numpy as np
 from . import _core
 from ._answer import Answer, ManyAnswers
 from ._core import InputError, Reach
-from ._documents import Advice, Document, Inspection
+from ._documents import Advice, Inspection
 from ._inputs import (
     Finger,
     FingerLike,
-    Noise,
+    NoiseLike,
     array,
     clockwise,
     fingers,
@@ -25,14 +25,13 @@ from ._inputs import (
     numbers,
     optional_number,
     path,
-    readings as readings_given,
     travel as travel_given,
     whole,
 )
-from ._logs import Columns, Log, Roll, core_log
+from ._logs import Columns, Roll
+from ._problems import basic_problem, log_options, problem_of
 from ._watch import Watch
 
-NoiseLike = Union[Noise, Dict[str, float], None]
 Method = TypeVar("Method", bound=Callable[..., Answer])
 
 
@@ -402,7 +401,8 @@ class Part:
         InputError
             What can't be meant; the message names the argument.
         """
-        problem, taken = self._problem(
+        problem, taken = problem_of(
+            self._core,
             readings,
             turn,
             log,
@@ -496,7 +496,7 @@ class Part:
             facings = np.ascontiguousarray(np.broadcast_to(given, (len(rows),)))
 
         def problem_of(one_facing: Optional[float]) -> _core.Problem:
-            problem = self._basic_problem(finger, noise, tolerance, mirrored, budget)
+            problem = basic_problem(self._core, finger, noise, tolerance, mirrored, budget)
             if rounding is not None:
                 length, angle = numbers(rounding, 2, "rounding", "(length, turn)")
                 problem.set_roundings([(length, angle)] * rows.shape[1])
@@ -519,10 +519,10 @@ class Part:
         list of Answer, or of InputError where a log can't be worked with
         """
         problems: List[Any] = []
-        chosen = _log_options(options)
+        chosen = log_options(options)
         for log in logs:
             try:
-                problems.append(self._problem(None, None, log, *chosen))
+                problems.append(problem_of(self._core, None, None, log, *chosen))
             except InputError as error:
                 problems.append(error)
         asked = [one for one in problems if not isinstance(one, InputError)]
@@ -676,237 +676,9 @@ class Part:
     def __reduce__(self) -> Any:
         return (_part, (self._core,))
 
-    # --- from arguments to a problem ---
-
-    def _basic_problem(
-        self, finger: Optional[FingerLike], noise: NoiseLike, tolerance: Optional[float], mirrored: bool, budget: Any
-    ) -> _core.Problem:
-        problem = _core.Problem(self._core)
-        if finger is not None:
-            problem.set_fingers(fingers(finger))
-        if noise is not None:
-            problem.set_noise(noise_given(noise))
-        if tolerance is not None:
-            problem.tolerance = number(tolerance, "tolerance")
-            if problem.tolerance < 0:
-                raise InputError(f"tolerance: expected an angle of at least 0, found {tolerance!r}")
-        problem.mirrored = bool(mirrored)
-        if budget is not None:
-            problem.budget = whole(budget, "budget", 1)
-        return problem
-
-    def _problem(
-        self,
-        readings: Any,
-        turn: Any,
-        log: Any,
-        finger: Optional[FingerLike] = None,
-        noise: NoiseLike = None,
-        tolerance: Optional[float] = None,
-        facing: Optional[float] = None,
-        at: Any = None,
-        prior: Any = None,
-        heading: Any = None,
-        pose: Any = None,
-        mirrored: bool = False,
-        direction: str = "ccw",
-        robust: bool = False,
-        columns: Columns = None,
-        units: Optional[Mapping[str, str]] = None,
-        degrees: bool = False,
-        roll: Optional[int] = None,
-        rounding: Optional[Tuple[float, float]] = None,
-        budget: Optional[int] = None,
-    ) -> Tuple[_core.Problem, Optional[Log]]:
-        if (readings is None) == (log is None):
-            found = "neither" if log is None else "both: they can't be of the same roll"
-            raise InputError(f"readings: expected readings or `log`, found {found}")
-        problem = self._basic_problem(finger, noise, tolerance, mirrored, budget)
-        taken: Optional[Log] = None
-        if log is not None:
-            taken = self._set_log(problem, turn, log, columns, units, degrees, direction, roll, rounding)
-        else:
-            self._set_readings(problem, readings, turn, direction, rounding)
-            for value, name in ((at, "at"), (columns, "columns"), (units, "units"), (roll, "roll")):
-                if value is not None:
-                    raise InputError(f"{name}: is about a log, found readings")
-            if degrees:
-                raise InputError("degrees: is about a log's columns; readings are radians: numpy.radians converts them")
-        if facing is not None:
-            problem.facing = number(facing, "facing")
-        if at is not None:
-            problem.at = list(finite(np.atleast_1d(array(at, "at")), "at"))
-        if prior is not None:
-            s, sd = numbers(prior, 2, "prior", "(s, sd)")
-            problem.set_prior((s, sd))
-        problem.set_pose(_pose(heading, pose))
-        problem.robust = bool(robust)
-        return problem, taken
-
-    def _set_log(
-        self,
-        problem: _core.Problem,
-        turn: Any,
-        log: Any,
-        columns: Columns,
-        units: Optional[Mapping[str, str]],
-        degrees: bool,
-        direction: str,
-        roll: Optional[int],
-        rounding: Any,
-    ) -> Log:
-        if turn is not None:
-            raise InputError("turn: goes with a length, found a log")
-        if rounding is not None:
-            raise InputError("rounding: is of readings; a log's digits say it themselves")
-        core = core_log(log, columns, units, degrees, self.unit, clockwise(direction), roll)
-        if clockwise(direction) and core.kind == "contact":
-            raise InputError("direction: the log has u and psi, which say the direction themselves: leave it out")
-        problem.set_log(core)
-        return Log(core)
-
-    @staticmethod
-    def _set_readings(problem: _core.Problem, readings: Any, turn: Any, direction: str, rounding: Any) -> None:
-        rows = readings_given(readings, turn)
-        if clockwise(direction):
-            rows = rows * np.array([-1.0] * (rows.shape[1] - 1) + [1.0])
-        problem.set_readings(rows)
-        if rounding is not None:
-            length, angle = numbers(rounding, 2, "rounding", "(length, turn)")
-            problem.set_roundings([(length, angle)] * len(rows))
-
-
-def _pose(heading: Any, pose: Any) -> Optional[List[float]]:
-    if heading is not None and pose is not None:
-        raise InputError("heading: `pose` says how the part is turned as well: leave one out")
-    if heading is not None:
-        angle, sd = numbers(heading, 2, "heading", "(angle, sd)")
-        if not sd > 0:
-            raise InputError(f"heading: expected a standard deviation above 0, found {sd!r}")
-        return [0.0, 0.0, angle, float("inf"), sd]
-    if pose is None:
-        return None
-    given = numbers(pose, 5, "pose", "(x, y, heading, sd, sd_heading)")
-    if not (given[3] > 0 and given[4] > 0):
-        raise InputError(f"pose: expected standard deviations above 0, found {given[3]!r} and {given[4]!r}")
-    return given
-
-
-_LOG_OPTIONS: Dict[str, Any] = {
-    "finger": None,
-    "noise": None,
-    "tolerance": None,
-    "facing": None,
-    "at": None,
-    "prior": None,
-    "heading": None,
-    "pose": None,
-    "mirrored": False,
-    "direction": "ccw",
-    "robust": False,
-    "columns": None,
-    "units": None,
-    "degrees": False,
-    "roll": None,
-    "rounding": None,
-    "budget": None,
-}
-
-
-def _log_options(options: Dict[str, Any]) -> List[Any]:
-    unknown = [name for name in options if name not in _LOG_OPTIONS]
-    if unknown:
-        raise TypeError(f"locate_logs() got an unexpected keyword argument {unknown[0]!r}")
-    return [options.get(name, default) for name, default in _LOG_OPTIONS.items()]
-
 
 def _part(core: _core.Part) -> Part:
     return Part._of(core)
-
-
-class Taught(Document):
-    """A part that was taught by a roll around it: the fields of `rollfix/teach/1`, see docs/json.md.
-
-    `part` is it; `taught` says how: `closing`, `gap`, `turn_gap`, ...; `notes` the same in words.
-    """
-
-    __slots__ = ("_part",)
-
-    def __init__(self, part: Part, text: str) -> None:
-        super().__init__(text)
-        self._part = part
-
-    @property
-    def part(self) -> Part:
-        """Part: what was rolled around."""
-        return self._part
-
-    @property
-    def notes(self) -> Tuple[str, ...]:
-        """tuple of str: what had to be done."""
-        return self._part.notes
-
-    def _repr_svg_(self) -> str:
-        return self._part.to_svg()
-
-    def __repr__(self) -> str:
-        return f"<Taught: {self.taught['closing']}, {self._part!r}>"
-
-    def __reduce__(self) -> Any:
-        return (Taught, (self._part, self._text))
-
-
-def teach(
-    log: Any,
-    finger: Optional[Finger] = None,
-    *,
-    noise: NoiseLike = None,
-    bridge: bool = False,
-    open: bool = False,
-    corner_angle: Optional[float] = None,
-    allow_crossing: bool = False,
-    unit: str = "",
-    columns: Columns = None,
-    units: Optional[Mapping[str, str]] = None,
-    degrees: bool = False,
-) -> Taught:
-    """A part without a drawing, from one full roll around it.
-
-    Parameters
-    ----------
-    log
-        As of `read_log`, also for `columns`, `units` and `degrees`.
-    finger : Disk, optional
-        For logs of u and psi.
-    noise : Noise or dict, optional
-        None: only what the digits and the rows' distance leave open.
-    bridge : bool
-        A gap that drift does not explain is bridged by a piece.
-    open : bool
-        The roll runs along an open curve: nothing is closed.
-    corner_angle : float, optional
-        Neighbouring rows that turn by at least this make a corner, radians.
-    allow_crossing : bool
-        Take a course that crosses itself.
-    unit : str
-        The part's.
-
-    Returns
-    -------
-    Taught
-    """
-    core = core_log(log, columns, units, degrees, unit, False, None)
-    given = fingers(finger, 1)
-    part, text = _core.teach(
-        core,
-        given[0] if given else None,
-        noise_given(noise),
-        bool(bridge),
-        bool(open),
-        optional_number(corner_angle, "corner_angle"),
-        bool(allow_crossing),
-    )
-    return Taught(Part._of(part), text)
 
 
 def gallery_shapes() -> Dict[str, Dict[str, Any]]:

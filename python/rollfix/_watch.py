@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import json
-import warnings
 from typing import TYPE_CHECKING, Any, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _core
 from ._core import InputError
-from ._inputs import Finger, Noise, RollfixWarning, clockwise, fingers, noise as noise_given, numbers, whole
+from ._inputs import Finger, Noise, clockwise, fingers, noise as noise_given, numbers, warn, whole
 from ._logs import COLUMNS, Columns, in_rows, sources_of, table_of, _UNSAFE, _IsPath
 
 if TYPE_CHECKING:
@@ -177,7 +176,7 @@ class Watch:
     def _events(self) -> List[Event]:
         events, notes = self._core.take()
         for note in notes.splitlines():
-            warnings.warn(note, RollfixWarning, stacklevel=3)
+            warn(note)
         found = [json.loads(line) for line in events.splitlines()]
         for event in found:
             if "placements" in event:

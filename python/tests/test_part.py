@@ -45,8 +45,8 @@ def test_inner_values_of_the_domain_are_corners():
 
 
 def test_a_corner_that_is_not_told_is_found():
-    with pytest.raises(InputError, match="^f: is not smooth near 0.3"):
-        Part.from_curve(lambda u: (u, abs(u - 0.3)), lambda u: (1, np.sign(u - 0.3)), lambda u: (0, 0), (-1, 1), closed=False)
+    with pytest.raises(InputError, match="^(f: is not smooth near|df: .* at) 0.31"):
+        Part.from_curve(lambda u: (u, abs(u - 0.3137)), lambda u: (1, np.sign(u - 0.3137)), lambda u: (0, 0), (-1, 1), closed=False)
 
 
 @pytest.mark.parametrize("change, name", [
