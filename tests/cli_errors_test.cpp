@@ -210,7 +210,7 @@ INSTANTIATE_TEST_SUITE_P(Watch, Mistakes, testing::ValuesIn(kWatch), mistake_nam
 INSTANTIATE_TEST_SUITE_P(Usage, Mistakes, testing::ValuesIn(kUsage), mistake_name);
 
 TEST(Options, that_do_not_exist_yet_are_an_error_and_not_ignored) {
-  for (const char* option : {"--batch", "--certify"}) {
+  for (const char* option : {"--certify"}) {
     const cli::Ran ran = run_words({"locate", "gallery:cam", "--reading", "1,1", option, "1"});
     EXPECT_EQ(ran.code, 2) << option;
     EXPECT_EQ(ran.out, "");

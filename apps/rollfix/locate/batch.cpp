@@ -144,11 +144,11 @@ BatchLine read_line(const std::string& text, const std::string& where, const Rol
   try {
     const Json object = Json::parse(text);
     if (!object.is_object()) throw InputError("expected a problem, a JSON object, found " + shown(text));
+    if (object.contains("id")) line.id = object["id"];
     RollArguments arguments = like;
     for (const auto& [name, value] : object.items()) {
-      if (name == "id") {
-        line.id = value;
-      } else if (name == "part") {
+      if (name == "id") continue;
+      if (name == "part") {
         arguments.part.part = typed(value, name);
       } else {
         set_field(name, value, arguments);
