@@ -148,6 +148,8 @@ class Answer(SequenceABC):  # type: ignore[type-arg]
         notes = list(self.part.notes)
         if self._core.part.reversed:
             notes.append("the outline was given clockwise and is stored counter-clockwise (a hole the other way round)")
+        if self._core.other_way:
+            notes.append(f"the other way round no such roll can be: {self._core.other_way}")
         if self._core.lengths_reversed:
             notes.append("the log's lengths changed their signs to match")
         if self._core.strays:

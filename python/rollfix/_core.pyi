@@ -95,6 +95,8 @@ class Placement:
     @property
     def pose(self) -> Optional[_Array]: ...
     @property
+    def direction(self) -> Optional[str]: ...
+    @property
     def contradicted(self) -> bool: ...
     @property
     def probability(self) -> Optional[float]: ...
@@ -148,6 +150,8 @@ class Answer:
     @property
     def pose_time(self) -> _Array: ...
     @property
+    def other_way(self) -> str: ...
+    @property
     def lengths_reversed(self) -> bool: ...
     def density_pieces(self, arg0: int) -> Optional[Tuple[_Array, _Array]]: ...
     def density(self, arg0: int, arg1: _Array) -> _Array: ...
@@ -161,6 +165,7 @@ class Problem:
     facing: Optional[float]
     at: List[float]
     mirrored: bool
+    either_way: bool
     robust: bool
     def __init__(self, arg0: Part) -> None: ...
     def set_readings(self, arg0: _Array) -> None: ...
@@ -209,14 +214,15 @@ class Watch:
         arg1: Iterable[_Given],
         arg2: Dict[str, float],
         arg3: Optional[Tuple[float, float]],
-        arg4: bool,
-        arg5: int,
-        arg6: str,
-        arg7: _Columns,
-        arg8: str,
-        arg9: bool,
+        arg4: Optional[Sequence[float]],
+        arg5: bool,
+        arg6: int,
+        arg7: str,
+        arg8: _Columns,
+        arg9: str,
         arg10: bool,
         arg11: bool,
+        arg12: bool,
     ) -> None: ...
     def push(self, arg0: str) -> None: ...
     def catch_up(self) -> None: ...

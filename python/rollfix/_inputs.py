@@ -339,6 +339,23 @@ def clockwise(direction: str) -> bool:
     return direction == "cw"
 
 
+def pose_prior(heading: Any, pose: Any) -> Optional[List[float]]:
+    """x, y, heading, and the standard deviations of both and of it."""
+    if heading is not None and pose is not None:
+        raise InputError("heading: `pose` says how the part is turned as well: leave one out")
+    if heading is not None:
+        angle, sd = numbers(heading, 2, "heading", "(angle, sd)")
+        if not sd > 0:
+            raise InputError(f"heading: expected a standard deviation above 0, found {sd!r}")
+        return [0.0, 0.0, angle, float("inf"), sd]
+    if pose is None:
+        return None
+    given = numbers(pose, 5, "pose", "(x, y, heading, sd, sd_heading)")
+    if not (given[3] > 0 and given[4] > 0):
+        raise InputError(f"pose: expected standard deviations above 0, found {given[3]!r} and {given[4]!r}")
+    return given
+
+
 def travel(given: Any) -> Optional[Tuple[float, float]]:
     """How far a finger can roll on: a length, or (back, forward)."""
     if given is None:

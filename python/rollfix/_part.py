@@ -382,8 +382,9 @@ class Part:
             The same with where it lies.
         mirrored : bool
             The part lies face down: what is felt is the outline's mirror image.
-        direction : 'ccw' or 'cw'
-            Which way round the part lengths count as positive. Of u and psi it is not asked.
+        direction : 'ccw', 'cw' or 'either'
+            Which way round the part lengths count as positive; either: both are tried, and each placement's `direction`
+            says which. Of u and psi it is not asked.
         robust : bool
             With noise: stray rows don't count.
         rounding : (length, turn), optional

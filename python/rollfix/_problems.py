@@ -18,6 +18,7 @@ from ._inputs import (
     noise as noise_given,
     number,
     numbers,
+    pose_prior,
     readings as readings_given,
     whole,
 )
@@ -69,6 +70,8 @@ def problem_of(
         found = "neither" if log is None else "both: they can't be of the same roll"
         raise InputError(f"readings: expected readings or `log`, found {found}")
     problem = basic_problem(part, finger, noise, tolerance, mirrored, budget)
+    if direction == "either":
+        problem.either_way, direction = True, "ccw"
     taken: Optional[Log] = None
     if log is not None:
         taken = _set_log(part, problem, turn, log, columns, units, degrees, direction, roll, rounding)
@@ -86,7 +89,7 @@ def problem_of(
     if prior is not None:
         s, sd = numbers(prior, 2, "prior", "(s, sd)")
         problem.set_prior((s, sd))
-    problem.set_pose(_pose(heading, pose))
+    problem.set_pose(pose_prior(heading, pose))
     problem.robust = bool(robust)
     return problem, taken
 
@@ -108,7 +111,7 @@ def _set_log(
     if rounding is not None:
         raise InputError("rounding: is of readings; a log's digits say it themselves")
     core = core_log(log, columns, units, degrees, part.unit, clockwise(direction), roll)
-    if clockwise(direction) and core.kind == "contact":
+    if (clockwise(direction) or problem.either_way) and core.kind == "contact":
         raise InputError("direction: the log has u and psi, which say the direction themselves: leave it out")
     problem.set_log(core)
     return Log(core)
@@ -122,22 +125,6 @@ def _set_readings(problem: _core.Problem, readings: Any, turn: Any, direction: s
     if rounding is not None:
         length, angle = numbers(rounding, 2, "rounding", "(length, turn)")
         problem.set_roundings([(length, angle)] * len(rows))
-
-
-def _pose(heading: Any, pose: Any) -> Optional[List[float]]:
-    if heading is not None and pose is not None:
-        raise InputError("heading: `pose` says how the part is turned as well: leave one out")
-    if heading is not None:
-        angle, sd = numbers(heading, 2, "heading", "(angle, sd)")
-        if not sd > 0:
-            raise InputError(f"heading: expected a standard deviation above 0, found {sd!r}")
-        return [0.0, 0.0, angle, float("inf"), sd]
-    if pose is None:
-        return None
-    given = numbers(pose, 5, "pose", "(x, y, heading, sd, sd_heading)")
-    if not (given[3] > 0 and given[4] > 0):
-        raise InputError(f"pose: expected standard deviations above 0, found {given[3]!r} and {given[4]!r}")
-    return given
 
 
 _LOG_OPTIONS: Dict[str, Any] = {

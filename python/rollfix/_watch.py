@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _core
 from ._core import InputError
-from ._inputs import Finger, Noise, clockwise, fingers, noise as noise_given, numbers, warn, whole
+from ._inputs import Finger, Noise, clockwise, fingers, noise as noise_given, numbers, pose_prior, warn, whole
 from ._logs import COLUMNS, Columns, in_rows, sources_of, table_of, _UNSAFE, _IsPath
 
 if TYPE_CHECKING:
@@ -30,6 +30,8 @@ class Watch:
         How far the sensors are off.
     prior : (s, sd), optional
         About where the finger starts.
+    heading, pose
+        About how the part lies, as of `Part.locate`.
     robust : bool
         Stray rows don't count.
     every : int
@@ -49,6 +51,8 @@ class Watch:
         finger: Optional[Finger] = None,
         noise: Union[Noise, Dict[str, float]],
         prior: Optional[Tuple[float, float]] = None,
+        heading: Optional[Tuple[float, float]] = None,
+        pose: Optional[Sequence[float]] = None,
         robust: bool = False,
         every: int = 0,
         columns: Columns = None,
@@ -79,6 +83,7 @@ class Watch:
             fingers(finger, 1),
             sds,
             mean,
+            pose_prior(heading, pose),
             bool(robust),
             whole(every, "every"),
             name,

@@ -139,6 +139,16 @@ void visit(A& a, Prior& v) {
   all(a, s, sd);
 }
 template <class A>
+void visit(A& a, PosePrior& v) {
+  auto& [mean, heading_sd, place_sd] = v;
+  all(a, mean, heading_sd, place_sd);
+}
+template <class A>
+void visit(A& a, Evidence& v) {
+  auto& [peak, volume] = v;
+  all(a, peak, volume);
+}
+template <class A>
 void visit(A& a, Tolerance& v) {
   auto& [value, source] = v;
   all(a, value, source);
@@ -156,11 +166,11 @@ void visit(A& a, Sensitivity& v) {
 template <class A>
 void visit(A& a, Placement& v) {
   auto& [kind, start, end, extent, whole_loop, roots, error, residual, point, tangent, sensitivity, pivot, family,
-         family_error, probability, mean, sd, covariance, interval, end_mean, end_sd, pose, pose_residual,
+         family_error, clockwise, probability, mean, sd, covariance, interval, end_mean, end_sd, pose, pose_residual,
          is_contradicted, pose_spread] = v;
   all(a, kind, start, end, extent, whole_loop, roots, error, residual, point, tangent, sensitivity, pivot, family,
-      family_error, probability, mean, sd, covariance, interval, end_mean, end_sd, pose, pose_residual, is_contradicted,
-      pose_spread);
+      family_error, clockwise, probability, mean, sd, covariance, interval, end_mean, end_sd, pose, pose_residual,
+      is_contradicted, pose_spread);
 }
 template <class A>
 void visit(A& a, DroppedCounts& v) {
@@ -201,8 +211,8 @@ void visit(A& a, Fit& v) {
 }
 template <class A>
 void visit(A& a, Weighing& v) {
-  auto& [noise, prior, robust, samples, fit, rest, improbable, density] = v;
-  all(a, noise, prior, robust, samples, fit, rest, improbable, density);
+  auto& [noise, prior, pose, robust, samples, fit, evidence, rest, improbable, density] = v;
+  all(a, noise, prior, pose, robust, samples, fit, evidence, rest, improbable, density);
 }
 template <class A>
 void visit(A& a, Mode& v) {
@@ -218,9 +228,10 @@ void visit(A& a, Diagnosis& v) {
 template <class A>
 void visit(A& a, Answer& v) {
   auto& [part, fingers, readings, times, facing, tolerance, status, verdict, placements, pose_time, has_reach, dropped,
-         impossible, unresolved, counts, weighing, diagnoses, strays, mirrored, lengths_reversed] = v;
+         impossible, unresolved, counts, weighing, diagnoses, strays, mirrored, either_way, other_way,
+         lengths_reversed] = v;
   all(a, readings, times, facing, tolerance, status, verdict, placements, pose_time, has_reach, dropped, impossible,
-      unresolved, counts, weighing, diagnoses, strays, mirrored, lengths_reversed);
+      unresolved, counts, weighing, diagnoses, strays, mirrored, either_way, other_way, lengths_reversed);
 }
 template <class A>
 void visit(A& a, FingerRows& v) {

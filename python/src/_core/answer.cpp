@@ -116,6 +116,7 @@ void bind_answer(py::module_& module) {
                                               });
                              })
       .def_property_readonly("pose_time", [](const AnswerHandle& handle) { return array_of(handle.answer->pose_time); })
+      .def_property_readonly("other_way", [](const AnswerHandle& handle) { return handle.answer->other_way; })
       .def_property_readonly("lengths_reversed",
                              [](const AnswerHandle& handle) { return handle.answer->lengths_reversed; })
       .def("density_pieces", &density_of)

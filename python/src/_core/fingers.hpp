@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "handles.hpp"
+#include "rollfix/belief/belief.hpp"
 #include "rollfix/contact/finger.hpp"
 #include "rollfix/contact/noise.hpp"
 
@@ -50,6 +52,13 @@ inline Noise noise_from(const py::dict& given) {
 inline std::optional<Noise> noise_from_optional(const py::object& given) {
   if (given.is_none()) return std::nullopt;
   return noise_from(given.cast<py::dict>());
+}
+
+/// x, y, heading, sd, sd of the heading.
+inline std::optional<PosePrior> pose_from(const std::optional<std::vector<double>>& given) {
+  if (!given) return std::nullopt;
+  const std::vector<double>& numbers = *given;
+  return PosePrior{{numbers.at(0), numbers.at(1), numbers.at(2)}, numbers.at(4), numbers.at(3)};
 }
 
 inline py::dict noise_to(const Noise& noise) {

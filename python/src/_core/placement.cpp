@@ -139,6 +139,13 @@ void bind_details(Class& placement) {
   placement.def_property_readonly("pose", &pose_of,
                                   "ndarray, (rows, 3), or None: the part's x, y, heading at each row of the log.");
   placement.def_property_readonly(
+      "direction",
+      [](const PlacementHandle& one) -> py::object {
+        if (!one.answer->either_way) return py::none();
+        return py::str(one->clockwise ? "cw" : "ccw");
+      },
+      "str or None: with direction='either', which way round lengths count here: 'ccw' or 'cw'.");
+  placement.def_property_readonly(
       "contradicted", [](const PlacementHandle& one) { return one->is_contradicted; },
       "bool: without noise: other rows of the log, or the contacts in the world, contradict it.");
 }

@@ -24,13 +24,6 @@ std::optional<Prior> prior_from(const std::optional<std::pair<double, double>>& 
   return Prior{given->first, given->second};
 }
 
-/// x, y, heading, sd, sd of the heading.
-std::optional<PosePrior> pose_from(const std::optional<std::vector<double>>& given) {
-  if (!given) return std::nullopt;
-  const std::vector<double>& numbers = *given;
-  return PosePrior{{numbers.at(0), numbers.at(1), numbers.at(2)}, numbers.at(4), numbers.at(3)};
-}
-
 AnswerHandle solve_without_lock(const Problem& problem) {
   const Problem own = problem;  // another thread may change the original meanwhile
   const py::gil_scoped_release others_may_run;
@@ -72,6 +65,7 @@ void bind_problem(py::module_& module) {
       .def_readwrite("facing", &Problem::facing)
       .def_readwrite("at", &Problem::at)
       .def_readwrite("mirrored", &Problem::mirrored)
+      .def_readwrite("either_way", &Problem::either_way)
       .def_readwrite("robust", &Problem::robust)
       .def("solve", &solve_without_lock);
   module.def("locate_one", &locate_one);

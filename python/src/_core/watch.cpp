@@ -54,7 +54,8 @@ class Watch {
 };
 
 std::unique_ptr<Watch> watch(const PartHandle& part, const py::iterable& fingers, const py::dict& noise,
-                             const std::optional<std::pair<double, double>>& prior, bool robust, std::size_t every,
+                             const std::optional<std::pair<double, double>>& prior,
+                             const std::optional<std::vector<double>>& pose, bool robust, std::size_t every,
                              const std::string& name,
                              const std::vector<std::tuple<std::string, std::string, std::string>>& columns,
                              const std::string& angles, bool clockwise, bool mirrored, bool live) {
@@ -63,6 +64,7 @@ std::unique_ptr<Watch> watch(const PartHandle& part, const py::iterable& fingers
   options.fingers = fingers_from(fingers);
   options.belief.noise = noise_from(noise);
   if (prior) options.belief.prior = Prior{prior->first, prior->second};
+  options.belief.pose = pose_from(pose);
   options.belief.robust = robust;
   options.every = every;
   options.log.unit = part.part().unit();

@@ -42,7 +42,8 @@ Json part_json(const Part& part);
 /// Null where the rows fit. `fingers` and `noise` as given, for the cure.
 Json diagnoses_json(const std::vector<Diagnosis>& diagnoses, const std::vector<Finger>& fingers, const Noise& noise);
 Json noise_json(const Noise& noise);
-Json pose_prior_json(const std::optional<PosePrior>& prior);  // null without; x and y are where only the heading is known
+Json pose_prior_json(
+    const std::optional<PosePrior>& prior);    // null without; x and y are where only the heading is known
 Json accuracy_json(const Accuracy& accuracy);  // null where it is exact
 
 }  // namespace rollfix
