@@ -18,6 +18,9 @@ from ._part import Part, gallery_shapes
 from ._teach import Taught, teach
 from ._watch import Watch
 
+for _named in (InputError, InternalError, Reach):  # as they are imported, for tracebacks and pickles
+    _named.__module__ = __name__
+
 __all__ = [
     "Advice",
     "Answer",
