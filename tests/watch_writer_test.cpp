@@ -173,7 +173,8 @@ TEST(WatchText, ends_with_why_nothing_fits) {
   radius.length_scale = 1.25;
   nothing.diagnoses = {radius};
   printed.text->end(WatchEnd::stream, nothing, {});
-  EXPECT_THAT(printed.out.str(), HasSubstr("inconsistent: nothing fits\nlikeliest: all lengths are 1.25 times what was measured"));
+  EXPECT_THAT(printed.out.str(),
+              HasSubstr("inconsistent: nothing fits\nlikeliest: all lengths are 1.25 times what was measured"));
   printed.json_lines->over(nothing, RollEnd::ended);
   EXPECT_THAT(printed.out.str(),
               AllOf(HasSubstr(R"("diagnosis":{"cause":"radius",)"), HasSubstr(R"("length_scale":1.25,)")));

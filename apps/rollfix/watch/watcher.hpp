@@ -22,9 +22,9 @@ struct WatchAnswer {
   std::size_t samples = 0;  // of this roll so far
   Sample sample;            // the last of them, after which the rest holds
   Verdict verdict;
-  std::vector<Mode> modes;  // the most probable first
-  double rest = 0;          // probability outside of them
-  double excess = 1;        // by how many times the samples are off more than the noise allows
+  std::vector<Mode> modes;           // the most probable first
+  double rest = 0;                   // probability outside of them
+  double excess = 1;                 // by how many times the samples are off more than the noise allows
   std::vector<Diagnosis> diagnoses;  // of a roll that is over, where its rows fit badly: why, see Answer
 };
 
@@ -133,8 +133,8 @@ class Watcher {
   Sample last_;                   // of these
   std::vector<Sample> kept_;      // of these every kept_every_-th, for a second look
   std::size_t kept_every_ = 1;
-  WatchAnswer answer_;            // when it was last worked out
-  WatchAnswer said_;              // what the listener knows
+  WatchAnswer answer_;  // when it was last worked out
+  WatchAnswer said_;    // what the listener knows
   std::chrono::steady_clock::time_point looked_{};
   bool has_news_ = false;
   WatchCounts counts_;
