@@ -163,6 +163,7 @@ TEST(Help, calls_each_argument_in_the_usage_as_in_its_list) {
 
 TEST(Help, has_examples_that_work) {
   const cli::Folder folder;
+  folder.write("problems.jsonl", "{\"readings\": [\"60.1,5.12deg\"]}\n");
   for (const std::string command : {"", "inspect ", "locate ", "simulate ", "teach ", "demo "}) {
     for (const std::string& example : examples_in(run(command + "--help").out)) {
       const cli::Ran ran = cli::shell(example);
