@@ -146,3 +146,16 @@ def test_what_can_not_be_read_is_skipped_with_a_warning(wing, roll_csv):
 def test_rows_that_are_none_are_refused(wing, rows):
     with pytest.raises(rollfix.InputError):
         wing.watch(**WATCHED).add(rows)
+
+
+def test_lengths_may_count_either_way_round(ellipse):
+    part = rollfix.Part.gallery("spline,n=9,seed=7,wobble=0.2")
+    length, turn = 0.9977, 0.9936
+    both = part.locate(length, turn, direction="either", tolerance=1e-9)
+    ways = {"ccw": part.locate(length, turn, tolerance=1e-9), "cw": part.locate(length, turn, direction="cw", tolerance=1e-9)}
+    for way, alone in ways.items():
+        found = [one.start[0] for one in both if one.direction == way]
+        np.testing.assert_allclose(sorted(found), sorted(alone.starts[:, 0]))
+    assert ways["ccw"][0].direction is None
+    with pytest.raises(rollfix.InputError, match="^direction"):
+        ellipse.locate(log=ellipse.simulate(Disk(0.2), start=1, length=1), finger=Disk(0.2), direction="either")
