@@ -63,12 +63,12 @@ std::string with_sd(double value, double sd) {
 }
 
 std::string with_unit(const std::string& length, const Part& part) {
-  const std::string unit = part.unit();
+  const std::string& unit = part.unit();
   return unit.empty() ? length : length + " " + unit;
 }
 
 Text with_unit(Text name, const Part& part) {
-  const std::string unit = part.unit();
+  const std::string& unit = part.unit();
   if (!unit.empty()) name.push_back({", " + unit});
   return name;
 }
