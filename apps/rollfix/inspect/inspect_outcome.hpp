@@ -7,6 +7,6 @@
 namespace rollfix::app {
 
 /// What `inspect` says of a part, for people.
-std::string inspect_text(const Inspection& inspection);
+std::string inspect_text(const Inspection& outcome);
 
 }  // namespace rollfix::app

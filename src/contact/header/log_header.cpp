@@ -124,7 +124,7 @@ class HeaderReader {
   Columns finger_columns(const std::string& suffix) const;
   void add_named(Columns& columns, std::vector<bool>& taken) const;
   void add_known(Columns& columns, const std::vector<bool>& taken) const;
-  void set(Columns& columns, Column column, std::size_t cell) const;
+  void set(Columns& columns, Column column, std::size_t k) const;
   void set_unit(Columns& columns, Column column, const HeaderName& header, const std::string& stated) const;
   std::size_t find(const ColumnSource& source) const;
   LogKind kind_of(const Columns& columns) const;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -135,33 +136,65 @@ class Joiner {
     return both_exact ? kJointWidth * period_ : same_place_;
   }
 
-  /// Sweeps along s: a piece meets those whose interval of s is still open.
-  void link() {
+  /// Where a piece can be, along s: with its error.
+  Interval reach_of(std::size_t piece) const {
+    const PairPiece& of = pieces_[piece];
+    return {of.box[0].lo - of.error, of.box[0].hi + of.error};
+  }
+
+  /// Pieces that reach about as far along s, in order of where that begins.
+  struct Strip {
+    std::vector<std::size_t> pieces;
+    double widest = 0;
+  };
+
+  std::map<int, Strip> strips() const {
     std::vector<std::size_t> order(pieces_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return reach_of(a).lo < reach_of(b).lo; });
+    std::map<int, Strip> strips;
+    for (const std::size_t k : order) {
+      const double width = reach_of(k).width();
+      Strip& strip = strips[std::ilogb(std::max(width, kJointWidth * period_))];
+      strip.pieces.push_back(k);
+      strip.widest = std::max(strip.widest, width);
+    }
+    return strips;
+  }
+
+  /// Sweeps along s: a piece meets those whose reach is still open. Each width by itself, lest a wide piece, or one
+  /// with a large error, has every narrow one looked at.
+  void link() {
+    const std::map<int, Strip> all = strips();
+    std::vector<std::size_t> near;
     for (const Shift& shift : shifts()) {
-      std::sort(order.begin(), order.end(),
-                [&](std::size_t a, std::size_t b) { return pieces_[a].box[0].lo < pieces_[b].box[0].lo; });
-      // Those whose shifted interval can reach: for every piece the others that begin before it ends.
-      double widest = 0;
-      double largest_error = 0;
-      for (const PairPiece& piece : pieces_) {
-        widest = std::max(widest, piece.box[0].width());
-        largest_error = std::max(largest_error, piece.error);
-      }
       for (std::size_t one = 0; one < pieces_.size(); ++one) {
-        const double slack = kJointWidth * period_ + 2 * largest_error;
-        const double from = pieces_[one].box[0].lo - shift[0] - widest - slack;
-        auto next = std::lower_bound(order.begin(), order.end(), from,
-                                     [&](std::size_t k, double value) { return pieces_[k].box[0].lo < value; });
-        for (; next != order.end(); ++next) {
-          const std::size_t two = *next;
-          if (pieces_[two].box[0].lo > pieces_[one].box[0].hi - shift[0] + slack) break;
-          if (two == one) continue;
+        near.clear();
+        for (const auto& [width, strip] : all) add_near(strip, one, shift, near);
+        std::stable_sort(near.begin(), near.end(),
+                         [&](std::size_t a, std::size_t b) { return pieces_[a].box[0].lo < pieces_[b].box[0].lo; });
+        for (const std::size_t two : near) {
           if (pieces_meet(pieces_[one], pieces_[two], shift, slack_of(pieces_[one], pieces_[two]))) {
             links_[one].push_back({two, shift});
           }
         }
+      }
+    }
+  }
+
+  /// Those whose boxes, moved by the shift, meet the piece's.
+  void add_near(const Strip& strip, std::size_t piece, const Shift& shift, std::vector<std::size_t>& near) const {
+    const PairPiece& one = pieces_[piece];
+    const double slack = std::max(kJointWidth * period_, same_place_);
+    const Interval reach = reach_of(piece);
+    const double from = reach.lo - shift[0] - strip.widest - slack;
+    auto next = std::lower_bound(strip.pieces.begin(), strip.pieces.end(), from,
+                                 [&](std::size_t k, double value) { return reach_of(k).lo < value; });
+    for (; next != strip.pieces.end() && reach_of(*next).lo <= reach.hi - shift[0] + slack; ++next) {
+      const PairPiece& two = pieces_[*next];
+      if (*next != piece && boxes_meet(one.box, moved(two.box, shift), slack + one.error + two.error)) {
+        near.push_back(*next);
       }
     }
   }
