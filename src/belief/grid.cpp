@@ -37,9 +37,12 @@ constexpr double kDepth = 4;
 // By how much the log-likelihood's middle can be off the mean of its ends in a cell, of the distance's change squared:
 // four times what the information makes of it, h^2 F / 8.
 constexpr double kMostBend = 0.5;
-// A point whose deviance is further above another's than this takes no more samples: neither it nor what is near it can
-// matter. (What can matter is 50 above; points that stop early say less about what lies between them.)
-constexpr double kBeyondMatter = 300;
+// What can matter has a deviance no more than this above the best's, ...
+constexpr double kMatters = 50;
+// ... and a point that is farther than that by this distance, the deviance's root, takes no more samples: what is near
+// it can't matter either. A distance, for it is that which changes evenly from point to point, however many samples
+// there are.
+constexpr double kBeyondMatter = 5;
 // A boundary whose s grows less with w than this share of what a straight one's does, is a corner.
 constexpr double kCornerSlope = 1e-6;
 // Cells are not made smaller than this share of the boundary.
@@ -159,7 +162,9 @@ void Grid::add_pose_prior(GridPoint& point) const {
 void Grid::lower_limit(double deviance, const Nodes& nodes) {
   // As if this were the best: its own noise, were it larger than is given, makes all others matter the more.
   const auto freedom = static_cast<double>(nodes.complete().size() + 1);
-  limit_ = std::min(limit_, deviance + kBeyondMatter * std::max(1.0, deviance / freedom));
+  const double noisier = std::max(1.0, deviance / freedom);
+  const double farthest = std::sqrt(std::max(0.0, deviance) + kMatters * noisier) + kBeyondMatter * std::sqrt(noisier);
+  limit_ = std::min(limit_, square(farthest));
 }
 
 void Grid::lay_out(const Nodes& nodes) {
