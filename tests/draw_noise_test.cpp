@@ -1,4 +1,5 @@
 // Figures of answers with noise: what is probable is drawn where it is, and as probable as it is.
+#include <Eigen/LU>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -116,7 +116,7 @@ void cover(const Lap& lap, const Part& truth, const Part& taught, int count, std
 }  // namespace
 
 int main(int count, char** values) {
-  const int parts = count > 1 ? std::stoi(values[1]) : 2;
+  const std::uint64_t parts = count > 1 ? std::stoul(values[1]) : 2;
   const int rolls = count > 2 ? std::stoi(values[2]) : 2;
   fmt::print("| part | laps | rows | angle [deg] | Theta off, rms [deg] | largest | said, sd | in 95 % |\n");
   fmt::print("| --- | --- | --- | --- | --- | --- | --- | --- |\n");
@@ -130,7 +130,7 @@ int main(int count, char** values) {
       double said = 0;
       Coverage coverage;
       int taught_parts = 0;
-      for (int k = 0; k < parts; ++k) {
+      for (std::uint64_t k = 0; k < parts; ++k) {
         const rollfix::Taught taught = teach_lap(lap, truth, 100 + k);
         if (taught.closing != rollfix::Closing::spread) continue;
         const Part part(taught.outline);
