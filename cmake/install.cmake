@@ -17,7 +17,7 @@ cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX
   BASE_DIRECTORY ${CMAKE_INSTALL_PREFIX}/${pkgconfig_destination} OUTPUT_VARIABLE prefix_from_pkgconfig)
 
 rollfix_install_library(rollfix rollfixTargets rollfix.pc)
-foreach(component IN ITEMS march files draw)  # rollfixConfig.cmake finds them by these names
+foreach(component IN ITEMS march files catalog draw)  # rollfixConfig.cmake finds them by these names
   if(TARGET rollfix_${component})
     rollfix_install_library(rollfix_${component} rollfix_${component}Targets rollfix-${component}.pc)
   endif()

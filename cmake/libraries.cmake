@@ -1,5 +1,5 @@
-# rollfix::rollfix, the core, rollfix::march, the published algorithms, rollfix::files, what users come with, and
-# rollfix::draw, the figures. A new file in src/ needs no edit here.
+# rollfix::rollfix, the core, rollfix::march, the published algorithms, rollfix::files, what users come with,
+# rollfix::catalog, many parts, and rollfix::draw, the figures. A new file in src/ needs no edit here.
 find_package(Eigen3 3.4 CONFIG REQUIRED)
 find_package(Boost 1.74 CONFIG REQUIRED)
 find_package(fmt 9 CONFIG REQUIRED)
@@ -26,14 +26,14 @@ endfunction()
 
 file(GLOB_RECURSE core_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/*.cpp)
 file(GLOB_RECURSE core_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/*.hpp)
-foreach(room IN ITEMS march files draw)
+foreach(room IN ITEMS march files catalog draw)
   set(${room}_sources ${core_sources})
   set(${room}_headers ${core_headers})
   list(FILTER ${room}_sources INCLUDE REGEX "/src/${room}/")
   list(FILTER ${room}_headers INCLUDE REGEX "/rollfix/${room}/")
 endforeach()
-list(FILTER core_sources EXCLUDE REGEX "/src/(march|files|draw)/")
-list(FILTER core_headers EXCLUDE REGEX "/rollfix/(march|files|draw)/")
+list(FILTER core_sources EXCLUDE REGEX "/src/(march|files|catalog|draw)/")
+list(FILTER core_headers EXCLUDE REGEX "/rollfix/(march|files|catalog|draw)/")
 
 rollfix_library(rollfix rollfix
   SOURCES ${core_sources}
@@ -60,6 +60,18 @@ if(ROLLFIX_BUILD_FILES)
   target_link_libraries(rollfix_files
     PUBLIC rollfix
     PRIVATE ${ROLLFIX_FMT} pugixml::pugixml $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>
+      $<BUILD_INTERFACE:FastFloat::fast_float>)
+endif()
+
+if(ROLLFIX_BUILD_CATALOG)
+  find_package(SQLite3 3.35 REQUIRED)
+  rollfix_library(rollfix_catalog catalog
+    SOURCES ${catalog_sources}
+    HEADERS ${catalog_headers}
+    HEADER_DIRS ${PROJECT_SOURCE_DIR}/include)
+  target_link_libraries(rollfix_catalog
+    PUBLIC rollfix_files
+    PRIVATE ${ROLLFIX_FMT} Threads::Threads SQLite::SQLite3 $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>
       $<BUILD_INTERFACE:FastFloat::fast_float>)
 endif()
 

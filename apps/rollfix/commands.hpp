@@ -9,14 +9,16 @@ namespace rollfix::app {
 
 /// Each adds a command to the program; when it is the one that was typed, `chosen` becomes it.
 void add_inspect_command(CLI::App& program, Command& chosen);
-void add_locate_command(CLI::App& program, Command& chosen);
 void add_advise_command(CLI::App& program, Command& chosen);
+void add_catalog_command(CLI::App& program, Command& chosen);
+void add_identify_command(CLI::App& program, Command& chosen);
 void add_simulate_command(CLI::App& program, Command& chosen);
 void add_teach_command(CLI::App& program, Command& chosen);
 void add_demo_command(CLI::App& program, Command& chosen);
 void add_paper_command(CLI::App& program, Command& chosen);
 
-/// This one prints while it runs: data to `out`, narration to `err`.
+/// These print while they run: data to `out`, narration to `err`.
+void add_locate_command(CLI::App& program, Command& chosen, std::ostream& out);
 void add_watch_command(CLI::App& program, Command& chosen, std::ostream& out, std::ostream& err);
 
 }  // namespace rollfix::app

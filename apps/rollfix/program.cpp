@@ -81,6 +81,16 @@ std::string names_of_commands(CLI::App& program) {
   return names;
 }
 
+/// What all commands have in common, and the commands of commands.
+void set_up(CLI::App& program, bool& quiet) {
+  for (CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
+    command->allow_extras();
+    command->group("Commands");
+    add_switch(*command, "--quiet", quiet, "no notes on stderr; errors are told all the same");
+    set_up(*command, quiet);
+  }
+}
+
 /// Adds the commands to a program and returns the one that the arguments name.
 Command parse(CLI::App& program, const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err,
               bool& quiet) {
@@ -90,8 +100,10 @@ Command parse(CLI::App& program, const std::vector<std::string>& arguments, std:
   program.set_version_flag("--version", std::string("rollfix ") + kVersion);
   program.require_subcommand(0, 1);
   add_inspect_command(program, chosen);
-  add_locate_command(program, chosen);
+  add_locate_command(program, chosen, out);
   add_advise_command(program, chosen);
+  add_catalog_command(program, chosen);
+  add_identify_command(program, chosen);
   add_simulate_command(program, chosen);
   add_teach_command(program, chosen);
   add_watch_command(program, chosen, out, err);
@@ -99,11 +111,7 @@ Command parse(CLI::App& program, const std::vector<std::string>& arguments, std:
   add_paper_command(program, chosen);
   // What the parser does not know is refused here, with better words.
   program.allow_extras();
-  for (CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
-    command->allow_extras();
-    command->group("Commands");
-    add_switch(*command, "--quiet", quiet, "no notes on stderr; errors are told all the same");
-  }
+  set_up(program, quiet);
 
   std::vector<std::string> reversed = with_negative_values_attached(arguments);
   std::reverse(reversed.begin(), reversed.end());

@@ -14,14 +14,24 @@
 namespace rollfix::app {
 namespace {
 
+/// "rollfix catalog build".
+std::string full_name_of(const CLI::App& app) {
+  return app.get_parent() == nullptr ? app.get_name() : full_name_of(*app.get_parent()) + " " + app.get_name();
+}
+
+/// The command that was typed, of a command that has some the one of those.
+const CLI::App& chosen_of(const CLI::App& app) {
+  const std::vector<CLI::App*> chosen = app.get_subcommands();
+  return chosen.empty() ? app : chosen_of(*chosen.front());
+}
+
 class Help : public CLI::Formatter {
  public:
   Help() { column_width(kColumn); }
 
   std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
     if (mode == CLI::AppFormatMode::Sub) return CLI::Formatter::make_help(app, std::move(name), mode);
-    const CLI::App* const parent = app->get_parent();
-    const std::string full_name = parent == nullptr ? app->get_name() : parent->get_name() + " " + app->get_name();
+    const std::string full_name = full_name_of(*app);
     return fmt::format("{}\n\n{}\n{}{}{}{}", app->get_description(), app->get_footer(),
                        make_usage(app, "Usage: " + full_name), make_positionals(app), make_groups(app, mode),
                        make_subcommands(app, mode));
@@ -109,8 +119,8 @@ CLI::Option* add_switch(CLI::App& command, const std::string& name, bool& value,
 }
 
 void refuse_leftovers(const CLI::App& program) {
-  const std::vector<CLI::App*> chosen = program.get_subcommands();
-  const CLI::App& command = chosen.empty() ? program : *chosen.front();
+  const CLI::App& command = chosen_of(program);
+  const bool is_program = &command == &program;
   const std::vector<std::string> own = program.remaining(false);
   const std::vector<std::string> leftovers = program.remaining(true);
   for (const std::string& argument : leftovers) {
@@ -118,18 +128,18 @@ void refuse_leftovers(const CLI::App& program) {
   }
   if (leftovers.empty()) return;
   if (leftovers.front() == "help") {
-    const std::string whose = chosen.empty() ? "" : " " + command.get_name();
+    const std::string whose = is_program ? "" : full_name_of(command).substr(program.get_name().size());
     throw InputError(fmt::format("there is no command 'help'; did you mean 'rollfix{} --help'?", whose));
   }
-  if (chosen.empty() && leftovers.front() == "version") {
+  if (is_program && leftovers.front() == "version") {
     throw InputError("there is no command 'version'; did you mean 'rollfix --version'?");
   }
-  if (chosen.empty()) {
+  if (is_program) {
     throw InputError(fmt::format("there is no command '{}'; {}", leftovers.front(),
                                  known_names(leftovers.front(), command_names(program))));
   }
-  throw InputError(fmt::format("{}: '{}' is one argument too many; quote names with blanks, and see rollfix {} --help",
-                               command.get_name(), leftovers.front(), command.get_name()));
+  throw InputError(fmt::format("{}: '{}' is one argument too many; quote names with blanks, and see {} --help",
+                               command.get_name(), leftovers.front(), full_name_of(command)));
 }
 
 std::string explain(const CLI::ParseError& error) {

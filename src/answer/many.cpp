@@ -1,15 +1,10 @@
 #include "rollfix/answer/many.hpp"
 
-#include <algorithm>
-#include <atomic>
-#include <chrono>
-#include <condition_variable>
-#include <exception>
+#include <cstdint>
 #include <limits>
-#include <mutex>
-#include <thread>
 #include <tuple>
 
+#include "crew.hpp"
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/error.hpp"
 
@@ -18,100 +13,6 @@ namespace {
 
 // Problems that a thread takes at once: so many that taking them costs nothing, so few that all threads end together.
 constexpr std::size_t kBlock = 64;
-// How long nobody is asked whether to go on: short for a person, long for a machine.
-constexpr std::chrono::milliseconds kMostSilence{50};
-
-/// Blocks of work for several threads, and the first exception of one of them.
-class Crew {
- public:
-  Crew(std::size_t count, std::size_t block) : count_(count), block_(block) {}
-
-  /// `work(lo, hi)` does a block.
-  template <class Work>
-  void run(unsigned threads, const std::function<bool(std::size_t)>& go_on, const Work& work) {
-    const std::size_t blocks = (count_ + block_ - 1) / block_;
-    const std::size_t wanted = threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
-    const std::size_t crew = std::min(wanted, blocks);
-    if (crew <= 1 && !go_on) return serve(work);
-    std::vector<std::thread> all;
-    {
-      const std::lock_guard lock(mutex_);
-      working_ = crew;
-    }
-    for (std::size_t k = 0; k < crew; ++k) {
-      all.emplace_back([&] {
-        serve(work);
-        const std::lock_guard lock(mutex_);
-        --working_;
-        ended_.notify_all();
-      });
-    }
-    wait(go_on);
-    for (std::thread& thread : all) thread.join();
-  }
-
-  /// Throws what a thread threw, and InputError where the work was stopped.
-  void require_done() const {
-    if (thrown_) std::rethrow_exception(thrown_);
-    if (stopped_) throw InputError("solve: stopped before all problems were done");
-  }
-
- private:
-  template <class Work>
-  void serve(const Work& work) {
-    try {
-      while (!stop_) {
-        const std::size_t lo = next_.fetch_add(block_);
-        if (lo >= count_) return;
-        const std::size_t hi = std::min(lo + block_, count_);
-        work(lo, hi);
-        done_ += hi - lo;
-      }
-    } catch (...) {
-      const std::lock_guard lock(mutex_);
-      if (!thrown_) thrown_ = std::current_exception();
-      stop_ = true;
-    }
-  }
-
-  void wait(const std::function<bool(std::size_t)>& go_on) {
-    std::unique_lock lock(mutex_);
-    while (working_ > 0) {
-      if (!go_on) {
-        ended_.wait(lock);
-        continue;
-      }
-      ended_.wait_for(lock, kMostSilence);
-      if (stopped_) continue;
-      lock.unlock();
-      const bool goes_on = asks(go_on);
-      lock.lock();
-      stopped_ = !goes_on;
-      if (stopped_) stop_ = true;
-    }
-  }
-
-  bool asks(const std::function<bool(std::size_t)>& go_on) {
-    try {
-      return go_on(done_);
-    } catch (...) {
-      const std::lock_guard lock(mutex_);
-      if (!thrown_) thrown_ = std::current_exception();
-      return false;
-    }
-  }
-
-  std::size_t count_;
-  std::size_t block_;
-  std::atomic<std::size_t> next_{0};
-  std::atomic<std::size_t> done_{0};
-  std::atomic<bool> stop_{false};
-  bool stopped_ = false;  // by go_on
-  std::size_t working_ = 0;
-  std::exception_ptr thrown_;
-  std::mutex mutex_;
-  std::condition_variable ended_;
-};
 
 void add_placement(const Placement& placement, AnswerTable& table) {
   table.kind.push_back(static_cast<std::uint8_t>(placement.kind));

@@ -126,8 +126,8 @@ Answer solve_roll(const Problem& problem, bool explains) {
   return answer;
 }
 
-/// Of one way round. `explains`: what may be wrong is looked for where the rows fit badly, which takes a while.
-Answer solve_one_way(const Problem& problem, bool explains = true) {
+/// Of one way round. `explains`: what may be wrong is looked for where the rows fit badly.
+Answer solve_one_way(const Problem& problem, bool explains) {
   if (!problem.robust || !problem.felt.is_log()) return solve_roll(problem, explains);
   std::vector<std::size_t> strays;
   const Problem cleaned = without_jumps(problem, strays);
@@ -157,9 +157,10 @@ Answer solve_either_way(const Problem& problem) {
     return answers[0] ? only_way(*answers[0], false, why_not[1]) : only_way(*answers[1], true, why_not[0]);
   };
   Answer answer = both();
+  if (!problem.diagnose) return answer;
   if (!answer.verdict.fits_badly && answer.verdict.name != Verdict::inconsistent) return answer;
   for (const std::size_t way : {0U, 1U}) {
-    if (answers[way]) answers[way] = solve_one_way(ways[way]);
+    if (answers[way]) answers[way] = solve_one_way(ways[way], true);
   }
   return both();
 }
@@ -182,7 +183,7 @@ Answer solve(const Problem& problem) {
     return answer;
   }
   if (problem.either_way) return solve_either_way(problem);
-  return solve_one_way(problem);
+  return solve_one_way(problem, problem.diagnose);
 }
 
 }  // namespace rollfix

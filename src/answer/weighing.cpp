@@ -21,8 +21,6 @@ constexpr std::size_t kRowsOfGlance = 96;
 // What was said of a log is not held to be less likely than exp(-this).
 constexpr double kMostDoubt = 30;
 
-LogKind kind_of(const Problem& problem) { return problem.felt.is_log() ? problem.felt.log->kind : LogKind::travelled; }
-
 /// What a finger felt at its first contact, where the log tells it.
 std::optional<FeltContact> first_felt(const Problem& problem, std::size_t which) {
   if (problem.fingers.empty() || !problem.felt.is_log()) return std::nullopt;
@@ -32,14 +30,6 @@ std::optional<FeltContact> first_felt(const Problem& problem, std::size_t which)
   const Contact first{rows.u.front(), rows.psi.front()};
   const Vec2 where = Vec2(rows.x.front(), rows.y.front()) - centre_of(finger, Vec2::Zero(), first);
   return FeltContact{where, facing(finger, first), finger.curvature(first.u)};
-}
-
-/// The curvature of finger 0 or 1 where it touches in a row; 0 where the finger is not known.
-double curvature(const Problem& problem, std::size_t which, std::size_t row) {
-  if (problem.fingers.empty()) return 0;
-  // Where u is wrapped makes no difference to the curvature there.
-  const double u = kind_of(problem) == LogKind::contact ? problem.felt.log->fingers[which].u[row] : 0;
-  return finger_of(problem.fingers, which)->curvature(u);
 }
 
 void add_contacts(const Problem& problem, const Observation& observed, std::size_t row, bool has_centres,
@@ -103,6 +93,15 @@ std::vector<Diagnosis> diagnoses_by_centres(const Problem& problem, const Observ
 
 }  // namespace
 
+LogKind kind_of(const Problem& problem) { return problem.felt.is_log() ? problem.felt.log->kind : LogKind::travelled; }
+
+double finger_curvature(const Problem& problem, std::size_t which, std::size_t row) {
+  if (problem.fingers.empty()) return 0;
+  // Where u is wrapped makes no difference to the curvature there.
+  const double u = kind_of(problem) == LogKind::contact ? problem.felt.log->fingers[which].u[row] : 0;
+  return finger_of(problem.fingers, which)->curvature(u);
+}
+
 std::optional<Belief> believe(const Problem& problem, const Observation& observed, const Supposed& supposed) {
   if (!problem.noise) return std::nullopt;
   const std::size_t fingers = observed.readings.front().fingers();
@@ -112,7 +111,8 @@ std::optional<Belief> believe(const Problem& problem, const Observation& observe
     throw InputError(
         "`noise`: position is of the fingers' centres, expected a log of u and psi with their columns x and y");
   }
-  for (std::size_t which = 0; which < fingers; ++which) contacts.finger_curvature[which] = curvature(problem, which, 0);
+  for (std::size_t which = 0; which < fingers; ++which)
+    contacts.finger_curvature[which] = finger_curvature(problem, which, 0);
   BeliefOptions options;
   options.noise = *problem.noise;
   options.prior = problem.prior;
@@ -138,7 +138,8 @@ std::optional<Belief> believe(const Problem& problem, const Observation& observe
     sample.reading = readings[k];
     if (has_times) sample.time = problem.felt.log->time[k];
     sample.finger_curvature = PerFinger<double>::of(fingers);
-    for (std::size_t which = 0; which < fingers; ++which) sample.finger_curvature[which] = curvature(problem, which, k);
+    for (std::size_t which = 0; which < fingers; ++which)
+      sample.finger_curvature[which] = finger_curvature(problem, which, k);
     if (observed.contacts) add_contacts(problem, observed, k, has_centres, sample);
     belief.add(sample);
   }

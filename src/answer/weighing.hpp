@@ -9,13 +9,18 @@
 // With noise: what all rows of a log, or the readings where there is no log, make of the placements.
 namespace rollfix {
 
-/// Nothing without noise.
+/// What the problem's log tells of itself; of readings: lengths and turns.
+LogKind kind_of(const Problem& problem);
+/// The curvature of finger 0 or 1 where it touches in a row; 0 where the finger is not known.
+double finger_curvature(const Problem& problem, std::size_t which, std::size_t row);
+
 /// What a problem is tried with that it does not say.
 struct Supposed {
   double scale_sd = 0;                                         // of all lengths by one factor
   std::size_t rows = std::numeric_limits<std::size_t>::max();  // no more than about so many are looked at
   bool glance = false;                                         // see BeliefOptions
 };
+/// Nothing without noise.
 std::optional<Belief> believe(const Problem& problem, const Observation& observed, const Supposed& supposed = {});
 
 /// Puts what the samples leave in place of what the search found. What nothing explains is not listed. Unless it

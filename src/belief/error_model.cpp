@@ -25,9 +25,11 @@ constexpr double kSlipPatch = 0.01;
 // A row that says the same again is worth this much of one: it keeps variances finite.
 constexpr double kLeastWorth = 1e-6;
 
-double here_and_there(const Noise& noise) { return std::min(kSlipHereAndThere * noise.slip, kMostSlipHereAndThere); }
-
 }  // namespace
+
+double slip_here_and_there(const Noise& noise) {
+  return std::min(kSlipHereAndThere * noise.slip, kMostSlipHereAndThere);
+}
 
 SensorErrors::SensorErrors(const BeliefOptions& options, LogKind log_kind, double the_perimeter, double here_and_there)
     : kind(log_kind),
@@ -68,7 +70,7 @@ double SensorErrors::rows_alike(double rows, double range) const {
 }
 
 ErrorModel::ErrorModel(const BeliefOptions& options, LogKind kind, double finger_curvature, double perimeter)
-    : sensor_(options, kind, perimeter, here_and_there(options.noise)) {
+    : sensor_(options, kind, perimeter, slip_here_and_there(options.noise)) {
   if (kind == LogKind::contact) {
     // u0 and psi0 are measured once and taken off every row: offsets n0 of length and -(kappa n0 + a0) of turn.
     start_(0, 0) = sensor_.contact_variance;

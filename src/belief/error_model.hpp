@@ -8,6 +8,9 @@
 
 namespace rollfix::belief {
 
+/// What a finger slips over short stretches, per length.
+double slip_here_and_there(const Noise& noise);
+
 /// How far the sensors of a finger are off, which of their errors a row has on its own and which a roll gathers: the
 /// same for one finger and for each of two. docs/belief.md derives it.
 struct SensorErrors {

@@ -9,9 +9,8 @@
 #include "rollfix/usage.hpp"
 
 namespace rollfix::app {
-namespace {
 
-LoadOptions options_of(const PartArgument& argument) {
+LoadOptions read_load_options(const PartArgument& argument) {
   LoadOptions options;
   options.points.open = argument.open;
   if (!argument.corner_angle.empty()) options.points.corner_angle = read_angle(argument.corner_angle, "--corner-angle");
@@ -23,8 +22,6 @@ LoadOptions options_of(const PartArgument& argument) {
   options.allow_crossing = argument.allow_crossing;
   return options;
 }
-
-}  // namespace
 
 void add_unit_argument(CLI::App& command, std::string& unit) {
   command
@@ -42,6 +39,10 @@ void add_part_argument(CLI::App& command, PartArgument& argument) {
       ->type_name("");
   command.add_option("--loop", argument.loop, "which loop of a drawing, as inspect lists them; default 1, the largest")
       ->type_name("N");
+  add_load_arguments(command, argument);
+}
+
+void add_load_arguments(CLI::App& command, PartArgument& argument) {
   command
       .add_option("--gap", argument.gap,
                   "ends of a drawing's curves this close together meet; default a millionth of its diagonal")
@@ -67,7 +68,7 @@ void require_part(const PartArgument& argument) {
 
 LoadedPart load(const PartArgument& argument) {
   require_part(argument);
-  return rollfix::load_part(argument.part, options_of(argument));
+  return rollfix::load_part(argument.part, read_load_options(argument));
 }
 
 std::vector<Outline> other_loops(const LoadedPart& loaded) {

@@ -25,6 +25,11 @@ struct PartArgument {
 /// Adds PART and these options to a command.
 void add_part_argument(CLI::App& command, PartArgument& argument);
 
+/// Adds the options alone, but --loop.
+void add_load_arguments(CLI::App& command, PartArgument& argument);
+/// What they say. Throws InputError: an option that is not what it should be.
+LoadOptions read_load_options(const PartArgument& argument);
+
 /// Adds --unit alone.
 void add_unit_argument(CLI::App& command, std::string& unit);
 

@@ -215,6 +215,10 @@ bool counts_clockwise(const std::string& direction) {
 
 void add_roll_arguments(CLI::App& command, RollArguments& arguments, bool takes_either) {
   add_part_argument(command, arguments.part);
+  add_felt_arguments(command, arguments, takes_either);
+}
+
+void add_felt_arguments(CLI::App& command, RollArguments& arguments, bool takes_either) {
   command
       .add_option("--reading", arguments.readings,
                   "from the first contact: arc length travelled, along the stored outline, and turn of the tangent; "

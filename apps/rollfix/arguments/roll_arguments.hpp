@@ -38,6 +38,8 @@ struct RollArguments {
 /// Adds PART, --reading, --log, --roll, --finger, --tolerance, --noise, --prior, --robust, --heading, --pose, --mirror
 /// and --direction to a command. `takes_either`: the last one may be `either`.
 void add_roll_arguments(CLI::App& command, RollArguments& arguments, bool takes_either = false);
+/// The same without PART.
+void add_felt_arguments(CLI::App& command, RollArguments& arguments, bool takes_either = false);
 /// Adds --noise alone.
 void add_noise_argument(CLI::App& command, std::string& noise);
 /// Adds --log, --roll and --columns alone.

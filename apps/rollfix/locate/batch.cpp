@@ -5,6 +5,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <ostream>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -175,35 +176,39 @@ ExitCode worse_of(ExitCode one, ExitCode other) {
   return weight(one) >= weight(other) ? one : other;
 }
 
-void answer_lines(std::vector<BatchLine>& lines, const std::string& name, std::size_t first, bool explain,
-                  Report& report) {
+/// Writes the answers; the exit code of the worst.
+ExitCode answer_lines(const std::vector<BatchLine>& lines, const std::string& name, std::size_t first, bool explain,
+                      std::ostream& out) {
   std::vector<Problem> problems;
   for (const BatchLine& line : lines) {
     if (line.problem) problems.push_back(*line.problem);
   }
   const std::vector<Solved> solved = solve(std::span<const Problem>(problems));
+  ExitCode worst = ExitCode::fits;
   std::size_t next = 0;
   for (std::size_t k = 0; k < lines.size(); ++k) {
-    BatchLine& line = lines[k];
+    const BatchLine& line = lines[k];
     const Solved* const found = line.problem ? &solved[next++] : nullptr;
-    if (found != nullptr && !found->answer) line.error = fmt::format("{}:{}: {}", name, first + k, found->error);
+    std::string error = line.error;
+    if (found != nullptr && !found->answer) error = fmt::format("{}:{}: {}", name, first + k, found->error);
     Json document;
-    if (line.error.empty()) {
+    if (error.empty()) {
       document = answer_json(*found->answer, explain);
     } else {
-      document = {{"schema", "rollfix/locate/1"}, {"error", line.error}};
+      document = {{"schema", "rollfix/locate/1"}, {"error", error}};
     }
     if (!line.id.is_null()) document["id"] = line.id;
-    report.data += json_line(document);
-    report.exit_code =
-        worse_of(report.exit_code, line.error.empty() ? exit_code_of(*found->answer) : ExitCode::bad_input);
+    out << json_line(document);
+    worst = worse_of(worst, error.empty() ? exit_code_of(*found->answer) : ExitCode::bad_input);
   }
-  lines.clear();
+  out << std::flush;
+  if (!out) throw InputError("standard output can't be written to");
+  return worst;
 }
 
 }  // namespace
 
-Report locate_batch(const RollArguments& like, const std::string& file, bool explain) {
+Report locate_batch(const RollArguments& like, const std::string& file, bool explain, std::ostream& out) {
   Parts parts(like.part);
   if (!like.part.part.empty()) parts.of(like.part.part);  // what is wrong with it is no line's error
   const std::string text = read_text(file);
@@ -211,17 +216,20 @@ Report locate_batch(const RollArguments& like, const std::string& file, bool exp
   Report report;
   std::vector<BatchLine> lines;
   std::size_t number = 0;
-  std::size_t first = 1;
+  const auto answer_all = [&] {
+    const std::size_t first = number - lines.size() + 1;
+    report.exit_code = worse_of(report.exit_code, answer_lines(lines, name, first, explain, out));
+    lines.clear();
+  };
   for (std::string_view rest = without_mark(text); !rest.empty();) {
     const std::size_t end = rest.find('\n');
     const std::string_view line = trimmed(rest.substr(0, end));
     rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
     ++number;
-    if (lines.empty()) first = number;
     lines.push_back(read_line(std::string(line), fmt::format("{}:{}", name, number), like, parts));
-    if (lines.size() == kAtOnce) answer_lines(lines, name, first, explain, report);
+    if (lines.size() == kAtOnce) answer_all();
   }
-  if (!lines.empty()) answer_lines(lines, name, first, explain, report);
+  if (!lines.empty()) answer_all();
   return report;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <ostream>
 #include <utility>
 #include <vector>
 
@@ -109,10 +110,10 @@ void require_batch(const LocateArguments& arguments) {
   refuse(arguments.march.march, "--march");
 }
 
-Report locate_report(const LocateArguments& arguments) {
+Report locate_report(const LocateArguments& arguments, std::ostream& out) {
   if (!arguments.batch.empty()) {
     require_batch(arguments);
-    return locate_batch(arguments.roll, arguments.batch, arguments.explain);
+    return locate_batch(arguments.roll, arguments.batch, arguments.explain, out);
   }
   require_sensible(arguments);
   const OutputArgument& output = arguments.output;
@@ -175,7 +176,7 @@ void add_notes(const Answer& answer, Report& report) {
   if (answer.lengths_reversed) report.notes.emplace_back("the log's lengths changed their signs to match");
 }
 
-void add_locate_command(CLI::App& program, Command& chosen) {
+void add_locate_command(CLI::App& program, Command& chosen, std::ostream& out) {
   const auto arguments = std::make_shared<LocateArguments>();
   CLI::App* command = program.add_subcommand("locate", "Every place on a part where a roll can have started.");
   command->footer(kLocateExamples);
@@ -208,7 +209,8 @@ void add_locate_command(CLI::App& program, Command& chosen) {
   add_map_argument(*command, arguments->maps);
   add_march_arguments(*command, arguments->march);
   add_switch(*command, "--json", arguments->json, "print JSON (rollfix/locate/1)");
-  command->callback([arguments, &chosen] { chosen = [arguments] { return locate_report(*arguments); }; });
+  command->callback(
+      [arguments, &chosen, &out] { chosen = [arguments, &out] { return locate_report(*arguments, out); }; });
 }
 
 }  // namespace rollfix::app

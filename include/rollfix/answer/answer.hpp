@@ -49,6 +49,7 @@ struct Problem {
   bool mirrored = false;                // the part lies face down: the fingers felt the outline's mirror image
   bool either_way = false;  // lengths, of readings or of a log without u and psi, may count clockwise: both are tried
   bool robust = false;      // with noise: stray rows don't count, and rows that jump away are left out
+  bool diagnose = true;     // where the rows fit badly it is found out what may be wrong, which takes a while
 };
 
 /// The search's tolerance and where it comes from.

@@ -67,48 +67,6 @@ void add_weight(const Placement& placement, std::size_t fingers, Json& json) {
   json["pose_covariance"] = placement.pose_spread ? rows_json(placement.pose_spread->covariance) : Json(nullptr);
 }
 
-Json placement_json(const Placement& placement, const Answer& answer) {
-  const std::size_t fingers = answer.finger_count();
-  const bool is_stretch = placement.kind == Kind::stretch;
-  Json json = {{"kind", name_of(placement.kind)},
-               {"start", json_numbers(placement.start)},
-               {"end", json_numbers(placement.end)},
-               {"extent", intervals_json(placement.extent)},
-               {"whole_loop", placement.whole_loop[0]},
-               {"roots", list_of(placement.roots, places_json)},
-               {"error", json_number(placement.error)},
-               {"point", list_of(placement.point, point_json)},
-               {"tangent", json_numbers(placement.tangent)},
-               {"residual", json_number(placement.residual)},
-               {"sensitivity", sensitivity_json(placement.sensitivity, fingers, answer.facing.has_value())}};
-  if (fingers == 2) {
-    json["whole_loop"] = Json::array({placement.whole_loop[0], placement.whole_loop[1]});
-    json["family"] = is_stretch ? list_of(placement.family, places_json) : Json(nullptr);
-    json["family_error"] = is_stretch ? json_number(placement.family_error) : Json(nullptr);
-  }
-  if (answer.either_way) json["direction"] = placement.clockwise ? "cw" : "ccw";
-  json["pivot"] = pivot_json(placement.pivot);
-  json["probability"] = json_number(placement.probability);
-  const std::optional<PoseResidual>& off = placement.pose_residual;
-  json["pose"] = off ? list_of(placement.pose, pose_json) : Json(nullptr);
-  json["pose_residual"] =
-      off ? Json{{"length", json_number(off->length)}, {"turn", json_number(off->turn)}} : Json(nullptr);
-  if (!answer.weighing) json["contradicted"] = placement.is_contradicted;
-  if (answer.weighing) add_weight(placement, fingers, json);
-  return json;
-}
-
-Json readings_json(const Answer& answer) {
-  Json list = Json::array();
-  for (std::size_t i = 0; i < answer.readings.size(); ++i) {
-    const Reading& reading = answer.readings[i];
-    Json entry = {{"length", json_numbers(reading.length)}, {"turn", json_number(reading.turn)}};
-    if (!answer.times.empty()) entry["time"] = json_number(answer.times[i]);
-    list.push_back(entry);
-  }
-  return list;
-}
-
 Json obstruction_json(const Obstruction& obstruction) {
   const Json point = point_json(obstruction.hit.point);
   if (obstruction.concave_corner) {
@@ -183,6 +141,48 @@ Json diagnosis_json(const Diagnosis& diagnosis) {
 }
 
 }  // namespace
+
+Json readings_json(const Answer& answer) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < answer.readings.size(); ++i) {
+    const Reading& reading = answer.readings[i];
+    Json entry = {{"length", json_numbers(reading.length)}, {"turn", json_number(reading.turn)}};
+    if (!answer.times.empty()) entry["time"] = json_number(answer.times[i]);
+    list.push_back(entry);
+  }
+  return list;
+}
+
+Json placement_json(const Placement& placement, const Answer& answer) {
+  const std::size_t fingers = answer.finger_count();
+  const bool is_stretch = placement.kind == Kind::stretch;
+  Json json = {{"kind", name_of(placement.kind)},
+               {"start", json_numbers(placement.start)},
+               {"end", json_numbers(placement.end)},
+               {"extent", intervals_json(placement.extent)},
+               {"whole_loop", placement.whole_loop[0]},
+               {"roots", list_of(placement.roots, places_json)},
+               {"error", json_number(placement.error)},
+               {"point", list_of(placement.point, point_json)},
+               {"tangent", json_numbers(placement.tangent)},
+               {"residual", json_number(placement.residual)},
+               {"sensitivity", sensitivity_json(placement.sensitivity, fingers, answer.facing.has_value())}};
+  if (fingers == 2) {
+    json["whole_loop"] = Json::array({placement.whole_loop[0], placement.whole_loop[1]});
+    json["family"] = is_stretch ? list_of(placement.family, places_json) : Json(nullptr);
+    json["family_error"] = is_stretch ? json_number(placement.family_error) : Json(nullptr);
+  }
+  if (answer.either_way) json["direction"] = placement.clockwise ? "cw" : "ccw";
+  json["pivot"] = pivot_json(placement.pivot);
+  json["probability"] = json_number(placement.probability);
+  const std::optional<PoseResidual>& off = placement.pose_residual;
+  json["pose"] = off ? list_of(placement.pose, pose_json) : Json(nullptr);
+  json["pose_residual"] =
+      off ? Json{{"length", json_number(off->length)}, {"turn", json_number(off->turn)}} : Json(nullptr);
+  if (!answer.weighing) json["contradicted"] = placement.is_contradicted;
+  if (answer.weighing) add_weight(placement, fingers, json);
+  return json;
+}
 
 Json point_json(const Vec2& point) { return pair_json(point.x(), point.y()); }
 

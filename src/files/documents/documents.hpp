@@ -37,6 +37,9 @@ const char* name_of(Closing closing);
 /// "disk,r=0.1", "jaw", or the outline's name.
 std::string name_of(const Finger& finger);
 
+/// One of "placements"; of the answer it takes how many fingers there are, and what is known with them.
+Json placement_json(const Placement& placement, const Answer& answer);
+Json readings_json(const Answer& answer);
 Json point_json(const Vec2& point);
 Json part_json(const Part& part);
 /// Null where the rows fit. `fingers` and `noise` as given, for the cure.

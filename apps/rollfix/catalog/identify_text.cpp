@@ -1,0 +1,107 @@
+#include "rollfix/catalog/identify_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "rollfix/output/table.hpp"
+#include "text/text.hpp"
+
+namespace rollfix::app {
+namespace {
+
+std::string places(const Json& numbers) {
+  std::vector<std::string> all;
+  for (const Json& number : numbers) all.push_back(fixed(number.get<double>(), decimals_for(number.get<double>())));
+  return fmt::format("{}", fmt::join(all, ", "));
+}
+
+std::string probability(const Json& number) {
+  constexpr double kLeast = 0.00005;
+  if (number.is_null()) return "-";
+  return number.get<double>() < kLeast ? "<0.0001" : fmt::format("{:.4f}", number.get<double>());
+}
+
+/// A row for each placement, the part's name and probability in its first.
+std::string parts_table(const Json& document, const std::string& unit) {
+  const bool has_noise = !document["noise"].is_null();
+  Table table;
+  table.add_column("part", Table::Align::left);
+  if (has_noise) table.add_column("probability");
+  table.add_column("there", Table::Align::left);
+  if (has_noise) table.add_column("place's");
+  for (const char* title : {"start", "end"}) table.add_column(title_in(title, unit));
+  std::size_t rows = 0;
+  std::size_t left_out = 0;
+  for (const Json& part : document["parts"]) {
+    bool is_first = true;
+    for (const Json& placement : part["placements"]) {
+      if (++rows > kMostRows) {
+        ++left_out;
+        continue;
+      }
+      std::vector<std::string> cells{is_first ? part["name"].get<std::string>() : ""};
+      if (has_noise) cells.push_back(is_first ? probability(part["probability"]) : "");
+      std::string kind = placement["kind"].get<std::string>();
+      if (placement.contains("direction")) kind += " " + placement["direction"].get<std::string>();
+      cells.push_back(kind);
+      if (has_noise) cells.push_back(probability(placement["probability"]));
+      cells.push_back(places(placement["start"]));
+      cells.push_back(places(placement["end"]));
+      table.add_row(std::move(cells));
+      is_first = false;
+    }
+  }
+  const std::string more =
+      left_out == 0 ? ""
+                    : fmt::format("... and {} more; --json lists them all\n", counted(left_out, "place", "places"));
+  return table.str() + more;
+}
+
+std::string congruent_lines(const Json& document) {
+  std::string text;
+  std::size_t lines = 0;
+  for (const Json& part : document["parts"]) {
+    if (part["congruent_with"].empty()) continue;
+    if (++lines > kMostNotes) continue;
+    std::vector<std::string> others;
+    for (const Json& name : part["congruent_with"]) others.push_back(name.get<std::string>());
+    text += fmt::format("{} can't be told from {}\n", part["name"].get<std::string>(), fmt::join(others, ", "));
+  }
+  if (lines > kMostNotes) text += fmt::format("... and {} more such lines\n", lines - kMostNotes);
+  return text;
+}
+
+std::string refused_lines(const Json& document) {
+  std::string text;
+  const Json& refused = document["refused"];
+  for (std::size_t k = 0; k < std::min(refused.size(), kMostNotes); ++k) {
+    text += fmt::format("not on {}: {}\n", refused[k]["name"].get<std::string>(), refused[k]["why"].get<std::string>());
+  }
+  if (refused.size() > kMostNotes) text += fmt::format("... and not on {} more\n", refused.size() - kMostNotes);
+  return text;
+}
+
+}  // namespace
+
+std::string identify_text(const Json& document, const std::string& unit) {
+  const Json& catalog = document["catalog"];
+  std::string text = fmt::format("{}\n{} of {} were searched, bounds rule the others out",
+                                 document["verdict"].get<std::string>(), catalog["searched"].get<std::size_t>(),
+                                 counted(catalog["parts"].get<std::size_t>(), "part", "parts"));
+  if (!document["rest"].is_null())
+    text += fmt::format("; probability of all that is not listed {}", rough(document["rest"].get<double>()));
+  text += "\n";
+  if (!document["parts"].empty()) text += "\n" + parts_table(document, unit);
+  const std::string below = congruent_lines(document) + refused_lines(document);
+  if (!below.empty()) text += "\n" + below;
+  return text;
+}
+
+ExitCode exit_code_of(const Json& identified) {
+  if (identified["status"] != "complete") return ExitCode::incomplete;
+  return identified["parts"].empty() ? ExitCode::nothing_fits : ExitCode::fits;
+}
+
+}  // namespace rollfix::app

@@ -1,0 +1,110 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rollfix/answer/answer.hpp"
+#include "rollfix/catalog/catalog.hpp"
+
+namespace rollfix {
+
+/// Which of the parts, and how to work.
+struct IdentifyOptions {
+  std::size_t shard = 1;  // of so many shards this one: every so-manieth part of the catalog
+  std::size_t shards = 1;
+  bool use_index = true;  // false: every part is searched
+  unsigned threads = 0;   // 0: as many as the machine has processors
+  /// Called now and then by the thread that waits, with the number of parts that are done: false stops the work.
+  std::function<bool(std::size_t done)> go_on{};
+};
+
+/// What counts when parts are weighed against each other: all of it fits in a line of a file.
+struct PartWeight {
+  std::size_t part = 0;  // its place in the catalog
+  std::string verdict;   // of locate
+  bool fits = false;     // there is a placement, and the rows don't contradict it
+  bool fits_badly = false;
+  bool undecided = false;  // its search is incomplete
+  std::size_t places = 0;  // that remain
+  double start = 0;        // of the first of them, finger a's
+  bool clockwise = false;  // it
+  // With noise, of the whole roll:
+  double peak = -std::numeric_limits<double>::infinity();  // as Evidence has it, ...
+  double volume = 0;  // ... of first contacts that are anywhere on the boundary alike
+  double widened = 1;
+  double excess = 1;
+  bool widely = false;  // it was looked at only with 2.5 times the noise, because nothing fitted well with less
+};
+
+/// Whether some part explains the rows with the noise that was said: then those that were looked at widely don't count,
+/// which were only because a shard had no other.
+bool fits_well(const std::vector<PartWeight>& weights);
+
+/// What parts come to that were weighed, in whatever shards.
+struct Conclusion {
+  std::vector<std::size_t> order;   // of the weights that are listed: the likeliest first, else as in the catalog
+  std::vector<double> probability;  // of all weights; NaN without noise
+  std::vector<std::vector<std::size_t>> congruent;  // of all: those of the listed that can't be told from it
+  std::string verdict;
+  Status status = Status::complete;
+  double rest = 0;  // with noise: probability of all that is not listed
+};
+
+/// How far two parts may be apart that can't be told from each other by a roll.
+struct Likeness {
+  double length = 0;  // of places
+  double turn = 0;    // of tangents, radians
+  double roll = 0;    // the roll's length
+  bool noisy = false;
+};
+Likeness likeness_of(const Problem& like, double perimeter);
+
+/// Weights of parts of this catalog as one verdict. REQUIRES none that were looked at widely where some fits well.
+Conclusion conclude(const Catalog& catalog, const std::vector<PartWeight>& weights, const Likeness& likeness);
+
+/// A part that the roll may have been on.
+struct PartFound {
+  PartWeight weight;
+  Answer answer;  // as of this part alone: probabilities of places are given that it is this part
+  double probability = std::numeric_limits<double>::quiet_NaN();  // that it is; NaN: no noise
+  std::vector<std::size_t> congruent{};                           // parts that can't be told from it, by their places
+};
+
+/// A part that says it can't have been rolled on like this at all, and why: what `solve` throws.
+struct PartRefused {
+  std::size_t part = 0;
+  std::string why;
+  bool widely = false;  // as of a weight
+};
+
+/// Every part of a catalog that a roll fits.
+struct Identified {
+  std::vector<PartFound> parts;  // the likeliest first, without noise in the catalog's order
+  std::string verdict;           // "unique part, 2 places", "3 parts", "none", ...
+  Status status = Status::complete;
+  double rest = 0;                    // with noise: probability of all that is not listed
+  std::size_t asked = 0;              // parts, of the catalog or of the shard
+  std::size_t searched = 0;           // of them, that bounds did not rule out, ...
+  std::size_t searched_widely = 0;    // ... and so many more with 2.5 times the noise
+  std::vector<PartWeight> weights{};  // of all parts that something fits on, in the catalog's order
+  std::vector<PartRefused> refused{};
+  Likeness likeness{};
+  std::optional<Noise> noise{};  // as in the problem
+  bool mirrored = false;
+  std::size_t samples = 0;  // rows of the log, or readings
+  std::string roll{};       // a fingerprint of the problem: shards of one search have the same
+};
+
+/// Every part of a catalog on which a roll can have been, and every place on it: what `solve` says of each part by
+/// itself, to the bit, but that bounds rule out most parts at once, which loses none. `like`: the problem; its part
+/// does not matter, and lengths are in the catalog's unit. Without noise all rows of a log have to fit, as far as their
+/// digits tell. With noise parts are weighed by their evidence, times their count; ruled out is what would need errors
+/// that occur once in a million rolls; where nothing fits well, with 2.5 times the noise. See docs/identify.md.
+/// Throws InputError: a prior place, which is of one part; what `solve` throws where it throws it of all parts.
+Identified identify(const Catalog& catalog, const Problem& like, const IdentifyOptions& options = {});
+
+}  // namespace rollfix

@@ -1,0 +1,345 @@
+#include <fmt/format.h>
+
+#include <condition_variable>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <system_error>
+#include <unordered_map>
+#include <utility>
+
+#include "answer/crew.hpp"
+#include "files/byte_stream.hpp"
+#include "files/part_record.hpp"
+#include "profile.hpp"
+#include "rollfix/answer/part_facts.hpp"
+#include "rollfix/catalog/catalog.hpp"
+#include "rollfix/error.hpp"
+#include "tables.hpp"
+
+namespace rollfix {
+namespace {
+
+// Sources that may be ready before one that takes long is.
+constexpr std::size_t kMostWaiting = 512;
+
+/// A part, ready to be written.
+struct ReadyPart {
+  CatalogEntry entry;
+  double period_turn = 0;
+  double most_curvature = 0;
+  bool measured = false;
+  std::string profile;
+  PartRecord record;
+};
+
+/// All that a source holds.
+struct ReadySource {
+  std::vector<ReadyPart> parts;
+  std::vector<LeftOut> left_out;
+  std::vector<std::string> notes;
+  std::string unit;
+};
+
+/// How a source was when it was read, and how it was taken.
+std::string stamp_of(const CatalogSource& source, const BuildOptions& options) {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(source.argument, error);
+  const auto time = std::filesystem::last_write_time(source.argument, error);
+  const std::string file = error ? "" : fmt::format("{} {}", size, time.time_since_epoch().count());
+  const auto length = [](const std::optional<Length>& one) {
+    return one ? fmt::format("{}{}", one->value, one->unit) : std::string();
+  };
+  const OutlineOptions& points = options.load.points;
+  // The unit is the catalog's, which stays.
+  return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", file, source.name, source.count, points.open,
+                     points.corner_angle.value_or(-1), length(points.smooth), length(options.load.gap),
+                     options.load.layer, options.load.allow_crossing, options.lean);
+}
+
+BuildOptions in_unit(BuildOptions options, const std::string& unit) {
+  options.load.points.unit = unit;
+  return options;
+}
+
+ReadyPart ready_part(const Part& part, const std::string& name, double count, bool lean) {
+  ReadyPart ready;
+  ready.entry = {0, name, part.perimeter(), symmetry(part), part.closed(), part.reversed(), count};
+  ready.period_turn = part.turning().period_turn();
+  ready.most_curvature = part.turning().most_curvature();
+  ready.measured = !part.outline().accuracy.is_exact();
+  ready.profile = bytes_of(profile_of(part));
+  ready.record = record_of(part);
+  if (lean) ready.record.computed.clear();
+  return ready;
+}
+
+/// Of a drawing every closed loop, else the one part.
+ReadySource read_source(const CatalogSource& source, const BuildOptions& options) {
+  ReadySource ready;
+  try {
+    const LoadedPart loaded = load_part(source.argument, options.load);
+    ready.notes = loaded.notes;
+    ready.unit = loaded.unit;
+    std::vector<const Loop*> closed;
+    for (const Loop& loop : loaded.loops) {
+      if (loop.outline.closed) closed.push_back(&loop);
+    }
+    if (closed.size() < 2 || options.load.points.open) {
+      ready.parts.push_back(ready_part(loaded.part, source.name, source.count, options.lean));
+      return ready;
+    }
+    for (std::size_t k = 0; k < closed.size(); ++k) {
+      const std::string name = fmt::format("{}#{}", source.name, k + 1);
+      try {
+        const bool is_loaded = k + 1 == loaded.loop;
+        const Part part = is_loaded ? loaded.part : Part(closed[k]->outline, {options.load.allow_crossing});
+        ready.parts.push_back(ready_part(part, name, source.count, options.lean));
+      } catch (const InputError& error) {
+        ready.left_out.push_back({name, error.what()});
+      }
+    }
+  } catch (const InputError& error) {
+    ready.left_out.push_back({source.name, error.what()});
+  }
+  return ready;
+}
+
+/// What is ready, in the order of the sources.
+class Waiting {
+ public:
+  /// Waits where too much is ready before number k. False: nobody takes it any more.
+  bool put(std::size_t k, ReadySource source) {
+    std::unique_lock lock(mutex_);
+    room_.wait(lock, [&] { return is_closed_ || k < next_ + kMostWaiting; });
+    if (is_closed_) return false;
+    ready_.emplace(k, std::move(source));
+    return true;
+  }
+
+  /// All that nothing before it is missing of.
+  std::vector<std::pair<std::size_t, ReadySource>> take() {
+    const std::lock_guard lock(mutex_);
+    std::vector<std::pair<std::size_t, ReadySource>> taken;
+    for (auto first = ready_.begin(); first != ready_.end() && first->first == next_; first = ready_.begin()) {
+      taken.emplace_back(first->first, std::move(first->second));
+      ready_.erase(first);
+      ++next_;
+    }
+    room_.notify_all();
+    return taken;
+  }
+
+  void close() {
+    const std::lock_guard lock(mutex_);
+    is_closed_ = true;
+    room_.notify_all();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable room_;
+  std::map<std::size_t, ReadySource> ready_;
+  std::size_t next_ = 0;
+  bool is_closed_ = false;
+};
+
+class CatalogWriter {
+ public:
+  CatalogWriter(const std::string& path, const std::string& unit) : database_(path, Database::Access::write) {
+    make_tables(database_);
+    // What is reported as done survives a crash of the machine.
+    database_.run("PRAGMA synchronous = FULL");
+    unit_ = fact(database_, "unit");
+    if (unit.empty() || unit == unit_) return;
+    if (!unit_.empty() || parts() > 0) {
+      throw InputError(fmt::format("`unit` {}: the lengths of {} are in {}: expected that unit, or another file", unit,
+                                   path, unit_.empty() ? "no known unit" : unit_));
+    }
+    set_unit(unit);
+  }
+
+  const std::string& unit() const { return unit_; }
+
+  std::unordered_map<std::string, std::string> stamps() const {
+    std::unordered_map<std::string, std::string> stamps;
+    Statement rows = database_.prepare("SELECT argument, stamp FROM sources");
+    while (rows.step()) stamps.emplace(rows.bytes(0), rows.bytes(1));
+    return stamps;
+  }
+
+  std::size_t parts() const {
+    Statement asked = database_.prepare("SELECT count(*) FROM parts");
+    asked.step();
+    return static_cast<std::size_t>(asked.whole(0));
+  }
+
+  /// In place of what was there of this source, in the catalog's unit.
+  void write(const CatalogSource& source, const BuildOptions& options, ReadySource& ready, BuildReport& report) {
+    if (!ready.unit.empty() && !ready.parts.empty() && ready.unit != unit_) {
+      if (unit_.empty()) set_unit(ready.unit);
+      if (ready.unit != unit_) ready = read_source(source, in_unit(options, unit_));
+    }
+    if (forget(source.argument)) ++report.replaced;
+    Statement put = database_.prepare("INSERT INTO sources (argument, stamp) VALUES (?, ?)");
+    put.bind_text(0, source.argument).bind_text(1, stamp_of(source, options)).run();
+    const std::int64_t id = database_.last_id();
+    for (const ReadyPart& part : ready.parts) {
+      if (const std::string other = source_that_has(part.entry.name); !other.empty()) {
+        ready.left_out.push_back({part.entry.name, fmt::format("{}: a part of this name is there from {}: names have "
+                                                               "to differ; give the file another one",
+                                                               source.argument, other)});
+        continue;
+      }
+      write_part(part, id);
+      ++report.added;
+    }
+    for (const LeftOut& one : ready.left_out) {
+      Statement left_out = database_.prepare("INSERT INTO left_out VALUES (?, ?, ?)");
+      left_out.bind(0, id).bind_text(1, one.source).bind_text(2, one.why).run();
+      report.left_out.push_back(one);
+    }
+    for (std::string& note : ready.notes) report.notes.push_back(std::move(note));
+  }
+
+  std::size_t remove(const std::vector<std::string>& names) {
+    Transaction all(database_);
+    for (const std::string& name : names) {
+      Statement asked = database_.prepare("SELECT id, source FROM parts WHERE name = ?");
+      asked.bind_text(0, name);
+      if (!asked.step()) {
+        throw InputError(
+            fmt::format("{}: there is no part '{}'; rollfix catalog list names them; nothing was taken "
+                        "out",
+                        database_.path(), name));
+      }
+      const std::int64_t id = asked.whole(0);
+      const std::int64_t source = asked.whole(1);
+      database_.prepare("DELETE FROM shapes WHERE part = ?").bind(0, id).run();
+      database_.prepare("DELETE FROM parts WHERE id = ?").bind(0, id).run();
+      // So that a build takes it in again.
+      database_.prepare("UPDATE sources SET stamp = '' WHERE id = ?").bind(0, source).run();
+    }
+    all.commit();
+    return names.size();
+  }
+
+  const Database& database() const { return database_; }
+
+ private:
+  void set_unit(const std::string& unit) {
+    set_fact(database_, "unit", unit);
+    unit_ = unit;
+  }
+
+  /// Whether there was anything.
+  bool forget(const std::string& argument) {
+    Statement asked = database_.prepare("SELECT id FROM sources WHERE argument = ?");
+    asked.bind_text(0, argument);
+    if (!asked.step()) return false;
+    const std::int64_t id = asked.whole(0);
+    for (const char* const sql : {"DELETE FROM shapes WHERE part IN (SELECT id FROM parts WHERE source = ?)",
+                                  "DELETE FROM parts WHERE source = ?", "DELETE FROM left_out WHERE source = ?",
+                                  "DELETE FROM sources WHERE id = ?"}) {
+      database_.prepare(sql).bind(0, id).run();
+    }
+    return true;
+  }
+
+  std::string source_that_has(const std::string& name) const {
+    Statement asked =
+        database_.prepare("SELECT argument FROM sources JOIN parts ON parts.source = sources.id WHERE parts.name = ?");
+    asked.bind_text(0, name);
+    return asked.step() ? std::string(asked.bytes(0)) : std::string();
+  }
+
+  void write_part(const ReadyPart& part, std::int64_t source) {
+    Statement row = database_.prepare(
+        "INSERT INTO parts (name, source, perimeter, period_turn, most_curvature, closed, reversed, measured, "
+        "symmetry, "
+        "count, profile) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+    const CatalogEntry& entry = part.entry;
+    row.bind_text(0, entry.name).bind(1, source).bind(2, entry.perimeter).bind(3, part.period_turn);
+    row.bind(4, part.most_curvature).bind(5, std::int64_t{entry.closed}).bind(6, std::int64_t{entry.reversed});
+    row.bind(7, std::int64_t{part.measured}).bind(8, std::int64_t{entry.symmetry}).bind(9, entry.count);
+    row.bind_bytes(10, part.profile).run();
+    const PartRecord& record = part.record;
+    Statement shape = database_.prepare("INSERT INTO shapes VALUES (?, ?, ?, ?, ?, ?)");
+    shape.bind(0, database_.last_id()).bind_text(1, record.outline).bind_bytes(2, record.numbers);
+    shape.bind(3, std::int64_t{kComputedFormat});
+    if (record.computed.empty()) {
+      shape.bind_nothing(4);
+    } else {
+      shape.bind_bytes(4, record.computed);
+    }
+    const std::uint64_t sum = checksum(record.outline + record.numbers + record.computed);
+    shape.bind(5, static_cast<std::int64_t>(sum)).run();
+  }
+
+  Database database_;
+  std::string unit_;
+};
+
+}  // namespace
+
+BuildReport build_catalog(const std::string& path, const std::vector<CatalogSource>& sources,
+                          const BuildOptions& options) {
+  CatalogWriter writer(path, options.load.points.unit);
+  const BuildOptions known = in_unit(options, writer.unit());
+  BuildReport report;
+  const std::unordered_map<std::string, std::string> there = writer.stamps();
+  std::vector<std::size_t> wanted;
+  for (std::size_t k = 0; k < sources.size(); ++k) {
+    const auto found = there.find(sources[k].argument);
+    if (found != there.end() && found->second == stamp_of(sources[k], options)) {
+      ++report.unchanged;
+    } else {
+      wanted.push_back(k);
+    }
+  }
+
+  Waiting waiting;
+  BuildProgress progress{sources.size(), report.unchanged, writer.parts()};
+  const auto write_ready = [&] {
+    std::vector<std::pair<std::size_t, ReadySource>> ready = waiting.take();
+    if (!ready.empty()) {
+      Transaction all(writer.database());
+      for (auto& [k, source] : ready) {
+        writer.write(sources[wanted[k]], options, source, report);
+      }
+      all.commit();
+      progress.done += ready.size();
+      progress.parts = writer.parts();
+    }
+    return !options.go_on || options.go_on(progress);
+  };
+  const auto go_on = [&](std::size_t /*done*/) {
+    try {
+      report.stopped = !write_ready();
+    } catch (...) {
+      waiting.close();
+      throw;
+    }
+    if (report.stopped) waiting.close();
+    return !report.stopped;
+  };
+  Crew crew(wanted.size(), 1);
+  crew.run(options.jobs, go_on, [&](std::size_t lo, std::size_t hi) {
+    for (std::size_t k = lo; k < hi; ++k) {
+      if (!waiting.put(k, read_source(sources[wanted[k]], known))) return;
+    }
+  });
+  if (!report.stopped) {
+    crew.require_done();
+    write_ready();
+  }
+  return report;
+}
+
+std::size_t remove_from_catalog(const std::string& path, const std::vector<std::string>& names) {
+  if (!std::filesystem::exists(path)) throw InputError(fmt::format("{}: there is no such catalog", path));
+  return CatalogWriter(path, "").remove(names);
+}
+
+}  // namespace rollfix

@@ -1,0 +1,151 @@
+#include "rollfix/catalog/catalog.hpp"
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+#include "files/byte_stream.hpp"
+#include "files/part_record.hpp"
+#include "index.hpp"
+#include "rollfix/error.hpp"
+#include "tables.hpp"
+
+namespace rollfix {
+namespace {
+
+// Parts that are kept once they were loaded: some 100 kB each.
+constexpr std::size_t kMostKept = 4096;
+
+/// The bytes of a part as they stand in the catalog.
+struct Stored {
+  std::string outline;
+  std::string numbers;
+  std::optional<std::string> computed;  // none: of another format, or not kept
+};
+
+}  // namespace
+
+struct Catalog::State {
+  explicit State(const std::string& file) : database(file, Database::Access::read), path(file) {}
+
+  void read_entries();
+  Stored stored(std::size_t which);
+
+  Database database;
+  std::string path;
+  std::string unit;
+  std::vector<CatalogEntry> entries;
+  Index index;
+  std::mutex mutex;  // of the file, and of what is kept
+  std::unordered_map<std::size_t, Part> kept;
+};
+
+void Catalog::State::read_entries() {
+  const auto count = static_cast<std::size_t>([&] {
+    Statement asked = database.prepare("SELECT count(*) FROM parts");
+    asked.step();
+    return asked.whole(0);
+  }());
+  entries.reserve(count);
+  index.courses.reserve(count);
+  index.coarse.reserve(count);
+  index.fine.reserve(count);
+  index.measured.reserve(count);
+  Statement rows = database.prepare(
+      "SELECT id, name, perimeter, symmetry, closed, reversed, count, period_turn, most_curvature, measured, profile "
+      "FROM parts ORDER BY id");
+  while (rows.step()) {
+    CatalogEntry entry;
+    entry.id = rows.whole(0);
+    entry.name = rows.bytes(1);
+    entry.perimeter = rows.number(2);
+    entry.symmetry = static_cast<int>(rows.whole(3));
+    entry.closed = rows.whole(4) != 0;
+    entry.reversed = rows.whole(5) != 0;
+    entry.count = rows.number(6);
+    const std::optional<Profile<kCells>> profile = profile_from(rows.bytes(10));
+    if (!profile) throw InputError(fmt::format("{}: {}: its index is damaged", path, entry.name));
+    index.courses.push_back({static_cast<float>(entry.perimeter), static_cast<float>(rows.number(7)),
+                             static_cast<float>(rows.number(8)), entry.closed});
+    index.coarse.push_back(coarse_of(*profile));
+    index.fine.push_back(*profile);
+    index.measured.push_back(static_cast<std::uint8_t>(rows.whole(9) != 0));
+    entries.push_back(std::move(entry));
+  }
+}
+
+Stored Catalog::State::stored(std::size_t which) {
+  const std::lock_guard lock(mutex);
+  Statement row = database.prepare("SELECT outline, numbers, format, computed, checksum FROM shapes WHERE part = ?");
+  row.bind(0, entries[which].id);
+  const auto refuse = [&](const char* what) {
+    throw InputError(fmt::format("{}: {}: {}", path, entries[which].name, what));
+  };
+  if (!row.step()) refuse("was taken out of the catalog meanwhile");
+  Stored stored{std::string(row.bytes(0)), std::string(row.bytes(1)), std::nullopt};
+  const bool is_current = row.whole(2) == kComputedFormat && !row.is_nothing(3);
+  if (is_current) stored.computed = std::string(row.bytes(3));
+  const std::uint64_t sum = checksum(stored.outline + stored.numbers + std::string(row.bytes(3)));
+  if (static_cast<std::int64_t>(sum) != row.whole(4))
+    refuse("was damaged since it was written: its checksum does not fit");
+  return stored;
+}
+
+Catalog::Catalog(const std::string& path) : state_(std::make_unique<State>(path)) {
+  require_catalog(state_->database);
+  state_->unit = fact(state_->database, "unit");
+  state_->read_entries();
+}
+Catalog::~Catalog() = default;
+Catalog::Catalog(Catalog&&) noexcept = default;
+Catalog& Catalog::operator=(Catalog&&) noexcept = default;
+
+const std::string& Catalog::path() const { return state_->path; }
+const std::string& Catalog::unit() const { return state_->unit; }
+std::size_t Catalog::size() const { return state_->entries.size(); }
+const CatalogEntry& Catalog::entry(std::size_t index) const { return state_->entries[index]; }
+const Catalog::Index& Catalog::index() const { return state_->index; }
+
+std::string Catalog::source_of(std::size_t index) const {
+  const std::lock_guard lock(state_->mutex);
+  Statement row = state_->database.prepare(
+      "SELECT argument FROM sources JOIN parts ON parts.source = sources.id WHERE parts.id = ?");
+  row.bind(0, state_->entries[index].id);
+  return row.step() ? std::string(row.bytes(0)) : std::string();
+}
+
+std::vector<LeftOut> Catalog::left_out() const {
+  const std::lock_guard lock(state_->mutex);
+  std::vector<LeftOut> all;
+  Statement rows = state_->database.prepare("SELECT what, why FROM left_out ORDER BY rowid");
+  while (rows.step()) all.push_back({std::string(rows.bytes(0)), std::string(rows.bytes(1))});
+  return all;
+}
+
+Part Catalog::part(std::size_t index) const {
+  {
+    const std::lock_guard lock(state_->mutex);
+    const auto found = state_->kept.find(index);
+    if (found != state_->kept.end()) return found->second;
+  }
+  const Stored stored = state_->stored(index);
+  const std::string& name = state_->entries[index].name;
+  try {
+    Part part = stored.computed ? part_of(stored.outline, stored.numbers + *stored.computed, name)
+                                : rebuilt_part(stored.outline, stored.numbers, name);
+    const std::lock_guard lock(state_->mutex);
+    if (state_->kept.size() >= kMostKept) state_->kept.clear();
+    state_->kept.emplace(index, part);
+    return part;
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw InputError(fmt::format("{}: {}: is damaged: {}", state_->path, name, error.what()));
+  }
+}
+
+}  // namespace rollfix

@@ -1,0 +1,206 @@
+#include "clues.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "answer/either_way.hpp"
+#include "answer/mirror.hpp"
+#include "answer/observation.hpp"
+#include "answer/weighing.hpp"
+#include "belief/error_model.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/locate/locate.hpp"
+
+namespace rollfix {
+namespace {
+
+// Rows that are looked at first, and then: more tell little more, and take time.
+constexpr std::size_t kFew = 12;
+constexpr std::size_t kMany = 48;
+// No row is farther off than this many standard deviations: one of 48 is once in ten million rolls.
+constexpr double kFarthest = 6;
+// The sum of squares of m rows is below m + 5 sqrt(2 m) + 25 but once in a million rolls.
+constexpr double kSigmasOfSum = 5;
+
+/// The numbers of about so many rows, evenly over all; the last is one of them.
+std::vector<std::size_t> some_of(std::size_t rows, std::size_t wanted) {
+  std::vector<std::size_t> some;
+  const std::size_t count = std::min(rows, wanted);
+  for (std::size_t k = 1; k <= count; ++k) some.push_back(k * rows / count - 1);
+  return some;
+}
+
+double square(double x) { return x * x; }
+
+/// How far a row may be off: variances of each length, and of the turn.
+struct RowErrors {
+  double length = 0;    // all of it
+  double shared = 0;    // of the turn: what every row has from the first contact
+  double own = 0;       // what this row has on its own
+  double gathered = 0;  // what came together on the way
+};
+
+/// Of every row of the roll, on a part of this perimeter.
+std::vector<RowErrors> errors_of(const Problem& problem, const std::vector<Reading>& rows, double perimeter) {
+  BeliefOptions options;
+  options.noise = *problem.noise;
+  options.bare = !problem.felt.is_log();
+  const LogKind kind = kind_of(problem);
+  const belief::SensorErrors sensor(options, kind, perimeter, belief::slip_here_and_there(options.noise));
+  const std::size_t fingers = rows.front().fingers();
+  std::vector<RowErrors> errors;
+  double slipped = 0;
+  double drifted = 0;
+  Reading before = fingers == 1 ? Reading(0, 0) : Reading(0, 0, 0);
+  double time = 0;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const bool has_times = problem.felt.is_log() && !problem.felt.log->time.empty();
+    const double now = has_times ? problem.felt.log->time[k] - problem.felt.log->time[0] : 0;
+    RowErrors row;
+    double longest_step = 0;
+    double longest_slip = 0;
+    for (std::size_t which = 0; which < fingers; ++which) {
+      const double curvature = finger_curvature(problem, which, problem.felt.is_log() ? k : 0);
+      const double contact = kind == LogKind::contact ? square(curvature) * sensor.contact_variance : 0;
+      row.own += sensor.angle_variance + contact;
+      row.length = std::max(
+          row.length, 2 * sensor.contact_variance + sensor.scale_variance(curvature) * square(rows[k].length[which]));
+      const double step = rows[k].length[which] - before.length[which];
+      longest_step = std::max(longest_step, std::abs(step));
+      longest_slip = std::max(longest_slip, sensor.slipped(options.bare ? rows[k].length[which] : step));
+    }
+    slipped = (options.bare ? 0 : slipped) + longest_slip;
+    drifted += static_cast<double>(fingers) * sensor.drifted(longest_step, {time, now});
+    if (sensor.gathers_rows()) {
+      slipped += sensor.contact_variance;
+      drifted += static_cast<double>(fingers) * sensor.angle_variance;
+    }
+    row.shared = row.own;
+    row.length += slipped;
+    row.gathered = drifted;
+    errors.push_back(row);
+    before = rows[k];
+    time = now;
+  }
+  return errors;
+}
+
+/// The larger of both.
+void widen(std::vector<RowErrors>& errors, const std::vector<RowErrors>& others) {
+  for (std::size_t k = 0; k < errors.size(); ++k) {
+    errors[k].length = std::max(errors[k].length, others[k].length);
+    errors[k].shared = std::max(errors[k].shared, others[k].shared);
+    errors[k].own = std::max(errors[k].own, others[k].own);
+    errors[k].gathered = std::max(errors[k].gathered, others[k].gathered);
+  }
+}
+
+/// The least and the largest perimeter: noise depends on it a little.
+Interval perimeters(const Catalog& catalog) {
+  Interval range{std::numeric_limits<double>::infinity(), 0};
+  for (std::size_t k = 0; k < catalog.size(); ++k) {
+    const double perimeter = catalog.entry(k).perimeter;
+    range = {std::min(range.lo, perimeter), std::max(range.hi, perimeter)};
+  }
+  return range;
+}
+
+RollClues clues_with_noise(const Problem& problem, const Observation& observed, const Interval& range, double excess) {
+  const double farthest = excess * kFarthest;
+  const std::vector<Reading>& rows = problem.felt.is_log() ? observed.rolls : observed.readings;
+  RollClues roll;
+  for (Clues* clues : {&roll.few, &roll.many}) clues->fingers = rows.front().fingers();
+  if (problem.robust) return roll;  // any row may be a stray one
+  std::vector<RowErrors> errors = errors_of(problem, rows, range.lo);
+  widen(errors, errors_of(problem, rows, range.hi));
+  const auto clue = [&](std::size_t row) {
+    Clue one;
+    one.length = rows[row].length;
+    one.turn = rows[row].turn;
+    one.length_slack = farthest * std::sqrt(errors[row].length);
+    return one;
+  };
+  for (const std::size_t row : some_of(rows.size(), kFew)) {
+    roll.few.clues.push_back(clue(row));
+    roll.few.clues.back().turn_slack =
+        farthest * std::sqrt(errors[row].shared + errors[row].own + errors[row].gathered);
+  }
+  for (const std::size_t row : some_of(rows.size(), kMany)) {
+    roll.many.clues.push_back(clue(row));
+    roll.many.clues.back().turn_slack = farthest * std::sqrt(errors[row].gathered);
+    roll.many.clues.back().turn_sd = std::sqrt(errors[row].own);
+  }
+  const auto count = static_cast<double>(roll.many.clues.size());
+  roll.many.shared_sd = std::sqrt(errors.front().shared);
+  roll.many.most_cost = square(excess) * (count + kSigmasOfSum * std::sqrt(2 * count) + square(kSigmasOfSum));
+  if (observed.facing) {
+    roll.few.facing = roll.many.facing = observed.facing;
+    roll.few.facing_slack = roll.many.facing_slack = farthest * std::sqrt(2 * errors.front().shared);
+  }
+  return roll;
+}
+
+RollClues clues_without_noise(const Problem& problem, const Observation& observed) {
+  // A log's rows all have to fit, unless only some were asked for.
+  const bool takes_all = problem.felt.is_log() && !problem.tolerance && problem.at.empty();
+  const std::vector<Reading>& rows = takes_all ? observed.rolls : observed.readings;
+  Rounding rounding;
+  for (const Rounding& one : observed.roundings) {
+    rounding = {std::max(rounding.length, one.length), std::max(rounding.turn, one.turn)};
+  }
+  Clue slack;
+  slack.turn_slack = LocateOptions().tolerance + rounding.turn;
+  slack.turn_slack_by_curvature = rounding.length;
+  if (problem.tolerance) {
+    slack.turn_slack = std::max(*problem.tolerance, kLeastTolerance);
+    slack.turn_slack_by_curvature = 0;
+  }
+  const auto some = [&](std::size_t wanted) {
+    Clues clues;
+    clues.fingers = rows.front().fingers();
+    for (const std::size_t row : some_of(rows.size(), wanted)) {
+      clues.clues.push_back(slack);
+      clues.clues.back().length = rows[row].length;
+      clues.clues.back().turn = rows[row].turn;
+    }
+    if (observed.facing) {
+      clues.facing = observed.facing;
+      clues.facing_slack = slack.turn_slack;
+      clues.facing_slack_by_curvature = slack.turn_slack_by_curvature;
+    }
+    return clues;
+  };
+  // Every reading that was given is one that is searched with.
+  const std::size_t all = std::numeric_limits<std::size_t>::max();
+  return {some(takes_all ? kFew : all), some(takes_all ? kMany : all)};
+}
+
+}  // namespace
+
+std::array<std::vector<RollClues>, 2> clues_of(const Catalog& catalog, const Problem& like, double excess) {
+  const Problem seen = like.mirrored ? in_mirror(like) : like;
+  const Interval range = perimeters(catalog);
+  std::array<std::vector<RollClues>, 2> clues;
+  for (const bool is_reversed : {false, true}) {
+    std::size_t k = 0;
+    while (k < catalog.size() && catalog.entry(k).reversed != is_reversed) ++k;
+    if (k == catalog.size()) continue;
+    std::vector<Problem> ways{seen};
+    if (like.either_way) ways.push_back(counted_clockwise(seen));
+    for (Problem& way : ways) {
+      way.part = catalog.part(k);
+      try {
+        const Observation observed = observe(way);
+        clues.at(is_reversed ? 1 : 0)
+            .push_back(way.noise ? clues_with_noise(way, observed, range, excess) : clues_without_noise(way, observed));
+      } catch (const InputError&) {  // what this part has against it says nothing about the others
+        clues.at(is_reversed ? 1 : 0).emplace_back();
+      }
+    }
+  }
+  return clues;
+}
+
+}  // namespace rollfix

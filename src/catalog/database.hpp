@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace rollfix {
+
+/// One SQL statement, to be run once or again and again. Columns and parameters are counted from 0.
+class Statement {
+ public:
+  Statement& bind(int parameter, std::int64_t value);
+  Statement& bind(int parameter, double value);
+  Statement& bind_text(int parameter, std::string_view text);
+  Statement& bind_bytes(int parameter, std::string_view bytes);
+  Statement& bind_nothing(int parameter);
+
+  /// The next row; false: there is none.
+  bool step();
+  /// Runs it to its end, and makes it ready to be run again.
+  void run();
+  void reset();
+
+  std::int64_t whole(int column) const;
+  double number(int column) const;
+  std::string_view bytes(int column) const;  // of a text as well; until the next step
+  bool is_nothing(int column) const;
+
+ private:
+  friend class Database;
+  Statement(sqlite3* database, sqlite3_stmt* statement, std::string path);
+  void check(int code) const;
+
+  struct Finalize {
+    void operator()(sqlite3_stmt* statement) const;
+  };
+  sqlite3* database_;
+  std::unique_ptr<sqlite3_stmt, Finalize> statement_;
+  std::string path_;
+};
+
+/// An SQLite file. Throws InputError: what SQLite says, with the file's name.
+class Database {
+ public:
+  enum class Access { read, write };
+  Database(const std::string& path, Access access);
+
+  Statement prepare(const std::string& sql) const;
+  void run(const std::string& sql) const;
+  std::int64_t last_id() const;
+  const std::string& path() const { return path_; }
+
+ private:
+  struct Close {
+    void operator()(sqlite3* database) const;
+  };
+  std::unique_ptr<sqlite3, Close> database_;
+  std::string path_;
+};
+
+/// All or nothing: what was done since it was made is undone unless it is committed.
+class Transaction {
+ public:
+  explicit Transaction(const Database& database) : database_(database) { database_.run("BEGIN IMMEDIATE"); }
+  ~Transaction();
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+
+  void commit();
+
+ private:
+  const Database& database_;
+  bool is_open_ = true;
+};
+
+}  // namespace rollfix

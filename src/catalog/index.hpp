@@ -1,0 +1,20 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "profile.hpp"
+#include "rollfix/catalog/catalog.hpp"
+
+namespace rollfix {
+
+/// What all parts of a catalog are asked first, side by side in memory: 704 bytes a part, and its name.
+struct Catalog::Index {
+  std::vector<Course> courses;
+  std::vector<Profile<kCoarseCells>> coarse;
+  std::vector<Profile<kCells>> fine;
+  std::vector<std::uint8_t> measured;  // its outline is not exact: bounds on it say nothing certain
+};
+
+}  // namespace rollfix

@@ -1,0 +1,79 @@
+#include "tables.hpp"
+
+#include <fmt/format.h>
+
+#include "rollfix/error.hpp"
+
+namespace rollfix {
+namespace {
+
+// What is looked through as a whole stands apart from what is asked for part by part.
+constexpr const char* kTables = R"(
+CREATE TABLE facts (name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
+CREATE TABLE sources (
+  id INTEGER PRIMARY KEY,
+  argument TEXT NOT NULL UNIQUE,
+  stamp TEXT NOT NULL);
+CREATE TABLE parts (
+  id INTEGER PRIMARY KEY AUTOINCREMENT,
+  name TEXT NOT NULL UNIQUE,
+  source INTEGER NOT NULL REFERENCES sources (id),
+  perimeter REAL NOT NULL,
+  period_turn REAL NOT NULL,
+  most_curvature REAL NOT NULL,
+  closed INTEGER NOT NULL,
+  reversed INTEGER NOT NULL,
+  measured INTEGER NOT NULL,
+  symmetry INTEGER NOT NULL,
+  count REAL NOT NULL,
+  profile BLOB NOT NULL);
+CREATE INDEX parts_by_source ON parts (source);
+CREATE TABLE shapes (
+  part INTEGER PRIMARY KEY REFERENCES parts (id),
+  outline TEXT NOT NULL,
+  numbers BLOB NOT NULL,
+  format INTEGER NOT NULL,
+  computed BLOB,
+  checksum INTEGER NOT NULL);
+CREATE TABLE left_out (
+  source INTEGER NOT NULL REFERENCES sources (id),
+  what TEXT NOT NULL,
+  why TEXT NOT NULL);
+CREATE INDEX left_out_by_source ON left_out (source);
+)";
+
+bool has_tables(const Database& database) { return database.prepare("SELECT 1 FROM sqlite_master LIMIT 1").step(); }
+
+}  // namespace
+
+void make_tables(const Database& database) {
+  if (has_tables(database)) return require_catalog(database);
+  Transaction all(database);
+  database.run(kTables);
+  set_fact(database, "schema", kCatalogSchema);
+  all.commit();
+}
+
+void require_catalog(const Database& database) {
+  Statement tables = database.prepare("SELECT 1 FROM sqlite_master WHERE name = 'facts'");
+  if (!tables.step()) {
+    throw InputError(fmt::format("{}: is not a catalog; rollfix catalog build makes one", database.path()));
+  }
+  const std::string schema = fact(database, "schema");
+  if (schema == kCatalogSchema) return;
+  throw InputError(fmt::format("{}: is a catalog of version '{}', expected '{}': build it again from its sources",
+                               database.path(), schema, kCatalogSchema));
+}
+
+std::string fact(const Database& database, const std::string& name) {
+  Statement asked = database.prepare("SELECT value FROM facts WHERE name = ?");
+  asked.bind_text(0, name);
+  return asked.step() ? std::string(asked.bytes(0)) : std::string();
+}
+
+void set_fact(const Database& database, const std::string& name, const std::string& value) {
+  Statement put = database.prepare("INSERT OR REPLACE INTO facts VALUES (?, ?)");
+  put.bind_text(0, name).bind_text(1, value).run();
+}
+
+}  // namespace rollfix

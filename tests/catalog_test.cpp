@@ -1,0 +1,195 @@
+// Many parts in one file: built of folders, lists and drawings, added to, taken out of, and never half written.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sqlite3.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <thread>
+
+#include "catalogs.hpp"
+#include "refusal.hpp"
+
+namespace catalog_test {
+namespace {
+
+using namespace catalogs;
+using cli::Json;
+using cli::run;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr const char* kSquare = "0,0\n10,0\n10,10\n0,10\n";
+constexpr const char* kTriangle = "0,0\n10,0\n5,8\n";
+constexpr const char* kTwoLoops =
+    R"(<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="100mm" viewBox="0 0 100 100">)"
+    R"(<rect x="10" y="10" width="80" height="60"/><circle cx="50" cy="40" r="8"/></svg>)";
+
+class CatalogFile : public testing::Test {
+ protected:
+  void write(const std::string& name, const std::string& text) {
+    const cli::fs::path folder = cli::fs::path(name).parent_path();
+    if (!folder.empty()) cli::fs::create_directories(folder);
+    std::ofstream(name) << text;
+  }
+  std::vector<std::string> names() {
+    std::vector<std::string> all;
+    const Catalog catalog("parts.db");
+    for (std::size_t k = 0; k < catalog.size(); ++k) all.push_back(catalog.entry(k).name);
+    return all;
+  }
+
+  cli::Folder folder_;
+};
+
+TEST_F(CatalogFile, takes_every_outline_in_a_folder_and_says_what_it_left_out) {
+  write("shapes/square.csv", kSquare);
+  write("shapes/deep/triangle.csv", kTriangle);
+  write("shapes/plate.svg", kTwoLoops);
+  write("shapes/bow.csv", "0,0\n10,10\n10,0\n0,10\n");
+  write("shapes/notes.md", "not an outline");
+  const cli::Ran plain = run("catalog build shapes -o parts.db");
+  EXPECT_EQ(plain.code, 0) << plain.err;
+  EXPECT_THAT(names(), testing::UnorderedElementsAre("deep/triangle.csv", "plate.svg#1", "plate.svg#2", "square.csv"));
+  EXPECT_THAT(plain.out, HasSubstr("bow.csv"));
+  EXPECT_THAT(run("catalog list parts.db").out, HasSubstr("that does not cross itself"));
+}
+
+TEST_F(CatalogFile, leaves_out_what_an_option_does_not_go_with) {
+  write("shapes/square.csv", kSquare);
+  write("shapes/plate.svg", kTwoLoops);
+  const cli::Ran ran = run("catalog build shapes -o parts.db --corner-angle 30deg");
+  EXPECT_THAT(names(), ElementsAre("square.csv"));
+  EXPECT_THAT(ran.out, HasSubstr("plate.svg"));
+}
+
+TEST_F(CatalogFile, is_not_read_again_but_where_a_file_has_changed) {
+  write("shapes/square.csv", kSquare);
+  write("shapes/triangle.csv", kTriangle);
+  run("catalog build shapes -o parts.db");
+  write("shapes/triangle.csv", "0,0\n20,0\n10,16.0\n");
+  const Json report = run("catalog build shapes -o parts.db --json").json();
+  EXPECT_EQ(report["unchanged"], 1);
+  EXPECT_EQ(report["replaced"], 1);
+  EXPECT_NEAR(Catalog("parts.db").entry(1).perimeter, 2 * (10 + 2 * std::hypot(5, 8)), 1e-9);
+}
+
+TEST_F(CatalogFile, takes_a_list_with_how_many_there_are) {
+  write("bin/square.csv", kSquare);
+  write("bin/list.txt", "# what is in the bin\nsquare.csv\t3\n\ngallery:cam\n");
+  run("catalog build bin/list.txt -o parts.db");
+  EXPECT_THAT(names(), ElementsAre("square.csv", "gallery:cam"));
+  EXPECT_EQ(Catalog("parts.db").entry(0).count, 3);
+  write("bin/list.txt", "square.csv\tmany\n");
+  EXPECT_THAT(run("catalog build bin/list.txt -o parts.db").err, HasSubstr("bin/list.txt:1: count 'many'"));
+}
+
+TEST_F(CatalogFile, loses_parts_only_when_it_is_told_to) {
+  of({"cam", "limacon", "gear"});
+  EXPECT_EQ(run("catalog remove parts.db limacon").code, 0);
+  EXPECT_THAT(names(), ElementsAre("cam", "gear"));
+  EXPECT_THAT(run("catalog remove parts.db cam nobody").err, HasSubstr("there is no part 'nobody'"));
+  EXPECT_THAT(names(), ElementsAre("cam", "gear"));
+}
+
+TEST_F(CatalogFile, gives_each_part_back_with_the_same_bits) {
+  const Catalog catalog = of(mixed_shapes(3));
+  for (std::size_t k = 0; k < catalog.size(); ++k) {
+    const Part part = load_part("gallery:" + catalog.entry(k).name);
+    for (double s = 0; s < part.perimeter(); s += part.perimeter() / 97) {
+      EXPECT_EQ(catalog.part(k).turning().angle(s), part.turning().angle(s));
+      EXPECT_EQ(catalog.part(k).point(s), part.point(s));
+    }
+  }
+}
+
+TEST_F(CatalogFile, lean_computes_the_same_parts_when_they_are_asked_for) {
+  const std::vector<CatalogSource> sources = {{"gallery:cam", "cam"}, {"gallery:spline,n=9,seed=7,wobble=0.2", "s"}};
+  build_catalog("whole.db", sources);
+  BuildOptions lean;
+  lean.lean = true;
+  build_catalog("lean.db", sources, lean);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Part one = Catalog("whole.db").part(k);
+    const Part other = Catalog("lean.db").part(k);
+    EXPECT_EQ(one.perimeter(), other.perimeter());
+    EXPECT_EQ(one.turning().angle(1.234), other.turning().angle(1.234));
+  }
+  EXPECT_LT(cli::fs::file_size("lean.db"), cli::fs::file_size("whole.db"));
+}
+
+TEST_F(CatalogFile, computes_anew_what_another_version_computed) {
+  of({"cam"});
+  sqlite3* database = nullptr;
+  sqlite3_open("parts.db", &database);
+  sqlite3_exec(database, "UPDATE shapes SET format = format - 1", nullptr, nullptr, nullptr);
+  sqlite3_close(database);
+  EXPECT_EQ(Catalog("parts.db").part(0).turning().angle(2.5), load_part("gallery:cam").turning().angle(2.5));
+}
+
+TEST_F(CatalogFile, that_was_damaged_says_so) {
+  of({"cam"});
+  sqlite3* database = nullptr;
+  sqlite3_open("parts.db", &database);
+  sqlite3_exec(database, "UPDATE shapes SET computed = zeroblob(length(computed))", nullptr, nullptr, nullptr);
+  sqlite3_close(database);
+  EXPECT_THAT(refusal_of([] { Catalog("parts.db").part(0); }), HasSubstr("checksum"));
+  write("text.db", "no catalog at all, but some text that is longer than the header of a file that SQLite would have");
+  EXPECT_THAT(refusal_of([] { Catalog("text.db"); }), HasSubstr("is not a catalog"));
+  EXPECT_THAT(refusal_of([] { Catalog("nowhere.db"); }), HasSubstr("there is no such file"));
+}
+
+TEST_F(CatalogFile, has_one_unit_for_all) {
+  write("shapes/a.svg", kTwoLoops);
+  write("shapes/b.csv", "x [in],y [in]\n0,0\n1,0\n1,1\n0,1\n");
+  run("catalog build shapes -o parts.db");
+  const Catalog catalog("parts.db");
+  EXPECT_EQ(catalog.unit(), "mm");
+  EXPECT_NEAR(catalog.entry(2).perimeter, 4 * 25.4, 1e-9);
+  EXPECT_THAT(run("catalog build shapes -o parts.db --unit in").err, HasSubstr("are in mm"));
+}
+
+TEST_F(CatalogFile, refuses_a_name_that_is_there_already) {
+  write("one/a.csv", kSquare);
+  write("other/a.csv", kTriangle);
+  const cli::Ran ran = run("catalog build one other -o parts.db");
+  EXPECT_THAT(names(), ElementsAre("a.csv"));
+  EXPECT_THAT(ran.out, HasSubstr("a part of this name is there from"));
+}
+
+TEST_F(CatalogFile, keeps_what_was_reported_when_the_build_is_killed) {
+  std::string list;
+  for (int k = 1; k <= 3000; ++k) list += "gallery:spline,n=9,wobble=0.2,seed=" + std::to_string(k) + "\n";
+  write("list.txt", list);
+  int report[2];
+  ASSERT_EQ(pipe(report), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    BuildOptions options;
+    options.go_on = [&](const BuildProgress& progress) {
+      return ::write(report[1], &progress.parts, sizeof progress.parts) > 0;
+    };
+    build_catalog("parts.db", catalog_sources("list.txt"), options);
+    _exit(0);
+  }
+  close(report[1]);
+  std::size_t reported = 0;
+  while (reported < 100 && ::read(report[0], &reported, sizeof reported) == sizeof reported) {
+  }
+  kill(child, SIGKILL);
+  waitpid(child, nullptr, 0);
+  while (::read(report[0], &reported, sizeof reported) == sizeof reported) {
+  }
+  close(report[0]);
+  EXPECT_GE(Catalog("parts.db").size(), reported);
+  EXPECT_LT(Catalog("parts.db").size(), 3000U);
+  const BuildReport rest = build_catalog("parts.db", catalog_sources("list.txt"));
+  EXPECT_EQ(Catalog("parts.db").size(), 3000U);
+  EXPECT_GE(rest.unchanged, reported);
+}
+
+}  // namespace
+}  // namespace catalog_test

@@ -1,0 +1,131 @@
+// Bounds rule parts out without looking at them, and lose none: with them and without them the answer is the same.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "catalog/profile.hpp"
+#include "catalogs.hpp"
+#include "random.hpp"
+
+namespace identify_bounds_test {
+namespace {
+
+using namespace catalogs;
+
+class Bounds : public testing::Test {
+ protected:
+  Bounds() : catalog_(of(mixed_shapes(27))), random_(test_generator()) {}
+
+  double uniform(double lo, double hi) { return std::uniform_real_distribution<double>(lo, hi)(random_); }
+  Part any_part() { return catalog_.part(std::uniform_int_distribution<std::size_t>(0, catalog_.size() - 1)(random_)); }
+
+  /// Lengths that a roll from s can have had, up to two laps either way.
+  std::vector<double> lengths_from(const Part& part, double s, int count) {
+    std::vector<double> lengths;
+    for (int k = 0; k < count; ++k) {
+      const double P = part.perimeter();
+      lengths.push_back(part.closed() ? uniform(-2 * P, 2 * P) : uniform(-s, P - s));
+    }
+    return lengths;
+  }
+
+  void expect_same(const Problem& problem) {
+    IdentifyOptions without;
+    without.use_index = false;
+    const Identified all = identify(catalog_, problem, without);
+    const Identified quick = identify(catalog_, problem);
+    EXPECT_EQ(all_of(catalog_, quick), all_of(catalog_, all));
+    EXPECT_EQ(quick.rest, all.rest);
+    looked_at_ += static_cast<double>(quick.searched) / static_cast<double>(all.searched);
+  }
+
+  cli::Folder folder_;
+  Catalog catalog_;
+  std::mt19937_64 random_;
+  double looked_at_ = 0;  // share of the parts, of all queries together
+};
+
+TEST_F(Bounds, lose_nothing_of_one_finger) {
+  const int count = test_count(150);
+  for (int k = 0; k < count; ++k) {
+    const Part part = any_part();
+    const double s = uniform(0, part.perimeter());
+    Problem problem{part, roll_on(part, s, lengths_from(part, s, 1 + k % 7))};
+    if (k % 3 != 0) problem.tolerance = std::pow(10, uniform(-9, -1));
+    problem.mirrored = k % 5 == 0;
+    problem.either_way = k % 4 == 1;
+    expect_same(problem);
+  }
+  EXPECT_LT(looked_at_, 0.6 * count);
+}
+
+TEST_F(Bounds, lose_nothing_of_digits_that_were_rounded) {
+  for (int k = 0; k < test_count(40); ++k) {
+    const Part part = any_part();
+    const double s = uniform(0, part.perimeter());
+    Problem problem{part, roll_on(part, s, lengths_from(part, s, 3))};
+    problem.felt.roundings.assign(3, {uniform(0, 0.01), uniform(0, 0.01)});
+    expect_same(problem);
+  }
+}
+
+TEST_F(Bounds, lose_nothing_of_a_finger_that_starts_in_a_corner) {
+  const Part square = catalog_.part(4);
+  for (int k = 0; k < test_count(20); ++k) {
+    Problem problem{square, roll_on(square, 0, {uniform(0.1, 5), uniform(0.1, 5)})};
+    problem.felt.readings[0].turn -= 0.3;  // the tangent pivots before the roll
+    problem.felt.readings[1].turn -= 0.3;
+    expect_same(problem);
+  }
+}
+
+TEST_F(Bounds, lose_nothing_of_two_fingers) {
+  for (int k = 0; k < test_count(6); ++k) {
+    const Part part = catalog_.part(13 + static_cast<std::size_t>(k) % 20);
+    const double s = uniform(0, part.perimeter());
+    const double t = uniform(0, part.perimeter());
+    Problem problem{part, rolls_on(part, s, t, {{uniform(-1, 1), uniform(-1, 1)}, {uniform(-2, 2), uniform(-2, 2)}})};
+    if (k % 2 == 0) problem.facing = part.turning().angle(s) - part.turning().angle(t);
+    expect_same(problem);
+  }
+}
+
+TEST_F(Bounds, keep_the_part_that_a_noisy_roll_was_on) {
+  std::normal_distribution<double> normal;
+  for (int k = 0; k < test_count(12); ++k) {
+    const std::size_t number = std::uniform_int_distribution<std::size_t>(10, catalog_.size() - 1)(random_);
+    const Part part = catalog_.part(number);
+    const double s = uniform(0, part.perimeter());
+    std::vector<double> lengths;
+    for (int row = 1; row <= 30; ++row) lengths.push_back(0.02 * row * part.perimeter());
+    Problem problem{part, roll_on(part, s, lengths)};
+    problem.noise = Noise{1e-3 * part.perimeter(), 0.01};
+    for (Reading& reading : problem.felt.readings) {
+      reading.length[0] += problem.noise->contact * normal(random_);
+      reading.turn += problem.noise->angle * normal(random_);
+    }
+    EXPECT_THAT(names_of(catalog_, identify(catalog_, problem)), testing::Contains(catalog_.entry(number).name));
+  }
+}
+
+TEST(Profile, holds_theta_wherever_it_is_looked_at) {
+  for (const std::string shape : {"cam", "gear", "polygon,n=5", "log-spiral", "spline,n=16,seed=3,wobble=0.2"}) {
+    const Part part = load_part("gallery:" + shape);
+    const Profile<kCells> profile = profile_of(part);
+    for (int k = 0; k < 10000; ++k) {
+      const double s = (k + 0.5) / 10000 * part.perimeter();
+      const auto cell = static_cast<std::size_t>(s / part.perimeter() * kCells);
+      EXPECT_LE(profile.least[cell], part.turning().angle(s));
+      EXPECT_GE(profile.most[cell], part.turning().angle(s));
+    }
+  }
+}
+
+TEST(Profile, is_read_back_as_it_was_written) {
+  const Profile<kCells> profile = profile_of(load_part("gallery:cam"));
+  EXPECT_EQ(profile_from(bytes_of(profile))->least, profile.least);
+  EXPECT_EQ(profile_from(bytes_of(profile))->most, profile.most);
+  EXPECT_FALSE(profile_from("too short"));
+}
+
+}  // namespace
+}  // namespace identify_bounds_test

@@ -1,0 +1,175 @@
+// Which part is it, and where on it: the words, the weights, and the same answer however the work is shared.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "catalogs.hpp"
+#include "refusal.hpp"
+#include "rollfix/answer/solve.hpp"
+#include "rollfix/catalog/documents.hpp"
+#include "rollfix/contact/rolling.hpp"
+
+namespace identify_test {
+namespace {
+
+using namespace catalogs;
+using cli::Json;
+using cli::run;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+const std::vector<std::string> kShapes = {"cam", "limacon", "spline,n=9,seed=7,wobble=0.2", "naca", "ellipse,a=2,b=1"};
+
+class Identify : public testing::Test {
+ protected:
+  Identify() : catalog_(of(kShapes)) {}
+
+  /// A roll of three readings on a part of the catalog, as options of the program.
+  std::string typed_roll(std::size_t part, double s, const std::string& noise = "") {
+    std::string text;
+    for (const Reading& reading : roll_on(catalog_.part(part), s, {0.3, 0.7, 1.1})) {
+      text += " --reading " + cli::exact(reading.length[0]) + "," + cli::exact(reading.turn);
+    }
+    return text + noise;
+  }
+  Identified found_on(std::size_t part, double s) {
+    return identify(catalog_, {catalog_.part(part), roll_on(catalog_.part(part), s, {0.3, 0.7, 1.1})});
+  }
+
+  cli::Folder folder_;
+  Catalog catalog_;
+};
+
+TEST_F(Identify, names_the_part_and_the_place) {
+  const Identified found = found_on(2, 0.8);
+  EXPECT_EQ(found.verdict, "unique part, unique place");
+  EXPECT_THAT(names_of(catalog_, found), ElementsAre(kShapes[2]));
+  EXPECT_NEAR(found.parts[0].answer.placements[0].start[0], 0.8, 1e-9);
+}
+
+TEST_F(Identify, says_how_many_places_there_are_on_the_one_part) {
+  EXPECT_EQ(found_on(4, 0.8).verdict, "unique part, 2 places");
+}
+
+TEST_F(Identify, says_none_where_nothing_fits) {
+  const cli::Ran ran = run("identify parts.db --reading 0.50000,-3.00000");
+  EXPECT_EQ(ran.code, 1);
+  EXPECT_THAT(ran.out, testing::StartsWith("none\n"));
+}
+
+TEST_F(Identify, says_of_each_part_what_locate_says) {
+  const Json found = run("identify parts.db --json --reading 0.3,0.2").json();
+  ASSERT_GT(found["parts"].size(), 1U);
+  for (const Json& part : found["parts"]) {
+    const Json alone = run("locate gallery:" + part["name"].get<std::string>() + " --json --reading 0.3,0.2").json();
+    EXPECT_EQ(part["placements"], alone["placements"]);
+  }
+}
+
+TEST_F(Identify, weighs_parts_by_what_the_rows_say_of_them) {
+  const Json found = run("identify parts.db --json" + typed_roll(2, 0.8, " --noise contact=0.003,angle=0.01")).json();
+  EXPECT_EQ(found["parts"][0]["name"], kShapes[2]);
+  EXPECT_GT(found["parts"][0]["probability"], 0.9);
+  double all = found["rest"];
+  for (const Json& part : found["parts"]) all += part["probability"].get<double>();
+  EXPECT_NEAR(all, 1, 1e-9);
+}
+
+TEST_F(Identify, weighs_by_how_many_of_each_there_are) {
+  build_catalog("bin.db", {{"gallery:cam", "one", 1}, {"gallery:cam,lift=0.5", "three", 3}});
+  const Catalog bin("bin.db");
+  Problem problem{bin.part(0), roll_on(bin.part(0), 1, {0.5, 1, 1.5})};
+  problem.noise = Noise{1e-3, 1e-3};
+  const Identified found = identify(bin, problem);
+  EXPECT_THAT(names_of(bin, found), ElementsAre("three", "one"));
+  EXPECT_NEAR(found.parts[0].probability, 0.75, 1e-6);
+  EXPECT_EQ(found.verdict, "2 congruent parts");
+  EXPECT_THAT(found.parts[0].congruent, ElementsAre(0U));
+}
+
+TEST_F(Identify, tells_parts_that_are_scaled_by_less_than_the_noise_as_such) {
+  build_catalog("alike.db",
+                {{"gallery:ellipse,a=2,b=1", "e"}, {"gallery:ellipse,a=2.0001,b=1.00005", "slightly larger"}});
+  const Catalog alike("alike.db");
+  Problem problem{alike.part(0), roll_on(alike.part(0), 1, {0.5, 1, 1.5, 2})};
+  problem.noise = Noise{0.005, 0.005};
+  EXPECT_EQ(identify(alike, problem).parts[0].congruent.size(), 1U);
+  problem.noise.reset();
+  EXPECT_EQ(identify(alike, problem).verdict, "unique part, 2 places");
+}
+
+TEST_F(Identify, finds_a_part_that_lies_face_down_or_was_rolled_the_other_way) {
+  const Part part = catalog_.part(2);
+  Problem problem{part, roll_on(part, 2, {-0.4, -0.9, -1.3})};
+  for (Reading& reading : problem.felt.readings) reading.length[0] = -reading.length[0];
+  EXPECT_EQ(identify(catalog_, problem).verdict, "none");
+  problem.either_way = true;
+  EXPECT_NEAR(identify(catalog_, problem).parts[0].answer.placements[0].start[0], 2, 1e-9);
+  Problem mirrored{part, roll_on(part, 2, {0.4, 0.9, 1.3})};
+  for (Reading& reading : mirrored.felt.readings) reading = Reading(-reading.length[0], -reading.turn);
+  mirrored.mirrored = true;
+  EXPECT_NEAR(identify(catalog_, mirrored).parts[0].answer.placements[0].start[0], 2, 1e-9);
+}
+
+TEST_F(Identify, works_with_two_fingers) {
+  const Part part = catalog_.part(2);
+  const Problem problem{part, rolls_on(part, 1, 4, {{0.5, -0.3}, {1.1, -0.9}, {1.6, -1.4}})};
+  const Identified found = identify(catalog_, problem);
+  ASSERT_THAT(names_of(catalog_, found), ElementsAre(kShapes[2]));
+  EXPECT_EQ(all_of(catalog_, found).find("undecided"), std::string::npos);
+}
+
+TEST_F(Identify, holds_a_log_without_noise_against_all_its_rows) {
+  run("simulate gallery:" + kShapes[2] + " --finger disk,r=0.1 --start 0.8 --length 1.5 --samples 60 -o roll.csv");
+  const cli::Ran ran = run("identify parts.db --log roll.csv --finger disk,r=0.1 --json");
+  EXPECT_EQ(ran.json()["verdict"], "unique part, unique place");
+  EXPECT_NEAR(ran.json()["parts"][0]["placements"][0]["start"][0].get<double>(), 0.8, 1e-3);
+}
+
+TEST_F(Identify, says_that_rows_fit_badly_rather_than_none) {
+  run("simulate gallery:" + kShapes[2] +
+      " --finger disk,r=0.1 --start 0.8 --length 1.5 --samples 60 --noise contact=0.002,angle=0.004 --seed 3 -o "
+      "roll.csv");
+  const Json found =
+      run("identify parts.db --json --log roll.csv --finger disk,r=0.1 --noise contact=0.001,angle=0.002").json();
+  EXPECT_EQ(found["parts"][0]["name"], kShapes[2]);
+  EXPECT_THAT(found["verdict"].get<std::string>(), HasSubstr("but the rows fit badly"));
+}
+
+TEST_F(Identify, is_the_same_in_any_number_of_shards) {
+  for (const std::string& roll :
+       {std::string(" --reading 0.3,0.2"), typed_roll(2, 0.8, " --noise contact=0.01,angle=0.05"),
+        typed_roll(0, 1.3, " --noise contact=0.0003,angle=0.0001")}) {
+    const std::string whole = run("identify parts.db --json" + roll).out;
+    for (const int shards : {1, 2, 7}) {
+      std::string merge = "identify parts.db --json";
+      for (int k = shards; k >= 1; --k) {
+        const std::string name = std::to_string(k) + ".jsonl";
+        std::ofstream(name)
+            << run("identify parts.db --shard " + std::to_string(k) + "/" + std::to_string(shards) + roll).out;
+        merge += " --merge " + name;
+      }
+      EXPECT_EQ(run(merge).out, whole) << shards << roll;
+    }
+  }
+}
+
+TEST_F(Identify, misses_no_shard_in_silence) {
+  const std::string roll = " --reading 0.3,0.2";
+  std::ofstream("1.jsonl") << run("identify parts.db --shard 1/2" + roll).out;
+  std::ofstream("2.jsonl") << run("identify parts.db --shard 2/2 --reading 0.3,0.21").out;
+  EXPECT_THAT(run("identify parts.db --merge 1.jsonl").err, HasSubstr("shard 2 of 2 is missing"));
+  EXPECT_THAT(run("identify parts.db --merge 1.jsonl --merge 1.jsonl").err, HasSubstr("is there twice"));
+  EXPECT_THAT(run("identify parts.db --merge 1.jsonl --merge 2.jsonl").err, HasSubstr("is of another roll"));
+  std::ofstream("cut.jsonl") << cli::read("1.jsonl").substr(0, cli::read("1.jsonl").size() / 2);
+  EXPECT_EQ(run("identify parts.db --merge cut.jsonl").code, 2);
+}
+
+TEST_F(Identify, refuses_what_is_not_meant) {
+  EXPECT_THAT(run("identify parts.db").err, HasSubstr("expected --reading"));
+  EXPECT_THAT(run("identify parts.db --reading 1,1 --noise angle=0.1 --prior 1,0.1").err, HasSubstr("--prior"));
+  EXPECT_THAT(run("identify parts.db --reading 1,1 --shard 3/2").err, HasSubstr("--shard 3/2"));
+  EXPECT_THAT(run("identify nowhere.db --reading 1,1").err, HasSubstr("there is no such file"));
+}
+
+}  // namespace
+}  // namespace identify_test
