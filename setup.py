@@ -27,6 +27,7 @@ class CMakeBuild(build_ext):
             "CMAKE_UNITY_BUILD": "ON",
             "Python_EXECUTABLE": sys.executable,
             "ROLLFIX_BUILD_PYTHON": "ON",
+            "ROLLFIX_BUILD_CATALOG": "ON",
             "ROLLFIX_FMT_HEADER_ONLY": "ON",
             **{f"ROLLFIX_BUILD_{name}": "OFF" for name in ("APPS", "TESTS", "BENCH", "EXAMPLES")},
             "ROLLFIX_INSTALL": "OFF",

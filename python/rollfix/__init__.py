@@ -9,23 +9,33 @@ Lengths are in the part's unit, angles in radians. s is arc length along the sto
 one, the material on the left. The names are those of the JSON documents of the program `rollfix`.
 """
 
-from ._answer import Answer, ManyAnswers, Placement
-from ._core import InputError, InternalError, Reach, __version__
+from ._answer import Answer, Placement
+from ._catalog import Catalog, CatalogEntry
+from ._core import InputError, InternalError, __version__
 from ._documents import Advice, Inspection
-from ._inputs import Disk, Finger, Jaw, Noise, OutlineFinger, RollfixWarning
+from ._fingers import Disk, Finger, Jaw, OutlineFinger
+from ._identified import Identified, PartFound
+from ._identify import identify
 from ._logs import Log, Roll, read_log
-from ._part import Part, gallery_shapes
+from ._making import gallery_shapes
+from ._many import ManyAnswers
+from ._messages import RollfixWarning
+from ._noise import Noise
+from ._part import Part
+from ._reach import Reach
 from ._teach import Taught, teach
 from ._watch import Watch
 
-for _named in (InputError, InternalError, Reach):  # as they are imported, for tracebacks and pickles
-    _named.__module__ = __name__
+InputError.__module__ = InternalError.__module__ = __name__  # as they are imported, for tracebacks and pickles
 
 __all__ = [
     "Advice",
     "Answer",
+    "Catalog",
+    "CatalogEntry",
     "Disk",
     "Finger",
+    "Identified",
     "InputError",
     "Inspection",
     "InternalError",
@@ -35,6 +45,7 @@ __all__ = [
     "Noise",
     "OutlineFinger",
     "Part",
+    "PartFound",
     "Placement",
     "Reach",
     "Roll",
@@ -43,6 +54,7 @@ __all__ = [
     "Watch",
     "__version__",
     "gallery_shapes",
+    "identify",
     "read_log",
     "teach",
 ]

@@ -1,16 +1,18 @@
-"""Answers: of one problem, and of many at once."""
+"""The answer to one problem."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Sequence as SequenceABC
-from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Optional, Tuple, Union, overload
+from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Optional, Sequence, Tuple, Union, overload
 
 import numpy as np
 
 from . import _core
+from ._checks import least, path, places, text, travel as travel_given, whole
 from ._core import Answer as CoreAnswer, InputError, Placement as Placement
-from ._inputs import Finger, array, finger_from, finite, path, travel, whole
+from ._fingers import Finger, finger_from
+from ._words import diagnosis_in_python, in_python
 
 if TYPE_CHECKING:
     from ._documents import Advice
@@ -115,9 +117,11 @@ class Answer(SequenceABC):  # type: ignore[type-arg]
 
     @property
     def diagnosis(self) -> Optional[Dict[str, Any]]:
-        """dict or None: where the rows fit badly, what explains them best: `cause`, `what`, `cure`, ..."""
-        found: Optional[Dict[str, Any]] = self.to_dict()["diagnosis"]
-        return found
+        """dict or None: where the rows fit badly, what explains them best: `cause`, `what`, `cure`, ...
+
+        As in the JSON document, but the cure is in Python: finger=Disk(10.1) for --finger disk,r=10.1.
+        """
+        return diagnosis_in_python(self.to_dict()["diagnosis"])
 
     @property
     def fit(self) -> Optional[Dict[str, Any]]:
@@ -153,8 +157,28 @@ class Answer(SequenceABC):  # type: ignore[type-arg]
         if self._core.lengths_reversed:
             notes.append("the log's lengths changed their signs to match")
         if self._core.strays:
-            notes.append(f"left out stray rows, of lines {', '.join(str(line) for line in self._core.strays)}")
-        return tuple(notes)
+            notes.append(f"left out stray rows{self._strays()}")
+        return (*map(in_python, notes), *self._why_empty())
+
+    def _strays(self) -> str:
+        lines: Sequence[int] = self._core.strays
+        of_file = self.log is None or not self.log._numbering.headers
+        rows = lines if of_file or self.log is None else [self.log._numbering.row(line) for line in lines]
+        return f"{', of lines' if of_file else ':'} {', '.join(map(str, rows))}"
+
+    def _why_empty(self) -> Iterator[str]:
+        """What took the last placements out."""
+        if len(self) > 0:
+            return
+        whys = {
+            "reach": "the finger can't touch there",
+            "overlap": "the fingers would overlap",
+            "improbable": "they are too improbable",
+        }
+        for reason, count in self.dropped.items():
+            if count:
+                fitting = "1 place that fits was" if count == 1 else f"{count} places that fit were"
+                yield f"{fitting} dropped: {whys.get(reason, reason)}"
 
     def to_dict(self, explain: bool = False) -> Dict[str, Any]:
         """The JSON document `rollfix/locate/1`, that of `rollfix locate --json`; docs/json.md lists the fields.
@@ -185,33 +209,35 @@ class Answer(SequenceABC):  # type: ignore[type-arg]
             Without `s`: intervals in order, hi may exceed P, and the probability in each, evenly spread. A corner's
             pivot is an interval of no width.
         """
-        pieces = self._core.density_pieces(whole(finger, "finger"))
-        if pieces is None:
-            need = "noise: give it to locate" if not self._core.has_noise else f"finger: expected 0 to {self.fingers - 1}"
-            raise InputError(f"density: needs {need}")
+        if not self._core.has_noise:
+            raise InputError("density: needs `noise`: give it to `locate`")
+        which = whole(finger, "finger")
+        if which >= self.fingers:
+            known = "0, as there is one finger" if self.fingers == 1 else "0 or 1"
+            raise InputError(f"finger: expected {known}, found {which}")
         if s is None:
-            return pieces
-        return self._core.density(finger, finite(array(s, "s"), "s"))
+            return self._core.density_pieces(which)
+        return self._core.density(which, places(s))
 
-    def advise(self, travel_range: Any = None) -> "Advice":
+    def advise(self, travel: Any = None) -> "Advice":
         """The next roll: which one tells the remaining placements apart. Of one finger.
 
         Parameters
         ----------
-        travel_range : float or (float, float), optional
+        travel : float or (float, float), optional
             How far the finger can roll on: a length, or (back, forward). Default: one lap.
         """
         from ._documents import Advice
 
-        return Advice(self._core, travel(travel_range))
+        return Advice(self._core, travel_given(travel))
 
     # --- as a table, as a figure ---
 
     def to_frame(self) -> Any:
         """A pandas.DataFrame with a row for each placement; of two fingers with columns `start_a`, `start_b`, ..."""
-        from ._logs import _pandas
+        from ._logs import pandas
 
-        return _pandas().DataFrame(self._columns())
+        return pandas().DataFrame(self._columns())
 
     def _columns(self) -> Dict[str, List[Any]]:
         ends = [""] if self.fingers == 1 else ["_a", "_b"]
@@ -255,8 +281,11 @@ class Answer(SequenceABC):  # type: ignore[type-arg]
     def _figure(self, highlight: Optional[int], title: str, width: float) -> Any:
         from . import _draw
 
+        if highlight is not None and not 0 <= whole(highlight, "highlight", -len(self)) < len(self):
+            raise InputError(f"highlight: expected the number of one of {len(self)} placements, from 0, found {highlight}")
+        wide = least(width, "width", 0, "a number of pixels")
         log = None if self.log is None or self._core.strays else self.log._core
-        return _draw.answer_figure(self._core, log, highlight, title, width)
+        return _draw.answer_figure(self._core, log, highlight, text(title, "title"), wide)
 
     def plot(self, ax: Any = None) -> Any:
         """Draws the outline and the placements on matplotlib axes, and returns them.
@@ -320,174 +349,3 @@ class Answer(SequenceABC):  # type: ignore[type-arg]
 
 def _answer(part: Any, given: Any, state: bytes, log: Optional["Log"]) -> Answer:
     return Answer(_core.answer_from_state(part, given, state), log)
-
-
-KINDS: np.ndarray = np.array(["crossing", "touching", "stretch", "corner"])
-STATUSES: np.ndarray = np.array(["complete", "incomplete"])
-VERDICTS: np.ndarray = np.array(["unique", "ambiguous", "unobservable", "inconsistent", "undecided"])
-
-
-class ManyAnswers:
-    """The answers to many problems, as arrays: placement number p of problem k is row `offsets[k] + p`.
-
-    What is of a finger has an axis for it. Arrays can't be written to. `many[k]` is the whole `Answer` to problem k,
-    worked out again; `many.rows(k)` is the slice of its rows.
-    """
-
-    __slots__ = ("_columns", "_problem", "_readings", "_facing")
-
-    def __init__(self, columns: Dict[str, Any], problem: Any, readings: np.ndarray, facing: Optional[np.ndarray]) -> None:
-        self._columns = columns
-        self._problem = problem
-        self._readings = readings
-        self._facing = facing
-
-    @property
-    def fingers(self) -> int:
-        """int: 1 or 2."""
-        count: int = self._columns["fingers"]
-        return count
-
-    @property
-    def offsets(self) -> np.ndarray:
-        """ndarray of int64, (problems + 1,): the first row of each problem, and the number of rows."""
-        return self._column("offsets")
-
-    @property
-    def counts(self) -> np.ndarray:
-        """ndarray of int64, (problems,): how many placements each has; 0 where there is an error."""
-        return np.diff(self.offsets)
-
-    @property
-    def errors(self) -> Dict[int, str]:
-        """dict: of the problems that can't be worked with, number and reason."""
-        return dict(self._columns["errors"])
-
-    @property
-    def status(self) -> np.ndarray:
-        """ndarray of str, (problems,): 'complete', 'incomplete', or 'error'."""
-        found: np.ndarray = STATUSES[self._column("status")]
-        if self._columns["errors"]:
-            found[list(self._columns["errors"])] = "error"
-        return found
-
-    @property
-    def verdict(self) -> np.ndarray:
-        """ndarray of str, (problems,): 'unique', 'ambiguous', 'unobservable', 'inconsistent', 'undecided'."""
-        names: np.ndarray = VERDICTS[self._column("verdict")]
-        return names
-
-    @property
-    def tolerance(self) -> np.ndarray:
-        """ndarray, (problems,): radians; NaN where there is an error."""
-        return self._column("tolerance")
-
-    @property
-    def problem(self) -> np.ndarray:
-        """ndarray of int64, (rows,): the problem that each row is of."""
-        return np.repeat(np.arange(len(self)), self.counts)
-
-    @property
-    def kind(self) -> np.ndarray:
-        """ndarray of str, (rows,): 'crossing', 'touching', 'stretch', 'corner'."""
-        names: np.ndarray = KINDS[self._column("kind")]
-        return names
-
-    @property
-    def start(self) -> np.ndarray:
-        """ndarray, (rows, fingers): s of the first contacts, in [0, P)."""
-        return self._column("start")
-
-    @property
-    def end(self) -> np.ndarray:
-        """ndarray, (rows, fingers): s of the contacts at the last reading."""
-        return self._column("end")
-
-    @property
-    def extent(self) -> np.ndarray:
-        """ndarray, (rows, fingers, 2): the connected set of starts that fit."""
-        return self._column("extent")
-
-    @property
-    def point(self) -> np.ndarray:
-        """ndarray, (rows, fingers, 2): x, y of the first contacts."""
-        return self._column("point")
-
-    @property
-    def tangent(self) -> np.ndarray:
-        """ndarray, (rows, fingers): direction of the boundary there, radians."""
-        return self._column("tangent")
-
-    @property
-    def error(self) -> np.ndarray:
-        """ndarray, (rows,): bound on |start - exact root|; infinite where it is not simple."""
-        return self._column("error")
-
-    @property
-    def residual(self) -> np.ndarray:
-        """ndarray, (rows,): largest deviation of the turn at `start`, radians."""
-        return self._column("residual")
-
-    @property
-    def probability(self) -> np.ndarray:
-        """ndarray, (rows,): with noise; else NaN."""
-        return self._column("probability")
-
-    @property
-    def whole_loop(self) -> np.ndarray:
-        """ndarray of bool, (rows,): the extent is all of a closed boundary."""
-        return self._column("whole_loop").astype(bool)
-
-    def rows(self, k: int) -> slice:
-        """The rows of problem k."""
-        k = self._number(k)
-        return slice(int(self.offsets[k]), int(self.offsets[k + 1]))
-
-    def to_frame(self) -> Any:
-        """A pandas.DataFrame with a row for each placement, and the number of its problem."""
-        from ._logs import _pandas
-
-        columns: Dict[str, Any] = {"problem": self.problem, "kind": self.kind}
-        for k, end in enumerate([""] if self.fingers == 1 else ["_a", "_b"]):
-            columns["start" + end] = self.start[:, k]
-            columns["end" + end] = self.end[:, k]
-            columns["x" + end] = self.point[:, k, 0]
-            columns["y" + end] = self.point[:, k, 1]
-            columns["tangent" + end] = self.tangent[:, k]
-        columns["residual"] = self.residual
-        columns["probability"] = self.probability
-        return _pandas().DataFrame(columns)
-
-    def _column(self, name: str) -> np.ndarray:
-        column: np.ndarray = self._columns[name]
-        return column
-
-    def _number(self, k: int) -> int:
-        if not -len(self) <= k < len(self):
-            raise IndexError(f"expected a problem from 0 to {len(self) - 1}, found {k}")
-        return k % len(self)
-
-    def __len__(self) -> int:
-        return len(self.offsets) - 1
-
-    def __getitem__(self, k: int) -> Answer:
-        k = self._number(k)
-        problem = self._problem(None if self._facing is None else float(self._facing[k]))
-        problem.set_readings(self._readings[k])
-        return Answer(problem.solve())
-
-    def __iter__(self) -> Iterator[Answer]:
-        return (self[k] for k in range(len(self)))
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, ManyAnswers):
-            return NotImplemented
-        mine, theirs = self._columns, other._columns
-        return all(
-            mine[name].tobytes() == theirs[name].tobytes() if isinstance(mine[name], np.ndarray) else mine[name] == theirs[name]
-            for name in mine
-        )
-
-    def __repr__(self) -> str:
-        errors = f", {len(self._columns['errors'])} errors" if self._columns["errors"] else ""
-        return f"<ManyAnswers: {len(self)} problems, {len(self.start)} placements{errors}>"

@@ -6,8 +6,9 @@ from typing import Any, Callable, List, Sequence, Tuple
 
 import numpy as np
 
+from ._checks import number, numbers
 from ._core import InputError
-from ._inputs import numbers
+from ._messages import shown
 
 Function = Callable[[float], Any]
 DEGREE = 9  # of the pieces' derivative: high enough for few pieces, low enough to lose no digits to its basis
@@ -18,10 +19,13 @@ FIRST, SECOND, GIVEN = 1e-13, 1e-9, 1e-6
 
 def pieces_of(f: Function, df: Function, ddf: Function, domain: Sequence[float]) -> List[np.ndarray]:
     """Control points of Bezier pieces, (DEGREE + 2, 2) each, whose slope meets `df` at Chebyshev's places."""
-    knots = [float(knot) for knot in domain]
+    try:
+        knots = [number(knot, "domain") for knot in domain]
+    except TypeError:
+        raise InputError(f"domain: expected (first, last), found {shown(domain)}") from None
     if len(knots) < 2 or not all(a < b for a, b in zip(knots, knots[1:])):
-        raise InputError(f"domain: expected (first, last), or growing values with corners at the inner ones, found {domain!r}")
-    numbers(knots, len(knots), "domain", "finite values")
+        expected = "(first, last), or growing values with corners at the inner ones"
+        raise InputError(f"domain: expected {expected}, found {shown(domain)}")
     functions = [_named(f, "f"), _named(df, "df"), _named(ddf, "ddf")]
     whole = knots[-1] - knots[0]
     size = 0.0
@@ -40,7 +44,7 @@ def pieces_of(f: Function, df: Function, ddf: Function, domain: Sequence[float])
 
 def _named(function: Function, name: str) -> Callable[[float], np.ndarray]:
     if not callable(function):
-        raise InputError(f"{name}: expected a function of the parameter, found {function!r}")
+        raise InputError(f"{name}: expected a function of the parameter, found {shown(function)}")
 
     def call(u: float) -> np.ndarray:
         return np.array(numbers(np.ravel(function(u)), 2, f"{name}({u:.6g})", "two numbers, x and y"))

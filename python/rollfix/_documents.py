@@ -81,7 +81,7 @@ class Advice(Document):
 
     def save(self, file: Any) -> None:
         """Writes that figure: .svg, .png or .pdf."""
-        from ._inputs import path
+        from ._checks import path
 
         self._figure().save(path(file, "file"))
 

@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 import os
-import re
 from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _core
+from ._checks import path, unit_of_length, whole
+from ._clock import Clock
+from ._columns import FINGERS, Columns, Naming, Units
 from ._core import InputError
-from ._inputs import array, path, warn, whole
-
-COLUMNS = ("time", "u", "psi", "x", "y", "contact", "length", "turn", "distance", "dturn")
-Source = Tuple[str, str, str]  # column, name in the log, unit
-Columns = Union[Mapping[str, Union[str, Tuple[str, str]]], Sequence[str], str, None]
-_UNSAFE = re.compile(r"[,;\t\"#\r\n]")
+from ._messages import warn
+from ._tables import Table, is_table, path_of, text_of
+from ._words import Numbering, in_python
 
 
 class Log:
@@ -25,11 +24,15 @@ class Log:
     unit; `time` is in seconds. `len` is the number of rows; `log["u"]` is a column.
     """
 
-    __slots__ = ("_core", "_columns")
+    __slots__ = ("_core", "_columns", "_numbering", "_clock")
 
-    def __init__(self, core: _core.Log) -> None:
+    def __init__(
+        self, core: _core.Log, numbering: Optional[Numbering] = None, clock: Optional[Clock] = None
+    ) -> None:
         self._core = core
         self._columns: Optional[Dict[str, np.ndarray]] = None
+        self._numbering = numbering or Numbering()  # of a file its lines are told
+        self._clock = clock or Clock()
 
     def to_dict(self) -> Dict[str, np.ndarray]:
         """The columns by name, of two fingers `u_a`, `psi_a`, ..., `u_b`, ...: arrays that can't be written to."""
@@ -55,11 +58,11 @@ class Log:
     @property
     def name(self) -> str:
         """str: what messages call it."""
-        return self._core.name
+        return self._numbering.said(self._core.name)
 
     def to_frame(self) -> Any:
         """The columns as a pandas.DataFrame."""
-        return _pandas().DataFrame(self.to_dict())
+        return pandas().DataFrame(self.to_dict())
 
     def save(self, file: Any) -> None:
         """Writes it as CSV with 17 digits: reading it back gives the same bits."""
@@ -88,7 +91,15 @@ class Log:
         return f"<Log {self.name!r}: {len(self)} rows of {', '.join(self.columns)}>"
 
     def __reduce__(self) -> Any:
-        return (Log, (self._core,))
+        return (_log, (self._core, self._numbering.headers, self._clock))
+
+    def _said(self, message: str) -> str:
+        """What C++ says of it, in Python's words."""
+        return in_python(self._numbering.said(message))
+
+
+def _log(core: _core.Log, headers: Dict[str, List[int]], clock: Clock) -> Log:
+    return Log(core, Numbering(headers), clock)
 
 
 class Roll:
@@ -105,7 +116,8 @@ class Roll:
     @property
     def log(self) -> Log:
         """Log: what the sensors say."""
-        return Log(self._core.log)
+        core = self._core.log
+        return Log(core, Numbering({core.name: []}))
 
     @property
     def s(self) -> Tuple[np.ndarray, ...]:
@@ -127,6 +139,15 @@ class Roll:
         """ndarray, (fingers,): the disk's true radius less the one that the log's reader takes."""
         return self._core.radius_error
 
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Roll) and self.log == other.log and self._truth() == other._truth()
+
+    def __hash__(self) -> int:
+        return hash(self._truth()[0])
+
+    def _truth(self) -> Tuple[bytes, ...]:
+        return tuple(one.tobytes() for one in (*self.s, self.pose, self.slip, self.radius_error))
+
     def __repr__(self) -> str:
         return f"<Roll: {len(self.log)} rows from s = {', '.join(f'{s[0]:.4f}' for s in self.s)}>"
 
@@ -138,7 +159,7 @@ def read_log(
     log: Any,
     *,
     columns: Columns = None,
-    units: Optional[Mapping[str, str]] = None,
+    units: Units = None,
     degrees: bool = False,
     unit: str = "",
     roll: Optional[int] = None,
@@ -150,10 +171,11 @@ def read_log(
     log : path, DataFrame, mapping of arrays, structured array, ndarray, or a pair of them
         Columns by name, in any order, unknown ones ignored: `u` and `psi`, or `length` and `turn`, or `distance` and
         `dturn`; optional `time`, `x`, `y`, `contact`. Of two fingers `u_a`, `psi_a`, `u_b`, `psi_b`. An array without
-        names needs `columns`.
+        names needs `columns`. Times may be dates; of a frame without a column of times its index is taken where that is
+        called so or holds dates.
     columns : mapping, or sequence of str for an array
         What the log calls its columns: {"u": "joint_4"}, or with the unit {"u": ("joint_4", "deg")}. Of an array the
-        name of each column, in order.
+        name of each column, in order. As text: "u=joint_4:deg,psi=yaw".
     units : mapping
         In what a column is: {"time": "ms", "psi": "deg", "x": "m"}.
     degrees : bool
@@ -172,56 +194,93 @@ def read_log(
     InputError
         Naming the column, and of a table the row: missing, not a number, in what it can't be.
     """
-    return Log(core_log(log, columns, units, degrees, unit, False, roll))
+    return log_of(log, Naming(columns, units, degrees), unit_of_length(unit), False, roll)
 
 
-def core_log(
-    log: Any,
-    columns: Columns,
-    units: Optional[Mapping[str, str]],
-    degrees: bool,
-    unit: str,
-    clockwise: bool,
-    roll: Optional[int],
-) -> _core.Log:
+def log_of(log: Any, naming: Naming, unit: str, clockwise: bool, roll: Optional[int]) -> Log:
+    """`unit` of the part, `clockwise` lengths, which `roll` of several."""
     ready = log.log if isinstance(log, Roll) else log
     if isinstance(ready, Log):
-        if columns is not None or units or degrees or clockwise:
+        if not naming.says_nothing or clockwise:
             raise InputError("log: is read already, expected `columns`, `units`, `degrees` and `direction` where it was")
-        return ready._core
-    sources = sources_of(columns, units)
-    options = {"columns": sources, "unit": unit, "angles": "deg" if degrees else "", "clockwise": clockwise}
-    if isinstance(log, (tuple, list)) and len(log) == 2 and all(_is_log(one) for one in log):
-        if all(isinstance(one, (str, os.PathLike)) for one in log):
-            return _chosen(_core.read_log_files([path(one, "log") for one in log], options), roll)
-        return _pair(log, columns, options, roll)
-    return _chosen(_rolls(log, columns, options, "log"), roll)
+        return ready
+    options = {"unit": unit, "angles": naming.angles, "clockwise": clockwise}
+    if isinstance(log, (tuple, list)) and log and all(_is_log(one) for one in log):
+        if len(log) == 2:
+            return _pair(log, naming, options, roll)
+        if not all(isinstance(one, np.ndarray) and one.ndim == 1 for one in log):
+            hint = "; rows as dicts make a table: pandas.DataFrame(rows)" if isinstance(log[0], Mapping) else ""
+            raise InputError(f"log: expected one, or a pair of one of each finger, found a list of {len(log)}{hint}")
+    return _one(log, naming, options, roll)
 
 
 def _is_log(one: Any) -> bool:
-    return isinstance(one, (Log, Roll, str, os.PathLike, Mapping, np.ndarray)) or hasattr(one, "dtypes")
+    return isinstance(one, (Log, Roll, str, os.PathLike)) or is_table(one)
 
 
-def _pair(logs: Sequence[Any], columns: Columns, options: Dict[str, Any], roll: Optional[int]) -> _core.Log:
-    both = []
-    for log, own, other in ((logs[0], "_a", "_b"), (logs[1], "_b", "_a")):
-        sources = [
-            (column[: -len(own)] if column.endswith(own) else column, name, unit)
-            for column, name, unit in options["columns"]
-            if not column.endswith(other)
-        ]
-        if isinstance(log, (Log, Roll)):
-            both.append((log.log if isinstance(log, Roll) else log)._core)
-        else:
-            both.append(_chosen(_rolls(log, columns, dict(options, columns=sources), f"log{own}"), roll))
-    return both[0].paired(both[1])
+def _pair(logs: Sequence[Any], naming: Naming, options: Dict[str, Any], roll: Optional[int]) -> Log:
+    names = [f"log{end}" for end in FINGERS]
+    paths = [path_of(one, name) for one, name in zip(logs, names)]
+    if paths[0] is not None and paths[1] is not None:
+        return _chosen(_of_files([paths[0], paths[1]], naming, options), roll)
+    sides = [_side(one, naming.of_finger(end), options, roll, name) for one, end, name in zip(logs, FINGERS, names)]
+    clock = _common_clock(sides, names)
+    a, b = (one if isinstance(one, Log) else _chosen(_of_table(one, options, clock), roll) for one in sides)
+    result = Log(a._core, Numbering({**a._numbering.headers, **b._numbering.headers}), clock)
+    try:
+        result._core = a._core.paired(b._core)
+    except InputError as error:
+        raise InputError(result._said(str(error))) from None
+    return result
 
 
-def _chosen(rolls: List[_core.Log], roll: Optional[int]) -> _core.Log:
+def _side(log: Any, naming: Naming, options: Dict[str, Any], roll: Optional[int], name: str) -> Union[Log, Table]:
+    """Of one of two fingers; a table is not read before it is known when both begin."""
+    if isinstance(log, (Log, Roll)):
+        return log.log if isinstance(log, Roll) else log
+    file = path_of(log, name)
+    return Table(log, naming, name) if file is None else _chosen(_of_files([file], naming, options), roll)
+
+
+def _common_clock(sides: Sequence[Union[Log, Table]], names: Sequence[str]) -> Clock:
+    clock = Clock()
+    for one, name in zip(sides, names):
+        if isinstance(one, Log) and "time" in one.columns:
+            clock.join(one._clock, name)
+    clock.start(times for one in sides if isinstance(one, Table) for times in one.times.values())
+    return clock
+
+
+def _one(log: Any, naming: Naming, options: Dict[str, Any], roll: Optional[int]) -> Log:
+    file = path_of(log, "log")
+    if file is not None:
+        return _chosen(_of_files([file], naming, options), roll)
+    return _chosen(_of_table(Table(log, naming, "log"), options, Clock()), roll)
+
+
+def _of_files(paths: List[str], naming: Naming, options: Dict[str, Any]) -> List[Log]:
+    naming.require_table("a file")
+    try:
+        rolls = _core.read_log_files(paths, dict(options, columns=naming.sources()))
+    except InputError as error:
+        raise InputError(in_python(str(error))) from None
+    return [Log(one) for one in rolls]
+
+
+def _of_table(table: Table, options: Dict[str, Any], clock: Clock) -> List[Log]:
+    numbering = Numbering({table.name: [1]})
+    text = text_of(table.numbers(clock))
+    try:
+        rolls = _core.read_log_text(text, table.name, dict(options, columns=table.safe_sources()))
+    except InputError as error:
+        raise InputError(in_python(numbering.said(str(error)))) from None
+    return [Log(one, numbering, clock) for one in rolls]
+
+
+def _chosen(rolls: List[Log], roll: Optional[int]) -> Log:
     if roll is None:
         if len(rolls) > 1:
-            message = f"log: took roll {len(rolls)} of {len(rolls)}, {rolls[-1].name}; `roll` takes another"
-            warn(message)
+            warn(f"log: took roll {len(rolls)} of {len(rolls)}, {rolls[-1].name}; `roll` takes another")
         return rolls[-1]
     number = whole(roll, "roll", 1)
     if number > len(rolls):
@@ -229,129 +288,9 @@ def _chosen(rolls: List[_core.Log], roll: Optional[int]) -> _core.Log:
     return rolls[number - 1]
 
 
-def _rolls(log: Any, columns: Columns, options: Dict[str, Any], name: str) -> List[_core.Log]:
+def pandas() -> Any:
     try:
-        names, arrays = table_of(log, columns, options["columns"], name)
-    except _IsPath:
-        return _core.read_log_files([path(log, name)], options)
-    safe = [_UNSAFE.sub("_", one) for one in names]
-    sources = [(column, _UNSAFE.sub("_", called), unit) for column, called, unit in options["columns"]]
-    text = _core.table_text(safe, arrays)
-    try:
-        return _core.read_log_text(text, name, dict(options, columns=sources))
-    except InputError as error:
-        raise InputError(in_rows(str(error), name)) from None
-
-
-def in_rows(message: str, name: str) -> str:
-    """Line n of the text that a table was made into is row n - 2 of the table."""
-    message = re.sub(rf"^{name}:1: the header ", f"{name}: the header ", message)
-    message = re.sub(rf"^{name}:1:", f"{name}:", message)
-    return re.sub(rf"\b{name}:(\d+)", lambda found: f"{name}: row {int(found[1]) - 2}", message)
-
-
-class _IsPath(Exception):
-    pass
-
-
-def table_of(log: Any, columns: Columns, sources: List[Source], name: str) -> Tuple[List[str], List[np.ndarray]]:
-    """Names and columns of numbers. Columns that are neither known nor named may hold anything."""
-    if isinstance(log, Mapping):
-        pairs = [(str(key), log[key]) for key in log]
-    elif hasattr(log, "columns") and hasattr(log, "dtypes"):  # a data frame
-        pairs = [(str(key), log[key]) for key in log.columns]
-    elif getattr(getattr(log, "dtype", None), "names", None):
-        pairs = [(key, log[key]) for key in log.dtype.names]
-    elif isinstance(log, np.ndarray) or isinstance(log, (list, tuple)):
-        pairs = _columns_of_array(array(log, name), columns, name)
-    elif hasattr(log, "read") or not isinstance(log, (str,)) and not hasattr(log, "__fspath__"):
-        raise InputError(
-            f"{name}: expected a path, a data frame, a dict of arrays, or an array with `columns`, found {type(log).__name__}"
-        )
-    else:
-        raise _IsPath
-    wanted = {called for _, called, _ in sources} | {one + end for one in COLUMNS for end in ("", "_a", "_b")}
-    names: List[str] = []
-    arrays: List[np.ndarray] = []
-    for key, values in pairs:
-        is_wanted = key in wanted or re.sub(r"\s*[\[(].*[\])]$", "", key) in wanted
-        column = _numbers_of(values, key, name, is_wanted)
-        if column is None:
-            continue
-        names.append(key)
-        arrays.append(column)
-    sizes = {len(one) for one in arrays}
-    if len(sizes) > 1:
-        shown = ", ".join(f"{key} {len(one)}" for key, one in zip(names, arrays))
-        raise InputError(f"{name}: expected columns of one length, found {shown}")
-    return names, arrays
-
-
-def _numbers_of(values: Any, key: str, name: str, is_wanted: bool) -> Optional[np.ndarray]:
-    column = np.asarray(values)
-    if column.dtype.kind in "mM":  # a clock, which says its unit itself
-        if not is_wanted:
-            return None
-        since = column - column[0] if column.dtype.kind == "M" and len(column) else column
-        return np.ascontiguousarray(since / np.timedelta64(1, "s"), dtype=np.float64)
-    try:
-        numbers = array(values, f"{name}: the column {key!r}")
-    except InputError:
-        if is_wanted:
-            raise
-        return None
-    if numbers.ndim != 1:
-        raise InputError(f"{name}: the column {key!r} has shape {numbers.shape}, expected one number in each row")
-    return numbers
-
-
-def _columns_of_array(rows: np.ndarray, columns: Columns, name: str) -> List[Tuple[str, np.ndarray]]:
-    if columns is None or isinstance(columns, (str, Mapping)):
-        raise InputError(
-            f"{name}: an array has no names, expected `columns` with that of each column, as in columns=('time', 'u', 'psi')"
-        )
-    if rows.ndim != 2 or rows.shape[1] != len(columns):
-        raise InputError(
-            f"{name}: expected an array of shape (n, {len(columns)}), as `columns` has names, found {rows.shape}"
-        )
-    return [(key, np.ascontiguousarray(rows[:, k])) for k, key in enumerate(columns)]
-
-
-def sources_of(columns: Columns, units: Optional[Mapping[str, str]]) -> List[Source]:
-    """What each column is called, and in what it is."""
-    sources: Dict[str, Tuple[str, str]] = {}
-    if isinstance(columns, str):
-        sources = {column: (name, unit) for column, name, unit in _core.parse_columns(columns)}
-    elif isinstance(columns, Mapping):
-        for column, called in columns.items():
-            if isinstance(called, str):
-                sources[column] = (called, "")
-            elif isinstance(called, tuple) and len(called) == 2 and all(isinstance(one, str) for one in called):
-                sources[column] = called
-            else:
-                raise InputError(f"columns: {column!r} is {called!r}, expected a name or (name, unit)")
-    for column, unit in (units or {}).items():
-        if not isinstance(unit, str):
-            raise InputError(f"units: {column!r} is {unit!r}, expected a unit such as 'deg', 'mm' or 'ms'")
-        sources[column] = (sources.get(column, (column, ""))[0], unit)
-    for column in sources:
-        _require_known(column)
-    return [(column, name, unit) for column, (name, unit) in sources.items()]
-
-
-def _require_known(column: str) -> None:
-    if column in COLUMNS or (column[-2:] in ("_a", "_b") and column[:-2] in COLUMNS):
-        return
-    import difflib
-
-    near = difflib.get_close_matches(str(column), COLUMNS, 1)
-    question = f"did you mean {near[0]!r}? " if near else ""
-    raise InputError(f"columns: there is no column {column!r}; {question}Known are {', '.join(COLUMNS)}")
-
-
-def _pandas() -> Any:
-    try:
-        import pandas
+        import pandas as found
     except ImportError:
         raise ImportError("a data frame needs pandas; on Debian: apt-get install python3-pandas") from None
-    return pandas
+    return found

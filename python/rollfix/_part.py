@@ -8,28 +8,20 @@ from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Seque
 
 import numpy as np
 
-from . import _core
-from ._answer import Answer, ManyAnswers
-from ._core import InputError, Reach
+from . import _core, _making
+from ._answer import Answer
+from ._checks import clockwise, least, path, text, travel as travel_given
+from ._columns import Columns, Units
+from ._core import InputError
 from ._documents import Advice, Inspection
-from ._inputs import (
-    Finger,
-    FingerLike,
-    NoiseLike,
-    array,
-    clockwise,
-    fingers,
-    finite,
-    noise as noise_given,
-    number,
-    numbers,
-    optional_number,
-    path,
-    travel as travel_given,
-    whole,
-)
-from ._logs import Columns, Roll
-from ._problems import basic_problem, log_options, problem_of
+from ._fingers import Finger, FingerLike, fingers
+from ._many import ManyAnswers, Result, locate_logs, locate_many
+from ._noise import Noise, NoiseLike
+from ._logs import Roll
+from ._question import Question, solved
+from ._reach import Reach
+from ._shape import Shape
+from ._simulate import simulated
 from ._watch import Watch
 
 Method = TypeVar("Method", bound=Callable[..., Answer])
@@ -47,7 +39,7 @@ def _quick(locate: Method) -> Method:
     return cast(Method, quick)
 
 
-class Part:
+class Part(Shape):
     """An outline with everything that is computed once per shape. It can't be changed, and any number of threads can ask.
 
     A closed outline is stored with the material on its left: a clockwise one is reversed (`reversed` says so), keeping its
@@ -81,7 +73,7 @@ class Part:
         What is wrong with the file or the outline, and where.
     """
 
-    __slots__ = ("_core", "__weakref__")
+    __slots__ = ()
 
     def __init__(
         self,
@@ -96,17 +88,17 @@ class Part:
         gap: Optional[float] = None,
         allow_crossing: bool = False,
     ) -> None:
-        options: Dict[str, Any] = {
-            "unit": unit,
-            "open": open,
-            "smooth": optional_number(smooth, "smooth"),
-            "corner_angle": optional_number(corner_angle, "corner_angle"),
-            "loop": None if loop is None else whole(loop, "loop", 1),
-            "layer": layer,
-            "gap": optional_number(gap, "gap"),
-            "allow_crossing": allow_crossing,
-        }
-        self._core = _core.load_part(path(source, "source"), options)
+        self._core = _making.of_file(
+            source,
+            unit=unit,
+            open=open,
+            smooth=smooth,
+            corner_angle=corner_angle,
+            loop=loop,
+            layer=layer,
+            gap=gap,
+            allow_crossing=allow_crossing,
+        )
 
     @classmethod
     def _of(cls, core: _core.Part) -> "Part":
@@ -137,17 +129,7 @@ class Part:
         name, unit, smooth, corner_angle, allow_crossing
             As of `Part`.
         """
-        points = array(xy, "xy")
-        if points.ndim != 2 or points.shape[1] != 2:
-            raise InputError(f"xy: expected points, an array of shape (n, 2), found shape {np.shape(xy)}")
-        options: Dict[str, Any] = {
-            "unit": unit,
-            "open": not closed,
-            "smooth": optional_number(smooth, "smooth"),
-            "corner_angle": optional_number(corner_angle, "corner_angle"),
-            "allow_crossing": allow_crossing,
-        }
-        return cls._of(_core.part_from_points(finite(points, "xy"), name, options))
+        return cls._of(_making.of_points(xy, closed, name, unit, smooth, corner_angle, allow_crossing))
 
     @classmethod
     def from_curve(
@@ -183,16 +165,7 @@ class Part:
         InputError
             `df` is not the derivative of `f`, or `ddf` that of `df`; a curve that is not smooth; ends that do not meet.
         """
-        from ._curves import pieces_of
-
-        pieces = pieces_of(f, df, ddf, domain)
-        size = float(max(np.ptp(np.vstack(pieces), axis=0)))
-        if closed:
-            gap = float(np.hypot(*(pieces[-1][-1] - pieces[0][0])))
-            if gap > 1e-9 * size:
-                raise InputError(f"f: ends {gap:.3g} from where it starts; give closed=False for a curve with two ends")
-            pieces[-1][-1] = pieces[0][0]
-        return cls._of(_core.part_from_pieces(pieces, name, closed, unit, allow_crossing, 0.0))
+        return cls._of(_making.of_curve(f, df, ddf, domain, closed, name, unit, allow_crossing))
 
     @classmethod
     def gallery(cls, shape: str, **parameters: Any) -> "Part":
@@ -205,110 +178,9 @@ class Part:
         **parameters
             The shape's: gallery("ellipse", a=2, b=1).
         """
-        if not isinstance(shape, str):
-            raise InputError(f"shape: expected a name, found {shape!r}")
-        name = shape if shape.startswith("gallery:") else "gallery:" + shape
-        given = "".join(
-            f",{key}={value if isinstance(value, str) else repr(float(value)) if isinstance(value, np.floating) else value}"
-            for key, value in parameters.items()
-        )
-        return cls(name + given)
+        return cls._of(_making.of_gallery(shape, parameters))
 
-    # --- what it is ---
-
-    @property
-    def name(self) -> str:
-        """str: what it was called."""
-        return self._core.name
-
-    @property
-    def unit(self) -> str:
-        """str: of its lengths; '' where nobody said."""
-        return self._core.unit
-
-    @property
-    def perimeter(self) -> float:
-        """float: P, the boundary's length."""
-        return self._core.perimeter
-
-    @property
-    def closed(self) -> bool:
-        """bool: False of a curve with two ends. (Whether `close` was called is not this.)"""
-        return self._core.closed
-
-    @property
-    def reversed(self) -> bool:
-        """bool: given clockwise and stored counter-clockwise, a hole the other way round."""
-        return self._core.reversed
-
-    @property
-    def total_turn(self) -> float:
-        """float: of the tangent along the whole boundary, radians."""
-        return self._core.total_turn
-
-    @property
-    def turns(self) -> int:
-        """int: how often the tangent turns round along a closed boundary; 0 of an open one."""
-        return self._core.turns
-
-    @property
-    def inflections(self) -> np.ndarray:
-        """ndarray: places s where the curvature changes sign."""
-        return self._core.inflections
-
-    @property
-    def vertices(self) -> np.ndarray:
-        """ndarray: places s where the curvature's slope changes sign."""
-        return self._core.vertices
-
-    @property
-    def corners(self) -> np.ndarray:
-        """ndarray, (n, 2): s and turn of each corner, radians; above 0: convex."""
-        return self._core.corners
-
-    @property
-    def notes(self) -> Tuple[str, ...]:
-        """tuple of str: what was left out, joined or chosen when it was made."""
-        return tuple(self._core.notes)
-
-    def point(self, s: Any) -> np.ndarray:
-        """Positions at s.
-
-        Parameters
-        ----------
-        s : array_like of any shape
-            Any number on a closed part; on an open one clamped to [0, P].
-
-        Returns
-        -------
-        ndarray, s.shape + (2,)
-        """
-        return self._core.point(array(s, "s"))
-
-    def turning(self, s: Any) -> np.ndarray:
-        """The turning function Theta(s): the tangent's angle, radians, unwrapped; accurate to 1e-12. Just after s.
-
-        Parameters
-        ----------
-        s : array_like of any shape
-
-        Returns
-        -------
-        ndarray of the same shape
-        """
-        return self._core.turning(array(s, "s"))
-
-    def curvature(self, s: Any) -> np.ndarray:
-        """kappa(s) = dTheta/ds, positive where convex. Shapes as of `turning`."""
-        return self._core.curvature(array(s, "s"))
-
-    def tangent(self, s: Any) -> np.ndarray:
-        """Theta(s) in (-pi, pi]. Shapes as of `turning`."""
-        return self._core.tangent(array(s, "s"))
-
-    def samples(self) -> Dict[str, np.ndarray]:
-        """The boundary as numbers, as densely as its shape asks for: `s`, `x`, `y`, `tangent` (unwrapped), `curvature`."""
-        return self._core.samples()
+    # --- what it is, as a whole ---
 
     def inspect(self, finger: Optional[Finger] = None) -> Inspection:
         """What it is, how ambiguous rolls on it are, and where a finger can touch it: `rollfix inspect --json`."""
@@ -320,7 +192,7 @@ class Part:
         given = fingers(finger, 1)
         if not given:
             raise InputError("finger: expected Disk(radius) or Jaw(), found None")
-        return _core.reach_of(self._core, given[0])
+        return Reach(self._core, given[0])
 
     # --- where is the finger ---
 
@@ -343,7 +215,7 @@ class Part:
         direction: str = "ccw",
         robust: bool = False,
         columns: Columns = None,
-        units: Optional[Mapping[str, str]] = None,
+        units: Units = None,
         degrees: bool = False,
         roll: Optional[int] = None,
         rounding: Optional[Tuple[float, float]] = None,
@@ -402,37 +274,63 @@ class Part:
         InputError
             What can't be meant; the message names the argument.
         """
-        problem, taken = problem_of(
+        if (readings is None) == (log is None):
+            found = "neither" if log is None else "both: they can't be of the same roll"
+            raise InputError(f"readings: expected readings or `log`, found {found}")
+        question = Question(
             self._core,
-            readings,
-            turn,
-            log,
-            finger,
-            noise,
-            tolerance,
-            facing,
-            at,
-            prior,
-            heading,
-            pose,
-            mirrored,
-            direction,
-            robust,
-            columns,
-            units,
-            degrees,
-            roll,
-            rounding,
-            budget,
+            finger=finger,
+            noise=noise,
+            tolerance=tolerance,
+            facing=facing,
+            at=at,
+            prior=prior,
+            heading=heading,
+            pose=pose,
+            mirrored=mirrored,
+            direction=direction,
+            robust=robust,
+            columns=columns,
+            units=units,
+            degrees=degrees,
+            roll=roll,
+            rounding=rounding,
+            budget=budget,
         )
-        return Answer(problem.solve(), taken)
+        if log is None:
+            return solved(question.of_readings(readings, turn))
+        return solved(*question.of_log(log, turn))
 
-    def advise(self, readings: Any = None, turn: Any = None, *, travel: Any = None, **options: Any) -> Advice:
+    def advise(
+        self,
+        readings: Any = None,
+        turn: Any = None,
+        *,
+        travel: Any = None,
+        log: Any = None,
+        finger: Optional[FingerLike] = None,
+        noise: NoiseLike = None,
+        tolerance: Optional[float] = None,
+        facing: Optional[float] = None,
+        at: Any = None,
+        prior: Optional[Tuple[float, float]] = None,
+        heading: Optional[Tuple[float, float]] = None,
+        pose: Optional[Sequence[float]] = None,
+        mirrored: bool = False,
+        direction: str = "ccw",
+        robust: bool = False,
+        columns: Columns = None,
+        units: Units = None,
+        degrees: bool = False,
+        roll: Optional[int] = None,
+        rounding: Optional[Tuple[float, float]] = None,
+        budget: Optional[int] = None,
+    ) -> Advice:
         """The next roll: which one tells the remaining placements apart. Of one finger.
 
         Parameters
         ----------
-        readings, turn, **options
+        readings, turn, log, ...
             The roll so far, as of `locate`.
         travel : float or (float, float), optional
             How far the finger can roll on: a length, or (back, forward) with back <= 0. Default: one lap.
@@ -441,7 +339,30 @@ class Part:
         -------
         Advice
         """
-        return Advice(self.locate(readings, turn, **options)._core, travel_given(travel))
+        range_given = travel_given(travel)
+        answer = self.locate(
+            readings,
+            turn,
+            log=log,
+            finger=finger,
+            noise=noise,
+            tolerance=tolerance,
+            facing=facing,
+            at=at,
+            prior=prior,
+            heading=heading,
+            pose=pose,
+            mirrored=mirrored,
+            direction=direction,
+            robust=robust,
+            columns=columns,
+            units=units,
+            degrees=degrees,
+            roll=roll,
+            rounding=rounding,
+            budget=budget,
+        )
+        return Advice(answer._core, range_given)
 
     def locate_many(
         self,
@@ -477,72 +398,111 @@ class Part:
         -------
         ManyAnswers
         """
-        rows = array(readings, "readings")
-        if rows.ndim == 2:
-            rows = rows[:, np.newaxis, :]
-        if rows.ndim != 3 or rows.shape[2] not in (2, 3) or rows.shape[1] == 0:
-            raise InputError(
-                "readings: expected an array of shape (problems, 2) or (problems, 3), or (problems, readings, 2 or 3), "
-                f"found shape {np.shape(readings)}"
-            )
-        if clockwise(direction):
-            rows = rows * np.array([-1.0] * (rows.shape[2] - 1) + [1.0])
-        rows = np.ascontiguousarray(rows)
-        rows.flags.writeable = False
-        facings = None
-        if facing is not None:
-            given = finite(array(facing, "facing"), "facing")
-            if given.shape not in ((), (len(rows),)):
-                raise InputError(f"facing: expected one angle, or one for each of {len(rows)}, found shape {given.shape}")
-            facings = np.ascontiguousarray(np.broadcast_to(given, (len(rows),)))
-
-        def problem_of(one_facing: Optional[float]) -> _core.Problem:
-            problem = basic_problem(self._core, finger, noise, tolerance, mirrored, budget)
-            if rounding is not None:
-                length, angle = numbers(rounding, 2, "rounding", "(length, turn)")
-                problem.set_roundings([(length, angle)] * rows.shape[1])
-            problem.facing = one_facing
-            return problem
-
-        from ._progress import Progress
-
-        with Progress(len(rows), progress) as bar:
-            columns = _core.solve_many(problem_of(None), rows, facings, whole(threads, "threads"), bar.report)
-        return ManyAnswers(columns, problem_of, rows, facings)
+        clockwise(direction)  # not both ways at once
+        question = Question(
+            self._core,
+            finger=finger,
+            noise=noise,
+            tolerance=tolerance,
+            mirrored=mirrored,
+            direction=direction,
+            rounding=rounding,
+            budget=budget,
+        )
+        return locate_many(question, readings, facing, threads, progress)
 
     def locate_logs(
-        self, logs: Iterable[Any], *, threads: int = 0, progress: Optional[bool] = None, **options: Any
-    ) -> List[Union[Answer, InputError]]:
-        """The answers to many logs, on all cores: `locate(log=one, **options)` of each, in order.
+        self,
+        logs: Iterable[Any],
+        *,
+        finger: Optional[FingerLike] = None,
+        noise: NoiseLike = None,
+        tolerance: Optional[float] = None,
+        at: Any = None,
+        prior: Optional[Tuple[float, float]] = None,
+        heading: Optional[Tuple[float, float]] = None,
+        pose: Optional[Sequence[float]] = None,
+        mirrored: bool = False,
+        direction: str = "ccw",
+        robust: bool = False,
+        columns: Columns = None,
+        units: Units = None,
+        degrees: bool = False,
+        roll: Optional[int] = None,
+        budget: Optional[int] = None,
+        threads: int = 0,
+        progress: Optional[bool] = None,
+    ) -> List[Result]:
+        """The answers to many logs, on all cores: `locate(log=one, ...)` of each, in order.
+
+        Parameters
+        ----------
+        logs : iterable of logs
+        finger, noise, ...
+            As of `locate`, for all of them; what can't be meant raises InputError at once.
+        threads, progress
+            As of `locate_many`.
 
         Returns
         -------
         list of Answer, or of InputError where a log can't be worked with
         """
-        problems: List[Any] = []
-        chosen = log_options(options)
-        for log in logs:
-            try:
-                problems.append(problem_of(self._core, None, None, log, *chosen))
-            except InputError as error:
-                problems.append(error)
-        asked = [one for one in problems if not isinstance(one, InputError)]
-        from ._progress import Progress
+        question = Question(
+            self._core,
+            finger=finger,
+            noise=noise,
+            tolerance=tolerance,
+            at=at,
+            prior=prior,
+            heading=heading,
+            pose=pose,
+            mirrored=mirrored,
+            direction=direction,
+            robust=robust,
+            columns=columns,
+            units=units,
+            degrees=degrees,
+            roll=roll,
+            budget=budget,
+        )
+        return locate_logs(question, logs, threads, progress)
 
-        with Progress(len(asked), progress) as bar:
-            found = iter(_core.solve_problems([one[0] for one in asked], whole(threads, "threads"), bar.report))
-        results: List[Union[Answer, InputError]] = []
-        for one in problems:
-            if isinstance(one, InputError):
-                results.append(one)
-                continue
-            solved = next(found)
-            results.append(InputError(solved) if isinstance(solved, str) else Answer(solved, one[1]))
-        return results
-
-    def watch(self, **options: Any) -> Watch:
+    def watch(
+        self,
+        *,
+        noise: Union[Noise, Mapping[str, float]],
+        finger: Optional[Finger] = None,
+        prior: Optional[Tuple[float, float]] = None,
+        heading: Optional[Tuple[float, float]] = None,
+        pose: Optional[Sequence[float]] = None,
+        robust: bool = False,
+        every: int = 0,
+        columns: Columns = None,
+        units: Units = None,
+        degrees: bool = False,
+        direction: str = "ccw",
+        mirrored: bool = False,
+        live: bool = False,
+        name: str = "log",
+    ) -> Watch:
         """A `Watch` on this part."""
-        return Watch(self, **options)
+        return Watch(
+            self,
+            noise=noise,
+            finger=finger,
+            prior=prior,
+            heading=heading,
+            pose=pose,
+            robust=robust,
+            every=every,
+            columns=columns,
+            units=units,
+            degrees=degrees,
+            direction=direction,
+            mirrored=mirrored,
+            live=live,
+            name=name,
+        )
 
     def simulate(
         self,
@@ -583,42 +543,9 @@ class Part:
         -------
         Roll
         """
-        rows, seeded, sds = whole(samples, "samples", 1), whole(seed, "seed"), noise_given(noise)
-        if finger is None:
-            if length is None or rotation is not None:
-                raise InputError("length: expected how far the wheel drives")
-            return Roll(_core.simulate_drive(self._core, number(start, "start"), number(length, "length"), rows, sds, seeded))
-        given = fingers(finger)
-        if np.ndim(start) == 0:
-            if len(given) == 2:
-                raise InputError(f"start: expected one for each of two fingers, found {start!r}")
-            return Roll(
-                _core.simulate_one(
-                    self._core,
-                    given[0],
-                    number(start, "start"),
-                    optional_number(length, "length"),
-                    optional_number(rotation, "rotation"),
-                    rows,
-                    number(contact, "contact"),
-                    sds,
-                    seeded,
-                )
-            )
-        starts = numbers(start, 2, "start", "one for each of two fingers")
-        if rotation is not None or length is None:
-            raise InputError("length: expected one for each of two fingers; `rotation` is of one")
         return Roll(
-            _core.simulate_two(
-                self._core,
-                given,
-                starts,
-                numbers(length, 2, "length", "one for each of two fingers"),
-                number(part_rotation, "part_rotation"),
-                rows,
-                numbers(np.broadcast_to(array(contact, "contact"), (2,)), 2, "contact", "one or two angles"),
-                sds,
-                seeded,
+            simulated(
+                self._core, finger, start, length, rotation, samples, contact, part_rotation, noise, seed
             )
         )
 
@@ -640,7 +567,9 @@ class Part:
     def _figure(self, finger: Optional[Finger], title: str = "", width: float = 640) -> Any:
         from . import _draw
 
-        return _draw.part_figure(self._core, None if finger is None else self.reach(finger), title, width)
+        reach = None if finger is None else self.reach(finger)._core
+        wide = least(width, "width", 0, "a number of pixels")
+        return _draw.part_figure(self._core, reach, text(title, "title"), wide)
 
     def _repr_svg_(self) -> str:
         return self.to_svg()
@@ -680,17 +609,3 @@ class Part:
 
 def _part(core: _core.Part) -> Part:
     return Part._of(core)
-
-
-def gallery_shapes() -> Dict[str, Dict[str, Any]]:
-    """The shapes of `Part.gallery`: by name the `formula`, and the `parameters` with default, meaning and values."""
-    return {
-        name: {
-            "formula": formula,
-            "parameters": {
-                key: {"default": default, "meaning": meaning, "values": values}
-                for key, (default, meaning, values) in parameters.items()
-            },
-        }
-        for name, formula, parameters in _core.gallery_shapes()
-    }

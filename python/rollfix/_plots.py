@@ -8,6 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ._core import InputError
+from ._messages import shown
+
 if TYPE_CHECKING:
     from ._answer import Answer
 
@@ -15,10 +18,7 @@ MOST_ROWS = 30
 
 
 def plot_answer(answer: "Answer", ax: Any = None) -> Any:
-    if ax is None:
-        import matplotlib.pyplot as plt
-
-        ax = plt.subplots()[1]
+    ax = _axes(ax)
     part = answer.part
     outline = part.samples()
     ax.plot(outline["x"], outline["y"], color="0.75", linewidth=1)
@@ -38,6 +38,17 @@ def plot_answer(answer: "Answer", ax: Any = None) -> Any:
     ax.set_xlabel(f"x{_unit(part.unit)}")
     ax.set_ylabel(f"y{_unit(part.unit)}")
     return ax
+
+
+def _axes(given: Any) -> Any:
+    if given is None:
+        import matplotlib.pyplot as plt
+
+        return plt.subplots()[1]
+    if all(hasattr(given, name) for name in ("plot", "annotate", "set_aspect", "set_title")):
+        return given
+    several = f"an array of {given.size}: give one of them" if isinstance(given, np.ndarray) else shown(given)
+    raise InputError(f"ax: expected matplotlib axes, found {several}")
 
 
 def answer_html(answer: "Answer") -> str:

@@ -12,8 +12,9 @@ PATIENCE = 1.0  # seconds
 class Progress:
     """`report(done)` is called now and then. Nothing is shown of what is over soon."""
 
-    def __init__(self, total: int, wanted: Optional[bool]) -> None:
+    def __init__(self, total: int, wanted: Optional[bool], what: str = "problems") -> None:
         self._total = total
+        self._what = what
         self._wanted = wanted
         self._start = time.monotonic()
         self._bar: Any = None
@@ -37,7 +38,7 @@ class Progress:
         except ImportError:
             self._is_off = True
             return None
-        return tqdm(total=self._total, unit=" problems")
+        return tqdm(total=self._total, unit=f" {self._what}")
 
     def __enter__(self) -> "Progress":
         return self

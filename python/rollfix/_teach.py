@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any, Mapping, Optional, Tuple
+from typing import Any, Optional, Tuple
 
 from . import _core
+from ._checks import corner_angle as corner_angle_given, flag, unit_of_length
+from ._columns import Columns, Naming, Units
+from ._core import InputError
 from ._documents import Document
-from ._inputs import Finger, NoiseLike, fingers, noise as noise_given, optional_number
-from ._logs import Columns, core_log
+from ._fingers import Finger, fingers
+from ._logs import log_of
+from ._noise import NoiseLike, noise as noise_given
 from ._part import Part
+from ._question import require_finger
 
 
 class Taught(Document):
@@ -54,7 +59,7 @@ def teach(
     allow_crossing: bool = False,
     unit: str = "",
     columns: Columns = None,
-    units: Optional[Mapping[str, str]] = None,
+    units: Units = None,
     degrees: bool = False,
 ) -> Taught:
     """A part without a drawing, from one full roll around it.
@@ -82,15 +87,19 @@ def teach(
     -------
     Taught
     """
-    core = core_log(log, columns, units, degrees, unit, False, None)
-    given = fingers(finger, 1)
-    part, text = _core.teach(
-        core,
-        given[0] if given else None,
+    naming, part_unit, given = Naming(columns, units, degrees), unit_of_length(unit), fingers(finger, 1)
+    options = (
         noise_given(noise),
-        bool(bridge),
-        bool(open),
-        optional_number(corner_angle, "corner_angle"),
-        bool(allow_crossing),
+        flag(bridge, "bridge"),
+        flag(open, "open"),
+        corner_angle_given(corner_angle),
+        flag(allow_crossing, "allow_crossing"),
     )
-    return Taught(Part._of(part), text)
+    read = log_of(log, naming, part_unit, False, None)
+    if read.kind == "contact":
+        require_finger(given, read)
+    try:
+        part, document = _core.teach(read._core, given[0] if given else None, *options)
+    except InputError as error:
+        raise InputError(read._said(str(error))) from None
+    return Taught(Part._of(part), document)

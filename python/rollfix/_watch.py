@@ -3,14 +3,22 @@
 from __future__ import annotations
 
 import json
+import os
+import re
 from typing import TYPE_CHECKING, Any, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _core
+from ._checks import clockwise, flag, place_prior, pose_prior, text, whole
+from ._clock import Clock
+from ._columns import Columns, Naming, Units
 from ._core import InputError
-from ._inputs import Finger, Noise, clockwise, fingers, noise as noise_given, numbers, pose_prior, warn, whole
-from ._logs import COLUMNS, Columns, in_rows, sources_of, table_of, _UNSAFE, _IsPath
+from ._fingers import Finger, fingers
+from ._messages import shown, warn
+from ._noise import Noise, weighing
+from ._tables import Table, is_frame, safe, text_of
+from ._words import Numbering, diagnosis_in_python, in_python
 
 if TYPE_CHECKING:
     from ._part import Part
@@ -49,49 +57,48 @@ class Watch:
         part: "Part",
         *,
         finger: Optional[Finger] = None,
-        noise: Union[Noise, Dict[str, float]],
+        noise: Union[Noise, Mapping[str, float]],
         prior: Optional[Tuple[float, float]] = None,
         heading: Optional[Tuple[float, float]] = None,
         pose: Optional[Sequence[float]] = None,
         robust: bool = False,
         every: int = 0,
         columns: Columns = None,
-        units: Optional[Mapping[str, str]] = None,
+        units: Units = None,
         degrees: bool = False,
         direction: str = "ccw",
         mirrored: bool = False,
         live: bool = False,
         name: str = "log",
     ) -> None:
-        sds = noise_given(noise)
+        sds = weighing(noise)
         if sds is None:
             raise InputError("noise: expected how far the sensors are off, as in Noise(contact=0.1, angle=0.01)")
-        mean = None
-        if prior is not None:
-            s, sd = numbers(prior, 2, "prior", "(s, sd)")
-            mean = (s, sd)
-        self._columns = columns
-        self._sources = sources_of(columns, units)
-        self._names: Optional[List[str]] = None
+        if not text(name, "name"):
+            raise InputError("name: expected what messages call the log, found ''")
+        self._naming = Naming(columns, units, degrees)
+        self._clock = Clock()
+        self._names: Optional[List[str]] = None  # of the columns, once a table came
+        self._numbering = Numbering({name: []})
+        self._name = name
+        self._pushed = 0  # lines
         self._is_text = False
         self._is_over = False
-        self._name = name
         self._last: Optional[Event] = None
-        safe = [(column, _UNSAFE.sub("_", called), unit) for column, called, unit in self._sources]
         self._core = _core.Watch(
             part._core,
             fingers(finger, 1),
             sds,
-            mean,
+            None if prior is None else place_prior(prior),
             pose_prior(heading, pose),
-            bool(robust),
+            flag(robust, "robust"),
             whole(every, "every"),
             name,
-            safe,
-            "deg" if degrees else "",
+            [(column, safe(called), unit) for column, called, unit in self._naming.declared()],
+            self._naming.angles,
             clockwise(direction),
-            bool(mirrored),
-            bool(live),
+            flag(mirrored, "mirrored"),
+            flag(live, "live"),
         )
 
     def add(self, rows: Any) -> List[Event]:
@@ -99,18 +106,21 @@ class Watch:
 
         Parameters
         ----------
-        rows : str, mapping, DataFrame, or array_like
-            Text: whole lines of CSV, the header first. A mapping of numbers or of arrays, or a data frame: columns by
-            name, the same each time. An array, (k,) or (n, k): with `columns` the names of its columns.
+        rows : str, bytes, mapping, DataFrame, or array_like
+            Text: whole lines of CSV, the header first. A mapping of numbers or of arrays, a list of them, or a data frame:
+            columns by name, the same each time, in any order. An array, (k,) or (n, k): with `columns` the names of its
+            columns. Times may be dates: then seconds count from the first one of the watch's life.
 
         Returns
         -------
         list of dict
-            What is new: events of docs/json.md, `rollfix/watch/1`: 'begin', 'found', 'placements', 'over', ...
+            What is new: events of docs/json.md, `rollfix/watch/1`: 'begin', 'found', 'placements', 'over', ... Where rows
+            are no text `row` is the number of the last one, from 0; a diagnosis says its cure as keyword arguments.
         """
         if self._is_over:
             raise InputError("rows: the watch is over; make another one")
-        self._push(self._text_of(rows))
+        for some in rows if _is_list_of_rows(rows) else [rows]:
+            self._take(some)
         return self._events()
 
     def follow(self, source: Iterable[Any]) -> Iterator[Event]:
@@ -118,8 +128,21 @@ class Watch:
 
         `source` is anything to iterate over: an open file, `socket.makefile()`, a generator of dicts.
         """
+        if isinstance(source, (str, bytes, os.PathLike)):
+            is_text = isinstance(source, bytes) or len(str(source).splitlines()) > 1
+            hint = "a text: give it to `add`" if is_text else f"a path: open it, as in `with open({shown(source)}) as file`"
+            raise InputError(f"source: expected lines or rows to go through, found {hint}")
+        if isinstance(source, Mapping) or is_frame(source):
+            kind = "a data frame" if is_frame(source) else "a mapping"
+            raise InputError(f"source: expected lines or rows to go through, found {kind}: give it to `add`")
+        try:
+            return self._followed(iter(source))
+        except TypeError:
+            raise InputError(f"source: expected lines or rows to go through, found {shown(source)}") from None
+
+    def _followed(self, source: Iterator[Any]) -> Iterator[Event]:
         for rows in source:
-            yield from self.add(rows.decode("utf-8", "replace") if isinstance(rows, bytes) else rows)
+            yield from self.add(rows)
         yield from self.finish()
 
     def finish(self) -> List[Event]:
@@ -151,39 +174,54 @@ class Watch:
         """list of dict: of the last answer, the most probable first; `end_mean` is where the finger is now."""
         return [] if self._last is None else list(self._last["placements"])
 
-    def _push(self, text: str) -> None:
-        try:
-            self._core.push(text)
-        except InputError as error:
-            raise InputError(str(error) if self._is_text else in_rows(str(error), self._name)) from None
-
-    def _text_of(self, rows: Any) -> str:
+    def _take(self, rows: Any) -> None:
+        if isinstance(rows, (bytes, bytearray)):
+            rows = rows.decode("utf-8", "replace")
         if isinstance(rows, str):
+            self._naming.require_table("a text")
             self._is_text = True
-            return rows
-        if isinstance(rows, Mapping):
-            rows = {key: np.atleast_1d(value) for key, value in rows.items()}
-        elif not hasattr(rows, "dtypes") and getattr(getattr(rows, "dtype", None), "names", None) is None:
-            rows = np.atleast_2d(np.asarray(rows, dtype=float))
-        try:
-            names, arrays = table_of(rows, self._columns, self._sources, "rows")
-        except _IsPath:
-            raise InputError(f"rows: expected lines or rows, found {rows!r}") from None
-        safe = [_UNSAFE.sub("_", name) for name in names]
-        header, _, lines = _core.table_text(safe, arrays).partition("\n")
+            self._push(rows)
+            return
+        table = Table(_columns_of(rows), self._naming, "rows")
+        columns = self._in_order(table, table.numbers(self._clock))
+        header, _, lines = text_of(columns).partition("\n")
         if self._names is None:
-            self._names = names
-            return header + "\n" + lines
-        if names != self._names:
-            raise InputError(f"rows: expected the columns {', '.join(self._names)} as before, found {', '.join(names)}")
-        return lines
+            self._numbering.headers[self._name].append(self._pushed + 1)
+            self._push(header)
+            self._names = list(columns)
+        self._push(lines)
+
+    def _in_order(self, table: Table, columns: Dict[str, np.ndarray]) -> Dict[str, np.ndarray]:
+        """As the columns came the first time; of those that nobody reads one may be missing or new."""
+        if self._names is None:
+            return columns
+        if {one for one in columns if table.is_wanted(one)} != {one for one in self._names if table.is_wanted(one)}:
+            raise InputError(
+                f"rows: expected the columns {', '.join(self._names)} as before, found {', '.join(columns) or 'none'}"
+            )
+        nothing = np.full(len(next(iter(columns.values()))), np.nan)
+        return {name: columns.get(name, nothing) for name in self._names}
+
+    def _push(self, lines: str) -> None:
+        self._pushed += len(lines.splitlines())
+        try:
+            self._core.push(lines)
+        except InputError as error:
+            raise InputError(self._said(str(error)).replace("state it with unit=", "make the part with unit=")) from None
+
+    def _said(self, message: str) -> str:
+        return in_python(message if self._is_text else self._numbering.said(message))
 
     def _events(self) -> List[Event]:
         events, notes = self._core.take()
         for note in notes.splitlines():
-            warn(note)
+            warn(self._said(re.sub("^rollfix: ", "", note)))
         found = [json.loads(line) for line in events.splitlines()]
         for event in found:
+            if "line" in event and not self._is_text:
+                event["row"] = self._numbering.row(event["line"])
+            if "diagnosis" in event:
+                event["diagnosis"] = diagnosis_in_python(event["diagnosis"])
             if "placements" in event:
                 self._last = event
         return found
@@ -196,3 +234,22 @@ class Watch:
 
     def __repr__(self) -> str:
         return f"<Watch: {self.verdict or 'no contact yet'}>"
+
+
+def _is_list_of_rows(rows: Any) -> bool:
+    return isinstance(rows, (list, tuple)) and len(rows) > 0 and all(isinstance(one, Mapping) for one in rows)
+
+
+def _columns_of(rows: Any) -> Any:
+    """One row by names, of whatever kind, is a table of one row."""
+    if hasattr(rows, "_asdict"):  # a namedtuple, as of itertuples
+        rows = rows._asdict()
+    elif hasattr(rows, "index") and hasattr(rows, "to_dict") and not is_frame(rows):  # a Series, as of iterrows
+        rows = rows.to_dict()
+    if isinstance(rows, Mapping):
+        return {key: value if np.ndim(value) else [value] for key, value in rows.items()}
+    if is_frame(rows) or getattr(getattr(rows, "dtype", None), "names", None):
+        return rows
+    if np.ndim(rows) == 0:
+        raise InputError(f"rows: expected lines of text, columns by name, or an array, found {shown(rows)}")
+    return rows if np.ndim(rows) > 1 else [rows]

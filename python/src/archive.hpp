@@ -234,6 +234,20 @@ void visit(A& a, Answer& v) {
       unresolved, counts, weighing, diagnoses, strays, mirrored, either_way, other_way, lengths_reversed);
 }
 template <class A>
+void visit(A& a, Rounding& v) {
+  auto& [length, turn] = v;
+  all(a, length, turn);
+}
+template <class A>
+void visit(A& a, Felt& v);
+/// Without the part and the fingers, as an answer.
+template <class A>
+void visit(A& a, Problem& v) {
+  auto& [part, felt, fingers, noise, tolerance, budget, facing, at, prior, pose, mirrored, either_way, robust,
+         diagnose] = v;
+  all(a, felt, noise, tolerance, budget, facing, at, prior, pose, mirrored, either_way, robust, diagnose);
+}
+template <class A>
 void visit(A& a, FingerRows& v) {
   auto& [name, line, u, psi, length, turn, x, y, u_period, place_rounding, angle_rounding, u_dimension] = v;
   all(a, name, line, u, psi, length, turn, x, y, u_period, place_rounding, angle_rounding, u_dimension);
@@ -242,6 +256,11 @@ template <class A>
 void visit(A& a, Log& v) {
   auto& [name, kind, time, fingers, contact_was_off, unit] = v;
   all(a, name, kind, time, fingers, contact_was_off, unit);
+}
+template <class A>
+void visit(A& a, Felt& v) {
+  auto& [readings, log, roundings] = v;
+  all(a, readings, log, roundings);
 }
 template <class A>
 void visit(A& a, Roll& v) {

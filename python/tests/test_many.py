@@ -2,6 +2,7 @@
 
 import json
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -75,6 +76,30 @@ def test_an_error_stays_with_its_problem(ellipse):
     assert "2 errors" in repr(many)
 
 
+def test_going_through_them_meets_errors_in_their_place(ellipse):
+    many = ellipse.locate_many(np.array([[1, 0.625], [np.nan, 1], [1.9, 0.8796]]))
+    assert [type(one).__name__ for one in many] == ["Answer", "InputError", "Answer"]
+    assert many[:2][0] == many[0] and "nan" in str(many[1:][0]) and many[::2] == [many[0], many[2]] and many[5:] == []
+    for wrong in ("a", 1.5):
+        with pytest.raises(TypeError, match="expected the number of a problem"):
+            many[wrong]
+
+
+def test_they_can_be_pickled(ellipse):
+    cam = rollfix.Part.gallery("cam")
+    pairs = np.array([[1.0, -0.4, 0.3], [0.5, 0.4, 0.2]])
+    for many in (ellipse.locate_many([[1, 0.625], [np.nan, 1]], finger=rollfix.Disk(0.1), direction="cw", rounding=(0.001, 0)),
+                 cam.locate_many(pairs, facing=[0.3, 0.4], tolerance=1e-6)):
+        back = pickle.loads(pickle.dumps(many))
+        assert back == many and back[0] == many[0] and not back.start.flags.writeable
+
+
+def test_an_array_that_is_asked_with_stays_the_user_s(ellipse):
+    readings = np.array([[[1.0, 0.625]]])
+    ellipse.locate_many(readings)
+    readings[0, 0, 0] = 2.0
+
+
 def test_nothing_asked_is_nothing_answered(ellipse):
     many = ellipse.locate_many(np.empty((0, 2)))
     assert len(many) == 0 and many.start.shape == (0, 1) and len(list(many)) == 0
@@ -121,8 +146,9 @@ def test_a_batch_of_the_program_says_the_same(program, tmp_path):
 
 
 def test_ctrl_c_stops_it():
-    code = ("import numpy as np, rollfix, sys; p = rollfix.Part.gallery('spline'); print('ready', flush=True)\n"
-            "try: p.locate_many(np.tile([2.0, 1.0], (50_000_000, 1)))\n"
+    code = ("import numpy as np, rollfix, sys; p = rollfix.Part.gallery('spline')\n"
+            "rolls = np.tile([2.0, 1.0], (20_000_000, 1)); print('ready', flush=True)\n"
+            "try: p.locate_many(rolls)\n"
             "except KeyboardInterrupt: print('stopped'); sys.exit(3)")
     child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
     assert child.stdout.readline() == "ready\n"

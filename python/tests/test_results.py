@@ -76,7 +76,9 @@ def test_the_fields_are_those_of_the_document(weighed):
 
 @pytest.mark.parametrize("make", [lambda w: w, lambda w: pair_answer(), lambda w: w[0], lambda w: w.part, lambda w: w.log,
                                   lambda w: Disk(3), lambda w: rollfix.Jaw(), lambda w: Noise(angle=0.1),
-                                  lambda w: w.part.inspect(), lambda w: w.advise(), lambda w: w.part.locate(60.1, 0.0894)])
+                                  lambda w: w.part.inspect(), lambda w: w.advise(), lambda w: w.part.locate(60.1, 0.0894),
+                                  lambda w: w.part.reach(Disk(3)), lambda w: w.part.reach(rollfix.Jaw()),
+                                  lambda w: w.part.simulate(Disk(3), start=1, length=20, noise=Noise(angle=0.1))])
 def test_results_survive_pickle_and_copy(weighed, make):
     value = make(weighed)
     for copied in (pickle.loads(pickle.dumps(value)), copy.deepcopy(value)):
@@ -90,6 +92,14 @@ def test_other_bits_are_another_answer(ellipse, answer):
     assert answer != 3
 
 
+def test_rolls_and_reaches_are_values(ellipse):
+    roll = ellipse.simulate(Disk(0.2), start=1, length=2)
+    assert roll == ellipse.simulate(Disk(0.2), start=1, length=2) != ellipse.simulate(Disk(0.2), start=1, length=2, seed=1,
+                                                                                     noise=Noise(angle=0.1))
+    assert ellipse.reach(Disk(0.2)) == ellipse.reach(Disk(0.2)) != ellipse.reach(Disk(0.3))
+    assert repr(ellipse.reach(Disk(0.2))) == "<Reach of Disk(0.2) along the boundary: all>"
+
+
 def test_a_table_has_a_row_for_each_placement(answer, weighed):
     pandas = pytest.importorskip("pandas")
     frame = answer.to_frame()
@@ -97,6 +107,17 @@ def test_a_table_has_a_row_for_each_placement(answer, weighed):
     assert list(weighed.to_frame().probability) == [one.probability for one in weighed]
     assert {"start_a", "start_b"} <= set(pair_answer().to_frame().columns)
     assert isinstance(frame, pandas.DataFrame)
+
+
+@pytest.mark.parametrize("radius, why", [(0.2, "the fingers would overlap"), (1, "the finger can't touch there")])
+def test_an_empty_answer_says_what_took_its_placements_out(radius, why):
+    part = rollfix.Part.gallery("spline,n=9,seed=7,wobble=0.2")
+    s, travelled = np.array([1.0, 1.3]), np.array([[0.5, 0.4], [1.0, 0.8]])
+    turned = part.turning(s + travelled) - part.turning(s)
+    readings = np.column_stack([travelled, turned[:, 0] - turned[:, 1]])
+    options = dict(facing=float(part.turning(1.0) - part.turning(1.3)), tolerance=1e-7)
+    assert len(part.locate(readings, **options)) == 1 and part.locate(readings, **options).notes == ()
+    assert part.locate(readings, finger=Disk(radius), **options).notes == (f"1 place that fits was dropped: {why}",)
 
 
 def test_notebooks_show_the_figure_and_the_table(answer, weighed):

@@ -5,6 +5,7 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "rollfix/answer/solve.hpp"
+#include "signals.hpp"
 
 namespace rollfix::python {
 namespace {
@@ -37,16 +38,10 @@ class ManyReadings {
   const double* facing_;
 };
 
-/// Signals, such as Ctrl-C, are looked at by the thread that waits; and somebody may watch the progress.
 ManyOptions many_options(unsigned threads, const py::object& progress) {
   ManyOptions options;
   options.threads = threads;
-  options.go_on = [progress](std::size_t done) {
-    const py::gil_scoped_acquire lock;
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    if (!progress.is_none()) progress(done);
-    return true;
-  };
+  options.go_on = [progress](std::size_t done) { return goes_on(progress, done); };
   return options;
 }
 

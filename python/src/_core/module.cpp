@@ -22,4 +22,5 @@ PYBIND11_MODULE(_core, module) {
   bind_rolls(module);
   bind_reach(module);
   bind_watch(module);
+  bind_catalog(module);
 }

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "archive.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "fingers.hpp"
@@ -22,6 +23,18 @@ std::vector<Reading> readings_from(const Numbers& rows) {
 std::optional<Prior> prior_from(const std::optional<std::pair<double, double>>& given) {
   if (!given) return std::nullopt;
   return Prior{given->first, given->second};
+}
+
+/// What goes to another process: its fingers, and all else but the part as bytes.
+py::tuple problem_state(const Problem& problem) {
+  return py::make_tuple(fingers_to(problem.fingers), py::bytes(bytes_of(problem)));
+}
+
+Problem problem_from_state(const PartHandle& part, const py::tuple& fingers, const py::bytes& bytes) {
+  Problem problem{part.part(), std::vector<Reading>{}};
+  read_bytes(std::string(bytes), problem);
+  problem.fingers = fingers_from(fingers);
+  return problem;
 }
 
 AnswerHandle solve_without_lock(const Problem& problem) {
@@ -67,7 +80,9 @@ void bind_problem(py::module_& module) {
       .def_readwrite("mirrored", &Problem::mirrored)
       .def_readwrite("either_way", &Problem::either_way)
       .def_readwrite("robust", &Problem::robust)
-      .def("solve", &solve_without_lock);
+      .def("solve", &solve_without_lock)
+      .def("state", &problem_state);
+  module.def("problem_from_state", &problem_from_state);
   module.def("locate_one", &locate_one);
   module.def("finger_name", [](const py::object& finger) { return finger_from(finger).name(); });
   module.def("check_noise", [](const py::dict& noise) { noise_from(noise); });

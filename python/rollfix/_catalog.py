@@ -1,0 +1,327 @@
+"""Many parts in one file, and which of them a roll fits."""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import dataclass
+from typing import Any, Callable, Dict, Iterable, Iterator, List, Optional, Sequence, Tuple, Union
+
+from . import _core
+from ._answer import Answer
+from ._checks import flag, number, path as path_given, unit_of_length, whole
+from ._columns import Columns, Units
+from ._core import InputError
+from ._fingers import FingerLike
+from ._identified import Identified, answers_of
+from ._logs import Log
+from ._messages import did_you_mean, shown, warn
+from ._noise import NoiseLike
+from ._part import Part
+from ._progress import Progress
+from ._question import Question, refused
+from ._words import in_python
+
+Source = Tuple[str, str, float]  # what to load, the part's name, how many of it there are
+
+
+@dataclass(frozen=True)
+class CatalogEntry:
+    """A part of a catalog, as its lists show it."""
+
+    name: str  # no two have the same
+    id: int  # stays the same for as long as the part is there
+    perimeter: float  # in the catalog's unit
+    symmetry: int  # n-fold; 0: a circle
+    closed: bool
+    reversed: bool  # given clockwise
+    count: float  # so many of it are among what may be touched
+
+
+class Catalog:
+    """Many parts in one file, as `Catalog.build` or `rollfix catalog build` makes it. Iterating gives their names.
+
+    Parts are loaded when they are asked for. Any number of threads can ask. It is pickled by its path.
+
+    Parameters
+    ----------
+    path : path
+        The file.
+
+    Raises
+    ------
+    InputError
+        No such file, or not a catalog.
+    """
+
+    __slots__ = ("_core", "_entries", "_places", "__weakref__")
+
+    def __init__(self, path: Union[str, "os.PathLike[str]"]) -> None:
+        self._open(path_given(path, "path"))
+
+    def _open(self, path: str) -> None:
+        core = _core.Catalog(path)
+        self._entries = tuple(CatalogEntry(*one) for one in core.entries())
+        self._places = {entry.name: k for k, entry in enumerate(self._entries)}
+        self._core = core
+
+    @classmethod
+    def build(
+        cls,
+        path: Union[str, "os.PathLike[str]"],
+        sources: Any,
+        *,
+        unit: str = "",
+        threads: int = 0,
+        lean: bool = False,
+        progress: Optional[bool] = None,
+    ) -> "Catalog":
+        """Makes a catalog of outlines, or adds to one. What is there already and has not changed is not read again.
+
+        A RollfixWarning says how many could not be taken; `left_out` says why. Ctrl-C stops it; what was done stays.
+
+        Parameters
+        ----------
+        path : path
+            The catalog's file.
+        sources : path, or a list of paths, 'gallery:NAME,key=value,...', or pairs (one of them, count)
+            A folder: all outlines in it and in the folders in it. A text file with one of them in each line, behind a
+            tabulator how many of it there are. Or an outline.
+        unit : str
+            Of all parts, 'mm', 'in', ...; others are converted. Default: that of the first part that states one.
+        threads : int
+            0: as many as there are processors.
+        lean : bool
+            Keep outlines only and compute parts when they are asked for: a tenth of the size.
+        progress : bool, optional
+            A bar, by tqdm. Default: where tqdm is installed, stderr is a terminal, and it lasts more than a second.
+
+        Returns
+        -------
+        Catalog
+        """
+        file, known = path_given(path, "path"), unit_of_length(unit)
+        is_lean, count = flag(lean, "lean"), whole(threads, "threads")
+        taken = _taken(sources)
+        with Progress(len(taken), progress, "files") as bar:
+            left_out, _ = _core.build_catalog(file, taken, known, count, is_lean, bar.report)
+        if left_out:
+            source, why = left_out[0]
+            some = "1 source was" if len(left_out) == 1 else f"{len(left_out)} sources were"
+            warn(f"{file}: {some} left out, see Catalog.left_out; {source}: {in_python(why)}")
+        return cls(file)
+
+    def remove(self, names: Union[str, Iterable[str]]) -> int:
+        """Takes parts out of the file, by name. A build whose sources still name their files takes them in again.
+
+        Parameters
+        ----------
+        names : str or list of str
+            A name that is not there is an InputError, by which nothing is taken out.
+
+        Returns
+        -------
+        int
+            How many there were.
+        """
+        given = [names] if isinstance(names, str) else list(names)
+        for name in given:
+            self._place(name, "names")
+        removed = _core.remove_from_catalog(self.path, given)
+        self._open(self.path)
+        return removed
+
+    # --- what is in it ---
+
+    @property
+    def path(self) -> str:
+        """str: the file."""
+        return self._core.path
+
+    @property
+    def unit(self) -> str:
+        """str: of all lengths; '' where nobody said."""
+        return self._core.unit
+
+    @property
+    def entries(self) -> Tuple[CatalogEntry, ...]:
+        """tuple of CatalogEntry: in the order in which they were added."""
+        return self._entries
+
+    @property
+    def names(self) -> Tuple[str, ...]:
+        """tuple of str: of all parts, in this order."""
+        return tuple(entry.name for entry in self._entries)
+
+    @property
+    def left_out(self) -> Dict[str, str]:
+        """dict: what could not be taken, and why."""
+        return {source: in_python(why) for source, why in self._core.left_out()}
+
+    def part(self, which: Union[str, int]) -> Part:
+        """A part, by its name or its place in `names`, in the catalog's unit."""
+        return Part._of(self._core.part(self._place(which, "which")))
+
+    def _place(self, which: Any, argument: str) -> int:
+        if isinstance(which, str):
+            if which not in self._places:
+                hint = did_you_mean(which, self._places)
+                raise InputError(f"{argument}: {self.path} has no part {which!r}; {hint}it has {len(self)}: see names")
+            return self._places[which]
+        if argument == "names":
+            raise InputError(f"names: expected the names of parts, found {shown(which)}")
+        place = whole(which, argument, -len(self))
+        if place >= len(self):
+            raise InputError(f"{argument}: expected a name, or a place from 0 to {len(self) - 1}, found {place}")
+        return place % len(self)
+
+    # --- which of them is it ---
+
+    def identify(
+        self,
+        readings: Any = None,
+        turn: Any = None,
+        *,
+        log: Any = None,
+        finger: Optional[FingerLike] = None,
+        noise: NoiseLike = None,
+        tolerance: Optional[float] = None,
+        facing: Optional[float] = None,
+        at: Any = None,
+        heading: Optional[Tuple[float, float]] = None,
+        pose: Optional[Sequence[float]] = None,
+        mirrored: bool = False,
+        direction: str = "ccw",
+        robust: bool = False,
+        columns: Columns = None,
+        units: Units = None,
+        degrees: bool = False,
+        roll: Optional[int] = None,
+        rounding: Optional[Tuple[float, float]] = None,
+        budget: Optional[int] = None,
+        shard: Optional[Tuple[int, int]] = None,
+        threads: int = 0,
+    ) -> Identified:
+        """Every part on which the roll can have been, and every place on it. Ctrl-C stops it.
+
+        Parameters
+        ----------
+        readings, turn, log, ...
+            The roll, as of `Part.locate`, in the catalog's unit.
+        shard : (k, n), optional
+            Search every n-th part only, from the k-th on, counted from 1; `merge` joins what all n found.
+        threads : int
+            0: as many as there are processors. Any number gives the same bits.
+
+        Returns
+        -------
+        Identified
+
+        Raises
+        ------
+        InputError
+            What can't be meant; the message names the argument.
+        """
+        options = dict(
+            finger=finger, noise=noise, tolerance=tolerance, facing=facing, at=at, heading=heading, pose=pose,
+            mirrored=mirrored, direction=direction, robust=robust, columns=columns, units=units, degrees=degrees,
+            roll=roll, rounding=rounding, budget=budget,
+        )  # fmt: skip
+        which = None if shard is None else _shard(shard)
+        count = whole(threads, "threads")
+        problem, read = self._asked(readings, turn, log, options)
+        return self._search(problem, read, which, count)
+
+    def merge(self, shards: Iterable[Identified]) -> Identified:
+        """What one search would have found, to the bit, from what was found in all shards, in any order."""
+        found = list(shards)
+        for one in found:
+            if not isinstance(one, Identified) or not one._lines:
+                raise InputError(f"shards: expected what identify(..., shard=(k, n)) found, found {shown(one)}")
+        if not found:
+            raise InputError("shards: expected what was found in each of them, found none")
+        answers = {part: answer for one in found for part, answer in one._answers.items()}
+        return self._merged([one._lines for one in found], lambda entry: answers[entry.id])
+
+    def _merged(self, lines: Sequence[str], answer: Callable[[CatalogEntry], Answer]) -> Identified:
+        text = self._core.merge(lines, [f"shards: number {k}" for k in range(len(lines))])
+        listed = [self._entries[self._places[one["name"]]] for one in json.loads(text)["parts"]]
+        return Identified(text, "", {entry.id: answer(entry) for entry in listed})
+
+    def _asked(self, readings: Any, turn: Any, log: Any, options: Dict[str, Any]) -> Tuple[_core.Problem, Optional[Log]]:
+        if (readings is None) == (log is None):
+            found = "neither" if log is None else "both: they can't be of the same roll"
+            raise InputError(f"readings: expected readings or `log`, found {found}")
+        if len(self) == 0:
+            raise InputError(f"{self.path}: the catalog has no parts")
+        question = Question(self._core.part(0), **options)
+        if log is None:
+            return question.of_readings(readings, turn), None
+        try:
+            return question.of_log(log, turn)
+        except InputError as error:
+            raise InputError(str(error).replace("make the part with unit=", "build the catalog with unit=")) from None
+
+    def _search(
+        self, problem: _core.Problem, log: Optional[Log], shard: Optional[Tuple[int, int]], threads: int
+    ) -> Identified:
+        k, of = shard or (None, 1)
+        try:
+            text, lines, found = self._core.identify(problem, k, of, threads)
+        except InputError as error:
+            raise refused(error, log) from None
+        return Identified(text, lines, answers_of(found, log))
+
+    def __len__(self) -> int:
+        return len(self._entries)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.names)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._places
+
+    def __repr__(self) -> str:
+        parts = "1 part" if len(self) == 1 else f"{len(self)} parts"
+        return f"<Catalog {self.path!r}: {parts}{', ' + self.unit if self.unit else ''}>"
+
+    def __reduce__(self) -> Any:
+        return (Catalog, (self.path,))
+
+
+def _shard(given: Any) -> Tuple[int, int]:
+    try:
+        k, of = given
+    except (TypeError, ValueError):
+        raise InputError(f"shard: expected which of how many, as in (1, 4), found {shown(given)}") from None
+    count = whole(of, "shard", 1)
+    return whole(k, "shard", 1, count), count
+
+
+def _taken(sources: Any) -> List[Source]:
+    """Every outline of them."""
+    if isinstance(sources, (str, os.PathLike)):
+        return _core.catalog_sources(path_given(sources, "sources"))
+    if not hasattr(sources, "__iter__"):
+        raise InputError(f"sources: expected a folder, a list of outlines, or paths, found {shown(sources)}")
+    taken: List[Source] = []
+    for one in sources:
+        if isinstance(one, (str, os.PathLike)):
+            taken += _core.catalog_sources(path_given(one, "sources"))
+            continue
+        if not isinstance(one, (tuple, list)) or len(one) != 2:
+            raise InputError(f"sources: expected a path, 'gallery:...', or one with its count, found {shown(one)}")
+        count = _count(one[1])
+        taken += [
+            (argument, name, count) for argument, name, _ in _core.catalog_sources(path_given(one[0], "sources"))
+        ]
+    if not taken:
+        raise InputError("sources: expected outlines, found none")
+    return taken
+
+
+def _count(given: Any) -> float:
+    count = number(given, "sources")
+    if not count > 0:
+        raise InputError(f"sources: expected a count above 0, found {count!r}")
+    return count

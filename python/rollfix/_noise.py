@@ -1,0 +1,114 @@
+"""How far sensors are off."""
+
+from __future__ import annotations
+
+from typing import Any, Dict, Mapping, Optional, Union
+
+from ._checks import degrees_hint, number
+from ._core import InputError
+from ._messages import did_you_mean, shown
+
+MOST_ANGLE = 0.5  # radians: beyond that a row says nothing, and degrees were meant
+
+
+class Noise:
+    """How far the sensors are off: standard deviations.
+
+    Parameters
+    ----------
+    contact : float
+        Of a contact's place along the outline, in the part's unit, each row on its own.
+    angle : float
+        Of a turn, radians, each row on its own.
+    slip : float
+        Of the length travelled, per length.
+    radius : float
+        Of the finger's radius, in the part's unit.
+    position : float
+        Of each coordinate of a finger's centre; 0: centres are not looked at.
+    correlation : float
+        Over this length of a roll rows are off alike.
+    drift : float
+        Of a gyroscope's rate all along a roll, radians per second.
+    walk : float
+        Angle random walk of a gyroscope, radians per square root of a second.
+    """
+
+    __slots__ = ("_sds",)
+    NAMES = ("contact", "angle", "slip", "radius", "position", "correlation", "drift", "walk")
+
+    def __init__(
+        self,
+        contact: float = 0,
+        angle: float = 0,
+        slip: float = 0,
+        radius: float = 0,
+        position: float = 0,
+        correlation: float = 0,
+        drift: float = 0,
+        walk: float = 0,
+    ) -> None:
+        values = (contact, angle, slip, radius, position, correlation, drift, walk)
+        sds = {name: number(value, f"noise: {name}") for name, value in zip(self.NAMES, values)}
+        for name, sd in sds.items():
+            if sd < 0:
+                raise InputError(f"noise: {name} is {sd!r}, expected a standard deviation of at least 0")
+        self._sds = sds
+
+    def to_dict(self) -> Dict[str, float]:
+        """All of them by name, as in the JSON document."""
+        return dict(self._sds)
+
+    def __getattr__(self, name: str) -> float:
+        if name in Noise.NAMES:
+            return self._sds[name]
+        raise AttributeError(name)
+
+    def __getstate__(self) -> Dict[str, float]:
+        return self._sds
+
+    def __setstate__(self, state: Dict[str, float]) -> None:
+        self._sds = state
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Noise) and other._sds == self._sds
+
+    def __hash__(self) -> int:
+        return hash(tuple(self._sds.values()))
+
+    def __repr__(self) -> str:
+        return f"Noise({', '.join(f'{name}={sd!r}' for name, sd in self._sds.items() if sd != 0)})"
+
+
+NoiseLike = Union[Noise, Mapping[str, float], None]
+
+
+def noise(given: NoiseLike) -> Optional[Dict[str, float]]:
+    """As the C++ takes it."""
+    if given is None:
+        return None
+    if isinstance(given, Noise):
+        return given._sds
+    if isinstance(given, Mapping):
+        unknown = [name for name in given if name not in Noise.NAMES]
+        if unknown:
+            hint = did_you_mean(unknown[0], Noise.NAMES)
+            raise InputError(f"noise: there is no {unknown[0]!r}; {hint}known are {', '.join(Noise.NAMES)}")
+        return Noise(**given)._sds
+    raise InputError(f"noise: expected Noise(contact=..., angle=...), found {shown(given)}")
+
+
+def weighing(given: NoiseLike) -> Optional[Dict[str, float]]:
+    """The same, of noise that rows are weighed with."""
+    sds = noise(given)
+    if sds is None:
+        return None
+    if sds["contact"] == 0 and sds["angle"] == 0:
+        raise InputError("noise: expected a standard deviation of the contact or of the angle above 0, found neither")
+    if sds["angle"] > MOST_ANGLE:
+        angle = sds["angle"]
+        raise InputError(
+            f"noise: angle is {angle!r}, expected at most {MOST_ANGLE} radians, beyond which a row says nothing"
+            f"{degrees_hint(angle)}"
+        )
+    return sds

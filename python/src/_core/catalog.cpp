@@ -1,0 +1,134 @@
+#include "rollfix/catalog/catalog.hpp"
+
+#include "bindings.hpp"
+#include "rollfix/catalog/documents.hpp"
+#include "rollfix/catalog/identify.hpp"
+#include "signals.hpp"
+
+namespace rollfix::python {
+namespace {
+
+struct CatalogHandle {
+  std::shared_ptr<const Catalog> catalog;
+};
+
+CatalogHandle open(const std::string& path) {
+  const py::gil_scoped_release others_may_run;
+  return {std::make_shared<const Catalog>(path)};
+}
+
+/// So that what is asked of it, such as a log in millimetres, is taken in the catalog's unit.
+Part in_catalogs_unit(const Catalog& catalog, const Part& part) {
+  return part.unit() == catalog.unit() ? part : with_unit(part, catalog.unit());
+}
+
+PartHandle part_of(const CatalogHandle& handle, std::size_t index) {
+  const Catalog& catalog = *handle.catalog;
+  if (index >= catalog.size()) throw py::index_error("part");
+  const py::gil_scoped_release others_may_run;
+  return PartHandle(in_catalogs_unit(catalog, catalog.part(index)));
+}
+
+py::list entries_of(const CatalogHandle& handle) {
+  py::list result;
+  for (std::size_t k = 0; k < handle.catalog->size(); ++k) {
+    const CatalogEntry& one = handle.catalog->entry(k);
+    result.append(py::make_tuple(one.name, one.id, one.perimeter, one.symmetry, one.closed, one.reversed, one.count));
+  }
+  return result;
+}
+
+py::list pairs_of(const std::vector<LeftOut>& left_out) {
+  py::list result;
+  for (const LeftOut& one : left_out) result.append(py::make_tuple(one.source, one.why));
+  return result;
+}
+
+/// The document, of a shard its lines, and the answers by the ids of their parts.
+py::tuple identify_roll(const CatalogHandle& handle, const Problem& like, std::optional<std::size_t> shard,
+                        std::size_t shards, unsigned threads) {
+  const std::shared_ptr<const Catalog> catalog = handle.catalog;
+  const Problem own = like;  // another thread may change the original meanwhile
+  const py::object nobody = py::none();
+  IdentifyOptions options;
+  options.shard = shard.value_or(1);
+  options.shards = shards;
+  options.threads = threads;
+  options.go_on = [&nobody](std::size_t done) { return goes_on(nobody, done); };
+  std::string document;
+  std::string lines;
+  std::vector<std::pair<std::int64_t, AnswerHandle>> answers;
+  {
+    const py::gil_scoped_release others_may_run;
+    Identified found = identify(*catalog, own, options);
+    document = format_identified(*catalog, found, Layout::line);
+    if (shard) lines = format_shard(*catalog, found, options);
+    for (PartFound& part : found.parts) {
+      part.answer.part = in_catalogs_unit(*catalog, part.answer.part);
+      answers.emplace_back(catalog->entry(part.weight.part).id,
+                           AnswerHandle{std::make_shared<const Answer>(std::move(part.answer))});
+    }
+  }
+  py::list list;
+  for (auto& [id, answer] : answers) list.append(py::make_tuple(id, std::move(answer)));
+  return py::make_tuple(document, lines, list);
+}
+
+std::string merge(const CatalogHandle& handle, const std::vector<std::string>& texts,
+                  const std::vector<std::string>& names) {
+  const std::shared_ptr<const Catalog> catalog = handle.catalog;
+  const py::gil_scoped_release others_may_run;
+  return merge_shards(*catalog, texts, names, Layout::line);
+}
+
+using SourceTuple = std::tuple<std::string, std::string, double>;  // argument, name, count
+
+std::vector<SourceTuple> sources_of(const std::string& argument) {
+  const py::gil_scoped_release others_may_run;
+  std::vector<SourceTuple> result;
+  for (const CatalogSource& one : catalog_sources(argument)) result.emplace_back(one.argument, one.name, one.count);
+  return result;
+}
+
+/// What was left out, and notes.
+py::tuple build(const std::string& path, const std::vector<SourceTuple>& given, const std::string& unit,
+                unsigned threads, bool lean, const py::object& progress) {
+  std::vector<CatalogSource> sources;
+  for (const auto& [argument, name, count] : given) sources.push_back({argument, name, count});
+  BuildOptions options;
+  options.load.points.unit = unit;
+  options.jobs = threads;
+  options.lean = lean;
+  options.go_on = [&progress](const BuildProgress& far) { return goes_on(progress, far.done); };
+  BuildReport report;
+  {
+    const py::gil_scoped_release others_may_run;
+    report = build_catalog(path, sources, options);
+  }
+  return py::make_tuple(pairs_of(report.left_out), report.notes);
+}
+
+std::size_t take_out(const std::string& path, const std::vector<std::string>& names) {
+  const py::gil_scoped_release others_may_run;
+  return remove_from_catalog(path, names);
+}
+
+}  // namespace
+
+void bind_catalog(py::module_& module) {
+  py::class_<CatalogHandle>(module, "Catalog")
+      .def(py::init(&open))
+      .def("__len__", [](const CatalogHandle& handle) { return handle.catalog->size(); })
+      .def_property_readonly("path", [](const CatalogHandle& handle) { return handle.catalog->path(); })
+      .def_property_readonly("unit", [](const CatalogHandle& handle) { return handle.catalog->unit(); })
+      .def("entries", &entries_of)
+      .def("left_out", [](const CatalogHandle& handle) { return pairs_of(handle.catalog->left_out()); })
+      .def("part", &part_of)
+      .def("identify", &identify_roll)
+      .def("merge", &merge);
+  module.def("catalog_sources", &sources_of);
+  module.def("build_catalog", &build);
+  module.def("remove_from_catalog", &take_out);
+}
+
+}  // namespace rollfix::python

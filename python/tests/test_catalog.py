@@ -1,0 +1,210 @@
+"""Catalogs: which part it is, as the program says it, in shares, by other processes and by a cluster that loses a worker."""
+
+import os
+import pickle
+import signal
+import threading
+import time
+
+import pytest
+
+import rollfix
+
+SHAPES = ["cam", "limacon", "gear", "naca", "ellipse,a=2,b=1", *(f"spline,n=9,seed={k},wobble=0.2" for k in range(12))]
+NOISE = rollfix.Noise(contact=0.005, angle=0.01)
+FINGER = rollfix.Disk(0.05)
+
+
+@pytest.fixture(scope="module")
+def catalog(tmp_path_factory):
+    return rollfix.Catalog.build(tmp_path_factory.mktemp("catalog") / "parts.db", [f"gallery:{one}" for one in SHAPES])
+
+
+@pytest.fixture(scope="module")
+def roll(catalog):
+    part = catalog.part("gallery:spline,n=9,seed=7,wobble=0.2")
+    return part.simulate(FINGER, start=0.8, length=1.6, samples=30, noise=NOISE, seed=5)
+
+
+@pytest.fixture(scope="module")
+def noisy(roll):
+    return dict(log=roll, finger=FINGER, noise=NOISE)
+
+
+@pytest.fixture(scope="module")
+def reading(catalog):
+    cam = catalog.part("gallery:cam")
+    return [[length, float(cam.turning(1 + length) - cam.turning(1))] for length in (0.3, 0.7, 1.1)]
+
+
+def test_a_catalog_is_its_names(catalog):
+    assert list(catalog) == list(catalog.names) == [f"gallery:{one}" for one in SHAPES] and len(catalog) == len(SHAPES)
+    assert "gallery:cam" in catalog and "cam" not in catalog and catalog.left_out == {} and catalog.unit == ""
+    assert catalog.part("gallery:cam") == catalog.part(0) == rollfix.Part.gallery("cam") and catalog.part(-1).closed
+    assert catalog.entries[4].symmetry == 2 and catalog.entries[4].perimeter == catalog.part(4).perimeter
+    assert "17 parts" in repr(catalog)
+
+
+def test_the_program_says_the_same(catalog, reading, noisy, program, tmp_path):
+    typed = [word for row in reading for word in ("--reading", ",".join(map(repr, row)))]
+    told = program("identify", catalog.path, *typed, "--tolerance", "1e-9", "--json")
+    assert catalog.identify(reading, tolerance=1e-9).to_dict() == told
+    noisy["log"].log.save(tmp_path / "roll.csv")
+    told = program("identify", catalog.path, "--log", tmp_path / "roll.csv", "--finger", "disk,r=0.05",
+                   "--noise", "contact=0.005,angle=0.01", "--json")
+    found = catalog.identify(log=tmp_path / "roll.csv", finger=FINGER, noise=NOISE)
+    assert found.to_dict() == told and found.verdict == told["verdict"] and found.rest == told["rest"]
+
+
+def test_each_part_has_its_own_answer(catalog, reading, noisy):
+    found = catalog.identify(reading)
+    assert found.names == ("gallery:cam",) and found.verdict.startswith("unique part") and found.rest is None
+    assert found[0].answer == catalog.part("gallery:cam").locate(reading) and found[0].probability is None
+    found = catalog.identify(**noisy)
+    assert found[0].name.endswith("seed=7,wobble=0.2") and found.status == "complete" and found[0].source == found[0].name
+    assert sum(one.probability for one in found) + found.rest == pytest.approx(1)
+    assert [place.to_dict() for place in found[0].answer] == found.to_dict()["parts"][0]["placements"]
+    assert found.verdict in repr(found) and found[0].verdict in repr(found[0]) and found.searched >= len(found)
+
+
+def test_parts_that_can_t_be_told_apart_are_said_to_be(tmp_path, ellipse):
+    two = rollfix.Catalog.build(tmp_path / "two.db", [("gallery:ellipse,a=2,b=1", 3), "gallery:ellipse,b=1,a=2"])
+    found = two.identify(1.0, 0.625, noise=NOISE)
+    assert found.verdict == "2 congruent parts" and found[0].congruent_with == (found[1].name,)
+    assert [one.probability for one in found] == pytest.approx([0.75, 0.25]) and two.entries[0].count == 3
+
+
+@pytest.mark.parametrize("shards", [1, 2, 7, 40])
+def test_shares_make_the_whole(catalog, reading, noisy, shards):
+    for asked in (dict(readings=reading), noisy):
+        shares = [catalog.identify(**asked, shard=(k + 1, shards), threads=1) for k in range(shards)]
+        assert catalog.merge(reversed(pickle.loads(pickle.dumps(shares)))) == catalog.identify(**asked)
+
+
+def test_shares_that_do_not_make_a_whole_are_refused(catalog, reading):
+    one, two = (catalog.identify(reading, shard=(k, 2)) for k in (1, 2))
+    for wrong, why in (([one], "shard 2 of 2 is missing"), ([one, one], "twice"), ([catalog.identify(reading)], "shards:"),
+                       ([one, catalog.identify(1.0, 0.6, shard=(2, 2))], "shards: number 1: is of another roll"), ([], "none")):
+        with pytest.raises(rollfix.InputError, match=why):
+            catalog.merge(wrong)
+    assert catalog.merge([two, one]).names == ("gallery:cam",)
+
+
+def test_it_can_be_pickled(catalog, noisy):
+    found = catalog.identify(**noisy)
+    back = pickle.loads(pickle.dumps(found))
+    assert back == found and hash(back) == hash(found) and back[0] == found[0] and back != catalog.identify(1.0, 0.6)
+    assert pickle.loads(pickle.dumps(catalog)).identify(**noisy) == found
+    with pytest.raises(AttributeError):
+        found.verdict = "none"
+
+
+def test_any_number_of_threads_gives_the_same_bits(catalog, noisy):
+    assert catalog.identify(**noisy, threads=1) == catalog.identify(**noisy, threads=5) == rollfix.identify(catalog, **noisy)
+
+
+def test_a_table_has_a_row_for_each_place(catalog, noisy):
+    pytest.importorskip("pandas")
+    found = catalog.identify(**noisy)
+    frame = found.to_frame()
+    assert list(frame.part) == [one.name for one in found for _ in one.answer]
+    assert list(frame.columns[:3]) == ["part", "part_probability", "kind"] and len(catalog.identify(1.0, 30.0).to_frame()) == 0
+
+
+def test_a_folder_and_a_list_are_taken_as_they_stand(tmp_path, wing):
+    folder = tmp_path / "outlines"
+    folder.mkdir()
+    wing.save(folder / "wing.json")
+    (folder / "broken.csv").write_text("1 2\n")
+    with pytest.warns(rollfix.RollfixWarning, match="1 source was left out.*broken.csv"):
+        built = rollfix.Catalog.build(tmp_path / "parts.db", folder)
+    assert built.names == ("wing.json",) and [*built.left_out][0].endswith("broken.csv")
+    (tmp_path / "list.txt").write_text("outlines/wing.json\t2\ngallery:cam\n")
+    listed = rollfix.Catalog.build(tmp_path / "lean.db", tmp_path / "list.txt", lean=True, threads=1, progress=False)
+    assert len(listed) == 2 and listed.entries[0].count == 2
+    assert listed.remove("gallery:cam") == 1 and len(listed) == 1 and len(rollfix.Catalog(listed.path)) == 1
+
+
+def test_all_is_in_the_catalog_s_unit(tmp_path):
+    built = rollfix.Catalog.build(tmp_path / "parts.db", ["gallery:cam", "gallery:gear"], unit="mm")
+    assert built.unit == "mm" == built.part(0).unit
+    roll = built.part(0).simulate(FINGER, start=1, length=1.5)
+    assert built.identify(log=roll, finger=FINGER)[0].answer.part == built.part(0)
+
+
+@pytest.mark.parametrize("wrong, why", [
+    (dict(), "readings: expected readings or `log`"),
+    (dict(readings=[1, 2, 3, 4]), "readings:"),
+    (dict(readings=[1, 0.5], noise=3), "noise:"),
+    (dict(readings=[1, 0.5], finger=-1), "finger:"),
+    (dict(readings=[1, 0.5], direction="up"), "direction:"),
+    (dict(readings=[1, 0.5], shard=3), "shard:"),
+    (dict(readings=[1, 0.5], shard=(5, 4)), "shard:"),
+    (dict(readings=[1, 0.5], threads=-1), "threads:"),
+    (dict(log="nowhere.csv"), "nowhere.csv"),
+])  # fmt: skip
+def test_what_can_t_be_meant_is_refused_by_its_name(catalog, wrong, why):
+    with pytest.raises(rollfix.InputError, match=why):
+        catalog.identify(**wrong)
+
+
+def test_catalogs_and_parts_that_are_not_there(catalog, tmp_path):
+    for ask, why in ((lambda: rollfix.Catalog(tmp_path / "none.db"), "none.db"), (lambda: rollfix.Catalog(3), "path:"),
+                     (lambda: catalog.part("gallery:cax"), "did you mean 'gallery:cam'"), (lambda: catalog.part(99), "which:"),
+                     (lambda: catalog.remove("cam"), "names:"), (lambda: catalog.remove([3]), "names:"),
+                     (lambda: rollfix.Catalog.build(tmp_path / "a.db", 3), "sources:"),
+                     (lambda: rollfix.Catalog.build(tmp_path / "a.db", []), "sources:"),
+                     (lambda: rollfix.Catalog.build(tmp_path / "a.db", [("gallery:cam", 0)]), "sources:"),
+                     (lambda: rollfix.Catalog.build(tmp_path / "a.db", [tmp_path / "none.csv"]), "none.csv"),
+                     (lambda: rollfix.Catalog.build(tmp_path / "a.db", ["gallery:cam"], unit="miles"), "unit:"),
+                     (lambda: rollfix.identify(3, 1.0, 0.5), "catalog:"),
+                     (lambda: rollfix.identify(catalog, 1.0, 0.5, shards=3), "shards:")):
+        with pytest.raises(rollfix.InputError, match=why):
+            ask()
+    assert not (tmp_path / "a.db").exists() and len(catalog) == len(SHAPES)
+
+
+@pytest.fixture(scope="module")
+def client():
+    distributed = pytest.importorskip("distributed")
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None) as cluster:
+        with distributed.Client(cluster) as found:
+            yield found
+
+
+def test_a_cluster_says_the_same(catalog, reading, noisy, client):
+    assert rollfix.identify(catalog.path, reading, client=client).to_dict() == catalog.identify(reading).to_dict()
+    found, expected = rollfix.identify(catalog, **noisy, client=client, shards=5), catalog.identify(**noisy)
+    assert found == expected and found[0].answer.log is not None
+    for wrong, why in ((dict(readings=[1.0, float("nan")]), "readings:"), (dict(readings=[[1, 0.5]], shards=0), "shards:")):
+        with pytest.raises(rollfix.InputError, match=why):
+            rollfix.identify(catalog, **wrong, client=client)
+    with pytest.raises(rollfix.InputError, match="client:"):
+        rollfix.identify(catalog, 1.0, 0.5, client=3)
+
+
+def test_what_no_part_can_take_is_an_error_of_a_cluster_as_well(catalog, client):
+    asked = dict(readings=[1.0, 0.5], noise=NOISE, heading=(0, 1))
+    told = []
+    for given in (None, client):
+        with pytest.raises(rollfix.InputError, match="expected a log of them") as error:
+            rollfix.identify(catalog, **asked, client=given)
+        told.append(str(error.value))
+    assert told[0] == told[1]
+
+
+def test_a_worker_that_is_killed_loses_nothing(catalog, client):
+    long = catalog.part("gallery:gear").simulate(FINGER, start=1, length=2, samples=400, noise=NOISE, seed=1)
+    noisy = dict(log=long, finger=FINGER, noise=NOISE)
+    found = []
+    asking = threading.Thread(target=lambda: found.append(rollfix.identify(catalog, **noisy, client=client, shards=17)))
+    pids = client.run(os.getpid)
+    asking.start()
+    busy = []
+    while not busy and asking.is_alive():
+        busy = [worker for worker, tasks in client.processing().items() if tasks and worker in pids]
+    os.kill(pids[busy[0]], signal.SIGKILL)
+    assert asking.is_alive()
+    asking.join(300)
+    assert found == [catalog.identify(**noisy)]
+    assert found[0].to_dict()["catalog"]["parts"] == len(catalog) and len(set(found[0].names)) == len(found[0])

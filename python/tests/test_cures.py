@@ -1,0 +1,89 @@
+"""What a diagnosis advises can be typed in Python as it stands, and helps; the document keeps the program's words."""
+
+import pathlib
+import re
+
+import numpy as np
+import pytest
+
+import rollfix
+from rollfix import Disk, Noise
+from rollfix._words import diagnosis_in_python, in_python
+
+pandas = pytest.importorskip("pandas")
+SOURCE = pathlib.Path(__file__).resolve().parents[2] / "src/files/documents/diagnosis_text.cpp"
+
+
+@pytest.fixture(scope="module")
+def frame(roll_csv):
+    return pandas.read_csv(roll_csv, comment="#")
+
+
+@pytest.fixture(scope="module")
+def ask(wing, noise):
+    return lambda log, **options: wing.locate(**{"log": log, "finger": Disk(10), "noise": noise, **options})
+
+
+def typed(cure):
+    """The keyword arguments that a cure's beginning says, as Python reads them."""
+    return eval(f"dict({re.split(', (?:or|of|over|and|besides) ', cure)[0]})", vars(rollfix) | {"np": np})
+
+
+@pytest.mark.parametrize("words, said", [
+    ("--finger disk,r=10.082", "finger=Disk(10.082)"),
+    ("--finger disk,r=10 --finger disk,r=7.5e-05", "finger=(Disk(10), Disk(7.5e-05))"),
+    ("--noise contact=0.05,angle=0.344deg,slip=0.004", "noise=Noise(contact=0.05, angle=0.006, slip=0.004)"),
+    ("--noise slip=0.04, besides what is given", "noise=Noise(slip=0.04), besides what is given"),
+    ("--noise correlation=LENGTH, over how long a roll", "noise=Noise(correlation=LENGTH), over how long a roll"),
+    ("--columns u=u:deg,psi=psi:deg", 'units={"u": "deg", "psi": "deg"}'),
+    ("--columns turn=turn:deg, of a log of increments dturn=dturn:deg; of readings 73deg",
+     'units={"turn": "deg"}, of a log of increments units={"dturn": "deg"}; of readings np.radians(73)'),
+    ("--mirror, or change the signs of the angles", "mirrored=True, or change the signs of the angles"),
+    ("--direction, or change the sign", "the other `direction`, or change the sign"),
+    ("what --prior, --heading or --pose says", "what prior, heading or pose says"),
+    ("--robust", "robust=True"),
+    ("leave it out", "leave it out"),
+    ("x.csv:3: u is '--off'", "x.csv:3: u is '--off'"),
+])
+def test_options_are_keyword_arguments(words, said):
+    assert in_python(words) == said
+
+
+def test_no_text_of_a_diagnosis_is_left_in_the_program_s_words():
+    written = re.findall(r'"((?:[^"\\]|\\.)*--[a-z](?:[^"\\]|\\.)*)"', SOURCE.read_text())
+    numbers = [re.sub(r"=\{[^}]*\}", "=0.5", one).replace("{}", "contact=0.1,angle=2deg") for one in written]
+    assert len(numbers) > 10 and not [one for one in numbers if "--" in in_python(one) or "deg," in in_python(one)]
+
+
+def test_what_else_it_may_be_is_said_in_python_as_well():
+    found = {"cause": "stray", "cure": "--robust", "stray": 2, "others": [{"cause": "slip", "cure": "--noise slip=0.1"}]}
+    assert diagnosis_in_python(found)["others"][0]["cure"] == "noise=Noise(slip=0.1)"
+    assert found["cure"] == "--robust" and diagnosis_in_python(None) is None
+
+
+@pytest.mark.parametrize("change, options, cause", [
+    (lambda f: f, dict(finger=Disk(20)), "radius"),
+    (lambda f: f.assign(psi=np.degrees(f.psi)), {}, "psi_degrees"),
+    (lambda f: f, dict(noise=Noise(contact=0.05, angle=0.0006, slip=0.004)), "noise"),
+    (lambda f: f.assign(psi=np.where(f.index == 15, f.psi + 0.2, f.psi)), {}, "stray"),
+])
+def test_doing_what_it_says_helps(ask, frame, change, options, cause):
+    log = change(frame)
+    badly = ask(log, **options)
+    assert badly.diagnosis["cause"] == cause and "--" not in badly.diagnosis["cure"]
+    mended = ask(log, **{**options, **typed(badly.diagnosis["cure"])})
+    assert mended.diagnosis is None and mended.starts.shape[0] > 0
+
+
+def test_the_document_is_the_program_s(ask, frame, program, wing, roll_csv):
+    words = ["--log", roll_csv, "--finger", "disk,r=20", "--noise", "contact=0.05,angle=0.006,slip=0.004", "--json"]
+    answer = ask(frame, finger=Disk(20))
+    assert answer.to_dict() == program("locate", wing.name, *words)
+    assert answer.to_dict()["diagnosis"]["cure"].startswith("--finger") and answer.diagnosis["cure"].startswith("finger=")
+
+
+def test_a_watch_advises_in_python(wing, frame, noise):
+    watch = wing.watch(finger=Disk(10), noise=noise)
+    events = watch.add(frame.assign(psi=np.degrees(frame.psi))) + watch.finish()
+    (over,) = [event for event in events if event["event"] == "over"]
+    assert over["diagnosis"]["cure"] == 'units={"psi": "deg"}'
