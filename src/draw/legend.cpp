@@ -8,13 +8,13 @@
 namespace rollfix::draw {
 namespace {
 
-constexpr double kTextSize = 11;  // pixels
-constexpr double kRowHeight = 17;
+constexpr double kRowHeight = 17;  // pixels
 constexpr double kTextIndent = 26;
 constexpr double kColumnGap = 20;
 constexpr double kMostColumns = 4;
 
-/// `text` cut in its middle so that it is at most `width` pixels wide.
+}  // namespace
+
 std::string shortened(const std::string& text, double width, double size, bool bold) {
   const auto fits = [&](const std::string& candidate) {
     return text_width({{candidate, false, bold, false}}, size) <= width;
@@ -32,8 +32,6 @@ std::string shortened(const std::string& text, double width, double size, bool b
   }
   return "\u2026";
 }
-
-}  // namespace
 
 Paint stroke(std::string_view colour, double width, std::string_view dash, double opacity) {
   Paint paint;
@@ -106,11 +104,13 @@ std::string_view sign_colour(Sign sign) {
 Legend::Legend(std::vector<LegendEntry> entries, double width) : entries_(std::move(entries)), width_(width) {
   if (entries_.empty()) return;
   double widest = 0;
-  for (const LegendEntry& entry : entries_) widest = std::max(widest, text_width(entry.text, kTextSize));
+  for (const LegendEntry& entry : entries_) widest = std::max(widest, text_width(entry.text, kLegendTextSize));
   const double fitting = std::floor((width_ - 2 * kPageMargin) / (widest + kTextIndent + kColumnGap));
   columns_ = static_cast<std::size_t>(std::clamp(fitting, 1.0, kMostColumns));
   rows_ = (entries_.size() + columns_ - 1) / columns_;
 }
+
+double Legend::room(double width) { return width - 2 * kPageMargin - kTextIndent; }
 
 double Legend::height() const { return rows_ == 0 ? 0 : static_cast<double>(rows_) * kRowHeight + 14; }
 
@@ -123,7 +123,7 @@ void Legend::draw(Svg& svg, double top) const {
     const Vec2 at(kPageMargin + column_width * static_cast<double>(column),
                   top + 14 + kRowHeight * static_cast<double>(row));
     draw_sign(svg, entries_[i].sign, at + Vec2(10, 0), entries_[i].colour, 1, entries_[i].dash);
-    svg.text(at + Vec2(kTextIndent, 4), entries_[i].text, {kTextSize});
+    svg.text(at + Vec2(kTextIndent, 4), entries_[i].text, {kLegendTextSize});
   }
   svg.close_group();
 }

@@ -59,20 +59,29 @@ struct LegendEntry {
   std::string dash{};  // of a line
 };
 
+inline constexpr double kLegendTextSize = 11;  // pixels
+
 /// Entries in as many columns as fit, filled column by column.
 class Legend {
  public:
+  Legend() = default;
   Legend(std::vector<LegendEntry> entries, double width);
+
+  /// For the text of an entry, where there is one column.
+  static double room(double width);
 
   double height() const;  // 0 where there is no entry
   void draw(Svg& svg, double top) const;
 
  private:
   std::vector<LegendEntry> entries_;
-  double width_;
+  double width_ = 0;
   std::size_t columns_ = 1;
   std::size_t rows_ = 0;
 };
+
+/// `text` cut in its middle so that it is at most `width` pixels wide.
+std::string shortened(const std::string& text, double width, double size, bool bold);
 
 constexpr double kHeaderHeight = 46;  // pixels
 constexpr double kPageMargin = 12;

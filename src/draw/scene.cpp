@@ -36,10 +36,11 @@ Box filled(const Framing& framing, double scale) {
   return box;
 }
 
-/// The scale at which the content just fits.
-double largest_scale(const Framing& framing, double width, double height) {
+}  // namespace
+
+double fitting_scale(const Framing& framing, double width, double height) {
   const auto fits = [&](double scale) {
-    const Vec2 size = filled(framing, scale).sizes();
+    const Vec2 size = size_at(framing, scale);
     return size.x() <= width && size.y() <= height;
   };
   // No part is seen at all below the first guess, and it sticks out above the second.
@@ -52,7 +53,7 @@ double largest_scale(const Framing& framing, double width, double height) {
   return lo;
 }
 
-}  // namespace
+Vec2 size_at(const Framing& framing, double scale) { return filled(framing, scale).sizes(); }
 
 Vec2 Scene::normal(double s) const {
   const Vec2 after = direction_at(boundary, s, Side::after);
@@ -61,19 +62,25 @@ Vec2 Scene::normal(double s) const {
 }
 
 double drawing_height(const Framing& framing) {
-  const double scale = largest_scale(framing, framing.width, 1e300);
-  const double height = filled(framing, scale).sizes().y() + kStripHeight;
+  const double height = size_at(framing, fitting_scale(framing, framing.width, 1e300)).y() + kStripHeight;
   return std::clamp(height, framing.least_height, framing.most_height);
 }
 
 Scene make_scene(const Part& part, const Framing& framing, const Vec2& corner) {
+  const Box area(corner, corner + Vec2(framing.width, drawing_height(framing)));
+  const Vec2 room = area.sizes() - Vec2(0, kStripHeight);
+  Scene scene = scene_at(part, framing, fitting_scale(framing, room.x(), room.y()), Box(corner, corner + room));
+  scene.area = area;
+  return scene;
+}
+
+Scene scene_at(const Part& part, const Framing& framing, double scale, const Box& area) {
   Scene scene;
-  scene.area = Box(corner, corner + Vec2(framing.width, drawing_height(framing)));
-  const Vec2 room = scene.area.sizes() - Vec2(0, kStripHeight);
-  scene.view.scale = largest_scale(framing, room.x(), room.y());
-  const Vec2 centre = filled(framing, scene.view.scale).center();
-  scene.view.origin = corner + 0.5 * room + Vec2(-centre.x(), centre.y());
-  scene.boundary = trace(part, kInvisible / scene.view.scale);
+  scene.area = area;
+  scene.view.scale = scale;
+  const Vec2 centre = filled(framing, scale).center();
+  scene.view.origin = area.min() + 0.5 * area.sizes() + Vec2(-centre.x(), centre.y());
+  scene.boundary = trace(part, kInvisible / scale);
   for (Vec2& point : scene.boundary.points) point = scene.view(point);
   return scene;
 }

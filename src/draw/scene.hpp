@@ -41,11 +41,18 @@ struct Scene {
   Vec2 normal(double s) const;
 };
 
+/// The scale at which that just fits, pixels for each unit of the outline; and the room it takes at a scale, pixels.
+double fitting_scale(const Framing& framing, double width, double height);
+Vec2 size_at(const Framing& framing, double scale);
+
 /// Height that the drawing takes: as much as the content needs at full width, within the limits.
 double drawing_height(const Framing& framing);
 
 /// The part drawn as large as the framing allows in an area with its upper left corner at `corner`.
 Scene make_scene(const Part& part, const Framing& framing, const Vec2& corner);
+
+/// The part at a scale that is given, in the middle of an area; the framing's width and heights don't count.
+Scene scene_at(const Part& part, const Framing& framing, double scale, const Box& area);
 
 /// The part's extent, from a coarse drawing.
 Box part_bounds(const Part& part);

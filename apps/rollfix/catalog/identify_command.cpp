@@ -14,6 +14,7 @@
 #include "rollfix/catalog/identify.hpp"
 #include "rollfix/catalog/identify_text.hpp"
 #include "rollfix/commands.hpp"
+#include "rollfix/draw/parts_figure.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/usage.hpp"
 #include "text/text.hpp"
@@ -25,6 +26,7 @@ constexpr const char* kIdentifyExamples = R"(Examples:
   rollfix catalog build sections/ -o parts.db
   rollfix identify parts.db --log roll.csv --finger disk,r=10 --noise contact=0.05,angle=0.2deg
   rollfix identify parts.db --reading 60.1,5.12deg --reading 120,18.39deg --json
+  rollfix identify parts.db --log roll.csv --finger disk,r=10 --noise contact=0.05,angle=0.2deg -o which.svg
 On several machines, each with a copy of the catalog, and then on one:
   rollfix identify parts.db --log roll.csv --finger disk,r=10 --shard 1/2 > 1.jsonl
   rollfix identify parts.db --log roll.csv --finger disk,r=10 --shard 2/2 > 2.jsonl
@@ -39,6 +41,7 @@ struct IdentifyArguments {
   std::string jobs;
   bool without_index = false;
   bool json = false;
+  OutputArgument output;
 };
 
 /// "2/7".
@@ -82,8 +85,31 @@ Report merged(const IdentifyArguments& arguments, const Catalog& catalog) {
   return of_document(merge_shards(catalog, texts, arguments.merge), arguments, catalog, {});
 }
 
+/// A figure shows what the search itself found: a file of a shard has no outlines.
+void require_no_shards(const IdentifyArguments& arguments) {
+  if (arguments.output.file.empty()) return;
+  const char* other = !arguments.merge.empty() ? "--merge" : !arguments.shard.empty() ? "--shard" : nullptr;
+  if (other == nullptr) return;
+  throw InputError(fmt::format("-o: a figure needs the whole search, which {} is not: leave one out", other));
+}
+
+Svg figure_of(const Identified& found, const Catalog& catalog) {
+  PartsFigure figure;
+  figure.verdict = found.verdict;
+  figure.of = found.asked;
+  figure.rest = found.rest;
+  for (const PartFound& part : found.parts) {
+    PartsFigure::Entry entry{catalog.entry(part.weight.part).name, part.probability, &part.answer};
+    for (const std::size_t other : part.congruent) entry.congruent.push_back(catalog.entry(other).name);
+    figure.parts.push_back(std::move(entry));
+  }
+  return draw_parts(figure);
+}
+
 Report identify_report(const IdentifyArguments& arguments) {
   if (arguments.catalog.empty()) throw InputError("identify: expected a CATALOG: rollfix catalog build makes one");
+  require_no_shards(arguments);
+  require_figure_output(arguments.output, arguments.json);
   const Catalog catalog(arguments.catalog);
   if (!arguments.merge.empty()) return merged(arguments, catalog);
   IdentifyOptions options;
@@ -97,7 +123,9 @@ Report identify_report(const IdentifyArguments& arguments) {
     report.data = format_shard(catalog, found, options);
     return report;
   }
-  return of_document(format_identified(catalog, found), arguments, catalog, std::move(report));
+  report = of_document(format_identified(catalog, found), arguments, catalog, std::move(report));
+  if (!arguments.output.file.empty()) add_figure(arguments.output, figure_of(found, catalog), report);
+  return report;
 }
 
 }  // namespace
@@ -131,6 +159,8 @@ void add_identify_command(CLI::App& program, Command& chosen) {
   command->add_option("--jobs", arguments->jobs, "threads; default as many as there are processors")->type_name("N");
   add_switch(*command, "--without-index", arguments->without_index,
              "search every part: slow, and for whoever doubts that the bounds lose nothing");
+  add_output_argument(*command, arguments->output,
+                      "a figure of the parts that remain: .svg, .png or .pdf, - for SVG on stdout");
   add_switch(*command, "--json", arguments->json, "print JSON (rollfix/identify/1)");
   command->callback([arguments, &chosen] { chosen = [arguments] { return identify_report(*arguments); }; });
 }

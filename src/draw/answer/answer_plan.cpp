@@ -11,11 +11,8 @@
 namespace rollfix::draw {
 namespace {
 
-constexpr std::size_t kMostLabels = 20;            // placements with labels
-constexpr std::size_t kMostListedPlacements = 12;  // ... of one finger in the legend
-constexpr double kNearlyAll = 0.85;     // of the perimeter: what holds 95 % may leave as much out without telling where
-constexpr std::size_t kMostArcs = 120;  // ... with arcs
-constexpr std::size_t kMostFingers = 2;  // ... with a finger each when none is highlighted
+constexpr double kNearlyAll = 0.85;  // of the perimeter: what holds 95 % may leave as much out without telling where
+constexpr std::size_t kMostFingers = 2;  // placements with a finger each when none is highlighted
 constexpr std::size_t kMostNamed = 3;    // readings of which each has a named contact
 constexpr std::size_t kMostLines = 4;    // equations of two fingers that are drawn
 constexpr double kMostLanesWidth = 64;   // of all lanes of one finger together, pixels
@@ -64,6 +61,17 @@ Lanes lanes_of(const Plan& plan) {
   return assign_lanes(stretches, plan.part().boundary(), gap);
 }
 
+void read_along_outline(Plan& plan) {
+  plan.readings = plan.figure->answer->readings;
+  plan.facing = plan.figure->answer->facing;
+  if (!plan.figure->answer->mirrored) return;
+  for (Reading& reading : plan.readings) {
+    for (double& length : reading.length) length = -length;
+    reading.turn = -reading.turn;
+  }
+  if (plan.facing) plan.facing = -*plan.facing;
+}
+
 int lanes_each(const Plan& plan) { return std::max(plan.rolls[0].lanes, plan.rolls[1].lanes); }
 
 std::vector<PairLine> lines_of(const Answer& answer) {
@@ -80,10 +88,10 @@ std::vector<PairLine> lines_of(const Answer& answer) {
 
 }  // namespace
 
-bool Plan::has_arcs() const { return has_pairs() || placements().size() <= kMostArcs; }
-bool Plan::has_labels() const { return placements().size() <= kMostLabels; }
+bool Plan::has_arcs() const { return has_pairs() || placements().size() <= most.arcs; }
+bool Plan::has_labels() const { return placements().size() <= most.labels; }
 
-bool Plan::has_list() const { return has_pairs() || ways.size() <= kMostListedPlacements; }
+bool Plan::has_list() const { return has_pairs() || ways.size() <= most.listed; }
 
 bool Plan::is_anywhere(std::size_t placement, std::size_t finger) const {
   return part().closed() && placements()[placement].interval[finger].width() > kNearlyAll * part().perimeter();
@@ -91,6 +99,12 @@ bool Plan::is_anywhere(std::size_t placement, std::size_t finger) const {
 
 Interval Plan::held(std::size_t placement, std::size_t finger) const {
   return is_anywhere(placement, finger) ? part().boundary().full_arc() : placements()[placement].interval[finger];
+}
+
+double Plan::strength(std::size_t placement) const {
+  double likeliest = 0;
+  for (const Placement& each : placements()) likeliest = std::max(likeliest, each.probability);
+  return likeliest > 0 ? placements()[placement].probability / likeliest : 1;
 }
 
 std::string Plan::key() const {
@@ -159,15 +173,17 @@ Plan plan_of(const AnswerFigure& figure) {
   plan.figure = &figure;
   const bool pairs = plan.has_pairs();
   if (pairs) {
+    plan.label_size = 13.5;
     plan.shown = figure.highlight;
     if (!plan.shown && !plan.placements().empty()) plan.shown = 0;
     plan.lines = lines_of(*figure.answer);
   }
+  read_along_outline(plan);
   for (std::size_t finger = 0; finger < figure.answer->finger_count(); ++finger) {
-    plan.rolls[finger] = roll_of(figure.answer->readings, plan.part().boundary(), finger);
+    plan.rolls[finger] = roll_of(plan.readings, plan.part().boundary(), finger);
   }
   if (figure.answer->either_way && !pairs) {
-    std::vector<Reading> readings = figure.answer->readings;
+    std::vector<Reading> readings = plan.readings;
     for (Reading& reading : readings) reading.length[0] = -reading.length[0];
     plan.clockwise_roll = roll_of(readings, plan.part().boundary());
   }

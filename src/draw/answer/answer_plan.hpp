@@ -29,10 +29,19 @@ struct PairLine {
   Text name;
 };
 
+/// More placements than these get less: no arcs, no labels, of one finger no list.
+struct Most {
+  std::size_t arcs = 120;
+  std::size_t labels = 20;
+  std::size_t listed = 12;
+};
+
 /// Everything about a figure of an answer that is decided before it is drawn: what is shown, and on which lane.
 struct Plan {
   const AnswerFigure* figure = nullptr;
   std::optional<std::size_t> shown;  // of two fingers the placement whose rolls are drawn
+  std::vector<Reading> readings;     // along the outline as stored: of a part that lies face down with other signs
+  std::optional<double> facing;      // likewise
   std::array<Roll, 2> rolls;         // of either finger
   Roll clockwise_roll;               // of one, where placements are of either way round
   std::vector<Way> ways;             // of one finger every placement's, of two those of the shown one
@@ -40,6 +49,9 @@ struct Plan {
   double spacing = kLaneSpacing;     // between lanes, pixels
   Framing framing;                   // of the part; beside it is the square of two fingers
   std::vector<PairLine> lines;       // what the square shows
+  Most most;
+  double label_size = 13;  // of contacts, pixels
+  bool fades = false;      // with noise: rolls are as strong as they are probable, and labels don't say how probable
 
   bool has_pairs() const { return figure->answer->finger_count() == 2; }
   const Part& part() const { return figure->answer->part; }
@@ -49,6 +61,8 @@ struct Plan {
   /// What holds 95 % of a placement, with noise; nearly all of a closed boundary is all of it.
   Interval held(std::size_t placement, std::size_t finger) const;
   bool is_anywhere(std::size_t placement, std::size_t finger) const;
+  /// How probable a placement is beside the likeliest: 0 to 1.
+  double strength(std::size_t placement) const;
   double start(const Way& way) const { return placement(way).start[way.finger]; }
 
   /// With probabilities.
@@ -105,6 +119,12 @@ Legend legend_of(const Plan& plan);
 /// What the square of all pairs takes of a page of this width, at the right of the part: pixels.
 double plane_width(double page_width);
 double plane_height(double page_width);
+
+/// With noise an interval narrower than this is its contact's mark, pixels.
+inline constexpr double kVisibleBand = 2;
+
+/// What fits with the placements, or holds 95 % of each, under the boundary.
+void draw_bands(Svg& svg, const Plan& plan, const Scene& scene);
 
 /// How dense the first contacts are, as areas outside of the boundary.
 void draw_ribbons(Svg& svg, const Plan& plan, const Scene& scene, const Clearance& clearance, Obstacles& obstacles);

@@ -114,7 +114,7 @@ class PlanePicture {
     const TurningFunction& turning = plan_.part().turning();
     svg_.open_group("equation");
     if (line.reading) {
-      const Reading& reading = plan_.figure->answer->readings[*line.reading];
+      const Reading& reading = plan_.readings[*line.reading];
       const auto turn = [&](double length) {
         return [&turning, length](double s) { return turning.angle(s + length) - turning.angle(s); };
       };
@@ -125,7 +125,7 @@ class PlanePicture {
       const Samples g = sample(room_[0], angle), h = sample(room_[1], angle);
       const auto [least_g, most_g] = std::minmax_element(g.value.begin(), g.value.end());
       const auto [least_h, most_h] = std::minmax_element(h.value.begin(), h.value.end());
-      const double turn = 2 * std::numbers::pi, facing = *plan_.figure->answer->facing;
+      const double turn = 2 * std::numbers::pi, facing = *plan_.facing;
       for (double k = std::ceil((*least_g - *most_h - facing) / turn); facing + turn * k <= *most_g - *least_h; ++k) {
         draw_level(g, h, facing + turn * k, line);
       }
