@@ -24,12 +24,13 @@ using testing::Not;
 /// An ellipse of so many points, each off by noise of this size.
 std::string scan(int count, double noise, unsigned seed = 1) {
   std::mt19937 random(seed);
-  std::normal_distribution<double> off(0, noise);
+  std::normal_distribution<double> normal;
+  const auto off = [&] { return noise * normal(random); };
   std::string points;
   for (int k = 0; k < count; ++k) {
     const double angle = 2 * std::numbers::pi * k / count;
-    const double x = 50 * std::cos(angle) + (noise > 0 ? off(random) : 0);
-    const double y = 30 * std::sin(angle) + (noise > 0 ? off(random) : 0);
+    const double x = 50 * std::cos(angle) + off();
+    const double y = 30 * std::sin(angle) + off();
     points += fmt::format("{:.6f} {:.6f}\n", x, y);
   }
   return points;

@@ -19,6 +19,9 @@ namespace {
 // Rows that are looked at first, and then: more tell little more, and take time.
 constexpr std::size_t kFew = 12;
 constexpr std::size_t kMany = 48;
+// Without noise, rows that were not searched with may be off by so many times what the digits leave open: as for one
+// part.
+constexpr double kOverTolerance = 10;
 // No row is farther off than this many standard deviations: one of 48 is once in ten million rolls.
 constexpr double kFarthest = 6;
 // The sum of squares of m rows is below m + 5 sqrt(2 m) + 25 but once in a million rolls.
@@ -145,7 +148,6 @@ RollClues clues_with_noise(const Problem& problem, const Observation& observed, 
 RollClues clues_without_noise(const Problem& problem, const Observation& observed) {
   // A log's rows all have to fit, unless only some were asked for.
   const bool takes_all = problem.felt.is_log() && !problem.tolerance && problem.at.empty();
-  const std::vector<Reading>& rows = takes_all ? observed.rolls : observed.readings;
   Rounding rounding;
   for (const Rounding& one : observed.roundings) {
     rounding = {std::max(rounding.length, one.length), std::max(rounding.turn, one.turn)};
@@ -159,22 +161,26 @@ RollClues clues_without_noise(const Problem& problem, const Observation& observe
   }
   const auto some = [&](std::size_t wanted) {
     Clues clues;
-    clues.fingers = rows.front().fingers();
-    for (const std::size_t row : some_of(rows.size(), wanted)) {
-      clues.clues.push_back(slack);
-      clues.clues.back().length = rows[row].length;
-      clues.clues.back().turn = rows[row].turn;
-    }
+    clues.fingers = observed.readings.front().fingers();
+    const auto add = [&](const Reading& reading, double times) {
+      Clue clue = slack;
+      clue.length = reading.length;
+      clue.turn = reading.turn;
+      clue.turn_slack *= times;
+      clue.turn_slack_by_curvature *= times;
+      clues.clues.push_back(clue);
+    };
+    for (const Reading& reading : observed.readings) add(reading, 1);
     if (observed.facing) {
       clues.facing = observed.facing;
       clues.facing_slack = slack.turn_slack;
       clues.facing_slack_by_curvature = slack.turn_slack_by_curvature;
     }
+    if (!takes_all) return clues;
+    for (const std::size_t row : some_of(observed.rolls.size(), wanted)) add(observed.rolls[row], kOverTolerance);
     return clues;
   };
-  // Every reading that was given is one that is searched with.
-  const std::size_t all = std::numeric_limits<std::size_t>::max();
-  return {some(takes_all ? kFew : all), some(takes_all ? kMany : all)};
+  return {some(kFew), some(kMany)};
 }
 
 }  // namespace

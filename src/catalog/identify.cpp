@@ -223,7 +223,16 @@ std::string fingerprint(const Problem& problem) {
       for (const auto* column : {&rows.u, &rows.psi, &rows.length, &rows.turn, &rows.x, &rows.y}) add_all(*column);
     }
   }
-  for (const Finger& finger : problem.fingers) bytes.number(finger.curvature(0));
+  for (const Finger& finger : problem.fingers) {
+    for (const double place : {0.0, 0.3, 0.7}) bytes.number(finger.curvature(place));
+    for (const char letter : finger.name()) bytes.whole(static_cast<unsigned char>(letter));
+  }
+  for (const Rounding& rounding : problem.felt.roundings) add_all({rounding.length, rounding.turn});
+  if (problem.pose) {
+    const PosePrior& pose = *problem.pose;
+    add_all({pose.mean.x, pose.mean.y, pose.mean.heading, pose.heading_sd, pose.place_sd});
+  }
+  bytes.whole(problem.budget.value_or(0));
   for (const NoiseKind& kind : kNoiseKinds) bytes.number(problem.noise ? (*problem.noise).*kind.sd : -1);
   for (const auto& number : {problem.tolerance, problem.facing}) bytes.number(number.value_or(-1));
   add_all(problem.at);

@@ -188,7 +188,7 @@ std::uint64_t cells_of_two(const Profile<N>& profile, const Course& course, cons
       const float lo = row.a.least[i] - row.turn - row.slack;
       const float hi = row.a.most[i] - row.turn + row.slack;
       for (std::size_t j = 0; j < N; ++j) {
-        const bool both = (lo <= row.b.most[j]) & (hi >= row.b.least[j]);
+        const bool both = lo <= row.b.most[j] && hi >= row.b.least[j];
         goes[j] = static_cast<std::uint8_t>(both ? goes[j] : 0);
       }
     }
