@@ -39,8 +39,9 @@ class Laps {
  public:
   Laps(const Profile<N>& profile, const Course& course) : course_(course) {
     for (std::size_t k = 0; k < kLaps * N; ++k) {
-      const bool is_there = course.closed || k / N == 1;
-      const float lift = (static_cast<float>(k / N) - 1) * course.period_turn;
+      const int lap = static_cast<int>(k / N) - 1;
+      const bool is_there = course.closed || lap == 0;
+      const float lift = static_cast<float>(lap) * course.period_turn;
       least_[k] = is_there ? profile.least[k % N] + lift : kNothingYet;
       most_[k] = is_there ? profile.most[k % N] + lift : -kNothingYet;
     }

@@ -25,7 +25,7 @@ int main() {
   rollfix::PartFigure figure;
   figure.part = &part;
   const std::string svg = rollfix::draw_part(figure).str();
-  std::printf("%zu placements, %zu by the march, %s, a figure of %zu bytes\n", found, marched, identified.verdict.c_str(),
-              svg.size());
+  std::printf("%zu placements, %zu by the march, %s, a figure of %zu bytes\n", found, marched,
+              identified.verdict.c_str(), svg.size());
   return found > 0 && found == marched && !svg.empty() && !identified.parts.empty() ? 0 : 1;
 }
