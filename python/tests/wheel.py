@@ -1,5 +1,6 @@
 """What `pip install .` does for a user, offline: a wheel, installed in a new environment, is asked. Prints what failed."""
 
+import os
 import pathlib
 import subprocess
 import sys
@@ -18,7 +19,9 @@ def main():
         (wheel,) = place.glob("rollfix-*.whl")
         subprocess.run([python, "-m", "pip", "install", "--no-index", str(wheel)], check=True)
         asked = "import rollfix; print(rollfix.__file__, rollfix.Part.gallery('ellipse').locate(1.0, 0.5))"
-        out = subprocess.run([python, "-c", asked], check=True, capture_output=True, text=True, cwd=place).stdout
+        installed = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}  # and no other
+        out = subprocess.run([python, "-c", asked], check=True, capture_output=True, text=True, cwd=place,
+                             env=installed).stdout
         assert "venv" in out and "ambiguous (4)" in out, out
         libraries = subprocess.run(["ldd", *map(str, (place / "venv").rglob("_core*.so"))], check=True, capture_output=True,
                                    text=True).stdout
