@@ -41,6 +41,13 @@ class CatalogFile : public testing::Test {
     for (std::size_t k = 0; k < catalog.size(); ++k) all.push_back(catalog.entry(k).name);
     return all;
   }
+  /// What no command of ours does to a catalog.
+  static void meddle(const char* sql) {
+    sqlite3* database = nullptr;
+    sqlite3_open("parts.db", &database);
+    sqlite3_exec(database, sql, nullptr, nullptr, nullptr);
+    sqlite3_close(database);
+  }
 
   cli::Folder folder_;
 };
@@ -123,19 +130,13 @@ TEST_F(CatalogFile, lean_computes_the_same_parts_when_they_are_asked_for) {
 
 TEST_F(CatalogFile, computes_anew_what_another_version_computed) {
   of({"cam"});
-  sqlite3* database = nullptr;
-  sqlite3_open("parts.db", &database);
-  sqlite3_exec(database, "UPDATE shapes SET format = format - 1", nullptr, nullptr, nullptr);
-  sqlite3_close(database);
+  meddle("UPDATE shapes SET format = format - 1");
   EXPECT_EQ(Catalog("parts.db").part(0).turning().angle(2.5), load_part("gallery:cam").turning().angle(2.5));
 }
 
 TEST_F(CatalogFile, that_was_damaged_says_so) {
   of({"cam"});
-  sqlite3* database = nullptr;
-  sqlite3_open("parts.db", &database);
-  sqlite3_exec(database, "UPDATE shapes SET computed = zeroblob(length(computed))", nullptr, nullptr, nullptr);
-  sqlite3_close(database);
+  meddle("UPDATE shapes SET computed = zeroblob(length(computed))");
   EXPECT_THAT(refusal_of([] { Catalog("parts.db").part(0); }), HasSubstr("checksum"));
   write("text.db", "no catalog at all, but some text that is longer than the header of a file that SQLite would have");
   EXPECT_THAT(refusal_of([] { Catalog("text.db"); }), HasSubstr("is not a catalog"));

@@ -1,7 +1,7 @@
 // Figures of answers with noise: what is probable is drawn where it is, and as probable as it is.
-#include <Eigen/LU>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 
 #include <cmath>
 #include <numbers>

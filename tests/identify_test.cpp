@@ -97,6 +97,15 @@ TEST_F(Identify, tells_parts_that_are_scaled_by_less_than_the_noise_as_such) {
   EXPECT_EQ(identify(alike, problem).verdict, "unique part, 2 places");
 }
 
+TEST_F(Identify, tells_one_outline_from_two_first_points_as_such) {
+  std::ofstream("one.csv") << "0,0\n10,0\n3,8\n";
+  std::ofstream("other.csv") << "10,0\n3,8\n0,0\n";
+  build_catalog("turned.db", {{"one.csv", "one"}, {"other.csv", "other"}});
+  const Catalog turned("turned.db");
+  const Identified found = identify(turned, {turned.part(0), roll_on(turned.part(0), 2, {9, 15})});
+  EXPECT_EQ(found.verdict, "2 congruent parts");
+}
+
 TEST_F(Identify, finds_a_part_that_lies_face_down_or_was_rolled_the_other_way) {
   const Part part = catalog_.part(2);
   Problem problem{part, roll_on(part, 2, {-0.4, -0.9, -1.3})};

@@ -92,7 +92,7 @@ class Catalog:
         threads : int
             0: as many as there are processors.
         lean : bool
-            Keep outlines only and compute parts when they are asked for: a tenth of the size.
+            Keep outlines only and compute parts when they are asked for: a seventh of the size.
         progress : bool, optional
             A bar, by tqdm. Default: where tqdm is installed, stderr is a terminal, and it lasts more than a second.
 

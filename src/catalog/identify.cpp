@@ -25,8 +25,7 @@ namespace {
 constexpr std::size_t kBlock = 1024;
 // What is less probable is not listed.
 constexpr double kLeastPartProbability = 1e-6;
-// Without noise: as far as an outline that is the same is the same. A share of the perimeter, and radians.
-constexpr double kSameLength = 1e-9;
+// Without noise tangents of parts that are the same differ by no more, radians.
 constexpr double kSameTurn = 1e-7;
 
 /// The parts that bounds leave.
@@ -101,8 +100,10 @@ PartWeight weight_of(std::size_t part, const Answer& answer) {
   weight.places = answer.placements.size();
   weight.fits = !answer.placements.empty();
   if (!weight.fits) return weight;
-  weight.start = answer.placements.front().start[0];
   weight.clockwise = answer.placements.front().clockwise;
+  for (const Placement& placement : answer.placements) {
+    if (placement.clockwise == weight.clockwise) weight.starts.push_back(placement.start[0]);
+  }
   if (!answer.weighing) return weight;
   weight.peak = answer.weighing->evidence.peak;
   // Anywhere on the boundary alike: of two fingers, each.
@@ -197,9 +198,9 @@ void compare(const Catalog& catalog, const std::vector<PartWeight>& weights, con
     for (std::size_t j = i + 1; j < listed.size(); ++j) {
       const PartWeight& a = weights[listed[i]];
       const PartWeight& b = weights[listed[j]];
-      if (perimeter(listed[j]) > perimeter(listed[i]) * (1 + most_scale + kSameLength)) break;
+      if (perimeter(listed[j]) > perimeter(listed[i]) * (1 + most_scale + kSameScale)) break;
       if (a.clockwise != b.clockwise) continue;
-      if (!are_congruent(catalog.part(a.part), a.start, catalog.part(b.part), b.start, likeness)) continue;
+      if (!are_congruent(catalog.part(a.part), a.starts, catalog.part(b.part), b.starts, likeness)) continue;
       conclusion.congruent[listed[i]].push_back(b.part);
       conclusion.congruent[listed[j]].push_back(a.part);
     }
@@ -294,22 +295,18 @@ class Survey {
 
 }  // namespace
 
-Likeness likeness_of(const Problem& like, double perimeter) {
+Likeness likeness_of(const Problem& like) {
   Likeness likeness;
-  if (like.felt.is_log()) {
-    likeness.roll = perimeter;
-  } else {
-    for (const Reading& reading : like.felt.readings) {
-      for (const double length : reading.length) likeness.roll = std::max(likeness.roll, std::abs(length));
-    }
+  const std::vector<Reading> rows =
+      like.felt.is_log() ? readings_as_given(*like.felt.log, like.fingers) : like.felt.readings;
+  for (const Reading& reading : rows) {
+    for (const double length : reading.length) likeness.roll = std::max(likeness.roll, std::abs(length));
   }
-  likeness.noisy = like.noise.has_value();
-  likeness.length = kSameLength * perimeter;
   likeness.turn = kSameTurn;
-  if (like.noise) {
-    likeness.length = std::max(likeness.length, like.noise->contact);
-    likeness.turn = std::max(likeness.turn, like.noise->angle);
-  }
+  if (!like.noise) return likeness;
+  likeness.noisy = true;
+  likeness.length = like.noise->contact;
+  likeness.turn = std::max(kSameTurn, like.noise->angle);
   return likeness;
 }
 
@@ -362,7 +359,7 @@ Identified identify(const Catalog& catalog, const Problem& like, const IdentifyO
   found.mirrored = like.mirrored;
   found.samples = like.felt.is_log() ? like.felt.log->rows() : like.felt.readings.size();
   found.roll = fingerprint(like);
-  found.likeness = likeness_of(like, catalog.entry(0).perimeter);
+  found.likeness = likeness_of(like);
   Survey survey(catalog, like, options);
   survey.look(parts, 1, found);
   if (like.noise && !fits_well(found.weights)) survey.look(parts, belief::kMostExcess, found);

@@ -135,7 +135,7 @@ Json weight_json(const PartWeight& weight) {
           {"fits_badly", weight.fits_badly},
           {"undecided", weight.undecided},
           {"places", weight.places},
-          {"start", json_number(weight.start)},
+          {"starts", json_numbers(weight.starts)},
           {"clockwise", weight.clockwise},
           {"peak", json_number(weight.peak)},
           {"volume", json_number(weight.volume)},
@@ -152,7 +152,7 @@ PartWeight weight_from(const Json& json, std::size_t part) {
   weight.fits_badly = json.at("fits_badly").get<bool>();
   weight.undecided = json.at("undecided").get<bool>();
   weight.places = json.at("places").get<std::size_t>();
-  weight.start = json.at("start").get<double>();
+  weight.starts = json.at("starts").get<std::vector<double>>();
   weight.clockwise = json.at("clockwise").get<bool>();
   weight.peak = number_from(json.at("peak"));
   weight.volume = number_from(json.at("volume"));

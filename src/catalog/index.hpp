@@ -9,7 +9,7 @@
 
 namespace rollfix {
 
-/// What all parts of a catalog are asked first, side by side in memory: 704 bytes a part, and its name.
+/// What all parts of a catalog are asked first, side by side in memory: 660 bytes a part, and its name.
 struct Catalog::Index {
   std::vector<Course> courses;
   std::vector<Profile<kCoarseCells>> coarse;

@@ -198,7 +198,7 @@ void add_build(CLI::App& catalog, Command& chosen) {
   command->add_option("--jobs", arguments->jobs, "threads; default as many as there are processors")->type_name("N");
   add_load_arguments(*command, arguments->part);
   add_switch(*command, "--lean", arguments->lean,
-             "keep outlines only and compute parts when they are asked for: a tenth of the size");
+             "keep outlines only and compute parts when they are asked for: a seventh of the size");
   add_switch(*command, "--json", arguments->json, "print JSON (rollfix/catalog/1)");
   command->callback([arguments, &chosen] { chosen = [arguments] { return build_report(*arguments); }; });
 }

@@ -90,7 +90,7 @@ std::string identify_text(const Json& document, const std::string& unit) {
   std::string text = fmt::format("{}\n{} of {} were searched, bounds rule the others out",
                                  document["verdict"].get<std::string>(), catalog["searched"].get<std::size_t>(),
                                  counted(catalog["parts"].get<std::size_t>(), "part", "parts"));
-  if (!document["rest"].is_null())
+  if (!document["rest"].is_null() && !document["parts"].empty())
     text += fmt::format("; probability of all that is not listed {}", rough(document["rest"].get<double>()));
   text += "\n";
   if (!document["parts"].empty()) text += "\n" + parts_table(document, unit);

@@ -28,10 +28,10 @@ struct PartWeight {
   std::string verdict;   // of locate
   bool fits = false;     // there is a placement, and the rows don't contradict it
   bool fits_badly = false;
-  bool undecided = false;  // its search is incomplete
-  std::size_t places = 0;  // that remain
-  double start = 0;        // of the first of them, finger a's
-  bool clockwise = false;  // it
+  bool undecided = false;        // its search is incomplete
+  std::size_t places = 0;        // that remain
+  bool clockwise = false;        // the first of them is, and ...
+  std::vector<double> starts{};  // ... where those start that go that way, finger a's
   // With noise, of the whole roll:
   double peak = -std::numeric_limits<double>::infinity();  // as Evidence has it, ...
   double volume = 0;  // ... of first contacts that are anywhere on the boundary alike
@@ -56,12 +56,12 @@ struct Conclusion {
 
 /// How far two parts may be apart that can't be told from each other by a roll.
 struct Likeness {
-  double length = 0;  // of places
+  double length = 0;  // of places, besides what parts are as large as
   double turn = 0;    // of tangents, radians
   double roll = 0;    // the roll's length
   bool noisy = false;
 };
-Likeness likeness_of(const Problem& like, double perimeter);
+Likeness likeness_of(const Problem& like);
 
 /// Weights of parts of this catalog as one verdict. REQUIRES none that were looked at widely where some fits well.
 Conclusion conclude(const Catalog& catalog, const std::vector<PartWeight>& weights, const Likeness& likeness);
