@@ -28,6 +28,28 @@ class Bounds : public testing::Test {
     return lengths;
   }
 
+  /// Over 60 % of the boundary. `share`: of the perimeter, and radians.
+  Problem noisy_roll_on(const Part& part, const Noise& share) {
+    std::normal_distribution<double> normal;
+    const double P = part.perimeter();
+    const double s = part.closed() ? uniform(0, P) : uniform(0, 0.4 * P);
+    std::vector<double> lengths;
+    for (int row = 1; row <= 30; ++row) lengths.push_back(0.02 * row * P);
+    Problem problem{part, roll_on(part, s, lengths)};
+    problem.noise = Noise{share.contact * P, share.angle};
+    for (Reading& reading : problem.felt.readings) {
+      reading.length[0] += problem.noise->contact * normal(random_);
+      reading.turn += problem.noise->angle * normal(random_);
+    }
+    return problem;
+  }
+
+  static std::vector<std::pair<std::size_t, double>> probabilities_of(const Identified& found) {
+    std::vector<std::pair<std::size_t, double>> all;
+    for (const PartFound& part : found.parts) all.emplace_back(part.weight.part, part.probability);
+    return all;
+  }
+
   void expect_same(const Problem& problem) {
     IdentifyOptions without;
     without.use_index = false;
@@ -90,21 +112,34 @@ TEST_F(Bounds, lose_nothing_of_two_fingers) {
 }
 
 TEST_F(Bounds, keep_the_part_that_a_noisy_roll_was_on) {
-  std::normal_distribution<double> normal;
   for (int k = 0; k < test_count(12); ++k) {
     const std::size_t number = std::uniform_int_distribution<std::size_t>(10, catalog_.size() - 1)(random_);
-    const Part part = catalog_.part(number);
-    const double s = uniform(0, part.perimeter());
-    std::vector<double> lengths;
-    for (int row = 1; row <= 30; ++row) lengths.push_back(0.02 * row * part.perimeter());
-    Problem problem{part, roll_on(part, s, lengths)};
-    problem.noise = Noise{1e-3 * part.perimeter(), 0.01};
-    for (Reading& reading : problem.felt.readings) {
-      reading.length[0] += problem.noise->contact * normal(random_);
-      reading.turn += problem.noise->angle * normal(random_);
-    }
+    const Problem problem = noisy_roll_on(catalog_.part(number), {1e-3, 0.01});
     EXPECT_THAT(names_of(catalog_, identify(catalog_, problem)), testing::Contains(catalog_.entry(number).name));
   }
+}
+
+TEST_F(Bounds, lose_nothing_that_is_probable_of_noisy_rolls) {
+  for (int k = 0; k < test_count(8); ++k) {
+    Problem problem = noisy_roll_on(any_part(), {std::pow(10, uniform(-4, -2.5)), std::pow(10, uniform(-3, -1))});
+    problem.either_way = k % 4 == 1;
+    problem.mirrored = k % 4 == 2;
+    IdentifyOptions without;
+    without.use_index = false;
+    EXPECT_EQ(probabilities_of(identify(catalog_, problem)), probabilities_of(identify(catalog_, problem, without)));
+  }
+}
+
+TEST_F(Bounds, are_no_help_where_even_the_best_part_fits_badly) {
+  Problem problem = noisy_roll_on(any_part(), {1e-3, 0.01});
+  problem.noise->angle /= 3;
+  problem.noise->contact /= 3;
+  IdentifyOptions without;
+  without.use_index = false;
+  const Identified all = identify(catalog_, problem, without);
+  const Identified quick = identify(catalog_, problem);
+  EXPECT_EQ(quick.verdict, all.verdict);
+  EXPECT_EQ(names_of(catalog_, quick), names_of(catalog_, all));
 }
 
 TEST(Profile, holds_theta_wherever_it_is_looked_at) {

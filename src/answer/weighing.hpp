@@ -19,6 +19,7 @@ struct Supposed {
   double scale_sd = 0;                                         // of all lengths by one factor
   std::size_t rows = std::numeric_limits<std::size_t>::max();  // no more than about so many are looked at
   bool glance = false;                                         // see BeliefOptions
+  std::optional<std::size_t> nodes{};                          // likewise
 };
 /// Nothing without noise.
 std::optional<Belief> believe(const Problem& problem, const Observation& observed, const Supposed& supposed = {});

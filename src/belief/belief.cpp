@@ -153,6 +153,8 @@ const Evidence& Belief::evidence() {
   return state_->outcome.evidence;
 }
 
+bool Belief::is_hopeless(const Rival& rival) { return state_->posterior->is_hopeless(rival); }
+
 double Belief::tolerance(const std::vector<Reading>& readings) {
   state_->settle();
   if (!state_->posterior->has_begun()) return std::numbers::pi;

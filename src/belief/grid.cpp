@@ -91,7 +91,7 @@ Grid::Grid(const TiltedBoundary& boundary, const ErrorModel& errors, const Belie
   for (const TiltedArc& arc : boundary.arcs()) length_ += arc.hi() - arc.lo();
 }
 
-const GridPoint& Grid::best() const { return points_[best_arc_][best_index_]; }
+const GridPoint& Grid::best() const { return *points_[best_arc_][best_index_]; }
 
 GridPoint Grid::make(const TiltedArc& arc, double w) const {
   const RollFilter fresh(arc, boundary_->tilt(), w, errors_.start(), centres_);
@@ -194,7 +194,7 @@ void Grid::lay_out(const Nodes& nodes) {
     double last = -std::numeric_limits<double>::infinity();
     for (const double w : ws) {
       if (w - last <= kLeastCell * length_) continue;
-      points_.back().push_back(make(arc, w));
+      points_.back().push_back(std::make_unique<GridPoint>(make(arc, w)));
       last = w;
     }
     count_ += points_.back().size();
@@ -209,11 +209,11 @@ void Grid::refresh_all(const Nodes& nodes) {
   };
   std::vector<Candidate> candidates;
   candidates.reserve(count_);
-  for (std::vector<GridPoint>& arc : points_) {
-    for (GridPoint& point : arc) {
-      RollFilter filter = point.filter;
+  for (const GridPoints& arc : points_) {
+    for (const std::unique_ptr<GridPoint>& point : arc) {
+      RollFilter filter = point->filter;
       for (const Node& node : trial) filter.update(node, outliers_);
-      candidates.push_back({filter.deviance(), &point});
+      candidates.push_back({filter.deviance(), point.get()});
     }
   }
   std::sort(candidates.begin(), candidates.end(),
@@ -230,7 +230,7 @@ void Grid::measure_fit(const Nodes& nodes) {
   const GridPoint* best = nullptr;
   for (std::size_t a = 0; a < points_.size(); ++a) {
     for (std::size_t k = 0; k < points_[a].size(); ++k) {
-      const GridPoint& point = points_[a][k];
+      const GridPoint& point = *points_[a][k];
       if (is_stale(point, nodes)) continue;
       if (best != nullptr && point.score.log_likelihood() <= best->score.log_likelihood()) continue;
       best = &point;
@@ -253,9 +253,13 @@ void Grid::measure_fit(const Nodes& nodes) {
     add_pose_prior(as_told);
     fit_.prior_sigmas = std::max(fit_.prior_sigmas, std::sqrt(as_told.score.cost));
   }
+  best_mass_ = log_mass(*best);
+}
+
+double Grid::log_mass(const GridPoint& point) const {
   // A peak is about one standard deviation wide, and no wider than the boundary.
-  const double width = 1 / (std::sqrt(best->score.information) / fit_.widened + 1 / length_);
-  best_mass_ = best_ / square(fit_.widened) + log_prior(best->now.place().slope, 1) + std::log(width);
+  const double width = 1 / (std::sqrt(point.score.information) / fit_.widened + 1 / length_);
+  return point.score.log_likelihood() / square(fit_.widened) + log_prior(point.now.place().slope, 1) + std::log(width);
 }
 
 bool Grid::is_even(const GridPoint& lo, const GridPoint& hi, double length) const {
@@ -290,11 +294,11 @@ bool Grid::refine(const Nodes& nodes) {
     const TiltedArc& arc = boundary_->arcs()[a];
     const double least = kLeastCell * (arc.hi() - arc.lo());
     const double narrow = length_ / kMostCells;
-    std::vector<GridPoint>& points = points_[a];
+    const GridPoints& points = points_[a];
     std::vector<double> added;
     for (std::size_t k = 0; k + 1 < points.size(); ++k) {
-      GridPoint& lo = points[k];
-      GridPoint& hi = points[k + 1];
+      GridPoint& lo = *points[k];
+      GridPoint& hi = *points[k + 1];
       GridCell cell{a, k, lo.filter.w(), hi.filter.w(), {lo.filter.place().s, hi.filter.place().s}};
       const double h = cell.hi - cell.lo;
       const double log_width = log_prior(cell.s.width(), h) + std::log(h);
@@ -328,14 +332,14 @@ bool Grid::refine(const Nodes& nodes) {
 
 bool Grid::split(std::size_t arc, const std::vector<double>& added, const Nodes& nodes) {
   if (added.empty()) return false;
-  std::vector<GridPoint>& points = points_[arc];
-  std::vector<GridPoint> merged;
+  GridPoints& points = points_[arc];
+  GridPoints merged;
   merged.reserve(points.size() + added.size());
   std::size_t next = 0;
-  for (GridPoint& point : points) {
-    while (next < added.size() && added[next] < point.filter.w()) {
-      merged.push_back(make(boundary_->arcs()[arc], added[next++]));
-      refresh(merged.back(), nodes);
+  for (std::unique_ptr<GridPoint>& point : points) {
+    while (next < added.size() && added[next] < point->filter.w()) {
+      merged.push_back(std::make_unique<GridPoint>(make(boundary_->arcs()[arc], added[next++])));
+      refresh(*merged.back(), nodes);
     }
     merged.push_back(std::move(point));
   }
@@ -352,8 +356,8 @@ void Grid::weigh() {
       cell.log_density = -std::numeric_limits<double>::infinity();
       continue;
     }
-    const Score& lo = points_[cell.arc][cell.first].score;
-    const Score& hi = points_[cell.arc][cell.first + 1].score;
+    const Score& lo = points_[cell.arc][cell.first]->score;
+    const Score& hi = points_[cell.arc][cell.first + 1]->score;
     const double h = cell.hi - cell.lo;
     const double at_lo = (lo.log_likelihood() - best_) / heat;
     const double at_hi = (hi.log_likelihood() - best_) / heat;
@@ -381,7 +385,7 @@ void Grid::measure_scale() {
   for (const GridCell& cell : cells_) {
     if (!cell.fine) continue;
     for (const std::size_t end : {cell.first, cell.first + 1}) {
-      const RollFilter& filter = points_[cell.arc][end].now;
+      const RollFilter& filter = points_[cell.arc][end]->now;
       const double scale = filter.errors()[2];
       own += 0.5 * cell.share * filter.covariance()(2, 2);
       mean += 0.5 * cell.share * scale;
@@ -405,8 +409,8 @@ void Grid::settle(const Nodes& nodes) {
   } else {
     for (const GridCell& cell : cells_) {
       if (!cell.fine) continue;
-      refresh(points_[cell.arc][cell.first], nodes);
-      refresh(points_[cell.arc][cell.first + 1], nodes);
+      refresh(*points_[cell.arc][cell.first], nodes);
+      refresh(*points_[cell.arc][cell.first + 1], nodes);
     }
   }
   for (int round = 0; round < kMostRounds; ++round) {
@@ -416,6 +420,39 @@ void Grid::settle(const Nodes& nodes) {
   measure_fit(nodes);
   weigh();
   measure_scale();
+}
+
+bool Grid::holds_something(const Nodes& nodes, const Rival& rival) const {
+  const auto is_fine = [](const GridCell& cell) { return cell.fine; };
+  if (std::any_of(cells_.begin(), cells_.end(), is_fine)) return true;
+  for (const GridPoints& arc : points_) {
+    for (const std::unique_ptr<GridPoint>& point : arc) {
+      if (!is_stale(*point, nodes) && log_mass(*point) > rival.log_evidence - kNegligible) return true;
+    }
+  }
+  return false;
+}
+
+bool Grid::is_hopeless(const Nodes& nodes, const Rival& rival) {
+  const double heat = square(rival.widened);
+  fit_.widened = rival.widened;
+  best_mass_ = rival.log_evidence;
+  // A point matters whose likelihood would if it were that all along the boundary.
+  const double all = std::log(places_.perimeter + corner_length_ * length_);
+  const double matters = 2 * heat * (kNegligible - rival.log_evidence + all);
+  limit_ = square(std::sqrt(std::max(0.0, matters)) + kBeyondMatter * rival.widened);
+  farthest_ = limit_;
+  lay_out(nodes);
+  refresh_all(nodes);
+  bool holds = holds_something(nodes, rival);
+  for (int round = 0; !holds && round < kMostRounds; ++round) {
+    const bool goes_on = refine(nodes);
+    holds = holds_something(nodes, rival);
+    if (!goes_on) break;
+  }
+  points_.clear();
+  cells_.clear();
+  return !holds;
 }
 
 }  // namespace rollfix::belief

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -135,6 +136,9 @@ struct GridPoint {
   Score score;
 };
 
+/// They are large, and others come between them.
+using GridPoints = std::vector<std::unique_ptr<GridPoint>>;
+
 /// What lies between two neighbouring points.
 struct GridCell {
   std::size_t arc = 0;
@@ -164,8 +168,11 @@ class Grid {
   /// Brings all up to date with the samples.
   void settle(const Nodes& nodes);
 
+  /// Whether all of it holds next to nothing beside a rival, for all samples so far. Leaves no points.
+  bool is_hopeless(const Nodes& nodes, const Rival& rival);
+
   const std::vector<GridCell>& cells() const { return cells_; }
-  const GridPoint& point(std::size_t arc, std::size_t index) const { return points_[arc][index]; }
+  const GridPoint& point(std::size_t arc, std::size_t index) const { return *points_[arc][index]; }
   /// How well the likeliest point fits. All probabilities are as with Fit::widened times the noise.
   const Fit& fit() const { return fit_; }
   Evidence evidence() const { return {best_, log_total_}; }
@@ -193,6 +200,9 @@ class Grid {
   void measure_fit(const Nodes& nodes);
   void add_pose_prior(GridPoint& point) const;
   void lower_limit(double deviance, const Nodes& nodes);
+  bool holds_something(const Nodes& nodes, const Rival& rival) const;
+  /// About the logarithm of the mass around a point.
+  double log_mass(const GridPoint& point) const;
   /// Of the density by w, between two places that far apart.
   double log_prior(double length, double h) const;
 
@@ -214,9 +224,9 @@ class Grid {
   double log_total_ = 0;  // of the density's integral, as a share of the best point's
   double best_mass_ = 0;  // about the logarithm of the mass around it
   std::size_t laid_out_at_ = 0;
-  std::size_t generation_ = 0;                  // of the nodes that were laid out for
-  std::size_t count_ = 0;                       // of points
-  std::vector<std::vector<GridPoint>> points_;  // of each arc, by w
+  std::size_t generation_ = 0;      // of the nodes that were laid out for
+  std::size_t count_ = 0;           // of points
+  std::vector<GridPoints> points_;  // of each arc, by w
   std::vector<GridCell> cells_;
 };
 

@@ -30,7 +30,7 @@ struct OneFingersGrid {
         has_first(first.has_value()),
         centres(model(part, first)),
         boundary(part, tilt(part, errors.row(curvature)), accuracy(part, errors.row(curvature))),
-        nodes(errors, boundary.tilt(), options.robust, most_nodes(part)),
+        nodes(errors, boundary.tilt(), options.robust, options.nodes.value_or(most_nodes(part))),
         grid(boundary, errors, options, part.boundary(), corner_length(curvature, part),
              has_first ? &centres : nullptr) {}
   OneFingersGrid(const OneFingersGrid&) = delete;
@@ -104,6 +104,10 @@ class OneFingersPosterior : public Posterior {
     const ModeQuestion question{&state_->boundary, last_.reading, state_->errors.row(last_.finger_curvature[0]),
                                 part_.boundary()};
     return {modes_of(state_->grid, question), state_->grid.fit(), state_->grid.evidence(), state_->grid.rest()};
+  }
+
+  bool is_hopeless(const Rival& rival) override {
+    return has_begun() && state_->grid.is_hopeless(state_->nodes, rival);
   }
 
   double credible_length(const std::vector<PerFinger<Interval>>& /*intervals*/) const override {

@@ -182,6 +182,9 @@ class Posterior {
   /// Takes all samples so far. What follows is not asked before.
   virtual Outcome settle() = 0;
 
+  /// See Belief. Not after settle().
+  virtual bool is_hopeless(const Rival& /*rival*/) { return false; }
+
   /// As much of the boundary as holds 95 %, length; `intervals`: of the modes that count.
   virtual double credible_length(const std::vector<PerFinger<Interval>>& intervals) const = 0;
   /// Of f of these readings, at these modes, the largest.

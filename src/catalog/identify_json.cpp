@@ -90,7 +90,7 @@ Json document_of(const Catalog& catalog, Gathered search) {
   std::vector<PartWeight> weights;
   for (const Line& line : search.lines) weights.push_back(line.weight);
   if (fits_well(weights)) drop_widely(search, weights);
-  const Conclusion conclusion = conclude(catalog, weights, search.likeness);
+  const Conclusion conclusion = conclude(catalog, weights, search.searched + search.searched_widely, search.likeness);
   Json document = {
       {"schema", kSchema},
       {"status", name_of(conclusion.status)},

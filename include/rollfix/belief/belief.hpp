@@ -37,11 +37,13 @@ struct BeliefOptions {
   static constexpr double kMostAngle = 0.5;
 
   Noise noise;
-  std::optional<Prior> prior{};     // none: every place alike
-  bool robust = false;              // a stray sample counts no more than its share
-  bool bare = false;                // readings whose first contact is exact and that do not drift
-  double scale_sd = 0;              // of all lengths by one factor, besides what slip and radius make of them
-  bool glance = false;              // of two fingers: where nothing fits there are no modes, and Fit says no more
+  std::optional<Prior> prior{};  // none: every place alike
+  bool robust = false;           // a stray sample counts no more than its share
+  bool bare = false;             // readings whose first contact is exact and that do not drift
+  double scale_sd = 0;           // of all lengths by one factor, besides what slip and radius make of them
+  bool glance = false;           // of two fingers: where nothing fits there are no modes, and Fit says no more
+  std::optional<std::size_t>
+      nodes{};                      // one finger's samples are joined to so many at most; none: as few as lose nothing
   std::optional<PosePrior> pose{};  // for logs of u and psi and known fingers; places take x and y in the log as well
 };
 
@@ -107,6 +109,12 @@ struct Evidence {
 
   /// As with so many times the noise: see Fit::widened.
   double with(double widened) const { return peak / (widened * widened) + volume; }
+};
+
+/// What another part makes of the same samples.
+struct Rival {
+  double log_evidence = 0;  // Evidence::with(widened)
+  double widened = 1;       // as its Fit has it
 };
 
 /// What is wrong with a log, or with what was said of it, where its rows fit badly.
@@ -186,6 +194,10 @@ class Belief {
   const Fit& fit();
   double excess();  // of it
   const Evidence& evidence();
+
+  /// Next to a rival's, the evidence of this part is nothing: below exp(-25) of it, with the rival's noise. Takes far
+  /// less time than modes(), before which it is asked. Of two fingers nothing is found out, and it is false.
+  bool is_hopeless(const Rival& rival);
 
   /// How far f can be from 0 at what remains, radians: a tolerance for a search with these readings that lets all of it
   /// pass. Of one finger that of the last sample, whose f is the least certain.

@@ -63,8 +63,10 @@ struct Likeness {
 };
 Likeness likeness_of(const Problem& like);
 
-/// Weights of parts of this catalog as one verdict. REQUIRES none that were looked at widely where some fits well.
-Conclusion conclude(const Catalog& catalog, const std::vector<PartWeight>& weights, const Likeness& likeness);
+/// Weights of parts of this catalog as one verdict; so many parts were searched. REQUIRES none that were looked at
+/// widely where some fits well.
+Conclusion conclude(const Catalog& catalog, const std::vector<PartWeight>& weights, std::size_t searched,
+                    const Likeness& likeness);
 
 /// A part that the roll may have been on.
 struct PartFound {

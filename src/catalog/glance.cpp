@@ -1,0 +1,105 @@
+#include "glance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "answer/crew.hpp"
+#include "answer/either_way.hpp"
+#include "answer/mirror.hpp"
+#include "answer/observation.hpp"
+#include "answer/weighing.hpp"
+#include "rollfix/error.hpp"
+#include "weights.hpp"
+
+namespace rollfix {
+namespace {
+
+// Rows are joined to so many at most, so that a part takes a tenth of the time.
+constexpr std::size_t kNodes = 32;
+// A part is left out that has less than exp(-this) of the likeliest one's weight: joined rows tell a little less.
+constexpr double kHopeless = 25;
+
+/// What a part makes of the joined rows; nothing where it is hopeless next to the likeliest so far.
+struct Glance {
+  std::optional<PartWeight> weight;
+  bool refused = false;
+};
+
+/// The likeliest part so far, as others are held against it.
+std::optional<Rival> rival_of(const Catalog& catalog, const std::vector<PartWeight>& weights, std::size_t part) {
+  if (weights.empty()) return std::nullopt;
+  const PartWeight& best = best_of(weights);
+  const double log_evidence = log_weight(catalog, best, best.widened) - std::log(catalog.entry(part).count) +
+                              std::log(catalog.entry(part).perimeter);
+  if (!std::isfinite(log_evidence)) return std::nullopt;
+  return Rival{log_evidence, best.widened};
+}
+
+Glance glance_at(const Catalog& catalog, const std::vector<Problem>& ways, std::size_t part,
+                 const std::vector<PartWeight>& weights) {
+  const std::optional<Rival> rival = rival_of(catalog, weights, part);
+  Glance glance;
+  for (Problem way : ways) {
+    way.part = catalog.part(part);
+    Supposed supposed;
+    supposed.nodes = kNodes;
+    std::optional<Belief> belief;
+    try {
+      belief = believe(way, observe(way), supposed);
+    } catch (const InputError&) {  // the solver says why
+      glance.refused = true;
+      continue;
+    }
+    if (rival && belief->is_hopeless(*rival)) continue;
+    PartWeight weight;
+    weight.part = part;
+    weight.peak = belief->evidence().peak;
+    weight.volume = belief->evidence().volume - std::log(way.part.perimeter());
+    weight.widened = belief->fit().widened;
+    weight.excess = belief->fit().excess;
+    if (!glance.weight || glance.weight->peak < weight.peak) glance.weight = weight;
+  }
+  return glance;
+}
+
+}  // namespace
+
+bool can_glance(const Problem& like) {
+  const std::size_t fingers = like.felt.is_log()           ? like.felt.log->fingers.size()
+                              : like.felt.readings.empty() ? 1
+                                                           : like.felt.readings.front().fingers();
+  return like.noise && !like.robust && fingers == 1;
+}
+
+std::vector<std::size_t> worth_a_look(const Catalog& catalog, const Problem& like,
+                                      const std::vector<std::size_t>& parts, const IdentifyOptions& options) {
+  std::vector<Problem> ways{like.mirrored ? in_mirror(like) : like};
+  if (like.either_way) ways.push_back(counted_clockwise(ways.front()));
+  std::vector<Glance> glances(parts.size());
+  std::vector<PartWeight> weights;
+  // Those before tell what the others are held against: the same ones with however many threads.
+  for (std::size_t begin = 0, end = 1; begin < parts.size(); begin = end, end = 2 * end) {
+    end = std::min(end, parts.size());
+    Crew crew(end - begin, 1);
+    crew.run(options.threads, options.go_on, [&](std::size_t lo, std::size_t hi) {
+      for (std::size_t k = begin + lo; k < begin + hi; ++k) glances[k] = glance_at(catalog, ways, parts[k], weights);
+    });
+    crew.require_done();
+    for (std::size_t k = begin; k < end; ++k) {
+      if (glances[k].weight) weights.push_back(*glances[k].weight);
+    }
+  }
+  const double widened = weights.empty() ? 1 : best_of(weights).widened;
+  const double most = weights.empty() ? 0 : log_weight(catalog, best_of(weights), widened);
+  std::vector<std::size_t> left;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const Glance& one = glances[k];
+    const bool matters = one.weight && log_weight(catalog, *one.weight, widened) > most - kHopeless;
+    if (matters || one.refused) left.push_back(parts[k]);
+  }
+  return left;
+}
+
+}  // namespace rollfix
