@@ -12,6 +12,7 @@
 #include "draw/plot.hpp"
 #include "draw_helpers.hpp"
 #include "noisy_pairs.hpp"
+#include "random.hpp"
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/contact/dead_reckoning.hpp"
 #include "rollfix/contact/rolling.hpp"

@@ -8,10 +8,13 @@
 #include "files/documents/documents.hpp"
 #include "rollfix/answer/next_roll.hpp"
 #include "rollfix/answer/solve.hpp"
+#include "rollfix/arguments/catalog_argument.hpp"
 #include "rollfix/arguments/finger_argument.hpp"
 #include "rollfix/arguments/output_argument.hpp"
 #include "rollfix/arguments/roll_arguments.hpp"
 #include "rollfix/arguments/typed_number.hpp"
+#include "rollfix/catalog/documents.hpp"
+#include "rollfix/catalog/next_roll.hpp"
 #include "rollfix/commands.hpp"
 #include "rollfix/draw/advice_figure.hpp"
 #include "rollfix/error.hpp"
@@ -27,6 +30,8 @@ constexpr const char* kAdviseExamples = R"(Examples (wing.csv and wing-roll.csv:
   rollfix advise gallery:cam --reading 0.4,20.1deg
   rollfix advise gallery:limacon --reading 0.9,30.15deg --finger disk,r=0.1 --travel -1,1.5 -o next.svg
   rollfix advise wing.csv --log wing-roll.csv --finger disk,r=10 --noise contact=0.05,angle=0.2deg --json
+Which part is it? Of a catalog, what tells apart the parts that remain:
+  rollfix advise --catalog parts.db --log roll.csv --finger disk,r=10 --noise contact=0.05,angle=0.2deg
 )";
 
 // Placements in the table.
@@ -34,6 +39,7 @@ constexpr std::size_t kMostContenders = 20;
 
 struct AdviseArguments {
   RollArguments roll;
+  std::string catalog;
   std::string travel;
   bool json = false;
   OutputArgument output;
@@ -57,15 +63,15 @@ Interval read_travel(const std::string& text, const std::string& unit) {
   return travel;
 }
 
-std::string headline(const NextRoll& outcome) {
-  const std::string verdict = outcome.answer.verdict.text();
-  if (!outcome.advice) return fmt::format("{}: {}", verdict, outcome.why);
-  if (!outcome.advice->helps) return fmt::format("{}: no roll will tell them apart: {}", verdict, outcome.why);
-  const Prospect& advised = outcome.advice->advised();
-  const int decimals = decimals_for(outcome.answer.part.perimeter());
+std::string headline(const std::string& verdict, const std::optional<Advice>& advice, const std::string& why,
+                     const Part& part) {
+  if (!advice) return fmt::format("{}: {}", verdict, why);
+  if (!advice->helps) return fmt::format("{}: no roll will tell them apart: {}", verdict, why);
+  const Prospect& advised = advice->advised();
   return fmt::format("{}: roll on {} by {}{}: {:.2f} placements are expected to remain, {:.2f} of {:.2f} bits gained",
-                     verdict, advised.length < 0 ? "backwards" : "forwards", fixed(std::abs(advised.length), decimals),
-                     behind(outcome.answer.part.unit()), advised.placements, advised.bits, outcome.advice->bits_wanted);
+                     verdict, advised.length < 0 ? "backwards" : "forwards",
+                     fixed(std::abs(advised.length), decimals_for(part.perimeter())), behind(part.unit()),
+                     advised.placements, advised.bits, advice->bits_wanted);
 }
 
 /// What the contenders of one placement have in common.
@@ -85,41 +91,94 @@ struct Expected {
 
 std::string span_of(const std::string& lo, const std::string& hi) { return lo == hi ? lo : lo + " to " + hi; }
 
-std::string advise_text(const NextRoll& outcome) {
-  std::string text = headline(outcome) + "\n";
-  if (!outcome.helps()) return text;
-  const int decimals = decimals_for(outcome.answer.part.perimeter());
+/// A row of the table: of a placement, which may be several contenders where it is wide.
+struct Row {
+  std::string name;
+  Expected expected;
+};
+
+std::string table_of(const std::string& first, const std::vector<Row>& rows, const Part& part) {
+  const int decimals = decimals_for(part.perimeter());
   Table table;
-  table.add_column("", Table::Align::left);
-  table.add_column(title_in("contact now", outcome.answer.part.unit()));
+  table.add_column(first, Table::Align::left);
+  table.add_column(title_in("contact now", part.unit()));
   for (const char* title : {"probability", "turn to expect [deg]"}) table.add_column(title);
-  const std::vector<Contender>& all = outcome.contenders;
-  std::size_t placements = 0;
-  for (std::size_t k = 0; k < all.size();) {
-    // A wide placement is several contenders: one row.
-    Expected row;
-    const std::size_t label = all[k].label;
-    for (; k < all.size() && all[k].label == label; ++k) row.add(all[k], outcome.turn_ahead(all[k]));
-    if (++placements <= kMostContenders) {
-      table.add_row({fmt::format("a{}", label), span_of(fixed(row.first, decimals), fixed(row.last, decimals)),
-                     fmt::format("{:.4f}", row.probability), span_of(degrees(row.turn.lo), degrees(row.turn.hi))});
-    }
+  for (std::size_t k = 0; k < std::min(rows.size(), kMostContenders); ++k) {
+    const Expected& row = rows[k].expected;
+    table.add_row({rows[k].name, span_of(fixed(row.first, decimals), fixed(row.last, decimals)),
+                   fmt::format("{:.4f}", row.probability), span_of(degrees(row.turn.lo), degrees(row.turn.hi))});
   }
-  text += "\n" + table.str();
-  if (placements > kMostContenders) {
-    text += fmt::format("... and {} more; --json lists them all\n", placements - kMostContenders);
-  }
+  std::string text = "\n" + table.str();
+  if (rows.size() > kMostContenders)
+    text += fmt::format("... and {} more; --json lists them all\n", rows.size() - kMostContenders);
   return text;
+}
+
+std::string advise_text(const NextRoll& outcome) {
+  const Part& part = outcome.answer.part;
+  const std::string text = headline(outcome.answer.verdict.text(), outcome.advice, outcome.why, part) + "\n";
+  if (!outcome.helps()) return text;
+  std::vector<Row> rows;
+  for (const Contender& contender : outcome.contenders) {
+    const std::string name = fmt::format("a{}", contender.label);
+    if (rows.empty() || rows.back().name != name) rows.push_back({name, {}});
+    rows.back().expected.add(contender, outcome.turn_ahead(contender));
+  }
+  return text + table_of("", rows, part);
+}
+
+std::string advise_text(const Catalog& catalog, const Identified& found, const NextRollOfParts& next,
+                        const Part& any_part) {
+  const std::string text = headline(found.verdict, next.advice, next.why, any_part) + "\n";
+  if (!next.helps()) return text;
+  std::vector<Row> rows;
+  std::optional<std::size_t> last;
+  for (const NextRollOfParts::Place& place : next.places) {
+    if (last != place.contender.label) rows.push_back({catalog.entry(found.parts[place.part].weight.part).name, {}});
+    last = place.contender.label;
+    rows.back().expected.add(place.contender, place.turn_ahead);
+  }
+  return text + table_of("part", rows, any_part);
+}
+
+/// What is drawn of an advice, if there is one.
+void add_advice_figure(const AdviseArguments& arguments, const std::optional<Advice>& advice, const std::string& why,
+                       const std::string& name, const std::string& verdict, Report& report) {
+  if (arguments.output.file.empty()) return;
+  if (!advice) {  // an answer all the same
+    report.notes.push_back(fmt::format("-o {}: nothing is drawn: {}", arguments.output.file, why));
+    return;
+  }
+  add_figure(arguments.output, draw_advice({*advice, name, verdict}), report);
+}
+
+Report advise_on_catalog(const AdviseArguments& arguments) {
+  if (!arguments.roll.prior.empty()) throw InputError("--prior: is about a place on one part: leave it out");
+  const Catalog catalog(arguments.catalog);
+  const Part any_part = any_part_of(catalog);
+  Report report;
+  const Problem problem = read_problem(arguments.roll, any_part, report.notes);
+  std::optional<Interval> travel;
+  if (!arguments.travel.empty()) travel = read_travel(arguments.travel, any_part.unit());
+  const Identified found = identify(catalog, problem);
+  const NextRollOfParts next = next_roll(found, travel);
+  report.exit_code = found.status == Status::incomplete ? ExitCode::incomplete
+                     : found.parts.empty()              ? ExitCode::nothing_fits
+                                                        : ExitCode::fits;
+  report.data = arguments.json ? format_next_roll(catalog, found, next) : advise_text(catalog, found, next, any_part);
+  add_advice_figure(arguments, next.advice, next.why, catalog.path(), found.verdict, report);
+  return report;
 }
 
 Report advise_report(const AdviseArguments& arguments) {
   const RollArguments& roll = arguments.roll;
-  require_part(roll.part);
+  require_part_or_catalog("advise", roll.part, arguments.catalog);
   if (roll.readings.empty() == roll.logs.empty()) {
     throw InputError("advise: expected --reading LENGTH,TURN or --log FILE of the roll so far");
   }
   counts_clockwise(roll.direction);  // one way or the other, not either
   require_figure_output(arguments.output, arguments.json);
+  if (!arguments.catalog.empty()) return advise_on_catalog(arguments);
   Report report;
   const Problem problem = read_problem(roll, report.notes);
   std::optional<Interval> travel;
@@ -131,14 +190,8 @@ Report advise_report(const AdviseArguments& arguments) {
   add_notes(outcome.answer, report);
   report.exit_code = exit_code_of(outcome.answer);
   report.data = arguments.json ? json_text(next_roll_json(outcome)) : advise_text(outcome);
-  if (!arguments.output.file.empty()) {
-    if (!outcome.advice) {  // an answer all the same
-      report.notes.push_back(fmt::format("-o {}: nothing is drawn: {}", arguments.output.file, outcome.why));
-      return report;
-    }
-    add_figure(arguments.output,
-               draw_advice({*outcome.advice, outcome.answer.part.name(), outcome.answer.verdict.text()}), report);
-  }
+  add_advice_figure(arguments, outcome.advice, outcome.why, outcome.answer.part.name(), outcome.answer.verdict.text(),
+                    report);
   return report;
 }
 
@@ -150,6 +203,7 @@ void add_advise_command(CLI::App& program, Command& chosen) {
       program.add_subcommand("advise", "The next roll: which one tells the remaining placements apart.");
   command->footer(kAdviseExamples);
   add_roll_arguments(*command, arguments->roll);
+  add_catalog_argument(*command, arguments->catalog);
   command
       ->add_option(
           "--travel", arguments->travel,

@@ -23,6 +23,8 @@ std::string why_no_roll(const Part& part) {
   return "within the travel the places that remain look alike";
 }
 
+}  // namespace
+
 AdviceOptions advice_options(const Answer& answer, const std::optional<Interval>& travel) {
   AdviceOptions options;
   options.turn_sd = kTurnSd;
@@ -38,7 +40,10 @@ AdviceOptions advice_options(const Answer& answer, const std::optional<Interval>
   return options;
 }
 
-}  // namespace
+std::optional<Reach> reach_for_advice(const Answer& answer) {
+  if (answer.fingers.empty() || !has_reach(answer.fingers.front())) return std::nullopt;
+  return reach_of(answer.part, answer.fingers.front());
+}
 
 double NextRoll::turn_ahead(const Contender& contender) const {
   const TurningFunction& turning = answer.part.turning();
@@ -57,10 +62,7 @@ NextRoll next_roll(const Answer& answer, const std::optional<Interval>& travel) 
     return next;
   }
   AdviceOptions options = advice_options(answer, travel);
-  std::optional<Reach> reach;
-  if (!answer.fingers.empty() && has_reach(answer.fingers.front())) {
-    reach = reach_of(answer.part, answer.fingers.front());
-  }
+  const std::optional<Reach> reach = reach_for_advice(answer);
   if (reach) options.reach = &*reach;
   next.advice = advise(answer.part, next.contenders, options);
   if (!next.advice->helps) next.why = why_no_roll(answer.part);

@@ -69,9 +69,9 @@ Ambiguity ambiguity_of(const Part& part, int share, int rolls) {
 
 }  // namespace
 
-Box bounding_box(const Part& part) {
+BoundingBox bounding_box(const Part& part) {
   const TurningFunction& turning = part.turning();
-  Box box{part.point(0), part.point(0)};
+  BoundingBox box{part.point(0), part.point(0)};
   const auto include = [&](double s) {
     const Vec2 point = part.point(s);
     box.lo = box.lo.cwiseMin(point);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "belief/posterior.hpp"
 #include "rollfix/error.hpp"
@@ -44,17 +45,18 @@ double entropy(const std::vector<double>& weights) {
 }
 
 /// The lengths that every contender that counts can roll over.
-Interval common_travel(const Part& part, const std::vector<Contender>& contenders, const AdviceOptions& options) {
-  const double P = part.perimeter();
-  Interval travel = options.travel.value_or(Interval{-P, P});
-  for (const Contender& contender : contenders) {
+Interval common_travel(const std::vector<PartContender>& contenders, const std::optional<Interval>& wanted) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const PartContender& one : contenders) shortest = std::min(shortest, one.part->perimeter());
+  Interval travel = wanted.value_or(Interval{-shortest, shortest});
+  for (const auto& [part, reach, contender] : contenders) {
     if (contender.probability < kContenderCounts && contenders.size() > 1) continue;
-    if (!part.closed()) {
+    if (!part->closed()) {
       travel.lo = std::max(travel.lo, -contender.place);
-      travel.hi = std::min(travel.hi, P - contender.place);
+      travel.hi = std::min(travel.hi, part->perimeter() - contender.place);
     }
-    if (options.reach == nullptr || options.reach->whole_loop) continue;
-    const std::optional<Interval> arc = options.reach->arc_at(contender.place);
+    if (reach == nullptr || reach->whole_loop) continue;
+    const std::optional<Interval> arc = reach->arc_at(contender.place);
     if (!arc) continue;
     travel.lo = std::max(travel.lo, std::min(0.0, arc->lo - contender.place));
     travel.hi = std::min(travel.hi, std::max(0.0, arc->hi - contender.place));
@@ -65,11 +67,11 @@ Interval common_travel(const Part& part, const std::vector<Contender>& contender
 /// Contenders compared while they roll one way: the largest distances so far.
 class Comparison {
  public:
-  Comparison(const Part& part, const std::vector<Contender>& contenders, const AdviceOptions& options)
-      : part_(part), contenders_(contenders), options_(options) {
+  Comparison(const std::vector<PartContender>& contenders, const AdviceOptions& options)
+      : contenders_(contenders), options_(options) {
     const std::size_t n = contenders.size();
     distance_.assign(n * n, 0);
-    for (const Contender& contender : contenders) start_.push_back(part.turning().at(contender.place));
+    for (const PartContender& one : contenders) start_.push_back(one.part->turning().at(one.contender.place));
   }
 
   /// Rolls on to x and says what is to be expected then.
@@ -79,10 +81,11 @@ class Comparison {
     std::vector<double> variance(n);
     const double length_variance = square(options_.length_sd) + square(options_.length_share_sd * x);
     for (std::size_t i = 0; i < n; ++i) {
-      const Turning now = part_.turning().at(contenders_[i].place + x);
+      const auto& [part, reach, contender] = contenders_[i];
+      const Turning now = part->turning().at(contender.place + x);
       turn[i] = now.angle - start_[i].angle;
       variance[i] = square(options_.turn_sd) + length_variance * square(now.curvature) +
-                    square(contenders_[i].sd * (now.curvature - start_[i].curvature));
+                    square(contender.sd * (now.curvature - start_[i].curvature));
     }
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t j = 0; j < i; ++j) {
@@ -99,7 +102,7 @@ class Comparison {
   Prospect expected(double x) const {
     const std::size_t n = contenders_.size();
     std::vector<double> prior(n);
-    for (std::size_t i = 0; i < n; ++i) prior[i] = contenders_[i].probability;
+    for (std::size_t i = 0; i < n; ++i) prior[i] = contenders_[i].contender.probability;
     Prospect prospect{x, 0, entropy(prior)};
     std::vector<double> left(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -109,8 +112,9 @@ class Comparison {
       std::vector<double> of_label;
       for (std::size_t j = 0; j < n; ++j) {
         left[j] /= total;
-        if (contenders_[j].label >= of_label.size()) of_label.resize(contenders_[j].label + 1, 0);
-        of_label[contenders_[j].label] += left[j];
+        const std::size_t label = contenders_[j].contender.label;
+        if (label >= of_label.size()) of_label.resize(label + 1, 0);
+        of_label[label] += left[j];
       }
       prospect.bits -= prior[i] * entropy(left);
       const auto counts =
@@ -120,14 +124,13 @@ class Comparison {
     return prospect;
   }
 
-  const Part& part_;
-  const std::vector<Contender>& contenders_;
+  const std::vector<PartContender>& contenders_;
   const AdviceOptions& options_;
   std::vector<double> distance_;  // squared, of each pair
   std::vector<Turning> start_;
 };
 
-void require_valid(const std::vector<Contender>& contenders, const AdviceOptions& options) {
+void require_valid(const std::vector<PartContender>& contenders, const AdviceOptions& options) {
   if (contenders.empty()) throw InputError("advise: expected at least one place where the contact may be, found none");
   if (!(options.turn_sd > 0)) {
     throw InputError(fmt::format("advise: the turn's standard deviation is {}, expected one above 0", options.turn_sd));
@@ -201,19 +204,25 @@ std::vector<Contender> contenders_of(const Part& part, const std::vector<Mode>& 
 }
 
 Advice advise(const Part& part, const std::vector<Contender>& contenders, const AdviceOptions& options) {
+  std::vector<PartContender> on_part;
+  for (const Contender& contender : contenders) on_part.push_back({&part, options.reach, contender});
+  return advise(on_part, options);
+}
+
+Advice advise(const std::vector<PartContender>& contenders, const AdviceOptions& options) {
   require_valid(contenders, options);
-  const Interval travel = common_travel(part, contenders, options);
+  const Interval travel = common_travel(contenders, options.travel);
   Advice advice;
   std::vector<double> prior;
-  for (const Contender& contender : contenders) prior.push_back(contender.probability);
+  for (const PartContender& one : contenders) prior.push_back(one.contender.probability);
   advice.bits_wanted = entropy(prior);
 
-  Comparison back(part, contenders, options);
+  Comparison back(contenders, options);
   for (std::size_t k = 1; k <= kSteps && travel.lo < 0; ++k) {
     advice.prospects.push_back(back.roll_to(travel.lo * static_cast<double>(k) / kSteps));
   }
   std::reverse(advice.prospects.begin(), advice.prospects.end());
-  Comparison forward(part, contenders, options);
+  Comparison forward(contenders, options);
   const std::size_t here = advice.prospects.size();
   for (std::size_t k = 0; k <= kSteps && (k == 0 || travel.hi > 0); ++k) {
     advice.prospects.push_back(forward.roll_to(travel.hi * static_cast<double>(k) / kSteps));

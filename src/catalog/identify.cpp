@@ -10,6 +10,7 @@
 #include "files/byte_stream.hpp"
 #include "rollfix/error.hpp"
 #include "survey.hpp"
+#include "text/text.hpp"
 
 namespace rollfix {
 namespace {
@@ -51,6 +52,13 @@ std::string fingerprint(const Problem& problem) {
   return fmt::format("{:016x}", checksum(bytes.bytes()));
 }
 
+std::vector<std::size_t> parts_of(const Catalog& catalog, const IdentifyOptions& options) {
+  std::vector<std::size_t> parts = options.among;
+  if (!parts.empty()) return parts;
+  for (std::size_t k = options.shard - 1; k < catalog.size(); k += options.shards) parts.push_back(k);
+  return parts;
+}
+
 }  // namespace
 
 Likeness likeness_of(const Problem& like) {
@@ -80,8 +88,7 @@ Identified identify(const Catalog& catalog, const Problem& like, const IdentifyO
     found.verdict = "none";
     return found;
   }
-  std::vector<std::size_t> parts;
-  for (std::size_t k = options.shard - 1; k < catalog.size(); k += options.shards) parts.push_back(k);
+  const std::vector<std::size_t> parts = parts_of(catalog, options);
   found.asked = parts.size();
   found.noise = like.noise;
   found.mirrored = like.mirrored;
@@ -90,6 +97,10 @@ Identified identify(const Catalog& catalog, const Problem& like, const IdentifyO
   found.likeness = likeness_of(like);
   Survey survey(catalog, like, options);
   survey.look(parts, 1, found);
+  if (found.counted) {
+    found.verdict = counted(found.left.size(), "part", "parts");
+    return found;
+  }
   if (like.noise && !fits_well(found.weights)) survey.look(parts, belief::kMostExcess, found);
   if (options.shards == 1 && !found.refused.empty() && found.refused.size() == found.searched + found.searched_widely)
     throw InputError(found.refused.front().why);

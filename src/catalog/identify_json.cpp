@@ -263,4 +263,21 @@ std::string merge_shards(const Catalog& catalog, const std::vector<std::string>&
   return formatted(document_of(catalog, std::move(all)), layout);
 }
 
+std::string format_next_roll(const Catalog& catalog, const Identified& found, const NextRollOfParts& next,
+                             Layout layout) {
+  Json contenders = Json::array();
+  for (const NextRollOfParts::Place& place : next.places) {
+    contenders.push_back({{"part", catalog.entry(found.parts[place.part].weight.part).name},
+                          {"placement", place.contender.label},
+                          {"contact", json_number(place.contender.place)},
+                          {"sd", json_number(place.contender.sd)},
+                          {"probability", json_number(place.contender.probability)},
+                          {"turn", next.helps() ? json_number(place.turn_ahead) : Json(nullptr)}});
+  }
+  const Json of = {
+      {"catalog",
+       {{"file", catalog.path()}, {"parts", found.asked}, {"searched", found.searched + found.searched_widely}}}};
+  return formatted(advice_json(found.verdict, of, next.advice, next.why, contenders), layout);
+}
+
 }  // namespace rollfix

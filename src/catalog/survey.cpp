@@ -137,6 +137,12 @@ void Survey::look(const std::vector<std::size_t>& parts, double excess, Identifi
   left.erase(std::remove_if(left.begin(), left.end(), is_known), left.end());
   (widely ? found.searched_widely : found.searched) += left.size();
   searched_.insert(left.begin(), left.end());
+  found.left.insert(found.left.end(), left.begin(), left.end());
+  std::sort(found.left.begin(), found.left.end());
+  if (left.size() > options_.most_searched) {
+    found.counted = true;
+    return;
+  }
   if (options_.use_index && can_glance(like_)) left = worth_a_look(catalog_, like_, left, options_);
   std::vector<Outcome> outcomes(left.size());
   Crew crew(left.size(), 1);
@@ -153,6 +159,11 @@ void Survey::look(const std::vector<std::size_t>& parts, double excess, Identifi
   }
   std::sort(found.weights.begin(), found.weights.end(),
             [](const PartWeight& a, const PartWeight& b) { return a.part < b.part; });
+  if (!fits_well(found.weights)) return;
+  found.left.clear();
+  for (const PartWeight& weight : found.weights) found.left.push_back(weight.part);
+  for (const PartRefused& one : found.refused) found.left.push_back(one.part);
+  std::sort(found.left.begin(), found.left.end());
 }
 
 }  // namespace rollfix

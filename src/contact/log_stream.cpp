@@ -42,10 +42,11 @@ struct Steps {
 }  // namespace
 
 struct LogStream::State {
-  State(std::string name, const Part& on, std::vector<Finger> by, const Noise& noise_of, LogOptions options,
+  State(std::string name, const Part& on, std::vector<Finger> by, const Noise& noise_of, const LogOptions& options,
         bool is_robust)
-      : reader(std::move(name), in_unit_of(on, std::move(options))),
+      : reader(std::move(name), in_unit_of(on, options)),
         part(on),
+        any_part(options.any_part),
         fingers(std::move(by)),
         noise(noise_of),
         robust(is_robust) {
@@ -59,6 +60,7 @@ struct LogStream::State {
 
   RowReader reader;
   Part part;
+  bool any_part;
   std::vector<Finger> fingers;
   Noise noise;
   bool robust;
@@ -187,6 +189,7 @@ LogLine LogStream::State::take() {
   if (rolls_.empty()) begin_roll();
   const std::vector<OngoingRoll> as_it_was = robust ? rolls_ : std::vector<OngoingRoll>{};
   Steps steps = measure(sample);
+  if (any_part) return result;
   const auto jump = check_->jump(lines, steps.before, steps.now, row_.time);
   if (jump && robust && strays_ < kMostStrays) {
     ++strays_;
@@ -215,7 +218,7 @@ void LogStream::State::resume() {
 
 LogStream::LogStream(std::string name, const Part& part, std::vector<Finger> fingers, const Noise& noise,
                      LogOptions options, bool robust)
-    : state_(std::make_unique<State>(std::move(name), part, std::move(fingers), noise, std::move(options), robust)) {}
+    : state_(std::make_unique<State>(std::move(name), part, std::move(fingers), noise, options, robust)) {}
 LogStream::~LogStream() = default;
 LogStream::LogStream(LogStream&&) noexcept = default;
 LogStream& LogStream::operator=(LogStream&&) noexcept = default;

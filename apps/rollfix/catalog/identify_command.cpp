@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "rollfix/arguments/catalog_argument.hpp"
 #include "rollfix/arguments/output_argument.hpp"
 #include "rollfix/arguments/roll_arguments.hpp"
 #include "rollfix/arguments/typed_number.hpp"
@@ -65,8 +66,7 @@ Problem read_question(const IdentifyArguments& arguments, const Catalog& catalog
     throw InputError("identify: expected --reading or --log, found both: they can't be of the same roll");
   }
   if (!roll.prior.empty()) throw InputError("--prior: is about a place on one part: leave it out");
-  if (catalog.size() == 0) throw InputError(fmt::format("{}: the catalog has no parts", catalog.path()));
-  return read_problem(roll, with_unit(catalog.part(0), catalog.unit()), notes);
+  return read_problem(roll, any_part_of(catalog), notes);
 }
 
 Report of_document(const std::string& text, const IdentifyArguments& arguments, const Catalog& catalog, Report report) {

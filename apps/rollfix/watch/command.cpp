@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "contact/mirrored.hpp"
+#include "rollfix/arguments/catalog_argument.hpp"
 #include "rollfix/arguments/finger_argument.hpp"
 #include "rollfix/arguments/part_argument.hpp"
 #include "rollfix/arguments/roll_arguments.hpp"
@@ -38,10 +39,13 @@ Examples:
   rollfix watch track.csv --noise angle=0.2deg,slip=0.002 --log tcp:robot.local:7000 --jsonl | ./drive
   robot-log | rollfix watch part.dxf --finger disk,r=5mm --noise angle=0.5deg --columns u=skin:deg,psi=yaw:deg
   rollfix watch gallery:cam --finger disk,r=0.2 --noise contact=0.002,angle=0.2deg --log roll.csv --once
+Which part is it? Of a catalog the parts that remain, fewer and fewer:
+  robot-log | rollfix watch --catalog parts.db --finger disk,r=5 --noise contact=0.1,angle=0.5deg
 )";
 
 struct WatchArguments {
   PartArgument part;
+  std::string catalog;
   std::string log;
   std::string columns;
   std::vector<std::string> fingers;
@@ -81,6 +85,10 @@ std::string log_name(const WatchArguments& arguments) {
 }
 
 void require_sensible(const WatchArguments& arguments, const std::string& log) {
+  require_part_or_catalog("watch", arguments.part, arguments.catalog);
+  if (!arguments.catalog.empty() && !arguments.prior.empty()) {
+    throw InputError("--prior: is about a place on one part: leave it out");
+  }
   if (log == "-" && arguments.part.part == "-") {
     throw InputError("the part and the log can't both come from standard input: give one of them as a file");
   }
@@ -113,6 +121,7 @@ WatchOptions watch_options(const WatchArguments& arguments, const std::string& l
     finger = mirrored(finger);
   }
   options.live = !arguments.once;
+  options.log.any_part = !arguments.catalog.empty();
   if (!arguments.every.empty()) options.every = read_count(arguments.every, "--every", 1);
   return options;
 }
@@ -243,9 +252,12 @@ Report watch(const WatchArguments& arguments, std::ostream& out, std::ostream& e
   require_sensible(arguments, log);
   const std::optional<Seconds> idle_timeout = idle_timeout_of(arguments);
   std::vector<std::string> notes;
-  const Part part = load_part(arguments.part, notes);
-  const WatchOptions options = watch_options(arguments, log, part.unit());
-  if (part.reversed()) notes.push_back(reversed_note(part));
+  const std::shared_ptr<const Catalog> catalog =
+      arguments.catalog.empty() ? nullptr : std::make_shared<const Catalog>(arguments.catalog);
+  const Part part = catalog ? any_part_of(*catalog) : load_part(arguments.part, notes);
+  WatchOptions options = watch_options(arguments, log, part.unit());
+  options.catalog = catalog;
+  if (!catalog && part.reversed()) notes.push_back(reversed_note(part));
 
   const auto io = std::make_shared<asio::io_context>();
   const StopSignals signals(*io);
@@ -274,6 +286,7 @@ void add_watch_command(CLI::App& program, Command& chosen, std::ostream& out, st
   CLI::App* command = program.add_subcommand("watch", "Where the finger is, live, from a log that grows.");
   command->footer(kExamples);
   add_part_argument(*command, arguments->part);
+  add_catalog_argument(*command, arguments->catalog);
   command
       ->add_option("--log", arguments->log,
                    "the growing log: a file, which is followed as tail -F does; a serial device; tcp:HOST:PORT or "

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "files/documents/json_output.hpp"
+#include "rollfix/catalog/documents.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/watch/writer.hpp"
 
@@ -34,9 +35,18 @@ Json mode_json(const Mode& mode, const Part& part) {
           {"tangent", one_finger(json_number(std::remainder(mode.tangent[0], 2 * std::numbers::pi)))}};
 }
 
+/// The parts that remain, as identify lists them.
+void add_parts(const WatchAnswer& answer, const Catalog& catalog, Json& event) {
+  const Json document = Json::parse(format_identified(catalog, *answer.parts, Layout::line));
+  event["verdict"] = answer.parts->verdict;
+  event["left"] = answer.parts->left.size();
+  event["parts"] = answer.parts->counted ? Json(nullptr) : document["parts"];
+  event["rest"] = answer.parts->counted ? Json(nullptr) : document["rest"];
+}
+
 Json event_json(const char* name) { return {{"schema", kSchema}, {"event", name}}; }
 
-Json answer_json(const char* name, const WatchAnswer& answer, const Part& part) {
+Json answer_json(const char* name, const WatchAnswer& answer, const Part& part, const Catalog* catalog) {
   Json event = event_json(name);
   event["roll"] = answer.roll;
   event["samples"] = answer.samples;
@@ -45,6 +55,10 @@ Json answer_json(const char* name, const WatchAnswer& answer, const Part& part) 
   // What has not moved yet is 0 and not -0.
   event["reading"] = {{"length", one_finger(json_number(answer.sample.reading.length[0] + 0.0))},
                       {"turn", json_number(answer.sample.reading.turn)}};
+  if (answer.parts) {
+    add_parts(answer, *catalog, event);
+    return event;
+  }
   event["verdict"] = answer.verdict.text();
   event["placements"] = Json::array();
   for (const Mode& mode : answer.modes) event["placements"].push_back(mode_json(mode, part));
@@ -70,7 +84,12 @@ class JsonlWriter : public WatchWriter {
     fingers_ = options.fingers;
     noise_ = options.belief.noise;
     Json event = event_json("begin");
-    event["part"] = part_json(part);
+    catalog_ = options.catalog;
+    if (catalog_) {
+      event["catalog"] = {{"file", catalog_->path()}, {"parts", catalog_->size()}};
+    } else {
+      event["part"] = part_json(part);
+    }
     event["fingers"] = 1;
     event["log"] = options.name;
     event["noise"] = noise_json(options.belief.noise);
@@ -83,13 +102,15 @@ class JsonlWriter : public WatchWriter {
     announce(line_of(event));
   }
 
-  void found(const WatchAnswer& answer) override { write_event(answer_json("found", answer, part_)); }
-  void changed(const WatchAnswer& answer) override { write_event(answer_json("placements", answer, part_)); }
+  void found(const WatchAnswer& answer) override { write_event(answer_json("found", answer, part_, catalog_.get())); }
+  void changed(const WatchAnswer& answer) override {
+    write_event(answer_json("placements", answer, part_, catalog_.get()));
+  }
 
   void over(const WatchAnswer& answer, RollEnd why) override {
-    Json event = answer_json("over", answer, part_);
+    Json event = answer_json("over", answer, part_, catalog_.get());
     event["why"] = kWhyOver.at(static_cast<std::size_t>(why));
-    event["diagnosis"] = diagnoses_json(answer.diagnoses, fingers_, noise_);
+    if (!answer.parts) event["diagnosis"] = diagnoses_json(answer.diagnoses, fingers_, noise_);
     write_event(event);
   }
 
@@ -102,7 +123,7 @@ class JsonlWriter : public WatchWriter {
   void end(WatchEnd why, const WatchAnswer& last, const WatchCounts& counts) override {
     Json event = event_json("end");
     event["why"] = kWhyEnd.at(static_cast<std::size_t>(why));
-    event["verdict"] = last.roll > 0 ? Json(last.verdict.text()) : Json(nullptr);
+    event["verdict"] = last.roll > 0 ? Json(verdict_of(last)) : Json(nullptr);
     event["counts"] = counts_json(counts);
     event["seconds_per_sample"] = json_number(counts.seconds_per_sample());
     write_event(event);
@@ -115,6 +136,7 @@ class JsonlWriter : public WatchWriter {
   void write_event(const Json& event) { write(line_of(event)); }
 
   Part part_;
+  std::shared_ptr<const Catalog> catalog_;
   std::vector<Finger> fingers_;  // and the noise, as given: cures name them
   Noise noise_;
 };

@@ -35,10 +35,20 @@ class TextWriter : public WatchWriter {
     const std::string unit = unit_.empty() ? "" : fmt::format(" {}; all lengths are in {}", unit_, unit_);
     fingers_ = options.fingers;
     noise_ = options.belief.noise;
+    catalog_ = options.catalog;
+    if (catalog_) return announce_catalog(options);
     announce(fmt::format("part  {}, {}, perimeter {}{}\nlog   {}\n\n", part.name(), part.closed() ? "closed" : "open",
                          fixed(part.perimeter(), decimals), unit, options.name) +
              row("line", "time [s]", "length", "turn [deg]", "verdict",
                  fmt::format("{:>10}  {:>10}  {:>8}  {:>7}", "start", "now", "sd", "p")));
+  }
+
+  void announce_catalog(const WatchOptions& options) {
+    const std::string unit = unit_.empty() ? "" : fmt::format("; all lengths are in {}", unit_);
+    announce(fmt::format("catalog  {}, {}{}\nlog      {}\n\n", catalog_->path(),
+                         counted(catalog_->size(), "part", "parts"), unit, options.name) +
+             row("line", "time [s]", "length", "turn [deg]", "verdict",
+                 fmt::format("     {:>10}  {:>8}  {}", "start", "p", "part")));
   }
 
   void found(const WatchAnswer& answer) override {
@@ -46,7 +56,7 @@ class TextWriter : public WatchWriter {
   }
 
   void changed(const WatchAnswer& answer) override {
-    write(row(answer, answer.verdict.text(), places(answer)));
+    write(row(answer, verdict_of(answer), answer.parts ? parts(*answer.parts) : places(answer)));
     roll_shown_ = answer.roll;
     samples_shown_ = answer.samples;
   }
@@ -96,8 +106,32 @@ class TextWriter : public WatchWriter {
     return text;
   }
 
+  /// The likeliest part with its likeliest place, and others.
+  std::string parts(const Identified& found) const {
+    std::string text;
+    for (std::size_t k = 0; k < std::min(found.parts.size(), kMostOthers + 1); ++k) {
+      const PartFound& one = found.parts[k];
+      const std::string& name = catalog_->entry(one.weight.part).name;
+      text += k > 0 ? fmt::format("{}{} ({})", k == 1 ? " or " : ", ", name, percent(one.probability))
+                    : fmt::format("     {:>10}  {:>8}  {}", fixed(one.answer.placements.front().start[0], decimals_),
+                                  percent(one.probability), name);
+    }
+    if (found.parts.size() > kMostOthers + 1) text += fmt::format(" and {} more", found.parts.size() - kMostOthers - 1);
+    return text;
+  }
+
+  std::string conclusion_of_parts(const WatchAnswer& last) const {
+    if (last.parts->parts.empty()) return last.parts->verdict;
+    const PartFound& best = last.parts->parts.front();
+    return fmt::format("{}: roll {} was on {}, from s = {}{}, with probability {}", last.parts->verdict, last.roll,
+                       catalog_->entry(best.weight.part).name,
+                       fixed(best.answer.placements.front().start[0], decimals_), behind(unit_),
+                       fixed(best.probability, 4));
+  }
+
   std::string conclusion(const WatchAnswer& last) const {
     if (last.roll == 0) return "no contact came";
+    if (last.parts) return conclusion_of_parts(last);
     if (last.verdict.name == Verdict::inconsistent) return last.verdict.text() + ": nothing fits" + why(last);
     if (last.verdict.name != Verdict::unique) return last.verdict.text() + why(last);
     const Mode& only = last.modes.front();
@@ -115,7 +149,8 @@ class TextWriter : public WatchWriter {
   int decimals_;
   std::vector<Finger> fingers_;  // and the noise, as given: cures name them
   Noise noise_;
-  std::string unit_;            // the part's
+  std::string unit_;  // the part's, or the catalog's
+  std::shared_ptr<const Catalog> catalog_;
   std::size_t roll_shown_ = 0;  // the last row was of this answer
   std::size_t samples_shown_ = 0;
 };

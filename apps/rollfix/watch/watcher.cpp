@@ -7,9 +7,9 @@
 #include <limits>
 #include <utility>
 
-#include "rollfix/answer/solve.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/part/boundary.hpp"
+#include "rollfix/watch/meaning.hpp"
 
 namespace rollfix::app {
 namespace {
@@ -22,8 +22,8 @@ constexpr double kGrowth = 0.1;
 constexpr double kOtherProbability = 0.1;  // below that nobody decides otherwise
 constexpr double kTwiceAsSure = 0.5;       // the new standard deviation, as a share of the old one
 
-// A roll that fits badly is looked at again as a whole, by no more samples than these, evenly spread.
-constexpr std::size_t kMostKept = 4096;
+// Looking takes no more of the time than the log is left in between, so many times.
+constexpr int kRestAfterLook = 1;
 
 /// Adds the time that passes while it lives.
 class WorkTime {
@@ -54,32 +54,23 @@ bool is_news_of_a_place(const Mode& said, const Mode& now, const Part& part) {
          std::abs(now.probability - said.probability) > kOtherProbability;
 }
 
-/// The log that these samples are of, as the user gave it.
-Log log_of(const std::vector<Sample>& samples, LogKind kind, const Part& part) {
-  Log log;
-  log.kind = kind;
-  FingerRows& rows = log.fingers.front();
-  rows.u_period = std::numeric_limits<double>::infinity();  // a sample's angles are unwrapped
-  for (const Sample& sample : samples) {
-    if (sample.time) log.time.push_back(*sample.time);
-    if (kind == LogKind::contact) {
-      rows.u.push_back((*sample.contact)[0].u);
-      rows.psi.push_back((*sample.contact)[0].psi);
-    } else {
-      const Reading as_given = in_stored_direction(sample.reading, part);  // back again
-      rows.length.push_back(as_given.length[0]);
-      rows.turn.push_back(as_given.turn);
-    }
-    if (!sample.centre) continue;
-    rows.x.push_back((*sample.centre)[0].x());
-    rows.y.push_back((*sample.centre)[0].y());
-  }
-  return log;
+/// Fewer parts, or another one is the likeliest, or as likely no more.
+bool is_news_of_parts(const Identified& said, const Identified& now) {
+  if (said.verdict != now.verdict) return true;
+  if (said.parts.empty() || now.parts.empty()) return said.parts.size() != now.parts.size();
+  const PartFound& before = said.parts.front();
+  const PartFound& best = now.parts.front();
+  return before.weight.part != best.weight.part || std::abs(before.probability - best.probability) > kOtherProbability;
 }
 
 }  // namespace
 
+std::string verdict_of(const WatchAnswer& answer) {
+  return answer.parts ? answer.parts->verdict : answer.verdict.text();
+}
+
 bool is_news(const WatchAnswer& said, const WatchAnswer& now, const Part& part) {
+  if (now.parts) return !said.parts || is_news_of_parts(*said.parts, *now.parts);
   if (now.verdict != said.verdict || now.modes.empty() != said.modes.empty()) return true;
   if (now.modes.empty() || now.verdict.name == Verdict::inconsistent) return false;  // no place that is worth telling
   const Mode& best = now.modes.front();
@@ -95,6 +86,7 @@ Watcher::Watcher(const Part& part, WatchOptions options, WatchListener& listener
   // What can't be right of the noise is said now and not at the first contact.
   const Belief trial(part_, LogKind::contact, options_.belief);
 }
+Watcher::~Watcher() = default;
 
 void Watcher::push(std::string_view line) {
   const LogLine row = read(line);
@@ -173,25 +165,15 @@ void Watcher::require_evidence(const Sample& first) const {
   }
 }
 
-Belief Watcher::new_belief(const Sample& first) const {
-  BeliefOptions options = options_.belief;
-  if (options.pose && options_.log.mirrored) {  // as the log is read: see LogOptions
-    options.pose->mean.x *= -1;
-    options.pose->mean.heading *= -1;
-  }
-  return {part_, stream_.kind(), options, {first.finger_curvature, {}, options_.fingers}};
-}
-
 void Watcher::begin_roll(const Sample& sample) {
   require_evidence(sample);
   {
     const WorkTime time(counts_.seconds);
-    belief_.emplace(new_belief(sample));
+    meaning_ = options_.catalog ? meaning_on_catalog(part_, options_, stream_.kind())
+                                : meaning_on_part(part_, options_, stream_.kind(), sample);
   }
   ++counts_.rolls;
   samples_ = 0;
-  kept_.clear();
-  kept_every_ = 1;
   take(sample);
   look();
   said_ = answer_;
@@ -213,66 +195,43 @@ void Watcher::add(const Sample& sample) {
 
 void Watcher::take(const Sample& sample) {
   const WorkTime time(counts_.seconds);
-  belief_->add(sample);
+  meaning_->add(sample);
   ++counts_.samples;
-  keep(sample);
   ++samples_;
   last_ = sample;
-}
-
-void Watcher::keep(const Sample& sample) {
-  if (samples_ % kept_every_ != 0) return;
-  kept_.push_back(sample);
-  if (kept_.size() < kMostKept) return;
-  for (std::size_t k = 0; 2 * k < kept_.size(); ++k) kept_[k] = kept_[2 * k];
-  kept_.resize((kept_.size() + 1) / 2);
-  kept_every_ *= 2;
 }
 
 bool Watcher::is_time_to_look() const {
   const auto grown = static_cast<double>(samples_ - answer_.samples);
   if (grown >= kGrowth * static_cast<double>(answer_.samples)) return true;
-  return options_.live && WorkClock::now() - looked_ >= kMostDelay;
+  return options_.live && WorkClock::now() >= next_look_;
 }
 
 void Watcher::look() {
   const WorkTime time(counts_.seconds);
+  const WorkClock::time_point start = WorkClock::now();
+  answer_ = {};
   answer_.roll = counts_.rolls;
-  answer_.diagnoses.clear();
   answer_.samples = samples_;
   answer_.sample = last_;
-  answer_.verdict = belief_->verdict();
-  answer_.modes = belief_->modes();
-  answer_.rest = belief_->rest();
-  answer_.excess = belief_->excess();
+  meaning_->look(answer_);
   has_news_ = is_news(said_, answer_, part_);
-  if (options_.live) looked_ = WorkClock::now();
-}
-
-/// Why the rows fit badly, if they do.
-void Watcher::look_again() {
-  if (!belief_->fit().is_bad()) return;
-  Problem problem{part_, log_of(kept_, stream_.kind(), part_), options_.fingers, options_.belief.noise};
-  problem.prior = options_.belief.prior;
-  problem.pose = options_.belief.pose;
-  problem.robust = options_.belief.robust;
-  try {
-    answer_.diagnoses = solve(problem).diagnoses;
-  } catch (const InputError&) {  // so few of its samples are no roll any more: what is wrong is not known
-  }
+  if (!options_.live) return;
+  const WorkClock::time_point now = WorkClock::now();
+  next_look_ = now + std::max<WorkClock::duration>(kMostDelay, kRestAfterLook * (now - start));
 }
 
 void Watcher::end_roll(RollEnd why) {
-  if (!belief_) return;
+  if (!meaning_) return;
   if (answer_.samples < samples_) look();
-  look_again();
-  belief_.reset();
+  meaning_->look_again(answer_);
+  meaning_.reset();
   has_news_ = false;
   listener_.over(answer_, why);
 }
 
 bool Watcher::is_behind() const {
-  if (!belief_ || options_.every > 0) return false;
+  if (!meaning_ || options_.every > 0) return false;
   return has_news_ || (options_.live && answer_.samples < samples_);
 }
 

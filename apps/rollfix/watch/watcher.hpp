@@ -2,12 +2,15 @@
 
 #include <chrono>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "rollfix/belief/belief.hpp"
+#include "rollfix/catalog/catalog.hpp"
+#include "rollfix/catalog/identify.hpp"
 #include "rollfix/contact/log.hpp"
 #include "rollfix/part/part.hpp"
 
@@ -26,7 +29,12 @@ struct WatchAnswer {
   double rest = 0;                   // probability outside of them
   double excess = 1;                 // by how many times the samples are off more than the noise allows
   std::vector<Diagnosis> diagnoses;  // of a roll that is over, where its rows fit badly: why, see Answer
+  /// Of a catalog: the parts that remain. The places are theirs then, and there are no modes.
+  std::shared_ptr<const Identified> parts{};
 };
+
+/// In words.
+std::string verdict_of(const WatchAnswer& answer);
 
 /// Whether somebody who knows the one answer wants to hear the other: another verdict, or the most probable place is
 /// not one that was known, or it is twice as certain, or its probability is another by a tenth. That two places which
@@ -59,12 +67,13 @@ class WatchListener {
 
 /// How a growing log is watched.
 struct WatchOptions {
-  std::string name;             // of the log, for messages
-  std::vector<Finger> fingers;  // for logs of u and psi: at most one
-  BeliefOptions belief;         // a pose's prior is of every roll's first contact
-  LogOptions log;               // what its columns are called, and the part's unit
-  std::size_t every = 0;        // tell every so many samples; 0: when there is news
-  bool live = false;            // somebody waits: nothing that is new is kept back for longer than kMostDelay
+  std::string name;                          // of the log, for messages
+  std::vector<Finger> fingers;               // for logs of u and psi: at most one
+  BeliefOptions belief;                      // a pose's prior is of every roll's first contact
+  LogOptions log;                            // what its columns are called, and the part's unit
+  std::shared_ptr<const Catalog> catalog{};  // which of its parts is it? none: the part is known
+  std::size_t every = 0;                     // tell every so many samples; 0: when there is news
+  bool live = false;  // somebody waits: nothing that is new is kept back for longer than kMostDelay
 };
 
 /// Somebody who watches a screen, and a robot's next decision, can wait this long.
@@ -81,6 +90,8 @@ struct WatchCounts {
   double seconds_per_sample() const;  // not a number without samples
 };
 
+class Meaning;
+
 /// Turns the lines of a growing log into news of where the contact is, in constant memory. Knows no files or streams.
 ///
 /// Taking a sample is cheap, working out what it means is not. So that is done after every sample at first, and then
@@ -88,7 +99,11 @@ struct WatchCounts {
 class Watcher {
  public:
   /// Throws InputError: noise or prior that are not valid.
+  /// `part`: with a catalog any of its parts, in its unit.
   Watcher(const Part& part, WatchOptions options, WatchListener& listener);
+  ~Watcher();
+  Watcher(const Watcher&) = delete;
+  Watcher& operator=(const Watcher&) = delete;
 
   /// One line. Throws InputError: what LogStream::push throws.
   void push(std::string_view line);
@@ -112,14 +127,11 @@ class Watcher {
   LogLine read(std::string_view line);
   /// Throws InputError: the log does not have what the noise or the pose's prior is about.
   void require_evidence(const Sample& first) const;
-  Belief new_belief(const Sample& first) const;
   void begin_roll(const Sample& sample);
   void add(const Sample& sample);
   void take(const Sample& sample);
   bool is_time_to_look() const;
   void look();
-  void keep(const Sample& sample);
-  void look_again();
   void end_roll(RollEnd why);
   void tell_news();
   void tell();
@@ -128,14 +140,12 @@ class Watcher {
   WatchOptions options_;
   WatchListener& listener_;
   LogStream stream_;
-  std::optional<Belief> belief_;  // of the roll that goes on
-  std::size_t samples_ = 0;       // of this roll
-  Sample last_;                   // of these
-  std::vector<Sample> kept_;      // of these every kept_every_-th, for a second look
-  std::size_t kept_every_ = 1;
-  WatchAnswer answer_;  // when it was last worked out
-  WatchAnswer said_;    // what the listener knows
-  std::chrono::steady_clock::time_point looked_{};
+  std::unique_ptr<Meaning> meaning_;  // of the roll that goes on
+  std::size_t samples_ = 0;           // of this roll
+  Sample last_;                       // of these
+  WatchAnswer answer_;                // when it was last worked out
+  WatchAnswer said_;                  // what the listener knows
+  std::chrono::steady_clock::time_point next_look_{};
   bool has_news_ = false;
   WatchCounts counts_;
 };

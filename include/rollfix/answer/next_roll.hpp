@@ -21,6 +21,11 @@ struct NextRoll {
   double turn_ahead(const Contender& contender) const;
 };
 
+/// How well what was felt for this answer tells turns and lengths apart.
+AdviceOptions advice_options(const Answer& answer, const std::optional<Interval>& travel);
+/// Where this finger of an answer can touch the part; nothing: anywhere, as far as is known.
+std::optional<Reach> reach_for_advice(const Answer& answer);
+
 /// From an answer of one finger to the roll to do next: with the answer's noise, within the reach of its finger.
 /// `travel`: how far the finger can roll on, see AdviceOptions. Throws InputError: an answer of two fingers, and as
 /// `advise` does.

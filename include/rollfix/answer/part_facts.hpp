@@ -7,11 +7,11 @@
 namespace rollfix {
 
 /// The smallest upright rectangle around the boundary.
-struct Box {
+struct BoundingBox {
   Vec2 lo;
   Vec2 hi;
 };
-Box bounding_box(const Part& part);
+BoundingBox bounding_box(const Part& part);
 
 /// Least and largest curvature; corners don't count.
 Interval curvature_range(const Part& part);

@@ -25,6 +25,13 @@ std::vector<Contender> contenders_of(const Part& part, const std::vector<Placeme
 /// The same of a posterior's modes.
 std::vector<Contender> contenders_of(const Part& part, const std::vector<Mode>& modes);
 
+/// The same where it is not known which part it is.
+struct PartContender {
+  const Part* part = nullptr;    // not owned
+  const Reach* reach = nullptr;  // where the finger can touch it; not owned; nullptr: anywhere
+  Contender contender;
+};
+
 struct AdviceOptions {
   double turn_sd = 1e-6;             // standard deviation of a turn that is read, radians
   double length_sd = 0;              // of a length, and ...
@@ -56,5 +63,7 @@ struct Advice {
 /// much as the best. A roll that would take a contender that counts out of the finger's reach is not looked at.
 /// Throws InputError: no contenders, a standard deviation that is not above 0, or a travel that does not hold 0.
 Advice advise(const Part& part, const std::vector<Contender>& contenders, const AdviceOptions& options = {});
+/// The same of contenders on several parts, each with a reach of its own. No travel: one lap of the shortest part.
+Advice advise(const std::vector<PartContender>& contenders, const AdviceOptions& options = {});
 
 }  // namespace rollfix

@@ -5,6 +5,7 @@
 
 #include "rollfix/catalog/catalog.hpp"
 #include "rollfix/catalog/identify.hpp"
+#include "rollfix/catalog/next_roll.hpp"
 #include "rollfix/files/documents.hpp"
 
 // The JSON documents of catalogs, as text: docs/json.md lists their fields.
@@ -21,5 +22,9 @@ std::string format_shard(const Catalog& catalog, const Identified& found, const 
 /// lines.
 std::string merge_shards(const Catalog& catalog, const std::vector<std::string>& texts,
                          const std::vector<std::string>& names, Layout layout = Layout::lines);
+
+/// {"schema": "rollfix/advise/1", ...}, as of one part, with each contender's part.
+std::string format_next_roll(const Catalog& catalog, const Identified& found, const NextRollOfParts& next,
+                             Layout layout = Layout::lines);
 
 }  // namespace rollfix

@@ -16,8 +16,11 @@ namespace rollfix {
 struct IdentifyOptions {
   std::size_t shard = 1;  // of so many shards this one: every so-manieth part of the catalog
   std::size_t shards = 1;
-  bool use_index = true;  // false: every part is searched
-  unsigned threads = 0;   // 0: as many as the machine has processors
+  bool use_index = true;             // false: every part is searched
+  std::vector<std::size_t> among{};  // only these parts, by their places in the catalog, in order; none: all of it
+  /// Where bounds leave more parts than this they are counted, and not searched: to see early how many remain.
+  std::size_t most_searched = std::numeric_limits<std::size_t>::max();
+  unsigned threads = 0;  // 0: as many as the machine has processors
   /// Called now and then by the thread that waits, with the number of parts that are done: false stops the work.
   std::function<bool(std::size_t done)> go_on{};
 };
@@ -92,6 +95,8 @@ struct Identified {
   std::size_t asked = 0;              // parts, of the catalog or of the shard
   std::size_t searched = 0;           // of them, that bounds did not rule out, ...
   std::size_t searched_widely = 0;    // ... and so many more with 2.5 times the noise
+  std::vector<std::size_t> left{};    // parts that remain, as far as it was looked at: no other can be it
+  bool counted = false;               // there are more than most_searched of them: nothing else is known
   std::vector<PartWeight> weights{};  // of all parts that something fits on, in the catalog's order
   std::vector<PartRefused> refused{};
   Likeness likeness{};

@@ -30,6 +30,9 @@ struct LogOptions {
   bool mirrored = false;
   /// Lengths and distances count against the outline: they get the other sign. Of u and psi that is not meant.
   bool clockwise = false;
+  /// The part is one of many, which of them is not known: no step of a stream is a jump. Of files each part has its
+  /// say.
+  bool any_part = false;
 };
 
 /// "u=contact_deg:deg,psi=yaw_deg:deg,time=stamp:ms": COLUMN=NAME or COLUMN=NAME:UNIT, any number of them. Throws

@@ -18,7 +18,7 @@ struct Inspection {
   std::string unit;         // of a drawing, empty: not known
   std::vector<Loop> loops;  // of a drawing
   std::size_t loop = 0;     // the one that the part is, counted from 1
-  Box box;
+  BoundingBox box;
   Interval curvature;
   double largest_disk = 0;
   int symmetry = 1;

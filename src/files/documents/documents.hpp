@@ -21,6 +21,9 @@ Json inspection_json(const Inspection& inspection);
 
 /// "rollfix/advise/1".
 Json next_roll_json(const NextRoll& next);
+/// Of one part or of several: `of` says which.
+Json advice_json(const std::string& verdict, const Json& of, const std::optional<Advice>& advice,
+                 const std::string& why, const Json& contenders);
 
 /// The field `taught` of "rollfix/teach/1".
 Json taught_json(const Taught& taught);

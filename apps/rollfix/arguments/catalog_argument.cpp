@@ -1,0 +1,33 @@
+#include "rollfix/arguments/catalog_argument.hpp"
+
+#include <fmt/format.h>
+
+#include "rollfix/error.hpp"
+
+namespace rollfix::app {
+
+void add_catalog_argument(CLI::App& command, std::string& argument) {
+  command.add_option("--catalog", argument, "instead of a PART: which of the parts of this catalog is it?")
+      ->type_name("FILE");
+}
+
+void require_part_or_catalog(const std::string& command, const PartArgument& part, const std::string& catalog) {
+  if (part.part.empty() == catalog.empty()) {
+    throw InputError(command + (catalog.empty() ? ": expected a PART, or --catalog FILE, found neither"
+                                                : ": expected a PART or --catalog FILE, found both"));
+  }
+  if (catalog.empty()) return;
+  const std::string said = part.corner_angle + part.smooth + part.loop + part.gap + part.layer + part.unit;
+  if (part.open || part.allow_crossing || !said.empty()) {
+    throw InputError(
+        "--catalog: its parts were loaded when it was built: leave --corner-angle, --smooth, --loop, --gap, --layer, "
+        "--unit, --open and --allow-crossing out");
+  }
+}
+
+Part any_part_of(const Catalog& catalog) {
+  if (catalog.size() == 0) throw InputError(fmt::format("{}: the catalog has no parts", catalog.path()));
+  return with_unit(catalog.part(0), catalog.unit());
+}
+
+}  // namespace rollfix::app

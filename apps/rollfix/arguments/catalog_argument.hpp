@@ -1,0 +1,21 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "rollfix/arguments/part_argument.hpp"
+#include "rollfix/catalog/catalog.hpp"
+
+namespace rollfix::app {
+
+/// --catalog FILE, instead of a PART.
+void add_catalog_argument(CLI::App& command, std::string& argument);
+
+/// Throws InputError: a PART and a catalog, neither, or what says how a PART is loaded next to a catalog.
+void require_part_or_catalog(const std::string& command, const PartArgument& part, const std::string& catalog);
+
+/// What a log is read with while it is not known which part it is of: one of them, in the catalog's unit. Throws
+/// InputError: there is none.
+Part any_part_of(const Catalog& catalog);
+
+}  // namespace rollfix::app

@@ -1,0 +1,167 @@
+#include "rollfix/watch/meaning.hpp"
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "rollfix/answer/solve.hpp"
+#include "rollfix/error.hpp"
+#include "text/text.hpp"
+
+namespace rollfix::app {
+namespace {
+
+// A roll is looked at as a whole by no more samples than these.
+constexpr std::size_t kMostKept = 4096;
+// While so many parts remain they are only counted: to weigh them all takes longer than a roll is.
+constexpr std::size_t kMostWeighed = 500;
+// Fewer samples are no roll yet.
+constexpr std::size_t kLeastSamples = 3;
+
+/// As the log is read: see LogOptions.
+BeliefOptions as_read(const WatchOptions& watch) {
+  BeliefOptions options = watch.belief;
+  if (options.pose && watch.log.mirrored) {
+    options.pose->mean.x *= -1;
+    options.pose->mean.heading *= -1;
+  }
+  return options;
+}
+
+/// What is asked of all samples together.
+Problem problem_of(const Part& part, const WatchOptions& watch, LogKind kind, const KeptSamples& kept) {
+  const BeliefOptions options = as_read(watch);
+  Problem problem{part, kept.log(kind, part), watch.fingers, options.noise};
+  problem.prior = options.prior;
+  problem.pose = options.pose;
+  problem.robust = options.robust;
+  return problem;
+}
+
+class OnPart final : public Meaning {
+ public:
+  OnPart(const Part& part, const WatchOptions& options, LogKind kind, const Sample& first)
+      : part_(part),
+        options_(options),
+        kind_(kind),
+        belief_(part, kind, as_read(options), {first.finger_curvature, {}, options.fingers}) {}
+
+  void add(const Sample& sample) override {
+    belief_.add(sample);
+    kept_.add(sample);
+  }
+
+  void look(WatchAnswer& answer) override {
+    answer.verdict = belief_.verdict();
+    answer.modes = belief_.modes();
+    answer.rest = belief_.rest();
+    answer.excess = belief_.excess();
+  }
+
+  /// Why the rows fit badly, if they do.
+  void look_again(WatchAnswer& answer) override {
+    if (!belief_.fit().is_bad()) return;
+    try {
+      answer.diagnoses = solve(problem_of(part_, options_, kind_, kept_)).diagnoses;
+    } catch (const InputError&) {  // so few of its samples are no roll any more: what is wrong is not known
+    }
+  }
+
+ private:
+  Part part_;
+  WatchOptions options_;
+  LogKind kind_;
+  Belief belief_;
+  KeptSamples kept_;
+};
+
+/// Which parts remain: those that were ruled out are not looked at again before the roll is over.
+class OnCatalog final : public Meaning {
+ public:
+  OnCatalog(const Part& part, const WatchOptions& options, LogKind kind)
+      : part_(part), options_(options), kind_(kind) {}
+
+  void add(const Sample& sample) override { kept_.add(sample); }
+
+  void look(WatchAnswer& answer) override {
+    IdentifyOptions options;
+    options.among = left_;
+    options.most_searched = kMostWeighed;
+    look(answer, options);
+    if (answer.parts->counted || !answer.parts->parts.empty()) left_ = answer.parts->left;
+  }
+
+  void look_again(WatchAnswer& answer) override { look(answer, {}); }
+
+ private:
+  void look(WatchAnswer& answer, const IdentifyOptions& options) const {
+    Problem problem = problem_of(part_, options_, kind_, kept_);
+    if (kind_ == LogKind::increments) {  // one stands for several, which were off each
+      problem.noise->contact *= std::sqrt(static_cast<double>(kept_.each()));
+      problem.noise->angle *= std::sqrt(static_cast<double>(kept_.each()));
+    }
+    try {
+      answer.parts = std::make_shared<const Identified>(identify(*options_.catalog, problem, options));
+    } catch (const InputError&) {  // so short a roll says nothing yet, or the rows are no roll on any part
+      Identified nothing;
+      nothing.counted = kept_.size() < kLeastSamples;
+      nothing.verdict = nothing.counted ? counted(options_.catalog->size(), "part", "parts") : "none";
+      answer.parts = std::make_shared<const Identified>(std::move(nothing));
+    }
+    const Identified& found = *answer.parts;
+    const bool is_one = found.parts.size() == 1 && found.parts.front().answer.placements.size() == 1;
+    answer.verdict = {found.verdict == "none" ? Verdict::inconsistent : is_one ? Verdict::unique : Verdict::ambiguous};
+    answer.rest = found.rest;
+  }
+
+  Part part_;
+  WatchOptions options_;
+  LogKind kind_;
+  KeptSamples kept_;
+  std::vector<std::size_t> left_;  // empty: all
+};
+
+}  // namespace
+
+void KeptSamples::add(const Sample& sample) {
+  if (seen_++ % every_ != 0) return;
+  kept_.push_back(sample);
+  if (kept_.size() < kMostKept) return;
+  for (std::size_t k = 0; 2 * k < kept_.size(); ++k) kept_[k] = kept_[2 * k];
+  kept_.resize((kept_.size() + 1) / 2);
+  every_ *= 2;
+}
+
+Log KeptSamples::log(LogKind kind, const Part& part) const {
+  Log log;
+  log.kind = kind;
+  FingerRows& rows = log.fingers.front();
+  rows.u_period = std::numeric_limits<double>::infinity();  // a sample's angles are unwrapped
+  for (const Sample& sample : kept_) {
+    if (sample.time) log.time.push_back(*sample.time);
+    if (kind == LogKind::contact) {
+      rows.u.push_back((*sample.contact)[0].u);
+      rows.psi.push_back((*sample.contact)[0].psi);
+    } else {
+      const Reading as_given = in_stored_direction(sample.reading, part);  // back again
+      rows.length.push_back(as_given.length[0]);
+      rows.turn.push_back(as_given.turn);
+    }
+    if (!sample.centre) continue;
+    rows.x.push_back((*sample.centre)[0].x());
+    rows.y.push_back((*sample.centre)[0].y());
+  }
+  return log;
+}
+
+std::unique_ptr<Meaning> meaning_on_part(const Part& part, const WatchOptions& options, LogKind kind,
+                                         const Sample& first) {
+  return std::make_unique<OnPart>(part, options, kind, first);
+}
+
+std::unique_ptr<Meaning> meaning_on_catalog(const Part& part, const WatchOptions& options, LogKind kind) {
+  return std::make_unique<OnCatalog>(part, options, kind);
+}
+
+}  // namespace rollfix::app

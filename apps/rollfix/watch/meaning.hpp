@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "rollfix/watch/watcher.hpp"
+
+namespace rollfix::app {
+
+/// What the samples of a roll mean: where they were felt, on one part or on which of many.
+class Meaning {
+ public:
+  Meaning() = default;
+  virtual ~Meaning() = default;
+  Meaning(const Meaning&) = delete;
+  Meaning& operator=(const Meaning&) = delete;
+
+  virtual void add(const Sample& sample) = 0;
+  /// What is known by now goes into the answer.
+  virtual void look(WatchAnswer& answer) = 0;
+  /// The same when the roll is over and there is time.
+  virtual void look_again(WatchAnswer& answer) = 0;
+};
+
+/// Of a roll that begins with this sample. Throws InputError: noise or prior that are not valid.
+std::unique_ptr<Meaning> meaning_on_part(const Part& part, const WatchOptions& options, LogKind kind,
+                                         const Sample& first);
+/// REQUIRES options.catalog.
+std::unique_ptr<Meaning> meaning_on_catalog(const Part& part, const WatchOptions& options, LogKind kind);
+
+/// Samples of a roll, evenly spread, not too many: of every so many the first.
+class KeptSamples {
+ public:
+  void add(const Sample& sample);
+  std::size_t size() const { return kept_.size(); }
+  /// As one sample of the roll stands for so many.
+  std::size_t each() const { return every_; }
+  /// The log that they are of, as the user gave it.
+  Log log(LogKind kind, const Part& part) const;
+
+ private:
+  std::vector<Sample> kept_;
+  std::size_t every_ = 1;
+  std::size_t seen_ = 0;
+};
+
+}  // namespace rollfix::app

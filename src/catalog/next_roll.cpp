@@ -1,0 +1,80 @@
+#include "rollfix/catalog/next_roll.hpp"
+
+#include <cmath>
+
+#include "rollfix/answer/next_roll.hpp"
+#include "rollfix/error.hpp"
+#include "text/text.hpp"
+
+namespace rollfix {
+namespace {
+
+// More places are not compared with each other: the likeliest, which hold nearly all of the probability, are.
+constexpr std::size_t kMostPlaces = 200;
+
+std::vector<NextRollOfParts::Place> places_of(const Identified& found) {
+  std::vector<NextRollOfParts::Place> places;
+  std::size_t labels = 0;
+  const double all_alike = 1 / static_cast<double>(found.parts.size());
+  double total = 0;
+  for (std::size_t k = 0; k < found.parts.size() && labels < kMostPlaces; ++k) {
+    const PartFound& one = found.parts[k];
+    const double part_probability = std::isnan(one.probability) ? all_alike : one.probability;
+    for (Contender contender : contenders_of(one.answer.part, one.answer.placements)) {
+      contender.probability *= part_probability;
+      contender.label += labels;
+      total += contender.probability;
+      places.push_back({k, contender});
+    }
+    labels += one.answer.placements.size();
+  }
+  for (NextRollOfParts::Place& place : places) place.contender.probability /= total;
+  return places;
+}
+
+std::string why_no_roll(const Identified& found) {
+  const bool alike = !found.parts.empty() && found.parts.front().congruent.size() + 1 >= found.parts.size();
+  return alike && found.parts.size() > 1 ? "the parts that remain are congruent"
+                                         : "within the travel what remains looks alike";
+}
+
+}  // namespace
+
+NextRollOfParts next_roll(const Identified& found, const std::optional<Interval>& travel) {
+  NextRollOfParts next;
+  if (found.parts.empty()) {
+    next.why = "nothing fits: there is nothing to tell apart";
+    return next;
+  }
+  for (const PartFound& one : found.parts) {
+    if (one.answer.finger_count() != 1) throw InputError("advise: expected what one finger read, found two fingers");
+    for (const Placement& placement : one.answer.placements) {
+      if (placement.clockwise) throw InputError("advise: expected one direction of the roll, found either");
+    }
+  }
+  next.places = places_of(found);
+  if (found.verdict.rfind("unique part, unique place", 0) == 0) {
+    next.why = "there is only one part and one place left";
+    return next;
+  }
+  std::vector<std::optional<Reach>> reaches;
+  for (const PartFound& one : found.parts) reaches.push_back(reach_for_advice(one.answer));
+  std::vector<PartContender> contenders;
+  for (const NextRollOfParts::Place& place : next.places) {
+    const std::optional<Reach>& reach = reaches[place.part];
+    contenders.push_back({&found.parts[place.part].answer.part, reach ? &*reach : nullptr, place.contender});
+  }
+  next.advice = advise(contenders, advice_options(found.parts.front().answer, travel));
+  if (!next.advice->helps) {
+    next.why = why_no_roll(found);
+    return next;
+  }
+  for (NextRollOfParts::Place& place : next.places) {
+    const TurningFunction& turning = found.parts[place.part].answer.part.turning();
+    const double from = place.contender.place;
+    place.turn_ahead = turning.angle(from + next.advice->advised().length) - turning.angle(from);
+  }
+  return next;
+}
+
+}  // namespace rollfix
