@@ -2,8 +2,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "catalogs.hpp"
 #include "rollfix/catalog/next_roll.hpp"
 
@@ -79,11 +77,10 @@ TEST_F(AdviseCatalog, stays_within_the_travel) {
 }
 
 TEST_F(AdviseCatalog, says_that_congruent_parts_stay_together) {
-  std::ofstream("one.csv") << "0,0\n10,0\n3,8\n";
-  std::ofstream("other.csv") << "10,0\n3,8\n0,0\n";
-  build_catalog("twins.db", {{"one.csv", "one"}, {"other.csv", "other"}});
+  build_catalog("twins.db",
+                {{"gallery:spline,n=9,wobble=0.2,seed=3", "one"}, {"gallery:spline,seed=3,n=9,wobble=0.2", "other"}});
   const Catalog twins("twins.db");
-  const NextRollOfParts next = next_roll(identify(twins, {twins.part(0), roll_on(twins.part(0), 2, {9, 15})}));
+  const NextRollOfParts next = next_roll(identify(twins, {twins.part(0), roll_on(twins.part(0), 1, {0.4, 0.9, 1.5})}));
   EXPECT_FALSE(next.helps());
   EXPECT_EQ(next.why, "the parts that remain are congruent");
 }
