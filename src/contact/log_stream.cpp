@@ -42,11 +42,11 @@ struct Steps {
 }  // namespace
 
 struct LogStream::State {
-  State(std::string name, const Part& on, std::vector<Finger> by, const Noise& noise_of, const LogOptions& options,
+  State(std::string name, const Part& on, std::vector<Finger> by, const Noise& noise_of, LogOptions options,
         bool is_robust)
-      : reader(std::move(name), in_unit_of(on, options)),
+      : any_part(options.any_part),
+        reader(std::move(name), in_unit_of(on, std::move(options))),
         part(on),
-        any_part(options.any_part),
         fingers(std::move(by)),
         noise(noise_of),
         robust(is_robust) {
@@ -58,9 +58,9 @@ struct LogStream::State {
   LogLine push(const Read& read);
   void resume();
 
+  bool any_part;
   RowReader reader;
   Part part;
-  bool any_part;
   std::vector<Finger> fingers;
   Noise noise;
   bool robust;
@@ -218,7 +218,7 @@ void LogStream::State::resume() {
 
 LogStream::LogStream(std::string name, const Part& part, std::vector<Finger> fingers, const Noise& noise,
                      LogOptions options, bool robust)
-    : state_(std::make_unique<State>(std::move(name), part, std::move(fingers), noise, options, robust)) {}
+    : state_(std::make_unique<State>(std::move(name), part, std::move(fingers), noise, std::move(options), robust)) {}
 LogStream::~LogStream() = default;
 LogStream::LogStream(LogStream&&) noexcept = default;
 LogStream& LogStream::operator=(LogStream&&) noexcept = default;
