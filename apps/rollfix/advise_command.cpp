@@ -116,7 +116,7 @@ std::string table_of(const std::string& first, const std::vector<Row>& rows, con
 
 std::string advise_text(const NextRoll& outcome) {
   const Part& part = outcome.answer.part;
-  const std::string text = headline(outcome.answer.verdict.text(), outcome.advice, outcome.why, part) + "\n";
+  std::string text = headline(outcome.answer.verdict.text(), outcome.advice, outcome.why, part) + "\n";
   if (!outcome.helps()) return text;
   std::vector<Row> rows;
   for (const Contender& contender : outcome.contenders) {
@@ -129,7 +129,7 @@ std::string advise_text(const NextRoll& outcome) {
 
 std::string advise_text(const Catalog& catalog, const Identified& found, const NextRollOfParts& next,
                         const Part& any_part) {
-  const std::string text = headline(found.verdict, next.advice, next.why, any_part) + "\n";
+  std::string text = headline(found.verdict, next.advice, next.why, any_part) + "\n";
   if (!next.helps()) return text;
   std::vector<Row> rows;
   std::optional<std::size_t> last;
