@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "catalog/profile.hpp"
+#include "catalog/bounds/profile.hpp"
 #include "catalogs.hpp"
 #include "random.hpp"
 
@@ -144,24 +144,61 @@ TEST_F(Bounds, lose_nothing_where_even_the_best_part_fits_badly) {
   EXPECT_EQ(names_of(catalog_, quick), names_of(catalog_, all));
 }
 
+/// Theta where the cells say that it is, everywhere on the part.
+template <std::size_t N>
+void expect_to_hold_theta(const Profile<N>& profile, const Part& part) {
+  for (int k = 0; k < 10000; ++k) {
+    const double s = (k + 0.5) / 10000 * part.perimeter();
+    const auto cell = static_cast<std::size_t>(s / part.perimeter() * N);
+    EXPECT_LE(profile.least[cell], part.turning().angle(s));
+    EXPECT_GE(profile.most[cell], part.turning().angle(s));
+  }
+}
+
 TEST(Profile, holds_theta_wherever_it_is_looked_at) {
   for (const std::string shape : {"cam", "gear", "polygon,n=5", "log-spiral", "spline,n=16,seed=3,wobble=0.2"}) {
     const Part part = load_part("gallery:" + shape);
-    const Profile<kCells> profile = profile_of(part);
-    for (int k = 0; k < 10000; ++k) {
-      const double s = (k + 0.5) / 10000 * part.perimeter();
-      const auto cell = static_cast<std::size_t>(s / part.perimeter() * kCells);
-      EXPECT_LE(profile.least[cell], part.turning().angle(s));
-      EXPECT_GE(profile.most[cell], part.turning().angle(s));
-    }
+    const Profile<kFineCells> fine = profile_of(part);
+    const Profile<kCells> cells = coarser(fine);
+    expect_to_hold_theta(fine, part);
+    expect_to_hold_theta(cells, part);
+    expect_to_hold_theta(coarser(cells), part);
+    expect_to_hold_theta(*fine_profile_from(fine_bytes_of(fine, cells), cells), part);
   }
 }
 
 TEST(Profile, is_read_back_as_it_was_written) {
-  const Profile<kCells> profile = profile_of(load_part("gallery:cam"));
+  const Profile<kCells> profile = coarser(profile_of(load_part("gallery:cam")));
   EXPECT_EQ(profile_from(bytes_of(profile))->least, profile.least);
   EXPECT_EQ(profile_from(bytes_of(profile))->most, profile.most);
+}
+
+TEST(Profile, of_fine_cells_loses_a_255th_of_a_larger_one_when_it_is_written) {
+  const Profile<kFineCells> fine = profile_of(load_part("gallery:gear"));
+  const Profile<kCells> cells = coarser(fine);
+  const Profile<kFineCells> read = *fine_profile_from(fine_bytes_of(fine, cells), cells);
+  for (std::size_t k = 0; k < kFineCells; ++k) {
+    const double step = 1.01 * (cells.most[k / 4] - cells.least[k / 4]) / 255;
+    EXPECT_NEAR(read.least[k], fine.least[k], step);
+    EXPECT_NEAR(read.most[k], fine.most[k], step);
+    EXPECT_LE(read.least[k], fine.least[k]);
+    EXPECT_GE(read.most[k], fine.most[k]);
+  }
+}
+
+TEST(Profile, that_was_damaged_is_not_taken) {
+  const Profile<kFineCells> fine = profile_of(load_part("gallery:cam"));
+  const Profile<kCells> cells = coarser(fine);
+  for (const std::size_t place : {0, 100, 511, 519}) {
+    std::string bytes = bytes_of(cells);
+    bytes[place] = static_cast<char>(bytes[place] ^ 1);
+    EXPECT_FALSE(profile_from(bytes));
+    bytes = fine_bytes_of(fine, cells);
+    bytes[place] = static_cast<char>(bytes[place] ^ 1);
+    EXPECT_FALSE(fine_profile_from(bytes, cells));
+  }
   EXPECT_FALSE(profile_from("too short"));
+  EXPECT_FALSE(fine_profile_from("too short", cells));
 }
 
 }  // namespace

@@ -153,7 +153,7 @@ void add_advice_figure(const AdviseArguments& arguments, const std::optional<Adv
 }
 
 Report advise_on_catalog(const AdviseArguments& arguments) {
-  if (!arguments.roll.prior.empty()) throw InputError("--prior: is about a place on one part: leave it out");
+  require_no_prior(arguments.roll.prior);
   const Catalog catalog(arguments.catalog);
   const Part any_part = any_part_of(catalog);
   Report report;

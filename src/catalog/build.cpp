@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "answer/crew.hpp"
+#include "bounds/profile.hpp"
 #include "files/byte_stream.hpp"
 #include "files/part_record.hpp"
-#include "profile.hpp"
 #include "rollfix/answer/part_facts.hpp"
 #include "rollfix/catalog/catalog.hpp"
 #include "rollfix/error.hpp"
@@ -30,7 +30,8 @@ struct ReadyPart {
   double period_turn = 0;
   double most_curvature = 0;
   bool measured = false;
-  std::string profile;
+  std::string cells;  // of 64, ...
+  std::string fine;   // ... and of 256
   PartRecord record;
 };
 
@@ -69,7 +70,9 @@ ReadyPart ready_part(const Part& part, const std::string& name, double count, bo
   ready.period_turn = part.turning().period_turn();
   ready.most_curvature = part.turning().most_curvature();
   ready.measured = !part.outline().accuracy.is_exact();
-  ready.profile = bytes_of(profile_of(part));
+  const Profile<kFineCells> fine = profile_of(part);
+  ready.cells = bytes_of(coarser(fine));
+  ready.fine = fine_bytes_of(fine, coarser(fine));
   ready.record = record_of(part);
   if (lean) ready.record.computed.clear();
   return ready;
@@ -263,18 +266,18 @@ class CatalogWriter {
     row.bind_text(0, entry.name).bind(1, source).bind(2, entry.perimeter).bind(3, part.period_turn);
     row.bind(4, part.most_curvature).bind(5, std::int64_t{entry.closed}).bind(6, std::int64_t{entry.reversed});
     row.bind(7, std::int64_t{part.measured}).bind(8, std::int64_t{entry.symmetry}).bind(9, entry.count);
-    row.bind_bytes(10, part.profile).run();
+    row.bind_bytes(10, part.cells).run();
     const PartRecord& record = part.record;
-    Statement shape = database_.prepare("INSERT INTO shapes VALUES (?, ?, ?, ?, ?, ?)");
-    shape.bind(0, database_.last_id()).bind_text(1, record.outline).bind_bytes(2, record.numbers);
-    shape.bind(3, std::int64_t{kComputedFormat});
+    Statement shape = database_.prepare("INSERT INTO shapes VALUES (?, ?, ?, ?, ?, ?, ?)");
+    shape.bind(0, database_.last_id()).bind_bytes(1, part.fine);
+    shape.bind_text(2, record.outline).bind_bytes(3, record.numbers).bind(4, std::int64_t{kComputedFormat});
     if (record.computed.empty()) {
-      shape.bind_nothing(4);
+      shape.bind_nothing(5);
     } else {
-      shape.bind_bytes(4, record.computed);
+      shape.bind_bytes(5, record.computed);
     }
     const std::uint64_t sum = checksum(record.outline + record.numbers + record.computed);
-    shape.bind(5, static_cast<std::int64_t>(sum)).run();
+    shape.bind(6, static_cast<std::int64_t>(sum)).run();
   }
 
   Database database_;

@@ -8,9 +8,9 @@
 #include <unordered_map>
 #include <utility>
 
+#include "bounds/index.hpp"
 #include "files/byte_stream.hpp"
 #include "files/part_record.hpp"
-#include "index.hpp"
 #include "rollfix/error.hpp"
 #include "tables.hpp"
 
@@ -19,6 +19,9 @@ namespace {
 
 // Parts that are kept once they were loaded: some 100 kB each.
 constexpr std::size_t kMostKept = 4096;
+
+constexpr const char* kTakenOut = "was taken out of the catalog meanwhile";
+constexpr const char* kDamaged = "was damaged since it was written: its checksum does not fit";
 
 /// The bytes of a part as they stand in the catalog.
 struct Stored {
@@ -30,10 +33,19 @@ struct Stored {
 }  // namespace
 
 struct Catalog::State {
-  explicit State(const std::string& file) : database(file, Database::Access::read), path(file) {}
+  explicit State(const std::string& file) : database(file, Database::Access::read), path(file) {
+    require_catalog(database);
+    unit = fact(database, "unit");
+    read_entries();
+    index.fine = [this](const std::vector<std::size_t>& parts) { return fine_profiles(parts); };
+  }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
 
   void read_entries();
   Stored stored(std::size_t which);
+  std::vector<Profile<kFineCells>> fine_profiles(const std::vector<std::size_t>& parts);
+  [[noreturn]] void refuse(std::size_t which, const char* what) const;
 
   Database database;
   std::string path;
@@ -53,7 +65,7 @@ void Catalog::State::read_entries() {
   entries.reserve(count);
   index.courses.reserve(count);
   index.coarse.reserve(count);
-  index.fine.reserve(count);
+  index.cells.reserve(count);
   index.measured.reserve(count);
   Statement rows = database.prepare(
       "SELECT id, name, perimeter, symmetry, closed, reversed, count, period_turn, most_curvature, measured, profile "
@@ -68,11 +80,11 @@ void Catalog::State::read_entries() {
     entry.reversed = rows.whole(5) != 0;
     entry.count = rows.number(6);
     const std::optional<Profile<kCells>> profile = profile_from(rows.bytes(10));
-    if (!profile) throw InputError(fmt::format("{}: {}: its index is damaged", path, entry.name));
+    if (!profile) throw InputError(fmt::format("{}: {}: {}", path, entry.name, kDamaged));
     index.courses.push_back({static_cast<float>(entry.perimeter), static_cast<float>(rows.number(7)),
                              static_cast<float>(rows.number(8)), entry.closed});
-    index.coarse.push_back(coarse_of(*profile));
-    index.fine.push_back(*profile);
+    index.coarse.push_back(coarser(*profile));
+    index.cells.push_back(*profile);
     index.measured.push_back(static_cast<std::uint8_t>(rows.whole(9) != 0));
     entries.push_back(std::move(entry));
   }
@@ -82,24 +94,39 @@ Stored Catalog::State::stored(std::size_t which) {
   const std::lock_guard lock(mutex);
   Statement row = database.prepare("SELECT outline, numbers, format, computed, checksum FROM shapes WHERE part = ?");
   row.bind(0, entries[which].id);
-  const auto refuse = [&](const char* what) {
-    throw InputError(fmt::format("{}: {}: {}", path, entries[which].name, what));
-  };
-  if (!row.step()) refuse("was taken out of the catalog meanwhile");
+  if (!row.step()) refuse(which, kTakenOut);
   Stored stored{std::string(row.bytes(0)), std::string(row.bytes(1)), std::nullopt};
   const bool is_current = row.whole(2) == kComputedFormat && !row.is_nothing(3);
   if (is_current) stored.computed = std::string(row.bytes(3));
   const std::uint64_t sum = checksum(stored.outline + stored.numbers + std::string(row.bytes(3)));
-  if (static_cast<std::int64_t>(sum) != row.whole(4))
-    refuse("was damaged since it was written: its checksum does not fit");
+  if (static_cast<std::int64_t>(sum) != row.whole(4)) refuse(which, kDamaged);
   return stored;
 }
 
-Catalog::Catalog(const std::string& path) : state_(std::make_unique<State>(path)) {
-  require_catalog(state_->database);
-  state_->unit = fact(state_->database, "unit");
-  state_->read_entries();
+std::vector<Profile<kFineCells>> Catalog::State::fine_profiles(const std::vector<std::size_t>& parts) {
+  std::vector<Profile<kFineCells>> profiles;
+  profiles.reserve(parts.size());
+  const std::lock_guard lock(mutex);
+  // While a statement stands on a row the file is open for reading: else it would be opened for each part anew.
+  Statement open = database.prepare("SELECT 1 FROM facts");
+  open.step();
+  Statement row = database.prepare("SELECT fine FROM shapes WHERE part = ?");
+  for (const std::size_t which : parts) {
+    row.reset();
+    row.bind(0, entries[which].id);
+    if (!row.step()) refuse(which, kTakenOut);
+    const std::optional<Profile<kFineCells>> profile = fine_profile_from(row.bytes(0), index.cells[which]);
+    if (!profile) refuse(which, kDamaged);
+    profiles.push_back(*profile);
+  }
+  return profiles;
 }
+
+void Catalog::State::refuse(std::size_t which, const char* what) const {
+  throw InputError(fmt::format("{}: {}: {}", path, entries[which].name, what));
+}
+
+Catalog::Catalog(const std::string& path) : state_(std::make_unique<State>(path)) {}
 Catalog::~Catalog() = default;
 Catalog::Catalog(Catalog&&) noexcept = default;
 Catalog& Catalog::operator=(Catalog&&) noexcept = default;

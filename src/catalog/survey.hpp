@@ -24,9 +24,6 @@ class Survey {
   const Answer& answer(std::size_t part) const { return answers_.at(part); }
 
  private:
-  /// Those that bounds leave.
-  std::vector<std::size_t> bounded(const std::vector<std::size_t>& parts, double excess) const;
-
   const Catalog& catalog_;
   const Problem& like_;
   const IdentifyOptions& options_;

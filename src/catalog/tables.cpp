@@ -30,6 +30,7 @@ CREATE TABLE parts (
 CREATE INDEX parts_by_source ON parts (source);
 CREATE TABLE shapes (
   part INTEGER PRIMARY KEY REFERENCES parts (id),
+  fine BLOB NOT NULL,
   outline TEXT NOT NULL,
   numbers BLOB NOT NULL,
   format INTEGER NOT NULL,

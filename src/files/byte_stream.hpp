@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -13,7 +14,9 @@ namespace rollfix {
 class ByteWriter {
  public:
   void whole(std::uint64_t value) {
-    for (int shift = 0; shift < 64; shift += 8) bytes_.push_back(static_cast<char>((value >> shift) & 0xFFU));
+    std::array<char, 8> bytes;
+    for (std::size_t k = 0; k < 8; ++k) bytes[k] = static_cast<char>((value >> (8 * k)) & 0xFFU);
+    bytes_.append(bytes.data(), bytes.size());
   }
   void number(double value) { whole(std::bit_cast<std::uint64_t>(value)); }
   const std::string& bytes() const { return bytes_; }

@@ -25,6 +25,10 @@ void require_part_or_catalog(const std::string& command, const PartArgument& par
   }
 }
 
+void require_no_prior(const std::string& prior) {
+  if (!prior.empty()) throw InputError("--prior: is about a place on one part: leave it out");
+}
+
 Part any_part_of(const Catalog& catalog) {
   if (catalog.size() == 0) throw InputError(fmt::format("{}: the catalog has no parts", catalog.path()));
   return with_unit(catalog.part(0), catalog.unit());

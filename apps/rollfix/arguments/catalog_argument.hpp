@@ -14,6 +14,9 @@ void add_catalog_argument(CLI::App& command, std::string& argument);
 /// Throws InputError: a PART and a catalog, neither, or what says how a PART is loaded next to a catalog.
 void require_part_or_catalog(const std::string& command, const PartArgument& part, const std::string& catalog);
 
+/// Throws InputError: --prior was given, where it is asked which part it is.
+void require_no_prior(const std::string& prior);
+
 /// What a log is read with while it is not known which part it is of: one of them, in the catalog's unit. Throws
 /// InputError: there is none.
 Part any_part_of(const Catalog& catalog);

@@ -65,7 +65,7 @@ Problem read_question(const IdentifyArguments& arguments, const Catalog& catalog
   if (!roll.readings.empty() && !roll.logs.empty()) {
     throw InputError("identify: expected --reading or --log, found both: they can't be of the same roll");
   }
-  if (!roll.prior.empty()) throw InputError("--prior: is about a place on one part: leave it out");
+  require_no_prior(roll.prior);
   return read_problem(roll, any_part_of(catalog), notes);
 }
 

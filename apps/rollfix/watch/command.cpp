@@ -86,9 +86,7 @@ std::string log_name(const WatchArguments& arguments) {
 
 void require_sensible(const WatchArguments& arguments, const std::string& log) {
   require_part_or_catalog("watch", arguments.part, arguments.catalog);
-  if (!arguments.catalog.empty() && !arguments.prior.empty()) {
-    throw InputError("--prior: is about a place on one part: leave it out");
-  }
+  if (!arguments.catalog.empty()) require_no_prior(arguments.prior);
   if (log == "-" && arguments.part.part == "-") {
     throw InputError("the part and the log can't both come from standard input: give one of them as a file");
   }

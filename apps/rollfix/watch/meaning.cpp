@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -106,7 +107,12 @@ class OnCatalog final : public Meaning {
     } catch (const InputError&) {  // so short a roll says nothing yet, or the rows are no roll on any part
       Identified nothing;
       nothing.counted = kept_.size() < kLeastSamples;
-      nothing.verdict = nothing.counted ? counted(options_.catalog->size(), "part", "parts") : "none";
+      nothing.verdict = "none";
+      if (nothing.counted) {
+        nothing.left.resize(options_.catalog->size());
+        std::iota(nothing.left.begin(), nothing.left.end(), std::size_t{0});
+        nothing.verdict = counted(nothing.left.size(), "part", "parts");
+      }
       answer.parts = std::make_shared<const Identified>(std::move(nothing));
     }
     const Identified& found = *answer.parts;

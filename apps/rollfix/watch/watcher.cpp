@@ -22,9 +22,6 @@ constexpr double kGrowth = 0.1;
 constexpr double kOtherProbability = 0.1;  // below that nobody decides otherwise
 constexpr double kTwiceAsSure = 0.5;       // the new standard deviation, as a share of the old one
 
-// Looking takes no more of the time than the log is left in between, so many times.
-constexpr int kRestAfterLook = 1;
-
 /// Adds the time that passes while it lives.
 class WorkTime {
  public:
@@ -218,7 +215,8 @@ void Watcher::look() {
   has_news_ = is_news(said_, answer_, part_);
   if (!options_.live) return;
   const WorkClock::time_point now = WorkClock::now();
-  next_look_ = now + std::max<WorkClock::duration>(kMostDelay, kRestAfterLook * (now - start));
+  // Looking takes no more than half of the time.
+  next_look_ = now + std::max<WorkClock::duration>(kMostDelay, now - start);
 }
 
 void Watcher::end_roll(RollEnd why) {

@@ -1,9 +1,11 @@
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
+#include "cells.hpp"
 #include "profile.hpp"
 #include "rollfix/catalog/catalog.hpp"
 
@@ -13,8 +15,10 @@ namespace rollfix {
 struct Catalog::Index {
   std::vector<Course> courses;
   std::vector<Profile<kCoarseCells>> coarse;
-  std::vector<Profile<kCells>> fine;
+  std::vector<Profile<kCells>> cells;
   std::vector<std::uint8_t> measured;  // its outline is not exact: bounds on it say nothing certain
+  /// Read from the file.
+  std::function<std::vector<Profile<kFineCells>>(const std::vector<std::size_t>& parts)> fine;
 };
 
 }  // namespace rollfix

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "profile.hpp"
+#include "clue.hpp"
 #include "rollfix/answer/answer.hpp"
 #include "rollfix/catalog/catalog.hpp"
 

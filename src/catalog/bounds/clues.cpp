@@ -1,9 +1,11 @@
 #include "clues.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "answer/either_way.hpp"
 #include "answer/mirror.hpp"
@@ -26,6 +28,16 @@ constexpr double kOverTolerance = 10;
 constexpr double kFarthest = 6;
 // The sum of squares of m rows is below m + 5 sqrt(2 m) + 25 but once in a million rolls.
 constexpr double kSigmasOfSum = 5;
+
+/// Those that are far apart first: neighbours tell nearly the same, and the sooner nothing is left, the better.
+void spread(std::vector<Clue>& clues) {
+  std::vector<Clue> all;
+  all.reserve(clues.size());
+  for (std::size_t step = std::bit_ceil(clues.size()); step > 0; step /= 2) {
+    for (std::size_t k = step; k <= clues.size(); k += 2 * step) all.push_back(clues[k - 1]);
+  }
+  clues = std::move(all);
+}
 
 /// The numbers of about so many rows, evenly over all; the last is one of them.
 std::vector<std::size_t> some_of(std::size_t rows, std::size_t wanted) {
@@ -142,6 +154,8 @@ RollClues clues_with_noise(const Problem& problem, const Observation& observed, 
     roll.few.facing = roll.many.facing = observed.facing;
     roll.few.facing_slack = roll.many.facing_slack = farthest * std::sqrt(2 * errors.front().shared);
   }
+  spread(roll.few.clues);
+  spread(roll.many.clues);
   return roll;
 }
 
@@ -176,8 +190,10 @@ RollClues clues_without_noise(const Problem& problem, const Observation& observe
       clues.facing_slack = slack.turn_slack;
       clues.facing_slack_by_curvature = slack.turn_slack_by_curvature;
     }
-    if (!takes_all) return clues;
-    for (const std::size_t row : some_of(observed.rolls.size(), wanted)) add(observed.rolls[row], kOverTolerance);
+    if (takes_all) {
+      for (const std::size_t row : some_of(observed.rolls.size(), wanted)) add(observed.rolls[row], kOverTolerance);
+    }
+    spread(clues.clues);
     return clues;
   };
   return {some(kFew), some(kMany)};

@@ -1,0 +1,94 @@
+#include "bounds.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "answer/crew.hpp"
+#include "halving.hpp"
+
+namespace rollfix {
+namespace {
+
+// Parts that a thread looks at in one go: in memory, and with what is read from the file.
+constexpr std::size_t kBlock = 1024;
+constexpr std::size_t kReadBlock = 64;
+
+}  // namespace
+
+Bounds::Bounds(const Catalog& catalog, const Problem& like, double excess)
+    : catalog_(catalog), index_(catalog.index()), clues_(clues_of(catalog, like, excess)) {}
+
+const std::vector<RollClues>& Bounds::ways_on(std::size_t part) const {
+  return clues_[catalog_.entry(part).reversed ? 1 : 0];
+}
+
+bool Bounds::look_in_memory(Candidate& candidate) const {
+  const std::size_t part = candidate.part;
+  candidate.cells.clear();
+  bool is_any = false;
+  for (const RollClues& way : ways_on(part)) {
+    const Course& course = index_.courses[part];
+    const Cells<kCoarseCells> coarse = cells_left(index_.coarse[part], course, way.few, ~Cells<kCoarseCells / 4>());
+    Cells<kCells> cells;
+    if (coarse.any()) cells = cells_left(index_.cells[part], course, way.few, coarse);
+    candidate.cells.push_back(cells);
+    is_any = is_any || cells.any();
+  }
+  return is_any || index_.measured[part] != 0;
+}
+
+bool Bounds::may_be(const Candidate& candidate, const Profile<kFineCells>& fine) const {
+  if (index_.measured[candidate.part] != 0) return true;
+  const std::vector<RollClues>& ways = ways_on(candidate.part);
+  std::optional<Part> part;
+  for (std::size_t k = 0; k < ways.size(); ++k) {
+    if (candidate.cells[k].none()) continue;
+    const bool is_one_finger = ways[k].few.fingers == 1;
+    const Clues& clues = is_one_finger ? ways[k].many : ways[k].few;
+    const Cells<kFineCells> cells = cells_left(fine, index_.courses[candidate.part], clues, candidate.cells[k]);
+    if (cells.none()) continue;
+    if (!is_one_finger) return true;
+    if (!part) part = catalog_.part(candidate.part);
+    if (may_start(*part, ways[k].many, cells)) return true;
+  }
+  return false;
+}
+
+std::vector<Bounds::Candidate> Bounds::candidates(const std::vector<std::size_t>& parts,
+                                                  const IdentifyOptions& options) const {
+  std::vector<std::vector<Candidate>> blocks((parts.size() + kBlock - 1) / kBlock);
+  Crew crew(parts.size(), kBlock);
+  crew.run(options.threads, {}, [&](std::size_t lo, std::size_t hi) {
+    Candidate candidate;
+    for (std::size_t k = lo; k < hi; ++k) {
+      candidate.part = parts[k];
+      if (look_in_memory(candidate)) blocks[lo / kBlock].push_back(candidate);
+    }
+  });
+  crew.require_done();
+  std::vector<Candidate> all;
+  for (std::vector<Candidate>& block : blocks) std::move(block.begin(), block.end(), std::back_inserter(all));
+  return all;
+}
+
+std::vector<std::size_t> Bounds::left_of(const std::vector<std::size_t>& parts, const IdentifyOptions& options) const {
+  const std::vector<Candidate> in_memory = candidates(parts, options);
+  std::vector<char> is_left(in_memory.size());
+  Crew crew(in_memory.size(), kReadBlock);
+  crew.run(options.threads, options.go_on, [&](std::size_t lo, std::size_t hi) {
+    std::vector<std::size_t> block;
+    for (std::size_t k = lo; k < hi; ++k) block.push_back(in_memory[k].part);
+    const std::vector<Profile<kFineCells>> fine = index_.fine(block);
+    for (std::size_t k = lo; k < hi; ++k) is_left[k] = may_be(in_memory[k], fine[k - lo]) ? 1 : 0;
+  });
+  crew.require_done();
+  std::vector<std::size_t> left;
+  for (std::size_t k = 0; k < in_memory.size(); ++k) {
+    if (is_left[k] != 0) left.push_back(in_memory[k].part);
+  }
+  return left;
+}
+
+}  // namespace rollfix
