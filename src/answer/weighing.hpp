@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include "observation.hpp"
 
@@ -20,6 +21,7 @@ struct Supposed {
   std::size_t rows = std::numeric_limits<std::size_t>::max();  // no more than about so many are looked at
   bool glance = false;                                         // see BeliefOptions
   std::optional<std::size_t> nodes{};                          // likewise
+  std::vector<Interval> within{};                              // likewise
 };
 /// Nothing without noise.
 std::optional<Belief> believe(const Problem& problem, const Observation& observed, const Supposed& supposed = {});

@@ -37,14 +37,32 @@ std::optional<Rival> rival_of(const Catalog& catalog, const std::vector<PartWeig
   return Rival{log_evidence, best.widened};
 }
 
-Glance glance_at(const Catalog& catalog, const std::vector<Problem>& ways, std::size_t part,
+/// The stretches of the boundary that these cells are.
+std::vector<Interval> stretches_of(const Cells<kFineCells>& cells, double perimeter) {
+  std::vector<Interval> stretches;
+  const double step = perimeter / kFineCells;
+  for (std::size_t k = 0; k < kFineCells; ++k) {
+    if (!cells[k]) continue;
+    const double lo = step * static_cast<double>(k);
+    if (k == 0 || !cells[k - 1]) stretches.push_back({lo, lo});
+    stretches.back().hi = step * static_cast<double>(k + 1);
+  }
+  return stretches;
+}
+
+Glance glance_at(const Catalog& catalog, const std::vector<Problem>& ways, const PartLeft& left,
                  const std::vector<PartWeight>& weights) {
-  const std::optional<Rival> rival = rival_of(catalog, weights, part);
+  const std::optional<Rival> rival = rival_of(catalog, weights, left.part);
   Glance glance;
-  for (Problem way : ways) {
-    way.part = catalog.part(part);
+  for (std::size_t k = 0; k < ways.size(); ++k) {
+    Problem way = ways[k];
+    way.part = catalog.part(left.part);
     Supposed supposed;
     supposed.nodes = kNodes;
+    if (!left.cells.empty()) {
+      if (left.cells[k].none()) continue;
+      supposed.within = stretches_of(left.cells[k], way.part.perimeter());
+    }
     std::optional<Belief> belief;
     try {
       belief = believe(way, observe(way), supposed);
@@ -54,7 +72,7 @@ Glance glance_at(const Catalog& catalog, const std::vector<Problem>& ways, std::
     }
     if (rival && belief->is_hopeless(*rival)) continue;
     PartWeight weight;
-    weight.part = part;
+    weight.part = left.part;
     weight.peak = belief->evidence().peak;
     weight.volume = belief->evidence().volume - std::log(way.part.perimeter());
     weight.widened = belief->fit().widened;
@@ -74,7 +92,7 @@ bool can_glance(const Problem& like) {
 }
 
 std::vector<std::size_t> worth_a_look(const Catalog& catalog, const Problem& like,
-                                      const std::vector<std::size_t>& parts, const IdentifyOptions& options) {
+                                      const std::vector<PartLeft>& parts, const IdentifyOptions& options) {
   std::vector<Problem> ways{like.mirrored ? in_mirror(like) : like};
   if (like.either_way) ways.push_back(counted_clockwise(ways.front()));
   std::vector<Glance> glances(parts.size());
@@ -97,7 +115,7 @@ std::vector<std::size_t> worth_a_look(const Catalog& catalog, const Problem& lik
   for (std::size_t k = 0; k < parts.size(); ++k) {
     const Glance& one = glances[k];
     const bool matters = one.weight && log_weight(catalog, *one.weight, widened) > most - kHopeless;
-    if (matters || one.refused) left.push_back(parts[k]);
+    if (matters || one.refused) left.push_back(parts[k].part);
   }
   return left;
 }

@@ -43,9 +43,16 @@ Outcome outcome_of(const Catalog& catalog, const Problem& like, std::size_t part
 
 void Survey::look(const std::vector<std::size_t>& parts, double excess, Identified& found) {
   const bool widely = excess > 1;
-  std::vector<std::size_t> left = options_.use_index ? Bounds(catalog_, like_, excess).left_of(parts, options_) : parts;
-  const auto is_known = [&](std::size_t part) { return searched_.count(part) > 0; };
-  left.erase(std::remove_if(left.begin(), left.end(), is_known), left.end());
+  std::vector<PartLeft> bounded;
+  if (options_.use_index) {
+    bounded = Bounds(catalog_, like_, excess).left_of(parts, options_);
+  } else {
+    for (const std::size_t part : parts) bounded.push_back({part});
+  }
+  const auto is_known = [&](const PartLeft& one) { return searched_.count(one.part) > 0; };
+  bounded.erase(std::remove_if(bounded.begin(), bounded.end(), is_known), bounded.end());
+  std::vector<std::size_t> left;
+  for (const PartLeft& one : bounded) left.push_back(one.part);
   (widely ? found.searched_widely : found.searched) += left.size();
   searched_.insert(left.begin(), left.end());
   found.left.insert(found.left.end(), left.begin(), left.end());
@@ -54,7 +61,7 @@ void Survey::look(const std::vector<std::size_t>& parts, double excess, Identifi
     found.counted = true;
     return;
   }
-  if (options_.use_index && can_glance(like_)) left = worth_a_look(catalog_, like_, left, options_);
+  if (options_.use_index && can_glance(like_)) left = worth_a_look(catalog_, like_, bounded, options_);
   std::vector<Outcome> outcomes(left.size());
   Crew crew(left.size(), 1);
   crew.run(options_.threads, options_.go_on, [&](std::size_t lo, std::size_t hi) {

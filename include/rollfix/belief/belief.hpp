@@ -42,9 +42,11 @@ struct BeliefOptions {
   bool bare = false;             // readings whose first contact is exact and that do not drift
   double scale_sd = 0;           // of all lengths by one factor, besides what slip and radius make of them
   bool glance = false;           // of two fingers: where nothing fits there are no modes, and Fit says no more
-  std::optional<std::size_t>
-      nodes{};                      // one finger's samples are joined to so many at most; none: as few as lose nothing
   std::optional<PosePrior> pose{};  // for logs of u and psi and known fingers; places take x and y in the log as well
+  /// Of one finger: its samples are joined to so many at most; none: as few as lose nothing.
+  std::optional<std::size_t> nodes{};
+  /// Of one finger: stretches of [0, P] outside which the first contact can't be; none: it can be anywhere.
+  std::vector<Interval> within{};
 };
 
 /// What is known of the fingers, one or two.

@@ -39,21 +39,26 @@ bool Bounds::look_in_memory(Candidate& candidate) const {
   return is_any || index_.measured[part] != 0;
 }
 
-bool Bounds::may_be(const Candidate& candidate, const Profile<kFineCells>& fine) const {
-  if (index_.measured[candidate.part] != 0) return true;
+std::optional<PartLeft> Bounds::look_closely(const Candidate& candidate, const Profile<kFineCells>& fine) const {
+  PartLeft left{candidate.part};
+  if (index_.measured[candidate.part] != 0) return left;
   const std::vector<RollClues>& ways = ways_on(candidate.part);
   std::optional<Part> part;
+  bool is_any = false;
   for (std::size_t k = 0; k < ways.size(); ++k) {
+    Cells<kFineCells>& cells = left.cells.emplace_back();
     if (candidate.cells[k].none()) continue;
     const bool is_one_finger = ways[k].few.fingers == 1;
     const Clues& clues = is_one_finger ? ways[k].many : ways[k].few;
-    const Cells<kFineCells> cells = cells_left(fine, index_.courses[candidate.part], clues, candidate.cells[k]);
-    if (cells.none()) continue;
-    if (!is_one_finger) return true;
-    if (!part) part = catalog_.part(candidate.part);
-    if (may_start(*part, ways[k].many, cells)) return true;
+    cells = cells_left(fine, index_.courses[candidate.part], clues, candidate.cells[k]);
+    if (is_one_finger && cells.any()) {
+      if (!part) part = catalog_.part(candidate.part);
+      if (!may_start(*part, clues, cells)) cells.reset();
+    }
+    is_any = is_any || cells.any();
   }
-  return false;
+  if (!is_any) return std::nullopt;
+  return left;
 }
 
 std::vector<Bounds::Candidate> Bounds::candidates(const std::vector<std::size_t>& parts,
@@ -73,20 +78,20 @@ std::vector<Bounds::Candidate> Bounds::candidates(const std::vector<std::size_t>
   return all;
 }
 
-std::vector<std::size_t> Bounds::left_of(const std::vector<std::size_t>& parts, const IdentifyOptions& options) const {
+std::vector<PartLeft> Bounds::left_of(const std::vector<std::size_t>& parts, const IdentifyOptions& options) const {
   const std::vector<Candidate> in_memory = candidates(parts, options);
-  std::vector<char> is_left(in_memory.size());
+  std::vector<std::optional<PartLeft>> closely(in_memory.size());
   Crew crew(in_memory.size(), kReadBlock);
   crew.run(options.threads, options.go_on, [&](std::size_t lo, std::size_t hi) {
     std::vector<std::size_t> block;
     for (std::size_t k = lo; k < hi; ++k) block.push_back(in_memory[k].part);
     const std::vector<Profile<kFineCells>> fine = index_.fine(block);
-    for (std::size_t k = lo; k < hi; ++k) is_left[k] = may_be(in_memory[k], fine[k - lo]) ? 1 : 0;
+    for (std::size_t k = lo; k < hi; ++k) closely[k] = look_closely(in_memory[k], fine[k - lo]);
   });
   crew.require_done();
-  std::vector<std::size_t> left;
-  for (std::size_t k = 0; k < in_memory.size(); ++k) {
-    if (is_left[k] != 0) left.push_back(in_memory[k].part);
+  std::vector<PartLeft> left;
+  for (std::optional<PartLeft>& one : closely) {
+    if (one) left.push_back(std::move(*one));
   }
   return left;
 }
