@@ -108,7 +108,7 @@ void Grid::refresh(GridPoint& point, const Nodes& nodes) {
     point.taken >>= shift;
     point.generation = nodes.generation();
   }
-  for (; point.taken < complete.size() && point.filter.deviance() <= limit_; ++point.taken) {
+  for (; point.taken < complete.size() && !point.filter.is_beyond(limit_); ++point.taken) {
     point.filter.update(complete[point.taken], outliers_);
   }
   point.now = point.filter;

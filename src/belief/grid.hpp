@@ -41,9 +41,10 @@ class RollFilter {
   /// Minus twice the logarithm of the likelihood, up to what is the same everywhere: the cost is a squared distance.
   /// Both only grow with every node.
   double cost() const { return cost_; }
-  double log_volume() const { return log_volume_; }
-  double deviance() const { return cost_ + log_volume_; }
-  double log_likelihood() const { return -0.5 * (cost_ + log_volume_); }
+  double log_volume() const { return log_volume_ + std::log(volume_); }
+  double deviance() const { return cost_ + log_volume(); }
+  /// The deviance is above that: may find out a little late, and takes no logarithm.
+  bool is_beyond(double limit) const { return cost_ + log_volume_ > limit; }
   /// Its derivative by w, and the (expected) information on w: the square of the distance's rate of change.
   double slope() const { return -slope_; }
   double information() const { return information_; }
@@ -69,21 +70,16 @@ class RollFilter {
     double length;
     double turn;
   };
-  using Own = Eigen::Vector2d;  // of a row's length and turn
-  /// A row as N equations e = 0, linear in the errors: of the roll, and with the centre's two coordinates three.
-  template <int N>
-  struct Equations {
-    Eigen::Matrix<double, N, 1> miss;
-    Eigen::Matrix<double, N, 5> by_errors;
-    Eigen::Matrix<double, N, 2> by_own;
-    Eigen::Matrix<double, N, 1> by_w;
-    Eigen::Matrix<double, N, N> own_variance;  // with what the straight line leaves
-  };
-  template <int N>
-  Equations<N> equations_at(double w, const Corrected& roll, double w_variance, const Node& node) const;
-  template <int N>
+  struct Line;
+  struct CentreEquations;
   void absorb(const Node& node, const Outliers& outliers);
-  void add_centre(const SpreadPlace& end, double w, const Corrected& roll, const Node& node, Equations<3>& rows) const;
+  void absorb_with_centre(const Node& node, const Outliers& outliers);
+  CentreEquations equations_at(double w, const Corrected& roll, double w_variance, const Node& node) const;
+  void add_centre(const SpreadPlace& end, double w, const Corrected& roll, const Node& node,
+                  CentreEquations& rows) const;
+  /// Of so many equations: by how much their innovations are off, squared, in standard deviations; and the determinants
+  /// of their own covariance and of that with what the rows share. How much they count as rows that are not stray.
+  double count(int equations, double squared, double own, double all, const Outliers& outliers);
   /// What the shared errors are when a row is looked at: the guess of the turn's, else as they are estimated so far.
   Shared about() const {
     Shared errors = x_;
@@ -107,7 +103,8 @@ class RollFilter {
   SharedCovariance p_;
   Shared dx_ = Shared::Zero();  // of x by w
   double cost_ = 0;
-  double log_volume_ = 0;
+  double log_volume_ = 0;  // but for the logarithm of ...
+  double volume_ = 1;      // ... this
   double slope_ = 0;
   double information_ = 0;
   std::array<Whiteness, 3> whiteness_;
