@@ -23,6 +23,20 @@ struct Outliers {
   double range = 1;  // length
 };
 
+// A contact that is this much of a radian off where it was measured is looked at there as well as anywhere.
+inline constexpr double kSameLine = 0.02;
+
+/// What a row adds to a filter. Minus twice the logarithm of its likelihood is cost + log(volume).
+struct RowShare {
+  double weight;  // probability that it is not stray
+  double cost;
+  double volume;
+};
+
+/// Of so many equations: by how much they miss, squared, in standard deviations; and the determinants of their own
+/// covariance and of that with what the rows share.
+RowShare share_of(int equations, double squared, double own, double all, const Outliers& outliers);
+
 /// One first contact on trial: an extended Kalman filter of the errors that the whole roll shares, which gives the
 /// samples' likelihood along the way, and how that changes with the place.
 class RollFilter {
@@ -33,7 +47,10 @@ class RollFilter {
   /// first one on.
   RollFilter again(const SharedCovariance& start) const;
 
+  /// Takes a row with its centre, as three equations; see side_by_side.hpp for rows without.
   void update(const Node& node, const Outliers& outliers);
+  /// The rows were taken about nearly the offset of turn that they were found to share.
+  bool is_settled(double accuracy) const { return guess_ && std::abs(x_[1] - *guess_) <= accuracy; }
 
   const TiltedArc* arc() const { return arc_; }
   double w() const { return w_; }
@@ -66,20 +83,15 @@ class RollFilter {
   double variance_after(const Reading& measured, const RowCovariance& own) const;
 
  private:
+  friend class SideBySide;
   struct Corrected {
     double length;
     double turn;
   };
-  struct Line;
-  struct CentreEquations;
+  struct Equations;
+  Equations equations_at(double w, const Corrected& roll, double w_variance, const Node& node) const;
+  void add_centre(const SpreadPlace& end, double w, const Corrected& roll, const Node& node, Equations& rows) const;
   void absorb(const Node& node, const Outliers& outliers);
-  void absorb_with_centre(const Node& node, const Outliers& outliers);
-  CentreEquations equations_at(double w, const Corrected& roll, double w_variance, const Node& node) const;
-  void add_centre(const SpreadPlace& end, double w, const Corrected& roll, const Node& node,
-                  CentreEquations& rows) const;
-  /// Of so many equations: by how much their innovations are off, squared, in standard deviations; and the determinants
-  /// of their own covariance and of that with what the rows share. How much they count as rows that are not stray.
-  double count(int equations, double squared, double own, double all, const Outliers& outliers);
   /// What the shared errors are when a row is looked at: the guess of the turn's, else as they are estimated so far.
   Shared about() const {
     Shared errors = x_;
@@ -136,6 +148,8 @@ struct GridPoint {
 /// They are large, and others come between them.
 using GridPoints = std::vector<std::unique_ptr<GridPoint>>;
 
+struct Errand;
+
 /// What lies between two neighbouring points.
 struct GridCell {
   std::size_t arc = 0;
@@ -184,9 +198,14 @@ class Grid {
   void refresh_all(const Nodes& nodes);
   bool split(std::size_t arc, const std::vector<double>& added, const Nodes& nodes);
   GridPoint make(const TiltedArc& arc, double w) const;
-  /// Lets the point take the nodes that it has not. Beyond the limit of what can matter it takes no more: it stays
-  /// stale, and what it has cost by then is a bound.
-  void refresh(GridPoint& point, const Nodes& nodes);
+  /// Lets each of the points take the nodes that it has not. Beyond the limit of what can matter it takes no more: it
+  /// stays stale, and what it has cost by then is a bound.
+  void refresh(const std::vector<GridPoint*>& points, const Nodes& nodes);
+  Errand first_errand(GridPoint& point, const Nodes& nodes) const;
+  /// After another one; false: the point is scored.
+  bool next_errand(Errand& errand, const Nodes& nodes, const std::optional<Node>& pending);
+  void score(GridPoint& point, const Nodes& nodes);
+  bool has_centres() const { return centres_ != nullptr && centres_->path != nullptr; }
   bool is_stale(const GridPoint& point, const Nodes& nodes) const { return point.rows != nodes.rows(); }
   /// What the point costs, or as much as is known of one that stopped early.
   Score at_least(const GridPoint& point) const;

@@ -10,11 +10,6 @@ namespace rollfix::belief {
 
 namespace {
 
-// A contact that is this much of a radian off where it was measured is looked at there as well as anywhere.
-constexpr double kSameLine = 0.02;
-// Volumes are multiplied up to here before a logarithm is taken.
-constexpr double kLargeVolume = 1000;
-
 Eigen::Matrix2d rotation(double angle) {
   const double c = std::cos(angle);
   const double s = std::sin(angle);
@@ -44,17 +39,8 @@ RollFilter RollFilter::again(const SharedCovariance& start) const {
   return fresh;
 }
 
-/// A row as one equation e = 0, linear in the errors.
-struct RollFilter::Line {
-  double miss;
-  double slope;         // m = ds/dw where it was taken
-  double rest;          // 1 - c m
-  double own_variance;  // with what the straight line leaves
-  double variance;      // and of what the rows share
-};
-
-/// The same with the centre's two coordinates: three equations.
-struct RollFilter::CentreEquations {
+/// A row as three equations, linear in the errors: e = 0, and the centre's two coordinates.
+struct RollFilter::Equations {
   Eigen::Vector3d miss;
   Eigen::Matrix<double, 3, 5> by_errors;
   Eigen::Matrix<double, 3, 2> by_own;  // of a row's length and turn
@@ -64,13 +50,13 @@ struct RollFilter::CentreEquations {
 
 // The true L and theta lead from this place to another: e = s(w + theta + c L) - s(w) - L = 0, with ds/dw = m.
 // With de/dtheta = m and de/dL = c m - 1, e tells of the errors of L and theta what can be told.
-RollFilter::CentreEquations RollFilter::equations_at(double w, const Corrected& roll, double w_variance,
-                                                     const Node& node) const {
+RollFilter::Equations RollFilter::equations_at(double w, const Corrected& roll, double w_variance,
+                                               const Node& node) const {
   const SpreadPlace end = arc_->about(w, w_variance, node.spread);
   const double per_scale = 1 / (1 + x_[2]);
   const double by_turn = end.slope;
   const double by_length = tilt_ * end.slope - 1;
-  CentreEquations rows;
+  Equations rows;
   rows.by_errors.setZero();
   rows.own_variance.setZero();
   // The line through the place at w, where the roll as it was measured leads.
@@ -88,7 +74,7 @@ RollFilter::CentreEquations RollFilter::equations_at(double w, const Corrected& 
 // The centre goes along q(s) = p(s) - R(Theta + pi/2) arm, as the part lies in the world: from where it was at the
 // first contact by R(heading) (q(s) - q(s0)). The first contact's normal tells the heading: facing - pi/2 - Theta(s0).
 void RollFilter::add_centre(const SpreadPlace& end, double w, const Corrected& roll, const Node& node,
-                            CentreEquations& rows) const {
+                            Equations& rows) const {
   constexpr double kQuarter = std::numbers::pi / 2;
   const double per_scale = 1 / (1 + x_[2]);
   const double smaller = 1 / (1 + centres_->radius_share * x_[2]);  // the finger, where its radius is wrong
@@ -129,11 +115,7 @@ void RollFilter::update(const Node& node, const Outliers& outliers) {
   p_(0, 1) += node.gathered.both;
   p_(1, 0) += node.gathered.both;
   p_(1, 1) += node.gathered.turn;
-  if (centres_ != nullptr && centres_->path != nullptr) {
-    absorb_with_centre(node, outliers);
-  } else {
-    absorb(node, outliers);
-  }
+  absorb(node, outliers);
   // A place that does not fit asks for lengths that no slip explains: it is refused by its cost, not followed.
   if (std::abs(x_[2]) > most_scale_) {
     x_[2] = std::copysign(most_scale_, x_[2]);
@@ -141,86 +123,21 @@ void RollFilter::update(const Node& node, const Outliers& outliers) {
   }
 }
 
-double RollFilter::count(int equations, double squared, double own, double all, const Outliers& outliers) {
-  if (outliers.share <= 0) {
-    cost_ += squared;
-    volume_ *= all / own;
-    if (volume_ > kLargeVolume) {
-      log_volume_ += std::log(volume_);
-      volume_ = 1;
-    }
-    return 1;
-  }
-  const double range = equations == 1 ? outliers.range : outliers.range * outliers.range * outliers.range;
+RowShare share_of(int equations, double squared, double own, double all, const Outliers& outliers) {
+  if (outliers.share <= 0) return {1, squared, all / own};
+  const double range = std::pow(outliers.range, equations);
   const double stray = outliers.share / range;
   const double flat = std::pow(2 * std::numbers::pi, 0.5 * (equations - 1));
   const Mixture mixture = mixture_of(outliers.share, stray, peak_of(1 / all) / flat, squared);
   const double most = (1 - outliers.share) * peak_of(1 / own) / flat + stray;
-  cost_ += mixture.cost;
-  log_volume_ += 2 * std::log(most / mixture.density);
-  right_rows_ += mixture.weight * equations;
-  right_cost_ += mixture.weight * squared;
-  return mixture.weight;
+  return {mixture.weight, mixture.cost, square(most / mixture.density)};
 }
 
-// One equation, written out, for this is where a posterior's time goes. By the shared errors it is (1 - c m) g less
-// m times the turn's, g = (1, 0, L) / (1 + scale): with their covariance times g it is quickly had for any slope m.
 void RollFilter::absorb(const Node& node, const Outliers& outliers) {
-  const double per_scale = 1 / (1 + x_[2]);
-  const double length = (node.length - x_[0]) * per_scale;
-  const double known_turn = guess_ ? *guess_ : x_[1];
-  const double measured = w_ + (node.turn - known_turn) + tilt_ * length;
-  const auto along = [&](int row) { return per_scale * (p_(row, 0) + length * p_(row, 2)); };
-  const Eigen::Vector3d with_length(along(0), along(1), along(2));
-  const double length_variance = per_scale * (with_length[0] + length * with_length[2]);
-  const double w_variance =
-      std::max(0.0, tilt_ * (tilt_ * (length_variance + node.own.length) + 2 * (with_length[1] + node.own.both)) +
-                        p_(1, 1) + node.own.turn);
-  const auto line_at = [&](double w, double variance) {
-    const SpreadPlace end = arc_->about(w, variance, node.spread);
-    const double m = end.slope;
-    const double q = 1 - tilt_ * m;
-    const double own = q * (q * node.own.length - 2 * m * node.own.both) + m * m * node.own.turn + end.variance;
-    const double shared = q * (q * length_variance - 2 * m * with_length[1]) + m * m * p_(1, 1);
-    const double miss = end.s + m * (measured - w - (x_[1] - known_turn)) - place_.s - length;
-    return Line{miss, m, q, own, own + shared};
-  };
-  Line line = line_at(measured, w_variance);
-  // Where the contact is likely to be, given the equation as well. A slope taken where the turn was measured would go
-  // with that turn's own error, and what many rows say would be taken for more than it is.
-  const double by_length = tilt_ * (length_variance + node.own.length) + with_length[1] + node.own.both;
-  const double by_turn = tilt_ * (with_length[1] + node.own.both) + p_(1, 1) + node.own.turn;
-  const double with_roll = line.slope * by_turn - line.rest * by_length;
-  const double shift = with_roll * line.miss / line.variance;
-  if (std::abs(shift) > kSameLine) {
-    const double left = std::max(0.0, w_variance - with_roll * with_roll / line.variance);
-    line = line_at(measured - shift, left);
-  }
-
-  // Where along the roll the row was taken is not known beforehand, nor that it is more likely where the contact goes
-  // slowly: only what the rows share has a volume.
-  const double inverse = 1 / line.variance;
-  const double squared = line.miss * line.miss * inverse;
-  const double weight = count(1, squared, line.own_variance, line.variance, outliers);
-  const double trust = weight * inverse;
-  whiteness_[0].add(-std::sqrt(trust) * line.miss);
-  const double by_w =
-      place_.slope - line.slope - line.rest * per_scale * (dx_[0] + length * dx_[2]) + line.slope * dx_[1];
-  slope_ -= trust * line.miss * by_w;
-  information_ += trust * by_w * by_w;
-  const Eigen::Vector3d of_errors = line.rest * with_length - line.slope * p_.col(1).head<kRolling>();
-  const Eigen::Vector3d gain = trust * of_errors;
-  x_.head<kRolling>() -= line.miss * gain;
-  dx_.head<kRolling>() += by_w * gain;
-  p_.topLeftCorner<kRolling, kRolling>() -= gain * of_errors.transpose();
-}
-
-// The same with three equations, which tell of all errors.
-void RollFilter::absorb_with_centre(const Node& node, const Outliers& outliers) {
   const Corrected roll = corrected(node.length, node.turn, about());
   const double measured = w_ + roll.turn + tilt_ * roll.length;
   const double w_variance = variance_of_roll(roll.length, node.own);
-  CentreEquations rows = equations_at(measured, roll, w_variance, node);
+  Equations rows = equations_at(measured, roll, w_variance, node);
   Eigen::Matrix<double, 5, 3> of_errors;
   Eigen::Matrix3d inverse;
   const auto weigh = [&] {
@@ -228,6 +145,8 @@ void RollFilter::absorb_with_centre(const Node& node, const Outliers& outliers) 
     inverse = (rows.by_errors * of_errors + rows.own_variance).inverse();
   };
   weigh();
+  // Where the contact is likely to be, given the equations as well. A slope taken where the turn was measured would go
+  // with that turn's own error, and what many rows say would be taken for more than it is.
   const double per_scale = 1 / (1 + x_[2]);
   const Eigen::Vector3d roll_by_errors(-tilt_ * per_scale, -1, -tilt_ * roll.length * per_scale);
   const Eigen::Vector2d roll_by_own(tilt_, 1);
@@ -243,7 +162,14 @@ void RollFilter::absorb_with_centre(const Node& node, const Outliers& outliers) 
   const Eigen::Vector3d innovation = -rows.miss;
   const Eigen::Vector3d by_w = -rows.by_w - rows.by_errors * dx_;
   const double squared = innovation.dot(inverse * innovation);
-  const double weight = count(3, squared, rows.own_variance.determinant(), 1 / inverse.determinant(), outliers);
+  // Where along the roll the row was taken is not known beforehand, nor that it is more likely where the contact goes
+  // slowly: only what the rows share has a volume.
+  const RowShare share = share_of(3, squared, rows.own_variance.determinant(), 1 / inverse.determinant(), outliers);
+  const double weight = share.weight;
+  cost_ += share.cost;
+  log_volume_ += std::log(share.volume);
+  right_rows_ += 3 * weight;
+  right_cost_ += weight * squared;
   add_innovation<3>(inverse, std::sqrt(weight) * innovation, whiteness_);
   const Eigen::Matrix<double, 5, 3> gain = weight * of_errors * inverse;
   slope_ += weight * innovation.dot(inverse * by_w);
