@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "belief/posterior.hpp"
+#include "belief/side_by_side.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/part/boundary.hpp"
 
@@ -49,6 +51,8 @@ constexpr double kCornerSlope = 1e-6;
 constexpr double kLeastCell = 1e-13;
 // Where angles are so noisy that a row is not linear in what all rows share, it is gone through so many times.
 constexpr int kPassesOfWide = 3;
+// ... unless what they share of the turn changes by no more than this, radians: the lines would be the same ones.
+constexpr double kSettledTurn = 1e-4;
 // Rounds of halving: 2^-kMostRounds of the first cells is below kLeastCell.
 constexpr int kMostRounds = 50;
 // A density that changes by less than this share is even.
@@ -69,6 +73,10 @@ Bound bound_of(const Score& lo, const Score& hi, double h, double heat) {
   const double least_distance = std::max(0.0, 0.5 * (from + to - kSlopeSafety * rate * h));
   const double cost = std::min({square(least_distance), lo.cost, hi.cost});
   return {rate, -0.5 * (cost + std::min(lo.log_volume, hi.log_volume)) / heat};
+}
+
+Score score_of(const RollFilter& filter) {
+  return {filter.cost(), filter.log_volume(), filter.slope(), filter.information()};
 }
 
 }  // namespace
@@ -98,9 +106,22 @@ GridPoint Grid::make(const TiltedArc& arc, double w) const {
   return {fresh, 0, 0, static_cast<std::size_t>(-1), fresh, {}};
 }
 
-void Grid::refresh(GridPoint& point, const Nodes& nodes) {
-  if (!is_stale(point, nodes) && point.generation == nodes.generation()) return;
-  const std::vector<Node>& complete = nodes.complete();
+void Grid::refresh(const std::vector<GridPoint*>& points, const Nodes& nodes) {
+  const std::optional<Node> pending = nodes.pending();
+  auto next = points.begin();
+  const auto next_of_all = [&](Errand& errand) {
+    if (errand.point != nullptr && next_errand(errand, nodes, pending)) return true;
+    for (; next != points.end(); ++next) {
+      if (!is_stale(**next, nodes) && (*next)->generation == nodes.generation()) continue;
+      errand = first_errand(**next++, nodes);
+      return true;
+    }
+    return false;
+  };
+  run_errands(next_of_all, has_centres(), limit_, outliers_);
+}
+
+Errand Grid::first_errand(GridPoint& point, const Nodes& nodes) const {
   if (point.generation != nodes.generation()) {
     // Joined nodes are worth what they were one by one; half of one can't be given back.
     const std::size_t shift = nodes.generation() - point.generation;
@@ -108,25 +129,42 @@ void Grid::refresh(GridPoint& point, const Nodes& nodes) {
     point.taken >>= shift;
     point.generation = nodes.generation();
   }
-  for (; point.taken < complete.size() && point.filter.deviance() <= limit_; ++point.taken) {
-    point.filter.update(complete[point.taken], outliers_);
-  }
-  point.now = point.filter;
-  point.score = {point.now.cost(), point.now.log_volume(), point.now.slope(), point.now.information()};
-  if (point.taken < complete.size()) {
+  const std::vector<Node>& complete = nodes.complete();
+  return {&point, 1, &point.filter, complete.data() + point.taken, complete.data() + complete.size()};
+}
+
+bool Grid::next_errand(Errand& errand, const Nodes& nodes, const std::optional<Node>& pending) {
+  GridPoint& point = *errand.point;
+  const std::vector<Node>& complete = nodes.complete();
+  const Node* last = complete.data() + complete.size();
+  if (errand.filter == &point.filter) {
+    point.taken = static_cast<std::size_t>(errand.next - complete.data());
+    point.now = point.filter;
+    point.score = score_of(point.now);
     point.rows = static_cast<std::size_t>(-1);
-    return;
+    if (errand.next != last) return false;
   }
-  const std::optional<Node> pending = nodes.pending();
-  if (pending) point.now.update(*pending, outliers_);
-  for (int pass = 1; errors_.is_wide() && pass < kPassesOfWide; ++pass) {
-    RollFilter again = point.now.again(errors_.start());
-    for (const Node& node : complete) again.update(node, outliers_);
-    if (pending) again.update(*pending, outliers_);
-    point.now = again;
+  errand.filter = &point.now;
+  errand.whole = true;
+  if (pending && errand.end == last) {
+    errand.next = &*pending;
+    errand.end = errand.next + 1;
+    return true;
   }
+  if (errors_.is_wide() && errand.pass < kPassesOfWide && !point.now.is_settled(kSettledTurn)) {
+    ++errand.pass;
+    point.now = point.now.again(errors_.start());
+    errand.next = complete.data();
+    errand.end = last;
+    return true;
+  }
+  score(point, nodes);
+  return false;
+}
+
+void Grid::score(GridPoint& point, const Nodes& nodes) {
   point.rows = nodes.rows();
-  point.score = {point.now.cost(), point.now.log_volume(), point.now.slope(), point.now.information()};
+  point.score = score_of(point.now);
   if (options_.prior) {
     // The prior is one sample more.
     const TiltedPlace& place = point.now.place();
@@ -203,22 +241,30 @@ void Grid::lay_out(const Nodes& nodes) {
 
 void Grid::refresh_all(const Nodes& nodes) {
   const std::vector<Node> trial = some_of(nodes.complete(), kTrialNodes);
-  struct Candidate {
-    double deviance;
-    GridPoint* point;
-  };
-  std::vector<Candidate> candidates;
-  candidates.reserve(count_);
+  std::vector<RollFilter> filters;
+  std::vector<GridPoint*> points;
+  filters.reserve(count_);
   for (const GridPoints& arc : points_) {
     for (const std::unique_ptr<GridPoint>& point : arc) {
-      RollFilter filter = point->filter;
-      for (const Node& node : trial) filter.update(node, outliers_);
-      candidates.push_back({filter.deviance(), point.get()});
+      points.push_back(point.get());
+      filters.push_back(point->filter);
     }
   }
-  std::sort(candidates.begin(), candidates.end(),
-            [](const Candidate& a, const Candidate& b) { return a.deviance < b.deviance; });
-  for (const Candidate& candidate : candidates) refresh(*candidate.point, nodes);
+  std::size_t begun = 0;
+  const auto next = [&](Errand& errand) {
+    if (begun == filters.size()) return false;
+    errand = {points[begun], 1, &filters[begun], trial.data(), trial.data() + trial.size(), true};
+    ++begun;
+    return true;
+  };
+  run_errands(next, has_centres(), limit_, outliers_);
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return filters[a].deviance() < filters[b].deviance(); });
+  std::vector<GridPoint*> ordered;
+  for (const std::size_t k : order) ordered.push_back(points[k]);
+  refresh(ordered, nodes);
 }
 
 double Grid::log_prior(double length, double h) const {
@@ -306,8 +352,7 @@ bool Grid::refine(const Nodes& nodes) {
       // A cost only grows with more samples: one that was too large before is so now.
       const bool stale = is_stale(lo, nodes) || is_stale(hi, nodes);
       if (stale && bound.log_density + log_width - best_mass_ > -kNegligible) {
-        refresh(lo, nodes);
-        refresh(hi, nodes);
+        refresh({&lo, &hi}, nodes);
         bound = bound_of(at_least(lo), at_least(hi), h, heat);
         changed = changed || (!is_stale(lo, nodes) && !is_stale(hi, nodes));
       }
@@ -335,16 +380,18 @@ bool Grid::split(std::size_t arc, const std::vector<double>& added, const Nodes&
   GridPoints& points = points_[arc];
   GridPoints merged;
   merged.reserve(points.size() + added.size());
+  std::vector<GridPoint*> fresh;
   std::size_t next = 0;
   for (std::unique_ptr<GridPoint>& point : points) {
     while (next < added.size() && added[next] < point->filter.w()) {
       merged.push_back(std::make_unique<GridPoint>(make(boundary_->arcs()[arc], added[next++])));
-      refresh(*merged.back(), nodes);
+      fresh.push_back(merged.back().get());
     }
     merged.push_back(std::move(point));
   }
   count_ += added.size();
   points = std::move(merged);
+  refresh(fresh, nodes);
   return true;
 }
 
@@ -407,11 +454,15 @@ void Grid::settle(const Nodes& nodes) {
     laid_out_at_ = std::max<std::size_t>(1, nodes.rows());
     refresh_all(nodes);
   } else {
+    std::vector<GridPoint*> ends;
     for (const GridCell& cell : cells_) {
       if (!cell.fine) continue;
-      refresh(*points_[cell.arc][cell.first], nodes);
-      refresh(*points_[cell.arc][cell.first + 1], nodes);
+      for (const std::size_t end : {cell.first, cell.first + 1}) {
+        GridPoint* point = points_[cell.arc][end].get();
+        if (ends.empty() || ends.back() != point) ends.push_back(point);
+      }
     }
+    refresh(ends, nodes);
   }
   for (int round = 0; round < kMostRounds; ++round) {
     measure_fit(nodes);

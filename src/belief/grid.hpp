@@ -23,6 +23,20 @@ struct Outliers {
   double range = 1;  // length
 };
 
+// A contact that is this much of a radian off where it was measured is looked at there as well as anywhere.
+inline constexpr double kSameLine = 0.02;
+
+/// What a row adds to a filter. Minus twice the logarithm of its likelihood is cost + log(volume).
+struct RowShare {
+  double weight;  // probability that it is not stray
+  double cost;
+  double volume;
+};
+
+/// Of so many equations: by how much they miss, squared, in standard deviations; and the determinants of their own
+/// covariance and of that with what the rows share.
+RowShare share_of(int equations, double squared, double own, double all, const Outliers& outliers);
+
 /// One first contact on trial: an extended Kalman filter of the errors that the whole roll shares, which gives the
 /// samples' likelihood along the way, and how that changes with the place.
 class RollFilter {
@@ -33,7 +47,10 @@ class RollFilter {
   /// first one on.
   RollFilter again(const SharedCovariance& start) const;
 
+  /// Takes a row with its centre, as three equations; see side_by_side.hpp for rows without.
   void update(const Node& node, const Outliers& outliers);
+  /// The rows were taken about nearly the offset of turn that they were found to share.
+  bool is_settled(double accuracy) const { return guess_ && std::abs(x_[1] - *guess_) <= accuracy; }
 
   const TiltedArc* arc() const { return arc_; }
   double w() const { return w_; }
@@ -41,9 +58,10 @@ class RollFilter {
   /// Minus twice the logarithm of the likelihood, up to what is the same everywhere: the cost is a squared distance.
   /// Both only grow with every node.
   double cost() const { return cost_; }
-  double log_volume() const { return log_volume_; }
-  double deviance() const { return cost_ + log_volume_; }
-  double log_likelihood() const { return -0.5 * (cost_ + log_volume_); }
+  double log_volume() const { return log_volume_ + std::log(volume_); }
+  double deviance() const { return cost_ + log_volume(); }
+  /// The deviance is above that: may find out a little late, and takes no logarithm.
+  bool is_beyond(double limit) const { return cost_ + log_volume_ > limit; }
   /// Its derivative by w, and the (expected) information on w: the square of the distance's rate of change.
   double slope() const { return -slope_; }
   double information() const { return information_; }
@@ -65,25 +83,15 @@ class RollFilter {
   double variance_after(const Reading& measured, const RowCovariance& own) const;
 
  private:
+  friend class SideBySide;
   struct Corrected {
     double length;
     double turn;
   };
-  using Own = Eigen::Vector2d;  // of a row's length and turn
-  /// A row as N equations e = 0, linear in the errors: of the roll, and with the centre's two coordinates three.
-  template <int N>
-  struct Equations {
-    Eigen::Matrix<double, N, 1> miss;
-    Eigen::Matrix<double, N, 5> by_errors;
-    Eigen::Matrix<double, N, 2> by_own;
-    Eigen::Matrix<double, N, 1> by_w;
-    Eigen::Matrix<double, N, N> own_variance;  // with what the straight line leaves
-  };
-  template <int N>
-  Equations<N> equations_at(double w, const Corrected& roll, double w_variance, const Node& node) const;
-  template <int N>
+  struct Equations;
+  Equations equations_at(double w, const Corrected& roll, double w_variance, const Node& node) const;
+  void add_centre(const SpreadPlace& end, double w, const Corrected& roll, const Node& node, Equations& rows) const;
   void absorb(const Node& node, const Outliers& outliers);
-  void add_centre(const SpreadPlace& end, double w, const Corrected& roll, const Node& node, Equations<3>& rows) const;
   /// What the shared errors are when a row is looked at: the guess of the turn's, else as they are estimated so far.
   Shared about() const {
     Shared errors = x_;
@@ -107,7 +115,8 @@ class RollFilter {
   SharedCovariance p_;
   Shared dx_ = Shared::Zero();  // of x by w
   double cost_ = 0;
-  double log_volume_ = 0;
+  double log_volume_ = 0;  // but for the logarithm of ...
+  double volume_ = 1;      // ... this
   double slope_ = 0;
   double information_ = 0;
   std::array<Whiteness, 3> whiteness_;
@@ -138,6 +147,8 @@ struct GridPoint {
 
 /// They are large, and others come between them.
 using GridPoints = std::vector<std::unique_ptr<GridPoint>>;
+
+struct Errand;
 
 /// What lies between two neighbouring points.
 struct GridCell {
@@ -187,9 +198,14 @@ class Grid {
   void refresh_all(const Nodes& nodes);
   bool split(std::size_t arc, const std::vector<double>& added, const Nodes& nodes);
   GridPoint make(const TiltedArc& arc, double w) const;
-  /// Lets the point take the nodes that it has not. Beyond the limit of what can matter it takes no more: it stays
-  /// stale, and what it has cost by then is a bound.
-  void refresh(GridPoint& point, const Nodes& nodes);
+  /// Lets each of the points take the nodes that it has not. Beyond the limit of what can matter it takes no more: it
+  /// stays stale, and what it has cost by then is a bound.
+  void refresh(const std::vector<GridPoint*>& points, const Nodes& nodes);
+  Errand first_errand(GridPoint& point, const Nodes& nodes) const;
+  /// After another one; false: the point is scored.
+  bool next_errand(Errand& errand, const Nodes& nodes, const std::optional<Node>& pending);
+  void score(GridPoint& point, const Nodes& nodes);
+  bool has_centres() const { return centres_ != nullptr && centres_->path != nullptr; }
   bool is_stale(const GridPoint& point, const Nodes& nodes) const { return point.rows != nodes.rows(); }
   /// What the point costs, or as much as is known of one that stopped early.
   Score at_least(const GridPoint& point) const;

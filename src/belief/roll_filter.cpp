@@ -10,9 +10,6 @@ namespace rollfix::belief {
 
 namespace {
 
-// A contact that is this much of a radian off where it was measured is looked at there as well as anywhere.
-constexpr double kSameLine = 0.02;
-
 Eigen::Matrix2d rotation(double angle) {
   const double c = std::cos(angle);
   const double s = std::sin(angle);
@@ -42,26 +39,33 @@ RollFilter RollFilter::again(const SharedCovariance& start) const {
   return fresh;
 }
 
+/// A row as three equations, linear in the errors: e = 0, and the centre's two coordinates.
+struct RollFilter::Equations {
+  Eigen::Vector3d miss;
+  Eigen::Matrix<double, 3, 5> by_errors;
+  Eigen::Matrix<double, 3, 2> by_own;  // of a row's length and turn
+  Eigen::Vector3d by_w;
+  Eigen::Matrix3d own_variance;
+};
+
 // The true L and theta lead from this place to another: e = s(w + theta + c L) - s(w) - L = 0, with ds/dw = m.
 // With de/dtheta = m and de/dL = c m - 1, e tells of the errors of L and theta what can be told.
-template <int N>
-RollFilter::Equations<N> RollFilter::equations_at(double w, const Corrected& roll, double w_variance,
-                                                  const Node& node) const {
+RollFilter::Equations RollFilter::equations_at(double w, const Corrected& roll, double w_variance,
+                                               const Node& node) const {
   const SpreadPlace end = arc_->about(w, w_variance, node.spread);
   const double per_scale = 1 / (1 + x_[2]);
   const double by_turn = end.slope;
   const double by_length = tilt_ * end.slope - 1;
-  Equations<N> rows;
+  Equations rows;
   rows.by_errors.setZero();
   rows.own_variance.setZero();
   // The line through the place at w, where the roll as it was measured leads.
   rows.miss[0] = end.s + end.slope * (w_ + roll.turn + tilt_ * roll.length - w) - place_.s - roll.length;
-  rows.by_errors.template block<1, kRolling>(0, 0) << -by_length * per_scale, -by_turn,
-      -by_length * roll.length * per_scale;
+  rows.by_errors.block<1, kRolling>(0, 0) << -by_length * per_scale, -by_turn, -by_length * roll.length * per_scale;
   rows.by_own.row(0) << by_length, by_turn;
   rows.by_w[0] = end.slope - place_.slope;
   rows.own_variance(0, 0) = end.variance;
-  if constexpr (N == 3) add_centre(end, w, roll, node, rows);
+  add_centre(end, w, roll, node, rows);
   if (guess_) rows.miss += rows.by_errors.col(1) * (x_[1] - *guess_);
   rows.own_variance += rows.by_own * matrix_of(node.own) * rows.by_own.transpose();
   return rows;
@@ -70,7 +74,7 @@ RollFilter::Equations<N> RollFilter::equations_at(double w, const Corrected& rol
 // The centre goes along q(s) = p(s) - R(Theta + pi/2) arm, as the part lies in the world: from where it was at the
 // first contact by R(heading) (q(s) - q(s0)). The first contact's normal tells the heading: facing - pi/2 - Theta(s0).
 void RollFilter::add_centre(const SpreadPlace& end, double w, const Corrected& roll, const Node& node,
-                            Equations<3>& rows) const {
+                            Equations& rows) const {
   constexpr double kQuarter = std::numbers::pi / 2;
   const double per_scale = 1 / (1 + x_[2]);
   const double smaller = 1 / (1 + centres_->radius_share * x_[2]);  // the finger, where its radius is wrong
@@ -111,79 +115,68 @@ void RollFilter::update(const Node& node, const Outliers& outliers) {
   p_(0, 1) += node.gathered.both;
   p_(1, 0) += node.gathered.both;
   p_(1, 1) += node.gathered.turn;
-  if (centres_ != nullptr && centres_->path != nullptr) {
-    absorb<3>(node, outliers);
-  } else {
-    absorb<1>(node, outliers);
+  absorb(node, outliers);
+  // A place that does not fit asks for lengths that no slip explains: it is refused by its cost, not followed.
+  if (std::abs(x_[2]) > most_scale_) {
+    x_[2] = std::copysign(most_scale_, x_[2]);
+    dx_[2] = 0;
   }
 }
 
-template <int N>
+RowShare share_of(int equations, double squared, double own, double all, const Outliers& outliers) {
+  if (outliers.share <= 0) return {1, squared, all / own};
+  const double range = std::pow(outliers.range, equations);
+  const double stray = outliers.share / range;
+  const double flat = std::pow(2 * std::numbers::pi, 0.5 * (equations - 1));
+  const Mixture mixture = mixture_of(outliers.share, stray, peak_of(1 / all) / flat, squared);
+  const double most = (1 - outliers.share) * peak_of(1 / own) / flat + stray;
+  return {mixture.weight, mixture.cost, square(most / mixture.density)};
+}
+
 void RollFilter::absorb(const Node& node, const Outliers& outliers) {
-  using Square = Eigen::Matrix<double, N, N>;
-  using Column = Eigen::Matrix<double, N, 1>;
-  constexpr int kErrors = N == 1 ? kRolling : 5;  // centres tell of all of them
   const Corrected roll = corrected(node.length, node.turn, about());
   const double measured = w_ + roll.turn + tilt_ * roll.length;
   const double w_variance = variance_of_roll(roll.length, node.own);
-  Equations<N> rows = equations_at<N>(measured, roll, w_variance, node);
-  Eigen::Matrix<double, kErrors, N> of_errors;
-  Square inverse;
+  Equations rows = equations_at(measured, roll, w_variance, node);
+  Eigen::Matrix<double, 5, 3> of_errors;
+  Eigen::Matrix3d inverse;
   const auto weigh = [&] {
-    const auto by_errors = rows.by_errors.template leftCols<kErrors>();
-    of_errors = p_.template topLeftCorner<kErrors, kErrors>() * by_errors.transpose();
-    inverse = (by_errors * of_errors + rows.own_variance).inverse();
+    of_errors = p_ * rows.by_errors.transpose();
+    inverse = (rows.by_errors * of_errors + rows.own_variance).inverse();
   };
   weigh();
   // Where the contact is likely to be, given the equations as well. A slope taken where the turn was measured would go
   // with that turn's own error, and what many rows say would be taken for more than it is.
   const double per_scale = 1 / (1 + x_[2]);
   const Eigen::Vector3d roll_by_errors(-tilt_ * per_scale, -1, -tilt_ * roll.length * per_scale);
-  const Own roll_by_own(tilt_, 1);
-  const Column with_roll = of_errors.template topRows<kRolling>().transpose() * roll_by_errors +
-                           rows.by_own * matrix_of(node.own) * roll_by_own;
+  const Eigen::Vector2d roll_by_own(tilt_, 1);
+  const Eigen::Vector3d with_roll =
+      of_errors.topRows<kRolling>().transpose() * roll_by_errors + rows.by_own * matrix_of(node.own) * roll_by_own;
   const double shift = with_roll.dot(inverse * rows.miss);
   if (std::abs(shift) > kSameLine) {
     const double left = std::max(0.0, w_variance - with_roll.dot(inverse * with_roll));
-    rows = equations_at<N>(measured - shift, roll, left, node);
+    rows = equations_at(measured - shift, roll, left, node);
     weigh();
   }
 
-  const Column innovation = -rows.miss;
-  const Column by_w = -rows.by_w - rows.by_errors.template leftCols<kErrors>() * dx_.template head<kErrors>();
+  const Eigen::Vector3d innovation = -rows.miss;
+  const Eigen::Vector3d by_w = -rows.by_w - rows.by_errors * dx_;
+  const double squared = innovation.dot(inverse * innovation);
   // Where along the roll the row was taken is not known beforehand, nor that it is more likely where the contact goes
   // slowly: only what the rows share has a volume.
-  const double own = 1 / rows.own_variance.determinant();
-  const double volume = inverse.determinant();
-  double weight = 1;
-  const double squared = innovation.dot(inverse * innovation);
-  if (outliers.share > 0) {
-    const double range = N == 1 ? outliers.range : outliers.range * outliers.range * outliers.range;
-    const double stray = outliers.share / range;
-    const double flat = std::pow(2 * std::numbers::pi, 0.5 * (N - 1));
-    const Mixture mixture = mixture_of(outliers.share, stray, peak_of(volume) / flat, squared);
-    const double most = (1 - outliers.share) * peak_of(own) / flat + stray;
-    weight = mixture.weight;
-    cost_ += mixture.cost;
-    log_volume_ += 2 * std::log(most / mixture.density);
-    right_rows_ += weight * N;
-    right_cost_ += weight * squared;
-  } else {
-    cost_ += squared;
-    log_volume_ += std::log(own / volume);
-  }
-  add_innovation<N>(inverse, std::sqrt(weight) * innovation, whiteness_);
-  const Eigen::Matrix<double, kErrors, N> gain = weight * of_errors * inverse;
+  const RowShare share = share_of(3, squared, rows.own_variance.determinant(), 1 / inverse.determinant(), outliers);
+  const double weight = share.weight;
+  cost_ += share.cost;
+  log_volume_ += std::log(share.volume);
+  right_rows_ += 3 * weight;
+  right_cost_ += weight * squared;
+  add_innovation<3>(inverse, std::sqrt(weight) * innovation, whiteness_);
+  const Eigen::Matrix<double, 5, 3> gain = weight * of_errors * inverse;
   slope_ += weight * innovation.dot(inverse * by_w);
   information_ += weight * by_w.dot(inverse * by_w);
-  x_.template head<kErrors>() += gain * innovation;
-  dx_.template head<kErrors>() += gain * by_w;
-  p_.template topLeftCorner<kErrors, kErrors>() -= gain * of_errors.transpose();
-  // A place that does not fit asks for lengths that no slip explains: it is refused by its cost, not followed.
-  if (std::abs(x_[2]) > most_scale_) {
-    x_[2] = std::copysign(most_scale_, x_[2]);
-    dx_[2] = 0;
-  }
+  x_ += gain * innovation;
+  dx_ += gain * by_w;
+  p_ -= gain * of_errors.transpose();
 }
 
 TiltedPlace RollFilter::after(const Reading& measured) const {

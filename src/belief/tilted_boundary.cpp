@@ -71,19 +71,6 @@ Buckets::Buckets(const std::vector<double>& starts, double end) : lo_(starts.fro
   }
 }
 
-TiltedArc::Found TiltedArc::find(double w) const {
-  double base = w;
-  double shift = 0;
-  if (loop_) {
-    const Wrapped wrapped = wrap(w - lo(), hi_ - lo());
-    base = lo() + wrapped.base;
-    shift = wrapped.winding * perimeter_;
-  }
-  std::size_t k = buckets_.before(base);
-  while (k + 1 < cells_.size() && cells_[k + 1].w <= base) ++k;
-  return {&cells_[k], base - cells_[k].w, shift};
-}
-
 TiltedPlace TiltedArc::at(double w) const {
   if (!loop_ && w <= lo()) return {cells_.front().s, 0};
   if (!loop_ && w >= hi_) return {end_, 0};
@@ -91,13 +78,12 @@ TiltedPlace TiltedArc::at(double w) const {
 }
 
 SpreadPlace TiltedArc::about(double w, double variance, double spread) const {
-  const double sd = std::sqrt(variance + spread);
-  const double reach = kSigmaPoint * sd;
+  const double reach = kSigmaPoint * std::sqrt(variance + spread);
   if (loop_ || (w > lo() && w < hi_)) {
     const Found found = find(w);
     const TiltedPlace place = on(found);
     const double bend = 2 * (found.cell->cubic.b + 3 * found.x * found.cell->cubic.c);
-    const bool is_straight = std::abs(bend) * std::sqrt(spread) <= kBend * place.slope;
+    const bool is_straight = bend * bend * spread <= kBend * kBend * place.slope * place.slope;
     if (is_straight && found.x - reach > found.cell->kink_below && found.x + reach < found.cell->kink_above) {
       return {place.s, place.slope, 0};
     }
@@ -110,7 +96,7 @@ SpreadPlace TiltedArc::about(double w, double variance, double spread) const {
   const double half = 0.5 * (above - below);
   const double bend = below - 2 * middle + above;
   // Of the three about their mean, less what the straight line explains.
-  return {mean, sd > 0 ? half / reach : 0, bend * bend / 18};
+  return {mean, reach > 0 ? half / reach : 0, bend * bend / 18};
 }
 
 void TiltedArc::join(std::size_t begin, double w) {
@@ -121,7 +107,7 @@ void TiltedArc::join(std::size_t begin, double w) {
   Cell& cut = cells_[after];
   const double x = w - cut.w;
   const Cubic& cubic = cut.cubic;
-  cut = {w, cut.s + cubic.at(x), {cubic.slope(x), cubic.b + 3 * x * cubic.c, cubic.c}, 0, 0};
+  cut = {w, cut.s + cubic.at(x), {cubic.slope(x), cubic.b + 3 * x * cubic.c, cubic.c}};
   cells_.erase(cells_.begin() + static_cast<std::ptrdiff_t>(before),
                cells_.begin() + static_cast<std::ptrdiff_t>(after));
 }
@@ -191,7 +177,7 @@ TiltedBoundary::TiltedBoundary(const Part& part, double least, double accuracy) 
     const double w = spirals[k].start.angle + winding * turning.period_turn() + tilt_ * s;
     const bool goes_on = n > 0 && jump > -kJointTurn;
     if ((goes_on || arc.loop_) && jump > kTurnAccuracy) {
-      arc.cells_.push_back({w - jump, s, {}, 0, 0});  // a convex corner: w grows, s stays
+      arc.cells_.push_back({w - jump, s, {}});  // a convex corner: w grows, s stays
     }
     const std::size_t spiral_begin = arc.cells_.size();
     add_spiral(turning, spirals[k], winding, accuracy, arc);
@@ -203,7 +189,10 @@ TiltedBoundary::TiltedBoundary(const Part& part, double least, double accuracy) 
     while (arc.cells_.back().w >= arc.hi_) arc.cells_.pop_back();
     arc.mark_kinks();
     std::vector<double> starts;
-    for (const TiltedArc::Cell& cell : arc.cells_) starts.push_back(cell.w);
+    for (TiltedArc::Cell& cell : arc.cells_) {
+      starts.push_back(cell.w);
+      cell.end = &cell == &arc.cells_.back() ? std::numeric_limits<double>::infinity() : (&cell + 1)->w;
+    }
     arc.buckets_ = Buckets(starts, arc.hi_);
   }
 }
@@ -242,7 +231,7 @@ void TiltedBoundary::add_spiral(const TurningFunction& turning, const Spiral& sp
       tasks.push_back({task.lo, middle, task.depth + 1});
       continue;
     }
-    arc.cells_.push_back({task.lo.w + lift, task.lo.s + shift, cubic, 0, 0});
+    arc.cells_.push_back({task.lo.w + lift, task.lo.s + shift, cubic});
   }
   arc.hi_ = spiral.end.angle + tilt_ * spiral.hi + lift;
   arc.end_ = spiral.hi + shift;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "rollfix/outline/curve.hpp"
+#include "rollfix/part/boundary.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace rollfix::belief {
@@ -87,6 +88,7 @@ class TiltedArc {
     Cubic cubic;
     double kink_below = 0;  // the nearest places where the slope jumps, from the cell's start: at most 0, and ...
     double kink_above = 0;  // ... above it
+    double end = 0;         // where the next one starts; beyond all w of the last
   };
 
   /// A value of w within the arc's own range, its cell, and the s of the windings that were taken off.
@@ -95,7 +97,19 @@ class TiltedArc {
     double x;
     double shift;
   };
-  Found find(double w) const;
+  Found find(double w) const {
+    double base = w;
+    double shift = 0;
+    if (loop_) {
+      const Wrapped wrapped = wrap(w - lo(), hi_ - lo());
+      base = lo() + wrapped.base;
+      shift = wrapped.winding * perimeter_;
+    }
+    const Cell* cell = &cells_[buckets_.before(base)];
+    cell += cell->end <= base ? 1 : 0;  // most often, and without a branch to foresee
+    while (cell->end <= base) ++cell;
+    return {cell, base - cell->w, shift};
+  }
   static TiltedPlace on(const Found& found) {
     const Cell& cell = *found.cell;
     return {cell.s + cell.cubic.at(found.x) + found.shift, cell.cubic.slope(found.x)};

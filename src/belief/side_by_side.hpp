@@ -1,0 +1,27 @@
+#pragma once
+
+#include <functional>
+
+#include "belief/grid.hpp"
+
+namespace rollfix::belief {
+
+/// Nodes that a filter is to take, in order.
+struct Errand {
+  GridPoint* point = nullptr;  // that it is for
+  int pass = 0;                // how often it has gone through them
+  RollFilter* filter = nullptr;
+  const Node* next = nullptr;
+  const Node* end = nullptr;
+  bool whole = false;  // all of them, however large the deviance gets
+};
+
+/// Gives the next errand; false: there is none. It is called with the one that is over, to go on from: its filter has
+/// taken all nodes, or those before `next` and is beyond the limit. The first ones are called for with an empty one.
+using NextErrand = std::function<bool(Errand&)>;
+
+/// Runs errands, several side by side, for each is one long chain of operations that wait for each other. What comes of
+/// one does not depend on the others. `limit`: of the deviance, as it is by then.
+void run_errands(const NextErrand& next, bool with_centres, const double& limit, const Outliers& outliers);
+
+}  // namespace rollfix::belief
