@@ -245,9 +245,12 @@ void Grid::refresh_all(const Nodes& nodes) {
   std::vector<GridPoint*> points;
   filters.reserve(count_);
   for (const GridPoints& arc : points_) {
-    for (const std::unique_ptr<GridPoint>& point : arc) {
-      points.push_back(point.get());
-      filters.push_back(point->filter);
+    for (std::size_t k = 0; k < arc.size(); ++k) {
+      const GridPoint& before = *arc[k > 0 ? k - 1 : k];
+      const GridPoint& after = *arc[std::min(k + 1, arc.size() - 1)];
+      if (!can_start_in({before.filter.place().s, after.filter.place().s})) continue;
+      points.push_back(arc[k].get());
+      filters.push_back(arc[k]->filter);
     }
   }
   std::size_t begun = 0;
@@ -265,6 +268,15 @@ void Grid::refresh_all(const Nodes& nodes) {
   std::vector<GridPoint*> ordered;
   for (const std::size_t k : order) ordered.push_back(points[k]);
   refresh(ordered, nodes);
+}
+
+bool Grid::can_start_in(const Interval& s) const {
+  if (options_.within.empty()) return true;
+  const double lap = places_.closed ? places_.perimeter : 0;
+  const double base = places_.closed ? s.lo - places_.reduced(s.lo).base : 0;
+  return std::any_of(options_.within.begin(), options_.within.end(), [&](const Interval& one) {
+    return (one.lo + base <= s.hi && one.hi + base >= s.lo) || one.lo + base + lap <= s.hi;
+  });
 }
 
 double Grid::log_prior(double length, double h) const {
@@ -346,6 +358,10 @@ bool Grid::refine(const Nodes& nodes) {
       GridPoint& lo = *points[k];
       GridPoint& hi = *points[k + 1];
       GridCell cell{a, k, lo.filter.w(), hi.filter.w(), {lo.filter.place().s, hi.filter.place().s}};
+      if (!can_start_in(cell.s)) {
+        cells_.push_back(cell);
+        continue;
+      }
       const double h = cell.hi - cell.lo;
       const double log_width = log_prior(cell.s.width(), h) + std::log(h);
       Bound bound = bound_of(at_least(lo), at_least(hi), h, heat);

@@ -216,6 +216,8 @@ class Grid {
   void measure_fit(const Nodes& nodes);
   void add_pose_prior(GridPoint& point) const;
   void lower_limit(double deviance, const Nodes& nodes);
+  /// Whether it is not known that the first contact is not in there; unwrapped.
+  bool can_start_in(const Interval& s) const;
   bool holds_something(const Nodes& nodes, const Rival& rival) const;
   /// About the logarithm of the mass around a point.
   double log_mass(const GridPoint& point) const;

@@ -91,8 +91,8 @@ bool can_glance(const Problem& like) {
   return like.noise && !like.robust && fingers == 1;
 }
 
-std::vector<std::size_t> worth_a_look(const Catalog& catalog, const Problem& like,
-                                      const std::vector<PartLeft>& parts, const IdentifyOptions& options) {
+std::vector<std::size_t> worth_a_look(const Catalog& catalog, const Problem& like, const std::vector<PartLeft>& parts,
+                                      const IdentifyOptions& options) {
   std::vector<Problem> ways{like.mirrored ? in_mirror(like) : like};
   if (like.either_way) ways.push_back(counted_clockwise(ways.front()));
   std::vector<Glance> glances(parts.size());

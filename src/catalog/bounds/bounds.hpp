@@ -14,8 +14,8 @@
 
 namespace rollfix {
 
-/// A part that is left, and where on it the roll can have started, of each way in which it may have gone; no cell of any
-/// way: anywhere.
+/// A part that is left, and where on it the roll can have started, of each way in which it may have gone; no cell of
+/// any way: anywhere.
 struct PartLeft {
   std::size_t part = 0;
   std::vector<Cells<kFineCells>> cells{};
