@@ -103,7 +103,7 @@ const GridPoint& Grid::best() const { return *points_[best_arc_][best_index_]; }
 
 GridPoint Grid::make(const TiltedArc& arc, double w) const {
   const RollFilter fresh(arc, boundary_->tilt(), w, errors_.start(), centres_);
-  return {fresh, 0, 0, static_cast<std::size_t>(-1), fresh, {}};
+  return {fresh, 0, 0, 0, static_cast<std::size_t>(-1), fresh, {}};
 }
 
 void Grid::refresh(const std::vector<GridPoint*>& points, const Nodes& nodes) {
@@ -141,6 +141,7 @@ bool Grid::next_errand(Errand& errand, const Nodes& nodes, const std::optional<N
     point.taken = static_cast<std::size_t>(errand.next - complete.data());
     point.now = point.filter;
     point.score = score_of(point.now);
+    point.deviance = point.score.cost + point.score.log_volume;
     point.rows = static_cast<std::size_t>(-1);
     if (errand.next != last) return false;
   }
@@ -267,9 +268,9 @@ void Grid::refresh_all(const Nodes& nodes) {
   refresh(ordered, nodes);
 }
 
-double Grid::log_prior(double length, double h) const {
+double Grid::log_prior(double length, double h, double width) const {
   const double slope = length / h;
-  return std::log(slope * boundary_->tilt() > kCornerSlope ? slope : corner_length_);
+  return std::log((slope * boundary_->tilt() > kCornerSlope ? slope : corner_length_) * width);
 }
 
 void Grid::measure_fit(const Nodes& nodes) {
@@ -323,7 +324,7 @@ Score Grid::at_least(const GridPoint& point) const {
   Score score = point.score;
   // What stopped on the way, and what did not although it is as far off, must look alike: else the grid would be made
   // ever finer between them.
-  if (point.filter.deviance() > limit_) {
+  if (point.deviance > limit_) {
     score.cost = farthest_;
     score.log_volume = limit_ - farthest_;
   }
@@ -347,7 +348,7 @@ bool Grid::refine(const Nodes& nodes) {
       GridPoint& hi = *points[k + 1];
       GridCell cell{a, k, lo.filter.w(), hi.filter.w(), {lo.filter.place().s, hi.filter.place().s}};
       const double h = cell.hi - cell.lo;
-      const double log_width = log_prior(cell.s.width(), h) + std::log(h);
+      const double log_width = log_prior(cell.s.width(), h, h);
       Bound bound = bound_of(at_least(lo), at_least(hi), h, heat);
       // A cost only grows with more samples: one that was too large before is so now.
       const bool stale = is_stale(lo, nodes) || is_stale(hi, nodes);
