@@ -52,7 +52,7 @@ constexpr double kLeastCell = 1e-13;
 // Where angles are so noisy that a row is not linear in what all rows share, it is gone through so many times.
 constexpr int kPassesOfWide = 3;
 // ... unless what they share of the turn changes by no more than this, radians: the lines would be the same ones.
-constexpr double kSettledTurn = 1e-4;
+constexpr double kSettledTurn = 1e-5;
 // Rounds of halving: 2^-kMostRounds of the first cells is below kLeastCell.
 constexpr int kMostRounds = 50;
 // A density that changes by less than this share is even.
