@@ -52,7 +52,7 @@ constexpr double kLeastCell = 1e-13;
 // Where angles are so noisy that a row is not linear in what all rows share, it is gone through so many times.
 constexpr int kPassesOfWide = 3;
 // ... unless what they share of the turn changes by no more than this, radians: the lines would be the same ones.
-constexpr double kSettledTurn = 1e-4;
+constexpr double kSettledTurn = 1e-5;
 // Rounds of halving: 2^-kMostRounds of the first cells is below kLeastCell.
 constexpr int kMostRounds = 50;
 // A density that changes by less than this share is even.
@@ -103,7 +103,7 @@ const GridPoint& Grid::best() const { return *points_[best_arc_][best_index_]; }
 
 GridPoint Grid::make(const TiltedArc& arc, double w) const {
   const RollFilter fresh(arc, boundary_->tilt(), w, errors_.start(), centres_);
-  return {fresh, 0, 0, static_cast<std::size_t>(-1), fresh, {}};
+  return {fresh, 0, 0, 0, static_cast<std::size_t>(-1), fresh, {}};
 }
 
 void Grid::refresh(const std::vector<GridPoint*>& points, const Nodes& nodes) {
@@ -141,6 +141,7 @@ bool Grid::next_errand(Errand& errand, const Nodes& nodes, const std::optional<N
     point.taken = static_cast<std::size_t>(errand.next - complete.data());
     point.now = point.filter;
     point.score = score_of(point.now);
+    point.deviance = point.score.cost + point.score.log_volume;
     point.rows = static_cast<std::size_t>(-1);
     if (errand.next != last) return false;
   }
@@ -279,9 +280,9 @@ bool Grid::can_start_in(const Interval& s) const {
   });
 }
 
-double Grid::log_prior(double length, double h) const {
+double Grid::log_prior(double length, double h, double width) const {
   const double slope = length / h;
-  return std::log(slope * boundary_->tilt() > kCornerSlope ? slope : corner_length_);
+  return std::log((slope * boundary_->tilt() > kCornerSlope ? slope : corner_length_) * width);
 }
 
 void Grid::measure_fit(const Nodes& nodes) {
@@ -335,7 +336,7 @@ Score Grid::at_least(const GridPoint& point) const {
   Score score = point.score;
   // What stopped on the way, and what did not although it is as far off, must look alike: else the grid would be made
   // ever finer between them.
-  if (point.filter.deviance() > limit_) {
+  if (point.deviance > limit_) {
     score.cost = farthest_;
     score.log_volume = limit_ - farthest_;
   }
@@ -363,7 +364,7 @@ bool Grid::refine(const Nodes& nodes) {
         continue;
       }
       const double h = cell.hi - cell.lo;
-      const double log_width = log_prior(cell.s.width(), h) + std::log(h);
+      const double log_width = log_prior(cell.s.width(), h, h);
       Bound bound = bound_of(at_least(lo), at_least(hi), h, heat);
       // A cost only grows with more samples: one that was too large before is so now.
       const bool stale = is_stale(lo, nodes) || is_stale(hi, nodes);

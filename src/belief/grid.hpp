@@ -137,7 +137,8 @@ struct Score {
 
 /// A first contact on trial.
 struct GridPoint {
-  RollFilter filter;  // has taken `taken` complete nodes
+  RollFilter filter;    // has taken `taken` complete nodes
+  double deviance = 0;  // of it
   std::size_t taken = 0;
   std::size_t generation = 0;
   std::size_t rows = 0;  // of the roll, when it was scored
@@ -221,8 +222,8 @@ class Grid {
   bool holds_something(const Nodes& nodes, const Rival& rival) const;
   /// About the logarithm of the mass around a point.
   double log_mass(const GridPoint& point) const;
-  /// Of the density by w, between two places that far apart.
-  double log_prior(double length, double h) const;
+  /// Of the density by w, between two places that far apart, over this width.
+  double log_prior(double length, double h, double width = 1) const;
 
   const TiltedBoundary* boundary_;
   const CentreModel* centres_;  // nullptr: they are not looked at
