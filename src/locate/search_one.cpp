@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "candidates.hpp"
 #include "corner_sets.hpp"
 #include "part/cursor.hpp"
 #include "root_search.hpp"
@@ -10,12 +11,6 @@
 
 namespace rollfix {
 namespace {
-
-/// What a sweep leaves, also of its budget.
-struct Swept {
-  Findings findings;
-  std::size_t budget = 0;
-};
 
 class Sweep {
  public:
@@ -28,8 +23,13 @@ class Sweep {
         tolerance_(options.tolerance),
         search_(options, part.perimeter()) {}
 
-  Swept take() { return {std::move(findings_), search_.budget()}; }
+  Findings& findings() { return findings_; }
+  Findings take() { return std::move(findings_); }
+  std::size_t budget() const { return search_.budget(); }
 
+  /// Walks the first contact s along [lo, hi] of the boundary: cuts it where s or its end s + L passes from one spiral
+  /// to the next, searches each piece, and looks at the pivot wherever the end passes a convex corner. Stops where it
+  /// gives up: after that there must be no other run.
   void run(const Interval& range) {
     if (range.width() <= same_place_) {
       look_at(range);
@@ -128,39 +128,42 @@ class Sweep {
   Findings& findings_ = search_.findings;
 };
 
-/// Walks one reading's first contact s along [lo, hi] of the boundary: cuts it where s or its end s + L passes from
-/// one spiral to the next, searches each piece, and looks at the pivot wherever the end passes a convex corner.
-Swept sweep(const Part& part, const Reading& reading, const Interval& range, const LocateOptions& options) {
-  Sweep sweep(part, reading, options);
-  sweep.run(range);
-  return sweep.take();
+/// What the first reading allows on these stretches.
+Findings found_on(const Question& question, const std::vector<Interval>& stretches, double hi, LocateOptions& options) {
+  Sweep sweep(question.part, question.readings.front(), options);
+  for (const Interval& stretch : stretches) {
+    sweep.run(stretch);
+    if (!sweep.findings().unresolved.empty()) break;
+  }
+  options.budget = sweep.budget();
+  Findings found = sweep.take();
+  if (!found.unresolved.empty()) found.unresolved.back().hi = hi;
+  return found;
 }
 
 /// Keeps of each piece what a further reading allows as well.
 Findings narrowed(const Part& part, const Reading& reading, Findings before, LocateOptions& options) {
   const std::vector<Reading> only{reading};
-  Findings kept = std::move(before);
-  const std::vector<Piece> pieces = std::exchange(kept.pieces, {});
-  for (const Piece& piece : pieces) {
-    if (!kept.unresolved.empty()) {
+  Sweep sweep(part, reading, options);
+  Findings& kept = sweep.findings();
+  for (const Piece& piece : before.pieces) {
+    if (!kept.unresolved.empty() || !before.unresolved.empty()) {
       kept.unresolved.push_back({piece.lo, piece.hi});
     } else if (piece.lo == piece.hi) {
       if (residual_at({part, only}, piece.lo) <= options.tolerance) kept.pieces.push_back(piece);
     } else {
-      Swept swept = sweep(part, reading, {piece.lo, piece.hi}, options);
-      options.budget = swept.budget;
-      for (Piece& part_of_piece : swept.findings.pieces) {
-        part_of_piece.exact = part_of_piece.exact && piece.exact;
-        kept.pieces.push_back(part_of_piece);
-      }
-      const Findings& found = swept.findings;
-      kept.roots.insert(kept.roots.end(), found.roots.begin(), found.roots.end());
-      kept.unresolved.insert(kept.unresolved.end(), found.unresolved.begin(), found.unresolved.end());
-      kept.counts.intervals += found.counts.intervals;
-      kept.counts.evaluations += found.counts.evaluations;
+      const std::size_t first = kept.pieces.size();
+      sweep.run({piece.lo, piece.hi});
+      for (std::size_t k = first; k < kept.pieces.size(); ++k) kept.pieces[k].exact &= piece.exact;
     }
   }
-  return kept;
+  options.budget = sweep.budget();
+  before.pieces = std::move(kept.pieces);
+  before.roots.insert(before.roots.end(), kept.roots.begin(), kept.roots.end());
+  before.unresolved.insert(before.unresolved.end(), kept.unresolved.begin(), kept.unresolved.end());
+  before.counts.intervals += kept.counts.intervals;
+  before.counts.evaluations += kept.counts.evaluations;
+  return before;
 }
 
 /// A first contact at a convex corner: the finger may have pivoted there by any amount, the same for all readings.
@@ -193,10 +196,12 @@ std::vector<PerFinger<Interval>> joined(std::vector<Interval> intervals) {
 
 Search search_one(const Question& question, const LocateOptions& options) {
   const Interval range = first_contacts(question, 0);
-  Swept swept = sweep(question.part, question.readings.front(), range, options);
-  Findings found = std::move(swept.findings);
+  SearchCounts counts;
+  const std::vector<Interval> stretches = candidates(question, range, options.tolerance, counts);
   LocateOptions left = options;
-  left.budget = swept.budget;
+  Findings found = found_on(question, stretches, range.hi, left);
+  found.counts.intervals += counts.intervals;
+  found.counts.evaluations += counts.evaluations;
   for (std::size_t k = 1; k < question.readings.size(); ++k) {
     found = narrowed(question.part, question.readings[k], std::move(found), left);
   }

@@ -12,6 +12,8 @@ namespace {
 
 // A place known to this share of the perimeter is known as well as it can be.
 constexpr double kPolished = 1e-14;
+// A value so many times further off than rounding leaves it is no root.
+constexpr double kManyRoundings = 1000;
 
 using Roots = std::vector<Root>;
 
@@ -110,12 +112,18 @@ class SetsOfOne {
   /// The places in a cluster where every reading's f is 0, each once.
   Roots exact_roots(const Cluster& cluster) const {
     Roots found;
+    double looked_at = -std::numeric_limits<double>::infinity();  // the last crossing that all may share
     for (const Root& root : cluster.roots) {
       Root candidate = root;
       if (readings_.size() == 1) {
         if (!root.exact) continue;
       } else {
-        if (root.crossing) candidate.s = polished_together(root.s, cluster);
+        if (root.crossing) {
+          // Readings find a root that they share again: once is enough.
+          if (root.s - looked_at <= kLengthAccuracy * period_ || !may_be_shared(root)) continue;
+          looked_at = root.s;
+          candidate.s = polished_together(root.s, cluster);
+        }
         if (residual_at(question_, candidate.s) > kRootTurn) continue;
       }
       if (!found.empty() && same_root(found.back(), candidate)) {
@@ -127,6 +135,16 @@ class SetsOfOne {
       if (cluster.exact) break;  // the rest is its continuum
     }
     return found;
+  }
+
+  /// Is it near enough to a root of each reading's f for one place to be all their roots? Where it is known to
+  /// kRootTurn over its own slope another f may be off by its slope times that.
+  bool may_be_shared(const Root& root) const {
+    const double own = std::abs(root.sample.slope());
+    return std::all_of(readings_.begin(), readings_.end(), [&](const Reading& reading) {
+      const ResidualSample at = sample(reading, root.s);
+      return !(own * std::abs(at.value) > kManyRoundings * kRootTurn * (own + std::abs(at.slope())));
+    });
   }
 
   /// Least squares over all the readings: the steepest decide.

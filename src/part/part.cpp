@@ -105,6 +105,7 @@ Part::Part(Outline outline, const PartOptions& options) {
   data->outline = std::move(outline);
   data->inflections = find_inflections(data->turning);
   data->vertices = find_vertices(data->turning, data->corners);
+  data->tree = TurningTree(data->turning);
   data_ = std::move(data);
   if (options.allow_crossing) return;
   if (const auto crossing = find_crossing(*this)) {
