@@ -141,16 +141,19 @@ Findings found_on(const Question& question, const std::vector<Interval>& stretch
   return found;
 }
 
-/// Keeps of each piece what a further reading allows as well.
-Findings narrowed(const Part& part, const Reading& reading, Findings before, LocateOptions& options) {
+/// Keeps of each piece what a further reading allows as well; at a corner's pivot what all of them allow together.
+Findings narrowed(const Question& question, std::size_t further, Findings before, LocateOptions& options) {
+  const Reading& reading = question.readings[further];
   const std::vector<Reading> only{reading};
-  Sweep sweep(part, reading, options);
+  const Question its_own{question.part, only};
+  Sweep sweep(question.part, reading, options);
   Findings& kept = sweep.findings();
   for (const Piece& piece : before.pieces) {
     if (!kept.unresolved.empty() || !before.unresolved.empty()) {
       kept.unresolved.push_back({piece.lo, piece.hi});
     } else if (piece.lo == piece.hi) {
-      if (residual_at({part, only}, piece.lo) <= options.tolerance) kept.pieces.push_back(piece);
+      const double residual = residual_at(piece.corner ? question : its_own, piece.lo);
+      if (residual <= options.tolerance) kept.pieces.push_back(piece);
     } else {
       const std::size_t first = kept.pieces.size();
       sweep.run({piece.lo, piece.hi});
@@ -203,7 +206,7 @@ Search search_one(const Question& question, const LocateOptions& options) {
   found.counts.intervals += counts.intervals;
   found.counts.evaluations += counts.evaluations;
   for (std::size_t k = 1; k < question.readings.size(); ++k) {
-    found = narrowed(question.part, question.readings[k], std::move(found), left);
+    found = narrowed(question, k, std::move(found), left);
   }
   add_start_corners(question, range, options.tolerance, found);
 

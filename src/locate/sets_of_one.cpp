@@ -55,17 +55,22 @@ std::vector<Cluster> join(const Part& part, std::vector<Piece>& pieces) {
   return clusters;
 }
 
+/// Each root to the first cluster that holds it, if there is one. Clusters are in rising order and apart.
 void hand_out(const Part& part, const std::vector<Root>& roots, std::vector<Cluster>& clusters) {
+  if (clusters.empty()) return;
   const double same_place = kLengthAccuracy * part.perimeter();
+  const auto take = [&](Cluster& cluster, Root root) {
+    if (root.s < cluster.lo - same_place || root.s > cluster.hi + same_place) return false;
+    cluster.roots.push_back(std::move(root));
+    return true;
+  };
+  const auto ends_before = [&](const Cluster& cluster, double s) { return cluster.hi + same_place < s; };
   for (const Root& root : roots) {
-    for (Cluster& cluster : clusters) {
-      Root shifted = root;
-      if (part.closed() && root.s < cluster.lo - same_place) shifted.s += part.perimeter();
-      if (shifted.s >= cluster.lo - same_place && shifted.s <= cluster.hi + same_place) {
-        cluster.roots.push_back(shifted);
-        break;
-      }
-    }
+    const auto next = std::lower_bound(clusters.begin(), clusters.end(), root.s, ends_before);
+    if ((next != clusters.end() && take(*next, root)) || !part.closed()) continue;
+    Root shifted = root;  // into the last one, across s = 0
+    shifted.s += part.perimeter();
+    take(clusters.back(), std::move(shifted));
   }
   for (Cluster& cluster : clusters) {
     std::sort(cluster.roots.begin(), cluster.roots.end(),
