@@ -99,7 +99,7 @@ class Descent {
     return next != among_->end() && *next >> width == start.index;
   }
 
-  /// Can f be within the tolerance for some s, or at the joint where the end's block ends?
+  /// Can f be within the tolerance for some s, the pivots at the joints where the two blocks end included?
   bool may_fit(std::size_t level, const Stretch& start, const Stretch& end, const Interval& s) {
     ++counts_.intervals;
     const TurningTree::Block& at_start = tree_.block(level, start.index);
@@ -107,8 +107,9 @@ class Descent {
     const double first = at_end.chord(s.lo + offset_) - at_start.chord(s.lo) - turn_;
     const double last = at_end.chord(s.hi + offset_) - at_start.chord(s.hi) - turn_;
     const double far = tolerance_ + same_place_ * (at_start.steepest + at_end.steepest);
-    return std::min(first, last) + std::min(at_end.below, at_end.jump) - at_start.above <= far &&
-           std::max(first, last) + std::max(at_end.above, at_end.jump) - at_start.below >= -far;
+    const double below = std::min(at_end.below, at_end.jump) - std::max(at_start.above, at_start.jump);
+    const double above = std::max(at_end.above, at_end.jump) - std::min(at_start.below, at_start.jump);
+    return std::min(first, last) + below <= far && std::max(first, last) + above >= -far;
   }
 
   static constexpr double kNowhere = std::numeric_limits<double>::infinity();
@@ -147,7 +148,7 @@ std::vector<Interval> candidates(const Question& question, const Interval& range
     while (k + 1 < left.size() && left[k + 1] == left[k] + 1) ++k;
     const std::size_t last = std::min((left[k] + 1) << kLeafLevel, spirals.size()) - 1;
     const Interval stretch{std::max(range.lo, spirals[first].lo), std::min(range.hi, spirals[last].hi)};
-    if (stretch.width() > same_place) stretches.push_back(stretch);  // else a neighbour has it
+    stretches.push_back(stretch);
   }
   return stretches;
 }

@@ -128,16 +128,19 @@ class Sweep {
   Findings& findings_ = search_.findings;
 };
 
-/// What the first reading allows on these stretches.
-Findings found_on(const Question& question, const std::vector<Interval>& stretches, double hi, LocateOptions& options) {
+/// What the first reading allows on these stretches of the range.
+Findings found_on(const Question& question, const std::vector<Interval>& stretches, const Interval& range,
+                  LocateOptions& options) {
+  const double same_place = kLengthAccuracy * question.part.perimeter();
   Sweep sweep(question.part, question.readings.front(), options);
   for (const Interval& stretch : stretches) {
-    sweep.run(stretch);
+    // A single place beside what is passed over is there for its corner.
+    if (stretch.width() > same_place || range.width() <= same_place) sweep.run(stretch);
     if (!sweep.findings().unresolved.empty()) break;
   }
   options.budget = sweep.budget();
   Findings found = sweep.take();
-  if (!found.unresolved.empty()) found.unresolved.back().hi = hi;
+  if (!found.unresolved.empty()) found.unresolved.back().hi = range.hi;
   return found;
 }
 
@@ -170,13 +173,29 @@ Findings narrowed(const Question& question, std::size_t further, Findings before
 }
 
 /// A first contact at a convex corner: the finger may have pivoted there by any amount, the same for all readings.
-void add_start_corners(const Question& question, const Interval& range, double tolerance, Findings& findings) {
-  for (const Corner& corner : question.part.corners()) {
-    if (corner.is_concave() || !range.contains(corner.s)) continue;
-    const double residual = residual_at(question, corner.s);
-    if (residual > tolerance) continue;
-    findings.pieces.push_back({corner.s, corner.s, false, true});
-    findings.roots.push_back({corner.s, residual <= kTurnAccuracy, true});
+void look_at_start(const Question& question, const Corner& corner, double tolerance, Findings& findings) {
+  if (corner.is_concave()) return;
+  const double residual = residual_at(question, corner.s);
+  if (residual > tolerance) return;
+  findings.pieces.push_back({corner.s, corner.s, false, true});
+  findings.roots.push_back({corner.s, residual <= kTurnAccuracy, true});
+}
+
+void add_start_corners(const Question& question, const std::vector<Interval>& stretches, double tolerance,
+                       Findings& findings) {
+  const Part& part = question.part;
+  const std::vector<Corner>& corners = part.corners();
+  if (corners.empty() || stretches.empty()) return;
+  const bool ends_at_seam = part.closed() && stretches.back().hi >= part.perimeter();
+  if (corners.front().s == 0 && ends_at_seam && stretches.front().lo > 0) {
+    look_at_start(question, corners.front(), tolerance, findings);
+  }
+  for (const Interval& stretch : stretches) {
+    auto next = std::lower_bound(corners.begin(), corners.end(), stretch.lo,
+                                 [](const Corner& corner, double s) { return corner.s < s; });
+    for (; next != corners.end() && next->s <= stretch.hi; ++next) {
+      look_at_start(question, *next, tolerance, findings);
+    }
   }
 }
 
@@ -202,13 +221,13 @@ Search search_one(const Question& question, const LocateOptions& options) {
   SearchCounts counts;
   const std::vector<Interval> stretches = candidates(question, range, options.tolerance, counts);
   LocateOptions left = options;
-  Findings found = found_on(question, stretches, range.hi, left);
+  Findings found = found_on(question, stretches, range, left);
   found.counts.intervals += counts.intervals;
   found.counts.evaluations += counts.evaluations;
   for (std::size_t k = 1; k < question.readings.size(); ++k) {
     found = narrowed(question, k, std::move(found), left);
   }
-  add_start_corners(question, range, options.tolerance, found);
+  add_start_corners(question, stretches, options.tolerance, found);
 
   Search search;
   search.placements = make_placements(question, std::move(found.pieces), found.roots);
