@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 #include "part/part_data.hpp"
 
@@ -45,12 +46,13 @@ class Descent {
     among_ = among;
     const Stretch all{0, 0, turning_.perimeter()};
     visit(tree_.top(), all, all);
-    if (!turning_.closed()) return std::move(left_);
-    // On the next lap; and where the roll ends at s = 0 itself, at the joint that the lap before ends with.
-    for (const int step : {1, -2}) {
-      offset_ -= step * turning_.perimeter();
-      turn_ -= step * turning_.period_turn();
-      visit(tree_.top(), all, all);
+    if (turning_.closed()) {
+      // On the next lap; and where the roll ends at s = 0 itself, at the joint that the lap before ends with.
+      for (const int step : {1, -2}) {
+        offset_ -= step * turning_.perimeter();
+        turn_ -= step * turning_.period_turn();
+        visit(tree_.top(), all, all);
+      }
     }
     std::sort(left_.begin(), left_.end());
     left_.erase(std::unique(left_.begin(), left_.end()), left_.end());

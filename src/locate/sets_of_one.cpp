@@ -59,9 +59,9 @@ std::vector<Cluster> join(const Part& part, std::vector<Piece>& pieces) {
 void hand_out(const Part& part, const std::vector<Root>& roots, std::vector<Cluster>& clusters) {
   if (clusters.empty()) return;
   const double same_place = kLengthAccuracy * part.perimeter();
-  const auto take = [&](Cluster& cluster, Root root) {
+  const auto take = [&](Cluster& cluster, const Root& root) {
     if (root.s < cluster.lo - same_place || root.s > cluster.hi + same_place) return false;
-    cluster.roots.push_back(std::move(root));
+    cluster.roots.push_back(root);
     return true;
   };
   const auto ends_before = [&](const Cluster& cluster, double s) { return cluster.hi + same_place < s; };
@@ -70,7 +70,7 @@ void hand_out(const Part& part, const std::vector<Root>& roots, std::vector<Clus
     if ((next != clusters.end() && take(*next, root)) || !part.closed()) continue;
     Root shifted = root;  // into the last one, across s = 0
     shifted.s += part.perimeter();
-    take(clusters.back(), std::move(shifted));
+    take(clusters.back(), shifted);
   }
   for (Cluster& cluster : clusters) {
     std::sort(cluster.roots.begin(), cluster.roots.end(),
