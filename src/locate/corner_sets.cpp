@@ -60,15 +60,16 @@ struct Fit {
 /// The least slack for which all the readings and the start's own set have a tangent in common: on a line, sets meet
 /// when each two of them do.
 Fit fit(const Interval& start, const Intervals& wanted) {
-  Fit best{0, start};
+  double most_lo = -std::numeric_limits<double>::infinity();
+  double least_hi = std::numeric_limits<double>::infinity();
   for (const Interval& one : wanted) {
-    best.residual = std::max({best.residual, one.lo - start.hi, start.lo - one.hi});
-    for (const Interval& other : wanted) best.residual = std::max(best.residual, 0.5 * (one.lo - other.hi));
+    most_lo = std::max(most_lo, one.lo);
+    least_hi = std::min(least_hi, one.hi);
   }
-  for (const Interval& one : wanted) {
-    best.start.lo = std::max(best.start.lo, one.lo - best.residual);
-    best.start.hi = std::min(best.start.hi, one.hi + best.residual);
-  }
+  Fit best;
+  best.residual = std::max({0.0, most_lo - start.hi, start.lo - least_hi, 0.5 * (most_lo - least_hi)});
+  best.start.lo = std::max(start.lo, most_lo - best.residual);
+  best.start.hi = std::min(start.hi, least_hi + best.residual);
   if (best.start.lo > best.start.hi) best.start.lo = best.start.hi = best.start.middle();  // by rounding
   return best;
 }
@@ -78,11 +79,19 @@ Fit best_fit(const Question& question, const PerFinger<double>& at) {
   // One-sided ends at a concave corner make several combinations; each is tried.
   boost::container::small_vector<Intervals, 2> combinations(1);
   for (const Reading& reading : question.readings) {
+    const Intervals ends = tangents_at(question.part, ends_of(at, reading));
+    const auto add = [&](Intervals& wanted, const Interval& end) {
+      wanted.push_back({end.lo - reading.turn, end.hi - reading.turn});
+    };
+    if (ends.size() == 1) {
+      for (Intervals& wanted : combinations) add(wanted, ends.front());
+      continue;
+    }
     boost::container::small_vector<Intervals, 2> longer;
-    for (const Interval& end : tangents_at(question.part, ends_of(at, reading))) {
+    for (const Interval& end : ends) {
       for (const Intervals& shorter : combinations) {
         longer.push_back(shorter);
-        longer.back().push_back({end.lo - reading.turn, end.hi - reading.turn});
+        add(longer.back(), end);
       }
     }
     combinations = std::move(longer);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "candidates.hpp"
 #include "corner_sets.hpp"
 #include "part/cursor.hpp"
 #include "root_search.hpp"
@@ -10,12 +11,6 @@
 
 namespace rollfix {
 namespace {
-
-/// What a sweep leaves, also of its budget.
-struct Swept {
-  Findings findings;
-  std::size_t budget = 0;
-};
 
 class Sweep {
  public:
@@ -28,8 +23,13 @@ class Sweep {
         tolerance_(options.tolerance),
         search_(options, part.perimeter()) {}
 
-  Swept take() { return {std::move(findings_), search_.budget()}; }
+  Findings& findings() { return findings_; }
+  Findings take() { return std::move(findings_); }
+  std::size_t budget() const { return search_.budget(); }
 
+  /// Walks the first contact s along [lo, hi] of the boundary: cuts it where s or its end s + L passes from one spiral
+  /// to the next, searches each piece, and looks at the pivot wherever the end passes a convex corner. Stops where it
+  /// gives up: after that there must be no other run.
   void run(const Interval& range) {
     if (range.width() <= same_place_) {
       look_at(range);
@@ -128,49 +128,74 @@ class Sweep {
   Findings& findings_ = search_.findings;
 };
 
-/// Walks one reading's first contact s along [lo, hi] of the boundary: cuts it where s or its end s + L passes from
-/// one spiral to the next, searches each piece, and looks at the pivot wherever the end passes a convex corner.
-Swept sweep(const Part& part, const Reading& reading, const Interval& range, const LocateOptions& options) {
-  Sweep sweep(part, reading, options);
-  sweep.run(range);
-  return sweep.take();
+/// What the first reading allows on these stretches of the range.
+Findings found_on(const Question& question, const std::vector<Interval>& stretches, const Interval& range,
+                  LocateOptions& options) {
+  const double same_place = kLengthAccuracy * question.part.perimeter();
+  Sweep sweep(question.part, question.readings.front(), options);
+  for (const Interval& stretch : stretches) {
+    // A single place beside what is passed over is there for its corner.
+    if (stretch.width() > same_place || range.width() <= same_place) sweep.run(stretch);
+    if (!sweep.findings().unresolved.empty()) break;
+  }
+  options.budget = sweep.budget();
+  Findings found = sweep.take();
+  if (!found.unresolved.empty()) found.unresolved.back().hi = range.hi;
+  return found;
 }
 
-/// Keeps of each piece what a further reading allows as well.
-Findings narrowed(const Part& part, const Reading& reading, Findings before, LocateOptions& options) {
+/// Keeps of each piece what a further reading allows as well; at a corner's pivot what all of them allow together.
+Findings narrowed(const Question& question, std::size_t further, Findings before, LocateOptions& options) {
+  const Reading& reading = question.readings[further];
   const std::vector<Reading> only{reading};
-  Findings kept = std::move(before);
-  const std::vector<Piece> pieces = std::exchange(kept.pieces, {});
-  for (const Piece& piece : pieces) {
-    if (!kept.unresolved.empty()) {
+  const Question its_own{question.part, only};
+  Sweep sweep(question.part, reading, options);
+  Findings& kept = sweep.findings();
+  for (const Piece& piece : before.pieces) {
+    if (!kept.unresolved.empty() || !before.unresolved.empty()) {
       kept.unresolved.push_back({piece.lo, piece.hi});
     } else if (piece.lo == piece.hi) {
-      if (residual_at({part, only}, piece.lo) <= options.tolerance) kept.pieces.push_back(piece);
+      const double residual = residual_at(piece.corner ? question : its_own, piece.lo);
+      if (residual <= options.tolerance) kept.pieces.push_back(piece);
     } else {
-      Swept swept = sweep(part, reading, {piece.lo, piece.hi}, options);
-      options.budget = swept.budget;
-      for (Piece& part_of_piece : swept.findings.pieces) {
-        part_of_piece.exact = part_of_piece.exact && piece.exact;
-        kept.pieces.push_back(part_of_piece);
-      }
-      const Findings& found = swept.findings;
-      kept.roots.insert(kept.roots.end(), found.roots.begin(), found.roots.end());
-      kept.unresolved.insert(kept.unresolved.end(), found.unresolved.begin(), found.unresolved.end());
-      kept.counts.intervals += found.counts.intervals;
-      kept.counts.evaluations += found.counts.evaluations;
+      const std::size_t first = kept.pieces.size();
+      sweep.run({piece.lo, piece.hi});
+      for (std::size_t k = first; k < kept.pieces.size(); ++k) kept.pieces[k].exact &= piece.exact;
     }
   }
-  return kept;
+  options.budget = sweep.budget();
+  before.pieces = std::move(kept.pieces);
+  before.roots.insert(before.roots.end(), kept.roots.begin(), kept.roots.end());
+  before.unresolved.insert(before.unresolved.end(), kept.unresolved.begin(), kept.unresolved.end());
+  before.counts.intervals += kept.counts.intervals;
+  before.counts.evaluations += kept.counts.evaluations;
+  return before;
 }
 
 /// A first contact at a convex corner: the finger may have pivoted there by any amount, the same for all readings.
-void add_start_corners(const Question& question, const Interval& range, double tolerance, Findings& findings) {
-  for (const Corner& corner : question.part.corners()) {
-    if (corner.is_concave() || !range.contains(corner.s)) continue;
-    const double residual = residual_at(question, corner.s);
-    if (residual > tolerance) continue;
-    findings.pieces.push_back({corner.s, corner.s, false, true});
-    findings.roots.push_back({corner.s, residual <= kTurnAccuracy, true});
+void look_at_start(const Question& question, const Corner& corner, double tolerance, Findings& findings) {
+  if (corner.is_concave()) return;
+  const double residual = residual_at(question, corner.s);
+  if (residual > tolerance) return;
+  findings.pieces.push_back({corner.s, corner.s, false, true});
+  findings.roots.push_back({corner.s, residual <= kTurnAccuracy, true});
+}
+
+void add_start_corners(const Question& question, const std::vector<Interval>& stretches, double tolerance,
+                       Findings& findings) {
+  const Part& part = question.part;
+  const std::vector<Corner>& corners = part.corners();
+  if (corners.empty() || stretches.empty()) return;
+  const bool ends_at_seam = part.closed() && stretches.back().hi >= part.perimeter();
+  if (corners.front().s == 0 && ends_at_seam && stretches.front().lo > 0) {
+    look_at_start(question, corners.front(), tolerance, findings);
+  }
+  for (const Interval& stretch : stretches) {
+    auto next = std::lower_bound(corners.begin(), corners.end(), stretch.lo,
+                                 [](const Corner& corner, double s) { return corner.s < s; });
+    for (; next != corners.end() && next->s <= stretch.hi; ++next) {
+      look_at_start(question, *next, tolerance, findings);
+    }
   }
 }
 
@@ -193,14 +218,16 @@ std::vector<PerFinger<Interval>> joined(std::vector<Interval> intervals) {
 
 Search search_one(const Question& question, const LocateOptions& options) {
   const Interval range = first_contacts(question, 0);
-  Swept swept = sweep(question.part, question.readings.front(), range, options);
-  Findings found = std::move(swept.findings);
+  SearchCounts counts;
+  const std::vector<Interval> stretches = candidates(question, range, options.tolerance, counts);
   LocateOptions left = options;
-  left.budget = swept.budget;
+  Findings found = found_on(question, stretches, range, left);
+  found.counts.intervals += counts.intervals;
+  found.counts.evaluations += counts.evaluations;
   for (std::size_t k = 1; k < question.readings.size(); ++k) {
-    found = narrowed(question.part, question.readings[k], std::move(found), left);
+    found = narrowed(question, k, std::move(found), left);
   }
-  add_start_corners(question, range, options.tolerance, found);
+  add_start_corners(question, stretches, options.tolerance, found);
 
   Search search;
   search.placements = make_placements(question, std::move(found.pieces), found.roots);

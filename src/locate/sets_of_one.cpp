@@ -12,6 +12,8 @@ namespace {
 
 // A place known to this share of the perimeter is known as well as it can be.
 constexpr double kPolished = 1e-14;
+// A value so many times further off than rounding leaves it is no root.
+constexpr double kManyRoundings = 1000;
 
 using Roots = std::vector<Root>;
 
@@ -53,17 +55,22 @@ std::vector<Cluster> join(const Part& part, std::vector<Piece>& pieces) {
   return clusters;
 }
 
+/// Each root to the first cluster that holds it, if there is one. Clusters are in rising order and apart.
 void hand_out(const Part& part, const std::vector<Root>& roots, std::vector<Cluster>& clusters) {
+  if (clusters.empty()) return;
   const double same_place = kLengthAccuracy * part.perimeter();
+  const auto take = [&](Cluster& cluster, const Root& root) {
+    if (root.s < cluster.lo - same_place || root.s > cluster.hi + same_place) return false;
+    cluster.roots.push_back(root);
+    return true;
+  };
+  const auto ends_before = [&](const Cluster& cluster, double s) { return cluster.hi + same_place < s; };
   for (const Root& root : roots) {
-    for (Cluster& cluster : clusters) {
-      Root shifted = root;
-      if (part.closed() && root.s < cluster.lo - same_place) shifted.s += part.perimeter();
-      if (shifted.s >= cluster.lo - same_place && shifted.s <= cluster.hi + same_place) {
-        cluster.roots.push_back(shifted);
-        break;
-      }
-    }
+    const auto next = std::lower_bound(clusters.begin(), clusters.end(), root.s, ends_before);
+    if ((next != clusters.end() && take(*next, root)) || !part.closed()) continue;
+    Root shifted = root;  // into the last one, across s = 0
+    shifted.s += part.perimeter();
+    take(clusters.back(), shifted);
   }
   for (Cluster& cluster : clusters) {
     std::sort(cluster.roots.begin(), cluster.roots.end(),
@@ -110,12 +117,18 @@ class SetsOfOne {
   /// The places in a cluster where every reading's f is 0, each once.
   Roots exact_roots(const Cluster& cluster) const {
     Roots found;
+    double looked_at = -std::numeric_limits<double>::infinity();  // the last crossing that all may share
     for (const Root& root : cluster.roots) {
       Root candidate = root;
       if (readings_.size() == 1) {
         if (!root.exact) continue;
       } else {
-        if (root.crossing) candidate.s = polished_together(root.s, cluster);
+        if (root.crossing) {
+          // Readings find a root that they share again: once is enough.
+          if (root.s - looked_at <= kLengthAccuracy * period_ || !may_be_shared(root)) continue;
+          looked_at = root.s;
+          candidate.s = polished_together(root.s, cluster);
+        }
         if (residual_at(question_, candidate.s) > kRootTurn) continue;
       }
       if (!found.empty() && same_root(found.back(), candidate)) {
@@ -127,6 +140,16 @@ class SetsOfOne {
       if (cluster.exact) break;  // the rest is its continuum
     }
     return found;
+  }
+
+  /// Is it near enough to a root of each reading's f for one place to be all their roots? Where it is known to
+  /// kRootTurn over its own slope another f may be off by its slope times that.
+  bool may_be_shared(const Root& root) const {
+    const double own = std::abs(root.sample.slope());
+    return std::all_of(readings_.begin(), readings_.end(), [&](const Reading& reading) {
+      const ResidualSample at = sample(reading, root.s);
+      return !(own * std::abs(at.value) > kManyRoundings * kRootTurn * (own + std::abs(at.slope())));
+    });
   }
 
   /// Least squares over all the readings: the steepest decide.

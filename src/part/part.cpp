@@ -105,6 +105,7 @@ Part::Part(Outline outline, const PartOptions& options) {
   data->outline = std::move(outline);
   data->inflections = find_inflections(data->turning);
   data->vertices = find_vertices(data->turning, data->corners);
+  data->tree = TurningTree(data->turning);
   data_ = std::move(data);
   if (options.allow_crossing) return;
   if (const auto crossing = find_crossing(*this)) {
@@ -187,7 +188,9 @@ std::vector<double> find_vertices(const TurningFunction& turning, const std::vec
   const std::vector<Spiral>& spirals = turning.spirals();
   const auto jumps = [&](std::size_t k) {
     const double s = spirals[k].lo;
-    if (std::any_of(corners.begin(), corners.end(), [&](const Corner& corner) { return corner.s == s; })) return true;
+    const auto next = std::lower_bound(corners.begin(), corners.end(), s,
+                                       [](const Corner& corner, double place) { return corner.s < place; });
+    if (next != corners.end() && next->s == s) return true;
     const double before = spirals[k > 0 ? k - 1 : spirals.size() - 1].end.curvature;
     const double after = spirals[k].start.curvature;
     return std::abs(before - after) > kSameCurvature * std::max(std::abs(before), std::abs(after)) &&

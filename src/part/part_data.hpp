@@ -7,6 +7,7 @@
 
 #include "rollfix/part/part.hpp"
 #include "turning_builder.hpp"
+#include "turning_tree.hpp"
 
 namespace rollfix {
 
@@ -18,6 +19,7 @@ struct Part::Data {
   std::vector<Corner> corners;
   std::vector<double> inflections;
   std::vector<double> vertices;
+  TurningTree tree;  // over the turning function; is not saved
 };
 
 /// Where the curvature changes sign. On a straight stretch between bends of opposite sign: its middle.
@@ -42,7 +44,10 @@ struct PartAccess {
   using Data = Part::Data;
 
   static const Data& data(const Part& part) { return *part.data_; }
-  static Part part(Data data) { return Part(std::make_shared<const Data>(std::move(data))); }
+  static Part part(Data data) {
+    data.tree = TurningTree(data.turning);
+    return Part(std::make_shared<const Data>(std::move(data)));
+  }
 };
 
 }  // namespace rollfix

@@ -1,0 +1,158 @@
+#include "candidates.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+#include "part/part_data.hpp"
+
+namespace rollfix {
+namespace {
+
+// Down to pairs of spirals: below, looking at each costs less than to exclude some.
+constexpr std::size_t kLeafLevel = 1;
+// While more blocks than this are left, a further reading is asked.
+constexpr std::size_t kFewBlocks = 8;
+// The search takes places no further apart than kLengthAccuracy P for one; here are some more.
+constexpr double kSamePlaces = 4;
+// An arc length is rounded to this share of the lengths that it is made of: times the curvature, an angle.
+constexpr double kLengthRounding = 4e-15;
+// An angle is rounded to this share of itself.
+constexpr double kAngleRounding = 1e-15;
+
+using Blocks = std::vector<std::size_t>;
+
+/// Pairs of blocks on which a roll starts and ends, for one reading, from all spirals down to a few.
+class Descent {
+ public:
+  Descent(const Part& part, const Reading& reading, const Interval& range, double tolerance, SearchCounts& counts)
+      : turning_(part.turning()), tree_(PartAccess::data(part).tree), range_(range), counts_(counts) {
+    const double period = part.perimeter();
+    const double length = reading.length[0];
+    same_place_ = kSamePlaces * kLengthAccuracy * period + kLengthRounding * std::abs(length);
+    tolerance_ = tolerance + kTurnAccuracy + kAngleRounding * std::abs(reading.turn);
+    offset_ = length;
+    turn_ = reading.turn;
+    if (!part.closed()) return;
+    const Wrapped laps = wrap(length, period);
+    offset_ = laps.base;
+    turn_ -= laps.winding * turning_.period_turn();
+  }
+
+  /// The blocks of the leaves' level on which a roll that fits can start, in order: of all, or of these.
+  Blocks run(const Blocks* among) {
+    among_ = among;
+    const Stretch all{0, 0, turning_.perimeter()};
+    visit(tree_.top(), all, all);
+    if (turning_.closed()) {
+      // On the next lap; and where the roll ends at s = 0 itself, at the joint that the lap before ends with.
+      for (const int step : {1, -2}) {
+        offset_ -= step * turning_.perimeter();
+        turn_ -= step * turning_.period_turn();
+        visit(tree_.top(), all, all);
+      }
+    }
+    std::sort(left_.begin(), left_.end());
+    left_.erase(std::unique(left_.begin(), left_.end()), left_.end());
+    return std::move(left_);
+  }
+
+ private:
+  /// A block and its arc lengths.
+  struct Stretch {
+    std::size_t index = 0;
+    double lo = 0;
+    double hi = 0;
+  };
+
+  void visit(std::size_t level, const Stretch& start, const Stretch& end) {
+    const Interval s{std::max({start.lo, end.lo - offset_, range_.lo}),
+                     std::min({start.hi, end.hi - offset_, range_.hi})};
+    if (s.lo > s.hi + same_place_ || !is_asked_for(level, start)) return;
+    if (!may_fit(level, start, end, s)) return;
+    if (level == kLeafLevel) {
+      left_.push_back(start.index);
+      return;
+    }
+    const std::size_t below = level - 1;
+    const auto [first_start, second_start] = halves(below, start);
+    const auto [first_end, second_end] = halves(below, end);
+    visit(below, first_start, first_end);
+    visit(below, first_start, second_end);
+    visit(below, second_start, first_end);
+    visit(below, second_start, second_end);
+  }
+
+  /// The last block of a level may have one half alone: of the other nothing is left.
+  std::pair<Stretch, Stretch> halves(std::size_t below, const Stretch& whole) const {
+    const std::size_t second = 2 * whole.index + 1;
+    if (second >= tree_.count(below)) return {{2 * whole.index, whole.lo, whole.hi}, kNone};
+    const double middle = tree_.block(below, second).lo;
+    return {{2 * whole.index, whole.lo, middle}, {second, middle, whole.hi}};
+  }
+
+  bool is_asked_for(std::size_t level, const Stretch& start) const {
+    if (level == kLeafLevel && !left_.empty() && left_.back() == start.index) return false;  // is in already
+    if (among_ == nullptr) return true;
+    const std::size_t width = level - kLeafLevel;
+    const auto next = std::lower_bound(among_->begin(), among_->end(), start.index << width);
+    return next != among_->end() && *next >> width == start.index;
+  }
+
+  /// Can f be within the tolerance for some s, the pivots at the joints where the two blocks end included?
+  bool may_fit(std::size_t level, const Stretch& start, const Stretch& end, const Interval& s) {
+    ++counts_.intervals;
+    const TurningTree::Block& at_start = tree_.block(level, start.index);
+    const TurningTree::Block& at_end = tree_.block(level, end.index);
+    const double first = at_end.chord(s.lo + offset_) - at_start.chord(s.lo) - turn_;
+    const double last = at_end.chord(s.hi + offset_) - at_start.chord(s.hi) - turn_;
+    const double far = tolerance_ + same_place_ * (at_start.steepest + at_end.steepest);
+    const double below = std::min(at_end.below, at_end.jump) - std::max(at_start.above, at_start.jump);
+    const double above = std::max(at_end.above, at_end.jump) - std::min(at_start.below, at_start.jump);
+    return std::min(first, last) + below <= far && std::max(first, last) + above >= -far;
+  }
+
+  static constexpr double kNowhere = std::numeric_limits<double>::infinity();
+  static constexpr Stretch kNone{0, kNowhere, kNowhere};
+
+  const TurningFunction& turning_;
+  const TurningTree& tree_;
+  Interval range_;
+  SearchCounts& counts_;
+  double same_place_ = 0;
+  double tolerance_ = 0;  // what angles are accurate to included
+  double offset_ = 0;     // from the start's s to the end's on its lap
+  double turn_ = 0;       // theta, the laps' turn taken off
+  const Blocks* among_ = nullptr;
+  Blocks left_;
+};
+
+}  // namespace
+
+std::vector<Interval> candidates(const Question& question, const Interval& range, double tolerance,
+                                 SearchCounts& counts) {
+  const Part& part = question.part;
+  const double same_place = kLengthAccuracy * part.perimeter();
+  if (PartAccess::data(part).tree.is_empty() || range.width() <= same_place) return {range};
+  Blocks left;
+  const Blocks* among = nullptr;
+  for (const Reading& reading : question.readings) {
+    left = Descent(part, reading, range, tolerance, counts).run(among);
+    if (left.size() <= kFewBlocks) break;
+    among = &left;
+  }
+  const std::vector<Spiral>& spirals = part.turning().spirals();
+  std::vector<Interval> stretches;
+  for (std::size_t k = 0; k < left.size(); ++k) {
+    const std::size_t first = left[k] << kLeafLevel;
+    while (k + 1 < left.size() && left[k + 1] == left[k] + 1) ++k;
+    const std::size_t last = std::min((left[k] + 1) << kLeafLevel, spirals.size()) - 1;
+    const Interval stretch{std::max(range.lo, spirals[first].lo), std::min(range.hi, spirals[last].hi)};
+    stretches.push_back(stretch);
+  }
+  return stretches;
+}
+
+}  // namespace rollfix
