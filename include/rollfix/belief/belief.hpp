@@ -37,11 +37,11 @@ struct BeliefOptions {
   static constexpr double kMostAngle = 0.5;
 
   Noise noise;
-  std::optional<Prior> prior{};  // none: every place alike
-  bool robust = false;           // a stray sample counts no more than its share
-  bool bare = false;             // readings whose first contact is exact and that do not drift
-  double scale_sd = 0;           // of all lengths by one factor, besides what slip and radius make of them
-  bool glance = false;           // of two fingers: where nothing fits there are no modes, and Fit says no more
+  std::optional<Prior> prior{};     // none: every place alike
+  bool robust = false;              // a stray sample counts no more than its share
+  bool bare = false;                // readings whose first contact is exact and that do not drift
+  double scale_sd = 0;              // of all lengths by one factor, besides what slip and radius make of them
+  bool glance = false;              // of two fingers: where nothing fits there are no modes, and Fit says no more
   std::optional<PosePrior> pose{};  // for logs of u and psi and known fingers; places take x and y in the log as well
   /// Of one finger: its samples are joined to so many at most; none: as few as lose nothing.
   std::optional<std::size_t> nodes{};
