@@ -133,15 +133,17 @@ TEST_F(Bounds, lose_nothing_that_is_probable_of_noisy_rolls) {
 }
 
 TEST_F(Bounds, lose_nothing_where_even_the_best_part_fits_badly) {
-  Problem problem = noisy_roll_on(any_part(), {1e-3, 0.01});
-  problem.noise->angle /= 3;
-  problem.noise->contact /= 3;
-  IdentifyOptions without;
-  without.use_index = false;
-  const Identified all = identify(catalog_, problem, without);
-  const Identified quick = identify(catalog_, problem);
-  EXPECT_EQ(quick.verdict, all.verdict);
-  EXPECT_EQ(names_of(catalog_, quick), names_of(catalog_, all));
+  for (int k = 0; k < test_count(2); ++k) {
+    Problem problem = noisy_roll_on(any_part(), {1e-3, 0.01});
+    problem.noise->angle /= 3;
+    problem.noise->contact /= 3;
+    IdentifyOptions without;
+    without.use_index = false;
+    const Identified all = identify(catalog_, problem, without);
+    const Identified quick = identify(catalog_, problem);
+    EXPECT_EQ(quick.verdict, all.verdict);
+    EXPECT_EQ(names_of(catalog_, quick), names_of(catalog_, all));
+  }
 }
 
 /// Theta where the cells say that it is, everywhere on the part.

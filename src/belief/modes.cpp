@@ -13,6 +13,8 @@ namespace {
 
 // For what holds 95 %, cells are taken apart where their density changes by more than this, as a logarithm.
 constexpr double kRisePerPart = 0.25;
+// They hold equal shares of it: more of them than this tell nothing more, and far out a cell may rise by a million.
+constexpr double kMostParts = 1000;
 
 /// A run of cells; `turns`: how often each of them lies beyond the seam of a closed boundary.
 struct Run {
@@ -250,7 +252,7 @@ double credible_length(const Grid& grid) {
   for (const GridCell& cell : grid.cells()) {
     if (!(cell.share > 0)) continue;
     // The density changes within a cell: its parts are looked at by themselves.
-    const auto parts = static_cast<int>(std::ceil(std::max(1.0, std::abs(cell.rise) / kRisePerPart)));
+    const auto parts = static_cast<int>(std::ceil(std::clamp(std::abs(cell.rise) / kRisePerPart, 1.0, kMostParts)));
     double before = 0;
     for (int k = 1; k <= parts; ++k) {
       const double share = static_cast<double>(k) / parts;

@@ -5,6 +5,7 @@
 #include <exception>
 #include <mutex>
 #include <optional>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
 
@@ -19,9 +20,34 @@ namespace {
 
 // Parts that are kept once they were loaded: some 100 kB each.
 constexpr std::size_t kMostKept = 4096;
+// Fine cells are kept once they were read where there are no more parts than these: 2 kB each.
+constexpr std::size_t kMostFineKept = 16384;
 
 constexpr const char* kTakenOut = "was taken out of the catalog meanwhile";
 constexpr const char* kDamaged = "was damaged since it was written: its checksum does not fit";
+
+/// Reads the fine cells of one part after the other.
+class FineReader {
+ public:
+  explicit FineReader(const Database& database)
+      : open_(database.prepare("SELECT 1 FROM facts")),
+        row_(database.prepare("SELECT fine FROM shapes WHERE part = ?")) {
+    // While a statement stands on a row the file is open for reading: else it would be opened for each part anew.
+    open_.step();
+  }
+
+  /// Until the next ones are asked for. Nothing: there is no such part.
+  std::optional<std::string_view> bytes(std::int64_t part) {
+    row_.reset();
+    row_.bind(0, part);
+    if (!row_.step()) return std::nullopt;
+    return row_.bytes(0);
+  }
+
+ private:
+  Statement open_;
+  Statement row_;
+};
 
 /// The bytes of a part as they stand in the catalog.
 struct Stored {
@@ -54,6 +80,7 @@ struct Catalog::State {
   Index index;
   std::mutex mutex;  // of the file, and of what is kept
   std::unordered_map<std::size_t, Part> kept;
+  std::unordered_map<std::size_t, Profile<kFineCells>> fine_kept;
 };
 
 void Catalog::State::read_entries() {
@@ -107,17 +134,21 @@ std::vector<Profile<kFineCells>> Catalog::State::fine_profiles(const std::vector
   std::vector<Profile<kFineCells>> profiles;
   profiles.reserve(parts.size());
   const std::lock_guard lock(mutex);
-  // While a statement stands on a row the file is open for reading: else it would be opened for each part anew.
-  Statement open = database.prepare("SELECT 1 FROM facts");
-  open.step();
-  Statement row = database.prepare("SELECT fine FROM shapes WHERE part = ?");
+  const bool is_small = entries.size() <= kMostFineKept;
+  std::optional<FineReader> reader;
   for (const std::size_t which : parts) {
-    row.reset();
-    row.bind(0, entries[which].id);
-    if (!row.step()) refuse(which, kTakenOut);
-    const std::optional<Profile<kFineCells>> profile = fine_profile_from(row.bytes(0), index.cells[which]);
+    const auto found = fine_kept.find(which);
+    if (found != fine_kept.end()) {
+      profiles.push_back(found->second);
+      continue;
+    }
+    if (!reader) reader.emplace(database);
+    const std::optional<std::string_view> bytes = reader->bytes(entries[which].id);
+    if (!bytes) refuse(which, kTakenOut);
+    const std::optional<Profile<kFineCells>> profile = fine_profile_from(*bytes, index.cells[which]);
     if (!profile) refuse(which, kDamaged);
     profiles.push_back(*profile);
+    if (is_small) fine_kept.emplace(which, *profile);
   }
   return profiles;
 }

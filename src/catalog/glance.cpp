@@ -92,11 +92,11 @@ bool can_glance(const Problem& like) {
 }
 
 std::vector<std::size_t> worth_a_look(const Catalog& catalog, const Problem& like, const std::vector<PartLeft>& parts,
-                                      const IdentifyOptions& options) {
+                                      std::vector<PartWeight> known, const IdentifyOptions& options) {
   std::vector<Problem> ways{like.mirrored ? in_mirror(like) : like};
   if (like.either_way) ways.push_back(counted_clockwise(ways.front()));
   std::vector<Glance> glances(parts.size());
-  std::vector<PartWeight> weights;
+  std::vector<PartWeight> weights = std::move(known);
   // Those before tell what the others are held against: the same ones with however many threads.
   for (std::size_t begin = 0, end = 1; begin < parts.size(); begin = end, end = 2 * end) {
     end = std::min(end, parts.size());
