@@ -191,7 +191,7 @@ TEST(Profile, of_fine_cells_loses_a_255th_of_a_larger_one_when_it_is_written) {
 TEST(Profile, that_was_damaged_is_not_taken) {
   const Profile<kFineCells> fine = profile_of(load_part("gallery:cam"));
   const Profile<kCells> cells = coarser(fine);
-  for (const std::size_t place : {0, 100, 511, 519}) {
+  for (const std::size_t place : {0U, 100U, 511U, 519U}) {
     std::string bytes = bytes_of(cells);
     bytes[place] = static_cast<char>(bytes[place] ^ 1);
     EXPECT_FALSE(profile_from(bytes));
