@@ -14,8 +14,8 @@
 
 namespace rollfix {
 
-/// A part that is left, and where on it the roll can have started, of each way in which it may have gone; no cell of
-/// any way: anywhere.
+/// A part that is left, and where on it the roll can have started, of each way in which it may have gone: without cells
+/// not that way. Nothing of any way: nothing is known.
 struct PartLeft {
   std::size_t part = 0;
   std::vector<Cells<kFineCells>> cells{};

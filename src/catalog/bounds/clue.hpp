@@ -15,7 +15,7 @@ struct Clue {
   double length_slack = 0;             // of each length
   double turn_slack = 0;               // radians
   double turn_slack_by_curvature = 0;  // so much more, times the part's largest curvature
-  double turn_sd = 0;                  // besides, an error that only this reading has: may_start adds up its squares
+  double turn_sd = 0;                  // besides, an error that only this reading has: its squares are added up
 
   double slack(double most_curvature) const { return turn_slack + turn_slack_by_curvature * most_curvature; }
 };
