@@ -267,7 +267,7 @@ class Catalog:
     ) -> Identified:
         k, of = shard or (None, 1)
         try:
-            text, lines, found = self._core.identify(problem, k, of, threads)
+            text, lines, found, _ = self._core.identify(problem, k, of, threads, False, None)
         except InputError as error:
             raise refused(error, log) from None
         return Identified(text, lines, answers_of(found, log))

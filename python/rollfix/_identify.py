@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import importlib
 import os
-from typing import Any, Dict, List, Optional, Sequence, Tuple
+from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
 
 from . import _core
 from ._answer import Answer
@@ -21,7 +21,9 @@ from ._noise import NoiseLike
 from ._question import refused
 
 SHARES = 4  # for each thread of the workers, so that none waits long for the last
-Found = Tuple[str, Dict[int, Any]]  # of a shard its lines; by the ids of the parts found, their answers' states
+# Of a shard its lines; by the ids of the parts found, their answers' states; whether nothing in it fits well.
+Found = Tuple[str, Dict[int, Any], bool]
+Rival = Tuple[int, float, float, float, float]  # of a part what others are held against: its place, peak, volume, noise
 
 
 def identify(
@@ -89,7 +91,7 @@ def identify(
     if distributed is None:
         return asked._search(problem, read, None, count)
     try:
-        return _by_cluster(distributed, client, asked, problem, read, shares, max(1, count))
+        return _by_cluster(distributed, client, asked, problem, read, shares, max(1, count), noise is not None)
     except InputError as error:
         raise refused(error, read) from None
 
@@ -112,41 +114,65 @@ def _by_cluster(
     log: Optional[Log],
     shards: Optional[int],
     threads: int,
+    noisy: bool,
 ) -> Identified:
     workers = sum(client.nthreads().values())
     of = shards or max(1, min(SHARES * max(1, workers), len(catalog)))
     # The roll goes with each task: what is scattered would be lost with the worker that holds it.
     given = (os.path.abspath(catalog.path), problem.state())
-    tasks = [client.submit(_search, *given, k + 1, of, threads, pure=False) for k in range(of)]
-    lines: List[str] = []
-    states: Dict[int, Any] = {}
-    try:
-        for task in distributed.as_completed(tasks):
-            text, found = task.result()
-            lines.append(text)
-            states.update(found)
-    finally:
-        client.cancel(tasks)
-    merged = catalog._merged(lines, lambda entry: _answer(catalog, entry, states[entry.id], log))
+
+    def ask(work: Callable[..., Any], *how: Any) -> List[Any]:
+        tasks = [client.submit(work, *given, k + 1, of, threads, *how, pure=False) for k in range(of)]
+        try:
+            return [task.result() for task in distributed.as_completed(tasks)]
+        finally:
+            client.cancel(tasks)
+
+    # With noise every share holds its parts against the likeliest of all, and looks at them with more noise only where
+    # nothing in any share fits well: either takes many times as long otherwise.
+    rival = _best(ask(_likeliest)) if noisy else None
+    shares: List[Found] = ask(_search, rival, True)
+    if all(is_narrow for _, _, is_narrow in shares):
+        shares = ask(_search, rival, False)
+    states = {part: state for _, found, _ in shares for part, state in found.items()}
+    merged = catalog._merged([text for text, _, _ in shares], lambda entry: _answer(catalog, entry, states[entry.id], log))
     whys = [one["why"] for one in merged.to_dict()["refused"]]
     if whys and len(whys) == merged.searched:
         raise InputError(whys[0])  # as where it is one search
     return merged
 
 
+def _best(rivals: List[Optional[Rival]]) -> Optional[Rival]:
+    """The one that the rows fit best."""
+    known = [rival for rival in rivals if rival is not None]
+    return min(known, key=lambda one: (one[4], -one[1], one[0])) if known else None
+
+
+def _likeliest(file: str, state: Any, shard: int, shards: int, threads: int) -> Optional[Rival]:
+    """By a worker."""
+    catalog = _opened(file)
+    return catalog.likeliest(_core.problem_from_state(catalog.part(0), *state), shard, shards, threads)
+
+
 def _answer(catalog: Catalog, entry: CatalogEntry, state: Any, log: Optional[Log]) -> Answer:
     return Answer(_core.answer_from_state(catalog.part(entry.name)._core, *state), log)
 
 
-def _search(file: str, state: Any, shard: int, shards: int, threads: int) -> Found:
+def _search(
+    file: str, state: Any, shard: int, shards: int, threads: int, rival: Optional[Rival], narrowly: bool
+) -> Found:
     """By a worker."""
-    facts = os.stat(file) if os.path.exists(file) else None
-    catalog = _opened(file, None if facts is None else (facts.st_mtime_ns, facts.st_size))
+    catalog = _opened(file)
     problem = _core.problem_from_state(catalog.part(0), *state)
-    _, lines, found = catalog.identify(problem, shard, shards, threads)
-    return lines, {part: answer.state()[1:] for part, answer in found}
+    _, lines, found, is_narrow = catalog.identify(problem, shard, shards, threads, narrowly, rival)
+    return lines, {part: answer.state()[1:] for part, answer in found}, is_narrow
+
+
+def _opened(file: str) -> _core.Catalog:
+    facts = os.stat(file) if os.path.exists(file) else None
+    return _opened_as(file, None if facts is None else (facts.st_mtime_ns, facts.st_size))
 
 
 @functools.lru_cache(maxsize=2)
-def _opened(file: str, as_it_was: Optional[Tuple[int, int]]) -> _core.Catalog:
+def _opened_as(file: str, as_it_was: Optional[Tuple[int, int]]) -> _core.Catalog:
     return _core.Catalog(file)

@@ -193,6 +193,13 @@ def test_what_no_part_can_take_is_an_error_of_a_cluster_as_well(catalog, client)
     assert told[0] == told[1]
 
 
+def test_a_cluster_says_the_same_where_nothing_fits_well(catalog, noisy, client):
+    tight = dict(noisy, noise=rollfix.Noise(contact=0.0025, angle=0.005))
+    expected = catalog.identify(**tight)
+    assert "fit badly" in expected.verdict
+    assert rollfix.identify(catalog, **tight, client=client) == expected
+
+
 def test_a_worker_that_is_killed_loses_nothing(catalog, client):
     long = catalog.part("gallery:gear").simulate(FINGER, start=1, length=2, samples=400, noise=NOISE, seed=1)
     noisy = dict(log=long, finger=FINGER, noise=NOISE)

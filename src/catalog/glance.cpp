@@ -82,21 +82,12 @@ Glance glance_at(const Catalog& catalog, const std::vector<Problem>& ways, const
   return glance;
 }
 
-}  // namespace
-
-bool can_glance(const Problem& like) {
-  const std::size_t fingers = like.felt.is_log()           ? like.felt.log->fingers.size()
-                              : like.felt.readings.empty() ? 1
-                                                           : like.felt.readings.front().fingers();
-  return like.noise && !like.robust && fingers == 1;
-}
-
-std::vector<std::size_t> worth_a_look(const Catalog& catalog, const Problem& like, const std::vector<PartLeft>& parts,
-                                      std::vector<PartWeight> known, const IdentifyOptions& options) {
+/// Of each part; adds what they weigh to the weights.
+std::vector<Glance> glances_at(const Catalog& catalog, const Problem& like, const std::vector<PartLeft>& parts,
+                               std::vector<PartWeight>& weights, const IdentifyOptions& options) {
   std::vector<Problem> ways{like.mirrored ? in_mirror(like) : like};
   if (like.either_way) ways.push_back(counted_clockwise(ways.front()));
   std::vector<Glance> glances(parts.size());
-  std::vector<PartWeight> weights = std::move(known);
   // Those before tell what the others are held against: the same ones with however many threads.
   for (std::size_t begin = 0, end = 1; begin < parts.size(); begin = end, end = 2 * end) {
     end = std::min(end, parts.size());
@@ -109,6 +100,30 @@ std::vector<std::size_t> worth_a_look(const Catalog& catalog, const Problem& lik
       if (glances[k].weight) weights.push_back(*glances[k].weight);
     }
   }
+  return glances;
+}
+
+}  // namespace
+
+bool can_glance(const Problem& like) {
+  const std::size_t fingers = like.felt.is_log()           ? like.felt.log->fingers.size()
+                              : like.felt.readings.empty() ? 1
+                                                           : like.felt.readings.front().fingers();
+  return like.noise && !like.robust && fingers == 1;
+}
+
+std::optional<PartWeight> likeliest_of(const Catalog& catalog, const Problem& like, const std::vector<PartLeft>& parts,
+                                       const IdentifyOptions& options) {
+  std::vector<PartWeight> weights;
+  glances_at(catalog, like, parts, weights, options);
+  if (weights.empty()) return std::nullopt;
+  return best_of(weights);
+}
+
+std::vector<std::size_t> worth_a_look(const Catalog& catalog, const Problem& like, const std::vector<PartLeft>& parts,
+                                      std::vector<PartWeight> known, const IdentifyOptions& options) {
+  std::vector<PartWeight> weights = std::move(known);
+  const std::vector<Glance> glances = glances_at(catalog, like, parts, weights, options);
   const double widened = weights.empty() ? 1 : best_of(weights).widened;
   const double most = weights.empty() ? 0 : log_weight(catalog, best_of(weights), widened);
   std::vector<std::size_t> left;

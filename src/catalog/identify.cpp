@@ -7,7 +7,9 @@
 
 #include "answer/observation.hpp"
 #include "belief/posterior.hpp"
+#include "bounds/bounds.hpp"
 #include "files/byte_stream.hpp"
+#include "glance.hpp"
 #include "rollfix/error.hpp"
 #include "survey.hpp"
 #include "text/text.hpp"
@@ -52,6 +54,15 @@ std::string fingerprint(const Problem& problem) {
   return fmt::format("{:016x}", checksum(bytes.bytes()));
 }
 
+void require_meant(const Problem& like, const IdentifyOptions& options) {
+  if (like.prior)
+    throw InputError("`prior`: is about a place on one part; which part it is has `count` in the catalog");
+  if (options.shards == 0 || options.shard == 0 || options.shard > options.shards) {
+    throw InputError(
+        fmt::format("`shard` {}/{}: expected the number of one of them, from 1 on", options.shard, options.shards));
+  }
+}
+
 std::vector<std::size_t> parts_of(const Catalog& catalog, const IdentifyOptions& options) {
   std::vector<std::size_t> parts = options.among;
   if (!parts.empty()) return parts;
@@ -77,12 +88,7 @@ Likeness likeness_of(const Problem& like) {
 }
 
 Identified identify(const Catalog& catalog, const Problem& like, const IdentifyOptions& options) {
-  if (like.prior)
-    throw InputError("`prior`: is about a place on one part; which part it is has `count` in the catalog");
-  if (options.shards == 0 || options.shard == 0 || options.shard > options.shards) {
-    throw InputError(
-        fmt::format("`shard` {}/{}: expected the number of one of them, from 1 on", options.shard, options.shards));
-  }
+  require_meant(like, options);
   Identified found;
   if (catalog.size() == 0) {
     found.verdict = "none";
@@ -101,7 +107,10 @@ Identified identify(const Catalog& catalog, const Problem& like, const IdentifyO
     found.verdict = counted(found.left.size(), "part", "parts");
     return found;
   }
-  if (like.noise && !fits_well(found.weights)) survey.look(parts, belief::kMostExcess, found);
+  if (like.noise && !fits_well(found.weights)) {
+    found.narrowly = options.narrowly;
+    if (!options.narrowly) survey.look(parts, belief::kMostExcess, found);
+  }
   if (options.shards == 1 && !found.refused.empty() && found.refused.size() == found.searched + found.searched_widely)
     throw InputError(found.refused.front().why);
   const Conclusion conclusion =
@@ -114,6 +123,13 @@ Identified identify(const Catalog& catalog, const Problem& like, const IdentifyO
         {found.weights[k], survey.answer(found.weights[k].part), conclusion.probability[k], conclusion.congruent[k]});
   }
   return found;
+}
+
+std::optional<PartWeight> likeliest(const Catalog& catalog, const Problem& like, const IdentifyOptions& options) {
+  require_meant(like, options);
+  if (catalog.size() == 0 || !can_glance(like)) return std::nullopt;
+  const std::vector<PartLeft> left = Bounds(catalog, like, 1).left_of(parts_of(catalog, options), options);
+  return likeliest_of(catalog, like, left, options);
 }
 
 }  // namespace rollfix

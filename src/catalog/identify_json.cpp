@@ -32,6 +32,7 @@ struct Gathered {
   std::size_t parts = 0;
   std::size_t searched = 0;
   std::size_t searched_widely = 0;
+  bool narrowly = false;  // some of it only, where nothing fitted well
   Likeness likeness;
   std::vector<PartRefused> refused;
   std::vector<Line> lines;
@@ -57,6 +58,7 @@ Gathered gathered(const Identified& found) {
   search.roll = found.roll;
   search.searched = found.searched;
   search.searched_widely = found.searched_widely;
+  search.narrowly = found.narrowly;
   search.likeness = found.likeness;
   search.refused = found.refused;
   search.asked = {{"noise", found.noise ? noise_json(*found.noise) : Json(nullptr)},
@@ -82,13 +84,18 @@ void drop_widely(Gathered& search, std::vector<PartWeight>& weights) {
   search.refused.erase(std::remove_if(search.refused.begin(), search.refused.end(), of_refused), search.refused.end());
 }
 
+std::vector<PartWeight> weights_of(const Gathered& search) {
+  std::vector<PartWeight> weights;
+  for (const Line& line : search.lines) weights.push_back(line.weight);
+  return weights;
+}
+
 Json document_of(const Catalog& catalog, Gathered search) {
   std::sort(search.lines.begin(), search.lines.end(),
             [](const Line& a, const Line& b) { return a.weight.part < b.weight.part; });
   std::sort(search.refused.begin(), search.refused.end(),
             [](const PartRefused& a, const PartRefused& b) { return a.part < b.part; });
-  std::vector<PartWeight> weights;
-  for (const Line& line : search.lines) weights.push_back(line.weight);
+  std::vector<PartWeight> weights = weights_of(search);
   if (fits_well(weights)) drop_widely(search, weights);
   const Conclusion conclusion = conclude(catalog, weights, search.searched + search.searched_widely, search.likeness);
   Json document = {
@@ -188,6 +195,7 @@ std::pair<std::size_t, std::size_t> add_shard(const Catalog& catalog, const std:
     all.parts += json.at("parts").get<std::size_t>();
     all.searched += json.at("searched").get<std::size_t>();
     all.searched_widely += json.at("searched_widely").get<std::size_t>();
+    all.narrowly = all.narrowly || json.at("narrowly").get<bool>();
     parts = json.at("lines").get<std::size_t>();
     const Json& likeness = json.at("likeness");
     all.likeness = {likeness.at("length").get<double>(), likeness.at("turn").get<double>(),
@@ -221,6 +229,7 @@ std::string format_shard(const Catalog& catalog, const Identified& found, const 
                                 {"parts", search.parts},
                                 {"searched", search.searched},
                                 {"searched_widely", search.searched_widely},
+                                {"narrowly", search.narrowly},
                                 {"lines", search.lines.size()},
                                 {"roll", search.roll},
                                 {"asked", search.asked},
@@ -260,6 +269,9 @@ std::string merge_shards(const Catalog& catalog, const std::vector<std::string>&
   for (std::size_t shard = 1; shard <= shards; ++shard) {
     if (there.count(shard) == 0) throw InputError(fmt::format("shard {} of {} is missing", shard, shards));
   }
+  if (all.narrowly && !fits_well(weights_of(all)))
+    throw InputError(
+        "nothing fits well in any of the shards, and they were asked narrowly: ask them without `narrowly`");
   return formatted(document_of(catalog, std::move(all)), layout);
 }
 

@@ -61,7 +61,11 @@ void Survey::look(const std::vector<std::size_t>& parts, double excess, Identifi
     found.counted = true;
     return;
   }
-  if (options_.use_index && can_glance(like_)) left = worth_a_look(catalog_, like_, bounded, found.weights, options_);
+  if (options_.use_index && can_glance(like_)) {
+    std::vector<PartWeight> known = found.weights;
+    if (options_.rival) known.push_back(*options_.rival);
+    left = worth_a_look(catalog_, like_, bounded, std::move(known), options_);
+  }
   std::vector<Outcome> outcomes(left.size());
   Crew crew(left.size(), 1);
   crew.run(options_.threads, options_.go_on, [&](std::size_t lo, std::size_t hi) {

@@ -19,7 +19,7 @@ std::string format_shard(const Catalog& catalog, const Identified& found, const 
 
 /// The document of all parts from the lines of all shards, in any order: the same as of one search. `names`: what the
 /// texts are called. Throws InputError: of another catalog or roll, a shard that is missing or there twice, no such
-/// lines.
+/// lines; all were asked narrowly, and nothing fits well in any.
 std::string merge_shards(const Catalog& catalog, const std::vector<std::string>& texts,
                          const std::vector<std::string>& names, Layout layout = Layout::lines);
 

@@ -12,19 +12,6 @@
 
 namespace rollfix {
 
-/// Which of the parts, and how to work.
-struct IdentifyOptions {
-  std::size_t shard = 1;  // of so many shards this one: every so-manieth part of the catalog
-  std::size_t shards = 1;
-  bool use_index = true;             // false: every part is searched
-  std::vector<std::size_t> among{};  // only these parts, by their places in the catalog, in order; none: all of it
-  /// Where bounds leave more parts than this they are counted, and not searched: to see early how many remain.
-  std::size_t most_searched = std::numeric_limits<std::size_t>::max();
-  unsigned threads = 0;  // 0: as many as the machine has processors
-  /// Called now and then by the thread that waits, with the number of parts that are done: false stops the work.
-  std::function<bool(std::size_t done)> go_on{};
-};
-
 /// What counts when parts are weighed against each other: all of it fits in a line of a file.
 struct PartWeight {
   std::size_t part = 0;  // its place in the catalog
@@ -41,6 +28,25 @@ struct PartWeight {
   double widened = 1;
   double excess = 1;
   bool widely = false;  // it was looked at only with 2.5 times the noise, because nothing fitted well with less
+};
+
+/// Which of the parts, and how to work.
+struct IdentifyOptions {
+  std::size_t shard = 1;  // of so many shards this one: every so-manieth part of the catalog
+  std::size_t shards = 1;
+  bool use_index = true;             // false: every part is searched
+  std::vector<std::size_t> among{};  // only these parts, by their places in the catalog, in order; none: all of it
+  /// Where bounds leave more parts than this they are counted, and not searched: to see early how many remain.
+  std::size_t most_searched = std::numeric_limits<std::size_t>::max();
+  /// With noise: not with 2.5 times of it where nothing fits well. That is enough of all shards where something fits
+  /// well in one; where nothing does, `merge_shards` refuses them.
+  bool narrowly = false;
+  /// With noise: what the likeliest part of all shards weighs, as far as is known. Parts of this one that are nothing
+  /// next to it are not looked at closely: the same answer, sooner.
+  std::optional<PartWeight> rival{};
+  unsigned threads = 0;  // 0: as many as the machine has processors
+  /// Called now and then by the thread that waits, with the number of parts that are done: false stops the work.
+  std::function<bool(std::size_t done)> go_on{};
 };
 
 /// Whether some part explains the rows with the noise that was said: then those that were looked at widely don't count,
@@ -102,6 +108,7 @@ struct Identified {
   Likeness likeness{};
   std::optional<Noise> noise{};  // as in the problem
   bool mirrored = false;
+  bool narrowly = false;    // nothing fits well, and it was not looked at widely, as it was asked
   std::size_t samples = 0;  // rows of the log, or readings
   std::string roll{};       // a fingerprint of the problem: shards of one search have the same
 };
@@ -113,5 +120,9 @@ struct Identified {
 /// that occur once in a million rolls; where nothing fits well, with 2.5 times the noise. See docs/identify.md.
 /// Throws InputError: a prior place, which is of one part; what `solve` throws where it throws it of all parts.
 Identified identify(const Catalog& catalog, const Problem& like, const IdentifyOptions& options = {});
+
+/// Of the parts that `options` ask for, the likeliest one's weight, much sooner than `identify` finds it: what all
+/// shards of one search take as their rival. Nothing where none fits, without noise, of two fingers or with stray rows.
+std::optional<PartWeight> likeliest(const Catalog& catalog, const Problem& like, const IdentifyOptions& options = {});
 
 }  // namespace rollfix
