@@ -5,6 +5,7 @@
 #include "catalog/bounds/profile.hpp"
 #include "catalogs.hpp"
 #include "random.hpp"
+#include "rollfix/contact/rolling.hpp"
 
 namespace identify_bounds_test {
 namespace {
@@ -201,6 +202,22 @@ TEST(Profile, that_was_damaged_is_not_taken) {
   }
   EXPECT_FALSE(profile_from("too short"));
   EXPECT_FALSE(fine_profile_from("too short", cells));
+}
+
+// Its likelihood is flat until a row's end reaches the corner, and then falls by thousands.
+TEST(Glance, loses_no_part_whose_roll_starts_just_before_a_corner) {
+  const cli::Folder folder;
+  const Catalog catalog = of({"naca,digits=5431", "naca,digits=7331"});
+  Problem problem{catalog.part(1), std::vector<Reading>{}};
+  const double P = problem.part.perimeter();
+  problem.fingers = {DiskFinger{0.025 * P}};
+  problem.noise = Noise{1e-4 * P, 0.005};
+  RollPlan plan;
+  plan.start = 0.99526 * P;
+  plan.distance = 0.3 * P;
+  plan.rows = 200;
+  problem.felt.log = noisy_roll(problem.part, problem.fingers[0], plan, *problem.noise, 18329657575484428161U).log;
+  EXPECT_EQ(names_of(catalog, identify(catalog, problem)).front(), "naca,digits=7331");
 }
 
 }  // namespace

@@ -20,15 +20,15 @@ class Shards : public testing::Test {
  protected:
   Shards() : catalog_(of(mixed_shapes(11))), random_(test_generator()) {}
 
-  /// Thirty readings over half of a part; off by so many times the noise that is said.
-  Problem roll_on_some_part(double off) {
+  /// Thirty readings over half of a part; off by so many times the noise that is said, contact as a share of P.
+  Problem roll_on_some_part(double off, const Noise& noise = {2e-4, 0.004}) {
     std::normal_distribution<double> normal(0, off);
     const Part part = catalog_.part(std::uniform_int_distribution<std::size_t>(0, catalog_.size() - 1)(random_));
     const double P = part.perimeter();
     std::vector<double> lengths;
     for (int row = 1; row <= 30; ++row) lengths.push_back(0.5 * P * row / 30);
     Problem problem{part, roll_on(part, std::uniform_real_distribution<double>(0, 0.4 * P)(random_), lengths)};
-    problem.noise = Noise{2e-4 * P, 0.004};
+    problem.noise = Noise{noise.contact * P, noise.angle};
     for (Reading& reading : problem.felt.readings) {
       reading.length[0] += problem.noise->contact * normal(random_);
       reading.turn += problem.noise->angle * normal(random_);
@@ -83,7 +83,7 @@ TEST_F(Shards, that_know_the_likeliest_part_say_the_same_and_weigh_fewer) {
   std::size_t with_rival = 0;
   std::size_t alone = 0;
   for (int count = test_count(12); count > 0; --count) {
-    const Problem problem = roll_on_some_part(1);
+    const Problem problem = roll_on_some_part(1, {4e-3, 0.1});  // so that bounds leave many
     IdentifyOptions options;
     alone += weighed(in_shards(problem, options));
     options.rival = rival_of(problem);

@@ -315,5 +315,32 @@ TEST(Readings, that_contradict_each_other_leave_nothing) {
   EXPECT_EQ(locate(part, readings).verdict().text(), "inconsistent");
 }
 
+// ---- below the outline's own rounding ----
+
+TEST(BelowRounding, a_length_that_only_tight_arcs_can_tell_is_told_by_all_of_them) {
+  const double length = -2e-12;  // a quarter of 1e-12 of the perimeter
+  LocateOptions options;
+  options.tolerance = 1e-9;
+  const Search search = locate(Part(gallery("rounded-rectangle,r=0.001")), {length, length / 0.001}, options);
+  EXPECT_THAT(shapes::kinds(search), ElementsAre(Kind::stretch, Kind::stretch, Kind::stretch, Kind::stretch));
+}
+
+TEST(BelowRounding, a_circle_s_own_length_is_a_stretch_and_another_touches) {
+  const Part circle(gallery("circle"));
+  EXPECT_THAT(shapes::kinds(locate(circle, {5.75e-12, 5.75e-12})), ElementsAre(Kind::stretch));
+  EXPECT_THAT(shapes::kinds(locate(circle, {2.15e-12, 0.35e-12})), ElementsAre(Kind::touching));
+}
+
+TEST(BelowRounding, pieces_that_join_cross_only_where_f_changes_sign) {
+  LocateOptions options;
+  options.tolerance = kLeastTolerance;
+  const Search half_around =
+      locate(Part(gallery("rounded-rectangle")), {6.5707963267890008, 3.1415926535809162}, options);
+  EXPECT_EQ(half_around.status, Status::complete);
+  const Search one_rounding =
+      locate(Part(gallery("rounded-rectangle,r=0.001")), {-0.0015707963333338802, -1.5707963267995664}, options);
+  EXPECT_EQ(one_rounding.status, Status::complete);
+}
+
 }  // namespace
 }  // namespace locate_kinds_test

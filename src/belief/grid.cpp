@@ -502,16 +502,14 @@ bool Grid::holds_something(const Nodes& nodes, const Rival& rival) const {
 }
 
 bool Grid::is_hopeless(const Nodes& nodes, const Rival& rival) {
-  const double heat = square(rival.widened);
-  fit_.widened = rival.widened;
-  best_mass_ = rival.log_evidence;
-  // A point matters whose likelihood would if it were that all along the boundary.
-  const double all = std::log(places_.perimeter + corner_length_ * length_);
-  const double matters = 2 * heat * (kNegligible - rival.log_evidence + all);
-  limit_ = square(std::sqrt(std::max(0.0, matters)) + kBeyondMatter * rival.widened);
-  farthest_ = limit_;
+  // As settle() does, but that cells have to matter next to the rival. What is far off at first is not cut short at
+  // what would matter: by how much it is off tells how soon it may be near.
+  limit_ = std::numeric_limits<double>::infinity();
   lay_out(nodes);
   refresh_all(nodes);
+  measure_fit(nodes);
+  fit_.widened = rival.widened;
+  best_mass_ = rival.log_evidence;
   bool holds = holds_something(nodes, rival);
   for (int round = 0; !holds && round < kMostRounds; ++round) {
     const bool goes_on = refine(nodes);

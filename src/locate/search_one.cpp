@@ -48,8 +48,9 @@ class Sweep {
       const bool start_moves = start_passes - next <= same_place_ && !start.is_last();
       const bool end_moves = end_passes - next <= same_place_ && !end.is_last();
 
-      const Turning at_start = start_moves ? pair.start.end : turning_.on_spiral(pair.start, next);
-      const Turning at_end = end_moves ? pair.end.end : turning_.on_spiral(pair.end, next + pair.offset);
+      const Turning at_start = start_moves ? end_of(pair.start, next) : turning_.on_spiral(pair.start, next);
+      const Turning at_end =
+          end_moves ? end_of(pair.end, next + pair.offset) : turning_.on_spiral(pair.end, next + pair.offset);
       findings_.counts.evaluations += (start_moves ? 0 : 1) + (end_moves ? 0 : 1);
       if (next - here > same_place_) {
         search_.run(pair, pair.sample(here, from_start, from_end), pair.sample(next, at_start, at_end));
@@ -58,7 +59,7 @@ class Sweep {
 
       if (next >= range.hi && !end_moves) break;
       if (end_moves) {
-        const double before = at_end.angle + end.lift();
+        const double before = pair.end.end.angle + end.lift();
         end.advance();
         const double after = end.angle_after();
         pass_corner(next, at_start.angle, before, after);
@@ -68,8 +69,9 @@ class Sweep {
       }
       if (next >= range.hi) break;
       if (start_moves) start.advance();
-      from_start = start_moves ? start.spiral().start : at_start;
-      from_end = end_moves ? end.spiral().start : at_end;
+      const SpiralPair onwards = pair_of(start, end);
+      from_start = start_moves ? start_of(start.spiral(), next) : at_start;
+      from_end = end_moves ? start_of(end.spiral(), next + onwards.offset) : at_end;
       here = next;
     }
   }
@@ -89,6 +91,14 @@ class Sweep {
 
   SpiralPair pair_of(const Cursor& start, const Cursor& end) const {
     return {turning_, start.spiral(), end.spiral(), length_ - end.shift(), reading_.turn - end.lift()};
+  }
+
+  /// A spiral's own ends, as seen from a place beside them that is the same up to rounding: where curvature is large
+  /// that makes more of a difference than the tolerance.
+  static Turning start_of(const Spiral& spiral, double s) { return beside(spiral.start, s - spiral.lo); }
+  static Turning end_of(const Spiral& spiral, double s) { return beside(spiral.end, s - spiral.hi); }
+  static Turning beside(const Turning& at, double distance) {
+    return {at.angle + at.curvature * distance, at.curvature};
   }
 
   /// Both contacts at the beginning, and the corner where the end stands, if it does.

@@ -23,6 +23,7 @@ struct Cluster {
   double hi = 0;
   bool exact = false;
   bool whole_loop = false;
+  bool is_joined = false;  // of several pieces
   Roots roots;
 };
 
@@ -34,10 +35,11 @@ std::vector<Cluster> join(const Part& part, std::vector<Piece>& pieces) {
   clusters.reserve(pieces.size());
   for (const Piece& piece : pieces) {
     if (clusters.empty() || piece.lo > clusters.back().hi + same_place) {
-      clusters.push_back({piece.lo, piece.hi, piece.exact, false, {}});
+      clusters.push_back({piece.lo, piece.hi, piece.exact, false, false, {}});
     } else {
       clusters.back().hi = std::max(clusters.back().hi, piece.hi);
       clusters.back().exact |= piece.exact;
+      clusters.back().is_joined = true;
     }
   }
   if (clusters.empty() || !part.closed()) return clusters;
@@ -46,10 +48,11 @@ std::vector<Cluster> join(const Part& part, std::vector<Piece>& pieces) {
   if (joined && clusters.size() == 1) {
     Cluster& only = clusters.front();
     only.whole_loop = only.hi - only.lo >= period - 2 * same_place;
-    if (only.whole_loop) only = {0, period, only.exact, true, {}};
+    if (only.whole_loop) only = {0, period, only.exact, true, true, {}};
   } else if (joined) {
     clusters.back().hi = period + clusters.front().hi;
     clusters.back().exact |= clusters.front().exact;
+    clusters.back().is_joined = true;
     clusters.erase(clusters.begin());
   }
   return clusters;
@@ -90,7 +93,7 @@ class SetsOfOne {
   void make(const Cluster& cluster, Placement& placement) const {
     const Interval extent{cluster.lo, cluster.hi};
     // By far the most frequent answer: one reading, one simple root.
-    if (readings_.size() == 1 && cluster.roots.size() == 1 && cluster.roots.front().crossing && !cluster.whole_loop) {
+    if (readings_.size() == 1 && cluster.roots.size() == 1 && cluster.roots.front().crossing && !cluster.is_joined) {
       const Root& root = cluster.roots.front();
       FoundSet found{Kind::crossing, root.s, extent, false, {}};
       found.roots.push_back(root.s);
@@ -226,7 +229,7 @@ class SetsOfOne {
   Kind kind_of(const Cluster& cluster, const Roots& roots, const Root& start) const {
     if (cluster.exact) return Kind::stretch;
     if (start.corner) return Kind::corner;
-    if (roots.size() == 1 && roots.front().crossing && !cluster.whole_loop) return Kind::crossing;
+    if (roots.size() == 1 && roots.front().crossing && !cluster.is_joined) return Kind::crossing;
     if (cluster.whole_loop) return roots.empty() ? Kind::touching : Kind::crossing;
     for (const Reading& reading : readings_) {
       if (changes_sign(reading, cluster)) return Kind::crossing;
