@@ -77,13 +77,15 @@ endif()
 
 if(ROLLFIX_BUILD_DRAW)
   find_package(PkgConfig REQUIRED)
-  pkg_check_modules(ROLLFIX_RSVG REQUIRED IMPORTED_TARGET librsvg-2.0)
-  pkg_check_modules(ROLLFIX_CAIRO REQUIRED IMPORTED_TARGET cairo)
+  pkg_check_modules(ROLLFIX_RSVG REQUIRED librsvg-2.0)
+  pkg_check_modules(ROLLFIX_CAIRO REQUIRED cairo)
   rollfix_library(rollfix_draw draw
     SOURCES ${draw_sources}
     HEADERS ${draw_headers}
     HEADER_DIRS ${PROJECT_SOURCE_DIR}/include)
+  # Their headers alone: the libraries are loaded with the first PNG or PDF (see src/draw/render.hpp).
+  target_include_directories(rollfix_draw SYSTEM PRIVATE ${ROLLFIX_RSVG_INCLUDE_DIRS} ${ROLLFIX_CAIRO_INCLUDE_DIRS})
   target_link_libraries(rollfix_draw
     PUBLIC rollfix
-    PRIVATE ${ROLLFIX_FMT} PkgConfig::ROLLFIX_RSVG PkgConfig::ROLLFIX_CAIRO)
+    PRIVATE ${ROLLFIX_FMT} ${CMAKE_DL_LIBS})
 endif()

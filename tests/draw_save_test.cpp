@@ -7,9 +7,12 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 
+#include "draw/render.hpp"
 #include "draw_helpers.hpp"
 #include "rollfix/error.hpp"
 
@@ -23,6 +26,7 @@ using rollfix::Vec2;
 using testing::AllOf;
 using testing::EndsWith;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 using testing::ThrowsMessage;
 
@@ -43,6 +47,14 @@ std::uint32_t big_endian(const std::string& bytes, std::size_t at) {
 std::string content(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string output_of(const std::string& program) {
+  std::FILE* pipe = popen(program.c_str(), "r");
+  std::string text;
+  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) text += static_cast<char>(c);
+  pclose(pipe);
+  return text;
 }
 
 /// While it lives, no file can grow beyond this many bytes: as on a full disk.
@@ -115,6 +127,19 @@ TEST(EncodeFigure, the_renderer_accepts_any_text_that_a_user_may_give) {
   svg.describe("\xff\x01<&>\"");
   svg.text({5, 20}, {{"\xff\x01<&>\""}});
   EXPECT_NO_THROW(rollfix::encode(svg, FigureFormat::png));
+}
+
+TEST(EncodeFigure, without_the_renderer_says_what_to_install_and_what_works_all_the_same) {
+  EXPECT_THAT([] { rollfix::draw::render_png("<svg/>", 1, 1, 1, "librsvg-missing.so"); },
+              ThrowsMessage<rollfix::InputError>(
+                  AllOf(HasSubstr("librsvg-missing.so"), HasSubstr("librsvg2-2"), HasSubstr(".svg"))));
+}
+
+TEST(EncodeFigure, asks_for_a_renderer_only_when_a_png_or_pdf_is_drawn) {
+  setenv("LD_TRACE_LOADED_OBJECTS", "1", 1);  // the loader prints what the program needs instead of running it
+  const std::string libraries = output_of(ROLLFIX_PROGRAM);
+  unsetenv("LD_TRACE_LOADED_OBJECTS");
+  EXPECT_THAT(libraries, AllOf(HasSubstr("libc."), Not(HasSubstr("librsvg")), Not(HasSubstr("libcairo"))));
 }
 
 TEST(FigureFormat, goes_by_the_files_ending_in_either_case) {

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <random>
 
+#include "outline/joining.hpp"
 #include "random.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline/primitives.hpp"
@@ -188,6 +189,27 @@ TEST(Loops, a_branch_is_refused_with_its_place) {
 
 TEST(Loops, a_drawing_without_curves_is_refused) {
   EXPECT_THAT(message_of(Drawing{"drawing.dxf", "", {}, {}}), HasSubstr("draws no curve"));
+}
+
+/// An arc that counts how often it is evaluated.
+struct CountedArc {
+  Arc arc;
+  int* evaluations;
+
+  rollfix::Interval domain() const { return arc.domain(); }
+  rollfix::Jet jet(double u) const { return ++*evaluations, arc.jet(u); }
+  Vec2 velocity(double u) const { return ++*evaluations, arc.velocity(u); }
+};
+
+TEST(Loops, short_arcs_far_from_the_origin_are_measured_without_halving) {
+  for (const double offset : {0.0, 10.0, 1e4, 1e8}) {
+    for (const double sweep : {1.0, 1e-2, 1e-5}) {
+      int evaluations = 0;
+      const auto measure = rollfix::measure(CountedArc{Arc({offset, offset}, 10, 1, sweep), &evaluations});
+      EXPECT_LT(evaluations, 100) << offset << ' ' << sweep;
+      EXPECT_NEAR(measure.length, 10 * sweep, 1e-12 * sweep);
+    }
+  }
 }
 
 TEST(Loops, a_hundred_thousand_lines_at_one_place_end_soon) {

@@ -10,6 +10,7 @@
 
 #include "rollfix/error.hpp"
 #include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/load.hpp"
 #include "rollfix/outline/points.hpp"
 #include "rollfix/outline/primitives.hpp"
 #include "shapes.hpp"
@@ -89,6 +90,15 @@ TEST(Part, is_reversed_when_it_was_drawn_clockwise_and_keeps_its_first_point) {
   EXPECT_LT(part.point(0).norm(), 1e-15);
   EXPECT_LT((part.point(1) - Vec2(1, 0)).norm(), 1e-15);
   EXPECT_FALSE(Part(polygon({{0, 0}, {3, 0}, {3, 1}, {0, 1}})).reversed());
+}
+
+TEST(Part, that_is_reversed_takes_no_more_panels_where_the_curve_nearly_stops) {
+  PartOptions options;
+  options.allow_crossing = true;
+  // Drawn clockwise; one of its spans almost has a cusp, where the reversed parameter is small and its original is not.
+  const Part part(load_outline("gallery:spline,n=200,seed=3"), options);
+  EXPECT_TRUE(part.reversed());
+  EXPECT_LT(part.turning().panels().size(), 6000U);
 }
 
 TEST(Part, keeps_the_direction_of_an_open_curve) {

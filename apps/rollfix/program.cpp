@@ -6,10 +6,12 @@
 #include <boost/algorithm/string/replace.hpp>
 #include <cctype>
 #include <exception>
+#include <functional>
 #include <iostream>
 #include <ostream>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "rollfix/commands.hpp"
 #include "rollfix/error.hpp"
@@ -91,7 +93,29 @@ void set_up(CLI::App& program, bool& quiet) {
   }
 }
 
-/// Adds the commands to a program and returns the one that the arguments name.
+/// Where the arguments begin with a command's name, that one alone: to describe the options of all takes longer than to
+/// locate.
+void add_commands(CLI::App& program, Command& chosen, const std::string& first, std::ostream& out, std::ostream& err) {
+  const std::array<std::pair<const char*, std::function<void()>>, 10> commands = {{
+      {"inspect", [&] { add_inspect_command(program, chosen); }},
+      {"locate", [&] { add_locate_command(program, chosen, out); }},
+      {"advise", [&] { add_advise_command(program, chosen); }},
+      {"catalog", [&] { add_catalog_command(program, chosen); }},
+      {"identify", [&] { add_identify_command(program, chosen); }},
+      {"simulate", [&] { add_simulate_command(program, chosen); }},
+      {"teach", [&] { add_teach_command(program, chosen); }},
+      {"watch", [&] { add_watch_command(program, chosen, out, err); }},
+      {"demo", [&] { add_demo_command(program, chosen); }},
+      {"paper", [&] { add_paper_command(program, chosen); }},
+  }};
+  const auto is_first = [&](const auto& command) { return first == command.first; };
+  const bool named = std::any_of(commands.begin(), commands.end(), is_first);
+  for (const auto& command : commands) {
+    if (!named || is_first(command)) command.second();
+  }
+}
+
+/// Adds commands to a program and returns the one that the arguments name.
 Command parse(CLI::App& program, const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err,
               bool& quiet) {
   Command chosen;
@@ -99,16 +123,7 @@ Command parse(CLI::App& program, const std::vector<std::string>& arguments, std:
   program.footer(kProgramExamples);
   program.set_version_flag("--version", std::string("rollfix ") + kVersion);
   program.require_subcommand(0, 1);
-  add_inspect_command(program, chosen);
-  add_locate_command(program, chosen, out);
-  add_advise_command(program, chosen);
-  add_catalog_command(program, chosen);
-  add_identify_command(program, chosen);
-  add_simulate_command(program, chosen);
-  add_teach_command(program, chosen);
-  add_watch_command(program, chosen, out, err);
-  add_demo_command(program, chosen);
-  add_paper_command(program, chosen);
+  add_commands(program, chosen, arguments.empty() ? "" : arguments.front(), out, err);
   // What the parser does not know is refused here, with better words.
   program.allow_extras();
   set_up(program, quiet);

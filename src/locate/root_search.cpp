@@ -136,8 +136,10 @@ bool RootSearch::is_stretch(const SpiralPair& pair, const ResidualSample& lo, co
     return std::abs(at.value) <= kTurnAccuracy + kPlaceRounding * period * curvature;
   };
   if (!vanishes(lo) || !vanishes(hi) || hi.s - lo.s < kShortestStretch * period) return false;
-  for (int k = 1; k < kStretchSamples; ++k) {
-    const ResidualSample at = sample(pair, lo.s + (hi.s - lo.s) * k / kStretchSamples);
+  // Between lines and arcs f is straight: one more place tells.
+  const int samples = pair.start.trend == 0 && pair.end.trend == 0 ? 2 : kStretchSamples;
+  for (int k = 1; k < samples; ++k) {
+    const ResidualSample at = sample(pair, lo.s + (hi.s - lo.s) * k / samples);
     const double scale = std::abs(at.start_curvature) + std::abs(at.end_curvature) + 1 / period;
     if (!vanishes(at) || std::abs(at.slope()) > kStretchSlope * scale) return false;
   }

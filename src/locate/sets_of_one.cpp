@@ -24,7 +24,7 @@ struct Cluster {
   bool exact = false;
   bool whole_loop = false;
   bool is_joined = false;  // of several pieces
-  Roots roots;
+  ShortList<Root> roots;
 };
 
 std::vector<Cluster> join(const Part& part, std::vector<Piece>& pieces) {
@@ -76,8 +76,8 @@ void hand_out(const Part& part, const std::vector<Root>& roots, std::vector<Clus
     take(clusters.back(), shifted);
   }
   for (Cluster& cluster : clusters) {
-    std::sort(cluster.roots.begin(), cluster.roots.end(),
-              [](const Root& one, const Root& two) { return one.s < two.s; });
+    const auto earlier = [](const Root& one, const Root& two) { return one.s < two.s; };
+    if (cluster.roots.size() > 1) std::sort(cluster.roots.begin(), cluster.roots.end(), earlier);
   }
 }
 

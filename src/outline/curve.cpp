@@ -44,6 +44,10 @@ struct Reversed {
     return {forward.position, -forward.first, forward.second, -forward.third};
   }
   Vec2 velocity(double u) const { return -original.velocity(mirror(u)); }
+  /// What is small on one side of a mirror is not on the other.
+  double parameter_size(const Interval& range) const {
+    return original.parameter_size({std::min(mirror(range.hi), range.lo), std::max(mirror(range.lo), range.hi)});
+  }
   std::optional<CurveRecord> record() const {
     std::optional<CurveRecord> record = original.record();
     if (record) record->kind.insert(0, kReversedPrefix);
@@ -64,6 +68,7 @@ struct Scaled {
     return {factor * jet.position, factor * jet.first, factor * jet.second, factor * jet.third};
   }
   Vec2 velocity(double u) const { return factor * original.velocity(u); }
+  double parameter_size(const Interval& range) const { return original.parameter_size(range); }
   std::optional<CurveRecord> record() const {
     std::optional<CurveRecord> record = original.record();
     if (!record) return record;

@@ -19,9 +19,16 @@ constexpr double kQuadratureTolerance = 1e-12;  // relative
 constexpr unsigned kMostHalvings = 12;
 constexpr int kPointsPerCurve = 16;
 
+// A place is rounded to some of its coordinates' last digits.
+constexpr double kPlaceRounding = 16 * std::numeric_limits<double>::epsilon();
+
+/// Over [-1, 1] for the quadrature, which holds its error against the domain's width as well: of a short arc, whose
+/// domain is as narrow as its sweep, no number of halvings would please it.
 template <class F>
-double integral(const F& f, const Interval& domain) {
-  return Quadrature::integrate(f, domain.lo, domain.hi, kMostHalvings, kQuadratureTolerance);
+double integral(const F& f, const Interval& domain, double tolerance = kQuadratureTolerance) {
+  const double half = 0.5 * domain.width();
+  const auto scaled = [&](double x) { return f(domain.middle() + half * x); };
+  return half * Quadrature::integrate(scaled, -1.0, 1.0, kMostHalvings, tolerance);
 }
 
 bool is_line(const Curve& curve) {
@@ -52,13 +59,15 @@ CurveMeasure measure(const Curve& curve) {
   }
   result.length = integral([&](double u) { return curve.velocity(u).norm(); }, domain);
   // The area of a nearly straight curve is next to nothing, and no quadrature gets it to a share of itself: with the
-  // length added, the tolerance is a share of length^2.
+  // length added, the tolerance is a share of length^2. A short curve far from (0, 0) has an area of few digits: asked
+  // for more, the quadrature would halve to the end.
+  const double rounding = kPlaceRounding * result.box.max().cwiseMax(-result.box.min()).maxCoeff() / result.length;
   const double with_length = integral(
       [&](double u) {
         const Jet jet = curve.jet(u);
         return cross(jet.position - result.origin, jet.first) + result.length * jet.first.norm();
       },
-      domain);
+      domain, std::max(kQuadratureTolerance, rounding));
   result.twice_area = with_length - result.length * result.length;
   return result;
 }

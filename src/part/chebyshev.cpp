@@ -1,7 +1,9 @@
 #include "chebyshev.hpp"
 
+#include <array>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <numbers>
 
@@ -20,19 +22,46 @@ Grid::Grid(int degree) : points_(degree + 1), transform_(degree + 1, degree + 1)
   }
 }
 
-Series values(const Series& coefficients, const Series& x) {
-  const Eigen::Index count = x.size();
-  const Series twice = 2 * x;
-  Series next = Series::Zero(count);
-  Series after = Series::Zero(count);
-  for (Eigen::Index k = coefficients.size() - 1; k > 0; --k) {
-    for (Eigen::Index j = 0; j < count; ++j) {
-      const double current = coefficients[k] + twice[j] * next[j] - after[j];
-      after[j] = next[j];
-      next[j] = current;
-    }
+namespace {
+
+using Pair = Eigen::Array2d;  // one vector instruction serves both
+
+// So many pairs are summed up abreast: they stay in registers, and none waits for another's sums.
+constexpr std::size_t kAbreast = 5;
+constexpr Eigen::Index kPlaces = 2 * kAbreast;
+constexpr Eigen::Index kPadded = (kMostTerms + kPlaces - 1) / kPlaces * kPlaces;
+
+/// The sums of Clenshaw's recurrence, one pair of places each: two steps at a time, so that none has to be moved.
+void sum_abreast(const Series& coefficients, const double* x, double* sums) {
+  std::array<Pair, kAbreast> twice, next, after;
+  for (std::size_t i = 0; i < kAbreast; ++i) {
+    twice[i] = 2 * Eigen::Map<const Pair>(x + 2 * i);
+    next[i] = after[i] = Pair::Zero();
   }
-  return ((x.array() * next.array() - after.array()) + coefficients[0]).matrix();
+  Eigen::Index k = coefficients.size() - 1;
+  if (k % 2 != 0) {
+    for (std::size_t i = 0; i < kAbreast; ++i) next[i] = coefficients[k] + twice[i] * next[i] - after[i];
+    --k;
+  }
+  for (; k > 0; k -= 2) {
+    for (std::size_t i = 0; i < kAbreast; ++i) after[i] = coefficients[k] + twice[i] * next[i] - after[i];
+    for (std::size_t i = 0; i < kAbreast; ++i) next[i] = coefficients[k - 1] + twice[i] * after[i] - next[i];
+  }
+  for (std::size_t i = 0; i < kAbreast; ++i) {
+    Eigen::Map<Pair>(sums + 2 * i) = (Eigen::Map<const Pair>(x + 2 * i) * next[i] - after[i]) + coefficients[0];
+  }
+}
+
+}  // namespace
+
+Series values(const Series& coefficients, const Series& x) {
+  Eigen::Array<double, kPadded, 1> places = Eigen::Array<double, kPadded, 1>::Zero();
+  places.head(x.size()) = x.array();
+  Eigen::Array<double, kPadded, 1> sums;
+  for (Eigen::Index first = 0; first < x.size(); first += kPlaces) {
+    sum_abreast(coefficients, places.data() + first, sums.data() + first);
+  }
+  return sums.head(x.size()).matrix();
 }
 
 Series antiderivative(const Series& coefficients) {
@@ -101,7 +130,8 @@ Series shifted(Series powers, double centre) {
 
 void search(const Series& powers, double lo, double hi, std::vector<double>& found) {
   const double half = 0.5 * (hi - lo);
-  const Series local = shifted(powers, lo + half);
+  const double centre = lo + half;
+  const Series local = centre == 0 ? powers : shifted(powers, centre);
   double reach = 0;        // how far the polynomial gets from its middle value
   double slope_reach = 0;  // and its slope
   double power = half;

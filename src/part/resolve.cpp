@@ -73,7 +73,7 @@ class Resolver {
     speed_ = grid.coefficients(speeds);
     const double tail = chebyshev::tail(speed_);
     // The parameter's own rounding moves each node: what the speed changes by on the way is noise as well.
-    parameter_noise_ = kParameterNoise * std::max(std::abs(range.lo), std::abs(range.hi));
+    parameter_noise_ = kParameterNoise * curve_.parameter_size(range);
     const double slope = 2 * (speeds.maxCoeff() - speeds.minCoeff()) / range.width();
     const double noise = kSeriesNoise * speeds.maxCoeff() + parameter_noise_ * slope;
     if (tail > noise && tail * range.width() > kLengthNoise * size_) return false;

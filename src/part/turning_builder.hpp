@@ -36,7 +36,7 @@ class TurningFunctionBuilder {
  private:
   void add_curve(std::uint32_t index);
   void add_panel(const ResolvedPanel& resolved, std::uint32_t curve);
-  void add_spirals(const ResolvedPanel& resolved);
+  void add_spirals(const chebyshev::Series& curvature);  // of the newest panel, by its powers
   void add_spiral(double lo, double hi, std::uint32_t panel);
   void join(const Vec2& direction);
   void close();

@@ -146,7 +146,7 @@ void TurningFunctionBuilder::add_panel(const ResolvedPanel& resolved, std::uint3
   parametrization.coefficients.insert(parametrization.coefficients.end(), parameter.begin(), parameter.end());
 
   angle_ += resolved.turn.sum();
-  add_spirals(resolved);
+  add_spirals(curvature);
 }
 
 void TurningFunctionBuilder::store(const Series& turn, const Series& curvature, Panel& panel) {
@@ -178,10 +178,9 @@ void TurningFunctionBuilder::join(const Vec2& direction) {
 }
 
 /// Cuts the newest panel where its curvature or the curvature's slope changes sign.
-void TurningFunctionBuilder::add_spirals(const ResolvedPanel& resolved) {
+void TurningFunctionBuilder::add_spirals(const Series& curvature) {
   const auto index = static_cast<std::uint32_t>(turning.panels_.size() - 1);
   const Panel& panel = turning.panels_[index];
-  const Series curvature = chebyshev::powers(resolved.curvature);
   std::vector<double> cuts = chebyshev::sign_changes(curvature);
   const std::vector<double> slope_cuts = chebyshev::sign_changes(derivative(curvature));
   cuts.insert(cuts.end(), slope_cuts.begin(), slope_cuts.end());

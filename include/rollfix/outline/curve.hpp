@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
+#include <cmath>
 #include <concepts>
 #include <memory>
 #include <optional>
@@ -75,6 +77,9 @@ class Curve {
   Vec2 position(double u) const { return model_->jet(u).position; }
   Vec2 front() const { return position(domain().lo); }
   Vec2 back() const { return position(domain().hi); }
+  /// The size of the numbers that the parameters of this range are rounded as. The range's own, for a curve type that
+  /// does not tell.
+  double parameter_size(const Interval& range) const { return model_->parameter_size(range); }
   /// Nothing for a curve type that does not offer it.
   std::optional<CurveRecord> record() const { return model_->record(); }
 
@@ -84,6 +89,7 @@ class Curve {
     virtual Interval domain() const = 0;
     virtual Jet jet(double u) const = 0;
     virtual Vec2 velocity(double u) const = 0;
+    virtual double parameter_size(const Interval& range) const = 0;
     virtual std::optional<CurveRecord> record() const = 0;
   };
 
@@ -97,6 +103,13 @@ class Curve {
         return curve.velocity(u);
       } else {
         return curve.jet(u).first;
+      }
+    }
+    double parameter_size(const Interval& range) const override {
+      if constexpr (requires { curve.parameter_size(range); }) {
+        return curve.parameter_size(range);
+      } else {
+        return std::max(std::abs(range.lo), std::abs(range.hi));
       }
     }
     std::optional<CurveRecord> record() const override {
