@@ -14,7 +14,7 @@ import re
 import subprocess
 import sys
 
-# Whose counts take no more than some seconds.
+# Whose counts take no more than some seconds: the counted_benchmarks of bench/CMakeLists.txt.
 COUNTED = ["one_finger", "two_fingers", "points", "answers", "readings", "files", "watch"]
 TIME = re.compile(r"-?\d[\d.]*( ±\d+%)?")
 
