@@ -71,14 +71,22 @@ def block(name, build, table):
     return f"{by_itself} (`{' '.join(command_of(name, build))}`):\n\n```text\n{table.rstrip()}\n```\n"
 
 
+def marks_of(name):
+    return re.compile(rf"(<!-- bench: {re.escape(name)} -->\n).*?(<!-- /bench -->)", re.DOTALL)
+
+
+def require_places(document, names):
+    """Before anything is measured."""
+    whole = document.read_text()
+    if missing := [name for name in names if not marks_of(name).search(whole)]:
+        sys.exit(f"bench: {document} has no place for {', '.join(missing)}: <!-- bench: NAME -->, <!-- /bench -->")
+
+
 def write_into(document, texts):
     """Puts the texts between their marks."""
     whole = document.read_text()
     for name, text in texts.items():
-        marks = re.compile(rf"(<!-- bench: {re.escape(name)} -->\n).*?(<!-- /bench -->)", re.DOTALL)
-        if not marks.search(whole):
-            sys.exit(f"bench: {document} has no place for {name}: <!-- bench: {name} -->")
-        whole = marks.sub(lambda match: f"{match.group(1)}{text}{match.group(2)}", whole)
+        whole = marks_of(name).sub(lambda match: f"{match.group(1)}{text}{match.group(2)}", whole)
     document.write_text(whole)
 
 
@@ -91,9 +99,12 @@ def main():
     parser.add_argument("--quick", action="store_true", help="little is measured, the document stays")
     arguments = parser.parse_args()
 
-    wanted = [name for name in PROGRAMS if not arguments.only or name.removesuffix(".py") in arguments.only]
-    if unknown := set(arguments.only or []) - {name.removesuffix(".py") for name in PROGRAMS}:
-        parser.error(f"there is no {', '.join(sorted(unknown))}; there are {', '.join(PROGRAMS)}")
+    names = {name.removesuffix(".py"): name for name in PROGRAMS}
+    if unknown := set(arguments.only or []) - names.keys():
+        parser.error(f"there is no {', '.join(sorted(unknown))}; there are {', '.join(names)}")
+    wanted = [name for word, name in names.items() if not arguments.only or word in arguments.only]
+    require_places(arguments.document, ["machine", *names])
+    start = time.monotonic()
     options = ["--quick"] if arguments.quick else []
     texts = {"machine": machine(arguments.build)}
     figures = json.loads(arguments.figures.read_text()) if arguments.only and arguments.figures.exists() else {}
@@ -110,7 +121,7 @@ def main():
     if not arguments.quick:
         write_into(arguments.document, texts)
     arguments.figures.write_text(json.dumps(figures, indent=2, sort_keys=True) + "\n")
-    print(f"{arguments.figures}: {len(figures)} figures")
+    print(f"{arguments.figures}: {len(figures)} figures, in {time.monotonic() - start:.0f} s")
 
 
 if __name__ == "__main__":
