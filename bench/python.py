@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What the Python package costs beside C++, and beside a plain scan with numpy: ratios, measured in one process.
 
-    PYTHONPATH=build/python/python bench/python.py     # or build/venv/bin/python3 bench/python.py
+    script/bench --only python     # or build/venv/bin/python3 bench/python.py
 
 Times are of the processor, and the least of several rounds; only what says so is by the clock on the wall.
 """
@@ -16,7 +16,7 @@ import numpy as np
 import rollfix
 
 SPLINE = "gallery:spline,n=16,seed=7"
-SAMPLES = 10_000  # of the scan
+SAMPLES = (1_000, 10_000, 100_000)  # of the scans
 
 
 def cpu(job):
@@ -49,9 +49,9 @@ def one_at_a_time(part, rows):
     return cpu(run)
 
 
-def scan(part, rows):
+def scan(part, rows, samples):
     """f on places next to each other, a root where it changes sign. Returns starts of each problem."""
-    s = np.linspace(0, part.perimeter, SAMPLES, endpoint=False)
+    s = np.linspace(0, part.perimeter, samples, endpoint=False)
     step = s[1]
     found = []
     here = part.turning(s)
@@ -63,7 +63,7 @@ def scan(part, rows):
     return found
 
 
-def recall(part, rows, found):
+def recall(part, rows, found, samples):
     """The share of the exact roots that the scan has within a step, and of the problems in which it has all."""
     hits = roots = whole = 0
     for (length, turn), starts in zip(rows, found):
@@ -71,7 +71,7 @@ def recall(part, rows, found):
         if len(exact) == 0:
             continue
         gap = np.abs(np.remainder(exact[:, None] - starts[None, :] + part.perimeter / 2, part.perimeter) - part.perimeter / 2)
-        near = gap.min(axis=1, initial=np.inf) < part.perimeter / SAMPLES
+        near = gap.min(axis=1, initial=np.inf) < part.perimeter / samples
         hits, roots, whole = hits + near.sum(), roots + len(exact), whole + near.all()
     return hits / roots, whole / len(rows)
 
@@ -79,9 +79,11 @@ def recall(part, rows, found):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--rounds", type=int, default=5)
-    rounds = parser.parse_args().rounds
+    parser.add_argument("--quick", action="store_true", help="little is measured")
+    arguments = parser.parse_args()
+    rounds = 1 if arguments.quick else arguments.rounds
     part = rollfix.Part(SPLINE)
-    _, rows = rolls(part, 100_000)
+    _, rows = rolls(part, 1_000 if arguments.quick else 100_000)
     few = rows[:10_000]
 
     print(f"import rollfix, beyond numpy           {import_milliseconds(rounds):8.1f} ms")
@@ -92,7 +94,7 @@ def main():
     many = [(cpu(lambda: part.locate_many(rows, threads=1)), rollfix._core.seconds_of_rows(part._core, rows, True))
             for _ in range(rounds)]
     python, native = (min(times) for times in zip(*many))
-    print(f"locate_many on one core, Python / C++  {python / native:8.3f}     ({python:.3f} / {native:.3f} s of 100,000)")
+    print(f"locate_many on one core, Python / C++  {python / native:8.3f}     ({python:.3f} / {native:.3f} s of {len(rows):,})")
     walls = []
     for threads in (1, 2):
         times = []
@@ -102,12 +104,13 @@ def main():
             times.append(time.perf_counter() - start)
         walls.append(min(times))
     print(f"locate_many, one core / two, wall      {walls[0] / walls[1]:8.3f}     ({walls[0]:.3f} / {walls[1]:.3f} s)")
-    some = rows[:300]
-    scanned = cpu(lambda: scan(part, some)) / len(some)
-    share, whole = recall(part, some, scan(part, some))
     exact = python / len(rows)
-    print(f"numpy scan of {SAMPLES} places / ours     {scanned / exact:8.1f}     ({1e6 * scanned:.0f} us; has "
-          f"{100 * share:.2f} % of the roots, all of them in {100 * whole:.1f} % of the problems)")
+    some = rows[:3 if arguments.quick else 100]
+    for samples in SAMPLES:
+        scanned = cpu(lambda: scan(part, some, samples)) / len(some)
+        share, whole = recall(part, some, scan(part, some, samples), samples)
+        print(f"numpy, {samples:7,} places / locate_many    {scanned / exact:8.1f}     ({1e6 * scanned:.0f} us; has "
+              f"{100 * share:.2f} % of the roots, all of them in {100 * whole:.1f} % of the problems)")
 
 
 if __name__ == "__main__":

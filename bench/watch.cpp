@@ -1,139 +1,146 @@
-// The table of watch: what a sample of a growing log costs, from its line to what it means. The program is run as a
-// user runs it: nothing of it is part of this one.
+// What does a sample of a growing log cost, from its line to what it means? The program is run as a user runs it:
+// nothing of it is part of this one.
 
 #include <fmt/format.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "child.hpp"
 #include "outlines.hpp"
+#include "program.hpp"
 #include "rollfix/contact/log.hpp"
-#include "rollfix/error.hpp"
 #include "rollfix/files/saved_part.hpp"
-#include "stopwatch.hpp"
-#include "tables.hpp"
+#include "table.hpp"
 
-namespace bench {
 namespace {
+
+using namespace rollfix;
 
 constexpr double kContactShare = 2e-4;  // the noise of a contact's place, as a share of the perimeter
 constexpr double kAngle = 0.003;        // of a turn, radians
+constexpr std::size_t kFewRows = 1000;
+constexpr std::size_t kManyRows = 10000;
+constexpr int kRepetitions = 5;     // of the shorter roll
+constexpr int kFewRepetitions = 2;  // of the longer one, which takes a second
 
-rollfix::Noise noise_on(const rollfix::Part& part) { return {kContactShare * part.perimeter(), kAngle, 0, 0}; }
+Noise noise_on_part(const Part& part) { return {kContactShare * part.perimeter(), kAngle, 0, 0}; }
 
 /// The lines of a roll over one and a half perimeters, of an open part over half of it.
-std::vector<std::string> noisy_roll(const rollfix::Part& part, int rows) {
+std::vector<std::string> noisy_roll(const Part& part, std::size_t rows) {
   const double P = part.perimeter();
   const double start = 0.21 * P;
   const double length = (part.closed() ? 1.5 : 0.5) * P;
-  const rollfix::Noise noise = noise_on(part);
+  const Noise noise = noise_on_part(part);
   std::mt19937_64 random(20010529);
   std::normal_distribution<double> off;
   std::vector<std::string> lines = {"time,length,turn"};
-  for (int k = 1; k <= rows; ++k) {
-    const double L = length * k / rows;
+  for (std::size_t k = 1; k <= rows; ++k) {
+    const double L = length * static_cast<double>(k) / static_cast<double>(rows);
     const double theta = part.turning().angle(start + L) - part.turning().angle(start);
-    lines.push_back(
-        fmt::format("{:.3f},{:.9g},{:.6f}", 0.01 * k, L + noise.contact * off(random), theta + kAngle * off(random)));
+    lines.push_back(fmt::format("{:.3f},{:.9g},{:.6f}", 0.01 * static_cast<double>(k), L + noise.contact * off(random),
+                                theta + kAngle * off(random)));
   }
   return lines;
 }
 
-struct Watched {
-  double seconds = 0;
+/// A part and its rolls, in files.
+struct Row {
+  Row(const bench::ScratchFolder& folder, const bench::Family& family)
+      : name(family.name), part(family.outline), few(noisy_roll(part, kFewRows)), file(folder.path(family.name)) {
+    std::ofstream(file + ".json") << format_part(part);
+    const std::vector<std::string> many = noisy_roll(part, kManyRows);
+    write("one", {many.begin(), many.begin() + 2});
+    write("few", few);
+    write("many", many);
+  }
+
+  /// `rollfix watch --once`, as a user starts it.
+  double watch(const std::string& roll, const std::string& output = "/dev/null") const {
+    const Noise noise = noise_on_part(part);
+    return bench::seconds_of_child(
+        {ROLLFIX_PROGRAM, "watch", file + ".json", "--once", "--jsonl", "--noise",
+         fmt::format("contact={:.17g},angle={:.17g}", noise.contact, noise.angle), "--log", roll_file(roll)},
+        output);
+  }
+  double read_lines() const {
+    LogStream stream("bench", part, std::vector<Finger>{}, noise_on_part(part));
+    double rows = 0;
+    for (const std::string& line : few) {
+      bench::keep(stream.push(line));
+      ++rows;
+    }
+    return rows;
+  }
+  /// How often there was news in the longer roll, and its verdict.
+  void count() {
+    watch("many", file + ".told");
+    std::ifstream lines(file + ".told");
+    for (std::string line; std::getline(lines, line);) {
+      const nlohmann::json event = nlohmann::json::parse(line);
+      if (event["event"] == "placements") ++told;
+      if (event.contains("verdict")) verdict = event["verdict"];
+    }
+  }
+
+  std::string roll_file(const std::string& roll) const { return fmt::format("{}.{}.csv", file, roll); }
+  void write(const std::string& roll, const std::vector<std::string>& lines) const {
+    std::ofstream(roll_file(roll)) << fmt::format("{}\n", fmt::join(lines, "\n"));
+  }
+
+  std::string name;
+  Part part;
+  std::vector<std::string> few;
+  std::string file;  // without its ending
   int told = 0;
   std::string verdict;
+  bench::Program::Job start = 0;  // of the program: what it takes for a single row
+  bench::Program::Job on_few = 0;
+  bench::Program::Job on_many = 0;
+  bench::Program::Job reading = 0;
 };
 
-double seconds_of_children() {
-  rusage used{};
-  getrusage(RUSAGE_CHILDREN, &used);
-  const auto seconds = [](const timeval& time) {
-    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-  };
-  return seconds(used.ru_utime) + seconds(used.ru_stime);
-}
-
-/// `rollfix watch --once` of this part and log, as a user starts it.
-class Program {
- public:
-  explicit Program(const rollfix::Part& part) : noise_(noise_on(part)) {
-    std::filesystem::create_directories(folder_);
-    std::ofstream(folder_ / "part.json") << rollfix::format_part(part);
-  }
-  ~Program() { std::filesystem::remove_all(folder_); }
-  Program(const Program&) = delete;
-  Program& operator=(const Program&) = delete;
-
-  Watched watch(const std::vector<std::string>& lines) const {
-    std::ofstream(folder_ / "roll.csv") << fmt::format("{}\n", fmt::join(lines, "\n"));
-    const double before = seconds_of_children();
-    const std::string command = fmt::format(
-        "cd '{}' && '{}' watch part.json --once --jsonl --noise contact={:.17g},angle={:.17g} --log roll.csv > told",
-        folder_.string(), ROLLFIX_PROGRAM, noise_.contact, noise_.angle);
-    if (std::system(command.c_str()) != 0) throw rollfix::InternalError("bench: failed: " + command);
-    Watched watched;
-    watched.seconds = seconds_of_children() - before;
-    std::ifstream told(folder_ / "told");
-    for (std::string line; std::getline(told, line);) {
-      const nlohmann::json event = nlohmann::json::parse(line);
-      if (event["event"] == "placements") ++watched.told;
-      if (event.contains("verdict")) watched.verdict = event["verdict"];
-    }
-    return watched;
-  }
-
- private:
-  std::filesystem::path folder_ = std::filesystem::temp_directory_path() / fmt::format("rollfix_bench.{}", getpid());
-  rollfix::Noise noise_;
-};
-
-double parsing(const rollfix::Part& part, const std::vector<std::string>& lines) {
-  const double seconds = seconds_per_call([&] {
-    rollfix::LogStream stream("bench", part, std::vector<rollfix::Finger>{}, noise_on(part));
-    for (const std::string& line : lines) keep(stream.push(line));
-  });
-  return 1e6 * seconds / static_cast<double>(lines.size());
+void add_jobs(bench::Program& program, Row& row) {
+  row.start = program.add_stopped("start " + row.name, [&row] { return row.watch("one"); });
+  row.on_few = program.add_stopped(
+      "few " + row.name, [&row] { return row.watch("few"); }, 1, kRepetitions);
+  row.on_many = program.add_stopped(
+      "many " + row.name, [&row] { return row.watch("many"); }, 1, kFewRepetitions);
+  row.reading = program.add(
+      "read " + row.name, [&row] { bench::keep(row.read_lines()); }, kFewRows);
 }
 
 }  // namespace
 
-void watch(int rounds) {
-  fmt::print("outline          1000 rows [us]  10000 rows [us]  reading alone [us]  told  verdict\n");
-  Mean short_rolls;
-  Mean long_rolls;
-  for (const Family& family : families()) {
-    const rollfix::Part part(family.outline);
-    const Program program(part);
-    const std::vector<std::string> few = noisy_roll(part, 1000);
-    const std::vector<std::string> many = noisy_roll(part, 10000);
-    const Watched all = program.watch(many);
-    std::vector<double> start;  // of the program: what it takes for a single row
-    std::vector<double> of_few;
-    std::vector<double> of_many;
-    std::vector<double> reading;
-    for (int round = 0; 5 * round < rounds; ++round) {
-      start.push_back(program.watch({many.begin(), many.begin() + 2}).seconds);
-      of_few.push_back(program.watch(few).seconds);
-      of_many.push_back(round == 0 ? all.seconds : program.watch(many).seconds);
-      reading.push_back(parsing(part, few));
-    }
-    const double per_short = (least(of_few) - least(start)) / 1000;
-    const double per_long = (least(of_many) - least(start)) / 10000;
-    short_rolls.add(per_short);
-    long_rolls.add(per_long);
-    fmt::print("{:<16} {:>14}  {:>15}  {:>18}  {:4}  {}\n", family.name, cell(1e6 * per_short, 1),
-               cell(1e6 * per_long, 1), cell(least(reading), 2), all.told, all.verdict);
+int main(int argc, char** argv) {
+  bench::Program program(argc, argv);
+  const bench::ScratchFolder folder;
+  std::vector<Row> rows;
+  for (const bench::Family& family : bench::families()) {
+    rows.emplace_back(folder, family);
+    rows.back().count();
   }
-  fmt::print("{:<16} {:>14}  {:>15}\n", "geometric mean", cell(1e6 * short_rolls.value(), 1),
-             cell(1e6 * long_rolls.value(), 1));
-}
+  for (Row& row : rows) add_jobs(program, row);
+  program.run();
 
-}  // namespace bench
+  bench::Mean few;
+  bench::Mean many;
+  bench::Table table({"outline", "of 1,000 [us]", "of 10,000 [us]", "reading alone [us]", "told", "verdict"});
+  for (const Row& row : rows) {
+    const bench::Timing of_few = (1.0 / kFewRows) * (program.of(row.on_few) - program.of(row.start));
+    const bench::Timing of_many = (1.0 / kManyRows) * (program.of(row.on_many) - program.of(row.start));
+    if (row.name != "wing, 160 points") {
+      few.add(of_few);
+      many.add(of_many);
+    }
+    table.add({row.name, bench::cell(1e6 * of_few, 1), bench::cell(1e6 * of_many, 1),
+               bench::cell(1e6 * program.of(row.reading), 2), std::to_string(row.told), row.verdict});
+  }
+  table.add({"gallery, mean", bench::cell(1e6 * few.value(), 1), bench::cell(1e6 * many.value(), 1)});
+  table.print();
+  program.figure("watch_us", 1e6 * few.value());
+  program.write_figures();
+}

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Compares the counts in a document's tables with what the benchmark counts.
+"""Compares the counts in a document's tables with what the benchmarks count.
 
-`rollfix_bench 0` prints the tables with "?" for all that has to be timed; every other word of a table in the document's
-`text` blocks must be the same, and no row may be missing on either side.
+A table stands between `<!-- bench: NAME -->` and `<!-- /bench -->`. `NAME --counts` prints it with "?" for all that has to
+be timed: every other cell must be the same, and no row may be missing on either side.
 
-Usage: compare_tables.py [--update] build/release/rollfix_bench docs/performance.md
+Usage: compare_tables.py [--update] build/release/bench docs/performance.md
 --update writes the counts into the document and leaves the times as they are.
 """
 
@@ -14,78 +14,79 @@ import re
 import subprocess
 import sys
 
-WORD = re.compile(r"\(\s*(?:\d+|\?)%\)|\S+")
+# Whose counts take no more than some seconds: the counted_benchmarks of bench/CMakeLists.txt.
+COUNTED = ["one_finger", "two_fingers", "points", "answers", "readings", "files", "watch"]
+TIME = re.compile(r"-?\d[\d.]*( ±\d+%)?")
 
 
-def words(line):
-    return list(WORD.finditer(line))
+def counted(folder, name):
+    done = subprocess.run([str(folder.resolve() / name), "--counts"], capture_output=True, text=True, check=True)
+    return done.stdout.rstrip().split("\n")
 
 
-def filled(counted, documented):
-    """The line that was counted, with the document's times for the question marks; None if they are not alike."""
-    line, pairs = counted, list(zip(words(counted), words(documented)))
-    if len(words(documented)) < len(words(counted)):
-        return None
-    for ours, theirs in pairs:
-        if "?" not in ours.group():
-            continue
-        if not re.search(r"\d", theirs.group()):
-            return None
-        width = max(len(ours.group()), len(theirs.group()))
-        line = line[:ours.end() - width] + theirs.group().rjust(width) + line[ours.end():]
-    return line
+def place_of(text, name):
+    """Where the table is in the text."""
+    match = re.search(rf"<!-- bench: {name} -->\n.*?```text\n(.*?)\n```\n<!-- /bench -->", text, re.DOTALL)
+    return match.span(1) if match else None
 
 
-def tables_of(lines):
-    """Where each row is, by its table's first line and its own name: {(title, name): index}."""
-    rows, title = {}, None
-    for index, line in enumerate(lines):
-        if line.startswith("outline "):
-            title = " ".join(line.split())
-        elif title and (match := re.match(r"(\S+(?: \S+)*)\s{2,}", line)):
-            rows[title, match.group(1)] = index
-    return rows
+def cells_of(line):
+    return re.split(r" {2,}", line)
+
+
+def is_alike(own, theirs):
+    """Whether a counted cell is the document's, times aside."""
+    return re.fullmatch(re.escape(own).replace(r"\?", TIME.pattern), theirs) is not None
+
+
+def compare(own, theirs):
+    """A row's cells with the document's times, and whether it is right."""
+    if len(own) != len(theirs):
+        return own, False
+    alike = [is_alike(*pair) for pair in zip(own, theirs)]
+    return [there if "?" in here and same else here for here, there, same in zip(own, theirs, alike)], all(alike)
+
+
+def aligned(rows):
+    """As the benchmarks print them: two blanks between columns, names to the left, numbers to the right."""
+    widths = {}
+    for row in rows:
+        for column, cell in enumerate(row if len(row) > 1 else []):
+            widths[column] = max(widths.get(column, 0), len(cell))
+    return "\n".join("  ".join([row[0].ljust(widths[0]) if len(row) > 1 else row[0],
+                                *(cell.rjust(widths[k]) for k, cell in enumerate(row[1:], 1))]) for row in rows)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("bench", type=pathlib.Path)
+    parser.add_argument("programs", type=pathlib.Path)
     parser.add_argument("document", type=pathlib.Path)
     parser.add_argument("--update", action="store_true")
     arguments = parser.parse_args()
 
-    command = [str(arguments.bench.resolve()), "0"]
-    counted = subprocess.run(command, capture_output=True, text=True, check=True).stdout.split("\n")
-    lines = arguments.document.read_text().split("\n")
-    expected, found, wrong = tables_of(counted), tables_of(blocks_only(lines)), []
-    for key in sorted(expected.keys() ^ found.keys()):
-        wrong.append(f"row \"{key[1]}\" is {'not in the document' if key in expected else 'not counted any more'}: {key[0]}")
-    for key in expected.keys() & found.keys():
-        line, right = lines[found[key]], filled(counted[expected[key]], lines[found[key]])
-        if right is None or right.split() != line.split():
-            wrong.append(f"line {found[key] + 1}: {line.strip()}\n  counted: {counted[expected[key]].strip()}")
-        if right is not None:
-            lines[found[key]] = right
+    text, failed, compared = arguments.document.read_text(), [], 0
+    for name in COUNTED:
+        place = place_of(text, name)
+        if place is None:
+            failed.append(f"there is no table of {name}")
+            continue
+        own, theirs = counted(arguments.programs, name), text[slice(*place)].split("\n")
+        if len(own) != len(theirs):
+            failed.append(f"table of {name}: {len(theirs)} lines, {len(own)} are counted")
+        theirs += [""] * (len(own) - len(theirs))
+        rows = [compare(cells_of(line), cells_of(documented)) for line, documented in zip(own, theirs)]
+        failed += [f"document: {documented}\n counted: {line}"
+                   for line, documented, (_, right) in zip(own, theirs, rows) if not right]
+        compared += len(own)
+        text = text[:place[0]] + aligned([cells for cells, _ in rows]) + text[place[1]:]
     if arguments.update:
-        arguments.document.write_text("\n".join(lines))
-    elif wrong:
-        print(f"{arguments.document}: expected the counts of `{' '.join(command)}`; `{sys.argv[0]} --update` writes them",
-              *sorted(wrong), sep="\n", file=sys.stderr)
+        arguments.document.write_text(text)
+    elif failed:
+        print(f"{arguments.document}: expected what `{arguments.programs}/NAME --counts` prints; `{sys.argv[0]} --update` "
+              "writes it", *failed, sep="\n", file=sys.stderr)
         return 1
-    if not expected:
-        print("no table was counted", file=sys.stderr)
-        return 1
-    print(f"{len(expected)} rows of {arguments.document} compared")
+    print(f"{compared} lines of {arguments.document} compared")
     return 0
-
-
-def blocks_only(lines):
-    """The lines, those outside of fenced blocks made empty."""
-    inside, kept = False, []
-    for line in lines:
-        inside = inside != line.startswith("```")
-        kept.append(line if inside else "")
-    return kept
 
 
 if __name__ == "__main__":
