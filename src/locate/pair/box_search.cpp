@@ -154,9 +154,8 @@ bool BoxSearch::is_apart(const PairBoxSides& sides, const PairLimits& limits) co
   for (std::size_t p = 0; p + 1 < a_.rows(); ++p) {
     for (std::size_t q = p + 1; q < a_.rows(); ++q) {
       for (const Vec2& direction : {chord(sides.a, p, q), chord(sides.b, p, q)}) {
-        const double size = direction.norm();
-        if (size == 0) continue;
-        const Vec2 across = Vec2(-direction.y(), direction.x()) / size;
+        const Vec2 across(-direction.y(), direction.x());
+        if (across == Vec2::Zero()) continue;
         const double by = across.x() * sides.shift(p, limits_) + across.y() * sides.shift(q, limits_);
         const Range f = along(sides.a, across, p, q) - along(sides.b, across, p, q) - Range{by, by};
         const double reach = limits.tolerance * across.lpNorm<1>();
@@ -205,8 +204,26 @@ bool BoxSearch::take_regular(const PairBoxSides& sides, const PairLimits& limits
   const double slack = 1 / (1 - regular.contraction);
   const auto in_box = [&](const Vec2& step) { return (step.array().abs() / width).maxCoeff() * slack * width; };
   const Eigen::Array2d reach = in_box(regular.inverse.cwiseAbs() * Vec2::Constant(limits.tolerance));
+  // From a place where the residuals are f the zero is a step away, which the contraction may be off by.
+  const auto is_elsewhere = [&](const Vec2& from, const Vec2& f) {
+    const Vec2 step = regular.inverse * f;
+    const Eigen::Array2d near = (from - step).array();
+    const Eigen::Array2d off = regular.contraction * in_box(step) + reach;
+    return ((near + off < lo.array()) || (near - off > hi.array())).any();
+  };
   const double bend = regular.contraction * std::min(1.0, (reach / width).maxCoeff());
   if (bend > kBoxExtentBend) return false;
+  for (const bool last_of_a : {false, true}) {
+    for (const bool last_of_b : {false, true}) {
+      const auto at_corner = [&](std::size_t row) {
+        const RollCurve::Component& of_a = sides.a.component(row);
+        const RollCurve::Component& of_b = sides.b.component(row);
+        return (last_of_a ? of_a.last : of_a.first) - (last_of_b ? of_b.last : of_b.first) - sides.shift(row, limits_);
+      };
+      const Vec2 corner(last_of_a ? hi.x() : lo.x(), last_of_b ? hi.y() : lo.y());
+      if (is_elsewhere(corner, {at_corner(p), at_corner(q)})) return true;
+    }
+  }
 
   Vec2 at = 0.5 * (lo + hi);
   RollPoint on_a;
@@ -214,11 +231,10 @@ bool BoxSearch::take_regular(const PairBoxSides& sides, const PairLimits& limits
   Eigen::Matrix2d jacobian;
   const auto residual = [&](std::size_t row) { return on_a.value[row] - on_b.value[row] - sides.shift(row, limits_); };
   for (int round = 0;; ++round) {
-    on_a = sides.a.point(at.x());
-    on_b = sides.b.point(at.y());
+    sides.a.move(on_a, at.x());
+    sides.b.move(on_b, at.y());
     const Vec2 f(residual(p), residual(q));
-    const Eigen::Array2d off = in_box(regular.inverse * f) + reach;
-    if (((at.array() + off < lo.array()) || (at.array() - off > hi.array())).any()) return true;  // it is elsewhere
+    if (is_elsewhere(at, f)) return true;
     jacobian << on_a.slope(p), -on_b.slope(p), on_a.slope(q), -on_b.slope(q);
     if (round == kMostBoxRounds) break;
     const bool full = round < kMostBoxRounds / 2;  // Newton's own step, then the one that contracts for sure

@@ -50,7 +50,7 @@ RollPoint solve_side(const BoxSide& side, std::size_t row, double target) {
     if (!(next > lo && next < hi)) next = 0.5 * (lo + hi);
     if (next == x || std::abs(next - x) <= 1e-16 * (std::abs(x) + side.width())) break;
     x = next;
-    at = side.point(x);
+    side.move(at, x);
   }
   return at;
 }
@@ -73,10 +73,39 @@ bool LineSearch::run() {
 }
 
 bool LineSearch::may_overlap() {
-  if (!choose_guide()) return false;
+  if (!choose_guide() || is_apart_midway()) return false;
   Stretch all{place(free().lo()), place(free().hi()), 0, false};
   if (!clip(all, 0)) return false;
   return vanishes(place(0.5 * (all.lo.free.x + all.hi.free.x)));
+}
+
+/// Is another equation surely off at a place of the line in the box? About in the middle, where two points and the
+/// slopes' bounds nearly always tell that curves do not run along each other.
+bool LineSearch::is_apart_midway() const {
+  const RollCurve::Component& of_free = free().component(guide_);
+  const RollCurve::Component& of_bound = bound().component(guide_);
+  const double shift = (free_is_a_ ? 1 : -1) * sides_.shift(guide_, limits_);
+  const double rise = of_free.last - of_free.first;
+  const auto reached = [&](double value) {  // along the chord, in the box
+    return rise == 0 ? 0.5 : std::clamp((value + shift - of_free.first) / rise, 0.0, 1.0);
+  };
+  const double share = 0.5 * (reached(of_bound.first) + reached(of_bound.last));
+  const double level = of_free.first + share * rise - shift;
+  const double across = std::clamp((level - of_bound.first) / (of_bound.last - of_bound.first), 0.0, 1.0);
+  const RollPoint on_free = free().point(free().lo() + share * free().width());
+  const RollPoint on_bound = bound().point(bound().lo() + across * bound().width());
+  const double off = on_free.value[guide_] - on_bound.value[guide_] - shift;
+  const Range way = Range{off, off} / bound().slope(guide_);  // of the bound contact to where the guide is 0
+  if (on_bound.x + way.least < bound().lo() || on_bound.x + way.most > bound().hi()) return false;
+  const double rounding = residual_rounding({on_free, on_bound});
+  for (std::size_t row = 0; row < free().rows(); ++row) {
+    if (row == guide_) continue;
+    const double turns = (free_is_a_ ? 1 : -1) * sides_.shift(row, limits_);
+    const double residual = on_free.value[row] - on_bound.value[row] - turns;
+    const Range there = Range{residual, residual} - way * bound().slope(row);
+    if (there.least > rounding || there.most < -rounding) return true;
+  }
+  return false;
 }
 
 /// The steepest equation in one contact, where its slope keeps its sign.
@@ -286,19 +315,26 @@ bool LineSearch::take_flat(const Stretch& stretch, const Bounds& along, bool is_
 }
 
 bool LineSearch::vanishes(const Place& place) const {
+  const double rounding = residual_rounding(place);
   for (std::size_t row = 0; row < free().rows(); ++row) {
-    if (row == guide_) continue;
-    double rates = 0;
-    for (const double rate : place.free.rate) rates += std::abs(rate);
-    for (const double rate : place.bound.rate) rates += std::abs(rate);
-    if (std::abs(residual(place, row)) > 2 * kTurnAccuracy + kResidualRounding * limits_.perimeter * rates)
-      return false;
+    if (row != guide_ && std::abs(residual(place, row)) > rounding) return false;
   }
   return true;
 }
 
+/// What a residual that is 0 may be off.
+double LineSearch::residual_rounding(const Place& place) const {
+  double rates = 0;
+  for (const double rate : place.free.rate) rates += std::abs(rate);
+  for (const double rate : place.bound.rate) rates += std::abs(rate);
+  return 2 * kTurnAccuracy + kResidualRounding * limits_.perimeter * rates;
+}
+
 /// Do the curves coincide all along the part of a stretch that lies in the box?
 bool LineSearch::overlaps(const Stretch& whole, std::vector<Place>& samples) const {
+  for (const Place* end : {&whole.lo, &whole.hi}) {  // one that is not clipped: nearly always that settles it
+    if (end->bound.x >= bound().lo() && end->bound.x <= bound().hi() && !vanishes(*end)) return false;
+  }
   Stretch stretch = whole;
   if (turns_round(stretch)) {  // all of it must be in the box
     const Range reached = bounds(stretch).bound_x;

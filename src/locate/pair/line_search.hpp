@@ -55,7 +55,9 @@ class LineSearch {
   std::size_t steepest(const Bounds& along) const;
   bool take_flat(const Stretch& stretch, const Bounds& along, bool is_point);
   bool overlaps(const Stretch& whole, std::vector<Place>& samples) const;
+  bool is_apart_midway() const;
   bool vanishes(const Place& place) const;
+  double residual_rounding(const Place& place) const;
   Place turn_between(const Place& one, const Place& two) const;
   void take_overlap(std::vector<Place> samples);
   void take_monotone(const Stretch& stretch, const Bounds& along, std::size_t row);

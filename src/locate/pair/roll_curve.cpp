@@ -27,9 +27,11 @@ RollCurve::RollCurve(const Part& part, RollEquations equations, const Interval& 
   components_.reserve(8 * count * rows_);
   values_.reserve(8 * count * rows_);
   rates_.reserve(8 * count * contacts_);
+  panels_.reserve(8 * count * contacts_);
   for (std::size_t k = 0; k < count; ++k) {
-    const std::uint32_t first = add_point(pieces_[k], pieces_[k].lo);
-    const std::uint32_t last = add_point(pieces_[k], pieces_[k].hi);
+    const auto panel_at = [&](std::size_t c, double base) { return panel_on_spiral(pieces_[k], c, base); };
+    const std::uint32_t first = add_point(pieces_[k], pieces_[k].lo, panel_at);
+    const std::uint32_t last = add_point(pieces_[k], pieces_[k].hi, panel_at);
     find_constants(pieces_[k], first, last);
     make_node(static_cast<std::uint32_t>(k), pieces_[k].lo, pieces_[k].hi, first, last);
   }
@@ -118,10 +120,12 @@ void RollCurve::add_pivots(double s, const std::vector<Range>& tangents) {
 /// slope vanishes at more points than the turning function's polynomials have terms it vanishes in between.
 void RollCurve::find_constants(RollPiece& piece, std::uint32_t first, std::uint32_t last) const {
   piece.constant.assign(rows_, true);
-  RollPoint at = stored(first, piece.lo);
+  const auto panel_at = [&](std::size_t c, double base) { return panel_on_spiral(piece, c, base); };
+  RollPoint at;
   for (int k = 0; k <= kConstantSamples; ++k) {
-    if (k == 1) at = stored(last, piece.hi);  // both ends first: nearly always they settle it
-    if (k > 1) evaluate(piece, piece.lo + piece.width() * (k - 1) / kConstantSamples, at.value.data(), at.rate.data());
+    if (k <= 1) at = stored(k == 0 ? first : last, 0);  // both ends first: nearly always they settle it
+    const double x = piece.lo + piece.width() * (k - 1) / kConstantSamples;
+    if (k > 1) evaluate(piece, x, panel_at, at.value.data(), at.rate.data());
     double scale = 1 / turning_.perimeter();
     for (const double rate : at.rate) scale += std::abs(rate);
     bool any = false;
@@ -133,7 +137,8 @@ void RollCurve::find_constants(RollPiece& piece, std::uint32_t first, std::uint3
   }
 }
 
-void RollCurve::evaluate(const RollPiece& piece, double x, double* value, double* rate) const {
+template <class PanelAt>
+void RollCurve::evaluate(const RollPiece& piece, double x, const PanelAt& panel_at, double* value, double* rate) const {
   double first_angle = 0;
   for (std::size_t c = 0; c < contacts_; ++c) {
     double angle = piece.angle[c];
@@ -142,7 +147,8 @@ void RollCurve::evaluate(const RollPiece& piece, double x, double* value, double
       angle += pivots ? x : 0;
       rate[c] = pivots ? 1 : 0;
     } else {
-      const Turning at = turning_.on_spiral(turning_.spirals()[piece.spiral[c]], x + piece.offset[c]);
+      const double base = x + piece.offset[c];
+      const Turning at = turning_.on_panel(panel_at(c, base), base);
       angle += at.angle;
       rate[c] = at.curvature;
     }
@@ -156,17 +162,18 @@ void RollCurve::evaluate(const RollPiece& piece, double x, double* value, double
   evaluations_ += piece.pivot_at ? 0 : contacts_;
 }
 
-RollPoint RollCurve::point(const RollPiece& piece, const Interval& inside, double x) const {
-  RollPoint point;
+void RollCurve::move(RollPoint& point, const Node& node, double x) const {
   point.x = x;
-  point.value.resize(rows_);
-  point.rate.resize(contacts_);
-  const double nearest = std::clamp(x, inside.lo, inside.hi);
-  evaluate(piece, nearest, point.value.data(), point.rate.data());
+  point.value.resize(rows_, boost::container::default_init);
+  point.rate.resize(contacts_, boost::container::default_init);
+  const double nearest = std::clamp(x, node.lo, node.hi);
+  const std::uint32_t* from = &panels_[node.first * contacts_];
+  const std::uint32_t* to = &panels_[node.last * contacts_];
+  const auto panel_between = [&](std::size_t c, double base) { return turning_.panel_index(from[c], to[c], base); };
+  evaluate(piece(node), nearest, panel_between, point.value.data(), point.rate.data());
   if (x != nearest) {
     for (std::size_t row = 0; row < rows_; ++row) point.value[row] += (x - nearest) * point.slope(row);
   }
-  return point;
 }
 
 RollPoint RollCurve::stored(std::uint32_t index, double x) const {
@@ -179,11 +186,15 @@ RollPoint RollCurve::stored(std::uint32_t index, double x) const {
   return point;
 }
 
-std::uint32_t RollCurve::add_point(const RollPiece& piece, double x) {
+template <class PanelAt>
+std::uint32_t RollCurve::add_point(const RollPiece& piece, double x, const PanelAt& panel_at) {
   const std::size_t index = values_.size() / rows_;
   values_.resize(values_.size() + rows_);
   rates_.resize(rates_.size() + contacts_);
-  evaluate(piece, x, &values_[index * rows_], &rates_[index * contacts_]);
+  panels_.resize(panels_.size() + contacts_);
+  std::uint32_t* panels = &panels_[index * contacts_];
+  const auto keep_panel = [&](std::size_t c, double base) { return panels[c] = panel_at(c, base); };
+  evaluate(piece, x, keep_panel, &values_[index * rows_], &rates_[index * contacts_]);
   return static_cast<std::uint32_t>(index);
 }
 
@@ -232,7 +243,10 @@ std::pair<std::int32_t, std::int32_t> RollCurve::halves(std::int32_t index) {
   const Node node = this->node(index);
   if (node.left >= 0) return {node.left, node.right};
   const double x = 0.5 * (node.lo + node.hi);
-  const std::uint32_t middle = add_point(pieces_[node.piece], x);
+  const auto panel_between = [&](std::size_t c, double base) {
+    return turning_.panel_index(panels_[node.first * contacts_ + c], panels_[node.last * contacts_ + c], base);
+  };
+  const std::uint32_t middle = add_point(pieces_[node.piece], x, panel_between);
   const std::int32_t left = make_node(node.piece, node.lo, x, node.first, middle);
   const std::int32_t right = make_node(node.piece, x, node.hi, middle, node.last);
   nodes_[static_cast<std::size_t>(index)].left = left;

@@ -93,7 +93,6 @@ class RollCurve {
   /// One for each row; good until a node is halved.
   const Component* components(std::int32_t node) const { return &components_[static_cast<std::size_t>(node) * rows_]; }
   const RollPiece& piece(const Node& node) const { return pieces_[node.piece]; }
-  const std::vector<RollPiece>& pieces() const { return pieces_; }
   RollPoint first(const Node& node) const { return stored(node.first, node.lo); }
   RollPoint last(const Node& node) const { return stored(node.last, node.hi); }
   std::int32_t root() const { return root_; }  // -1: no pieces
@@ -102,9 +101,9 @@ class RollCurve {
   /// The two halves of a node; of one with many pieces its two sides.
   std::pair<std::int32_t, std::int32_t> halves(std::int32_t index);
 
-  /// The curve at x, and beyond the ends of `inside` its tangents there: the slopes keep the bounds that they have
-  /// inside.
-  RollPoint point(const RollPiece& piece, const Interval& inside, double x) const;
+  /// Takes a point to x on a node of one piece, and beyond its ends along its tangents there: the slopes keep the
+  /// bounds that they have inside.
+  void move(RollPoint& point, const Node& node, double x) const;
 
   /// Bounds on a component's slope between two points of one piece, for the rates are monotone.
   Range slope_between(const RollPiece& piece, const RollPoint& one, const RollPoint& two, std::size_t row) const {
@@ -130,9 +129,14 @@ class RollCurve {
   void add_pivots(double s, const std::vector<Range>& tangents);
   std::int32_t make_node(std::uint32_t piece, double lo, double hi, std::uint32_t first, std::uint32_t last);
   std::int32_t join(std::size_t from, std::size_t to);
-  std::uint32_t add_point(const RollPiece& piece, double x);
-  /// `value` one per row, `rate` one per contact.
-  void evaluate(const RollPiece& piece, double x, double* value, double* rate) const;
+  template <class PanelAt>
+  std::uint32_t add_point(const RollPiece& piece, double x, const PanelAt& panel_at);
+  /// `value` one per row, `rate` one per contact; `panel_at` finds the panel of a contact that is at a place.
+  template <class PanelAt>
+  void evaluate(const RollPiece& piece, double x, const PanelAt& panel_at, double* value, double* rate) const;
+  std::uint32_t panel_on_spiral(const RollPiece& piece, std::size_t c, double base) const {
+    return turning_.panel_index(turning_.spirals()[piece.spiral[c]], base);
+  }
 
   const Part& part_;
   const TurningFunction& turning_;
@@ -143,8 +147,9 @@ class RollCurve {
   std::vector<RollPatch> patches_;
   std::vector<Node> nodes_;
   std::vector<Component> components_;
-  std::vector<double> values_;  // of the points: rows_ of each
-  std::vector<double> rates_;   // contacts_ of each
+  std::vector<double> values_;         // of the points: rows_ of each
+  std::vector<double> rates_;          // contacts_ of each
+  std::vector<std::uint32_t> panels_;  // that each contact is on; of a pivot unused
   std::int32_t root_ = -1;
   mutable std::size_t evaluations_ = 0;
 };
