@@ -145,8 +145,9 @@ void BoxSearch::halve(const Box& box, bool side_a) {
   const bool on_pieces = a_.node(box.a).on_one_piece() && b_.node(box.b).on_one_piece();
   const int depth = on_pieces ? box.depth + 1 : 0;
   const auto [left, right] = side_a ? a_.halves(box.a) : b_.halves(box.b);
-  waiting_.push_back(side_a ? Box{right, box.b, depth, box.covered} : Box{box.a, right, depth, box.covered});
-  waiting_.push_back(side_a ? Box{left, box.b, depth, box.covered} : Box{box.a, left, depth, box.covered});
+  for (const std::int32_t half : {right, left}) {
+    if (half >= 0) waiting_.push_back({side_a ? half : box.a, side_a ? box.b : half, depth, box.covered});
+  }
 }
 
 /// Seen along either side's chord, the two are further apart than the tolerance.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "../accuracy.hpp"
 
@@ -11,6 +10,8 @@ namespace rollfix {
 namespace {
 
 constexpr int kConstantSamples = 20;
+// Down to so many cuts halves are bounded by the part's tree: below, pieces have bounds that are as good.
+constexpr std::size_t kFewCuts = 6;
 
 }  // namespace
 
@@ -18,24 +19,72 @@ RollCurve::RollCurve(const Part& part, RollEquations equations, const Interval& 
     : part_(part),
       turning_(part.turning()),
       equations_(std::move(equations)),
+      strips_(part, equations_, range),
       rows_(equations_.rows()),
-      contacts_(equations_.lengths.size() + 1) {
+      contacts_(equations_.contacts()) {
+  root_ = strips_.is_empty() ? cut(range) : make_uncut(range, strips_.whole().data());
+}
+
+/// A node over all pieces of this range.
+std::int32_t RollCurve::cut(const Interval& range) {
+  const std::size_t before = pieces_.size();
   make_pieces(range);
-  if (pieces_.empty()) return;
-  const std::size_t count = pieces_.size();
-  nodes_.reserve(8 * count);
-  components_.reserve(8 * count * rows_);
-  values_.reserve(8 * count * rows_);
-  rates_.reserve(8 * count * contacts_);
-  panels_.reserve(8 * count * contacts_);
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto panel_at = [&](std::size_t c, double base) { return panel_on_spiral(pieces_[k], c, base); };
-    const std::uint32_t first = add_point(pieces_[k], pieces_[k].lo, panel_at);
-    const std::uint32_t last = add_point(pieces_[k], pieces_[k].hi, panel_at);
-    find_constants(pieces_[k], first, last);
-    make_node(static_cast<std::uint32_t>(k), pieces_[k].lo, pieces_[k].hi, first, last);
+  const auto first_node = static_cast<std::int32_t>(nodes_.size());
+  if (before == 0) {
+    const std::size_t count = pieces_.size();
+    nodes_.reserve(8 * count);
+    components_.reserve(8 * count * rows_);
+    values_.reserve(8 * count * rows_);
+    rates_.reserve(8 * count * contacts_);
+    panels_.reserve(8 * count * contacts_);
   }
-  root_ = join(0, count);
+  for (std::size_t k = before; k < pieces_.size(); ++k) {
+    RollPiece& piece = pieces_[k];
+    const auto panel_at = [&](std::size_t c, double base) { return panel_on_spiral(piece, c, base); };
+    const std::uint32_t first = add_point(piece, piece.lo, panel_at);
+    const std::uint32_t last = add_point(piece, piece.hi, panel_at);
+    find_constants(piece, first, last);
+    make_node(static_cast<std::uint32_t>(k), piece.lo, piece.hi, first, last);
+  }
+  if (pieces_.size() == before) return -1;
+  return join(first_node, static_cast<std::int32_t>(nodes_.size()));
+}
+
+std::int32_t RollCurve::make_uncut(const Interval& s, const RollStrips::Span* spans) {
+  Node node;
+  node.lo = s.lo;
+  node.hi = s.hi;
+  node.first = static_cast<std::uint32_t>(spans_.size());
+  spans_.insert(spans_.end(), spans, spans + contacts_);
+  boost::container::small_vector<Range, 4> values(rows_);
+  strips_.bound(s, &spans_[node.first], values.data());
+  for (const Range& value : values) components_.push_back({value, {}, 0, 0});
+  nodes_.push_back(node);
+  return static_cast<std::int32_t>(nodes_.size() - 1);
+}
+
+/// Gives an uncut node its children: pieces where they are few.
+void RollCurve::divide(std::size_t index) {
+  const Interval s{nodes_[index].lo, nodes_[index].hi};
+  const RollStrips::Span* spans = &spans_[nodes_[index].first];
+  boost::container::small_vector<RollStrips::Span, 8> halves(2 * contacts_);
+  const bool few = strips_.cuts(spans) <= kFewCuts;
+  const double middle = few ? s.lo : strips_.halve(spans, halves.data(), halves.data() + contacts_);
+  std::int32_t left = -1;
+  std::int32_t right = -1;
+  if (middle > s.lo && middle < s.hi) {
+    left = make_uncut({s.lo, middle}, halves.data());
+    right = make_uncut({middle, s.hi}, halves.data() + contacts_);
+  } else {
+    left = cut(s);
+    if (left >= 0 && !node(left).on_one_piece()) {
+      const Node joined = node(left);
+      left = joined.left;
+      right = joined.right;
+    }
+  }
+  nodes_[index].left = left;
+  nodes_[index].right = right;
 }
 
 /// Cuts the range of first contacts wherever a contact passes from one spiral to the next, and puts a pivot wherever
@@ -43,7 +92,9 @@ RollCurve::RollCurve(const Part& part, RollEquations equations, const Interval& 
 void RollCurve::make_pieces(const Interval& range) {
   const double same_place = kLengthAccuracy * turning_.perimeter();
   std::vector<Cursor> contacts;
-  for (std::size_t c = 0; c < contacts_; ++c) contacts.push_back(Cursor::ahead(turning_, range.lo + length_to(c)));
+  for (std::size_t c = 0; c < contacts_; ++c) {
+    contacts.push_back(Cursor::ahead(turning_, range.lo + equations_.length_to(c)));
+  }
   const auto end_of = [&](std::size_t c) { return contacts[c].spiral().hi - offset_of(c, contacts[c]); };
 
   double here = range.lo;
@@ -80,7 +131,7 @@ void RollCurve::pass_corners(double s, const std::vector<Cursor>& contacts) {
   for (std::size_t c = 0; c < contacts_; ++c) {
     const Cursor& ahead = contacts[c];
     const bool passes = std::abs(s + offset_of(c, ahead) - ahead.spiral().lo) <= kLengthAccuracy * turning_.perimeter();
-    const double after = passes ? ahead.angle_after() : turning_.angle(s + length_to(c));
+    const double after = passes ? ahead.angle_after() : turning_.angle(s + equations_.length_to(c));
     const double jump = passes ? ahead.jump() : 0;
     const bool pivots = std::abs(jump) > kTurnAccuracy && !Corner{s, jump}.is_concave();
     if (pivots) ++corners;
@@ -217,10 +268,10 @@ std::int32_t RollCurve::make_node(std::uint32_t piece, double lo, double hi, std
   return static_cast<std::int32_t>(nodes_.size() - 1);
 }
 
-/// A node over the pieces [from, to).
-std::int32_t RollCurve::join(std::size_t from, std::size_t to) {
-  if (to - from == 1) return static_cast<std::int32_t>(from);
-  const std::size_t middle = from + (to - from) / 2;
+/// A node over these of pieces, the last one not included.
+std::int32_t RollCurve::join(std::int32_t from, std::int32_t to) {
+  if (to - from == 1) return from;
+  const std::int32_t middle = from + (to - from) / 2;
   Node node;
   node.left = join(from, middle);
   node.right = join(middle, to);
@@ -240,8 +291,9 @@ std::int32_t RollCurve::join(std::size_t from, std::size_t to) {
 }
 
 std::pair<std::int32_t, std::int32_t> RollCurve::halves(std::int32_t index) {
+  if (!node(index).on_one_piece() && node(index).left < 0) divide(static_cast<std::size_t>(index));
   const Node node = this->node(index);
-  if (node.left >= 0) return {node.left, node.right};
+  if (node.left >= 0 || !node.on_one_piece()) return {node.left, node.right};
   const double x = 0.5 * (node.lo + node.hi);
   const auto panel_between = [&](std::size_t c, double base) {
     return turning_.panel_index(panels_[node.first * contacts_ + c], panels_[node.last * contacts_ + c], base);
