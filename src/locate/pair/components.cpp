@@ -15,6 +15,9 @@ namespace {
 
 /// Does a segment come closer than `slack` to a box?
 bool segment_meets(const PairPoint& a, const PairPoint& b, const PairBox& box, double slack) {
+  for (const std::size_t k : {0U, 1U}) {
+    if (std::max(a[k], b[k]) < box[k].lo - slack || std::min(a[k], b[k]) > box[k].hi + slack) return false;
+  }
   double lo = 0;
   double hi = 1;
   for (const std::size_t k : {0U, 1U}) {
@@ -83,6 +86,7 @@ bool pieces_meet(const PairPiece& one, const PairPiece& two, const Shift& shift,
   const double reach = slack + one.error + two.error;
   if (!boxes_meet(one.box, other, reach)) return false;
   if (one.line.empty() && two.line.empty()) {
+    if (one.hull.empty() && two.hull.empty()) return true;
     const std::vector<PairPoint> at_one = polygon_of(one, {0, 0});
     const std::vector<PairPoint> at_two = polygon_of(two, shift);
     return !separates(at_one, at_two, reach) && !separates(at_two, at_one, reach);
@@ -94,7 +98,7 @@ bool pieces_meet(const PairPiece& one, const PairPiece& two, const Shift& shift,
     const PairPoint& b = one.line[k + 1];
     const PairBox segment{Interval{std::min(a[0], b[0]), std::max(a[0], b[0])},
                           Interval{std::min(a[1], b[1]), std::max(a[1], b[1])}};
-    if (line_meets(two.line, shift, segment, reach)) return true;
+    if (boxes_meet(segment, other, 2 * reach) && line_meets(two.line, shift, segment, reach)) return true;
   }
   return false;
 }

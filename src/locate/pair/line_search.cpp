@@ -29,7 +29,7 @@ constexpr double kBandBend = 0.5;
 constexpr double kStraightShare = 0.1;
 
 /// Where one component of a side, monotone, has this value.
-RollPoint solve_side(const BoxSide& side, std::size_t row, double target) {
+double solve_side(const BoxSide& side, std::size_t row, double target) {
   const RollCurve::Component& component = side.component(row);
   const double rise = component.last - component.first;
   double lo = side.lo();
@@ -37,22 +37,21 @@ RollPoint solve_side(const BoxSide& side, std::size_t row, double target) {
   const double share = rise == 0 ? 0.5 : (target - component.first) / rise;
   if (share <= 0 || share >= 1) {  // beyond an end the continuation is straight
     const RollPoint end = share <= 0 ? side.first() : side.last();
-    return side.point(end.x + (target - end.value[row]) / end.slope(row));
+    return end.x + (target - end.value[row]) / end.slope(row);
   }
   double x = lo + share * (hi - lo);
   const bool rises = rise > 0;
-  RollPoint at = side.point(x);
   for (int round = 0; round < kMostLineRounds; ++round) {
-    const double off = at.value[row] - target;
+    const RollCurve::Place at = side.place(x, row);
+    const double off = at.value - target;
     if (off == 0) break;
     ((off > 0) == rises ? hi : lo) = x;
-    double next = x - off / at.slope(row);
+    double next = x - off / at.slope;
     if (!(next > lo && next < hi)) next = 0.5 * (lo + hi);
     if (next == x || std::abs(next - x) <= 1e-16 * (std::abs(x) + side.width())) break;
     x = next;
-    side.move(at, x);
   }
-  return at;
+  return x;
 }
 
 }  // namespace
@@ -135,9 +134,14 @@ bool LineSearch::choose_guide() {
 
 LineSearch::Place LineSearch::place(double x) const {
   Place place{free().point(x), {}};
-  const double shift = sides_.shift(guide_, limits_);
-  place.bound = solve_side(bound(), guide_, place.free.value[guide_] - (free_is_a_ ? shift : -shift));
+  bound().move(place.bound, bound_at(place.free.value[guide_]));
   return place;
+}
+
+/// Where the other contact is while the guide's component of the free one has this value.
+double LineSearch::bound_at(double value) const {
+  const double shift = sides_.shift(guide_, limits_);
+  return solve_side(bound(), guide_, value - (free_is_a_ ? shift : -shift));
 }
 
 double LineSearch::residual(const Place& place, std::size_t row) const {
@@ -330,6 +334,14 @@ double LineSearch::residual_rounding(const Place& place) const {
   return 2 * kTurnAccuracy + kResidualRounding * limits_.perimeter * rates;
 }
 
+/// Lines, arcs and pivots: all components are linear, and zero in between where they are at both ends.
+bool LineSearch::is_straight() const {
+  for (std::size_t row = 0; row < free().rows(); ++row) {
+    if (free().slope(row).spread() != 0 || bound().slope(row).spread() != 0) return false;
+  }
+  return true;
+}
+
 /// Do the curves coincide all along the part of a stretch that lies in the box?
 bool LineSearch::overlaps(const Stretch& whole, std::vector<Place>& samples) const {
   for (const Place* end : {&whole.lo, &whole.hi}) {  // one that is not clipped: nearly always that settles it
@@ -345,19 +357,32 @@ bool LineSearch::overlaps(const Stretch& whole, std::vector<Place>& samples) con
   const double width = stretch.hi.free.x - stretch.lo.free.x;
   if (width <= kShortestOverlap * (free().pivots() ? 1 : limits_.perimeter)) return false;
   if (!vanishes(stretch.lo) || !vanishes(stretch.hi)) return false;
+  samples.reserve(kOverlapSamples + 1);
   samples.push_back(stretch.lo);
+  const bool straight = is_straight();
+  if (straight && !slopes_vanish(stretch.lo)) return false;
   for (int k = 1; k < kOverlapSamples; ++k) {
-    samples.push_back(place(stretch.lo.free.x + width * k / kOverlapSamples));
-    const Place& at = samples.back();
-    double scale = 1 / limits_.perimeter;
-    for (const double rate : at.free.rate) scale += std::abs(rate);
-    for (const double rate : at.bound.rate) scale += std::abs(rate * direction(at));
-    for (std::size_t row = 0; row < free().rows(); ++row) {
-      if (row != guide_ && std::abs(residual_slope(at, row)) > kOverlapSlope * scale) return false;
+    const double x = stretch.lo.free.x + width * k / kOverlapSamples;
+    if (straight) {
+      samples.push_back(stretch.lo);
+      samples.back().free.x = x;
+      samples.back().bound.x = bound_at(free().place(x, guide_).value);
+    } else {
+      samples.push_back(place(x));
+      if (!slopes_vanish(samples.back()) || !vanishes(samples.back())) return false;
     }
-    if (!vanishes(at)) return false;
   }
   samples.push_back(stretch.hi);
+  return true;
+}
+
+bool LineSearch::slopes_vanish(const Place& at) const {
+  double scale = 1 / limits_.perimeter;
+  for (const double rate : at.free.rate) scale += std::abs(rate);
+  for (const double rate : at.bound.rate) scale += std::abs(rate * direction(at));
+  for (std::size_t row = 0; row < free().rows(); ++row) {
+    if (row != guide_ && std::abs(residual_slope(at, row)) > kOverlapSlope * scale) return false;
+  }
   return true;
 }
 

@@ -44,6 +44,7 @@ class BoxSide {
     move(point, x);
     return point;
   }
+  RollCurve::Place place(double x, std::size_t row) const { return curve_->place(curve_->node(node_), x, row); }
   void move(RollPoint& point, double x) const { curve_->move(point, curve_->node(node_), x); }
   /// Places closer together than this are one: a share of the perimeter, or of a radian where the finger pivots.
   double same_place(const PairLimits& limits) const { return pivots() ? kLengthAccuracy : limits.same_place; }

@@ -189,28 +189,36 @@ void RollCurve::find_constants(RollPiece& piece, std::uint32_t first, std::uint3
 }
 
 template <class PanelAt>
+Turning RollCurve::contact_at(const RollPiece& piece, double x, std::size_t c, const PanelAt& panel_at) const {
+  const double angle = piece.angle[c];
+  if (piece.pivot_at) return c == *piece.pivot ? Turning{angle + x, 1} : Turning{angle, 0};
+  const double base = x + piece.offset[c];
+  const Turning at = turning_.on_panel(panel_at(c, base), base);
+  return {angle + at.angle, at.curvature};
+}
+
+template <class PanelAt>
 void RollCurve::evaluate(const RollPiece& piece, double x, const PanelAt& panel_at, double* value, double* rate) const {
-  double first_angle = 0;
-  for (std::size_t c = 0; c < contacts_; ++c) {
-    double angle = piece.angle[c];
-    if (piece.pivot_at) {
-      const bool pivots = c == *piece.pivot;
-      angle += pivots ? x : 0;
-      rate[c] = pivots ? 1 : 0;
-    } else {
-      const double base = x + piece.offset[c];
-      const Turning at = turning_.on_panel(panel_at(c, base), base);
-      angle += at.angle;
-      rate[c] = at.curvature;
-    }
-    if (c == 0) {
-      first_angle = angle;
-    } else {
-      value[c - 1] = angle - first_angle + equations_.shifts[c - 1];  // one side of (8), (9)
-    }
+  const Turning start = contact_at(piece, x, 0, panel_at);
+  rate[0] = start.curvature;
+  for (std::size_t c = 1; c < contacts_; ++c) {
+    const Turning end = contact_at(piece, x, c, panel_at);
+    rate[c] = end.curvature;
+    value[c - 1] = end.angle - start.angle + equations_.shifts[c - 1];  // one side of (8), (9)
   }
-  if (equations_.facing) value[rows_ - 1] = first_angle + *equations_.facing;
+  if (equations_.facing) value[rows_ - 1] = start.angle + *equations_.facing;
   evaluations_ += piece.pivot_at ? 0 : contacts_;
+}
+
+RollCurve::Place RollCurve::place(const Node& node, double x, std::size_t row) const {
+  const RollPiece& piece = this->piece(node);
+  const auto panel_at = [&](std::size_t c, double base) { return panel_between(node, c, base); };
+  const Turning start = contact_at(piece, x, 0, panel_at);
+  const bool is_facing = row + 1 == contacts_;
+  evaluations_ += piece.pivot_at ? 0 : (is_facing ? 1 : 2);
+  if (is_facing) return {start.angle + *equations_.facing, start.curvature};
+  const Turning end = contact_at(piece, x, row + 1, panel_at);
+  return {end.angle - start.angle + equations_.shifts[row], end.curvature - start.curvature};
 }
 
 void RollCurve::move(RollPoint& point, const Node& node, double x) const {
@@ -218,10 +226,8 @@ void RollCurve::move(RollPoint& point, const Node& node, double x) const {
   point.value.resize(rows_, boost::container::default_init);
   point.rate.resize(contacts_, boost::container::default_init);
   const double nearest = std::clamp(x, node.lo, node.hi);
-  const std::uint32_t* from = &panels_[node.first * contacts_];
-  const std::uint32_t* to = &panels_[node.last * contacts_];
-  const auto panel_between = [&](std::size_t c, double base) { return turning_.panel_index(from[c], to[c], base); };
-  evaluate(piece(node), nearest, panel_between, point.value.data(), point.rate.data());
+  const auto panel_at = [&](std::size_t c, double base) { return panel_between(node, c, base); };
+  evaluate(piece(node), nearest, panel_at, point.value.data(), point.rate.data());
   if (x != nearest) {
     for (std::size_t row = 0; row < rows_; ++row) point.value[row] += (x - nearest) * point.slope(row);
   }
@@ -295,10 +301,8 @@ std::pair<std::int32_t, std::int32_t> RollCurve::halves(std::int32_t index) {
   const Node node = this->node(index);
   if (node.left >= 0 || !node.on_one_piece()) return {node.left, node.right};
   const double x = 0.5 * (node.lo + node.hi);
-  const auto panel_between = [&](std::size_t c, double base) {
-    return turning_.panel_index(panels_[node.first * contacts_ + c], panels_[node.last * contacts_ + c], base);
-  };
-  const std::uint32_t middle = add_point(pieces_[node.piece], x, panel_between);
+  const auto panel_at = [&](std::size_t c, double base) { return panel_between(node, c, base); };
+  const std::uint32_t middle = add_point(pieces_[node.piece], x, panel_at);
   const std::int32_t left = make_node(node.piece, node.lo, x, node.first, middle);
   const std::int32_t right = make_node(node.piece, x, node.hi, middle, node.last);
   nodes_[static_cast<std::size_t>(index)].left = left;

@@ -99,6 +99,13 @@ class RollCurve {
   /// bounds that they have inside.
   void move(RollPoint& point, const Node& node, double x) const;
 
+  /// One component's value and its slope by x, at x on a node of one piece.
+  struct Place {
+    double value = 0;
+    double slope = 0;
+  };
+  Place place(const Node& node, double x, std::size_t row) const;
+
   /// Bounds on a component's slope between two points of one piece, for the rates are monotone.
   Range slope_between(const RollPiece& piece, const RollPoint& one, const RollPoint& two, std::size_t row) const {
     return slope_between(piece, one.rate.data(), two.rate.data(), row);
@@ -127,9 +134,16 @@ class RollCurve {
   std::int32_t join(std::int32_t from, std::int32_t to);
   template <class PanelAt>
   std::uint32_t add_point(const RollPiece& piece, double x, const PanelAt& panel_at);
+  /// A contact's tangent's angle and its rate by x.
+  template <class PanelAt>
+  Turning contact_at(const RollPiece& piece, double x, std::size_t c, const PanelAt& panel_at) const;
   /// `value` one per row, `rate` one per contact; `panel_at` finds the panel of a contact that is at a place.
   template <class PanelAt>
   void evaluate(const RollPiece& piece, double x, const PanelAt& panel_at, double* value, double* rate) const;
+  /// The panel of a contact that is between a node's ends.
+  std::uint32_t panel_between(const Node& node, std::size_t c, double base) const {
+    return turning_.panel_index(panels_[node.first * contacts_ + c], panels_[node.last * contacts_ + c], base);
+  }
   std::uint32_t panel_on_spiral(const RollPiece& piece, std::size_t c, double base) const {
     return turning_.panel_index(turning_.spirals()[piece.spiral[c]], base);
   }
