@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
+#include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -254,18 +255,36 @@ void PlacementMaker::make(FoundSet&& found, Placement& placement, const SlopeSam
   }
   placement.family = std::move(found.family);
   placement.family_error = found.family_error;
-  placement.residual = sample != nullptr ? std::abs(sample->value) : residual_at(question_, found.start);
-  if (placement.kind == Kind::corner) {
-    describe_corner(found, placement);
-  } else if (sample != nullptr) {
-    describe_slopes(question_, sample, placement);
+  if (sample != nullptr) {
+    placement.residual = std::abs(sample->value);
+    if (placement.kind != Kind::corner) describe_slopes(question_, sample, placement);
+  } else if (placement.kind != Kind::corner) {
+    describe_contacts(found.start, placement);
   } else {
-    std::vector<SlopeSample> samples;
-    for (const Reading& reading : question_.readings) {
-      samples.push_back(slope_sample(question_.part, reading, found.start));
-    }
-    describe_slopes(question_, samples.data(), placement);
+    placement.residual = residual_at(question_, found.start);
   }
+  if (placement.kind == Kind::corner) describe_corner(found, placement);
+}
+
+/// Residual and slopes; all contacts are looked up once.
+void PlacementMaker::describe_contacts(const PerFinger<double>& start, Placement& placement) const {
+  const TurningFunction& turning = question_.part.turning();
+  std::array<Tangents, 2> tangents;
+  boost::container::small_vector<SlopeSample, 4> samples;
+  for (const Reading& reading : question_.readings) samples.push_back({-reading.turn, start, start});
+  for (std::size_t finger = 0; finger < start.size(); ++finger) {
+    const Turning first = turning.at(start[finger]);
+    tangents[finger].push_back(first.angle);
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      const Turning last = turning.at(start[finger] + question_.readings[k].length[finger]);
+      tangents[finger].push_back(last.angle);
+      samples[k].start_curvature[finger] = first.curvature;
+      samples[k].end_curvature[finger] = last.curvature;
+    }
+  }
+  const bool plain = start.size() == 2 && question_.part.corners().empty();
+  placement.residual = plain ? residual_of(question_, tangents[0], tangents[1]) : residual_at(question_, start);
+  describe_slopes(question_, samples.data(), placement);
 }
 
 void PlacementMaker::place(const PerFinger<double>& start, Placement& placement) const {

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -272,6 +273,12 @@ bool BoxSearch::take_regular(const PairBoxSides& sides, const PairLimits& limits
 /// f hardly varies: it is 0 all over the box, or the box is too small to tell more, or it is within the tolerance all
 /// over the box, which leaves the roots to be found.
 BoxSearch::Flat BoxSearch::take_flat(const PairBoxSides& sides, const PairLimits& limits) {
+  const bool tiny = sides.a.width() <= sides.a.same_place(limits) && sides.b.width() <= sides.b.same_place(limits);
+  const double small_spread = kSmallVariation * limits.tolerance;
+  for (std::size_t row = 0; row < a_.rows() && !tiny; ++row) {  // nearly always the first one settles it
+    const Range f = sides.value(row, limits);
+    if (f.spread() > small_spread && f.size() > limits.tolerance) return Flat::no;
+  }
   double size = 0;
   double spread = 0;
   double middle = 0;
@@ -284,8 +291,7 @@ BoxSearch::Flat BoxSearch::take_flat(const PairBoxSides& sides, const PairLimits
     steepest = std::max({steepest, sides.a.slope(row).size(), sides.b.slope(row).size()});
   }
   const bool zero = size <= kTurnAccuracy;
-  const bool tiny = sides.a.width() <= sides.a.same_place(limits) && sides.b.width() <= sides.b.same_place(limits);
-  const bool small = spread <= kSmallVariation * limits.tolerance;
+  const bool small = spread <= small_spread;
   if (!zero && !tiny && !small && size > limits.tolerance) return Flat::no;
   if (middle > limits.tolerance) return Flat::settled;
   PairPiece piece;
@@ -307,18 +313,19 @@ BoxSearch::Flat BoxSearch::take_flat(const PairBoxSides& sides, const PairLimits
 
 /// Is f zero at two corners of the box? Then the curves may run along each other from one to the other.
 bool BoxSearch::corners_vanish(const PairBoxSides& sides) const {
-  int zeros = 0;
-  for (const auto end_of_a : {&RollCurve::Component::first, &RollCurve::Component::last}) {
-    for (const auto end_of_b : {&RollCurve::Component::first, &RollCurve::Component::last}) {
-      bool zero = true;
-      for (std::size_t row = 0; row < a_.rows() && zero; ++row) {
-        const double f = sides.a.component(row).*end_of_a - sides.b.component(row).*end_of_b;
-        zero = std::abs(f - sides.shift(row, limits_)) <= kRootTurn;
-      }
-      zeros += zero ? 1 : 0;
-    }
+  std::array<bool, 4> zero{true, true, true, true};
+  for (std::size_t row = 0; row < a_.rows(); ++row) {
+    const RollCurve::Component& of_a = sides.a.component(row);
+    const RollCurve::Component& of_b = sides.b.component(row);
+    const double shift = sides.shift(row, limits_);
+    const auto vanishes = [&](double a, double b) { return std::abs(a - b - shift) <= kRootTurn; };
+    zero[0] = zero[0] && vanishes(of_a.first, of_b.first);
+    zero[1] = zero[1] && vanishes(of_a.first, of_b.last);
+    zero[2] = zero[2] && vanishes(of_a.last, of_b.first);
+    zero[3] = zero[3] && vanishes(of_a.last, of_b.last);
+    if (std::count(zero.begin(), zero.end(), true) < 2) return false;
   }
-  return zeros >= 2;
+  return true;
 }
 
 }  // namespace rollfix

@@ -157,6 +157,8 @@ class SetsOfTwo {
     Eigen::VectorXd f;
     Matrix jacobian;
     linearize(at, f, jacobian);
+    Eigen::VectorXd next_f;
+    Matrix next_jacobian;
     double damping = 1e-6;
     for (int step = 0; step < kMostSteps && damping < 1e12; ++step) {
       Eigen::Matrix2d normal = jacobian.transpose() * jacobian;
@@ -167,8 +169,10 @@ class SetsOfTwo {
       for (const std::size_t k : {0U, 1U}) {
         next[k] = std::clamp(at[k] + move[static_cast<Eigen::Index>(k)], box[k].lo, box[k].hi);
       }
-      Eigen::VectorXd next_f;
-      Matrix next_jacobian;
+      if (next == at) {  // no better
+        damping *= 10;
+        continue;
+      }
       linearize(next, next_f, next_jacobian);
       const bool better = next_f.squaredNorm() < f.squaredNorm();
       damping *= better ? 0.1 : 10;

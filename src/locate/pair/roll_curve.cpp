@@ -97,10 +97,11 @@ void RollCurve::make_pieces(const Interval& range) {
   }
   const auto end_of = [&](std::size_t c) { return contacts[c].spiral().hi - offset_of(c, contacts[c]); };
 
+  if (strips_.is_empty()) pieces_.reserve(contacts_ * (turning_.spirals().size() + 1));
   double here = range.lo;
   pass_corners(here, contacts);
   while (here < range.hi) {
-    RollPiece piece;
+    RollPiece& piece = pieces_.emplace_back();
     double next = range.hi;
     for (std::size_t c = 0; c < contacts_; ++c) {
       piece.spiral.push_back(static_cast<std::uint32_t>(contacts[c].index()));
@@ -111,7 +112,7 @@ void RollCurve::make_pieces(const Interval& range) {
     if (range.hi - next <= same_place) next = range.hi;
     piece.lo = here;
     piece.hi = next;
-    if (next - here > same_place) pieces_.push_back(piece);
+    if (!(next - here > same_place)) pieces_.pop_back();
     here = std::max(here, next);
     bool moved = false;
     for (std::size_t c = 0; c < contacts_; ++c) {
