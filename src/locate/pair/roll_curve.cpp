@@ -127,19 +127,22 @@ void RollCurve::make_pieces(const Interval& range) {
 /// The contacts that stand at a joint while the first one is at s, which their cursors have just passed.
 void RollCurve::pass_corners(double s, const std::vector<Cursor>& contacts) {
   if (part_.corners().empty()) return;
-  std::vector<Range> tangents;
-  std::size_t corners = 0;
-  for (std::size_t c = 0; c < contacts_; ++c) {
-    const Cursor& ahead = contacts[c];
+  const auto jump_of = [&](const Cursor& ahead, std::size_t c) {
     const bool passes = std::abs(s + offset_of(c, ahead) - ahead.spiral().lo) <= kLengthAccuracy * turning_.perimeter();
-    const double after = passes ? ahead.angle_after() : turning_.angle(s + equations_.length_to(c));
-    const double jump = passes ? ahead.jump() : 0;
-    const bool pivots = std::abs(jump) > kTurnAccuracy && !Corner{s, jump}.is_concave();
-    if (pivots) ++corners;
-    const double before = pivots ? after - jump : after;
+    return passes ? std::optional(ahead.jump()) : std::nullopt;
+  };
+  const auto pivots = [&](double jump) { return std::abs(jump) > kTurnAccuracy && !Corner{s, jump}.is_concave(); };
+  std::size_t corners = 0;
+  for (std::size_t c = 0; c < contacts_; ++c) corners += pivots(jump_of(contacts[c], c).value_or(0)) ? 1 : 0;
+  if (corners == 0) return;
+  std::vector<Range> tangents;
+  for (std::size_t c = 0; c < contacts_; ++c) {
+    const std::optional<double> jump = jump_of(contacts[c], c);
+    const double after = jump ? contacts[c].angle_after() : turning_.angle(s + equations_.length_to(c));
+    const double before = jump && pivots(*jump) ? after - *jump : after;
     tangents.push_back({std::min(before, after), std::max(before, after)});
   }
-  if (corners > 0) add_pivots(s, tangents);
+  add_pivots(s, tangents);
   if (corners < 2) return;
   for (std::size_t c = 1; c < contacts_; ++c) {
     const double shift = equations_.shifts[c - 1];
@@ -173,16 +176,19 @@ void RollCurve::add_pivots(double s, const std::vector<Range>& tangents) {
 void RollCurve::find_constants(RollPiece& piece, std::uint32_t first, std::uint32_t last) const {
   piece.constant.assign(rows_, true);
   const auto panel_at = [&](std::size_t c, double base) { return panel_on_spiral(piece, c, base); };
-  RollPoint at;
+  boost::container::small_vector<double, 4> value(rows_);
+  boost::container::small_vector<double, 4> rate(contacts_);
   for (int k = 0; k <= kConstantSamples; ++k) {
-    if (k <= 1) at = stored(k == 0 ? first : last, 0);  // both ends first: nearly always they settle it
-    const double x = piece.lo + piece.width() * (k - 1) / kConstantSamples;
-    if (k > 1) evaluate(piece, x, panel_at, at.value.data(), at.rate.data());
+    const double* rates = k <= 1 ? &rates_[(k == 0 ? first : last) * contacts_] : rate.data();
+    if (k > 1) {  // both ends first: nearly always they settle it
+      evaluate(piece, piece.lo + piece.width() * (k - 1) / kConstantSamples, panel_at, value.data(), rate.data());
+    }
     double scale = 1 / turning_.perimeter();
-    for (const double rate : at.rate) scale += std::abs(rate);
+    for (std::size_t c = 0; c < contacts_; ++c) scale += std::abs(rates[c]);
     bool any = false;
     for (std::size_t row = 0; row < rows_; ++row) {
-      if (std::abs(at.slope(row)) > kNoSlope * scale) piece.constant[row] = false;
+      const double slope = row + 1 < contacts_ ? rates[row + 1] - rates[0] : rates[0];
+      if (std::abs(slope) > kNoSlope * scale) piece.constant[row] = false;
       any = any || piece.constant[row];
     }
     if (!any) return;
