@@ -59,6 +59,7 @@ PairPiece piece_around(const PairBoxSides& sides, const Polygon& extent, const V
   piece.box = {Interval{sides.a.s(least.x()), sides.a.s(most.x())},
                Interval{sides.b.s(least.y()), sides.b.s(most.y())}};
   piece.corner = sides.pivots();
+  piece.hull.reserve(extent.size());
   for (const Vec2& x : extent) piece.hull.push_back({sides.a.s(x.x()), sides.b.s(x.y())});
   return piece;
 }

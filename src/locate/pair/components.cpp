@@ -48,6 +48,7 @@ bool line_meets(const std::vector<PairPoint>& line, const Shift& shift, const Pa
 
 std::vector<PairPoint> polygon_of(const PairPiece& piece, const Shift& shift) {
   std::vector<PairPoint> polygon;
+  polygon.reserve(piece.hull.size());
   for (const PairPoint& point : piece.hull) polygon.push_back(moved(point, shift));
   if (!polygon.empty()) return polygon;
   const PairBox box = moved(piece.box, shift);
@@ -272,6 +273,9 @@ class Joiner {
 
   /// Do the members' intervals, together, cover all of one finger's boundary?
   bool covers_loop(const std::vector<std::size_t>& members, std::size_t finger) const {
+    double widths = 0;
+    for (const std::size_t k : members) widths += pieces_[k].box[finger].width() + 2 * kJointWidth * period_;
+    if (widths < 0.5 * period_) return false;  // by far
     std::vector<Interval> intervals;
     for (const std::size_t k : members) {
       const Interval& interval = pieces_[k].box[finger];

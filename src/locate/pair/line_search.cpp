@@ -503,6 +503,7 @@ Polygon LineSearch::narrow(const Polygon& band, const Place& lo, const Place& hi
 void LineSearch::take_hull(const Polygon& polygon, PairPiece& piece) const {
   if (polygon.empty()) return;
   for (const std::size_t k : {0U, 1U}) piece.box[k] = {piece.box[k].hi, piece.box[k].lo};
+  piece.hull.reserve(polygon.size());
   for (const Vec2& at : polygon) {
     const double one = free().s(at.x());
     const double other = bound().s(at.y());

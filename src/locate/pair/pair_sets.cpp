@@ -51,6 +51,7 @@ class SetsOfTwo {
       found.push_back(first);
       return found;
     }
+    if (cluster.roots.size() == 1) return cluster.roots.front().exact ? cluster.roots : found;
     std::vector<PairRoot> roots = cluster.roots;
     std::sort(roots.begin(), roots.end(), [](const PairRoot& one, const PairRoot& two) { return one.at < two.at; });
     for (const PairRoot& root : roots) {

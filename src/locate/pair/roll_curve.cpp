@@ -91,7 +91,7 @@ void RollCurve::divide(std::size_t index) {
 /// one passes a convex corner, or the tiny concave joint of a drawing (kJointTurn).
 void RollCurve::make_pieces(const Interval& range) {
   const double same_place = kLengthAccuracy * turning_.perimeter();
-  std::vector<Cursor> contacts;
+  Cursors contacts;
   for (std::size_t c = 0; c < contacts_; ++c) {
     contacts.push_back(Cursor::ahead(turning_, range.lo + equations_.length_to(c)));
   }
@@ -125,7 +125,7 @@ void RollCurve::make_pieces(const Interval& range) {
 }
 
 /// The contacts that stand at a joint while the first one is at s, which their cursors have just passed.
-void RollCurve::pass_corners(double s, const std::vector<Cursor>& contacts) {
+void RollCurve::pass_corners(double s, const Cursors& contacts) {
   if (part_.corners().empty()) return;
   const auto jump_of = [&](const Cursor& ahead, std::size_t c) {
     const bool passes = std::abs(s + offset_of(c, ahead) - ahead.spiral().lo) <= kLengthAccuracy * turning_.perimeter();

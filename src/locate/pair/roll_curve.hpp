@@ -114,6 +114,8 @@ class RollCurve {
   const std::vector<RollPatch>& patches() const { return patches_; }
 
  private:
+  using Cursors = boost::container::small_vector<Cursor, 4>;  // of the contacts
+
   Range slope_between(const RollPiece& piece, const double* one, const double* two, std::size_t row) const {
     if (piece.constant[row]) return {0, 0};
     const Range start = hull(one[0], two[0]);
@@ -127,7 +129,7 @@ class RollCurve {
   std::int32_t make_uncut(const Interval& s, const RollStrips::Span* spans);
   void divide(std::size_t index);
   void make_pieces(const Interval& range);
-  void pass_corners(double s, const std::vector<Cursor>& contacts);
+  void pass_corners(double s, const Cursors& contacts);
   void find_constants(RollPiece& piece, std::uint32_t first, std::uint32_t last) const;
   void add_pivots(double s, const std::vector<Range>& tangents);
   std::int32_t make_node(std::uint32_t piece, double lo, double hi, std::uint32_t first, std::uint32_t last);
