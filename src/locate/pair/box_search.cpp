@@ -64,6 +64,24 @@ PairPiece piece_around(const PairBoxSides& sides, const Polygon& extent, const V
   return piece;
 }
 
+/// Does this hold at a corner of the box, of its place and two rows' residuals there?
+template <class Test>
+bool any_corner(const PairBoxSides& sides, const PairLimits& limits, const std::array<std::size_t, 2>& rows,
+                const Test& test) {
+  for (const bool last_of_a : {false, true}) {
+    for (const bool last_of_b : {false, true}) {
+      const auto residual = [&](std::size_t row) {
+        const RollCurve::Component& of_a = sides.a.component(row);
+        const RollCurve::Component& of_b = sides.b.component(row);
+        return (last_of_a ? of_a.last : of_a.first) - (last_of_b ? of_b.last : of_b.first) - sides.shift(row, limits);
+      };
+      const Vec2 corner(last_of_a ? sides.a.hi() : sides.a.lo(), last_of_b ? sides.b.hi() : sides.b.lo());
+      if (test(corner, {residual(rows[0]), residual(rows[1])})) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 BoxSearch::BoxSearch(RollCurve& a, RollCurve& b, const PairLimits& limits, std::size_t budget, PairFindings& findings)
@@ -216,17 +234,7 @@ bool BoxSearch::take_regular(const PairBoxSides& sides, const PairLimits& limits
   };
   const double bend = regular.contraction * std::min(1.0, (reach / width).maxCoeff());
   if (bend > kBoxExtentBend) return false;
-  for (const bool last_of_a : {false, true}) {
-    for (const bool last_of_b : {false, true}) {
-      const auto at_corner = [&](std::size_t row) {
-        const RollCurve::Component& of_a = sides.a.component(row);
-        const RollCurve::Component& of_b = sides.b.component(row);
-        return (last_of_a ? of_a.last : of_a.first) - (last_of_b ? of_b.last : of_b.first) - sides.shift(row, limits_);
-      };
-      const Vec2 corner(last_of_a ? hi.x() : lo.x(), last_of_b ? hi.y() : lo.y());
-      if (is_elsewhere(corner, {at_corner(p), at_corner(q)})) return true;
-    }
-  }
+  if (any_corner(sides, limits, regular.rows, is_elsewhere)) return true;
 
   Vec2 at = 0.5 * (lo + hi);
   RollPoint on_a;
