@@ -235,7 +235,6 @@ bool BoxSearch::take_regular(const PairBoxSides& sides, const PairLimits& limits
   const double bend = regular.contraction * std::min(1.0, (reach / width).maxCoeff());
   if (bend > kBoxExtentBend) return false;
   if (any_corner(sides, limits, regular.rows, is_elsewhere)) return true;
-
   Vec2 at = 0.5 * (lo + hi);
   RollPoint on_a;
   RollPoint on_b;
@@ -250,8 +249,7 @@ bool BoxSearch::take_regular(const PairBoxSides& sides, const PairLimits& limits
     if (round == kMostBoxRounds) break;
     const bool full = round < kMostBoxRounds / 2;  // Newton's own step, then the one that contracts for sure
     const Vec2 step = full ? Vec2(jacobian.inverse() * f) : Vec2(regular.inverse * f);
-    const bool arrived = (step.array().abs() <= kBoxRootStep * width + 1e-3 * limits_.same_place).all();
-    if (arrived) break;
+    if ((step.array().abs() <= kBoxRootStep * width + 1e-3 * limits_.same_place).all()) break;
     at -= step;
   }
 
