@@ -123,20 +123,13 @@ bool meets_corner(const Question& question, const PerFinger<double>& at) {
   return false;
 }
 
-/// Where there are no corners.
-double smooth_residual(const Question& question, const PerFinger<double>& at) {
-  const auto tangent = [&](const PerFinger<double>& contacts) {
-    const double of_a = question.part.turning().angle(contacts[0]);
-    return contacts.size() == 1 ? of_a : of_a - question.part.turning().angle(contacts[1]);
-  };
-  const double start = tangent(at);
-  double largest = question.facing ? std::abs(std::remainder(start - *question.facing, kFullTurn)) : 0;
-  for (const Reading& reading : question.readings) {
-    const double end = tangent(ends_of(at, reading));
-    // One finger's in the order of the sets above, so that a part with corners far away has the same bits.
-    // Eqs. (4), (5); of two fingers (8), (9).
-    const double off = at.size() == 1 ? end - reading.turn - start : end - start - reading.turn;
-    largest = std::max(largest, std::abs(off));
+/// Of one finger, where there are no corners: in the order of the sets above, so that a part with corners far away has
+/// the same bits.
+double smooth_residual(const Question& question, double at) {
+  const Tangents tangents = tangents_of(question, 0, at);
+  double largest = 0;
+  for (std::size_t k = 0; k < question.readings.size(); ++k) {  // eqs. (4), (5)
+    largest = std::max(largest, std::abs(tangents[k + 1] - question.readings[k].turn - tangents[0]));
   }
   return largest;
 }
@@ -158,7 +151,26 @@ AngleSet angle_set(const Part& part, double s) {
 }
 
 double residual_at(const Question& question, const PerFinger<double>& at) {
-  return meets_corner(question, at) ? best_fit(question, at).residual : smooth_residual(question, at);
+  if (meets_corner(question, at)) return best_fit(question, at).residual;
+  if (at.size() == 1) return smooth_residual(question, at[0]);
+  return residual_of(question, tangents_of(question, 0, at[0]), tangents_of(question, 1, at[1]));
+}
+
+Tangents tangents_of(const Question& question, std::size_t finger, double at) {
+  const TurningFunction& turning = question.part.turning();
+  Tangents tangents{turning.angle(at)};
+  for (const Reading& reading : question.readings) tangents.push_back(turning.angle(at + reading.length[finger]));
+  return tangents;
+}
+
+double residual_of(const Question& question, const Tangents& of_a, const Tangents& of_b) {
+  const double start = of_a[0] - of_b[0];
+  double largest = question.facing ? std::abs(std::remainder(start - *question.facing, kFullTurn)) : 0;
+  for (std::size_t k = 0; k < question.readings.size(); ++k) {  // eqs. (8), (9)
+    const double end = of_a[k + 1] - of_b[k + 1];
+    largest = std::max(largest, std::abs(end - start - question.readings[k].turn));
+  }
+  return largest;
 }
 
 PerFinger<Pivot> pivots_at(const Question& question, const PerFinger<double>& at) {

@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
+#include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -47,10 +48,11 @@ void describe_slopes_of_one(const Question& question, const SlopeSample* samples
 }
 
 /// J by rows [kappa(s_k) - kappa(s0), -(kappa(t_k) - kappa(t0))], the facing row [kappa(s0), -kappa(t0)] last.
+template <int kRows>
 void describe_slopes_of_two(const Question& question, const SlopeSample* samples, Placement& placement) {
   const std::size_t count = question.readings.size();
   const auto rows = static_cast<Eigen::Index>(question.rows());
-  Eigen::Matrix<double, Eigen::Dynamic, 2> jacobian(rows, 2);
+  Eigen::Matrix<double, kRows, 2> jacobian(rows, 2);
   const PerFinger<double>& start = samples[0].start_curvature;
   for (std::size_t k = 0; k < count; ++k) {
     const PerFinger<double>& end = samples[k].end_curvature;
@@ -64,7 +66,7 @@ void describe_slopes_of_two(const Question& question, const SlopeSample* samples
   const double largest = 0.5 * trace + std::sqrt(std::max(0.0, 0.25 * trace * trace - determinant));
   const double smallest = largest > 0 ? std::sqrt(std::max(0.0, determinant / largest)) : 0;
   if (!(smallest > kNoSlope * curvature_scale(question, samples))) return;
-  const Eigen::Matrix<double, 2, Eigen::Dynamic> inverse = normal.inverse() * jacobian.transpose();
+  const Eigen::Matrix<double, 2, kRows> inverse = normal.inverse() * jacobian.transpose();
   placement.error = std::max(kRootLength * question.part.perimeter(), kRootTurn / smallest);
   Sensitivity& sensitivity = placement.sensitivity;
   sensitivity = {PerFinger<ShortList<double>>::of(2), PerFinger<ShortList<PerFinger<double>>>::of(2), {0.0, 0.0}};
@@ -233,8 +235,10 @@ void describe_slopes(const Question& question, const SlopeSample* samples, Place
   if (placement.kind != Kind::crossing) return;
   if (question.fingers() == 1) {
     describe_slopes_of_one(question, samples, placement);
+  } else if (question.is_overdetermined()) {
+    describe_slopes_of_two<Eigen::Dynamic>(question, samples, placement);
   } else {
-    describe_slopes_of_two(question, samples, placement);
+    describe_slopes_of_two<2>(question, samples, placement);
   }
 }
 
@@ -254,18 +258,36 @@ void PlacementMaker::make(FoundSet&& found, Placement& placement, const SlopeSam
   }
   placement.family = std::move(found.family);
   placement.family_error = found.family_error;
-  placement.residual = sample != nullptr ? std::abs(sample->value) : residual_at(question_, found.start);
-  if (placement.kind == Kind::corner) {
-    describe_corner(found, placement);
-  } else if (sample != nullptr) {
-    describe_slopes(question_, sample, placement);
+  if (sample != nullptr) {
+    placement.residual = std::abs(sample->value);
+    if (placement.kind != Kind::corner) describe_slopes(question_, sample, placement);
+  } else if (placement.kind != Kind::corner) {
+    describe_contacts(found.start, placement);
   } else {
-    std::vector<SlopeSample> samples;
-    for (const Reading& reading : question_.readings) {
-      samples.push_back(slope_sample(question_.part, reading, found.start));
-    }
-    describe_slopes(question_, samples.data(), placement);
+    placement.residual = residual_at(question_, found.start);
   }
+  if (placement.kind == Kind::corner) describe_corner(found, placement);
+}
+
+/// Residual and slopes; all contacts are looked up once.
+void PlacementMaker::describe_contacts(const PerFinger<double>& start, Placement& placement) const {
+  const TurningFunction& turning = question_.part.turning();
+  std::array<Tangents, 2> tangents;
+  boost::container::small_vector<SlopeSample, 4> samples;
+  for (const Reading& reading : question_.readings) samples.push_back({-reading.turn, start, start});
+  for (std::size_t finger = 0; finger < start.size(); ++finger) {
+    const Turning first = turning.at(start[finger]);
+    tangents[finger].push_back(first.angle);
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      const Turning last = turning.at(start[finger] + question_.readings[k].length[finger]);
+      tangents[finger].push_back(last.angle);
+      samples[k].start_curvature[finger] = first.curvature;
+      samples[k].end_curvature[finger] = last.curvature;
+    }
+  }
+  const bool plain = start.size() == 2 && question_.part.corners().empty();
+  placement.residual = plain ? residual_of(question_, tangents[0], tangents[1]) : residual_at(question_, start);
+  describe_slopes(question_, samples.data(), placement);
 }
 
 void PlacementMaker::place(const PerFinger<double>& start, Placement& placement) const {

@@ -35,6 +35,7 @@ class PlacementMaker {
 
  private:
   void place(const PerFinger<double>& start, Placement& placement) const;
+  void describe_contacts(const PerFinger<double>& start, Placement& placement) const;
   void describe_corner(const FoundSet& found, Placement& placement) const;
 
   Question question_;

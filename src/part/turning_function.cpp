@@ -28,12 +28,10 @@ Turning TurningFunction::at(double s, Side side) const {
   return turning;
 }
 
-std::uint32_t TurningFunction::middle_panel(const Spiral& spiral, double base) const {
-  const auto first = panels_.begin() + spiral.first_panel;
-  const auto last = panels_.begin() + spiral.last_panel;
-  const auto found =
-      std::upper_bound(first, last, base, [](double value, const Panel& panel) { return value < panel.hi; });
-  return static_cast<std::uint32_t>(found - first);
+std::uint32_t TurningFunction::middle_panel(std::uint32_t first, std::uint32_t last, double base) const {
+  const auto found = std::upper_bound(panels_.begin() + first, panels_.begin() + last, base,
+                                      [](double value, const Panel& panel) { return value < panel.hi; });
+  return static_cast<std::uint32_t>(found - panels_.begin());
 }
 
 Powers TurningFunction::expand(const Panel& panel, double middle, double half) const {

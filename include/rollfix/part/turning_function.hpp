@@ -70,21 +70,25 @@ class TurningFunction {
   std::size_t spiral_at(double base, Side side = Side::after) const;
 
   /// Value and slope at base, taken on this spiral, also a rounding error beyond its ends.
-  Turning on_spiral(const Spiral& spiral, double base) const {
-    const Panel& panel = panel_on(spiral, base);
+  Turning on_spiral(const Spiral& spiral, double base) const { return on_panel(panel_index(spiral, base), base); }
+  Turning on_panel(std::uint32_t index, double base) const {
+    const Panel& panel = panels_[index];
     const double x = (base - panel.middle) * panel.inverse_half;
     return sum(panel, x);
   }
   /// Theta as a polynomial in y in [-1, 1] over [middle - half, middle + half], which lies on this panel.
   Powers expand(const Panel& panel, double middle, double half) const;
   /// The panel that holds base, a place on this spiral.
-  const Panel& panel_on(const Spiral& spiral, double base) const {
-    std::uint32_t index = spiral.first_panel;
-    if (spiral.last_panel - index > kFewPanels) {
-      index += middle_panel(spiral, base);
-    }
-    while (index < spiral.last_panel && base >= panels_[index].hi) ++index;
-    return panels_[index];
+  const Panel& panel_on(const Spiral& spiral, double base) const { return panels_[panel_index(spiral, base)]; }
+  std::uint32_t panel_index(const Spiral& spiral, double base) const {
+    return panel_index(spiral.first_panel, spiral.last_panel, base);
+  }
+  /// The same where it is known to be among these.
+  std::uint32_t panel_index(std::uint32_t first, std::uint32_t last, double base) const {
+    std::uint32_t index = first;
+    if (last - index > kFewPanels) index = middle_panel(first, last, base);
+    while (index < last && base >= panels_[index].hi) ++index;
+    return index;
   }
 
   const std::vector<Panel>& panels() const { return panels_; }
@@ -94,7 +98,7 @@ class TurningFunction {
   friend class TurningFunctionBuilder;
   friend struct TurningFunctionAccess;  // for saving it
 
-  std::uint32_t middle_panel(const Spiral& spiral, double base) const;
+  std::uint32_t middle_panel(std::uint32_t first, std::uint32_t last, double base) const;
 
   using Pair = Eigen::Array2d;  // of Theta and of kappa: one vector instruction serves both
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -58,8 +59,27 @@ PairPiece piece_around(const PairBoxSides& sides, const Polygon& extent, const V
   piece.box = {Interval{sides.a.s(least.x()), sides.a.s(most.x())},
                Interval{sides.b.s(least.y()), sides.b.s(most.y())}};
   piece.corner = sides.pivots();
+  piece.hull.reserve(extent.size());
   for (const Vec2& x : extent) piece.hull.push_back({sides.a.s(x.x()), sides.b.s(x.y())});
   return piece;
+}
+
+/// Does this hold at a corner of the box, of its place and two rows' residuals there?
+template <class Test>
+bool any_corner(const PairBoxSides& sides, const PairLimits& limits, const std::array<std::size_t, 2>& rows,
+                const Test& test) {
+  for (const bool last_of_a : {false, true}) {
+    for (const bool last_of_b : {false, true}) {
+      const auto residual = [&](std::size_t row) {
+        const RollCurve::Component& of_a = sides.a.component(row);
+        const RollCurve::Component& of_b = sides.b.component(row);
+        return (last_of_a ? of_a.last : of_a.first) - (last_of_b ? of_b.last : of_b.first) - sides.shift(row, limits);
+      };
+      const Vec2 corner(last_of_a ? sides.a.hi() : sides.a.lo(), last_of_b ? sides.b.hi() : sides.b.lo());
+      if (test(corner, {residual(rows[0]), residual(rows[1])})) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace
@@ -145,8 +165,9 @@ void BoxSearch::halve(const Box& box, bool side_a) {
   const bool on_pieces = a_.node(box.a).on_one_piece() && b_.node(box.b).on_one_piece();
   const int depth = on_pieces ? box.depth + 1 : 0;
   const auto [left, right] = side_a ? a_.halves(box.a) : b_.halves(box.b);
-  waiting_.push_back(side_a ? Box{right, box.b, depth, box.covered} : Box{box.a, right, depth, box.covered});
-  waiting_.push_back(side_a ? Box{left, box.b, depth, box.covered} : Box{box.a, left, depth, box.covered});
+  for (const std::int32_t half : {right, left}) {
+    if (half >= 0) waiting_.push_back({side_a ? half : box.a, side_a ? box.b : half, depth, box.covered});
+  }
 }
 
 /// Seen along either side's chord, the two are further apart than the tolerance.
@@ -154,9 +175,8 @@ bool BoxSearch::is_apart(const PairBoxSides& sides, const PairLimits& limits) co
   for (std::size_t p = 0; p + 1 < a_.rows(); ++p) {
     for (std::size_t q = p + 1; q < a_.rows(); ++q) {
       for (const Vec2& direction : {chord(sides.a, p, q), chord(sides.b, p, q)}) {
-        const double size = direction.norm();
-        if (size == 0) continue;
-        const Vec2 across = Vec2(-direction.y(), direction.x()) / size;
+        const Vec2 across(-direction.y(), direction.x());
+        if (across == Vec2::Zero()) continue;
         const double by = across.x() * sides.shift(p, limits_) + across.y() * sides.shift(q, limits_);
         const Range f = along(sides.a, across, p, q) - along(sides.b, across, p, q) - Range{by, by};
         const double reach = limits.tolerance * across.lpNorm<1>();
@@ -205,26 +225,31 @@ bool BoxSearch::take_regular(const PairBoxSides& sides, const PairLimits& limits
   const double slack = 1 / (1 - regular.contraction);
   const auto in_box = [&](const Vec2& step) { return (step.array().abs() / width).maxCoeff() * slack * width; };
   const Eigen::Array2d reach = in_box(regular.inverse.cwiseAbs() * Vec2::Constant(limits.tolerance));
+  // From a place where the residuals are f the zero is a step away, which the contraction may be off by.
+  const auto is_elsewhere = [&](const Vec2& from, const Vec2& f) {
+    const Vec2 step = regular.inverse * f;
+    const Eigen::Array2d near = (from - step).array();
+    const Eigen::Array2d off = regular.contraction * in_box(step) + reach;
+    return ((near + off < lo.array()) || (near - off > hi.array())).any();
+  };
   const double bend = regular.contraction * std::min(1.0, (reach / width).maxCoeff());
   if (bend > kBoxExtentBend) return false;
-
+  if (any_corner(sides, limits, regular.rows, is_elsewhere)) return true;
   Vec2 at = 0.5 * (lo + hi);
   RollPoint on_a;
   RollPoint on_b;
   Eigen::Matrix2d jacobian;
   const auto residual = [&](std::size_t row) { return on_a.value[row] - on_b.value[row] - sides.shift(row, limits_); };
   for (int round = 0;; ++round) {
-    on_a = sides.a.point(at.x());
-    on_b = sides.b.point(at.y());
+    sides.a.move(on_a, at.x());
+    sides.b.move(on_b, at.y());
     const Vec2 f(residual(p), residual(q));
-    const Eigen::Array2d off = in_box(regular.inverse * f) + reach;
-    if (((at.array() + off < lo.array()) || (at.array() - off > hi.array())).any()) return true;  // it is elsewhere
+    if (is_elsewhere(at, f)) return true;
     jacobian << on_a.slope(p), -on_b.slope(p), on_a.slope(q), -on_b.slope(q);
     if (round == kMostBoxRounds) break;
     const bool full = round < kMostBoxRounds / 2;  // Newton's own step, then the one that contracts for sure
     const Vec2 step = full ? Vec2(jacobian.inverse() * f) : Vec2(regular.inverse * f);
-    const bool arrived = (step.array().abs() <= kBoxRootStep * width + 1e-3 * limits_.same_place).all();
-    if (arrived) break;
+    if ((step.array().abs() <= kBoxRootStep * width + 1e-3 * limits_.same_place).all()) break;
     at -= step;
   }
 
@@ -255,6 +280,12 @@ bool BoxSearch::take_regular(const PairBoxSides& sides, const PairLimits& limits
 /// f hardly varies: it is 0 all over the box, or the box is too small to tell more, or it is within the tolerance all
 /// over the box, which leaves the roots to be found.
 BoxSearch::Flat BoxSearch::take_flat(const PairBoxSides& sides, const PairLimits& limits) {
+  const bool tiny = sides.a.width() <= sides.a.same_place(limits) && sides.b.width() <= sides.b.same_place(limits);
+  const double small_spread = kSmallVariation * limits.tolerance;
+  for (std::size_t row = 0; row < a_.rows() && !tiny; ++row) {  // nearly always the first one settles it
+    const Range f = sides.value(row, limits);
+    if (f.spread() > small_spread && f.size() > limits.tolerance) return Flat::no;
+  }
   double size = 0;
   double spread = 0;
   double middle = 0;
@@ -267,8 +298,7 @@ BoxSearch::Flat BoxSearch::take_flat(const PairBoxSides& sides, const PairLimits
     steepest = std::max({steepest, sides.a.slope(row).size(), sides.b.slope(row).size()});
   }
   const bool zero = size <= kTurnAccuracy;
-  const bool tiny = sides.a.width() <= sides.a.same_place(limits) && sides.b.width() <= sides.b.same_place(limits);
-  const bool small = spread <= kSmallVariation * limits.tolerance;
+  const bool small = spread <= small_spread;
   if (!zero && !tiny && !small && size > limits.tolerance) return Flat::no;
   if (middle > limits.tolerance) return Flat::settled;
   PairPiece piece;
@@ -290,18 +320,19 @@ BoxSearch::Flat BoxSearch::take_flat(const PairBoxSides& sides, const PairLimits
 
 /// Is f zero at two corners of the box? Then the curves may run along each other from one to the other.
 bool BoxSearch::corners_vanish(const PairBoxSides& sides) const {
-  int zeros = 0;
-  for (const auto end_of_a : {&RollCurve::Component::first, &RollCurve::Component::last}) {
-    for (const auto end_of_b : {&RollCurve::Component::first, &RollCurve::Component::last}) {
-      bool zero = true;
-      for (std::size_t row = 0; row < a_.rows() && zero; ++row) {
-        const double f = sides.a.component(row).*end_of_a - sides.b.component(row).*end_of_b;
-        zero = std::abs(f - sides.shift(row, limits_)) <= kRootTurn;
-      }
-      zeros += zero ? 1 : 0;
-    }
+  std::array<bool, 4> zero{true, true, true, true};
+  for (std::size_t row = 0; row < a_.rows(); ++row) {
+    const RollCurve::Component& of_a = sides.a.component(row);
+    const RollCurve::Component& of_b = sides.b.component(row);
+    const double shift = sides.shift(row, limits_);
+    const auto vanishes = [&](double a, double b) { return std::abs(a - b - shift) <= kRootTurn; };
+    zero[0] = zero[0] && vanishes(of_a.first, of_b.first);
+    zero[1] = zero[1] && vanishes(of_a.first, of_b.last);
+    zero[2] = zero[2] && vanishes(of_a.last, of_b.first);
+    zero[3] = zero[3] && vanishes(of_a.last, of_b.last);
+    if (std::count(zero.begin(), zero.end(), true) < 2) return false;
   }
-  return zeros >= 2;
+  return true;
 }
 
 }  // namespace rollfix

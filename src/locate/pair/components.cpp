@@ -15,6 +15,9 @@ namespace {
 
 /// Does a segment come closer than `slack` to a box?
 bool segment_meets(const PairPoint& a, const PairPoint& b, const PairBox& box, double slack) {
+  for (const std::size_t k : {0U, 1U}) {
+    if (std::max(a[k], b[k]) < box[k].lo - slack || std::min(a[k], b[k]) > box[k].hi + slack) return false;
+  }
   double lo = 0;
   double hi = 1;
   for (const std::size_t k : {0U, 1U}) {
@@ -45,6 +48,7 @@ bool line_meets(const std::vector<PairPoint>& line, const Shift& shift, const Pa
 
 std::vector<PairPoint> polygon_of(const PairPiece& piece, const Shift& shift) {
   std::vector<PairPoint> polygon;
+  polygon.reserve(piece.hull.size());
   for (const PairPoint& point : piece.hull) polygon.push_back(moved(point, shift));
   if (!polygon.empty()) return polygon;
   const PairBox box = moved(piece.box, shift);
@@ -83,6 +87,7 @@ bool pieces_meet(const PairPiece& one, const PairPiece& two, const Shift& shift,
   const double reach = slack + one.error + two.error;
   if (!boxes_meet(one.box, other, reach)) return false;
   if (one.line.empty() && two.line.empty()) {
+    if (one.hull.empty() && two.hull.empty()) return true;
     const std::vector<PairPoint> at_one = polygon_of(one, {0, 0});
     const std::vector<PairPoint> at_two = polygon_of(two, shift);
     return !separates(at_one, at_two, reach) && !separates(at_two, at_one, reach);
@@ -94,7 +99,7 @@ bool pieces_meet(const PairPiece& one, const PairPiece& two, const Shift& shift,
     const PairPoint& b = one.line[k + 1];
     const PairBox segment{Interval{std::min(a[0], b[0]), std::max(a[0], b[0])},
                           Interval{std::min(a[1], b[1]), std::max(a[1], b[1])}};
-    if (line_meets(two.line, shift, segment, reach)) return true;
+    if (boxes_meet(segment, other, 2 * reach) && line_meets(two.line, shift, segment, reach)) return true;
   }
   return false;
 }
@@ -114,7 +119,8 @@ class Joiner {
     sort_links();
     std::vector<PairCluster> clusters;
     std::vector<bool> seen(pieces_.size(), false);
-    root_taken_.assign(roots_.size(), false);
+    shift_of_.assign(pieces_.size(), {0, 0});
+    sort_roots();
     for (std::size_t k = 0; k < pieces_.size(); ++k) {
       if (!seen[k]) clusters.push_back(cluster_of(k, seen));
     }
@@ -137,9 +143,24 @@ class Joiner {
   }
 
   /// Where a piece can be, along s: with its error.
-  Interval reach_of(std::size_t piece) const {
+  Interval reach_of(std::size_t piece) const { return reach_box(piece)[0]; }
+
+  PairBox reach_box(std::size_t piece) const {
     const PairPiece& of = pieces_[piece];
-    return {of.box[0].lo - of.error, of.box[0].hi + of.error};
+    return {Interval{of.box[0].lo - of.error, of.box[0].hi + of.error},
+            Interval{of.box[1].lo - of.error, of.box[1].hi + of.error}};
+  }
+
+  /// Most pieces are so far from s = 0 and t = 0 that on other laps they meet nothing.
+  PairBox box_around_all() const {
+    PairBox all{Boundary::empty_arc(), Boundary::empty_arc()};
+    for (std::size_t k = 0; k < pieces_.size(); ++k) {
+      const PairBox box = reach_box(k);
+      for (const std::size_t axis : {0U, 1U}) {
+        all[axis] = {std::min(all[axis].lo, box[axis].lo), std::max(all[axis].hi, box[axis].hi)};
+      }
+    }
+    return all;
   }
 
   /// Pieces that reach about as far along s, in order of where that begins.
@@ -168,8 +189,11 @@ class Joiner {
   void link() {
     const std::map<int, Strip> all = strips();
     std::vector<std::size_t> near;
+    const PairBox whole = box_around_all();
     for (const Shift& shift : shifts()) {
+      const PairBox moved_whole = moved(whole, shift);
       for (std::size_t one = 0; one < pieces_.size(); ++one) {
+        if (!boxes_meet(reach_box(one), moved_whole, 2 * kJointWidth * period_)) continue;
         near.clear();
         for (const auto& [width, strip] : all) add_near(strip, one, shift, near);
         std::stable_sort(near.begin(), near.end(),
@@ -209,7 +233,6 @@ class Joiner {
   PairCluster cluster_of(std::size_t first, std::vector<bool>& seen) {
     PairCluster cluster;
     std::vector<std::size_t> members;
-    std::vector<Shift> shift_of(pieces_.size(), Shift{0, 0});
     std::vector<std::size_t> waiting{first};
     seen[first] = true;
     cluster.extent = pieces_[first].box;
@@ -218,7 +241,7 @@ class Joiner {
       const std::size_t here = waiting.back();
       waiting.pop_back();
       members.push_back(here);
-      const PairBox box = moved(pieces_[here].box, shift_of[here]);
+      const PairBox box = moved(pieces_[here].box, shift_of_[here]);
       for (const std::size_t k : {0U, 1U}) {
         cluster.extent[k].lo = std::min(cluster.extent[k].lo, box[k].lo);
         cluster.extent[k].hi = std::max(cluster.extent[k].hi, box[k].hi);
@@ -228,7 +251,7 @@ class Joiner {
       for (const PieceLink& link : links_[here]) {
         if (seen[link.to]) continue;
         seen[link.to] = true;
-        shift_of[link.to] = {shift_of[here][0] + link.shift[0], shift_of[here][1] + link.shift[1]};
+        shift_of_[link.to] = {shift_of_[here][0] + link.shift[0], shift_of_[here][1] + link.shift[1]};
         waiting.push_back(link.to);
       }
     }
@@ -239,7 +262,7 @@ class Joiner {
         cluster.extent[k] = {0, period_};
       }
     }
-    hand_out_roots(members, shift_of, cluster);
+    hand_out_roots(members, cluster);
     if (cluster.exact) {
       FamilyLine line = line_through_family(pieces_, links_, members, period_);
       cluster.family = std::move(line.points);
@@ -250,6 +273,9 @@ class Joiner {
 
   /// Do the members' intervals, together, cover all of one finger's boundary?
   bool covers_loop(const std::vector<std::size_t>& members, std::size_t finger) const {
+    double widths = 0;
+    for (const std::size_t k : members) widths += pieces_[k].box[finger].width() + 2 * kJointWidth * period_;
+    if (widths < 0.5 * period_) return false;  // by far
     std::vector<Interval> intervals;
     for (const std::size_t k : members) {
       const Interval& interval = pieces_[k].box[finger];
@@ -265,24 +291,32 @@ class Joiner {
     return reached >= period_ - slack;
   }
 
-  void hand_out_roots(const std::vector<std::size_t>& members, const std::vector<Shift>& shift_of,
-                      PairCluster& cluster) {
-    for (std::size_t r = 0; r < roots_.size(); ++r) {
-      if (root_taken_[r]) continue;
-      for (const std::size_t k : members) {
-        const PairPoint& at = roots_[r].at;
-        const double slack = same_place_;
-        const PairBox& box = pieces_[k].box;
-        if (at[0] < box[0].lo - slack || at[0] > box[0].hi + slack || at[1] < box[1].lo - slack ||
-            at[1] > box[1].hi + slack) {
-          continue;
-        }
-        root_taken_[r] = true;
-        PairRoot root = roots_[r];
-        root.at = moved(root.at, shift_of[k]);
-        cluster.roots.push_back(root);
-        break;
+  void sort_roots() {
+    root_taken_.assign(roots_.size(), false);
+    roots_by_s_.resize(roots_.size());
+    std::iota(roots_by_s_.begin(), roots_by_s_.end(), std::size_t{0});
+    std::sort(roots_by_s_.begin(), roots_by_s_.end(),
+              [&](std::size_t one, std::size_t two) { return roots_[one].at[0] < roots_[two].at[0]; });
+  }
+
+  /// A root is the first piece's that holds it.
+  void hand_out_roots(const std::vector<std::size_t>& members, PairCluster& cluster) {
+    std::vector<std::pair<std::size_t, PairPoint>> found;
+    for (const std::size_t k : members) {
+      const PairBox& box = pieces_[k].box;
+      auto next = std::lower_bound(roots_by_s_.begin(), roots_by_s_.end(), box[0].lo - same_place_,
+                                   [&](std::size_t root, double s) { return roots_[root].at[0] < s; });
+      for (; next != roots_by_s_.end() && roots_[*next].at[0] <= box[0].hi + same_place_; ++next) {
+        const double t = roots_[*next].at[1];
+        if (root_taken_[*next] || t < box[1].lo - same_place_ || t > box[1].hi + same_place_) continue;
+        root_taken_[*next] = true;
+        found.emplace_back(*next, moved(roots_[*next].at, shift_of_[k]));
       }
+    }
+    std::sort(found.begin(), found.end());
+    for (const auto& [root, at] : found) {
+      cluster.roots.push_back(roots_[root]);
+      cluster.roots.back().at = at;
     }
   }
 
@@ -292,7 +326,9 @@ class Joiner {
   bool closed_;
   double same_place_;
   std::vector<std::vector<PieceLink>> links_;
+  std::vector<Shift> shift_of_;  // of each piece, from where it is to its place in its cluster
   std::vector<bool> root_taken_;
+  std::vector<std::size_t> roots_by_s_;
 };
 
 }  // namespace

@@ -1,13 +1,13 @@
 #pragma once
 
-#include <vector>
+#include <boost/container/small_vector.hpp>
 
 #include "rollfix/outline/curve.hpp"
 
 namespace rollfix {
 
-/// The corners of a convex polygon in order; none: empty.
-using Polygon = std::vector<Vec2>;
+/// The corners of a convex polygon in order; none: empty. A box that a few lines cut needs no allocation.
+using Polygon = boost::container::small_vector<Vec2, 8>;
 
 /// What is left of a convex polygon where `excess`, a linear function of a point, is not above 0.
 template <class Excess>

@@ -29,7 +29,7 @@ constexpr double kBandBend = 0.5;
 constexpr double kStraightShare = 0.1;
 
 /// Where one component of a side, monotone, has this value.
-RollPoint solve_side(const BoxSide& side, std::size_t row, double target) {
+double solve_side(const BoxSide& side, std::size_t row, double target) {
   const RollCurve::Component& component = side.component(row);
   const double rise = component.last - component.first;
   double lo = side.lo();
@@ -37,22 +37,21 @@ RollPoint solve_side(const BoxSide& side, std::size_t row, double target) {
   const double share = rise == 0 ? 0.5 : (target - component.first) / rise;
   if (share <= 0 || share >= 1) {  // beyond an end the continuation is straight
     const RollPoint end = share <= 0 ? side.first() : side.last();
-    return side.point(end.x + (target - end.value[row]) / end.slope(row));
+    return end.x + (target - end.value[row]) / end.slope(row);
   }
   double x = lo + share * (hi - lo);
   const bool rises = rise > 0;
-  RollPoint at = side.point(x);
   for (int round = 0; round < kMostLineRounds; ++round) {
-    const double off = at.value[row] - target;
+    const RollCurve::Place at = side.place(x, row);
+    const double off = at.value - target;
     if (off == 0) break;
     ((off > 0) == rises ? hi : lo) = x;
-    double next = x - off / at.slope(row);
+    double next = x - off / at.slope;
     if (!(next > lo && next < hi)) next = 0.5 * (lo + hi);
     if (next == x || std::abs(next - x) <= 1e-16 * (std::abs(x) + side.width())) break;
     x = next;
-    at = side.point(x);
   }
-  return at;
+  return x;
 }
 
 }  // namespace
@@ -73,10 +72,39 @@ bool LineSearch::run() {
 }
 
 bool LineSearch::may_overlap() {
-  if (!choose_guide()) return false;
+  if (!choose_guide() || is_apart_midway()) return false;
   Stretch all{place(free().lo()), place(free().hi()), 0, false};
   if (!clip(all, 0)) return false;
   return vanishes(place(0.5 * (all.lo.free.x + all.hi.free.x)));
+}
+
+/// Is another equation surely off at a place of the line in the box? About in the middle, where two points and the
+/// slopes' bounds nearly always tell that curves do not run along each other.
+bool LineSearch::is_apart_midway() const {
+  const RollCurve::Component& of_free = free().component(guide_);
+  const RollCurve::Component& of_bound = bound().component(guide_);
+  const double shift = (free_is_a_ ? 1 : -1) * sides_.shift(guide_, limits_);
+  const double rise = of_free.last - of_free.first;
+  const auto reached = [&](double value) {  // along the chord, in the box
+    return rise == 0 ? 0.5 : std::clamp((value + shift - of_free.first) / rise, 0.0, 1.0);
+  };
+  const double share = 0.5 * (reached(of_bound.first) + reached(of_bound.last));
+  const double level = of_free.first + share * rise - shift;
+  const double across = std::clamp((level - of_bound.first) / (of_bound.last - of_bound.first), 0.0, 1.0);
+  const RollPoint on_free = free().point(free().lo() + share * free().width());
+  const RollPoint on_bound = bound().point(bound().lo() + across * bound().width());
+  const double off = on_free.value[guide_] - on_bound.value[guide_] - shift;
+  const Range way = Range{off, off} / bound().slope(guide_);  // of the bound contact to where the guide is 0
+  if (on_bound.x + way.least < bound().lo() || on_bound.x + way.most > bound().hi()) return false;
+  const double rounding = residual_rounding({on_free, on_bound});
+  for (std::size_t row = 0; row < free().rows(); ++row) {
+    if (row == guide_) continue;
+    const double turns = (free_is_a_ ? 1 : -1) * sides_.shift(row, limits_);
+    const double residual = on_free.value[row] - on_bound.value[row] - turns;
+    const Range there = Range{residual, residual} - way * bound().slope(row);
+    if (there.least > rounding || there.most < -rounding) return true;
+  }
+  return false;
 }
 
 /// The steepest equation in one contact, where its slope keeps its sign.
@@ -106,9 +134,14 @@ bool LineSearch::choose_guide() {
 
 LineSearch::Place LineSearch::place(double x) const {
   Place place{free().point(x), {}};
-  const double shift = sides_.shift(guide_, limits_);
-  place.bound = solve_side(bound(), guide_, place.free.value[guide_] - (free_is_a_ ? shift : -shift));
+  bound().move(place.bound, bound_at(place.free.value[guide_]));
   return place;
+}
+
+/// Where the other contact is while the guide's component of the free one has this value.
+double LineSearch::bound_at(double value) const {
+  const double shift = sides_.shift(guide_, limits_);
+  return solve_side(bound(), guide_, value - (free_is_a_ ? shift : -shift));
 }
 
 double LineSearch::residual(const Place& place, std::size_t row) const {
@@ -286,19 +319,34 @@ bool LineSearch::take_flat(const Stretch& stretch, const Bounds& along, bool is_
 }
 
 bool LineSearch::vanishes(const Place& place) const {
+  const double rounding = residual_rounding(place);
   for (std::size_t row = 0; row < free().rows(); ++row) {
-    if (row == guide_) continue;
-    double rates = 0;
-    for (const double rate : place.free.rate) rates += std::abs(rate);
-    for (const double rate : place.bound.rate) rates += std::abs(rate);
-    if (std::abs(residual(place, row)) > 2 * kTurnAccuracy + kResidualRounding * limits_.perimeter * rates)
-      return false;
+    if (row != guide_ && std::abs(residual(place, row)) > rounding) return false;
+  }
+  return true;
+}
+
+/// What a residual that is 0 may be off.
+double LineSearch::residual_rounding(const Place& place) const {
+  double rates = 0;
+  for (const double rate : place.free.rate) rates += std::abs(rate);
+  for (const double rate : place.bound.rate) rates += std::abs(rate);
+  return 2 * kTurnAccuracy + kResidualRounding * limits_.perimeter * rates;
+}
+
+/// Lines, arcs and pivots: all components are linear, and zero in between where they are at both ends.
+bool LineSearch::is_straight() const {
+  for (std::size_t row = 0; row < free().rows(); ++row) {
+    if (free().slope(row).spread() != 0 || bound().slope(row).spread() != 0) return false;
   }
   return true;
 }
 
 /// Do the curves coincide all along the part of a stretch that lies in the box?
 bool LineSearch::overlaps(const Stretch& whole, std::vector<Place>& samples) const {
+  for (const Place* end : {&whole.lo, &whole.hi}) {  // one that is not clipped: nearly always that settles it
+    if (end->bound.x >= bound().lo() && end->bound.x <= bound().hi() && !vanishes(*end)) return false;
+  }
   Stretch stretch = whole;
   if (turns_round(stretch)) {  // all of it must be in the box
     const Range reached = bounds(stretch).bound_x;
@@ -309,19 +357,32 @@ bool LineSearch::overlaps(const Stretch& whole, std::vector<Place>& samples) con
   const double width = stretch.hi.free.x - stretch.lo.free.x;
   if (width <= kShortestOverlap * (free().pivots() ? 1 : limits_.perimeter)) return false;
   if (!vanishes(stretch.lo) || !vanishes(stretch.hi)) return false;
+  samples.reserve(kOverlapSamples + 1);
   samples.push_back(stretch.lo);
+  const bool straight = is_straight();
+  if (straight && !slopes_vanish(stretch.lo)) return false;
   for (int k = 1; k < kOverlapSamples; ++k) {
-    samples.push_back(place(stretch.lo.free.x + width * k / kOverlapSamples));
-    const Place& at = samples.back();
-    double scale = 1 / limits_.perimeter;
-    for (const double rate : at.free.rate) scale += std::abs(rate);
-    for (const double rate : at.bound.rate) scale += std::abs(rate * direction(at));
-    for (std::size_t row = 0; row < free().rows(); ++row) {
-      if (row != guide_ && std::abs(residual_slope(at, row)) > kOverlapSlope * scale) return false;
+    const double x = stretch.lo.free.x + width * k / kOverlapSamples;
+    if (straight) {
+      samples.push_back(stretch.lo);
+      samples.back().free.x = x;
+      samples.back().bound.x = bound_at(free().place(x, guide_).value);
+    } else {
+      samples.push_back(place(x));
+      if (!slopes_vanish(samples.back()) || !vanishes(samples.back())) return false;
     }
-    if (!vanishes(at)) return false;
   }
   samples.push_back(stretch.hi);
+  return true;
+}
+
+bool LineSearch::slopes_vanish(const Place& at) const {
+  double scale = 1 / limits_.perimeter;
+  for (const double rate : at.free.rate) scale += std::abs(rate);
+  for (const double rate : at.bound.rate) scale += std::abs(rate * direction(at));
+  for (std::size_t row = 0; row < free().rows(); ++row) {
+    if (row != guide_ && std::abs(residual_slope(at, row)) > kOverlapSlope * scale) return false;
+  }
   return true;
 }
 
@@ -442,6 +503,7 @@ Polygon LineSearch::narrow(const Polygon& band, const Place& lo, const Place& hi
 void LineSearch::take_hull(const Polygon& polygon, PairPiece& piece) const {
   if (polygon.empty()) return;
   for (const std::size_t k : {0U, 1U}) piece.box[k] = {piece.box[k].hi, piece.box[k].lo};
+  piece.hull.reserve(polygon.size());
   for (const Vec2& at : polygon) {
     const double one = free().s(at.x());
     const double other = bound().s(at.y());

@@ -44,6 +44,7 @@ class LineSearch {
 
   bool choose_guide();
   Place place(double x) const;
+  double bound_at(double value) const;
   double residual(const Place& place, std::size_t row) const;
   double residual_slope(const Place& place, std::size_t row) const;
   double direction(const Place& place) const;
@@ -55,7 +56,11 @@ class LineSearch {
   std::size_t steepest(const Bounds& along) const;
   bool take_flat(const Stretch& stretch, const Bounds& along, bool is_point);
   bool overlaps(const Stretch& whole, std::vector<Place>& samples) const;
+  bool is_apart_midway() const;
+  bool is_straight() const;
+  bool slopes_vanish(const Place& place) const;
   bool vanishes(const Place& place) const;
+  double residual_rounding(const Place& place) const;
   Place turn_between(const Place& one, const Place& two) const;
   void take_overlap(std::vector<Place> samples);
   void take_monotone(const Stretch& stretch, const Bounds& along, std::size_t row);

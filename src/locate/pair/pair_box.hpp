@@ -39,7 +39,13 @@ class BoxSide {
     return curve_->slope_between(piece(), one, two, row);
   }
   /// The curve, continued beyond this side's ends by its tangents there: slopes keep this side's bounds.
-  RollPoint point(double x) const { return curve_->point(piece(), {lo_, hi_}, x); }
+  RollPoint point(double x) const {
+    RollPoint point;
+    move(point, x);
+    return point;
+  }
+  RollCurve::Place place(double x, std::size_t row) const { return curve_->place(curve_->node(node_), x, row); }
+  void move(RollPoint& point, double x) const { curve_->move(point, curve_->node(node_), x); }
   /// Places closer together than this are one: a share of the perimeter, or of a radian where the finger pivots.
   double same_place(const PairLimits& limits) const { return pivots() ? kLengthAccuracy : limits.same_place; }
 

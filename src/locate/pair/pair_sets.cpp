@@ -2,7 +2,10 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "../accuracy.hpp"
@@ -14,6 +17,9 @@ namespace {
 
 // Two finds of one root: closer than this share of the perimeter, f not leaving 0 in between.
 constexpr double kSameRoot = 1e-6;
+// The least residual of a set is looked for on so many grids of so many cells, each half as wide as the one before.
+constexpr std::size_t kGrid = 8;
+constexpr int kGridRounds = 24;
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, 2>;
 
@@ -45,6 +51,7 @@ class SetsOfTwo {
       found.push_back(first);
       return found;
     }
+    if (cluster.roots.size() == 1) return cluster.roots.front().exact ? cluster.roots : found;
     std::vector<PairRoot> roots = cluster.roots;
     std::sort(roots.begin(), roots.end(), [](const PairRoot& one, const PairRoot& two) { return one.at < two.at; });
     for (const PairRoot& root : roots) {
@@ -77,28 +84,9 @@ class SetsOfTwo {
   /// Where the largest |f_k| is least: looked for on ever finer grids and, since the set may be much thinner than any
   /// grid, by least squares from their best place and from the ends of the set.
   PairRoot nearest_miss(const PairCluster& cluster) const {
-    PairBox box = cluster.extent;
-    PairPoint best{box[0].middle(), box[1].middle()};
-    double least = residual_at(question_, best);
-    constexpr int kGrid = 8;
-    constexpr int kRounds = 24;
-    for (int round = 0; round < kRounds; ++round) {
-      for (int i = 0; i <= kGrid; ++i) {
-        for (int j = 0; j <= kGrid; ++j) {
-          const PairPoint at{box[0].lo + box[0].width() * i / kGrid, box[1].lo + box[1].width() * j / kGrid};
-          const double residual = residual_at(question_, at);
-          if (residual < least) {
-            least = residual;
-            best = at;
-          }
-        }
-      }
-      for (const std::size_t k : {0U, 1U}) {
-        const double reach = 0.25 * box[k].width();
-        box[k] = {std::max(cluster.extent[k].lo, best[k] - reach), std::min(cluster.extent[k].hi, best[k] + reach)};
-      }
-    }
+    PairPoint best = least_on_grids(cluster.extent);
     if (!part_.corners().empty()) return {best, 0, cluster.corner};
+    double least = residual_at(question_, best);
     const PairBox& whole = cluster.extent;
     for (const PairPoint& from : {best, PairPoint{whole[0].lo, whole[1].lo}, PairPoint{whole[0].lo, whole[1].hi},
                                   PairPoint{whole[0].hi, whole[1].lo}, PairPoint{whole[0].hi, whole[1].hi}}) {
@@ -110,6 +98,39 @@ class SetsOfTwo {
       }
     }
     return {best, 0, cluster.corner};
+  }
+
+  PairPoint least_on_grids(const PairBox& whole) const {
+    PairBox box = whole;
+    PairPoint best{box[0].middle(), box[1].middle()};
+    double least = residual_at(question_, best);
+    std::array<std::array<double, kGrid + 1>, 2> places;
+    std::array<std::array<Tangents, kGrid + 1>, 2> tangents;
+    const bool smooth = part_.corners().empty();
+    for (int round = 0; round < kGridRounds; ++round) {
+      for (const std::size_t finger : {0U, 1U}) {
+        for (std::size_t i = 0; i <= kGrid; ++i) {
+          places[finger][i] = box[finger].lo + box[finger].width() * static_cast<double>(i) / kGrid;
+          if (smooth) tangents[finger][i] = tangents_of(question_, finger, places[finger][i]);
+        }
+      }
+      for (std::size_t i = 0; i <= kGrid; ++i) {
+        for (std::size_t j = 0; j <= kGrid; ++j) {
+          const PairPoint at{places[0][i], places[1][j]};
+          const double residual =
+              smooth ? residual_of(question_, tangents[0][i], tangents[1][j]) : residual_at(question_, at);
+          if (residual < least) {
+            least = residual;
+            best = at;
+          }
+        }
+      }
+      for (const std::size_t k : {0U, 1U}) {
+        const double reach = 0.25 * box[k].width();
+        box[k] = {std::max(whole[k].lo, best[k] - reach), std::min(whole[k].hi, best[k] + reach)};
+      }
+    }
+    return best;
   }
 
   /// f and its Jacobian; the facing equation is the last row.
@@ -137,6 +158,8 @@ class SetsOfTwo {
     Eigen::VectorXd f;
     Matrix jacobian;
     linearize(at, f, jacobian);
+    Eigen::VectorXd next_f;
+    Matrix next_jacobian;
     double damping = 1e-6;
     for (int step = 0; step < kMostSteps && damping < 1e12; ++step) {
       Eigen::Matrix2d normal = jacobian.transpose() * jacobian;
@@ -147,8 +170,10 @@ class SetsOfTwo {
       for (const std::size_t k : {0U, 1U}) {
         next[k] = std::clamp(at[k] + move[static_cast<Eigen::Index>(k)], box[k].lo, box[k].hi);
       }
-      Eigen::VectorXd next_f;
-      Matrix next_jacobian;
+      if (next == at) {  // no better
+        damping *= 10;
+        continue;
+      }
       linearize(next, next_f, next_jacobian);
       const bool better = next_f.squaredNorm() < f.squaredNorm();
       damping *= better ? 0.1 : 10;
@@ -186,15 +211,29 @@ class SetsOfTwo {
 std::vector<Placement> make_placements(const Question& question, const std::vector<PairCluster>& clusters) {
   const SetsOfTwo sets(question);
   const PlacementMaker maker(question);
-  std::vector<Placement> placements(clusters.size());
-  for (std::size_t k = 0; k < clusters.size(); ++k) maker.make(sets.set_of(clusters[k]), placements[k]);
-  // Starts that differ by less than their own accuracy count as one, so that the other finger's decide.
-  const auto rank = [&](const Placement& placement) {
-    const double grain = kRootLength * question.part.perimeter();
-    return std::pair(std::round(placement.start[0] / grain), placement.start[1]);
+  struct Ranked {
+    double
+        rounded;  // starts that differ by less than their own accuracy count as one, so that the other finger's decide
+    double other;
+    FoundSet set;
   };
-  std::sort(placements.begin(), placements.end(),
-            [&](const Placement& one, const Placement& two) { return rank(one) < rank(two); });
+  const Boundary boundary = question.part.boundary();
+  const double grain = kRootLength * question.part.perimeter();
+  std::vector<Ranked> ranked;
+  ranked.reserve(clusters.size());
+  for (const PairCluster& cluster : clusters) {
+    FoundSet set = sets.set_of(cluster);
+    const double rounded = std::round(boundary.canonical(set.start[0]) / grain);
+    ranked.push_back({rounded, boundary.canonical(set.start[1]), std::move(set)});
+  }
+  std::vector<std::size_t> order(ranked.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t one, std::size_t two) {
+    return std::tie(ranked[one].rounded, ranked[one].other, one) <
+           std::tie(ranked[two].rounded, ranked[two].other, two);
+  });
+  std::vector<Placement> placements(clusters.size());
+  for (std::size_t k = 0; k < order.size(); ++k) maker.make(std::move(ranked[order[k]].set), placements[k]);
   return placements;
 }
 

@@ -89,8 +89,9 @@ void search_patches(const RollCurve& patched, RollCurve& other, bool patched_is_
       const double finest = kResolution * limits.perimeter;
       if (!node.on_one_piece() || (!fits && node.width() > finest)) {
         const auto [left, right] = other.halves(index);
-        waiting.push_back(right);
-        waiting.push_back(left);
+        for (const std::int32_t half : {right, left}) {
+          if (half >= 0) waiting.push_back(half);
+        }
         continue;
       }
       const RollPiece& piece = other.piece(node);

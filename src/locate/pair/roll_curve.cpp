@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "../accuracy.hpp"
 
@@ -11,6 +10,8 @@ namespace rollfix {
 namespace {
 
 constexpr int kConstantSamples = 20;
+// Down to so many cuts halves are bounded by the part's tree: below, pieces have bounds that are as good.
+constexpr std::size_t kFewCuts = 6;
 
 }  // namespace
 
@@ -18,36 +19,89 @@ RollCurve::RollCurve(const Part& part, RollEquations equations, const Interval& 
     : part_(part),
       turning_(part.turning()),
       equations_(std::move(equations)),
+      strips_(part, equations_, range),
       rows_(equations_.rows()),
-      contacts_(equations_.lengths.size() + 1) {
+      contacts_(equations_.contacts()) {
+  root_ = strips_.is_empty() ? cut(range) : make_uncut(range, strips_.whole().data());
+}
+
+/// A node over all pieces of this range.
+std::int32_t RollCurve::cut(const Interval& range) {
+  const std::size_t before = pieces_.size();
   make_pieces(range);
-  if (pieces_.empty()) return;
-  const std::size_t count = pieces_.size();
-  nodes_.reserve(8 * count);
-  components_.reserve(8 * count * rows_);
-  values_.reserve(8 * count * rows_);
-  rates_.reserve(8 * count * contacts_);
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::uint32_t first = add_point(pieces_[k], pieces_[k].lo);
-    const std::uint32_t last = add_point(pieces_[k], pieces_[k].hi);
-    find_constants(pieces_[k], first, last);
-    make_node(static_cast<std::uint32_t>(k), pieces_[k].lo, pieces_[k].hi, first, last);
+  const auto first_node = static_cast<std::int32_t>(nodes_.size());
+  if (before == 0) {
+    const std::size_t count = pieces_.size();
+    nodes_.reserve(8 * count);
+    components_.reserve(8 * count * rows_);
+    values_.reserve(8 * count * rows_);
+    rates_.reserve(8 * count * contacts_);
+    panels_.reserve(8 * count * contacts_);
   }
-  root_ = join(0, count);
+  for (std::size_t k = before; k < pieces_.size(); ++k) {
+    RollPiece& piece = pieces_[k];
+    const auto panel_at = [&](std::size_t c, double base) { return panel_on_spiral(piece, c, base); };
+    const std::uint32_t first = add_point(piece, piece.lo, panel_at);
+    const std::uint32_t last = add_point(piece, piece.hi, panel_at);
+    find_constants(piece, first, last);
+    make_node(static_cast<std::uint32_t>(k), piece.lo, piece.hi, first, last);
+  }
+  if (pieces_.size() == before) return -1;
+  return join(first_node, static_cast<std::int32_t>(nodes_.size()));
+}
+
+std::int32_t RollCurve::make_uncut(const Interval& s, const RollStrips::Span* spans) {
+  Node node;
+  node.lo = s.lo;
+  node.hi = s.hi;
+  node.first = static_cast<std::uint32_t>(spans_.size());
+  spans_.insert(spans_.end(), spans, spans + contacts_);
+  boost::container::small_vector<Range, 4> values(rows_);
+  strips_.bound(s, &spans_[node.first], values.data());
+  for (const Range& value : values) components_.push_back({value, {}, 0, 0});
+  nodes_.push_back(node);
+  return static_cast<std::int32_t>(nodes_.size() - 1);
+}
+
+/// Gives an uncut node its children: pieces where they are few.
+void RollCurve::divide(std::size_t index) {
+  const Interval s{nodes_[index].lo, nodes_[index].hi};
+  const RollStrips::Span* spans = &spans_[nodes_[index].first];
+  boost::container::small_vector<RollStrips::Span, 8> halves(2 * contacts_);
+  const bool few = strips_.cuts(spans) <= kFewCuts;
+  const double middle = few ? s.lo : strips_.halve(spans, halves.data(), halves.data() + contacts_);
+  std::int32_t left = -1;
+  std::int32_t right = -1;
+  if (middle > s.lo && middle < s.hi) {
+    left = make_uncut({s.lo, middle}, halves.data());
+    right = make_uncut({middle, s.hi}, halves.data() + contacts_);
+  } else {
+    left = cut(s);
+    if (left >= 0 && !node(left).on_one_piece()) {
+      const Node joined = node(left);
+      left = joined.left;
+      right = joined.right;
+    }
+  }
+  nodes_[index].left = left;
+  nodes_[index].right = right;
 }
 
 /// Cuts the range of first contacts wherever a contact passes from one spiral to the next, and puts a pivot wherever
 /// one passes a convex corner, or the tiny concave joint of a drawing (kJointTurn).
 void RollCurve::make_pieces(const Interval& range) {
   const double same_place = kLengthAccuracy * turning_.perimeter();
-  std::vector<Cursor> contacts;
-  for (std::size_t c = 0; c < contacts_; ++c) contacts.push_back(Cursor::ahead(turning_, range.lo + length_to(c)));
+  Cursors contacts;
+  for (std::size_t c = 0; c < contacts_; ++c) {
+    contacts.push_back(Cursor::ahead(turning_, range.lo + equations_.length_to(c)));
+  }
   const auto end_of = [&](std::size_t c) { return contacts[c].spiral().hi - offset_of(c, contacts[c]); };
 
+  if (strips_.is_empty()) pieces_.reserve(contacts_ * (turning_.spirals().size() + 1));
   double here = range.lo;
   pass_corners(here, contacts);
   while (here < range.hi) {
-    RollPiece piece;
+    RollPiece& piece = pieces_.emplace_back();
     double next = range.hi;
     for (std::size_t c = 0; c < contacts_; ++c) {
       piece.spiral.push_back(static_cast<std::uint32_t>(contacts[c].index()));
@@ -58,7 +112,7 @@ void RollCurve::make_pieces(const Interval& range) {
     if (range.hi - next <= same_place) next = range.hi;
     piece.lo = here;
     piece.hi = next;
-    if (next - here > same_place) pieces_.push_back(piece);
+    if (!(next - here > same_place)) pieces_.pop_back();
     here = std::max(here, next);
     bool moved = false;
     for (std::size_t c = 0; c < contacts_; ++c) {
@@ -71,21 +125,24 @@ void RollCurve::make_pieces(const Interval& range) {
 }
 
 /// The contacts that stand at a joint while the first one is at s, which their cursors have just passed.
-void RollCurve::pass_corners(double s, const std::vector<Cursor>& contacts) {
+void RollCurve::pass_corners(double s, const Cursors& contacts) {
   if (part_.corners().empty()) return;
-  std::vector<Range> tangents;
-  std::size_t corners = 0;
-  for (std::size_t c = 0; c < contacts_; ++c) {
-    const Cursor& ahead = contacts[c];
+  const auto jump_of = [&](const Cursor& ahead, std::size_t c) {
     const bool passes = std::abs(s + offset_of(c, ahead) - ahead.spiral().lo) <= kLengthAccuracy * turning_.perimeter();
-    const double after = passes ? ahead.angle_after() : turning_.angle(s + length_to(c));
-    const double jump = passes ? ahead.jump() : 0;
-    const bool pivots = std::abs(jump) > kTurnAccuracy && !Corner{s, jump}.is_concave();
-    if (pivots) ++corners;
-    const double before = pivots ? after - jump : after;
+    return passes ? std::optional(ahead.jump()) : std::nullopt;
+  };
+  const auto pivots = [&](double jump) { return std::abs(jump) > kTurnAccuracy && !Corner{s, jump}.is_concave(); };
+  std::size_t corners = 0;
+  for (std::size_t c = 0; c < contacts_; ++c) corners += pivots(jump_of(contacts[c], c).value_or(0)) ? 1 : 0;
+  if (corners == 0) return;
+  std::vector<Range> tangents;
+  for (std::size_t c = 0; c < contacts_; ++c) {
+    const std::optional<double> jump = jump_of(contacts[c], c);
+    const double after = jump ? contacts[c].angle_after() : turning_.angle(s + equations_.length_to(c));
+    const double before = jump && pivots(*jump) ? after - *jump : after;
     tangents.push_back({std::min(before, after), std::max(before, after)});
   }
-  if (corners > 0) add_pivots(s, tangents);
+  add_pivots(s, tangents);
   if (corners < 2) return;
   for (std::size_t c = 1; c < contacts_; ++c) {
     const double shift = equations_.shifts[c - 1];
@@ -118,55 +175,69 @@ void RollCurve::add_pivots(double s, const std::vector<Range>& tangents) {
 /// slope vanishes at more points than the turning function's polynomials have terms it vanishes in between.
 void RollCurve::find_constants(RollPiece& piece, std::uint32_t first, std::uint32_t last) const {
   piece.constant.assign(rows_, true);
-  RollPoint at = stored(first, piece.lo);
+  const auto panel_at = [&](std::size_t c, double base) { return panel_on_spiral(piece, c, base); };
+  boost::container::small_vector<double, 4> value(rows_);
+  boost::container::small_vector<double, 4> rate(contacts_);
   for (int k = 0; k <= kConstantSamples; ++k) {
-    if (k == 1) at = stored(last, piece.hi);  // both ends first: nearly always they settle it
-    if (k > 1) evaluate(piece, piece.lo + piece.width() * (k - 1) / kConstantSamples, at.value.data(), at.rate.data());
+    const double* rates = k <= 1 ? &rates_[(k == 0 ? first : last) * contacts_] : rate.data();
+    if (k > 1) {  // both ends first: nearly always they settle it
+      evaluate(piece, piece.lo + piece.width() * (k - 1) / kConstantSamples, panel_at, value.data(), rate.data());
+    }
     double scale = 1 / turning_.perimeter();
-    for (const double rate : at.rate) scale += std::abs(rate);
+    for (std::size_t c = 0; c < contacts_; ++c) scale += std::abs(rates[c]);
     bool any = false;
     for (std::size_t row = 0; row < rows_; ++row) {
-      if (std::abs(at.slope(row)) > kNoSlope * scale) piece.constant[row] = false;
+      const double slope = row + 1 < contacts_ ? rates[row + 1] - rates[0] : rates[0];
+      if (std::abs(slope) > kNoSlope * scale) piece.constant[row] = false;
       any = any || piece.constant[row];
     }
     if (!any) return;
   }
 }
 
-void RollCurve::evaluate(const RollPiece& piece, double x, double* value, double* rate) const {
-  double first_angle = 0;
-  for (std::size_t c = 0; c < contacts_; ++c) {
-    double angle = piece.angle[c];
-    if (piece.pivot_at) {
-      const bool pivots = c == *piece.pivot;
-      angle += pivots ? x : 0;
-      rate[c] = pivots ? 1 : 0;
-    } else {
-      const Turning at = turning_.on_spiral(turning_.spirals()[piece.spiral[c]], x + piece.offset[c]);
-      angle += at.angle;
-      rate[c] = at.curvature;
-    }
-    if (c == 0) {
-      first_angle = angle;
-    } else {
-      value[c - 1] = angle - first_angle + equations_.shifts[c - 1];  // one side of (8), (9)
-    }
+template <class PanelAt>
+Turning RollCurve::contact_at(const RollPiece& piece, double x, std::size_t c, const PanelAt& panel_at) const {
+  const double angle = piece.angle[c];
+  if (piece.pivot_at) return c == *piece.pivot ? Turning{angle + x, 1} : Turning{angle, 0};
+  const double base = x + piece.offset[c];
+  const Turning at = turning_.on_panel(panel_at(c, base), base);
+  return {angle + at.angle, at.curvature};
+}
+
+template <class PanelAt>
+void RollCurve::evaluate(const RollPiece& piece, double x, const PanelAt& panel_at, double* value, double* rate) const {
+  const Turning start = contact_at(piece, x, 0, panel_at);
+  rate[0] = start.curvature;
+  for (std::size_t c = 1; c < contacts_; ++c) {
+    const Turning end = contact_at(piece, x, c, panel_at);
+    rate[c] = end.curvature;
+    value[c - 1] = end.angle - start.angle + equations_.shifts[c - 1];  // one side of (8), (9)
   }
-  if (equations_.facing) value[rows_ - 1] = first_angle + *equations_.facing;
+  if (equations_.facing) value[rows_ - 1] = start.angle + *equations_.facing;
   evaluations_ += piece.pivot_at ? 0 : contacts_;
 }
 
-RollPoint RollCurve::point(const RollPiece& piece, const Interval& inside, double x) const {
-  RollPoint point;
+RollCurve::Place RollCurve::place(const Node& node, double x, std::size_t row) const {
+  const RollPiece& piece = this->piece(node);
+  const auto panel_at = [&](std::size_t c, double base) { return panel_between(node, c, base); };
+  const Turning start = contact_at(piece, x, 0, panel_at);
+  const bool is_facing = row + 1 == contacts_;
+  evaluations_ += piece.pivot_at ? 0 : (is_facing ? 1 : 2);
+  if (is_facing) return {start.angle + *equations_.facing, start.curvature};
+  const Turning end = contact_at(piece, x, row + 1, panel_at);
+  return {end.angle - start.angle + equations_.shifts[row], end.curvature - start.curvature};
+}
+
+void RollCurve::move(RollPoint& point, const Node& node, double x) const {
   point.x = x;
-  point.value.resize(rows_);
-  point.rate.resize(contacts_);
-  const double nearest = std::clamp(x, inside.lo, inside.hi);
-  evaluate(piece, nearest, point.value.data(), point.rate.data());
+  point.value.resize(rows_, boost::container::default_init);
+  point.rate.resize(contacts_, boost::container::default_init);
+  const double nearest = std::clamp(x, node.lo, node.hi);
+  const auto panel_at = [&](std::size_t c, double base) { return panel_between(node, c, base); };
+  evaluate(piece(node), nearest, panel_at, point.value.data(), point.rate.data());
   if (x != nearest) {
     for (std::size_t row = 0; row < rows_; ++row) point.value[row] += (x - nearest) * point.slope(row);
   }
-  return point;
 }
 
 RollPoint RollCurve::stored(std::uint32_t index, double x) const {
@@ -179,11 +250,15 @@ RollPoint RollCurve::stored(std::uint32_t index, double x) const {
   return point;
 }
 
-std::uint32_t RollCurve::add_point(const RollPiece& piece, double x) {
+template <class PanelAt>
+std::uint32_t RollCurve::add_point(const RollPiece& piece, double x, const PanelAt& panel_at) {
   const std::size_t index = values_.size() / rows_;
   values_.resize(values_.size() + rows_);
   rates_.resize(rates_.size() + contacts_);
-  evaluate(piece, x, &values_[index * rows_], &rates_[index * contacts_]);
+  panels_.resize(panels_.size() + contacts_);
+  std::uint32_t* panels = &panels_[index * contacts_];
+  const auto keep_panel = [&](std::size_t c, double base) { return panels[c] = panel_at(c, base); };
+  evaluate(piece, x, keep_panel, &values_[index * rows_], &rates_[index * contacts_]);
   return static_cast<std::uint32_t>(index);
 }
 
@@ -206,10 +281,10 @@ std::int32_t RollCurve::make_node(std::uint32_t piece, double lo, double hi, std
   return static_cast<std::int32_t>(nodes_.size() - 1);
 }
 
-/// A node over the pieces [from, to).
-std::int32_t RollCurve::join(std::size_t from, std::size_t to) {
-  if (to - from == 1) return static_cast<std::int32_t>(from);
-  const std::size_t middle = from + (to - from) / 2;
+/// A node over these of pieces, the last one not included.
+std::int32_t RollCurve::join(std::int32_t from, std::int32_t to) {
+  if (to - from == 1) return from;
+  const std::int32_t middle = from + (to - from) / 2;
   Node node;
   node.left = join(from, middle);
   node.right = join(middle, to);
@@ -229,10 +304,12 @@ std::int32_t RollCurve::join(std::size_t from, std::size_t to) {
 }
 
 std::pair<std::int32_t, std::int32_t> RollCurve::halves(std::int32_t index) {
+  if (!node(index).on_one_piece() && node(index).left < 0) divide(static_cast<std::size_t>(index));
   const Node node = this->node(index);
-  if (node.left >= 0) return {node.left, node.right};
+  if (node.left >= 0 || !node.on_one_piece()) return {node.left, node.right};
   const double x = 0.5 * (node.lo + node.hi);
-  const std::uint32_t middle = add_point(pieces_[node.piece], x);
+  const auto panel_at = [&](std::size_t c, double base) { return panel_between(node, c, base); };
+  const std::uint32_t middle = add_point(pieces_[node.piece], x, panel_at);
   const std::int32_t left = make_node(node.piece, node.lo, x, node.first, middle);
   const std::int32_t right = make_node(node.piece, x, node.hi, middle, node.last);
   nodes_[static_cast<std::size_t>(index)].left = left;

@@ -9,20 +9,11 @@
 
 #include "part/cursor.hpp"
 #include "range.hpp"
+#include "roll_equations.hpp"
+#include "roll_strips.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace rollfix {
-
-/// What one finger adds to the equations: (8) and (9) say that two curves meet, A(s) of finger a and B(t) of finger b,
-/// with the components Theta(s + L_k) - Theta(s) + shift_k, one for each reading, and with the facing equation one
-/// more, Theta(s) + facing.
-struct RollEquations {
-  std::vector<double> lengths;   // L_k
-  std::vector<double> shifts;    // added to each component, radians
-  std::optional<double> facing;  // added to Theta(s)
-
-  std::size_t rows() const { return lengths.size() + (facing ? 1 : 0); }
-};
 
 /// A place on such a curve.
 struct RollPoint {
@@ -59,7 +50,8 @@ struct RollPatch {
 };
 
 /// The curve with a tree of intervals over it, each with bounds on the values and slopes of every component. Intervals
-/// are halved when somebody asks for it, once for all the boxes that they are a side of.
+/// are halved when somebody asks for it, once for all the boxes that they are a side of. Where the part's own tree has
+/// bounds on the values, the curve is cut into pieces no sooner either.
 class RollCurve {
  public:
   static constexpr std::uint32_t kManyPieces = UINT32_MAX;
@@ -70,7 +62,7 @@ class RollCurve {
     std::uint32_t piece = kManyPieces;
     std::int32_t left = -1;  // children; none yet
     std::int32_t right = -1;
-    std::uint32_t first = 0;  // points at the ends
+    std::uint32_t first = 0;  // points at the ends; of an uncut one its spans
     std::uint32_t last = 0;
 
     bool on_one_piece() const { return piece != kManyPieces; }
@@ -87,24 +79,32 @@ class RollCurve {
 
   /// `range`: of s, the first contacts whose rolls stay on the part.
   RollCurve(const Part& part, RollEquations equations, const Interval& range);
+  RollCurve(const RollCurve&) = delete;  // its strips know its equations
+  RollCurve& operator=(const RollCurve&) = delete;
 
   std::size_t rows() const { return rows_; }
   const Node& node(std::int32_t index) const { return nodes_[static_cast<std::size_t>(index)]; }
   /// One for each row; good until a node is halved.
   const Component* components(std::int32_t node) const { return &components_[static_cast<std::size_t>(node) * rows_]; }
   const RollPiece& piece(const Node& node) const { return pieces_[node.piece]; }
-  const std::vector<RollPiece>& pieces() const { return pieces_; }
   RollPoint first(const Node& node) const { return stored(node.first, node.lo); }
   RollPoint last(const Node& node) const { return stored(node.last, node.hi); }
   std::int32_t root() const { return root_; }  // -1: no pieces
   std::size_t evaluations() const { return evaluations_; }
 
-  /// The two halves of a node; of one with many pieces its two sides.
+  /// The two halves of a node; of one with many pieces its two sides. -1 for the other of an only one.
   std::pair<std::int32_t, std::int32_t> halves(std::int32_t index);
 
-  /// The curve at x, and beyond the ends of `inside` its tangents there: the slopes keep the bounds that they have
-  /// inside.
-  RollPoint point(const RollPiece& piece, const Interval& inside, double x) const;
+  /// Takes a point to x on a node of one piece, and beyond its ends along its tangents there: the slopes keep the
+  /// bounds that they have inside.
+  void move(RollPoint& point, const Node& node, double x) const;
+
+  /// One component's value and its slope by x, at x on a node of one piece.
+  struct Place {
+    double value = 0;
+    double slope = 0;
+  };
+  Place place(const Node& node, double x, std::size_t row) const;
 
   /// Bounds on a component's slope between two points of one piece, for the rates are monotone.
   Range slope_between(const RollPiece& piece, const RollPoint& one, const RollPoint& two, std::size_t row) const {
@@ -114,6 +114,8 @@ class RollCurve {
   const std::vector<RollPatch>& patches() const { return patches_; }
 
  private:
+  using Cursors = boost::container::small_vector<Cursor, 4>;  // of the contacts
+
   Range slope_between(const RollPiece& piece, const double* one, const double* two, std::size_t row) const {
     if (piece.constant[row]) return {0, 0};
     const Range start = hull(one[0], two[0]);
@@ -121,30 +123,47 @@ class RollCurve {
     return hull(one[row + 1], two[row + 1]) - start;
   }
   RollPoint stored(std::uint32_t index, double x) const;
-  /// From the first contact to contact c, and from there to the place on the cursor's spiral.
-  double length_to(std::size_t c) const { return c == 0 ? 0 : equations_.lengths[c - 1]; }
-  double offset_of(std::size_t c, const Cursor& contact) const { return length_to(c) - contact.shift(); }
+  /// From the first contact to contact c's place on the cursor's spiral.
+  double offset_of(std::size_t c, const Cursor& contact) const { return equations_.length_to(c) - contact.shift(); }
+  std::int32_t cut(const Interval& range);
+  std::int32_t make_uncut(const Interval& s, const RollStrips::Span* spans);
+  void divide(std::size_t index);
   void make_pieces(const Interval& range);
-  void pass_corners(double s, const std::vector<Cursor>& contacts);
+  void pass_corners(double s, const Cursors& contacts);
   void find_constants(RollPiece& piece, std::uint32_t first, std::uint32_t last) const;
   void add_pivots(double s, const std::vector<Range>& tangents);
   std::int32_t make_node(std::uint32_t piece, double lo, double hi, std::uint32_t first, std::uint32_t last);
-  std::int32_t join(std::size_t from, std::size_t to);
-  std::uint32_t add_point(const RollPiece& piece, double x);
-  /// `value` one per row, `rate` one per contact.
-  void evaluate(const RollPiece& piece, double x, double* value, double* rate) const;
+  std::int32_t join(std::int32_t from, std::int32_t to);
+  template <class PanelAt>
+  std::uint32_t add_point(const RollPiece& piece, double x, const PanelAt& panel_at);
+  /// A contact's tangent's angle and its rate by x.
+  template <class PanelAt>
+  Turning contact_at(const RollPiece& piece, double x, std::size_t c, const PanelAt& panel_at) const;
+  /// `value` one per row, `rate` one per contact; `panel_at` finds the panel of a contact that is at a place.
+  template <class PanelAt>
+  void evaluate(const RollPiece& piece, double x, const PanelAt& panel_at, double* value, double* rate) const;
+  /// The panel of a contact that is between a node's ends.
+  std::uint32_t panel_between(const Node& node, std::size_t c, double base) const {
+    return turning_.panel_index(panels_[node.first * contacts_ + c], panels_[node.last * contacts_ + c], base);
+  }
+  std::uint32_t panel_on_spiral(const RollPiece& piece, std::size_t c, double base) const {
+    return turning_.panel_index(turning_.spirals()[piece.spiral[c]], base);
+  }
 
   const Part& part_;
   const TurningFunction& turning_;
   RollEquations equations_;
+  RollStrips strips_;
   std::size_t rows_;
   std::size_t contacts_;
   std::vector<RollPiece> pieces_;
   std::vector<RollPatch> patches_;
   std::vector<Node> nodes_;
   std::vector<Component> components_;
-  std::vector<double> values_;  // of the points: rows_ of each
-  std::vector<double> rates_;   // contacts_ of each
+  std::vector<double> values_;           // of the points: rows_ of each
+  std::vector<double> rates_;            // contacts_ of each
+  std::vector<std::uint32_t> panels_;    // that each contact is on; of a pivot unused
+  std::vector<RollStrips::Span> spans_;  // of the uncut nodes, contacts_ of each
   std::int32_t root_ = -1;
   mutable std::size_t evaluations_ = 0;
 };
