@@ -16,6 +16,9 @@ endfunction()
 cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX
   BASE_DIRECTORY ${CMAKE_INSTALL_PREFIX}/${pkgconfig_destination} OUTPUT_VARIABLE prefix_from_pkgconfig)
 
+# Where dlopen is, as pkg-config has it; nowhere of its own on some systems.
+list(TRANSFORM CMAKE_DL_LIBS PREPEND -l OUTPUT_VARIABLE dlopen_flags)
+
 rollfix_install_library(rollfix rollfixTargets rollfix.pc)
 foreach(component IN ITEMS march files catalog draw)  # rollfixConfig.cmake finds them by these names
   if(TARGET rollfix_${component})
