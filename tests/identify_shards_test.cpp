@@ -22,7 +22,7 @@ class Shards : public testing::Test {
 
   /// Thirty readings over half of a part; off by so many times the noise that is said, contact as a share of P.
   Problem roll_on_some_part(double off, const Noise& noise = {2e-4, 0.004}) {
-    std::normal_distribution<double> normal(0, off);
+    std::normal_distribution<double> normal;
     const Part part = catalog_.part(std::uniform_int_distribution<std::size_t>(0, catalog_.size() - 1)(random_));
     const double P = part.perimeter();
     std::vector<double> lengths;
@@ -30,8 +30,8 @@ class Shards : public testing::Test {
     Problem problem{part, roll_on(part, std::uniform_real_distribution<double>(0, 0.4 * P)(random_), lengths)};
     problem.noise = Noise{noise.contact * P, noise.angle};
     for (Reading& reading : problem.felt.readings) {
-      reading.length[0] += problem.noise->contact * normal(random_);
-      reading.turn += problem.noise->angle * normal(random_);
+      reading.length[0] += off * problem.noise->contact * normal(random_);
+      reading.turn += off * problem.noise->angle * normal(random_);
     }
     return problem;
   }
