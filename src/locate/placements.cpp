@@ -48,11 +48,11 @@ void describe_slopes_of_one(const Question& question, const SlopeSample* samples
 }
 
 /// J by rows [kappa(s_k) - kappa(s0), -(kappa(t_k) - kappa(t0))], the facing row [kappa(s0), -kappa(t0)] last.
-template <int kRows>
+template <int Rows>
 void describe_slopes_of_two(const Question& question, const SlopeSample* samples, Placement& placement) {
   const std::size_t count = question.readings.size();
   const auto rows = static_cast<Eigen::Index>(question.rows());
-  Eigen::Matrix<double, kRows, 2> jacobian(rows, 2);
+  Eigen::Matrix<double, Rows, 2> jacobian(rows, 2);
   const PerFinger<double>& start = samples[0].start_curvature;
   for (std::size_t k = 0; k < count; ++k) {
     const PerFinger<double>& end = samples[k].end_curvature;
@@ -66,7 +66,7 @@ void describe_slopes_of_two(const Question& question, const SlopeSample* samples
   const double largest = 0.5 * trace + std::sqrt(std::max(0.0, 0.25 * trace * trace - determinant));
   const double smallest = largest > 0 ? std::sqrt(std::max(0.0, determinant / largest)) : 0;
   if (!(smallest > kNoSlope * curvature_scale(question, samples))) return;
-  const Eigen::Matrix<double, 2, kRows> inverse = normal.inverse() * jacobian.transpose();
+  const Eigen::Matrix<double, 2, Rows> inverse = normal.inverse() * jacobian.transpose();
   placement.error = std::max(kRootLength * question.part.perimeter(), kRootTurn / smallest);
   Sensitivity& sensitivity = placement.sensitivity;
   sensitivity = {PerFinger<ShortList<double>>::of(2), PerFinger<ShortList<PerFinger<double>>>::of(2), {0.0, 0.0}};

@@ -58,7 +58,7 @@ class LineSearch {
   bool overlaps(const Stretch& whole, std::vector<Place>& samples) const;
   bool is_apart_midway() const;
   bool is_straight() const;
-  bool slopes_vanish(const Place& place) const;
+  bool slopes_vanish(const Place& at) const;
   bool vanishes(const Place& place) const;
   double residual_rounding(const Place& place) const;
   Place turn_between(const Place& one, const Place& two) const;
