@@ -57,15 +57,14 @@ class Shards : public testing::Test {
 
   /// The likeliest of what each shard holds for the likeliest.
   std::optional<PartWeight> rival_of(const Problem& problem) {
-    std::optional<PartWeight> best;
+    std::vector<PartWeight> likely;
     IdentifyOptions options;
     options.shards = kShards;
     for (options.shard = 1; options.shard <= kShards; ++options.shard) {
-      const std::optional<PartWeight> one = likeliest(catalog_, problem, options);
-      if (one && (!best || one->excess < best->excess || (one->excess == best->excess && one->peak > best->peak)))
-        best = one;
+      if (const std::optional<PartWeight> one = likeliest(catalog_, problem, options)) likely.push_back(*one);
     }
-    return best;
+    if (likely.empty()) return std::nullopt;
+    return best_of(likely);
   }
 
   static std::size_t weighed(const std::vector<Identified>& shards) {

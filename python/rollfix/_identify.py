@@ -130,7 +130,8 @@ def _by_cluster(
 
     # With noise every share holds its parts against the likeliest of all, and looks at them with more noise only where
     # nothing in any share fits well: either takes many times as long otherwise.
-    rival = _best(ask(_likeliest)) if noisy else None
+    rivals = [rival for rival in ask(_likeliest) if rival is not None] if noisy else []
+    rival = _core.best_rival(sorted(rivals))
     shares: List[Found] = ask(_search, rival, True)
     if all(is_narrow for _, _, is_narrow in shares):
         shares = ask(_search, rival, False)
@@ -140,12 +141,6 @@ def _by_cluster(
     if whys and len(whys) == merged.searched:
         raise InputError(whys[0])  # as where it is one search
     return merged
-
-
-def _best(rivals: List[Optional[Rival]]) -> Optional[Rival]:
-    """The one that the rows fit best."""
-    known = [rival for rival in rivals if rival is not None]
-    return min(known, key=lambda one: (one[4], -one[1], one[0])) if known else None
 
 
 def _likeliest(file: str, state: Any, shard: int, shards: int, threads: int) -> Optional[Rival]:

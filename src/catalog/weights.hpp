@@ -12,10 +12,6 @@ inline constexpr double kNothing = 20;
 /// Of a part that something fits on.
 PartWeight weight_of(std::size_t part, const Answer& answer);
 
-/// The part that the rows fit best, with the noise that they seem to have there: all are weighed as with that. REQUIRES
-/// that there is one.
-const PartWeight& best_of(const std::vector<PartWeight>& weights);
-
 /// The logarithm of a part's probability, up to what is the same for all.
 double log_weight(const Catalog& catalog, const PartWeight& weight, double widened);
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "accuracy.hpp"
 #include "part/part_data.hpp"
 
 namespace rollfix {
@@ -15,12 +16,8 @@ namespace {
 constexpr std::size_t kLeafLevel = 1;
 // While more blocks than this are left, a further reading is asked.
 constexpr std::size_t kFewBlocks = 8;
-// The search takes places no further apart than kLengthAccuracy P for one; here are some more.
-constexpr double kSamePlaces = 4;
 // An arc length is rounded to this share of the lengths that it is made of: times the curvature, an angle.
 constexpr double kLengthRounding = 4e-15;
-// An angle is rounded to this share of itself.
-constexpr double kAngleRounding = 1e-15;
 
 using Blocks = std::vector<std::size_t>;
 

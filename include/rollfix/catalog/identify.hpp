@@ -53,6 +53,10 @@ struct IdentifyOptions {
 /// which were only because a shard had no other.
 bool fits_well(const std::vector<PartWeight>& weights);
 
+/// The part that the rows fit best, with the noise that they seem to have there: all are weighed as with that. REQUIRES
+/// that there is one.
+const PartWeight& best_of(const std::vector<PartWeight>& weights);
+
 /// What parts come to that were weighed, in whatever shards.
 struct Conclusion {
   std::vector<std::size_t> order;   // of the weights that are listed: the likeliest first, else as in the catalog
@@ -121,8 +125,9 @@ struct Identified {
 /// Throws InputError: a prior place, which is of one part; what `solve` throws where it throws it of all parts.
 Identified identify(const Catalog& catalog, const Problem& like, const IdentifyOptions& options = {});
 
-/// Of the parts that `options` ask for, the likeliest one's weight, much sooner than `identify` finds it: what all
-/// shards of one search take as their rival. Nothing where none fits, without noise, of two fingers or with stray rows.
+/// Of the parts that `options` ask for, the likeliest one's weight, much sooner than `identify` finds it: the
+/// best of what all shards say is their rival. Nothing where none fits, without noise, of two fingers or with stray
+/// rows.
 std::optional<PartWeight> likeliest(const Catalog& catalog, const Problem& like, const IdentifyOptions& options = {});
 
 }  // namespace rollfix

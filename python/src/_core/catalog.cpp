@@ -59,6 +59,14 @@ std::optional<PartWeight> rival_from(const std::optional<RivalTuple>& tuple) {
   return weight;
 }
 
+/// Of what shards say.
+std::optional<RivalTuple> best_rival(const std::vector<RivalTuple>& rivals) {
+  std::vector<PartWeight> weights;
+  for (const RivalTuple& one : rivals) weights.push_back(*rival_from(one));
+  if (weights.empty()) return std::nullopt;
+  return rival_tuple(best_of(weights));
+}
+
 /// Of a shard: the likeliest part at a glance.
 std::optional<RivalTuple> likeliest_part(const CatalogHandle& handle, const Problem& like, std::size_t shard,
                                          std::size_t shards, unsigned threads) {
@@ -162,6 +170,7 @@ void bind_catalog(py::module_& module) {
       .def("identify", &identify_roll)
       .def("likeliest", &likeliest_part)
       .def("merge", &merge);
+  module.def("best_rival", &best_rival);
   module.def("catalog_sources", &sources_of);
   module.def("build_catalog", &build);
   module.def("remove_from_catalog", &take_out);

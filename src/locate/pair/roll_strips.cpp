@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "../accuracy.hpp"
 #include "part/cursor.hpp"
 #include "part/part_data.hpp"
 
@@ -14,10 +15,6 @@ namespace {
 constexpr std::uint32_t kMostBlocks = 2;
 // Of fewer spirals cutting all at once costs less.
 constexpr std::size_t kFewestSpirals = 60;
-// Joints are known to some of these shares of the perimeter: times the curvature, an angle.
-constexpr double kSamePlaces = 4;
-// An angle is rounded to this share of itself.
-constexpr double kAngleRounding = 1e-15;
 
 }  // namespace
 
