@@ -9,7 +9,7 @@
 namespace rollfix {
 namespace {
 
-// Newton's step that is below this share of the perimeter is the last one.
+// Newton's step that is below this share of the perimeter is the last one: what it leaves is its square.
 constexpr double kRootStep = 1e-11;
 constexpr int kMostRounds = 100;
 // The ends of an extent may be off by this share of its width: there f is taken as straight.
@@ -28,8 +28,16 @@ constexpr int kPlainHalvings = 4;
 constexpr double kBoundsRounding = 1e-14;
 // The extremum of f is approached by the secant of its slope this long, then bracketed.
 constexpr int kMostSecants = 12;
-// Answers to make room for.
-constexpr std::size_t kUsual = 16;
+// Answers to make room for: blocks up to a kilobyte are cheap to come by.
+constexpr std::size_t kUsual = 12;
+
+/// A sample so close to another that f is straight in between; its curvatures by those of a third one.
+ResidualSample beside(const ResidualSample& at, const ResidualSample& third, double s) {
+  const double share = third.s == at.s ? 0 : (s - at.s) / (third.s - at.s);
+  return {s, at.value + at.slope() * (s - at.s),
+          at.start_curvature + share * (third.start_curvature - at.start_curvature),
+          at.end_curvature + share * (third.end_curvature - at.end_curvature)};
+}
 
 /// s where the cubic through both ends, taken as a function of f, has the value `level`.
 double inverse_cubic(const ResidualSample& lo, const ResidualSample& hi, double level) {
@@ -68,6 +76,16 @@ Bounds value_bounds(const ResidualSample& lo, const ResidualSample& hi, const Bo
           (slope.most * hi.value - slope.least * lo.value - scale) / span};
 }
 
+/// Bounds on f from the chords of both Thetas: where its curvature rises or falls from end to end by so much, each is
+/// on one side of its chord, by a quarter of that times the width at the most.
+Bounds strip(const ResidualSample& lo, const ResidualSample& hi) {
+  const double quarter = 0.25 * (hi.s - lo.s);
+  const double end = quarter * (hi.end_curvature - lo.end_curvature);
+  const double start = quarter * (hi.start_curvature - lo.start_curvature);
+  return {std::min(lo.value, hi.value) - std::max(end, 0.0) + std::min(start, 0.0),
+          std::max(lo.value, hi.value) - std::min(end, 0.0) + std::max(start, 0.0)};
+}
+
 /// The sign of f'' where the spirals' trends settle it.
 int bend_by_trends(const SpiralPair& pair) {
   if (pair.end.trend >= 0 && pair.start.trend <= 0) return 1;
@@ -83,24 +101,12 @@ double first_inside(double lo, double hi, const std::array<double, 4>& places) {
   return lo;
 }
 
-/// f as a polynomial in y in [-1, 1] over [middle - half, middle + half].
-Powers difference(const SpiralPair& pair, const Panel& start, const Panel& end, double middle, double half) {
-  const Powers at_start = pair.turning.expand(start, middle, half);
-  const Powers at_end = pair.turning.expand(end, middle + pair.offset, half);
-  Powers f = Powers::Zero(std::max({at_start.size(), at_end.size(), Eigen::Index{3}}));
-  f.head(at_end.size()) = at_end;
-  f.head(at_start.size()) -= at_start;
-  f[0] -= pair.turn;
-  return f;
-}
-
 }  // namespace
 
 RootSearch::RootSearch(const LocateOptions& options, double perimeter)
     : tolerance_(options.tolerance), budget_(options.budget), same_place_(kLengthAccuracy * perimeter) {
   findings.pieces.reserve(kUsual);
   findings.roots.reserve(kUsual);
-  waiting_.reserve(kUsual);
 }
 
 void RootSearch::run(const SpiralPair& pair, const ResidualSample& lo, const ResidualSample& hi) {
@@ -122,11 +128,9 @@ void RootSearch::run(const SpiralPair& pair, const ResidualSample& lo, const Res
   }
 }
 
-/// Further from 0 in the mean than the steepest slope can bring f.
 bool RootSearch::is_far(const ResidualSample& lo, const ResidualSample& hi) const {
-  const Bounds slope = slope_bounds(lo, hi);
-  const double reach = 0.5 * std::max(-slope.least, slope.most) * (hi.s - lo.s);
-  return 0.5 * std::abs(lo.value + hi.value) > reach + tolerance_;
+  const Bounds value = strip(lo, hi);
+  return value.least > tolerance_ || value.most < -tolerance_;
 }
 
 bool RootSearch::is_stretch(const SpiralPair& pair, const ResidualSample& lo, const ResidualSample& hi) {
@@ -155,6 +159,7 @@ void RootSearch::decide(const SpiralPair& pair, const Range& range) {
     return;
   }
   --budget_;
+  if (is_far(lo, hi)) return;
   const Bounds slope = slope_bounds(lo, hi);
   if (slope.least >= 0 || slope.most <= 0) {
     take_monotone(pair, lo, hi);
@@ -193,7 +198,9 @@ void RootSearch::decide_by_polynomial(const SpiralPair& pair, const Range& range
   const ResidualSample& lo = range.lo;
   const ResidualSample& hi = range.hi;
   const double half = 0.5 * (hi.s - lo.s);
-  const Powers f = difference(pair, start, end, lo.s + half, half);
+  const double middle = lo.s + half;
+  Powers f = pair.turning.difference(start, middle, end, middle + pair.offset, half);  // in y in [-1, 1]
+  f[0] -= pair.turn;
   double reach = kBoundsRounding;  // how far f gets from its middle value, its slope from the middle slope, and so on
   double slope_reach = kBoundsRounding;
   double bend_reach = kBoundsRounding;
@@ -212,7 +219,7 @@ void RootSearch::decide_by_polynomial(const SpiralPair& pair, const Range& range
   } else if (2 * std::abs(f[2]) > bend_reach) {
     decide_bent(pair, {lo, hi, f[2] > 0 ? 1 : -1, range.depth});
   } else {
-    halve(pair, range, lo.s + half);
+    halve(pair, range, middle);
   }
 }
 
@@ -325,7 +332,7 @@ ResidualSample RootSearch::solve(const SpiralPair& pair, double level, ResidualS
   for (int round = 0;; ++round) {
     const ResidualSample at = sample(pair, s);
     const double newton = at.s - (at.value - level) / at.slope();
-    if (std::abs(newton - at.s) <= short_step) return newton == at.s ? at : sample(pair, newton);
+    if (std::abs(newton - at.s) <= short_step) return beside(at, last, newton);
     if (at.value == level || round == kMostRounds) return at;
     ((at.value > level) == rises ? hi : lo) = at;
     if (hi.s - lo.s <= short_step) return at;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -34,18 +35,27 @@ std::uint32_t TurningFunction::middle_panel(std::uint32_t first, std::uint32_t l
   return static_cast<std::uint32_t>(found - panels_.begin());
 }
 
-Powers TurningFunction::expand(const Panel& panel, double middle, double half) const {
-  const auto count = static_cast<Eigen::Index>(panel.count);
-  Powers powers(count);
-  for (Eigen::Index k = 0; k < count; ++k) powers[k] = coefficients_[panel.offset + static_cast<std::size_t>(k)][0];
-  const double centre = (middle - panel.middle) * panel.inverse_half;
-  for (Eigen::Index first = 0; first + 1 < count; ++first) {  // Horner's scheme, repeated: x = centre + ...
-    for (Eigen::Index k = count - 2; k >= first; --k) powers[k] += centre * powers[k + 1];
+Powers TurningFunction::difference(const Panel& start, double start_middle, const Panel& end, double end_middle,
+                                   double half) const {
+  const std::size_t count = std::max(start.count, end.count);
+  std::array<Pair, kMostPowers> powers;  // of the end and of the start: one vector instruction serves both
+  for (std::size_t k = 0; k < count; ++k) {
+    powers[k] = {k < end.count ? coefficients_[end.offset + k][0] : 0.0,
+                 k < start.count ? coefficients_[start.offset + k][0] : 0.0};
   }
-  const double ratio = half * panel.inverse_half;  // ... + ratio * y
-  double scale = 1;
-  for (Eigen::Index k = 0; k < count; ++k, scale *= ratio) powers[k] *= scale;
-  return powers;
+  const Pair centre((end_middle - end.middle) * end.inverse_half, (start_middle - start.middle) * start.inverse_half);
+  for (std::size_t first = 0; first + 1 < count; ++first) {  // Horner's scheme, repeated: x = centre + ...
+    Pair above = powers[count - 1];
+    for (std::size_t k = count - 1; k-- > first;) above = powers[k] += centre * above;
+  }
+  const Pair ratio(half * end.inverse_half, half * start.inverse_half);  // ... + ratio * y
+  Powers f(static_cast<Eigen::Index>(count));
+  Pair scale = Pair::Ones();
+  for (std::size_t k = 0; k < count; ++k, scale *= ratio) {
+    const Pair scaled = powers[k] * scale;
+    f[static_cast<Eigen::Index>(k)] = scaled[0] - scaled[1];
+  }
+  return f;
 }
 
 namespace {

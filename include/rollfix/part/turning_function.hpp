@@ -70,14 +70,14 @@ class TurningFunction {
   std::size_t spiral_at(double base, Side side = Side::after) const;
 
   /// Value and slope at base, taken on this spiral, also a rounding error beyond its ends.
-  Turning on_spiral(const Spiral& spiral, double base) const { return on_panel(panel_index(spiral, base), base); }
-  Turning on_panel(std::uint32_t index, double base) const {
-    const Panel& panel = panels_[index];
-    const double x = (base - panel.middle) * panel.inverse_half;
-    return sum(panel, x);
+  Turning on_spiral(const Spiral& spiral, double base) const { return on_panel(panel_on(spiral, base), base); }
+  /// The same on this panel.
+  Turning on_panel(const Panel& panel, double base) const {
+    return sum(panel, (base - panel.middle) * panel.inverse_half);
   }
-  /// Theta as a polynomial in y in [-1, 1] over [middle - half, middle + half], which lies on this panel.
-  Powers expand(const Panel& panel, double middle, double half) const;
+  /// Theta(end_middle + half y) - Theta(start_middle + half y) as a polynomial in y in [-1, 1], three powers at least:
+  /// one lies on the panel `end`, the other on `start`.
+  Powers difference(const Panel& start, double start_middle, const Panel& end, double end_middle, double half) const;
   /// The panel that holds base, a place on this spiral.
   const Panel& panel_on(const Spiral& spiral, double base) const { return panels_[panel_index(spiral, base)]; }
   std::uint32_t panel_index(const Spiral& spiral, double base) const {

@@ -200,7 +200,7 @@ Turning RollCurve::contact_at(const RollPiece& piece, double x, std::size_t c, c
   const double angle = piece.angle[c];
   if (piece.pivot_at) return c == *piece.pivot ? Turning{angle + x, 1} : Turning{angle, 0};
   const double base = x + piece.offset[c];
-  const Turning at = turning_.on_panel(panel_at(c, base), base);
+  const Turning at = turning_.on_panel(turning_.panels()[panel_at(c, base)], base);
   return {angle + at.angle, at.curvature};
 }
 
