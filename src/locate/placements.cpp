@@ -11,6 +11,7 @@
 
 #include "accuracy.hpp"
 #include "outline/turn.hpp"
+#include "part/part_data.hpp"
 #include "rollfix/locate/placement.hpp"
 
 namespace rollfix {
@@ -297,8 +298,9 @@ void PlacementMaker::place(const PerFinger<double>& start, Placement& placement)
   for (std::size_t finger = 0; finger < start.size(); ++finger) {
     placement.start[finger] = question_.part.boundary().canonical(start[finger]);
     placement.end[finger] = question_.part.boundary().canonical(start[finger] + last.length[finger]);
-    placement.point[finger] = question_.part.point(placement.start[finger]);
-    placement.tangent[finger] = question_.part.tangent(placement.start[finger]);
+    const Contact contact = PartAccess::contact(question_.part, placement.start[finger]);
+    placement.point[finger] = contact.point;
+    placement.tangent[finger] = contact.tangent;
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <boost/container/small_vector.hpp>
 #include <vector>
 
 #include "rollfix/locate/locate.hpp"
@@ -99,7 +100,7 @@ class RootSearch {
   double tolerance_;
   std::size_t budget_;
   double same_place_;  // lengths below this are rounding errors
-  std::vector<Range> waiting_;
+  boost::container::small_vector<Range, 8> waiting_;
 };
 
 }  // namespace rollfix

@@ -240,7 +240,7 @@ Search search_one(const Question& question, const LocateOptions& options) {
   add_start_corners(question, stretches, options.tolerance, found);
 
   Search search;
-  search.placements = make_placements(question, std::move(found.pieces), found.roots);
+  search.placements = make_placements(question, std::move(found.pieces), std::move(found.roots));
   search.unresolved = joined(std::move(found.unresolved));
   search.counts = found.counts;
   return search;

@@ -1,7 +1,9 @@
 #include "sets_of_one.hpp"
 
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <utility>
 
@@ -23,19 +25,25 @@ struct Cluster {
   double hi = 0;
   bool exact = false;
   bool whole_loop = false;
-  bool is_joined = false;  // of several pieces
-  ShortList<Root> roots;
+  bool is_joined = false;      // of several pieces
+  std::size_t first_root = 0;  // of those handed out
+  std::size_t root_count = 0;
 };
 
-std::vector<Cluster> join(const Part& part, std::vector<Piece>& pieces) {
+// Answers are few: no allocation for them.
+constexpr std::size_t kInPlace = 8;
+using Clusters = boost::container::small_vector<Cluster, kInPlace>;
+using HandedOut = boost::container::small_vector<Root, kInPlace>;
+
+Clusters join(const Part& part, std::vector<Piece>& pieces) {
   const double same_place = kLengthAccuracy * part.perimeter();
   const auto earlier = [](const Piece& one, const Piece& two) { return one.lo < two.lo; };
   if (!std::is_sorted(pieces.begin(), pieces.end(), earlier)) std::sort(pieces.begin(), pieces.end(), earlier);
-  std::vector<Cluster> clusters;
+  Clusters clusters;
   clusters.reserve(pieces.size());
   for (const Piece& piece : pieces) {
     if (clusters.empty() || piece.lo > clusters.back().hi + same_place) {
-      clusters.push_back({piece.lo, piece.hi, piece.exact, false, false, {}});
+      clusters.push_back({piece.lo, piece.hi, piece.exact});
     } else {
       clusters.back().hi = std::max(clusters.back().hi, piece.hi);
       clusters.back().exact |= piece.exact;
@@ -48,7 +56,7 @@ std::vector<Cluster> join(const Part& part, std::vector<Piece>& pieces) {
   if (joined && clusters.size() == 1) {
     Cluster& only = clusters.front();
     only.whole_loop = only.hi - only.lo >= period - 2 * same_place;
-    if (only.whole_loop) only = {0, period, only.exact, true, true, {}};
+    if (only.whole_loop) only = {0, period, only.exact, true, true};
   } else if (joined) {
     clusters.back().hi = period + clusters.front().hi;
     clusters.back().exact |= clusters.front().exact;
@@ -58,33 +66,39 @@ std::vector<Cluster> join(const Part& part, std::vector<Piece>& pieces) {
   return clusters;
 }
 
-/// Each root to the first cluster that holds it, if there is one. Clusters are in rising order and apart.
-void hand_out(const Part& part, const std::vector<Root>& roots, std::vector<Cluster>& clusters) {
-  if (clusters.empty()) return;
+/// Each root to the first cluster that holds it, if there is one: those of one cluster next to each other, in rising
+/// order. Clusters are in rising order and apart.
+HandedOut hand_out(const Part& part, std::vector<Root>& roots, Clusters& clusters) {
+  HandedOut handed;
+  if (clusters.empty()) return handed;
+  const auto earlier = [](const Root& one, const Root& two) { return one.s < two.s; };
+  if (!std::is_sorted(roots.begin(), roots.end(), earlier)) std::stable_sort(roots.begin(), roots.end(), earlier);
   const double same_place = kLengthAccuracy * part.perimeter();
   const auto take = [&](Cluster& cluster, const Root& root) {
     if (root.s < cluster.lo - same_place || root.s > cluster.hi + same_place) return false;
-    cluster.roots.push_back(root);
+    if (cluster.root_count++ == 0) cluster.first_root = handed.size();
+    handed.push_back(root);
     return true;
   };
-  const auto ends_before = [&](const Cluster& cluster, double s) { return cluster.hi + same_place < s; };
+  boost::container::small_vector<Root, 2> left;
+  auto next = clusters.begin();
   for (const Root& root : roots) {
-    const auto next = std::lower_bound(clusters.begin(), clusters.end(), root.s, ends_before);
-    if ((next != clusters.end() && take(*next, root)) || !part.closed()) continue;
-    Root shifted = root;  // into the last one, across s = 0
-    shifted.s += part.perimeter();
-    take(clusters.back(), shifted);
+    while (next != clusters.end() && next->hi + same_place < root.s) ++next;
+    if (next == clusters.end() || !take(*next, root)) left.push_back(root);
   }
-  for (Cluster& cluster : clusters) {
-    const auto earlier = [](const Root& one, const Root& two) { return one.s < two.s; };
-    if (cluster.roots.size() > 1) std::sort(cluster.roots.begin(), cluster.roots.end(), earlier);
+  if (!part.closed()) return handed;
+  for (Root& root : left) {  // into the last one, across s = 0
+    root.s += part.perimeter();
+    take(clusters.back(), root);
   }
+  return handed;
 }
 
 class SetsOfOne {
  public:
-  explicit SetsOfOne(const Question& question)
+  SetsOfOne(const Question& question, const HandedOut& roots)
       : question_(question),
+        handed_out_(roots),
         turning_(question.part.turning()),
         readings_(question.readings),
         maker_(question),
@@ -93,8 +107,8 @@ class SetsOfOne {
   void make(const Cluster& cluster, Placement& placement) const {
     const Interval extent{cluster.lo, cluster.hi};
     // By far the most frequent answer: one reading, one simple root.
-    if (readings_.size() == 1 && cluster.roots.size() == 1 && cluster.roots.front().crossing && !cluster.is_joined) {
-      const Root& root = cluster.roots.front();
+    if (readings_.size() == 1 && cluster.root_count == 1 && roots_of(cluster)->crossing && !cluster.is_joined) {
+      const Root& root = *roots_of(cluster);
       FoundSet found{Kind::crossing, root.s, extent, false, {}};
       found.roots.push_back(root.s);
       const SlopeSample sample{root.sample.value, root.sample.start_curvature, root.sample.end_curvature};
@@ -111,6 +125,8 @@ class SetsOfOne {
  private:
   // ---- roots ----
 
+  const Root* roots_of(const Cluster& cluster) const { return handed_out_.data() + cluster.first_root; }
+
   ResidualSample sample(const Reading& reading, double s) const {
     const Turning at_start = turning_.at(s);
     const Turning at_end = turning_.at(s + reading.length[0]);
@@ -121,7 +137,8 @@ class SetsOfOne {
   Roots exact_roots(const Cluster& cluster) const {
     Roots found;
     double looked_at = -std::numeric_limits<double>::infinity();  // the last crossing that all may share
-    for (const Root& root : cluster.roots) {
+    for (std::size_t k = 0; k < cluster.root_count; ++k) {
+      const Root& root = roots_of(cluster)[k];
       Root candidate = root;
       if (readings_.size() == 1) {
         if (!root.exact) continue;
@@ -192,7 +209,10 @@ class SetsOfOne {
     };
     consider(cluster.lo, false);
     consider(cluster.hi, false);
-    for (const Root& root : cluster.roots) consider(root.s, root.corner);
+    for (std::size_t k = 0; k < cluster.root_count; ++k) {
+      const Root& root = roots_of(cluster)[k];
+      consider(root.s, root.corner);
+    }
     if (readings_.size() > 1) consider(golden_section(cluster), false);
     return best;
   }
@@ -256,6 +276,7 @@ class SetsOfOne {
   }
 
   const Question& question_;
+  const HandedOut& handed_out_;
   const TurningFunction& turning_;
   const std::vector<Reading>& readings_;
   PlacementMaker maker_;
@@ -264,11 +285,10 @@ class SetsOfOne {
 
 }  // namespace
 
-std::vector<Placement> make_placements(const Question& question, std::vector<Piece> pieces,
-                                       const std::vector<Root>& roots) {
-  std::vector<Cluster> clusters = join(question.part, pieces);
-  hand_out(question.part, roots, clusters);
-  const SetsOfOne sets(question);
+std::vector<Placement> make_placements(const Question& question, std::vector<Piece> pieces, std::vector<Root> roots) {
+  Clusters clusters = join(question.part, pieces);
+  const HandedOut handed_out = hand_out(question.part, roots, clusters);
+  const SetsOfOne sets(question, handed_out);
   std::vector<Placement> placements(clusters.size());
   for (std::size_t k = 0; k < clusters.size(); ++k) sets.make(clusters[k], placements[k]);
   const auto earlier = [](const Placement& one, const Placement& two) { return one.start[0] < two.start[0]; };

@@ -9,7 +9,6 @@ namespace rollfix {
 
 /// Joins pieces that touch into connected sets (across s = 0 on a closed outline), one placement each, and says
 /// what kind of answer each is. `pieces` and `roots` in any order, of all readings together.
-std::vector<Placement> make_placements(const Question& question, std::vector<Piece> pieces,
-                                       const std::vector<Root>& roots);
+std::vector<Placement> make_placements(const Question& question, std::vector<Piece> pieces, std::vector<Root> roots);
 
 }  // namespace rollfix

@@ -12,6 +12,7 @@ inline constexpr double kDegree = std::numbers::pi / 180;
 
 /// The same angle in (-pi, pi].
 inline double nearest_angle(double angle) {
+  if (std::abs(angle) < std::numbers::pi) return angle;  // mostly
   const double turned = std::remainder(angle, kFullTurn);
   return turned <= -std::numbers::pi ? std::numbers::pi : turned;
 }

@@ -137,14 +137,23 @@ int Part::turns() const {
 }
 
 Vec2 Part::point(double s) const {
-  const TurningFunction& turning = data_->turning;
   const double base = boundary().base(s);
-  const std::size_t index = panel_at(turning.panels(), base);
-  const Panel& panel = turning.panels()[index];
-  const Curve& curve = data_->outline.curves[data_->parametrization.pieces[index].curve];
+  return PartAccess::point(*this, panel_at(data_->turning.panels(), base), base);
+}
+
+Vec2 PartAccess::point(const Part& part, std::size_t panel_index, double base) {
+  const Data& all = data(part);
+  const Panel& panel = all.turning.panels()[panel_index];
+  const Curve& curve = all.outline.curves[all.parametrization.pieces[panel_index].curve];
   const Interval domain = curve.domain();
-  const double u = data_->parametrization.parameter(index, (base - panel.middle) * panel.inverse_half);
+  const double u = all.parametrization.parameter(panel_index, (base - panel.middle) * panel.inverse_half);
   return curve.position(std::min(std::max(u, domain.lo), domain.hi));
+}
+
+Contact PartAccess::contact(const Part& part, double base) {
+  const TurningFunction& turning = part.turning();
+  const std::size_t index = panel_at(turning.panels(), base);
+  return {point(part, index, base), nearest_angle(turning.on_panel(turning.panels()[index], base).angle)};
 }
 
 double Part::tangent(double s) const {

@@ -39,11 +39,20 @@ struct Crossing {
 /// over only when they turn too little to meet themselves, or when boxes around them are apart.
 std::optional<Crossing> find_crossing(const Part& part);
 
-/// For saving a part and making it again.
+/// What a finger touches at a place.
+struct Contact {
+  Vec2 point;
+  double tangent = 0;  // its direction just after the place, at the end of an open boundary before it
+};
+
+/// For saving a part and making it again, and for what takes one look at what it holds.
 struct PartAccess {
   using Data = Part::Data;
 
   static const Data& data(const Part& part) { return *part.data_; }
+  /// Point and tangent at base, 0 <= base <= P: both from one panel.
+  static Contact contact(const Part& part, double base);
+  static Vec2 point(const Part& part, std::size_t panel_index, double base);
   static Part part(Data data) {
     data.tree = TurningTree(data.turning);
     return Part(std::make_shared<const Data>(std::move(data)));
