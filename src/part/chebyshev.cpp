@@ -9,7 +9,38 @@
 
 namespace rollfix::chebyshev {
 
-Grid::Grid(int degree) : points_(degree + 1), transform_(degree + 1, degree + 1) {
+namespace {
+
+using Pair = Eigen::Array2d;  // one vector instruction serves both
+
+void set(Columns& columns, int row, int column, double value) {
+  columns[static_cast<std::size_t>(column)][static_cast<std::size_t>(row / 2)][row % 2] = value;
+}
+
+/// The sums stay in registers.
+template <std::size_t Pairs>
+Series combined(const Columns& columns, const Series& weights) {
+  std::array<Pair, kMostTerms / 2> sums;
+  for (std::size_t i = 0; i < Pairs; ++i) sums[i] = Pair::Zero();
+  for (Eigen::Index k = 0; k < weights.size(); ++k) {
+    const auto& column = columns[static_cast<std::size_t>(k)];
+    for (std::size_t i = 0; i < Pairs; ++i) sums[i] += column[i] * weights[k];
+  }
+  Series result(weights.size());
+  for (Eigen::Index k = 0; k < result.size(); ++k) result[k] = sums[static_cast<std::size_t>(k / 2)][k % 2];
+  return result;
+}
+
+/// The product of the square part of a matrix with a series.
+Series product(const Columns& columns, const Series& weights) {
+  constexpr std::size_t kHalf = 5;  // a coarse grid's
+  return weights.size() <= static_cast<Eigen::Index>(2 * kHalf) ? combined<kHalf>(columns, weights)
+                                                                : combined<kMostTerms / 2>(columns, weights);
+}
+
+}  // namespace
+
+Grid::Grid(int degree) : points_(degree + 1) {
   const double angle = std::numbers::pi / degree;
   for (int j = 0; j <= degree; ++j) points_[j] = std::sin(0.5 * angle * (2 * j - degree));  // exactly symmetric
   for (int k = 0; k <= degree; ++k) {
@@ -17,17 +48,17 @@ Grid::Grid(int degree) : points_(degree + 1), transform_(degree + 1, degree + 1)
       const bool end_point = j == 0 || j == degree;
       const bool end_order = k == 0 || k == degree;
       const double weight = (end_point ? 0.5 : 1.0) * (end_order ? 1.0 : 2.0) / degree;
-      transform_(k, j) = weight * std::cos(angle * ((k * (degree - j)) % (2 * degree)));
+      set(transform_, k, j, weight * std::cos(angle * ((k * (degree - j)) % (2 * degree))));
     }
   }
 }
 
+Series Grid::coefficients(const Series& values) const { return product(transform_, values); }
+
 namespace {
 
-using Pair = Eigen::Array2d;  // one vector instruction serves both
-
 // So many pairs are summed up abreast: they stay in registers, and none waits for another's sums.
-constexpr std::size_t kAbreast = 5;
+constexpr std::size_t kAbreast = 4;
 constexpr Eigen::Index kPlaces = 2 * kAbreast;
 constexpr Eigen::Index kPadded = (kMostTerms + kPlaces - 1) / kPlaces * kPlaces;
 
@@ -78,26 +109,27 @@ Series antiderivative(const Series& coefficients) {
 
 namespace {
 
-using Square = Eigen::Matrix<double, kMostTerms, kMostTerms>;
-
-/// Row k holds the powers of T_k, by T_{k+1} = 2 x T_k - T_{k-1}.
-Square polynomials() {
-  Square table = Square::Zero();
+/// Column k holds the powers of T_k, by T_{k+1} = 2 x T_k - T_{k-1}.
+Columns polynomials() {
+  Eigen::Matrix<double, kMostTerms, kMostTerms> table = Eigen::Matrix<double, kMostTerms, kMostTerms>::Zero();
   table(0, 0) = 1;
   table(1, 1) = 1;
   for (int k = 2; k < kMostTerms; ++k) {
-    table.row(k).tail(kMostTerms - 1) = 2 * table.row(k - 1).head(kMostTerms - 1);
-    table.row(k) -= table.row(k - 2);
+    table.col(k).tail(kMostTerms - 1) = 2 * table.col(k - 1).head(kMostTerms - 1);
+    table.col(k) -= table.col(k - 2);
   }
-  return table;
+  Columns columns;
+  for (int k = 0; k < kMostTerms; ++k) {
+    for (int power = 0; power < kMostTerms; ++power) set(columns, power, k, table(power, k));
+  }
+  return columns;
 }
 
 }  // namespace
 
 Series powers(const Series& coefficients) {
-  static const Square table = polynomials();
-  const Eigen::Index count = coefficients.size();
-  return table.topLeftCorner(count, count).transpose() * coefficients;
+  static const Columns table = polynomials();
+  return product(table, coefficients);
 }
 
 double tail(const Series& coefficients) {

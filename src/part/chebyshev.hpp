@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 namespace rollfix::chebyshev {
@@ -9,17 +10,20 @@ namespace rollfix::chebyshev {
 inline constexpr int kMostTerms = 18;
 using Series = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostTerms, 1>;
 
+/// A matrix by columns, padded with zeros, for products with a series: vector instructions serve two rows at a time.
+using Columns = std::array<std::array<Eigen::Array2d, kMostTerms / 2>, kMostTerms>;
+
 /// The points cos(pi j / degree), from -1 to 1, and the matrix that turns values at them into coefficients.
 class Grid {
  public:
   explicit Grid(int degree);
   int degree() const { return static_cast<int>(points_.size()) - 1; }
   const Series& points() const { return points_; }
-  Series coefficients(const Series& values) const { return transform_ * values; }
+  Series coefficients(const Series& values) const;
 
  private:
   Series points_;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostTerms, kMostTerms> transform_;
+  Columns transform_{};
 };
 
 /// The series' values at all of these x in [-1, 1], by Clenshaw's recurrence.

@@ -34,6 +34,8 @@ constexpr double kShortestPanel = 1e-11;
 // Newton's method converges quadratically: after a step like this the next one would be a rounding error.
 constexpr double kNewtonStep = 1e-8;
 constexpr int kNewtonRounds = 10;
+// After a step below this the slope is known well enough for the next one: what it is off by, times that, is rounding.
+constexpr double kSameSlope = 1e-6;
 
 constexpr int kCoarseDegree = 8;  // enough for a span between dense points
 constexpr int kFineDegree = 16;
@@ -86,24 +88,24 @@ class Resolver {
   bool invert_length(Interval range, const Grid& grid) {
     const Eigen::Index count = grid.points().size();
     const double half = 0.5 * range.width();
-    const Series targets = (grid.points().array() + 1).matrix() * (0.5 * panel_.length);
-    inner_.resize(count);
-    for (Eigen::Index j = 0; j < count; ++j) {  // c0 (x + 1) + c1 (x^2 - 1) / 2 = target
+    const Series points = grid.points().segment(1, count - 2);  // the ends are known
+    const Series targets = (points.array() + 1).matrix() * (0.5 * panel_.length);
+    inner_.resize(count - 2);
+    for (Eigen::Index j = 0; j < inner_.size(); ++j) {  // c0 (x + 1) + c1 (x^2 - 1) / 2 = target
       const double right = targets[j] / half - speed_[0] + 0.5 * speed_[1];
       const double root = speed_[0] * speed_[0] + 2 * speed_[1] * right;
-      inner_[j] = root > 0 ? std::clamp(2 * right / (speed_[0] + std::sqrt(root)), -1.0, 1.0) : grid.points()[j];
+      inner_[j] = root > 0 ? std::clamp(2 * right / (speed_[0] + std::sqrt(root)), -1.0, 1.0) : points[j];
     }
-    for (int round = 0; round < kNewtonRounds; ++round) {
-      const Series speeds = chebyshev::values(speed_, inner_);
-      const Series lengths = chebyshev::values(length_, inner_);
-      const Series steps = ((targets - lengths).array() / (speeds.array() * half)).matrix();
+    Series slopes;
+    double last_step = 1;
+    for (int round = 0; round < kNewtonRounds && last_step > kNewtonStep; ++round) {
+      if (last_step > kSameSlope) slopes = chebyshev::values(speed_, inner_) * half;
+      const Series steps = (targets - chebyshev::values(length_, inner_)).cwiseQuotient(slopes);
       inner_ += steps;
-      if (steps.cwiseAbs().maxCoeff() <= kNewtonStep) break;
+      last_step = steps.cwiseAbs().maxCoeff();
     }
-    inner_[0] = -1;
-    inner_[count - 1] = 1;
     Series parameters(count);
-    for (Eigen::Index j = 0; j < count; ++j) parameters[j] = range.middle() + half * inner_[j];
+    parameters.segment(1, count - 2) = (inner_ * half).array() + range.middle();
     parameters[0] = range.lo;
     parameters[count - 1] = range.hi;
     panel_.parameter = grid.coefficients(parameters);
@@ -120,7 +122,8 @@ class Resolver {
       const Jet jet = curve_.jet(nodes_[j]);
       const double speed = jet.first.norm();
       const double speed_noise = kSpeedAgreement * speed + parameter_noise_ * jet.second.norm();
-      if (std::abs(speed - speeds[j]) > speed_noise) return false;
+      const bool is_end = j == 0 || j + 1 == count;  // where the series is the speed
+      if (!is_end && std::abs(speed - speeds[j - 1]) > speed_noise) return false;
       curvatures[j] = curvature(jet);
       noise = std::max(noise, kSeriesNoise * (std::abs(curvatures[j]) + jet.second.norm() / (speed * speed)) +
                                   parameter_noise_ * std::abs(curvature_rate(jet)));
@@ -161,7 +164,7 @@ class Resolver {
   double parameter_noise_ = 0;
   Series speed_;   // |alpha'| over x in [-1, 1] of the parameter
   Series length_;  // arc length from the panel's start, likewise
-  Series inner_;   // where in that x the nodes of equal arc length lie
+  Series inner_;   // where in that x the nodes of equal arc length lie, but for the ends
   Series nodes_;   // the same as parameters u
   ResolvedPanel panel_;
 };
