@@ -114,6 +114,7 @@ void RootSearch::run(const SpiralPair& pair, const ResidualSample& lo, const Res
     ++findings.counts.intervals;
     return;
   }
+  start_panel_ = end_panel_ = nullptr;
   if (is_stretch(pair, lo, hi)) {
     add_piece(lo.s, hi.s, true);
     findings.roots.push_back({lo.s});

@@ -29,9 +29,6 @@ struct SpiralPair {
   ResidualSample sample(double s, const Turning& at_start, const Turning& at_end) const {
     return {s, at_end.angle - at_start.angle - turn, at_start.curvature, at_end.curvature};  // eqs. (4), (5)
   }
-  ResidualSample sample(double s) const {
-    return sample(s, turning.on_spiral(start, s), turning.on_spiral(end, s + offset));
-  }
 };
 
 /// A set of first contacts on which |f| is within the tolerance.
@@ -93,13 +90,21 @@ class RootSearch {
   ResidualSample solve(const SpiralPair& pair, double level, ResidualSample lo, ResidualSample hi);
   ResidualSample sample(const SpiralPair& pair, double s) {
     findings.counts.evaluations += 2;
-    return pair.sample(s);
+    return pair.sample(s, on(pair.turning, pair.start, s, start_panel_),
+                       on(pair.turning, pair.end, s + pair.offset, end_panel_));
+  }
+  /// Theta on a spiral, of which the panel of the sample before is known: mostly it is this one's.
+  static Turning on(const TurningFunction& turning, const Spiral& spiral, double base, const Panel*& panel) {
+    if (panel == nullptr || !(base >= panel->lo && base < panel->hi)) panel = &turning.panel_on(spiral, base);
+    return turning.on_panel(*panel, base);
   }
   void add_piece(double lo, double hi, bool exact = false);
 
   double tolerance_;
   std::size_t budget_;
   double same_place_;  // lengths below this are rounding errors
+  const Panel* start_panel_ = nullptr;
+  const Panel* end_panel_ = nullptr;
   boost::container::small_vector<Range, 8> waiting_;
 };
 

@@ -12,7 +12,10 @@ inline constexpr double kDegree = std::numbers::pi / 180;
 
 /// The same angle in (-pi, pi].
 inline double nearest_angle(double angle) {
-  if (std::abs(angle) < std::numbers::pi) return angle;  // mostly
+  if (std::abs(angle) < std::numbers::pi) return angle;  // mostly; else without a lap, which is exact
+  if (std::abs(angle) < kFullTurn && std::abs(angle) > std::numbers::pi) {
+    return angle - std::copysign(kFullTurn, angle);
+  }
   const double turned = std::remainder(angle, kFullTurn);
   return turned <= -std::numbers::pi ? std::numbers::pi : turned;
 }
