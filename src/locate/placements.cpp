@@ -20,7 +20,7 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Curvatures whose differences the slopes are: below kNoSlope times them a slope is rounding.
+/// Curvatures whose differences the slopes of two fingers are: below kNoSlope times them a slope is rounding.
 double curvature_scale(const Question& question, const SlopeSample* samples) {
   double scale = 0;
   for (std::size_t k = 0; k < question.readings.size(); ++k) {
@@ -28,7 +28,7 @@ double curvature_scale(const Question& question, const SlopeSample* samples) {
     double end = 0;
     for (const double curvature : samples[k].start_curvature) start += std::abs(curvature);
     for (const double curvature : samples[k].end_curvature) end += std::abs(curvature);
-    scale = std::max(scale, question.fingers() == 1 ? start + end : std::max(start, end));
+    scale = std::max({scale, start, end});
   }
   return scale;
 }
@@ -37,10 +37,14 @@ double curvature_scale(const Question& question, const SlopeSample* samples) {
 /// squares.
 void describe_slopes_of_one(const Question& question, const SlopeSample* samples, Placement& placement) {
   double square = 0;
+  double scale = 0;  // the curvatures whose differences the slopes are
   const auto slope = [&](std::size_t k) { return samples[k].end_curvature[0] - samples[k].start_curvature[0]; };
-  for (std::size_t k = 0; k < question.readings.size(); ++k) square += slope(k) * slope(k);
+  for (std::size_t k = 0; k < question.readings.size(); ++k) {
+    square += slope(k) * slope(k);
+    scale = std::max(scale, std::abs(samples[k].start_curvature[0]) + std::abs(samples[k].end_curvature[0]));
+  }
   const double size = std::sqrt(square);
-  if (!(size > kNoSlope * curvature_scale(question, samples))) return;
+  if (!(size > kNoSlope * (scale + 1 / question.part.perimeter()))) return;
   placement.error = std::max(kRootLength * question.part.perimeter(), kRootTurn / size);
   for (std::size_t k = 0; k < question.readings.size(); ++k) {
     placement.sensitivity.per_turn[0].push_back(slope(k) / square);
