@@ -302,7 +302,7 @@ void PlacementMaker::place(const PerFinger<double>& start, Placement& placement)
   for (std::size_t finger = 0; finger < start.size(); ++finger) {
     placement.start[finger] = question_.part.boundary().canonical(start[finger]);
     placement.end[finger] = question_.part.boundary().canonical(start[finger] + last.length[finger]);
-    const Contact contact = PartAccess::contact(question_.part, placement.start[finger]);
+    const Touched contact = PartAccess::contact(question_.part, placement.start[finger]);
     placement.point[finger] = contact.point;
     placement.tangent[finger] = contact.tangent;
   }

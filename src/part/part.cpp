@@ -150,7 +150,7 @@ Vec2 PartAccess::point(const Part& part, std::size_t panel_index, double base) {
   return curve.position(std::min(std::max(u, domain.lo), domain.hi));
 }
 
-Contact PartAccess::contact(const Part& part, double base) {
+Touched PartAccess::contact(const Part& part, double base) {
   const TurningFunction& turning = part.turning();
   const std::size_t index = panel_at(turning.panels(), base);
   return {point(part, index, base), nearest_angle(turning.on_panel(turning.panels()[index], base).angle)};

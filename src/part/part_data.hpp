@@ -40,7 +40,7 @@ struct Crossing {
 std::optional<Crossing> find_crossing(const Part& part);
 
 /// What a finger touches at a place.
-struct Contact {
+struct Touched {
   Vec2 point;
   double tangent = 0;  // its direction just after the place, at the end of an open boundary before it
 };
@@ -51,7 +51,7 @@ struct PartAccess {
 
   static const Data& data(const Part& part) { return *part.data_; }
   /// Point and tangent at base, 0 <= base <= P: both from one panel.
-  static Contact contact(const Part& part, double base);
+  static Touched contact(const Part& part, double base);
   static Vec2 point(const Part& part, std::size_t panel_index, double base);
   static Part part(Data data) {
     data.tree = TurningTree(data.turning);
