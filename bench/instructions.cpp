@@ -13,6 +13,7 @@
 #include "program.hpp"
 #include "questions.hpp"
 #include "rollfix/belief/belief.hpp"
+#include "rollfix/contact/log.hpp"
 #include "rollfix/files/saved_part.hpp"
 #include "rollfix/outline/gallery.hpp"
 
@@ -66,6 +67,12 @@ std::function<void()> load() {
   return [text = format_part(Part(outline_of("spline")))] { bench::keep(parse_part(text, "spline")); };
 }
 
+std::function<void()> read_log() {
+  std::string text = "time,u,psi\n";
+  for (int k = 0; k < 10000; ++k) text += fmt::format("{},{:.17g},{:.17g}\n", 0.01 * k, -0.001 * k, 0.0007 * k);
+  return [text] { bench::keep(parse_log(text, "long.csv")); };
+}
+
 Preparation posterior(const std::string& name) {
   return [name] {
     const Part part(outline_of(name));
@@ -96,6 +103,7 @@ std::vector<Query> queries() {
   }
   for (const char* name : {"spline", "gear", "wing"}) all.push_back({fmt::format("build_{}", name), build(name)});
   all.push_back({"load_spline", load});
+  all.push_back({"read_log", read_log});
   for (const char* name : {"limacon", "spline"}) all.push_back({fmt::format("posterior_{}", name), posterior(name)});
   return all;
 }
