@@ -6,38 +6,73 @@
 
 namespace rollfix::chebyshev {
 
-/// Values at, or coefficients over, the Chebyshev points of a panel: at most 17 and one more after integration.
+/// The coefficients of a polynomial, of rising order: at most those of the finest grid, and one more after integration.
 inline constexpr int kMostTerms = 18;
 using Series = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostTerms, 1>;
 
-/// A matrix by columns, padded with zeros, for products with a series: vector instructions serve two rows at a time.
-using Columns = std::array<std::array<Eigen::Array2d, kMostTerms / 2>, kMostTerms>;
+/// Those of a polynomial of a degree that is known, and one more: an even number.
+template <int Degree>
+using Terms = Eigen::Array<double, Degree + 2, 1>;
 
-/// The points cos(pi j / degree), from -1 to 1, and the matrix that turns values at them into coefficients.
+/// The points cos(pi j / Degree), from -1 to 1, and what turns values at them into a polynomial.
+template <int Degree>
 class Grid {
+  static_assert(Degree % 2 == 0 && Degree + 2 <= kMostTerms);
+
  public:
-  explicit Grid(int degree);
-  int degree() const { return static_cast<int>(points_.size()) - 1; }
-  const Series& points() const { return points_; }
-  Series coefficients(const Series& values) const;
+  static constexpr int kPoints = Degree + 1;
+  /// All points but the two at the ends, and one that counts for nothing, 0: an even number.
+  using Inner = Eigen::Array<double, Degree, 1>;
+
+  static const Grid& instance();
+
+  double point(int j) const { return points_[j]; }
+  const Inner& inner() const { return inner_; }
+  /// The polynomial through these values at the points (the last one is not looked at) by its coefficients over the
+  /// Chebyshev polynomials.
+  Terms<Degree> coefficients(const Terms<Degree>& values) const;
+  /// From there to the powers of x. Safe where the coefficients fall faster than the conversion's factor (1 + sqrt 2)^k
+  /// grows, as a resolved panel's do.
+  Terms<Degree> powers(const Terms<Degree>& coefficients) const;
 
  private:
-  Series points_;
-  Columns transform_{};
+  static constexpr int kPairs = Degree / 2 + 1;
+  using Pair = Eigen::Array2d;
+  /// A matrix by columns that keeps even terms and odd ones apart: each entry serves one of either, which is half the
+  /// work, and one vector instruction does both.
+  using Columns = std::array<std::array<Pair, kPairs>, kPairs>;
+
+  Grid();
+  template <class Weight>
+  static Terms<Degree> product(const Columns& columns, const Weight& weight);
+
+  std::array<double, kPoints> points_;
+  Inner inner_;
+  Columns transform_;
+  Columns powers_;
 };
+extern template class Grid<8>;
+extern template class Grid<16>;
 
-/// The series' values at all of these x in [-1, 1], by Clenshaw's recurrence.
-Series values(const Series& coefficients, const Series& x);
+/// The values of a polynomial, given by its powers, at all of these x.
+template <class Powers, class Places>
+Places values(const Powers& powers, const Places& x) {
+  Places sum = Places::Constant(powers[powers.size() - 1]);
+  for (Eigen::Index k = powers.size() - 1; k-- > 0;) sum = sum * x + powers[k];
+  return sum;
+}
 
-/// Coefficients of the antiderivative that vanishes at x = -1.
-Series antiderivative(const Series& coefficients);
-
-/// The same polynomial in powers of x. Safe here because a resolved panel's coefficients fall
-/// faster than the conversion's factor (1 + sqrt 2)^k grows.
-Series powers(const Series& coefficients);
-
-/// The largest of the last three coefficients: what interpolation has not resolved.
-double tail(const Series& coefficients);
+/// The antiderivative of a polynomial, given by its powers, that vanishes at x = -1, times a factor. The last power of
+/// `powers` must be 0.
+template <class Powers>
+Powers antiderivative(const Powers& powers, double factor) {
+  Powers result;
+  for (Eigen::Index k = powers.size() - 1; k > 0; --k) result[k] = factor * powers[k - 1] / static_cast<double>(k);
+  double at_start = 0;
+  for (Eigen::Index k = 1; k < powers.size(); ++k) at_start += k % 2 == 0 ? result[k] : -result[k];
+  result[0] = -at_start;
+  return result;
+}
 
 /// Where a polynomial, given by its powers, changes sign strictly inside (-1, 1), in rising order.
 /// All of them: an interval is left only when a bound on the polynomial, or on its derivative, excludes more.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -13,9 +14,10 @@ namespace rollfix {
 namespace {
 
 using chebyshev::Grid;
-using chebyshev::Series;
+using chebyshev::Terms;
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // A series is resolved when its last terms are rounding errors: relative to its size, ...
 constexpr double kSeriesNoise = 20 * kEpsilon;
 // ... or too small to matter: as a length (share of the outline's size) or as an angle (radians).
@@ -40,132 +42,184 @@ constexpr double kSameSlope = 1e-6;
 constexpr int kCoarseDegree = 8;  // enough for a span between dense points
 constexpr int kFineDegree = 16;
 
+[[noreturn]] void throw_cusp(const Curve& curve, double u) {
+  const Vec2 place = curve.position(u);
+  throw InputError(
+      fmt::format("expected a tangent at every point, found none (a cusp) at ({:.6g}, {:.6g}), parameter {:.6g}: "
+                  "remove the cusp or end the curve there, so that it becomes a corner",
+                  place.x(), place.y(), u));
+}
+
+/// One attempt at a panel: is the curve resolved on this range by polynomials of this degree?
+template <int Degree>
+class Attempt {
+ public:
+  Attempt(const Curve& curve, double size, const Interval& range)
+      : curve_(curve), size_(size), range_(range), half_(0.5 * range.width()), grid_(Grid<Degree>::instance()) {}
+
+  /// Fills the panel and says whether its polynomials are as good as the curve's own rounding errors allow.
+  bool fill(ResolvedPanel& panel) { return measure_length(panel) && invert_length(panel) && measure_turn(panel); }
+
+ private:
+  using Values = Terms<Degree>;  // at the grid's points
+  using Inner = typename Grid<Degree>::Inner;
+
+  /// The largest of the last three coefficients: what interpolation has not resolved.
+  static double tail(const Values& series) { return series.template segment<3>(Degree - 2).abs().maxCoeff(); }
+
+  bool measure_length(ResolvedPanel& panel) {
+    Values squares;
+    for (int j = 0; j <= Degree; ++j) {
+      squares[j] = curve_.velocity(range_.middle() + half_ * grid_.point(j)).squaredNorm();
+    }
+    squares[Degree + 1] = squares[Degree];
+    const Values speeds = squares.sqrt();
+    if (!(speeds > 0 && speeds < kInfinity).all()) throw_cusp(curve_, range_.middle());
+    const double most = speeds.maxCoeff();
+    const Values series = grid_.coefficients(speeds);
+    const double rest = tail(series);
+    // The parameter's own rounding moves each node: what the speed changes by on the way is noise as well.
+    parameter_noise_ = kParameterNoise * curve_.parameter_size(range_);
+    const double noise = kSeriesNoise * most + parameter_noise_ * (most - speeds.minCoeff()) / half_;
+    if (rest > noise && rest * range_.width() > kLengthNoise * size_) return false;
+    speed_ = grid_.powers(series);
+    length_ = chebyshev::antiderivative(speed_, half_);
+    panel.length = length_.sum();
+    return true;
+  }
+
+  /// The parameters x at which the length about the middle is so much, by the series that reverts that of the length,
+  /// up to its fourth power.
+  Inner first_guess(const Inner& lengths) const {
+    const double b2 = length_[2] / length_[1];
+    const double b3 = length_[3] / length_[1];
+    const double b4 = length_[4] / length_[1];
+    const Inner y = lengths / length_[1];
+    const Inner x = y * (1 + y * (-b2 + y * (2 * b2 * b2 - b3 + y * (5 * b2 * b3 - b4 - 5 * b2 * b2 * b2))));
+    return x.cwiseMax(-1).cwiseMin(1);
+  }
+
+  /// u where the arc length is resolved: Newton's method on the length's polynomial. The ends are known.
+  bool invert_length(ResolvedPanel& panel) {
+    const Inner targets = (grid_.inner() + 1) * (0.5 * panel.length);
+    inner_ = first_guess(targets - length_[0]);
+    Inner slopes;
+    double last_step = 1;
+    for (int round = 0; round < kNewtonRounds && last_step > kNewtonStep; ++round) {
+      if (last_step > kSameSlope) slopes = chebyshev::values(speed_, inner_) * half_;
+      const Inner steps = (targets - chebyshev::values(length_, inner_)) / slopes;
+      inner_ += steps;
+      last_step = steps.abs().maxCoeff();
+    }
+    nodes_[0] = range_.lo;
+    nodes_.template segment<Degree - 1>(1) = (inner_ * half_ + range_.middle()).template head<Degree - 1>();
+    nodes_.template tail<2>().setConstant(range_.hi);
+    panel.parameter = grid_.powers(grid_.coefficients(nodes_)).template head<Degree + 1>();
+    return (inner_.abs() <= 1).all();
+  }
+
+  bool measure_turn(ResolvedPanel& panel) {
+    std::array<Jet, Degree + 1> jets;
+    Values squares;
+    Values crosses;
+    for (int j = 0; j <= Degree; ++j) {
+      const Jet& jet = jets[j] = curve_.jet(nodes_[j]);
+      squares[j] = jet.first.squaredNorm();
+      crosses[j] = cross(jet.first, jet.second);
+    }
+    squares[Degree + 1] = squares[Degree];
+    crosses[Degree + 1] = crosses[Degree];
+    const Values speeds = squares.sqrt();
+    if (!agree(speeds, jets)) return false;
+    const Values curvatures = crosses / (squares * speeds);
+    Values series = grid_.coefficients(curvatures);
+    const auto noise = [&] { return curvature_noise(jets, curvatures); };
+    const double rest = tail(series);
+    if (rest > kSeriesNoise * curvatures.abs().maxCoeff() && rest * panel.length > kTurnNoise && rest > noise()) {
+      return false;
+    }
+    const int count = recognize_arc(series, panel.length);
+    const Values powers = grid_.powers(series);
+    panel.curvature = powers.head(count);
+    panel.turn = chebyshev::antiderivative(powers, 0.5 * panel.length).head(count + 1);
+    panel.tangent_at_start = jets.front().first;
+    panel.tangent_at_end = jets.back().first;
+    const double between = angle_between(panel.tangent_at_start, panel.tangent_at_end);
+    const double off = std::abs(nearest_angle(between - panel.turn.sum()));
+    return off <= kTurnAgreement || off <= kTurnAgreement + noise() * panel.length;
+  }
+
+  /// Is the speed between the points that it was measured at what its series says?
+  bool agree(const Values& speeds, const std::array<Jet, Degree + 1>& jets) const {
+    const Inner off = (speeds.template segment<Degree>(1) - chebyshev::values(speed_, inner_)).abs();
+    for (int j = 1; j < Degree; ++j) {
+      const double limit = kSpeedAgreement * speeds[j];
+      if (off[j - 1] > limit && off[j - 1] > limit + parameter_noise_ * jets[j].second.norm()) return false;
+    }
+    return true;
+  }
+
+  double curvature_noise(const std::array<Jet, Degree + 1>& jets, const Values& curvatures) const {
+    double noise = 0;
+    for (int j = 0; j <= Degree; ++j) {
+      const Jet& jet = jets[j];
+      noise = std::max(noise, kSeriesNoise * (std::abs(curvatures[j]) + jet.second.norm() / jet.first.squaredNorm()) +
+                                  parameter_noise_ * std::abs(curvature_rate(jet)));
+    }
+    return noise;
+  }
+
+  /// How many coefficients of the curvature count; the others are made 0.
+  static int recognize_arc(Values& series, double length) {
+    const double most = series.abs().maxCoeff();
+    int count = Degree + 1;
+    while (count > 1 && std::abs(series[count - 1]) <= kEpsilon * most) --count;
+    if (series.template tail<Degree + 1>().abs().sum() * length <= kStructureTurn) count = 1;
+    series.tail(Degree + 2 - count).setZero();
+    if (count == 1 && std::abs(series[0]) * length <= kStructureTurn) series[0] = 0;
+    return count;
+  }
+
+  const Curve& curve_;
+  double size_;
+  Interval range_;
+  double half_;
+  const Grid<Degree>& grid_;
+  double parameter_noise_ = 0;
+  Values speed_;   // |alpha'| by powers of x in [-1, 1] of the parameter
+  Values length_;  // arc length from the panel's start, likewise
+  Inner inner_;    // where in that x the nodes of equal arc length lie, but for the ends
+  Values nodes_;   // the same as parameters u, with the ends
+};
+
 class Resolver {
  public:
   Resolver(const Curve& curve, double size, const std::function<void(const ResolvedPanel&)>& sink)
       : curve_(curve), size_(size), sink_(sink) {}
 
-  void run() { cut(curve_.domain(), true); }
+  void run() {
+    const Interval domain = curve_.domain();
+    if (!take<kCoarseDegree>(domain)) cut(domain);
+  }
 
  private:
-  void cut(Interval range, bool coarse_first) {
-    static const Grid coarse(kCoarseDegree);
-    static const Grid fine(kFineDegree);
-    if ((coarse_first && fits(range, coarse)) || fits(range, fine)) {
-      sink_(panel_);
-      return;
-    }
-    if (range.width() <= kShortestPanel * curve_.domain().width()) throw_cusp(range.middle());
-    cut({range.lo, range.middle()}, false);
-    cut({range.middle(), range.hi}, false);
+  void cut(const Interval& range) {
+    if (take<kFineDegree>(range)) return;
+    if (range.width() <= kShortestPanel * curve_.domain().width()) throw_cusp(curve_, range.middle());
+    cut({range.lo, range.middle()});
+    cut({range.middle(), range.hi});
   }
 
-  /// Fills panel_ and says whether its polynomials are as good as the curve's own rounding errors allow.
-  bool fits(Interval range, const Grid& grid) {
-    return measure_length(range, grid) && invert_length(range, grid) && measure_turn(grid);
-  }
-
-  bool measure_length(Interval range, const Grid& grid) {
-    const Eigen::Index count = grid.points().size();
-    Series speeds(count);
-    for (Eigen::Index j = 0; j < count; ++j) {
-      speeds[j] = curve_.velocity(range.middle() + 0.5 * range.width() * grid.points()[j]).norm();
-      if (!(speeds[j] > 0) || !std::isfinite(speeds[j])) throw_cusp(range.middle());
-    }
-    speed_ = grid.coefficients(speeds);
-    const double tail = chebyshev::tail(speed_);
-    // The parameter's own rounding moves each node: what the speed changes by on the way is noise as well.
-    parameter_noise_ = kParameterNoise * curve_.parameter_size(range);
-    const double slope = 2 * (speeds.maxCoeff() - speeds.minCoeff()) / range.width();
-    const double noise = kSeriesNoise * speeds.maxCoeff() + parameter_noise_ * slope;
-    if (tail > noise && tail * range.width() > kLengthNoise * size_) return false;
-    length_ = chebyshev::antiderivative(speed_) * (0.5 * range.width());
-    panel_.length = length_.sum();
+  template <int Degree>
+  bool take(const Interval& range) {
+    if (!Attempt<Degree>(curve_, size_, range).fill(panel_)) return false;
+    sink_(panel_);
     return true;
-  }
-
-  /// u where the arc length is resolved: Newton's method on the length series, from its first two terms.
-  bool invert_length(Interval range, const Grid& grid) {
-    const Eigen::Index count = grid.points().size();
-    const double half = 0.5 * range.width();
-    const Series points = grid.points().segment(1, count - 2);  // the ends are known
-    const Series targets = (points.array() + 1).matrix() * (0.5 * panel_.length);
-    inner_.resize(count - 2);
-    for (Eigen::Index j = 0; j < inner_.size(); ++j) {  // c0 (x + 1) + c1 (x^2 - 1) / 2 = target
-      const double right = targets[j] / half - speed_[0] + 0.5 * speed_[1];
-      const double root = speed_[0] * speed_[0] + 2 * speed_[1] * right;
-      inner_[j] = root > 0 ? std::clamp(2 * right / (speed_[0] + std::sqrt(root)), -1.0, 1.0) : points[j];
-    }
-    Series slopes;
-    double last_step = 1;
-    for (int round = 0; round < kNewtonRounds && last_step > kNewtonStep; ++round) {
-      if (last_step > kSameSlope) slopes = chebyshev::values(speed_, inner_) * half;
-      const Series steps = (targets - chebyshev::values(length_, inner_)).cwiseQuotient(slopes);
-      inner_ += steps;
-      last_step = steps.cwiseAbs().maxCoeff();
-    }
-    Series parameters(count);
-    parameters.segment(1, count - 2) = (inner_ * half).array() + range.middle();
-    parameters[0] = range.lo;
-    parameters[count - 1] = range.hi;
-    panel_.parameter = grid.coefficients(parameters);
-    nodes_ = parameters;
-    return inner_.cwiseAbs().maxCoeff() <= 1;
-  }
-
-  bool measure_turn(const Grid& grid) {
-    const Eigen::Index count = grid.points().size();
-    Series curvatures(count);
-    double noise = 0;
-    const Series speeds = chebyshev::values(speed_, inner_);
-    for (Eigen::Index j = 0; j < count; ++j) {
-      const Jet jet = curve_.jet(nodes_[j]);
-      const double speed = jet.first.norm();
-      const double speed_noise = kSpeedAgreement * speed + parameter_noise_ * jet.second.norm();
-      const bool is_end = j == 0 || j + 1 == count;  // where the series is the speed
-      if (!is_end && std::abs(speed - speeds[j - 1]) > speed_noise) return false;
-      curvatures[j] = curvature(jet);
-      noise = std::max(noise, kSeriesNoise * (std::abs(curvatures[j]) + jet.second.norm() / (speed * speed)) +
-                                  parameter_noise_ * std::abs(curvature_rate(jet)));
-      if (j == 0) panel_.tangent_at_start = jet.first;
-      if (j + 1 == count) panel_.tangent_at_end = jet.first;
-    }
-    panel_.curvature = grid.coefficients(curvatures);
-    const double tail = chebyshev::tail(panel_.curvature);
-    if (tail > noise && tail * panel_.length > kTurnNoise) return false;
-    recognize_arc();
-    panel_.turn = chebyshev::antiderivative(panel_.curvature) * (0.5 * panel_.length);
-    const double between = angle_between(panel_.tangent_at_start, panel_.tangent_at_end);
-    return std::abs(nearest_angle(between - panel_.turn.sum())) <= kTurnAgreement + noise * panel_.length;
-  }
-
-  void recognize_arc() {
-    Series& series = panel_.curvature;
-    const double most = series.cwiseAbs().maxCoeff();
-    Eigen::Index count = series.size();
-    while (count > 1 && std::abs(series[count - 1]) <= kEpsilon * most) --count;
-    const double bending = series.segment(1, count - 1).cwiseAbs().sum();
-    if (bending * panel_.length <= kStructureTurn) count = 1;
-    if (count == 1 && std::abs(series[0]) * panel_.length <= kStructureTurn) series[0] = 0;
-    series.conservativeResize(count);
-  }
-
-  [[noreturn]] void throw_cusp(double u) const {
-    const Vec2 place = curve_.position(u);
-    throw InputError(
-        fmt::format("expected a tangent at every point, found none (a cusp) at ({:.6g}, {:.6g}), parameter {:.6g}: "
-                    "remove the cusp or end the curve there, so that it becomes a corner",
-                    place.x(), place.y(), u));
   }
 
   const Curve& curve_;
   double size_;
   const std::function<void(const ResolvedPanel&)>& sink_;
-  double parameter_noise_ = 0;
-  Series speed_;   // |alpha'| over x in [-1, 1] of the parameter
-  Series length_;  // arc length from the panel's start, likewise
-  Series inner_;   // where in that x the nodes of equal arc length lie, but for the ends
-  Series nodes_;   // the same as parameters u
   ResolvedPanel panel_;
 };
 

@@ -8,7 +8,7 @@
 namespace rollfix {
 
 /// A stretch of one curve, short enough that arc length and curvature are polynomials on it.
-/// All series are in x in [-1, 1], which is arc length: s = length * (1 + x) / 2 from the panel's start.
+/// All series are by powers of x in [-1, 1], which is arc length: s = length * (1 + x) / 2 from the panel's start.
 struct ResolvedPanel {
   double length = 0;
   chebyshev::Series curvature;  // kappa(x)

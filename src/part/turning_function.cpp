@@ -142,19 +142,18 @@ void TurningFunctionBuilder::add_panel(const ResolvedPanel& resolved, std::uint3
   panel.middle = panel.lo + 0.5 * (panel.hi - panel.lo);
   panel.inverse_half = 2 / (panel.hi - panel.lo);
 
-  Series turn = chebyshev::powers(resolved.turn);
+  Series turn = resolved.turn;
   turn[0] += angle_;
-  const Series curvature = chebyshev::powers(resolved.curvature);
-  store(turn, curvature, panel);
+  store(turn, resolved.curvature, panel);
   turning.panels_.push_back(panel);
 
-  const Series parameter = chebyshev::powers(resolved.parameter);
+  const Series& parameter = resolved.parameter;
   parametrization.pieces.push_back({curve, static_cast<std::uint32_t>(parametrization.coefficients.size()),
                                     static_cast<std::uint32_t>(parameter.size())});
   parametrization.coefficients.insert(parametrization.coefficients.end(), parameter.begin(), parameter.end());
 
   angle_ += resolved.turn.sum();
-  add_spirals(curvature);
+  add_spirals(resolved.curvature);
 }
 
 void TurningFunctionBuilder::store(const Series& turn, const Series& curvature, Panel& panel) {
