@@ -8,10 +8,12 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/math/special_functions/ellint_2.hpp>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include "random.hpp"
 #include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/primitives.hpp"
 #include "rollfix/part/part.hpp"
 #include "shapes.hpp"
 
@@ -192,6 +194,21 @@ std::vector<std::string> every_shape() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Gallery, TurningOfShape, testing::ValuesIn(every_shape()), shapes::as_identifier);
+
+/// A curve that counts how often it is asked.
+struct Counted {
+  EllipticArc curve;
+  std::shared_ptr<int> calls = std::make_shared<int>(0);
+  Interval domain() const { return curve.domain(); }
+  Jet jet(double u) const { return ++*calls, curve.jet(u); }
+  Vec2 velocity(double u) const { return ++*calls, curve.velocity(u); }
+};
+
+TEST(TurningFunction, is_made_of_few_looks_at_the_curve) {
+  const Counted counted{EllipticArc({0, 0}, {2, 0}, {0, 1}, 0, 2 * kPi)};
+  const Part part(Outline{"ellipse", {counted}, true}, PartOptions{true});
+  EXPECT_LT(*counted.calls, 42 * part.turning().panels().size());  // of them 17 where the arc length is even
+}
 
 TEST(TurningFunction, jumps_at_a_corner_and_has_both_limits) {
   const Part square(gallery("polygon,n=4,r=1"));

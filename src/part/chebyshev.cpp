@@ -15,29 +15,51 @@ const Grid<Degree>& Grid<Degree>::instance() {
 }
 
 template <int Degree>
+typename Grid<Degree>::Columns Grid<Degree>::columns(const Table& table, bool mixed) {
+  Columns result;
+  for (std::size_t k = 0; k < kPairs; ++k) {
+    for (std::size_t i = 0; i < kPairs; ++i) {
+      const auto row = static_cast<Eigen::Index>(2 * i);
+      const auto column = static_cast<Eigen::Index>(2 * k);
+      result[k][i] = {table(row, column + (mixed ? 1 : 0)), table(row + 1, column + (mixed ? 0 : 1))};
+    }
+  }
+  return result;
+}
+
+template <int Degree>
 Grid<Degree>::Grid() {
   const double angle = std::numbers::pi / Degree;
   for (int j = 0; j <= Degree; ++j) points_[j] = std::sin(0.5 * angle * (2 * j - Degree));  // exactly symmetric
   inner_ = Inner::Zero();
-  for (int j = 1; j < Degree; ++j) inner_[j - 1] = points_[j];
-  for (int j = 0; j < kPairs; ++j) {
+  inner_.template head<Degree - 1>() = points_.template segment<Degree - 1>(1);
+
+  Table transform = Table::Zero();  // from the sum (k even) or the difference of the values at point j and its opposite
+  for (int j = 0; j <= Degree / 2; ++j) {
     for (int k = 0; k <= Degree; ++k) {
-      const bool end_order = k == 0 || k == Degree;
-      const double weight = (j == 0 ? 0.5 : 1.0) * (end_order ? 1.0 : 2.0) / Degree;
-      transform_[j][k / 2][k % 2] = weight * std::cos(angle * ((k * (Degree - j)) % (2 * Degree)));
+      const bool is_end = k == 0 || k == Degree;
+      const double weight = (j == 0 ? 0.5 : 1.0) * (is_end ? 1.0 : 2.0) / Degree;
+      transform(k, 2 * j + k % 2) = weight * std::cos(angle * ((k * (Degree - j)) % (2 * Degree)));
     }
-    transform_[j].back()[1] = 0;
   }
-  // The powers of T_k, by T_{k+1} = 2 x T_k - T_{k-1}.
-  Eigen::Array<double, Degree + 2, Degree + 2> table = Eigen::Array<double, Degree + 2, Degree + 2>::Zero();
-  table(0, 0) = table(1, 1) = 1;
+  transform_ = columns(transform, false);
+
+  Table powers = Table::Zero();  // T_{k+1} = 2 x T_k - T_{k-1}
+  powers(0, 0) = powers(1, 1) = 1;
   for (int k = 2; k <= Degree; ++k) {
-    table.col(k).tail(Degree + 1) = 2 * table.col(k - 1).head(Degree + 1);
-    table.col(k) -= table.col(k - 2);
+    powers.col(k).template tail<Degree + 1>() = 2 * powers.col(k - 1).template head<Degree + 1>();
+    powers.col(k) -= powers.col(k - 2);
   }
-  for (int k = 0; k < kPairs; ++k) {
-    for (int i = 0; i < kPairs; ++i) powers_[k][i] = {table(2 * i, 2 * k), table(2 * i + 1, 2 * k + 1)};
+  powers_ = columns(powers, false);
+
+  Table binomials = Table::Zero();  // ((y + 1) / 2)^k
+  binomials(0, 0) = 1;
+  for (int k = 1; k <= Degree; ++k) {
+    binomials.col(k) = 0.5 * binomials.col(k - 1);
+    binomials.col(k).template tail<Degree + 1>() += 0.5 * binomials.col(k - 1).template head<Degree + 1>();
   }
+  halves_ = columns(binomials, false);
+  halves_mixed_ = columns(binomials, true);
 }
 
 /// The columns times their weights, a pair each; the sums stay in registers.
@@ -45,20 +67,20 @@ template <int Degree>
 template <class Weight>
 Terms<Degree> Grid<Degree>::product(const Columns& columns, const Weight& weight) {
   std::array<Pair, kPairs> sums;
-  for (int i = 0; i < kPairs; ++i) sums[i] = Pair::Zero();
-  for (int k = 0; k < kPairs; ++k) {
-    const Pair factor = weight(k);
-    for (int i = 0; i < kPairs; ++i) sums[i] += columns[k][i] * factor;
+  sums.fill(Pair::Zero());
+  for (std::size_t k = 0; k < kPairs; ++k) {
+    const Pair factor = weight(static_cast<Eigen::Index>(k));
+    for (std::size_t i = 0; i < kPairs; ++i) sums[i] += columns[k][i] * factor;
   }
   Terms<Degree> result;
-  for (int i = 0; i < kPairs; ++i) result.template segment<2>(2 * i) = sums[i];
+  for (std::size_t i = 0; i < kPairs; ++i) result.template segment<2>(static_cast<Eigen::Index>(2 * i)) = sums[i];
   return result;
 }
 
 /// What two points opposite to each other have in common is even, what they have not is odd.
 template <int Degree>
 Terms<Degree> Grid<Degree>::coefficients(const Terms<Degree>& values) const {
-  return product(transform_, [&](int j) -> Pair {
+  return product(transform_, [&](Eigen::Index j) -> Pair {
     if (2 * j == Degree) return {values[j], 0};
     return {values[j] + values[Degree - j], values[j] - values[Degree - j]};
   });
@@ -66,7 +88,17 @@ Terms<Degree> Grid<Degree>::coefficients(const Terms<Degree>& values) const {
 
 template <int Degree>
 Terms<Degree> Grid<Degree>::powers(const Terms<Degree>& coefficients) const {
-  return product(powers_, [&](int k) -> Pair { return coefficients.template segment<2>(2 * k); });
+  return product(powers_, [&](Eigen::Index k) -> Pair { return coefficients.template segment<2>(2 * k); });
+}
+
+template <int Degree>
+std::array<Terms<Degree>, 2> Grid<Degree>::halves(const Terms<Degree>& powers) const {
+  const Terms<Degree> same =
+      product(halves_, [&](Eigen::Index k) -> Pair { return powers.template segment<2>(2 * k); });
+  const Terms<Degree> mixed = product(halves_mixed_, [&](Eigen::Index k) -> Pair {
+    return {powers[2 * k + 1], powers[2 * k]};
+  });
+  return {same - mixed, same + mixed};
 }
 
 template class Grid<8>;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <vector>
 
 namespace rollfix::chebyshev {
@@ -34,22 +35,29 @@ class Grid {
   /// From there to the powers of x. Safe where the coefficients fall faster than the conversion's factor (1 + sqrt 2)^k
   /// grows, as a resolved panel's do.
   Terms<Degree> powers(const Terms<Degree>& coefficients) const;
+  /// A polynomial by powers of x, by those of y on either half: x = (y - 1) / 2 and x = (y + 1) / 2.
+  std::array<Terms<Degree>, 2> halves(const Terms<Degree>& powers) const;
 
  private:
-  static constexpr int kPairs = Degree / 2 + 1;
+  static constexpr std::size_t kPairs = Degree / 2 + 1;
   using Pair = Eigen::Array2d;
   /// A matrix by columns that keeps even terms and odd ones apart: each entry serves one of either, which is half the
   /// work, and one vector instruction does both.
   using Columns = std::array<std::array<Pair, kPairs>, kPairs>;
 
   Grid();
+  using Table = Eigen::Array<double, Degree + 2, Degree + 2>;
+  /// What a table makes of even terms for even ones and of odd terms for odd ones; or of one kind for the other.
+  static Columns columns(const Table& table, bool mixed);
   template <class Weight>
   static Terms<Degree> product(const Columns& columns, const Weight& weight);
 
-  std::array<double, kPoints> points_;
+  Eigen::Array<double, kPoints, 1> points_;
   Inner inner_;
   Columns transform_;
   Columns powers_;
+  Columns halves_;        // what even powers do to even ones, odd to odd: the same on either half, ...
+  Columns halves_mixed_;  // ... and even to odd, odd to even: the other way round on the first
 };
 extern template class Grid<8>;
 extern template class Grid<16>;
@@ -66,10 +74,13 @@ Places values(const Powers& powers, const Places& x) {
 /// `powers` must be 0.
 template <class Powers>
 Powers antiderivative(const Powers& powers, double factor) {
+  static const Powers reciprocals = Powers::LinSpaced(0, static_cast<double>(Powers::SizeAtCompileTime - 1)).inverse();
+  constexpr Eigen::Index kRest = Powers::SizeAtCompileTime - 1;
   Powers result;
-  for (Eigen::Index k = powers.size() - 1; k > 0; --k) result[k] = factor * powers[k - 1] / static_cast<double>(k);
+  result[0] = 0;
+  result.template tail<kRest>() = factor * powers.template head<kRest>() * reciprocals.template tail<kRest>();
   double at_start = 0;
-  for (Eigen::Index k = 1; k < powers.size(); ++k) at_start += k % 2 == 0 ? result[k] : -result[k];
+  for (Eigen::Index k = 0; k < kRest; k += 2) at_start += result[k] - result[k + 1];
   result[0] = -at_start;
   return result;
 }

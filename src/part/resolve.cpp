@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include "outline/turn.hpp"
@@ -33,6 +34,9 @@ constexpr double kStructureTurn = 1e-13;
 // A panel shorter than this share of its curve's domain that still isn't resolved holds a cusp.
 constexpr double kShortestPanel = 1e-11;
 
+// A speed that varies by no more than this on a panel is known well enough on either half of it.
+constexpr double kEvenSpeed = 4;
+
 // Newton's method converges quadratically: after a step like this the next one would be a rounding error.
 constexpr double kNewtonStep = 1e-8;
 constexpr int kNewtonRounds = 10;
@@ -54,20 +58,36 @@ constexpr int kFineDegree = 16;
 template <int Degree>
 class Attempt {
  public:
-  Attempt(const Curve& curve, double size, const Interval& range)
-      : curve_(curve), size_(size), range_(range), half_(0.5 * range.width()), grid_(Grid<Degree>::instance()) {}
+  using Values = Terms<Degree>;  // at the grid's points
+
+  /// `speed`: by powers of x in [-1, 1] of the parameter, where it is known.
+  Attempt(const Curve& curve, double size, const Interval& range, const Values* speed = nullptr)
+      : curve_(curve), size_(size), range_(range), half_(0.5 * range.width()), grid_(Grid<Degree>::instance()) {
+    parameter_noise_ = kParameterNoise * curve.parameter_size(range);
+    is_even_ = speed != nullptr;
+    if (is_even_) speed_ = *speed;
+  }
 
   /// Fills the panel and says whether its polynomials are as good as the curve's own rounding errors allow.
-  bool fill(ResolvedPanel& panel) { return measure_length(panel) && invert_length(panel) && measure_turn(panel); }
+  bool fill(ResolvedPanel& panel) {
+    if (!is_even_ && !measure_speed()) return false;
+    length_ = chebyshev::antiderivative(speed_, half_);
+    panel.length = length_.sum();
+    return invert_length(panel) && measure_turn(panel);
+  }
+  /// Where they are not: how often the range is to be halved before it is worth another attempt.
+  int halvings() const { return halvings_; }
+  /// And whether the speed is resolved all the same: then it is known on either half as well.
+  bool has_speed() const { return is_even_ && speed_agrees_; }
+  std::array<Values, 2> speeds_of_halves() const { return grid_.halves(speed_); }
 
  private:
-  using Values = Terms<Degree>;  // at the grid's points
   using Inner = typename Grid<Degree>::Inner;
 
   /// The largest of the last three coefficients: what interpolation has not resolved.
   static double tail(const Values& series) { return series.template segment<3>(Degree - 2).abs().maxCoeff(); }
 
-  bool measure_length(ResolvedPanel& panel) {
+  bool measure_speed() {
     Values squares;
     for (int j = 0; j <= Degree; ++j) {
       squares[j] = curve_.velocity(range_.middle() + half_ * grid_.point(j)).squaredNorm();
@@ -75,16 +95,19 @@ class Attempt {
     squares[Degree + 1] = squares[Degree];
     const Values speeds = squares.sqrt();
     if (!(speeds > 0 && speeds < kInfinity).all()) throw_cusp(curve_, range_.middle());
+    const double least = speeds.minCoeff();
     const double most = speeds.maxCoeff();
     const Values series = grid_.coefficients(speeds);
     const double rest = tail(series);
     // The parameter's own rounding moves each node: what the speed changes by on the way is noise as well.
-    parameter_noise_ = kParameterNoise * curve_.parameter_size(range_);
-    const double noise = kSeriesNoise * most + parameter_noise_ * (most - speeds.minCoeff()) / half_;
-    if (rest > noise && rest * range_.width() > kLengthNoise * size_) return false;
+    const double noise = kSeriesNoise * most + parameter_noise_ * (most - least) / half_;
+    const double excess = std::min(rest / noise, rest * range_.width() / (kLengthNoise * size_));
+    if (excess > 1) {
+      halvings_ += static_cast<int>(std::log2(excess) / kMostGain);
+      return false;
+    }
     speed_ = grid_.powers(series);
-    length_ = chebyshev::antiderivative(speed_, half_);
-    panel.length = length_.sum();
+    is_even_ = rest <= noise && most <= kEvenSpeed * least;
     return true;
   }
 
@@ -123,14 +146,15 @@ class Attempt {
     Values squares;
     Values crosses;
     for (int j = 0; j <= Degree; ++j) {
-      const Jet& jet = jets[j] = curve_.jet(nodes_[j]);
+      const Jet& jet = jets[static_cast<std::size_t>(j)] = curve_.jet(nodes_[j]);
       squares[j] = jet.first.squaredNorm();
       crosses[j] = cross(jet.first, jet.second);
     }
     squares[Degree + 1] = squares[Degree];
     crosses[Degree + 1] = crosses[Degree];
     const Values speeds = squares.sqrt();
-    if (!agree(speeds, jets)) return false;
+    speed_agrees_ = agree(speeds, jets);
+    if (!speed_agrees_) return false;
     const Values curvatures = crosses / (squares * speeds);
     Values series = grid_.coefficients(curvatures);
     const auto noise = [&] { return curvature_noise(jets, curvatures); };
@@ -154,7 +178,8 @@ class Attempt {
     const Inner off = (speeds.template segment<Degree>(1) - chebyshev::values(speed_, inner_)).abs();
     for (int j = 1; j < Degree; ++j) {
       const double limit = kSpeedAgreement * speeds[j];
-      if (off[j - 1] > limit && off[j - 1] > limit + parameter_noise_ * jets[j].second.norm()) return false;
+      if (off[j - 1] > limit && off[j - 1] > limit + parameter_noise_ * jets[static_cast<std::size_t>(j)].second.norm())
+        return false;
     }
     return true;
   }
@@ -162,7 +187,7 @@ class Attempt {
   double curvature_noise(const std::array<Jet, Degree + 1>& jets, const Values& curvatures) const {
     double noise = 0;
     for (int j = 0; j <= Degree; ++j) {
-      const Jet& jet = jets[j];
+      const Jet& jet = jets[static_cast<std::size_t>(j)];
       noise = std::max(noise, kSeriesNoise * (std::abs(curvatures[j]) + jet.second.norm() / jet.first.squaredNorm()) +
                                   parameter_noise_ * std::abs(curvature_rate(jet)));
     }
@@ -185,6 +210,10 @@ class Attempt {
   Interval range_;
   double half_;
   const Grid<Degree>& grid_;
+  static constexpr double kMostGain = Degree + 4;  // halving makes coefficient k smaller by about 2^k
+  int halvings_ = 1;
+  bool is_even_ = false;  // the speed's noise is small beside the speed, wherever on the range that is
+  bool speed_agrees_ = false;
   double parameter_noise_ = 0;
   Values speed_;   // |alpha'| by powers of x in [-1, 1] of the parameter
   Values length_;  // arc length from the panel's start, likewise
@@ -199,22 +228,31 @@ class Resolver {
 
   void run() {
     const Interval domain = curve_.domain();
-    if (!take<kCoarseDegree>(domain)) cut(domain);
+    Attempt<kCoarseDegree> attempt(curve_, size_, domain);
+    if (attempt.fill(panel_)) {
+      sink_(panel_);
+    } else {
+      cut(domain, 0);
+    }
   }
 
  private:
-  void cut(const Interval& range) {
-    if (take<kFineDegree>(range)) return;
-    if (range.width() <= kShortestPanel * curve_.domain().width()) throw_cusp(curve_, range.middle());
-    cut({range.lo, range.middle()});
-    cut({range.middle(), range.hi});
-  }
+  using Fine = Attempt<kFineDegree>;
 
-  template <int Degree>
-  bool take(const Interval& range) {
-    if (!Attempt<Degree>(curve_, size_, range).fill(panel_)) return false;
-    sink_(panel_);
-    return true;
+  /// Halves the range so often before it tries.
+  void cut(const Interval& range, int halvings, const Fine::Values* speed = nullptr) {
+    std::array<Fine::Values, 2> speeds;
+    bool has_speeds = false;
+    if (halvings == 0) {
+      Fine attempt(curve_, size_, range, speed);
+      if (attempt.fill(panel_)) return sink_(panel_);
+      halvings = attempt.halvings();
+      has_speeds = attempt.has_speed();
+      if (has_speeds) speeds = attempt.speeds_of_halves();
+    }
+    if (range.width() <= kShortestPanel * curve_.domain().width()) throw_cusp(curve_, range.middle());
+    cut({range.lo, range.middle()}, halvings - 1, has_speeds ? &speeds[0] : nullptr);
+    cut({range.middle(), range.hi}, halvings - 1, has_speeds ? &speeds[1] : nullptr);
   }
 
   const Curve& curve_;
