@@ -19,7 +19,7 @@ constexpr std::size_t kFewBlocks = 8;
 // An arc length is rounded to this share of the lengths that it is made of: times the curvature, an angle.
 constexpr double kLengthRounding = 4e-15;
 
-using Blocks = std::vector<std::size_t>;
+using Blocks = boost::container::small_vector<std::size_t, 2 * kFewBlocks>;
 
 /// Pairs of blocks on which a roll starts and ends, for one reading, from all spirals down to a few.
 class Descent {
@@ -128,8 +128,7 @@ class Descent {
 
 }  // namespace
 
-std::vector<Interval> candidates(const Question& question, const Interval& range, double tolerance,
-                                 SearchCounts& counts) {
+Stretches candidates(const Question& question, const Interval& range, double tolerance, SearchCounts& counts) {
   const Part& part = question.part;
   const double same_place = kLengthAccuracy * part.perimeter();
   if (PartAccess::data(part).tree.is_empty() || range.width() <= same_place) return {range};
@@ -141,7 +140,7 @@ std::vector<Interval> candidates(const Question& question, const Interval& range
     among = &left;
   }
   const std::vector<Spiral>& spirals = part.turning().spirals();
-  std::vector<Interval> stretches;
+  Stretches stretches;
   for (std::size_t k = 0; k < left.size(); ++k) {
     const std::size_t first = left[k] << kLeafLevel;
     while (k + 1 < left.size() && left[k + 1] == left[k] + 1) ++k;

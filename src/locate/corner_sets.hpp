@@ -3,7 +3,7 @@
 #include <boost/container/small_vector.hpp>
 #include <cstddef>
 #include <optional>
-#include <vector>
+#include <span>
 
 #include "rollfix/locate/placement.hpp"
 #include "rollfix/part/part.hpp"
@@ -25,7 +25,7 @@ AngleSet angle_set(const Part& part, double s);
 /// What is asked of first contacts: f_k = 0 for each reading, and of two fingers the facing equation where it is known.
 struct Question {
   const Part& part;
-  const std::vector<Reading>& readings;
+  std::span<const Reading> readings;
   std::optional<double> facing{};
 
   std::size_t fingers() const { return readings.front().fingers(); }

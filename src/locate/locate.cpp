@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"
@@ -24,7 +25,7 @@ void require_finite(const Reading& reading) {
                                reading.length[0], reading.length[1], reading.turn));
 }
 
-void require_enough(const std::vector<Reading>& readings, const LocateOptions& options) {
+void require_enough(std::span<const Reading> readings, const LocateOptions& options) {
   if (readings.empty()) {
     throw InputError(
         "expected at least one reading (length, turn), of two fingers two (length a, length b, turn), "
@@ -86,7 +87,9 @@ Interval first_contacts(const Question& question, std::size_t finger) {
   return range;
 }
 
-Search locate(const Part& part, const std::vector<Reading>& readings, const LocateOptions& options) {
+namespace {
+
+Search search_for(const Part& part, std::span<const Reading> readings, const LocateOptions& options) {
   require_enough(readings, options);
   LocateOptions clamped = options;
   clamped.tolerance = std::max(options.tolerance, kLeastTolerance);
@@ -99,8 +102,14 @@ Search locate(const Part& part, const std::vector<Reading>& readings, const Loca
   return search;
 }
 
+}  // namespace
+
+Search locate(const Part& part, const std::vector<Reading>& readings, const LocateOptions& options) {
+  return search_for(part, readings, options);
+}
+
 Search locate(const Part& part, const Reading& reading, const LocateOptions& options) {
-  return locate(part, std::vector<Reading>{reading}, options);
+  return search_for(part, {&reading, 1}, options);
 }
 
 }  // namespace rollfix

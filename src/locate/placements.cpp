@@ -109,7 +109,7 @@ class CornerContacts {
 
  private:
   std::array<bool, 2> first_{};
-  std::array<std::vector<bool>, 2> last_;
+  std::array<boost::container::small_vector<bool, 4>, 2> last_;
 };
 
 void describe_held(const CornerContacts& contacts, std::size_t finger, Sensitivity& sensitivity) {
@@ -247,7 +247,17 @@ void describe_slopes(const Question& question, const SlopeSample* samples, Place
   }
 }
 
-void PlacementMaker::make(FoundSet&& found, Placement& placement, const SlopeSample* sample) const {
+void PlacementMaker::make_crossing(double root, const Interval& extent, const SlopeSample& sample,
+                                   Placement& placement) const {
+  placement.kind = Kind::crossing;
+  place(root, placement);
+  placement.extent[0] = question_.part.boundary().arc(extent.lo, extent.hi);
+  placement.roots.push_back(placement.start);
+  placement.residual = std::abs(sample.value);
+  describe_slopes(question_, &sample, placement);
+}
+
+void PlacementMaker::make(FoundSet&& found, Placement& placement) const {
   const Boundary boundary = question_.part.boundary();
   placement.kind = found.kind;
   place(found.start, placement);
@@ -263,15 +273,12 @@ void PlacementMaker::make(FoundSet&& found, Placement& placement, const SlopeSam
   }
   placement.family = std::move(found.family);
   placement.family_error = found.family_error;
-  if (sample != nullptr) {
-    placement.residual = std::abs(sample->value);
-    if (placement.kind != Kind::corner) describe_slopes(question_, sample, placement);
-  } else if (placement.kind != Kind::corner) {
-    describe_contacts(found.start, placement);
-  } else {
+  if (placement.kind == Kind::corner) {
     placement.residual = residual_at(question_, found.start);
+    describe_corner(found, placement);
+  } else {
+    describe_contacts(found.start, placement);
   }
-  if (placement.kind == Kind::corner) describe_corner(found, placement);
 }
 
 /// Residual and slopes; all contacts are looked up once.

@@ -30,8 +30,10 @@ class PlacementMaker {
  public:
   explicit PlacementMaker(const Question& question) : question_(question) {}
 
-  /// `sample`: of the only reading at the start, where the search has it.
-  void make(FoundSet&& found, Placement& placement, const SlopeSample* sample = nullptr) const;
+  void make(FoundSet&& found, Placement& placement) const;
+  /// By far the most frequent set, at once: of one finger and one reading, one simple root that the search has a sample
+  /// of.
+  void make_crossing(double root, const Interval& extent, const SlopeSample& sample, Placement& placement) const;
 
  private:
   void place(const PerFinger<double>& start, Placement& placement) const;

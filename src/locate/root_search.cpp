@@ -9,8 +9,18 @@
 namespace rollfix {
 namespace {
 
-// Newton's step that is below this share of the perimeter is the last one: what it leaves is its square.
+// A bracket of a root, or a step to it, that is below this share of the perimeter is the last one.
 constexpr double kRootStep = 1e-11;
+// A root is where Newton's method and inverse cubic interpolation agree on it to this share of the perimeter, ...
+constexpr double kRootAgreement = 1e-13;
+// ... so near the last two samples that the product of their distances, by which curvatures are off that are
+// interpolated, is below this share of its square.
+constexpr double kRootArea = 1e-11;
+// Where f turns by less than this on a perimeter, at its slope, roots are as far off as rounding makes them: there the
+// step decides.
+constexpr double kSteep = 1e-4;
+// A roll shorter than this share of the perimeter: f is next to nothing, of whatever sign its slope is.
+constexpr double kShortRoll = 1e-6;
 constexpr int kMostRounds = 100;
 // The ends of an extent may be off by this share of its width: there f is taken as straight.
 constexpr double kExtentBend = 1e-3;
@@ -28,15 +38,14 @@ constexpr int kPlainHalvings = 4;
 constexpr double kBoundsRounding = 1e-14;
 // The extremum of f is approached by the secant of its slope this long, then bracketed.
 constexpr int kMostSecants = 12;
-// Answers to make room for: blocks up to a kilobyte are cheap to come by.
-constexpr std::size_t kUsual = 12;
 
-/// A sample so close to another that f is straight in between; its curvatures by those of a third one.
+/// A sample close to another: its curvatures by those of a third one as well, its value by the slopes at both.
 ResidualSample beside(const ResidualSample& at, const ResidualSample& third, double s) {
   const double share = third.s == at.s ? 0 : (s - at.s) / (third.s - at.s);
-  return {s, at.value + at.slope() * (s - at.s),
-          at.start_curvature + share * (third.start_curvature - at.start_curvature),
-          at.end_curvature + share * (third.end_curvature - at.end_curvature)};
+  ResidualSample sample{s, at.value, at.start_curvature + share * (third.start_curvature - at.start_curvature),
+                        at.end_curvature + share * (third.end_curvature - at.end_curvature)};
+  sample.value += 0.5 * (at.slope() + sample.slope()) * (s - at.s);
+  return sample;
 }
 
 /// s where the cubic through both ends, taken as a function of f, has the value `level`.
@@ -104,10 +113,10 @@ double first_inside(double lo, double hi, const std::array<double, 4>& places) {
 }  // namespace
 
 RootSearch::RootSearch(const LocateOptions& options, double perimeter)
-    : tolerance_(options.tolerance), budget_(options.budget), same_place_(kLengthAccuracy * perimeter) {
-  findings.pieces.reserve(kUsual);
-  findings.roots.reserve(kUsual);
-}
+    : tolerance_(options.tolerance),
+      budget_(options.budget),
+      perimeter_(perimeter),
+      same_place_(kLengthAccuracy * perimeter) {}
 
 void RootSearch::run(const SpiralPair& pair, const ResidualSample& lo, const ResidualSample& hi) {
   if (is_far(lo, hi)) {  // most intervals
@@ -170,6 +179,11 @@ void RootSearch::decide(const SpiralPair& pair, const Range& range) {
   if (value.least > tolerance_ || value.most < -tolerance_) return;
   if (std::max(std::abs(value.least), std::abs(value.most)) <= kTurnAccuracy || hi.s - lo.s <= same_place_) {
     take_flat(lo, hi, std::abs(lo.value) <= kTurnAccuracy);
+    return;
+  }
+  // kappa(s + L) - kappa(s) by the same monotone curvature: of one sign.
+  if (&pair.start == &pair.end && std::abs(pair.offset) > kShortRoll * perimeter_) {
+    take_monotone(pair, lo, hi);
     return;
   }
   const int bend = range.bend != 0 ? range.bend : bend_by_trends(pair);
@@ -325,7 +339,7 @@ void RootSearch::take_monotone(const SpiralPair& pair, const ResidualSample& lo,
 /// 2.7, kept inside the bracket.
 ResidualSample RootSearch::solve(const SpiralPair& pair, double level, ResidualSample lo, ResidualSample hi) {
   const bool rises = hi.value > lo.value;
-  const double short_step = kRootStep * pair.turning.perimeter();
+  const double short_step = kRootStep * perimeter_;
   double s = inverse_cubic(lo, hi, level);
   if (!(s > lo.s && s < hi.s)) s = lo.s + (hi.s - lo.s) * (level - lo.value) / (hi.value - lo.value);
   if (!(s > lo.s && s < hi.s)) s = 0.5 * (lo.s + hi.s);
@@ -338,8 +352,10 @@ ResidualSample RootSearch::solve(const SpiralPair& pair, double level, ResidualS
     ((at.value > level) == rises ? hi : lo) = at;
     if (hi.s - lo.s <= short_step) return at;
     const double cubic = inverse_cubic(last, at, level);
+    const bool is_inside = cubic >= lo.s && cubic <= hi.s;
+    if (is_inside && agree(newton, cubic, last, at)) return beside(at, last, cubic);
     last = at;
-    if (cubic >= lo.s && cubic <= hi.s) {
+    if (is_inside) {
       s = cubic;
     } else if (newton >= lo.s && newton <= hi.s) {
       s = newton;
@@ -347,6 +363,12 @@ ResidualSample RootSearch::solve(const SpiralPair& pair, double level, ResidualS
       s = 0.5 * (lo.s + hi.s);
     }
   }
+}
+
+/// Do both methods see the root at one place, near enough to both samples, where it is well conditioned?
+bool RootSearch::agree(double newton, double cubic, const ResidualSample& last, const ResidualSample& at) const {
+  return std::abs(at.slope()) * perimeter_ > kSteep && std::abs(cubic - newton) <= kRootAgreement * perimeter_ &&
+         std::abs((cubic - last.s) * (cubic - at.s)) <= kRootArea * perimeter_ * perimeter_;
 }
 
 void RootSearch::add_piece(double lo, double hi, bool exact) { findings.pieces.push_back({lo, hi, exact, false}); }

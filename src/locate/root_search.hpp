@@ -1,6 +1,7 @@
 #pragma once
 
 #include <boost/container/small_vector.hpp>
+#include <cstddef>
 #include <vector>
 
 #include "rollfix/locate/locate.hpp"
@@ -48,10 +49,16 @@ struct Root {
   ResidualSample sample{};  // of f at a crossing
 };
 
+// Answers are few: that many need no allocation.
+inline constexpr std::size_t kFewAnswers = 12;
+
+using Pieces = boost::container::small_vector<Piece, kFewAnswers>;
+using FoundRoots = boost::container::small_vector<Root, kFewAnswers>;
+
 /// What one reading leaves of a stretch of boundary.
 struct Findings {
-  std::vector<Piece> pieces;  // in rising order
-  std::vector<Root> roots;
+  Pieces pieces;  // in rising order
+  FoundRoots roots;
   std::vector<Interval> unresolved;
   SearchCounts counts;
 };
@@ -88,6 +95,7 @@ class RootSearch {
   void take_flat(const ResidualSample& lo, const ResidualSample& hi, bool exact);
   void halve(const SpiralPair& pair, const Range& range, double place);
   ResidualSample solve(const SpiralPair& pair, double level, ResidualSample lo, ResidualSample hi);
+  bool agree(double newton, double cubic, const ResidualSample& last, const ResidualSample& at) const;
   ResidualSample sample(const SpiralPair& pair, double s) {
     findings.counts.evaluations += 2;
     return pair.sample(s, on(pair.turning, pair.start, s, start_panel_),
@@ -102,6 +110,7 @@ class RootSearch {
 
   double tolerance_;
   std::size_t budget_;
+  double perimeter_;
   double same_place_;  // lengths below this are rounding errors
   const Panel* start_panel_ = nullptr;
   const Panel* end_panel_ = nullptr;

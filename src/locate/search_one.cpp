@@ -80,9 +80,8 @@ class Sweep {
   /// A single place: what an open curve has for a roll of its own length, or what another reading's least tolerance
   /// left. Across it f changes by its slope.
   void look_at(const Interval& place) {
-    const std::vector<Reading> only{reading_};
     const double s = place.middle();
-    const double residual = residual_at({part_, only}, s);
+    const double residual = residual_at({part_, {&reading_, 1}}, s);
     const double slope = std::abs(turning_.curvature(s)) + std::abs(turning_.curvature(s + length_));
     if (residual > tolerance_ + 0.5 * place.width() * slope) return;
     findings_.pieces.push_back({place.lo, place.hi});
@@ -139,8 +138,7 @@ class Sweep {
 };
 
 /// What the first reading allows on these stretches of the range.
-Findings found_on(const Question& question, const std::vector<Interval>& stretches, const Interval& range,
-                  LocateOptions& options) {
+Findings found_on(const Question& question, const Stretches& stretches, const Interval& range, LocateOptions& options) {
   const double same_place = kLengthAccuracy * question.part.perimeter();
   Sweep sweep(question.part, question.readings.front(), options);
   for (const Interval& stretch : stretches) {
@@ -157,8 +155,7 @@ Findings found_on(const Question& question, const std::vector<Interval>& stretch
 /// Keeps of each piece what a further reading allows as well; at a corner's pivot what all of them allow together.
 Findings narrowed(const Question& question, std::size_t further, Findings before, LocateOptions& options) {
   const Reading& reading = question.readings[further];
-  const std::vector<Reading> only{reading};
-  const Question its_own{question.part, only};
+  const Question its_own{question.part, {&reading, 1}};
   Sweep sweep(question.part, reading, options);
   Findings& kept = sweep.findings();
   for (const Piece& piece : before.pieces) {
@@ -191,8 +188,7 @@ void look_at_start(const Question& question, const Corner& corner, double tolera
   findings.roots.push_back({corner.s, residual <= kTurnAccuracy, true});
 }
 
-void add_start_corners(const Question& question, const std::vector<Interval>& stretches, double tolerance,
-                       Findings& findings) {
+void add_start_corners(const Question& question, const Stretches& stretches, double tolerance, Findings& findings) {
   const Part& part = question.part;
   const std::vector<Corner>& corners = part.corners();
   if (corners.empty() || stretches.empty()) return;
@@ -229,7 +225,7 @@ std::vector<PerFinger<Interval>> joined(std::vector<Interval> intervals) {
 Search search_one(const Question& question, const LocateOptions& options) {
   const Interval range = first_contacts(question, 0);
   SearchCounts counts;
-  const std::vector<Interval> stretches = candidates(question, range, options.tolerance, counts);
+  const Stretches stretches = candidates(question, range, options.tolerance, counts);
   LocateOptions left = options;
   Findings found = found_on(question, stretches, range, left);
   found.counts.intervals += counts.intervals;
@@ -240,7 +236,7 @@ Search search_one(const Question& question, const LocateOptions& options) {
   add_start_corners(question, stretches, options.tolerance, found);
 
   Search search;
-  search.placements = make_placements(question, std::move(found.pieces), std::move(found.roots));
+  search.placements = make_placements(question, found);
   search.unresolved = joined(std::move(found.unresolved));
   search.counts = found.counts;
   return search;

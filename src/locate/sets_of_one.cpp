@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "accuracy.hpp"
@@ -17,7 +18,7 @@ constexpr double kPolished = 1e-14;
 // A value so many times further off than rounding leaves it is no root.
 constexpr double kManyRoundings = 1000;
 
-using Roots = std::vector<Root>;
+using Roots = boost::container::small_vector<Root, 4>;
 
 /// Pieces that touch, and the roots in them. lo <= hi, hi beyond P where it reaches across s = 0.
 struct Cluster {
@@ -30,12 +31,10 @@ struct Cluster {
   std::size_t root_count = 0;
 };
 
-// Answers are few: no allocation for them.
-constexpr std::size_t kInPlace = 8;
-using Clusters = boost::container::small_vector<Cluster, kInPlace>;
-using HandedOut = boost::container::small_vector<Root, kInPlace>;
+using Clusters = boost::container::small_vector<Cluster, kFewAnswers>;
+using HandedOut = boost::container::small_vector<Root, kFewAnswers>;
 
-Clusters join(const Part& part, std::vector<Piece>& pieces) {
+Clusters join(const Part& part, Pieces& pieces) {
   const double same_place = kLengthAccuracy * part.perimeter();
   const auto earlier = [](const Piece& one, const Piece& two) { return one.lo < two.lo; };
   if (!std::is_sorted(pieces.begin(), pieces.end(), earlier)) std::sort(pieces.begin(), pieces.end(), earlier);
@@ -68,11 +67,11 @@ Clusters join(const Part& part, std::vector<Piece>& pieces) {
 
 /// Each root to the first cluster that holds it, if there is one: those of one cluster next to each other, in rising
 /// order. Clusters are in rising order and apart.
-HandedOut hand_out(const Part& part, std::vector<Root>& roots, Clusters& clusters) {
+HandedOut hand_out(const Part& part, FoundRoots& roots, Clusters& clusters) {
   HandedOut handed;
   if (clusters.empty()) return handed;
   const auto earlier = [](const Root& one, const Root& two) { return one.s < two.s; };
-  if (!std::is_sorted(roots.begin(), roots.end(), earlier)) std::stable_sort(roots.begin(), roots.end(), earlier);
+  if (!std::is_sorted(roots.begin(), roots.end(), earlier)) std::sort(roots.begin(), roots.end(), earlier);
   const double same_place = kLengthAccuracy * part.perimeter();
   const auto take = [&](Cluster& cluster, const Root& root) {
     if (root.s < cluster.lo - same_place || root.s > cluster.hi + same_place) return false;
@@ -109,10 +108,8 @@ class SetsOfOne {
     // By far the most frequent answer: one reading, one simple root.
     if (readings_.size() == 1 && cluster.root_count == 1 && roots_of(cluster)->crossing && !cluster.is_joined) {
       const Root& root = *roots_of(cluster);
-      FoundSet found{Kind::crossing, root.s, extent, false, {}};
-      found.roots.push_back(root.s);
       const SlopeSample sample{root.sample.value, root.sample.start_curvature, root.sample.end_curvature};
-      maker_.make(std::move(found), placement, &sample);
+      maker_.make_crossing(root.s, extent, sample, placement);
       return;
     }
     const Roots roots = exact_roots(cluster);
@@ -278,16 +275,16 @@ class SetsOfOne {
   const Question& question_;
   const HandedOut& handed_out_;
   const TurningFunction& turning_;
-  const std::vector<Reading>& readings_;
+  std::span<const Reading> readings_;
   PlacementMaker maker_;
   double period_;
 };
 
 }  // namespace
 
-std::vector<Placement> make_placements(const Question& question, std::vector<Piece> pieces, std::vector<Root> roots) {
-  Clusters clusters = join(question.part, pieces);
-  const HandedOut handed_out = hand_out(question.part, roots, clusters);
+std::vector<Placement> make_placements(const Question& question, Findings& found) {
+  Clusters clusters = join(question.part, found.pieces);
+  const HandedOut handed_out = hand_out(question.part, found.roots, clusters);
   const SetsOfOne sets(question, handed_out);
   std::vector<Placement> placements(clusters.size());
   for (std::size_t k = 0; k < clusters.size(); ++k) sets.make(clusters[k], placements[k]);

@@ -8,7 +8,7 @@
 namespace rollfix {
 
 /// Joins pieces that touch into connected sets (across s = 0 on a closed outline), one placement each, and says
-/// what kind of answer each is. `pieces` and `roots` in any order, of all readings together.
-std::vector<Placement> make_placements(const Question& question, std::vector<Piece> pieces, std::vector<Root> roots);
+/// what kind of answer each is. Pieces and roots in any order, of all readings together: sorts them.
+std::vector<Placement> make_placements(const Question& question, Findings& found);
 
 }  // namespace rollfix
