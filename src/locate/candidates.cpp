@@ -19,13 +19,13 @@ constexpr std::size_t kFewBlocks = 8;
 // An arc length is rounded to this share of the lengths that it is made of: times the curvature, an angle.
 constexpr double kLengthRounding = 4e-15;
 
-using Blocks = boost::container::small_vector<std::size_t, 2 * kFewBlocks>;
-
 /// Pairs of blocks on which a roll starts and ends, for one reading, from all spirals down to a few.
 class Descent {
  public:
-  Descent(const Part& part, const Reading& reading, const Interval& range, double tolerance, SearchCounts& counts)
-      : turning_(part.turning()), tree_(PartAccess::data(part).tree), range_(range), counts_(counts) {
+  Descent(const Part& part, const Reading& reading, const Interval& range, double tolerance, SearchCounts& counts,
+          Blocks& left)
+      : turning_(part.turning()), tree_(PartAccess::data(part).tree), range_(range), counts_(counts), left_(left) {
+    left_.clear();
     const double period = part.perimeter();
     const double length = reading.length[0];
     same_place_ = kSamePlaces * kLengthAccuracy * period + kLengthRounding * std::abs(length);
@@ -38,8 +38,8 @@ class Descent {
     turn_ -= laps.winding * turning_.period_turn();
   }
 
-  /// The blocks of the leaves' level on which a roll that fits can start, in order: of all, or of these.
-  Blocks run(const Blocks* among) {
+  /// Leaves the blocks of the leaves' level on which a roll that fits can start, in order: of all, or of these.
+  void run(const Blocks* among) {
     among_ = among;
     const Stretch all{0, 0, turning_.perimeter()};
     visit(tree_.top(), all, all);
@@ -53,7 +53,6 @@ class Descent {
     }
     std::sort(left_.begin(), left_.end());
     left_.erase(std::unique(left_.begin(), left_.end()), left_.end());
-    return std::move(left_);
   }
 
  private:
@@ -123,32 +122,36 @@ class Descent {
   double offset_ = 0;     // from the start's s to the end's on its lap
   double turn_ = 0;       // theta, the laps' turn taken off
   const Blocks* among_ = nullptr;
-  Blocks left_;
+  Blocks& left_;
 };
 
 }  // namespace
 
-Stretches candidates(const Question& question, const Interval& range, double tolerance, SearchCounts& counts) {
+void find_candidates(const Question& question, const Interval& range, double tolerance, Workspace& work,
+                     SearchCounts& counts) {
   const Part& part = question.part;
   const double same_place = kLengthAccuracy * part.perimeter();
-  if (PartAccess::data(part).tree.is_empty() || range.width() <= same_place) return {range};
-  Blocks left;
+  work.stretches.clear();
+  if (PartAccess::data(part).tree.is_empty() || range.width() <= same_place) {
+    work.stretches.push_back(range);
+    return;
+  }
+  Blocks& left = work.blocks;
   const Blocks* among = nullptr;
   for (const Reading& reading : question.readings) {
-    left = Descent(part, reading, range, tolerance, counts).run(among);
+    Descent(part, reading, range, tolerance, counts, work.fewer).run(among);
+    left.swap(work.fewer);
     if (left.size() <= kFewBlocks) break;
     among = &left;
   }
   const std::vector<Spiral>& spirals = part.turning().spirals();
-  Stretches stretches;
   for (std::size_t k = 0; k < left.size(); ++k) {
     const std::size_t first = left[k] << kLeafLevel;
     while (k + 1 < left.size() && left[k + 1] == left[k] + 1) ++k;
     const std::size_t last = std::min((left[k] + 1) << kLeafLevel, spirals.size()) - 1;
     const Interval stretch{std::max(range.lo, spirals[first].lo), std::min(range.hi, spirals[last].hi)};
-    stretches.push_back(stretch);
+    work.stretches.push_back(stretch);
   }
-  return stretches;
 }
 
 }  // namespace rollfix

@@ -9,6 +9,7 @@
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"
 #include "searches.hpp"
+#include "workspace.hpp"
 
 namespace rollfix {
 namespace {
@@ -87,29 +88,35 @@ Interval first_contacts(const Question& question, std::size_t finger) {
   return range;
 }
 
-namespace {
-
-Search search_for(const Part& part, std::span<const Reading> readings, const LocateOptions& options) {
+void search(const Part& part, std::span<const Reading> readings, const LocateOptions& options, Workspace& work,
+            Search& search) {
   require_enough(readings, options);
   LocateOptions clamped = options;
   clamped.tolerance = std::max(options.tolerance, kLeastTolerance);
   Question question{part, readings};
   // Whole turns are nothing to it, and a huge angle's would be lost in rounding.
   if (options.facing) question.facing = std::remainder(*options.facing, kFullTurn);
-  Search search = question.fingers() == 1 ? search_one(question, clamped) : search_two(question, clamped);
+  if (question.fingers() == 1) {
+    search_one(question, clamped, work, search);
+  } else {
+    search = search_two(question, clamped);
+  }
   search.status = search.unresolved.empty() ? Status::complete : Status::incomplete;
   if (search.status == Status::complete) check_parity(question, search);
-  return search;
 }
 
-}  // namespace
-
 Search locate(const Part& part, const std::vector<Reading>& readings, const LocateOptions& options) {
-  return search_for(part, readings, options);
+  Workspace work;
+  Search found;
+  search(part, readings, options, work, found);
+  return found;
 }
 
 Search locate(const Part& part, const Reading& reading, const LocateOptions& options) {
-  return search_for(part, {&reading, 1}, options);
+  Workspace work;
+  Search found;
+  search(part, {&reading, 1}, options, work, found);
+  return found;
 }
 
 }  // namespace rollfix

@@ -11,7 +11,7 @@ namespace {
 
 // A bracket of a root, or a step to it, that is below this share of the perimeter is the last one.
 constexpr double kRootStep = 1e-11;
-// A root is where Newton's method and inverse cubic interpolation agree on it to this share of the perimeter, ...
+// A root is where Newton's method and cubic interpolation agree on it to this share of the perimeter, ...
 constexpr double kRootAgreement = 1e-13;
 // ... so near the last two samples that the product of their distances, by which curvatures are off that are
 // interpolated, is below this share of its square.
@@ -22,6 +22,8 @@ constexpr double kSteep = 1e-4;
 // A roll shorter than this share of the perimeter: f is next to nothing, of whatever sign its slope is.
 constexpr double kShortRoll = 1e-6;
 constexpr int kMostRounds = 100;
+// So many steps of Newton's method leave less of a cubic's root than the cubic is off by.
+constexpr int kCubicSteps = 2;
 // The ends of an extent may be off by this share of its width: there f is taken as straight.
 constexpr double kExtentBend = 1e-3;
 // An interval of zeros shorter than this share of the perimeter can't be told from a root.
@@ -48,15 +50,19 @@ ResidualSample beside(const ResidualSample& at, const ResidualSample& third, dou
   return sample;
 }
 
-/// s where the cubic through both ends, taken as a function of f, has the value `level`.
-double inverse_cubic(const ResidualSample& lo, const ResidualSample& hi, double level) {
-  const double rise = hi.value - lo.value;
-  const double x = (level - lo.value) / rise;
-  const double width = hi.s - lo.s;
-  const double slope_lo = rise / (lo.slope() * width);  // of s by f, scaled to the unit square
-  const double slope_hi = rise / (hi.slope() * width);
-  const double y = x * (slope_lo + x * ((3 - 2 * slope_lo - slope_hi) + x * (slope_lo + slope_hi - 2)));
-  return lo.s + width * y;
+/// Where the cubic through two samples, with their slopes, has the value `level`: from a place nearby by Newton's
+/// method.
+double cubic_root(const ResidualSample& one, const ResidualSample& other, double level, double nearby) {
+  const double width = other.s - one.s;
+  const double rise = other.value - one.value;
+  const double linear = one.slope() * width;
+  const double square = 3 * rise - 2 * linear - other.slope() * width;
+  const double cube = rise - linear - square;
+  double x = (nearby - one.s) / width;
+  for (int step = 0; step < kCubicSteps; ++step) {
+    x -= (one.value - level + x * (linear + x * (square + x * cube))) / (linear + x * (2 * square + x * 3 * cube));
+  }
+  return one.s + x * width;
 }
 
 struct Bounds {
@@ -112,11 +118,23 @@ double first_inside(double lo, double hi, const std::array<double, 4>& places) {
 
 }  // namespace
 
-RootSearch::RootSearch(const LocateOptions& options, double perimeter)
-    : tolerance_(options.tolerance),
+void Findings::clear() {
+  pieces.clear();
+  roots.clear();
+  unresolved.clear();
+  counts = {};
+}
+
+RootSearch::RootSearch(const LocateOptions& options, double perimeter, Undecided& undecided, Findings& found)
+    : findings(found),
+      tolerance_(options.tolerance),
       budget_(options.budget),
       perimeter_(perimeter),
-      same_place_(kLengthAccuracy * perimeter) {}
+      same_place_(kLengthAccuracy * perimeter),
+      waiting_(undecided) {
+  findings.clear();
+  waiting_.clear();
+}
 
 void RootSearch::run(const SpiralPair& pair, const ResidualSample& lo, const ResidualSample& hi) {
   if (is_far(lo, hi)) {  // most intervals
@@ -132,7 +150,7 @@ void RootSearch::run(const SpiralPair& pair, const ResidualSample& lo, const Res
   ++budget_;  // this one comes with the part, however many points it has
   decide(pair, {lo, hi, 0, 0});
   while (!waiting_.empty()) {
-    const Range range = waiting_.back();
+    const SampledRange range = waiting_.back();
     waiting_.pop_back();
     decide(pair, range);
   }
@@ -160,7 +178,7 @@ bool RootSearch::is_stretch(const SpiralPair& pair, const ResidualSample& lo, co
   return true;
 }
 
-void RootSearch::decide(const SpiralPair& pair, const Range& range) {
+void RootSearch::decide(const SpiralPair& pair, const SampledRange& range) {
   const ResidualSample& lo = range.lo;
   const ResidualSample& hi = range.hi;
   ++findings.counts.intervals;
@@ -208,7 +226,7 @@ void RootSearch::decide(const SpiralPair& pair, const Range& range) {
 
 /// On a panel each f is a difference of two polynomials, whose bounds see what they have in common: nearly congruent
 /// stretches, where bounds on either end alone would never close.
-void RootSearch::decide_by_polynomial(const SpiralPair& pair, const Range& range, const Panel& start,
+void RootSearch::decide_by_polynomial(const SpiralPair& pair, const SampledRange& range, const Panel& start,
                                       const Panel& end) {
   const ResidualSample& lo = range.lo;
   const ResidualSample& hi = range.hi;
@@ -244,14 +262,14 @@ void RootSearch::take_flat(const ResidualSample& lo, const ResidualSample& hi, b
   findings.roots.push_back({0.5 * (lo.s + hi.s), exact});
 }
 
-void RootSearch::halve(const SpiralPair& pair, const Range& range, double place) {
+void RootSearch::halve(const SpiralPair& pair, const SampledRange& range, double place) {
   const ResidualSample middle = sample(pair, place);
   waiting_.push_back({middle, range.hi, 0, range.depth + 1});
   waiting_.push_back({range.lo, middle, 0, range.depth + 1});
 }
 
 /// f'' keeps its sign, so f has one extremum at the most. Told for a convex f; a concave one is its mirror image.
-void RootSearch::decide_bent(const SpiralPair& pair, const Range& range) {
+void RootSearch::decide_bent(const SpiralPair& pair, const SampledRange& range) {
   const ResidualSample& lo = range.lo;
   const ResidualSample& hi = range.hi;
   const bool turns = (lo.slope() < 0) != (hi.slope() < 0);
@@ -286,7 +304,7 @@ void RootSearch::decide_bent(const SpiralPair& pair, const Range& range) {
 }
 
 /// f' is monotone and changes sign: f is monotone on either side of where it vanishes.
-void RootSearch::split_at_extremum(const SpiralPair& pair, const Range& range) {
+void RootSearch::split_at_extremum(const SpiralPair& pair, const SampledRange& range) {
   std::uintmax_t rounds = 100;
   const auto bracket = boost::math::tools::toms748_solve([&](double s) { return sample(pair, s).slope(); }, range.lo.s,
                                                          range.hi.s, range.lo.slope(), range.hi.slope(),
@@ -335,13 +353,14 @@ void RootSearch::take_monotone(const SpiralPair& pair, const ResidualSample& lo,
   add_piece(std::max(from, lo.s), std::min(to, hi.s));
 }
 
-/// Where f, monotone between the ends, has this value: inverse cubic interpolation from the last two samples, of order
-/// 2.7, kept inside the bracket.
+/// Where f, monotone between the ends, has this value: where the cubic through the last two samples has it, which is of
+/// order 2.7, kept inside the bracket.
 ResidualSample RootSearch::solve(const SpiralPair& pair, double level, ResidualSample lo, ResidualSample hi) {
   const bool rises = hi.value > lo.value;
   const double short_step = kRootStep * perimeter_;
-  double s = inverse_cubic(lo, hi, level);
-  if (!(s > lo.s && s < hi.s)) s = lo.s + (hi.s - lo.s) * (level - lo.value) / (hi.value - lo.value);
+  const double secant = lo.s + (hi.s - lo.s) * (level - lo.value) / (hi.value - lo.value);
+  double s = cubic_root(lo, hi, level, secant);
+  if (!(s > lo.s && s < hi.s)) s = secant;
   if (!(s > lo.s && s < hi.s)) s = 0.5 * (lo.s + hi.s);
   ResidualSample last = std::abs(lo.value - level) < std::abs(hi.value - level) ? lo : hi;
   for (int round = 0;; ++round) {
@@ -351,7 +370,7 @@ ResidualSample RootSearch::solve(const SpiralPair& pair, double level, ResidualS
     if (at.value == level || round == kMostRounds) return at;
     ((at.value > level) == rises ? hi : lo) = at;
     if (hi.s - lo.s <= short_step) return at;
-    const double cubic = inverse_cubic(last, at, level);
+    const double cubic = cubic_root(at, last, level, newton);
     const bool is_inside = cubic >= lo.s && cubic <= hi.s;
     if (is_inside && agree(newton, cubic, last, at)) return beside(at, last, cubic);
     last = at;

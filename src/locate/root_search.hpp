@@ -61,16 +61,28 @@ struct Findings {
   FoundRoots roots;
   std::vector<Interval> unresolved;
   SearchCounts counts;
+
+  /// Keeps the memory.
+  void clear();
 };
+
+/// An interval that is still to be decided.
+struct SampledRange {
+  ResidualSample lo;
+  ResidualSample hi;
+  int bend = 0;  // the sign of f'' where it is known
+  int depth = 0;
+};
+using Undecided = boost::container::small_vector<SampledRange, 8>;
 
 /// Branch and prune for one reading on one pair of spirals: every s with |f(s)| <= tolerance, proved complete.
 class RootSearch {
  public:
   /// The options' tolerance is at least kTurnAccuracy.
-  RootSearch(const LocateOptions& options, double perimeter);
+  RootSearch(const LocateOptions& options, double perimeter, Undecided& undecided, Findings& found);
 
   /// What all runs found together.
-  Findings findings;
+  Findings& findings;
   /// Intervals that may still be looked at, beyond the part's own.
   std::size_t budget() const { return budget_; }
 
@@ -78,22 +90,15 @@ class RootSearch {
   void run(const SpiralPair& pair, const ResidualSample& lo, const ResidualSample& hi);
 
  private:
-  struct Range {
-    ResidualSample lo;
-    ResidualSample hi;
-    int bend = 0;  // the sign of f'' where it is known
-    int depth = 0;
-  };
-
   bool is_far(const ResidualSample& lo, const ResidualSample& hi) const;
   bool is_stretch(const SpiralPair& pair, const ResidualSample& lo, const ResidualSample& hi);
-  void decide(const SpiralPair& pair, const Range& range);
-  void decide_bent(const SpiralPair& pair, const Range& range);
+  void decide(const SpiralPair& pair, const SampledRange& range);
+  void decide_bent(const SpiralPair& pair, const SampledRange& range);
   void take_monotone(const SpiralPair& pair, const ResidualSample& lo, const ResidualSample& hi);
-  void split_at_extremum(const SpiralPair& pair, const Range& range);
-  void decide_by_polynomial(const SpiralPair& pair, const Range& range, const Panel& start, const Panel& end);
+  void split_at_extremum(const SpiralPair& pair, const SampledRange& range);
+  void decide_by_polynomial(const SpiralPair& pair, const SampledRange& range, const Panel& start, const Panel& end);
   void take_flat(const ResidualSample& lo, const ResidualSample& hi, bool exact);
-  void halve(const SpiralPair& pair, const Range& range, double place);
+  void halve(const SpiralPair& pair, const SampledRange& range, double place);
   ResidualSample solve(const SpiralPair& pair, double level, ResidualSample lo, ResidualSample hi);
   bool agree(double newton, double cubic, const ResidualSample& last, const ResidualSample& at) const;
   ResidualSample sample(const SpiralPair& pair, double s) {
@@ -114,7 +119,7 @@ class RootSearch {
   double same_place_;  // lengths below this are rounding errors
   const Panel* start_panel_ = nullptr;
   const Panel* end_panel_ = nullptr;
-  boost::container::small_vector<Range, 8> waiting_;
+  Undecided& waiting_;
 };
 
 }  // namespace rollfix

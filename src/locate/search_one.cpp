@@ -8,23 +8,23 @@
 #include "root_search.hpp"
 #include "searches.hpp"
 #include "sets_of_one.hpp"
+#include "workspace.hpp"
 
 namespace rollfix {
 namespace {
 
 class Sweep {
  public:
-  Sweep(const Part& part, const Reading& reading, const LocateOptions& options)
+  Sweep(const Part& part, const Reading& reading, const LocateOptions& options, Undecided& undecided, Findings& found)
       : part_(part),
         turning_(part.turning()),
         reading_(reading),
         length_(reading.length[0]),
         same_place_(kLengthAccuracy * part.perimeter()),
         tolerance_(options.tolerance),
-        search_(options, part.perimeter()) {}
+        findings_(found),
+        search_(options, part.perimeter(), undecided, found) {}
 
-  Findings& findings() { return findings_; }
-  Findings take() { return std::move(findings_); }
   std::size_t budget() const { return search_.budget(); }
 
   /// Walks the first contact s along [lo, hi] of the boundary: cuts it where s or its end s + L passes from one spiral
@@ -133,31 +133,31 @@ class Sweep {
   double length_;  // L
   double same_place_;
   double tolerance_;
+  Findings& findings_;
   RootSearch search_;
-  Findings& findings_ = search_.findings;
 };
 
-/// What the first reading allows on these stretches of the range.
-Findings found_on(const Question& question, const Stretches& stretches, const Interval& range, LocateOptions& options) {
+/// What the first reading allows on the stretches of the range.
+void search_stretches(const Question& question, const Interval& range, LocateOptions& options, Workspace& work) {
   const double same_place = kLengthAccuracy * question.part.perimeter();
-  Sweep sweep(question.part, question.readings.front(), options);
-  for (const Interval& stretch : stretches) {
+  Findings& found = work.found;
+  Sweep sweep(question.part, question.readings.front(), options, work.undecided, found);
+  for (const Interval& stretch : work.stretches) {
     // A single place beside what is passed over is there for its corner.
     if (stretch.width() > same_place || range.width() <= same_place) sweep.run(stretch);
-    if (!sweep.findings().unresolved.empty()) break;
+    if (!found.unresolved.empty()) break;
   }
   options.budget = sweep.budget();
-  Findings found = sweep.take();
   if (!found.unresolved.empty()) found.unresolved.back().hi = range.hi;
-  return found;
 }
 
 /// Keeps of each piece what a further reading allows as well; at a corner's pivot what all of them allow together.
-Findings narrowed(const Question& question, std::size_t further, Findings before, LocateOptions& options) {
+void narrow(const Question& question, std::size_t further, LocateOptions& options, Workspace& work) {
   const Reading& reading = question.readings[further];
   const Question its_own{question.part, {&reading, 1}};
-  Sweep sweep(question.part, reading, options);
-  Findings& kept = sweep.findings();
+  Findings& before = work.found;
+  Findings& kept = work.narrowed;
+  Sweep sweep(question.part, reading, options, work.undecided, kept);
   for (const Piece& piece : before.pieces) {
     if (!kept.unresolved.empty() || !before.unresolved.empty()) {
       kept.unresolved.push_back({piece.lo, piece.hi});
@@ -171,12 +171,11 @@ Findings narrowed(const Question& question, std::size_t further, Findings before
     }
   }
   options.budget = sweep.budget();
-  before.pieces = std::move(kept.pieces);
+  before.pieces.swap(kept.pieces);
   before.roots.insert(before.roots.end(), kept.roots.begin(), kept.roots.end());
   before.unresolved.insert(before.unresolved.end(), kept.unresolved.begin(), kept.unresolved.end());
   before.counts.intervals += kept.counts.intervals;
   before.counts.evaluations += kept.counts.evaluations;
-  return before;
 }
 
 /// A first contact at a convex corner: the finger may have pivoted there by any amount, the same for all readings.
@@ -206,10 +205,10 @@ void add_start_corners(const Question& question, const Stretches& stretches, dou
 }
 
 /// The same intervals, those that touch made one.
-std::vector<PerFinger<Interval>> joined(std::vector<Interval> intervals) {
+void join_intervals(std::vector<Interval>& intervals, std::vector<PerFinger<Interval>>& result) {
   std::sort(intervals.begin(), intervals.end(),
             [](const Interval& one, const Interval& two) { return one.lo < two.lo; });
-  std::vector<PerFinger<Interval>> result;
+  result.clear();
   for (const Interval& interval : intervals) {
     if (!result.empty() && interval.lo <= result.back()[0].hi) {
       result.back()[0].hi = std::max(result.back()[0].hi, interval.hi);
@@ -217,29 +216,23 @@ std::vector<PerFinger<Interval>> joined(std::vector<Interval> intervals) {
       result.emplace_back(interval);
     }
   }
-  return result;
 }
 
 }  // namespace
 
-Search search_one(const Question& question, const LocateOptions& options) {
+void search_one(const Question& question, const LocateOptions& options, Workspace& work, Search& search) {
   const Interval range = first_contacts(question, 0);
   SearchCounts counts;
-  const Stretches stretches = candidates(question, range, options.tolerance, counts);
+  find_candidates(question, range, options.tolerance, work, counts);
   LocateOptions left = options;
-  Findings found = found_on(question, stretches, range, left);
-  found.counts.intervals += counts.intervals;
-  found.counts.evaluations += counts.evaluations;
-  for (std::size_t k = 1; k < question.readings.size(); ++k) {
-    found = narrowed(question, k, std::move(found), left);
-  }
-  add_start_corners(question, stretches, options.tolerance, found);
+  search_stretches(question, range, left, work);
+  for (std::size_t k = 1; k < question.readings.size(); ++k) narrow(question, k, left, work);
+  Findings& found = work.found;
+  add_start_corners(question, work.stretches, options.tolerance, found);
 
-  Search search;
-  search.placements = make_placements(question, found);
-  search.unresolved = joined(std::move(found.unresolved));
-  search.counts = found.counts;
-  return search;
+  make_placements(question, work, search.placements);
+  join_intervals(found.unresolved, search.unresolved);
+  search.counts = {found.counts.intervals + counts.intervals, found.counts.evaluations + counts.evaluations};
 }
 
 }  // namespace rollfix

@@ -20,26 +20,13 @@ constexpr double kManyRoundings = 1000;
 
 using Roots = boost::container::small_vector<Root, 4>;
 
-/// Pieces that touch, and the roots in them. lo <= hi, hi beyond P where it reaches across s = 0.
-struct Cluster {
-  double lo = 0;
-  double hi = 0;
-  bool exact = false;
-  bool whole_loop = false;
-  bool is_joined = false;      // of several pieces
-  std::size_t first_root = 0;  // of those handed out
-  std::size_t root_count = 0;
-};
+using Clusters = decltype(Workspace::clusters);
 
-using Clusters = boost::container::small_vector<Cluster, kFewAnswers>;
-using HandedOut = boost::container::small_vector<Root, kFewAnswers>;
-
-Clusters join(const Part& part, Pieces& pieces) {
+void join(const Part& part, Pieces& pieces, Clusters& clusters) {
   const double same_place = kLengthAccuracy * part.perimeter();
   const auto earlier = [](const Piece& one, const Piece& two) { return one.lo < two.lo; };
   if (!std::is_sorted(pieces.begin(), pieces.end(), earlier)) std::sort(pieces.begin(), pieces.end(), earlier);
-  Clusters clusters;
-  clusters.reserve(pieces.size());
+  clusters.clear();
   for (const Piece& piece : pieces) {
     if (clusters.empty() || piece.lo > clusters.back().hi + same_place) {
       clusters.push_back({piece.lo, piece.hi, piece.exact});
@@ -49,7 +36,7 @@ Clusters join(const Part& part, Pieces& pieces) {
       clusters.back().is_joined = true;
     }
   }
-  if (clusters.empty() || !part.closed()) return clusters;
+  if (clusters.empty() || !part.closed()) return;
   const double period = part.perimeter();
   const bool joined = clusters.front().lo <= same_place && clusters.back().hi >= period - same_place;
   if (joined && clusters.size() == 1) {
@@ -62,14 +49,18 @@ Clusters join(const Part& part, Pieces& pieces) {
     clusters.back().is_joined = true;
     clusters.erase(clusters.begin());
   }
-  return clusters;
 }
 
 /// Each root to the first cluster that holds it, if there is one: those of one cluster next to each other, in rising
 /// order. Clusters are in rising order and apart.
-HandedOut hand_out(const Part& part, FoundRoots& roots, Clusters& clusters) {
-  HandedOut handed;
-  if (clusters.empty()) return handed;
+void hand_out(const Part& part, Workspace& work) {
+  FoundRoots& roots = work.found.roots;
+  Clusters& clusters = work.clusters;
+  FoundRoots& handed = work.handed_out;
+  FoundRoots& left = work.left_over;
+  handed.clear();
+  left.clear();
+  if (clusters.empty()) return;
   const auto earlier = [](const Root& one, const Root& two) { return one.s < two.s; };
   if (!std::is_sorted(roots.begin(), roots.end(), earlier)) std::sort(roots.begin(), roots.end(), earlier);
   const double same_place = kLengthAccuracy * part.perimeter();
@@ -79,23 +70,21 @@ HandedOut hand_out(const Part& part, FoundRoots& roots, Clusters& clusters) {
     handed.push_back(root);
     return true;
   };
-  boost::container::small_vector<Root, 2> left;
   auto next = clusters.begin();
   for (const Root& root : roots) {
     while (next != clusters.end() && next->hi + same_place < root.s) ++next;
     if (next == clusters.end() || !take(*next, root)) left.push_back(root);
   }
-  if (!part.closed()) return handed;
+  if (!part.closed()) return;
   for (Root& root : left) {  // into the last one, across s = 0
     root.s += part.perimeter();
     take(clusters.back(), root);
   }
-  return handed;
 }
 
 class SetsOfOne {
  public:
-  SetsOfOne(const Question& question, const HandedOut& roots)
+  SetsOfOne(const Question& question, const FoundRoots& roots)
       : question_(question),
         handed_out_(roots),
         turning_(question.part.turning()),
@@ -273,7 +262,7 @@ class SetsOfOne {
   }
 
   const Question& question_;
-  const HandedOut& handed_out_;
+  const FoundRoots& handed_out_;
   const TurningFunction& turning_;
   std::span<const Reading> readings_;
   PlacementMaker maker_;
@@ -282,17 +271,18 @@ class SetsOfOne {
 
 }  // namespace
 
-std::vector<Placement> make_placements(const Question& question, Findings& found) {
-  Clusters clusters = join(question.part, found.pieces);
-  const HandedOut handed_out = hand_out(question.part, found.roots, clusters);
-  const SetsOfOne sets(question, handed_out);
-  std::vector<Placement> placements(clusters.size());
+void make_placements(const Question& question, Workspace& work, std::vector<Placement>& placements) {
+  Clusters& clusters = work.clusters;
+  join(question.part, work.found.pieces, clusters);
+  hand_out(question.part, work);
+  const SetsOfOne sets(question, work.handed_out);
+  placements.clear();
+  placements.resize(clusters.size());
   for (std::size_t k = 0; k < clusters.size(); ++k) sets.make(clusters[k], placements[k]);
   const auto earlier = [](const Placement& one, const Placement& two) { return one.start[0] < two.start[0]; };
   if (!std::is_sorted(placements.begin(), placements.end(), earlier)) {
     std::sort(placements.begin(), placements.end(), earlier);
   }
-  return placements;
 }
 
 }  // namespace rollfix

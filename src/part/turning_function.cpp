@@ -24,7 +24,10 @@ std::size_t TurningFunction::spiral_at(double base, Side side) const {
 
 Turning TurningFunction::at(double s, Side side) const {
   const Wrapped place = boundary().reduced(s, side);
-  Turning turning = on_spiral(spirals_[spiral_at(place.base, side)], place.base);
+  const Spiral& spiral = spirals_[spiral_at(place.base, side)];
+  Turning turning = place.base == spiral.lo   ? spiral.start  // a joint: no need to look
+                    : place.base == spiral.hi ? spiral.end
+                                              : on_spiral(spiral, place.base);
   if (closed_) turning.angle += place.winding * period_turn_;
   return turning;
 }
