@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "../accuracy.hpp"
@@ -14,7 +15,7 @@
 namespace rollfix {
 namespace {
 
-// The simplified Newton step must contract by this at least: then the box has one root at the most.
+// The simplified Newton step must contract by this at least, in the end: then the box has one root at the most.
 constexpr double kMostContraction = 0.9;
 // Curves that run alongside each other are first halved this often, which is cheap, for the halves are shared; every so
 // often they are looked at for an overlap, which no halving would ever end.
@@ -25,26 +26,30 @@ constexpr double kBoxExtentBend = 0.01;
 constexpr int kMostBoxRounds = 60;
 // Newton's step that is below this share of the box is the last one.
 constexpr double kBoxRootStep = 1e-14;
+// So is one below this share that hardly shrinks any more.
+constexpr double kSmallBoxStep = 1e-6;
 // On a flat box of zeros the slopes vanish as well, up to this many radians over a perimeter.
 constexpr double kFlatSlope = 1e-9;
-
-Range dot(const Vec2& direction, const Range& one, const Range& two) {
-  return direction.x() * one + direction.y() * two;
-}
-
-/// Bounds on a combination of two components along a side.
-Range along(const BoxSide& side, const Vec2& direction, std::size_t p, std::size_t q) {
-  const RollCurve::Component& one = side.component(p);
-  const RollCurve::Component& two = side.component(q);
-  return value_range(direction.x() * one.first + direction.y() * two.first,
-                     direction.x() * one.last + direction.y() * two.last, dot(direction, one.slope, two.slope),
-                     side.width());
-}
 
 Vec2 chord(const BoxSide& side, std::size_t p, std::size_t q) {
   const RollCurve::Component& one = side.component(p);
   const RollCurve::Component& two = side.component(q);
   return {one.last - one.first, two.last - two.first};
+}
+
+RollCurve::Combination combination(const BoxSide& side, const Vec2& by, std::size_t p, std::size_t q) {
+  return {by.x(), by.y(), side.component(p), side.component(q)};
+}
+
+/// Bounds on a combination of two components along a side.
+Range along(const BoxSide& side, const Vec2& direction, std::size_t p, std::size_t q) {
+  return combination(side, direction, p, q).value(side.width());
+}
+
+/// Of a matrix without entries below 0: below 1, the powers of whatever matrix it bounds vanish.
+double spectral_radius(const Eigen::Matrix2d& bound) {
+  const double middle = 0.5 * bound.trace();
+  return middle + std::hypot(0.5 * (bound(0, 0) - bound(1, 1)), std::sqrt(bound(0, 1) * bound(1, 0)));
 }
 
 /// A convex set of pairs, with a place in it.
@@ -64,22 +69,23 @@ PairPiece piece_around(const PairBoxSides& sides, const Polygon& extent, const V
   return piece;
 }
 
-/// Does this hold at a corner of the box, of its place and two rows' residuals there?
-template <class Test>
-bool any_corner(const PairBoxSides& sides, const PairLimits& limits, const std::array<std::size_t, 2>& rows,
-                const Test& test) {
-  for (const bool last_of_a : {false, true}) {
-    for (const bool last_of_b : {false, true}) {
-      const auto residual = [&](std::size_t row) {
-        const RollCurve::Component& of_a = sides.a.component(row);
-        const RollCurve::Component& of_b = sides.b.component(row);
-        return (last_of_a ? of_a.last : of_a.first) - (last_of_b ? of_b.last : of_b.first) - sides.shift(row, limits);
-      };
-      const Vec2 corner(last_of_a ? sides.a.hi() : sides.a.lo(), last_of_b ? sides.b.hi() : sides.b.lo());
-      if (test(corner, {residual(rows[0]), residual(rows[1])})) return true;
-    }
+/// Where both sides' chords cross, or the nearest place in the box: from there Newton's method has the least to go.
+Vec2 chords_crossing(const PairBoxSides& sides, const PairLimits& limits, const std::array<std::size_t, 2>& rows) {
+  Eigen::Matrix2d chords;
+  Vec2 f;
+  for (const Eigen::Index k : {0, 1}) {
+    const std::size_t row = rows[static_cast<std::size_t>(k)];
+    const RollCurve::Component& of_a = sides.a.component(row);
+    const RollCurve::Component& of_b = sides.b.component(row);
+    chords.row(k) << of_a.last - of_a.first, of_b.first - of_b.last;
+    f[k] = of_a.first - of_b.first - sides.shift(row, limits);
   }
-  return false;
+  const Vec2 shares = -(chords.inverse() * f);
+  if (!shares.allFinite()) return {sides.a.middle(), sides.b.middle()};
+  const auto at = [](const BoxSide& side, double share) {
+    return side.lo() + std::clamp(share, 0.0, 1.0) * side.width();
+  };
+  return {at(sides.a, shares.x()), at(sides.b, shares.y())};
 }
 
 }  // namespace
@@ -113,10 +119,11 @@ void BoxSearch::decide(const Box& box) {
       if (least > most) return;
       one_lap = least == most;
       lap = least * kFullTurn;
-    } else if (f.least > tolerance || f.most < -tolerance) {
+    } else if (!f.comes_within(tolerance)) {
       return;
     }
   }
+  if (one_lap && meet_nowhere_across(box, lap, tolerance)) return;
   const bool on_pieces = a_.node(box.a).on_one_piece() && b_.node(box.b).on_one_piece();
   if (!on_pieces || !one_lap) {
     halve(box, a_is_wider(box));
@@ -131,6 +138,17 @@ void BoxSearch::decide(const Box& box) {
   }
   if (box.depth > 0) --budget_;
   decide_on_pieces(box, sides, limits);
+}
+
+/// Are the first two components' sums or differences apart?
+bool BoxSearch::meet_nowhere_across(const Box& box, double lap, double tolerance) const {
+  if (a_.rows() < 2) return false;
+  const double shift = limits_.facing && a_.rows() == 2 ? lap : 0;
+  const auto& of_a = a_.node(box.a).diagonals;
+  const auto& of_b = b_.node(box.b).diagonals;
+  const Range sum = of_a[0] - of_b[0] - Range{shift, shift};
+  const Range difference = of_a[1] - of_b[1] + Range{shift, shift};
+  return !sum.comes_within(2 * tolerance) || !difference.comes_within(2 * tolerance);
 }
 
 void BoxSearch::decide_on_pieces(Box box, const PairBoxSides& sides, const PairLimits& limits) {
@@ -180,7 +198,7 @@ bool BoxSearch::is_apart(const PairBoxSides& sides, const PairLimits& limits) co
         const double by = across.x() * sides.shift(p, limits_) + across.y() * sides.shift(q, limits_);
         const Range f = along(sides.a, across, p, q) - along(sides.b, across, p, q) - Range{by, by};
         const double reach = limits.tolerance * across.lpNorm<1>();
-        if (f.least > reach || f.most < -reach) return true;
+        if (!f.comes_within(reach)) return true;
       }
     }
   }
@@ -189,27 +207,26 @@ bool BoxSearch::is_apart(const PairBoxSides& sides, const PairLimits& limits) co
 
 std::optional<BoxSearch::Regular> BoxSearch::regular(const PairBoxSides& sides) const {
   std::optional<Regular> best;
-  const Eigen::Array2d width(std::max(sides.a.width(), limits_.same_place),
-                             std::max(sides.b.width(), limits_.same_place));
   for (std::size_t p = 0; p + 1 < a_.rows(); ++p) {
     for (std::size_t q = p + 1; q < a_.rows(); ++q) {
       Eigen::Matrix2d middle;
-      Eigen::Matrix2d radius;
-      for (const int k : {0, 1}) {
-        const std::size_t row = k == 0 ? p : q;
-        const Range at_a = sides.a.slope(row);
-        const Range at_b = sides.b.slope(row);
+      for (const Eigen::Index k : {0, 1}) {
+        const Range at_a = sides.a.slope(k == 0 ? p : q);
+        const Range at_b = sides.b.slope(k == 0 ? p : q);
         middle.row(k) << 0.5 * (at_a.least + at_a.most), -0.5 * (at_b.least + at_b.most);
-        radius.row(k) << 0.5 * at_a.spread(), 0.5 * at_b.spread();
       }
       const double determinant = middle.determinant();
       if (determinant == 0 || !std::isfinite(1 / determinant)) continue;
-      const Eigen::Matrix2d inverse = middle.inverse();
-      const Eigen::Array2d moved = (inverse.cwiseAbs() * radius * width.matrix()).array() / width;
-      const double contraction = moved.maxCoeff();
-      if (contraction <= kMostContraction && (!best || contraction < best->contraction)) {
-        best = Regular{{p, q}, inverse, contraction};
+      Regular found{{p, q}, middle.inverse(), {}, {}, 0};
+      for (const Eigen::Index k : {0, 1}) {
+        const Vec2 row = found.inverse.row(k);
+        found.off.row(k) << combination(sides.a, row, p, q).slope_radius(),
+            combination(sides.b, row, p, q).slope_radius();
       }
+      found.radius = spectral_radius(found.off);
+      if (found.radius > kMostContraction || (best && found.radius >= best->radius)) continue;
+      found.slack = (Eigen::Matrix2d::Identity() - found.off).inverse();
+      best = found;
     }
   }
   return best;
@@ -222,34 +239,34 @@ bool BoxSearch::take_regular(const PairBoxSides& sides, const PairLimits& limits
                              std::max(sides.b.width(), limits_.same_place));
   const Vec2 lo(sides.a.lo(), sides.b.lo());
   const Vec2 hi(sides.a.hi(), sides.b.hi());
-  const double slack = 1 / (1 - regular.contraction);
-  const auto in_box = [&](const Vec2& step) { return (step.array().abs() / width).maxCoeff() * slack * width; };
-  const Eigen::Array2d reach = in_box(regular.inverse.cwiseAbs() * Vec2::Constant(limits.tolerance));
-  // From a place where the residuals are f the zero is a step away, which the contraction may be off by.
-  const auto is_elsewhere = [&](const Vec2& from, const Vec2& f) {
-    const Vec2 step = regular.inverse * f;
-    const Eigen::Array2d near = (from - step).array();
-    const Eigen::Array2d off = regular.contraction * in_box(step) + reach;
-    return ((near + off < lo.array()) || (near - off > hi.array())).any();
-  };
-  const double bend = regular.contraction * std::min(1.0, (reach / width).maxCoeff());
+  // From a place where the residuals are f the zero is at most so far away.
+  const auto reached = [&](const Vec2& step) -> Vec2 { return regular.slack * step.cwiseAbs(); };
+  const Vec2 reach = reached(regular.inverse.cwiseAbs() * Vec2::Constant(limits.tolerance));
+  const double turn = (regular.off * width.matrix()).cwiseQuotient(width.matrix()).maxCoeff();
+  const double bend = turn * std::min(1.0, (reach.array() / width).maxCoeff());
   if (bend > kBoxExtentBend) return false;
-  if (any_corner(sides, limits, regular.rows, is_elsewhere)) return true;
-  Vec2 at = 0.5 * (lo + hi);
+  Vec2 at = chords_crossing(sides, limits_, regular.rows);
   RollPoint on_a;
   RollPoint on_b;
   Eigen::Matrix2d jacobian;
   const auto residual = [&](std::size_t row) { return on_a.value[row] - on_b.value[row] - sides.shift(row, limits_); };
+  double last = std::numeric_limits<double>::infinity();  // step, in parts of the box
   for (int round = 0;; ++round) {
     sides.a.move(on_a, at.x());
     sides.b.move(on_b, at.y());
     const Vec2 f(residual(p), residual(q));
-    if (is_elsewhere(at, f)) return true;
+    const Vec2 middle_step = regular.inverse * f;
+    const Eigen::Array2d near = (at - middle_step).array();
+    const Eigen::Array2d off = (regular.off * reached(middle_step) + reach).array();
+    if (((near + off < lo.array()) || (near - off > hi.array())).any()) return true;
     jacobian << on_a.slope(p), -on_b.slope(p), on_a.slope(q), -on_b.slope(q);
     if (round == kMostBoxRounds) break;
     const bool full = round < kMostBoxRounds / 2;  // Newton's own step, then the one that contracts for sure
-    const Vec2 step = full ? Vec2(jacobian.inverse() * f) : Vec2(regular.inverse * f);
+    const Vec2 step = full ? Vec2(jacobian.inverse() * f) : middle_step;
     if ((step.array().abs() <= kBoxRootStep * width + 1e-3 * limits_.same_place).all()) break;
+    const double size = (step.array().abs() / width).maxCoeff();
+    if (size < kSmallBoxStep && size > 0.5 * last) break;  // nothing but rounding moves it any more
+    last = size;
     at -= step;
   }
 
@@ -260,9 +277,9 @@ bool BoxSearch::take_regular(const PairBoxSides& sides, const PairLimits& limits
     extent = within(extent, at, residual(row), slope, limits.tolerance);
     exact = exact && std::abs(residual(row)) <= kRootTurn;
   }
-  const Eigen::Array2d edge = in_box(regular.inverse.cwiseAbs() * Vec2::Constant(kTurnAccuracy)) +
-                              Eigen::Array2d(sides.a.same_place(limits_), sides.b.same_place(limits_));
-  const bool inside = ((at.array() + edge >= lo.array()) && (at.array() - edge <= hi.array())).all();
+  const Vec2 edge = reached(regular.inverse.cwiseAbs() * Vec2::Constant(kTurnAccuracy)) +
+                    Vec2(sides.a.same_place(limits_), sides.b.same_place(limits_));
+  const bool inside = ((at + edge).array() >= lo.array() && (at - edge).array() <= hi.array()).all();
   if (extent.empty() && !(inside && exact)) return true;
   if (extent.empty()) extent.push_back(at);
   const Vec2 root(std::clamp(at.x(), lo.x(), hi.x()), std::clamp(at.y(), lo.y(), hi.y()));

@@ -35,13 +35,16 @@ class BoxSearch {
   struct Regular {
     std::array<std::size_t, 2> rows;
     Eigen::Matrix2d inverse;  // of the middle Jacobian
-    double contraction;       // of the simplified Newton step, in parts of the sides; below 1
+    Eigen::Matrix2d off;      // bounds on 1 - inverse * J, entry by entry
+    Eigen::Matrix2d slack;    // (1 - off)^-1
+    double radius;            // the spectral radius of `off`: what the simplified Newton step contracts by
   };
 
   void decide(const Box& box);
   void decide_on_pieces(Box box, const PairBoxSides& sides, const PairLimits& limits);
   enum class Flat { no, settled, covered };
 
+  bool meet_nowhere_across(const Box& box, double lap, double tolerance) const;
   bool is_apart(const PairBoxSides& sides, const PairLimits& limits) const;
   std::optional<Regular> regular(const PairBoxSides& sides) const;
   bool take_regular(const PairBoxSides& sides, const PairLimits& limits, const Regular& regular);

@@ -11,7 +11,8 @@ struct Range {
   double most = 0;
 
   double spread() const { return most - least; }
-  double size() const { return std::max(std::abs(least), std::abs(most)); }  // the largest absolute value
+  double size() const { return std::max(std::abs(least), std::abs(most)); }           // the largest absolute value
+  bool comes_within(double limit) const { return least <= limit && most >= -limit; }  // of 0
   bool has_sign() const { return least > 0 || most < 0; }
   bool keeps_sign() const { return least >= 0 || most <= 0; }  // 0 allowed
 };
@@ -35,7 +36,16 @@ inline Range operator*(double factor, const Range& range) {
 /// REQUIRES that the divisor has a sign.
 inline Range operator/(const Range& one, const Range& two) { return one * Range{1 / two.most, 1 / two.least}; }
 
+/// What both leave; bounds on the same meet, but for rounding.
+inline Range common(const Range& one, const Range& two) {
+  return {std::max(one.least, two.least), std::min(one.most, two.most)};
+}
+
 inline Range hull(double one, double two) { return one < two ? Range{one, two} : Range{two, one}; }
+
+inline Range hull(const Range& one, const Range& two) {
+  return {std::min(one.least, two.least), std::max(one.most, two.most)};
+}
 
 /// Bounds on a function over a width, from its values at the ends and bounds on its slope.
 inline Range value_range(double at_lo, double at_hi, const Range& slope, double width) {

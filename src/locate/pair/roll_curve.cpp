@@ -58,7 +58,8 @@ std::int32_t RollCurve::make_uncut(const Interval& s, const RollStrips::Span* sp
   spans_.insert(spans_.end(), spans, spans + contacts_);
   boost::container::small_vector<Range, 4> values(rows_);
   strips_.bound(s, &spans_[node.first], values.data());
-  for (const Range& value : values) components_.push_back({value, {}, 0, 0});
+  for (const Range& value : values) components_.emplace_back().value = value;
+  if (rows_ > 1) node.diagonals = {values[0] + values[1], values[0] - values[1]};
   nodes_.push_back(node);
   return static_cast<std::int32_t>(nodes_.size() - 1);
 }
@@ -221,9 +222,8 @@ RollCurve::Place RollCurve::place(const Node& node, double x, std::size_t row) c
   const RollPiece& piece = this->piece(node);
   const auto panel_at = [&](std::size_t c, double base) { return panel_between(node, c, base); };
   const Turning start = contact_at(piece, x, 0, panel_at);
-  const bool is_facing = row + 1 == contacts_;
-  evaluations_ += piece.pivot_at ? 0 : (is_facing ? 1 : 2);
-  if (is_facing) return {start.angle + *equations_.facing, start.curvature};
+  evaluations_ += piece.pivot_at ? 0 : (is_facing(row) ? 1 : 2);
+  if (is_facing(row)) return {start.angle + *equations_.facing, start.curvature};
   const Turning end = contact_at(piece, x, row + 1, panel_at);
   return {end.angle - start.angle + equations_.shifts[row], end.curvature - start.curvature};
 }
@@ -269,16 +269,34 @@ std::int32_t RollCurve::make_node(std::uint32_t piece, double lo, double hi, std
   node.piece = piece;
   node.first = first;
   node.last = last;
-  nodes_.push_back(node);
   for (std::size_t row = 0; row < rows_; ++row) {
-    Component component;
-    component.first = values_[first * rows_ + row];
-    component.last = values_[last * rows_ + row];
-    component.slope = slope_between(pieces_[piece], &rates_[first * contacts_], &rates_[last * contacts_], row);
-    component.value = value_range(component.first, component.last, component.slope, hi - lo);
-    components_.push_back(component);
+    components_.push_back(component_between(pieces_[piece], row, first, last, hi - lo));
   }
+  if (rows_ > 1) {
+    const Component& one = components_[components_.size() - rows_];
+    const Component& two = components_[components_.size() - rows_ + 1];
+    node.diagonals = {common(Combination{1, 1, one, two}.value(hi - lo), one.value + two.value),
+                      common(Combination{1, -1, one, two}.value(hi - lo), one.value - two.value)};
+  }
+  nodes_.push_back(node);
   return static_cast<std::int32_t>(nodes_.size() - 1);
+}
+
+RollCurve::Component RollCurve::component_between(const RollPiece& piece, std::size_t row, std::uint32_t first,
+                                                  std::uint32_t last, double width) const {
+  const double* rates_first = &rates_[first * contacts_];
+  const double* rates_last = &rates_[last * contacts_];
+  Component component;
+  component.first = values_[first * rows_ + row];
+  component.last = values_[last * rows_ + row];
+  component.slope = slope_between(piece, rates_first, rates_last, row);
+  component.value = value_range(component.first, component.last, component.slope, width);
+  if (piece.constant[row]) return component;
+  const double of_start = 0.5 * (rates_last[0] - rates_first[0]);
+  component.by_start = is_facing(row) ? of_start : -of_start;
+  if (!is_facing(row)) component.by_end = 0.5 * (rates_last[row + 1] - rates_first[row + 1]);
+  component.value = common(component.value, Combination{1, 0, component, component}.value(width));
+  return component;
 }
 
 /// A node over these of pieces, the last one not included.
@@ -288,18 +306,17 @@ std::int32_t RollCurve::join(std::int32_t from, std::int32_t to) {
   Node node;
   node.left = join(from, middle);
   node.right = join(middle, to);
-  const Node& first = this->node(node.left);
+  const Node& first = this->node(node.left);  // good until the next one is made
   const Node& last = this->node(node.right);
   node.lo = first.on_one_piece() ? piece(first).s(first.lo) : first.lo;
   node.hi = last.on_one_piece() ? piece(last).s(last.hi) : last.hi;
-  nodes_.push_back(node);
   for (std::size_t row = 0; row < rows_; ++row) {
-    const Range& left = components(node.left)[row].value;
-    const Range& right = components(node.right)[row].value;
     Component component;
-    component.value = {std::min(left.least, right.least), std::max(left.most, right.most)};
+    component.value = hull(components(node.left)[row].value, components(node.right)[row].value);
     components_.push_back(component);
   }
+  for (const std::size_t k : {0U, 1U}) node.diagonals[k] = hull(first.diagonals[k], last.diagonals[k]);
+  nodes_.push_back(node);
   return static_cast<std::int32_t>(nodes_.size() - 1);
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <boost/container/small_vector.hpp>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -64,6 +66,7 @@ class RollCurve {
     std::int32_t right = -1;
     std::uint32_t first = 0;  // points at the ends; of an uncut one its spans
     std::uint32_t last = 0;
+    std::array<Range, 2> diagonals;  // of the first two components the sum and the difference
 
     bool on_one_piece() const { return piece != kManyPieces; }
     double width() const { return hi - lo; }
@@ -75,6 +78,30 @@ class RollCurve {
     Range slope;
     double first = 0;  // its values at the ends
     double last = 0;
+    double by_start = 0;  // what its two contacts' rates change the slope by from end to end, halved
+    double by_end = 0;
+  };
+
+  /// x times one component and y times another one: both have the first contact.
+  struct Combination {
+    double x;
+    double y;
+    const Component& one;
+    const Component& two;
+
+    double first() const { return x * one.first + y * two.first; }
+    double last() const { return x * one.last + y * two.last; }
+    /// How far its slope gets from the middle.
+    double slope_radius() const { return std::abs(start()) + std::abs(x * one.by_end) + std::abs(y * two.by_end); }
+    /// Each contact's angle is on one side of its chord, for its rate is monotone, by a quarter of the rate's change
+    /// times the width at the most.
+    Range value(double width) const {
+      const double share = -0.5 * width;
+      return hull(first(), last()) + share * (hull(0, start()) + hull(0, x * one.by_end) + hull(0, y * two.by_end));
+    }
+
+   private:
+    double start() const { return x * one.by_start + y * two.by_start; }
   };
 
   /// `range`: of s, the first contacts whose rolls stay on the part.
@@ -116,10 +143,11 @@ class RollCurve {
  private:
   using Cursors = boost::container::small_vector<Cursor, 4>;  // of the contacts
 
+  bool is_facing(std::size_t row) const { return row + 1 == contacts_; }
   Range slope_between(const RollPiece& piece, const double* one, const double* two, std::size_t row) const {
     if (piece.constant[row]) return {0, 0};
     const Range start = hull(one[0], two[0]);
-    if (row + 1 == contacts_) return start;  // the facing equation's
+    if (is_facing(row)) return start;
     return hull(one[row + 1], two[row + 1]) - start;
   }
   RollPoint stored(std::uint32_t index, double x) const;
@@ -133,6 +161,8 @@ class RollCurve {
   void find_constants(RollPiece& piece, std::uint32_t first, std::uint32_t last) const;
   void add_pivots(double s, const std::vector<Range>& tangents);
   std::int32_t make_node(std::uint32_t piece, double lo, double hi, std::uint32_t first, std::uint32_t last);
+  Component component_between(const RollPiece& piece, std::size_t row, std::uint32_t first, std::uint32_t last,
+                              double width) const;
   std::int32_t join(std::int32_t from, std::int32_t to);
   template <class PanelAt>
   std::uint32_t add_point(const RollPiece& piece, double x, const PanelAt& panel_at);
