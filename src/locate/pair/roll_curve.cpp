@@ -25,6 +25,29 @@ RollCurve::RollCurve(const Part& part, RollEquations equations, const Interval& 
   root_ = strips_.is_empty() ? cut(range) : make_uncut(range, strips_.whole().data());
 }
 
+// What is called for every place is inline.
+
+inline RollCurve::Contact RollCurve::contact_at(const RollPiece& piece, double x, std::size_t c,
+                                                std::uint32_t first_panel, std::uint32_t last_panel) const {
+  const double base = x + piece.offset[c];
+  const std::uint32_t panel = turning_.panel_index(first_panel, last_panel, base);
+  const Turning at = turning_.on_panel(turning_.panels()[panel], base);
+  ++evaluations_;
+  return {{piece.angle[c] + at.angle, at.curvature}, panel};
+}
+
+inline RollCurve::Contact RollCurve::contact_on_spiral(const RollPiece& piece, double x, std::size_t c) const {
+  if (piece.pivot_at) return pivot_at(piece, x, c);
+  const Spiral& spiral = turning_.spirals()[piece.spiral[c]];
+  return contact_at(piece, x, c, spiral.first_panel, spiral.last_panel);
+}
+
+inline RollCurve::Contact RollCurve::contact_between(const Node& node, double x, std::size_t c) const {
+  const RollPiece& piece = this->piece(node);
+  if (piece.pivot_at) return pivot_at(piece, x, c);
+  return contact_at(piece, x, c, panels_[node.first * contacts_ + c], panels_[node.last * contacts_ + c]);
+}
+
 /// A node over all pieces of this range.
 std::int32_t RollCurve::cut(const Interval& range) {
   const std::size_t before = pieces_.size();
@@ -38,11 +61,18 @@ std::int32_t RollCurve::cut(const Interval& range) {
     rates_.reserve(8 * count * contacts_);
     panels_.reserve(8 * count * contacts_);
   }
+  boost::container::small_vector<Contact, 4> at(contacts_);
+  const auto contact_of = [&](std::size_t c) { return at[c]; };
   for (std::size_t k = before; k < pieces_.size(); ++k) {
     RollPiece& piece = pieces_[k];
-    const auto panel_at = [&](std::size_t c, double base) { return panel_on_spiral(piece, c, base); };
-    const std::uint32_t first = add_point(piece, piece.lo, panel_at);
-    const std::uint32_t last = add_point(piece, piece.hi, panel_at);
+    const bool goes_on = k > before && pieces_[k - 1].hi == piece.lo && !pieces_[k - 1].pivot_at && !piece.pivot_at;
+    for (std::size_t c = 0; c < contacts_; ++c) {
+      const bool is_known = goes_on && pieces_[k - 1].spiral[c] == piece.spiral[c];
+      if (!is_known) at[c] = contact_on_spiral(piece, piece.lo, c);
+    }
+    const std::uint32_t first = add_point(contact_of);
+    for (std::size_t c = 0; c < contacts_; ++c) at[c] = contact_on_spiral(piece, piece.hi, c);
+    const std::uint32_t last = add_point(contact_of);
     find_constants(piece, first, last);
     make_node(static_cast<std::uint32_t>(k), piece.lo, piece.hi, first, last);
   }
@@ -176,13 +206,12 @@ void RollCurve::add_pivots(double s, const std::vector<Range>& tangents) {
 /// slope vanishes at more points than the turning function's polynomials have terms it vanishes in between.
 void RollCurve::find_constants(RollPiece& piece, std::uint32_t first, std::uint32_t last) const {
   piece.constant.assign(rows_, true);
-  const auto panel_at = [&](std::size_t c, double base) { return panel_on_spiral(piece, c, base); };
-  boost::container::small_vector<double, 4> value(rows_);
   boost::container::small_vector<double, 4> rate(contacts_);
   for (int k = 0; k <= kConstantSamples; ++k) {
     const double* rates = k <= 1 ? &rates_[(k == 0 ? first : last) * contacts_] : rate.data();
     if (k > 1) {  // both ends first: nearly always they settle it
-      evaluate(piece, piece.lo + piece.width() * (k - 1) / kConstantSamples, panel_at, value.data(), rate.data());
+      const double x = piece.lo + piece.width() * (k - 1) / kConstantSamples;
+      for (std::size_t c = 0; c < contacts_; ++c) rate[c] = contact_on_spiral(piece, x, c).turning.curvature;
     }
     double scale = 1 / turning_.perimeter();
     for (std::size_t c = 0; c < contacts_; ++c) scale += std::abs(rates[c]);
@@ -196,35 +225,22 @@ void RollCurve::find_constants(RollPiece& piece, std::uint32_t first, std::uint3
   }
 }
 
-template <class PanelAt>
-Turning RollCurve::contact_at(const RollPiece& piece, double x, std::size_t c, const PanelAt& panel_at) const {
-  const double angle = piece.angle[c];
-  if (piece.pivot_at) return c == *piece.pivot ? Turning{angle + x, 1} : Turning{angle, 0};
-  const double base = x + piece.offset[c];
-  const Turning at = turning_.on_panel(turning_.panels()[panel_at(c, base)], base);
-  return {angle + at.angle, at.curvature};
-}
-
-template <class PanelAt>
-void RollCurve::evaluate(const RollPiece& piece, double x, const PanelAt& panel_at, double* value, double* rate) const {
-  const Turning start = contact_at(piece, x, 0, panel_at);
+template <class ContactOf>
+void RollCurve::evaluate(const ContactOf& contact_of, double* value, double* rate) const {
+  const Turning start = contact_of(0);
   rate[0] = start.curvature;
   for (std::size_t c = 1; c < contacts_; ++c) {
-    const Turning end = contact_at(piece, x, c, panel_at);
+    const Turning end = contact_of(c);
     rate[c] = end.curvature;
     value[c - 1] = end.angle - start.angle + equations_.shifts[c - 1];  // one side of (8), (9)
   }
   if (equations_.facing) value[rows_ - 1] = start.angle + *equations_.facing;
-  evaluations_ += piece.pivot_at ? 0 : contacts_;
 }
 
 RollCurve::Place RollCurve::place(const Node& node, double x, std::size_t row) const {
-  const RollPiece& piece = this->piece(node);
-  const auto panel_at = [&](std::size_t c, double base) { return panel_between(node, c, base); };
-  const Turning start = contact_at(piece, x, 0, panel_at);
-  evaluations_ += piece.pivot_at ? 0 : (is_facing(row) ? 1 : 2);
+  const Turning start = contact_between(node, x, 0).turning;
   if (is_facing(row)) return {start.angle + *equations_.facing, start.curvature};
-  const Turning end = contact_at(piece, x, row + 1, panel_at);
+  const Turning end = contact_between(node, x, row + 1).turning;
   return {end.angle - start.angle + equations_.shifts[row], end.curvature - start.curvature};
 }
 
@@ -233,8 +249,8 @@ void RollCurve::move(RollPoint& point, const Node& node, double x) const {
   point.value.resize(rows_, boost::container::default_init);
   point.rate.resize(contacts_, boost::container::default_init);
   const double nearest = std::clamp(x, node.lo, node.hi);
-  const auto panel_at = [&](std::size_t c, double base) { return panel_between(node, c, base); };
-  evaluate(piece(node), nearest, panel_at, point.value.data(), point.rate.data());
+  const auto contact_of = [&](std::size_t c) { return contact_between(node, nearest, c).turning; };
+  evaluate(contact_of, point.value.data(), point.rate.data());
   if (x != nearest) {
     for (std::size_t row = 0; row < rows_; ++row) point.value[row] += (x - nearest) * point.slope(row);
   }
@@ -250,16 +266,37 @@ RollPoint RollCurve::stored(std::uint32_t index, double x) const {
   return point;
 }
 
-template <class PanelAt>
-std::uint32_t RollCurve::add_point(const RollPiece& piece, double x, const PanelAt& panel_at) {
+template <class ContactOf>
+std::uint32_t RollCurve::add_point(const ContactOf& contact_of) {
   const std::size_t index = values_.size() / rows_;
   values_.resize(values_.size() + rows_);
   rates_.resize(rates_.size() + contacts_);
   panels_.resize(panels_.size() + contacts_);
   std::uint32_t* panels = &panels_[index * contacts_];
-  const auto keep_panel = [&](std::size_t c, double base) { return panels[c] = panel_at(c, base); };
-  evaluate(piece, x, keep_panel, &values_[index * rows_], &rates_[index * contacts_]);
+  const auto keep_panel = [&](std::size_t c) {
+    const Contact contact = contact_of(c);
+    panels[c] = contact.panel;
+    return contact.turning;
+  };
+  evaluate(keep_panel, &values_[index * rows_], &rates_[index * contacts_]);
   return static_cast<std::uint32_t>(index);
+}
+
+inline RollCurve::Component RollCurve::component_between(const RollPiece& piece, std::size_t row, std::uint32_t first,
+                                                         std::uint32_t last, double width) const {
+  const double* rates_first = &rates_[first * contacts_];
+  const double* rates_last = &rates_[last * contacts_];
+  Component component;
+  component.first = values_[first * rows_ + row];
+  component.last = values_[last * rows_ + row];
+  component.slope = slope_between(piece, rates_first, rates_last, row);
+  component.value = value_range(component.first, component.last, component.slope, width);
+  if (piece.constant[row]) return component;
+  const double of_start = 0.5 * (rates_last[0] - rates_first[0]);
+  component.by_start = is_facing(row) ? of_start : -of_start;
+  if (!is_facing(row)) component.by_end = 0.5 * (rates_last[row + 1] - rates_first[row + 1]);
+  component.value = common(component.value, Combination{1, 0, component, component}.value(width));
+  return component;
 }
 
 std::int32_t RollCurve::make_node(std::uint32_t piece, double lo, double hi, std::uint32_t first, std::uint32_t last) {
@@ -280,23 +317,6 @@ std::int32_t RollCurve::make_node(std::uint32_t piece, double lo, double hi, std
   }
   nodes_.push_back(node);
   return static_cast<std::int32_t>(nodes_.size() - 1);
-}
-
-RollCurve::Component RollCurve::component_between(const RollPiece& piece, std::size_t row, std::uint32_t first,
-                                                  std::uint32_t last, double width) const {
-  const double* rates_first = &rates_[first * contacts_];
-  const double* rates_last = &rates_[last * contacts_];
-  Component component;
-  component.first = values_[first * rows_ + row];
-  component.last = values_[last * rows_ + row];
-  component.slope = slope_between(piece, rates_first, rates_last, row);
-  component.value = value_range(component.first, component.last, component.slope, width);
-  if (piece.constant[row]) return component;
-  const double of_start = 0.5 * (rates_last[0] - rates_first[0]);
-  component.by_start = is_facing(row) ? of_start : -of_start;
-  if (!is_facing(row)) component.by_end = 0.5 * (rates_last[row + 1] - rates_first[row + 1]);
-  component.value = common(component.value, Combination{1, 0, component, component}.value(width));
-  return component;
 }
 
 /// A node over these of pieces, the last one not included.
@@ -325,8 +345,7 @@ std::pair<std::int32_t, std::int32_t> RollCurve::halves(std::int32_t index) {
   const Node node = this->node(index);
   if (node.left >= 0 || !node.on_one_piece()) return {node.left, node.right};
   const double x = 0.5 * (node.lo + node.hi);
-  const auto panel_at = [&](std::size_t c, double base) { return panel_between(node, c, base); };
-  const std::uint32_t middle = add_point(pieces_[node.piece], x, panel_at);
+  const std::uint32_t middle = add_point([&](std::size_t c) { return contact_between(node, x, c); });
   const std::int32_t left = make_node(node.piece, node.lo, x, node.first, middle);
   const std::int32_t right = make_node(node.piece, x, node.hi, middle, node.last);
   nodes_[static_cast<std::size_t>(index)].left = left;

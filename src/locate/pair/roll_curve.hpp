@@ -141,6 +141,11 @@ class RollCurve {
   const std::vector<RollPatch>& patches() const { return patches_; }
 
  private:
+  /// A contact's tangent's angle with its rate by x, and the panel that it is on.
+  struct Contact {
+    Turning turning;
+    std::uint32_t panel = 0;  // of a pivot unused
+  };
   using Cursors = boost::container::small_vector<Cursor, 4>;  // of the contacts
 
   bool is_facing(std::size_t row) const { return row + 1 == contacts_; }
@@ -164,21 +169,18 @@ class RollCurve {
   Component component_between(const RollPiece& piece, std::size_t row, std::uint32_t first, std::uint32_t last,
                               double width) const;
   std::int32_t join(std::int32_t from, std::int32_t to);
-  template <class PanelAt>
-  std::uint32_t add_point(const RollPiece& piece, double x, const PanelAt& panel_at);
-  /// A contact's tangent's angle and its rate by x.
-  template <class PanelAt>
-  Turning contact_at(const RollPiece& piece, double x, std::size_t c, const PanelAt& panel_at) const;
-  /// `value` one per row, `rate` one per contact; `panel_at` finds the panel of a contact that is at a place.
-  template <class PanelAt>
-  void evaluate(const RollPiece& piece, double x, const PanelAt& panel_at, double* value, double* rate) const;
-  /// The panel of a contact that is between a node's ends.
-  std::uint32_t panel_between(const Node& node, std::size_t c, double base) const {
-    return turning_.panel_index(panels_[node.first * contacts_ + c], panels_[node.last * contacts_ + c], base);
+  template <class ContactOf>
+  std::uint32_t add_point(const ContactOf& contact_of);
+  Contact contact_at(const RollPiece& piece, double x, std::size_t c, std::uint32_t first_panel,
+                     std::uint32_t last_panel) const;
+  Contact contact_on_spiral(const RollPiece& piece, double x, std::size_t c) const;
+  Contact contact_between(const Node& node, double x, std::size_t c) const;
+  static Contact pivot_at(const RollPiece& piece, double x, std::size_t c) {
+    return c == *piece.pivot ? Contact{{piece.angle[c] + x, 1}} : Contact{{piece.angle[c], 0}};
   }
-  std::uint32_t panel_on_spiral(const RollPiece& piece, std::size_t c, double base) const {
-    return turning_.panel_index(turning_.spirals()[piece.spiral[c]], base);
-  }
+  /// `value` one per row, `rate` one per contact.
+  template <class ContactOf>
+  void evaluate(const ContactOf& contact_of, double* value, double* rate) const;
 
   const Part& part_;
   const TurningFunction& turning_;
