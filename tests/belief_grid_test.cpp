@@ -7,6 +7,7 @@
 #include "belief/grid.hpp"
 #include "belief_cases.hpp"
 #include "rollfix/outline/points.hpp"
+#include "shapes.hpp"
 
 // What a posterior costs follows the part's shape, however many points its outline was given by.
 namespace belief_grid_test {
@@ -71,6 +72,100 @@ TEST(BeliefGrid, a_polygons_kinks_are_both_ends_of_its_corners) {
 
 TEST(BeliefGrid, the_arcs_of_a_stadium_end_in_kinks) {
   EXPECT_EQ(boundary_of(part_of("stadium"), 0.01).arcs().front().kinks().size(), 4U);
+}
+
+TEST(BeliefGrid, a_boundary_looks_the_same_as_often_as_its_part) {
+  EXPECT_EQ(boundary_of(part_of("gear"), 0.01).folds(), 12U);
+  EXPECT_EQ(boundary_of(part_of("polygon"), 0.01).folds(), 6U);
+  EXPECT_EQ(boundary_of(part_of("ellipse,a=2,b=1"), 0.01).folds(), 2U);
+  EXPECT_EQ(boundary_of(part_of("cam"), 0.01).folds(), 1U);
+  EXPECT_EQ(boundary_of(egg_through(60), 0.01).folds(), 1U);
+}
+
+/// A star of lines: what a finger gets along lies between two of its concave corners.
+Part star_of(int points) {
+  std::vector<Vec2> corners;
+  for (int k = 0; k < 2 * points; ++k) {
+    const double angle = std::numbers::pi * k / points;
+    corners.push_back((k % 2 == 0 ? 2 : 1) * Vec2(std::cos(angle), std::sin(angle)));
+  }
+  return Part(shapes::polygon(corners));
+}
+
+TEST(BeliefGrid, a_star_is_cut_at_its_concave_corners_and_looks_the_same_from_arc_to_arc) {
+  const Part star = star_of(5);
+  const TiltedBoundary boundary = boundary_of(star, 0.01);
+  EXPECT_EQ(boundary.arcs().size(), 5U);
+  EXPECT_EQ(boundary.folds(), 5U);
+  EXPECT_EQ(boundary.shift(2).arcs, 2U);
+  EXPECT_NEAR(boundary.shift(2).s, 0.4 * star.perimeter(), 1e-12);
+}
+
+/// So wide that it tells nothing of any place, but what looks alike is not taken to be.
+constexpr double kAnyPlace = 1e4;
+
+void expect_the_same_places_with_every_fold_looked_at(const Part& part, double radius, std::uint64_t seed) {
+  const double P = part.perimeter();
+  BeliefOptions options;
+  options.noise = noise_on(part, 1e-3, 5e-3, 5e-3);
+  const NoisyRoll roll = roll_on(part, radius, 0.9 * P, 0.15 * P, 60, options.noise, seed);
+  Belief folded = belief_in(part, roll.log, radius, options);
+  options.prior = rollfix::Prior{0, kAnyPlace * P};
+  Belief whole = belief_in(part, roll.log, radius, options);
+  ASSERT_EQ(folded.modes().size(), whole.modes().size());
+  for (const Mode& mode : whole.modes()) {
+    const Mode* same = mode_at(folded.modes(), mode.mean[0], part);
+    ASSERT_NE(same, nullptr);
+    EXPECT_LE(distance(part, same->mean[0], mode.mean[0]), 0.02 * mode.sd[0]);
+    EXPECT_LE(distance(part, same->end_mean[0], mode.end_mean[0]), 0.02 * mode.end_sd[0]);
+    EXPECT_NEAR(same->sd[0], mode.sd[0], 0.02 * mode.sd[0]);
+    EXPECT_NEAR(same->probability, mode.probability, 0.02 * mode.probability);
+  }
+}
+
+TEST(BeliefGrid, what_looks_alike_is_told_of_as_if_each_place_were_looked_at) {
+  const Part gear = part_of("gear");
+  const Part ellipse = part_of("ellipse,a=2,b=1");
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    expect_the_same_places_with_every_fold_looked_at(gear, 0.002 * gear.perimeter(), seed);
+    expect_the_same_places_with_every_fold_looked_at(ellipse, 0.03 * ellipse.perimeter(), seed);
+    expect_the_same_places_with_every_fold_looked_at(star_of(3), 0.1, seed);
+  }
+}
+
+TEST(BeliefGrid, places_that_look_alike_are_as_probable) {
+  const Part polygon = part_of("polygon");
+  const double P = polygon.perimeter();
+  BeliefOptions options;
+  options.noise = noise_on(polygon, 2e-4, 3e-3, 0);
+  const double radius = 0.03 * P;
+  const NoisyRoll roll = roll_on(polygon, radius, 0.31 * P, 0.6 * P, 100, options.noise, 3);
+  Belief belief = belief_in(polygon, roll.log, radius, options);
+  ASSERT_EQ(belief.modes().size(), 6U);
+  for (const Mode& mode : belief.modes()) EXPECT_DOUBLE_EQ(mode.probability, 1.0 / 6);
+}
+
+TEST(BeliefGrid, a_roll_that_has_grown_is_what_it_is_at_once) {
+  const Part part = part_of("cam");
+  const double P = part.perimeter();
+  const double radius = 0.03 * P;
+  BeliefOptions options;
+  options.noise = noise_on(part, 1e-3, 5e-3, 5e-3);
+  const NoisyRoll roll = roll_on(part, radius, 0.2 * P, 0.4 * P, 65, options.noise, 7);
+  Belief at_once = belief_in(part, roll.log, radius, options);
+  Belief growing(part, LogKind::contact, options);
+  for (const rollfix::Reading& reading : rollfix::readings_as_given(roll.log, {DiskFinger{radius}})) {
+    rollfix::Sample sample;
+    sample.reading = reading;
+    sample.finger_curvature = 1 / radius;
+    growing.add(sample);
+    growing.modes();
+  }
+  ASSERT_EQ(growing.modes().size(), at_once.modes().size());
+  for (std::size_t k = 0; k < at_once.modes().size(); ++k) {
+    EXPECT_NEAR(growing.modes()[k].mean[0], at_once.modes()[k].mean[0], 1e-9 * P);
+    EXPECT_NEAR(growing.modes()[k].sd[0], at_once.modes()[k].sd[0], 1e-9 * P);
+  }
 }
 
 TEST(BeliefGrid, half_of_a_cells_mass_lies_where_its_density_is_larger) {

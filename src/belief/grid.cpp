@@ -95,15 +95,40 @@ Grid::Grid(const TiltedBoundary& boundary, const ErrorModel& errors, const Belie
       options_(options),
       outliers_{options.robust ? kOutlierShare : 0, places.perimeter},
       places_(places),
-      corner_length_(corner_length) {
-  for (const TiltedArc& arc : boundary.arcs()) length_ += arc.hi() - arc.lo();
+      corner_length_(corner_length),
+      folds_(options.prior || options.pose || !options.within.empty() ? 1 : boundary.folds()) {
+  for (const TiltedArc& arc : boundary.arcs()) {
+    length_ += arc.hi() - arc.lo();
+    ranges_.push_back({arc.lo(), arc.hi()});
+  }
+  if (folds_ == 1) return;
+  const Shift fold = boundary.shift(1);
+  if (fold.arcs == 0) ranges_.front().hi = ranges_.front().lo + fold.w;
+  if (fold.arcs > 0) ranges_.resize(fold.arcs);
 }
 
-const GridPoint& Grid::best() const { return *points_[best_arc_][best_index_]; }
+RollFilter Grid::filter(const GridCell& cell, std::size_t end) const {
+  const Shift shift = boundary_->shift(cell.fold);
+  return point(cell, end).now.moved(boundary_->arcs()[cell.arc + shift.arcs], shift);
+}
+
+RollFilter Grid::fresh_filter(const TiltedArc& arc, double w) const {
+  return {arc, boundary_->tilt(), w, errors_.start(), centres_};
+}
 
 GridPoint Grid::make(const TiltedArc& arc, double w) const {
-  const RollFilter fresh(arc, boundary_->tilt(), w, errors_.start(), centres_);
+  const RollFilter fresh = fresh_filter(arc, w);
   return {fresh, 0, 0, 0, static_cast<std::size_t>(-1), fresh, {}};
+}
+
+std::unique_ptr<GridPoint> Grid::point_at(std::size_t arc, double w) {
+  if (arc < spare_.size()) {
+    std::vector<SparePoint>& spare = spare_[arc];
+    const auto known = std::lower_bound(spare.begin(), spare.end(), w,
+                                        [](const SparePoint& point, double place) { return point.w < place; });
+    if (known != spare.end() && known->w == w && known->point) return std::move(known->point);
+  }
+  return std::make_unique<GridPoint>(make(boundary_->arcs()[arc], w));
 }
 
 void Grid::refresh(const std::vector<GridPoint*>& points, const Nodes& nodes) {
@@ -214,30 +239,46 @@ void Grid::lay_out(const Nodes& nodes) {
     const Node& node = complete[(complete.size() * k - 1) / kInstants];
     rolls.push_back(node.turn + boundary_->tilt() * node.length);
   }
-  points_.clear();
-  count_ = 0;
-  for (const TiltedArc& arc : boundary_->arcs()) {
+  keep_points(nodes);
+  for (std::size_t a = 0; a < ranges_.size(); ++a) {
+    const TiltedArc& arc = boundary_->arcs()[a];
+    const Interval& range = ranges_[a];
     std::vector<double> ws;
     for (const double kink : arc.kinks()) {
+      if (kink > range.hi) break;
       for (const double roll : rolls) {
-        const double w = arc.loop() ? arc.lo() + wrap(kink - roll - arc.lo(), arc.hi() - arc.lo()).base : kink - roll;
-        if (w > arc.lo() && w < arc.hi()) ws.push_back(w);
+        const double w = arc.loop() ? range.lo + wrap(kink - roll - range.lo, range.width()).base : kink - roll;
+        if (w > range.lo && w < range.hi) ws.push_back(w);
       }
     }
-    const auto count = static_cast<std::size_t>(std::ceil((arc.hi() - arc.lo()) / step));
+    const auto count = static_cast<std::size_t>(std::ceil(range.width() / step));
     for (std::size_t k = 0; k <= count; ++k) {
-      ws.push_back(arc.lo() + (arc.hi() - arc.lo()) * static_cast<double>(k) / static_cast<double>(count));
+      ws.push_back(range.lo + range.width() * static_cast<double>(k) / static_cast<double>(count));
     }
     std::sort(ws.begin(), ws.end());
     points_.emplace_back();
     double last = -std::numeric_limits<double>::infinity();
     for (const double w : ws) {
       if (w - last <= kLeastCell * length_) continue;
-      points_.back().push_back(std::make_unique<GridPoint>(make(arc, w)));
+      points_.back().push_back(point_at(a, w));
       last = w;
     }
     count_ += points_.back().size();
   }
+}
+
+void Grid::keep_points(const Nodes& nodes) {
+  spare_.clear();
+  for (GridPoints& arc : points_) {
+    spare_.emplace_back();
+    for (std::unique_ptr<GridPoint>& point : arc) {
+      if (point->generation != nodes.generation()) continue;
+      const double w = point->filter.w();
+      spare_.back().push_back({w, std::move(point)});
+    }
+  }
+  points_.clear();
+  count_ = 0;
 }
 
 void Grid::refresh_all(const Nodes& nodes) {
@@ -251,7 +292,7 @@ void Grid::refresh_all(const Nodes& nodes) {
       const GridPoint& after = *arc[std::min(k + 1, arc.size() - 1)];
       if (!can_start_in({before.filter.place().s, after.filter.place().s})) continue;
       points.push_back(arc[k].get());
-      filters.push_back(arc[k]->filter);
+      filters.push_back(fresh_filter(*arc[k]->filter.arc(), arc[k]->filter.w()));
     }
   }
   std::size_t begun = 0;
@@ -287,14 +328,11 @@ double Grid::log_prior(double length, double h, double width) const {
 
 void Grid::measure_fit(const Nodes& nodes) {
   const GridPoint* best = nullptr;
-  for (std::size_t a = 0; a < points_.size(); ++a) {
-    for (std::size_t k = 0; k < points_[a].size(); ++k) {
-      const GridPoint& point = *points_[a][k];
-      if (is_stale(point, nodes)) continue;
-      if (best != nullptr && point.score.log_likelihood() <= best->score.log_likelihood()) continue;
-      best = &point;
-      best_arc_ = a;
-      best_index_ = k;
+  for (const GridPoints& arc : points_) {
+    for (const std::unique_ptr<GridPoint>& point : arc) {
+      if (is_stale(*point, nodes)) continue;
+      if (best != nullptr && point->score.log_likelihood() <= best->score.log_likelihood()) continue;
+      best = point.get();
     }
   }
   best_ = best->score.log_likelihood();
@@ -401,7 +439,7 @@ bool Grid::split(std::size_t arc, const std::vector<double>& added, const Nodes&
   std::size_t next = 0;
   for (std::unique_ptr<GridPoint>& point : points) {
     while (next < added.size() && added[next] < point->filter.w()) {
-      merged.push_back(std::make_unique<GridPoint>(make(boundary_->arcs()[arc], added[next++])));
+      merged.push_back(point_at(arc, added[next++]));
       fresh.push_back(merged.back().get());
     }
     merged.push_back(std::move(point));
@@ -437,7 +475,7 @@ void Grid::weigh() {
     total += cell.share;
   }
   for (GridCell& cell : cells_) cell.share /= total;
-  log_total_ = std::log(total);
+  log_total_ = std::log(total * static_cast<double>(folds_));
   rest_ = std::min(1.0, rest_ / total);
 }
 
@@ -460,6 +498,23 @@ void Grid::measure_scale() {
   fit_.length_scale_sd = std::sqrt(square(fit_.widened) * own + std::max(0.0, square_of - mean * mean));
 }
 
+void Grid::unfold() {
+  const std::size_t count = cells_.size();
+  for (GridCell& cell : cells_) cell.share /= static_cast<double>(folds_);
+  cells_.reserve(count * folds_);
+  for (std::size_t fold = 1; fold < folds_; ++fold) {
+    const Shift shift = boundary_->shift(fold);
+    for (std::size_t k = 0; k < count; ++k) {
+      GridCell cell = cells_[k];
+      cell.fold = fold;
+      cell.lo += shift.w;
+      cell.hi += shift.w;
+      cell.s = {cell.s.lo + shift.s, cell.s.hi + shift.s};
+      cells_.push_back(cell);
+    }
+  }
+}
+
 void Grid::settle(const Nodes& nodes) {
   limit_ = std::numeric_limits<double>::infinity();
   // As the roll goes on, other places of the boundary decide: the first points are laid out anew at each doubling.
@@ -473,7 +528,7 @@ void Grid::settle(const Nodes& nodes) {
   } else {
     std::vector<GridPoint*> ends;
     for (const GridCell& cell : cells_) {
-      if (!cell.fine) continue;
+      if (!cell.fine || cell.fold > 0) continue;
       for (const std::size_t end : {cell.first, cell.first + 1}) {
         GridPoint* point = points_[cell.arc][end].get();
         if (ends.empty() || ends.back() != point) ends.push_back(point);
@@ -485,9 +540,11 @@ void Grid::settle(const Nodes& nodes) {
     measure_fit(nodes);
     if (!refine(nodes)) break;
   }
+  spare_.clear();
   measure_fit(nodes);
   weigh();
   measure_scale();
+  unfold();
 }
 
 bool Grid::holds_something(const Nodes& nodes, const Rival& rival) const {
@@ -517,6 +574,7 @@ bool Grid::is_hopeless(const Nodes& nodes, const Rival& rival) {
     if (!goes_on) break;
   }
   points_.clear();
+  spare_.clear();
   cells_.clear();
   return !holds;
 }

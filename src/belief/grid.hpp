@@ -75,6 +75,8 @@ class RollFilter {
 
   /// Where the contact is after a roll that is measured as this.
   TiltedPlace after(const Reading& measured) const;
+  /// The same at a first contact that looks like this one.
+  RollFilter moved(const TiltedArc& arc, const Shift& shift) const;
   /// Where the part is, as far as the rows tell it for this first contact, and how that changes with w. REQUIRES that
   /// the finger's first contact is known; x and y mean something where has_place().
   PoseSpread pose(Eigen::Vector3d* by_w = nullptr) const;
@@ -149,11 +151,17 @@ struct GridPoint {
 /// They are large, and others come between them.
 using GridPoints = std::vector<std::unique_ptr<GridPoint>>;
 
+/// One that is not on the grid any more; nullptr: it is again.
+struct SparePoint {
+  double w;
+  std::unique_ptr<GridPoint> point;
+};
+
 struct Errand;
 
 /// What lies between two neighbouring points.
 struct GridCell {
-  std::size_t arc = 0;
+  std::size_t arc = 0;    // of its points
   std::size_t first = 0;  // the point at its lower end
   double lo = 0;          // in w
   double hi = 0;
@@ -163,6 +171,7 @@ struct GridCell {
   double rise = 0;         // ... from the lower end to the upper one it changes by this
   double steps = 0;        // in standard deviations, what the distance changes by at most
   bool fine = false;       // resolved; else it is known to hold next to nothing
+  std::size_t fold = 0;    // so many of the boundary's folds further on than its points
 
   /// Up to which share of its width, from the lower end on, it holds this share of its mass.
   double quantile(double share_of_mass) const;
@@ -171,7 +180,8 @@ struct GridCell {
 };
 
 /// The posterior density of a roll's first contact over the whole boundary, on points that lie as close together as it
-/// takes: where the samples' likelihood changes fast and is not negligible.
+/// takes: where the samples' likelihood changes fast and is not negligible. Of a boundary that looks the same several
+/// times one of them tells the others.
 class Grid {
  public:
   Grid(const TiltedBoundary& boundary, const ErrorModel& errors, const BeliefOptions& options, const Boundary& places,
@@ -184,12 +194,14 @@ class Grid {
   bool is_hopeless(const Nodes& nodes, const Rival& rival);
 
   const std::vector<GridCell>& cells() const { return cells_; }
-  const GridPoint& point(std::size_t arc, std::size_t index) const { return *points_[arc][index]; }
+  std::size_t folds() const { return folds_; }
+  /// The lower or the upper end of a cell, but for its folds, ...
+  const GridPoint& point(const GridCell& cell, std::size_t end) const { return *points_[cell.arc][cell.first + end]; }
+  /// ... and its filter where the cell is.
+  RollFilter filter(const GridCell& cell, std::size_t end) const;
   /// How well the likeliest point fits. All probabilities are as with Fit::widened times the noise.
   const Fit& fit() const { return fit_; }
   Evidence evidence() const { return {best_, log_total_}; }
-  /// The likeliest point. Not before settle().
-  const GridPoint& best() const;
   std::size_t points() const { return count_; }
   /// A bound on the share of the mass in the cells that are not resolved.
   double rest() const { return rest_; }
@@ -198,7 +210,12 @@ class Grid {
   void lay_out(const Nodes& nodes);
   void refresh_all(const Nodes& nodes);
   bool split(std::size_t arc, const std::vector<double>& added, const Nodes& nodes);
+  /// Takes the points away, but keeps what they have taken, for those that come again.
+  void keep_points(const Nodes& nodes);
+  RollFilter fresh_filter(const TiltedArc& arc, double w) const;
   GridPoint make(const TiltedArc& arc, double w) const;
+  /// One that was kept, or a new one.
+  std::unique_ptr<GridPoint> point_at(std::size_t arc, double w);
   /// Lets each of the points take the nodes that it has not. Beyond the limit of what can matter it takes no more: it
   /// stays stale, and what it has cost by then is a bound.
   void refresh(const std::vector<GridPoint*>& points, const Nodes& nodes);
@@ -214,6 +231,8 @@ class Grid {
   bool refine(const Nodes& nodes);
   void weigh();
   void measure_scale();
+  /// Adds the cells that look like those with points.
+  void unfold();
   void measure_fit(const Nodes& nodes);
   void add_pose_prior(GridPoint& point) const;
   void lower_limit(double deviance, const Nodes& nodes);
@@ -233,19 +252,20 @@ class Grid {
   Boundary places_;
   double corner_length_;
   Fit fit_;
-  std::size_t best_arc_ = 0;
-  std::size_t best_index_ = 0;
   double rest_ = 0;
-  double length_ = 0;     // of the whole boundary, in w
-  double best_ = 0;       // the largest log-likelihood of a point
-  double limit_ = 0;      // of a deviance that can matter, ...
-  double farthest_ = 0;   // ... and of the cost in it
-  double log_total_ = 0;  // of the density's integral, as a share of the best point's
-  double best_mass_ = 0;  // about the logarithm of the mass around it
+  std::size_t folds_;             // of the boundary look the same to all that is known: points lie on the first one ...
+  std::vector<Interval> ranges_;  // ... alone, on each of its arcs between these, in w
+  double length_ = 0;             // of the whole boundary, in w
+  double best_ = 0;               // the largest log-likelihood of a point
+  double limit_ = 0;              // of a deviance that can matter, ...
+  double farthest_ = 0;           // ... and of the cost in it
+  double log_total_ = 0;          // of the density's integral, as a share of the best point's
+  double best_mass_ = 0;          // about the logarithm of the mass around it
   std::size_t laid_out_at_ = 0;
-  std::size_t generation_ = 0;      // of the nodes that were laid out for
-  std::size_t count_ = 0;           // of points
-  std::vector<GridPoints> points_;  // of each arc, by w
+  std::size_t generation_ = 0;                  // of the nodes that were laid out for
+  std::size_t count_ = 0;                       // of points
+  std::vector<GridPoints> points_;              // of each arc, by w
+  std::vector<std::vector<SparePoint>> spare_;  // likewise: those of the layout before
   std::vector<GridCell> cells_;
 };
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "belief/grid.hpp"
 #include "belief/posterior.hpp"
@@ -61,8 +62,9 @@ std::vector<Run> cut_at_valleys(const Run& arc) {
 std::vector<Run> arcs_of(const Grid& grid, const TiltedBoundary& boundary) {
   std::vector<Run> arcs(boundary.arcs().size());
   for (const GridCell& cell : grid.cells()) {
-    arcs[cell.arc].cells.push_back(&cell);
-    arcs[cell.arc].turns.push_back(0);
+    Run& arc = arcs[cell.arc + boundary.shift(cell.fold).arcs];
+    arc.cells.push_back(&cell);
+    arc.turns.push_back(0);
   }
   for (std::size_t a = 0; a < arcs.size(); ++a) {
     if (!boundary.arcs()[a].loop()) continue;
@@ -84,43 +86,47 @@ class ModeOfRun {
 
   Mode mode() const {
     Mode mode;
-    const GridPoint& best = best_point();
     for (const GridCell* cell : run_.cells) mode.probability += cell->share;
-    const double w = peak(best);
-    const double s = arc().at(w).s;
+    const End best = best_end();
+    const RollFilter filter = grid_.filter(*run_.cells[best.cell], best.end);
+    const double w = peak(best, filter.w());
+    const double s = filter.arc()->at(w).s;
     mode.start = question_.places.on_first_lap(s);
     mode.tangent = w - question_.boundary->tilt() * s;
-    mode.end = question_.places.on_first_lap(best.now.after(question_.last).s);
+    mode.end = question_.places.on_first_lap(filter.after(question_.last).s);
     spread(mode);
     return mode;
   }
 
  private:
-  const TiltedArc& arc() const { return question_.boundary->arcs()[run_.cells.front()->arc]; }
+  /// The lower or the upper one of a cell.
+  struct End {
+    std::size_t cell = 0;
+    std::size_t end = 0;
+  };
 
-  const GridPoint& best_point() const {
-    const GridPoint* best = nullptr;
-    for (const GridCell* cell : run_.cells) {
-      if (!cell->fine) continue;
-      for (const std::size_t k : {cell->first, cell->first + 1}) {
-        const GridPoint& point = grid_.point(cell->arc, k);
-        if (best == nullptr || point.score.log_likelihood() > best->score.log_likelihood()) best = &point;
+  const Score& score_at(const End& at) const { return grid_.point(*run_.cells[at.cell], at.end).score; }
+
+  /// The likeliest one.
+  End best_end() const {
+    std::optional<End> best;
+    for (std::size_t k = 0; k < run_.cells.size(); ++k) {
+      if (!run_.cells[k]->fine) continue;
+      for (const End end : {End{k, 0}, End{k, 1}}) {
+        if (!best || score_at(end).log_likelihood() > score_at(*best).log_likelihood()) best = end;
       }
     }
     return *best;
   }
 
-  /// From the best point one step of Newton's method, no further than its neighbours are: w.
-  double peak(const GridPoint& best) const {
-    double lo = best.filter.w();
-    double hi = lo;
-    for (const GridCell* cell : run_.cells) {
-      if (cell->lo == best.filter.w()) hi = cell->hi;
-      if (cell->hi == best.filter.w()) lo = cell->lo;
-    }
-    if (best.score.information <= 0) return best.filter.w();
-    const double step = best.score.slope / best.score.information;
-    return std::clamp(best.filter.w() + step, lo, hi);
+  /// From there one step of Newton's method, no further than its neighbours are: w.
+  double peak(const End& best, double w) const {
+    const Score& score = score_at(best);
+    if (score.information <= 0) return w;
+    const auto width = [&](std::size_t k) { return k < run_.cells.size() ? run_.cells[k]->hi - run_.cells[k]->lo : 0; };
+    const std::size_t above = best.cell + best.end;
+    const double below = above > 0 ? width(above - 1) : 0;
+    return w + std::clamp(score.slope / score.information, -below, width(above));
   }
 
   /// Means, standard deviations and the interval, by the cells.
@@ -138,10 +144,10 @@ class ModeOfRun {
       const double turn = run_.turns[k] * P - near;
       const double width = cell.s.width();
       const double at = cell.s.lo + cell.mean() * width + turn;
-      const RollFilter& lower = grid_.point(cell.arc, cell.first).now;
-      const RollFilter& upper = grid_.point(cell.arc, cell.first + 1).now;
+      const RollFilter& lower = grid_.point(cell, 0).now;
+      const RollFilter& upper = grid_.point(cell, 1).now;
       const Interval ends{lower.after(question_.last).s, upper.after(question_.last).s};
-      const double end = ends.lo + cell.mean() * ends.width() + turn;
+      const double end = ends.lo + cell.mean() * ends.width() + turn + question_.boundary->shift(cell.fold).s;
       const double end_variance = lower.variance_after(question_.last, question_.own);
       total += cell.share;
       sum += cell.share * at;
@@ -211,7 +217,8 @@ std::vector<Mode> modes_of(const Grid& grid, const ModeQuestion& question) {
       if (probability >= kLeastProbability) modes.push_back(ModeOfRun(grid, question, run).mode());
     }
   }
-  std::sort(modes.begin(), modes.end(), [](const Mode& a, const Mode& b) { return a.probability > b.probability; });
+  std::stable_sort(modes.begin(), modes.end(),
+                   [](const Mode& a, const Mode& b) { return a.probability > b.probability; });
   return modes;
 }
 
@@ -219,8 +226,8 @@ namespace {
 
 /// Of the part for first contacts in a cell: between what its ends say.
 std::optional<PoseSpread> pose_of(const Grid& grid, const GridCell& cell) {
-  const RollFilter& lo = grid.point(cell.arc, cell.first).now;
-  const RollFilter& hi = grid.point(cell.arc, cell.first + 1).now;
+  const RollFilter lo = grid.filter(cell, 0);
+  const RollFilter hi = grid.filter(cell, 1);
   if (!lo.has_place()) return std::nullopt;
   PoseSpread pose = lo.pose();
   const Pose other = hi.pose().mean;
@@ -242,34 +249,73 @@ std::vector<Piece> pieces_of(const Grid& grid, const TiltedBoundary& boundary) {
   return pieces;
 }
 
-double credible_length(const Grid& grid) {
-  struct Stretch {
-    double density;
-    double share;
-    double length;
-  };
-  std::vector<Stretch> stretches;
-  for (const GridCell& cell : grid.cells()) {
-    if (!(cell.share > 0)) continue;
-    // The density changes within a cell: its parts are looked at by themselves.
-    const auto parts = static_cast<int>(std::ceil(std::clamp(std::abs(cell.rise) / kRisePerPart, 1.0, kMostParts)));
-    double before = 0;
-    for (int k = 1; k <= parts; ++k) {
-      const double share = static_cast<double>(k) / parts;
-      const double to = cell.quantile(share);
-      const double length = (to - before) * cell.s.width();
-      stretches.push_back({cell.share / parts / std::max(length, 1e-300), cell.share / parts, length});
-      before = to;
-    }
-  }
+namespace {
+
+/// Evenly spread mass.
+struct Stretch {
+  double density;
+  double share;
+  double length;
+};
+
+void sort_by_density(std::vector<Stretch>& stretches) {
   std::sort(stretches.begin(), stretches.end(),
             [](const Stretch& a, const Stretch& b) { return a.density > b.density; });
+}
+
+/// By s, from where it is least to where it is largest: an exponential.
+Interval densities_in(const GridCell& cell) {
+  const double mean = cell.share / std::max(cell.s.width(), 1e-300);
+  const double rise = std::max(std::abs(cell.rise), 1e-300);
+  const double most = mean * rise / -std::expm1(-rise);
+  return {most * std::exp(-rise), most};
+}
+
+/// The density changes within a cell: its parts are looked at by themselves.
+void add_parts(const GridCell& cell, std::vector<Stretch>& stretches) {
+  const auto parts = static_cast<int>(std::ceil(std::clamp(std::abs(cell.rise) / kRisePerPart, 1.0, kMostParts)));
+  double before = 0;
+  for (int k = 1; k <= parts; ++k) {
+    const double to = cell.quantile(static_cast<double>(k) / parts);
+    const double length = (to - before) * cell.s.width();
+    stretches.push_back({cell.share / parts / std::max(length, 1e-300), cell.share / parts, length});
+    before = to;
+  }
+}
+
+/// Cells that hold what is credible are everywhere as dense as this.
+double density_of_enough(const Grid& grid) {
+  std::vector<Stretch> cells;
+  for (const GridCell& cell : grid.cells()) {
+    if (cell.share > 0) cells.push_back({densities_in(cell).lo, cell.share, 0});
+  }
+  sort_by_density(cells);
+  double held = 0;
+  for (const Stretch& cell : cells) {
+    held += cell.share;
+    if (held >= kCredible) return cell.density;
+  }
+  return 0;
+}
+
+}  // namespace
+
+double credible_length(const Grid& grid) {
+  // Cells that are nowhere as dense are none of those that are asked for. What one fold holds the others hold as well.
+  const double enough = density_of_enough(grid);
+  const auto folds = static_cast<double>(grid.folds());
+  std::vector<Stretch> stretches;
+  for (const GridCell& cell : grid.cells()) {
+    if (cell.fold == 0 && cell.share > 0 && densities_in(cell).hi >= enough) add_parts(cell, stretches);
+  }
+  sort_by_density(stretches);
   double share = 0;
   double length = 0;
   for (const Stretch& stretch : stretches) {
     if (share >= kCredible) break;
-    share += stretch.share;
-    length += stretch.length;
+    const double count = std::min(folds, std::ceil((kCredible - share) / stretch.share));
+    share += count * stretch.share;
+    length += count * stretch.length;
   }
   return length;
 }

@@ -184,6 +184,14 @@ TiltedPlace RollFilter::after(const Reading& measured) const {
   return arc_->at(w_ + roll.turn + tilt_ * roll.length);
 }
 
+RollFilter RollFilter::moved(const TiltedArc& arc, const Shift& shift) const {
+  RollFilter there = *this;
+  there.arc_ = &arc;
+  there.w_ += shift.w;
+  there.place_.s += shift.s;
+  return there;
+}
+
 PoseSpread RollFilter::pose(Eigen::Vector3d* by_w) const {
   const double angle = w_ - tilt_ * place_.s;
   const double facing = centres_->facing + x_[1];

@@ -32,6 +32,10 @@ constexpr double kSigmaPoint = std::numbers::sqrt3;
 constexpr double kKink = 1e-3;
 // Rows that are joined lie on a straight line where the slope changes by less than this share among them.
 constexpr double kBend = 0.02;
+// Places look alike where s is the same to this share of the perimeter: to what it is known to as a function of w.
+constexpr double kAlike = kShareOfPerimeter;
+// More folds than these save nothing: the first cells are hardly more.
+constexpr std::size_t kMostFolds = 64;
 
 /// Solves Theta + c s = w for s on [lo, hi], where it grows: Newton's steps, kept within.
 double place_of(const TurningFunction& turning, const Spiral& spiral, double tilt, double w, double lo, double hi) {
@@ -149,6 +153,9 @@ TiltedBoundary::TiltedBoundary(const Part& part, double least, double accuracy) 
   // A hole turns by -2 pi: w must grow all the same.
   tilt_ = std::max(tilt_, -2 * turning.period_turn() / turning.perimeter());
 
+  perimeter_ = turning.perimeter();
+  all_w_ = tilt_ * perimeter_ + turning.period_turn();
+
   // The jump of Theta in front of a spiral, and whether a finger gets over it.
   const auto jump_before = [&](std::size_t k) {
     if (k > 0) return spirals[k].start.angle - spirals[k - 1].end.angle;
@@ -185,7 +192,7 @@ TiltedBoundary::TiltedBoundary(const Part& part, double least, double accuracy) 
     if (goes_on && jump < 0) arc.join(spiral_begin, w - 0.5 * jump);
   }
   for (TiltedArc& arc : arcs_) {
-    if (arc.loop_) arc.hi_ = arc.lo() + tilt_ * turning.perimeter() + turning.period_turn();
+    if (arc.loop_) arc.hi_ = arc.lo() + all_w_;
     while (arc.cells_.back().w >= arc.hi_) arc.cells_.pop_back();
     arc.mark_kinks();
     std::vector<double> starts;
@@ -195,6 +202,43 @@ TiltedBoundary::TiltedBoundary(const Part& part, double least, double accuracy) 
     }
     arc.buckets_ = Buckets(starts, arc.hi_);
   }
+  if (part.closed()) folds_ = count_folds();
+}
+
+std::size_t TiltedBoundary::count_folds() const {
+  std::size_t cells = 0;
+  for (const TiltedArc& arc : arcs_) cells += arc.cells_.size();
+  for (std::size_t folds = std::min(cells, kMostFolds); folds > 1; --folds) {
+    if (!arcs_.front().loop() && arcs_.size() % folds != 0) continue;
+    const auto share = 1 / static_cast<double>(folds);
+    const std::size_t arcs = arcs_.front().loop() ? 0 : arcs_.size() / folds;
+    if (repeats_after({arcs, all_w_ * share, perimeter_ * share})) return folds;
+  }
+  return 1;
+}
+
+// A cell's cubic is known by its ends and two places in between.
+bool TiltedBoundary::repeats_after(const Shift& shift) const {
+  for (std::size_t a = 0; a + shift.arcs < arcs_.size(); ++a) {
+    const TiltedArc& arc = arcs_[a];
+    const TiltedArc& other = arcs_[a + shift.arcs];
+    const auto is_alike = [&](double w) {
+      return std::abs(other.at(w + shift.w).s - arc.at(w).s - shift.s) <= kAlike * perimeter_;
+    };
+    const double slack = kAlike * all_w_;
+    if (!arc.loop() && std::abs(other.lo() - arc.lo() - shift.w) > slack) return false;
+    if (!arc.loop() && std::abs(other.hi() - arc.hi() - shift.w) > slack) return false;
+    for (const TiltedArc::Cell& cell : arc.cells_) {
+      const double third = (std::min(cell.end, arc.hi()) - cell.w) / 3;
+      if (!is_alike(cell.w) || !is_alike(cell.w + third) || !is_alike(cell.w + 2 * third)) return false;
+    }
+  }
+  return true;
+}
+
+Shift TiltedBoundary::shift(std::size_t folds) const {
+  const double share = static_cast<double>(folds) / static_cast<double>(folds_);
+  return {arcs_.front().loop() ? 0 : folds * (arcs_.size() / folds_), all_w_ * share, perimeter_ * share};
 }
 
 void TiltedBoundary::add_spiral(const TurningFunction& turning, const Spiral& spiral, double winding, double accuracy,

@@ -128,6 +128,13 @@ class TiltedArc {
   Buckets buckets_;
 };
 
+/// How far one of the places that look alike is from another, and on which arc it is then.
+struct Shift {
+  std::size_t arcs = 0;
+  double w = 0;
+  double s = 0;
+};
+
 /// A part's boundary by its tilted turning.
 class TiltedBoundary {
  public:
@@ -136,12 +143,21 @@ class TiltedBoundary {
 
   double tilt() const { return tilt_; }
   const std::vector<TiltedArc>& arcs() const { return arcs_; }
+  /// So many times the boundary looks the same, wherever a finger is put: 1 for no symmetry.
+  std::size_t folds() const { return folds_; }
+  /// From a place to the one that looks like it, so many folds further on.
+  Shift shift(std::size_t folds) const;
 
  private:
+  std::size_t count_folds() const;
+  bool repeats_after(const Shift& shift) const;
   void add_spiral(const TurningFunction& turning, const Spiral& spiral, double winding, double accuracy,
                   TiltedArc& arc) const;
 
   double tilt_ = 0;
+  double perimeter_ = 0;
+  double all_w_ = 0;  // once around
+  std::size_t folds_ = 1;
   std::vector<TiltedArc> arcs_;
 };
 
