@@ -36,6 +36,13 @@ struct Method {
   std::function<Pairs(const Part& part, const std::vector<Reading>& readings)> pairs;
 };
 
+/// One that the programs may have been built without.
+struct Optional {
+  const char* name;
+  const char* package;
+  std::optional<Pairs> (*pairs)(const Part& part, const std::vector<Reading>& readings, std::size_t pieces);
+};
+
 std::vector<Method> methods(bool is_quick) {
   std::vector<Method> all;
   for (const int starts : {10, 100, 1000}) {
@@ -48,13 +55,17 @@ std::vector<Method> methods(bool is_quick) {
       {fmt::format("lib2geom {}/W", pieces), [pieces](const Part& part, const std::vector<Reading>& readings) {
          return bench::locate_by_lib2geom(part, readings, pieces);
        }});
-  if (!bench::locate_by_sisl(bench::trusted_part(bench::families().front().outline), {{0, 0, 0}, {0, 0, 0}}, 1)) {
-    fmt::print(stderr, "SISL was left out: the programs were built without libsisl-dev\n");
-    return all;
+  for (const Optional& optional : {Optional{"SISL", "libsisl-dev", bench::locate_by_sisl},
+                                   Optional{"OCCT", "libocct-modeling-algorithms-dev", bench::locate_by_occt}}) {
+    if (!optional.pairs(bench::trusted_part(bench::families().front().outline), {{0, 0, 0}, {0, 0, 0}}, 1)) {
+      fmt::print(stderr, "{} was left out: the programs were built without {}\n", optional.name, optional.package);
+      continue;
+    }
+    all.push_back({fmt::format("{} {}/W", optional.name, pieces),
+                   [pieces, optional](const Part& part, const std::vector<Reading>& readings) {
+                     return optional.pairs(part, readings, pieces).value();
+                   }});
   }
-  all.push_back({fmt::format("SISL {}/W", pieces), [pieces](const Part& part, const std::vector<Reading>& readings) {
-                   return bench::locate_by_sisl(part, readings, pieces).value();
-                 }});
   return all;
 }
 

@@ -16,8 +16,10 @@ namespace bench {
 /// library intersects them, and Newton's method on the equations themselves takes each pair to rounding. Two readings.
 using Pairs = std::vector<rollfix::PerFinger<double>>;
 Pairs locate_by_lib2geom(const rollfix::Part& part, const std::vector<rollfix::Reading>& readings, std::size_t pieces);
-/// No value where the program was built without it.
+/// No value where the program was built without them.
 std::optional<Pairs> locate_by_sisl(const rollfix::Part& part, const std::vector<rollfix::Reading>& readings,
+                                    std::size_t pieces);
+std::optional<Pairs> locate_by_occt(const rollfix::Part& part, const std::vector<rollfix::Reading>& readings,
                                     std::size_t pieces);
 
 /// A curve of them as Bezier control points, each piece's last the next one's first; over equal steps from lo to hi.
