@@ -1,8 +1,8 @@
-// Every placement, and none that is not one: the search against an exhaustive scan that shares only the curves.
+// One finger on the gallery's shapes: the place that was rolled from is found, what is found fits, and how it moves
+// with the reading. That there is no other place says tests/oracle/.
 
 #include <gtest/gtest.h>
 
-#include "march_oracle.hpp"
 #include "random.hpp"
 #include "rollfix/locate/locate.hpp"
 #include "shapes.hpp"
@@ -71,31 +71,6 @@ TEST_P(Locate, answers_with_places_that_fit) {
 
 class LocateSmooth : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Gallery, LocateSmooth, testing::ValuesIn(specifications(true)), shapes::as_identifier);
-
-TEST_P(LocateSmooth, agrees_with_an_exhaustive_scan) {
-  const Outline outline = gallery(GetParam());
-  const Part part(outline);
-  const march_oracle::Exhaustive oracle(outline);
-  auto generator = test_generator(2);
-  int compared = 0;
-  for (int k = 0; k < test_count(4); ++k) {
-    const Roll roll = random_roll(part, generator);
-    const Reading reading = shapes::reading_from(part, roll.start, roll.length);
-    const auto scan = oracle.scan(reading.length[0], reading.turn);
-    if (scan.nearest_miss < 1e-6) continue;  // too close to a double root for a scan to tell
-    const Search search = locate(part, reading);
-    ++compared;
-    ASSERT_EQ(search.placements.size(), scan.roots.size()) << reading.length[0] << " " << reading.turn;
-    for (const double root : scan.roots) {
-      double nearest = part.perimeter();
-      for (const double start : shapes::starts(search)) {
-        nearest = std::min(nearest, part.boundary().distance(root, start));
-      }
-      EXPECT_LT(nearest, 1e-8 * part.perimeter());
-    }
-  }
-  EXPECT_GT(compared, 0);
-}
 
 TEST_P(LocateSmooth, gives_sensitivities_that_finite_differences_confirm) {
   const Part part(gallery(GetParam()));

@@ -1,0 +1,153 @@
+#pragma once
+
+// What is wrong with an answer of the library about one finger, in words; nothing where it is all there is.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "oracle/one_finger.hpp"
+#include "rollfix/locate/placement.hpp"
+
+namespace oracle {
+
+/// Of the perimeter: what the library's places are accurate to, by docs/search.md.
+inline constexpr Real kPlace = 1e-9L;
+
+/// Of an extent's width: by how much its ends may be off, because f is taken as straight where it nearly is.
+inline constexpr Real kStraight = 1e-3L;
+
+class OneFingerAgreement {
+ public:
+  OneFingerAgreement(const Boundary& boundary, const Question& question, const rollfix::Search& search)
+      : boundary_(boundary), truth_(boundary, question), question_(question), search_(search) {
+    for (const Cluster& cluster : truth_.clusters()) {
+      if (cluster.fits) expect_answered(cluster);
+      for (const Interval& root : cluster.roots) expect_root(root);
+    }
+    for (const rollfix::Placement& placement : search.placements) {
+      expect_fits(placement);
+      expect_ends(placement);
+    }
+    expect_apart();
+  }
+
+  const std::vector<std::string>& complaints() const { return complaints_; }
+  const OneFinger& truth() const { return truth_; }
+
+ private:
+  template <class... Arguments>
+  void complain(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
+    complaints_.push_back(fmt::format(text, std::forward<Arguments>(arguments)...));
+  }
+
+  Real slack() const { return kPlace * boundary_.perimeter(); }
+
+  static Interval extent(const rollfix::Interval& arc) { return {arc.lo, arc.hi}; }
+  static Interval shrunk(const Interval& arc) {
+    const Real off = kStraight * arc.width();
+    return {arc.lo + off, arc.hi - off};
+  }
+
+  /// How far the inner one is within the outer one, whichever lap they are named on.
+  bool covers(const Interval& outer, Interval inner) const {
+    const Interval wide(outer.lo - slack(), outer.hi + slack());
+    for (const int lap : {-2, -1, 0, 1, 2}) {
+      const Real off = lap * boundary_.perimeter();
+      if ((lap == 0 || boundary_.closed()) && wide.lo <= inner.lo + off && inner.hi + off <= wide.hi) return true;
+    }
+    return boundary_.closed() && outer.width() >= boundary_.perimeter() * (1 - kPlace);
+  }
+  bool meets(const Interval& one, const Interval& other) const {
+    for (const int lap : {-2, -1, 0, 1, 2}) {
+      const Real off = lap * boundary_.perimeter();
+      if (lap != 0 && !boundary_.closed()) continue;
+      if (one.lo - slack() <= other.hi + off && other.lo + off <= one.hi + slack()) return true;
+    }
+    return false;
+  }
+
+  bool is_left_open(const Interval& starts) const {
+    return std::any_of(search_.unresolved.begin(), search_.unresolved.end(),
+                       [&](const auto& open) { return meets(extent(open[0]), starts); });
+  }
+
+  bool is_answered(const Interval& starts) const {
+    return std::any_of(search_.placements.begin(), search_.placements.end(),
+                       [&](const rollfix::Placement& placement) { return meets(extent(placement.extent[0]), starts); });
+  }
+
+  void expect_answered(const Cluster& cluster) {
+    if (is_answered(cluster.starts) || is_left_open(cluster.starts)) return;
+    complain("lost: [{:.12g}, {:.12g}] fits", cluster.starts.lo, cluster.starts.hi);
+  }
+
+  void expect_root(const Interval& root) {
+    for (const rollfix::Placement& placement : search_.placements) {
+      if (placement.kind == rollfix::Kind::stretch && meets(extent(placement.extent[0]), root)) return;
+      for (const auto& listed : placement.roots) {
+        if (meets({listed[0], listed[0]}, root)) return;
+      }
+    }
+    if (!is_left_open(root)) complain("no root listed in [{:.12g}, {:.12g}]", root.lo, root.hi);
+  }
+
+  void expect_fits(const rollfix::Placement& placement) {
+    const auto holds = [&](const Cluster& cluster) {
+      return covers(cluster.starts, shrunk(extent(placement.extent[0])));
+    };
+    const auto& clusters = truth_.clusters();
+    if (std::any_of(clusters.begin(), clusters.end(), holds)) return;
+    complain("does not fit: [{:.12g}, {:.12g}]", placement.extent[0].lo, placement.extent[0].hi);
+  }
+
+  /// Just beyond an extent's ends nothing fits any more.
+  void expect_ends(const rollfix::Placement& placement) {
+    if (placement.whole_loop[0]) return;
+    const Interval arc = extent(placement.extent[0]);
+    const Real off = slack() + kStraight * arc.width();
+    for (const Real beyond : {arc.lo - off, arc.hi + off}) {
+      if (!boundary_.closed() && (beyond < truth_.events().front() || beyond > truth_.events().back())) continue;
+      const Real f = truth_.f(beyond);
+      const bool goes_on = std::abs(f) <= question_.tolerance - question_.doubt;
+      if (goes_on && !is_answered(beyond) && !near_jump(beyond) && !is_left_open(beyond))
+        complain("goes on at {:.12g}: f = {:.3g}", beyond, f);
+    }
+  }
+  bool near_jump(Real s) const {
+    return std::any_of(truth_.events().begin(), truth_.events().end(), [&](Real event) {
+      return truth_.has_jump(event) && meets({event, event}, {s, s});
+    });
+  }
+
+  /// Of each connected set there is one placement.
+  void expect_apart() {
+    for (std::size_t i = 0; i < search_.placements.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        if (overlap(extent(search_.placements[i].extent[0]), extent(search_.placements[j].extent[0]))) {
+          complain("{} and {} overlap", j, i);
+        }
+      }
+    }
+  }
+  bool overlap(const Interval& one, const Interval& other) const {
+    for (const int lap : {-1, 0, 1}) {
+      const Real off = lap * boundary_.perimeter();
+      if (lap != 0 && !boundary_.closed()) continue;
+      const Interval common(std::max(one.lo, other.lo + off), std::min(one.hi, other.hi + off));
+      if (common.lo < common.hi || (lap == 0 && one.lo == other.lo && one.hi == other.hi)) return true;
+    }
+    return false;
+  }
+
+  const Boundary& boundary_;
+  OneFinger truth_;
+  Question question_;
+  const rollfix::Search& search_;
+  std::vector<std::string> complaints_;
+};
+
+}  // namespace oracle
