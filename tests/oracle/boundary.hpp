@@ -235,4 +235,20 @@ class Boundary {
   Real most_curvature_ = 0;
 };
 
+using Contacts = std::pair<Contact, Contact>;
+
+/// Bounds on kappa(s + L) - kappa(s) where the roll starts on one stretch and ends on the other.
+inline Interval gain_of_curvature(const Boundary& boundary, Real length, const Contacts& start, const Contacts& end) {
+  const Real off = boundary.off_by(length);
+  if (off == 0) return 0;
+  const Bend first = boundary.bend(start.first, start.second), last = boundary.bend(end.first, end.second);
+  Interval gain = last.curvature - first.curvature;
+  const auto curve = boundary.curve_of(start.first, start.second);
+  const bool is_one_curve = curve && curve == boundary.curve_of(end.first, end.second);
+  if (is_one_curve && std::abs(off) <= start.second.s - start.first.s) {
+    gain = both(gain, Interval(off) * hull(first.rate, last.rate));  // what both ends have in common cancels
+  }
+  return gain;
+}
+
 }  // namespace oracle

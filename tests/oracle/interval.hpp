@@ -84,4 +84,14 @@ inline Interval sin(const Interval& a) {
 }
 inline Interval cos(const Interval& a) { return sin(a + Interval(kPi / 2)); }
 
+/// What a function can be between two places, given its values there and bounds on its slope in between.
+inline Interval between(Real first, Real last, const Interval& slope, Real width) {
+  Interval values = hull(first, last);
+  if (slope.lo < 0 && slope.hi > 0) {
+    values.hi = std::max(values.hi, first + slope.hi * (last - first - slope.lo * width) / slope.width());
+    values.lo = std::min(values.lo, first + slope.lo * (first - last + slope.hi * width) / slope.width());
+  }
+  return values;
+}
+
 }  // namespace oracle

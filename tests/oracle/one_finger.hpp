@@ -151,16 +151,8 @@ class OneFinger {
   // ---- stretches ----
 
   Interval slope(const Stretch& stretch) const {
-    const Real off = boundary_.off_by(question_.length), width = stretch.to.start.s - stretch.from.start.s;
-    if (off == 0) return 0;
-    const Bend start = boundary_.bend(stretch.from.start, stretch.to.start);
-    const Bend end = boundary_.bend(stretch.from.end, stretch.to.end);
-    Interval slope = end.curvature - start.curvature;
-    const auto curve = boundary_.curve_of(stretch.from.start, stretch.to.start);
-    if (std::abs(off) <= width && curve && curve == boundary_.curve_of(stretch.from.end, stretch.to.end)) {
-      slope = both(slope, Interval(off) * hull(start.rate, end.rate));  // what both ends have in common cancels
-    }
-    return slope;
+    return gain_of_curvature(boundary_, question_.length, {stretch.from.start, stretch.to.start},
+                             {stretch.from.end, stretch.to.end});
   }
 
   void examine(Stretch stretch) {
@@ -177,7 +169,7 @@ class OneFinger {
       const Real left = reached(stretch.from.f, -slope.lo, slope.hi),
                  right = reached(stretch.to.f, slope.hi, -slope.lo);
       if (left + right > width * (1 + 4 * kRounding)) return;
-      const Interval values = bounds(stretch, slope, width);
+      const Interval values = between(stretch.from.f, stretch.to.f, slope, width);
       if (values.size() <= tolerance + question_.doubt || width <= kFloor * boundary_.perimeter()) return keep(stretch);
       if (left + right < width / 2) {
         const Roll amid = at(from + width / 2);
@@ -188,17 +180,6 @@ class OneFinger {
       if (left > 0) stretch.from = at(from + left);
       if (right > 0) stretch.to = at(std::max(stretch.from.start.s, to - right), Side::before);
     }
-  }
-
-  /// Between the values at both ends and slopes from them.
-  static Interval bounds(const Stretch& stretch, const Interval& slope, Real width) {
-    const Real a = stretch.from.f, b = stretch.to.f, spread = slope.width();
-    Interval values = hull(a, b);
-    if (slope.lo < 0 && slope.hi > 0 && spread > 0) {
-      values.hi = std::max(values.hi, a + slope.hi * (b - a - slope.lo * width) / spread);
-      values.lo = std::min(values.lo, a + slope.lo * (a - b + slope.hi * width) / spread);
-    }
-    return values;
   }
 
   // ---- clusters ----

@@ -18,7 +18,7 @@ namespace oracle {
 inline constexpr Real kPlace = 1e-9L;
 
 /// Of an extent's width: by how much its ends may be off, because f is taken as straight where it nearly is.
-inline constexpr Real kStraight = 1e-3L;
+inline constexpr Real kStraight = 2e-3L;
 
 class OneFingerAgreement {
  public:

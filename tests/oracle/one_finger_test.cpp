@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "oracle/doubt.hpp"
 #include "oracle/one_finger_agreement.hpp"
 #include "oracle/one_finger_cases.hpp"
 #include "random.hpp"
@@ -19,12 +20,6 @@ namespace {
 
 using namespace oracle;
 using rollfix::Search;
-
-/// Radians by which the library may have f wrong: up to four tangents, each rounded, and the last digits of s.
-Real doubt(const Boundary& boundary) {
-  constexpr Real kLastDigits = 4e-16L;
-  return rollfix::kLeastTolerance + kLastDigits * boundary.most_curvature() * boundary.perimeter();
-}
 
 Search ask(const rollfix::Part& part, const Reading& reading) {
   rollfix::LocateOptions options;

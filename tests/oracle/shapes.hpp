@@ -53,6 +53,13 @@ class RandomShapes {
   }
   static constexpr std::size_t kKindCount = 16;
 
+  /// Those whose curvature varies, and two of lines and arcs, the last ones.
+  Shape curved_shape(std::size_t k) {
+    static constexpr std::array<std::size_t, 12> kCurved = {0, 1, 3, 4, 5, 7, 8, 9, 11, 13, 2, 10};
+    return shape(kCurved[k % kCurved.size()]);
+  }
+  static bool is_drafted(std::size_t k) { return k % 12 >= 10; }
+
   double uniform(double lo, double hi) { return std::uniform_real_distribution<double>(lo, hi)(generator_); }
   int whole(int lo, int hi) { return std::uniform_int_distribution<int>(lo, hi)(generator_); }
   /// Every order of magnitude alike.
@@ -86,7 +93,7 @@ class RandomShapes {
     return from_gallery(fmt::format("cam,base={},lift={}", base, lift), oracle::cam(base, lift));
   }
   Shape gear() {
-    const int teeth = whole(2, 12);
+    const int teeth = whole(2, 7);
     const double r = scaled(0.5, 2), depth = r * uniform(0.02, 1.2 / teeth);
     return from_gallery(fmt::format("gear,teeth={},r={},depth={}", teeth, r, depth), oracle::gear(teeth, r, depth),
                         true, teeth);
