@@ -24,9 +24,10 @@ namespace oracle {
 struct Shape {
   std::string name;
   rollfix::Outline asked;
-  Boundary known;
+  Curves formulas;
+  int fold = 1;
 
-  double perimeter() const { return static_cast<double>(known.perimeter()); }
+  Boundary boundary() const { return {formulas, asked.closed, fold}; }
   rollfix::Part part() const {
     rollfix::PartOptions options;
     options.allow_crossing = true;  // it makes no difference here
@@ -67,22 +68,22 @@ class RandomShapes {
   bool chance(double share) { return uniform(0, 1) < share; }
 
  private:
-  static Shape from_gallery(const std::string& name, Curves curves, bool closed = true, int fold = 1) {
-    return {name, rollfix::gallery(name), Boundary(std::move(curves), closed, fold)};
+  static Shape from_gallery(const std::string& name, Curves curves, int fold = 1) {
+    return {name, rollfix::gallery(name), std::move(curves), fold};
   }
 
   Shape circle() {
     const double r = scaled(1e-3, 1e3);
-    return from_gallery(fmt::format("circle,r={}", r), oracle::circle(r), true, 0);
+    return from_gallery(fmt::format("circle,r={}", r), oracle::circle(r), 0);
   }
   Shape ellipse() {
     const double a = scaled(0.1, 10), b = a * scaled(0.05, 20);
-    return from_gallery(fmt::format("ellipse,a={},b={}", a, b), oracle::ellipse(a, b), true, 2);
+    return from_gallery(fmt::format("ellipse,a={},b={}", a, b), oracle::ellipse(a, b), 2);
   }
   Shape superellipse() {
     const double a = scaled(0.5, 2), b = scaled(0.5, 2);
     const int n = 2 * whole(2, 3);
-    return from_gallery(fmt::format("superellipse,a={},b={},n={}", a, b, n), oracle::superellipse(a, b, n), true, 2);
+    return from_gallery(fmt::format("superellipse,a={},b={},n={}", a, b, n), oracle::superellipse(a, b, n), 2);
   }
   Shape limacon() {
     const double b = uniform(-1, 1), a = std::abs(b) * scaled(1.03, 8);
@@ -96,7 +97,7 @@ class RandomShapes {
     const int teeth = whole(2, 7);
     const double r = scaled(0.5, 2), depth = r * uniform(0.02, 1.2 / teeth);
     return from_gallery(fmt::format("gear,teeth={},r={},depth={}", teeth, r, depth), oracle::gear(teeth, r, depth),
-                        true, teeth);
+                        teeth);
   }
   Shape spline() {
     const int n = whole(4, 30), seed = whole(1, 1000000);
@@ -112,29 +113,29 @@ class RandomShapes {
   Shape regular() {
     if (chance(0.3)) {
       const double width = scaled(0.1, 10);
-      return from_gallery(fmt::format("reuleaux,width={}", width), reuleaux(width), true, 3);
+      return from_gallery(fmt::format("reuleaux,width={}", width), reuleaux(width), 3);
     }
     const int n = whole(3, 12);
     const double r = scaled(0.1, 10);
-    return from_gallery(fmt::format("polygon,n={},r={}", n, r), regular_polygon(n, r), true, n);
+    return from_gallery(fmt::format("polygon,n={},r={}", n, r), regular_polygon(n, r), n);
   }
   Shape drafted() {
     if (chance(0.5)) {
       const double length = scaled(0.1, 10), r = scaled(0.1, 10);
-      return from_gallery(fmt::format("stadium,length={},r={}", length, r), stadium(length, r), true, 2);
+      return from_gallery(fmt::format("stadium,length={},r={}", length, r), stadium(length, r), 2);
     }
     const double width = scaled(0.5, 3), height = scaled(0.5, 3), r = 0.5 * std::min(width, height) * scaled(0.01, 0.9);
     return from_gallery(fmt::format("rounded-rectangle,width={},height={},r={}", width, height, r),
-                        rounded_rectangle(width, height, r), true, 2);
+                        rounded_rectangle(width, height, r), 2);
   }
   Shape open_formula() {
     if (chance(0.5)) {
       const double a = scaled(0.1, 10), b = uniform(0.02, 0.5), turns = uniform(0.3, 3);
-      return from_gallery(fmt::format("log-spiral,a={},b={},turns={}", a, b, turns), log_spiral(a, b, turns), false);
+      return from_gallery(fmt::format("log-spiral,a={},b={},turns={}", a, b, turns), log_spiral(a, b, turns));
     }
     const double from = uniform(-4, 0), to = from + uniform(0.5, 4), scale = scaled(0.1, 10);
     return from_gallery(fmt::format("exponential,from={},to={},scale={}", from, to, scale),
-                        exponential(from, to, scale), false);
+                        exponential(from, to, scale));
   }
 
   // ---- drawings: the same numbers twice ----
@@ -157,13 +158,13 @@ class RandomShapes {
       for (const rollfix::Vec2& point : points) same.push_back({point.x(), point.y()});
       known.push_back(oracle::bezier(same));
     }
-    Shape shape(const std::string& name, bool closed, int fold = 1) {
+    Shape shape(const std::string& name, bool closed) {
       rollfix::Outline outline;
       outline.name = name;
       outline.curves = std::move(asked);
       outline.closed = closed;
       outline.gap = 1e-12;  // ends of arcs are rounded
-      return {name, std::move(outline), Boundary(std::move(known), closed, fold)};
+      return {name, std::move(outline), std::move(known), 1};
     }
   };
 
