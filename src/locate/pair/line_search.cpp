@@ -420,7 +420,7 @@ void LineSearch::take_overlap(std::vector<Place> samples) {
     const double bend = std::abs(direction(samples[k]) - direction(samples[k - 1]));
     piece.error = std::max(piece.error, 0.5 * width * bend);
   }
-  piece.error += margin_;
+  piece.error = length_of(piece.error + margin_);
   piece.box = {Interval{s.least, s.most}, Interval{t.least, t.most}};
   findings_.roots.push_back({piece.line.front(), 0, piece.corner});
   findings_.pieces.push_back(std::move(piece));
@@ -525,7 +525,7 @@ void LineSearch::add_piece(const Place& lo, const Place& hi, const Range& y) {
   PairPiece piece;
   piece.box = free_is_a_ ? PairBox{x_box, y_box} : PairBox{y_box, x_box};
   const double bend = bounds({lo, hi, 0, false}).direction.spread() * x.width();
-  piece.error = std::min(bend, margin_);
+  piece.error = length_of(std::min(bend, margin_));
   piece.corner = sides_.pivots();
   // The band's four corners, cut off where they are beyond the box: neighbours have their common edge in common.
   if (bend <= kBandBend * margin_) {

@@ -75,6 +75,8 @@ class LineSearch {
 
   const BoxSide& free() const { return free_is_a_ ? sides_.a : sides_.b; }
   const BoxSide& bound() const { return free_is_a_ ? sides_.b : sides_.a; }
+  /// How far off in place a bound contact is that is so far off: not at all where it pivots, by an angle.
+  double length_of(double off) const { return bound().pivots() ? 0 : off; }
 
   PairBoxSides sides_;
   PairLimits limits_;
