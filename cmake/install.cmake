@@ -28,6 +28,9 @@ endforeach()
 if(TARGET rollfix_cli)
   install(TARGETS rollfix_cli RUNTIME)
 endif()
+if(TARGET rollfix_verify)
+  install(TARGETS rollfix_verify RUNTIME)
+endif()
 
 configure_package_config_file(cmake/rollfixConfig.cmake.in ${PROJECT_BINARY_DIR}/rollfixConfig.cmake
   INSTALL_DESTINATION ${cmake_destination} NO_SET_AND_CHECK_MACRO)

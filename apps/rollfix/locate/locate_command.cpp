@@ -17,6 +17,7 @@
 #include "rollfix/error.hpp"
 #include "rollfix/files/documents.hpp"
 #include "rollfix/locate/batch.hpp"
+#include "rollfix/locate/certificate.hpp"
 #include "rollfix/locate/locate_by_march.hpp"
 #include "rollfix/locate/map_points.hpp"
 #include "rollfix/output/answer_output.hpp"
@@ -33,6 +34,7 @@ constexpr const char* kLocateExamples = R"(Examples (wing.csv and wing-roll.csv:
   rollfix locate wing.csv --log wing-roll.csv --finger disk,r=10 --at 6.1,12.32 --json
   rollfix locate wing.csv --log wing-roll.csv --finger disk,r=10 --noise contact=0.05,angle=0.2deg,slip=0.002
   rollfix locate wing.csv --batch problems.jsonl > answers.jsonl
+  rollfix locate gallery:cam --reading 0.9,40deg --certify proof.json && rollfix-verify proof.json
 Two fingers on a part that is free to move:
   rollfix locate gallery:cam --reading 0.7446832,-0.3983439,57.48184deg --reading 1.5,-0.8,110.97000deg
   rollfix locate gallery:cam --reading 1.5,-0.8,110.97000deg --facing -142.40990deg
@@ -46,6 +48,7 @@ struct LocateArguments {
   bool explain = false;
   std::vector<std::string> maps;
   std::string batch;
+  std::string certificate;
   OutputArgument output;
   MarchArguments march;
 };
@@ -78,6 +81,7 @@ void require_march(const LocateArguments& arguments) {
   refuse(roll.mirror, "--mirror");
   refuse(roll.direction == "either", "--direction either");
   refuse(!arguments.maps.empty(), "--map");
+  refuse(!arguments.certificate.empty(), "--certify");
 }
 
 /// The same readings, asked of the paper's algorithm.
@@ -107,6 +111,7 @@ void require_batch(const LocateArguments& arguments) {
   refuse(!arguments.roll.logs.empty(), "--log");
   refuse(!arguments.output.file.empty(), "-o");
   refuse(!arguments.maps.empty(), "--map");
+  refuse(!arguments.certificate.empty(), "--certify");
   refuse(arguments.march.march, "--march");
 }
 
@@ -120,6 +125,7 @@ Report locate_report(const LocateArguments& arguments, std::ostream& out) {
   if (arguments.maps.empty()) require_figure_output(output, arguments.json);
   require_map_output(arguments.maps, output.file, output.force, arguments.json, !arguments.roll.logs.empty(),
                      !arguments.roll.fingers.empty());
+  require_certificate(arguments.certificate, output.force, arguments.json, output.file);
   read_step(arguments.march);
   if (arguments.march.march) return march_report(arguments);
   Report report;
@@ -144,6 +150,7 @@ Report locate_report(const LocateArguments& arguments, std::ostream& out) {
     if (problem.felt.is_log() && !answer.mirrored) figure.log = &*problem.felt.log;
     add_figure(arguments.output, draw_answer(figure), report);
   }
+  if (!arguments.certificate.empty()) add_certificate(arguments.certificate, problem, answer, report);
   return report;
 }
 
@@ -201,6 +208,11 @@ void add_locate_command(CLI::App& program, Command& chosen, std::ostream& out) {
           "--batch", arguments->batch,
           "many problems, a JSON object in each line, - for stdin: \"readings\" or \"log\", and the options by "
           "their names in place of those given here; an answer in each line, in order, on all cores")
+      ->type_name("FILE");
+  command
+      ->add_option("--certify", arguments->certificate,
+                   "write a certificate of the answer, JSON, which rollfix-verify proves again; of one reading of one "
+                   "finger")
       ->type_name("FILE");
   add_output_argument(*command, arguments->output,
                       "a figure of the placements: .svg, .png or .pdf, - for SVG on stdout");

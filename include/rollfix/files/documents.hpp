@@ -4,6 +4,7 @@
 
 #include "rollfix/answer/answer.hpp"
 #include "rollfix/answer/next_roll.hpp"
+#include "rollfix/certify/certify.hpp"
 #include "rollfix/contact/teach.hpp"
 #include "rollfix/files/inspection.hpp"
 
@@ -15,6 +16,9 @@ enum class Layout { lines, line };
 
 /// "rollfix/locate/1". `explain`: with what the fingers can't do.
 std::string format_answer(const Answer& answer, Layout layout = Layout::lines, bool explain = false);
+
+/// "rollfix/certificate/1".
+std::string format_certificate(const Certificate& certificate);
 
 /// "rollfix/inspect/1".
 std::string format_inspection(const Inspection& inspection, Layout layout = Layout::lines);

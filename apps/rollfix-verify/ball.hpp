@@ -1,0 +1,135 @@
+#pragma once
+
+#include <arb.h>
+#include <arb_poly.h>
+
+// Real balls and power series of Arb as values: every result holds the exact one.
+namespace rollfix_verify {
+
+inline constexpr slong kPrecision = 128;  // bits
+inline constexpr slong kTerms = 14;       // of a series: x^0 to x^13, the last of which bounds what is left out
+
+class Ball {
+ public:
+  Ball() { arb_init(value_); }
+  Ball(double value) : Ball() { arb_set_d(value_, value); }  // NOLINT(google-explicit-constructor): exact
+  Ball(const Ball& other) : Ball() { arb_set(value_, other.value_); }
+  Ball(Ball&& other) noexcept : Ball() { arb_swap(value_, other.value_); }
+  Ball& operator=(Ball other) noexcept {
+    arb_swap(value_, other.value_);
+    return *this;
+  }
+  ~Ball() { arb_clear(value_); }
+
+  arb_ptr get() { return value_; }
+  arb_srcptr get() const { return value_; }
+
+  bool is_finite() const { return arb_is_finite(value_) != 0; }
+  bool is_above(const Ball& other) const { return arb_gt(value_, other.value_) != 0; }  // for certain
+  bool is_below(const Ball& other) const { return arb_lt(value_, other.value_) != 0; }
+  double middle() const { return arf_get_d(arb_midref(value_), ARF_RND_NEAR); }
+  double lower() const { return end(arb_get_lbound_arf, ARF_RND_FLOOR); }
+  double upper() const { return end(arb_get_ubound_arf, ARF_RND_CEIL); }
+
+ private:
+  double end(void (*bound)(arf_t, const arb_t, slong), arf_rnd_t rounding) const {
+    arf_t limit;
+    arf_init(limit);
+    bound(limit, value_, kPrecision);
+    const double result = arf_get_d(limit, rounding);
+    arf_clear(limit);
+    return result;
+  }
+
+  arb_t value_;
+};
+
+/// Calls one of Arb's functions for a new value.
+template <class Value, class Function, class... Arguments>
+Value made(Function function, const Arguments&... arguments) {
+  Value result;
+  function(result.get(), arguments...);
+  return result;
+}
+
+inline Ball operator+(const Ball& a, const Ball& b) { return made<Ball>(arb_add, a.get(), b.get(), kPrecision); }
+inline Ball operator-(const Ball& a, const Ball& b) { return made<Ball>(arb_sub, a.get(), b.get(), kPrecision); }
+inline Ball operator*(const Ball& a, const Ball& b) { return made<Ball>(arb_mul, a.get(), b.get(), kPrecision); }
+inline Ball operator/(const Ball& a, const Ball& b) { return made<Ball>(arb_div, a.get(), b.get(), kPrecision); }
+inline Ball operator-(const Ball& a) { return made<Ball>(arb_neg, a.get()); }
+inline Ball abs(const Ball& a) { return made<Ball>(arb_abs, a.get()); }
+inline Ball sqrt(const Ball& a) { return made<Ball>(arb_sqrt, a.get(), kPrecision); }
+inline Ball sin(const Ball& a) { return made<Ball>(arb_sin, a.get(), kPrecision); }
+inline Ball cos(const Ball& a) { return made<Ball>(arb_cos, a.get(), kPrecision); }
+inline Ball exp(const Ball& a) { return made<Ball>(arb_exp, a.get(), kPrecision); }
+inline Ball log(const Ball& a) { return made<Ball>(arb_log, a.get(), kPrecision); }
+inline Ball atan2(const Ball& y, const Ball& x) { return made<Ball>(arb_atan2, y.get(), x.get(), kPrecision); }
+/// The least ball around both.
+inline Ball hull(const Ball& a, const Ball& b) { return made<Ball>(arb_union, a.get(), b.get(), kPrecision); }
+inline Ball pi() { return made<Ball>(arb_const_pi, kPrecision); }
+
+/// The first kTerms coefficients of a power series.
+class Series {
+ public:
+  Series() { arb_poly_init(value_); }
+  Series(const Ball& constant) : Series() { set(0, constant); }  // NOLINT(google-explicit-constructor)
+  Series(double constant) : Series(Ball(constant)) {}            // NOLINT(google-explicit-constructor)
+  Series(const Series& other) : Series() { arb_poly_set(value_, other.value_); }
+  Series(Series&& other) noexcept : Series() { arb_poly_swap(value_, other.value_); }
+  Series& operator=(Series other) noexcept {
+    arb_poly_swap(value_, other.value_);
+    return *this;
+  }
+  ~Series() { arb_poly_clear(value_); }
+
+  /// at + x.
+  static Series variable(const Ball& at) {
+    Series result(at);
+    result.set(1, 1.0);
+    return result;
+  }
+
+  arb_poly_struct* get() { return value_; }
+  const arb_poly_struct* get() const { return value_; }
+  Ball operator[](slong power) const {
+    Ball coefficient;
+    arb_poly_get_coeff_arb(coefficient.get(), value_, power);
+    return coefficient;
+  }
+  void set(slong power, const Ball& coefficient) { arb_poly_set_coeff_arb(value_, power, coefficient.get()); }
+
+ private:
+  arb_poly_t value_;
+};
+
+inline Series operator+(const Series& a, const Series& b) {
+  return made<Series>(arb_poly_add, a.get(), b.get(), kPrecision);
+}
+inline Series operator-(const Series& a, const Series& b) {
+  return made<Series>(arb_poly_sub, a.get(), b.get(), kPrecision);
+}
+inline Series operator*(const Series& a, const Series& b) {
+  return made<Series>(arb_poly_mullow, a.get(), b.get(), kTerms, kPrecision);
+}
+inline Series operator/(const Series& a, const Series& b) {
+  return made<Series>(arb_poly_div_series, a.get(), b.get(), kTerms, kPrecision);
+}
+inline Series sqrt(const Series& a) { return made<Series>(arb_poly_sqrt_series, a.get(), kTerms, kPrecision); }
+inline Series sin(const Series& a) { return made<Series>(arb_poly_sin_series, a.get(), kTerms, kPrecision); }
+inline Series cos(const Series& a) { return made<Series>(arb_poly_cos_series, a.get(), kTerms, kPrecision); }
+inline Series exp(const Series& a) { return made<Series>(arb_poly_exp_series, a.get(), kTerms, kPrecision); }
+inline Series pow(const Series& a, const Ball& exponent) {
+  return made<Series>(arb_poly_pow_arb_series, a.get(), exponent.get(), kTerms, kPrecision);
+}
+/// Its derivative: the last coefficient is lost.
+inline Series derivative(const Series& a) { return made<Series>(arb_poly_derivative, a.get(), kPrecision); }
+/// Its integral from 0.
+inline Series integral(const Series& a) { return made<Series>(arb_poly_integral, a.get(), kPrecision); }
+/// x as a series in y = a(x), where a(0) = 0.
+inline Series inverse(const Series& a) { return made<Series>(arb_poly_revert_series, a.get(), kTerms, kPrecision); }
+/// a(b(y)), where b(0) = 0.
+inline Series composed(const Series& a, const Series& b) {
+  return made<Series>(arb_poly_compose_series, a.get(), b.get(), kTerms, kPrecision);
+}
+
+}  // namespace rollfix_verify

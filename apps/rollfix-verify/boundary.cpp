@@ -1,0 +1,198 @@
+#include "boundary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace rollfix_verify {
+namespace {
+
+// What a piece's polynomials leave out, of its length and in radians: far below what a certificate states.
+constexpr double kPieceError = 1e-16;
+constexpr int kMostHalvings = 50;
+// A piece's bounds hold this share of its width beyond its ends: a ball around a place may reach over them.
+constexpr double kMargin = 1.0 / 64;
+constexpr int kNewtonSteps = 8;
+constexpr double kNewtonGoal = 1e-15;
+// A ball around a parameter is larger than it need be by this factor, for the rounding of its own size.
+constexpr double kOutward = 1.001;
+constexpr double kLeastReach = 1e-300;
+
+Ball value(const Taylor& polynomial, const Ball& x) {
+  Ball sum = 0.0;
+  for (std::size_t k = polynomial.size(); k-- > 0;) sum = sum * x + polynomial[k];
+  return sum;
+}
+
+Ball slope(const Taylor& polynomial, const Ball& x) {
+  Ball sum = 0.0;
+  for (std::size_t k = polynomial.size(); k-- > 1;) sum = sum * x + static_cast<double>(k) * polynomial[k];
+  return sum;
+}
+
+/// The integral's coefficients: the last one, which bounds the remainder, from the series around all places.
+Taylor with_remainder(const Series& thin, const Series& wide) {
+  const Series polynomial = integral(thin);
+  Taylor result;
+  for (slong k = 0; k < kOrder; ++k) result.push_back(polynomial[k]);
+  result.push_back(integral(wide)[kOrder]);
+  return result;
+}
+
+double radius(const Ball& ball) { return 0.5 * (ball.upper() - ball.lower()); }
+
+Point difference(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y}; }
+Ball size(const Point& a) { return sqrt(a.x * a.x + a.y * a.y); }
+
+}  // namespace
+
+Boundary::Boundary(std::vector<Formula> curves, bool closed) : curves_(std::move(curves)), closed_(closed) {
+  if (curves_.empty()) throw std::runtime_error("an outline without curves");
+  pieces_.resize(curves_.size());
+  starts_.push_back({0, curves_[0].lo, 0.0, 0.0});
+  for (std::size_t k = 0; k < curves_.size(); ++k) {
+    if (!(curves_[k].lo < curves_[k].hi)) throw std::runtime_error("a curve whose parameter has no range");
+    starts_.back().u = curves_[k].lo;
+    const Place end = starts_.back();
+    starts_.push_back(end);  // moves on piece by piece
+    add_pieces(k, curves_[k].lo, curves_[k].hi, 0);
+    join(k);
+  }
+}
+
+void Boundary::add_pieces(std::size_t curve, double lo, double hi, int depth) {
+  const double middle = 0.5 * (lo + hi);
+  const double half = std::max(hi - middle, middle - lo);
+  const Formula& formula = curves_[curve];
+  const Motion thin = formula.motion(middle);
+  const double margin = kMargin * (hi - lo);
+  const Motion wide = formula.motion(hull(Ball(lo) - margin, Ball(hi) + margin));
+  Piece piece{lo,
+              hi,
+              middle,
+              with_remainder(thin.speed, wide.speed),
+              with_remainder(thin.turning, wide.turning),
+              wide.speed[0].lower(),
+              {},
+              {}};
+  const double power = std::pow(half + margin, static_cast<double>(kOrder));
+  const double length = thin.speed[0].middle() * (hi - lo);
+  const bool is_good = piece.length.back().is_finite() && piece.angle.back().is_finite() && piece.least_speed > 0 &&
+                       radius(piece.length.back()) * power <= kPieceError * length &&
+                       radius(piece.angle.back()) * power <= kPieceError;
+  if (!is_good) {
+    if (depth == kMostHalvings || !(middle > lo && middle < hi))
+      throw std::runtime_error("a curve that is not regular");
+    add_pieces(curve, lo, middle, depth + 1);
+    add_pieces(curve, middle, hi, depth + 1);
+    return;
+  }
+  Place& here = starts_.back();
+  piece.s = here.s;
+  piece.start_angle = here.angle;
+  pieces_[curve].push_back(piece);
+  const Place end = on_piece(curve, piece, hi);
+  here.s = end.s;
+  here.angle = end.angle;
+}
+
+/// The turn to the next curve, which a closed outline's last one has as well.
+void Boundary::join(std::size_t curve) {
+  const bool is_last = curve + 1 == curves_.size();
+  if (is_last && !closed_) {
+    jumps_.emplace_back(0.0);
+    return;
+  }
+  const Formula& before = curves_[curve];
+  const Formula& after = curves_[is_last ? 0 : curve + 1];
+  const Point v = before.velocity(before.hi);
+  const Point w = after.velocity(after.lo);
+  jumps_.push_back(atan2(v.x * w.y - v.y * w.x, v.x * w.x + v.y * w.y));
+  starts_.back().angle = starts_.back().angle + jumps_.back();
+  starts_.back().curve = static_cast<long>(curve) + 1;
+  largest_gap_ = std::max(largest_gap_, size(difference(before.position(before.hi), after.position(after.lo))).upper());
+}
+
+std::size_t Boundary::index(long curve) const {
+  const long rest = curve % curves();
+  return static_cast<std::size_t>(rest < 0 ? rest + curves() : rest);
+}
+
+Place Boundary::moved(Place place, long laps) const {
+  if (laps == 0) return place;
+  place.curve += laps * curves();
+  place.s = place.s + static_cast<double>(laps) * perimeter();
+  place.angle = place.angle + static_cast<double>(laps) * total_turn();
+  return place;
+}
+
+Place Boundary::on_piece(std::size_t curve, const Piece& piece, const Ball& u) const {
+  const Ball x = u - piece.middle;
+  const Ball from = Ball(piece.lo) - piece.middle;
+  return {static_cast<long>(curve), u, piece.s + (value(piece.length, x) - value(piece.length, from)),
+          piece.start_angle + (value(piece.angle, x) - value(piece.angle, from))};
+}
+
+Place Boundary::at(long curve, double u) const {
+  const std::vector<Piece>& pieces = pieces_.at(static_cast<std::size_t>(curve));
+  if (!(u >= pieces.front().lo && u <= pieces.back().hi))
+    throw std::runtime_error("a parameter beyond its curve's ends");
+  auto piece = pieces.begin();
+  while (u > piece->hi) ++piece;
+  return on_piece(static_cast<std::size_t>(curve), *piece, u);
+}
+
+Place Boundary::front(long curve) const { return moved(starts_[index(curve)], lap(curve)); }
+
+Place Boundary::back(long curve) const {
+  Place place = front(curve + 1);
+  if (!closed_ && index(curve) + 1 == curves_.size()) place = starts_.back();
+  place.curve = curve;
+  place.u = formula(curve).hi;
+  place.angle = place.angle - jump(curve);
+  return place;
+}
+
+/// Newton's method in doubles; then, as s grows by the least speed at least, what is missing bounds how far off that
+/// is.
+std::optional<Place> Boundary::after(const Ball& s) const {
+  const double period = perimeter().middle();
+  const long laps = closed_ ? static_cast<long>(std::floor(s.middle() / period)) : 0;
+  const Ball wanted = s - static_cast<double>(laps) * perimeter();
+  const auto next = std::upper_bound(starts_.begin() + 1, starts_.end() - 1, wanted.middle(),
+                                     [](double at, const Place& start) { return at < start.s.middle(); });
+  const auto curve = static_cast<std::size_t>(next - starts_.begin()) - 1;
+  const std::vector<Piece>& pieces = pieces_[curve];
+  const auto piece = std::upper_bound(pieces.begin() + 1, pieces.end(), wanted.middle(),
+                                      [](double at, const Piece& one) { return at < one.s.middle(); }) -
+                     1;
+  double u = piece->middle;
+  for (int k = 0; k < kNewtonSteps; ++k) {
+    const double missing = (wanted - on_piece(curve, *piece, u).s).middle();
+    u = std::clamp(u + missing / slope(piece->length, Ball(u) - piece->middle).middle(), piece->lo, piece->hi);
+    if (std::abs(missing) <= kNewtonGoal * period) break;
+  }
+  const Ball missing = wanted - on_piece(curve, *piece, u).s;
+  const double reach = kOutward * (abs(missing).upper() / piece->least_speed) + kLeastReach;
+  if (!(reach < kMargin * (piece->hi - piece->lo))) return std::nullopt;
+  const Ball ball = hull(Ball(u) - reach, Ball(u) + reach);
+  if (!(ball.is_above(curves_[curve].lo) && ball.is_below(curves_[curve].hi))) return std::nullopt;
+  Place place = on_piece(curve, *piece, ball);
+  place.s = wanted;
+  return moved(place, laps);
+}
+
+Taylor Boundary::taylor(long curve, const Ball& u) const {
+  const Motion motion = formula(curve).motion(u);
+  Ball unknown;
+  arb_indeterminate(unknown.get());
+  if (!motion.speed[0].is_above(0.0)) return Taylor(static_cast<std::size_t>(kOrder), unknown);
+  const Series place = inverse(integral(motion.speed));
+  const Series angle = composed(integral(motion.turning), place);
+  Taylor result;
+  for (slong k = 1; k <= kOrder; ++k) result.push_back(angle[k]);
+  return result;
+}
+
+}  // namespace rollfix_verify

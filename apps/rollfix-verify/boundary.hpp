@@ -1,0 +1,80 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formulas.hpp"
+
+namespace rollfix_verify {
+
+/// A place on the boundary. On a closed one curves are counted on from lap to lap, and so are s and the angle.
+struct Place {
+  long curve = 0;
+  Ball u;
+  Ball s;
+  Ball angle;  // of the tangent, from that at s = 0
+};
+
+/// The tangent's angle from a place on, by the arc length ahead of it: its Taylor coefficients, from the first on.
+using Taylor = std::vector<Ball>;
+
+/// An outline by its own formulas, with arc length and the tangent's angle as Taylor polynomials whose remainders are
+/// bounded.
+class Boundary {
+ public:
+  /// Throws std::runtime_error: what is no regular chain of curves.
+  Boundary(std::vector<Formula> curves, bool closed);
+
+  bool closed() const { return closed_; }
+  long curves() const { return static_cast<long>(curves_.size()); }
+  const Ball& perimeter() const { return starts_.back().s; }
+  const Ball& total_turn() const { return starts_.back().angle; }
+  double largest_gap() const { return largest_gap_; }  // between neighbouring curves
+
+  /// The place of a curve's parameter, on the first lap.
+  Place at(long curve, double u) const;
+  /// The place that far along; none where that can't be told from a joint or an end.
+  std::optional<Place> after(const Ball& s) const;
+  Point position(const Place& place) const { return formula(place.curve).position(place.u); }
+  Point velocity(const Place& place) const { return formula(place.curve).velocity(place.u); }
+
+  /// Where a counted curve starts and ends.
+  Place front(long curve) const;
+  Place back(long curve) const;
+  /// How far the tangent turns where a curve ends and the next begins, in (-pi, pi).
+  Ball jump(long curve) const { return jumps_[index(curve)]; }
+
+  /// Of the angle by arc length; where u is wide, for all places in it.
+  Taylor taylor(long curve, const Ball& u) const;
+
+ private:
+  /// A stretch of a curve: length and angle from its start as polynomials in x = parameter - middle.
+  struct Piece {
+    double lo;
+    double hi;
+    double middle;
+    Taylor length;
+    Taylor angle;
+    double least_speed;  // everywhere on it, for certain
+    Ball s;              // at lo
+    Ball start_angle;
+  };
+
+  std::size_t index(long curve) const;
+  long lap(long curve) const { return (curve - static_cast<long>(index(curve))) / curves(); }
+  const Formula& formula(long curve) const { return curves_[index(curve)]; }
+  void add_pieces(std::size_t curve, double lo, double hi, int depth);
+  void join(std::size_t curve);
+  Place on_piece(std::size_t curve, const Piece& piece, const Ball& u) const;
+  Place moved(Place place, long laps) const;
+
+  std::vector<Formula> curves_;
+  bool closed_;
+  std::vector<std::vector<Piece>> pieces_;  // of each curve
+  std::vector<Place> starts_;               // of each curve, and the end of all
+  std::vector<Ball> jumps_;
+  double largest_gap_ = 0;
+};
+
+}  // namespace rollfix_verify

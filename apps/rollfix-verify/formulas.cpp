@@ -1,0 +1,319 @@
+#include "formulas.hpp"
+
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+namespace rollfix_verify {
+namespace {
+
+using Numbers = std::vector<double>;
+using Path = std::function<Pair<Series>(const Series&)>;
+
+const double kFullTurn = 2 * std::acos(-1.0);
+
+Series cross(const Pair<Series>& a, const Pair<Series>& b) { return a.x * b.y - a.y * b.x; }
+Series dot(const Pair<Series>& a, const Pair<Series>& b) { return a.x * b.x + a.y * b.y; }
+
+/// A curve whose point is known as a function of its parameter.
+Formula from_path(double lo, double hi, Path path) {
+  const auto velocity = [path](const Ball& u) {
+    const Pair<Series> point = path(Series::variable(u));
+    return Pair<Series>{derivative(point.x), derivative(point.y)};
+  };
+  Formula formula;
+  formula.lo = lo;
+  formula.hi = hi;
+  formula.motion = [velocity](const Ball& u) {
+    const Pair<Series> first = velocity(u);
+    const Pair<Series> second{derivative(first.x), derivative(first.y)};
+    const Series square = dot(first, first);
+    return Motion{sqrt(square), cross(first, second) / square};
+  };
+  formula.position = [path](const Ball& u) {
+    const Pair<Series> point = path(Series(u));
+    return Point{point.x[0], point.y[0]};
+  };
+  formula.velocity = [velocity](const Ball& u) {
+    const Pair<Series> first = velocity(u);
+    return Point{first.x[0], first.y[0]};
+  };
+  return formula;
+}
+
+// ---- lines, arcs and what drawings are made of ----
+
+Formula line(const Numbers& n) {
+  const Ball dx = Ball(n[2]) - n[0];
+  const Ball dy = Ball(n[3]) - n[1];
+  Formula formula;
+  const Ball length = sqrt(dx * dx + dy * dy);
+  formula.motion = [length](const Ball&) { return Motion{length, 0.0}; };
+  formula.position = [=](const Ball& u) { return Point{n[0] + u * dx, n[1] + u * dy}; };
+  formula.velocity = [=](const Ball&) { return Point{dx, dy}; };
+  return formula;
+}
+
+Formula arc(const Numbers& n) {  // centre, radius, direction of the first point, sweep
+  const double sign = n[4] > 0 ? 1 : -1;
+  const double r = n[2];
+  if (!(r > 0)) throw std::runtime_error("an arc without a radius");
+  Formula formula;
+  formula.hi = std::abs(n[4]);
+  formula.motion = [=](const Ball&) { return Motion{r, sign}; };
+  const auto direction = [=](const Ball& u) { return Ball(n[3]) + Ball(sign) * u; };
+  formula.position = [=](const Ball& u) {
+    return Point{n[0] + Ball(r) * cos(direction(u)), n[1] + Ball(r) * sin(direction(u))};
+  };
+  formula.velocity = [=](const Ball& u) {
+    return Point{Ball(-sign * r) * sin(direction(u)), Ball(sign * r) * cos(direction(u))};
+  };
+  return formula;
+}
+
+Formula elliptic_arc(const Numbers& n) {  // centre, two half axes, where it starts, sweep
+  const double sign = n[7] > 0 ? 1 : -1;
+  return from_path(0, std::abs(n[7]), [=](const Series& t) {
+    const Series angle = Series(n[6]) + Series(sign) * t;
+    const Series c = cos(angle);
+    const Series s = sin(angle);
+    return Pair<Series>{n[0] + c * n[2] + s * n[4], n[1] + c * n[3] + s * n[5]};
+  });
+}
+
+Formula cubic(const Numbers& n) {  // from, to, and the coefficients of t^2 and t^3
+  return from_path(0, 1, [=](const Series& t) {
+    const auto along = [&](std::size_t k) {
+      const Ball slope = Ball(n[k + 2]) - n[k] - n[k + 4] - n[k + 6];
+      return Series(n[k]) + t * (Series(slope) + t * (Series(n[k + 4]) + t * n[k + 6]));
+    };
+    return Pair<Series>{along(0), along(1)};
+  });
+}
+
+Formula turning_span(const Numbers& n) {  // start, the cubic of its tangent's angle by arc length, length
+  Formula formula;
+  formula.hi = n[6];
+  const auto angle = [n](const Series& s) { return Series(n[2]) + s * (Series(n[3]) + s * (Series(n[4]) + s * n[5])); };
+  formula.motion = [angle](const Ball& u) { return Motion{1.0, derivative(angle(Series::variable(u)))}; };
+  formula.velocity = [angle](const Ball& u) {
+    const Ball at = angle(Series(u))[0];
+    return Point{cos(at), sin(at)};
+  };
+  formula.position = [n, angle](const Ball& u) {  // in short steps, each by its Taylor series
+    constexpr int kSteps = 64;
+    Point at{n[0], n[1]};
+    for (int k = 0; k < kSteps; ++k) {
+      const Ball step = u / kSteps;
+      const Ball from = step * k;
+      const Series there = angle(Series::variable(from));
+      const Series wide = angle(Series::variable(hull(from, from + step)));
+      const auto advance = [&](Series thin, const Series& rest) {
+        thin.set(kOrder, rest[kOrder]);
+        Ball sum = 0.0;
+        Ball power = step;
+        for (slong i = 0; i <= kOrder; ++i, power = power * step)
+          sum = sum + thin[i] * power / static_cast<double>(i + 1);
+        return sum;
+      };
+      at = {at.x + advance(cos(there), cos(wide)), at.y + advance(sin(there), sin(wide))};
+    }
+    return at;
+  };
+  return formula;
+}
+
+/// de Casteljau's algorithm; control points as so many numbers each: x, y and, of rational ones, the weight.
+Formula bezier(const Numbers& n, std::size_t each) {
+  if (n.empty() || n.size() % each != 0) throw std::runtime_error("a Bezier curve with half a control point");
+  return from_path(0, 1, [n, each](const Series& t) {
+    std::vector<std::vector<Series>> row;
+    for (std::size_t k = 0; k < n.size(); k += each) {
+      const Ball weight = each == 3 ? n[k + 2] : 1.0;
+      row.push_back({weight * n[k], weight * n[k + 1], weight});
+    }
+    const Series rest = Series(1.0) - t;
+    for (std::size_t left = row.size(); left > 1; --left) {
+      for (std::size_t k = 0; k + 1 < left; ++k) {
+        for (std::size_t i = 0; i < each; ++i) row[k][i] = rest * row[k][i] + t * row[k + 1][i];
+      }
+    }
+    if (each == 2) return Pair<Series>{row[0][0], row[0][1]};
+    return Pair<Series>{row[0][0] / row[0][2], row[0][1] / row[0][2]};
+  });
+}
+
+// ---- the gallery ----
+
+Formula polar(double hi, const std::function<Series(const Series&)>& radius) {
+  return from_path(0, hi, [radius](const Series& t) {
+    const Series r = radius(t);
+    return Pair<Series>{r * cos(t), r * sin(t)};
+  });
+}
+
+Formula limacon(const Numbers& n) {
+  return polar(kFullTurn, [=](const Series& t) { return n[0] + n[1] * cos(t); });
+}
+
+Formula cam(const Numbers& n) {
+  return polar(kFullTurn, [=](const Series& t) {
+    const Series q = (Series(1.0) + cos(t)) * 0.5;
+    return n[0] + n[1] * q * q;
+  });
+}
+
+Formula gear(const Numbers& n) {
+  return polar(kFullTurn, [=](const Series& t) { return n[0] + n[1] * cos(n[2] * t); });
+}
+
+Formula log_spiral(const Numbers& n) {
+  return polar(kFullTurn * n[2], [=](const Series& t) { return n[0] * exp(n[1] * t); });
+}
+
+Formula exponential(const Numbers& n) {
+  return from_path(n[1], n[2], [=](const Series& t) { return Pair<Series>{n[0] * t, n[0] * exp(t)}; });
+}
+
+Series whole_power(const Series& base, int exponent) {
+  Series result(1.0);
+  for (int k = 0; k < exponent; ++k) result = result * base;
+  return result;
+}
+
+/// |x/a|^n + |y/b|^n = 1 by the direction of (x/a, y/b); `quarter`: turned by so many right angles.
+Pair<Series> superellipse_point(const Numbers& n, const Series& t) {
+  const int power = static_cast<int>(n[2]);
+  if (power != n[2] || power < 2) throw std::runtime_error("a superellipse whose exponent is not a whole number");
+  const Series c = cos(t);
+  const Series s = sin(t);
+  const Series radius = pow(whole_power(c, power) + whole_power(s, power), Ball(-1.0) / n[2]);
+  return {n[0] * radius * c, n[1] * radius * s};
+}
+
+Formula superellipse(const Numbers& n) {
+  return from_path(0, kFullTurn, [=](const Series& t) { return superellipse_point(n, t); });
+}
+
+Formula superellipse_quarter(const Numbers& n) {
+  return from_path(0, kFullTurn / 4, [=](const Series& t) {
+    const Pair<Series> point = superellipse_point(n, t);
+    if (n[3] == 0) return point;
+    if (n[3] == 1) return Pair<Series>{Series(0.0) - point.y, point.x};
+    if (n[3] == 2) return Pair<Series>{Series(0.0) - point.x, Series(0.0) - point.y};
+    if (n[3] == 3) return Pair<Series>{point.y, Series(0.0) - point.x};
+    throw std::runtime_error("a quarter of a superellipse that is not 0, 1, 2 or 3");
+  });
+}
+
+/// A NACA section of four digits: chord, thickness, camber and its place, the range of v = -+sqrt(x).
+Formula naca(const Numbers& n, bool upper, bool fore) {
+  const double sign = upper ? -1 : 1;
+  return from_path(n[4], n[5], [=](const Series& v) {
+    const Series w = sign * v;
+    const Series x = w * w;
+    const Ball ten_thousandth = Ball(1.0) / 10000.0;
+    const auto k = [&](double digits) { return Series(Ball(5 * digits) * ten_thousandth); };
+    const Series half =
+        Series(-sign * n[1]) * (w * (k(2969) + w * (k(-1260) + x * (k(-3516) + x * (k(2843) + x * k(-1036))))));
+    const Ball reach = fore ? Ball(n[3]) : Ball(1.0) - n[3];
+    const Series share = (fore ? x : Series(1.0) - x) / reach;
+    const Series camber = n[2] * share * (Series(2.0) - share);
+    const Series slope = Series(Ball(-2 * n[2]) / (reach * reach)) * (x - n[3]);
+    const Series long_side = sqrt(Series(1.0) + slope * slope);
+    return Pair<Series>{n[0] * (x - half * slope / long_side), n[0] * (camber + half / long_side)};
+  });
+}
+
+Formula symmetric_naca(const Numbers& n, bool upper) {
+  return naca({n[0], n[1], 0, 1, upper ? -1.0 : 0.0, upper ? 0.0 : 1.0}, upper, true);
+}
+
+// ---- other ways to run along a curve ----
+
+/// a(-x).
+Series mirrored(const Series& a) {
+  Series result = a;
+  for (slong k = 1; k < kTerms; k += 2) result.set(k, -a[k]);
+  return result;
+}
+
+Formula reversed(Formula forward) {
+  Formula formula = forward;
+  const auto mirror = [lo = forward.lo, hi = forward.hi](const Ball& u) { return Ball(lo) + (Ball(hi) - u); };
+  formula.position = [=](const Ball& u) { return forward.position(mirror(u)); };
+  formula.velocity = [=](const Ball& u) {
+    const Point v = forward.velocity(mirror(u));
+    return Point{-v.x, -v.y};
+  };
+  formula.motion = [=](const Ball& u) {
+    const Motion motion = forward.motion(mirror(u));
+    return Motion{mirrored(motion.speed), Series(0.0) - mirrored(motion.turning)};
+  };
+  return formula;
+}
+
+Formula scaled(Formula original, double factor) {
+  if (!(factor > 0)) throw std::runtime_error("a curve scaled by a factor that is not above 0");
+  Formula formula = original;
+  const auto times = [factor](const Point& p) { return Point{factor * p.x, factor * p.y}; };
+  formula.position = [=](const Ball& u) { return times(original.position(u)); };
+  formula.velocity = [=](const Ball& u) { return times(original.velocity(u)); };
+  formula.motion = [=](const Ball& u) {
+    const Motion motion = original.motion(u);
+    return Motion{factor * motion.speed, motion.turning};
+  };
+  return formula;
+}
+
+struct Kind {
+  std::size_t numbers;  // that it takes; 0: any
+  std::function<Formula(const Numbers&)> make;
+};
+
+const std::map<std::string, Kind>& kinds() {
+  static const std::map<std::string, Kind> table = {
+      {"line", {4, line}},
+      {"arc", {5, arc}},
+      {"elliptic-arc", {8, elliptic_arc}},
+      {"cubic", {8, cubic}},
+      {"turning", {7, turning_span}},
+      {"bezier", {0, [](const Numbers& n) { return bezier(n, 2); }}},
+      {"rational-bezier", {0, [](const Numbers& n) { return bezier(n, 3); }}},
+      {"limacon", {2, limacon}},
+      {"cam", {2, cam}},
+      {"gear", {3, gear}},
+      {"log-spiral", {3, log_spiral}},
+      {"exponential", {3, exponential}},
+      {"superellipse", {3, superellipse}},
+      {"superellipse-quarter", {4, superellipse_quarter}},
+      {"naca-upper", {2, [](const Numbers& n) { return symmetric_naca(n, true); }}},
+      {"naca-lower", {2, [](const Numbers& n) { return symmetric_naca(n, false); }}},
+      {"naca-upper-fore", {6, [](const Numbers& n) { return naca(n, true, true); }}},
+      {"naca-upper-aft", {6, [](const Numbers& n) { return naca(n, true, false); }}},
+      {"naca-lower-fore", {6, [](const Numbers& n) { return naca(n, false, true); }}},
+      {"naca-lower-aft", {6, [](const Numbers& n) { return naca(n, false, false); }}},
+  };
+  return table;
+}
+
+}  // namespace
+
+Formula formula_of(const std::string& kind, const Numbers& numbers) {
+  const std::string reversed_prefix = "reversed ";
+  const std::string scaled_prefix = "scaled ";
+  if (kind.rfind(reversed_prefix, 0) == 0) return reversed(formula_of(kind.substr(reversed_prefix.size()), numbers));
+  if (kind.rfind(scaled_prefix, 0) == 0) {
+    if (numbers.empty()) throw std::runtime_error("a scaled curve without a factor");
+    return scaled(formula_of(kind.substr(scaled_prefix.size()), {numbers.begin(), numbers.end() - 1}), numbers.back());
+  }
+  const auto found = kinds().find(kind);
+  if (found == kinds().end()) throw std::runtime_error("the curve kind '" + kind + "' is not known");
+  if (found->second.numbers != 0 && found->second.numbers != numbers.size()) {
+    throw std::runtime_error("a curve of kind '" + kind + "' with a wrong number of numbers");
+  }
+  return found->second.make(numbers);
+}
+
+}  // namespace rollfix_verify

@@ -1,0 +1,58 @@
+#include "rollfix/locate/certificate.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "rollfix/certify/certify.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/files/documents.hpp"
+#include "rollfix/output/files.hpp"
+
+namespace rollfix::app {
+namespace {
+
+/// A certificate is of one reading of one finger, exact but for the tolerance.
+void require_plain(const Problem& problem, const Answer& answer) {
+  const auto refuse = [](bool found, const char* what) {
+    if (found)
+      throw InputError(fmt::format("--certify: a certificate is of one reading of one finger, found {}", what));
+  };
+  refuse(answer.finger_count() > 1, "two fingers");
+  refuse(answer.readings.size() > 1, "several readings");
+  refuse(problem.noise.has_value(), "--noise");
+  refuse(problem.either_way, "--direction either");
+  refuse(problem.mirrored, "--mirror");
+}
+
+}  // namespace
+
+void require_certificate(const std::string& file, bool force, bool json, const std::string& output) {
+  if (file.empty()) return;
+  if (file != "-") {
+    require_writable(file, force);
+  } else if (json || output == "-") {
+    throw InputError("--certify - writes to standard output, as another option does: give it the name of a file");
+  }
+}
+
+void add_certificate(const std::string& file, const Problem& problem, const Answer& answer, Report& report) {
+  require_plain(problem, answer);
+  LocateOptions options;
+  options.tolerance = answer.tolerance.value;
+  if (problem.budget) options.budget = *problem.budget;
+  const Certificate certificate = certify(answer.part, answer.readings.front(), options);
+  std::string text = format_certificate(certificate);
+  if (file == "-") {
+    report.notes.push_back(report.data.substr(0, report.data.find('\n')));
+    report.data = std::move(text);
+  } else {
+    report.files.push_back({file, std::move(text)});
+    report.notes.push_back(fmt::format("wrote {}", file));
+  }
+  if (certificate.is_complete()) return;
+  report.notes.emplace_back("the certificate leaves something unproved: its cells \"unproved\" say where");
+  report.exit_code = ExitCode::incomplete;
+}
+
+}  // namespace rollfix::app

@@ -1,0 +1,297 @@
+// Certificates: what the search answers is proved again by a program that knows nothing of it.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "check.hpp"
+#include "random.hpp"
+#include "rollfix/certify/certify.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/files/documents.hpp"
+#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/points.hpp"
+#include "rollfix/outline/primitives.hpp"
+#include "rollfix/part/part.hpp"
+#include "shapes.hpp"
+
+namespace certificate_test {
+namespace {
+
+using Json = nlohmann::json;
+using rollfix_verify::Verdict;
+using shapes::kPi;
+
+Json certificate(const rollfix::Part& part, const rollfix::Reading& reading, double tolerance = 1e-9) {
+  rollfix::LocateOptions options;
+  options.tolerance = tolerance;
+  return Json::parse(format_certificate(certify(part, reading, options)));
+}
+
+Verdict checked(const Json& certificate) { return rollfix_verify::check(certificate.dump()); }
+
+/// It is proved, and all that the search found stands in it.
+void expect_proved(const rollfix::Part& part, const rollfix::Reading& reading, double tolerance = 1e-9) {
+  SCOPED_TRACE(
+      fmt::format("{}, length {}, turn {}, tolerance {}", part.name(), reading.length[0], reading.turn, tolerance));
+  const Verdict verdict = checked(certificate(part, reading, tolerance));
+  EXPECT_EQ(verdict.refusal, "");
+  EXPECT_EQ(verdict.unproved, 0U);
+  rollfix::LocateOptions options;
+  options.tolerance = tolerance;
+  EXPECT_EQ(verdict.placements, locate(part, reading, options).placements.size());
+}
+
+std::size_t count_of(const Json& certificate, const std::string& kind) {
+  std::size_t count = 0;
+  for (const Json& row : certificate["rows"]) count += row.value("then", "") == kind ? 1 : 0;
+  return count;
+}
+
+double uniform(std::mt19937_64& generator, double lo, double hi) {
+  return std::uniform_real_distribution<double>(lo, hi)(generator);
+}
+
+rollfix::Part random_spline(std::mt19937_64& generator) {
+  const int n = std::uniform_int_distribution<int>(4, 12)(generator);
+  std::vector<rollfix::Vec2> points;
+  for (int k = 0; k < n; ++k) {
+    const double angle = 2 * kPi * k / n;
+    points.push_back(uniform(generator, 0.8, 1.2) * rollfix::Vec2(std::cos(angle), std::sin(angle)));
+  }
+  rollfix::Outline outline;
+  outline.name = "random spline";
+  outline.curves = rollfix::spline_through(points, true);
+  return rollfix::Part(outline);
+}
+
+/// A plate as drawings have it: a Bezier curve, lines, an arc, an arc of an ellipse, a rational Bezier curve.
+rollfix::Part drawn_plate() {
+  rollfix::Outline outline;
+  outline.name = "plate";
+  outline.curves = {rollfix::Bezier({{0, 0}, {1, -0.7}, {2, 0.5}, {3, 0}}),
+                    rollfix::Arc({3, 1}, 1, -kPi / 2, kPi / 2),
+                    rollfix::Line({4, 1}, {4, 2}),
+                    rollfix::EllipticArc({2, 2}, {2, 0}, {0, 1}, 0, kPi / 2),
+                    rollfix::Bezier({{2, 3}, {0, 3}, {0, 1}}, {1, std::sqrt(0.5), 1}),
+                    rollfix::Line({0, 1}, {0, 0})};
+  return rollfix::Part(outline);
+}
+
+// ---- what is proved ----
+
+class CertificateOfGallery : public testing::TestWithParam<std::string> {};
+
+TEST_P(CertificateOfGallery, is_proved) {
+  const rollfix::Part part(rollfix::gallery(GetParam()));
+  const double period = part.perimeter();
+  expect_proved(part, shapes::reading_from(part, 0.21 * period, 0.13 * period));
+  if (part.closed()) expect_proved(part, shapes::reading_from(part, 0.77 * period, -0.4 * period));
+  expect_proved(part, {0.1 * period, 50.0});  // nothing fits
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, CertificateOfGallery, testing::ValuesIn([] {
+                           std::vector<std::string> names;
+                           for (const auto& shape : rollfix::gallery_shapes()) names.push_back(shape.name);
+                           names.insert(names.end(), {"superellipse,n=3", "naca,digits=0012", "ellipse,a=1,b=1.7"});
+                           return names;
+                         }()),
+                         shapes::as_identifier);
+
+TEST(Certificate, of_random_splines_is_proved) {
+  std::mt19937_64 generator = test_generator();
+  const int count = test_count(6);
+  for (int k = 0; k < count; ++k) {
+    const rollfix::Part part = random_spline(generator);
+    const double period = part.perimeter();
+    const double tolerance = std::pow(10, uniform(generator, -11, -2));
+    expect_proved(part,
+                  shapes::reading_from(part, uniform(generator, 0, period), uniform(generator, -1.5, 1.5) * period),
+                  tolerance);
+  }
+}
+
+TEST(Certificate, of_a_drawn_plate_is_proved_with_its_corners) {
+  const rollfix::Part part = drawn_plate();
+  for (const double length : {0.4, 1.7, -2.5, 9.0}) expect_proved(part, shapes::reading_from(part, 3.1, length));
+  const double turn = part.corners().front().turn;
+  const Json pivot = certificate(part, {0.3, 0.6 * turn});
+  EXPECT_EQ(checked(pivot).refusal, "");
+}
+
+TEST(Certificate, of_a_polygon_proves_the_pivots_at_its_corners) {
+  const rollfix::Part part(rollfix::gallery("polygon,n=5"));
+  const Json found = certificate(part, {0.3, 0.5});
+  EXPECT_EQ(checked(found).refusal, "");
+  EXPECT_EQ(checked(found).placements, 10U);  // a start and an end at each corner
+  EXPECT_EQ(count_of(found, "corner"), 10U);
+}
+
+TEST(Certificate, of_lines_and_arcs_proves_stretches) {
+  const rollfix::Part part(rollfix::gallery("stadium"));
+  const Json found = certificate(part, {0.2, 0.0});
+  EXPECT_EQ(checked(found).refusal, "");
+  EXPECT_EQ(count_of(found, "stretch"), 2U);
+}
+
+TEST(Certificate, of_a_symmetric_part_proves_that_all_of_it_fits) {
+  for (const char* shape : {"ellipse", "circle", "gear,teeth=5"}) {
+    const rollfix::Part part(rollfix::gallery(shape));
+    const double fold = shape[0] == 'g' ? 5 : 2;
+    const Json found = certificate(part, {part.perimeter() / fold, 2 * kPi / fold});
+    EXPECT_EQ(checked(found).refusal, "") << shape;
+    EXPECT_EQ(count_of(found, "stretch"), found["rows"].size()) << shape;
+  }
+}
+
+/// An ellipse's turn by L is largest at one place: readings just short of that have two roots close together, just
+/// beyond it none, and within the tolerance of it one placement.
+TEST(Certificate, of_near_double_roots_is_proved) {
+  const rollfix::Part part(rollfix::gallery("ellipse"));
+  const double length = 1;
+  const double most = shapes::reading_from(part, part.perimeter() - 0.5 * length, length).turn;
+  for (const double off : {1e-3, 1e-5, 1e-7, 3e-9, 5e-10, 0.0, -5e-10, -3e-9, -1e-7, -1e-5}) {
+    expect_proved(part, {length, most - off});
+  }
+}
+
+TEST(Certificate, of_an_open_outline_covers_every_start_that_leaves_room) {
+  const rollfix::Part part(rollfix::gallery("exponential"));
+  for (const double share : {0.2, -0.5, 0.9}) {
+    const double length = share * part.perimeter();
+    expect_proved(part,
+                  shapes::reading_from(part, share > 0 ? 0.05 * part.perimeter() : 0.95 * part.perimeter(), length));
+  }
+}
+
+TEST(Certificate, of_a_wide_tolerance_is_proved) {
+  for (const char* shape : {"cam", "naca", "polygon,n=6", "reuleaux"}) {
+    const rollfix::Part part(rollfix::gallery(shape));
+    expect_proved(part, shapes::reading_from(part, 0.3 * part.perimeter(), 0.2 * part.perimeter()), 3e-3);
+  }
+}
+
+// ---- what is not ----
+
+TEST(Certificate, without_one_of_its_placements_is_refused) {
+  const rollfix::Part part(rollfix::gallery("cam"));
+  Json found = certificate(part, shapes::reading_from(part, 2, 1));
+  found["placements"].erase(1);
+  EXPECT_NE(checked(found).refusal, "");
+}
+
+TEST(Certificate, that_calls_a_root_s_cell_apart_is_refused) {
+  const rollfix::Part part(rollfix::gallery("cam"));
+  const Json found = certificate(part, shapes::reading_from(part, 2, 1));
+  for (std::size_t k = 0; k < found["rows"].size(); ++k) {
+    Json changed = found;
+    if (changed["rows"][k]["then"] == "apart") continue;
+    changed["rows"][k]["then"] = "apart";
+    EXPECT_NE(checked(changed).refusal, "") << k;
+  }
+}
+
+TEST(Certificate, without_one_of_its_rows_is_refused) {
+  const rollfix::Part part(rollfix::gallery("cam"));
+  const Json found = certificate(part, shapes::reading_from(part, 2, 1));
+  for (std::size_t k = 0; k < found["rows"].size(); ++k) {
+    Json changed = found;
+    changed["rows"].erase(k);
+    EXPECT_NE(checked(changed).refusal, "") << k;
+  }
+}
+
+TEST(Certificate, with_a_cell_that_claims_nothing_says_so) {
+  const rollfix::Part part(rollfix::gallery("cam"));
+  Json found = certificate(part, shapes::reading_from(part, 2, 1));
+  found["rows"][1]["then"] = "unproved";
+  EXPECT_EQ(checked(found).unproved, 1U);
+}
+
+TEST(Certificate, of_a_search_that_ran_out_of_budget_claims_nothing_there) {
+  const rollfix::Part part(rollfix::gallery("ellipse"));
+  rollfix::LocateOptions options;
+  options.budget = 0;
+  const double length = 1;
+  const rollfix::Reading hard{length, shapes::reading_from(part, part.perimeter() - 0.5 * length, length).turn};
+  const rollfix::Search search = locate(part, hard, options);
+  const rollfix::Certificate found = certify(part, hard, options);
+  EXPECT_EQ(found.is_complete(), search.unresolved.empty());
+  const Verdict verdict = checked(Json::parse(format_certificate(found)));
+  EXPECT_EQ(verdict.refusal, "");
+  EXPECT_EQ(verdict.unproved == 0, search.unresolved.empty());
+}
+
+TEST(Certificate, is_of_one_finger_on_curves_that_have_a_formula) {
+  const rollfix::Part part(rollfix::gallery("cam"));
+  EXPECT_THROW(certify(part, {1.0, 1.0, 0.2}), rollfix::InputError);
+  rollfix::Outline outline;
+  outline.closed = false;
+  outline.curves = {rollfix::BezierFromRest({{0, 0}, {0, 0}, {1, 1}, {2, 0}})};
+  EXPECT_THROW(certify(rollfix::Part(outline), {0.5, 0.1}), rollfix::InputError);
+}
+
+// ---- one number changed ----
+
+/// Where its numbers are, as JSON pointers.
+std::vector<Json::json_pointer> numbers_of(const Json& certificate) {
+  std::vector<Json::json_pointer> places;
+  const Json flat = certificate.flatten();
+  for (const auto& [place, value] : flat.items()) {
+    if (value.is_number()) places.emplace_back(place);
+  }
+  return places;
+}
+
+/// Off by between a five hundredth and a half of itself (of 1 where it is smaller), which is above what a number may
+/// be off by rounding: of `off` a thousandth of a tolerance. A whole number, which names a curve, by one.
+void change(Json& number, bool is_tolerance, std::mt19937_64& generator) {
+  const double sign = uniform(generator, -1, 1) > 0 ? 1 : -1;
+  if (number.is_number_integer()) {
+    number = number.get<long>() + static_cast<long>(sign);
+    return;
+  }
+  const double value = number.get<double>();
+  const double by = sign * std::pow(10, uniform(generator, std::log10(0.002), std::log10(0.5)));
+  number = value + by * (is_tolerance ? value : std::max(std::abs(value), 1.0));
+}
+
+bool is_refused(const Json& certificate) {
+  try {
+    return !checked(certificate).refusal.empty();
+  } catch (const std::exception&) {
+    return true;
+  }
+}
+
+TEST(Certificate, with_one_number_changed_is_refused) {
+  std::mt19937_64 generator = test_generator();
+  const rollfix::Part plate = drawn_plate();
+  const rollfix::Part cam(rollfix::gallery("cam"));
+  const rollfix::Part naca(rollfix::gallery("naca"));
+  const rollfix::Part polygon(rollfix::gallery("polygon,n=5"));
+  const rollfix::Part spline = random_spline(generator);
+  const std::vector<Json> all = {
+      certificate(plate, shapes::reading_from(plate, 3.1, 1.7)), certificate(cam, shapes::reading_from(cam, 2, 1)),
+      certificate(naca, shapes::reading_from(naca, 0.3, 0.5)), certificate(polygon, {0.3, 0.5}),
+      certificate(spline, shapes::reading_from(spline, 1, 0.8))};
+  const int count = test_count(200);
+  for (int k = 0; k < count; ++k) {
+    const Json& original = all[static_cast<std::size_t>(k) % all.size()];
+    const std::vector<Json::json_pointer> places = numbers_of(original);
+    const auto& place = places[std::uniform_int_distribution<std::size_t>(0, places.size() - 1)(generator)];
+    Json changed = original;
+    change(changed[place], place.back() == "tolerance", generator);
+    EXPECT_TRUE(is_refused(changed)) << original["part"] << " " << place.to_string() << ": " << original[place]
+                                     << " to " << changed[place];
+  }
+}
+
+}  // namespace
+}  // namespace certificate_test

@@ -1,0 +1,69 @@
+// `rollfix locate --certify`, and the program that checks what it writes.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "cli.hpp"
+
+namespace cli_certify_test {
+namespace {
+
+using cli::Folder;
+using cli::Ran;
+using cli::run;
+
+Ran verified(const std::string& certificate) { return cli::shell("rollfix-verify " + certificate); }
+
+TEST(CliCertify, writes_a_certificate_that_the_verifier_proves) {
+  const Folder folder;
+  const Ran ran = run("locate gallery:cam --reading 0.9,40deg --certify proof.json");
+  EXPECT_EQ(ran.code, 0);
+  EXPECT_EQ(verified("proof.json").code, 0);
+  EXPECT_EQ(verified("proof.json").out, "proved: 4 placements, 8 cells, nothing else\n");
+}
+
+TEST(CliCertify, is_refused_where_its_turn_is_changed) {
+  const Folder folder;
+  std::string text = run("locate gallery:cam --reading 0.9,40deg --certify -").out;
+  const std::size_t at = text.find("\"turn\":0.6") + 8;
+  ASSERT_NE(at, std::string::npos);
+  text[at] = '1';
+  folder.write("changed.json", text);
+  EXPECT_EQ(verified("changed.json").code, 1);
+  EXPECT_EQ(verified("changed.json").out, "refused: row 0 turns by another angle\n");
+}
+
+TEST(CliCertify, proves_that_nothing_fits) {
+  const Folder folder;
+  EXPECT_EQ(run("locate gallery:cam --reading 0.9,200deg --certify proof.json").code, 1);
+  EXPECT_EQ(verified("proof.json").code, 0);
+}
+
+TEST(CliCertify, of_what_has_no_certificate_is_an_error) {
+  const Folder folder;
+  for (const char* arguments :
+       {"--reading 1.5,-0.8,110.97deg --facing -142.4deg", "--reading 1,0.5 --reading 2,1",
+        "--reading 1,0.5 --direction either", "--reading 1,0.5 --mirror", "--reading 1,0.5 --march"}) {
+    const Ran ran = run(std::string("locate gallery:cam --certify proof.json ") + arguments);
+    EXPECT_EQ(ran.code, 2) << arguments;
+    EXPECT_FALSE(cli::fs::exists("proof.json")) << arguments;
+  }
+}
+
+TEST(CliCertify, leaves_a_file_that_exists_alone) {
+  const Folder folder;
+  folder.write("proof.json", "mine");
+  EXPECT_EQ(run("locate gallery:cam --reading 0.9,40deg --certify proof.json").code, 2);
+  EXPECT_EQ(cli::read("proof.json"), "mine");
+}
+
+TEST(CliCertify, says_what_is_no_certificate) {
+  const Folder folder;
+  folder.write("part.json", "{\"schema\": \"rollfix/part/1\"}");
+  EXPECT_EQ(verified("part.json").code, 2);
+  EXPECT_EQ(verified("missing.json").code, 2);
+  EXPECT_EQ(verified("").code, 2);
+}
+
+}  // namespace
+}  // namespace cli_certify_test
