@@ -4,8 +4,10 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <deque>
 #include <filesystem>
 #include <memory>
 #include <system_error>
@@ -40,25 +42,72 @@ bool is_file(const std::string& path) {
 void write_bytes(const std::string& path, const std::string& bytes, const std::string& shown) {
   File file(std::fopen(path.c_str(), "wb"));
   if (!file) fail(shown, "written", errno);
-  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
-  if (!written || std::fflush(file.get()) != 0) fail(shown, "written", errno);
+  bool written = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size() && std::fflush(file.get()) == 0;
+  // A name that outlives a power cut must not name less than all of it. Pipes and devices know no such thing.
+  written = written && (::fsync(::fileno(file.get())) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS);
+  if (!written) fail(shown, "written", errno);
+  if (std::fclose(file.release()) != 0) fail(shown, "written", errno);  // some disks say only now that they are full
 }
 
-void replace(const OutputFile& file) {
-  std::error_code error;
-  // A link stays a link.
-  const fs::path target =
-      fs::is_symlink(file.path, error) ? fs::weakly_canonical(file.path, error) : fs::path(file.path);
-  fs::path temporary = target;
-  temporary.replace_filename(fmt::format(".{}.{}", target.filename().string(), getpid()));
-  try {
-    write_bytes(temporary.string(), file.bytes, file.path);
-    if (std::rename(temporary.c_str(), target.c_str()) != 0) fail(file.path, "written", errno);
-  } catch (const InputError&) {
-    std::remove(temporary.c_str());
-    throw;
+/// As long as it lives signals wait, so that none ends the program with files half written.
+class SignalsWait {
+ public:
+  SignalsWait() {
+    sigset_t all;
+    ::sigfillset(&all);
+    ::pthread_sigmask(SIG_BLOCK, &all, &before_);
   }
-}
+  ~SignalsWait() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsWait(const SignalsWait&) = delete;
+  SignalsWait& operator=(const SignalsWait&) = delete;
+
+ private:
+  sigset_t before_ = {};
+};
+
+/// A file that is written beside its place, and gone again unless it takes that.
+class Waiting {
+ public:
+  explicit Waiting(const OutputFile& file) : shown_(file.path), target_(target_of(file.path)), beside_(target_) {
+    beside_.replace_filename(fmt::format(".{}.{}", target_.filename().string(), getpid()));
+    try {
+      write_bytes(beside_.string(), file.bytes, shown_);
+      keep_permissions();
+    } catch (...) {
+      std::remove(beside_.c_str());
+      throw;
+    }
+  }
+  ~Waiting() {
+    if (!is_in_place_) std::remove(beside_.c_str());
+  }
+  Waiting(const Waiting&) = delete;
+  Waiting& operator=(const Waiting&) = delete;
+
+  void take_place() {
+    if (std::rename(beside_.c_str(), target_.c_str()) != 0) fail(shown_, "written", errno);
+    is_in_place_ = true;
+  }
+
+ private:
+  /// A link stays a link.
+  static fs::path target_of(const std::string& path) {
+    std::error_code error;
+    return fs::is_symlink(path, error) ? fs::weakly_canonical(path, error) : fs::path(path);
+  }
+
+  /// What nobody else may read stays so when it is replaced.
+  void keep_permissions() const {
+    std::error_code ignored;
+    const fs::file_status before = fs::status(target_, ignored);
+    if (fs::exists(before)) fs::permissions(beside_, before.permissions(), ignored);
+  }
+
+  std::string shown_;
+  fs::path target_;
+  fs::path beside_;
+  bool is_in_place_ = false;
+};
 
 }  // namespace
 
@@ -86,12 +135,14 @@ void require_writable(const std::string& path, bool force) {
 
 void write_files(const std::vector<OutputFile>& files) {
   for (const OutputFile& file : files) {
-    if (is_file(file.path)) {
-      replace(file);
-    } else {
-      write_bytes(file.path, file.bytes, file.path);
-    }
+    if (!is_file(file.path)) write_bytes(file.path, file.bytes, file.path);
   }
+  const SignalsWait wait;
+  std::deque<Waiting> ready;
+  for (const OutputFile& file : files) {
+    if (is_file(file.path)) ready.emplace_back(file);
+  }
+  for (Waiting& file : ready) file.take_place();
 }
 
 }  // namespace rollfix::app

@@ -18,7 +18,8 @@ bool holds(const OutputFile& file);
 /// Asked before the work starts, so that nobody waits for a refusal. Devices and pipes are always fine.
 void require_writable(const std::string& path, bool force);
 
-/// Writes all of them, each beside its final name first: an older file is replaced whole or not at all.
+/// Writes all of them, each beside its final name first; only then do they take their names: whole or not at all, even
+/// where the disk is full, or a signal comes.
 /// Throws InputError when that is not possible.
 void write_files(const std::vector<OutputFile>& files);
 
