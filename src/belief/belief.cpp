@@ -19,7 +19,7 @@ using namespace belief;
 // Even the only place is not known where it holds more than this share of the boundary.
 constexpr double kWide = 0.1;
 
-void require_valid(const BeliefOptions& options, const Contacts& contacts) {
+void require_valid(const Part& part, const BeliefOptions& options, const Contacts& contacts) {
   const Noise& noise = options.noise;
   rollfix::require_valid(noise);
   if (noise.contact <= 0 && noise.angle <= 0) {
@@ -37,6 +37,11 @@ void require_valid(const BeliefOptions& options, const Contacts& contacts) {
       !(std::isfinite(options.prior->s) && std::isfinite(options.prior->sd) && options.prior->sd > 0)) {
     throw InputError(fmt::format("prior: expected a place and a standard deviation above 0, found {} and {}",
                                  options.prior->s, options.prior->sd));
+  }
+  if (options.prior && options.prior->sd < kLengthAccuracy * part.perimeter()) {
+    throw InputError(fmt::format(
+        "prior: expected a standard deviation that is not lost in the rounding of the perimeter, {:.9g}, found {}",
+        part.perimeter(), options.prior->sd));
   }
   if (contacts.facing && !std::isfinite(*contacts.facing)) {
     throw InputError(fmt::format("expected a finite facing angle, found {}", *contacts.facing));
@@ -93,7 +98,7 @@ Verdict Belief::State::places_of(const std::vector<Remaining>& remaining) {
 }
 
 Belief::Belief(const Part& part, LogKind kind, const BeliefOptions& options, const Contacts& contacts) {
-  require_valid(options, contacts);
+  require_valid(part, options, contacts);
   BeliefOptions on_part = options;
   on_part.noise = noise_on(part, options.noise);
   const bool is_one = contacts.finger_curvature.size() == 1;

@@ -57,6 +57,9 @@ constexpr double kSettledTurn = 1e-5;
 constexpr int kMostRounds = 50;
 // A density that changes by less than this share is even.
 constexpr double kEven = 1e-6;
+// What a prior narrower than this share of the boundary leaves of a cell is known without looking into it, and must be:
+// all around cells would be split down to its width.
+constexpr double kNarrowPrior = 1e-5;
 // A grid does not grow beyond this; what is not resolved by then counts as rest.
 constexpr std::size_t kMostPoints = 400000;
 
@@ -202,6 +205,13 @@ void Grid::score(GridPoint& point, const Nodes& nodes) {
   }
   if (options_.pose) add_pose_prior(point);
   lower_limit(point.score.cost + point.score.log_volume, nodes);
+}
+
+double Grid::least_prior_cost(const Interval& s) const {
+  if (!options_.prior || options_.prior->sd > kNarrowPrior * places_.perimeter) return 0;
+  // No place of the interval is nearer than its middle, less half of its width.
+  const double off = std::abs(places_.offset(options_.prior->s, s.middle())) - 0.5 * s.width();
+  return off > 0 ? square(off / options_.prior->sd) : 0;
 }
 
 void Grid::add_pose_prior(GridPoint& point) const {
@@ -403,12 +413,16 @@ bool Grid::refine(const Nodes& nodes) {
       }
       const double h = cell.hi - cell.lo;
       const double log_width = log_prior(cell.s.width(), h, h);
+      const double most_by_prior =
+          -0.5 * (least_prior_cost(cell.s) + std::min(lo.score.log_volume, hi.score.log_volume)) / heat;
       Bound bound = bound_of(at_least(lo), at_least(hi), h, heat);
+      bound.log_density = std::min(bound.log_density, most_by_prior);
       // A cost only grows with more samples: one that was too large before is so now.
       const bool stale = is_stale(lo, nodes) || is_stale(hi, nodes);
       if (stale && bound.log_density + log_width - best_mass_ > -kNegligible) {
         refresh({&lo, &hi}, nodes);
         bound = bound_of(at_least(lo), at_least(hi), h, heat);
+        bound.log_density = std::min(bound.log_density, most_by_prior);
         changed = changed || (!is_stale(lo, nodes) && !is_stale(hi, nodes));
       }
       const double most = bound.log_density + log_width;

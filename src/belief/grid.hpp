@@ -234,6 +234,8 @@ class Grid {
   /// Adds the cells that look like those with points.
   void unfold();
   void measure_fit(const Nodes& nodes);
+  /// What a narrow prior adds to a cost anywhere on a stretch, at least.
+  double least_prior_cost(const Interval& s) const;
   void add_pose_prior(GridPoint& point) const;
   void lower_limit(double deviance, const Nodes& nodes);
   /// Whether it is not known that the first contact is not in there; unwrapped.

@@ -313,6 +313,12 @@ void require_unit_of_u(const std::optional<Dimension>& dimension, const Finger* 
 }
 
 void require_readable(const FingerRows& rows, const std::string& log) {
+  const auto is_finite = [](double value) { return std::isfinite(value); };
+  if (!std::all_of(rows.u.begin(), rows.u.end(), is_finite) ||
+      !std::all_of(rows.psi.begin(), rows.psi.end(), is_finite)) {
+    throw InputError(
+        fmt::format("{}: its rows would hold numbers beyond any double: check the units, and the noise", log));
+  }
   if (unwrapped(rows.u, rows.place_rounding, rows.u_period) == rows.u &&
       unwrapped(rows.psi, rows.angle_rounding) == rows.psi) {
     return;

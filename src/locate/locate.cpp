@@ -69,10 +69,34 @@ void check_parity(const Question& question, Search& search) {
 
 }  // namespace
 
+namespace {
+
+// A perimeter is known to its rounding, which each lap of a roll adds once more: after so many laps that is as much as
+// a placement may be off.
+constexpr double kMostLaps = 1e6;
+
+/// Throws InputError: it can't be told where on the closed part such a roll ends.
+void require_lengths_that_tell(const Question& question, std::size_t finger) {
+  const double most = kMostLaps * question.part.perimeter();
+  for (const Reading& reading : question.readings) {
+    const double length = reading.length[finger];
+    if (std::abs(length) <= most) continue;
+    throw InputError(fmt::format(
+        "expected a roll of no more than {:.0f} laps of {}, whose perimeter is {:.9g}; found length {:.9g}: "
+        "check the units",
+        kMostLaps, question.part.name(), question.part.perimeter(), length));
+  }
+}
+
+}  // namespace
+
 Interval first_contacts(const Question& question, std::size_t finger) {
   const Part& part = question.part;
   Interval range{0, part.perimeter()};
-  if (part.closed()) return range;
+  if (part.closed()) {
+    require_lengths_that_tell(question, finger);
+    return range;
+  }
   for (const Reading& reading : question.readings) {
     const double length = reading.length[finger];
     if (std::abs(length) > part.perimeter() * (1 + kLengthAccuracy)) {

@@ -15,6 +15,9 @@ constexpr double kSimpleTurn = std::numbers::pi * (1 - 1e-9);
 constexpr double kCrossingLeafTurn = 0.7;
 // Two arcs that are still not apart at this share of the perimeter do meet.
 constexpr double kMeeting = 1e-10;
+// Stretches side by side are told apart piece by piece, and the closer they are the shorter the pieces. After so many
+// comparisons, some seconds, it is given up: then they are closer than a millionth of their length or so.
+constexpr std::size_t kMostComparisons = 10'000'000;
 
 /// A stretch of boundary between arc lengths lo and hi.
 struct Arc {
@@ -157,8 +160,9 @@ class CrossingSearch {
     const double shortest = kMeeting * part_.perimeter();
     const bool split_one = one.hi - one.lo >= two.hi - two.lo;
     const Arc& longer = split_one ? one : two;
-    if (longer.hi - longer.lo <= shortest) {
-      found_ = Crossing{one.lo, two.lo, one.start};
+    const bool gives_up = ++comparisons_ > kMostComparisons;
+    if (gives_up || longer.hi - longer.lo <= shortest) {
+      found_ = Crossing{one.lo, two.lo, one.start, !gives_up};
       return;
     }
     const double middle = 0.5 * (longer.lo + longer.hi);
@@ -186,6 +190,7 @@ class CrossingSearch {
   std::vector<Arc> arcs_;
   std::vector<double> corners_;  // |turn| of the corner where each arc starts
   std::vector<Node> nodes_;      // a node's left child is the next one
+  std::size_t comparisons_ = 0;
   std::optional<Crossing> found_;
 };
 

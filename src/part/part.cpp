@@ -110,9 +110,10 @@ Part::Part(Outline outline, const PartOptions& options) {
   if (options.allow_crossing) return;
   if (const auto crossing = find_crossing(*this)) {
     throw InputError(fmt::format(
-        "{}: expected an outline that does not cross itself, found that it does near ({:.9g}, {:.9g}), at arc lengths "
+        "{}: expected an outline that does not cross itself, found that it {} near ({:.9g}, {:.9g}), at arc lengths "
         "{:.9g} and {:.9g} of {:.9g}: mend it, or take it as it is with `allow_crossing`",
-        name(), crossing->point.x(), crossing->point.y(), crossing->first, crossing->second, perimeter()));
+        name(), crossing->is_certain ? "does" : "runs along itself too closely to tell", crossing->point.x(),
+        crossing->point.y(), crossing->first, crossing->second, perimeter()));
   }
 }
 

@@ -33,6 +33,7 @@ struct Crossing {
   double first = 0;  // arc lengths
   double second = 0;
   Vec2 point;
+  bool is_certain = true;  // false: stretches lie side by side, too close to tell them apart with a bounded effort
 };
 
 /// A place where the part's boundary crosses or touches itself, if there is one. Exhaustive: stretches are passed

@@ -207,6 +207,12 @@ Reach reach_of_disk(const Part& part, double radius, const ReachOptions& options
                     "outline's unit",
                     radius));
   }
+  if (radius < kLengthAccuracy * part.perimeter()) {
+    throw InputError(fmt::format(
+        "reach: expected a disk that is not lost in the rounding of the perimeter, {:.9g}, found the radius "
+        "{}: give it in the outline's unit",
+        part.perimeter(), radius));
+  }
   return reach_of(part, 1 / radius, options);
 }
 

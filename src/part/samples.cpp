@@ -41,6 +41,7 @@ class Sampler {
     const bool is_near = range.width() <= longest_ && std::abs(last.angle - first.angle) <= kSampleTurn;
     if (is_near || halvings == kMostHalvings) return;
     const double middle = range.middle();
+    if (!(range.lo < middle && middle < range.hi)) return;  // a bend so small that its places are one number
     const Turning at = part_.turning().on_spiral(spiral, middle);
     fill(spiral, {range.lo, middle}, first, at, halvings + 1);
     add(middle, at);
