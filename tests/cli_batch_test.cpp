@@ -54,6 +54,18 @@ TEST_F(Batch, takes_an_answer_s_own_fields_again) {
   EXPECT_EQ(lines_of(answers_to(problem.dump()))[0], answer);
 }
 
+TEST_F(Batch, refuses_brackets_so_deep_that_they_would_end_the_program) {
+  const std::string deep = std::string(100000, '[') + std::string(100000, ']');
+  const cli::Ran ran = answers_to("{\"id\": " + deep + "}\n{\"readings\": " + deep + "}\n{\"readings\": [[1, 0.625]]}");
+  EXPECT_EQ(ran.code, 2);
+  const std::vector<Json> lines = lines_of(ran);
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_THAT(lines[0]["error"].get<std::string>(),
+              HasSubstr("problems.jsonl:1: expected a problem, found values nest"));
+  EXPECT_THAT(lines[1]["error"].get<std::string>(), HasSubstr("problems.jsonl:2: "));
+  EXPECT_EQ(lines[2]["status"], "complete");
+}
+
 TEST_F(Batch, keeps_errors_in_their_places_and_remembers_them) {
   const cli::Ran ran = answers_to(
       "{\"readings\": [[1, 0.6]], \"id\": \"a\"}\nnonsense\n{\"reading\": [[1, 2]], \"id\": 7}\n{}\n"

@@ -37,6 +37,7 @@ void write_files(const cli::Folder& folder) {
   folder.write("field.json", R"({"gallery": "ellipse", "params": {"a": 2}})");
   folder.write("list.json", R"({"gallery": "ellipse", "parameters": {"a": [2]}})");
   folder.write("huge.json", R"({"gallery": "ellipse", "parameters": {"a": 1e999}})");
+  folder.write("deep.json", "{\"curves\": " + std::string(100000, '[') + std::string(100000, ']') + "}");
   folder.write("cell.csv", "time,u,psi\n0,0,0\n1,abc,1\n");
   folder.write("roll.csv", "time,u,psi\n0,0,0\n1,-1,2\n");
   folder.write("exists.svg", "old");
@@ -86,6 +87,7 @@ const std::vector<Mistake> kParts = {
     {"other_json", "inspect other.json", {"other.json", "gallery"}},
     {"unknown_field_in_json", "inspect field.json", {"field.json", "'params'"}},
     {"list_in_json", "inspect list.json", {"list.json", "'a'", "array"}},
+    {"brackets_too_deep_in_json", "inspect deep.json", {"deep.json", "nested more than 100 deep"}},
     {"huge_number_in_json", "inspect huge.json", {"huge.json", "out of range"}},
 };
 

@@ -8,6 +8,7 @@
 #include <exception>
 #include <functional>
 #include <iostream>
+#include <new>
 #include <ostream>
 #include <string>
 #include <string_view>
@@ -190,6 +191,9 @@ int run(const std::vector<std::string>& arguments, std::ostream& out, std::ostre
     return fail(err, explain(error), ExitCode::bad_input);
   } catch (const InputError& error) {
     return fail(err, error.what(), ExitCode::bad_input);
+  } catch (const std::bad_alloc&) {
+    return fail(err, "there is not enough memory for this: nothing was decided; ask for less, or give it more",
+                ExitCode::incomplete);
   } catch (const std::exception& error) {
     return fail(err, std::string("internal error, please report it: ") + error.what(), ExitCode::internal_error);
   }

@@ -35,14 +35,19 @@ class Crew {
       const std::lock_guard lock(mutex_);
       working_ = crew;
     }
-    for (std::size_t k = 0; k < crew; ++k) {
-      all.emplace_back([&] {
-        serve(work);
-        const std::lock_guard lock(mutex_);
-        --working_;
-        ended_.notify_all();
-      });
+    const auto help = [&] {
+      serve(work);
+      const std::lock_guard lock(mutex_);
+      --working_;
+      ended_.notify_all();
+    };
+    try {
+      while (all.size() < crew) all.emplace_back(help);
+    } catch (const std::exception&) {  // there are no more threads, or no memory for them: fewer do it as well
+      const std::lock_guard lock(mutex_);
+      working_ -= crew - all.size();
     }
+    if (all.empty()) return serve_alone(go_on, work);
     wait(go_on);
     for (std::thread& thread : all) thread.join();
   }
@@ -69,6 +74,17 @@ class Crew {
       if (!thrown_) thrown_ = std::current_exception();
       stop_ = true;
     }
+  }
+
+  /// In this thread, which asks between two blocks.
+  template <class Work>
+  void serve_alone(const std::function<bool(std::size_t)>& go_on, const Work& work) {
+    serve([&](std::size_t lo, std::size_t hi) {
+      work(lo, hi);
+      if (!go_on || asks(go_on)) return;
+      stopped_ = true;
+      stop_ = true;
+    });
   }
 
   void wait(const std::function<bool(std::size_t)>& go_on) {

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <memory>
+#include <new>
 
 #include "rollfix/error.hpp"
 
@@ -125,6 +126,7 @@ class Renderer {
   }
 
   void check(cairo_status_t status) const {
+    if (status == CAIRO_STATUS_NO_MEMORY) throw std::bad_alloc();
     if (status != CAIRO_STATUS_SUCCESS) {
       throw InternalError(fmt::format("cairo can't draw the figure: {}", call_.words_of(status)));
     }

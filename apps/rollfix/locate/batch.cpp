@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "files/documents/documents.hpp"
+#include "files/json/fields.hpp"
 #include "rollfix/answer/many.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/output/answer_output.hpp"
@@ -143,7 +144,11 @@ struct BatchLine {
 BatchLine read_line(const std::string& text, const std::string& where, const RollArguments& like, Parts& parts) {
   BatchLine line;
   try {
-    const Json object = Json::parse(text);
+    const auto watch = [](int depth, Json::parse_event_t /*event*/, const Json& /*value*/) {
+      if (depth <= kMostNesting) return true;
+      throw InputError(fmt::format("expected a problem, found values nested more than {} deep", kMostNesting));
+    };
+    const Json object = Json::parse(text, watch);
     if (!object.is_object()) throw InputError("expected a problem, a JSON object, found " + shown(text));
     if (object.contains("id")) line.id = object["id"];
     RollArguments arguments = like;

@@ -50,7 +50,10 @@ std::string quoted(const std::string& text) {
 Json parse_json(std::string_view text, const std::string& name, const std::string& expected) {
   // A parser would take the last of two fields of one name, and say nothing.
   std::vector<std::set<std::string>> open;
-  const auto watch = [&](int /*depth*/, Json::parse_event_t event, Json& value) {
+  const auto watch = [&](int depth, Json::parse_event_t event, Json& value) {
+    if (depth > kMostNesting) {
+      throw InputError(fmt::format("{}: its values are nested more than {} deep, {}", name, kMostNesting, expected));
+    }
     if (event == Json::parse_event_t::object_start) open.emplace_back();
     if (event == Json::parse_event_t::object_end) open.pop_back();
     if (event == Json::parse_event_t::key && !open.back().insert(value.get<std::string>()).second) {

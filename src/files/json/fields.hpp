@@ -11,8 +11,11 @@ namespace rollfix {
 
 using Json = nlohmann::ordered_json;
 
-/// A JSON text. Throws InputError "name:line:column: ...": not JSON (`expected` says what would be), or a field that
-/// stands in its object twice.
+/// Values are not nested deeper than this in any file, and whatever goes through deeper ones runs out of stack.
+inline constexpr int kMostNesting = 100;
+
+/// A JSON text. Throws InputError "name:line:column: ...": not JSON (`expected` says what would be), a field that
+/// stands in its object twice, or too many brackets in one another.
 Json parse_json(std::string_view text, const std::string& name, const std::string& expected);
 
 /// A text from a file for a message: 'ellipse', cut short, on one line.
