@@ -131,6 +131,13 @@ TEST(Memory, that_does_not_suffice_is_told_and_counts_as_undecided) {
   EXPECT_EQ(ran.out, "");
 }
 
+TEST(Device, slow_that_has_no_end_is_refused) {
+  if (!cli::fs::exists("/dev/zero")) GTEST_SKIP() << "there is no /dev/zero";
+  const cli::Folder folder;
+  cli::fs::create_symlink("/dev/zero", "zero.csv");
+  expect_refusal("inspect zero.csv", "zero.csv: has no end");
+}
+
 TEST(DecimalComma, of_the_user_s_locale_changes_nothing) {
   struct Comma : std::numpunct<char> {
     char do_decimal_point() const override { return ','; }

@@ -148,6 +148,23 @@ class Waiting {
   bool is_closed_ = false;
 };
 
+/// Where nothing could be written to a new file, none is left behind.
+class NoEmptyFile {
+ public:
+  explicit NoEmptyFile(std::string path) : path_(std::move(path)) {}
+  ~NoEmptyFile() {
+    std::error_code error;
+    if (std::filesystem::is_regular_file(path_, error) && std::filesystem::file_size(path_, error) == 0 && !error) {
+      std::filesystem::remove(path_, error);
+    }
+  }
+  NoEmptyFile(const NoEmptyFile&) = delete;
+  NoEmptyFile& operator=(const NoEmptyFile&) = delete;
+
+ private:
+  std::string path_;
+};
+
 class CatalogWriter {
  public:
   CatalogWriter(const std::string& path, const std::string& unit) : database_(path, Database::Access::write) {
@@ -288,6 +305,7 @@ class CatalogWriter {
 
 BuildReport build_catalog(const std::string& path, const std::vector<CatalogSource>& sources,
                           const BuildOptions& options) {
+  const NoEmptyFile none(path);
   CatalogWriter writer(path, options.load.points.unit);
   const BuildOptions known = in_unit(options, writer.unit());
   BuildReport report;

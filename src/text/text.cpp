@@ -148,7 +148,10 @@ void append_utf8(std::string& text, char32_t character) {
 
 namespace {
 
-/// Reads to the end, however long a pipe may be. `expected` is a guess at the size.
+// A pipe or a device that goes on for longer than this, bytes, has no end, and would take all memory there is.
+constexpr std::size_t kMostUnexpected = std::size_t{1} << 30;
+
+/// Reads to the end. `expected` is what is known of the size; a file may grow, and of a pipe it is 0.
 std::string read_all(std::FILE* file, std::size_t expected, const std::string& name) {
   constexpr std::size_t kLeastRoom = 1 << 16;
   std::string text;
@@ -156,6 +159,12 @@ std::string read_all(std::FILE* file, std::size_t expected, const std::string& n
   text.resize(expected + kLeastRoom);
   while (const std::size_t count = std::fread(text.data() + size, 1, text.size() - size, file)) {
     size += count;
+    if (size > expected + kMostUnexpected) {
+      throw InputError(
+          fmt::format("{}: has no end: {} bytes were read, and there are more; expected a text of points, "
+                      "readings or curves, or a file, which may be larger",
+                      name, size));
+    }
     if (text.size() - size < kLeastRoom) text.resize(2 * text.size());
   }
   if (std::ferror(file) != 0) throw InputError(fmt::format("{}: can't be read: {}", name, std::strerror(errno)));
