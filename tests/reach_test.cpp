@@ -297,5 +297,32 @@ TEST(Reach, of_a_drawing_with_a_thousand_spirals_takes_few_tests) {
   EXPECT_LT(reach_of_disk(part, 0.1).tests, 2000000U);
 }
 
+/// A bean through so many points: convex but for one wide dimple.
+Part bean_through(int count) {
+  std::vector<Vec2> points;
+  for (int k = 0; k < count; ++k) {
+    const double t = 2 * kPi * k / count;
+    points.push_back((2 - 0.9 * std::exp(-4 * (1 - std::cos(t)))) * Vec2(std::cos(t), std::sin(t)));
+  }
+  return Part({"bean", spline_through(points, true), true}, {true});
+}
+
+TEST(Reach, of_a_scan_takes_fewer_tests_than_it_has_points) {
+  constexpr std::size_t kPoints = 20000;
+  const Part bean = bean_through(kPoints);
+  ASSERT_GE(bean.turning().spirals().size(), kPoints);
+  const Reach small = reach_of_disk(bean, 0.05);
+  EXPECT_TRUE(small.whole_loop);
+  EXPECT_LT(small.tests, kPoints);
+}
+
+TEST(Reach, of_a_scan_ends_where_it_does_on_few_points) {
+  for (const double r : {0.5, 1.0, 3.0}) {
+    const Reach few = reach_of_disk(bean_through(200), r);
+    ASSERT_FALSE(few.is_whole());
+    expect_arcs(reach_of_disk(bean_through(20000), r), few.arcs, 1e-4);
+  }
+}
+
 }  // namespace
 }  // namespace reach_test

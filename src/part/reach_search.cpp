@@ -17,6 +17,8 @@ constexpr double kRounding = 1e-14;
 // A stance turns by no more than this to begin with, radians, and none is shorter than this share of the perimeter.
 constexpr double kStanceTurn = 0.4;
 constexpr double kShortestStance = 1e-12;
+// One on several spirals turns by no more than this: its ends see each other as a safe stretch has it.
+constexpr double kMostTurnOfSeveral = 2 * kStanceTurn;
 Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
 }  // namespace
@@ -78,15 +80,73 @@ ReachSearch::ReachSearch(BoundaryTree& tree, double curvature, double slack, std
       doubt_(std::max(kDoubt * most_, kRounding * tree.diagonal())) {}
 
 const std::vector<Decision>& ReachSearch::run() {
-  const std::size_t count = turning_.spirals().size();
-  for (std::size_t k = 0; k < count; ++k) {
-    if (part_.closed() || k > 0) add_pivots(k);
-    add_rolls(k);
-  }
+  add_spirals(0, turning_.spirals().size(), {tree_.root()});
   return decisions_;
 }
 
-void ReachSearch::add_pivots(std::size_t spiral) {
+/// Most of a scan's many spirals are free with all their neighbours: what can't be in any of them is looked at once.
+void ReachSearch::add_spirals(std::size_t first, std::size_t end, const std::vector<std::int32_t>& candidates) {
+  if (end - first == 1) {
+    if (part_.closed() || first > 0) add_pivots(first, candidates);
+    add_rolls(first, candidates);
+    return;
+  }
+  std::vector<std::int32_t> left = candidates;
+  if (is_one_stance(first, end)) {
+    const std::vector<Spiral>& spirals = turning_.spirals();
+    left = left_of({false, first, {spirals[first].lo, spirals[end - 1].hi}, end - first}, candidates);
+    if (left.empty()) {
+      for (std::size_t k = first; k < end; ++k) add({false, k, {spirals[k].lo, spirals[k].hi}}, true);
+      return;
+    }
+  }
+  const std::size_t middle = first + (end - first) / 2;
+  add_spirals(first, middle, left);
+  add_spirals(middle, end, left);
+}
+
+/// The finger rolls forward over all of them, without a pivot, and does not turn far on the part.
+bool ReachSearch::is_one_stance(std::size_t first, std::size_t end) const {
+  const std::vector<Spiral>& spirals = turning_.spirals();
+  Interval angles{spirals[first].start.angle, spirals[first].start.angle};
+  if (std::abs(spirals[end - 1].end.angle - angles.lo) > kMostTurnOfSeveral) return false;
+  for (std::size_t k = first; k < end; ++k) {
+    const Spiral& spiral = spirals[k];
+    if (std::min(spiral.start.curvature, spiral.end.curvature) + curvature_ <= 0) return false;
+    if (std::abs(Cursor::at_spiral(turning_, k).jump()) > kTurnAccuracy) return false;
+    for (const double angle : {spiral.start.angle, spiral.end.angle}) {
+      angles = {std::min(angles.lo, angle), std::max(angles.hi, angle)};
+    }
+  }
+  return angles.width() <= kMostTurnOfSeveral;
+}
+
+/// What may be in the finger somewhere on that stance.
+std::vector<std::int32_t> ReachSearch::left_of(const Stance& stance, const std::vector<std::int32_t>& candidates) {
+  const View view = view_of_several(stance);
+  std::vector<std::int32_t> open = candidates;
+  std::vector<std::int32_t> left;
+  std::optional<Interval> safe;
+  while (!open.empty()) {
+    const std::int32_t index = open.back();
+    open.pop_back();
+    if (++tests_ > budget_) return candidates;
+    const BoundaryTree::Node& node = tree_.node(index);
+    const Comparison found = compare(view, node);
+    if (found.most <= most_ + doubt_) continue;
+    if (!safe) safe = safe_stretch(tree_, curvature_, slack_, stance);
+    if (is_inside(node, *safe)) continue;
+    if (node.is_single() || found.from_stretch < found.from_stance) {
+      left.push_back(index);
+    } else {
+      open.push_back(node.left);
+      open.push_back(node.right);
+    }
+  }
+  return left;
+}
+
+void ReachSearch::add_pivots(std::size_t spiral, const std::vector<std::int32_t>& candidates) {
   const Cursor joint = Cursor::at_spiral(turning_, spiral);
   const double before = joint.angle_before();
   const double after = joint.angle_after();
@@ -94,13 +154,13 @@ void ReachSearch::add_pivots(std::size_t spiral) {
   const int count = 1 + static_cast<int>((after - before) / kStanceTurn);
   for (int i = 0; i < count; ++i) {
     const double lo = before + (after - before) * i / count;
-    decide({true, spiral, {lo, i + 1 == count ? after : before + (after - before) * (i + 1) / count}}, {tree_.root()});
+    decide({true, spiral, {lo, i + 1 == count ? after : before + (after - before) * (i + 1) / count}}, candidates);
   }
 }
 
 /// The finger rolls forward where 1 + r kappa > 0, else it would roll backwards: cut there, so that its rotation is
 /// monotone on each stance.
-void ReachSearch::add_rolls(std::size_t index) {
+void ReachSearch::add_rolls(std::size_t index, const std::vector<std::int32_t>& candidates) {
   const Spiral& spiral = turning_.spirals()[index];
   const auto clearance = [&](double s) { return turning_.on_spiral(spiral, s).curvature + curvature_; };
   const int count = 1 + static_cast<int>(std::abs(spiral.turn()) / kStanceTurn);
@@ -114,10 +174,10 @@ void ReachSearch::add_rolls(std::size_t index) {
         const double middle = bracket.middle();
         ((clearance(middle) > 0) == starts_positive ? bracket.lo : bracket.hi) = middle;
       }
-      decide({false, index, {lo, bracket.hi}}, {tree_.root()});
+      decide({false, index, {lo, bracket.hi}}, candidates);
       lo = bracket.hi;
     }
-    if (hi > lo) decide({false, index, {lo, hi}}, {tree_.root()});
+    if (hi > lo) decide({false, index, {lo, hi}}, candidates);
   }
 }
 
@@ -140,6 +200,29 @@ ReachSearch::View ReachSearch::view_of(const Stance& stance) const {
     }
   }
   view.tangent = direction(angle);
+  view.normal = {view.tangent.y(), -view.tangent.x()};
+  return view;
+}
+
+/// The finger rolls forward on them: its rotation is largest at an end, but for what joints jump by to and fro.
+ReachSearch::View ReachSearch::view_of_several(const Stance& stance) const {
+  const std::vector<Spiral>& spirals = turning_.spirals();
+  const Spiral& at = spirals[stance.spiral + stance.spirals / 2];
+  View view;
+  view.point = part_.point(at.lo);
+  view.length = std::max(stance.range.hi - at.lo, at.lo - stance.range.lo);
+  double jumps = 0;
+  for (std::size_t k = stance.spiral; k < stance.spiral + stance.spirals; ++k) {
+    jumps += std::abs(Cursor::at_spiral(turning_, k).jump());
+    for (const double angle : {spirals[k].start.angle, spirals[k].end.angle}) {
+      view.turn = std::max(view.turn, std::abs(angle - at.start.angle));
+    }
+  }
+  const double before = at.start.angle - spirals[stance.spiral].start.angle;
+  const double after = spirals[stance.spiral + stance.spirals - 1].end.angle - at.start.angle;
+  view.rotation = jumps + std::max(std::abs(before + curvature_ * (at.lo - stance.range.lo)),
+                                   std::abs(after + curvature_ * (stance.range.hi - at.lo)));
+  view.tangent = direction(at.start.angle);
   view.normal = {view.tangent.y(), -view.tangent.x()};
   return view;
 }

@@ -10,12 +10,14 @@
 
 namespace rollfix {
 
-/// How a finger stands on the part: its contact is somewhere on a stretch of one spiral, or it pivots at the convex
-/// corner where that spiral starts. Finger and part touch at p(s); the tangent there is T, the outward normal n.
+/// How a finger stands on the part: its contact is somewhere on a stretch of one spiral, or on several whole ones, or
+/// it pivots at the convex corner where that spiral starts. Finger and part touch at p(s); the tangent there is T, the
+/// outward normal n.
 struct Stance {
   bool is_pivot = false;
   std::size_t spiral = 0;
-  Interval range;  // of s; of a pivot, of the tangent's angle
+  Interval range;           // of s; of a pivot, of the tangent's angle
+  std::size_t spirals = 1;  // from that one on
 };
 
 /// What was found out about a stance.
@@ -63,8 +65,11 @@ class ReachSearch {
   struct View;
   struct Comparison;
 
-  void add_pivots(std::size_t spiral);
-  void add_rolls(std::size_t index);
+  void add_spirals(std::size_t first, std::size_t end, const std::vector<std::int32_t>& candidates);
+  bool is_one_stance(std::size_t first, std::size_t end) const;
+  std::vector<std::int32_t> left_of(const Stance& stance, const std::vector<std::int32_t>& candidates);
+  void add_pivots(std::size_t spiral, const std::vector<std::int32_t>& candidates);
+  void add_rolls(std::size_t index, const std::vector<std::int32_t>& candidates);
   void decide(const Stance& stance, const std::vector<std::int32_t>& candidates);
   void split(const Stance& stance, const std::vector<std::int32_t>& candidates);
   bool is_inside(const BoundaryTree::Node& node, const Interval& around) const;
@@ -72,6 +77,7 @@ class ReachSearch {
   double change(const View& view, const Vec2& offset, double beside) const;
   Comparison compare(const View& view, const BoundaryTree::Node& node) const;
   View view_of(const Stance& stance) const;
+  View view_of_several(const Stance& stance) const;
   void add(const Stance& stance, bool is_free) { decisions_.push_back({stance, is_free}); }
 
   BoundaryTree& tree_;

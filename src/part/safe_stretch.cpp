@@ -15,7 +15,8 @@ constexpr double kLeaning = 8;                               // 1 / cos^3 of kMo
 // Far enough from the stance the bounds do as well: so many spirals, and so many times the stance's length, are enough.
 constexpr int kMostSafeSpirals = 64;
 constexpr double kMostSafeLength = 16;
-constexpr int kSafeRounds = 30;  // of halving where it ends
+constexpr double kMostSafeLengthOfSeveral = 4;  // of a stance on several spirals, which is long
+constexpr int kSafeRounds = 30;                 // of halving where it ends
 
 /// Walks from a stance in one direction (+1 or -1) as far as the finger can't enter the boundary.
 ///
@@ -37,14 +38,15 @@ class SafeWalk {
         forwards_(direction > 0),
         allowed_(forwards_ ? Interval{angles.hi - kMostOutward, angles.lo + kMostInward}
                            : Interval{angles.hi - kMostInward, angles.lo + kMostOutward}),
-        at_(Cursor::at_spiral(turning_, stance.spiral)) {}
+        at_(Cursor::at_spiral(turning_, stance.spiral + (forwards_ ? stance.spirals - 1 : 0))) {}
 
   /// Where it ends.
   double end() {
     if (!leave_stance()) return here_;
-    const double enough = kMostSafeLength * length_;
+    const bool is_on_several = stance_.spirals > 1;
+    const double enough = (is_on_several ? kMostSafeLengthOfSeveral : kMostSafeLength) * length_;
     bool at_joint = stance_.is_pivot && !forwards_;  // a pivot looks back at the spiral before
-    for (int seen = 0; seen <= kMostSafeSpirals || length_ <= enough; ++seen) {
+    for (int seen = 0; (seen <= kMostSafeSpirals && !is_on_several) || length_ <= enough; ++seen) {
       if (!at_joint && !pass_spiral()) break;
       at_joint = false;
       if (!pass_joint()) break;
@@ -60,7 +62,19 @@ class SafeWalk {
       return !forwards_ || allowed_.contains(spiral.start.angle);
     }
     length_ = stance_.range.width();
+    if (stance_.spirals > 1) return leave_several();
     for (const double end : {stance_.range.lo, stance_.range.hi}) excess_ = std::max(excess_, excess_at(end));
+    const bool is_safe = fits(length_, excess_);
+    here_ = is_safe == forwards_ ? stance_.range.hi : stance_.range.lo;
+    return is_safe;
+  }
+
+  /// The boundary bends away from the finger on all of them; joints count as if they were where it touches.
+  bool leave_several() {
+    for (std::size_t k = stance_.spiral + 1; k < stance_.spiral + stance_.spirals; ++k) {
+      jumps_ += std::max(0.0, -Cursor::at_spiral(turning_, k).jump());
+      gaps_ += tree_.gap_before(k);
+    }
     const bool is_safe = fits(length_, excess_);
     here_ = is_safe == forwards_ ? stance_.range.hi : stance_.range.lo;
     return is_safe;
@@ -137,7 +151,14 @@ Interval safe_stretch(const BoundaryTree& tree, double curvature, double slack, 
   const TurningFunction& turning = tree.part().turning();
   const Spiral& spiral = turning.spirals()[stance.spiral];
   Interval angles = stance.range;
-  if (!stance.is_pivot) {
+  if (stance.spirals > 1) {
+    angles = {spiral.start.angle, spiral.start.angle};
+    for (std::size_t k = stance.spiral; k < stance.spiral + stance.spirals; ++k) {
+      for (const double angle : {turning.spirals()[k].start.angle, turning.spirals()[k].end.angle}) {
+        angles = {std::min(angles.lo, angle), std::max(angles.hi, angle)};
+      }
+    }
+  } else if (!stance.is_pivot) {
     const double one = turning.on_spiral(spiral, stance.range.lo).angle;
     const double two = turning.on_spiral(spiral, stance.range.hi).angle;
     angles = {std::min(one, two), std::max(one, two)};
