@@ -1,19 +1,46 @@
 // What does one call of the program cost, from its start to its end?
 
+#include <fmt/format.h>
+
+#include <fstream>
 #include <string>
 #include <vector>
 
 #include "child.hpp"
+#include "outlines.hpp"
 #include "program.hpp"
 #include "rollfix/files/saved_part.hpp"
 #include "rollfix/outline/gallery.hpp"
 #include "table.hpp"
 
-#include <fstream>
-
 namespace {
 
 const std::string kSpline = "gallery:spline,n=9,seed=7,wobble=0.2";
+
+constexpr int kScanPoints = 100000;
+const std::vector<std::string> kRolled = {"--finger", "disk,r=0.4", "--noise", "contact=0.015,angle=0.005,slip=0.005"};
+
+/// A command of the program about that part, and what else it is told.
+std::vector<std::string> command_on(const std::string& name, const std::string& part,
+                                    const std::vector<std::string>& options) {
+  std::vector<std::string> command = {name, part};
+  command.insert(command.end(), kRolled.begin(), kRolled.end());
+  command.insert(command.end(), options.begin(), options.end());
+  return command;
+}
+
+void write_scan(const std::string& file) {
+  std::ofstream points(file);
+  for (const rollfix::Curve& curve : bench::egg_through_points(kScanPoints).curves) {
+    const rollfix::Vec2 point = curve.front();
+    points << fmt::format("{:.9f},{:.9f}\n", point.x(), point.y());
+  }
+}
+
+std::vector<std::string> run_by(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), ROLLFIX_PROGRAM);
+  return arguments;
+}
 
 struct Row {
   std::string name;
@@ -28,6 +55,11 @@ int main(int argc, char** argv) {
   const bench::ScratchFolder folder;
   const std::string saved = folder.path("part.json");
   std::ofstream(saved) << rollfix::format_part(rollfix::Part(rollfix::gallery(kSpline.substr(kSpline.find(':') + 1))));
+  const std::string scan = folder.path("scan.csv");
+  const std::string roll = folder.path("roll.csv");
+  write_scan(scan);
+  const std::vector<std::string> plan = {"--start", "3", "--length", "5", "--samples", "501", "-o", roll};
+  bench::seconds_of_child(run_by(command_on("simulate", scan, plan)));
   std::vector<Row> rows = {
       {"--version", {"--version"}},
       {"locate, a spline of the gallery", {"locate", kSpline, "--reading", "0.9977,56.93deg"}},
@@ -38,10 +70,10 @@ int main(int argc, char** argv) {
       {"locate with a figure in SVG",
        {"locate", kSpline, "--reading", "0.9977,56.93deg", "--force", "-o", folder.path("figure.svg")}},
       {"inspect", {"inspect", kSpline}},
+      {"locate, 501 noisy rows on a scan of 100,000 points", command_on("locate", scan, {"--log", roll})},
   };
   for (Row& row : rows) {
-    std::vector<std::string> command = {ROLLFIX_PROGRAM};
-    command.insert(command.end(), row.arguments.begin(), row.arguments.end());
+    const std::vector<std::string> command = run_by(row.arguments);
     row.job = program.add_stopped(row.name, [command] { return bench::seconds_of_child(command); });
   }
   program.run();
