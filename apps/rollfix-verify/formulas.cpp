@@ -17,7 +17,7 @@ Series cross(const Pair<Series>& a, const Pair<Series>& b) { return a.x * b.y - 
 Series dot(const Pair<Series>& a, const Pair<Series>& b) { return a.x * b.x + a.y * b.y; }
 
 /// A curve whose point is known as a function of its parameter.
-Formula from_path(double lo, double hi, Path path) {
+Formula from_path(double lo, double hi, const Path& path) {
   const auto velocity = [path](const Ball& u) {
     const Pair<Series> point = path(Series::variable(u));
     return Pair<Series>{derivative(point.x), derivative(point.y)};
@@ -198,7 +198,7 @@ Formula superellipse(const Numbers& n) {
 
 Formula superellipse_quarter(const Numbers& n) {
   return from_path(0, kFullTurn / 4, [=](const Series& t) {
-    const Pair<Series> point = superellipse_point(n, t);
+    Pair<Series> point = superellipse_point(n, t);
     if (n[3] == 0) return point;
     if (n[3] == 1) return Pair<Series>{Series(0.0) - point.y, point.x};
     if (n[3] == 2) return Pair<Series>{Series(0.0) - point.x, Series(0.0) - point.y};
@@ -239,7 +239,7 @@ Series mirrored(const Series& a) {
   return result;
 }
 
-Formula reversed(Formula forward) {
+Formula reversed(const Formula& forward) {
   Formula formula = forward;
   const auto mirror = [lo = forward.lo, hi = forward.hi](const Ball& u) { return Ball(lo) + (Ball(hi) - u); };
   formula.position = [=](const Ball& u) { return forward.position(mirror(u)); };
@@ -254,7 +254,7 @@ Formula reversed(Formula forward) {
   return formula;
 }
 
-Formula scaled(Formula original, double factor) {
+Formula scaled(const Formula& original, double factor) {
   if (!(factor > 0)) throw std::runtime_error("a curve scaled by a factor that is not above 0");
   Formula formula = original;
   const auto times = [factor](const Point& p) { return Point{factor * p.x, factor * p.y}; };

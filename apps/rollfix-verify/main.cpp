@@ -9,7 +9,7 @@
 
 namespace {
 
-enum ExitCode { kProved = 0, kRefused = 1, kBadInput = 2, kIncomplete = 3 };
+enum ExitCode { proved = 0, refused = 1, bad_input = 2, incomplete = 3 };
 
 std::string read(const std::string& path) {
   if (path == "-") return {std::istreambuf_iterator<char>(std::cin), {}};
@@ -27,24 +27,24 @@ int main(int count, char** arguments) {
         << "Usage: rollfix-verify CERTIFICATE\n"
            "Proves again what a certificate of `rollfix locate --certify` claims; -: from stdin.\n"
            "Exit codes: 0 proved, 1 refused, 2 bad usage or input, 3 proved but for cells that claim nothing.\n";
-    return count == 2 ? kProved : kBadInput;
+    return count == 2 ? proved : bad_input;
   }
   try {
     const rollfix_verify::Verdict verdict = rollfix_verify::check(read(argument));
     if (!verdict.refusal.empty()) {
       std::cout << "refused: " << verdict.refusal << "\n";
-      return kRefused;
+      return refused;
     }
     std::cout << "proved: " << verdict.placements << (verdict.placements == 1 ? " placement, " : " placements, ")
               << verdict.cells << (verdict.cells == 1 ? " cell" : " cells");
     if (verdict.unproved > 0) {
       std::cout << ", of which " << verdict.unproved << " claim nothing\n";
-      return kIncomplete;
+      return incomplete;
     }
     std::cout << ", nothing else\n";
-    return kProved;
+    return proved;
   } catch (const std::exception& error) {
     std::cerr << "rollfix-verify: " << argument << ": " << error.what() << "\n";
-    return kBadInput;
+    return bad_input;
   }
 }
