@@ -8,6 +8,7 @@
 #include "rollfix/answer/solve.hpp"            // IWYU pragma: export
 #include "rollfix/belief/advise.hpp"           // IWYU pragma: export
 #include "rollfix/belief/belief.hpp"           // IWYU pragma: export
+#include "rollfix/certify/certify.hpp"         // IWYU pragma: export
 #include "rollfix/contact/dead_reckoning.hpp"  // IWYU pragma: export
 #include "rollfix/contact/finger.hpp"          // IWYU pragma: export
 #include "rollfix/contact/log.hpp"             // IWYU pragma: export
