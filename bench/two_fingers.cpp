@@ -1,6 +1,7 @@
 // What do all placements of two fingers cost, of two readings and of one with the facing, in units of W: one
-// integration of the same outline's perimeter?
+// integration of the same outline's perimeter? And on lines and arcs, of a smooth outline's with as many placements?
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,35 @@ bench::Program::Job add_job(bench::Program& program, const std::string& name, co
   return program.add(name + " " + row.family.name, ask_all, kQuestions, kFewRepetitions);
 }
 
+/// The smooth outline with about as many placements.
+const Row& smooth_like(const std::vector<Row>& rows, const Row& straight) {
+  const Row* best = nullptr;
+  double least = 0;
+  for (const Row& row : rows) {
+    const double apart = std::abs(std::log(row.placements / straight.placements));
+    if (bench::is_trivial(row.part) || (best != nullptr && apart >= least)) continue;
+    best = &row;
+    least = apart;
+  }
+  return *best;
+}
+
+/// Of lines and arcs W says nothing: they are compared with smooth outlines.
+void compare_with_smooth(bench::Program& program, const std::vector<Row>& rows) {
+  bench::Table table({"lines and arcs", "placements", "smooth", "placements of it", "locate of its"});
+  bench::Timing most;
+  for (const Row& row : rows) {
+    if (!bench::is_trivial(row.part)) continue;
+    const Row& smooth = smooth_like(rows, row);
+    const bench::Timing times = program.of(row.locate) / program.of(smooth.locate);
+    if (!(times.median <= most.median)) most = times;  // the first one, too
+    table.add({row.family.name, bench::cell(row.placements, 1), smooth.family.name, bench::cell(smooth.placements, 1),
+               bench::cell(times, 2)});
+  }
+  table.print();
+  program.figure("lines_and_arcs_times", most);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -87,6 +117,7 @@ int main(int argc, char** argv) {
     if (bench::is_trivial(row.part)) add(row);
   }
   table.print();
+  compare_with_smooth(program, rows);
   program.figure("two_fingers_W", found.value());
   program.figure("facing_W", facing.value());
   program.write_figures();

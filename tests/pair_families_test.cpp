@@ -4,6 +4,7 @@
 
 #include "pair_cases.hpp"
 #include "pair_oracle.hpp"
+#include "random.hpp"
 #include "shapes.hpp"
 
 namespace pair_families_test {
@@ -32,6 +33,30 @@ TEST(PairFamilies, pivots_of_two_contacts_at_once_are_on_the_line_through_their_
   const Reading reading{3.51 * side, 0.09 * side, 3 * 2 * shapes::kPi / 7 + pivot};
   const Search search = locate(part, {reading, reading});
   EXPECT_TRUE(pair_cases::holds(part, search, start, 1e-9 * part.perimeter()));
+}
+
+TEST(PairFamilies, a_stretch_starts_where_its_first_contact_is_least_whatever_the_order_of_the_readings) {
+  std::mt19937_64 generator(test_seed());
+  for (const char* name : {"polygon", "reuleaux", "stadium", "rounded-rectangle"}) {
+    const Part part(gallery(name));
+    for (int k = 0; k < test_count(20); ++k) {
+      const std::vector<Reading> readings = pair_cases::random_case(part, 2, generator).readings;
+      const Search search = locate(part, readings);
+      const Search reversed = locate(part, {readings[1], readings[0]});
+      ASSERT_EQ(search.placements.size(), reversed.placements.size()) << name << k;
+      for (std::size_t i = 0; i < search.placements.size(); ++i) {
+        const Placement& placement = search.placements[i];
+        if (placement.kind != Kind::stretch || placement.whole_loop[0]) continue;
+        const Boundary boundary = part.boundary();
+        const double near = 1e-8 * part.perimeter();
+        EXPECT_NEAR(boundary.offset(placement.extent[0].lo, placement.start[0]), 0, near) << name << k;
+        for (const std::size_t finger : {0U, 1U}) {
+          EXPECT_NEAR(boundary.offset(reversed.placements[i].start[finger], placement.start[finger]), 0, near)
+              << name << k;
+        }
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -156,10 +156,11 @@ void BoxSearch::decide_on_pieces(Box box, const PairBoxSides& sides, const PairL
   const Flat flat = take_flat(sides, limits);
   if (flat == Flat::settled) return;
   box.covered = box.covered || flat == Flat::covered;
+  const bool is_last_resort = box.depth >= kPlainBoxHalvings || (sides.a.is_straight() && sides.b.is_straight());
   const bool overlap_due = box.depth > 0 && box.depth % kOverlapInterval == 0;
-  if (box.depth >= kPlainBoxHalvings || overlap_due || corners_vanish(sides)) {
+  if (is_last_resort || overlap_due || corners_vanish(sides)) {
     LineSearch line(sides, box.covered ? limits_.inside() : limits_, budget_, findings_);
-    if ((box.depth >= kPlainBoxHalvings || line.may_overlap()) && line.run()) return;
+    if ((is_last_resort || line.may_overlap()) && line.run()) return;
   }
   halve(box, a_is_wider(box));
 }

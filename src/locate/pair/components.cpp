@@ -264,11 +264,32 @@ class Joiner {
     }
     hand_out_roots(members, cluster);
     if (cluster.exact) {
+      cluster.first = first_exact(members, cluster);
       FamilyLine line = line_through_family(pieces_, links_, members, period_);
       cluster.family = std::move(line.points);
       cluster.family_error = line.error;
     }
     return cluster;
+  }
+
+  /// Where an exact set begins, however its pieces were cut and in whatever order they were found.
+  PairPoint first_exact(const std::vector<std::size_t>& members, const PairCluster& cluster) const {
+    PairPoint first{std::numeric_limits<double>::infinity(), 0};
+    const Boundary boundary(period_, closed_);
+    const auto try_point = [&](PairPoint at) {
+      for (const std::size_t k : {0U, 1U}) {
+        if (cluster.whole_loop[k]) at[k] = boundary.canonical(at[k]);
+      }
+      const double ahead = first[0] - at[0];
+      if (ahead > same_place_ || (ahead >= -same_place_ && at[1] < first[1])) first = at;
+    };
+    for (const std::size_t k : members) {
+      const PairPiece& piece = pieces_[k];
+      if (!piece.exact) continue;
+      if (piece.line.empty()) try_point(moved(PairPoint{piece.box[0].lo, piece.box[1].lo}, shift_of_[k]));
+      for (const PairPoint& at : piece.line) try_point(moved(at, shift_of_[k]));
+    }
+    return first;
   }
 
   /// Do the members' intervals, together, cover all of one finger's boundary?

@@ -15,6 +15,7 @@ struct PairCluster {
   bool exact = false;
   bool corner = false;  // all of its pieces are
   std::vector<PairRoot> roots;
+  PairPoint first{};              // of an exact one: where s is least, of those where t is
   std::vector<PairPoint> family;  // of an exact one: a line through all its exact pieces, unwrapped
   double family_error = 0;
 };

@@ -57,7 +57,6 @@ class LineSearch {
   bool take_flat(const Stretch& stretch, const Bounds& along, bool is_point);
   bool overlaps(const Stretch& whole, std::vector<Place>& samples) const;
   bool is_apart_midway() const;
-  bool is_straight() const;
   bool slopes_vanish(const Place& at) const;
   bool vanishes(const Place& place) const;
   double residual_rounding(const Place& place) const;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -35,6 +36,11 @@ class BoxSide {
   std::size_t rows() const { return curve_->rows(); }
   const Range& value(std::size_t row) const { return components_[row].value; }
   const Range& slope(std::size_t row) const { return components_[row].slope; }
+  /// Lines, arcs and pivots: no rate changes.
+  bool is_straight() const {
+    return std::all_of(components_, components_ + rows(),
+                       [](const RollCurve::Component& of) { return of.slope.spread() == 0; });
+  }
   Range slope_between(const RollPoint& one, const RollPoint& two, std::size_t row) const {
     return curve_->slope_between(piece(), one, two, row);
   }

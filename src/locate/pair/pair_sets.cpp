@@ -45,8 +45,7 @@ class SetsOfTwo {
     std::vector<PairRoot> found;
     if (cluster.exact) {  // the first of its continuum
       PairRoot first;
-      first.at =
-          cluster.family.empty() ? PairPoint{cluster.extent[0].lo, cluster.extent[1].lo} : cluster.family.front();
+      first.at = cluster.first;
       for (const PairRoot& root : cluster.roots) first.corner = first.corner || root.corner;
       found.push_back(first);
       return found;
