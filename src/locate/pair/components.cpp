@@ -275,7 +275,7 @@ class Joiner {
   /// Where an exact set begins, however its pieces were cut and in whatever order they were found.
   PairPoint first_exact(const std::vector<std::size_t>& members, const PairCluster& cluster) const {
     PairPoint first{std::numeric_limits<double>::infinity(), 0};
-    const Boundary boundary(period_, closed_);
+    const Boundary boundary{period_, closed_};
     const auto try_point = [&](PairPoint at) {
       for (const std::size_t k : {0U, 1U}) {
         if (cluster.whole_loop[k]) at[k] = boundary.canonical(at[k]);
