@@ -17,6 +17,8 @@ namespace {
 
 // The simplified Newton step must contract by this at least, in the end: then the box has one root at the most.
 constexpr double kMostContraction = 0.9;
+// Rows whose determinant is below this share of its terms may be parallel: curvatures are rounded.
+constexpr double kParallel = 1e-12;
 // Curves that run alongside each other are first halved this often, which is cheap, for the halves are shared; every so
 // often they are looked at for an overlap, which no halving would ever end.
 constexpr int kPlainBoxHalvings = 16;
@@ -217,7 +219,9 @@ std::optional<BoxSearch::Regular> BoxSearch::regular(const PairBoxSides& sides) 
         middle.row(k) << 0.5 * (at_a.least + at_a.most), -0.5 * (at_b.least + at_b.most);
       }
       const double determinant = middle.determinant();
-      if (determinant == 0 || !std::isfinite(1 / determinant)) continue;
+      const double rounding =
+          kParallel * (std::abs(middle(0, 0) * middle(1, 1)) + std::abs(middle(0, 1) * middle(1, 0)));
+      if (std::abs(determinant) <= rounding || !std::isfinite(1 / determinant)) continue;
       Regular found{{p, q}, middle.inverse(), {}, {}, 0};
       for (const Eigen::Index k : {0, 1}) {
         const Vec2 row = found.inverse.row(k);
