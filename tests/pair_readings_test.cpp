@@ -118,16 +118,6 @@ TEST(PairReadings, a_whole_lap_more_is_the_same_place) {
   }
 }
 
-TEST(PairReadings, fingers_that_change_places_give_the_mirrored_pairs) {
-  const Part part = spline();
-  std::vector<Reading> swapped;
-  for (const Reading& reading : readings(part, 2)) {
-    swapped.push_back({reading.length[1], reading.length[0], -reading.turn});
-  }
-  EXPECT_TRUE(holds(locate(part, swapped), {kStart[1], kStart[0]}));
-  EXPECT_EQ(locate(part, swapped).placements.size(), locate(part, readings(part, 2)).placements.size());
-}
-
 TEST(PairReadings, that_are_no_numbers_are_refused) {
   std::vector<Reading> bad = readings(spline(), 2);
   bad[1].turn = std::numeric_limits<double>::quiet_NaN();
