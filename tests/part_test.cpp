@@ -83,6 +83,16 @@ TEST(Part, knows_its_corners_by_place_and_turn) {
   EXPECT_EQ(part.turns(), 1);
 }
 
+TEST(Part, has_corners_exactly_as_far_apart_as_its_sides_are_long) {
+  const std::vector<Vec2> points = {{0, 0}, {3, 0}, {3, 4}, {0, 4}, {-4, 1}};
+  std::vector<Curve> sides;
+  for (std::size_t k = 0; k < points.size(); ++k) sides.push_back(Line(points[k], points[(k + 1) % points.size()]));
+  const Part part(Outline{"house", sides, true});
+  const std::vector<double> places = {0, 3, 7, 10, 15};
+  ASSERT_EQ(part.corners().size(), places.size());
+  for (std::size_t k = 0; k < places.size(); ++k) EXPECT_EQ(part.corners()[k].s, places[k]);
+}
+
 TEST(Part, is_reversed_when_it_was_drawn_clockwise_and_keeps_its_first_point) {
   const Part part(polygon({{0, 0}, {0, 1}, {3, 1}, {3, 0}}));
   EXPECT_TRUE(part.reversed());

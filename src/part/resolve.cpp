@@ -97,6 +97,11 @@ class Attempt {
     if (!(speeds > 0 && speeds < kInfinity).all()) throw_cusp(curve_, range_.middle());
     const double least = speeds.minCoeff();
     const double most = speeds.maxCoeff();
+    if (least == most) {  // a line's length is exact
+      speed_ = Values::Zero();
+      speed_[0] = most;
+      return is_even_ = true;
+    }
     const Values series = grid_.coefficients(speeds);
     const double rest = tail(series);
     // The parameter's own rounding moves each node: what the speed changes by on the way is noise as well.
