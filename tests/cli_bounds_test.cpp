@@ -131,6 +131,16 @@ TEST(Memory, that_does_not_suffice_is_told_and_counts_as_undecided) {
   EXPECT_EQ(ran.out, "");
 }
 
+TEST(OpenFiles, of_which_there_may_be_no_more_are_told) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers open files of their own";
+#endif
+  const cli::Ran ran = cli::shell(
+      "ulimit -n 4; rollfix watch gallery:cam --finger disk,r=0.2 --noise angle=0.01 --log /dev/null --once");
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_THAT(ran.err, HasSubstr("Too many open files"));
+}
+
 TEST(Device, slow_that_has_no_end_is_refused) {
   if (!cli::fs::exists("/dev/zero")) GTEST_SKIP() << "there is no /dev/zero";
   const cli::Folder folder;

@@ -235,6 +235,12 @@ TEST(Messages, stay_on_one_line_whatever_a_name_holds) {
   EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
 }
 
+TEST(Messages, send_no_control_characters_to_a_terminal) {
+  const cli::Ran ran = run_words({"inspect", "red\x1b[31m.csv"});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_EQ(ran.err.find('\x1b'), std::string::npos) << ran.err;
+}
+
 TEST(UnreadableFile, is_named) {
   const cli::Folder folder;
   folder.write("locked.csv", "0 0\n1 0\n0 1\n");

@@ -128,6 +128,19 @@ TEST(WatchFile, that_is_replaced_is_read_to_its_end_and_then_the_new_one) {
   EXPECT_EQ(ear.next(), "d");
 }
 
+TEST(WatchFile, that_is_replaced_again_and_again_is_followed_all_the_same) {
+  const cli::Folder folder;
+  folder.write("roll.csv", "first\n");
+  Ear ear("roll.csv");
+  EXPECT_EQ(ear.next(), "first");
+  for (const std::string line : {"second", "third", "fourth"}) {
+    folder.write("new.csv", line + "\n");
+    cli::fs::rename("new.csv", "roll.csv");
+    EXPECT_EQ(ear.next(), "(restarted)");
+    EXPECT_EQ(ear.next(), line);
+  }
+}
+
 TEST(WatchFile, that_is_gone_for_a_while_is_awaited) {
   const cli::Folder folder;
   folder.write("roll.csv", "a\n");
@@ -225,6 +238,32 @@ TEST(WatchTcp, gives_lines_as_they_come) {
   EXPECT_EQ(ear.now(), "(nothing)");
   server.send(",0\r\n");
   EXPECT_EQ(ear.next(), "0,0,0");
+}
+
+TEST(WatchTcp, takes_a_line_in_single_bytes_as_one) {
+  Server server;
+  Ear ear(server.name());
+  EXPECT_EQ(ear.now(), "(nothing)");
+  server.accept();
+  for (const char byte : std::string("0,0,0\n")) {
+    server.send({byte});
+    ear.listen();
+  }
+  EXPECT_EQ(ear.next(), "0,0,0");
+}
+
+TEST(WatchTcp, that_floods_without_a_line_end_is_heard_once_and_goes_on_behind_it) {
+  Server server;
+  Ear ear(server.name());
+  EXPECT_EQ(ear.now(), "(nothing)");
+  server.accept();
+  std::thread flood([&] {
+    for (int k = 0; k < 1000; ++k) server.send(std::string(1000, 'x'));
+    server.send("\na\n");
+  });
+  EXPECT_EQ(ear.next(), "(too long)");
+  EXPECT_EQ(ear.next(), "a");
+  flood.join();
 }
 
 TEST(WatchTcp, needs_no_host_for_this_machine) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <boost/algorithm/string/replace.hpp>
+#include <boost/system/system_error.hpp>
 #include <cctype>
 #include <exception>
 #include <functional>
@@ -158,10 +159,11 @@ void set_known_names_apart(std::string& message) {
   message.replace(from, at + length - from, "\n  Known are: ");
 }
 
-/// An error is one line, whatever is in the names that it quotes; and one of what would be known.
+/// An error is one line, whatever is in the names that it quotes, and does nothing to a terminal; and one of what would
+/// be known.
 int fail(std::ostream& err, std::string message, ExitCode exit_code) {
   std::replace_if(
-      message.begin(), message.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+      message.begin(), message.end(), [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) != 0; }, ' ');
   set_known_names_apart(message);
   err << "rollfix: " << with_options(message) << '\n';
   return code(exit_code);
@@ -191,6 +193,8 @@ int run(const std::vector<std::string>& arguments, std::ostream& out, std::ostre
     return fail(err, explain(error), ExitCode::bad_input);
   } catch (const InputError& error) {
     return fail(err, error.what(), ExitCode::bad_input);
+  } catch (const boost::system::system_error& error) {
+    return fail(err, std::string("the system refuses what this needs: ") + error.what(), ExitCode::bad_input);
   } catch (const std::bad_alloc&) {
     return fail(err, "there is not enough memory for this: nothing was decided; ask for less, or give it more",
                 ExitCode::incomplete);

@@ -24,7 +24,9 @@ class FollowedFile final : public StreamSource<asio::posix::stream_descriptor> {
     if (why != asio::error::eof) refuse_to_read(path_, why);
     if (once_) return end();
     if (replacement_.is_open()) {
-      stream_ = std::move(replacement_);
+      error_code ignored;
+      stream_.close(ignored);
+      stream_.assign(replacement_.release());  // moved it could not be assigned to again
       return start_again("was replaced; reading the new one from its start");
     }
     if (find_replacement()) return read();  // what was written to the old file before it was replaced
