@@ -152,7 +152,7 @@ void LineSearch::take_overlap(std::vector<Place> samples) {
     const double bend = std::abs(direction(samples[k]) - direction(samples[k - 1]));
     piece.error = std::max(piece.error, 0.5 * width * bend);
   }
-  piece.error += margin_;
+  piece.error = length_of(piece.error + margin_);
   piece.box = {Interval{s.least, s.most}, Interval{t.least, t.most}};
   findings_.roots.push_back({piece.line.front(), 0, piece.corner});
   findings_.pieces.push_back(std::move(piece));

@@ -373,7 +373,7 @@ void LineSearch::add_piece(const Place& lo, const Place& hi, const Range& y) {
   PairPiece piece;
   piece.box = free_is_a_ ? PairBox{x_box, y_box} : PairBox{y_box, x_box};
   const double bend = bounds({lo, hi, 0, false}).direction.spread() * x.width();
-  piece.error = std::min(bend, margin_);
+  piece.error = length_of(std::min(bend, margin_));
   piece.corner = sides_.pivots();
   // The band's four corners, cut off where they are beyond the box: neighbours have their common edge in common.
   if (bend <= kBandBend * margin_) {
