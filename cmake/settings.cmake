@@ -27,6 +27,8 @@ function(rollfix_settings target)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
   # No fused multiply-add behind our back: the same source gives the same bits in every build.
   target_compile_options(${target} PRIVATE -ffp-contract=off)
+  # A library's calls of its own functions are those: position independent code may then have them inline as well.
+  target_compile_options(${target} PRIVATE -fno-semantic-interposition)
   if(ROLLFIX_WARNINGS)
     target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion)
     if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
