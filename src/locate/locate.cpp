@@ -67,10 +67,6 @@ void check_parity(const Question& question, Search& search) {
   search.unresolved.push_back(PerFinger<Interval>::of(question.fingers(), {0, part.perimeter()}));
 }
 
-}  // namespace
-
-namespace {
-
 // A perimeter is known to its rounding, which each lap of a roll adds once more: after so many laps that is as much as
 // a placement may be off.
 constexpr double kMostLaps = 1e6;
