@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
+#include <utility>
 
 #include "pair_cases.hpp"
 #include "rollfix/locate/locate.hpp"
@@ -239,6 +240,20 @@ TEST(PairTouching, one_connected_set_is_one_placement_however_the_boundary_is_cu
   for (const double tolerance : {1e-5, 6.4e-5, 1e-4}) {
     options.tolerance = tolerance;
     EXPECT_EQ(locate(part, {{0.58, 0.94, -0.725248}, {1.01, 1.92, -2.03570}}, options).placements.size(), 15U);
+  }
+}
+
+TEST(PairTouching, stays_so_where_a_reading_is_given_twice) {
+  const std::vector<Reading> on_ellipse{{-1.1816296950915781, -11.60132990470353, 7.3808089299271593},
+                                        {-3.6114147605004381, 11.721519798861356, -9.6433508548107678}};
+  const std::vector<Reading> on_cam{{1.3198055678546547, 2.5552784644003621, -0.82092005410798707},
+                                    {-7.7575387250770778, 2.5914658570296552, -8.5217764095897017}};
+  for (const auto& [name, readings] : {std::pair("ellipse", on_ellipse), std::pair("cam", on_cam)}) {
+    const Part part(gallery(name));
+    std::vector<Reading> more = readings;
+    more.push_back(readings.front());
+    EXPECT_EQ(shapes::kinds(locate(part, more)), shapes::kinds(locate(part, readings))) << name;
+    EXPECT_GE(count(locate(part, more), Kind::touching), 1U) << name;
   }
 }
 

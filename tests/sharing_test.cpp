@@ -68,7 +68,7 @@ TEST_P(SharedPart, is_reached_and_saved_in_all_threads_alike) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Gallery, SharedPart, testing::Values("cam", "stadium", "spline,n=9,seed=7,wobble=0.2"),
-                         [](const auto& info) { return info.param.substr(0, info.param.find(',')); });
+                         [](const auto& shape) { return shape.param.substr(0, shape.param.find(',')); });
 
 TEST(CopiesOfAPart, are_made_and_dropped_while_others_ask_it) {
   const Part part(gallery("limacon"));

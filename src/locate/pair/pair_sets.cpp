@@ -60,12 +60,30 @@ class SetsOfTwo {
       if (same == found.end()) {
         found.push_back(root);
       } else {
-        const bool many_rows = question_.is_overdetermined();  // then signs are of different pairs of rows
-        if (same->sign != root.sign && !many_rows) same->sign = 0;
+        if (differ_in_sign(*same, root)) same->sign = 0;
         same->corner = same->corner && root.corner;
       }
     }
     return found;
+  }
+
+  /// Was the one root found on either side of where J is singular? Of more than two equations each find has the sign of
+  /// two of them: those decide whose determinants are largest at both.
+  bool differ_in_sign(const PairRoot& one, const PairRoot& two) const {
+    if (!question_.is_overdetermined()) return one.sign != two.sign;
+    Eigen::VectorXd f;
+    std::array<Matrix, 2> jacobian;
+    linearize(one.at, f, jacobian[0]);
+    linearize(two.at, f, jacobian[1]);
+    double largest = 0;
+    for (Eigen::Index p = 0; p + 1 < f.size(); ++p) {
+      for (Eigen::Index q = p + 1; q < f.size(); ++q) {
+        const auto determinant = [&](const Matrix& by) { return by(p, 0) * by(q, 1) - by(p, 1) * by(q, 0); };
+        const double product = determinant(jacobian[0]) * determinant(jacobian[1]);
+        if (std::abs(product) > std::abs(largest)) largest = product;
+      }
+    }
+    return largest < 0;
   }
 
   bool is_same(const PairRoot& one, const PairRoot& two) const {
