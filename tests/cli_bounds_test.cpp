@@ -58,7 +58,7 @@ TEST_P(AnyNumber, is_a_size_that_is_answered_or_refused) {
 INSTANTIATE_TEST_SUITE_P(Numbers, AnyNumber,
                          testing::Values("0", "-0", "5e-324", "1e-310", "1e-300", "1e-12", "1e12", "1e20", "1e300",
                                          "1.7976931348623157e308", "-1e300", "nan", "inf", "-inf", "1e999"),
-                         [](const auto& info) { return "number_" + std::to_string(info.index); });
+                         [](const auto& shape) { return "number_" + std::to_string(shape.index); });
 
 TEST(Laps, beyond_which_a_perimeter_does_not_tell_where_a_roll_ends_are_refused) {
   expect_refusal("locate gallery:cam --reading 1e12,0.5", "no more than 1000000 laps of gallery:cam");
