@@ -136,7 +136,8 @@ TEST(OpenFiles, of_which_there_may_be_no_more_are_told) {
   GTEST_SKIP() << "sanitizers open files of their own";
 #endif
   const cli::Ran ran = cli::shell(
-      "ulimit -n 4; rollfix watch gallery:cam --finger disk,r=0.2 --noise angle=0.01 --log /dev/null --once");
+      "exec 3>&- 4>&- 5>&- 6>&-; ulimit -n 4; rollfix watch gallery:cam --finger disk,r=0.2 --noise angle=0.01 --log "
+      "/dev/null --once");
   EXPECT_EQ(ran.code, 2);
   EXPECT_THAT(ran.err, HasSubstr("Too many open files"));
 }

@@ -131,7 +131,7 @@ TEST(LocateJson, shows_between_which_directions_the_tangent_pivots_at_a_corner) 
 }
 
 TEST(LocateJson, lists_what_a_small_budget_left_open) {
-  const cli::Ran ran = run("locate gallery:spline --reading 0.0001,0 --budget 2 --json");
+  const cli::Ran ran = run("locate gallery:ellipse --reading 4.844,3.1415 --budget 2 --json");
   EXPECT_EQ(ran.code, 3);
   EXPECT_EQ(ran.json()["status"], "incomplete");
   EXPECT_EQ(ran.json()["verdict"], "undecided");

@@ -35,7 +35,7 @@ TEST(ExitCode, is_1_when_nothing_fits) {
 }
 
 TEST(ExitCode, is_3_when_the_budget_runs_out) {
-  const cli::Ran ran = run("locate gallery:spline --reading 0.0001,0 --budget 2");
+  const cli::Ran ran = run("locate gallery:ellipse --reading 4.844,3.1415 --budget 2");
   EXPECT_EQ(ran.code, 3);
   EXPECT_THAT(ran.out, StartsWith("undecided"));
   EXPECT_THAT(ran.out, HasSubstr("--budget"));

@@ -66,7 +66,7 @@ TEST(CliTolerance, is_what_the_rounding_of_the_digits_can_do) {
   EXPECT_DOUBLE_EQ(tolerance_of("gallery:ellipse,a=2,b=1 --reading 1.50,1.27"), 0.005 * (1 + 2));
   EXPECT_DOUBLE_EQ(tolerance_of("gallery:ellipse,a=2,b=1 --reading 1.5,1.27"), 0.005 * (1 + 2));
   EXPECT_DOUBLE_EQ(tolerance_of("gallery:ellipse,a=2,b=1 --reading 1,1.3"), 0.05 * (1 + 2));
-  EXPECT_DOUBLE_EQ(tolerance_of("gallery:ellipse,a=2,b=1 --reading 1.5,73deg"), 0.05 * (std::numbers::pi / 180 + 2));
+  EXPECT_NEAR(tolerance_of("gallery:ellipse,a=2,b=1 --reading 1.5,73deg"), 0.05 * (std::numbers::pi / 180 + 2), 1e-15);
 }
 
 TEST(CliTolerance, is_that_of_the_roughest_of_several_readings) {

@@ -284,6 +284,13 @@ void OutlineTrack::refuse(std::int64_t index, int direction) const {
 }
 
 std::unique_ptr<Track> track_of(const Part& part, const Finger& finger, double start, std::optional<double> u) {
+  if (finger.is_disk() && finger.length_per_u() < kLengthAccuracy * part.perimeter()) {
+    require_valid(finger);
+    throw InputError(
+        fmt::format("expected a disk that is not lost in the rounding of the perimeter, {:.9g}, found the radius {}: "
+                    "give it in the outline's unit",
+                    part.perimeter(), finger.length_per_u()));
+  }
   if (finger.outline() == nullptr) return std::make_unique<EvenTrack>(part, finger, u.value_or(0));
   const Interval ends = finger.ends();
   const double place = u.value_or(std::isfinite(ends.hi) ? ends.middle() : 0);

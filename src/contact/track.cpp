@@ -39,12 +39,6 @@ EvenTrack::EvenTrack(const Part& part, const Finger& finger, double u)
       u_(u),
       corner_turns_(part.turning().spirals().size()) {
   require_valid(finger);
-  if (radius_ < kLengthAccuracy * part.perimeter()) {
-    throw InputError(
-        fmt::format("expected a disk that is not lost in the rounding of the perimeter, {:.9g}, found the radius {}: "
-                    "give it in the outline's unit",
-                    part.perimeter(), radius_));
-  }
   for (const Corner& corner : part.corners()) {
     if (const auto k = knot_at(corner.s)) corner_turns_[after(*k).index()] = corner.turn;
   }
