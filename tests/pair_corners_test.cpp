@@ -89,5 +89,15 @@ TEST(PairCorners, two_contacts_of_one_finger_at_corners_pivot_independently) {
   EXPECT_TRUE(holds(part, search, {0, 0.1}));
 }
 
+TEST(PairCorners, where_a_reading_is_given_twice_have_no_roots_but_where_all_equations_hold) {
+  const Part part(gallery("naca"));
+  const Reading first{-1.4359379108414995, -0.42946309311814024, -4.5512695429043486};
+  const Reading second{-1.5317124328620955, -1.0727106349620115, -1.7894685329778759};
+  for (const Placement& placement : locate(part, {first, second, first}).placements) {
+    EXPECT_LE(placement.residual, 4e-12) << placement.start[0] << ", " << placement.start[1];
+    EXPECT_EQ(placement.roots.size(), 1U) << placement.start[0] << ", " << placement.start[1];
+  }
+}
+
 }  // namespace
 }  // namespace pair_corners_test

@@ -34,6 +34,8 @@ class SetsOfTwo {
     const PairRoot start = roots.empty() ? nearest_miss(cluster) : roots.front();
     FoundSet found{kind_of(cluster, roots, start), start.at, cluster.extent, cluster.whole_loop, {}};
     for (const PairRoot& root : roots) found.roots.push_back(root.at);
+    const bool may_be_root = roots.empty() && start.corner && question_.is_overdetermined();
+    if (may_be_root && residual_at(question_, start.at) <= kRootTurn) found.roots.push_back(start.at);
     found.family.assign(cluster.family.begin(), cluster.family.end());
     found.family_error = cluster.family_error;
     return found;
@@ -50,11 +52,11 @@ class SetsOfTwo {
       found.push_back(first);
       return found;
     }
-    if (cluster.roots.size() == 1) return cluster.roots.front().exact ? cluster.roots : found;
+    if (cluster.roots.size() == 1) return is_exact(cluster.roots.front()) ? cluster.roots : found;
     std::vector<PairRoot> roots = cluster.roots;
     std::sort(roots.begin(), roots.end(), [](const PairRoot& one, const PairRoot& two) { return one.at < two.at; });
     for (const PairRoot& root : roots) {
-      if (!root.exact) continue;
+      if (!is_exact(root)) continue;
       const auto same =
           std::find_if(found.begin(), found.end(), [&](const PairRoot& other) { return is_same(other, root); });
       if (same == found.end()) {
@@ -65,6 +67,12 @@ class SetsOfTwo {
       }
     }
     return found;
+  }
+
+  /// Where contacts pivot each equation may have been met by a pivot of its own: all of more than two need one.
+  bool is_exact(const PairRoot& root) const {
+    if (!root.exact || !root.corner || !question_.is_overdetermined()) return root.exact;
+    return residual_at(question_, root.at) <= kRootTurn;
   }
 
   /// Was the one root found on either side of where J is singular? Of more than two equations each find has the sign of
