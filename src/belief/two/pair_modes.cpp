@@ -223,10 +223,17 @@ PairModes modes_of(const PairDensity& density, const PairModel& model, const Rea
       const PairHill hill(region, by_top[top], model, last);
       if (hill.probability() < kLeastProbability) continue;
       Found found{hill.mode(), {}};
+      const auto counts = [](const PairGrain& grain) { return grain.share > kLeastShare; };
+      std::ptrdiff_t count = 0;  // of a continuum hundreds of thousands, so that no room is made for more
+      for (const std::size_t k : by_top[top]) {
+        const std::vector<PairGrain>& grains = region.leaves[k].grains;
+        count += std::count_if(grains.begin(), grains.end(), counts);
+      }
+      found.pieces.reserve(static_cast<std::size_t>(count));
       for (const std::size_t k : by_top[top]) {
         const PairScore& score = region.leaves[k].score;
         for (const PairGrain& grain : region.leaves[k].grains) {
-          if (!(grain.share > kLeastShare)) continue;
+          if (!counts(grain)) continue;
           found.pieces.push_back({grain.s, grain.angle, grain.share, std::nullopt,
                                   PerFinger<double>(score.errors[0], score.errors[1]),
                                   score.covariance.topLeftCorner<2, 2>()});
