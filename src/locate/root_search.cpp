@@ -24,8 +24,9 @@ constexpr double kShortRoll = 1e-6;
 constexpr int kMostRounds = 100;
 // So many steps of Newton's method leave less of a cubic's root than the cubic is off by.
 constexpr int kCubicSteps = 2;
-// The ends of an extent may be off by this share of its width: there f is taken as straight.
-constexpr double kExtentBend = 1e-3;
+// f is taken as straight over an extent where its slope changes by less than this share on the way. It is the mean over
+// the whole stretch that tells: near the root it may change a hundred times as fast, and ends are still good to 1e-3.
+constexpr double kExtentBend = 1e-5;
 // An interval of zeros shorter than this share of the perimeter can't be told from a root.
 constexpr double kShortestStretch = 1e-9;
 // On a stretch the slope of f vanishes as well, up to this share of the curvatures that it is the difference of.
