@@ -218,6 +218,29 @@ TEST(Tolerance, widens_the_extent_in_proportion) {
   }
 }
 
+/// How far f is from the tolerance where the extents end, at most, in tolerances.
+double off_the_tolerance(const std::string& shape, const Reading& reading, double tolerance) {
+  const Part part(gallery(shape));
+  LocateOptions options;
+  options.tolerance = tolerance;
+  double most = 0;
+  for (const Placement& placement : locate(part, reading, options).placements) {
+    for (const double end : {placement.extent[0].lo, placement.extent[0].hi}) {
+      const double f = shapes::reading_from(part, end, reading.length[0]).turn - reading.turn;
+      most = std::max(most, std::abs(std::abs(f) / tolerance - 1));
+    }
+  }
+  return most;
+}
+
+TEST(Tolerance, is_what_f_has_where_extents_end) {
+  const std::string needle = "ellipse,a=6.264228717559734,b=92.29928966110403";  // f bends fast near its tips
+  EXPECT_LE(off_the_tolerance(needle, {1.3959103423343229, 0.6812037700197795}, 0.02), 2e-3);
+  // Near one vertex f is beyond it by a thousandth, where the curvature is largest.
+  const std::string snail = "limacon,a=3.0507013927464772,b=-0.6792475276586838";
+  EXPECT_LE(off_the_tolerance(snail, {5.5353063748521152e-08, 1.761089815774039e-08}, 1e-9), 2e-3);
+}
+
 TEST(Direction, a_roll_backwards_starts_where_the_roll_forwards_ends) {
   const Part part(gallery("limacon"));
   const Reading reading = shapes::reading_from(part, 0.7, 1.3);

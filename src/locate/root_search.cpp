@@ -24,9 +24,10 @@ constexpr double kShortRoll = 1e-6;
 constexpr int kMostRounds = 100;
 // So many steps of Newton's method leave less of a cubic's root than the cubic is off by.
 constexpr int kCubicSteps = 2;
-// f is taken as straight over an extent where its slope changes by less than this share on the way. It is the mean over
-// the whole stretch that tells: near the root it may change a hundred times as fast, and ends are still good to 1e-3.
-constexpr double kExtentBend = 1e-5;
+// An extent may be off by this share of its width: there f is taken as straight.
+constexpr double kExtentBend = 1e-3;
+// On an extent that is shorter than this share of a stretch f bends no more than on the stretch in the mean.
+constexpr double kShortExtent = 1e-7;
 // An interval of zeros shorter than this share of the perimeter can't be told from a root.
 constexpr double kShortestStretch = 1e-9;
 // On a stretch the slope of f vanishes as well, up to this share of the curvatures that it is the difference of.
@@ -313,7 +314,8 @@ void RootSearch::split_at_extremum(const SpiralPair& pair, const SampledRange& r
   const ResidualSample extremum = sample(pair, 0.5 * (bracket.first + bracket.second));
   const double size = std::abs(extremum.value);
   if (size > tolerance_ && (extremum.value > 0) == (range.lo.value > 0) &&
-      (extremum.value > 0) == (range.hi.value > 0) && size <= std::abs(range.lo.value)) {
+      (extremum.value > 0) == (range.hi.value > 0) &&
+      size <= std::min(std::abs(range.lo.value), std::abs(range.hi.value))) {
     return;  // passes 0 by
   }
   if (size > kTurnAccuracy && size <= tolerance_) findings.roots.push_back({extremum.s, false});
@@ -336,9 +338,8 @@ void RootSearch::take_monotone(const SpiralPair& pair, const ResidualSample& lo,
   } else if ((lo.value < 0) != (hi.value < 0)) {
     const ResidualSample found = solve(pair, 0, lo, hi);
     root = {found.s, true, false, true, found};
-    const double bend = mean_bend(lo, hi);
     reach = tolerance_ / std::abs(found.slope());
-    near_root = reach * bend <= kExtentBend * std::abs(found.slope());
+    near_root = is_straight(pair, found, reach, lo, hi);
   } else {
     root.exact = false;
   }
@@ -352,6 +353,17 @@ void RootSearch::take_monotone(const SpiralPair& pair, const ResidualSample& lo,
   const double from = end_at(lo, -1);
   const double to = end_at(hi, 1);
   add_piece(std::max(from, lo.s), std::min(to, hi.s));
+}
+
+/// Is f straight from its root to the tolerance on either side, a reach away?
+bool RootSearch::is_straight(const SpiralPair& pair, const ResidualSample& root, double reach, const ResidualSample& lo,
+                             const ResidualSample& hi) {
+  if (reach * mean_bend(lo, hi) > kExtentBend * std::abs(root.slope())) return false;
+  if (reach <= kShortExtent * (hi.s - lo.s)) return true;
+  const auto is_where_expected = [&](double s) {
+    return s > lo.s && s < hi.s && std::abs(std::abs(sample(pair, s).value) - tolerance_) <= kExtentBend * tolerance_;
+  };
+  return is_where_expected(root.s - reach) && is_where_expected(root.s + reach);
 }
 
 /// Where f, monotone between the ends, has this value: where the cubic through the last two samples has it, which is of

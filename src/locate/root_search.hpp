@@ -99,6 +99,8 @@ class RootSearch {
   void decide_by_polynomial(const SpiralPair& pair, const SampledRange& range, const Panel& start, const Panel& end);
   void take_flat(const ResidualSample& lo, const ResidualSample& hi, bool exact);
   void halve(const SpiralPair& pair, const SampledRange& range, double place);
+  bool is_straight(const SpiralPair& pair, const ResidualSample& root, double reach, const ResidualSample& lo,
+                   const ResidualSample& hi);
   ResidualSample solve(const SpiralPair& pair, double level, ResidualSample lo, ResidualSample hi);
   bool agree(double newton, double cubic, const ResidualSample& last, const ResidualSample& at) const;
   ResidualSample sample(const SpiralPair& pair, double s) {
