@@ -121,9 +121,6 @@ TEST(Detail, of_a_millionth_of_the_perimeter_is_found) {
 }
 
 TEST(Memory, that_does_not_suffice_is_told_and_counts_as_undecided) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "sanitizers need more memory than any limit leaves";
-#endif
   const cli::Ran ran = cli::shell(
       "ulimit -v 400000; rollfix simulate gallery:cam --finger disk,r=0.2 --start 1 --length 1 --samples 99999999");
   EXPECT_EQ(ran.code, 3) << ran.err;
@@ -132,9 +129,6 @@ TEST(Memory, that_does_not_suffice_is_told_and_counts_as_undecided) {
 }
 
 TEST(OpenFiles, of_which_there_may_be_no_more_are_told) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "sanitizers open files of their own";
-#endif
   const cli::Ran ran = cli::shell(
       "exec 3>&- 4>&- 5>&- 6>&-; ulimit -n 4; rollfix watch gallery:cam --finger disk,r=0.2 --noise angle=0.01 --log "
       "/dev/null --once");
