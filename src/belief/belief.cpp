@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "belief/posterior.hpp"
+#include "part/not_lost.hpp"
 #include "rollfix/error.hpp"
 
 namespace rollfix {
@@ -38,11 +39,7 @@ void require_valid(const Part& part, const BeliefOptions& options, const Contact
     throw InputError(fmt::format("prior: expected a place and a standard deviation above 0, found {} and {}",
                                  options.prior->s, options.prior->sd));
   }
-  if (options.prior && options.prior->sd < kLengthAccuracy * part.perimeter()) {
-    throw InputError(fmt::format(
-        "prior: expected a standard deviation that is not lost in the rounding of the perimeter, {:.9g}, found {}",
-        part.perimeter(), options.prior->sd));
-  }
+  if (options.prior) require_not_lost(part, options.prior->sd, "a prior with a standard deviation", "");
   if (contacts.facing && !std::isfinite(*contacts.facing)) {
     throw InputError(fmt::format("expected a finite facing angle, found {}", *contacts.facing));
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "contact/track.hpp"
+#include "part/not_lost.hpp"
 #include "rollfix/error.hpp"
 
 namespace rollfix {
@@ -284,12 +285,9 @@ void OutlineTrack::refuse(std::int64_t index, int direction) const {
 }
 
 std::unique_ptr<Track> track_of(const Part& part, const Finger& finger, double start, std::optional<double> u) {
-  if (finger.is_disk() && finger.length_per_u() < kLengthAccuracy * part.perimeter()) {
-    require_valid(finger);
-    throw InputError(
-        fmt::format("expected a disk that is not lost in the rounding of the perimeter, {:.9g}, found the radius {}: "
-                    "give it in the outline's unit",
-                    part.perimeter(), finger.length_per_u()));
+  require_valid(finger);
+  if (finger.is_disk()) {
+    require_not_lost(part, finger.length_per_u(), "a disk with a radius", ": give it in the outline's unit");
   }
   if (finger.outline() == nullptr) return std::make_unique<EvenTrack>(part, finger, u.value_or(0));
   const Interval ends = finger.ends();

@@ -38,7 +38,6 @@ EvenTrack::EvenTrack(const Part& part, const Finger& finger, double u)
       radius_(finger.is_disk() ? finger.length_per_u() : std::numeric_limits<double>::infinity()),
       u_(u),
       corner_turns_(part.turning().spirals().size()) {
-  require_valid(finger);
   for (const Corner& corner : part.corners()) {
     if (const auto k = knot_at(corner.s)) corner_turns_[after(*k).index()] = corner.turn;
   }

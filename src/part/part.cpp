@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "not_lost.hpp"
 #include "outline/turn.hpp"
 #include "part_data.hpp"
 #include "rollfix/error.hpp"
@@ -131,6 +132,12 @@ double Part::total_turn() const {
   const TurningFunction& turning = data_->turning;
   if (closed()) return turning.period_turn();
   return turning.spirals().back().end.angle - turning.spirals().front().start.angle;
+}
+
+void require_not_lost(const Part& part, double length, const std::string& what, const std::string& cure) {
+  if (!(length < kLengthAccuracy * part.perimeter())) return;
+  throw InputError(fmt::format("expected {} that is not lost in the rounding of the perimeter, {:.9g}, found {}{}",
+                               what, part.perimeter(), length, cure));
 }
 
 int Part::turns() const {

@@ -11,6 +11,7 @@
 
 #include "boundary_tree.hpp"
 #include "cursor.hpp"
+#include "not_lost.hpp"
 #include "reach_search.hpp"
 #include "rollfix/error.hpp"
 
@@ -207,12 +208,7 @@ Reach reach_of_disk(const Part& part, double radius, const ReachOptions& options
                     "outline's unit",
                     radius));
   }
-  if (radius < kLengthAccuracy * part.perimeter()) {
-    throw InputError(fmt::format(
-        "reach: expected a disk that is not lost in the rounding of the perimeter, {:.9g}, found the radius "
-        "{}: give it in the outline's unit",
-        part.perimeter(), radius));
-  }
+  require_not_lost(part, radius, "a disk with a radius", ": give it in the outline's unit");
   return reach_of(part, 1 / radius, options);
 }
 
