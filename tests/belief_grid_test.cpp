@@ -4,7 +4,7 @@
 #include <numbers>
 #include <vector>
 
-#include "belief/grid.hpp"
+#include "belief/one/grid.hpp"
 #include "belief_cases.hpp"
 #include "rollfix/outline/points.hpp"
 #include "shapes.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "belief/grid.hpp"
+#include "belief/one/roll_filter.hpp"
 #include "belief/posterior.hpp"
 
 namespace rollfix::belief {

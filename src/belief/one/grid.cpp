@@ -1,14 +1,10 @@
-#include "belief/grid.hpp"
+#include "belief/one/grid.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "belief/posterior.hpp"
-#include "belief/side_by_side.hpp"
-#include "outline/turn.hpp"
 #include "rollfix/part/boundary.hpp"
 
 namespace rollfix::belief {
@@ -25,8 +21,6 @@ constexpr double kMostCells = 256;
 constexpr double kEvenRise = 0.05;
 constexpr double kEvenSlope = 0.1;
 constexpr double kShallow = 12;
-// So many of the nodes tell which of the first points to look at first.
-constexpr std::size_t kTrialNodes = 6;
 // The distance's rate of change varies within a cell: it is taken as this much larger than at the ends.
 constexpr double kSlopeSafety = 2;
 // Cells whose mass is below this share of the best one's are not looked into: exp(-25) = 1e-11.
@@ -39,27 +33,14 @@ constexpr double kDepth = 4;
 // By how much the log-likelihood's middle can be off the mean of its ends in a cell, of the distance's change squared:
 // four times what the information makes of it, h^2 F / 8.
 constexpr double kMostBend = 0.5;
-// What can matter has a deviance no more than this above the best's, ...
-constexpr double kMatters = 50;
-// ... and a point that is farther than that by this distance, the deviance's root, takes no more samples: what is near
-// it can't matter either. A distance, for it is that which changes evenly from point to point, however many samples
-// there are.
-constexpr double kBeyondMatter = 5;
 // A boundary whose s grows less with w than this share of what a straight one's does, is a corner.
 constexpr double kCornerSlope = 1e-6;
 // Cells are not made smaller than this share of the boundary.
 constexpr double kLeastCell = 1e-13;
-// Where angles are so noisy that a row is not linear in what all rows share, it is gone through so many times.
-constexpr int kPassesOfWide = 3;
-// ... unless what they share of the turn changes by no more than this, radians: the lines would be the same ones.
-constexpr double kSettledTurn = 1e-5;
 // Rounds of halving: 2^-kMostRounds of the first cells is below kLeastCell.
 constexpr int kMostRounds = 50;
 // A density that changes by less than this share is even.
 constexpr double kEven = 1e-6;
-// What a prior narrower than this share of the boundary leaves of a cell is known without looking into it, and must be:
-// all around cells would be split down to its width.
-constexpr double kNarrowPrior = 1e-5;
 // A grid does not grow beyond this; what is not resolved by then counts as rest.
 constexpr std::size_t kMostPoints = 400000;
 
@@ -78,10 +59,6 @@ Bound bound_of(const Score& lo, const Score& hi, double h, double heat) {
   return {rate, -0.5 * (cost + std::min(lo.log_volume, hi.log_volume)) / heat};
 }
 
-Score score_of(const RollFilter& filter) {
-  return {filter.cost(), filter.log_volume(), filter.slope(), filter.information()};
-}
-
 }  // namespace
 
 double GridCell::quantile(double share_of_mass) const {
@@ -93,11 +70,9 @@ double GridCell::quantile(double share_of_mass) const {
 Grid::Grid(const TiltedBoundary& boundary, const ErrorModel& errors, const BeliefOptions& options,
            const Boundary& places, double corner_length, const CentreModel* centres)
     : boundary_(&boundary),
-      centres_(centres),
-      errors_(errors),
       options_(options),
-      outliers_{options.robust ? kOutlierShare : 0, places.perimeter},
       places_(places),
+      scorer_(boundary, errors, options, places, centres),
       corner_length_(corner_length),
       folds_(options.prior || options.pose || !options.within.empty() ? 1 : boundary.folds()) {
   for (const TiltedArc& arc : boundary.arcs()) {
@@ -115,15 +90,6 @@ RollFilter Grid::filter(const GridCell& cell, std::size_t end) const {
   return point(cell, end).now.moved(boundary_->arcs()[cell.arc + shift.arcs], shift);
 }
 
-RollFilter Grid::fresh_filter(const TiltedArc& arc, double w) const {
-  return {arc, boundary_->tilt(), w, errors_.start(), centres_};
-}
-
-GridPoint Grid::make(const TiltedArc& arc, double w) const {
-  const RollFilter fresh = fresh_filter(arc, w);
-  return {fresh, 0, 0, 0, static_cast<std::size_t>(-1), fresh, {}};
-}
-
 std::unique_ptr<GridPoint> Grid::point_at(std::size_t arc, double w) {
   if (arc < spare_.size()) {
     std::vector<SparePoint>& spare = spare_[arc];
@@ -131,114 +97,7 @@ std::unique_ptr<GridPoint> Grid::point_at(std::size_t arc, double w) {
                                         [](const SparePoint& point, double place) { return point.w < place; });
     if (known != spare.end() && known->w == w && known->point) return std::move(known->point);
   }
-  return std::make_unique<GridPoint>(make(boundary_->arcs()[arc], w));
-}
-
-void Grid::refresh(const std::vector<GridPoint*>& points, const Nodes& nodes) {
-  const std::optional<Node> pending = nodes.pending();
-  auto next = points.begin();
-  const auto next_of_all = [&](Errand& errand) {
-    if (errand.point != nullptr && next_errand(errand, nodes, pending)) return true;
-    for (; next != points.end(); ++next) {
-      if (!is_stale(**next, nodes) && (*next)->generation == nodes.generation()) continue;
-      errand = first_errand(**next++, nodes);
-      return true;
-    }
-    return false;
-  };
-  run_errands(next_of_all, has_centres(), limit_, outliers_);
-}
-
-Errand Grid::first_errand(GridPoint& point, const Nodes& nodes) const {
-  if (point.generation != nodes.generation()) {
-    // Joined nodes are worth what they were one by one; half of one can't be given back.
-    const std::size_t shift = nodes.generation() - point.generation;
-    if (((point.taken >> shift) << shift) != point.taken) point = make(*point.filter.arc(), point.filter.w());
-    point.taken >>= shift;
-    point.generation = nodes.generation();
-  }
-  const std::vector<Node>& complete = nodes.complete();
-  return {&point, 1, &point.filter, complete.data() + point.taken, complete.data() + complete.size()};
-}
-
-bool Grid::next_errand(Errand& errand, const Nodes& nodes, const std::optional<Node>& pending) {
-  GridPoint& point = *errand.point;
-  const std::vector<Node>& complete = nodes.complete();
-  const Node* last = complete.data() + complete.size();
-  if (errand.filter == &point.filter) {
-    point.taken = static_cast<std::size_t>(errand.next - complete.data());
-    point.now = point.filter;
-    point.score = score_of(point.now);
-    point.deviance = point.score.cost + point.score.log_volume;
-    point.rows = static_cast<std::size_t>(-1);
-    if (errand.next != last) return false;
-  }
-  errand.filter = &point.now;
-  errand.whole = true;
-  if (pending && errand.end == last) {
-    errand.next = &*pending;
-    errand.end = errand.next + 1;
-    return true;
-  }
-  if (errors_.is_wide() && errand.pass < kPassesOfWide && !point.now.is_settled(kSettledTurn)) {
-    ++errand.pass;
-    point.now = point.now.again(errors_.start());
-    errand.next = complete.data();
-    errand.end = last;
-    return true;
-  }
-  score(point, nodes);
-  return false;
-}
-
-void Grid::score(GridPoint& point, const Nodes& nodes) {
-  point.rows = nodes.rows();
-  point.score = score_of(point.now);
-  if (options_.prior) {
-    // The prior is one sample more.
-    const TiltedPlace& place = point.now.place();
-    const double precision = 1 / square(options_.prior->sd);
-    const double off = places_.offset(options_.prior->s, place.s);
-    point.score.cost += square(off) * precision;
-    point.score.slope -= off * place.slope * precision;
-    point.score.information += square(place.slope) * precision;
-  }
-  if (options_.pose) add_pose_prior(point);
-  lower_limit(point.score.cost + point.score.log_volume, nodes);
-}
-
-double Grid::least_prior_cost(const Interval& s) const {
-  if (!options_.prior || options_.prior->sd > kNarrowPrior * places_.perimeter) return 0;
-  // No place of the interval is nearer than its middle, less half of its width.
-  const double off = std::abs(places_.offset(options_.prior->s, s.middle())) - 0.5 * s.width();
-  return off > 0 ? square(off / options_.prior->sd) : 0;
-}
-
-void Grid::add_pose_prior(GridPoint& point) const {
-  const PosePrior& prior = *options_.pose;
-  Eigen::Vector3d by_w;
-  const PoseSpread pose = point.now.pose(&by_w);
-  Eigen::Vector3d off(pose.mean.x - prior.mean.x, pose.mean.y - prior.mean.y,
-                      nearest_angle(pose.mean.heading - prior.mean.heading));
-  Eigen::Matrix3d precision = Eigen::Matrix3d::Zero();
-  if (std::isfinite(prior.place_sd)) {
-    Eigen::Matrix3d variance = pose.covariance;
-    variance.diagonal() += Eigen::Vector3d(square(prior.place_sd), square(prior.place_sd), square(prior.heading_sd));
-    precision = variance.inverse();
-  } else {
-    precision(2, 2) = 1 / (pose.covariance(2, 2) + square(prior.heading_sd));
-  }
-  point.score.cost += off.dot(precision * off);
-  point.score.slope -= off.dot(precision * by_w);
-  point.score.information += by_w.dot(precision * by_w);
-}
-
-void Grid::lower_limit(double deviance, const Nodes& nodes) {
-  // As if this were the best: its own noise, were it larger than is given, makes all others matter the more.
-  const auto freedom = static_cast<double>(nodes.complete().size() + 1);
-  const double noisier = std::max(1.0, deviance / freedom);
-  const double farthest = std::sqrt(std::max(0.0, deviance) + kMatters * noisier) + kBeyondMatter * std::sqrt(noisier);
-  limit_ = std::min(limit_, square(farthest));
+  return std::make_unique<GridPoint>(scorer_.make(boundary_->arcs()[arc], w));
 }
 
 void Grid::lay_out(const Nodes& nodes) {
@@ -292,34 +151,15 @@ void Grid::keep_points(const Nodes& nodes) {
 }
 
 void Grid::refresh_all(const Nodes& nodes) {
-  const std::vector<Node> trial = some_of(nodes.complete(), kTrialNodes);
-  std::vector<RollFilter> filters;
   std::vector<GridPoint*> points;
-  filters.reserve(count_);
   for (const GridPoints& arc : points_) {
     for (std::size_t k = 0; k < arc.size(); ++k) {
       const GridPoint& before = *arc[k > 0 ? k - 1 : k];
       const GridPoint& after = *arc[std::min(k + 1, arc.size() - 1)];
-      if (!can_start_in({before.filter.place().s, after.filter.place().s})) continue;
-      points.push_back(arc[k].get());
-      filters.push_back(fresh_filter(*arc[k]->filter.arc(), arc[k]->filter.w()));
+      if (can_start_in({before.filter.place().s, after.filter.place().s})) points.push_back(arc[k].get());
     }
   }
-  std::size_t begun = 0;
-  const auto next = [&](Errand& errand) {
-    if (begun == filters.size()) return false;
-    errand = {points[begun], 1, &filters[begun], trial.data(), trial.data() + trial.size(), true};
-    ++begun;
-    return true;
-  };
-  run_errands(next, has_centres(), limit_, outliers_);
-  std::vector<std::size_t> order(points.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return filters[a].deviance() < filters[b].deviance(); });
-  std::vector<GridPoint*> ordered;
-  for (const std::size_t k : order) ordered.push_back(points[k]);
-  refresh(ordered, nodes);
+  scorer_.refresh_likely_first(points, nodes);
 }
 
 bool Grid::can_start_in(const Interval& s) const {
@@ -340,26 +180,18 @@ void Grid::measure_fit(const Nodes& nodes) {
   const GridPoint* best = nullptr;
   for (const GridPoints& arc : points_) {
     for (const std::unique_ptr<GridPoint>& point : arc) {
-      if (is_stale(*point, nodes)) continue;
+      if (PointScorer::is_stale(*point, nodes)) continue;
       if (best != nullptr && point->score.log_likelihood() <= best->score.log_likelihood()) continue;
       best = point.get();
     }
   }
   best_ = best->score.log_likelihood();
-  farthest_ = limit_ - best->score.log_volume;
+  farthest_ = scorer_.limit() - best->score.log_volume;
   const double freedom = nodes.freedom();
   fit_ = options_.robust ? fit_of(best->now.right_cost(), best->now.right_rows(), best->now.whiteness())
                          : fit_of(best->now.cost(), freedom, best->now.whiteness());
   fit_.stray = options_.robust ? freedom - best->now.right_rows() : 0;
-  if (options_.prior) {
-    fit_.prior_sigmas = std::abs(places_.offset(options_.prior->s, best->now.place().s)) / options_.prior->sd;
-  }
-  if (options_.pose) {
-    GridPoint as_told = *best;
-    as_told.score = Score{};
-    add_pose_prior(as_told);
-    fit_.prior_sigmas = std::max(fit_.prior_sigmas, std::sqrt(as_told.score.cost));
-  }
+  fit_.prior_sigmas = scorer_.prior_sigmas(*best);
   best_mass_ = log_mass(*best);
 }
 
@@ -384,9 +216,9 @@ Score Grid::at_least(const GridPoint& point) const {
   Score score = point.score;
   // What stopped on the way, and what did not although it is as far off, must look alike: else the grid would be made
   // ever finer between them.
-  if (point.deviance > limit_) {
+  if (point.deviance > scorer_.limit()) {
     score.cost = farthest_;
-    score.log_volume = limit_ - farthest_;
+    score.log_volume = scorer_.limit() - farthest_;
   }
   score.cost = std::min(score.cost, farthest_);
   return score;
@@ -414,16 +246,16 @@ bool Grid::refine(const Nodes& nodes) {
       const double h = cell.hi - cell.lo;
       const double log_width = log_prior(cell.s.width(), h, h);
       const double most_by_prior =
-          -0.5 * (least_prior_cost(cell.s) + std::min(lo.score.log_volume, hi.score.log_volume)) / heat;
+          -0.5 * (scorer_.least_prior_cost(cell.s) + std::min(lo.score.log_volume, hi.score.log_volume)) / heat;
       Bound bound = bound_of(at_least(lo), at_least(hi), h, heat);
       bound.log_density = std::min(bound.log_density, most_by_prior);
       // A cost only grows with more samples: one that was too large before is so now.
-      const bool stale = is_stale(lo, nodes) || is_stale(hi, nodes);
+      const bool stale = PointScorer::is_stale(lo, nodes) || PointScorer::is_stale(hi, nodes);
       if (stale && bound.log_density + log_width - best_mass_ > -kNegligible) {
-        refresh({&lo, &hi}, nodes);
+        scorer_.refresh({&lo, &hi}, nodes);
         bound = bound_of(at_least(lo), at_least(hi), h, heat);
         bound.log_density = std::min(bound.log_density, most_by_prior);
-        changed = changed || (!is_stale(lo, nodes) && !is_stale(hi, nodes));
+        changed = changed || (!PointScorer::is_stale(lo, nodes) && !PointScorer::is_stale(hi, nodes));
       }
       const double most = bound.log_density + log_width;
       const double depth = best_mass_ - most;
@@ -460,7 +292,7 @@ bool Grid::split(std::size_t arc, const std::vector<double>& added, const Nodes&
   }
   count_ += added.size();
   points = std::move(merged);
-  refresh(fresh, nodes);
+  scorer_.refresh(fresh, nodes);
   return true;
 }
 
@@ -530,7 +362,7 @@ void Grid::unfold() {
 }
 
 void Grid::settle(const Nodes& nodes) {
-  limit_ = std::numeric_limits<double>::infinity();
+  scorer_.forget_limit();
   // As the roll goes on, other places of the boundary decide: the first points are laid out anew at each doubling.
   // So they are when nodes were joined: what a point was worth node by node can't be compared with what a point that
   // takes the joined ones is worth, because the scatter within the joined ones costs it nothing.
@@ -548,7 +380,7 @@ void Grid::settle(const Nodes& nodes) {
         if (ends.empty() || ends.back() != point) ends.push_back(point);
       }
     }
-    refresh(ends, nodes);
+    scorer_.refresh(ends, nodes);
   }
   for (int round = 0; round < kMostRounds; ++round) {
     measure_fit(nodes);
@@ -566,7 +398,7 @@ bool Grid::holds_something(const Nodes& nodes, const Rival& rival) const {
   if (std::any_of(cells_.begin(), cells_.end(), is_fine)) return true;
   for (const GridPoints& arc : points_) {
     for (const std::unique_ptr<GridPoint>& point : arc) {
-      if (!is_stale(*point, nodes) && log_mass(*point) > rival.log_evidence - kNegligible) return true;
+      if (!PointScorer::is_stale(*point, nodes) && log_mass(*point) > rival.log_evidence - kNegligible) return true;
     }
   }
   return false;
@@ -575,7 +407,7 @@ bool Grid::holds_something(const Nodes& nodes, const Rival& rival) const {
 bool Grid::is_hopeless(const Nodes& nodes, const Rival& rival) {
   // As settle() does, but that cells have to matter next to the rival. What is far off at first is not cut short at
   // what would matter: by how much it is off tells how soon it may be near.
-  limit_ = std::numeric_limits<double>::infinity();
+  scorer_.forget_limit();
   lay_out(nodes);
   refresh_all(nodes);
   measure_fit(nodes);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "belief/grid.hpp"
+#include "belief/one/grid.hpp"
 #include "belief/posterior.hpp"
 #include "rollfix/part/boundary.hpp"
 

@@ -2,9 +2,11 @@
 
 #include <functional>
 
-#include "belief/grid.hpp"
+#include "belief/one/roll_filter.hpp"
 
 namespace rollfix::belief {
+
+struct GridPoint;
 
 /// Nodes that a filter is to take, in order.
 struct Errand {

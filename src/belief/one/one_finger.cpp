@@ -3,7 +3,7 @@
 #include <numbers>
 #include <optional>
 
-#include "belief/grid.hpp"
+#include "belief/one/grid.hpp"
 #include "belief/posterior.hpp"
 
 namespace rollfix::belief {

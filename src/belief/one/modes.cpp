@@ -3,7 +3,7 @@
 #include <limits>
 #include <optional>
 
-#include "belief/grid.hpp"
+#include "belief/one/grid.hpp"
 #include "belief/posterior.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/part/boundary.hpp"

@@ -1,4 +1,4 @@
-#include "belief/side_by_side.hpp"
+#include "belief/one/side_by_side.hpp"
 
 #include <Eigen/Core>
 #include <array>

@@ -1,0 +1,138 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "belief/one/point_scorer.hpp"
+#include "belief/posterior.hpp"
+#include "rollfix/belief/belief.hpp"
+
+namespace rollfix::belief {
+
+/// They are large, and others come between them.
+using GridPoints = std::vector<std::unique_ptr<GridPoint>>;
+
+/// One that is not on the grid any more; nullptr: it is again.
+struct SparePoint {
+  double w;
+  std::unique_ptr<GridPoint> point;
+};
+
+/// What lies between two neighbouring points.
+struct GridCell {
+  std::size_t arc = 0;    // of its points
+  std::size_t first = 0;  // the point at its lower end
+  double lo = 0;          // in w
+  double hi = 0;
+  Interval s;              // unwrapped
+  double share = 0;        // of the posterior's mass
+  double log_density = 0;  // of it, by w, on average and up to a constant; ...
+  double rise = 0;         // ... from the lower end to the upper one it changes by this
+  double steps = 0;        // in standard deviations, what the distance changes by at most
+  bool fine = false;       // resolved; else it is known to hold next to nothing
+  std::size_t fold = 0;    // so many of the boundary's folds further on than its points
+
+  /// Up to which share of its width, from the lower end on, it holds this share of its mass.
+  double quantile(double share_of_mass) const;
+  /// Where, likewise, the mean of its mass is.
+  double mean() const { return 0.5 + 0.5 * std::tanh(rise / 6); }
+};
+
+/// The posterior density of a roll's first contact over the whole boundary, on points that lie as close together as it
+/// takes: where the samples' likelihood changes fast and is not negligible. Of a boundary that looks the same several
+/// times one of them tells the others.
+class Grid {
+ public:
+  Grid(const TiltedBoundary& boundary, const ErrorModel& errors, const BeliefOptions& options, const Boundary& places,
+       double corner_length, const CentreModel* centres);
+
+  /// Brings all up to date with the samples.
+  void settle(const Nodes& nodes);
+
+  /// Whether all of it holds next to nothing beside a rival, for all samples so far. Leaves no points.
+  bool is_hopeless(const Nodes& nodes, const Rival& rival);
+
+  const std::vector<GridCell>& cells() const { return cells_; }
+  std::size_t folds() const { return folds_; }
+  /// The lower or the upper end of a cell, but for its folds, ...
+  const GridPoint& point(const GridCell& cell, std::size_t end) const { return *points_[cell.arc][cell.first + end]; }
+  /// ... and its filter where the cell is.
+  RollFilter filter(const GridCell& cell, std::size_t end) const;
+  /// How well the likeliest point fits. All probabilities are as with Fit::widened times the noise.
+  const Fit& fit() const { return fit_; }
+  Evidence evidence() const { return {best_, log_total_}; }
+  std::size_t points() const { return count_; }
+  /// A bound on the share of the mass in the cells that are not resolved.
+  double rest() const { return rest_; }
+
+ private:
+  void lay_out(const Nodes& nodes);
+  void refresh_all(const Nodes& nodes);
+  bool split(std::size_t arc, const std::vector<double>& added, const Nodes& nodes);
+  /// Takes the points away, but keeps what they have taken, for those that come again.
+  void keep_points(const Nodes& nodes);
+  /// One that was kept, or a new one.
+  std::unique_ptr<GridPoint> point_at(std::size_t arc, double w);
+  /// What the point costs, or as much as is known of one that stopped early.
+  Score at_least(const GridPoint& point) const;
+  bool is_even(const GridPoint& lo, const GridPoint& hi, double length) const;
+  bool refine(const Nodes& nodes);
+  void weigh();
+  void measure_scale();
+  /// Adds the cells that look like those with points.
+  void unfold();
+  void measure_fit(const Nodes& nodes);
+  /// Whether it is not known that the first contact is not in there; unwrapped.
+  bool can_start_in(const Interval& s) const;
+  bool holds_something(const Nodes& nodes, const Rival& rival) const;
+  /// About the logarithm of the mass around a point.
+  double log_mass(const GridPoint& point) const;
+  /// Of the density by w, between two places that far apart, over this width.
+  double log_prior(double length, double h, double width = 1) const;
+
+  const TiltedBoundary* boundary_;
+  BeliefOptions options_;
+  Boundary places_;
+  PointScorer scorer_;
+  double corner_length_;
+  Fit fit_;
+  double rest_ = 0;
+  std::size_t folds_;             // of the boundary look the same to all that is known: points lie on the first one ...
+  std::vector<Interval> ranges_;  // ... alone, on each of its arcs between these, in w
+  double length_ = 0;             // of the whole boundary, in w
+  double best_ = 0;               // the largest log-likelihood of a point
+  double farthest_ = 0;           // a cost that can matter
+  double log_total_ = 0;          // of the density's integral, as a share of the best point's
+  double best_mass_ = 0;          // about the logarithm of the mass around it
+  std::size_t laid_out_at_ = 0;
+  std::size_t generation_ = 0;                  // of the nodes that were laid out for
+  std::size_t count_ = 0;                       // of points
+  std::vector<GridPoints> points_;              // of each arc, by w
+  std::vector<std::vector<SparePoint>> spare_;  // likewise: those of the layout before
+  std::vector<GridCell> cells_;
+};
+
+/// What the modes are asked about, beyond the grid.
+struct ModeQuestion {
+  const TiltedBoundary* boundary = nullptr;
+  Reading last;       // the last sample
+  RowCovariance own;  // its own errors
+  Boundary places;
+};
+
+/// The stretches of the boundary that hold the mass, the most probable first: two peaks of the density are two modes
+/// where it falls far enough between them.
+std::vector<Mode> modes_of(const Grid& grid, const ModeQuestion& question);
+
+/// The cells that hold the mass, in order, with the part's pose where the rows tell it.
+std::vector<Piece> pieces_of(const Grid& grid, const TiltedBoundary& boundary);
+
+/// The same as intervals, in order of s.
+Density density_of(const Grid& grid, const Boundary& places);
+
+/// The length of the boundary that holds 95 % of the mass, as short as can be.
+double credible_length(const Grid& grid);
+
+}  // namespace rollfix::belief

@@ -1,0 +1,196 @@
+#include "belief/one/point_scorer.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "belief/posterior.hpp"
+#include "outline/turn.hpp"
+
+namespace rollfix::belief {
+
+namespace {
+
+// So many of the nodes tell which of the first points to look at first.
+constexpr std::size_t kTrialNodes = 6;
+// What can matter has a deviance no more than this above the best's, ...
+constexpr double kMatters = 50;
+// ... and a point that is farther than that by this distance, the deviance's root, takes no more samples: what is near
+// it can't matter either. A distance, for it is that which changes evenly from point to point, however many samples
+// there are.
+constexpr double kBeyondMatter = 5;
+// Where angles are so noisy that a row is not linear in what all rows share, it is gone through so many times.
+constexpr int kPassesOfWide = 3;
+// ... unless what they share of the turn changes by no more than this, radians: the lines would be the same ones.
+constexpr double kSettledTurn = 1e-5;
+// What a prior narrower than this share of the boundary leaves of a cell is known without looking into it, and must be:
+// all around cells would be split down to its width.
+constexpr double kNarrowPrior = 1e-5;
+
+Score score_of(const RollFilter& filter) {
+  return {filter.cost(), filter.log_volume(), filter.slope(), filter.information()};
+}
+
+/// What is known of the part's place adds this to a score.
+Score score_of(const PosePrior& prior, const RollFilter& filter) {
+  Eigen::Vector3d by_w;
+  const PoseSpread pose = filter.pose(&by_w);
+  const Eigen::Vector3d off(pose.mean.x - prior.mean.x, pose.mean.y - prior.mean.y,
+                            nearest_angle(pose.mean.heading - prior.mean.heading));
+  Eigen::Matrix3d precision = Eigen::Matrix3d::Zero();
+  if (std::isfinite(prior.place_sd)) {
+    Eigen::Matrix3d variance = pose.covariance;
+    variance.diagonal() += Eigen::Vector3d(square(prior.place_sd), square(prior.place_sd), square(prior.heading_sd));
+    precision = variance.inverse();
+  } else {
+    precision(2, 2) = 1 / (pose.covariance(2, 2) + square(prior.heading_sd));
+  }
+  return {off.dot(precision * off), 0, -off.dot(precision * by_w), by_w.dot(precision * by_w)};
+}
+
+}  // namespace
+
+PointScorer::PointScorer(const TiltedBoundary& boundary, const ErrorModel& errors, const BeliefOptions& options,
+                         const Boundary& places, const CentreModel* centres)
+    : tilt_(boundary.tilt()),
+      centres_(centres),
+      errors_(errors),
+      options_(options),
+      outliers_{options.robust ? kOutlierShare : 0, places.perimeter},
+      places_(places) {}
+
+RollFilter PointScorer::fresh_filter(const TiltedArc& arc, double w) const {
+  return {arc, tilt_, w, errors_.start(), centres_};
+}
+
+GridPoint PointScorer::make(const TiltedArc& arc, double w) const {
+  const RollFilter fresh = fresh_filter(arc, w);
+  return {fresh, 0, 0, 0, static_cast<std::size_t>(-1), fresh, {}};
+}
+
+void PointScorer::refresh(const std::vector<GridPoint*>& points, const Nodes& nodes) {
+  const std::optional<Node> pending = nodes.pending();
+  auto next = points.begin();
+  const auto next_of_all = [&](Errand& errand) {
+    if (errand.point != nullptr && next_errand(errand, nodes, pending)) return true;
+    for (; next != points.end(); ++next) {
+      if (!is_stale(**next, nodes) && (*next)->generation == nodes.generation()) continue;
+      errand = first_errand(**next++, nodes);
+      return true;
+    }
+    return false;
+  };
+  run_errands(next_of_all, has_centres(), limit_, outliers_);
+}
+
+void PointScorer::refresh_likely_first(const std::vector<GridPoint*>& points, const Nodes& nodes) {
+  const std::vector<Node> trial = some_of(nodes.complete(), kTrialNodes);
+  std::vector<RollFilter> filters;
+  filters.reserve(points.size());
+  for (const GridPoint* point : points) filters.push_back(fresh_filter(*point->filter.arc(), point->filter.w()));
+  std::size_t begun = 0;
+  const auto next = [&](Errand& errand) {
+    if (begun == filters.size()) return false;
+    errand = {points[begun], 1, &filters[begun], trial.data(), trial.data() + trial.size(), true};
+    ++begun;
+    return true;
+  };
+  run_errands(next, has_centres(), limit_, outliers_);
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return filters[a].deviance() < filters[b].deviance(); });
+  std::vector<GridPoint*> ordered;
+  for (const std::size_t k : order) ordered.push_back(points[k]);
+  refresh(ordered, nodes);
+}
+
+Errand PointScorer::first_errand(GridPoint& point, const Nodes& nodes) const {
+  if (point.generation != nodes.generation()) {
+    // Joined nodes are worth what they were one by one; half of one can't be given back.
+    const std::size_t shift = nodes.generation() - point.generation;
+    if (((point.taken >> shift) << shift) != point.taken) point = make(*point.filter.arc(), point.filter.w());
+    point.taken >>= shift;
+    point.generation = nodes.generation();
+  }
+  const std::vector<Node>& complete = nodes.complete();
+  return {&point, 1, &point.filter, complete.data() + point.taken, complete.data() + complete.size()};
+}
+
+bool PointScorer::next_errand(Errand& errand, const Nodes& nodes, const std::optional<Node>& pending) {
+  GridPoint& point = *errand.point;
+  const std::vector<Node>& complete = nodes.complete();
+  const Node* last = complete.data() + complete.size();
+  if (errand.filter == &point.filter) {
+    point.taken = static_cast<std::size_t>(errand.next - complete.data());
+    point.now = point.filter;
+    point.score = score_of(point.now);
+    point.deviance = point.score.cost + point.score.log_volume;
+    point.rows = static_cast<std::size_t>(-1);
+    if (errand.next != last) return false;
+  }
+  errand.filter = &point.now;
+  errand.whole = true;
+  if (pending && errand.end == last) {
+    errand.next = &*pending;
+    errand.end = errand.next + 1;
+    return true;
+  }
+  if (errors_.is_wide() && errand.pass < kPassesOfWide && !point.now.is_settled(kSettledTurn)) {
+    ++errand.pass;
+    point.now = point.now.again(errors_.start());
+    errand.next = complete.data();
+    errand.end = last;
+    return true;
+  }
+  score(point, nodes);
+  return false;
+}
+
+void PointScorer::score(GridPoint& point, const Nodes& nodes) {
+  point.rows = nodes.rows();
+  point.score = score_of(point.now);
+  if (options_.prior) {
+    // The prior is one sample more.
+    const TiltedPlace& place = point.now.place();
+    const double precision = 1 / square(options_.prior->sd);
+    const double off = places_.offset(options_.prior->s, place.s);
+    point.score.cost += square(off) * precision;
+    point.score.slope -= off * place.slope * precision;
+    point.score.information += square(place.slope) * precision;
+  }
+  if (options_.pose) {
+    const Score prior = score_of(*options_.pose, point.now);
+    point.score.cost += prior.cost;
+    point.score.slope += prior.slope;
+    point.score.information += prior.information;
+  }
+  lower_limit(point.score.cost + point.score.log_volume, nodes);
+}
+
+void PointScorer::lower_limit(double deviance, const Nodes& nodes) {
+  // As if this were the best: its own noise, were it larger than is given, makes all others matter the more.
+  const auto freedom = static_cast<double>(nodes.complete().size() + 1);
+  const double noisier = std::max(1.0, deviance / freedom);
+  const double farthest = std::sqrt(std::max(0.0, deviance) + kMatters * noisier) + kBeyondMatter * std::sqrt(noisier);
+  limit_ = std::min(limit_, square(farthest));
+}
+
+double PointScorer::least_prior_cost(const Interval& s) const {
+  if (!options_.prior || options_.prior->sd > kNarrowPrior * places_.perimeter) return 0;
+  // No place of the interval is nearer than its middle, less half of its width.
+  const double off = std::abs(places_.offset(options_.prior->s, s.middle())) - 0.5 * s.width();
+  return off > 0 ? square(off / options_.prior->sd) : 0;
+}
+
+double PointScorer::prior_sigmas(const GridPoint& point) const {
+  double sigmas = 0;
+  if (options_.prior) {
+    sigmas = std::abs(places_.offset(options_.prior->s, point.now.place().s)) / options_.prior->sd;
+  }
+  if (options_.pose) sigmas = std::max(sigmas, std::sqrt(score_of(*options_.pose, point.now).cost));
+  return sigmas;
+}
+
+}  // namespace rollfix::belief

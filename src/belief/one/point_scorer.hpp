@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "belief/one/roll_filter.hpp"
+#include "belief/one/side_by_side.hpp"
+#include "rollfix/belief/belief.hpp"
+#include "rollfix/part/boundary.hpp"
+
+namespace rollfix::belief {
+
+/// What a first contact on trial is worth, the prior included; see RollFilter.
+struct Score {
+  double cost = 0;
+  double log_volume = 0;
+  double slope = 0;  // of the logarithm of the likelihood, by w
+  double information = 0;
+
+  double log_likelihood() const { return -0.5 * (cost + log_volume); }
+};
+
+/// A first contact on trial.
+struct GridPoint {
+  RollFilter filter;    // has taken `taken` complete nodes
+  double deviance = 0;  // of it
+  std::size_t taken = 0;
+  std::size_t generation = 0;
+  std::size_t rows = 0;  // of the roll, when it was scored
+  RollFilter now;        // and what is pending
+  Score score;
+};
+
+/// Lets first contacts on trial take the samples, and says what each is worth, the prior included.
+class PointScorer {
+ public:
+  PointScorer(const TiltedBoundary& boundary, const ErrorModel& errors, const BeliefOptions& options,
+              const Boundary& places, const CentreModel* centres);
+
+  GridPoint make(const TiltedArc& arc, double w) const;
+  /// Lets each of the points take the nodes that it has not. Beyond the limit of what can matter it takes no more: it
+  /// stays stale, and what it has cost by then is a bound.
+  void refresh(const std::vector<GridPoint*>& points, const Nodes& nodes);
+  /// The same, those that some of the nodes speak for first: then the others reach the limit early.
+  void refresh_likely_first(const std::vector<GridPoint*>& points, const Nodes& nodes);
+  static bool is_stale(const GridPoint& point, const Nodes& nodes) { return point.rows != nodes.rows(); }
+
+  /// Of a deviance that can matter: it comes down with each better point, until all is new.
+  double limit() const { return limit_; }
+  void forget_limit() { limit_ = std::numeric_limits<double>::infinity(); }
+
+  /// What a narrow prior adds to a cost anywhere on a stretch, at least.
+  double least_prior_cost(const Interval& s) const;
+  /// How far off the priors a point is, in standard deviations.
+  double prior_sigmas(const GridPoint& point) const;
+
+ private:
+  RollFilter fresh_filter(const TiltedArc& arc, double w) const;
+  Errand first_errand(GridPoint& point, const Nodes& nodes) const;
+  /// After another one; false: the point is scored.
+  bool next_errand(Errand& errand, const Nodes& nodes, const std::optional<Node>& pending);
+  void score(GridPoint& point, const Nodes& nodes);
+  void lower_limit(double deviance, const Nodes& nodes);
+  bool has_centres() const { return centres_ != nullptr && centres_->path != nullptr; }
+
+  double tilt_;
+  const CentreModel* centres_;  // nullptr: they are not looked at
+  ErrorModel errors_;
+  BeliefOptions options_;
+  Outliers outliers_;
+  Boundary places_;
+  double limit_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace rollfix::belief

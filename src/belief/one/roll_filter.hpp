@@ -1,0 +1,125 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "belief/error_model.hpp"
+#include "belief/nodes.hpp"
+#include "belief/posterior.hpp"
+#include "belief/tilted_boundary.hpp"
+
+namespace rollfix::belief {
+
+/// How outliers are taken: as a share of rows whose place says nothing, spread over `range`. Share 0: there are none.
+struct Outliers {
+  double share = 0;
+  double range = 1;  // length
+};
+
+// A contact that is this much of a radian off where it was measured is looked at there as well as anywhere.
+inline constexpr double kSameLine = 0.02;
+
+/// What a row adds to a filter. Minus twice the logarithm of its likelihood is cost + log(volume).
+struct RowShare {
+  double weight;  // probability that it is not stray
+  double cost;
+  double volume;
+};
+
+/// Of so many equations: by how much they miss, squared, in standard deviations; and the determinants of their own
+/// covariance and of that with what the rows share.
+RowShare share_of(int equations, double squared, double own, double all, const Outliers& outliers);
+
+/// One first contact on trial: an extended Kalman filter of the errors that the whole roll shares, which gives the
+/// samples' likelihood along the way, and how that changes with the place.
+class RollFilter {
+ public:
+  /// `centres`: nullptr where they are not looked at.
+  RollFilter(const TiltedArc& arc, double tilt, double w, const SharedCovariance& start, const CentreModel* centres);
+  /// The same again, with what the rows were found to share: rows are linearised about that offset of turn, from the
+  /// first one on.
+  RollFilter again(const SharedCovariance& start) const;
+
+  /// Takes a row with its centre, as three equations; see side_by_side.hpp for rows without.
+  void update(const Node& node, const Outliers& outliers);
+  /// The rows were taken about nearly the offset of turn that they were found to share.
+  bool is_settled(double accuracy) const { return guess_ && std::abs(x_[1] - *guess_) <= accuracy; }
+
+  const TiltedArc* arc() const { return arc_; }
+  double w() const { return w_; }
+  const TiltedPlace& place() const { return place_; }
+  /// Minus twice the logarithm of the likelihood, up to what is the same everywhere: the cost is a squared distance.
+  /// Both only grow with every node.
+  double cost() const { return cost_; }
+  double log_volume() const { return log_volume_ + std::log(volume_); }
+  double deviance() const { return cost_ + log_volume(); }
+  /// The deviance is above that: may find out a little late, and takes no logarithm.
+  bool is_beyond(double limit) const { return cost_ + log_volume_ > limit; }
+  /// Its derivative by w, and the (expected) information on w: the square of the distance's rate of change.
+  double slope() const { return -slope_; }
+  double information() const { return information_; }
+  /// Of each equation's innovations.
+  const std::array<Whiteness, 3>& whiteness() const { return whiteness_; }
+  /// Of the rows that are not stray: as many, and their part of the cost.
+  double right_rows() const { return right_rows_; }
+  double right_cost() const { return right_cost_; }
+  const Shared& errors() const { return x_; }
+  const SharedCovariance& covariance() const { return p_; }
+
+  /// Where the contact is after a roll that is measured as this.
+  TiltedPlace after(const Reading& measured) const;
+  /// The same at a first contact that looks like this one.
+  RollFilter moved(const TiltedArc& arc, const Shift& shift) const;
+  /// Where the part is, as far as the rows tell it for this first contact, and how that changes with w. REQUIRES that
+  /// the finger's first contact is known; x and y mean something where has_place().
+  PoseSpread pose(Eigen::Vector3d* by_w = nullptr) const;
+  bool has_place() const { return centres_ != nullptr && centres_->has_place; }
+  /// The variance of that place from the shared errors and the row's own.
+  double variance_after(const Reading& measured, const RowCovariance& own) const;
+
+ private:
+  friend class SideBySide;
+  struct Corrected {
+    double length;
+    double turn;
+  };
+  struct Equations;
+  Equations equations_at(double w, const Corrected& roll, double w_variance, const Node& node) const;
+  void add_centre(const SpreadPlace& end, double w, const Corrected& roll, const Node& node, Equations& rows) const;
+  void absorb(const Node& node, const Outliers& outliers);
+  /// What the shared errors are when a row is looked at: the guess of the turn's, else as they are estimated so far.
+  Shared about() const {
+    Shared errors = x_;
+    if (guess_) errors[1] = *guess_;
+    return errors;
+  }
+  Corrected corrected(double length, double turn, const Shared& errors) const {
+    return {(length - errors[0]) / (1 + errors[2]), turn - errors[1]};
+  }
+
+  /// The variance of theta + c L, from the shared errors and a row's own.
+  double variance_of_roll(double length, const RowCovariance& own) const;
+
+  const TiltedArc* arc_;
+  const CentreModel* centres_;
+  double tilt_;
+  double w_;
+  TiltedPlace place_;
+  double most_scale_;
+  Shared x_ = Shared::Zero();
+  SharedCovariance p_;
+  Shared dx_ = Shared::Zero();  // of x by w
+  double cost_ = 0;
+  double log_volume_ = 0;  // but for the logarithm of ...
+  double volume_ = 1;      // ... this
+  double slope_ = 0;
+  double information_ = 0;
+  std::array<Whiteness, 3> whiteness_;
+  double right_rows_ = 0;
+  double right_cost_ = 0;
+  std::optional<double> guess_;  // of the offset of turn
+};
+
+}  // namespace rollfix::belief
