@@ -117,7 +117,8 @@ class Boundary {
   };
 
   static constexpr Real kMostBend = 0.05L;       // radians by which a cell's turn may be unknown
-  static constexpr Real kQuadrature = 2e-18L;    // of a cell's length, by which halves may disagree
+  static constexpr Real kQuadrature = 2e-18L;    // of a cell's length, by which halves may disagree, ...
+  static constexpr Real kRounding = 3e-20L;      // ... or of its curve's: no halving takes the rounding of r' away
   static constexpr Real kSmallStep = 1e-3L;      // of a cell's parameters
   static constexpr Real kLastStep = 1e-10L;      // the error that is left is its square
   static constexpr Real kShareOfBounds = 0.75L;  // of a cell whose own bounds are taken for a stretch
@@ -136,23 +137,24 @@ class Boundary {
     Cell first;
     first.curve = curve;
     first.u = curves_[curve]->domain();
-    cut(first);
+    cut(first, kRounding * length(curve, first.u.lo, first.u.hi));
   }
 
   /// Halves until arc length is certain and the curvature is known well.
-  void cut(Cell cell) {
+  void cut(Cell cell, Real rounding) {
     const Real amid = cell.u.middle();
     const Real halves = length(cell.curve, cell.u.lo, amid) + length(cell.curve, amid, cell.u.hi);
     cell.length = length(cell.curve, cell.u.lo, cell.u.hi);
     cell.bend = curves_[cell.curve]->bend(cell.u);
-    const bool is_fine = std::abs(halves - cell.length) <= kQuadrature * cell.length && cell.bend.speed.lo > 0 &&
+    const Real slack = std::max(kQuadrature * cell.length, rounding);
+    const bool is_fine = std::abs(halves - cell.length) <= slack && cell.bend.speed.lo > 0 &&
                          cell.bend.curvature.width() * cell.length <= kMostBend &&
                          cell.bend.curvature.size() * cell.length < 1;
     if (!is_fine && amid > cell.u.lo && amid < cell.u.hi) {
       for (const Interval& half : {Interval(cell.u.lo, amid), Interval(amid, cell.u.hi)}) {
         Cell part = cell;
         part.u = half;
-        cut(part);
+        cut(part, rounding);
       }
       return;
     }
