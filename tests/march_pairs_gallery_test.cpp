@@ -27,8 +27,14 @@ class MarchPairsGallery : public testing::TestWithParam<std::string> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Gallery, MarchPairsGallery, testing::ValuesIn(march_families::smooth_closed_shapes()),
+INSTANTIATE_TEST_SUITE_P(Gallery, MarchPairsGallery,
+                         testing::ValuesIn(march_families::with_others(march_families::kOfTwoFingers)),
                          shapes::as_identifier);
+
+TEST(MarchFamilies, of_two_fingers_are_all_that_the_march_takes) {
+  const auto march = [](const Outline& outline) { PairMarch{outline}; };
+  EXPECT_EQ(march_families::taken_by(march), march_families::kOfTwoFingers);
+}
 
 TEST_P(MarchPairsGallery, planted_pairs_are_found_and_what_is_found_fits) {
   auto generator = test_generator(81);

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "march_families.hpp"
 #include "random.hpp"
 #include "rollfix/locate/locate.hpp"
 #include "rollfix/march/march.hpp"
@@ -16,23 +17,6 @@ namespace {
 using namespace rollfix;
 
 constexpr double kAgreement = 1e-7;  // of a start, in parts of the perimeter
-
-std::vector<std::string> smooth_shapes() {
-  std::vector<std::string> names;
-  for (const GalleryShape& shape : gallery_shapes()) {
-    const Outline outline = gallery(shape.name);
-    try {
-      const march::March march(outline, march::curvature_density());
-      names.push_back(shape.name);
-    } catch (const march::Refusal&) {  // lines, arcs, corners: what the paper excludes
-    }
-  }
-  for (const char* more :
-       {"ellipse,a=3,b=1", "limacon,a=1.2,b=1", "spline,n=12,seed=5,wobble=0.3", "gear,teeth=3,depth=0.2"}) {
-    names.emplace_back(more);
-  }
-  return names;
-}
 
 double distance(const Part& part, double one, double two) { return part.boundary().distance(one, two); }
 
@@ -71,7 +55,14 @@ class MarchProduction : public testing::TestWithParam<std::string> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Gallery, MarchProduction, testing::ValuesIn(smooth_shapes()), shapes::as_identifier);
+INSTANTIATE_TEST_SUITE_P(Gallery, MarchProduction,
+                         testing::ValuesIn(march_families::with_others(march_families::kOfOneFinger)),
+                         shapes::as_identifier);
+
+TEST(MarchFamilies, of_one_finger_are_all_that_the_march_takes) {
+  const auto march = [](const Outline& outline) { march::March(outline, march::curvature_density()); };
+  EXPECT_EQ(march_families::taken_by(march), march_families::kOfOneFinger);
+}
 
 TEST_P(MarchProduction, agrees_on_random_readings) {
   auto generator = test_generator();

@@ -142,7 +142,8 @@ class PairThreeWays : public testing::TestWithParam<std::string> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Gallery, PairThreeWays, testing::ValuesIn(march_families::smooth_closed_shapes()),
+INSTANTIATE_TEST_SUITE_P(Gallery, PairThreeWays,
+                         testing::ValuesIn(march_families::with_others(march_families::kOfTwoFingers)),
                          shapes::as_identifier);
 
 TEST_P(PairThreeWays, agree_on_random_readings) {
@@ -185,7 +186,8 @@ class PairContinua : public PairThreeWays {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Gallery, PairContinua, testing::ValuesIn(march_families::smooth_closed_shapes()),
+INSTANTIATE_TEST_SUITE_P(Gallery, PairContinua,
+                         testing::ValuesIn(march_families::with_others(march_families::kOfTwoFingers)),
                          shapes::as_identifier);
 
 TEST_P(PairContinua, where_equal_rolls_turn_equally_the_march_refuses_and_production_has_a_stretch) {
