@@ -67,6 +67,38 @@ TEST(Advise, it_takes_no_contender_out_of_reach) {
   const double place = reach.arcs.front().lo + 0.1;
   const Advice advice = advise(part, between({place, place + 0.3}), options);
   EXPECT_GE(advice.prospects.front().length, -0.11);
+  const double last = reach.arcs.front().hi - 0.1;
+  EXPECT_LE(advise(part, between({last - 0.3, last}), options).prospects.back().length, 0.11);
+}
+
+TEST(Advise, what_a_roll_tells_is_less_the_worse_turn_length_and_place_are_known) {
+  const Part part = part_of("limacon,a=1,b=0.6");
+  const double x = 0.1;
+  const auto told = [&](const AdviceOptions& options, double sd) {
+    AdviceOptions near = options;
+    near.travel = Interval{0, x};
+    return advise(part, {{1, sd, 0.5, 0}, {2.5, 2 * sd, 0.5, 1}}, near).prospects.back().bits;
+  };
+  // Of two places as likely: what is left of the wrong one where their turns differ by so many standard deviations.
+  const auto expected = [&](const AdviceOptions& options, double sd) {
+    const auto turn = [&](double s) { return part.turning().angle(s + x) - part.turning().angle(s); };
+    const auto variance = [&](double s, double of_place) {
+      const double there = part.turning().curvature(s + x);
+      const double bend = there - part.turning().curvature(s);
+      const double length = std::hypot(options.length_sd, options.length_share_sd * x);
+      return std::pow(options.turn_sd, 2) + std::pow(length * there, 2) + std::pow(of_place * bend, 2);
+    };
+    const double squared = std::pow(turn(1) - turn(2.5), 2) / (variance(1, sd) + variance(2.5, 2 * sd));
+    const double left = 1 / (1 + std::exp(0.5 * squared));
+    return 1 + left * std::log2(left) + (1 - left) * std::log2(1 - left);
+  };
+  const AdviceOptions sure{0.01, 0, 0, {}, nullptr};
+  for (const auto& [options, sd] : std::initializer_list<std::pair<AdviceOptions, double>>{
+           {sure, 0}, {{0.01, 0.01, 0, {}, nullptr}, 0}, {{0.01, 0, 0.1, {}, nullptr}, 0}, {sure, 0.3}}) {
+    EXPECT_GT(expected(options, sd), 0.05);
+    EXPECT_LT(expected(options, sd), 0.95);
+    EXPECT_NEAR(told(options, sd), expected(options, sd), 1e-9);
+  }
 }
 
 TEST(Advise, it_stays_on_an_open_part) {

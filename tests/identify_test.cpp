@@ -1,6 +1,9 @@
 // Which part is it, and where on it: the words, the weights, and the same answer however the work is shared.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <numbers>
 
 #include "catalogs.hpp"
 #include "refusal.hpp"
@@ -104,6 +107,18 @@ TEST_F(Identify, tells_one_outline_from_two_first_points_as_such) {
   const Catalog turned("turned.db");
   const Identified found = identify(turned, {turned.part(0), roll_on(turned.part(0), 2, {9, 15})});
   EXPECT_EQ(found.verdict, "2 congruent parts");
+}
+
+TEST_F(Identify, tells_parts_of_one_length_from_congruent_ones) {
+  // A stadium, and the circle as long as that, on which each half of a lap turns by half a turn as well.
+  build_catalog("long.db",
+                {{"gallery:stadium,length=2,r=0.5", "stadium"},
+                 {fmt::format("gallery:circle,r={:.17g}", (4 + std::numbers::pi) / (2 * std::numbers::pi)), "circle"}});
+  const Catalog alike("long.db");
+  const double half = 0.5 * alike.part(0).perimeter();
+  const Identified found = identify(alike, {alike.part(0), {{half, std::numbers::pi}}});
+  EXPECT_EQ(found.verdict, "2 parts");
+  EXPECT_TRUE(found.parts[0].congruent.empty());
 }
 
 TEST_F(Identify, finds_a_part_that_lies_face_down_or_was_rolled_the_other_way) {

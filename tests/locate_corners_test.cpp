@@ -83,6 +83,20 @@ TEST(Corner, a_concave_corner_has_no_pivot) {
   EXPECT_NEAR(across.placements[0].extent[0].hi, 7, 1e-9);
 }
 
+TEST(Corner, a_start_at_a_concave_one_may_point_either_way_while_the_end_pivots) {
+  // From (2, 1), before it downwards and after it to the left, to (1, 2), where the finger comes up and goes left.
+  const Part notch(shapes::polygon({{0, 0}, {3, 0}, {3, 2}, {2, 2}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}));
+  EXPECT_TRUE(shapes::holds(notch, locate(notch, {2, -kPi / 4}), 7, 1e-9));
+  EXPECT_TRUE(shapes::holds(notch, locate(notch, {2, -3 * kPi / 4}), 7, 1e-9));
+  EXPECT_FALSE(shapes::holds(notch, locate(notch, {2, kPi / 4}), 7, 1e-9));
+}
+
+TEST(Corner, a_roll_from_an_open_curves_very_end_may_end_in_a_pivot) {
+  const Part angle(shapes::polygon({{0, 0}, {2, 0}, {2, 3}}, false));
+  EXPECT_THAT(shapes::starts(locate(angle, {2, kPi / 4})), ElementsAre(DoubleNear(0, 1e-9), DoubleNear(2, 1e-9)));
+  EXPECT_THAT(shapes::starts(locate(angle, {-3, -kPi / 4})), ElementsAre(DoubleNear(5, 1e-9)));
+}
+
 TEST(Corner, a_rounding_far_smaller_than_the_roll_tends_to_the_corner) {
   const Part sharp(gallery("polygon,n=3,r=1"));
   const double side = sharp.perimeter() / 3;

@@ -270,6 +270,20 @@ TEST(Seam, a_placement_at_the_first_point_is_found_once) {
   EXPECT_TRUE(shapes::holds(part, search, 0, 1e-9));
 }
 
+TEST(Seam, a_root_behind_it_belongs_to_the_set_that_begins_before_it) {
+  const Part part(gallery("spline,n=14,seed=4,wobble=0.2"));
+  LocateOptions options;
+  options.tolerance = 1e-2;
+  const Search search = locate(part, shapes::reading_from(part, 1e-4, 0.8), options);
+  const auto across = std::find_if(search.placements.begin(), search.placements.end(),
+                                   [&](const auto& found) { return found.extent[0].hi > part.perimeter(); });
+  ASSERT_NE(across, search.placements.end());
+  EXPECT_EQ(across->kind, Kind::crossing);
+  ASSERT_EQ(across->roots.size(), 1U);
+  EXPECT_NEAR(across->roots[0][0], 1e-4, 1e-9);
+  EXPECT_NEAR(across->start[0], 1e-4, 1e-9);
+}
+
 // ---- open curves ----
 
 TEST(OpenCurve, a_roll_that_starts_or_ends_at_an_end_is_found) {
@@ -278,6 +292,19 @@ TEST(OpenCurve, a_roll_that_starts_or_ends_at_an_end_is_found) {
   EXPECT_TRUE(shapes::holds(part, locate(part, shapes::reading_from(part, 0, length)), 0, 1e-9));
   const double last = part.perimeter() - length;
   EXPECT_TRUE(shapes::holds(part, locate(part, shapes::reading_from(part, last, length)), last, 1e-9));
+}
+
+TEST(OpenCurve, a_root_at_its_very_end_is_a_crossing) {
+  const Part part(gallery("exponential"));
+  const double length = 0.4 * part.perimeter();
+  for (const double s : {0.0, part.perimeter() - length}) {
+    const Search search = locate(part, shapes::reading_from(part, s, length));
+    const auto at_end = std::find_if(search.placements.begin(), search.placements.end(),
+                                     [&](const auto& found) { return std::abs(found.start[0] - s) < 1e-9; });
+    ASSERT_NE(at_end, search.placements.end());
+    EXPECT_EQ(at_end->kind, Kind::crossing);
+    EXPECT_FALSE(at_end->sensitivity.per_turn[0].empty());
+  }
 }
 
 TEST(OpenCurve, a_roll_over_all_of_it_has_one_place) {
@@ -304,6 +331,26 @@ TEST(Budget, a_search_that_runs_out_says_where_it_stopped) {
   EXPECT_EQ(search.verdict().text(), "undecided");
 }
 
+TEST(Budget, of_several_readings_leaves_no_place_unsaid) {
+  const Part part(gallery("gear,teeth=12"));
+  const std::vector<Reading> readings{shapes::reading_from(part, 0.3, part.perimeter() / 12 + 1e-3),
+                                      shapes::reading_from(part, 0.3, part.perimeter() / 5)};
+  const Search whole = locate(part, readings);
+  ASSERT_EQ(whole.status, Status::complete);
+  for (std::size_t budget = 0; budget < 200; ++budget) {
+    LocateOptions options;
+    options.budget = budget;
+    const Search search = locate(part, readings, options);
+    EXPECT_EQ(search.status == Status::complete, search.unresolved.empty());
+    for (const Placement& placement : whole.placements) {
+      const double s = placement.start[0];
+      const bool is_open = std::any_of(search.unresolved.begin(), search.unresolved.end(),
+                                       [&](const auto& box) { return part.boundary().contains(box[0], s, 1e-9); });
+      EXPECT_TRUE(is_open || shapes::holds(part, search, s, 1e-9)) << "budget " << budget << ", s = " << s;
+    }
+  }
+}
+
 TEST(Readings, that_are_not_numbers_are_refused) {
   const Part part(gallery("ellipse"));
   EXPECT_THROW(locate(part, Reading{std::nan(""), 1}), InputError);
@@ -323,6 +370,44 @@ TEST(Readings, more_of_one_roll_leave_fewer_placements_and_never_lose_the_true_o
     last = search.placements.size();
   }
   EXPECT_EQ(last, 1U);
+}
+
+TEST(Readings, a_stretch_of_one_that_another_only_comes_near_to_is_none) {
+  const Part stadium(gallery("stadium,length=2,r=0.5"));
+  LocateOptions options;
+  options.tolerance = 1e-3;
+  for (const std::vector<Reading>& readings :
+       {std::vector<Reading>{{0.5, 5e-4}, {0.25, 0}}, {{0.25, 0}, {0.5, 5e-4}}}) {
+    const Search search = locate(stadium, readings, options);
+    ASSERT_EQ(search.placements.size(), 2U);
+    for (const Placement& placement : search.placements) {
+      EXPECT_NE(placement.kind, Kind::stretch);
+      EXPECT_TRUE(placement.roots.empty() || placement.residual < kLeastTolerance);
+    }
+  }
+}
+
+TEST(Readings, that_share_no_root_have_none_and_start_where_they_miss_least) {
+  const Part part(gallery("spline,n=14,seed=4,wobble=0.2"));
+  std::vector<Reading> readings{shapes::reading_from(part, 2.2, 0.35), shapes::reading_from(part, 2.2, 0.9)};
+  readings[1].turn += 5e-3;
+  LocateOptions options;
+  options.tolerance = 1e-2;
+  const Search search = locate(part, readings, options);
+  ASSERT_TRUE(shapes::holds(part, search, 2.2, 1e-9));
+  for (const Placement& placement : search.placements) {
+    const auto miss = [&](double s) {
+      double most = 0;
+      for (const Reading& reading : readings) {
+        most = std::max(most, std::abs(shapes::reading_from(part, s, reading.length[0]).turn - reading.turn));
+      }
+      return most;
+    };
+    EXPECT_NEAR(placement.residual, miss(placement.start[0]), 1e-12);
+    EXPECT_TRUE(placement.roots.empty() || placement.residual <= kLeastTolerance);
+    const Interval& extent = placement.extent[0];
+    for (int k = 0; k <= 100; ++k) EXPECT_GE(miss(extent.lo + extent.width() * k / 100), placement.residual - 1e-9);
+  }
 }
 
 TEST(Readings, a_stretch_is_cut_by_a_further_reading) {

@@ -183,6 +183,35 @@ TEST(SearchTree, keeps_the_pivot_at_each_corner_of_a_polygon) {
   EXPECT_THAT(shapes::kinds(search), testing::Each(Kind::corner));
 }
 
+/// A drop: a round outline of many corners that comes to a point, which is its k-th one.
+Part drop(int k) {
+  std::vector<Vec2> corners{{2, 0}};
+  for (int i = 0; i <= 80; ++i) {
+    const double t = kPi / 3 + 4 * kPi / 3 * i / 80;
+    corners.emplace_back(std::cos(t), std::sin(t));
+  }
+  std::rotate(corners.begin(), corners.end() - k, corners.end());
+  return Part(shapes::polygon(corners));
+}
+
+TEST(SearchTree, keeps_each_pivot_at_a_sharp_corner_wherever_that_is_among_others) {
+  for (const int k : {0, 1, 2, 3}) {
+    const Part part = drop(k);
+    const TurningFunction& turning = part.turning();
+    const double tip = turning.spirals()[static_cast<std::size_t>(k)].lo;
+    const double before = turning.angle(tip, Side::before);
+    for (const double length : {0.37 * part.perimeter(), 1.0, -1.0}) {
+      for (const double share : {0.05, 0.3, 0.7, 0.95}) {
+        const double pivoted = before + share * (turning.angle(tip) - before);
+        const Search started = locate(part, {length, turning.angle(tip + length) - pivoted});
+        EXPECT_TRUE(shapes::holds(part, started, tip, 1e-9)) << "tip " << k << ", length " << length;
+        const Search ended = locate(part, {length, pivoted - turning.angle(tip - length)});
+        EXPECT_TRUE(shapes::holds(part, ended, tip - length, 1e-9)) << "tip " << k << ", length " << length;
+      }
+    }
+  }
+}
+
 TEST(SearchTree, keeps_all_of_a_symmetric_part) {
   auto generator = test_generator(4);
   const Part part({"star", spline_through(wavy_points(generator, 240, 8), true), true});

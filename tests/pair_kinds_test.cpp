@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "pair_cases.hpp"
+#include "random.hpp"
 #include "rollfix/locate/locate.hpp"
 #include "shapes.hpp"
 
@@ -216,6 +217,32 @@ TEST(PairTouching, two_crossings_that_the_tolerance_can_not_tell_apart_are_one_p
   const Placement* placement = nearest(search, tangency.start);
   ASSERT_NE(placement, nullptr);
   EXPECT_EQ(placement->kind, Kind::touching);
+}
+
+TEST(PairTouching, a_set_of_several_roots_crosses_where_their_signs_do_not_cancel) {
+  const Part part(gallery("spline,n=8,seed=2"));
+  const TurningFunction& turning = part.turning();
+  auto generator = test_generator();
+  LocateOptions wide;
+  wide.tolerance = 0.05;
+  std::size_t seen = 0;
+  for (int k = 0; k < test_count(20); ++k) {
+    const std::vector<Reading> readings = pair_cases::random_case(part, 2, generator).readings;
+    for (const Placement& placement : locate(part, readings, wide).placements) {
+      if (placement.roots.size() < 2) continue;
+      int sum = 0;
+      for (const PerFinger<double>& root : placement.roots) {
+        const auto slope = [&](std::size_t finger, std::size_t reading) {
+          const double s = root[finger];
+          return turning.curvature(s + readings[reading].length[finger]) - turning.curvature(s);
+        };
+        sum += slope(0, 0) * slope(1, 1) < slope(0, 1) * slope(1, 0) ? 1 : -1;
+      }
+      EXPECT_EQ(placement.kind, sum != 0 ? Kind::crossing : Kind::touching) << "seed " << test_seed() << ", case " << k;
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, 5U);
 }
 
 TEST(PairTouching, a_near_miss_is_kept_within_the_tolerance_and_dropped_beyond) {

@@ -278,6 +278,23 @@ TEST(Overlap, says_when_and_by_how_much) {
   EXPECT_NEAR(dropped[0].depth, 1, 1e-6);
 }
 
+TEST(Overlap, drops_an_extent_only_where_the_disks_are_in_each_other_from_everywhere_in_it) {
+  // On a circle of radius 1, disks of radius 0.5 are apart where their contacts are 2 asin(1 / 3) = 0.68 apart.
+  const Part part(gallery("circle,r=1"));
+  const std::vector<Reading> readings{{0.3, 0.3, 0}};
+  for (const double reach : {0.01, 0.02, 0.06, 0.2}) {
+    Placement placement;
+    placement.kind = Kind::crossing;
+    placement.start = placement.end = PerFinger<double>(1.0, 1.6);
+    placement.extent = PerFinger<Interval>(Interval{1 - reach, 1 + reach}, Interval{1.6 - reach, 1.6 + reach});
+    placement.whole_loop = PerFinger<bool>(false, false);
+    Search search;
+    search.placements.push_back(placement);
+    drop_unreachable(part, disks(part, 0.5, 0.5), readings, search);
+    EXPECT_EQ(search.placements.size(), reach > 0.05 ? 1U : 0U) << reach;
+  }
+}
+
 TEST(Overlap, drops_the_continuum_of_two_fingers_at_one_place) {
   // Equal rolls and no turn: t = s fits everywhere, and two disks can't be there.
   const Part part(gallery("cam"));
