@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -91,6 +92,32 @@ TEST(CliMirror, readings_two_fingers_and_watch_are_mirrored_alike) {
       run("watch part.csv --finger disk,r=1 --noise contact=1e-3,angle=1e-3 --mirror --once --jsonl --log roll.csv");
   const std::size_t last = watched.out.rfind('\n', watched.out.size() - 2);
   EXPECT_THAT(watched.out.substr(last), HasSubstr("unique"));
+}
+
+TEST(CliMirror, how_two_fingers_face_each_other_is_mirrored_as_well) {
+  const cli::Folder folder;
+  write_parts(folder);
+  const std::string asked = " --reading 12,9,0.1 --facing 0.7 --tolerance 1e-9 --json";
+  const Json image = run("locate image.csv" + asked).json();
+  const Json found = run("locate part.csv --mirror" + asked).json();
+  EXPECT_EQ(found["facing"], image["facing"]);
+  ASSERT_GT(image["placements"].size(), 0U);
+  ASSERT_EQ(found["placements"].size(), image["placements"].size());
+  const double P = perimeter();
+  for (const Json& expected : image["placements"]) {
+    bool is_there = false;
+    for (const Json& placement : found["placements"]) {
+      double off = 0;
+      for (const int k : {0, 1}) {
+        const double sum = placement["start"][k].get<double>() + expected["start"][k].get<double>();
+        const double facing = placement["sensitivity"]["per_facing"][k].get<double>() +
+                              expected["sensitivity"]["per_facing"][k].get<double>();
+        off = std::max({off, std::abs(std::remainder(sum, P)), 1e-3 * std::abs(facing)});
+      }
+      is_there |= off < 1e-6;
+    }
+    EXPECT_TRUE(is_there) << expected["start"];
+  }
 }
 
 TEST(CliMirror, simulate_writes_what_locate_understands) {
