@@ -247,10 +247,10 @@ void describe_slopes(const Question& question, const SlopeSample* samples, Place
   }
 }
 
-void PlacementMaker::make_crossing(double root, const Interval& extent, const SlopeSample& sample,
+void PlacementMaker::make_crossing(double root, std::size_t panel, const Interval& extent, const SlopeSample& sample,
                                    Placement& placement) const {
   placement.kind = Kind::crossing;
-  place(root, placement);
+  place(root, panel, placement);
   placement.extent[0] = question_.part.boundary().arc(extent.lo, extent.hi);
   placement.roots.push_back(placement.start);
   placement.residual = std::abs(sample.value);
@@ -260,7 +260,7 @@ void PlacementMaker::make_crossing(double root, const Interval& extent, const Sl
 void PlacementMaker::make(FoundSet&& found, Placement& placement) const {
   const Boundary boundary = question_.part.boundary();
   placement.kind = found.kind;
-  place(found.start, placement);
+  place(found.start, 0, placement);
   placement.whole_loop = found.whole_loop;
   placement.extent = found.extent;
   for (std::size_t finger = 0; finger < question_.fingers(); ++finger) {
@@ -302,14 +302,14 @@ void PlacementMaker::describe_contacts(const PerFinger<double>& start, Placement
   describe_slopes(question_, samples.data(), placement);
 }
 
-void PlacementMaker::place(const PerFinger<double>& start, Placement& placement) const {
+void PlacementMaker::place(const PerFinger<double>& start, std::size_t likely_panel, Placement& placement) const {
   const Reading& last = question_.readings.back();
   placement.start = placement.end = placement.tangent = start;
   if (start.size() == 2) placement.point = {Vec2(), Vec2()};
   for (std::size_t finger = 0; finger < start.size(); ++finger) {
     placement.start[finger] = question_.part.boundary().canonical(start[finger]);
     placement.end[finger] = question_.part.boundary().canonical(start[finger] + last.length[finger]);
-    const Touched contact = PartAccess::contact(question_.part, placement.start[finger]);
+    const Touched contact = PartAccess::contact(question_.part, placement.start[finger], likely_panel);
     placement.point[finger] = contact.point;
     placement.tangent[finger] = contact.tangent;
   }

@@ -32,11 +32,12 @@ class PlacementMaker {
 
   void make(FoundSet&& found, Placement& placement) const;
   /// By far the most frequent set, at once: of one finger and one reading, one simple root that the search has a sample
-  /// of.
-  void make_crossing(double root, const Interval& extent, const SlopeSample& sample, Placement& placement) const;
+  /// of, and perhaps the panel of.
+  void make_crossing(double root, std::size_t panel, const Interval& extent, const SlopeSample& sample,
+                     Placement& placement) const;
 
  private:
-  void place(const PerFinger<double>& start, Placement& placement) const;
+  void place(const PerFinger<double>& start, std::size_t likely_panel, Placement& placement) const;
   void describe_contacts(const PerFinger<double>& start, Placement& placement) const;
   void describe_corner(const FoundSet& found, Placement& placement) const;
 

@@ -6,15 +6,18 @@
 #include <cmath>
 #include <cstdint>
 
+#include "interpolation.hpp"
+
 namespace rollfix {
 namespace {
 
 // A bracket of a root, or a step to it, that is below this share of the perimeter is the last one.
 constexpr double kRootStep = 1e-11;
-// A root is where Newton's method and cubic interpolation agree on it to this share of the perimeter, ...
+// A root is known where interpolation by two samples is off by no more than this share of the perimeter: by three it is
+// off by far less.
 constexpr double kRootAgreement = 1e-13;
-// ... so near the last two samples that the product of their distances, by which curvatures are off that are
-// interpolated, is below this share of its square.
+// A sample need not be taken where one can be interpolated, by curvatures that are off by the product of the distances
+// to two others: below this share of the perimeter's square.
 constexpr double kRootArea = 1e-11;
 // Where f turns by less than this on a perimeter, at its slope, roots are as far off as rounding makes them: there the
 // step decides.
@@ -22,8 +25,6 @@ constexpr double kSteep = 1e-4;
 // A roll shorter than this share of the perimeter: f is next to nothing, of whatever sign its slope is.
 constexpr double kShortRoll = 1e-6;
 constexpr int kMostRounds = 100;
-// So many steps of Newton's method leave less of a cubic's root than the cubic is off by.
-constexpr int kCubicSteps = 2;
 // An extent may be off by this share of its width: there f is taken as straight.
 constexpr double kExtentBend = 1e-3;
 // On an extent that is shorter than this share of a stretch f bends no more than on the stretch in the mean.
@@ -42,30 +43,6 @@ constexpr int kPlainHalvings = 4;
 constexpr double kBoundsRounding = 1e-14;
 // The extremum of f is approached by the secant of its slope this long, then bracketed.
 constexpr int kMostSecants = 12;
-
-/// A sample close to another: its curvatures by those of a third one as well, its value by the slopes at both.
-ResidualSample beside(const ResidualSample& at, const ResidualSample& third, double s) {
-  const double share = third.s == at.s ? 0 : (s - at.s) / (third.s - at.s);
-  ResidualSample sample{s, at.value, at.start_curvature + share * (third.start_curvature - at.start_curvature),
-                        at.end_curvature + share * (third.end_curvature - at.end_curvature)};
-  sample.value += 0.5 * (at.slope() + sample.slope()) * (s - at.s);
-  return sample;
-}
-
-/// Where the cubic through two samples, with their slopes, has the value `level`: from a place nearby by Newton's
-/// method.
-double cubic_root(const ResidualSample& one, const ResidualSample& other, double level, double nearby) {
-  const double width = other.s - one.s;
-  const double rise = other.value - one.value;
-  const double linear = one.slope() * width;
-  const double square = 3 * rise - 2 * linear - other.slope() * width;
-  const double cube = rise - linear - square;
-  double x = (nearby - one.s) / width;
-  for (int step = 0; step < kCubicSteps; ++step) {
-    x -= (one.value - level + x * (linear + x * (square + x * cube))) / (linear + x * (2 * square + x * 3 * cube));
-  }
-  return one.s + x * width;
-}
 
 struct Bounds {
   double least;
@@ -93,16 +70,6 @@ Bounds value_bounds(const ResidualSample& lo, const ResidualSample& hi, const Bo
           (slope.most * hi.value - slope.least * lo.value - scale) / span};
 }
 
-/// Bounds on f from the chords of both Thetas: where its curvature rises or falls from end to end by so much, each is
-/// on one side of its chord, by a quarter of that times the width at the most.
-Bounds strip(const ResidualSample& lo, const ResidualSample& hi) {
-  const double quarter = 0.25 * (hi.s - lo.s);
-  const double end = quarter * (hi.end_curvature - lo.end_curvature);
-  const double start = quarter * (hi.start_curvature - lo.start_curvature);
-  return {std::min(lo.value, hi.value) - std::max(end, 0.0) + std::min(start, 0.0),
-          std::max(lo.value, hi.value) - std::min(end, 0.0) + std::max(start, 0.0)};
-}
-
 /// The sign of f'' where the spirals' trends settle it.
 int bend_by_trends(const SpiralPair& pair) {
   if (pair.end.trend >= 0 && pair.start.trend <= 0) return 1;
@@ -127,40 +94,24 @@ void Findings::clear() {
   counts = {};
 }
 
-RootSearch::RootSearch(const LocateOptions& options, double perimeter, Undecided& undecided, Findings& found)
+RootSearch::RootSearch(const LocateOptions& options, double perimeter, Findings& found)
     : findings(found),
       tolerance_(options.tolerance),
       budget_(options.budget),
       perimeter_(perimeter),
-      same_place_(kLengthAccuracy * perimeter),
-      waiting_(undecided) {
+      same_place_(kLengthAccuracy * perimeter) {
   findings.clear();
-  waiting_.clear();
 }
 
-void RootSearch::run(const SpiralPair& pair, const ResidualSample& lo, const ResidualSample& hi) {
-  if (is_far(lo, hi)) {  // most intervals
-    ++findings.counts.intervals;
-    return;
-  }
+void RootSearch::look_at(const SpiralPair& pair, const ResidualSample& lo, const ResidualSample& hi) {
   start_panel_ = end_panel_ = nullptr;
   if (is_stretch(pair, lo, hi)) {
     add_piece(lo.s, hi.s, true);
     findings.roots.push_back({lo.s});
-    return;
+  } else {
+    ++findings.counts.intervals;
+    decide_near(pair, {lo, hi, 0, 0});
   }
-  ++budget_;  // this one comes with the part, however many points it has
-  decide(pair, {lo, hi, 0, 0});
-  while (!waiting_.empty()) {
-    const SampledRange range = waiting_.back();
-    waiting_.pop_back();
-    decide(pair, range);
-  }
-}
-
-bool RootSearch::is_far(const ResidualSample& lo, const ResidualSample& hi) const {
-  const Bounds value = strip(lo, hi);
-  return value.least > tolerance_ || value.most < -tolerance_;
 }
 
 bool RootSearch::is_stretch(const SpiralPair& pair, const ResidualSample& lo, const ResidualSample& hi) {
@@ -181,15 +132,18 @@ bool RootSearch::is_stretch(const SpiralPair& pair, const ResidualSample& lo, co
 }
 
 void RootSearch::decide(const SpiralPair& pair, const SampledRange& range) {
-  const ResidualSample& lo = range.lo;
-  const ResidualSample& hi = range.hi;
   ++findings.counts.intervals;
   if (budget_ == 0) {
-    findings.unresolved.push_back({lo.s, hi.s});
+    findings.unresolved.push_back({range.lo.s, range.hi.s});
     return;
   }
   --budget_;
-  if (is_far(lo, hi)) return;
+  if (!is_far(range.lo, range.hi)) decide_near(pair, range);
+}
+
+void RootSearch::decide_near(const SpiralPair& pair, const SampledRange& range) {
+  const ResidualSample& lo = range.lo;
+  const ResidualSample& hi = range.hi;
   const Bounds slope = slope_bounds(lo, hi);
   if (slope.least >= 0 || slope.most <= 0) {
     take_monotone(pair, lo, hi);
@@ -266,8 +220,8 @@ void RootSearch::take_flat(const ResidualSample& lo, const ResidualSample& hi, b
 
 void RootSearch::halve(const SpiralPair& pair, const SampledRange& range, double place) {
   const ResidualSample middle = sample(pair, place);
-  waiting_.push_back({middle, range.hi, 0, range.depth + 1});
-  waiting_.push_back({range.lo, middle, 0, range.depth + 1});
+  decide(pair, {range.lo, middle, 0, range.depth + 1});
+  decide(pair, {middle, range.hi, 0, range.depth + 1});
 }
 
 /// f'' keeps its sign, so f has one extremum at the most. Told for a convex f; a concave one is its mirror image.
@@ -296,12 +250,12 @@ void RootSearch::decide_bent(const SpiralPair& pair, const SampledRange& range) 
   if (std::abs(inner.value) <= tolerance_ || !(inner.s > lo.s && inner.s < hi.s) || range.depth > kMostSecants) {
     split_at_extremum(pair, range);
   } else if (!inner_above) {  // below: one crossing on either side
-    waiting_.push_back({inner, hi, range.bend, range.depth + 1});
-    waiting_.push_back({lo, inner, range.bend, range.depth + 1});
+    decide(pair, {lo, inner, range.bend, range.depth + 1});
+    decide(pair, {inner, hi, range.bend, range.depth + 1});
   } else if ((inner.slope() < 0) == (lo.slope() < 0)) {  // still above: the lowest point is on the side it slopes to
-    waiting_.push_back({inner, hi, range.bend, range.depth + 1});
+    decide(pair, {inner, hi, range.bend, range.depth + 1});
   } else {
-    waiting_.push_back({lo, inner, range.bend, range.depth + 1});
+    decide(pair, {lo, inner, range.bend, range.depth + 1});
   }
 }
 
@@ -337,7 +291,8 @@ void RootSearch::take_monotone(const SpiralPair& pair, const ResidualSample& lo,
     root.s = hi.s;
   } else if ((lo.value < 0) != (hi.value < 0)) {
     const ResidualSample found = solve(pair, 0, lo, hi);
-    root = {found.s, true, false, true, found};
+    const auto panel = static_cast<std::uint32_t>(start_panel_ - pair.turning.panels().data());
+    root = {found.s, true, false, true, panel, found};
     reach = tolerance_ / std::abs(found.slope());
     near_root = is_straight(pair, found, reach, lo, hi);
   } else {
@@ -366,41 +321,46 @@ bool RootSearch::is_straight(const SpiralPair& pair, const ResidualSample& root,
   return is_where_expected(root.s - reach) && is_where_expected(root.s + reach);
 }
 
-/// Where f, monotone between the ends, has this value: where the cubic through the last two samples has it, which is of
-/// order 2.7, kept inside the bracket.
-ResidualSample RootSearch::solve(const SpiralPair& pair, double level, ResidualSample lo, ResidualSample hi) {
+/// Where f, monotone between the ends, has this value: where the polynomial through the last three samples has it, kept
+/// inside the bracket. Flat: each round waits for the one before, so that a call inside it costs its full length.
+[[gnu::flatten]] ResidualSample RootSearch::solve(const SpiralPair& pair, double level, ResidualSample lo,
+                                                  ResidualSample hi) {
   const bool rises = hi.value > lo.value;
   const double short_step = kRootStep * perimeter_;
-  const double secant = lo.s + (hi.s - lo.s) * (level - lo.value) / (hi.value - lo.value);
-  double s = cubic_root(lo, hi, level, secant);
-  if (!(s > lo.s && s < hi.s)) s = secant;
+  double s = cubic_root(lo, hi, level);
+  if (!(s > lo.s && s < hi.s)) s = lo.s + (hi.s - lo.s) * (level - lo.value) / (hi.value - lo.value);
   if (!(s > lo.s && s < hi.s)) s = 0.5 * (lo.s + hi.s);
-  ResidualSample last = std::abs(lo.value - level) < std::abs(hi.value - level) ? lo : hi;
+  const bool lo_is_nearer = std::abs(lo.value - level) < std::abs(hi.value - level);
+  ResidualSample last = lo_is_nearer ? lo : hi;
+  ResidualSample third = lo_is_nearer ? hi : lo;
+  bool is_known = false;
   for (int round = 0;; ++round) {
+    const Quintic quintic(s, last, third);
     const ResidualSample at = sample(pair, s);
-    const double newton = at.s - (at.value - level) / at.slope();
-    if (std::abs(newton - at.s) <= short_step) return beside(at, last, newton);
+    if (is_known) return at;
+    const QuinticRoot root = quintic.root(at, level);
+    const double newton = (level - at.value) / at.slope();
+    if (std::abs(newton) <= short_step) return beside(at, last, s + newton);
     if (at.value == level || round == kMostRounds) return at;
     ((at.value > level) == rises ? hi : lo) = at;
     if (hi.s - lo.s <= short_step) return at;
-    const double cubic = cubic_root(at, last, level, newton);
-    const bool is_inside = cubic >= lo.s && cubic <= hi.s;
-    if (is_inside && agree(newton, cubic, last, at)) return beside(at, last, cubic);
-    last = at;
-    if (is_inside) {
-      s = cubic;
-    } else if (newton >= lo.s && newton <= hi.s) {
-      s = newton;
-    } else {
-      s = 0.5 * (lo.s + hi.s);
+    const auto is_inside = [&](double place) { return place >= lo.s && place <= hi.s; };
+    s = at.s + root.step;
+    if (!is_inside(s)) {
+      s = is_inside(at.s + newton) ? at.s + newton : 0.5 * (lo.s + hi.s);
+    } else if (is_settled(root, at)) {
+      if (std::abs(root.step * (s - last.s)) <= kRootArea * perimeter_ * perimeter_) return beside(at, last, s);
+      is_known = true;
     }
+    third = last;
+    last = at;
   }
 }
 
-/// Do both methods see the root at one place, near enough to both samples, where it is well conditioned?
-bool RootSearch::agree(double newton, double cubic, const ResidualSample& last, const ResidualSample& at) const {
-  return std::abs(at.slope()) * perimeter_ > kSteep && std::abs(cubic - newton) <= kRootAgreement * perimeter_ &&
-         std::abs((cubic - last.s) * (cubic - at.s)) <= kRootArea * perimeter_ * perimeter_;
+/// Is the root known, where it is well conditioned?
+bool RootSearch::is_settled(const QuinticRoot& root, const ResidualSample& at) const {
+  const double slope = std::abs(at.slope());
+  return slope * perimeter_ > kSteep && root.rest <= kRootAgreement * perimeter_ * slope;
 }
 
 void RootSearch::add_piece(double lo, double hi, bool exact) { findings.pieces.push_back({lo, hi, exact, false}); }

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <boost/container/small_vector.hpp>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "rollfix/locate/locate.hpp"
@@ -46,6 +48,7 @@ struct Root {
   bool exact = true;        // f = 0 there; false: a near miss
   bool corner = false;      // thanks to a corner's pivot
   bool crossing = false;    // strictly inside an interval on which f is monotone and changes sign
+  std::uint32_t panel = 0;  // that the roll starts on at a crossing, or one next to it
   ResidualSample sample{};  // of f at a crossing
 };
 
@@ -73,26 +76,45 @@ struct SampledRange {
   int bend = 0;  // the sign of f'' where it is known
   int depth = 0;
 };
-using Undecided = boost::container::small_vector<SampledRange, 8>;
+
+struct QuinticRoot;
 
 /// Branch and prune for one reading on one pair of spirals: every s with |f(s)| <= tolerance, proved complete.
 class RootSearch {
  public:
   /// The options' tolerance is at least kTurnAccuracy.
-  RootSearch(const LocateOptions& options, double perimeter, Undecided& undecided, Findings& found);
+  RootSearch(const LocateOptions& options, double perimeter, Findings& found);
 
   /// What all runs found together.
   Findings& findings;
   /// Intervals that may still be looked at, beyond the part's own.
   std::size_t budget() const { return budget_; }
 
-  /// The ends are samples of this pair.
-  void run(const SpiralPair& pair, const ResidualSample& lo, const ResidualSample& hi);
+  /// The ends are samples of this pair. The interval between them comes with the part, however many points that has: it
+  /// costs nothing of the budget.
+  void run(const SpiralPair& pair, const ResidualSample& lo, const ResidualSample& hi) {
+    if (is_far(lo, hi)) {  // most intervals
+      ++findings.counts.intervals;
+    } else {
+      look_at(pair, lo, hi);
+    }
+  }
 
  private:
-  bool is_far(const ResidualSample& lo, const ResidualSample& hi) const;
+  /// Bounds on f from the chords of both Thetas: where its curvature rises or falls from end to end by so much, each is
+  /// on one side of its chord, by a quarter of that times the width at the most.
+  bool is_far(const ResidualSample& lo, const ResidualSample& hi) const {
+    const double quarter = 0.25 * (hi.s - lo.s);
+    const double end = quarter * (hi.end_curvature - lo.end_curvature);
+    const double start = quarter * (hi.start_curvature - lo.start_curvature);
+    const double least = std::min(lo.value, hi.value) - std::max(end, 0.0) + std::min(start, 0.0);
+    const double most = std::max(lo.value, hi.value) - std::min(end, 0.0) + std::max(start, 0.0);
+    return std::max(least, -most) > tolerance_;  // one branch: on which side of 0 f is can't be foreseen
+  }
+  void look_at(const SpiralPair& pair, const ResidualSample& lo, const ResidualSample& hi);
   bool is_stretch(const SpiralPair& pair, const ResidualSample& lo, const ResidualSample& hi);
   void decide(const SpiralPair& pair, const SampledRange& range);
+  void decide_near(const SpiralPair& pair, const SampledRange& range);
   void decide_bent(const SpiralPair& pair, const SampledRange& range);
   void take_monotone(const SpiralPair& pair, const ResidualSample& lo, const ResidualSample& hi);
   void split_at_extremum(const SpiralPair& pair, const SampledRange& range);
@@ -102,7 +124,7 @@ class RootSearch {
   bool is_straight(const SpiralPair& pair, const ResidualSample& root, double reach, const ResidualSample& lo,
                    const ResidualSample& hi);
   ResidualSample solve(const SpiralPair& pair, double level, ResidualSample lo, ResidualSample hi);
-  bool agree(double newton, double cubic, const ResidualSample& last, const ResidualSample& at) const;
+  bool is_settled(const QuinticRoot& root, const ResidualSample& at) const;
   ResidualSample sample(const SpiralPair& pair, double s) {
     findings.counts.evaluations += 2;
     return pair.sample(s, on(pair.turning, pair.start, s, start_panel_),
@@ -121,7 +143,6 @@ class RootSearch {
   double same_place_;  // lengths below this are rounding errors
   const Panel* start_panel_ = nullptr;
   const Panel* end_panel_ = nullptr;
-  Undecided& waiting_;
 };
 
 }  // namespace rollfix

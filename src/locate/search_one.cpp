@@ -15,7 +15,7 @@ namespace {
 
 class Sweep {
  public:
-  Sweep(const Part& part, const Reading& reading, const LocateOptions& options, Undecided& undecided, Findings& found)
+  Sweep(const Part& part, const Reading& reading, const LocateOptions& options, Findings& found)
       : part_(part),
         turning_(part.turning()),
         reading_(reading),
@@ -23,7 +23,7 @@ class Sweep {
         same_place_(kLengthAccuracy * part.perimeter()),
         tolerance_(options.tolerance),
         findings_(found),
-        search_(options, part.perimeter(), undecided, found) {}
+        search_(options, part.perimeter(), found) {}
 
   std::size_t budget() const { return search_.budget(); }
 
@@ -141,7 +141,7 @@ class Sweep {
 void search_stretches(const Question& question, const Interval& range, LocateOptions& options, Workspace& work) {
   const double same_place = kLengthAccuracy * question.part.perimeter();
   Findings& found = work.found;
-  Sweep sweep(question.part, question.readings.front(), options, work.undecided, found);
+  Sweep sweep(question.part, question.readings.front(), options, found);
   for (const Interval& stretch : work.stretches) {
     // A single place beside what is passed over is there for its corner.
     if (stretch.width() > same_place || range.width() <= same_place) sweep.run(stretch);
@@ -157,7 +157,7 @@ void narrow(const Question& question, std::size_t further, LocateOptions& option
   const Question its_own{question.part, {&reading, 1}};
   Findings& before = work.found;
   Findings& kept = work.narrowed;
-  Sweep sweep(question.part, reading, options, work.undecided, kept);
+  Sweep sweep(question.part, reading, options, kept);
   for (const Piece& piece : before.pieces) {
     if (!kept.unresolved.empty() || !before.unresolved.empty()) {
       kept.unresolved.push_back({piece.lo, piece.hi});

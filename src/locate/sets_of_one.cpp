@@ -98,7 +98,7 @@ class SetsOfOne {
     if (readings_.size() == 1 && cluster.root_count == 1 && roots_of(cluster)->crossing && !cluster.is_joined) {
       const Root& root = *roots_of(cluster);
       const SlopeSample sample{root.sample.value, root.sample.start_curvature, root.sample.end_curvature};
-      maker_.make_crossing(root.s, extent, sample, placement);
+      maker_.make_crossing(root.s, root.panel, extent, sample, placement);
       return;
     }
     const Roots roots = exact_roots(cluster);

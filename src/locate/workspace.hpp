@@ -29,7 +29,6 @@ struct Workspace {
   Blocks blocks;  // that a roll may start on
   Blocks fewer;   // what a further reading leaves of them
   Stretches stretches;
-  Undecided undecided;
   Findings found;
   Findings narrowed;  // to what a further reading allows as well
   boost::container::small_vector<Cluster, kFewAnswers> clusters;

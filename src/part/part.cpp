@@ -158,9 +158,11 @@ Vec2 PartAccess::point(const Part& part, std::size_t panel_index, double base) {
   return curve.position(std::min(std::max(u, domain.lo), domain.hi));
 }
 
-Touched PartAccess::contact(const Part& part, double base) {
+Touched PartAccess::contact(const Part& part, double base, std::size_t likely_panel) {
   const TurningFunction& turning = part.turning();
-  const std::size_t index = panel_at(turning.panels(), base);
+  const Panel& likely = turning.panels()[likely_panel];
+  const bool is_there = base >= likely.lo && base < likely.hi;
+  const std::size_t index = is_there ? likely_panel : panel_at(turning.panels(), base);
   return {point(part, index, base), nearest_angle(turning.on_panel(turning.panels()[index], base).angle)};
 }
 

@@ -51,8 +51,8 @@ struct PartAccess {
   using Data = Part::Data;
 
   static const Data& data(const Part& part) { return *part.data_; }
-  /// Point and tangent at base, 0 <= base <= P: both from one panel.
-  static Touched contact(const Part& part, double base);
+  /// Point and tangent at base, 0 <= base <= P: both from one panel, which may be this.
+  static Touched contact(const Part& part, double base, std::size_t likely_panel);
   static Vec2 point(const Part& part, std::size_t panel_index, double base);
   static Part part(Data data) {
     data.tree = TurningTree(data.turning);
