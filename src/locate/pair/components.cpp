@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "family_line.hpp"
@@ -104,6 +105,33 @@ bool pieces_meet(const PairPiece& one, const PairPiece& two, const Shift& shift,
   return false;
 }
 
+// What is near is looked for along a slant, s + kSlant t: on a part that repeats itself as many pieces as repetitions
+// have the same s, or the same t. By the golden ratio, which is far from all fractions.
+constexpr double kSlant = 0.6180339887498949;
+
+double along_slant(const PairPoint& at) { return at[0] + kSlant * at[1]; }
+
+Interval along_slant(const PairBox& box) {
+  return {along_slant(PairPoint{box[0].lo, box[1].lo}), along_slant(PairPoint{box[0].hi, box[1].hi})};
+}
+
+PairBox widened(const PairBox& box, double by) {
+  return {Interval{box[0].lo - by, box[0].hi + by}, Interval{box[1].lo - by, box[1].hi + by}};
+}
+
+bool holds(const PairBox& box, const PairPoint& at) {
+  return at[0] >= box[0].lo && at[0] <= box[0].hi && at[1] >= box[1].lo && at[1] <= box[1].hi;
+}
+
+/// Their indices in order of where they begin.
+std::vector<std::size_t> by_place(const std::vector<Interval>& intervals) {
+  std::vector<std::size_t> order(intervals.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return intervals[a].lo < intervals[b].lo; });
+  return order;
+}
+
 class Joiner {
  public:
   Joiner(const Part& part, const PairFindings& findings, double same_place)
@@ -142,14 +170,8 @@ class Joiner {
     return both_exact ? kJointWidth * period_ : same_place_;
   }
 
-  /// Where a piece can be, along s: with its error.
-  Interval reach_of(std::size_t piece) const { return reach_box(piece)[0]; }
-
-  PairBox reach_box(std::size_t piece) const {
-    const PairPiece& of = pieces_[piece];
-    return {Interval{of.box[0].lo - of.error, of.box[0].hi + of.error},
-            Interval{of.box[1].lo - of.error, of.box[1].hi + of.error}};
-  }
+  /// Where a piece can be, with its error.
+  PairBox reach_box(std::size_t piece) const { return widened(pieces_[piece].box, pieces_[piece].error); }
 
   /// Most pieces are so far from s = 0 and t = 0 that on other laps they meet nothing.
   PairBox box_around_all() const {
@@ -163,20 +185,16 @@ class Joiner {
     return all;
   }
 
-  /// Pieces that reach about as far along s, in order of where that begins.
+  /// Pieces that reach about as far along the slant, in order of where that begins.
   struct Strip {
     std::vector<std::size_t> pieces;
     double widest = 0;
   };
 
   std::map<int, Strip> strips() const {
-    std::vector<std::size_t> order(pieces_.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return reach_of(a).lo < reach_of(b).lo; });
     std::map<int, Strip> strips;
-    for (const std::size_t k : order) {
-      const double width = reach_of(k).width();
+    for (const std::size_t k : by_place(reach_)) {
+      const double width = reach_[k].width();
       Strip& strip = strips[std::ilogb(std::max(width, kJointWidth * period_))];
       strip.pieces.push_back(k);
       strip.widest = std::max(strip.widest, width);
@@ -184,9 +202,11 @@ class Joiner {
     return strips;
   }
 
-  /// Sweeps along s: a piece meets those whose reach is still open. Each width by itself, lest a wide piece, or one
-  /// with a large error, has every narrow one looked at.
+  /// Sweeps along the slant: a piece meets those whose reach is still open. Each width by itself, lest a wide piece, or
+  /// one with a large error, has every narrow one looked at.
   void link() {
+    reach_.reserve(pieces_.size());
+    for (std::size_t k = 0; k < pieces_.size(); ++k) reach_.push_back(along_slant(reach_box(k)));
     const std::map<int, Strip> all = strips();
     std::vector<std::size_t> near;
     const PairBox whole = box_around_all();
@@ -196,8 +216,9 @@ class Joiner {
         if (!boxes_meet(reach_box(one), moved_whole, 2 * kJointWidth * period_)) continue;
         near.clear();
         for (const auto& [width, strip] : all) add_near(strip, one, shift, near);
-        std::stable_sort(near.begin(), near.end(),
-                         [&](std::size_t a, std::size_t b) { return pieces_[a].box[0].lo < pieces_[b].box[0].lo; });
+        std::sort(near.begin(), near.end(), [&](std::size_t a, std::size_t b) {
+          return std::tie(pieces_[a].box[0].lo, a) < std::tie(pieces_[b].box[0].lo, b);
+        });
         for (const std::size_t two : near) {
           if (pieces_meet(pieces_[one], pieces_[two], shift, slack_of(pieces_[one], pieces_[two]))) {
             links_[one].push_back({two, shift});
@@ -211,11 +232,13 @@ class Joiner {
   void add_near(const Strip& strip, std::size_t piece, const Shift& shift, std::vector<std::size_t>& near) const {
     const PairPiece& one = pieces_[piece];
     const double slack = std::max(kJointWidth * period_, same_place_);
-    const Interval reach = reach_of(piece);
-    const double from = reach.lo - shift[0] - strip.widest - slack;
+    const double by = along_slant(shift);
+    const double room = along_slant(PairPoint{slack, slack});
+    const double from = reach_[piece].lo - by - strip.widest - room;
+    const double to = reach_[piece].hi - by + room;
     auto next = std::lower_bound(strip.pieces.begin(), strip.pieces.end(), from,
-                                 [&](std::size_t k, double value) { return reach_of(k).lo < value; });
-    for (; next != strip.pieces.end() && reach_of(*next).lo <= reach.hi - shift[0] + slack; ++next) {
+                                 [&](std::size_t k, double value) { return reach_[k].lo < value; });
+    for (; next != strip.pieces.end() && reach_[*next].lo <= to; ++next) {
       const PairPiece& two = pieces_[*next];
       if (*next != piece && boxes_meet(one.box, moved(two.box, shift), slack + one.error + two.error)) {
         near.push_back(*next);
@@ -314,22 +337,21 @@ class Joiner {
 
   void sort_roots() {
     root_taken_.assign(roots_.size(), false);
-    roots_by_s_.resize(roots_.size());
-    std::iota(roots_by_s_.begin(), roots_by_s_.end(), std::size_t{0});
-    std::sort(roots_by_s_.begin(), roots_by_s_.end(),
-              [&](std::size_t one, std::size_t two) { return roots_[one].at[0] < roots_[two].at[0]; });
+    roots_at_.reserve(roots_.size());
+    for (const PairRoot& root : roots_) roots_at_.push_back({along_slant(root.at), along_slant(root.at)});
+    root_order_ = by_place(roots_at_);
   }
 
   /// A root is the first piece's that holds it.
   void hand_out_roots(const std::vector<std::size_t>& members, PairCluster& cluster) {
     std::vector<std::pair<std::size_t, PairPoint>> found;
     for (const std::size_t k : members) {
-      const PairBox& box = pieces_[k].box;
-      auto next = std::lower_bound(roots_by_s_.begin(), roots_by_s_.end(), box[0].lo - same_place_,
-                                   [&](std::size_t root, double s) { return roots_[root].at[0] < s; });
-      for (; next != roots_by_s_.end() && roots_[*next].at[0] <= box[0].hi + same_place_; ++next) {
-        const double t = roots_[*next].at[1];
-        if (root_taken_[*next] || t < box[1].lo - same_place_ || t > box[1].hi + same_place_) continue;
+      const PairBox box = widened(pieces_[k].box, same_place_);
+      const Interval reach = along_slant(box);
+      auto next = std::lower_bound(root_order_.begin(), root_order_.end(), reach.lo,
+                                   [&](std::size_t root, double value) { return roots_at_[root].lo < value; });
+      for (; next != root_order_.end() && roots_at_[*next].lo <= reach.hi; ++next) {
+        if (root_taken_[*next] || !holds(box, roots_[*next].at)) continue;
         root_taken_[*next] = true;
         found.emplace_back(*next, moved(roots_[*next].at, shift_of_[k]));
       }
@@ -346,10 +368,12 @@ class Joiner {
   double period_;
   bool closed_;
   double same_place_;
+  std::vector<Interval> reach_;  // of each piece along the slant
   std::vector<std::vector<PieceLink>> links_;
   std::vector<Shift> shift_of_;  // of each piece, from where it is to its place in its cluster
   std::vector<bool> root_taken_;
-  std::vector<std::size_t> roots_by_s_;
+  std::vector<Interval> roots_at_;       // along the slant, and ...
+  std::vector<std::size_t> root_order_;  // ... in that order
 };
 
 }  // namespace
