@@ -51,7 +51,8 @@ Range along(const BoxSide& side, const Vec2& direction, std::size_t p, std::size
 /// Of a matrix without entries below 0: below 1, the powers of whatever matrix it bounds vanish.
 double spectral_radius(const Eigen::Matrix2d& bound) {
   const double middle = 0.5 * bound.trace();
-  return middle + std::hypot(0.5 * (bound(0, 0) - bound(1, 1)), std::sqrt(bound(0, 1) * bound(1, 0)));
+  const double half = 0.5 * (bound(0, 0) - bound(1, 1));
+  return middle + std::sqrt(half * half + bound(0, 1) * bound(1, 0));
 }
 
 /// A convex set of pairs, with a place in it.

@@ -41,7 +41,7 @@ inline Range common(const Range& one, const Range& two) {
   return {std::max(one.least, two.least), std::min(one.most, two.most)};
 }
 
-inline Range hull(double one, double two) { return one < two ? Range{one, two} : Range{two, one}; }
+inline Range hull(double one, double two) { return {std::min(one, two), std::max(one, two)}; }
 
 inline Range hull(const Range& one, const Range& two) {
   return {std::min(one.least, two.least), std::max(one.most, two.most)};

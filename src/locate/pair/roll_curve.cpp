@@ -10,6 +10,8 @@ namespace rollfix {
 namespace {
 
 constexpr int kConstantSamples = 20;
+// So close to a spiral's end, in parts of the perimeter, a place is there but for rounding.
+constexpr double kEndRounding = 1e-15;
 // Down to so many cuts halves are bounded by the part's tree: below, pieces have bounds that are as good.
 constexpr std::size_t kFewCuts = 6;
 
@@ -39,6 +41,14 @@ inline RollCurve::Contact RollCurve::contact_at(const RollPiece& piece, double x
 inline RollCurve::Contact RollCurve::contact_on_spiral(const RollPiece& piece, double x, std::size_t c) const {
   if (piece.pivot_at) return pivot_at(piece, x, c);
   const Spiral& spiral = turning_.spirals()[piece.spiral[c]];
+  const auto is_at = [&](double end) {
+    return std::abs(x + piece.offset[c] - end) <= kEndRounding * turning_.perimeter();
+  };
+  const auto known = [&](const Turning& end, std::uint32_t panel) {
+    return Contact{{piece.angle[c] + end.angle, end.curvature}, panel};
+  };
+  if (is_at(spiral.lo)) return known(spiral.start, spiral.first_panel);
+  if (is_at(spiral.hi)) return known(spiral.end, spiral.last_panel);
   return contact_at(piece, x, c, spiral.first_panel, spiral.last_panel);
 }
 
@@ -57,9 +67,7 @@ std::int32_t RollCurve::cut(const Interval& range) {
     const std::size_t count = pieces_.size();
     nodes_.reserve(8 * count);
     components_.reserve(8 * count * rows_);
-    values_.reserve(8 * count * rows_);
-    rates_.reserve(8 * count * contacts_);
-    panels_.reserve(8 * count * contacts_);
+    make_room(8 * count);
   }
   boost::container::small_vector<Contact, 4> at(contacts_);
   const auto contact_of = [&](std::size_t c) { return at[c]; };
@@ -114,8 +122,37 @@ void RollCurve::divide(std::size_t index) {
       right = joined.right;
     }
   }
-  nodes_[index].left = left;
-  nodes_[index].right = right;
+  adopt(static_cast<std::int32_t>(index), left, right);
+}
+
+/// Gives a node its halves, whose bounds leave less than its own and its parents' did.
+void RollCurve::adopt(std::int32_t index, std::int32_t left, std::int32_t right) {
+  nodes_[static_cast<std::size_t>(index)].left = left;
+  nodes_[static_cast<std::size_t>(index)].right = right;
+  for (const std::int32_t half : {left, right}) {
+    if (half >= 0) nodes_[static_cast<std::size_t>(half)].parent = index;
+  }
+  while (index >= 0 && tighten(index)) index = node(index).parent;
+}
+
+/// Bounds on both halves are bounds on the whole. False: they leave no less.
+bool RollCurve::tighten(std::int32_t index) {
+  Node& node = nodes_[static_cast<std::size_t>(index)];
+  if (node.left < 0 || node.right < 0) return false;
+  const Node& left = this->node(node.left);
+  const Node& right = this->node(node.right);
+  bool tighter = false;
+  const auto take = [&](Range& whole, const Range& one, const Range& other) {
+    const Range both = common(whole, hull(one, other));
+    tighter = tighter || both.least > whole.least || both.most < whole.most;
+    whole = both;
+  };
+  Component* of = &components_[static_cast<std::size_t>(index) * rows_];
+  for (std::size_t row = 0; row < rows_; ++row) {
+    take(of[row].value, components(node.left)[row].value, components(node.right)[row].value);
+  }
+  for (const std::size_t k : {0U, 1U}) take(node.diagonals[k], left.diagonals[k], right.diagonals[k]);
+  return tighter;
 }
 
 /// Cuts the range of first contacts wherever a contact passes from one spiral to the next, and puts a pivot wherever
@@ -266,12 +303,16 @@ RollPoint RollCurve::stored(std::uint32_t index, double x) const {
   return point;
 }
 
+void RollCurve::make_room(std::size_t points) {
+  values_.resize(points * rows_);
+  rates_.resize(points * contacts_);
+  panels_.resize(points * contacts_);
+}
+
 template <class ContactOf>
 std::uint32_t RollCurve::add_point(const ContactOf& contact_of) {
-  const std::size_t index = values_.size() / rows_;
-  values_.resize(values_.size() + rows_);
-  rates_.resize(rates_.size() + contacts_);
-  panels_.resize(panels_.size() + contacts_);
+  const std::size_t index = points_++;
+  if (points_ * contacts_ > panels_.size()) make_room(2 * points_);
   std::uint32_t* panels = &panels_[index * contacts_];
   const auto keep_panel = [&](std::size_t c) {
     const Contact contact = contact_of(c);
@@ -289,18 +330,21 @@ inline RollCurve::Component RollCurve::component_between(const RollPiece& piece,
   Component component;
   component.first = values_[first * rows_ + row];
   component.last = values_[last * rows_ + row];
-  component.slope = slope_between(piece, rates_first, rates_last, row);
-  component.value = value_range(component.first, component.last, component.slope, width);
+  component.value = hull(component.first, component.last);
   if (piece.constant[row]) return component;
+  component.slope = slope_between(piece, rates_first, rates_last, row);
   const double of_start = 0.5 * (rates_last[0] - rates_first[0]);
   component.by_start = is_facing(row) ? of_start : -of_start;
   if (!is_facing(row)) component.by_end = 0.5 * (rates_last[row + 1] - rates_first[row + 1]);
-  component.value = common(component.value, Combination{1, 0, component, component}.value(width));
+  if (component.slope.keeps_sign()) return component;
+  const Range bend = 0.5 * width * (hull(0, component.by_start) + hull(0, component.by_end));
+  component.value = common(value_range(component.first, component.last, component.slope, width),
+                           component.value - bend);
   return component;
 }
 
 std::int32_t RollCurve::make_node(std::uint32_t piece, double lo, double hi, std::uint32_t first, std::uint32_t last) {
-  Node node;
+  Node& node = nodes_.emplace_back();
   node.lo = lo;
   node.hi = hi;
   node.piece = piece;
@@ -315,7 +359,6 @@ std::int32_t RollCurve::make_node(std::uint32_t piece, double lo, double hi, std
     node.diagonals = {common(Combination{1, 1, one, two}.value(hi - lo), one.value + two.value),
                       common(Combination{1, -1, one, two}.value(hi - lo), one.value - two.value)};
   }
-  nodes_.push_back(node);
   return static_cast<std::int32_t>(nodes_.size() - 1);
 }
 
@@ -337,7 +380,9 @@ std::int32_t RollCurve::join(std::int32_t from, std::int32_t to) {
   }
   for (const std::size_t k : {0U, 1U}) node.diagonals[k] = hull(first.diagonals[k], last.diagonals[k]);
   nodes_.push_back(node);
-  return static_cast<std::int32_t>(nodes_.size() - 1);
+  const auto index = static_cast<std::int32_t>(nodes_.size() - 1);
+  for (const std::int32_t half : {node.left, node.right}) nodes_[static_cast<std::size_t>(half)].parent = index;
+  return index;
 }
 
 std::pair<std::int32_t, std::int32_t> RollCurve::halves(std::int32_t index) {
@@ -348,8 +393,7 @@ std::pair<std::int32_t, std::int32_t> RollCurve::halves(std::int32_t index) {
   const std::uint32_t middle = add_point([&](std::size_t c) { return contact_between(node, x, c); });
   const std::int32_t left = make_node(node.piece, node.lo, x, node.first, middle);
   const std::int32_t right = make_node(node.piece, x, node.hi, middle, node.last);
-  nodes_[static_cast<std::size_t>(index)].left = left;
-  nodes_[static_cast<std::size_t>(index)].right = right;
+  adopt(index, left, right);
   return {left, right};
 }
 

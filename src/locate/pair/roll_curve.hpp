@@ -64,6 +64,7 @@ class RollCurve {
     std::uint32_t piece = kManyPieces;
     std::int32_t left = -1;  // children; none yet
     std::int32_t right = -1;
+    std::int32_t parent = -1;
     std::uint32_t first = 0;  // points at the ends; of an uncut one its spans
     std::uint32_t last = 0;
     std::array<Range, 2> diagonals;  // of the first two components the sum and the difference
@@ -96,8 +97,10 @@ class RollCurve {
     /// Each contact's angle is on one side of its chord, for its rate is monotone, by a quarter of the rate's change
     /// times the width at the most.
     Range value(double width) const {
-      const double share = -0.5 * width;
-      return hull(first(), last()) + share * (hull(0, start()) + hull(0, x * one.by_end) + hull(0, y * two.by_end));
+      const double half = 0.5 * width;
+      const Range bend = hull(0, start()) + hull(0, x * one.by_end) + hull(0, y * two.by_end);
+      const Range ends = hull(first(), last());
+      return {ends.least - half * bend.most, ends.most - half * bend.least};
     }
 
    private:
@@ -161,6 +164,7 @@ class RollCurve {
   std::int32_t cut(const Interval& range);
   std::int32_t make_uncut(const Interval& s, const RollStrips::Span* spans);
   void divide(std::size_t index);
+  void make_room(std::size_t points);
   void make_pieces(const Interval& range);
   void pass_corners(double s, const Cursors& contacts);
   void find_constants(RollPiece& piece, std::uint32_t first, std::uint32_t last) const;
@@ -169,6 +173,8 @@ class RollCurve {
   Component component_between(const RollPiece& piece, std::size_t row, std::uint32_t first, std::uint32_t last,
                               double width) const;
   std::int32_t join(std::int32_t from, std::int32_t to);
+  void adopt(std::int32_t index, std::int32_t left, std::int32_t right);
+  bool tighten(std::int32_t index);
   template <class ContactOf>
   std::uint32_t add_point(const ContactOf& contact_of);
   Contact contact_at(const RollPiece& piece, double x, std::size_t c, std::uint32_t first_panel,
@@ -192,7 +198,8 @@ class RollCurve {
   std::vector<RollPatch> patches_;
   std::vector<Node> nodes_;
   std::vector<Component> components_;
-  std::vector<double> values_;           // of the points: rows_ of each
+  std::size_t points_ = 0;
+  std::vector<double> values_;           // of the points and of room for more: rows_ of each
   std::vector<double> rates_;            // contacts_ of each
   std::vector<std::uint32_t> panels_;    // that each contact is on; of a pivot unused
   std::vector<RollStrips::Span> spans_;  // of the uncut nodes, contacts_ of each
