@@ -26,6 +26,10 @@ constexpr int kOverlapInterval = 8;
 // Within an extent the curves are taken as straight where their directions vary by this share at the most.
 constexpr double kBoxExtentBend = 0.01;
 constexpr int kMostBoxRounds = 60;
+// Steps of Newton's method on the cubics through a box's ends, the first one by their chords.
+constexpr int kCubicRounds = 3;
+// Newton's step below this share of the box leaves less than rounding: the tangents tell where it leads.
+constexpr double kLastBoxStep = 1e-9;
 // Newton's step that is below this share of the box is the last one.
 constexpr double kBoxRootStep = 1e-14;
 // So is one below this share that hardly shrinks any more.
@@ -72,23 +76,30 @@ PairPiece piece_around(const PairBoxSides& sides, const Polygon& extent, const V
   return piece;
 }
 
-/// Where both sides' chords cross, or the nearest place in the box: from there Newton's method has the least to go.
-Vec2 chords_crossing(const PairBoxSides& sides, const PairLimits& limits, const std::array<std::size_t, 2>& rows) {
-  Eigen::Matrix2d chords;
+/// About where the curves cross, or the nearest place in the box: of both sides' chords, and from there of the cubics,
+/// which cost next to nothing. Newton's method has little left to do.
+Vec2 about_crossing(const PairBoxSides& sides, const PairLimits& limits, const std::array<std::size_t, 2>& rows) {
+  const std::array<Cubic, 2> on_a{sides.a.cubic(rows[0]), sides.a.cubic(rows[1])};
+  const std::array<Cubic, 2> on_b{sides.b.cubic(rows[0]), sides.b.cubic(rows[1])};
+  Eigen::Matrix2d slopes;
   Vec2 f;
-  for (const Eigen::Index k : {0, 1}) {
-    const std::size_t row = rows[static_cast<std::size_t>(k)];
-    const RollCurve::Component& of_a = sides.a.component(row);
-    const RollCurve::Component& of_b = sides.b.component(row);
-    chords.row(k) << of_a.last - of_a.first, of_b.first - of_b.last;
-    f[k] = of_a.first - of_b.first - sides.shift(row, limits);
+  Vec2 shares = Vec2::Zero();
+  for (int round = 0; round < kCubicRounds; ++round) {
+    for (const Eigen::Index k : {0, 1}) {
+      const std::size_t row = rows[static_cast<std::size_t>(k)];
+      const Cubic& a = on_a[static_cast<std::size_t>(k)];
+      const Cubic& b = on_b[static_cast<std::size_t>(k)];
+      f[k] = a.value(shares.x()) - b.value(shares.y()) - sides.shift(row, limits);
+      if (round == 0) {
+        slopes.row(k) << a.value(1) - a.value(0), b.value(0) - b.value(1);
+      } else {
+        slopes.row(k) << a.slope(shares.x()), -b.slope(shares.y());
+      }
+    }
+    shares = (shares - slopes.inverse() * f).cwiseMax(0).cwiseMin(1);
   }
-  const Vec2 shares = -(chords.inverse() * f);
   if (!shares.allFinite()) return {sides.a.middle(), sides.b.middle()};
-  const auto at = [](const BoxSide& side, double share) {
-    return side.lo() + std::clamp(share, 0.0, 1.0) * side.width();
-  };
-  return {at(sides.a, shares.x()), at(sides.b, shares.y())};
+  return {sides.a.lo() + shares.x() * sides.a.width(), sides.b.lo() + shares.y() * sides.b.width()};
 }
 
 }  // namespace
@@ -230,7 +241,7 @@ std::optional<BoxSearch::Regular> BoxSearch::regular(const PairBoxSides& sides) 
             combination(sides.b, row, p, q).slope_radius();
       }
       found.radius = spectral_radius(found.off);
-      if (found.radius > kMostContraction || (best && found.radius >= best->radius)) continue;
+      if (!(found.radius <= kMostContraction) || (best && found.radius >= best->radius)) continue;
       found.slack = (Eigen::Matrix2d::Identity() - found.off).inverse();
       best = found;
     }
@@ -251,7 +262,7 @@ bool BoxSearch::take_regular(const PairBoxSides& sides, const PairLimits& limits
   const double turn = (regular.off * width.matrix()).cwiseQuotient(width.matrix()).maxCoeff();
   const double bend = turn * std::min(1.0, (reach.array() / width).maxCoeff());
   if (bend > kBoxExtentBend) return false;
-  Vec2 at = chords_crossing(sides, limits_, regular.rows);
+  Vec2 at = about_crossing(sides, limits_, regular.rows);
   RollPoint on_a;
   RollPoint on_b;
   Eigen::Matrix2d jacobian;
@@ -274,6 +285,11 @@ bool BoxSearch::take_regular(const PairBoxSides& sides, const PairLimits& limits
     if (size < kSmallBoxStep && size > 0.5 * last) break;  // nothing but rounding moves it any more
     last = size;
     at -= step;
+    if (full && size < kLastBoxStep) {
+      on_a.step(-step.x());
+      on_b.step(-step.y());
+      break;
+    }
   }
 
   Polygon extent{lo, {hi.x(), lo.y()}, hi, {lo.x(), hi.y()}};

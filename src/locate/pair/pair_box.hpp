@@ -13,6 +13,25 @@ namespace rollfix {
 /// Where a residual varies by this share of the tolerance, all is in or out as its middle is.
 inline constexpr double kSmallVariation = 0.25;
 
+/// The cubic on [0, 1] with these values and slopes at the ends (Hermite).
+class Cubic {
+ public:
+  Cubic(double first, double last, double slope_first, double slope_last)
+      : first_(first),
+        slope_(slope_first),
+        square_(3 * (last - first) - 2 * slope_first - slope_last),
+        cube_(slope_first + slope_last - 2 * (last - first)) {}
+
+  double value(double x) const { return first_ + x * (slope_ + x * (square_ + x * cube_)); }
+  double slope(double x) const { return slope_ + x * (2 * square_ + x * (3 * cube_)); }
+
+ private:
+  double first_;
+  double slope_;
+  double square_;
+  double cube_;
+};
+
 /// A stretch of one finger's curve on one piece: a side of a box.
 class BoxSide {
  public:
@@ -27,6 +46,11 @@ class BoxSide {
   RollPoint first() const { return curve_->first(curve_->node(node_)); }
   RollPoint last() const { return curve_->last(curve_->node(node_)); }
   const RollCurve::Component& component(std::size_t row) const { return components_[row]; }
+  /// Through its values and slopes at the ends: nearly the component itself.
+  Cubic cubic(std::size_t row) const {
+    const auto [first, last] = curve_->end_slopes(curve_->node(node_), row);
+    return {component(row).first, component(row).last, width() * first, width() * last};
+  }
   double lo() const { return lo_; }
   double hi() const { return hi_; }
   double width() const { return hi_ - lo_; }

@@ -338,8 +338,8 @@ inline RollCurve::Component RollCurve::component_between(const RollPiece& piece,
   if (!is_facing(row)) component.by_end = 0.5 * (rates_last[row + 1] - rates_first[row + 1]);
   if (component.slope.keeps_sign()) return component;
   const Range bend = 0.5 * width * (hull(0, component.by_start) + hull(0, component.by_end));
-  component.value = common(value_range(component.first, component.last, component.slope, width),
-                           component.value - bend);
+  component.value =
+      common(value_range(component.first, component.last, component.slope, width), component.value - bend);
   return component;
 }
 

@@ -26,6 +26,11 @@ struct RollPoint {
 
   /// Of a component by x.
   double slope(std::size_t row) const { return row + 1 < rate.size() ? rate[row + 1] - rate[0] : rate[0]; }
+  /// A tiny step along the tangents.
+  void step(double by) {
+    x += by;
+    for (std::size_t row = 0; row < value.size(); ++row) value[row] += by * slope(row);
+  }
 };
 
 /// Where all contacts stay on one spiral each, so that every tangent's angle has a monotone rate: x is s. Or where the
@@ -119,6 +124,10 @@ class RollCurve {
   const RollPiece& piece(const Node& node) const { return pieces_[node.piece]; }
   RollPoint first(const Node& node) const { return stored(node.first, node.lo); }
   RollPoint last(const Node& node) const { return stored(node.last, node.hi); }
+  /// A component's slopes at both ends.
+  std::array<double, 2> end_slopes(const Node& node, std::size_t row) const {
+    return {slope_at(node.first, row), slope_at(node.last, row)};
+  }
   std::int32_t root() const { return root_; }  // -1: no pieces
   std::size_t evaluations() const { return evaluations_; }
 
@@ -157,6 +166,10 @@ class RollCurve {
     const Range start = hull(one[0], two[0]);
     if (is_facing(row)) return start;
     return hull(one[row + 1], two[row + 1]) - start;
+  }
+  double slope_at(std::uint32_t point, std::size_t row) const {
+    const double* rates = &rates_[point * contacts_];
+    return is_facing(row) ? rates[0] : rates[row + 1] - rates[0];
   }
   RollPoint stored(std::uint32_t index, double x) const;
   /// From the first contact to contact c's place on the cursor's spiral.
