@@ -235,11 +235,13 @@ std::optional<BoxSearch::Regular> BoxSearch::regular(const PairBoxSides& sides) 
           kParallel * (std::abs(middle(0, 0) * middle(1, 1)) + std::abs(middle(0, 1) * middle(1, 0)));
       if (std::abs(determinant) <= rounding || !std::isfinite(1 / determinant)) continue;
       Regular found{{p, q}, middle.inverse(), {}, {}, 0};
-      for (const Eigen::Index k : {0, 1}) {
-        const Vec2 row = found.inverse.row(k);
-        found.off.row(k) << combination(sides.a, row, p, q).slope_radius(),
-            combination(sides.b, row, p, q).slope_radius();
-      }
+      const Vec2 first = found.inverse.row(0);
+      const Vec2 second = found.inverse.row(1);
+      found.off(0, 0) = combination(sides.a, first, p, q).slope_radius();
+      found.off(1, 1) = combination(sides.b, second, p, q).slope_radius();
+      if (!(std::max(found.off(0, 0), found.off(1, 1)) <= kMostContraction)) continue;  // no more than the radius
+      found.off(0, 1) = combination(sides.b, first, p, q).slope_radius();
+      found.off(1, 0) = combination(sides.a, second, p, q).slope_radius();
       found.radius = spectral_radius(found.off);
       if (!(found.radius <= kMostContraction) || (best && found.radius >= best->radius)) continue;
       found.slack = (Eigen::Matrix2d::Identity() - found.off).inverse();

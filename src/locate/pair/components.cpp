@@ -1,6 +1,7 @@
 #include "components.hpp"
 
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -47,9 +48,10 @@ bool line_meets(const std::vector<PairPoint>& line, const Shift& shift, const Pa
   return false;
 }
 
-std::vector<PairPoint> polygon_of(const PairPiece& piece, const Shift& shift) {
-  std::vector<PairPoint> polygon;
-  polygon.reserve(piece.hull.size());
+using Corners = boost::container::small_vector<PairPoint, 8>;
+
+Corners polygon_of(const PairPiece& piece, const Shift& shift) {
+  Corners polygon;
   for (const PairPoint& point : piece.hull) polygon.push_back(moved(point, shift));
   if (!polygon.empty()) return polygon;
   const PairBox box = moved(piece.box, shift);
@@ -57,7 +59,7 @@ std::vector<PairPoint> polygon_of(const PairPiece& piece, const Shift& shift) {
 }
 
 /// Is there a direction of `one`'s edges, or across them, in which the two convex polygons are apart?
-bool separates(const std::vector<PairPoint>& one, const std::vector<PairPoint>& two, double slack) {
+bool separates(const Corners& one, const Corners& two, double slack) {
   for (std::size_t k = 0; k < one.size(); ++k) {
     const PairPoint& from = one[k];
     const PairPoint& to = one[(k + 1) % one.size()];
@@ -65,7 +67,7 @@ bool separates(const std::vector<PairPoint>& one, const std::vector<PairPoint>& 
     if (length == 0) continue;
     const PairPoint along{(to[0] - from[0]) / length, (to[1] - from[1]) / length};
     for (const PairPoint& axis : {along, PairPoint{-along[1], along[0]}}) {
-      const auto span = [&](const std::vector<PairPoint>& polygon) {
+      const auto span = [&](const Corners& polygon) {
         Interval interval{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
         for (const PairPoint& point : polygon) {
           // From a corner of one, so that small polygons keep their digits.
@@ -89,8 +91,8 @@ bool pieces_meet(const PairPiece& one, const PairPiece& two, const Shift& shift,
   if (!boxes_meet(one.box, other, reach)) return false;
   if (one.line.empty() && two.line.empty()) {
     if (one.hull.empty() && two.hull.empty()) return true;
-    const std::vector<PairPoint> at_one = polygon_of(one, {0, 0});
-    const std::vector<PairPoint> at_two = polygon_of(two, shift);
+    const Corners at_one = polygon_of(one, {0, 0});
+    const Corners at_two = polygon_of(two, shift);
     return !separates(at_one, at_two, reach) && !separates(at_two, at_one, reach);
   }
   if (two.line.empty()) return line_meets(one.line, {0, 0}, other, reach);
@@ -127,8 +129,8 @@ bool holds(const PairBox& box, const PairPoint& at) {
 std::vector<std::size_t> by_place(const std::vector<Interval>& intervals) {
   std::vector<std::size_t> order(intervals.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return intervals[a].lo < intervals[b].lo; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return intervals[a].lo < intervals[b].lo; });
   return order;
 }
 
@@ -185,19 +187,28 @@ class Joiner {
     return all;
   }
 
-  /// Pieces that reach about as far along the slant, in order of where that begins.
+  /// Pieces that reach about as far along s, in order of where they begin along the slant.
   struct Strip {
     std::vector<std::size_t> pieces;
     double widest = 0;
   };
 
-  std::map<int, Strip> strips() const {
+  std::map<int, Strip> strips() {
+    std::vector<Interval> along_s;
+    along_s.reserve(pieces_.size());
+    for (std::size_t k = 0; k < pieces_.size(); ++k) along_s.push_back(reach_box(k)[0]);
     std::map<int, Strip> strips;
-    for (const std::size_t k : by_place(reach_)) {
-      const double width = reach_[k].width();
-      Strip& strip = strips[std::ilogb(std::max(width, kJointWidth * period_))];
+    for (const std::size_t k : by_place(along_s)) {
+      Strip& strip = strips[std::ilogb(std::max(along_s[k].width(), kJointWidth * period_))];
       strip.pieces.push_back(k);
-      strip.widest = std::max(strip.widest, width);
+      strip.widest = std::max(strip.widest, reach_[k].width());
+    }
+    rank_.resize(pieces_.size());
+    std::size_t rank = 0;
+    for (auto& [width, strip] : strips) {
+      for (const std::size_t k : strip.pieces) rank_[k] = rank++;
+      std::sort(strip.pieces.begin(), strip.pieces.end(),
+                [&](std::size_t a, std::size_t b) { return reach_[a].lo < reach_[b].lo; });
     }
     return strips;
   }
@@ -217,7 +228,7 @@ class Joiner {
         near.clear();
         for (const auto& [width, strip] : all) add_near(strip, one, shift, near);
         std::sort(near.begin(), near.end(), [&](std::size_t a, std::size_t b) {
-          return std::tie(pieces_[a].box[0].lo, a) < std::tie(pieces_[b].box[0].lo, b);
+          return std::tie(pieces_[a].box[0].lo, rank_[a]) < std::tie(pieces_[b].box[0].lo, rank_[b]);
         });
         for (const std::size_t two : near) {
           if (pieces_meet(pieces_[one], pieces_[two], shift, slack_of(pieces_[one], pieces_[two]))) {
@@ -368,7 +379,8 @@ class Joiner {
   double period_;
   bool closed_;
   double same_place_;
-  std::vector<Interval> reach_;  // of each piece along the slant
+  std::vector<Interval> reach_;    // of each piece along the slant
+  std::vector<std::size_t> rank_;  // of each piece: by width, and by where it begins along s
   std::vector<std::vector<PieceLink>> links_;
   std::vector<Shift> shift_of_;  // of each piece, from where it is to its place in its cluster
   std::vector<bool> root_taken_;

@@ -98,7 +98,7 @@ bool LineSearch::overlaps(const Stretch& whole, std::vector<Place>& samples) con
     if (straight) {
       samples.push_back(stretch.lo);
       samples.back().free.x = x;
-      samples.back().bound.x = bound_at(free().place(x, guide_).value);
+      samples.back().bound.x += (stretch.hi.bound.x - stretch.lo.bound.x) * k / kOverlapSamples;
     } else {
       samples.push_back(place(x));
       if (!slopes_vanish(samples.back()) || !vanishes(samples.back())) return false;

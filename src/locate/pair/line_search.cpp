@@ -20,6 +20,9 @@ constexpr double kBandBend = 0.5;
 // A residual that leaves its chord by this share of the tolerance is taken as straight.
 constexpr double kStraightShare = 0.1;
 
+// Newton's step below this share of a side leaves less than rounding.
+constexpr double kLastSideStep = 1e-10;
+
 /// Where one component of a side, monotone, has this value.
 double solve_side(const BoxSide& side, std::size_t row, double target) {
   const RollCurve::Component& component = side.component(row);
@@ -38,10 +41,13 @@ double solve_side(const BoxSide& side, std::size_t row, double target) {
     const double off = at.value - target;
     if (off == 0) break;
     ((off > 0) == rises ? hi : lo) = x;
-    double next = x - off / at.slope;
-    if (!(next > lo && next < hi)) next = 0.5 * (lo + hi);
-    if (next == x || std::abs(next - x) <= 1e-16 * (std::abs(x) + side.width())) break;
+    const double newton = x - off / at.slope;
+    const bool is_inside = newton > lo && newton < hi;
+    const double next = is_inside ? newton : 0.5 * (lo + hi);
+    const double step = std::abs(next - x);
+    if (step <= 1e-16 * (std::abs(x) + side.width())) break;
     x = next;
+    if (is_inside && step <= kLastSideStep * side.width()) break;
   }
   return x;
 }

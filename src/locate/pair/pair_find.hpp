@@ -27,7 +27,9 @@ inline PairBox moved(const PairBox& box, const Shift& shift) {
 }
 
 inline double distance(const PairPoint& one, const PairPoint& two) {
-  return std::hypot(one[0] - two[0], one[1] - two[1]);
+  const double s = one[0] - two[0];
+  const double t = one[1] - two[1];
+  return std::sqrt(s * s + t * t);  // no hypot: nothing here is near to under- or overflow, and it is called often
 }
 
 /// A pair of first contacts at which every f_k is 0, or, of more equations than two, those that cross best there.

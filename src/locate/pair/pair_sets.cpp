@@ -20,6 +20,8 @@ constexpr double kSameRoot = 1e-6;
 // The least residual of a set is looked for on so many grids of so many cells, each half as wide as the one before.
 constexpr std::size_t kGrid = 8;
 constexpr int kGridRounds = 24;
+// A way that is less than this share of the perimeter leads nowhere: least squares have arrived.
+constexpr double kStandstill = 1e-15;
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, 2>;
 
@@ -180,6 +182,7 @@ class SetsOfTwo {
   /// Levenberg and Marquardt's method, kept within a box.
   PairPoint least_squares(PairPoint at, const PairBox& box) const {
     constexpr int kMostSteps = 60;
+    const double no_way = kStandstill * period_;
     Eigen::VectorXd f;
     Matrix jacobian;
     linearize(at, f, jacobian);
@@ -199,13 +202,14 @@ class SetsOfTwo {
         damping *= 10;
         continue;
       }
+      if (std::max(std::abs(next[0] - at[0]), std::abs(next[1] - at[1])) <= no_way) break;
       linearize(next, next_f, next_jacobian);
       const bool better = next_f.squaredNorm() < f.squaredNorm();
       damping *= better ? 0.1 : 10;
       if (!better) continue;
       at = next;
-      f = next_f;
-      jacobian = next_jacobian;
+      f.swap(next_f);
+      jacobian.swap(next_jacobian);
     }
     return at;
   }

@@ -143,9 +143,10 @@ bool RollCurve::tighten(std::int32_t index) {
   const Node& right = this->node(node.right);
   bool tighter = false;
   const auto take = [&](Range& whole, const Range& one, const Range& other) {
-    const Range both = common(whole, hull(one, other));
-    tighter = tighter || both.least > whole.least || both.most < whole.most;
-    whole = both;
+    const Range both = hull(one, other);
+    if (!(both.least > whole.least || both.most < whole.most)) return;
+    whole = common(whole, both);
+    tighter = true;
   };
   Component* of = &components_[static_cast<std::size_t>(index) * rows_];
   for (std::size_t row = 0; row < rows_; ++row) {
@@ -244,7 +245,8 @@ void RollCurve::add_pivots(double s, const std::vector<Range>& tangents) {
 void RollCurve::find_constants(RollPiece& piece, std::uint32_t first, std::uint32_t last) const {
   piece.constant.assign(rows_, true);
   boost::container::small_vector<double, 4> rate(contacts_);
-  for (int k = 0; k <= kConstantSamples; ++k) {
+  const int samples = piece.pivot_at ? 0 : kConstantSamples;  // where it pivots all rates are the same all along
+  for (int k = 0; k <= samples; ++k) {
     const double* rates = k <= 1 ? &rates_[(k == 0 ? first : last) * contacts_] : rate.data();
     if (k > 1) {  // both ends first: nearly always they settle it
       const double x = piece.lo + piece.width() * (k - 1) / kConstantSamples;
@@ -304,9 +306,9 @@ RollPoint RollCurve::stored(std::uint32_t index, double x) const {
 }
 
 void RollCurve::make_room(std::size_t points) {
-  values_.resize(points * rows_);
-  rates_.resize(points * contacts_);
-  panels_.resize(points * contacts_);
+  values_.resize(points * rows_, boost::container::default_init);
+  rates_.resize(points * contacts_, boost::container::default_init);
+  panels_.resize(points * contacts_, boost::container::default_init);
 }
 
 template <class ContactOf>

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <boost/container/small_vector.hpp>
+#include <boost/container/vector.hpp>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -212,10 +213,10 @@ class RollCurve {
   std::vector<Node> nodes_;
   std::vector<Component> components_;
   std::size_t points_ = 0;
-  std::vector<double> values_;           // of the points and of room for more: rows_ of each
-  std::vector<double> rates_;            // contacts_ of each
-  std::vector<std::uint32_t> panels_;    // that each contact is on; of a pivot unused
-  std::vector<RollStrips::Span> spans_;  // of the uncut nodes, contacts_ of each
+  boost::container::vector<double> values_;         // of the points and of room for more: rows_ of each
+  boost::container::vector<double> rates_;          // contacts_ of each
+  boost::container::vector<std::uint32_t> panels_;  // that each contact is on; of a pivot unused
+  std::vector<RollStrips::Span> spans_;             // of the uncut nodes, contacts_ of each
   std::int32_t root_ = -1;
   mutable std::size_t evaluations_ = 0;
 };
