@@ -26,6 +26,8 @@ constexpr int kOverlapInterval = 8;
 // Within an extent the curves are taken as straight where their directions vary by this share at the most.
 constexpr double kBoxExtentBend = 0.01;
 constexpr int kMostBoxRounds = 60;
+// Boxes and finds that there is room for at first.
+constexpr std::size_t kBoxRoom = 32;
 // Steps of Newton's method on the cubics through a box's ends, the first one by their chords.
 constexpr int kCubicRounds = 3;
 // Newton's step below this share of the box leaves less than rounding: the tangents tell where it leads.
@@ -57,6 +59,16 @@ double spectral_radius(const Eigen::Matrix2d& bound) {
   const double middle = 0.5 * bound.trace();
   const double half = 0.5 * (bound(0, 0) - bound(1, 1));
   return middle + std::sqrt(half * half + bound(0, 1) * bound(1, 0));
+}
+
+/// Where two straight residuals, f at a place, are within the tolerance.
+Polygon rhombus(const Vec2& at, const Eigen::Matrix2d& jacobian, const Vec2& f, double tolerance) {
+  const Eigen::Matrix2d inverse = jacobian.inverse();
+  Polygon corners;
+  for (const Vec2& sign : {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)}) {
+    corners.push_back(at + inverse * (tolerance * sign - f));
+  }
+  return corners;
 }
 
 /// A convex set of pairs, with a place in it.
@@ -109,6 +121,9 @@ BoxSearch::BoxSearch(RollCurve& a, RollCurve& b, const PairLimits& limits, std::
 
 void BoxSearch::run() {
   if (a_.root() < 0 || b_.root() < 0) return;
+  waiting_.reserve(kBoxRoom);
+  findings_.pieces.reserve(kBoxRoom);
+  findings_.roots.reserve(kBoxRoom);
   waiting_.push_back({a_.root(), b_.root(), 0, false});
   while (!waiting_.empty()) {
     const Box box = waiting_.back();
@@ -294,12 +309,17 @@ bool BoxSearch::take_regular(const PairBoxSides& sides, const PairLimits& limits
     }
   }
 
-  Polygon extent{lo, {hi.x(), lo.y()}, hi, {lo.x(), hi.y()}};
+  Polygon extent = rhombus(at, jacobian, {residual(p), residual(q)}, limits.tolerance);
+  const bool fits = std::all_of(extent.begin(), extent.end(), [&](const Vec2& x) {
+    return (x.array() >= lo.array()).all() && (x.array() <= hi.array()).all();
+  });
+  if (!fits) extent = {lo, {hi.x(), lo.y()}, hi, {lo.x(), hi.y()}};
   bool exact = true;
-  for (std::size_t row = 0; row < a_.rows() && !extent.empty(); ++row) {
+  for (std::size_t row = 0; row < a_.rows(); ++row) {
+    exact = exact && std::abs(residual(row)) <= kRootTurn;
+    if (extent.empty() || (fits && (row == p || row == q))) continue;
     const Vec2 slope(on_a.slope(row), -on_b.slope(row));
     extent = within(extent, at, residual(row), slope, limits.tolerance);
-    exact = exact && std::abs(residual(row)) <= kRootTurn;
   }
   const Vec2 edge = reached(regular.inverse.cwiseAbs() * Vec2::Constant(kTurnAccuracy)) +
                     Vec2(sides.a.same_place(limits_), sides.b.same_place(limits_));

@@ -129,8 +129,8 @@ bool holds(const PairBox& box, const PairPoint& at) {
 std::vector<std::size_t> by_place(const std::vector<Interval>& intervals) {
   std::vector<std::size_t> order(intervals.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return intervals[a].lo < intervals[b].lo; });
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return std::tie(intervals[a].lo, a) < std::tie(intervals[b].lo, b); });
   return order;
 }
 
@@ -216,6 +216,7 @@ class Joiner {
   /// Sweeps along the slant: a piece meets those whose reach is still open. Each width by itself, lest a wide piece, or
   /// one with a large error, has every narrow one looked at.
   void link() {
+    if (pieces_.size() < 2) return;
     reach_.reserve(pieces_.size());
     for (std::size_t k = 0; k < pieces_.size(); ++k) reach_.push_back(along_slant(reach_box(k)));
     const std::map<int, Strip> all = strips();

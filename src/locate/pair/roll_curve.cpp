@@ -10,6 +10,9 @@ namespace rollfix {
 namespace {
 
 constexpr int kConstantSamples = 20;
+// Nodes and points that there is room for at first.
+constexpr std::size_t kRoomOfPiece = 8;
+constexpr std::size_t kRoomAtFirst = 32;
 // So close to a spiral's end, in parts of the perimeter, a place is there but for rounding.
 constexpr double kEndRounding = 1e-15;
 // Down to so many cuts halves are bounded by the part's tree: below, pieces have bounds that are as good.
@@ -64,10 +67,10 @@ std::int32_t RollCurve::cut(const Interval& range) {
   make_pieces(range);
   const auto first_node = static_cast<std::int32_t>(nodes_.size());
   if (before == 0) {
-    const std::size_t count = pieces_.size();
-    nodes_.reserve(8 * count);
-    components_.reserve(8 * count * rows_);
-    make_room(8 * count);
+    const std::size_t room = kRoomOfPiece * pieces_.size() + kRoomAtFirst;
+    nodes_.reserve(room);
+    components_.reserve(room * rows_);
+    make_room(room);
   }
   boost::container::small_vector<Contact, 4> at(contacts_);
   const auto contact_of = [&](std::size_t c) { return at[c]; };
