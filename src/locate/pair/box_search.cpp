@@ -61,14 +61,45 @@ double spectral_radius(const Eigen::Matrix2d& bound) {
   return middle + std::sqrt(half * half + bound(0, 1) * bound(1, 0));
 }
 
-/// Where two straight residuals, f at a place, are within the tolerance.
-Polygon rhombus(const Vec2& at, const Eigen::Matrix2d& jacobian, const Vec2& f, double tolerance) {
-  const Eigen::Matrix2d inverse = jacobian.inverse();
-  Polygon corners;
-  for (const Vec2& sign : {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)}) {
-    corners.push_back(at + inverse * (tolerance * sign - f));
+/// Of a row at a place on each side.
+double residual(const PairBoxSides& sides, const PairLimits& limits, const RollPoint& on_a, const RollPoint& on_b,
+                std::size_t row) {
+  return on_a.value[row] - on_b.value[row] - sides.shift(row, limits);
+}
+
+double largest_residual(const PairBoxSides& sides, const PairLimits& limits, const RollPoint& on_a,
+                        const RollPoint& on_b) {
+  double largest = 0;
+  for (std::size_t row = 0; row < sides.a.rows(); ++row) {
+    largest = std::max(largest, std::abs(residual(sides, limits, on_a, on_b, row)));
   }
-  return corners;
+  return largest;
+}
+
+/// Where in the box all residuals, straight about this place, are within the tolerance: of two rows a parallelogram, if
+/// it is all in the box.
+Polygon set_about(const PairBoxSides& sides, const PairLimits& limits, const std::array<std::size_t, 2>& rows,
+                  const RollPoint& on_a, const RollPoint& on_b) {
+  const auto f = [&](std::size_t row) { return residual(sides, limits, on_a, on_b, row); };
+  const auto slope = [&](std::size_t row) { return Vec2(on_a.slope(row), -on_b.slope(row)); };
+  const Vec2 at(on_a.x, on_b.x);
+  const Vec2 lo(sides.a.lo(), sides.b.lo());
+  const Vec2 hi(sides.a.hi(), sides.b.hi());
+  const auto [p, q] = rows;
+  Eigen::Matrix2d jacobian;
+  jacobian << slope(p).transpose(), slope(q).transpose();
+  const Eigen::Matrix2d inverse = jacobian.inverse();
+  Polygon set;
+  bool fits = true;
+  for (const Vec2& sign : {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)}) {
+    const Vec2& corner = set.emplace_back(at + inverse * (limits.tolerance * sign - Vec2(f(p), f(q))));
+    fits = fits && (corner.array() >= lo.array()).all() && (corner.array() <= hi.array()).all();
+  }
+  if (!fits) set = {lo, {hi.x(), lo.y()}, hi, {lo.x(), hi.y()}};
+  for (std::size_t row = 0; row < sides.a.rows() && !set.empty(); ++row) {
+    if (!fits || (row != p && row != q)) set = within(set, at, f(row), slope(row), limits.tolerance);
+  }
+  return set;
 }
 
 /// A convex set of pairs, with a place in it.
@@ -283,12 +314,11 @@ bool BoxSearch::take_regular(const PairBoxSides& sides, const PairLimits& limits
   RollPoint on_a;
   RollPoint on_b;
   Eigen::Matrix2d jacobian;
-  const auto residual = [&](std::size_t row) { return on_a.value[row] - on_b.value[row] - sides.shift(row, limits_); };
   double last = std::numeric_limits<double>::infinity();  // step, in parts of the box
   for (int round = 0;; ++round) {
     sides.a.move(on_a, at.x());
     sides.b.move(on_b, at.y());
-    const Vec2 f(residual(p), residual(q));
+    const Vec2 f(residual(sides, limits_, on_a, on_b, p), residual(sides, limits_, on_a, on_b, q));
     const Vec2 middle_step = regular.inverse * f;
     const Eigen::Array2d near = (at - middle_step).array();
     const Eigen::Array2d off = (regular.off * reached(middle_step) + reach).array();
@@ -309,18 +339,8 @@ bool BoxSearch::take_regular(const PairBoxSides& sides, const PairLimits& limits
     }
   }
 
-  Polygon extent = rhombus(at, jacobian, {residual(p), residual(q)}, limits.tolerance);
-  const bool fits = std::all_of(extent.begin(), extent.end(), [&](const Vec2& x) {
-    return (x.array() >= lo.array()).all() && (x.array() <= hi.array()).all();
-  });
-  if (!fits) extent = {lo, {hi.x(), lo.y()}, hi, {lo.x(), hi.y()}};
-  bool exact = true;
-  for (std::size_t row = 0; row < a_.rows(); ++row) {
-    exact = exact && std::abs(residual(row)) <= kRootTurn;
-    if (extent.empty() || (fits && (row == p || row == q))) continue;
-    const Vec2 slope(on_a.slope(row), -on_b.slope(row));
-    extent = within(extent, at, residual(row), slope, limits.tolerance);
-  }
+  Polygon extent = set_about(sides, limits, regular.rows, on_a, on_b);
+  const bool exact = largest_residual(sides, limits_, on_a, on_b) <= kRootTurn;
   const Vec2 edge = reached(regular.inverse.cwiseAbs() * Vec2::Constant(kTurnAccuracy)) +
                     Vec2(sides.a.same_place(limits_), sides.b.same_place(limits_));
   const bool inside = ((at + edge).array() >= lo.array() && (at - edge).array() <= hi.array()).all();
