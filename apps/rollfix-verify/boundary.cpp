@@ -183,6 +183,13 @@ std::optional<Place> Boundary::after(const Ball& s) const {
   return moved(place, laps);
 }
 
+Boundary::Bend Boundary::bend(long curve, const Ball& u) const {
+  const Motion motion = formula(curve).motion(u);
+  const Ball speed = motion.speed[0];
+  const Ball change = motion.turning[1] * speed - motion.turning[0] * motion.speed[1];
+  return {motion.turning[0] / speed, change / (speed * speed * speed)};
+}
+
 Taylor Boundary::taylor(long curve, const Ball& u) const {
   const Motion motion = formula(curve).motion(u);
   Ball unknown;

@@ -45,6 +45,12 @@ class Boundary {
   /// How far the tangent turns where a curve ends and the next begins, in (-pi, pi).
   Ball jump(long curve) const { return jumps_[index(curve)]; }
 
+  /// The curvature and its derivative by arc length; where u is wide, those of all places in it.
+  struct Bend {
+    Ball curvature;
+    Ball change;
+  };
+  Bend bend(long curve, const Ball& u) const;
   /// Of the angle by arc length; where u is wide, for all places in it.
   Taylor taylor(long curve, const Ball& u) const;
 

@@ -6,67 +6,6 @@ namespace {
 // Stretches over more joints than this are halved first.
 constexpr long kMostJoints = 6;
 
-/// Both ends of a stretch of a curve.
-struct Segment {
-  Place from;
-  Place to;
-};
-
-std::vector<Segment> segments(const Boundary& boundary, const Place& from, const Place& to) {
-  std::vector<Segment> result;
-  for (long curve = from.curve; curve <= to.curve; ++curve) {
-    result.push_back(
-        {curve == from.curve ? from : boundary.front(curve), curve == to.curve ? to : boundary.back(curve)});
-  }
-  return result;
-}
-
-Taylor along(const Boundary& boundary, const Segment& segment) {
-  return boundary.taylor(segment.from.curve, hull(segment.from.u, segment.to.u));
-}
-
-/// [0, length]
-Ball up_to(const Ball& length) { return hull(0.0, length); }
-
-int sign_of(const Ball& value) { return value.is_above(0.0) ? 1 : value.is_below(0.0) ? -1 : 0; }
-
-/// The curvatures on all segments.
-Ball curvatures(const Boundary& boundary, const std::vector<Segment>& all) {
-  Ball result = along(boundary, all.front())[0];
-  for (std::size_t k = 1; k < all.size(); ++k) result = hull(result, along(boundary, all[k])[0]);
-  return result;
-}
-
-/// What the jumps at the joints between the segments add up to, at most and at least.
-Ball jumps(const Boundary& boundary, const std::vector<Segment>& all) {
-  Ball sum = 0.0;
-  for (std::size_t k = 0; k + 1 < all.size(); ++k) sum = sum + hull(0.0, boundary.jump(all[k].from.curve));
-  return sum;
-}
-
-bool is_smooth(const Boundary& boundary, const Place& from, const Place& to) {
-  for (long curve = from.curve; curve < to.curve; ++curve) {
-    if (!abs(boundary.jump(curve)).is_below(kSmooth)) return false;
-  }
-  return true;
-}
-
-/// The tangent's angles: a set for each run of segments between concave corners.
-std::vector<Ball> angles(const Boundary& boundary, const std::vector<Segment>& all) {
-  std::vector<Ball> sets;
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    const Segment& one = all[k];
-    const Ball here = one.from.angle + up_to(one.to.s - one.from.s) * along(boundary, one)[0];
-    const bool is_new = k == 0 || !boundary.jump(all[k - 1].from.curve).is_above(-kConcave);
-    if (is_new) {
-      sets.push_back(here);
-    } else {
-      sets.back() = hull(sets.back(), here);
-    }
-  }
-  return sets;
-}
-
 /// f between rows where it has the slopes given, one sign of them making it monotone.
 Range between(const Row& from, const Row& to, const Ball& slope, const Ball& extra) {
   Range range;
@@ -82,8 +21,8 @@ Range between(const Row& from, const Row& to, const Ball& slope, const Ball& ext
 Range smooth_range(const Boundary& boundary, const Row& from, const Row& to) {
   const Taylor& start = from.start_ahead;
   const Taylor& end = from.end_ahead;
-  const Taylor all_starts = along(boundary, {from.start, to.start});
-  const Taylor all_ends = along(boundary, {from.end, to.end});
+  const Taylor all_starts = taylor_along(boundary, {from.start, to.start});
+  const Taylor all_ends = taylor_along(boundary, {from.end, to.end});
   const Ball ahead = up_to(to.start.s - from.start.s);
   const auto last = static_cast<std::size_t>(kOrder) - 1;
   Ball slope = static_cast<double>(kOrder) * (all_ends[last] - all_starts[last]);

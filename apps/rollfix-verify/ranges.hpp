@@ -2,14 +2,9 @@
 
 #include <vector>
 
-#include "boundary.hpp"
+#include "along.hpp"
 
 namespace rollfix_verify {
-
-/// Up to here a joint is smooth, radians: one crossing is one up to jumps of that size.
-inline constexpr double kSmooth = 1e-12;
-/// A concave joint turns by at least this, radians; at others the finger pivots: f takes every value in between.
-inline constexpr double kConcave = 1e-3;
 
 /// A roll from a start by the length asked, and how far its turn is off.
 struct Row {

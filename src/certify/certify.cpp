@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "records.hpp"
+#include "places.hpp"
 #include "residual.hpp"
 #include "rollfix/error.hpp"
 
@@ -39,13 +39,7 @@ class Maker {
  public:
   Maker(const Part& part, const Reading& reading, const Search& search, double tolerance)
       : part_(part), search_(search), f_(part, reading), tolerance_(tolerance), range_{0, part.perimeter()} {
-    if (part.closed()) return;
-    const double length = reading.length[0];
-    range_ = {std::max(0.0, -length), part.perimeter() - std::max(0.0, length)};
-    if (!(range_.width() > 8 * f_.step())) {
-      throw InputError(part.name() + ": a roll as long as an open outline leaves one start: nothing to certify");
-    }
-    range_ = {f_.clear(range_.lo + f_.step(), 1), f_.clear(range_.hi - f_.step(), -1)};
+    if (!part.closed()) range_ = clear_starts(part, {reading.length[0]});
   }
 
   std::vector<CertificateRow> rows() {
@@ -256,15 +250,6 @@ class Maker {
   std::vector<Mark> marks_;
 };
 
-double largest_gap(const Outline& outline) {
-  double largest = 0;
-  const std::size_t count = outline.curves.size();
-  for (std::size_t k = 0; k + (outline.closed ? 0 : 1) < count; ++k) {
-    largest = std::max(largest, (outline.curves[k].back() - outline.curves[(k + 1) % count].front()).norm());
-  }
-  return largest;
-}
-
 }  // namespace
 
 const char* name_of(CellKind kind) {
@@ -293,12 +278,7 @@ bool Certificate::is_complete() const {
 Certificate certify(const Part& part, const Reading& reading, const LocateOptions& options) {
   if (reading.fingers() != 1) throw InputError("certificates are of one finger's reading, found one of two fingers");
   Certificate certificate;
-  certificate.part = part.name();
-  certificate.closed = part.closed();
-  certificate.perimeter = part.perimeter();
-  certificate.curves = formulas_of(part.outline());
-  certificate.origin = part.outline().curves.front().front();
-  certificate.gap = largest_gap(part.outline());
+  static_cast<CertifiedOutline&>(certificate) = certified_outline(part);
   certificate.reading = reading;
   certificate.tolerance = std::max(options.tolerance, kLeastTolerance);
   const Search search = locate(part, reading, options);

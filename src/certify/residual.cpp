@@ -5,14 +5,11 @@
 #include <limits>
 
 #include "part/cursor.hpp"
-#include "part/part_data.hpp"
+#include "places.hpp"
 
 namespace rollfix {
 namespace {
 
-// Rows keep this share of the perimeter from joints: there is no doubt on which curve a roll ends.
-constexpr double kClear = 4e-12;
-constexpr int kMostSteps = 8;
 // Halvings until a slope's sign is given up.
 constexpr int kMostHalvings = 24;
 // Between cuts f is a difference of monotone slopes: looked at in so many places for its least size ...
@@ -26,43 +23,11 @@ constexpr int kFlatSamples = 19;
 
 double Residual::size(double s) const { return std::abs(at(s)); }
 
-double Residual::step() const { return kClear * part_.perimeter(); }
+double Residual::step() const { return least_step(part_); }
 
-CurvePlace Residual::place(double s) const {
-  const PartAccess::Data& data = PartAccess::data(part_);
-  const double base = part_.boundary().base(s);
-  const Spiral& spiral = turning_.spirals()[turning_.spiral_at(base)];
-  const std::uint32_t index = turning_.panel_index(spiral, base);
-  const Panel& panel = turning_.panels()[index];
-  const std::size_t curve = data.parametrization.pieces[index].curve;
-  const Interval domain = data.outline.curves[curve].domain();
-  const double u = data.parametrization.parameter(index, (base - panel.middle) * panel.inverse_half);
-  return {curve, std::clamp(u, domain.lo, domain.hi)};
-}
+CurvePlace Residual::place(double s) const { return place_of(part_, s); }
 
-/// Of a place to where curves meet, on either side.
-double Residual::distance_to_joint(double s) const {
-  const Boundary boundary = part_.boundary();
-  const auto& pieces = PartAccess::data(part_).parametrization.pieces;
-  const auto& panels = turning_.panels();
-  const double base = boundary.base(s);
-  const Spiral& spiral = turning_.spirals()[turning_.spiral_at(base)];
-  std::size_t first = turning_.panel_index(spiral, base);
-  std::size_t last = first;
-  while (first > 0 && pieces[first - 1].curve == pieces[first].curve && base - panels[first].lo < step()) --first;
-  while (last + 1 < pieces.size() && pieces[last + 1].curve == pieces[last].curve && panels[last].hi - base < step()) {
-    ++last;
-  }
-  return std::min(base - panels[first].lo, panels[last].hi - base);
-}
-
-double Residual::clear(double s, int way) const {
-  for (int k = 0; k < kMostSteps; ++k) {
-    if (std::min(distance_to_joint(s), distance_to_joint(s + length_)) >= 0.5 * step()) break;
-    s += way * step();
-  }
-  return s;
-}
+double Residual::clear(double s, int way) const { return clear_of_joints(part_, {length_}, s, way); }
 
 std::vector<Residual::Cut> Residual::cuts(double lo, double hi) const {
   std::vector<Cut> result{{lo}};

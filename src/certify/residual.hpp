@@ -44,7 +44,6 @@ class Residual {
   std::vector<Cut> cuts(double lo, double hi) const;
   double slope(double s) const { return turning_.curvature(s + length_) - turning_.curvature(s); }
   int slope_sign(double lo, double hi, int depth) const;
-  double distance_to_joint(double s) const;
   bool is_flat(double lo, double hi) const;
   double refined(double lo, double hi) const;
 

@@ -43,14 +43,18 @@ struct CertifiedPlacement {
   CurvePlace at;  // of its start
 };
 
-/// A question of one reading of one finger, the outline by its formulas, and cells that together hold every start.
-struct Certificate {
+/// The outline that a certificate is of, by its formulas.
+struct CertifiedOutline {
   std::string part;  // its name
   bool closed = true;
   double perimeter = 0;
   Vec2 origin = Vec2::Zero();  // the point at s = 0
   double gap = 0;              // the largest between neighbouring curves
   std::vector<CurveRecord> curves;
+};
+
+/// A question of one reading of one finger, the outline by its formulas, and cells that together hold every start.
+struct Certificate : CertifiedOutline {
   Reading reading;
   double tolerance = 0;
   std::vector<CertificateRow> rows;  // by rising start; of an open outline the last one ends the last cell

@@ -5,6 +5,7 @@
 #include "rollfix/answer/answer.hpp"
 #include "rollfix/answer/next_roll.hpp"
 #include "rollfix/certify/certify.hpp"
+#include "rollfix/certify/pair_certificate.hpp"
 #include "rollfix/contact/teach.hpp"
 #include "rollfix/files/inspection.hpp"
 
@@ -19,6 +20,9 @@ std::string format_answer(const Answer& answer, Layout layout = Layout::lines, b
 
 /// "rollfix/certificate/1".
 std::string format_certificate(const Certificate& certificate);
+
+/// "rollfix/pair-certificate/1".
+std::string format_certificate(const PairCertificate& certificate);
 
 /// "rollfix/inspect/1".
 std::string format_inspection(const Inspection& inspection, Layout layout = Layout::lines);

@@ -39,22 +39,71 @@ Json placements_json(const Certificate& certificate) {
   return list;
 }
 
+Json pair_row_json(const PairRow& row) {
+  return {{"start", Json::array({place_json(row.start[0]), place_json(row.start[1])})}, {"off", json_numbers(row.off)}};
+}
+
+Json pairs_json(const PairCertificate& certificate) {
+  Json list = Json::array();
+  for (const CertifiedPair& one : certificate.placements) {
+    const Placement& placement = one.placement;
+    const auto of_both = [](const auto& json_of) { return Json::array({json_of(0U), json_of(1U)}); };
+    list.push_back({{"kind", name_of(placement.kind)},
+                    {"start", of_both([&](std::size_t k) { return json_number(placement.start[k]); })},
+                    {"end", of_both([&](std::size_t k) { return json_number(placement.end[k]); })},
+                    {"at", of_both([&](std::size_t k) { return place_json(one.at[k]); })},
+                    {"point", of_both([&](std::size_t k) { return point_json(placement.point[k]); })}});
+    if (placement.kind != Kind::corner) {
+      list.back()["tangent"] = of_both([&](std::size_t k) { return json_number(placement.tangent[k]); });
+    }
+    list.back()["proof"] = name_of(one.proof);
+    if (one.box) list.back()["box"] = Json::array({pair_row_json((*one.box)[0]), pair_row_json((*one.box)[1])});
+  }
+  return list;
+}
+
+Json readings_json(const std::vector<Reading>& readings) {
+  Json list = Json::array();
+  for (const Reading& reading : readings) {
+    list.push_back({{"length", Json::array({json_number(reading.length[0]), json_number(reading.length[1])})},
+                    {"turn", json_number(reading.turn)}});
+  }
+  return list;
+}
+
+/// What every certificate begins with.
+Json outline_json(const char* schema, const CertifiedOutline& outline) {
+  return {{"schema", schema},
+          {"part", outline.part},
+          {"closed", outline.closed},
+          {"perimeter", json_number(outline.perimeter)},
+          {"origin", point_json(outline.origin)},
+          {"gap", json_number(outline.gap)},
+          {"curves", curves_json(outline.curves)}};
+}
+
 }  // namespace
 
 std::string format_certificate(const Certificate& certificate) {
-  return json_text(
-      {{"schema", "rollfix/certificate/1"},
-       {"part", certificate.part},
-       {"closed", certificate.closed},
-       {"perimeter", json_number(certificate.perimeter)},
-       {"origin", point_json(certificate.origin)},
-       {"gap", json_number(certificate.gap)},
-       {"curves", curves_json(certificate.curves)},
-       {"reading",
-        {{"length", json_number(certificate.reading.length[0])}, {"turn", json_number(certificate.reading.turn)}}},
-       {"tolerance", json_number(certificate.tolerance)},
-       {"rows", rows_json(certificate)},
-       {"placements", placements_json(certificate)}});
+  Json json = outline_json("rollfix/certificate/1", certificate);
+  json["reading"] = {{"length", json_number(certificate.reading.length[0])},
+                     {"turn", json_number(certificate.reading.turn)}};
+  json["tolerance"] = json_number(certificate.tolerance);
+  json["rows"] = rows_json(certificate);
+  json["placements"] = placements_json(certificate);
+  return json_text(json);
+}
+
+std::string format_certificate(const PairCertificate& certificate) {
+  Json json = outline_json("rollfix/pair-certificate/1", certificate);
+  json["readings"] = readings_json(certificate.readings);
+  json["facing"] = certificate.facing ? json_number(*certificate.facing) : Json();
+  json["tolerance"] = json_number(certificate.tolerance);
+  json["from"] = pair_row_json(certificate.from);
+  if (certificate.to) json["to"] = pair_row_json(*certificate.to);
+  json["cells"] = certificate.cells;
+  json["placements"] = pairs_json(certificate);
+  return json_text(json);
 }
 
 }  // namespace rollfix

@@ -1,0 +1,52 @@
+#include "along.hpp"
+
+namespace rollfix_verify {
+
+std::vector<Segment> segments(const Boundary& boundary, const Place& from, const Place& to) {
+  std::vector<Segment> result;
+  for (long curve = from.curve; curve <= to.curve; ++curve) {
+    result.push_back(
+        {curve == from.curve ? from : boundary.front(curve), curve == to.curve ? to : boundary.back(curve)});
+  }
+  return result;
+}
+
+Taylor taylor_along(const Boundary& boundary, const Segment& segment) {
+  return boundary.taylor(segment.from.curve, hull(segment.from.u, segment.to.u));
+}
+
+Ball curvatures(const Boundary& boundary, const std::vector<Segment>& all) {
+  Ball result = taylor_along(boundary, all.front())[0];
+  for (std::size_t k = 1; k < all.size(); ++k) result = hull(result, taylor_along(boundary, all[k])[0]);
+  return result;
+}
+
+Ball jumps(const Boundary& boundary, const std::vector<Segment>& all) {
+  Ball sum = 0.0;
+  for (std::size_t k = 0; k + 1 < all.size(); ++k) sum = sum + hull(0.0, boundary.jump(all[k].from.curve));
+  return sum;
+}
+
+bool is_smooth(const Boundary& boundary, const Place& from, const Place& to) {
+  for (long curve = from.curve; curve < to.curve; ++curve) {
+    if (!abs(boundary.jump(curve)).is_below(kSmooth)) return false;
+  }
+  return true;
+}
+
+std::vector<Ball> angles(const Boundary& boundary, const std::vector<Segment>& all) {
+  std::vector<Ball> sets;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const Segment& one = all[k];
+    const Ball here = one.from.angle + up_to(one.to.s - one.from.s) * taylor_along(boundary, one)[0];
+    const bool is_new = k == 0 || !boundary.jump(all[k - 1].from.curve).is_above(-kConcave);
+    if (is_new) {
+      sets.push_back(here);
+    } else {
+      sets.back() = hull(sets.back(), here);
+    }
+  }
+  return sets;
+}
+
+}  // namespace rollfix_verify

@@ -1,0 +1,76 @@
+#include "document.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+namespace rollfix_verify {
+namespace {
+
+// Tangents are stated in (-pi, pi].
+constexpr double kHalfTurn = 3.1415926536;
+
+std::vector<Formula> formulas(const Json& curves) {
+  std::vector<Formula> result;
+  for (const Json& curve : curves) {
+    result.push_back(formula_of(curve.at("kind").get<std::string>(), curve.at("numbers").get<std::vector<double>>()));
+  }
+  return result;
+}
+
+}  // namespace
+
+void refuse(const std::string& why) { throw std::domain_error(why); }
+
+Document::Document(const Json& json)
+    : json_(json),
+      boundary_(formulas(json.at("curves")), json.at("closed").get<bool>()),
+      period_(boundary_.perimeter().middle()),
+      tolerance_(json.at("tolerance").get<double>()) {}
+
+void Document::check() const {
+  if (!(tolerance_ >= kLeastTolerance) || !std::isfinite(tolerance_)) {
+    refuse("the tolerance is below what rounding allows");
+  }
+  const double stated = json_.at("perimeter").get<double>();
+  if (!abs(boundary_.perimeter() - stated).is_below(kLengthSlack * period_)) refuse("the perimeter is another one");
+  const double gap = json_.at("gap").get<double>();
+  if (!(std::abs(boundary_.largest_gap() - gap) <= kLengthSlack * period_)) refuse("its curves meet otherwise");
+  const Place first = boundary_.at(0, boundary_.front(0).u.middle());
+  if (!is_at(boundary_.position(first), json_.at("origin"))) refuse("the outline starts elsewhere");
+}
+
+bool Document::is_at(const Point& point, const Json& stated) const {
+  const double slack = kPlaceSlack * period_;
+  return abs(point.x - stated.at(0).get<double>()).is_below(slack) &&
+         abs(point.y - stated.at(1).get<double>()).is_below(slack);
+}
+
+Place Document::place_at(const Json& stated) const {
+  const auto curve = stated.at(0).get<long>();
+  if (curve < 0 || curve >= boundary_.curves()) refuse("a place on a curve that is not there");
+  return boundary_.at(curve, stated.at(1).get<double>());
+}
+
+bool Document::is_as_far(const Ball& s, const Ball& stated) const {
+  const Ball off = s - stated;
+  const Ball laps = boundary_.closed() ? Ball(std::round(off.middle() / period_)) * boundary_.perimeter() : Ball(0.0);
+  return abs(off - laps).is_below(kLengthSlack * period_);
+}
+
+void Document::check_contact(const std::string& name, const Place& start, const Ball& length,
+                             const Stated& stated) const {
+  if (!is_as_far(start.s, stated.start.get<double>())) refuse(name + " starts elsewhere");
+  if (!is_as_far(start.s + length, stated.end.get<double>())) refuse(name + " ends elsewhere");
+  if (!is_at(boundary_.position(start), stated.point)) refuse(name + " is at another point");
+  if (!stated.tangent) return;
+  const Point v = boundary_.velocity(start);
+  const double tangent = stated.tangent->get<double>();
+  const Ball c = cos(Ball(tangent));
+  const Ball s = sin(Ball(tangent));
+  const Ball apart = atan2(v.y * c - v.x * s, v.x * c + v.y * s);
+  const Ball most = kPlaceSlack + kLengthSlack * period_ * abs(boundary_.taylor(start.curve, start.u)[0]);
+  if (!abs(apart).is_below(most) || !(std::abs(tangent) < kHalfTurn)) refuse(name + " has another tangent");
+}
+
+}  // namespace rollfix_verify

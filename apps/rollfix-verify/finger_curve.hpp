@@ -1,0 +1,61 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "along.hpp"
+
+namespace rollfix_verify {
+
+/// The tangent's angles at all contacts of one finger while its first contact moves, or while it pivots.
+struct Stretch {
+  double lo = 0;  // first contacts, s
+  double hi = 0;
+  bool pivot = false;      // at one place to kSamePlace: each contact's angle is anywhere in its range, on its own
+  std::vector<Ball> from;  // the angle of each contact at lo, the first contact's first; of a pivot its range
+  std::vector<Ball> to;    // at hi; of a pivot unused
+  std::vector<Ball> rate;  // its curvatures in between; of a pivot unused
+  std::vector<Ball> jump;  // what it turns at smooth joints in between, at most and at least
+  mutable std::shared_ptr<const std::pair<Stretch, Stretch>> halves;  // once somebody has asked for them
+
+  double width() const { return hi - lo; }
+  /// How much an angle changes at the most.
+  double change() const;
+  /// The contact that pivots: whose range is the widest.
+  std::size_t widest() const;
+  /// How far a contact turns from end to end; of a pivot the one that pivots.
+  double turn(std::size_t contact) const;
+  /// What a sum of the angles is, each with its weight, anywhere on the stretch.
+  Ball sum(const std::vector<Ball>& weights) const;
+};
+
+/// What one finger's readings come to: the angles Theta(s + L_k) for all its first contacts s, L_0 = 0.
+class FingerCurve {
+ public:
+  FingerCurve(const Boundary& boundary, std::vector<Ball> lengths)
+      : boundary_(boundary), lengths_(std::move(lengths)), period_(boundary.perimeter().middle()) {}
+
+  std::size_t contacts() const { return lengths_.size(); }
+
+  /// All first contacts from lo to hi: cut at each that brings a contact to a corner, with what happens there in
+  /// between. Throws std::domain_error where that can't be told.
+  const std::vector<Stretch>& over(double lo, double hi);
+
+  /// Both halves, kept for the next one who asks.
+  const std::pair<Stretch, Stretch>& halved(const Stretch& stretch) const;
+
+ private:
+  std::vector<Place> places(double& s, int way) const;
+  std::vector<double> corners_between(double lo, double hi) const;
+  Stretch smooth(double lo, double hi) const;
+  std::vector<Stretch> at_corner(double lo, double hi) const;
+
+  const Boundary& boundary_;
+  std::vector<Ball> lengths_;
+  double period_;
+  std::map<std::pair<double, double>, std::vector<Stretch>> known_;
+};
+
+}  // namespace rollfix_verify

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "finger_curve.hpp"
+
+namespace rollfix_verify {
+
+/// One number for each equation.
+using Weights = std::vector<double>;
+
+/// What two fingers' first contacts s and t have to fulfil, each equation a sum over finger a's angles less the same
+/// over finger b's: of reading k f_k = [Theta(s + La_k) - Theta(s)] - [Theta(t + Lb_k) - Theta(t)] - turn_k, and where
+/// the fingers' facing is known Theta(s) - Theta(t) - facing, but for whole turns.
+class PairEquations {
+ public:
+  PairEquations(std::vector<Ball> turns, const std::optional<Ball>& facing)
+      : turns_(std::move(turns)), facing_(facing) {}
+
+  std::size_t count() const { return turns_.size() + (facing_ ? 1 : 0); }
+
+  /// Whether some equation is off by more than `bound` at each pair of two stretches.
+  bool are_apart(const Stretch& a, const Stretch& b, double bound) const;
+
+  /// Of each equation what it is off by, anywhere on two stretches; the facing to the nearest whole turn.
+  std::vector<Ball> off(const Stretch& a, const Stretch& b) const;
+
+  /// Whether exactly one pair of two stretches solves both of two equations, by Krawczyk's operator; and so when each
+  /// is off by anything up to `slack`, so that the pairs within it are one connected set.
+  bool have_one_root(const FingerCurve& curve_a, const Stretch& a, const FingerCurve& curve_b, const Stretch& b,
+                     double slack) const;
+
+  /// A stretch by a parameter that runs through it from -1/2 to 1/2: the contacts' angles in the middle, with what the
+  /// parameter leaves open, and how fast they change.
+  struct Linear {
+    std::vector<Ball> middle;
+    std::vector<Ball> rate;
+  };
+
+ private:
+  Ball combined(const Stretch& a, const Stretch& b, const Weights& weights, const Ball& turned) const;
+  bool are_apart(const Stretch& a, const Stretch& b, double bound, const Ball& turned) const;
+  bool map_inside(const Linear& of_a, const Linear& of_b, double slack, const Ball& turned) const;
+  std::vector<Ball> contact_weights(const Weights& weights) const;
+  Ball right_side(const Weights& weights, const Ball& turned) const;
+  std::optional<std::pair<long, long>> whole_turns(const Stretch& a, const Stretch& b, double bound) const;
+
+  std::vector<Ball> turns_;
+  std::optional<Ball> facing_;
+};
+
+}  // namespace rollfix_verify

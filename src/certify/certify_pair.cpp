@@ -1,0 +1,239 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "pair_cover.hpp"
+#include "places.hpp"
+#include "rollfix/certify/pair_certificate.hpp"
+#include "rollfix/error.hpp"
+
+namespace rollfix {
+namespace {
+
+// The cells of a closed outline begin at these shares of the perimeter, where no symmetry has a joint.
+constexpr std::array<double, 2> kFrom = {0.013717421, 0.017832641};
+// Boxes around roots: the first size that is tried, as a share of the perimeter, and by how much the next one shrinks.
+constexpr double kFirstBox = 0.06;
+constexpr double kShrink = 0.7;
+// How much longer the one side of a box may be.
+constexpr double kMostAspect = 8;
+// A box holds the pairs that fit with this much to spare.
+constexpr double kSpare = 1.5;
+
+class PairMaker {
+ public:
+  PairMaker(const Part& part, const std::vector<Reading>& readings, const LocateOptions& options)
+      : part_(part),
+        search_(locate(part, readings, options)),
+        bounds_(part, readings, options.facing),
+        tolerance_(std::max(options.tolerance, kLeastTolerance)) {
+    lengths_.resize(2);
+    for (std::size_t finger = 0; finger < 2; ++finger) {
+      for (const Reading& reading : readings) lengths_[finger].push_back(reading.length[finger]);
+    }
+  }
+
+  void fill(PairCertificate& certificate) {
+    for (const Placement& placement : search_.placements) {
+      pairs_.push_back({&placement, {}, false});
+      proofs_.push_back(PairProof::fits);
+    }
+    for (std::size_t k = 0; k < pairs_.size(); ++k) find_box(k);
+    const PairBox whole = this->whole();
+    certificate.from = row(whole[0].lo, whole[1].lo);
+    if (!part_.closed()) certificate.to = row(whole[0].hi, whole[1].hi);
+    certificate.cells = PairCover(part_, bounds_, tolerance_, pairs_).cells(whole);
+    for (std::size_t k = 0; k < pairs_.size(); ++k) certificate.placements.push_back(certified(k));
+  }
+
+ private:
+  PairBox whole() const {
+    PairBox box;
+    for (std::size_t finger = 0; finger < 2; ++finger) {
+      box[finger] = clear_starts(part_, lengths_[finger]);
+      if (!part_.closed()) continue;
+      const double lo = clear(finger, kFrom[finger] * part_.perimeter(), 1);
+      box[finger] = {lo, lo + part_.perimeter()};
+    }
+    return box;
+  }
+
+  double clear(std::size_t finger, double s, int way) const { return clear_of_joints(part_, lengths_[finger], s, way); }
+
+  PairRow row(double s, double t) const {
+    PairRow result{{place_of(part_, s), place_of(part_, t)}, bounds_.off(s, t)};
+    for (double& off : result.off) off = std::abs(off) <= kTurnAccuracy ? 0 : off / tolerance_;
+    return result;
+  }
+
+  // ---- boxes around placements ----
+
+  /// As large as has one root for certain, or else as is needed; none where it would meet another one.
+  void find_box(std::size_t k) {
+    const Placement& placement = *pairs_[k].placement;
+    if (placement.kind == Kind::stretch) return;
+    PairBox needed;
+    for (std::size_t finger = 0; finger < 2; ++finger) {
+      if (placement.whole_loop[finger]) return;
+      needed[finger] = spared(placement, finger);
+    }
+    const std::array<double, 2> aspect = aspect_of(needed);
+    for (double size = kFirstBox * part_.perimeter(); size > least_step(part_); size *= kShrink) {
+      const PairBox box = box_around(placement, {size * aspect[0], size * aspect[1]});
+      if (!holds(box, needed)) break;
+      if (!is_free(box, k) || !bounds_.has_one_root(box, tolerance_)) continue;
+      pairs_[k].box = box;
+      proofs_[k] = bounds_.count() == 2 ? PairProof::one : PairProof::fits;
+      return;
+    }
+    find_loose_box(k, needed);
+  }
+
+  /// The smallest that nothing around it belongs to, as far as a little work tells.
+  void find_loose_box(std::size_t k, const PairBox& needed) {
+    const Placement& placement = *pairs_[k].placement;
+    for (double size = kFirstBox * part_.perimeter(); size > least_step(part_); size *= kShrink) {
+      const PairBox box = box_around(placement, {size, size});
+      if (!holds(box, needed)) break;
+      if (!is_free(box_around(placement, {2 * size, 2 * size}), k)) continue;
+      if (!is_alone(box, box_around(placement, {2 * size, 2 * size}))) {
+        if (pairs_[k].box) break;
+        continue;
+      }
+      pairs_[k].box = box;
+    }
+    if (!pairs_[k].box && is_on_part(needed) && is_free(needed, k)) pairs_[k].box = needed;
+  }
+
+  /// What is between a box and a larger one around it is apart.
+  bool is_alone(const PairBox& box, const PairBox& outer) {
+    const Interval before{outer[0].lo, box[0].lo};
+    const Interval after{box[0].hi, outer[0].hi};
+    const Interval below{outer[1].lo, box[1].lo};
+    const Interval above{box[1].hi, outer[1].hi};
+    return bounds_.are_apart({before, outer[1]}, tolerance_) && bounds_.are_apart({after, outer[1]}, tolerance_) &&
+           bounds_.are_apart({box[0], below}, tolerance_) && bounds_.are_apart({box[0], above}, tolerance_);
+  }
+
+  /// The extent with some room, unwrapped around the start.
+  Interval spared(const Placement& placement, std::size_t finger) const {
+    const double start = placement.start[finger];
+    Interval extent = placement.extent[finger];
+    if (part_.closed()) {
+      const double shift = start - (extent.lo + wrap(start - extent.lo, part_.perimeter()).base);
+      extent = {extent.lo + shift, extent.hi + shift};
+    }
+    const double more = 16 * least_step(part_);
+    const double before = std::max(0.0, start - extent.lo);
+    const double after = std::max(0.0, extent.hi - start);
+    return {clear(finger, start - kSpare * before - more, -1), clear(finger, start + kSpare * after + more, 1)};
+  }
+
+  /// Of a box's sides, around 1.
+  static std::array<double, 2> aspect_of(const PairBox& needed) {
+    const double ratio = std::clamp(needed[0].width() / needed[1].width(), 1 / kMostAspect, kMostAspect);
+    return {std::sqrt(ratio), 1 / std::sqrt(ratio)};
+  }
+
+  PairBox box_around(const Placement& placement, const std::array<double, 2>& size) const {
+    PairBox box;
+    for (std::size_t finger = 0; finger < 2; ++finger) {
+      const double start = placement.start[finger];
+      box[finger] = {clear(finger, start - size[finger], -1), clear(finger, start + size[finger], 1)};
+    }
+    return box;
+  }
+
+  static bool holds(const PairBox& box, const PairBox& inner) {
+    return box[0].lo <= inner[0].lo && box[0].hi >= inner[0].hi && box[1].lo <= inner[1].lo && box[1].hi >= inner[1].hi;
+  }
+
+  bool is_on_part(const PairBox& box) const {
+    if (part_.closed()) return box[0].width() < 0.5 * part_.perimeter() && box[1].width() < 0.5 * part_.perimeter();
+    for (std::size_t finger = 0; finger < 2; ++finger) {
+      const Interval range = clear_starts(part_, lengths_[finger]);
+      if (box[finger].lo < range.lo || box[finger].hi > range.hi) return false;
+    }
+    return true;
+  }
+
+  /// On the part, and apart from what else was found: extents, and boxes that are there.
+  bool is_free(const PairBox& box, std::size_t k) const {
+    if (!is_on_part(box)) return false;
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      if (i == k) continue;
+      PairBox other{spared(*pairs_[i].placement, 0), spared(*pairs_[i].placement, 1)};
+      if (pairs_[i].box) other = *pairs_[i].box;
+      if (pairs_[i].placement->kind != Kind::stretch && meet(box, other)) return false;
+    }
+    return true;
+  }
+
+  bool meet(const PairBox& one, const PairBox& two) const {
+    for (std::size_t finger = 0; finger < 2; ++finger) {
+      const auto at = [&](double shift) {
+        const double step = 4 * least_step(part_);
+        return one[finger].lo + shift <= two[finger].hi + step && two[finger].lo <= one[finger].hi + shift + step;
+      };
+      const double lap = part_.closed() ? part_.perimeter() : 0;
+      if (!at(0) && !at(lap) && !at(-lap)) return false;
+    }
+    return true;
+  }
+
+  CertifiedPair certified(std::size_t k) const {
+    const CoveredPair& pair = pairs_[k];
+    CertifiedPair result;
+    result.placement = *pair.placement;
+    result.at = {place_of(part_, pair.placement->start[0]), place_of(part_, pair.placement->start[1])};
+    result.proof = pair.box || pair.has_cell ? proofs_[k] : PairProof::none;
+    if (pair.box) {
+      const PairBox& box = *pair.box;
+      result.box = std::array<PairRow, 2>{row(box[0].lo, box[1].lo), row(box[0].hi, box[1].hi)};
+    }
+    return result;
+  }
+
+  const Part& part_;
+  Search search_;
+  mutable PairBounds bounds_;
+  double tolerance_;
+  std::vector<std::vector<double>> lengths_;  // of each finger
+  std::vector<CoveredPair> pairs_;
+  std::vector<PairProof> proofs_;
+};
+
+}  // namespace
+
+const char* name_of(PairProof proof) {
+  switch (proof) {
+    case PairProof::one:
+      return "one";
+    case PairProof::fits:
+      return "fits";
+    case PairProof::none:
+      break;
+  }
+  return "none";
+}
+
+bool PairCertificate::is_complete() const {
+  return cells.find('?') == std::string::npos &&
+         std::none_of(placements.begin(), placements.end(),
+                      [](const CertifiedPair& one) { return one.proof == PairProof::none; });
+}
+
+PairCertificate certify_pair(const Part& part, const std::vector<Reading>& readings, const LocateOptions& options) {
+  if (readings.empty() || readings.front().fingers() != 2) {
+    throw InputError("certificates of two fingers are of two fingers' readings");
+  }
+  PairCertificate certificate;
+  static_cast<CertifiedOutline&>(certificate) = certified_outline(part);
+  certificate.readings = readings;
+  certificate.facing = options.facing;
+  certificate.tolerance = std::max(options.tolerance, kLeastTolerance);
+  PairMaker(part, readings, options).fill(certificate);
+  return certificate;
+}
+
+}  // namespace rollfix

@@ -1,0 +1,143 @@
+#include "contact_curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "part/cursor.hpp"
+#include "places.hpp"
+
+namespace rollfix {
+
+std::size_t ContactStretch::widest() const {
+  const auto found = std::max_element(angle.begin(), angle.end(),
+                                      [](const Range& one, const Range& two) { return one.spread() < two.spread(); });
+  return static_cast<std::size_t>(found - angle.begin());
+}
+
+double ContactStretch::turn(std::size_t contact) const {
+  if (!pivot) return to[contact] - from[contact];
+  return contact == widest() ? angle[contact].spread() : 0;
+}
+
+/// Each angle is on one side of its chord, or changes sides, by a quarter of what its slope changes by times the width.
+Range ContactStretch::sum(const std::vector<double>& weights) const {
+  Range all{0, 0};
+  if (pivot) {
+    for (std::size_t c = 0; c < weights.size(); ++c) all = all + weights[c] * angle[c];
+    return all;
+  }
+  double first = 0;
+  double last = 0;
+  for (std::size_t c = 0; c < weights.size(); ++c) {
+    first += weights[c] * from[c];
+    last += weights[c] * to[c];
+    all = all + weights[c] * rate[c];
+  }
+  const double sag = 0.25 * width() * all.spread();
+  return {std::min(first, last) - sag, std::max(first, last) + sag};
+}
+
+std::vector<double> ContactCurve::angles(double s, Side side) const {
+  std::vector<double> result;
+  for (const double length : lengths_) result.push_back(part_.turning().angle(s + length, side));
+  return result;
+}
+
+std::vector<ContactCurve::Event> ContactCurve::events(double lo, double hi) const {
+  std::vector<Event> result;
+  for (std::size_t c = 0; c < lengths_.size(); ++c) {
+    for (const Corner& corner : part_.corners()) {
+      double s = corner.s - lengths_[c];
+      if (part_.closed()) s = lo + wrap(s - lo, part_.perimeter()).base;
+      for (; s < hi; s += part_.perimeter()) {
+        if (s > lo) result.push_back({s, c, corner.turn, corner.is_concave()});
+        if (!part_.closed()) break;
+      }
+    }
+  }
+  std::sort(result.begin(), result.end(), [](const Event& one, const Event& two) { return one.s < two.s; });
+  return result;
+}
+
+/// At its spirals' ends, for it is monotone in between.
+Range ContactCurve::curvatures(double lo, double hi) const {
+  const TurningFunction& turning = part_.turning();
+  Range all{turning.curvature(lo), turning.curvature(lo)};
+  const auto add = [&](double curvature) { all = hull(std::min(all.least, curvature), std::max(all.most, curvature)); };
+  add(turning.curvature(hi, Side::before));
+  Cursor cursor(turning, lo);
+  while (!cursor.is_last() && cursor.hi() < hi) {
+    add(cursor.spiral().end.curvature);
+    cursor.advance();
+    add(cursor.spiral().start.curvature);
+  }
+  return all;
+}
+
+ContactStretch ContactCurve::smooth(double lo, double hi) const {
+  ContactStretch result;
+  result.lo = lo;
+  result.hi = hi;
+  result.from = angles(lo, Side::after);
+  result.to = angles(hi, Side::before);
+  for (std::size_t c = 0; c < lengths_.size(); ++c) {
+    result.angle.push_back(hull(result.from[c], result.to[c]));
+    result.rate.push_back(curvatures(lo + lengths_[c], hi + lengths_[c]));
+  }
+  return result;
+}
+
+/// At a concave corner an angle is what it is before or after; at all others anything in between.
+std::vector<ContactStretch> ContactCurve::at_corner(double lo, double hi, const std::vector<Event>& events) const {
+  ContactStretch empty;
+  empty.lo = lo;
+  empty.hi = hi;
+  empty.pivot = true;
+  std::vector<ContactStretch> result = {empty};
+  const std::vector<double> first = angles(lo, Side::after);
+  const std::vector<double> last = angles(hi, Side::after);
+  for (std::size_t c = 0; c < lengths_.size(); ++c) {
+    double before = first[c];
+    double after = first[c];
+    std::vector<Range> sets;
+    for (const Event& event : events) {
+      if (event.contact != c) continue;
+      after += event.turn;
+      if (!event.concave) continue;
+      sets.push_back(hull(before, after - event.turn));
+      before = after;
+    }
+    sets.push_back(hull(before, last[c]));
+    std::vector<ContactStretch> longer;
+    for (const Range& set : sets) {
+      for (ContactStretch one : result) {
+        one.angle.push_back(set);
+        longer.push_back(std::move(one));
+      }
+    }
+    result = std::move(longer);
+  }
+  return result;
+}
+
+const std::vector<ContactStretch>& ContactCurve::over(double lo, double hi) {
+  const auto found = known_.find({lo, hi});
+  if (found != known_.end()) return found->second;
+  std::vector<ContactStretch> result;
+  const double beside = least_step(part_);
+  double here = lo;
+  const std::vector<Event> all = events(lo - beside, hi + beside);
+  for (std::size_t k = 0; k < all.size();) {
+    std::vector<Event> near = {all[k++]};
+    while (k < all.size() && all[k].s - near.back().s <= 4 * beside) near.push_back(all[k++]);
+    const double before = near.front().s - beside;
+    const double after = near.back().s + beside;
+    if (before > here) result.push_back(smooth(here, before));
+    for (ContactStretch& one : at_corner(before, after, near)) result.push_back(std::move(one));
+    here = after;
+  }
+  if (hi > here) result.push_back(smooth(here, hi));
+  return known_[{lo, hi}] = std::move(result);
+}
+
+}  // namespace rollfix

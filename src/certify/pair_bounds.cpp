@@ -1,0 +1,248 @@
+#include "pair_bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace rollfix {
+namespace {
+
+constexpr double kFullTurn = 2 * std::numbers::pi;
+// Half of a box is more than what its image may fill: the verifier's bounds on slopes are wider than those by spirals.
+constexpr double kFill = 0.35;
+// A pivot's angles stay what they are when a range around it is halved: from this share of the perimeter on they count
+// for less.
+constexpr double kPivotRoom = 0.1;
+// A pivot has no slopes to be bounded.
+constexpr double kPivotFill = 0.499;
+
+std::vector<double> lengths_of(const std::vector<Reading>& readings, std::size_t finger) {
+  std::vector<double> result = {0};
+  for (const Reading& reading : readings) result.push_back(reading.length[finger]);
+  return result;
+}
+
+double size_of(const std::vector<double>& weights) {
+  double sum = 0;
+  for (const double weight : weights) sum += std::abs(weight);
+  return sum;
+}
+
+/// The angles in the middle of a stretch and how fast they change from its one end to the other.
+struct Middle {
+  std::vector<Range> angle;
+  std::vector<Range> rate;
+};
+
+Middle middle_of(const ContactStretch& stretch, const std::vector<double>& angles) {
+  Middle result;
+  if (!stretch.pivot) {
+    for (const double angle : angles) result.angle.push_back({angle, angle});
+    for (const Range& rate : stretch.rate) result.rate.push_back(stretch.width() * rate);
+    return result;
+  }
+  const std::size_t pivoting = stretch.widest();
+  const Range& range = stretch.angle[pivoting];
+  const double middle = 0.5 * (range.least + range.most);
+  result.angle = stretch.angle;
+  result.rate.assign(stretch.angle.size(), {0, 0});
+  result.angle[pivoting] = {middle, middle};
+  result.rate[pivoting] = {range.spread(), range.spread()};
+  return result;
+}
+
+double middle(const Range& range) { return 0.5 * (range.least + range.most); }
+
+}  // namespace
+
+PairBounds::PairBounds(const Part& part, const std::vector<Reading>& readings, const std::optional<double>& facing)
+    : curves_{ContactCurve(part, lengths_of(readings, 0)), ContactCurve(part, lengths_of(readings, 1))},
+      facing_(facing),
+      period_(part.perimeter()) {
+  for (const Reading& reading : readings) turns_.push_back(reading.turn);
+}
+
+PairBounds::Weights PairBounds::unit(std::size_t row) const {
+  Weights result(count(), 0);
+  result[row] = 1;
+  return result;
+}
+
+PairBounds::Weights PairBounds::contact_weights(const Weights& weights) const {
+  Weights result(turns_.size() + 1, 0);
+  for (std::size_t k = 0; k < turns_.size(); ++k) {
+    result[k + 1] = weights[k];
+    result[0] -= weights[k];
+  }
+  if (facing_) result[0] += weights.back();
+  return result;
+}
+
+double PairBounds::right_side(const Weights& weights, int turns) const {
+  double sum = 0;
+  for (std::size_t k = 0; k < turns_.size(); ++k) sum += weights[k] * turns_[k];
+  if (facing_) sum += weights.back() * (*facing_ + turns * kFullTurn);
+  return sum;
+}
+
+Range PairBounds::combined(const ContactStretch& a, const ContactStretch& b, const Weights& weights, int turns) const {
+  const Weights contacts = contact_weights(weights);
+  const double right = right_side(weights, turns);
+  return a.sum(contacts) - b.sum(contacts) - Range{right, right};
+}
+
+std::vector<double> PairBounds::off(double s, double t) const {
+  const std::vector<double> a = curves_[0].angles(s, Side::after);
+  const std::vector<double> b = curves_[1].angles(t, Side::after);
+  std::vector<double> result;
+  for (std::size_t k = 0; k < turns_.size(); ++k) result.push_back((a[k + 1] - a[0]) - (b[k + 1] - b[0]) - turns_[k]);
+  if (facing_) result.push_back(std::remainder(a[0] - b[0] - *facing_, kFullTurn));
+  return result;
+}
+
+PairBounds::Turns PairBounds::turns(const ContactStretch& a, const ContactStretch& b) const {
+  if (!facing_) return {0, 0};
+  const Range range = combined(a, b, unit(count() - 1), 0);
+  return {static_cast<int>(std::floor(range.least / kFullTurn)), static_cast<int>(std::ceil(range.most / kFullTurn))};
+}
+
+double PairBounds::bound(const PairBox& box) {
+  double least = std::numeric_limits<double>::infinity();
+  const std::vector<ContactStretch>& all_b = curves_[1].over(box[1].lo, box[1].hi);
+  for (const ContactStretch& a : curves_[0].over(box[0].lo, box[0].hi)) {
+    for (const ContactStretch& b : all_b) {
+      least = std::min(least, bound(a, b));
+      if (least <= 0) return 0;
+    }
+  }
+  return least;
+}
+
+double PairBounds::bound(const ContactStretch& a, const ContactStretch& b) const {
+  double least = std::numeric_limits<double>::infinity();
+  const Turns all = turns(a, b);
+  for (int k = all.first; k <= all.second; ++k) least = std::min(least, bound(a, b, k));
+  return least;
+}
+
+/// As the verifier looks at it: each equation, and each two of them across the one curve's chord and the other's.
+double PairBounds::bound(const ContactStretch& a, const ContactStretch& b, int turns) const {
+  double most = 0;
+  const auto look = [&](const Weights& weights) {
+    const Range range = combined(a, b, weights, turns);
+    most = std::max(most, std::max(range.least, -range.most) / size_of(weights));
+  };
+  for (std::size_t k = 0; k < count(); ++k) look(unit(k));
+  for (std::size_t k = 0; k < count(); ++k) {
+    for (std::size_t l = k + 1; l < count(); ++l) {
+      for (const ContactStretch* one : {&a, &b}) {
+        const auto chord = [&](std::size_t row) {
+          const Weights contacts = contact_weights(unit(row));
+          double sum = 0;
+          for (std::size_t c = 0; c < contacts.size(); ++c) sum += contacts[c] * one->turn(c);
+          return sum;
+        };
+        Weights across(count(), 0);
+        across[k] = -chord(l);
+        across[l] = chord(k);
+        if (size_of(across) > 0) look(across);
+      }
+    }
+  }
+  return most;
+}
+
+double PairBounds::change(const Interval& side, std::size_t finger) {
+  double most = 0;
+  for (const ContactStretch& stretch : curves_[finger].over(side.lo, side.hi)) {
+    for (std::size_t k = 0; k < count(); ++k) most = std::max(most, stretch.sum(contact_weights(unit(k))).spread());
+  }
+  return most;
+}
+
+double PairBounds::use_of_halving(const Interval& side, std::size_t finger) {
+  double most = 0;
+  const double share = std::min(1.0, side.width() / (kPivotRoom * period_));
+  for (const ContactStretch& stretch : curves_[finger].over(side.lo, side.hi)) {
+    for (std::size_t k = 0; k < count(); ++k) {
+      most = std::max(most, (stretch.pivot ? share : 1) * stretch.sum(contact_weights(unit(k))).spread());
+    }
+  }
+  return most;
+}
+
+bool PairBounds::has_one_root(const PairBox& box, double tolerance) {
+  for (std::size_t k = 0; k < count(); ++k) {
+    for (std::size_t l = k + 1; l < count(); ++l) {
+      if (has_one_root(box, {k, l}, tolerance)) return true;
+    }
+  }
+  return false;
+}
+
+bool PairBounds::has_one_root(const PairBox& box, std::array<std::size_t, 2> rows, double tolerance) {
+  int roots = 0;
+  const std::vector<ContactStretch>& all_b = curves_[1].over(box[1].lo, box[1].hi);
+  for (const ContactStretch& a : curves_[0].over(box[0].lo, box[0].hi)) {
+    for (const ContactStretch& b : all_b) {
+      if (has_one_root(a, b, rows, tolerance)) {
+        ++roots;
+      } else if (!is_apart({Interval{a.lo, a.hi}, Interval{b.lo, b.hi}}, tolerance,
+                           a.pivot && b.pivot ? 0 : kHalvings)) {
+        return false;
+      }
+    }
+  }
+  return roots == 1;
+}
+
+bool PairBounds::is_apart(const PairBox& box, double tolerance, int depth) {
+  if (bound(box) > 1.1 * tolerance) return true;
+  if (depth == 0) return false;
+  const std::size_t side = use_of_halving(box[0], 0) > use_of_halving(box[1], 1) ? 0 : 1;
+  PairBox first = box;
+  PairBox second = box;
+  first[side].hi = second[side].lo = box[side].middle();
+  return is_apart(first, tolerance, depth - 1) && is_apart(second, tolerance, depth - 1);
+}
+
+/// Krawczyk's operator, see rollfix-verify.
+bool PairBounds::has_one_root(const ContactStretch& a, const ContactStretch& b, std::array<std::size_t, 2> rows,
+                              double tolerance) const {
+  const Turns all = turns(a, b);
+  const Middle of_a = middle_of(a, a.pivot ? Weights{} : curves_[0].angles(0.5 * (a.lo + a.hi), Side::after));
+  const Middle of_b = middle_of(b, b.pivot ? Weights{} : curves_[1].angles(0.5 * (b.lo + b.hi), Side::after));
+  for (int turn = all.first; turn <= all.second; ++turn) {
+    std::array<std::array<Range, 2>, 2> j{};
+    std::array<Range, 2> f{};
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Weights contacts = contact_weights(unit(rows[k]));
+      const double right = right_side(unit(rows[k]), turn);
+      f[k] = {-tolerance - right, tolerance - right};
+      for (std::size_t c = 0; c < contacts.size(); ++c) {
+        f[k] = f[k] + contacts[c] * (of_a.angle[c] - of_b.angle[c]);
+        j[k][0] = j[k][0] + contacts[c] * of_a.rate[c];
+        j[k][1] = j[k][1] - contacts[c] * of_b.rate[c];
+      }
+    }
+    const double determinant = middle(j[0][0]) * middle(j[1][1]) - middle(j[0][1]) * middle(j[1][0]);
+    if (determinant == 0) return false;
+    const double inverse[2][2] = {{middle(j[1][1]) / determinant, -middle(j[0][1]) / determinant},
+                                  {-middle(j[1][0]) / determinant, middle(j[0][0]) / determinant}};
+    bool fits = true;
+    for (std::size_t i = 0; i < 2; ++i) {
+      Range image = inverse[i][0] * f[0] + inverse[i][1] * f[1];
+      for (std::size_t k = 0; k < 2; ++k) {
+        const Range off =
+            Range{i == k ? 1.0 : 0.0, i == k ? 1.0 : 0.0} - (inverse[i][0] * j[0][k] + inverse[i][1] * j[1][k]);
+        image = image + off * Range{-0.5, 0.5};
+      }
+      fits = fits && image.size() < ((i == 0 ? a : b).pivot ? kPivotFill : kFill);
+    }
+    if (fits) return true;
+  }
+  return false;
+}
+
+}  // namespace rollfix

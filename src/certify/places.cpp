@@ -1,0 +1,100 @@
+#include "places.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "part/part_data.hpp"
+#include "records.hpp"
+#include "rollfix/error.hpp"
+
+namespace rollfix {
+namespace {
+
+// Rows keep this share of the perimeter from joints: there is no doubt on which curve a roll ends.
+constexpr double kClear = 4e-12;
+constexpr int kMostSteps = 8;
+
+/// Of a place to where curves meet, on either side.
+double distance_to_joint(const Part& part, double s) {
+  const TurningFunction& turning = part.turning();
+  const auto& pieces = PartAccess::data(part).parametrization.pieces;
+  const auto& panels = turning.panels();
+  const double base = part.boundary().base(s);
+  const double step = least_step(part);
+  const Spiral& spiral = turning.spirals()[turning.spiral_at(base)];
+  std::size_t first = turning.panel_index(spiral, base);
+  std::size_t last = first;
+  while (first > 0 && pieces[first - 1].curve == pieces[first].curve && base - panels[first].lo < step) --first;
+  while (last + 1 < pieces.size() && pieces[last + 1].curve == pieces[last].curve && panels[last].hi - base < step) {
+    ++last;
+  }
+  return std::min(base - panels[first].lo, panels[last].hi - base);
+}
+
+double largest_gap(const Outline& outline) {
+  double largest = 0;
+  const std::size_t count = outline.curves.size();
+  for (std::size_t k = 0; k + (outline.closed ? 0 : 1) < count; ++k) {
+    largest = std::max(largest, (outline.curves[k].back() - outline.curves[(k + 1) % count].front()).norm());
+  }
+  return largest;
+}
+
+}  // namespace
+
+double least_step(const Part& part) { return kClear * part.perimeter(); }
+
+CurvePlace place_of(const Part& part, double s) {
+  const TurningFunction& turning = part.turning();
+  const PartAccess::Data& data = PartAccess::data(part);
+  const double base = part.boundary().base(s);
+  const Spiral& spiral = turning.spirals()[turning.spiral_at(base)];
+  const std::uint32_t index = turning.panel_index(spiral, base);
+  const Panel& panel = turning.panels()[index];
+  const std::size_t curve = data.parametrization.pieces[index].curve;
+  const Interval domain = data.outline.curves[curve].domain();
+  const double u = data.parametrization.parameter(index, (base - panel.middle) * panel.inverse_half);
+  return {curve, std::clamp(u, domain.lo, domain.hi)};
+}
+
+double clear_of_joints(const Part& part, const std::vector<double>& lengths, double s, int way) {
+  const double step = least_step(part);
+  const auto distance = [&] {
+    double least = distance_to_joint(part, s);
+    for (const double length : lengths) least = std::min(least, distance_to_joint(part, s + length));
+    return least;
+  };
+  for (int k = 0; k < kMostSteps; ++k) {
+    if (distance() >= 0.5 * step) break;
+    s += way * step;
+  }
+  return s;
+}
+
+Interval clear_starts(const Part& part, const std::vector<double>& lengths) {
+  Interval range{0, part.perimeter()};
+  if (part.closed()) return range;
+  const double step = least_step(part);
+  for (const double length : lengths) {
+    range.lo = std::max(range.lo, -length);
+    range.hi = std::min(range.hi, part.perimeter() - length);
+  }
+  if (!(range.width() > 8 * step)) {
+    throw InputError(part.name() + ": a roll as long as an open outline leaves one start: nothing to certify");
+  }
+  return {clear_of_joints(part, lengths, range.lo + step, 1), clear_of_joints(part, lengths, range.hi - step, -1)};
+}
+
+CertifiedOutline certified_outline(const Part& part) {
+  CertifiedOutline result;
+  result.part = part.name();
+  result.closed = part.closed();
+  result.perimeter = part.perimeter();
+  result.curves = formulas_of(part.outline());
+  result.origin = part.outline().curves.front().front();
+  result.gap = largest_gap(part.outline());
+  return result;
+}
+
+}  // namespace rollfix
