@@ -1,4 +1,5 @@
 // `rollfix locate --certify`, and the program that checks what it writes.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -39,10 +40,31 @@ TEST(CliCertify, proves_that_nothing_fits) {
   EXPECT_EQ(verified("proof.json").code, 0);
 }
 
+TEST(CliCertify, of_two_fingers_writes_what_the_verifier_proves) {
+  const Folder folder;
+  const std::string readings =
+      "--reading 0.7446832,-0.3983439,1.0032473 --reading 1.5,-0.8,1.9367925 --tolerance 1e-6 --certify proof.json";
+  EXPECT_EQ(run("locate gallery:cam " + readings).code, 0);
+  EXPECT_EQ(verified("proof.json").code, 0);
+  EXPECT_THAT(verified("proof.json").out, testing::StartsWith("proved: 4 placements, "));
+  std::string text = cli::read("proof.json");
+  const std::size_t at = text.find("\"turn\":1.936");
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, 12, "\"turn\":1.836");
+  folder.write("changed.json", text);
+  EXPECT_EQ(verified("changed.json").code, 1);
+}
+
+TEST(CliCertify, of_two_fingers_and_their_facing_is_proved) {
+  const Folder folder;
+  EXPECT_EQ(run("locate gallery:cam --reading 1.5,-0.8,110.97deg --facing -142.4deg --certify proof.json").code, 0);
+  EXPECT_EQ(verified("proof.json").code, 0);
+}
+
 TEST(CliCertify, of_what_has_no_certificate_is_an_error) {
   const Folder folder;
   for (const char* arguments :
-       {"--reading 1.5,-0.8,110.97deg --facing -142.4deg", "--reading 1,0.5 --reading 2,1",
+       {"--reading 1.5,-0.8,110.97deg --facing -142.4deg --mirror", "--reading 1,0.5 --reading 2,1",
         "--reading 1,0.5 --direction either", "--reading 1,0.5 --mirror", "--reading 1,0.5 --march"}) {
     const Ran ran = run(std::string("locate gallery:cam --certify proof.json ") + arguments);
     EXPECT_EQ(ran.code, 2) << arguments;

@@ -9,6 +9,23 @@ namespace rollfix_verify {
 inline constexpr slong kPrecision = 128;  // bits
 inline constexpr slong kTerms = 14;       // of a series: x^0 to x^13, the last of which bounds what is left out
 
+/// While one of these lives series keep so many terms only: where no more are asked for.
+class FewerTerms {
+ public:
+  explicit FewerTerms(slong count) : before_(kept()) { kept() = count; }
+  FewerTerms(const FewerTerms&) = delete;
+  FewerTerms& operator=(const FewerTerms&) = delete;
+  ~FewerTerms() { kept() = before_; }
+
+  static slong& kept() {
+    thread_local slong terms = kTerms;
+    return terms;
+  }
+
+ private:
+  slong before_;
+};
+
 class Ball {
  public:
   Ball() { arb_init(value_); }
@@ -68,7 +85,7 @@ inline Ball atan2(const Ball& y, const Ball& x) { return made<Ball>(arb_atan2, y
 inline Ball hull(const Ball& a, const Ball& b) { return made<Ball>(arb_union, a.get(), b.get(), kPrecision); }
 inline Ball pi() { return made<Ball>(arb_const_pi, kPrecision); }
 
-/// The first kTerms coefficients of a power series.
+/// The first coefficients of a power series.
 class Series {
  public:
   Series() { arb_poly_init(value_); }
@@ -109,27 +126,27 @@ inline Series operator-(const Series& a, const Series& b) {
   return made<Series>(arb_poly_sub, a.get(), b.get(), kPrecision);
 }
 inline Series operator*(const Series& a, const Series& b) {
-  return made<Series>(arb_poly_mullow, a.get(), b.get(), kTerms, kPrecision);
+  return made<Series>(arb_poly_mullow, a.get(), b.get(), FewerTerms::kept(), kPrecision);
 }
 inline Series operator/(const Series& a, const Series& b) {
-  return made<Series>(arb_poly_div_series, a.get(), b.get(), kTerms, kPrecision);
+  return made<Series>(arb_poly_div_series, a.get(), b.get(), FewerTerms::kept(), kPrecision);
 }
-inline Series sqrt(const Series& a) { return made<Series>(arb_poly_sqrt_series, a.get(), kTerms, kPrecision); }
-inline Series sin(const Series& a) { return made<Series>(arb_poly_sin_series, a.get(), kTerms, kPrecision); }
-inline Series cos(const Series& a) { return made<Series>(arb_poly_cos_series, a.get(), kTerms, kPrecision); }
-inline Series exp(const Series& a) { return made<Series>(arb_poly_exp_series, a.get(), kTerms, kPrecision); }
+inline Series sqrt(const Series& a) { return made<Series>(arb_poly_sqrt_series, a.get(), FewerTerms::kept(), kPrecision); }
+inline Series sin(const Series& a) { return made<Series>(arb_poly_sin_series, a.get(), FewerTerms::kept(), kPrecision); }
+inline Series cos(const Series& a) { return made<Series>(arb_poly_cos_series, a.get(), FewerTerms::kept(), kPrecision); }
+inline Series exp(const Series& a) { return made<Series>(arb_poly_exp_series, a.get(), FewerTerms::kept(), kPrecision); }
 inline Series pow(const Series& a, const Ball& exponent) {
-  return made<Series>(arb_poly_pow_arb_series, a.get(), exponent.get(), kTerms, kPrecision);
+  return made<Series>(arb_poly_pow_arb_series, a.get(), exponent.get(), FewerTerms::kept(), kPrecision);
 }
 /// Its derivative: the last coefficient is lost.
 inline Series derivative(const Series& a) { return made<Series>(arb_poly_derivative, a.get(), kPrecision); }
 /// Its integral from 0.
 inline Series integral(const Series& a) { return made<Series>(arb_poly_integral, a.get(), kPrecision); }
 /// x as a series in y = a(x), where a(0) = 0.
-inline Series inverse(const Series& a) { return made<Series>(arb_poly_revert_series, a.get(), kTerms, kPrecision); }
+inline Series inverse(const Series& a) { return made<Series>(arb_poly_revert_series, a.get(), FewerTerms::kept(), kPrecision); }
 /// a(b(y)), where b(0) = 0.
 inline Series composed(const Series& a, const Series& b) {
-  return made<Series>(arb_poly_compose_series, a.get(), b.get(), kTerms, kPrecision);
+  return made<Series>(arb_poly_compose_series, a.get(), b.get(), FewerTerms::kept(), kPrecision);
 }
 
 }  // namespace rollfix_verify

@@ -13,6 +13,8 @@ constexpr double kPieceError = 1e-16;
 constexpr int kMostHalvings = 50;
 // A piece's bounds hold this share of its width beyond its ends: a ball around a place may reach over them.
 constexpr double kMargin = 1.0 / 64;
+// Of a curve's point: the curvature's derivative takes three of them.
+constexpr slong kBendTerms = 4;
 constexpr int kNewtonSteps = 8;
 constexpr double kNewtonGoal = 1e-15;
 // A ball around a parameter is larger than it need be by this factor, for the rounding of its own size.
@@ -184,6 +186,7 @@ std::optional<Place> Boundary::after(const Ball& s) const {
 }
 
 Boundary::Bend Boundary::bend(long curve, const Ball& u) const {
+  const FewerTerms terms(kBendTerms);
   const Motion motion = formula(curve).motion(u);
   const Ball speed = motion.speed[0];
   const Ball change = motion.turning[1] * speed - motion.turning[0] * motion.speed[1];

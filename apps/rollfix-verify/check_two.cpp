@@ -15,6 +15,8 @@ namespace {
 
 constexpr int kDeepest = 120;
 constexpr std::size_t kMostPairs = 400000;  // of a cell, before it is given up
+// A start that fits is off by no more than so many tolerances: the search's outlines are good to a quarter of one.
+constexpr double kBeyondTolerance = 1.25;
 // A root's start is looked at on this share of the perimeter to either side.
 constexpr double kBesideRoot = 1.1 * kRootLength;
 // Of a placement that fits the start, as far as it can be told from what is beside it.
@@ -280,7 +282,7 @@ class TwoFingers {
     if (placement.proof == Placement::none) return;
     if (!placement.has_start) refuse(placement.name + " is in no cell of its own");
     if (placement.proof == Placement::fits) {
-      if (!fits(placement, tolerance_ * (1 + kPlaceSlack) + kTurnSlack)) refuse(placement.name + " does not fit");
+      if (!fits(placement, kBeyondTolerance * tolerance_)) refuse(placement.name + " does not fit");
       return;
     }
     const Roots roots = roots_in(*placement.box, tolerance_);
@@ -288,7 +290,7 @@ class TwoFingers {
     if (placement.kind != (roots == Roots::one_pivot ? "corner" : "crossing")) {
       refuse(placement.name + " is of another kind than its proof");
     }
-    if (roots_in(around(placement, kBesideRoot), 0) == Roots::unknown && !fits(placement, 2.2 * kRootTurn)) {
+    if (!fits(placement, 2.2 * kRootTurn) && roots_in(around(placement, kBesideRoot), 0) == Roots::unknown) {
       refuse(placement.name + " is not where the equations are solved");
     }
   }

@@ -149,23 +149,22 @@ std::vector<Ball> PairEquations::off(const Stretch& a, const Stretch& b) const {
 bool PairEquations::have_one_root(const FingerCurve& curve_a, const Stretch& a, const FingerCurve& curve_b,
                                   const Stretch& b, double slack) const {
   if (count() != 2) return false;
-  const std::optional<std::pair<long, long>> turns = whole_turns(a, b, slack);
-  if (!turns || turns->first != turns->second) return false;
-  const Ball turned = static_cast<double>(turns->first) * (2.0 * pi());
   for (int depth = 0; depth <= kRateDepth; ++depth) {
-    if (map_inside(linear(curve_a, a, depth), linear(curve_b, b, depth), slack, turned)) return true;
+    if (map_inside(linear(curve_a, a, depth), linear(curve_b, b, depth), slack)) return true;
   }
   return false;
 }
 
 /// With x the middle, X all of the stretches, F continuous with slopes in J: x - Y (F(x) + slack) + (1 - Y J)(X - x)
 /// inside of X proves a root (Brouwer), and that J has an inverse, so that there is no second one.
-bool PairEquations::map_inside(const Linear& of_a, const Linear& of_b, double slack, const Ball& turned) const {
+bool PairEquations::map_inside(const Linear& of_a, const Linear& of_b, double slack) const {
+  const Ball full = 2.0 * pi();
+  const Ball all = hull(-0.5, 0.5);
   Ball j[2][2];
   Ball f[2];
   for (std::size_t k = 0; k < 2; ++k) {
     const std::vector<Ball> contacts = contact_weights(unit(2, k));
-    f[k] = hull(-slack, slack) - right_side(unit(2, k), turned);
+    f[k] = hull(-slack, slack) - right_side(unit(2, k), 0.0);
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       f[k] = f[k] + contacts[c] * (of_a.middle[c] - of_b.middle[c]);
       j[k][0] = j[k][0] + contacts[c] * of_a.rate[c];
@@ -173,11 +172,15 @@ bool PairEquations::map_inside(const Linear& of_a, const Linear& of_b, double sl
     }
     if (!(j[k][0].is_finite() && j[k][1].is_finite())) return false;
   }
+  if (facing_) {  // no other number of whole turns fits
+    f[1] = f[1] - std::round((f[1] / full).middle()) * full;
+    const Ball range = abs(f[1] + all * j[1][0] + all * j[1][1]);
+    if (!range.is_below(full)) return false;
+  }
   const double determinant = j[0][0].middle() * j[1][1].middle() - j[0][1].middle() * j[1][0].middle();
   if (determinant == 0) return false;
   const double inverse[2][2] = {{j[1][1].middle() / determinant, -j[0][1].middle() / determinant},
                                 {-j[1][0].middle() / determinant, j[0][0].middle() / determinant}};
-  const Ball all = hull(-0.5, 0.5);
   for (int i = 0; i < 2; ++i) {
     Ball image = -(Ball(inverse[i][0]) * f[0] + Ball(inverse[i][1]) * f[1]);
     for (int k = 0; k < 2; ++k) {

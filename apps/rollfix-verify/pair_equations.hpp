@@ -42,7 +42,7 @@ class PairEquations {
  private:
   Ball combined(const Stretch& a, const Stretch& b, const Weights& weights, const Ball& turned) const;
   bool are_apart(const Stretch& a, const Stretch& b, double bound, const Ball& turned) const;
-  bool map_inside(const Linear& of_a, const Linear& of_b, double slack, const Ball& turned) const;
+  bool map_inside(const Linear& of_a, const Linear& of_b, double slack) const;
   std::vector<Ball> contact_weights(const Weights& weights) const;
   Ball right_side(const Weights& weights, const Ball& turned) const;
   std::optional<std::pair<long, long>> whole_turns(const Stretch& a, const Stretch& b, double bound) const;

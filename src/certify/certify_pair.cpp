@@ -37,6 +37,7 @@ class PairMaker {
     for (const Placement& placement : search_.placements) {
       pairs_.push_back({&placement, {}, false});
       proofs_.push_back(PairProof::fits);
+      needed_.push_back({spared(placement, 0), spared(placement, 1)});
     }
     for (std::size_t k = 0; k < pairs_.size(); ++k) find_box(k);
     const PairBox whole = this->whole();
@@ -72,11 +73,8 @@ class PairMaker {
   void find_box(std::size_t k) {
     const Placement& placement = *pairs_[k].placement;
     if (placement.kind == Kind::stretch) return;
-    PairBox needed;
-    for (std::size_t finger = 0; finger < 2; ++finger) {
-      if (placement.whole_loop[finger]) return;
-      needed[finger] = spared(placement, finger);
-    }
+    if (placement.whole_loop[0] || placement.whole_loop[1]) return;
+    const PairBox& needed = needed_[k];
     const std::array<double, 2> aspect = aspect_of(needed);
     for (double size = kFirstBox * part_.perimeter(); size > least_step(part_); size *= kShrink) {
       const PairBox box = box_around(placement, {size * aspect[0], size * aspect[1]});
@@ -162,8 +160,7 @@ class PairMaker {
     if (!is_on_part(box)) return false;
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
       if (i == k) continue;
-      PairBox other{spared(*pairs_[i].placement, 0), spared(*pairs_[i].placement, 1)};
-      if (pairs_[i].box) other = *pairs_[i].box;
+      const PairBox& other = pairs_[i].box ? *pairs_[i].box : needed_[i];
       if (pairs_[i].placement->kind != Kind::stretch && meet(box, other)) return false;
     }
     return true;
@@ -201,6 +198,7 @@ class PairMaker {
   std::vector<std::vector<double>> lengths_;  // of each finger
   std::vector<CoveredPair> pairs_;
   std::vector<PairProof> proofs_;
+  std::vector<PairBox> needed_;  // what a box of each has to hold
 };
 
 }  // namespace

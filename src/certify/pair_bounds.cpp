@@ -16,6 +16,8 @@ constexpr double kFill = 0.35;
 constexpr double kPivotRoom = 0.1;
 // A pivot has no slopes to be bounded.
 constexpr double kPivotFill = 0.499;
+// Parts in which what is beside a root, or around a box, is to be told apart.
+constexpr int kParts = 200;
 
 std::vector<double> lengths_of(const std::vector<Reading>& readings, std::size_t finger) {
   std::vector<double> result = {0};
@@ -188,8 +190,8 @@ bool PairBounds::has_one_root(const PairBox& box, std::array<std::size_t, 2> row
     for (const ContactStretch& b : all_b) {
       if (has_one_root(a, b, rows, tolerance)) {
         ++roots;
-      } else if (!is_apart({Interval{a.lo, a.hi}, Interval{b.lo, b.hi}}, tolerance,
-                           a.pivot && b.pivot ? 0 : kHalvings)) {
+      } else if ((a.pivot && b.pivot && !(bound(a, b) > 1.1 * tolerance)) ||
+                 !are_apart({Interval{a.lo, a.hi}, Interval{b.lo, b.hi}}, tolerance)) {
         return false;
       }
     }
@@ -197,14 +199,20 @@ bool PairBounds::has_one_root(const PairBox& box, std::array<std::size_t, 2> row
   return roots == 1;
 }
 
-bool PairBounds::is_apart(const PairBox& box, double tolerance, int depth) {
+bool PairBounds::are_apart(const PairBox& box, double tolerance) {
+  int budget = kParts;
+  return is_apart(box, tolerance, budget);
+}
+
+/// `budget`: of parts to look at.
+bool PairBounds::is_apart(const PairBox& box, double tolerance, int& budget) {
   if (bound(box) > 1.1 * tolerance) return true;
-  if (depth == 0) return false;
+  if (--budget <= 0) return false;
   const std::size_t side = use_of_halving(box[0], 0) > use_of_halving(box[1], 1) ? 0 : 1;
   PairBox first = box;
   PairBox second = box;
   first[side].hi = second[side].lo = box[side].middle();
-  return is_apart(first, tolerance, depth - 1) && is_apart(second, tolerance, depth - 1);
+  return is_apart(first, tolerance, budget) && is_apart(second, tolerance, budget);
 }
 
 /// Krawczyk's operator, see rollfix-verify.

@@ -26,7 +26,7 @@ class PairBounds {
   double bound(const PairBox& box);
 
   /// The same of the tolerance, as far as some halvings tell.
-  bool are_apart(const PairBox& box, double tolerance) { return is_apart(box, tolerance, kHalvings); }
+  bool are_apart(const PairBox& box, double tolerance);
 
   /// How much an equation changes at the most while a finger's first contact moves, or pivots, in a range.
   double change(const Interval& side, std::size_t finger);
@@ -39,8 +39,6 @@ class PairBounds {
   bool has_one_root(const PairBox& box, double tolerance);
 
  private:
-  static constexpr int kHalvings = 14;
-
   using Weights = std::vector<double>;
   /// The first and the last number of whole turns that the facing may be off by.
   using Turns = std::pair<int, int>;
@@ -55,7 +53,7 @@ class PairBounds {
   bool has_one_root(const ContactStretch& a, const ContactStretch& b, std::array<std::size_t, 2> rows,
                     double tolerance) const;
   bool has_one_root(const PairBox& box, std::array<std::size_t, 2> rows, double tolerance);
-  bool is_apart(const PairBox& box, double tolerance, int depth);
+  bool is_apart(const PairBox& box, double tolerance, int& budget);
 
   std::array<ContactCurve, 2> curves_;
   std::vector<double> turns_;

@@ -18,6 +18,10 @@ constexpr std::size_t kMostCells = 80000;
 constexpr double kLeastSide = 1e-8;
 // What changes by less than this share of the tolerance is not halved.
 constexpr double kFlatShare = 0.25;
+// A continuum is near where its extent is, with this share of it to spare, if that is thinner than this share of the
+// perimeter; else where the line through it is.
+constexpr double kThin = 0.01;
+constexpr double kRoom = 0.25;
 // The verifier proves what is stated: less, by this share, than what was found.
 constexpr double kStated = 0.9;
 constexpr std::string_view kLevels = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdef";
@@ -26,6 +30,14 @@ constexpr std::string_view kLevels = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdef
 std::string level_of(double bound) {
   const int level = std::max(0, -static_cast<int>(std::floor(std::log2(bound))));
   return std::string(1, kLevels[std::min(static_cast<std::size_t>(level), kLevels.size() - 1)]);
+}
+
+/// On the way from one place to another, as shares of it: where it is no further than that from a third one.
+Interval share_near(const Interval& way, double place, double reach) {
+  const double lo = (place - reach - way.lo) / way.width();
+  const double hi = (place + reach - way.lo) / way.width();
+  if (way.width() == 0) return std::abs(place - way.lo) <= reach ? Interval{0, 1} : Boundary::empty_arc();
+  return {std::max(0.0, std::min(lo, hi)), std::min(1.0, std::max(lo, hi))};
 }
 
 }  // namespace
@@ -111,35 +123,31 @@ bool PairCover::is_inside(const PairBox& inner, const PairBox& outer) const {
 
 bool PairCover::is_near(const PairBox& box, const Placement& placement) const {
   const double reach = 2 * std::max(box[0].width(), box[1].width());
-  if (!placement.family.empty()) return is_near_line(box, placement, reach + placement.family_error);
+  bool is_thin = placement.family.empty();
+  for (const Interval& extent : placement.extent) is_thin = is_thin || extent.width() < kThin * part_.perimeter();
+  if (!is_thin) return is_near_line(box, placement, reach + placement.family_error);
   for (std::size_t finger = 0; finger < 2; ++finger) {
     const Interval& extent = placement.extent[finger];
-    const Interval arc{extent.lo - reach, extent.hi + reach};
+    const double room = reach + kRoom * extent.width();
+    const double from = extent.lo - room;
     const double middle = box[finger].middle();
-    const double period = part_.perimeter();
-    const double ahead = part_.closed() ? arc.lo + wrap(middle - arc.lo, period).base : middle;
-    if (!(ahead >= arc.lo && ahead <= arc.hi)) return false;
+    const double ahead = part_.closed() ? wrap(middle - from, part_.perimeter()).base : middle - from;
+    if (!(ahead >= 0 && ahead <= extent.width() + 2 * room)) return false;
   }
   return true;
 }
 
 /// To the line through a continuum, by the larger of both fingers' distances.
 bool PairCover::is_near_line(const PairBox& box, const Placement& placement, double reach) const {
-  const double period = part_.perimeter();
-  const auto off = [&](double from, double to) {
-    return part_.closed() ? std::remainder(to - from, period) : to - from;
-  };
   const auto& line = placement.family;
-  for (std::size_t k = 0; k + 1 < line.size() || k == 0; ++k) {
-    const PerFinger<double>& from = line[k];
-    const PerFinger<double>& to = line[std::min(k + 1, line.size() - 1)];
-    const double length = std::max(std::abs(to[0] - from[0]), std::abs(to[1] - from[1]));
-    const int steps = 1 + static_cast<int>(length / (0.5 * reach + 1e-6 * period));
-    for (int i = 0; i <= steps; ++i) {
-      const double share = static_cast<double>(i) / steps;
-      const double s = from[0] + share * (to[0] - from[0]);
-      const double t = from[1] + share * (to[1] - from[1]);
-      if (std::abs(off(s, box[0].middle())) <= reach && std::abs(off(t, box[1].middle())) <= reach) return true;
+  for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+    for (const double lap_a : laps_) {
+      for (const double lap_b : laps_) {
+        // Shares of the way along it on which one finger is near, and so is the other.
+        const Interval a = share_near({line[k][0], line[k + 1][0]}, box[0].middle() + lap_a, reach);
+        const Interval b = share_near({line[k][1], line[k + 1][1]}, box[1].middle() + lap_b, reach);
+        if (std::max(a.lo, b.lo) <= std::min(a.hi, b.hi)) return true;
+      }
     }
   }
   return false;

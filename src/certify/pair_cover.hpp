@@ -22,7 +22,10 @@ struct CoveredPair {
 class PairCover {
  public:
   PairCover(const Part& part, PairBounds& bounds, double tolerance, std::vector<CoveredPair>& pairs)
-      : part_(part), bounds_(bounds), tolerance_(tolerance), pairs_(pairs) {}
+      : part_(part), bounds_(bounds), tolerance_(tolerance), pairs_(pairs) {
+    const int most = part.closed() ? 2 : 0;  // a line's ends are on their first laps or the next ones
+    for (int k = -most; k <= most; ++k) laps_.push_back(k * part.perimeter());
+  }
 
   /// As text: docs/certificates.md.
   std::string cells(const PairBox& whole);
@@ -47,6 +50,7 @@ class PairCover {
   double tolerance_;
   std::vector<CoveredPair>& pairs_;
   std::vector<Cell> cells_;
+  std::vector<double> laps_;
 };
 
 }  // namespace rollfix

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "rollfix/certify/certify.hpp"
+#include "rollfix/certify/pair_certificate.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/files/documents.hpp"
 #include "rollfix/output/files.hpp"
@@ -12,17 +13,37 @@
 namespace rollfix::app {
 namespace {
 
-/// A certificate is of one reading of one finger, exact but for the tolerance.
+/// A certificate is of one reading of one finger or of two fingers' readings, exact but for the tolerance.
 void require_plain(const Problem& problem, const Answer& answer) {
   const auto refuse = [](bool found, const char* what) {
-    if (found)
-      throw InputError(fmt::format("--certify: a certificate is of one reading of one finger, found {}", what));
+    if (found) {
+      throw InputError(
+          fmt::format("--certify: a certificate is of one reading of one finger, or of two fingers, found {}", what));
+    }
   };
-  refuse(answer.finger_count() > 1, "two fingers");
-  refuse(answer.readings.size() > 1, "several readings");
+  refuse(answer.finger_count() == 1 && answer.readings.size() > 1, "several readings");
   refuse(problem.noise.has_value(), "--noise");
   refuse(problem.either_way, "--direction either");
   refuse(problem.mirrored, "--mirror");
+}
+
+/// A certificate as text, and whether it proves everything.
+struct Written {
+  std::string text;
+  bool is_complete = true;
+};
+
+Written written(const Problem& problem, const Answer& answer) {
+  LocateOptions options;
+  options.tolerance = answer.tolerance.value;
+  options.facing = answer.facing;
+  if (problem.budget) options.budget = *problem.budget;
+  if (answer.finger_count() == 2) {
+    const PairCertificate certificate = certify_pair(answer.part, answer.readings, options);
+    return {format_certificate(certificate), certificate.is_complete()};
+  }
+  const Certificate certificate = certify(answer.part, answer.readings.front(), options);
+  return {format_certificate(certificate), certificate.is_complete()};
 }
 
 }  // namespace
@@ -38,20 +59,16 @@ void require_certificate(const std::string& file, bool force, bool json, const s
 
 void add_certificate(const std::string& file, const Problem& problem, const Answer& answer, Report& report) {
   require_plain(problem, answer);
-  LocateOptions options;
-  options.tolerance = answer.tolerance.value;
-  if (problem.budget) options.budget = *problem.budget;
-  const Certificate certificate = certify(answer.part, answer.readings.front(), options);
-  std::string text = format_certificate(certificate);
+  Written certificate = written(problem, answer);
   if (file == "-") {
     report.notes.push_back(report.data.substr(0, report.data.find('\n')));
-    report.data = std::move(text);
+    report.data = std::move(certificate.text);
   } else {
-    report.files.push_back({file, std::move(text)});
+    report.files.push_back({file, std::move(certificate.text)});
     report.notes.push_back(fmt::format("wrote {}", file));
   }
-  if (certificate.is_complete()) return;
-  report.notes.emplace_back("the certificate leaves something unproved: its cells \"unproved\" say where");
+  if (certificate.is_complete) return;
+  report.notes.emplace_back("the certificate leaves something unproved: its cells say where");
   report.exit_code = ExitCode::incomplete;
 }
 
