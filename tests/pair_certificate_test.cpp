@@ -65,6 +65,7 @@ void expect_proved(const rollfix::Part& part, const std::vector<rollfix::Reading
   EXPECT_EQ(verdict.unproved, 0U);
   EXPECT_EQ(verdict.placements, locate(part, readings, options_of(tolerance, facing)).placements.size());
   EXPECT_LT(found.dump().size(), 400000U);
+  EXPECT_LT(verdict.open, 0.2);
 }
 
 std::size_t count_of(const Json& certificate, const char* field, const std::string& value) {
@@ -114,6 +115,21 @@ TEST(PairCertificate, of_crossings_says_that_each_is_the_only_one) {
   const Json found = certificate(part, two_readings(part, 0.37, 0.59));
   EXPECT_EQ(count_of(found, "proof", "one"), found["placements"].size());
   EXPECT_EQ(count_of(found, "kind", "crossing"), found["placements"].size());
+}
+
+TEST(PairCertificate, says_of_how_many_pairs_it_proves_no_more_than_whose_they_are) {
+  const rollfix::Part cam(rollfix::gallery("cam"));
+  Json found = certificate(cam, two_readings(cam, 0.37, 0.59));
+  EXPECT_EQ(checked(found).open, 0);
+  found["placements"] = {found["placements"][0]};
+  found["placements"][0].erase("box");
+  found["placements"][0]["proof"] = "fits";
+  found["cells"] = "[0]";
+  EXPECT_NEAR(checked(found).open, 1, 1e-9);
+  const rollfix::Part ellipse(rollfix::gallery("ellipse"));
+  EXPECT_LT(checked(certificate(ellipse, {{0.5, 0.5, 0.0}, {1.5, 1.5, 0.0}})).open, 0.1);
+  const rollfix::Part circle(rollfix::gallery("circle"));
+  EXPECT_EQ(checked(certificate(circle, {{0.5, 0.2, 0.3}, {1.0, 0.4, 0.6}})).open, 0);
 }
 
 TEST(PairCertificate, of_pivots_says_that_each_is_the_only_one) {

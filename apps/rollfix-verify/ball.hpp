@@ -131,10 +131,18 @@ inline Series operator*(const Series& a, const Series& b) {
 inline Series operator/(const Series& a, const Series& b) {
   return made<Series>(arb_poly_div_series, a.get(), b.get(), FewerTerms::kept(), kPrecision);
 }
-inline Series sqrt(const Series& a) { return made<Series>(arb_poly_sqrt_series, a.get(), FewerTerms::kept(), kPrecision); }
-inline Series sin(const Series& a) { return made<Series>(arb_poly_sin_series, a.get(), FewerTerms::kept(), kPrecision); }
-inline Series cos(const Series& a) { return made<Series>(arb_poly_cos_series, a.get(), FewerTerms::kept(), kPrecision); }
-inline Series exp(const Series& a) { return made<Series>(arb_poly_exp_series, a.get(), FewerTerms::kept(), kPrecision); }
+inline Series sqrt(const Series& a) {
+  return made<Series>(arb_poly_sqrt_series, a.get(), FewerTerms::kept(), kPrecision);
+}
+inline Series sin(const Series& a) {
+  return made<Series>(arb_poly_sin_series, a.get(), FewerTerms::kept(), kPrecision);
+}
+inline Series cos(const Series& a) {
+  return made<Series>(arb_poly_cos_series, a.get(), FewerTerms::kept(), kPrecision);
+}
+inline Series exp(const Series& a) {
+  return made<Series>(arb_poly_exp_series, a.get(), FewerTerms::kept(), kPrecision);
+}
 inline Series pow(const Series& a, const Ball& exponent) {
   return made<Series>(arb_poly_pow_arb_series, a.get(), exponent.get(), FewerTerms::kept(), kPrecision);
 }
@@ -143,7 +151,9 @@ inline Series derivative(const Series& a) { return made<Series>(arb_poly_derivat
 /// Its integral from 0.
 inline Series integral(const Series& a) { return made<Series>(arb_poly_integral, a.get(), kPrecision); }
 /// x as a series in y = a(x), where a(0) = 0.
-inline Series inverse(const Series& a) { return made<Series>(arb_poly_revert_series, a.get(), FewerTerms::kept(), kPrecision); }
+inline Series inverse(const Series& a) {
+  return made<Series>(arb_poly_revert_series, a.get(), FewerTerms::kept(), kPrecision);
+}
 /// a(b(y)), where b(0) = 0.
 inline Series composed(const Series& a, const Series& b) {
   return made<Series>(arb_poly_compose_series, a.get(), b.get(), FewerTerms::kept(), kPrecision);

@@ -77,6 +77,7 @@ void Boundary::add_pieces(std::size_t curve, double lo, double hi, int depth) {
               with_remainder(thin.turning, wide.turning),
               wide.speed[0].lower(),
               {},
+              {},
               {}};
   const double power = std::pow(half + margin, static_cast<double>(kOrder));
   const double length = thin.speed[0].middle() * (hi - lo);
@@ -91,8 +92,10 @@ void Boundary::add_pieces(std::size_t curve, double lo, double hi, int depth) {
     return;
   }
   Place& here = starts_.back();
+  const Ball from = Ball(lo) - middle;
   piece.s = here.s;
-  piece.start_angle = here.angle;
+  piece.s_base = here.s - value(piece.length, from);
+  piece.angle_base = here.angle - value(piece.angle, from);
   pieces_[curve].push_back(piece);
   const Place end = on_piece(curve, piece, hi);
   here.s = end.s;
@@ -131,10 +134,10 @@ Place Boundary::moved(Place place, long laps) const {
 
 Place Boundary::on_piece(std::size_t curve, const Piece& piece, const Ball& u) const {
   const Ball x = u - piece.middle;
-  const Ball from = Ball(piece.lo) - piece.middle;
-  return {static_cast<long>(curve), u, piece.s + (value(piece.length, x) - value(piece.length, from)),
-          piece.start_angle + (value(piece.angle, x) - value(piece.angle, from))};
+  return {static_cast<long>(curve), u, piece.s_base + value(piece.length, x), piece.angle_base + value(piece.angle, x)};
 }
+
+Ball Boundary::s_on(const Piece& piece, const Ball& u) { return piece.s_base + value(piece.length, u - piece.middle); }
 
 Place Boundary::at(long curve, double u) const {
   const std::vector<Piece>& pieces = pieces_.at(static_cast<std::size_t>(curve));
@@ -171,11 +174,11 @@ std::optional<Place> Boundary::after(const Ball& s) const {
                      1;
   double u = piece->middle;
   for (int k = 0; k < kNewtonSteps; ++k) {
-    const double missing = (wanted - on_piece(curve, *piece, u).s).middle();
+    const double missing = (wanted - s_on(*piece, u)).middle();
     u = std::clamp(u + missing / slope(piece->length, Ball(u) - piece->middle).middle(), piece->lo, piece->hi);
     if (std::abs(missing) <= kNewtonGoal * period) break;
   }
-  const Ball missing = wanted - on_piece(curve, *piece, u).s;
+  const Ball missing = wanted - s_on(*piece, u);
   const double reach = kOutward * (abs(missing).upper() / piece->least_speed) + kLeastReach;
   if (!(reach < kMargin * (piece->hi - piece->lo))) return std::nullopt;
   const Ball ball = hull(Ball(u) - reach, Ball(u) + reach);

@@ -64,7 +64,8 @@ class Boundary {
     Taylor angle;
     double least_speed;  // everywhere on it, for certain
     Ball s;              // at lo
-    Ball start_angle;
+    Ball s_base;         // what the polynomials are added to
+    Ball angle_base;
   };
 
   std::size_t index(long curve) const;
@@ -73,6 +74,7 @@ class Boundary {
   void add_pieces(std::size_t curve, double lo, double hi, int depth);
   void join(std::size_t curve);
   Place on_piece(std::size_t curve, const Piece& piece, const Ball& u) const;
+  static Ball s_on(const Piece& piece, const Ball& u);
   Place moved(Place place, long laps) const;
 
   std::vector<Formula> curves_;

@@ -17,7 +17,7 @@ Verdict check(const std::string& text) {
     const Document document(json);
     return is_one ? check_one_finger(document) : check_two_fingers(document);
   } catch (const std::domain_error& error) {
-    return {0, 0, 0, error.what()};
+    return {0, 0, 0, 0, error.what()};
   }
 }
 

@@ -46,7 +46,7 @@ class OneFinger {
     check_cover();
     for (std::size_t k = 0; k < kinds_.size(); ++k) check_cell(k);
     check_placements();
-    Verdict verdict{document_.json().at("placements").size(), kinds_.size(), 0, {}};
+    Verdict verdict{document_.json().at("placements").size(), kinds_.size(), 0, 0, {}};
     verdict.unproved = static_cast<std::size_t>(std::count(kinds_.begin(), kinds_.end(), "unproved"));
     return verdict;
   }

@@ -47,11 +47,12 @@ class TwoFingers {
     read_placements();
     check_boxes();
     const Box all = whole();
-    Verdict verdict{placements_.size(), 0, 0, {}};
+    Verdict verdict{placements_.size(), 0, 0, 0, {}};
     const auto check_leaf = [&](const Leaf& leaf) {
       ++verdict.cells;
       check_cell(leaf, verdict.cells - 1);
       verdict.unproved += leaf.kind == Leaf::unproved ? 1 : 0;
+      if (is_open(leaf)) verdict.open += area(leaf.box) / area(all);
     };
     read_cover(document_.json().at("cells").get<std::string>(), all, check_leaf);
     for (const Placement& placement : placements_) {
@@ -205,6 +206,22 @@ class TwoFingers {
     } else {
       placement.has_start = placement.has_start || holds(leaf.box, placement.start);
     }
+  }
+
+  static double area(const Box& box) { return (box[0].hi - box[0].lo) * (box[1].hi - box[1].lo); }
+
+  /// A cell of a placement that is not known to be the only one there, and not all of it fits.
+  bool is_open(const Leaf& leaf) {
+    if (leaf.kind != Leaf::placement || placements_[leaf.number].proof == Placement::one) return false;
+    const std::vector<Stretch>& all_b = curves_[1].over(leaf.box[1].lo, leaf.box[1].hi);
+    for (const Stretch& a : curves_[0].over(leaf.box[0].lo, leaf.box[0].hi)) {
+      for (const Stretch& b : all_b) {
+        for (const Ball& off : equations_.off(a, b)) {
+          if (!abs(off).is_below(kBeyondTolerance * tolerance_)) return true;
+        }
+      }
+    }
+    return false;
   }
 
   void prove_apart(const Box& box, double bound) {

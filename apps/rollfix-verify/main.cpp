@@ -41,7 +41,11 @@ int main(int count, char** arguments) {
       std::cout << ", of which " << verdict.unproved << " claim nothing\n";
       return incomplete;
     }
-    std::cout << ", nothing else\n";
+    std::cout << ", nothing else";
+    if (verdict.open > 0) {
+      std::cout << "; of " << 100 * verdict.open << " % of all pairs only whose they are if they fit";
+    }
+    std::cout << "\n";
     return proved;
   } catch (const std::exception& error) {
     std::cerr << "rollfix-verify: " << argument << ": " << error.what() << "\n";

@@ -141,16 +141,27 @@ bool PairCover::is_near(const PairBox& box, const Placement& placement) const {
 bool PairCover::is_near_line(const PairBox& box, const Placement& placement, double reach) const {
   const auto& line = placement.family;
   for (std::size_t k = 0; k + 1 < line.size(); ++k) {
-    for (const double lap_a : laps_) {
-      for (const double lap_b : laps_) {
-        // Shares of the way along it on which one finger is near, and so is the other.
-        const Interval a = share_near({line[k][0], line[k + 1][0]}, box[0].middle() + lap_a, reach);
-        const Interval b = share_near({line[k][1], line[k + 1][1]}, box[1].middle() + lap_b, reach);
+    // Shares of the way along it on which each finger is near.
+    std::array<Shares, 2> near;
+    for (std::size_t finger = 0; finger < 2; ++finger) {
+      near[finger] = shares_near({line[k][finger], line[k + 1][finger]}, box[finger].middle(), reach);
+    }
+    for (const Interval& a : near[0]) {
+      for (const Interval& b : near[1]) {
         if (std::max(a.lo, b.lo) <= std::min(a.hi, b.hi)) return true;
       }
     }
   }
   return false;
+}
+
+/// On the way from one place to another, by the nearest lap of the third one, the one before and the one after.
+PairCover::Shares PairCover::shares_near(const Interval& way, double place, double reach) const {
+  const double period = part_.perimeter();
+  if (!part_.closed()) return {share_near(way, place, reach), Boundary::empty_arc(), Boundary::empty_arc()};
+  const double nearest = place + period * std::round((way.middle() - place) / period);
+  return {share_near(way, nearest, reach), share_near(way, nearest - period, reach),
+          share_near(way, nearest + period, reach)};
 }
 
 void PairCover::write(std::size_t cell, std::string& text) const {

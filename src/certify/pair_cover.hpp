@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -22,10 +23,7 @@ struct CoveredPair {
 class PairCover {
  public:
   PairCover(const Part& part, PairBounds& bounds, double tolerance, std::vector<CoveredPair>& pairs)
-      : part_(part), bounds_(bounds), tolerance_(tolerance), pairs_(pairs) {
-    const int most = part.closed() ? 2 : 0;  // a line's ends are on their first laps or the next ones
-    for (int k = -most; k <= most; ++k) laps_.push_back(k * part.perimeter());
-  }
+      : part_(part), bounds_(bounds), tolerance_(tolerance), pairs_(pairs) {}
 
   /// As text: docs/certificates.md.
   std::string cells(const PairBox& whole);
@@ -42,6 +40,8 @@ class PairCover {
   bool is_flat(const PairBox& box);
   bool is_inside(const PairBox& inner, const PairBox& outer) const;
   bool is_near(const PairBox& box, const Placement& placement) const;
+  using Shares = std::array<Interval, 3>;
+  Shares shares_near(const Interval& way, double place, double reach) const;
   bool is_near_line(const PairBox& box, const Placement& placement, double reach) const;
   void write(std::size_t cell, std::string& text) const;
 
@@ -50,7 +50,6 @@ class PairCover {
   double tolerance_;
   std::vector<CoveredPair>& pairs_;
   std::vector<Cell> cells_;
-  std::vector<double> laps_;
 };
 
 }  // namespace rollfix
