@@ -57,7 +57,7 @@ Ball Stretch::sum(const std::vector<Ball>& weights) const {
   if (pivot) return weighted(weights, from);
   const Ball slope = weighted(weights, rate);
   if (!slope.is_finite()) return slope;
-  const Ball sag = 0.25 * Ball(width()) * (Ball(slope.upper()) - slope.lower());
+  const Ball sag = 0.25 * (Ball(hi) - lo) * (Ball(slope.upper()) - slope.lower());
   Ball jumps = 0.0;
   for (std::size_t c = 0; c < weights.size(); ++c) jumps = jumps + abs(weights[c]) * abs(jump[c]);
   return hull(weighted(weights, from), weighted(weights, to)) + around_zero(sag) + around_zero(jumps);

@@ -37,19 +37,27 @@ using Linear = PairEquations::Linear;
 Linear linear(const FingerCurve& curve, const Stretch& stretch, int depth) {
   Linear result;
   if (!stretch.pivot) {
-    result.middle = curve.halved(stretch).first.to;
+    const Stretch& first = curve.halved(stretch).first;
+    const Ball width = Ball(stretch.hi) - stretch.lo;
+    result.middle = first.to;
     result.rate = rates(curve, stretch, depth);
     for (std::size_t c = 0; c < result.rate.size(); ++c) {
-      result.rate[c] = Ball(stretch.width()) * result.rate[c];
+      result.rate[c] = width * result.rate[c];
       result.middle[c] = result.middle[c] + stretch.jump[c] - stretch.jump[c];
     }
+    result.lo = (Ball(stretch.lo) - first.hi) / width;
+    result.hi = (Ball(stretch.hi) - first.hi) / width;
     return result;
   }
   const std::size_t pivoting = stretch.widest();
+  const Ball middle = stretch.from[pivoting].middle();
+  const Ball width = stretch.turn(pivoting);
   result.middle = stretch.from;
   result.rate.assign(stretch.from.size(), Ball(0.0));
-  result.middle[pivoting] = stretch.from[pivoting].middle();
-  result.rate[pivoting] = stretch.turn(pivoting);
+  result.middle[pivoting] = middle;
+  result.rate[pivoting] = width;
+  result.lo = (stretch.from[pivoting].lower() - middle) / width;
+  result.hi = (stretch.from[pivoting].upper() - middle) / width;
   return result;
 }
 
@@ -159,7 +167,8 @@ bool PairEquations::have_one_root(const FingerCurve& curve_a, const Stretch& a, 
 /// inside of X proves a root (Brouwer), and that J has an inverse, so that there is no second one.
 bool PairEquations::map_inside(const Linear& of_a, const Linear& of_b, double slack) const {
   const Ball full = 2.0 * pi();
-  const Ball all = hull(-0.5, 0.5);
+  const Ball lo[2] = {of_a.lo, of_b.lo};
+  const Ball hi[2] = {of_a.hi, of_b.hi};
   Ball j[2][2];
   Ball f[2];
   for (std::size_t k = 0; k < 2; ++k) {
@@ -174,7 +183,7 @@ bool PairEquations::map_inside(const Linear& of_a, const Linear& of_b, double sl
   }
   if (facing_) {  // no other number of whole turns fits
     f[1] = f[1] - std::round((f[1] / full).middle()) * full;
-    const Ball range = abs(f[1] + all * j[1][0] + all * j[1][1]);
+    const Ball range = abs(f[1] + hull(lo[0], hi[0]) * j[1][0] + hull(lo[1], hi[1]) * j[1][1]);
     if (!range.is_below(full)) return false;
   }
   const double determinant = j[0][0].middle() * j[1][1].middle() - j[0][1].middle() * j[1][0].middle();
@@ -185,9 +194,9 @@ bool PairEquations::map_inside(const Linear& of_a, const Linear& of_b, double sl
     Ball image = -(Ball(inverse[i][0]) * f[0] + Ball(inverse[i][1]) * f[1]);
     for (int k = 0; k < 2; ++k) {
       const Ball off = Ball(i == k ? 1.0 : 0.0) - (Ball(inverse[i][0]) * j[0][k] + Ball(inverse[i][1]) * j[1][k]);
-      image = image + off * all;
+      image = image + off * hull(lo[k], hi[k]);
     }
-    if (!(image.is_above(-0.5) && image.is_below(0.5))) return false;
+    if (!(image.is_above(lo[i]) && image.is_below(hi[i]))) return false;
   }
   return true;
 }

@@ -32,11 +32,13 @@ class PairEquations {
   bool have_one_root(const FingerCurve& curve_a, const Stretch& a, const FingerCurve& curve_b, const Stretch& b,
                      double slack) const;
 
-  /// A stretch by a parameter that runs through it from -1/2 to 1/2: the contacts' angles in the middle, with what the
-  /// parameter leaves open, and how fast they change.
+  /// A stretch by a parameter that runs through it in steps of its width: the contacts' angles about in the middle,
+  /// where it is 0, with what it leaves open; how fast they change; and the parameter at both ends.
   struct Linear {
     std::vector<Ball> middle;
     std::vector<Ball> rate;
+    Ball lo;
+    Ball hi;
   };
 
  private:
