@@ -75,14 +75,12 @@ class Quintic {
   double both_twice_ = 0;
 };
 
-/// A sample close to another: its curvatures by those of a third one that is farther off, its value by the slopes at
-/// both.
+/// A sample close to another: its curvatures by those of a third one as well, its value by the slopes at both.
 inline ResidualSample beside(const ResidualSample& at, const ResidualSample& third, double s) {
-  const double step = s - at.s;
-  const double share = std::abs(step) < std::abs(third.s - at.s) ? step / (third.s - at.s) : 0;
+  const double share = third.s == at.s ? 0 : (s - at.s) / (third.s - at.s);
   ResidualSample sample{s, at.value, at.start_curvature + share * (third.start_curvature - at.start_curvature),
                         at.end_curvature + share * (third.end_curvature - at.end_curvature)};
-  sample.value += 0.5 * (at.slope() + sample.slope()) * step;
+  sample.value += 0.5 * (at.slope() + sample.slope()) * (s - at.s);
   return sample;
 }
 

@@ -340,7 +340,7 @@ bool RootSearch::is_straight(const SpiralPair& pair, const ResidualSample& root,
     if (is_known) return at;
     const QuinticRoot root = quintic.root(at, level);
     const double newton = (level - at.value) / at.slope();
-    if (std::abs(newton) <= short_step) return beside(at, last, s + newton);
+    if (std::abs(newton) <= short_step) return beside(at, at, s + newton);  // `last` may be nearer still
     if (at.value == level || round == kMostRounds) return at;
     ((at.value > level) == rises ? hi : lo) = at;
     if (hi.s - lo.s <= short_step) return at;
@@ -349,7 +349,11 @@ bool RootSearch::is_straight(const SpiralPair& pair, const ResidualSample& root,
     if (!is_inside(s)) {
       s = is_inside(at.s + newton) ? at.s + newton : 0.5 * (lo.s + hi.s);
     } else if (is_settled(root, at)) {
-      if (std::abs(root.step * (s - last.s)) <= kRootArea * perimeter_ * perimeter_) return beside(at, last, s);
+      if (std::abs(root.step * (s - last.s)) <= kRootArea * perimeter_ * perimeter_) {
+        ResidualSample found = beside(at, last, s);
+        found.value = level + root.rest;  // the polynomial tells it better than the slopes do
+        return found;
+      }
       is_known = true;
     }
     third = last;

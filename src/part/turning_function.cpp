@@ -100,18 +100,9 @@ double rough_length(const Outline& outline) {
 
 double Parametrization::parameter(std::size_t panel, double x) const {
   const Piece& piece = pieces[panel];
-  const double* c = coefficients.data() + piece.offset;
-  // Even and odd powers apart: one long chain of multiplications would wait for itself.
-  const double square = x * x;
-  double even = 0;
-  double odd = 0;
-  std::uint32_t k = piece.count;
-  if (k % 2 != 0) even = c[--k];
-  for (; k > 0; k -= 2) {
-    odd = odd * square + c[k - 1];
-    even = even * square + c[k - 2];
-  }
-  return even + odd * x;
+  double sum = 0;
+  for (std::uint32_t k = piece.count; k-- > 0;) sum = sum * x + coefficients[piece.offset + k];
+  return sum;
 }
 
 TurningFunctionBuilder::TurningFunctionBuilder(const Outline& outline) : outline_(outline) {
