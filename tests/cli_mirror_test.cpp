@@ -108,7 +108,7 @@ TEST(CliMirror, how_two_fingers_face_each_other_is_mirrored_as_well) {
     bool is_there = false;
     for (const Json& placement : found["placements"]) {
       double off = 0;
-      for (const int k : {0, 1}) {
+      for (const std::size_t k : {0U, 1U}) {
         const double sum = placement["start"][k].get<double>() + expected["start"][k].get<double>();
         const double facing = placement["sensitivity"]["per_facing"][k].get<double>() +
                               expected["sensitivity"]["per_facing"][k].get<double>();
