@@ -55,7 +55,7 @@ Ball half_of(const Ball& range, bool upper) {
 /// On one side of its chord or the other by a quarter of the slope's change times the width at the most.
 Ball Stretch::sum(const std::vector<Ball>& weights) const {
   if (pivot) return weighted(weights, from);
-  const Ball slope = weighted(weights, rate);
+  Ball slope = weighted(weights, rate);
   if (!slope.is_finite()) return slope;
   const Ball sag = 0.25 * (Ball(hi) - lo) * (Ball(slope.upper()) - slope.lower());
   Ball jumps = 0.0;
