@@ -121,7 +121,8 @@ TEST(PairCertificate, says_of_how_many_pairs_it_proves_no_more_than_whose_they_a
   const rollfix::Part cam(rollfix::gallery("cam"));
   Json found = certificate(cam, two_readings(cam, 0.37, 0.59));
   EXPECT_EQ(checked(found).open, 0);
-  found["placements"] = {found["placements"][0]};
+  const Json first = found["placements"][0];
+  found["placements"] = Json::array({first});
   found["placements"][0].erase("box");
   found["placements"][0]["proof"] = "fits";
   found["cells"] = "[0]";
