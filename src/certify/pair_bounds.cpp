@@ -46,15 +46,13 @@ Middle middle_of(const ContactStretch& stretch, const std::vector<double>& angle
   }
   const std::size_t pivoting = stretch.widest();
   const Range& range = stretch.angle[pivoting];
-  const double middle = 0.5 * (range.least + range.most);
+  const double middle = range.middle();
   result.angle = stretch.angle;
   result.rate.assign(stretch.angle.size(), {0, 0});
   result.angle[pivoting] = {middle, middle};
   result.rate[pivoting] = {range.spread(), range.spread()};
   return result;
 }
-
-double middle(const Range& range) { return 0.5 * (range.least + range.most); }
 
 }  // namespace
 
@@ -155,23 +153,19 @@ double PairBounds::bound(const ContactStretch& a, const ContactStretch& b, int t
   return most;
 }
 
-double PairBounds::change(const Interval& side, std::size_t finger) {
+double PairBounds::change(const Interval& side, std::size_t finger, double share_of_pivots) {
   double most = 0;
   for (const ContactStretch& stretch : curves_[finger].over(side.lo, side.hi)) {
-    for (std::size_t k = 0; k < count(); ++k) most = std::max(most, stretch.sum(contact_weights(unit(k))).spread());
+    const double share = stretch.pivot ? share_of_pivots : 1;
+    for (std::size_t k = 0; k < count(); ++k) {
+      most = std::max(most, share * stretch.sum(contact_weights(unit(k))).spread());
+    }
   }
   return most;
 }
 
 double PairBounds::use_of_halving(const Interval& side, std::size_t finger) {
-  double most = 0;
-  const double share = std::min(1.0, side.width() / (kPivotRoom * period_));
-  for (const ContactStretch& stretch : curves_[finger].over(side.lo, side.hi)) {
-    for (std::size_t k = 0; k < count(); ++k) {
-      most = std::max(most, (stretch.pivot ? share : 1) * stretch.sum(contact_weights(unit(k))).spread());
-    }
-  }
-  return most;
+  return change(side, finger, std::min(1.0, side.width() / (kPivotRoom * period_)));
 }
 
 bool PairBounds::has_one_root(const PairBox& box, double tolerance) {
@@ -234,10 +228,10 @@ bool PairBounds::has_one_root(const ContactStretch& a, const ContactStretch& b, 
         j[k][1] = j[k][1] - contacts[c] * of_b.rate[c];
       }
     }
-    const double determinant = middle(j[0][0]) * middle(j[1][1]) - middle(j[0][1]) * middle(j[1][0]);
+    const double determinant = j[0][0].middle() * j[1][1].middle() - j[0][1].middle() * j[1][0].middle();
     if (determinant == 0) return false;
-    const double inverse[2][2] = {{middle(j[1][1]) / determinant, -middle(j[0][1]) / determinant},
-                                  {-middle(j[1][0]) / determinant, middle(j[0][0]) / determinant}};
+    const double inverse[2][2] = {{j[1][1].middle() / determinant, -j[0][1].middle() / determinant},
+                                  {-j[1][0].middle() / determinant, j[0][0].middle() / determinant}};
     bool fits = true;
     for (std::size_t i = 0; i < 2; ++i) {
       Range image = inverse[i][0] * f[0] + inverse[i][1] * f[1];

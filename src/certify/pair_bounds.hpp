@@ -28,8 +28,9 @@ class PairBounds {
   /// The same of the tolerance, as far as some halvings tell.
   bool are_apart(const PairBox& box, double tolerance);
 
-  /// How much an equation changes at the most while a finger's first contact moves, or pivots, in a range.
-  double change(const Interval& side, std::size_t finger);
+  /// How much an equation changes at the most while a finger's first contact moves, or pivots, in a range; of what
+  /// pivots change, this share.
+  double change(const Interval& side, std::size_t finger, double share_of_pivots = 1);
 
   /// How much there is to be gained by halving that range.
   double use_of_halving(const Interval& side, std::size_t finger);

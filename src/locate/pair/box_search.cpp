@@ -274,7 +274,7 @@ std::optional<BoxSearch::Regular> BoxSearch::regular(const PairBoxSides& sides) 
       for (const Eigen::Index k : {0, 1}) {
         const Range at_a = sides.a.slope(k == 0 ? p : q);
         const Range at_b = sides.b.slope(k == 0 ? p : q);
-        middle.row(k) << 0.5 * (at_a.least + at_a.most), -0.5 * (at_b.least + at_b.most);
+        middle.row(k) << at_a.middle(), -at_b.middle();
       }
       const double determinant = middle.determinant();
       const double rounding =

@@ -27,9 +27,8 @@ class PatchFit {
     for (std::size_t row = 0; row < values.size(); ++row) {
       const Range& value = values[row];
       if (limits_.facing && row + 1 == values.size()) {
-        const double middle = 0.5 * (value.least + value.most) - patch_.facing;
-        const double lap =
-            kFullTurn * std::round((0.5 * (start.least + start.most) - middle) / kFullTurn) - patch_.facing;
+        const double middle = value.middle() - patch_.facing;
+        const double lap = kFullTurn * std::round((start.middle() - middle) / kFullTurn) - patch_.facing;
         wanted.push_back(sure ? Range{value.most + lap, value.least + lap}
                               : Range{value.least + lap, value.most + lap});
       } else {

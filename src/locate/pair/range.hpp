@@ -11,6 +11,7 @@ struct Range {
   double most = 0;
 
   double spread() const { return most - least; }
+  double middle() const { return 0.5 * (least + most); }
   double size() const { return std::max(std::abs(least), std::abs(most)); }           // the largest absolute value
   bool comes_within(double limit) const { return least <= limit && most >= -limit; }  // of 0
   bool has_sign() const { return least > 0 || most < 0; }
