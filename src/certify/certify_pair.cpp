@@ -93,8 +93,9 @@ class PairMaker {
     for (double size = kFirstBox * part_.perimeter(); size > least_step(part_); size *= kShrink) {
       const PairBox box = box_around(placement, {size, size});
       if (!holds(box, needed)) break;
-      if (!is_free(box_around(placement, {2 * size, 2 * size}), k)) continue;
-      if (!is_alone(box, box_around(placement, {2 * size, 2 * size}))) {
+      const PairBox outer = box_around(placement, {2 * size, 2 * size});
+      if (!is_free(outer, k)) continue;
+      if (!is_alone(box, outer)) {
         if (pairs_[k].box) break;
         continue;
       }
