@@ -1,4 +1,5 @@
 // What --json says: the fields that scripts depend on, and numbers that survive being printed.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -128,6 +129,21 @@ TEST(LocateJson, shows_between_which_directions_the_tangent_pivots_at_a_corner) 
   const double quarter = std::numbers::pi / 4;
   EXPECT_NEAR(placement["pivot"][0][1].get<double>() - placement["pivot"][0][0].get<double>(), quarter, 1e-11);
   EXPECT_NEAR(placement["pivot"][1][1].get<double>() - placement["pivot"][1][0].get<double>(), quarter, 1e-11);
+}
+
+TEST(LocateJson, says_of_each_finger_whether_it_may_be_anywhere_on_the_loop) {
+  // A finger that rolls round all of the part each time can have begun anywhere.
+  const rollfix::Part part(rollfix::load_outline("gallery:ellipse,a=2,b=1"));
+  const double P = part.perimeter();
+  const auto turn = [&](double length) { return part.turning().angle(1 + length) - part.turning().angle(1); };
+  std::string a_round = "locate gallery:ellipse,a=2,b=1";
+  std::string b_round = a_round;
+  for (const double length : {0.7, 1.4}) {
+    a_round += fmt::format(" --reading {:.17g},{:.17g},{:.17g}", P, length, 2 * std::numbers::pi - turn(length));
+    b_round += fmt::format(" --reading {:.17g},{:.17g},{:.17g}", length, P, turn(length) - 2 * std::numbers::pi);
+  }
+  EXPECT_THAT(json_of(a_round)["placements"].at(0)["whole_loop"], ElementsAre(true, false));
+  EXPECT_THAT(json_of(b_round)["placements"].at(0)["whole_loop"], ElementsAre(false, true));
 }
 
 TEST(LocateJson, lists_what_a_small_budget_left_open) {

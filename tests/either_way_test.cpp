@@ -129,6 +129,29 @@ TEST(EitherWay, each_way_is_as_likely_as_a_plain_sum_over_the_boundary_has_it) {
   }
 }
 
+TEST(EitherWay, where_both_ways_fit_each_is_as_likely_as_a_plain_sum_has_it) {
+  const Noise noise{0.003, 0.1, 0, 0};
+  for (const double off : {0.08, 0.1}) {
+    const double s = part().inflections().front() + off;
+    const std::vector<Reading> readings{{0.15, turn(s, 0.15)}, {0.3, turn(s, 0.3)}};
+    const double expected = summed_probability(readings, noise);
+    EXPECT_NEAR(std::abs(expected - 0.5), 0.3, 0.1) << off;  // neither surely nor as well either way
+    EXPECT_NEAR(probability_of_clockwise(either(readings, noise)), expected, 0.02) << off;
+  }
+}
+
+TEST(EitherWay, places_out_of_reach_are_counted_both_ways) {
+  Problem problem{part(), {{0.4, 0.05}}};
+  problem.either_way = true;
+  const Answer all = rollfix::solve(problem);
+  problem.fingers = {rollfix::jaw()};
+  const Answer answer = rollfix::solve(problem);
+  for (const bool clockwise : {false, true}) {
+    EXPECT_LT(starts(answer.placements, clockwise).size(), starts(all.placements, clockwise).size()) << clockwise;
+  }
+  EXPECT_EQ(answer.dropped.reach, all.placements.size() - answer.placements.size());
+}
+
 TEST(EitherWay, two_fingers_find_their_pair_whichever_way_they_count) {
   for (const double sign : {1.0, -1.0}) {
     const auto reading = [&](double a, double b) { return Reading(sign * a, sign * b, turn(1, a) - turn(4, b)); };

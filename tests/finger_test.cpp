@@ -92,6 +92,12 @@ TEST(Finger, normals_points_and_curvatures_belong_together) {
   }
 }
 
+TEST(Finger, turns_by_no_more_along_itself_than_where_it_is_sharpest) {
+  EXPECT_NEAR(finger_from("ellipse,a=0.4,b=0.2").turn_per_u(), 0.4 / (0.2 * 0.2), 1e-9);
+  EXPECT_EQ(rollfix::disk(0.3).turn_per_u(), 1);  // its u is an angle
+  EXPECT_EQ(rollfix::jaw().turn_per_u(), 0);
+}
+
 TEST(Finger, a_clockwise_outline_is_the_same_finger) {
   const Finger finger = Finger::outlined(reversed(gallery("ellipse,a=0.4,b=0.2")));
   EXPECT_NEAR(finger.normal(finger.period()) - finger.normal(0), 2 * kPi, 1e-9);

@@ -147,6 +147,18 @@ TEST(Pose, of_a_roll_that_starts_at_a_corner_is_right) {
   }
 }
 
+TEST(Pose, of_a_part_at_rest_stays_through_laps_over_its_corners) {
+  const Part square = part_of("polygon,n=4,r=1.4142135623730951");
+  for (const double distance : {20.0, -20.0}) {
+    RollPlan plan;
+    plan.start = 1;
+    plan.distance = distance;
+    const Roll rolled = roll_in_closed_form(square, {0.5}, plan);
+    const Poses found = *poses(square, {0.5}, rolled.log, 1, all_rows(rolled.s[0].size()));
+    EXPECT_LT(largest_difference(found.pose, std::vector<Pose>(rolled.s[0].size())), 1e-9) << distance;
+  }
+}
+
 TEST(Pose, of_a_part_on_which_a_finger_only_pivots_keeps_the_corner_in_place) {
   const Part square = part_of("polygon,n=4,r=1.4142135623730951");
   RollPlan plan;

@@ -35,6 +35,12 @@ void expect_arcs(const Reach& reach, const std::vector<Interval>& expected, doub
   }
 }
 
+TEST(Reach, lets_a_disk_in_as_far_as_both_ends_of_curves_that_were_taken_to_meet_may_be_off) {
+  Outline outline = shapes::polygon({{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}});
+  outline.gap = 0.01;
+  EXPECT_EQ(reach_of_disk(Part(outline), 0.5).slack, 2 * 0.01);
+}
+
 // ---- sharp corners
 
 Part l_shape() { return Part(shapes::polygon({{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}})); }

@@ -192,6 +192,24 @@ TEST(DropUnreachable, of_a_pivot_looks_at_its_angles) {
   EXPECT_FALSE(left(limit - edge + 0.01));
 }
 
+TEST(DropUnreachable, a_pivot_that_is_barred_half_way_leads_to_the_side_where_it_began) {
+  // A nail comes up to a right-angled corner: a disk touches the corner from either side and can't get past the nail.
+  const Part part(shapes::polygon(
+      {{0, 0}, {-6, 6}, {-8, 6}, {-8, -8}, {8, -8}, {8, 6}, {6, 6}, {6, 0.3}, {1.9, 0}, {6, -0.3}, {6, -6}, {-6, -6}}));
+  const Reach reach = reach_of_disk(part, 1);
+  ASSERT_EQ(reach.pivots.at(0).angles.size(), 2U);
+  const auto left = [&](double length, double turn) {
+    Search search = locate(part, {length, turn}, tight());
+    drop_unreachable(part, reach, {{length, turn}}, search);
+    return std::any_of(search.placements.begin(), search.placements.end(),
+                       [](const Placement& placement) { return std::abs(placement.start[0]) < 1e-6; });
+  };
+  EXPECT_TRUE(left(1, 0.1));
+  EXPECT_FALSE(left(1, kPi / 2 - 0.1));
+  EXPECT_TRUE(left(-1, -0.1));
+  EXPECT_FALSE(left(-1, 0.1 - kPi / 2));
+}
+
 TEST(DropUnreachable, of_a_jaw_leaves_what_is_on_the_convex_hull) {
   const Part part = limacon();
   const Reach reach = reach_of_jaw(part);

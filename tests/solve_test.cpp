@@ -5,12 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "refusal.hpp"
 #include "rollfix/contact/log.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate/locate.hpp"
 #include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/primitives.hpp"
 
 namespace solve_test {
 namespace {
@@ -54,6 +56,35 @@ TEST(Solve, takes_the_tolerance_from_rounded_digits) {
   const Answer answer = solve({cam(), felt});
   EXPECT_EQ(answer.tolerance.source, Tolerance::Source::digits);
   EXPECT_GT(answer.tolerance.value, 0.001);
+}
+
+TEST(Solve, takes_the_sharpest_curvature_for_the_rounding_also_where_the_outline_starts) {
+  // A unit square whose one rounding, of four arcs, is cut by s = 0: a length that is off by less than it is long, and
+  // by more than either half, turns by that length over the radius.
+  const double r = 0.1;
+  const double piece = std::numbers::pi / 8;
+  rollfix::Outline outline{"drop", {}, true};
+  const auto arc = [&](int k) { outline.curves.emplace_back(rollfix::Arc({r, r}, r, (8 + k) * piece, piece)); };
+  arc(2);
+  arc(3);
+  outline.curves.emplace_back(rollfix::Line({r, 0}, {1, 0}));
+  outline.curves.emplace_back(rollfix::Line({1, 0}, {1, 1}));
+  outline.curves.emplace_back(rollfix::Line({1, 1}, {0, 1}));
+  outline.curves.emplace_back(rollfix::Line({0, 1}, {0, r}));
+  arc(0);
+  arc(1);
+  rollfix::Felt felt(Reading(0.5, 0));
+  felt.roundings = {{3 * piece * r, 0}};
+  EXPECT_NEAR(solve({Part(outline), felt}).tolerance.value, 3 * piece, 1e-9);
+}
+
+TEST(Solve, allows_for_a_measured_part_whose_tangents_are_off_at_both_ends_of_each_roll) {
+  rollfix::Outline outline = gallery("cam");
+  outline.accuracy.turn = 0.001;
+  const double sd = std::sqrt(2.0) * 0.001;  // 4.5 of them are let pass
+  EXPECT_NEAR(solve({Part(outline), roll_of_one(1, 0.7)}).tolerance.value, 4.5 * sd, 1e-8);
+  EXPECT_NEAR(solve({Part(outline), {roll_of_two(1, 4, 0.7, -0.4), roll_of_two(1, 4, 1.5, -0.8)}}).tolerance.value,
+              4.5 * std::sqrt(2.0) * sd, 1e-8);
 }
 
 TEST(Solve, gives_each_placement_its_own_probability_mean_and_interval_with_noise) {
