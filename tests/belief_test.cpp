@@ -341,4 +341,22 @@ TEST(PoseSpread, holds_the_true_pose_as_often_as_it_should) {
   for (const int inside : within) EXPECT_GE(inside, 0.95 * count - 4 * std::sqrt(0.95 * 0.05 * count));
 }
 
+TEST(PoseSpread, of_a_disk_whose_orientation_is_off_at_first_is_the_arc_that_its_rim_moves) {
+  const Part part = part_of("cam");
+  const double radius = 5;
+  const double angle = 0.01;
+  const rollfix::Log log = roll_on(part, radius, 1, 2, 50, {}, 1).log;
+  BeliefOptions options = with(Noise{1e-6, angle});
+  options.prior = rollfix::Prior{1, 1e-6};
+  Belief belief = belief_in(part, log, radius, options);
+  const rollfix::Vec2 point = part.point(1);
+  const double tangent = part.turning().angle(1);
+  const rollfix::FeltContact felt{point, tangent + M_PI / 2, 1 / radius};
+  const Eigen::Matrix3d covariance = belief.pose_spread(0, felt).covariance;
+  // How the part's point of contact goes along the tangent with x, y and the heading.
+  const Eigen::Vector3d by_pose(std::cos(tangent), std::sin(tangent),
+                                std::sin(tangent) * point.x() - std::cos(tangent) * point.y());
+  EXPECT_NEAR(std::sqrt(by_pose.dot(covariance * by_pose)), radius * angle, 0.02 * radius * angle);
+}
+
 }  // namespace belief_test
