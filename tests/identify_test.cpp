@@ -3,13 +3,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
+#include "catalog/congruent.hpp"
+#include "catalog/weights.hpp"
 #include "catalogs.hpp"
 #include "refusal.hpp"
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/catalog/documents.hpp"
 #include "rollfix/contact/rolling.hpp"
+#include "rollfix/outline/gallery.hpp"
 
 namespace identify_test {
 namespace {
@@ -87,6 +91,51 @@ TEST_F(Identify, weighs_by_how_many_of_each_there_are) {
   EXPECT_NEAR(found.parts[0].probability, 0.75, 1e-6);
   EXPECT_EQ(found.verdict, "2 congruent parts");
   EXPECT_THAT(found.parts[0].congruent, ElementsAre(0U));
+}
+
+TEST_F(Identify, adds_parts_that_are_too_rare_to_be_listed_to_the_rest) {
+  build_catalog("bin.db", {{"gallery:cam", "one", 1}, {"gallery:cam,lift=0.5", "ten million", 1e7}});
+  const Catalog bin("bin.db");
+  Problem problem{bin.part(0), roll_on(bin.part(0), 1, {0.5, 1, 1.5})};
+  problem.noise = Noise{1e-3, 1e-3};
+  const Identified found = identify(bin, problem);
+  EXPECT_THAT(names_of(bin, found), ElementsAre("ten million"));
+  EXPECT_NEAR(found.rest, 1e-7, 1e-12);
+}
+
+TEST_F(Identify, weighs_a_part_alike_in_any_unit) {
+  const Part part = catalog_.part(2);
+  const Part in_tenths(scaled(part.outline(), 10, ""), {true});
+  for (const auto& readings : {roll_on(part, 1, {0.5, 1.1}), rolls_on(part, 1, 4, {{0.5, -0.3}, {1.1, -0.9}})}) {
+    Problem problem{part, readings, {}, Noise{1e-3, 1e-3}};
+    Problem tenths{in_tenths, readings, {}, Noise{1e-2, 1e-3}};
+    for (Reading& reading : tenths.felt.readings) {
+      for (double& length : reading.length) length *= 10;
+    }
+    const rollfix::PartWeight one = weight_of(0, solve(problem));
+    const rollfix::PartWeight other = weight_of(0, solve(tenths));
+    EXPECT_NEAR(other.peak, one.peak, 1e-6 * std::abs(one.peak) + 1e-6);
+    EXPECT_NEAR(other.volume, one.volume, 0.01);
+  }
+}
+
+TEST(Congruent, are_places_by_the_contacts_noise_and_tangents_by_the_angles) {
+  const Part part(rollfix::gallery("ellipse,a=2,b=1"));
+  Problem problem{part, roll_on(part, 1, {0.5, -3}), {}, Noise{0.003, 0.02}};
+  const rollfix::Likeness likeness = likeness_of(problem);
+  EXPECT_EQ(likeness.length, 0.003);
+  EXPECT_EQ(likeness.turn, 0.02);
+  EXPECT_EQ(likeness.roll, 3);
+}
+
+TEST(Congruent, are_parts_whose_scales_a_roll_of_that_length_does_not_tell_apart) {
+  const Part part(rollfix::gallery("ellipse,a=200,b=100"));
+  const Part larger(rollfix::gallery("ellipse,a=200.02,b=100.01"));  // by 0.1 over a roll of 1000
+  const auto are_congruent = [&](double roll) {
+    return rollfix::are_congruent(part, {0}, larger, {0}, {0.05, 0.01, roll, true});
+  };
+  EXPECT_TRUE(are_congruent(400));
+  EXPECT_FALSE(are_congruent(600));
 }
 
 TEST_F(Identify, tells_parts_that_are_scaled_by_less_than_the_noise_as_such) {
