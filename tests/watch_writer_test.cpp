@@ -110,6 +110,15 @@ TEST(WatchJsonl, says_null_for_what_is_not_defined) {
   EXPECT_TRUE(printed.events()[1]["seconds_per_sample"].is_null());
 }
 
+TEST(WatchJsonl, begins_with_what_was_known_before) {
+  Printed printed;
+  rollfix::app::WatchOptions options;
+  options.belief.prior = rollfix::Prior{1.5, 0.25};
+  printed.json_lines->begin(cam(), options);
+  printed.json_lines->found(answer());
+  EXPECT_EQ(printed.events().front()["prior"], json({1.5, 0.25}));
+}
+
 TEST(WatchJsonl, names_every_event) {
   Printed printed;
   printed.json_lines->begin(cam(), {});

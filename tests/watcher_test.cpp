@@ -268,6 +268,7 @@ TEST(News, are_another_verdict_a_place_that_was_not_known_and_more_certainty) {
   EXPECT_TRUE(is_news(said, one_place(2.11, 0.1, 0.6), cam()));
   EXPECT_TRUE(is_news(said, one_place(2, 0.049, 0.6), cam()));
   EXPECT_TRUE(is_news(said, one_place(2, 0.1, 0.71), cam()));
+  EXPECT_TRUE(is_news(said, one_place(2, 0.1, 0.49), cam()));
   EXPECT_TRUE(is_news(WatchAnswer{}, said, cam()));
 }
 
