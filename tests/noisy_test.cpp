@@ -187,6 +187,27 @@ TEST(Noisy, increments_walk_away_from_the_truth) {
   EXPECT_NEAR(spread_of(turn_errors).deviation, 0.2, 0.02);
 }
 
+TEST(Noisy, increments_slip_as_lengths_do) {
+  const NoisyIncrements found = noisy_increments(egg_part(), 1, 2, 100, only_slip(0.05), 3);
+  ASSERT_NE(found.error.slip, 0);
+  EXPECT_NEAR((1 + found.error.slip) * found.log.fingers[0].length.back(), 2, 1e-12);
+}
+
+TEST(Noisy, a_gyroscope_walks_by_the_root_of_the_time_however_often_it_is_read) {
+  Noise noise;
+  noise.walk = 0.02;
+  for (const std::size_t rows : {11U, 101U}) {
+    std::vector<double> off;
+    double seconds = 0;
+    for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+      const NoisyRoll found = noisy_roll(egg_part(), 0.2, long_roll(rows), noise, seed);
+      off.push_back(found.log.fingers[0].psi.back() - found.truth.log.fingers[0].psi.back());
+      seconds = found.log.time.back() - found.log.time.front();
+    }
+    EXPECT_NEAR(spread_of(off).deviation, noise.walk * std::sqrt(seconds), 0.1 * noise.walk * std::sqrt(seconds));
+  }
+}
+
 TEST(Noisy, what_can_not_be_is_refused) {
   EXPECT_THAT(refusal_of([] { noisy_roll(egg_part(), 0.2, long_roll(), only_contact(-1), 1); }),
               HasSubstr("at least 0"));

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "rollfix/answer/solve.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/watch/watcher.hpp"
 #include "watch_logs.hpp"
@@ -281,6 +282,23 @@ TEST(News, are_not_what_hardly_differs) {
 TEST(News, are_not_a_step_across_the_seam) {
   const double P = cam().perimeter();
   EXPECT_FALSE(is_news(one_place(0.01, 0.1, 0.6), one_place(P - 0.01, 0.1, 0.6), cam()));
+}
+
+TEST(News, of_a_catalog_are_another_part_and_another_probability) {
+  const auto likeliest = [](std::size_t part, double probability) {
+    rollfix::Identified found;
+    found.verdict = "2 parts";
+    found.parts.push_back({{}, rollfix::solve({cam(), rollfix::Reading(1, 0.5)}), probability});
+    found.parts.back().weight.part = part;
+    WatchAnswer answer;
+    answer.parts = std::make_shared<const rollfix::Identified>(found);
+    return answer;
+  };
+  const WatchAnswer said = likeliest(3, 0.6);
+  EXPECT_TRUE(is_news(said, likeliest(4, 0.6), cam()));
+  EXPECT_TRUE(is_news(said, likeliest(3, 0.71), cam()));
+  EXPECT_TRUE(is_news(said, likeliest(3, 0.49), cam()));
+  EXPECT_FALSE(is_news(said, likeliest(3, 0.69), cam()));
 }
 
 TEST(News, are_not_where_nothing_fits) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "free_roll.hpp"
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/outline/gallery.hpp"
@@ -67,6 +68,21 @@ TEST(WeighedPlacement, of_a_disk_whose_orientation_is_off_in_each_row_is_moved_b
   const Eigen::Matrix3d& covariance = placement.pose_spread->covariance;
   const double arc = radius * angle / std::sqrt(static_cast<double>(problem.felt.log->rows()));
   EXPECT_NEAR(std::sqrt(by_pose.dot(covariance * by_pose)), arc, 0.02 * arc);
+}
+
+TEST(WeighedPlacement, of_two_fingers_fits_each_fingers_own_centres) {
+  const Part cam(rollfix::gallery("cam"));
+  const rollfix::FreePlan plan = free_rolls::by_distances(0.2, 1, 1.5, 0.2, 4, 1.2, 0.8);
+  Noise noise{0.002, 0.003};
+  noise.position = 0.002;
+  const rollfix::Log log = rollfix::roll_free_in_closed_form(cam, plan).log;
+  Problem problem{cam, log, {rollfix::disk(0.2)}, noise};
+  problem.diagnose = false;
+  const rollfix::Answer answer = rollfix::solve(problem);
+  EXPECT_EQ(answer.verdict.text(), "unique");
+  ASSERT_FALSE(answer.placements.empty());
+  EXPECT_NEAR(answer.placements[0].start[0], 1, 0.01);
+  EXPECT_NEAR(answer.placements[0].start[1], 4, 0.01);
 }
 
 TEST(WeighedPlacement, of_two_that_look_alike_is_as_probable_as_a_vague_heading_has_it) {
