@@ -32,6 +32,15 @@ Problem roll_on_ellipse(double radius, const Noise& noise) {
   return {ellipse, rollfix::roll_in_closed_form(ellipse, finger, plan).log, {finger}, noise};
 }
 
+/// Two disks on a cam that lies turned by 2.1 at first.
+Problem roll_of_two(const Noise& noise) {
+  const Part cam(rollfix::gallery("cam"));
+  const rollfix::FreePlan plan = free_rolls::by_distances(0.2, 1, 1.5, 0.2, 4, 1.2, 0.8);
+  Problem problem{cam, rollfix::roll_free_in_closed_form(cam, plan).log, {rollfix::disk(0.2)}, noise};
+  problem.diagnose = false;
+  return problem;
+}
+
 TEST(WeighedPlacement, ends_where_the_roll_from_a_known_start_ends_as_surely_as_length_and_turn_tell) {
   const Part cam(rollfix::gallery("cam"));
   Problem problem = reading_on(cam, 1, 2, Noise{0.01, 0.02});
@@ -71,18 +80,36 @@ TEST(WeighedPlacement, of_a_disk_whose_orientation_is_off_in_each_row_is_moved_b
 }
 
 TEST(WeighedPlacement, of_two_fingers_fits_each_fingers_own_centres) {
-  const Part cam(rollfix::gallery("cam"));
-  const rollfix::FreePlan plan = free_rolls::by_distances(0.2, 1, 1.5, 0.2, 4, 1.2, 0.8);
   Noise noise{0.002, 0.003};
   noise.position = 0.002;
-  const rollfix::Log log = rollfix::roll_free_in_closed_form(cam, plan).log;
-  Problem problem{cam, log, {rollfix::disk(0.2)}, noise};
-  problem.diagnose = false;
-  const rollfix::Answer answer = rollfix::solve(problem);
+  const rollfix::Answer answer = rollfix::solve(roll_of_two(noise));
   EXPECT_EQ(answer.verdict.text(), "unique");
   ASSERT_FALSE(answer.placements.empty());
   EXPECT_NEAR(answer.placements[0].start[0], 1, 0.01);
   EXPECT_NEAR(answer.placements[0].start[1], 4, 0.01);
+}
+
+TEST(WeighedPlacement, of_two_fingers_is_placed_half_as_uncertainly_as_one_centre_is_known) {
+  Noise noise{1e-5, 1e-5};
+  noise.position = 0.01;
+  const Placement placement = rollfix::solve(roll_of_two(noise)).placements.at(0);
+  // Where the middle of both contacts goes with x, y and the heading.
+  const rollfix::Vec2 middle = 0.5 * (placement.point[0] + placement.point[1]);
+  const double heading = placement.pose_spread->mean.heading;
+  const double up = std::sin(heading) * middle.x() + std::cos(heading) * middle.y();
+  const Eigen::Vector3d by_pose(1, 0, -up);
+  const double variance = by_pose.dot(placement.pose_spread->covariance * by_pose);
+  EXPECT_NEAR(variance, 0.5 * noise.position * noise.position, 0.02 * variance);
+}
+
+TEST(WeighedPlacement, is_turned_as_surely_where_the_first_contact_is_off) {
+  const auto heading_sd = [](double off) {
+    Problem problem = roll_of_two(Noise{0.01, 0.002});
+    problem.felt.log->fingers[0].u.front() += off / 0.2;
+    return std::sqrt(rollfix::solve(problem).placements.at(0).pose_spread->covariance(2, 2));
+  };
+  EXPECT_NEAR(heading_sd(0.02), heading_sd(0), 0.1 * heading_sd(0));
+  EXPECT_LT(heading_sd(0), 1);
 }
 
 TEST(WeighedPlacement, of_two_that_look_alike_is_as_probable_as_a_vague_heading_has_it) {
