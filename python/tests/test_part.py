@@ -51,6 +51,7 @@ def test_a_corner_that_is_not_told_is_found():
 
 @pytest.mark.parametrize("change, name", [
     (dict(df=lambda u: (2 * np.sin(u), np.cos(u))), "df"),
+    (dict(df=lambda u: (-2.02 * np.sin(u), np.cos(u))), "df: expected the derivative of f"),
     (dict(ddf=lambda u: (np.cos(u), np.sin(u))), "ddf"),
     (dict(f=lambda u: (np.cos(u),)), "f"),
     (dict(f=3), "f"),

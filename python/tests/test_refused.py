@@ -58,6 +58,7 @@ def test_a_unit_has_its_usual_name():
 
 @pytest.mark.parametrize("call, message", [
     (lambda p: p.locate(1, 1, noise=Noise(angle=3)), r"^noise: angle is 3.0, .*np.radians\(3\)$"),
+    (lambda p: p.locate(1, 1, noise=Noise(angle=0.6)), "^noise: angle is 0.6, expected at most 0.5 radians"),
     (lambda p: p.locate(1, 1, noise=Noise(slip=0.1)), "^noise: expected a standard deviation of the contact or"),
     (lambda p: p.locate(1, 1, heading=(90, 5), **WEIGHED), r"^heading: .*at most pi radians, found 5.0; .*radians\(5\)$"),
     (lambda p: p.locate(1, 1, pose=(0, 0, 90, 1, 5), **WEIGHED), "^pose: .*at most pi radians"),

@@ -100,6 +100,18 @@ def test_rolls_and_reaches_are_values(ellipse):
     assert repr(ellipse.reach(Disk(0.2))) == "<Reach of Disk(0.2) along the boundary: all>"
 
 
+def test_answers_on_another_part_or_with_another_finger_are_others(ellipse):
+    assert ellipse.locate(1.0, 0.625, finger=Disk(0.1)) == ellipse.locate(1.0, 0.625, finger=Disk(0.1))
+    assert ellipse.locate(1.0, 0.625, finger=Disk(0.1)) != ellipse.locate(1.0, 0.625, finger=Disk(0.2))
+    nowhere, nowhere_else = (part.locate(1.0, 50.0) for part in (ellipse, rollfix.Part.gallery("cam")))
+    assert len(nowhere) == len(nowhere_else) == 0 and nowhere != nowhere_else
+
+
+def test_the_density_is_of_a_finger_that_there_is(weighed):
+    with pytest.raises(rollfix.InputError, match="^finger: expected 0, as there is one finger, found 1$"):
+        weighed.density(finger=1)
+
+
 def test_a_table_has_a_row_for_each_placement(answer, weighed):
     pandas = pytest.importorskip("pandas")
     frame = answer.to_frame()
@@ -107,6 +119,29 @@ def test_a_table_has_a_row_for_each_placement(answer, weighed):
     assert list(weighed.to_frame().probability) == [one.probability for one in weighed]
     assert {"start_a", "start_b"} <= set(pair_answer().to_frame().columns)
     assert isinstance(frame, pandas.DataFrame)
+
+
+def test_each_column_is_the_placements_own_field_of_its_finger(weighed):
+    pytest.importorskip("pandas")
+    pair = pair_answer()
+    for answer, ends in ((weighed, [""]), (pair, ["_a", "_b"])):
+        frame = answer.to_frame()
+        expected = {"kind": [one.kind for one in answer], "residual": [one.residual for one in answer]}
+        expected["error"] = [one.error for one in answer]
+        for finger, end in enumerate(ends):
+            expected.update({
+                "start" + end: [one.start[finger] for one in answer],
+                "end" + end: [one.end[finger] for one in answer],
+                "lo" + end: [one.extent[finger][0] for one in answer],
+                "hi" + end: [one.extent[finger][1] for one in answer],
+                "x" + end: [one.point[finger][0] for one in answer],
+                "y" + end: [one.point[finger][1] for one in answer],
+                "tangent" + end: [one.tangent[finger] for one in answer],
+            })
+        for name, values in expected.items():
+            assert list(frame[name]) == values, name
+    assert list(weighed.to_frame()["mean"]) == [one.mean[0] for one in weighed]
+    assert list(weighed.to_frame()["sd"]) == [one.sd[0] for one in weighed]
 
 
 @pytest.mark.parametrize("radius, why", [(0.2, "the fingers would overlap"), (1, "the finger can't touch there")])

@@ -60,6 +60,7 @@ def test_advice_is_that_of_the_program(program):
     assert advice.helps and advice.length == advice.to_dict()["length"] and advice._repr_svg_()
     answer = limacon.locate(0.9, 0.526, finger=Disk(0.1), tolerance=1e-9, rounding=(0.0005, 0))
     assert answer.advise((-1, 1.5)) == advice == answer.advise(travel=(-1, 1.5))
+    assert answer.advise(1.5) == answer.advise((-1.5, 1.5)) != answer.advise((0, 1.5))
 
 
 def test_where_nothing_helps_it_says_why(ellipse):
