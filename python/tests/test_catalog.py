@@ -109,6 +109,10 @@ def test_a_table_has_a_row_for_each_place(catalog, noisy):
     frame = found.to_frame()
     assert list(frame.part) == [one.name for one in found for _ in one.answer]
     assert list(frame.columns[:3]) == ["part", "part_probability", "kind"] and len(catalog.identify(1.0, 30.0).to_frame()) == 0
+    several = catalog.identify(1.0, 0.6, noise={"contact": 0.05, "angle": 0.05})
+    assert len(several) > 1
+    assert list(several.to_frame().part_probability) == [one.probability for one in several for _ in one.answer]
+    assert list(several.to_frame().probability) == [place.probability for one in several for place in one.answer]
 
 
 def test_a_folder_and_a_list_are_taken_as_they_stand(tmp_path, wing):

@@ -79,3 +79,12 @@ def test_a_header_that_is_wrong_may_be_mended(watch, frame):
         watch.add(frame.rename(columns={"u": "v"}))
     watch.add(frame), watch.finish()
     assert watch.verdict == "ambiguous (2)"
+
+
+def test_after_a_dropped_connection_rows_may_have_other_columns(watch, frame):
+    watch.add(frame.iloc[:5])
+    with pytest.raises(InputError, match="^rows: expected the columns .* as before, found u, psi$"):
+        watch.add(frame[["u", "psi"]].iloc[5:])
+    watch.resume()
+    watch.add(frame[["u", "psi"]].iloc[5:])
+    assert watch.finish()[-1]["counts"]["samples"] == len(frame)
