@@ -1,5 +1,6 @@
 // How does the cost grow with the number of answers? Gears, on which a roll fits on every tooth, and rolls of two
-// fingers on every pair of teeth.
+// fingers on every pair of teeth: gears with teeth of one height, which are the steeper the more they are, and gears
+// with teeth of one shape, where nothing but the number changes.
 
 #include <fmt/format.h>
 
@@ -24,8 +25,12 @@ constexpr double kFirstB = 0.648;
 constexpr double kSecondA = 0.591;
 constexpr double kSecondB = 0.094;
 
+constexpr double kDepth = 0.1;  // half the height of a tooth, of radius 1
+constexpr int kTeethOfThatShape = 12;
+
 struct Row {
   int teeth = 0;
+  double depth = 0;
   Part part;
   Reading one;
   bench::PairQuestion two;
@@ -40,12 +45,12 @@ double turn(const Part& part, double from, double roll) {
   return part.turning().angle(from + roll) - part.turning().angle(from);
 }
 
-Row row_of(int teeth) {
-  const Part part = bench::trusted_part(gallery(fmt::format("gear,teeth={}", teeth)));
+Row row_of(int teeth, double depth) {
+  const Part part = bench::trusted_part(gallery(fmt::format("gear,teeth={},depth={}", teeth, depth)));
   const double pitch = part.perimeter() / teeth;
   const double s = kStartA * pitch;
   const double t = kStartB * pitch;
-  Row row{teeth, part, {kFirstA * pitch, turn(part, s, kFirstA * pitch)}, {}, {}, {}};
+  Row row{teeth, depth, part, {kFirstA * pitch, turn(part, s, kFirstA * pitch)}, {}, {}, {}};
   for (const auto& [a, b] :
        {std::pair(kFirstA * pitch, kFirstB * pitch), std::pair(kSecondA * pitch, kSecondB * pitch)}) {
     row.two.readings.push_back({a, b, turn(part, s, a) - turn(part, t, b)});
@@ -55,41 +60,62 @@ Row row_of(int teeth) {
   return row;
 }
 
+/// How the cost grows on some of the gears.
+class Growth {
+ public:
+  void add(const Row& row, const bench::Program& program) {
+    answers_.push_back(static_cast<double>(row.found_one.placements.size()));
+    pairs_.push_back(static_cast<double>(row.found_two.placements.size()));
+    one_.push_back(program.of(row.locate_one));
+    two_.push_back(program.of(row.locate_two));
+  }
+  void print(const char* which) const {
+    fmt::print("{}: one finger grows as answers^{}, two fingers as pairs^{}\n", which,
+               bench::cell(bench::exponent(answers_, one_), 2), bench::cell(bench::exponent(pairs_, two_), 2));
+  }
+
+ private:
+  std::vector<double> answers_;
+  std::vector<double> pairs_;
+  std::vector<bench::Timing> one_;
+  std::vector<bench::Timing> two_;
+};
+
 }  // namespace
 
 int main(int argc, char** argv) {
   bench::Program program(argc, argv);
   std::vector<Row> rows;
-  for (const int teeth : {6, 12, 24, 48}) rows.push_back(row_of(teeth));
+  for (const int teeth : {6, 12, 24, 48}) rows.push_back(row_of(teeth, kDepth));
+  for (const int teeth : {6, 24, 48}) rows.push_back(row_of(teeth, kDepth * kTeethOfThatShape / teeth));
   for (Row& row : rows) {
-    const auto name = [&](const char* what) { return fmt::format("{} {}", what, row.teeth); };
+    const auto name = [&](const char* what) { return fmt::format("{} {} {}", what, row.teeth, row.depth); };
     row.unit = program.add(name("W"), [&row] { bench::keep(bench::perimeter_by_quadrature(row.part.outline())); });
     row.locate_one = program.add(name("one finger"), [&row] { bench::keep(locate(row.part, row.one)); });
     row.locate_two = program.add(name("two fingers"), [&row] { bench::keep(bench::find(row.part, row.two)); });
   }
   program.run();
 
-  bench::Table table({"teeth", "W [us]", "answers", "one finger [us]", "one finger/W", "pairs", "boxes",
+  bench::Table table({"teeth", "depth", "W [us]", "answers", "one finger [us]", "one finger/W", "pairs", "boxes",
                       "two fingers [ms]", "two fingers/W", "a pair [us]"});
-  std::vector<double> answers;
-  std::vector<double> pairs;
-  std::vector<bench::Timing> one;
-  std::vector<bench::Timing> two;
+  Growth of_one_height;
+  Growth of_one_shape;
   for (const Row& row : rows) {
-    answers.push_back(static_cast<double>(row.found_one.placements.size()));
-    pairs.push_back(static_cast<double>(row.found_two.placements.size()));
-    one.push_back(program.of(row.locate_one));
-    two.push_back(program.of(row.locate_two));
+    const std::size_t pairs = row.found_two.placements.size();
     const bench::Timing unit = program.of(row.unit);
-    table.add({std::to_string(row.teeth), bench::cell(1e6 * unit, 1), bench::cell(answers.back(), 0),
-               bench::cell(1e6 * one.back(), 1), bench::cell((one.back() / unit).median, 2),
-               bench::cell(pairs.back(), 0), std::to_string(row.found_two.counts.intervals),
-               bench::cell(1e3 * two.back(), 2), bench::cell((two.back() / unit).median, 1),
-               bench::cell(1e6 * two.back().median / pairs.back(), 2)});
-    if (row.teeth == 48) program.figure("pairs_9216_ms", 1e3 * two.back());
+    const bench::Timing one = program.of(row.locate_one);
+    const bench::Timing two = program.of(row.locate_two);
+    table.add({std::to_string(row.teeth), fmt::format("{:.3g}", row.depth), bench::cell(1e6 * unit, 1),
+               std::to_string(row.found_one.placements.size()), bench::cell(1e6 * one, 1),
+               bench::cell((one / unit).median, 2), std::to_string(pairs),
+               std::to_string(row.found_two.counts.intervals), bench::cell(1e3 * two, 2),
+               bench::cell((two / unit).median, 1), bench::cell(1e6 * two.median / static_cast<double>(pairs), 2)});
+    if (row.depth == kDepth) of_one_height.add(row, program);
+    if (row.depth != kDepth || row.teeth == kTeethOfThatShape) of_one_shape.add(row, program);
+    if (row.depth == kDepth && row.teeth == 48) program.figure("pairs_9216_ms", 1e3 * two);
   }
   table.print();
-  fmt::print("one finger grows as answers^{}, two fingers as pairs^{}\n", bench::cell(bench::exponent(answers, one), 2),
-             bench::cell(bench::exponent(pairs, two), 2));
+  of_one_height.print("teeth of one height");
+  of_one_shape.print("teeth of one shape");
   program.write_figures();
 }
