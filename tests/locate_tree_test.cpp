@@ -239,14 +239,5 @@ TEST(SearchTree, reaches_both_ends_of_an_open_curve) {
   }
 }
 
-TEST(Readings, pivot_by_one_angle_at_a_corner_where_they_start) {
-  const Part part = shapes::unit_square();
-  // Each alone fits a start at a corner with some pivot; no pivot suits both.
-  EXPECT_TRUE(locate(part, {{0, 1.2}, {0, -1.2}}).placements.empty());
-  for (const Placement& placement : locate(part, {{0.5, 0.2}, {0.7, 0.2}}).placements) {
-    EXPECT_LE(placement.residual, 1e-9);
-  }
-}
-
 }  // namespace
 }  // namespace locate_tree_test

@@ -151,12 +151,28 @@ void search_stretches(const Question& question, const Interval& range, LocateOpt
   if (!found.unresolved.empty()) found.unresolved.back().hi = range.hi;
 }
 
+/// Pieces that touch are one: else what a reading cuts into pieces, though it allows all of it, as a finger at rest does,
+/// a further one cuts again and again. Continua stay apart from what is beside them.
+void join_touching(Pieces& pieces) {
+  const auto is_plain = [](const Piece& piece) { return !piece.exact && !piece.corner; };
+  std::size_t last = 0;
+  for (std::size_t k = 1; k < pieces.size(); ++k) {
+    if (is_plain(pieces[last]) && is_plain(pieces[k]) && pieces[k].lo <= pieces[last].hi) {
+      pieces[last].hi = std::max(pieces[last].hi, pieces[k].hi);
+    } else {
+      pieces[++last] = pieces[k];
+    }
+  }
+  if (!pieces.empty()) pieces.resize(last + 1);
+}
+
 /// Keeps of each piece what a further reading allows as well; at a corner's pivot what all of them allow together.
 void narrow(const Question& question, std::size_t further, LocateOptions& options, Workspace& work) {
   const Reading& reading = question.readings[further];
   const Question its_own{question.part, {&reading, 1}};
   Findings& before = work.found;
   Findings& kept = work.narrowed;
+  join_touching(before.pieces);
   Sweep sweep(question.part, reading, options, kept);
   for (const Piece& piece : before.pieces) {
     if (!kept.unresolved.empty() || !before.unresolved.empty()) {
