@@ -1,5 +1,4 @@
 // Certificates: what the search answers is proved again by a program that knows nothing of it.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,6 +24,7 @@ namespace {
 
 using certificates::change_one;
 using certificates::checked;
+using certificates::count_of;
 using certificates::drawn_plate;
 using certificates::is_refused;
 using certificates::Json;
@@ -34,27 +34,12 @@ using rollfix_verify::Verdict;
 using shapes::kPi;
 
 Json certificate(const rollfix::Part& part, const rollfix::Reading& reading, double tolerance = 1e-9) {
-  rollfix::LocateOptions options;
-  options.tolerance = tolerance;
-  return Json::parse(format_certificate(certify(part, reading, options)));
+  return certificates::certificate(part, {reading}, tolerance);
 }
 
 /// It is proved, and all that the search found stands in it.
 void expect_proved(const rollfix::Part& part, const rollfix::Reading& reading, double tolerance = 1e-9) {
-  SCOPED_TRACE(
-      fmt::format("{}, length {}, turn {}, tolerance {}", part.name(), reading.length[0], reading.turn, tolerance));
-  const Verdict verdict = checked(certificate(part, reading, tolerance));
-  EXPECT_EQ(verdict.refusal, "");
-  EXPECT_EQ(verdict.unproved, 0U);
-  rollfix::LocateOptions options;
-  options.tolerance = tolerance;
-  EXPECT_EQ(verdict.placements, locate(part, reading, options).placements.size());
-}
-
-std::size_t count_of(const Json& certificate, const std::string& kind) {
-  std::size_t count = 0;
-  for (const Json& row : certificate["rows"]) count += row.value("then", "") == kind ? 1 : 0;
-  return count;
+  certificates::expect_proved(part, {reading}, tolerance);
 }
 
 // ---- what is proved ----
@@ -194,7 +179,7 @@ TEST(Certificate, of_a_search_that_ran_out_of_budget_claims_nothing_there) {
   const double length = 1;
   const rollfix::Reading hard{length, shapes::reading_from(part, part.perimeter() - 0.5 * length, length).turn};
   const rollfix::Search search = locate(part, hard, options);
-  const rollfix::Certificate found = certify(part, hard, options);
+  const rollfix::Certificate found = certify(part, {hard}, options);
   EXPECT_EQ(found.is_complete(), search.unresolved.empty());
   const Verdict verdict = checked(Json::parse(format_certificate(found)));
   EXPECT_EQ(verdict.refusal, "");
@@ -203,11 +188,11 @@ TEST(Certificate, of_a_search_that_ran_out_of_budget_claims_nothing_there) {
 
 TEST(Certificate, is_of_one_finger_on_curves_that_have_a_formula) {
   const rollfix::Part part(rollfix::gallery("cam"));
-  EXPECT_THROW(certify(part, {1.0, 1.0, 0.2}), rollfix::InputError);
+  EXPECT_THROW(certify(part, {rollfix::Reading(1.0, 1.0, 0.2)}), rollfix::InputError);
   rollfix::Outline outline;
   outline.closed = false;
   outline.curves = {rollfix::BezierFromRest({{0, 0}, {0, 0}, {1, 1}, {2, 0}})};
-  EXPECT_THROW(certify(rollfix::Part(outline), {0.5, 0.1}), rollfix::InputError);
+  EXPECT_THROW(certify(rollfix::Part(outline), {rollfix::Reading(0.5, 0.1)}), rollfix::InputError);
 }
 
 // ---- one number changed ----

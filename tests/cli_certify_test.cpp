@@ -40,6 +40,15 @@ TEST(CliCertify, proves_that_nothing_fits) {
   EXPECT_EQ(verified("proof.json").code, 0);
 }
 
+TEST(CliCertify, of_several_readings_writes_what_the_verifier_proves) {
+  const Folder folder;
+  EXPECT_EQ(run("locate gallery:cam --reading 0.4,0.2890632 --reading 0.9,0.6575464 --certify proof.json").code,
+            0);
+  EXPECT_EQ(verified("proof.json").code, 0);
+  EXPECT_EQ(run("locate gallery:cam --reading 0.4,0.2890632 --reading 0.9,0.75 --certify none.json").code, 1);
+  EXPECT_THAT(verified("none.json").out, testing::StartsWith("proved: 0 placements, "));
+}
+
 TEST(CliCertify, of_two_fingers_writes_what_the_verifier_proves) {
   const Folder folder;
   const std::string readings =
@@ -64,8 +73,8 @@ TEST(CliCertify, of_two_fingers_and_their_facing_is_proved) {
 TEST(CliCertify, of_what_has_no_certificate_is_an_error) {
   const Folder folder;
   for (const char* arguments :
-       {"--reading 1.5,-0.8,110.97deg --facing -142.4deg --mirror", "--reading 1,0.5 --reading 2,1",
-        "--reading 1,0.5 --direction either", "--reading 1,0.5 --mirror", "--reading 1,0.5 --march"}) {
+       {"--reading 1.5,-0.8,110.97deg --facing -142.4deg --mirror", "--reading 1,0.5 --direction either",
+        "--reading 1,0.5 --mirror", "--reading 1,0.5 --march"}) {
     const Ran ran = run(std::string("locate gallery:cam --certify proof.json ") + arguments);
     EXPECT_EQ(ran.code, 2) << arguments;
     EXPECT_FALSE(cli::fs::exists("proof.json")) << arguments;

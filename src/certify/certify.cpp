@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "places.hpp"
-#include "residual.hpp"
+#include "residuals.hpp"
 #include "rollfix/error.hpp"
 
 namespace rollfix {
@@ -18,6 +18,9 @@ constexpr double kBeside = 1.5;
 constexpr double kGrowth = 1.5;
 // A row on the edge of what is excluded is off by more than the tolerance by at least this share of it.
 constexpr double kLeastMiss = 1e-3;
+// What no reading excludes as a whole is halved: so often at the most, and into so many cells.
+constexpr int kMostStartHalvings = 40;
+constexpr std::size_t kMostStartCells = 4000;
 
 /// What the search says of a stretch of starts: a placement (or several, or none, where nothing is decided).
 struct Found {
@@ -33,14 +36,18 @@ struct Found {
 struct Mark {
   double s = 0;
   CellKind then = CellKind::apart;
+  std::vector<std::size_t> by;  // the readings of which
 };
 
 class Maker {
  public:
-  Maker(const Part& part, const Reading& reading, const Search& search, double tolerance)
-      : part_(part), search_(search), f_(part, reading), tolerance_(tolerance), range_{0, part.perimeter()} {
-    if (!part.closed()) range_ = clear_starts(part, {reading.length[0]});
-  }
+  Maker(const Part& part, const std::vector<Reading>& readings, const Search& search, double tolerance)
+      : part_(part),
+        search_(search),
+        tolerance_(tolerance),
+        step_(least_step(part)),
+        f_(part, readings, tolerance),
+        range_(clear_starts(part, f_.lengths())) {}
 
   std::vector<CertificateRow> rows() {
     list_found();
@@ -61,7 +68,7 @@ class Maker {
       found_.push_back({placement.extent[0], {&placement}, true, placement.whole_loop[0], 0, 0});
     }
     for (const PerFinger<Interval>& interval : search_.unresolved) {
-      const bool is_whole = part_.closed() && interval[0].width() >= part_.perimeter() - 8 * f_.step();
+      const bool is_whole = part_.closed() && interval[0].width() >= part_.perimeter() - 8 * step_;
       found_.push_back({interval[0], {}, false, is_whole, 0, 0});
     }
     if (std::any_of(found_.begin(), found_.end(), [](const Found& one) { return one.is_whole; })) join_all();
@@ -78,7 +85,7 @@ class Maker {
     found_ = {whole};
   }
 
-  // ---- their edges ----
+  // ---- edges ----
 
   /// How far it is from here to the neighbours, for rows on both sides.
   double room_after(std::size_t k) const {
@@ -89,9 +96,9 @@ class Maker {
 
   /// A row outside of an edge: nothing where f does not get away from the tolerance in the room that there is.
   bool find_edge(double edge, int way, double room, double& row) const {
-    double away = f_.step();
+    double away = step_;
     const double most = room / 3;
-    if (!(most > 4 * f_.step())) return false;
+    if (!(most > 4 * step_)) return false;
     for (bool is_last = false; !is_last; away *= kGrowth) {
       is_last = away >= most;
       row = edge + way * std::min(away, most);
@@ -102,7 +109,7 @@ class Maker {
       row = f_.clear(row, way);
       if (f_.size(row) >= kBeside * tolerance_) return true;
     }
-    return f_.size(row) > (1 + kLeastMiss) * tolerance_;
+    return f_.size(row) > std::max((1 + kLeastMiss) * tolerance_, f_.excluded());
   }
 
   void find_edges() {
@@ -136,21 +143,22 @@ class Maker {
 
   // ---- rows and cells ----
 
-  void mark(double s, CellKind then) {
-    if (!marks_.empty() && s <= marks_.back().s) {
+  void mark(double s, CellKind then, std::vector<std::size_t> by = {}) {
+    if (marks_.empty() || s > marks_.back().s) {
+      marks_.push_back({s, then, std::move(by)});
+    } else {
       marks_.back().then = then;
-      return;
+      marks_.back().by = std::move(by);
     }
-    marks_.push_back({s, then});
   }
 
   void mark_whole() {
-    const double from = f_.clear(f_.step(), 1);
+    const double from = f_.clear(step_, 1);
     const double to = from + part_.perimeter();
     if (!found_[0].decided) {
       mark(from, CellKind::unproved);
     } else {
-      mark_inside(from, to, Kind::touching);
+      mark(from, CellKind::within);
       if (is_stretch(found_[0])) mark_flat(from, to);
     }
     if (!part_.closed()) mark(range_.hi, CellKind::apart);
@@ -159,23 +167,19 @@ class Maker {
   static bool is_stretch(const Found& one) { return one.placements[0]->kind == Kind::stretch; }
 
   void mark_all() {
-    const double first = found_.empty() ? 0 : found_.front().from;
-    const double start = part_.closed() ? (found_.empty() ? f_.nearest(0, part_.perimeter()) : first) : range_.lo;
-    const double end = part_.closed() ? start + part_.perimeter() : range_.hi;
-    if (part_.closed() && found_.empty()) {
-      mark(f_.clear(start, 1), CellKind::apart);
-      return;
-    }
-    double here = start;
+    const double period = part_.perimeter();
+    double here = range_.lo;
+    if (part_.closed()) here = found_.empty() ? f_.clear(f_[0].nearest(0, period), 1) : found_.front().from;
+    const double end = part_.closed() ? here + period : range_.hi;
     for (const Found& one : found_) {
       mark_apart(here, one.from);
       if (!one.decided) {
         mark(one.from, CellKind::unproved);
       } else {
         // Nowhere but at the corner itself, or on a stretch around it?
-        const bool is_wide = one.extent.width() > f_.step();
+        const bool is_wide = one.extent.width() > step_;
         const Kind kind = one.placements[0]->kind;
-        mark_inside(one.from, one.to, kind == Kind::corner && is_wide ? Kind::touching : kind);
+        mark_inside(one, kind == Kind::corner && is_wide ? Kind::touching : kind);
         if (is_stretch(one)) mark_flat(one.from, one.to);
       }
       here = one.to;
@@ -184,32 +188,54 @@ class Maker {
     if (!part_.closed()) mark(end, CellKind::apart);
   }
 
-  /// Excluded, with a row where f comes nearest to the tolerance.
-  void mark_apart(double lo, double hi) {
+  /// Excluded by one reading, with a row where its f comes nearest to the tolerance; else in parts.
+  void mark_apart(double lo, double hi, int depth = 0) {
     if (!(hi > lo)) return;
-    mark(lo, CellKind::apart);
-    const double ends = std::min(f_.size(lo), f_.size(hi));
-    const double nearest = f_.clear(f_.nearest(lo, hi), 1);
-    if (nearest > lo + f_.step() && nearest < hi - f_.step() && f_.size(nearest) < ends) mark(nearest, CellKind::apart);
+    if (const auto found = f_.exclusion(lo, hi)) {
+      mark(lo, CellKind::apart, found->by);
+      if (found->row) mark(*found->row, CellKind::apart, found->by);
+      return;
+    }
+    const double middle = f_.split(lo, hi);
+    if (depth == kMostStartHalvings || marks_.size() > kMostStartCells ||
+        !(middle > lo + step_ && middle < hi - step_)) {
+      mark(lo, CellKind::unproved);
+      return;
+    }
+    mark_apart(lo, middle, depth + 1);
+    mark_apart(middle, hi, depth + 1);
   }
 
-  bool changes_sign(double lo, double hi) const {
-    return std::min(f_.size(lo), f_.size(hi)) > tolerance_ && (f_.at(lo) < 0) != (f_.at(hi) < 0);
+  bool changes_sign(const Residual& f, double lo, double hi) const {
+    return std::min(f.size(lo), f.size(hi)) > tolerance_ && (f.at(lo) < 0) != (f.at(hi) < 0);
   }
 
-  void mark_inside(double lo, double hi, Kind kind) {
-    CellKind cell = CellKind::within;
-    if (kind == Kind::corner && changes_sign(lo, hi)) cell = CellKind::corner;
-    if (kind == Kind::crossing && changes_sign(lo, hi) && f_.is_monotone(lo, hi)) cell = CellKind::crossing;
-    mark(lo, cell);
+  /// f is outside the tolerance on both sides of a corner, and on different ones.
+  bool passes_corner(const Residual& f, double s) const {
+    const double lo = s - 2 * step_;
+    const double hi = s + 2 * step_;
+    return changes_sign(f, lo, hi) &&
+           std::min(f.size(lo), f.size(hi)) > tolerance_ + 2 * std::max(f.blur(lo), f.blur(hi));
   }
 
-  /// Of what was marked from lo on, where f is 0 to rounding.
+  /// By the first reading that tells.
+  void mark_inside(const Found& one, Kind kind) {
+    const double lo = one.from;
+    const double hi = one.to;
+    for (std::size_t k = 0; k < f_.count(); ++k) {
+      if (!changes_sign(f_[k], lo, hi)) continue;
+      if (kind == Kind::corner && passes_corner(f_[k], one.extent.lo)) return mark(lo, CellKind::corner, {k});
+      if (kind == Kind::crossing && f_[k].is_monotone(lo, hi)) return mark(lo, CellKind::crossing, {k});
+    }
+    mark(lo, CellKind::within);
+  }
+
+  /// Of what was marked from lo on, where every f is 0 to rounding.
   void mark_flat(double lo, double hi) {
     for (const Interval& flat : f_.flat(lo, hi)) {
       const double from = f_.clear(flat.lo, 1);
       const double to = f_.clear(flat.hi, -1);
-      const bool is_all = found_[0].is_whole && flat.width() > part_.perimeter() - 16 * f_.step();
+      const bool is_all = found_[0].is_whole && flat.width() > part_.perimeter() - 16 * step_;
       if (is_all) {
         marks_.back().then = CellKind::stretch;
         return;
@@ -223,9 +249,12 @@ class Maker {
   // ---- from marks to rows ----
 
   CertificateRow row_at(const Mark& mark) const {
-    const double f = f_.at(mark.s);
-    const bool is_rounding = std::abs(f) <= kTurnAccuracy;
-    return {f_.place(mark.s), f_.place(mark.s + f_.length()), is_rounding ? 0 : f / tolerance_, mark.then};
+    CertificateRow row{place_of(part_, mark.s), {}, {}, mark.then, mark.by};
+    for (std::size_t k = 0; k < f_.count(); ++k) {
+      row.end.push_back(place_of(part_, mark.s + f_.lengths()[k]));
+      row.off.push_back(f_[k].size(mark.s) <= kTurnAccuracy ? 0 : f_[k].at(mark.s) / tolerance_);
+    }
+    return row;
   }
 
   /// By rising s from 0 on.
@@ -243,8 +272,9 @@ class Maker {
 
   const Part& part_;
   const Search& search_;
-  Residual f_;
   double tolerance_;
+  double step_;  // the least between places
+  Residuals f_;
   Interval range_;  // of starts
   std::vector<Found> found_;
   std::vector<Mark> marks_;
@@ -275,18 +305,18 @@ bool Certificate::is_complete() const {
                       [](const CertificateRow& row) { return row.then == CellKind::unproved; });
 }
 
-Certificate certify(const Part& part, const Reading& reading, const LocateOptions& options) {
-  if (reading.fingers() != 1) throw InputError("certificates are of one finger's reading, found one of two fingers");
+Certificate certify(const Part& part, const std::vector<Reading>& readings, const LocateOptions& options) {
+  for (const Reading& reading : readings) {
+    if (reading.fingers() != 1) throw InputError("expected readings of one finger, found one of two fingers");
+  }
+  const Search search = locate(part, readings, options);
   Certificate certificate;
   static_cast<CertifiedOutline&>(certificate) = certified_outline(part);
-  certificate.reading = reading;
+  certificate.readings = readings;
   certificate.tolerance = std::max(options.tolerance, kLeastTolerance);
-  const Search search = locate(part, reading, options);
-  Maker maker(part, reading, search, certificate.tolerance);
-  certificate.rows = maker.rows();
-  const Residual residual(part, reading);
+  certificate.rows = Maker(part, readings, search, certificate.tolerance).rows();
   for (const Placement& placement : search.placements) {
-    certificate.placements.push_back({placement, residual.place(placement.start[0])});
+    certificate.placements.push_back({placement, place_of(part, placement.start[0])});
   }
   return certificate;
 }

@@ -13,15 +13,12 @@
 namespace rollfix::app {
 namespace {
 
-/// A certificate is of one reading of one finger or of two fingers' readings, exact but for the tolerance.
-void require_plain(const Problem& problem, const Answer& answer) {
+/// A certificate is of readings that are exact but for the tolerance.
+void require_plain(const Problem& problem) {
   const auto refuse = [](bool found, const char* what) {
-    if (found) {
-      throw InputError(
-          fmt::format("--certify: a certificate is of one reading of one finger, or of two fingers, found {}", what));
-    }
+    if (found)
+      throw InputError(fmt::format("--certify: a certificate is of one way round without noise, found {}", what));
   };
-  refuse(answer.finger_count() == 1 && answer.readings.size() > 1, "several readings");
   refuse(problem.noise.has_value(), "--noise");
   refuse(problem.either_way, "--direction either");
   refuse(problem.mirrored, "--mirror");
@@ -42,7 +39,7 @@ Written written(const Problem& problem, const Answer& answer) {
     const PairCertificate certificate = certify_pair(answer.part, answer.readings, options);
     return {format_certificate(certificate), certificate.is_complete()};
   }
-  const Certificate certificate = certify(answer.part, answer.readings.front(), options);
+  const Certificate certificate = certify(answer.part, answer.readings, options);
   return {format_certificate(certificate), certificate.is_complete()};
 }
 
@@ -58,7 +55,7 @@ void require_certificate(const std::string& file, bool force, bool json, const s
 }
 
 void add_certificate(const std::string& file, const Problem& problem, const Answer& answer, Report& report) {
-  require_plain(problem, answer);
+  require_plain(problem);
   Written certificate = written(problem, answer);
   if (file == "-") {
     report.notes.push_back(report.data.substr(0, report.data.find('\n')));

@@ -18,23 +18,24 @@ struct CurvePlace {
   double u = 0;  // that curve's parameter
 };
 
-/// What is claimed of f on all the starts between two rows of a certificate.
+/// What is claimed on all the starts between two rows of a certificate: of one reading's f, or of each one's.
 enum class CellKind {
-  apart,     // outside the tolerance
-  crossing,  // has one sign of slope and exactly one root
-  corner,    // passes 0 at a convex corner's pivot and is outside the tolerance elsewhere
-  within,    // nowhere beyond the larger of the tolerance and |f| at the ends
-  stretch,   // 0 to rounding
+  apart,     // one: outside the tolerance; or two: nowhere both within it
+  crossing,  // one: has one sign of slope and exactly one root
+  corner,    // one: passes 0 at a convex corner's pivot and is outside the tolerance elsewhere
+  within,    // each: nowhere beyond the larger of the tolerance and |f| at the ends
+  stretch,   // each: 0 to rounding
   unproved   // nothing
 };
 const char* name_of(CellKind kind);
 
-/// A start, the end of the roll from there, and how far its turn is off.
+/// A start, and of each reading the end of the roll from there and how far its turn is off.
 struct CertificateRow {
   CurvePlace start;
-  CurvePlace end;
-  double off = 0;                   // f, in tolerances
+  std::vector<CurvePlace> end;
+  std::vector<double> off;          // f, in tolerances
   CellKind then = CellKind::apart;  // from here to the next row; of a closed outline's last one to the first
+  std::vector<std::size_t> by;      // the reading, or the two, of which that is claimed; none: of each
 };
 
 /// A placement by the outline's own formulas.
@@ -53,9 +54,9 @@ struct CertifiedOutline {
   std::vector<CurveRecord> curves;
 };
 
-/// A question of one reading of one finger, the outline by its formulas, and cells that together hold every start.
+/// A question of one finger, the outline by its formulas, and cells that together hold every start.
 struct Certificate : CertifiedOutline {
-  Reading reading;
+  std::vector<Reading> readings;
   double tolerance = 0;
   std::vector<CertificateRow> rows;  // by rising start; of an open outline the last one ends the last cell
   std::vector<CertifiedPlacement> placements;
@@ -67,6 +68,6 @@ struct Certificate : CertifiedOutline {
 /// Locates, and writes down what the answer rests on. Nothing is claimed beyond it: what can't be, is `unproved`.
 /// Throws InputError: as locate does, readings of two fingers, an outline with a curve whose formula certificates don't
 /// have, a roll as long as an open outline.
-Certificate certify(const Part& part, const Reading& reading, const LocateOptions& options = {});
+Certificate certify(const Part& part, const std::vector<Reading>& readings, const LocateOptions& options = {});
 
 }  // namespace rollfix

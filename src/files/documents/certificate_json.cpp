@@ -18,8 +18,12 @@ Json curves_json(const std::vector<CurveRecord>& curves) {
 Json rows_json(const Certificate& certificate) {
   Json list = Json::array();
   for (const CertificateRow& row : certificate.rows) {
-    list.push_back({{"start", place_json(row.start)}, {"end", place_json(row.end)}, {"off", json_number(row.off)}});
-    if (certificate.closed || list.size() < certificate.rows.size()) list.back()["then"] = name_of(row.then);
+    Json ends = Json::array();
+    for (const CurvePlace& end : row.end) ends.push_back(place_json(end));
+    list.push_back({{"start", place_json(row.start)}, {"end", ends}, {"off", json_numbers(row.off)}});
+    if (!certificate.closed && list.size() == certificate.rows.size()) continue;
+    list.back()["then"] = name_of(row.then);
+    if (certificate.readings.size() > 1 && !row.by.empty()) list.back()["by"] = row.by;
   }
   return list;
 }
@@ -65,7 +69,8 @@ Json pairs_json(const PairCertificate& certificate) {
 Json readings_json(const std::vector<Reading>& readings) {
   Json list = Json::array();
   for (const Reading& reading : readings) {
-    list.push_back({{"length", Json::array({json_number(reading.length[0]), json_number(reading.length[1])})},
+    const PerFinger<double>& length = reading.length;
+    list.push_back({{"length", length.size() == 1 ? json_number(length[0]) : json_numbers(length)},
                     {"turn", json_number(reading.turn)}});
   }
   return list;
@@ -86,8 +91,7 @@ Json outline_json(const char* schema, const CertifiedOutline& outline) {
 
 std::string format_certificate(const Certificate& certificate) {
   Json json = outline_json("rollfix/certificate/1", certificate);
-  json["reading"] = {{"length", json_number(certificate.reading.length[0])},
-                     {"turn", json_number(certificate.reading.turn)}};
+  json["readings"] = readings_json(certificate.readings);
   json["tolerance"] = json_number(certificate.tolerance);
   json["rows"] = rows_json(certificate);
   json["placements"] = placements_json(certificate);
