@@ -27,6 +27,10 @@ constexpr std::size_t kMostParts = 400000;  // of a cell, before it is given up
 // Where a cell is halved; the next ones where that is at a joint.
 constexpr double kSplits[] = {0.4990234375, 0.5166015625, 0.4697265625};
 
+// Rows on both sides of a place are looked for at these shares of the perimeter; the next ones where they are at a
+// joint.
+constexpr double kBeside[] = {0.25 * kSamePlace, 0.5 * kSamePlace, 0.75 * kSamePlace, kSamePlace};
+
 // Stretches over more joints than this are halved first.
 constexpr long kMostJoints = 6;
 
@@ -188,11 +192,13 @@ Row OneReading::between(const Row& from, const Row& to) const {
 }
 
 bool OneReading::fits(const Place& start) const {
-  const double reach = 0.25 * kSamePlace * period_;
-  const std::optional<Row> lo = row_beside(start, -reach);
-  const std::optional<Row> hi = row_beside(start, reach);
-  if (!lo || !hi) return true;  // at an end of an open outline
-  return meets(range_between(boundary_, turn_, *lo, *hi), tolerance_ * (1 + kPlaceSlack) + kTurnSlack);
+  const double most = tolerance_ * (1 + kPlaceSlack) + kTurnSlack;
+  for (const double share : kBeside) {
+    const std::optional<Row> lo = row_beside(start, -share * period_);
+    const std::optional<Row> hi = row_beside(start, share * period_);
+    if (lo && hi) return meets(range_between(boundary_, turn_, *lo, *hi), most);
+  }
+  return !boundary_.closed();  // at its end
 }
 
 }  // namespace rollfix_verify
