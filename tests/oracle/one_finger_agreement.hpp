@@ -9,21 +9,16 @@
 #include <string>
 #include <vector>
 
+#include "oracle/arcs.hpp"
 #include "oracle/one_finger.hpp"
 #include "rollfix/locate/placement.hpp"
 
 namespace oracle {
 
-/// Of the perimeter: what the library's places are accurate to, by docs/search.md.
-inline constexpr Real kPlace = 1e-9L;
-
-/// Of an extent's width: by how much its ends may be off, because f is taken as straight where it nearly is.
-inline constexpr Real kStraight = 2e-3L;
-
-class OneFingerAgreement {
+class OneFingerAgreement : Arcs {
  public:
   OneFingerAgreement(const Boundary& boundary, const Question& question, const rollfix::Search& search)
-      : boundary_(boundary), truth_(boundary, question), question_(question), search_(search) {
+      : Arcs(boundary), truth_(boundary, question), question_(question), search_(search) {
     for (const Cluster& cluster : truth_.clusters()) {
       if (cluster.fits) expect_answered(cluster);
       for (const Interval& root : cluster.roots) expect_root(root);
@@ -42,32 +37,6 @@ class OneFingerAgreement {
   template <class... Arguments>
   void complain(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
     complaints_.push_back(fmt::format(text, std::forward<Arguments>(arguments)...));
-  }
-
-  Real slack() const { return kPlace * boundary_.perimeter(); }
-
-  static Interval extent(const rollfix::Interval& arc) { return {arc.lo, arc.hi}; }
-  static Interval shrunk(const Interval& arc) {
-    const Real off = kStraight * arc.width();
-    return {arc.lo + off, arc.hi - off};
-  }
-
-  /// How far the inner one is within the outer one, whichever lap they are named on.
-  bool covers(const Interval& outer, Interval inner) const {
-    const Interval wide(outer.lo - slack(), outer.hi + slack());
-    for (const int lap : {-2, -1, 0, 1, 2}) {
-      const Real off = lap * boundary_.perimeter();
-      if ((lap == 0 || boundary_.closed()) && wide.lo <= inner.lo + off && inner.hi + off <= wide.hi) return true;
-    }
-    return boundary_.closed() && outer.width() >= boundary_.perimeter() * (1 - kPlace);
-  }
-  bool meets(const Interval& one, const Interval& other) const {
-    for (const int lap : {-2, -1, 0, 1, 2}) {
-      const Real off = lap * boundary_.perimeter();
-      if (lap != 0 && !boundary_.closed()) continue;
-      if (one.lo - slack() <= other.hi + off && other.lo + off <= one.hi + slack()) return true;
-    }
-    return false;
   }
 
   bool is_left_open(const Interval& starts) const {
@@ -143,7 +112,6 @@ class OneFingerAgreement {
     return false;
   }
 
-  const Boundary& boundary_;
   OneFinger truth_;
   Question question_;
   const rollfix::Search& search_;
