@@ -42,8 +42,7 @@ TEST(CliCertify, proves_that_nothing_fits) {
 
 TEST(CliCertify, of_several_readings_writes_what_the_verifier_proves) {
   const Folder folder;
-  EXPECT_EQ(run("locate gallery:cam --reading 0.4,0.2890632 --reading 0.9,0.6575464 --certify proof.json").code,
-            0);
+  EXPECT_EQ(run("locate gallery:cam --reading 0.4,0.2890632 --reading 0.9,0.6575464 --certify proof.json").code, 0);
   EXPECT_EQ(verified("proof.json").code, 0);
   EXPECT_EQ(run("locate gallery:cam --reading 0.4,0.2890632 --reading 0.9,0.75 --certify none.json").code, 1);
   EXPECT_THAT(verified("none.json").out, testing::StartsWith("proved: 0 placements, "));

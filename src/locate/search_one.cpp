@@ -151,8 +151,8 @@ void search_stretches(const Question& question, const Interval& range, LocateOpt
   if (!found.unresolved.empty()) found.unresolved.back().hi = range.hi;
 }
 
-/// Pieces that touch are one: else what a reading cuts into pieces, though it allows all of it, as a finger at rest does,
-/// a further one cuts again and again. Continua stay apart from what is beside them.
+/// Pieces that touch are one: else what a reading cuts into pieces, though it allows all of it, as a finger at rest
+/// does, a further one cuts again and again. Continua stay apart from what is beside them.
 void join_touching(Pieces& pieces) {
   const auto is_plain = [](const Piece& piece) { return !piece.exact && !piece.corner; };
   std::size_t last = 0;
