@@ -34,7 +34,8 @@ Rolls random_rolls(const Boundary& boundary, RandomShapes& random) {
   Rolls rolls;
   const auto perimeter = static_cast<double>(boundary.perimeter());
   rolls.tolerance = lengths.reading().tolerance;
-  const bool at_corner = !boundary.corners().empty() && random.chance(0.2);
+  // Not at a concave corner: on which side of it a roll starts and ends rounding would decide.
+  const bool at_corner = !boundary.corners().empty() && boundary.corners().front().turn > 0 && random.chance(0.2);
   rolls.start = at_corner ? static_cast<double>(boundary.corners().front().s) : random.uniform(0, 1) * perimeter;
   const bool is_exact = random.chance(0.5);
   const auto count = static_cast<std::size_t>(random.whole(2, 5));
