@@ -211,8 +211,7 @@ void add_locate_command(CLI::App& program, Command& chosen, std::ostream& out) {
       ->type_name("FILE");
   command
       ->add_option("--certify", arguments->certificate,
-                   "write a certificate of the answer, JSON, which rollfix-verify proves again; of one reading of one "
-                   "finger, or of two fingers")
+                   "write a certificate of the answer, JSON, which rollfix-verify proves again")
       ->type_name("FILE");
   add_output_argument(*command, arguments->output,
                       "a figure of the placements: .svg, .png or .pdf, - for SVG on stdout");
