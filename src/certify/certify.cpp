@@ -16,8 +16,6 @@ namespace {
 constexpr double kBeside = 1.5;
 // It is looked for in steps that grow by this factor.
 constexpr double kGrowth = 1.5;
-// A row on the edge of what is excluded is off by more than the tolerance by at least this share of it.
-constexpr double kLeastMiss = 1e-3;
 // What no reading excludes as a whole is halved: so often at the most, and into so many cells.
 constexpr int kMostStartHalvings = 40;
 constexpr std::size_t kMostStartCells = 4000;
@@ -109,7 +107,7 @@ class Maker {
       row = f_.clear(row, way);
       if (f_.size(row) >= kBeside * tolerance_) return true;
     }
-    return f_.size(row) > std::max((1 + kLeastMiss) * tolerance_, f_.excluded());
+    return f_.size(row) > f_.edge();
   }
 
   void find_edges() {

@@ -7,8 +7,8 @@
 namespace rollfix {
 namespace {
 
-// What is excluded by one of several readings is off by more than the tolerance by at least this share of it.
-constexpr double kExcludedMiss = 1e-3;
+// A row on the edge of what is excluded is off by more than the tolerance by at least this share of it.
+constexpr double kLeastMiss = 1e-3;
 // Two readings are tried together on what is narrower than so many steps: around a corner.
 constexpr double kManySteps = 20;
 
@@ -40,9 +40,9 @@ double Residuals::size(double s) const {
   return largest;
 }
 
-double Residuals::excluded() const {
-  return f_.size() == 1 ? tolerance_ : (1 + kExcludedMiss) * tolerance_ + kTurnAccuracy;
-}
+double Residuals::edge() const { return (1 + kLeastMiss) * tolerance_ + (f_.size() > 1 ? kTurnAccuracy : 0); }
+
+double Residuals::excluded() const { return f_.size() > 1 ? edge() : tolerance_; }
 
 /// Where f is outside of that bound all the way.
 std::optional<Exclusion> Residuals::exclusion(const Residual& f, double bound, double lo, double hi) const {

@@ -26,8 +26,8 @@ class Residuals {
   /// The largest |f|: outside the tolerance where some reading's is.
   double size(double s) const;
 
-  /// What is off by more is excluded: with some to spare where another reading may do it as well.
-  double excluded() const;
+  /// What a row beside a placement has to be off by.
+  double edge() const;
 
   /// Moved ahead (or back, `way` -1) until the start and all ends of the rolls are clear of where curves meet.
   double clear(double s, int way) const { return clear_of_joints(part_, lengths_, s, way); }
@@ -42,6 +42,8 @@ class Residuals {
   std::vector<Interval> flat(double lo, double hi) const;
 
  private:
+  /// What is off by more is excluded: with some to spare where another reading may do it as well.
+  double excluded() const;
   std::optional<Exclusion> exclusion(const Residual& f, double bound, double lo, double hi) const;
   std::optional<Exclusion> exclusion_by_one(double lo, double hi) const;
   std::optional<Exclusion> exclusion_by_two(double lo, double hi) const;

@@ -16,8 +16,8 @@ namespace {
 /// A certificate is of readings that are exact but for the tolerance.
 void require_plain(const Problem& problem) {
   const auto refuse = [](bool found, const char* what) {
-    if (found)
-      throw InputError(fmt::format("--certify: a certificate is of one way round without noise, found {}", what));
+    if (!found) return;
+    throw InputError(fmt::format("--certify: a certificate is of one way round without noise, found {}", what));
   };
   refuse(problem.noise.has_value(), "--noise");
   refuse(problem.either_way, "--direction either");
