@@ -2,6 +2,7 @@
 
 #include "rollfix/locate/reachable.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -208,6 +209,16 @@ TEST(DropUnreachable, a_pivot_that_is_barred_half_way_leads_to_the_side_where_it
   EXPECT_FALSE(left(1, kPi / 2 - 0.1));
   EXPECT_TRUE(left(-1, -0.1));
   EXPECT_FALSE(left(-1, 0.1 - kPi / 2));
+}
+
+TEST(DropUnreachable, a_finger_that_only_pivots_gets_to_the_end_of_the_pivot) {
+  // At the slot's mouth, at s = 7 and 12, a jaw lies along the hull and can't turn into the slot.
+  const Part part = u_shape();
+  for (const double turn : {0.5, -0.5}) {
+    Search search = locate(part, {0, turn}, tight());
+    EXPECT_EQ(drop_unreachable(part, reach_of_jaw(part), {{0, turn}}, search).size(), 2U);
+    EXPECT_THAT(shapes::starts(search), testing::Pointwise(testing::DoubleNear(1e-6), {0.0, 3.0, 6.0, 13.0}));
+  }
 }
 
 TEST(DropUnreachable, of_a_jaw_leaves_what_is_on_the_convex_hull) {

@@ -84,7 +84,7 @@ bool can_pivot(const Part& part, const Reach& reach, const Placement& placement,
   const PivotReach* start = pivot_at(part, reach, placement.start[finger]);
   if (start != nullptr && !can_pivot(*start, tangents.start, roll.lo<0, roll.hi> 0)) return false;
   const PivotReach* end = pivot_at(part, reach, placement.end[finger]);
-  if (end == nullptr || last == 0) return true;
+  if (end == nullptr) return true;
   return can_pivot(*end, tangents.end, last > 0 && last >= roll.hi, last < 0 && last <= roll.lo);
 }
 
