@@ -19,6 +19,9 @@ using namespace belief;
 
 // Even the only place is not known where it holds more than this share of the boundary.
 constexpr double kWide = 0.1;
+// Where no place is more probable than another, 95 % need 95 % of the boundary: it can be anywhere where they need this
+// share of that.
+constexpr double kAnywhere = 0.9;
 
 void require_valid(const Part& part, const BeliefOptions& options, const Contacts& contacts) {
   const Noise& noise = options.noise;
@@ -88,7 +91,7 @@ Verdict Belief::State::places_of(const std::vector<Remaining>& remaining) {
   }
   const double P = part.perimeter();
   const double length = posterior->credible_length(that_count);
-  if (part.closed() && length > 0.9 * kCertain * P) return {Verdict::unobservable};
+  if (part.closed() && length > kAnywhere * kCertain * P) return {Verdict::unobservable};
   if (that_count.size() > 1 && remaining.front().probability < kCertain) return {Verdict::ambiguous, that_count.size()};
   const bool is_stretch = contacts.finger_curvature.size() == 1 && length > kWide * P;
   return is_stretch ? Verdict{Verdict::ambiguous, 1, 1} : Verdict{Verdict::unique, 1};
