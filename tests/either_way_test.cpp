@@ -140,6 +140,16 @@ TEST(EitherWay, where_both_ways_fit_each_is_as_likely_as_a_plain_sum_has_it) {
   }
 }
 
+TEST(EitherWay, all_that_is_listed_and_the_rest_are_one_where_a_finger_can_go_one_way_alone) {
+  Problem problem{part(), {{0.3, turn(2, 0.3)}}, {rollfix::jaw()}, Noise{0.003, 0.02}};
+  problem.either_way = true;
+  const Answer answer = rollfix::solve(problem);
+  EXPECT_TRUE(starts(answer.placements, true).empty());
+  double sum = answer.weighing->rest;
+  for (const Placement& placement : answer.placements) sum += placement.probability;
+  EXPECT_NEAR(sum, 1, 1e-4);
+}
+
 TEST(EitherWay, places_out_of_reach_are_counted_both_ways) {
   Problem problem{part(), {{0.4, 0.05}}};
   problem.either_way = true;
