@@ -93,6 +93,16 @@ TEST_F(Identify, weighs_by_how_many_of_each_there_are) {
   EXPECT_THAT(found.parts[0].congruent, ElementsAre(0U));
 }
 
+TEST_F(Identify, weighs_a_rare_part_that_fits_everywhere_against_a_frequent_one_that_hardly_does) {
+  // Half a length turns by half a radian from everywhere on a circle, on a long stadium where no side is in it.
+  build_catalog("bin.db", {{"gallery:stadium,length=1e4,r=1", "frequent", 1e8}, {"gallery:circle,r=1", "rare", 1}});
+  const Catalog bin("bin.db");
+  const Identified found = identify(bin, {bin.part(0), {{0.5, 0.5}}, {}, Noise{0.003, 0.003}});
+  ASSERT_THAT(names_of(bin, found), ElementsAre("frequent", "rare"));
+  const double odds = 1e-8 / (2 * (std::numbers::pi - 0.5) / bin.entry(0).perimeter);
+  EXPECT_NEAR(found.parts[1].probability, odds, 0.02 * odds);
+}
+
 TEST_F(Identify, adds_parts_that_are_too_rare_to_be_listed_to_the_rest) {
   build_catalog("bin.db", {{"gallery:cam", "one", 1}, {"gallery:cam,lift=0.5", "ten million", 1e7}});
   const Catalog bin("bin.db");
@@ -156,6 +166,26 @@ TEST_F(Identify, tells_one_outline_from_two_first_points_as_such) {
   const Catalog turned("turned.db");
   const Identified found = identify(turned, {turned.part(0), roll_on(turned.part(0), 2, {9, 15})});
   EXPECT_EQ(found.verdict, "2 congruent parts");
+}
+
+TEST_F(Identify, tells_one_outline_as_such_where_a_roll_fits_either_way_round) {
+  // The place nearest to the first point is one of a roll clockwise on the one, of the other way round on the other.
+  const Part limacon(gallery("limacon,a=1,b=0.8"));
+  for (const int shift : {0, 200}) {
+    std::string points;
+    for (int k = 0; k < 400; ++k) {
+      const Vec2 point = limacon.point(limacon.perimeter() * (k + shift) / 400);
+      points += fmt::format("{:.12f},{:.12f}\n", point.x(), point.y());
+    }
+    folder_.write(fmt::format("from{}.csv", shift), points);
+  }
+  build_catalog("turned.db", {{"from0.csv", "one"}, {"from200.csv", "other"}});
+  const Catalog turned("turned.db");
+  Problem problem{turned.part(0), {{0.4, 0.05}}};
+  problem.either_way = true;
+  const Identified found = identify(turned, problem);
+  EXPECT_EQ(found.verdict, "2 congruent parts");
+  EXPECT_NE(found.parts[0].answer.placements[0].clockwise, found.parts[1].answer.placements[0].clockwise);
 }
 
 TEST_F(Identify, tells_parts_of_one_length_from_congruent_ones) {

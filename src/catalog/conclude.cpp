@@ -71,7 +71,6 @@ void compare(const Catalog& catalog, const std::vector<PartWeight>& weights, con
       const PartWeight& a = weights[listed[i]];
       const PartWeight& b = weights[listed[j]];
       if (perimeter(listed[j]) > perimeter(listed[i]) * (1 + most_scale + kSameScale)) break;
-      if (a.clockwise != b.clockwise) continue;
       if (!are_congruent(catalog.part(a.part), a.starts, catalog.part(b.part), b.starts, likeness)) continue;
       conclusion.congruent[listed[i]].push_back(b.part);
       conclusion.congruent[listed[j]].push_back(a.part);
@@ -90,10 +89,7 @@ PartWeight weight_of(std::size_t part, const Answer& answer) {
   weight.places = answer.placements.size();
   weight.fits = !answer.placements.empty();
   if (!weight.fits) return weight;
-  weight.clockwise = answer.placements.front().clockwise;
-  for (const Placement& placement : answer.placements) {
-    if (placement.clockwise == weight.clockwise) weight.starts.push_back(placement.start[0]);
-  }
+  for (const Placement& placement : answer.placements) weight.starts.push_back(placement.start[0]);
   if (!answer.weighing) return weight;
   weight.peak = answer.weighing->evidence.peak;
   // Anywhere on the boundary alike: of two fingers, each.

@@ -143,7 +143,6 @@ Json weight_json(const PartWeight& weight) {
           {"undecided", weight.undecided},
           {"places", weight.places},
           {"starts", json_numbers(weight.starts)},
-          {"clockwise", weight.clockwise},
           {"peak", json_number(weight.peak)},
           {"volume", json_number(weight.volume)},
           {"widened", json_number(weight.widened)},
@@ -160,7 +159,6 @@ PartWeight weight_from(const Json& json, std::size_t part) {
   weight.undecided = json.at("undecided").get<bool>();
   weight.places = json.at("places").get<std::size_t>();
   weight.starts = json.at("starts").get<std::vector<double>>();
-  weight.clockwise = json.at("clockwise").get<bool>();
   weight.peak = number_from(json.at("peak"));
   weight.volume = number_from(json.at("volume"));
   weight.widened = json.at("widened").get<double>();

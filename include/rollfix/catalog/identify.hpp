@@ -20,8 +20,7 @@ struct PartWeight {
   bool fits_badly = false;
   bool undecided = false;        // its search is incomplete
   std::size_t places = 0;        // that remain
-  bool clockwise = false;        // the first of them is, and ...
-  std::vector<double> starts{};  // ... where those start that go that way, finger a's
+  std::vector<double> starts{};  // of them, finger a's
   // With noise, of the whole roll:
   double peak = -std::numeric_limits<double>::infinity();  // as Evidence has it, ...
   double volume = 0;  // ... of first contacts that are anywhere on the boundary alike
