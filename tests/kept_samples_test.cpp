@@ -1,6 +1,9 @@
 // Of a roll that does not end a watch keeps samples that are spread over all of it.
 #include <gtest/gtest.h>
 
+#include <memory>
+
+#include "catalogs.hpp"
 #include "rollfix/outline/gallery.hpp"
 #include "rollfix/watch/meaning.hpp"
 
@@ -21,6 +24,39 @@ TEST(KeptSamples, are_every_so_many_of_the_whole_roll) {
   ASSERT_GT(kept.each(), 1U);
   ASSERT_EQ(lengths.size(), (rows + kept.each() - 1) / kept.each());
   for (std::size_t k = 0; k < lengths.size(); ++k) EXPECT_EQ(lengths[k], static_cast<double>(k * kept.each()));
+}
+
+/// Increments of a roll from s = 1, added up.
+rollfix::Sample summed(const rollfix::Part& part, double length) {
+  rollfix::Sample sample;
+  sample.reading = {length, part.turning().angle(1 + length) - part.turning().angle(1)};
+  sample.finger_curvature = 0.0;
+  return sample;
+}
+
+double sd_of(const rollfix::Identified& found) {
+  return found.parts.size() == 1 ? found.parts[0].answer.placements.at(0).sd[0] : std::nan("");
+}
+
+TEST(KeptSamples, of_increments_leave_the_place_as_sure_as_all_of_them) {
+  const cli::Folder folder;
+  rollfix::app::WatchOptions options;
+  options.catalog = std::make_shared<const rollfix::Catalog>(catalogs::of({"cam"}));
+  options.belief.noise = {1e-6, 1e-4};
+  const rollfix::Part part = options.catalog->part(0);
+  rollfix::Log all;
+  all.kind = rollfix::LogKind::increments;
+  const auto kept = rollfix::app::meaning_on_catalog(part, options, all.kind);
+  for (int row = 0; row < 5000; ++row) {
+    const rollfix::Sample sample = summed(part, 0.0005 * row);
+    kept->add(sample);
+    all.fingers[0].length.push_back(sample.reading.length[0]);
+    all.fingers[0].turn.push_back(sample.reading.turn);
+  }
+  rollfix::app::WatchAnswer answer;
+  kept->look_again(answer);
+  const double sd = sd_of(rollfix::identify(*options.catalog, {part, all, {}, options.belief.noise}));
+  EXPECT_NEAR(sd_of(*answer.parts), sd, 0.02 * sd);
 }
 
 }  // namespace

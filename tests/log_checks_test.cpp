@@ -120,6 +120,21 @@ TEST(LogChecks, an_orientation_far_off_is_a_jump_of_each_finger) {
   }
 }
 
+TEST(LogChecks, a_contact_that_is_off_turns_a_small_disks_normal_with_it_and_is_no_jump) {
+  RollPlan plan;
+  plan.start = 1;
+  plan.distance = 0.002;
+  plan.rows = 20;
+  const double radius = 0.05;
+  Log log = roll_in_closed_form(egg(), disk(radius), plan).log;
+  log.fingers[0].u[15] += 1;
+  const auto refusal = [&](double contact) {
+    return refusal_of([&] { readings(log, egg(), {disk(radius)}, {}, Noise{contact, 0.001}); });
+  };
+  EXPECT_EQ(refusal(radius / 7), "nothing was thrown");  // it is seven deviations off
+  EXPECT_THAT(refusal(radius / 100), HasSubstr("found a jump"));
+}
+
 TEST(LogChecks, of_two_files_the_one_that_jumps_is_named) {
   for (std::size_t k = 0; k < 2; ++k) {
     Log log = roll_of(2);
@@ -146,8 +161,9 @@ TEST(LogChecks, no_finger_turns_by_more_than_a_lap_against_the_part) {
     return refusal_of([&] { readings(parse_log(text, "run.csv"), egg(), {}); });
   };
   EXPECT_THAT(refusal("length,turn\n0,0\n0.1,8\n"), HasSubstr("turns by at most 417.296 deg"));
-  EXPECT_THAT(refusal("length_a,turn_a,length_b,turn_b\n0,0,0,0\n0.1,15,0.2,0\n"),
-              AllOf(StartsWith("run.csv:3: "), HasSubstr("of finger a"), HasSubstr("834.592 deg over both lengths")));
+  EXPECT_THAT(refusal("length_a,turn_a,length_b,turn_b\n0,0,0,0\n0.1,15.5,0.2,0.5\n"),
+              AllOf(StartsWith("run.csv:3: "), HasSubstr("of finger a"),
+                    HasSubstr("of the other finger by 28.6479 deg"), HasSubstr("834.592 deg over both lengths")));
   EXPECT_THAT(refusal("length_a,turn_a,length_b,turn_b\n0,0,0,0\n0.1,0,0.2,-15\n"), HasSubstr("of finger b"));
   EXPECT_EQ(refusal("length_a,turn_a,length_b,turn_b\n0,0,0,0\n0.1,15,0.2,14\n"), "nothing was thrown");
 }
