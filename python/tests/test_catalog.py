@@ -5,10 +5,12 @@ import pickle
 import signal
 import threading
 import time
+import types
 
 import pytest
 
 import rollfix
+from rollfix import _identify
 
 SHAPES = ["cam", "limacon", "gear", "naca", "ellipse,a=2,b=1", *(f"spline,n=9,seed={k},wobble=0.2" for k in range(12))]
 NOISE = rollfix.Noise(contact=0.005, angle=0.01)
@@ -88,6 +90,12 @@ def test_shares_that_do_not_make_a_whole_are_refused(catalog, reading):
         with pytest.raises(rollfix.InputError, match=why):
             catalog.merge(wrong)
     assert catalog.merge([two, one]).names == ("gallery:cam",)
+
+
+def test_answers_of_other_fingers_are_others(catalog, reading):
+    small, large = (catalog.identify(reading, finger=rollfix.Disk(radius)) for radius in (0.01, 0.02))
+    assert small.to_dict() == large.to_dict()  # which does not tell what the finger was
+    assert small != large and small == catalog.identify(reading, finger=rollfix.Disk(0.01))
 
 
 def test_it_can_be_pickled(catalog, noisy):
@@ -185,6 +193,39 @@ def test_a_cluster_says_the_same(catalog, reading, noisy, client):
             rollfix.identify(catalog, **wrong, client=client)
     with pytest.raises(rollfix.InputError, match="client:"):
         rollfix.identify(catalog, 1.0, 0.5, client=3)
+
+
+class HereAlone:
+    """A client with one worker, this process, which keeps account of what it was asked."""
+
+    def __init__(self, monkeypatch):
+        monkeypatch.setattr(_identify, "_distributed", lambda client: types.SimpleNamespace(as_completed=iter))
+        self.asked = []
+
+    def nthreads(self):
+        return {"here": 1}
+
+    def submit(self, work, file, state, shard, shards, threads, *how, pure):
+        self.asked.append((work, shard, shards, how))
+        found = work(file, state, shard, shards, threads, *how)
+        return types.SimpleNamespace(result=lambda: found)
+
+    def cancel(self, tasks):
+        pass
+
+
+def test_of_few_parts_each_is_a_share(monkeypatch, tmp_path):
+    client = HereAlone(monkeypatch)
+    two = rollfix.Catalog.build(tmp_path / "two.db", ["gallery:cam", "gallery:gear"])
+    assert rollfix.identify(two, 0.3, 0.2, client=client) == two.identify(0.3, 0.2)
+    assert [(shard, shards) for _, shard, shards, _ in client.asked] == [(1, 2), (2, 2)]
+
+
+def test_no_share_looks_again_where_one_has_what_fits_well(monkeypatch, catalog, noisy):
+    client = HereAlone(monkeypatch)
+    assert rollfix.identify(catalog, **noisy, client=client, shards=5) == catalog.identify(**noisy)
+    narrowly = [how[-1] for work, _, _, how in client.asked if work is _identify._search]
+    assert narrowly == [True] * 5
 
 
 def test_what_no_part_can_take_is_an_error_of_a_cluster_as_well(catalog, client):

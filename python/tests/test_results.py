@@ -21,9 +21,9 @@ def weighed(wing, roll_csv, noise):
     return wing.locate(log=roll_csv, finger=Disk(10), noise=noise)
 
 
-def pair_answer():
+def pair_answer(**options):
     cam = rollfix.Part.gallery("cam")
-    return cam.locate([[0.7446832, -0.3983439, 1.0032473], [1.5, -0.8, 1.9367925]], tolerance=1e-6)
+    return cam.locate([[0.7446832, -0.3983439, 1.0032473], [1.5, -0.8, 1.9367925]], **(options or {"tolerance": 1e-6}))
 
 
 def test_an_answer_is_a_sequence(answer):
@@ -140,8 +140,15 @@ def test_each_column_is_the_placements_own_field_of_its_finger(weighed):
             })
         for name, values in expected.items():
             assert list(frame[name]) == values, name
-    assert list(weighed.to_frame()["mean"]) == [one.mean[0] for one in weighed]
-    assert list(weighed.to_frame()["sd"]) == [one.sd[0] for one in weighed]
+
+
+def test_each_column_is_the_posterior_s_own_of_its_finger(weighed):
+    pytest.importorskip("pandas")
+    for answer, ends in ((weighed, [""]), (pair_answer(noise=Noise(contact=0.002, angle=0.005)), ["_a", "_b"])):
+        frame = answer.to_frame()
+        for finger, end in enumerate(ends):
+            assert list(frame["mean" + end]) == [one.mean[finger] for one in answer]
+            assert list(frame["sd" + end]) == [one.sd[finger] for one in answer]
 
 
 @pytest.mark.parametrize("radius, why", [(0.2, "the fingers would overlap"), (1, "the finger can't touch there")])
