@@ -89,6 +89,15 @@ TEST(PairCorners, two_contacts_of_one_finger_at_corners_pivot_independently) {
   EXPECT_TRUE(holds(part, search, {0, 0.1}));
 }
 
+TEST(PairCorners, a_hair_beyond_what_a_resting_fingers_pivots_reach_takes_no_work) {
+  const Part part(gallery("naca"));
+  // Both start at the trailing edge with one heading; a's tangent then ends 1e-10 rad beyond all that b can turn to.
+  LocateOptions options{0, 2000};
+  options.facing = 0;
+  const Search search = locate(part, {{1e-10 * part.perimeter(), 0, 0}}, options);
+  EXPECT_LT(search.counts.intervals, 10000U);
+}
+
 TEST(PairCorners, where_a_reading_is_given_twice_have_no_roots_but_where_all_equations_hold) {
   const Part part(gallery("naca"));
   const Reading first{-1.4359379108414995, -0.42946309311814024, -4.5512695429043486};

@@ -52,9 +52,10 @@ Search search_two(const Question& question, const LocateOptions& options) {
   RollCurve a(part, equations_of(question, 0), range_a);
   RollCurve b(part, equations_of(question, 1), range_b);
   PairFindings findings;
-  BoxSearch(a, b, limits, options.budget, findings).run();
-  search_patches(a, b, true, limits, findings);
-  search_patches(b, a, false, limits, findings);
+  std::size_t budget = options.budget;
+  BoxSearch(a, b, limits, budget, findings).run();
+  search_patches(a, b, true, limits, budget, findings);
+  search_patches(b, a, false, limits, budget, findings);
   add_corner_pairs(question, a, b, limits, findings);
 
   Search search;

@@ -147,7 +147,7 @@ Vec2 about_crossing(const PairBoxSides& sides, const PairLimits& limits, const s
 
 }  // namespace
 
-BoxSearch::BoxSearch(RollCurve& a, RollCurve& b, const PairLimits& limits, std::size_t budget, PairFindings& findings)
+BoxSearch::BoxSearch(RollCurve& a, RollCurve& b, const PairLimits& limits, std::size_t& budget, PairFindings& findings)
     : a_(a), b_(b), limits_(limits), budget_(budget), findings_(findings) {}
 
 void BoxSearch::run() {

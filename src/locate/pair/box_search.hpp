@@ -19,7 +19,7 @@ namespace rollfix {
 /// is halved.
 class BoxSearch {
  public:
-  BoxSearch(RollCurve& a, RollCurve& b, const PairLimits& limits, std::size_t budget, PairFindings& findings);
+  BoxSearch(RollCurve& a, RollCurve& b, const PairLimits& limits, std::size_t& budget, PairFindings& findings);
 
   void run();
 
@@ -56,7 +56,7 @@ class BoxSearch {
   RollCurve& a_;
   RollCurve& b_;
   PairLimits limits_;
-  std::size_t budget_;
+  std::size_t& budget_;
   PairFindings& findings_;
   std::vector<Box> waiting_;
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "outline/turn.hpp"
 
@@ -26,9 +28,8 @@ class PatchFit {
     std::vector<Range> wanted{start};
     for (std::size_t row = 0; row < values.size(); ++row) {
       const Range& value = values[row];
-      if (limits_.facing && row + 1 == values.size()) {
-        const double middle = value.middle() - patch_.facing;
-        const double lap = kFullTurn * std::round((start.middle() - middle) / kFullTurn) - patch_.facing;
+      if (is_facing(row, values)) {
+        const double lap = lap_of(value);
         wanted.push_back(sure ? Range{value.most + lap, value.least + lap}
                               : Range{value.least + lap, value.most + lap});
       } else {
@@ -48,7 +49,35 @@ class PatchFit {
     return worst;
   }
 
+  /// How far it must be from fitting each two components at least, anywhere on a node of one piece: both have the first
+  /// contact, which bounds on each alone do not know.
+  double slack_of_two(const RollCurve& curve, std::int32_t index, const std::vector<Range>& values) const {
+    const double width = curve.node(index).width();
+    const RollCurve::Component* of = curve.components(index);
+    double worst = 0;
+    for (std::size_t p = 0; p + 1 < values.size(); ++p) {
+      const Range& end = patch_.tangents[p + 1];
+      for (std::size_t q = p + 1; q < values.size(); ++q) {
+        const double sign = is_facing(q, values) ? 1 : -1;
+        const Range value = RollCurve::Combination{1, sign, of[p], of[q]}.value(width);
+        const double lap = sign > 0 ? lap_of(values[q]) : 0;
+        const Range wanted = sign > 0 ? end - Range{lap, lap} : end - patch_.tangents[q + 1];
+        worst = std::max({worst, 0.5 * (wanted.least - value.most), 0.5 * (value.least - wanted.most)});
+      }
+    }
+    return worst;
+  }
+
  private:
+  bool is_facing(std::size_t row, const std::vector<Range>& values) const {
+    return limits_.facing && row + 1 == values.size();
+  }
+  /// The whole turns, less the facing, that bring the other first contact's tangent nearest to this one's.
+  double lap_of(const Range& facing) const {
+    const double middle = facing.middle() - patch_.facing;
+    return kFullTurn * std::round((patch_.tangents.front().middle() - middle) / kFullTurn) - patch_.facing;
+  }
+
   const RollPatch& patch_;
   const PairLimits& limits_;
 };
@@ -59,53 +88,103 @@ std::vector<Range> values_at(const RollPoint& point) {
   return values;
 }
 
+/// One patch against the other finger's whole curve.
+class PatchSearch {
+ public:
+  PatchSearch(const RollPatch& patch, RollCurve& other, bool patched_is_a, const PairLimits& limits,
+              std::size_t& budget, PairFindings& findings)
+      : patch_(patch),
+        other_(other),
+        patched_is_a_(patched_is_a),
+        limits_(limits),
+        budget_(budget),
+        findings_(findings),
+        fit_(patch, limits),
+        values_(other.rows()) {}
+
+  void run() {
+    waiting_.push_back(other_.root());
+    while (!waiting_.empty()) {
+      const std::int32_t index = waiting_.back();
+      waiting_.pop_back();
+      decide(index);
+    }
+  }
+
+ private:
+  void decide(std::int32_t index) {
+    ++findings_.counts.intervals;
+    for (std::size_t row = 0; row < values_.size(); ++row) values_[row] = other_.components(index)[row].value;
+    const bool one_lap = !limits_.facing || values_.back().spread() <= std::numbers::pi;
+    if (one_lap && fit_.slack(values_, false) > limits_.tolerance) return;
+    const RollCurve::Node node = other_.node(index);
+    if (!node.on_one_piece()) {
+      halve(index);
+      return;
+    }
+    if (one_lap && fit_.slack_of_two(other_, index, values_) > limits_.tolerance) return;
+    if ((one_lap && fits_all_along(node)) || node.width() <= kResolution * limits_.perimeter) {
+      take(node);
+    } else if (budget_ == 0) {
+      findings_.unresolved.push_back(box_of(node));
+    } else {
+      --budget_;
+      halve(index);
+    }
+  }
+
+  bool fits_all_along(const RollCurve::Node& node) const {
+    if (fit_.slack(values_, true) <= limits_.tolerance) return true;
+    // The patch is convex and a pivot's curve is straight: it is inside where both of its ends are.
+    return other_.piece(node).pivot_at && fit_.slack(values_at(other_.first(node)), true) <= limits_.tolerance &&
+           fit_.slack(values_at(other_.last(node)), true) <= limits_.tolerance;
+  }
+
+  PairBox box_of(const RollCurve::Node& node) const {
+    const RollPiece& piece = other_.piece(node);
+    const Interval here{patch_.s, patch_.s};
+    const Interval there{piece.s(node.lo), piece.s(node.hi)};
+    return patched_is_a_ ? PairBox{here, there} : PairBox{there, here};
+  }
+
+  void take(const RollCurve::Node& node) {
+    PairPiece found;
+    found.box = box_of(node);
+    found.corner = true;
+    const double width = found.box[patched_is_a_ ? 1 : 0].width();
+    if (width > kShortestContinuum * limits_.perimeter && fit_.slack(values_, true) <= kTurnAccuracy) {
+      found.exact = true;  // the pivots make up for whatever the other contact does there
+      found.line = {{found.box[0].lo, found.box[1].lo}, {found.box[0].hi, found.box[1].hi}};
+    }
+    findings_.roots.push_back({{found.box[0].lo, found.box[1].lo}, 0, true});
+    findings_.pieces.push_back(std::move(found));
+  }
+
+  void halve(std::int32_t index) {
+    const auto [left, right] = other_.halves(index);
+    for (const std::int32_t half : {right, left}) {
+      if (half >= 0) waiting_.push_back(half);
+    }
+  }
+
+  const RollPatch& patch_;
+  RollCurve& other_;
+  bool patched_is_a_;
+  const PairLimits& limits_;
+  std::size_t& budget_;
+  PairFindings& findings_;
+  PatchFit fit_;
+  std::vector<Range> values_;  // of the node that is looked at
+  std::vector<std::int32_t> waiting_;
+};
+
 }  // namespace
 
 void search_patches(const RollCurve& patched, RollCurve& other, bool patched_is_a, const PairLimits& limits,
-                    PairFindings& findings) {
+                    std::size_t& budget, PairFindings& findings) {
   if (other.root() < 0) return;
-  std::vector<Range> values(other.rows());
   for (const RollPatch& patch : patched.patches()) {
-    const PatchFit fit(patch, limits);
-    std::vector<std::int32_t> waiting{other.root()};
-    while (!waiting.empty()) {
-      const std::int32_t index = waiting.back();
-      waiting.pop_back();
-      ++findings.counts.intervals;
-      bool wide = false;
-      for (std::size_t row = 0; row < values.size(); ++row) {
-        values[row] = other.components(index)[row].value;
-        wide = wide || (limits.facing && row + 1 == values.size() && values[row].spread() > std::numbers::pi);
-      }
-      if (!wide && fit.slack(values, false) > limits.tolerance) continue;
-      const RollCurve::Node node = other.node(index);
-      bool fits = !wide && node.on_one_piece() && fit.slack(values, true) <= limits.tolerance;
-      if (!wide && !fits && node.on_one_piece() && other.piece(node).pivot_at) {
-        // The patch is convex and a pivot's curve is straight: it is inside where both of its ends are.
-        fits = fit.slack(values_at(other.first(node)), true) <= limits.tolerance &&
-               fit.slack(values_at(other.last(node)), true) <= limits.tolerance;
-      }
-      const double finest = kResolution * limits.perimeter;
-      if (!node.on_one_piece() || (!fits && node.width() > finest)) {
-        const auto [left, right] = other.halves(index);
-        for (const std::int32_t half : {right, left}) {
-          if (half >= 0) waiting.push_back(half);
-        }
-        continue;
-      }
-      const RollPiece& piece = other.piece(node);
-      const Interval here{patch.s, patch.s};
-      const Interval there{piece.s(node.lo), piece.s(node.hi)};
-      PairPiece found;
-      found.box = patched_is_a ? PairBox{here, there} : PairBox{there, here};
-      found.corner = true;
-      if (there.width() > kShortestContinuum * limits.perimeter && fit.slack(values, true) <= kTurnAccuracy) {
-        found.exact = true;  // the pivots make up for whatever the other contact does there
-        found.line = {{found.box[0].lo, found.box[1].lo}, {found.box[0].hi, found.box[1].hi}};
-      }
-      findings.pieces.push_back(found);
-      findings.roots.push_back({{found.box[0].lo, found.box[1].lo}, 0, true});
-    }
+    PatchSearch(patch, other, patched_is_a, limits, budget, findings).run();
   }
 }
 

@@ -7,8 +7,8 @@ namespace rollfix {
 
 /// First contacts at which several contacts of one finger stand at convex corners and pivot independently: there its
 /// curve is a patch, and the other finger's curve can run through the patch's inside. Looks where, to the resolution
-/// of the part, on every patch of `patched`; `patched_is_a` says which finger that is.
+/// of the part, on every patch of `patched`; `patched_is_a` says which finger that is. Halving takes from the budget.
 void search_patches(const RollCurve& patched, RollCurve& other, bool patched_is_a, const PairLimits& limits,
-                    PairFindings& findings);
+                    std::size_t& budget, PairFindings& findings);
 
 }  // namespace rollfix
