@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "random.hpp"
+#include "refusal.hpp"
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/locate/locate.hpp"
 #include "rollfix/outline/gallery.hpp"
@@ -79,6 +81,17 @@ TEST_P(ToleranceOfZero, is_told_to_be_the_least_there_is) {
 
 INSTANTIATE_TEST_SUITE_P(Gallery, ToleranceOfZero, testing::Values("cam", "limacon", "gear", "spline", "ellipse"),
                          shapes::as_identifier);
+
+TEST(Tolerance, that_is_no_number_or_below_0_is_refused) {
+  const Part part(rollfix::gallery("cam"));
+  for (const double tolerance :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -1e-9}) {
+    EXPECT_THAT(refusal_of([&] {
+                  locate(part, Reading{0.5, 0.3}, {tolerance});
+                }),
+                testing::StartsWith("expected a finite tolerance of at least 0, found"));
+  }
+}
 
 }  // namespace
 }  // namespace locate_least_tolerance_test

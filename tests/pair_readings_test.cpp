@@ -127,6 +127,19 @@ TEST(PairReadings, that_are_no_numbers_are_refused) {
   EXPECT_THAT(message_of(spline(), readings(spline(), 1), options), testing::HasSubstr("facing"));
 }
 
+TEST(PairReadings, with_a_facing_that_may_be_half_a_turn_off_are_refused) {
+  LocateOptions options;
+  options.facing = 0.2;
+  options.tolerance = 4;
+  EXPECT_THAT(message_of(spline(), readings(spline(), 1), options), testing::HasSubstr("229.183 deg"));
+}
+
+TEST(PairReadings, with_a_facing_that_may_be_nearly_half_a_turn_off_end_within_the_budget) {
+  LocateOptions options{shapes::kPi - 1e-10, 2000};
+  options.facing = 0.2;
+  EXPECT_LT(locate(spline(), readings(spline(), 1), options).counts.intervals, 10000U);
+}
+
 TEST(PairReadings, longer_than_an_open_curve_are_refused) {
   const Part part(gallery("log-spiral"));
   const double period = part.perimeter();

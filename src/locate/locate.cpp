@@ -26,6 +26,19 @@ void require_finite(const Reading& reading) {
                                reading.length[0], reading.length[1], reading.turn));
 }
 
+/// Headings are never further apart than pi: a facing with so wide a tolerance would say nothing.
+void require_tolerance(const LocateOptions& options) {
+  if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance)) {
+    throw InputError(fmt::format("expected a finite tolerance of at least 0, found {}", options.tolerance));
+  }
+  if (options.facing && !(options.tolerance < 0.5 * kFullTurn)) {
+    throw InputError(fmt::format(
+        "expected a tolerance below half a turn, as every facing is within that; found {:.6g} rad, which is "
+        "{:.6g} deg: radians, or degrees?",
+        options.tolerance, options.tolerance / kDegree));
+  }
+}
+
 void require_enough(std::span<const Reading> readings, const LocateOptions& options) {
   if (readings.empty()) {
     throw InputError(
@@ -111,6 +124,7 @@ Interval first_contacts(const Question& question, std::size_t finger) {
 void search(const Part& part, std::span<const Reading> readings, const LocateOptions& options, Workspace& work,
             Search& search) {
   require_enough(readings, options);
+  require_tolerance(options);
   LocateOptions clamped = options;
   clamped.tolerance = std::max(options.tolerance, kLeastTolerance);
   Question question{part, readings};

@@ -184,20 +184,23 @@ void BoxSearch::decide(const Box& box) {
     }
   }
   if (one_lap && meet_nowhere_across(box, lap, tolerance)) return;
-  const bool on_pieces = a_.node(box.a).on_one_piece() && b_.node(box.b).on_one_piece();
-  if (!on_pieces || !one_lap) {
+  if (!a_.node(box.a).on_one_piece() || !b_.node(box.b).on_one_piece()) {
     halve(box, a_is_wider(box));
     return;
   }
   const PairBoxSides sides{{a_, box.a}, {b_, box.b}, lap};
-  if (is_apart(sides, limits)) return;
+  if (one_lap && is_apart(sides, limits)) return;
   if (box.depth > 0 && budget_ == 0) {
     findings_.unresolved.push_back({Interval{sides.a.s(sides.a.lo()), sides.a.s(sides.a.hi())},
                                     Interval{sides.b.s(sides.b.lo()), sides.b.s(sides.b.hi())}});
     return;
   }
   if (box.depth > 0) --budget_;
-  decide_on_pieces(box, sides, limits);
+  if (one_lap) {
+    decide_on_pieces(box, sides, limits);
+  } else {
+    halve(box, a_is_wider(box));
+  }
 }
 
 /// Are the first two components' sums or differences apart?
