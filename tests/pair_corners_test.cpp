@@ -98,6 +98,23 @@ TEST(PairCorners, a_hair_beyond_what_a_resting_fingers_pivots_reach_takes_no_wor
   EXPECT_LT(search.counts.intervals, 10000U);
 }
 
+TEST(PairCorners, of_nearly_half_a_turn_agree_in_heading_at_either_end_of_their_pivots) {
+  // Two arcs of 0.004 rad: turned by half a turn the lens is itself, so that the two corners can change places.
+  const double half = 0.002;
+  const double radius = 1 / std::sin(half);
+  const double depth = radius * std::cos(half);
+  Outline lens{"lens", {}, true};
+  lens.curves = {Arc({0, depth}, radius, -shapes::kPi / 2 - half, 2 * half),
+                 Arc({0, -depth}, radius, shapes::kPi / 2 - half, 2 * half)};
+  LocateOptions options{0.01};
+  options.facing = 0;
+  const Search search = locate(Part(lens), {{0, 0, 3.6}}, options);
+  const double other = 2 * half * radius;
+  EXPECT_TRUE(pair_cases::holds(Part(lens), search, {0, other}, 1e-7));
+  EXPECT_TRUE(pair_cases::holds(Part(lens), search, {other, 0}, 1e-7));
+  for (const Placement& placement : search.placements) EXPECT_LE(placement.residual, options.tolerance);
+}
+
 TEST(PairCorners, where_a_reading_is_given_twice_have_no_roots_but_where_all_equations_hold) {
   const Part part(gallery("naca"));
   const Reading first{-1.4359379108414995, -0.42946309311814024, -4.5512695429043486};

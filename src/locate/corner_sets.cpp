@@ -97,14 +97,25 @@ Fit best_fit(const Question& question, const PerFinger<double>& at) {
     combinations = std::move(longer);
   }
   Fit best;
+  const auto consider = [&](const Interval& start, const Intervals& wanted) {
+    const Fit one = fit(start, wanted);
+    if (one.residual < best.residual) best = one;
+  };
   for (const Interval& start : tangents_at(question.part, at)) {
-    for (Intervals wanted : combinations) {
-      if (question.facing) {
-        const double laps = std::round((start.middle() - *question.facing) / kFullTurn);
-        wanted.push_back({*question.facing + laps * kFullTurn, *question.facing + laps * kFullTurn});
+    for (Intervals& wanted : combinations) {
+      if (!question.facing) {
+        consider(start, wanted);
+        continue;
       }
-      const Fit one = fit(start, wanted);
-      if (one.residual < best.residual) best = one;
+      // All whole turns with which the headings can agree: two pivots of nearly half a turn can at either end.
+      const double first = std::floor((start.lo - *question.facing) / kFullTurn);
+      const double last = std::ceil((start.hi - *question.facing) / kFullTurn);
+      for (double laps = first; laps <= last; ++laps) {
+        const double heading = *question.facing + laps * kFullTurn;
+        wanted.push_back({heading, heading});
+        consider(start, wanted);
+        wanted.pop_back();
+      }
     }
   }
   return best;

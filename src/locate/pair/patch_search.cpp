@@ -24,12 +24,33 @@ class PatchFit {
 
   /// `sure`: for every value in the ranges, else for some.
   double slack(const std::vector<Range>& values, bool sure) const {
-    const Range& start = patch_.tangents.front();
-    std::vector<Range> wanted{start};
+    return least(values, [&](double lap) { return slack_of_all(values, sure, lap); });
+  }
+
+  /// How far it must be from fitting each two components at least, anywhere on a node of one piece: both have the first
+  /// contact, which bounds on each alone do not know.
+  double slack_of_two(const RollCurve& curve, std::int32_t index, const std::vector<Range>& values) const {
+    return least(values, [&](double lap) { return slack_of_each_two(curve, index, lap); });
+  }
+
+ private:
+  /// By whichever whole turns, less the facing, bring the other first contact's tangent near to this one's: where both
+  /// have wide ranges these may meet at either end.
+  template <class Slack>
+  double least(const std::vector<Range>& values, const Slack& slack) const {
+    if (!limits_.facing) return slack(0);
+    const double behind = patch_.tangents.front().middle() - values.back().middle() + patch_.facing;
+    const double lap = kFullTurn * std::floor(behind / kFullTurn) - patch_.facing;
+    return std::min(slack(lap), slack(lap + kFullTurn));
+  }
+
+  bool is_facing(std::size_t row, std::size_t rows) const { return limits_.facing && row + 1 == rows; }
+
+  double slack_of_all(const std::vector<Range>& values, bool sure, double lap) const {
+    std::vector<Range> wanted{patch_.tangents.front()};
     for (std::size_t row = 0; row < values.size(); ++row) {
       const Range& value = values[row];
-      if (is_facing(row, values)) {
-        const double lap = lap_of(value);
+      if (is_facing(row, values.size())) {
         wanted.push_back(sure ? Range{value.most + lap, value.least + lap}
                               : Range{value.least + lap, value.most + lap});
       } else {
@@ -49,33 +70,20 @@ class PatchFit {
     return worst;
   }
 
-  /// How far it must be from fitting each two components at least, anywhere on a node of one piece: both have the first
-  /// contact, which bounds on each alone do not know.
-  double slack_of_two(const RollCurve& curve, std::int32_t index, const std::vector<Range>& values) const {
+  double slack_of_each_two(const RollCurve& curve, std::int32_t index, double lap) const {
     const double width = curve.node(index).width();
     const RollCurve::Component* of = curve.components(index);
     double worst = 0;
-    for (std::size_t p = 0; p + 1 < values.size(); ++p) {
+    for (std::size_t p = 0; p + 1 < curve.rows(); ++p) {
       const Range& end = patch_.tangents[p + 1];
-      for (std::size_t q = p + 1; q < values.size(); ++q) {
-        const double sign = is_facing(q, values) ? 1 : -1;
-        const Range value = RollCurve::Combination{1, sign, of[p], of[q]}.value(width);
-        const double lap = sign > 0 ? lap_of(values[q]) : 0;
-        const Range wanted = sign > 0 ? end - Range{lap, lap} : end - patch_.tangents[q + 1];
+      for (std::size_t q = p + 1; q < curve.rows(); ++q) {
+        const bool faces = is_facing(q, curve.rows());
+        const Range value = RollCurve::Combination{1, faces ? 1.0 : -1.0, of[p], of[q]}.value(width);
+        const Range wanted = faces ? end - Range{lap, lap} : end - patch_.tangents[q + 1];
         worst = std::max({worst, 0.5 * (wanted.least - value.most), 0.5 * (value.least - wanted.most)});
       }
     }
     return worst;
-  }
-
- private:
-  bool is_facing(std::size_t row, const std::vector<Range>& values) const {
-    return limits_.facing && row + 1 == values.size();
-  }
-  /// The whole turns, less the facing, that bring the other first contact's tangent nearest to this one's.
-  double lap_of(const Range& facing) const {
-    const double middle = facing.middle() - patch_.facing;
-    return kFullTurn * std::round((patch_.tangents.front().middle() - middle) / kFullTurn) - patch_.facing;
   }
 
   const RollPatch& patch_;
