@@ -296,6 +296,23 @@ TEST(PartOfRestingBezier, turns_like_the_square_root_of_the_length) {
   }
 }
 
+TEST(PartOfRestingBezier, far_from_the_beginning_has_numbers_on_every_spiral) {
+  // Its first panels are shorter there than what an arc length is rounded to.
+  Outline outline = open_outline({rollfix::Line({-100, 0}, {0, 0})});
+  for (const Curve& curve : bezier_curves({{0, 0}, {0, 0}, {2, 0}, {3, 3}})) outline.curves.push_back(curve);
+  const Part part(outline);
+  double last = 0;
+  for (const rollfix::Spiral& spiral : part.turning().spirals()) {
+    EXPECT_GT(spiral.hi, spiral.lo);
+    EXPECT_TRUE(std::isfinite(spiral.start.curvature) && std::isfinite(spiral.end.curvature)) << spiral.lo;
+    EXPECT_GE(spiral.start.angle, last);
+    last = spiral.end.angle;
+  }
+  const double s = 1e-9;  // as in the next test
+  EXPECT_NEAR(part.turning().angle(100 + s), std::sqrt(s / 6) * 6 / (2 * 4), 2e-7);
+  EXPECT_NEAR(part.total_turn(), std::atan2(3, 1), 1e-11);
+}
+
 TEST(PartOfRestingBezier, at_both_ends_joins_smoothly_in_the_middle) {
   const auto curves = bezier_curves({{0, 0}, {0, 0}, {2, 0}, {2, 0}});
   EXPECT_THAT(curves, SizeIs(1));  // straight

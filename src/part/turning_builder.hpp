@@ -38,7 +38,7 @@ class TurningFunctionBuilder {
   void add_panel(const ResolvedPanel& resolved, std::uint32_t curve);
   void add_spirals(const chebyshev::Series& curvature);  // of the newest panel, by its powers
   void add_spiral(double lo, double hi, std::uint32_t panel);
-  void join(const Vec2& direction);
+  void join(const Vec2& direction, double s);
   void close();
   void store(const chebyshev::Series& turn, const chebyshev::Series& curvature, Panel& panel);
 
@@ -48,6 +48,7 @@ class TurningFunctionBuilder {
   double length_rest_ = 0;  // ... what rounding left out of it
   double angle_ = 0;        // of the tangent where the last panel ended
   double first_angle_ = 0;
+  Vec2 first_direction_ = Vec2::Zero();
   bool new_curve_ = true;  // the next spiral starts at a joint
 };
 

@@ -67,6 +67,8 @@ using chebyshev::Series;
 
 // A smaller jump of the tangent at a joint is what is left of rounding: no corner.
 constexpr double kCornerTurn = 1e-11;
+// A panel shorter than this share of its own arc length s has too few numbers in it for a polynomial: some twenty.
+constexpr double kLeastPanel = 4e-15;
 // A corner this close to a full reversal is a cusp: to which side it turns can't be told.
 constexpr double kCuspTurn = 1e-7;
 // Curves of one outline must meet to this share of its size.
@@ -134,14 +136,16 @@ void TurningFunctionBuilder::add_curve(std::uint32_t index) {
 }
 
 void TurningFunctionBuilder::add_panel(const ResolvedPanel& resolved, std::uint32_t curve) {
-  join(resolved.tangent_at_start);
-  Panel panel;
-  panel.lo = length_ + length_rest_;
   const double sum = length_ + resolved.length;  // Neumaier: millions of panels must not add up their roundings
   length_rest_ +=
       std::abs(length_) >= resolved.length ? (length_ - sum) + resolved.length : (resolved.length - sum) + length_;
   length_ = sum;
+  Panel panel;
+  panel.lo = turning.panels_.empty() ? 0 : turning.panels_.back().hi;
   panel.hi = length_ + length_rest_;
+  // Beside a place where a curve is at rest: what it turns there goes to the joint.
+  if (resolved.length < kLeastPanel * panel.hi) return;
+  join(resolved.tangent_at_start, panel.lo);
   panel.middle = panel.lo + 0.5 * (panel.hi - panel.lo);
   panel.inverse_half = 2 / (panel.hi - panel.lo);
 
@@ -168,16 +172,16 @@ void TurningFunctionBuilder::store(const Series& turn, const Series& curvature, 
 }
 
 /// The tangent's own direction corrects the accumulated angle, so that roundings do not add up.
-void TurningFunctionBuilder::join(const Vec2& direction) {
+void TurningFunctionBuilder::join(const Vec2& direction, double s) {
   const double own_angle = std::atan2(direction.y(), direction.x());
   if (turning.panels_.empty()) {
     angle_ = first_angle_ = own_angle;
+    first_direction_ = direction;
     return;
   }
   const double jump = nearest_angle(own_angle - angle_);
   angle_ += jump;
   if (std::abs(jump) <= kCornerTurn) return;
-  const double s = length_ + length_rest_;
   if (std::abs(jump) >= std::numbers::pi - kCuspTurn) {
     throw InputError(fmt::format(
         "expected the outline to turn by less than 180 degrees at each corner, found a cusp (a full reversal) at "
@@ -235,9 +239,8 @@ void TurningFunctionBuilder::close() {
   turning.perimeter_ = turning.panels_.back().hi;
   turning.panels_.back().hi = turning.spirals_.back().hi = turning.perimeter_;
   if (!outline_.closed) return;
-  const Vec2 start = outline_.curves.front().velocity(outline_.curves.front().domain().lo);
   const std::size_t found = corners.size();
-  join(start);
+  join(first_direction_, turning.perimeter_);
   if (corners.size() > found) {  // the corner at the seam belongs to s = 0
     corners.insert(corners.begin(), Corner{0, corners.back().turn});
     corners.pop_back();
