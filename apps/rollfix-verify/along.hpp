@@ -32,7 +32,7 @@ Ball curvatures(const Boundary& boundary, const std::vector<Segment>& all);
 /// What the jumps at the joints between the segments add up to, at most and at least.
 Ball jumps(const Boundary& boundary, const std::vector<Segment>& all);
 
-/// Whether there is no corner between two places.
+/// Whether there is no corner between two places, nor one where a curve is at rest: there angles change as fast.
 bool is_smooth(const Boundary& boundary, const Place& from, const Place& to);
 
 /// The tangent's angles: a set for each run of segments between concave corners.

@@ -83,6 +83,12 @@ inline Ball log(const Ball& a) { return made<Ball>(arb_log, a.get(), kPrecision)
 inline Ball atan2(const Ball& y, const Ball& x) { return made<Ball>(arb_atan2, y.get(), x.get(), kPrecision); }
 /// The least ball around both.
 inline Ball hull(const Ball& a, const Ball& b) { return made<Ball>(arb_union, a.get(), b.get(), kPrecision); }
+/// Any number.
+inline Ball unknown() {
+  Ball result;
+  arb_indeterminate(result.get());
+  return result;
+}
 inline Ball pi() { return made<Ball>(arb_const_pi, kPrecision); }
 
 /// The first coefficients of a power series.

@@ -15,6 +15,7 @@ constexpr int kMostHalvings = 50;
 constexpr double kMargin = 1.0 / 64;
 // Of a curve's point: the curvature's derivative takes three of them.
 constexpr slong kBendTerms = 4;
+constexpr slong kTurnTerms = 3;  // the angle's takes two
 constexpr int kNewtonSteps = 8;
 constexpr double kNewtonGoal = 1e-15;
 // A ball around a parameter is larger than it need be by this factor, for the rounding of its own size.
@@ -75,13 +76,14 @@ void Boundary::add_pieces(std::size_t curve, double lo, double hi, int depth) {
               middle,
               with_remainder(thin.speed, wide.speed),
               with_remainder(thin.turning, wide.turning),
-              wide.speed[0].lower(),
+              std::max(wide.speed[0].lower(), 0.0),
               {},
               {},
               {}};
   const double power = std::pow(half + margin, static_cast<double>(kOrder));
   const double length = thin.speed[0].middle() * (hi - lo);
-  const bool is_good = piece.length.back().is_finite() && piece.angle.back().is_finite() && piece.least_speed > 0 &&
+  const bool is_good = piece.length.back().is_finite() && piece.angle.back().is_finite() &&
+                       (piece.least_speed > 0 || depth == kMostHalvings) &&
                        radius(piece.length.back()) * power <= kPieceError * length &&
                        radius(piece.angle.back()) * power <= kPieceError;
   if (!is_good) {
@@ -107,12 +109,15 @@ void Boundary::join(std::size_t curve) {
   const bool is_last = curve + 1 == curves_.size();
   if (is_last && !closed_) {
     jumps_.emplace_back(0.0);
+    at_rest_.push_back(false);
     return;
   }
   const Formula& before = curves_[curve];
   const Formula& after = curves_[is_last ? 0 : curve + 1];
   const Point v = before.velocity(before.hi);
   const Point w = after.velocity(after.lo);
+  const auto moves = [](const Formula& one, double u) { return one.motion(u).speed[0].is_above(0.0); };
+  at_rest_.push_back(!moves(before, before.hi) || !moves(after, after.lo));
   jumps_.push_back(atan2(v.x * w.y - v.y * w.x, v.x * w.x + v.y * w.y));
   starts_.back().angle = starts_.back().angle + jumps_.back();
   starts_.back().curve = static_cast<long>(curve) + 1;
@@ -196,11 +201,14 @@ Boundary::Bend Boundary::bend(long curve, const Ball& u) const {
   return {motion.turning[0] / speed, change / (speed * speed * speed)};
 }
 
+Ball Boundary::turning(long curve, const Ball& u) const {
+  const FewerTerms terms(kTurnTerms);
+  return formula(curve).motion(u).turning[0];
+}
+
 Taylor Boundary::taylor(long curve, const Ball& u) const {
   const Motion motion = formula(curve).motion(u);
-  Ball unknown;
-  arb_indeterminate(unknown.get());
-  if (!motion.speed[0].is_above(0.0)) return Taylor(static_cast<std::size_t>(kOrder), unknown);
+  if (!motion.speed[0].is_above(0.0)) return Taylor(static_cast<std::size_t>(kOrder), unknown());
   const Series place = inverse(integral(motion.speed));
   const Series angle = composed(integral(motion.turning), place);
   Taylor result;

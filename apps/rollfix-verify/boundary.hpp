@@ -45,12 +45,18 @@ class Boundary {
   /// How far the tangent turns where a curve ends and the next begins, in (-pi, pi).
   Ball jump(long curve) const { return jumps_[index(curve)]; }
 
+  /// Whether a curve has no speed where it ends, or the next one where it begins.
+  bool is_at_rest(long curve) const { return at_rest_[index(curve)]; }
+
   /// The curvature and its derivative by arc length; where u is wide, those of all places in it.
   struct Bend {
     Ball curvature;
     Ball change;
   };
   Bend bend(long curve, const Ball& u) const;
+  /// How fast the angle changes by the parameter, which is finite where a curve is at rest as well; where u is wide,
+  /// at all places in it.
+  Ball turning(long curve, const Ball& u) const;
   /// Of the angle by arc length; where u is wide, for all places in it.
   Taylor taylor(long curve, const Ball& u) const;
 
@@ -82,6 +88,7 @@ class Boundary {
   std::vector<std::vector<Piece>> pieces_;  // of each curve
   std::vector<Place> starts_;               // of each curve, and the end of all
   std::vector<Ball> jumps_;
+  std::vector<bool> at_rest_;
   double largest_gap_ = 0;
 };
 

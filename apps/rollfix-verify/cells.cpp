@@ -12,6 +12,7 @@ struct Range {
   int slope = 0;  // +-1: f rises, falls all the way
   bool corner = false;
   std::vector<Ball> parts;  // f is in one of these at each start; several where it jumps at a concave corner
+  double blur = 0;          // what f changes by as places are rounded
 };
 
 namespace {
@@ -56,7 +57,9 @@ Range smooth_range(const Boundary& boundary, const Row& from, const Row& to) {
   Ball slope = static_cast<double>(kOrder) * (all_ends[last] - all_starts[last]);
   for (std::size_t k = last; k-- > 0;) slope = slope * ahead + static_cast<double>(k + 1) * (end[k] - start[k]);
   const Ball plain = all_ends[0] - all_starts[0];
-  return by_slope(from, to, sign_of(slope) == 0 && sign_of(plain) != 0 ? plain : slope, 0.0);
+  Range range = by_slope(from, to, sign_of(slope) == 0 && sign_of(plain) != 0 ? plain : slope, 0.0);
+  range.blur = (kRounding * boundary.perimeter() * (abs(all_starts[0]) + abs(all_ends[0]))).upper();
+  return range;
 }
 
 double size_of(const Row& row) { return abs(row.f).lower(); }
@@ -149,11 +152,13 @@ bool OneReading::holds(const Claim& claim, const Range& range, const Row& from, 
   switch (claim.kind) {
     case Claim::crossing:
       return range.slope == claim.slope;
-    case Claim::within:
+    case Claim::within: {
       if (at_corner && meets(range, claim.bound)) return true;
-      if (range.slope != 0) return abs(from.f).upper() <= claim.bound && abs(to.f).upper() <= claim.bound;
+      const double most = claim.bound + range.blur;
+      if (range.slope != 0) return abs(from.f).upper() <= most && abs(to.f).upper() <= most;
       return std::all_of(range.parts.begin(), range.parts.end(),
-                         [&](const Ball& part) { return part.upper() <= claim.bound && part.lower() >= -claim.bound; });
+                         [&](const Ball& part) { return part.upper() <= most && part.lower() >= -most; });
+    }
     case Claim::corner:
       if (at_corner && meets(range, 0)) return true;
       return misses(range, claim.bound);

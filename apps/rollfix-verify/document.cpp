@@ -58,6 +58,19 @@ bool Document::is_as_far(const Ball& s, const Ball& stated) const {
   return abs(off - laps).is_below(kLengthSlack * period_);
 }
 
+/// Where a curve is at rest its curvature does not tell.
+Ball Document::turn_beside(const Place& place) const {
+  const Ball reach = kLengthSlack * period_;
+  const Ball curvature = boundary_.taylor(place.curve, place.u)[0];
+  if (curvature.is_finite()) return reach * abs(curvature);
+  Ball most = 0.0;
+  for (const double way : {-1.0, 1.0}) {
+    const std::optional<Place> beside = boundary_.after(place.s + way * reach);
+    if (beside && beside->curve == place.curve) most = hull(most, abs(beside->angle - place.angle));
+  }
+  return most;
+}
+
 void Document::check_contact(const std::string& name, const Place& start, const Ball& length,
                              const Stated& stated) const {
   if (!is_as_far(start.s, stated.start.get<double>())) refuse(name + " starts elsewhere");
@@ -69,7 +82,7 @@ void Document::check_contact(const std::string& name, const Place& start, const 
   const Ball c = cos(Ball(tangent));
   const Ball s = sin(Ball(tangent));
   const Ball apart = atan2(v.y * c - v.x * s, v.x * c + v.y * s);
-  const Ball most = kPlaceSlack + kLengthSlack * period_ * abs(boundary_.taylor(start.curve, start.u)[0]);
+  const Ball most = kPlaceSlack + turn_beside(start);
   if (!abs(apart).is_below(most) || !(std::abs(tangent) < kHalfTurn)) refuse(name + " has another tangent");
 }
 

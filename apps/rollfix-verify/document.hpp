@@ -56,6 +56,9 @@ class Document {
   void check_contact(const std::string& name, const Place& start, const Ball& length, const Stated& stated) const;
 
  private:
+  /// How far the tangent turns at most over what a place may be off.
+  Ball turn_beside(const Place& place) const;
+
   bool is_at(const Point& point, const Json& stated) const;
 
   const Json& json_;

@@ -20,13 +20,15 @@ Ball weighted(const std::vector<Ball>& weights, const std::vector<Ball>& values)
   return result;
 }
 
-Ball around_zero(const Ball& reach) { return hull(-reach, reach); }
+double spread(const Ball& ball) { return ball.upper() - ball.lower(); }
 
-Ball unknown() {
-  Ball result;
-  arb_indeterminate(result.get());
+Ball hull_of(const std::vector<Ball>& balls) {
+  Ball result = balls.front();
+  for (const Ball& ball : balls) result = hull(result, ball);
   return result;
 }
+
+Ball around_zero(const Ball& reach) { return hull(-reach, reach); }
 
 /// By the curvature at the start of each segment and how fast it changes, where that tells more.
 Ball curvatures_by_slope(const Boundary& boundary, const std::vector<Segment>& all) {
@@ -52,19 +54,22 @@ Ball half_of(const Ball& range, bool upper) {
 
 }  // namespace
 
-/// On one side of its chord or the other by a quarter of the slope's change times the width at the most.
+/// By their ranges; or on one side of the chord or the other by a quarter of the slope's change times the width at the
+/// most, where that is less.
 Ball Stretch::sum(const std::vector<Ball>& weights) const {
   if (pivot) return weighted(weights, from);
-  Ball slope = weighted(weights, rate);
-  if (!slope.is_finite()) return slope;
+  const Ball apart = weighted(weights, range);
+  const Ball slope = weighted(weights, rate);
+  if (!slope.is_finite()) return apart;
   const Ball sag = 0.25 * (Ball(hi) - lo) * (Ball(slope.upper()) - slope.lower());
   Ball jumps = 0.0;
   for (std::size_t c = 0; c < weights.size(); ++c) jumps = jumps + abs(weights[c]) * abs(jump[c]);
-  return hull(weighted(weights, from), weighted(weights, to)) + around_zero(sag) + around_zero(jumps);
+  const Ball together = hull(weighted(weights, from), weighted(weights, to)) + around_zero(sag) + around_zero(jumps);
+  return apart.is_finite() && spread(apart) < spread(together) ? apart : together;
 }
 
 std::size_t Stretch::widest() const {
-  const auto width = [&](std::size_t c) { return from[c].upper() - from[c].lower(); };
+  const auto width = [&](std::size_t c) { return spread(from[c]); };
   std::size_t result = 0;
   for (std::size_t c = 1; c < from.size(); ++c) result = width(c) > width(result) ? c : result;
   return result;
@@ -78,8 +83,10 @@ double Stretch::turn(std::size_t contact) const {
 double Stretch::change() const {
   double most = 0;
   for (std::size_t c = 0; c < from.size(); ++c) {
-    if (!pivot && !rate[c].is_finite()) return std::numeric_limits<double>::infinity();
-    most = std::max(most, pivot ? from[c].upper() - from[c].lower() : width() * abs(rate[c]).upper());
+    double here = pivot ? spread(from[c]) : std::numeric_limits<double>::infinity();
+    if (!pivot && rate[c].is_finite()) here = width() * abs(rate[c]).upper();
+    if (!pivot && range[c].is_finite()) here = std::min(here, spread(range[c]));
+    most = std::max(most, here);
   }
   return most;
 }
@@ -118,6 +125,13 @@ std::vector<double> FingerCurve::corners_between(double lo, double hi) const {
   return result;
 }
 
+/// Of the angle: by its ends where it only rises or falls. Where a curve is at rest the curvature has no bounds.
+Ball FingerCurve::range_of(const std::vector<Segment>& all, const Ball& curvature) const {
+  if (!curvature.is_finite()) return hull_of(angles(boundary_, all));
+  if (sign_of(curvature) == 0) return unknown();
+  return hull(all.front().from.angle, all.back().to.angle) + around_zero(abs(jumps(boundary_, all)));
+}
+
 Stretch FingerCurve::smooth(double lo, double hi) const {
   Stretch result;
   result.lo = lo;
@@ -128,8 +142,10 @@ Stretch FingerCurve::smooth(double lo, double hi) const {
     const std::vector<Segment> all = segments(boundary_, first[c], last[c]);
     result.from.push_back(first[c].angle);
     result.to.push_back(last[c].angle);
-    result.rate.push_back(all.size() > kMostSegments ? unknown() : curvatures_by_slope(boundary_, all));
+    const bool is_short = all.size() <= kMostSegments;
+    result.rate.push_back(is_short ? curvatures_by_slope(boundary_, all) : unknown());
     result.jump.push_back(jumps(boundary_, all));
+    result.range.push_back(is_short ? range_of(all, result.rate[c]) : unknown());
   }
   return result;
 }

@@ -13,11 +13,12 @@ namespace rollfix_verify {
 struct Stretch {
   double lo = 0;  // first contacts, s
   double hi = 0;
-  bool pivot = false;      // at one place to kSamePlace: each contact's angle is anywhere in its range, on its own
-  std::vector<Ball> from;  // the angle of each contact at lo, the first contact's first; of a pivot its range
-  std::vector<Ball> to;    // at hi; of a pivot unused
-  std::vector<Ball> rate;  // its curvatures in between; of a pivot unused
-  std::vector<Ball> jump;  // what it turns at smooth joints in between, at most and at least
+  bool pivot = false;       // at one place to kSamePlace: each contact's angle is anywhere in its range, on its own
+  std::vector<Ball> from;   // the angle of each contact at lo, the first contact's first; of a pivot its range
+  std::vector<Ball> to;     // at hi; of a pivot unused
+  std::vector<Ball> rate;   // its curvatures in between; of a pivot unused
+  std::vector<Ball> jump;   // what it turns at smooth joints in between, at most and at least
+  std::vector<Ball> range;  // the angle in between, where more is known than by the rates; of a pivot unused
   mutable std::shared_ptr<const std::pair<Stretch, Stretch>> halves;  // once somebody has asked for them
 
   double width() const { return hi - lo; }
@@ -50,6 +51,7 @@ class FingerCurve {
   std::vector<Place> places(double& s, int way) const;
   std::vector<double> corners_between(double lo, double hi) const;
   Stretch smooth(double lo, double hi) const;
+  Ball range_of(const std::vector<Segment>& all, const Ball& curvature) const;
   std::vector<Stretch> at_corner(double lo, double hi) const;
 
   const Boundary& boundary_;

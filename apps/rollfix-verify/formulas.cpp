@@ -1,5 +1,6 @@
 #include "formulas.hpp"
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <stdexcept>
@@ -38,6 +39,49 @@ Formula from_path(double lo, double hi, const Path& path) {
   formula.velocity = [velocity](const Ball& u) {
     const Pair<Series> first = velocity(u);
     return Point{first.x[0], first.y[0]};
+  };
+  return formula;
+}
+
+Series whole_power(const Series& base, std::size_t exponent) {
+  Series result(1.0);
+  for (std::size_t k = 0; k < exponent; ++k) result = result * base;
+  return result;
+}
+
+// ---- other ways to run along a curve ----
+
+/// a(-x).
+Series mirrored(const Series& a) {
+  Series result = a;
+  for (slong k = 1; k < kTerms; k += 2) result.set(k, -a[k]);
+  return result;
+}
+
+Formula reversed(const Formula& forward) {
+  Formula formula = forward;
+  const auto mirror = [lo = forward.lo, hi = forward.hi](const Ball& u) { return Ball(lo) + (Ball(hi) - u); };
+  formula.position = [=](const Ball& u) { return forward.position(mirror(u)); };
+  formula.velocity = [=](const Ball& u) {
+    const Point v = forward.velocity(mirror(u));
+    return Point{-v.x, -v.y};
+  };
+  formula.motion = [=](const Ball& u) {
+    const Motion motion = forward.motion(mirror(u));
+    return Motion{mirrored(motion.speed), Series(0.0) - mirrored(motion.turning)};
+  };
+  return formula;
+}
+
+Formula scaled(const Formula& original, double factor) {
+  if (!(factor > 0)) throw std::runtime_error("a curve scaled by a factor that is not above 0");
+  Formula formula = original;
+  const auto times = [factor](const Point& p) { return Point{factor * p.x, factor * p.y}; };
+  formula.position = [=](const Ball& u) { return times(original.position(u)); };
+  formula.velocity = [=](const Ball& u) { return times(original.velocity(u)); };
+  formula.motion = [=](const Ball& u) {
+    const Motion motion = original.motion(u);
+    return Motion{factor * motion.speed, motion.turning};
   };
   return formula;
 }
@@ -124,9 +168,7 @@ Formula turning_span(const Numbers& n) {  // start, the cubic of its tangent's a
   return formula;
 }
 
-/// de Casteljau's algorithm; control points as so many numbers each: x, y and, of rational ones, the weight.
-Formula bezier(const Numbers& n, std::size_t each) {
-  if (n.empty() || n.size() % each != 0) throw std::runtime_error("a Bezier curve with half a control point");
+Formula regular_bezier(const Numbers& n, std::size_t each) {
   return from_path(0, 1, [n, each](const Series& t) {
     std::vector<std::vector<Series>> row;
     for (std::size_t k = 0; k < n.size(); k += each) {
@@ -142,6 +184,76 @@ Formula bezier(const Numbers& n, std::size_t each) {
     if (each == 2) return Pair<Series>{row[0][0], row[0][1]};
     return Pair<Series>{row[0][0] / row[0][2], row[0][1] / row[0][2]};
   });
+}
+
+double choices(std::size_t n, std::size_t k) {
+  double result = 1;
+  for (std::size_t i = 0; i < k; ++i) result = result * static_cast<double>(n - i) / static_cast<double>(i + 1);
+  return result;
+}
+
+/// A curve that starts at rest, its first m control points being one, from which it is u^m n/w: its velocity is
+/// u^(m-1) q, and q = (m n + u n')/w - u n w'/w^2 is not 0 there.
+Formula bezier_from_rest(const Numbers& n, std::size_t each, std::size_t m) {
+  const std::size_t degree = n.size() / each - 1;
+  const auto weight = [n, each](std::size_t k) { return each == 3 ? n[k * each + 2] : 1.0; };
+  const auto sums = [=](const Series& u) {  // n by its two coordinates, and w
+    std::array<Series, 3> sum;
+    for (std::size_t k = 0; k <= degree; ++k) {
+      const Series rest = whole_power(Series(1.0) - u, degree - k) * choices(degree, k) * weight(k);
+      sum[2] = sum[2] + whole_power(u, k) * rest;
+      if (k < m) continue;
+      for (std::size_t i : {0U, 1U}) sum[i] = sum[i] + whole_power(u, k - m) * rest * (Ball(n[k * each + i]) - n[i]);
+    }
+    return sum;
+  };
+  const auto steady = [=](const Series& u) {  // q
+    const std::array<Series, 3> sum = sums(u);
+    const auto along = [&](const Series& a) {
+      return (Series(static_cast<double>(m)) * a + u * derivative(a)) / sum[2] -
+             u * a * derivative(sum[2]) / (sum[2] * sum[2]);
+    };
+    return Pair<Series>{along(sum[0]), along(sum[1])};
+  };
+  Formula formula;
+  formula.motion = [=](const Ball& at) {
+    const Series u = Series::variable(at);
+    const Pair<Series> q = steady(u);
+    const Pair<Series> change{derivative(q.x), derivative(q.y)};
+    const Series square = dot(q, q);
+    return Motion{whole_power(u, m - 1) * sqrt(square), cross(q, change) / square};
+  };
+  formula.position = [=](const Ball& at) {
+    const std::array<Series, 3> sum = sums(Series(at));
+    const Series power = whole_power(Series(at), m);
+    return Point{Ball(n[0]) + (power * sum[0] / sum[2])[0], Ball(n[1]) + (power * sum[1] / sum[2])[0]};
+  };
+  formula.velocity = [=](const Ball& at) {
+    const Pair<Series> q = steady(Series::variable(at));
+    return Point{q.x[0], q.y[0]};
+  };
+  return formula;
+}
+
+/// de Casteljau's algorithm; control points as so many numbers each: x, y and, of rational ones, the weight. Those next
+/// to one end may be the same as that one.
+Formula bezier(const Numbers& n, std::size_t each) {
+  if (n.empty() || n.size() % each != 0) throw std::runtime_error("a Bezier curve with half a control point");
+  const auto at_rest = [&](const Numbers& points) {
+    std::size_t k = each;
+    while (k < points.size() && points[k] == points[0] && points[k + 1] == points[1]) k += each;
+    return k / each;
+  };
+  Numbers backwards;
+  for (std::size_t k = n.size(); k > 0; k -= each) backwards.insert(backwards.end(), &n[k - each], &n[k - each] + each);
+  const std::size_t first = at_rest(n);
+  const std::size_t last = at_rest(backwards);
+  if (first * each == n.size() || (first > 1 && last > 1)) {
+    throw std::runtime_error("a Bezier curve that is a point, or at rest at both ends");
+  }
+  if (first > 1) return bezier_from_rest(n, each, first);
+  if (last > 1) return reversed(bezier_from_rest(backwards, each, last));
+  return regular_bezier(n, each);
 }
 
 // ---- the gallery ----
@@ -176,16 +288,11 @@ Formula exponential(const Numbers& n) {
   return from_path(n[1], n[2], [=](const Series& t) { return Pair<Series>{n[0] * t, n[0] * exp(t)}; });
 }
 
-Series whole_power(const Series& base, int exponent) {
-  Series result(1.0);
-  for (int k = 0; k < exponent; ++k) result = result * base;
-  return result;
-}
-
 /// |x/a|^n + |y/b|^n = 1 by the direction of (x/a, y/b); `quarter`: turned by so many right angles.
 Pair<Series> superellipse_point(const Numbers& n, const Series& t) {
-  const int power = static_cast<int>(n[2]);
-  if (power != n[2] || power < 2) throw std::runtime_error("a superellipse whose exponent is not a whole number");
+  const auto power = static_cast<std::size_t>(n[2]);
+  if (static_cast<double>(power) != n[2] || power < 2)
+    throw std::runtime_error("a superellipse whose exponent is not a whole number");
   const Series c = cos(t);
   const Series s = sin(t);
   const Series radius = pow(whole_power(c, power) + whole_power(s, power), Ball(-1.0) / n[2]);
@@ -228,43 +335,6 @@ Formula naca(const Numbers& n, bool upper, bool fore) {
 
 Formula symmetric_naca(const Numbers& n, bool upper) {
   return naca({n[0], n[1], 0, 1, upper ? -1.0 : 0.0, upper ? 0.0 : 1.0}, upper, true);
-}
-
-// ---- other ways to run along a curve ----
-
-/// a(-x).
-Series mirrored(const Series& a) {
-  Series result = a;
-  for (slong k = 1; k < kTerms; k += 2) result.set(k, -a[k]);
-  return result;
-}
-
-Formula reversed(const Formula& forward) {
-  Formula formula = forward;
-  const auto mirror = [lo = forward.lo, hi = forward.hi](const Ball& u) { return Ball(lo) + (Ball(hi) - u); };
-  formula.position = [=](const Ball& u) { return forward.position(mirror(u)); };
-  formula.velocity = [=](const Ball& u) {
-    const Point v = forward.velocity(mirror(u));
-    return Point{-v.x, -v.y};
-  };
-  formula.motion = [=](const Ball& u) {
-    const Motion motion = forward.motion(mirror(u));
-    return Motion{mirrored(motion.speed), Series(0.0) - mirrored(motion.turning)};
-  };
-  return formula;
-}
-
-Formula scaled(const Formula& original, double factor) {
-  if (!(factor > 0)) throw std::runtime_error("a curve scaled by a factor that is not above 0");
-  Formula formula = original;
-  const auto times = [factor](const Point& p) { return Point{factor * p.x, factor * p.y}; };
-  formula.position = [=](const Ball& u) { return times(original.position(u)); };
-  formula.velocity = [=](const Ball& u) { return times(original.velocity(u)); };
-  formula.motion = [=](const Ball& u) {
-    const Motion motion = original.motion(u);
-    return Motion{factor * motion.speed, motion.turning};
-  };
-  return formula;
 }
 
 struct Kind {

@@ -32,7 +32,7 @@ struct Formula {
   double hi = 1;
   std::function<Motion(const Ball&)> motion;
   std::function<Point(const Ball&)> position;
-  std::function<Point(const Ball&)> velocity;
+  std::function<Point(const Ball&)> velocity;  // or, where it is at rest, a direction: only that is asked for
 };
 
 /// The curve of this kind with these numbers: docs/certificates.md lists the kinds. Throws std::runtime_error.

@@ -225,7 +225,16 @@ class Maker {
       if (kind == Kind::corner && passes_corner(f_[k], one.extent.lo)) return mark(lo, CellKind::corner, {k});
       if (kind == Kind::crossing && f_[k].is_monotone(lo, hi)) return mark(lo, CellKind::crossing, {k});
     }
-    mark(lo, CellKind::within);
+    mark(lo, stays_within(one) ? CellKind::within : CellKind::unproved);
+  }
+
+  /// Where a curve is at rest f gets away from a corner at once, and comes back.
+  bool stays_within(const Found& one) const {
+    for (std::size_t k = 0; k < f_.count(); ++k) {
+      const double most = std::max({tolerance_, f_[k].size(one.from), f_[k].size(one.to)});
+      if (f_[k].largest_at_joints(one.from, one.to) > most) return false;
+    }
+    return true;
   }
 
   /// Of what was marked from lo on, where every f is 0 to rounding.

@@ -17,6 +17,9 @@ constexpr double kFirstBox = 0.06;
 constexpr double kShrink = 0.7;
 // How much longer the one side of a box may be.
 constexpr double kMostAspect = 8;
+// A box that proves a root keeps so many of its widths from places where a curve is at rest: near one the verifier's
+// bounds on curvature are far wider than the search's.
+constexpr double kWidthsFromRest = 4;
 // A box holds the pairs that fit with this much to spare.
 constexpr double kSpare = 1.5;
 
@@ -26,7 +29,8 @@ class PairMaker {
       : part_(part),
         search_(locate(part, readings, options)),
         bounds_(part, readings, options.facing),
-        tolerance_(std::max(options.tolerance, kLeastTolerance)) {
+        tolerance_(std::max(options.tolerance, kLeastTolerance)),
+        rests_(places_at_rest(part)) {
     lengths_.resize(2);
     for (std::size_t finger = 0; finger < 2; ++finger) {
       for (const Reading& reading : readings) lengths_[finger].push_back(reading.length[finger]);
@@ -79,12 +83,25 @@ class PairMaker {
     for (double size = kFirstBox * part_.perimeter(); size > least_step(part_); size *= kShrink) {
       const PairBox box = box_around(placement, {size * aspect[0], size * aspect[1]});
       if (!holds(box, needed)) break;
-      if (!is_free(box, k) || !bounds_.has_one_root(box, tolerance_)) continue;
+      if (!is_free(box, k) || is_near_rest(box) || !bounds_.has_one_root(box, tolerance_)) continue;
       pairs_[k].box = box;
       proofs_[k] = bounds_.count() == 2 ? PairProof::one : PairProof::fits;
       return;
     }
     find_loose_box(k, needed);
+  }
+
+  bool is_near_rest(const PairBox& box) const {
+    for (std::size_t finger = 0; finger < 2; ++finger) {
+      const double reach = kWidthsFromRest * box[finger].width();
+      const auto is_near = [&](double from) {
+        const Interval contacts{box[finger].lo + from, box[finger].hi + from};
+        return std::any_of(rests_.begin(), rests_.end(),
+                           [&](double s) { return part_.boundary().distance(contacts, s) < reach; });
+      };
+      if (is_near(0) || std::any_of(lengths_[finger].begin(), lengths_[finger].end(), is_near)) return true;
+    }
+    return false;
   }
 
   /// The smallest that nothing around it belongs to, as far as a little work tells.
@@ -196,6 +213,7 @@ class PairMaker {
   Search search_;
   mutable PairBounds bounds_;
   double tolerance_;
+  std::vector<double> rests_;                 // s of the places where a curve is at rest
   std::vector<std::vector<double>> lengths_;  // of each finger
   std::vector<CoveredPair> pairs_;
   std::vector<PairProof> proofs_;

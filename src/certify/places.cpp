@@ -14,6 +14,8 @@ namespace {
 // Rows keep this share of the perimeter from joints: there is no doubt on which curve a roll ends.
 constexpr double kClear = 4e-12;
 constexpr int kMostSteps = 8;
+// A curve's speed at one end is below this share of that at the other one: it is at rest there.
+constexpr double kResting = 1e-6;
 
 /// Of a place to where curves meet, on either side.
 double distance_to_joint(const Part& part, double s) {
@@ -53,9 +55,28 @@ CurvePlace place_of(const Part& part, double s) {
   const std::uint32_t index = turning.panel_index(spiral, base);
   const Panel& panel = turning.panels()[index];
   const std::size_t curve = data.parametrization.pieces[index].curve;
-  const Interval domain = data.outline.curves[curve].domain();
+  const Curve& formula = data.outline.curves[curve];
+  const Interval domain = formula.domain();
   const double u = data.parametrization.parameter(index, (base - panel.middle) * panel.inverse_half);
-  return {curve, std::clamp(u, domain.lo, domain.hi)};
+  return {curve, formula_parameter(formula, std::clamp(u, domain.lo, domain.hi))};
+}
+
+std::vector<double> places_at_rest(const Part& part) {
+  const PartAccess::Data& data = PartAccess::data(part);
+  const auto& panels = part.turning().panels();
+  std::vector<double> result;
+  for (std::size_t k = 0; k < panels.size(); ++k) {
+    const std::size_t curve = data.parametrization.pieces[k].curve;
+    const auto is_of_curve = [&](std::size_t panel) {
+      return panel < panels.size() && data.parametrization.pieces[panel].curve == curve;
+    };
+    const Curve& here = data.outline.curves[curve];
+    const double first = here.velocity(here.domain().lo).norm();
+    const double last = here.velocity(here.domain().hi).norm();
+    if (first < kResting * last && !is_of_curve(k - 1)) result.push_back(panels[k].lo);
+    if (last < kResting * first && !is_of_curve(k + 1)) result.push_back(panels[k].hi);
+  }
+  return result;
 }
 
 double clear_of_joints(const Part& part, const std::vector<double>& lengths, double s, int way) {

@@ -12,6 +12,9 @@ double least_step(const Part& part);
 /// Where s is by the outline's formulas.
 CurvePlace place_of(const Part& part, double s);
 
+/// Where curves start or end at rest.
+std::vector<double> places_at_rest(const Part& part);
+
 /// s moved ahead (or back, `way` -1) until the contacts that far along from it are clear of where curves meet.
 double clear_of_joints(const Part& part, const std::vector<double>& lengths, double s, int way);
 

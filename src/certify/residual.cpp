@@ -155,6 +155,16 @@ bool Residual::is_near_at_joints(double bound, double lo, double hi) const {
   return false;
 }
 
+double Residual::largest_at_joints(double lo, double hi) const {
+  double largest = 0;
+  for (const Cut& cut : cuts(lo, hi)) {
+    for (const double s : {cut.s - 2 * step_, cut.s + 2 * step_}) {
+      if (s > lo && s < hi) largest = std::max(largest, size(s));
+    }
+  }
+  return largest;
+}
+
 double Residual::blur(double s) const { return kMissAtJoints + 4 * step_ * steepest(s); }
 
 double Residual::steepest(double s) const {

@@ -30,6 +30,8 @@ class Residual {
   /// Whether |f| is no more than that, or can't be told from it, where contacts pass from curve to curve between these,
   /// or pivot at a corner.
   bool is_near_at_joints(double bound, double lo, double hi) const;
+  /// The largest |f| beside such places.
+  double largest_at_joints(double lo, double hi) const;
 
   /// By how much a value near a joint has to be clear of a bound for rows, which keep away from joints, to show it.
   double blur(double s) const;

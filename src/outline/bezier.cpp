@@ -300,10 +300,14 @@ BezierFromRest::BezierFromRest(std::vector<Vec2> points, std::vector<double> wei
   orders_ = -std::log(kFirst * natural);
 }
 
+double BezierFromRest::distance_from_rest(double v) const {
+  return std::exp(-orders_ * (rest_ == Rest::start ? 1 - v : v));
+}
+
 Jet BezierFromRest::jet(double v) const {
   const double sign = rest_ == Rest::start ? 1 : -1;
   const double from_rest = rest_ == Rest::start ? v : 1 - v;
-  const double u = std::exp(-orders_ * (1 - from_rest));
+  const double u = distance_from_rest(v);
   const Jet by_u = projected(weighted_, points_.size(), u);
   // u' = a u with a = +-orders, so d/dv of (u p') is a (u p' + u^2 p''), and so on.
   const double a = sign * orders_;
@@ -318,6 +322,18 @@ Jet BezierFromRest::jet(double v) const {
 
 CurveRecord BezierFromRest::record() const {
   return recorded(rest_ == Rest::start ? "bezier-from-rest" : "bezier-to-rest", points_, weights_);
+}
+
+Bezier BezierFromRest::bezier() const {
+  std::vector<Vec2> points = points_;
+  const auto at_rest = static_cast<std::ptrdiff_t>(1 + resting(points_, rest_));
+  std::fill_n(rest_ == Rest::start ? points.begin() : points.end() - at_rest, at_rest, origin_);
+  return Bezier(std::move(points), weights_);
+}
+
+double BezierFromRest::bezier_parameter(double v) const {
+  const double at_rest = rest_ == Rest::start ? 0 : 1;
+  return v == at_rest ? at_rest : std::abs(at_rest - distance_from_rest(v));
 }
 
 std::vector<Curve> bezier_curves(std::vector<Vec2> points, std::vector<double> weights) {
