@@ -58,13 +58,13 @@ Ball half_of(const Ball& range, bool upper) {
 /// most, where that is less.
 Ball Stretch::sum(const std::vector<Ball>& weights) const {
   if (pivot) return weighted(weights, from);
-  const Ball apart = weighted(weights, range);
+  Ball apart = weighted(weights, range);
   const Ball slope = weighted(weights, rate);
   if (!slope.is_finite()) return apart;
   const Ball sag = 0.25 * (Ball(hi) - lo) * (Ball(slope.upper()) - slope.lower());
   Ball jumps = 0.0;
   for (std::size_t c = 0; c < weights.size(); ++c) jumps = jumps + abs(weights[c]) * abs(jump[c]);
-  const Ball together = hull(weighted(weights, from), weighted(weights, to)) + around_zero(sag) + around_zero(jumps);
+  Ball together = hull(weighted(weights, from), weighted(weights, to)) + around_zero(sag) + around_zero(jumps);
   return apart.is_finite() && spread(apart) < spread(together) ? apart : together;
 }
 
