@@ -370,6 +370,21 @@ TEST(PairBelief, can_not_tell_a_circles_places_apart) {
   EXPECT_NEAR(belief.modes().front().sd[0], part.perimeter() / std::sqrt(12.0), 0.05 * part.perimeter());
 }
 
+TEST(PairBelief, is_a_stretch_where_95_percent_are_more_than_a_tenth_of_the_part) {
+  const Part part = part_of("circle");
+  const double P = part.perimeter();
+  std::mt19937_64 generator = test_generator(31);
+  BeliefOptions options = options_with(1e-4, 1e-4, 0);
+  const Case drawn = random_pair(part, 50, options.noise, generator);
+  // On a circle the place is known as it was before: 95 % are 3.92 standard deviations.
+  const auto verdict = [&](double sd) {
+    options.prior = Prior{drawn.start[0], sd};
+    return belief_of(part, drawn, options).verdict().text();
+  };
+  EXPECT_EQ(verdict(0.09 / 3.92 * P), "unique");
+  EXPECT_EQ(verdict(0.11 / 3.92 * P), "ambiguous (1 stretch)");
+}
+
 TEST(PairBelief, needs_no_facing) {
   const Part part = part_of("spline,n=9,seed=7,wobble=0.2");
   std::mt19937_64 generator = test_generator(13);

@@ -93,8 +93,7 @@ Verdict Belief::State::places_of(const std::vector<Remaining>& remaining) {
   const double length = posterior->credible_length(that_count);
   if (part.closed() && length > kAnywhere * kCertain * P) return {Verdict::unobservable};
   if (that_count.size() > 1 && remaining.front().probability < kCertain) return {Verdict::ambiguous, that_count.size()};
-  const bool is_stretch = contacts.finger_curvature.size() == 1 && length > kWide * P;
-  return is_stretch ? Verdict{Verdict::ambiguous, 1, 1} : Verdict{Verdict::unique, 1};
+  return length > kWide * P ? Verdict{Verdict::ambiguous, 1, 1} : Verdict{Verdict::unique, 1};
 }
 
 Belief::Belief(const Part& part, LogKind kind, const BeliefOptions& options, const Contacts& contacts) {
