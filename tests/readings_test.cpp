@@ -18,6 +18,7 @@ namespace {
 
 using namespace rollfix;
 using testing::ElementsAre;
+using testing::SizeIs;
 
 TEST(Readings, that_are_not_numbers_are_refused) {
   const Part part(gallery("ellipse"));
@@ -97,6 +98,17 @@ TEST(Readings, pivot_by_one_angle_at_a_corner_where_they_start) {
   EXPECT_TRUE(locate(part, {{0, 1.2}, {0, -1.2}}).placements.empty());
   for (const Placement& placement : locate(part, {{0.5, 0.2}, {0.7, 0.2}}).placements) {
     EXPECT_LE(placement.residual, 1e-9);
+  }
+}
+
+TEST(Readings, that_no_pivot_fits_exactly_are_still_at_the_corner) {
+  LocateOptions options;
+  options.tolerance = 1e-3;
+  const Search search = locate(shapes::unit_square(), {{0.5, 0.2}, {0.7, 0.201}}, options);
+  EXPECT_THAT(search.placements, SizeIs(4));
+  for (const Placement& placement : search.placements) {
+    EXPECT_EQ(placement.kind, Kind::corner);
+    EXPECT_NEAR(placement.residual, 0.5e-3, 1e-9);
   }
 }
 

@@ -94,18 +94,16 @@ class Sweep {
 
   /// A spiral's own ends, as seen from a place beside them that is the same up to rounding: where curvature is large
   /// that makes more of a difference than the tolerance.
-  Turning start_of(const Spiral& spiral, double s) const {
-    return beside(spiral, spiral.start, spiral.lo, s - spiral.lo);
-  }
-  Turning end_of(const Spiral& spiral, double s) const { return beside(spiral, spiral.end, spiral.hi, s - spiral.hi); }
-  Turning beside(const Spiral& spiral, const Turning& at, double end, double distance) const {
-    const double turn = at.curvature * distance;
+  Turning start_of(const Spiral& spiral, double s) const { return beside(spiral, spiral.start, spiral.lo, s); }
+  Turning end_of(const Spiral& spiral, double s) const { return beside(spiral, spiral.end, spiral.hi, s); }
+  Turning beside(const Spiral& spiral, const Turning& at, double end, double s) const {
+    const double turn = at.curvature * (s - end);
     if (std::abs(turn) <= kTurnAccuracy) return {at.angle + turn, at.curvature};
-    // Where a curve is at rest the curvature falls from infinity: by what the spiral turns as far inside.
-    const double inside = end == spiral.lo ? std::abs(distance) : -std::abs(distance);
-    const Turning there = turning_.on_spiral(spiral, std::clamp(end + inside, spiral.lo, spiral.hi));
-    const double change = there.angle - at.angle;
-    return {at.angle + (inside == distance ? change : -change), at.curvature};
+    // Where a curve is at rest its curvature falls from infinity: by what the spiral turns on the inside.
+    const bool is_inside = s >= spiral.lo && s <= spiral.hi;
+    const double inner = std::clamp(is_inside ? s : 2 * end - s, spiral.lo, spiral.hi);
+    const double change = turning_.on_spiral(spiral, inner).angle - at.angle;
+    return {at.angle + (is_inside ? change : -change), at.curvature};
   }
 
   /// Both contacts at the beginning, and the corner where the end stands, if it does.

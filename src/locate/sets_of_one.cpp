@@ -29,10 +29,11 @@ void join(const Part& part, Pieces& pieces, Clusters& clusters) {
   clusters.clear();
   for (const Piece& piece : pieces) {
     if (clusters.empty() || piece.lo > clusters.back().hi + same_place) {
-      clusters.push_back({piece.lo, piece.hi, piece.exact});
+      clusters.push_back({piece.lo, piece.hi, piece.exact, piece.corner});
     } else {
       clusters.back().hi = std::max(clusters.back().hi, piece.hi);
       clusters.back().exact |= piece.exact;
+      clusters.back().corner &= piece.corner;
       clusters.back().is_joined = true;
     }
   }
@@ -42,10 +43,11 @@ void join(const Part& part, Pieces& pieces, Clusters& clusters) {
   if (joined && clusters.size() == 1) {
     Cluster& only = clusters.front();
     only.whole_loop = only.hi - only.lo >= period - 2 * same_place;
-    if (only.whole_loop) only = {0, period, only.exact, true, true};
+    if (only.whole_loop) only = {0, period, only.exact, false, true, true};
   } else if (joined) {
     clusters.back().hi = period + clusters.front().hi;
     clusters.back().exact |= clusters.front().exact;
+    clusters.back().corner &= clusters.front().corner;
     clusters.back().is_joined = true;
     clusters.erase(clusters.begin());
   }
@@ -190,7 +192,7 @@ class SetsOfOne {
       const double residual = residual_at(question_, s);
       if (residual < least) {
         least = residual;
-        best = {s, false, corner};
+        best = {s, false, corner || cluster.corner};
       }
     };
     consider(cluster.lo, false);

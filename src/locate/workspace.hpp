@@ -17,6 +17,7 @@ struct Cluster {
   double lo = 0;
   double hi = 0;
   bool exact = false;
+  bool corner = false;  // all of its pieces are
   bool whole_loop = false;
   bool is_joined = false;      // of several pieces
   std::size_t first_root = 0;  // of those handed out
