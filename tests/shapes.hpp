@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "rollfix/locate/locate.hpp"
@@ -71,6 +72,22 @@ inline bool holds(const rollfix::Part& part, const rollfix::Search& search, doub
   return std::any_of(search.placements.begin(), search.placements.end(), [&](const rollfix::Placement& placement) {
     return part.boundary().contains(placement.extent[0], s, slack);
   });
+}
+
+/// As drawings are now and then: handles that lie on their end points, of a rational curve as well.
+inline rollfix::Part drawn_with_rests() {
+  rollfix::Outline outline;
+  outline.name = "rests";
+  const auto add = [&](std::vector<rollfix::Vec2> points, std::vector<double> weights = {}) {
+    for (const rollfix::Curve& curve : rollfix::bezier_curves(std::move(points), std::move(weights))) {
+      outline.curves.push_back(curve);
+    }
+  };
+  add({{0, 0}, {0, 0}, {0, 0}, {1.5, -0.8}, {3, 0}});
+  add({{3, 0}, {3.5, 1}, {3, 2}, {3, 2}});
+  add({{3, 2}, {3, 2}, {2, 3}, {0, 2.2}, {0, 2.2}});
+  add({{0, 2.2}, {0, 2.2}, {-0.8, 1}, {0, 0}}, {1, 0.7, 1.3, 1});
+  return rollfix::Part(outline);
 }
 
 }  // namespace shapes

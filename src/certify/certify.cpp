@@ -92,19 +92,23 @@ class Maker {
     return found_.front().extent.lo + part_.perimeter() - found_.back().extent.hi;
   }
 
-  /// A row outside of an edge: nothing where f does not get away from the tolerance in the room that there is.
+  /// A row outside of an edge, on this side of the next corner if f is away from the tolerance there: nothing where it
+  /// does not get away in the room that there is.
   bool find_edge(double edge, int way, double room, double& row) const {
-    double away = step_;
     const double most = room / 3;
     if (!(most > 4 * step_)) return false;
+    row = edge;
+    double away = step_;
     for (bool is_last = false; !is_last; away *= kGrowth) {
       is_last = away >= most;
-      row = edge + way * std::min(away, most);
-      if (!part_.closed() && (row <= range_.lo || row >= range_.hi)) {
+      double next = edge + way * std::min(away, most);
+      if (!part_.closed() && (next <= range_.lo || next >= range_.hi)) {
         row = way < 0 ? range_.lo : range_.hi;
         return true;
       }
-      row = f_.clear(row, way);
+      next = f_.clear(next, way);
+      if (row != edge && f_.size(row) > f_.edge() && f_.jumps(std::min(row, next), std::max(row, next))) return true;
+      row = next;
       if (f_.size(row) >= kBeside * tolerance_) return true;
     }
     return f_.size(row) > f_.edge();

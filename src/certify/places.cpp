@@ -55,26 +55,26 @@ CurvePlace place_of(const Part& part, double s) {
   const std::uint32_t index = turning.panel_index(spiral, base);
   const Panel& panel = turning.panels()[index];
   const std::size_t curve = data.parametrization.pieces[index].curve;
-  const Curve& formula = data.outline.curves[curve];
-  const Interval domain = formula.domain();
+  const Curve& here = data.outline.curves[curve];
+  const Interval domain = here.domain();
   const double u = data.parametrization.parameter(index, (base - panel.middle) * panel.inverse_half);
-  return {curve, formula_parameter(formula, std::clamp(u, domain.lo, domain.hi))};
+  return {curve, here.formula_parameter(std::clamp(u, domain.lo, domain.hi))};
 }
 
 std::vector<double> places_at_rest(const Part& part) {
   const PartAccess::Data& data = PartAccess::data(part);
+  const auto& pieces = data.parametrization.pieces;
   const auto& panels = part.turning().panels();
   std::vector<double> result;
   for (std::size_t k = 0; k < panels.size(); ++k) {
-    const std::size_t curve = data.parametrization.pieces[k].curve;
-    const auto is_of_curve = [&](std::size_t panel) {
-      return panel < panels.size() && data.parametrization.pieces[panel].curve == curve;
-    };
-    const Curve& here = data.outline.curves[curve];
-    const double first = here.velocity(here.domain().lo).norm();
-    const double last = here.velocity(here.domain().hi).norm();
-    if (first < kResting * last && !is_of_curve(k - 1)) result.push_back(panels[k].lo);
-    if (last < kResting * first && !is_of_curve(k + 1)) result.push_back(panels[k].hi);
+    const bool begins = k == 0 || pieces[k - 1].curve != pieces[k].curve;
+    const bool ends = k + 1 == panels.size() || pieces[k + 1].curve != pieces[k].curve;
+    if (!begins && !ends) continue;
+    const Curve& curve = data.outline.curves[pieces[k].curve];
+    const double first = curve.velocity(curve.domain().lo).norm();
+    const double last = curve.velocity(curve.domain().hi).norm();
+    if (begins && first < kResting * last) result.push_back(panels[k].lo);
+    if (ends && last < kResting * first) result.push_back(panels[k].hi);
   }
   return result;
 }

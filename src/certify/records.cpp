@@ -7,12 +7,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "outline/shapes/shapes.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline/gallery.hpp"
-#include "rollfix/outline/primitives.hpp"
 #include "text/text.hpp"
 
 namespace rollfix {
@@ -71,57 +69,7 @@ Records of_gallery(const std::string& specification) {
   return shape == shapes.end() ? Records{} : of_shape(name, Parameters(*shape, parameters));
 }
 
-constexpr std::string_view kReversed = "reversed ";
-constexpr std::string_view kScaled = "scaled ";
-
-bool begins_with(const std::string& kind, std::string_view prefix) { return kind.rfind(prefix, 0) == 0; }
-bool is_at_rest(const CurveRecord& record) { return record.kind.find("-rest") != std::string::npos; }
-
-/// Without "reversed" or "scaled".
-CurveRecord inner(const CurveRecord& record) {
-  if (begins_with(record.kind, kReversed)) return {record.kind.substr(kReversed.size()), record.numbers};
-  return {record.kind.substr(kScaled.size()), {record.numbers.begin(), record.numbers.end() - 1}};
-}
-
-BezierFromRest resting_bezier(const CurveRecord& record) {
-  const bool is_rational = begins_with(record.kind, "rational");
-  std::vector<Vec2> points;
-  std::vector<double> weights;
-  for (std::size_t k = 0; k < record.numbers.size(); k += is_rational ? 3 : 2) {
-    points.emplace_back(record.numbers[k], record.numbers[k + 1]);
-    if (is_rational) weights.push_back(record.numbers[k + 2]);
-  }
-  const bool is_at_start = record.kind.find("from") != std::string::npos;
-  return BezierFromRest(std::move(points), std::move(weights), is_at_start ? Rest::start : Rest::end);
-}
-
-/// Of curves that start or end at rest the Bezier curve itself: the library's own parameter is another.
-CurveRecord formula_of(const CurveRecord& record) {
-  if (!is_at_rest(record)) return record;
-  if (begins_with(record.kind, kReversed)) {
-    const CurveRecord forward = formula_of(inner(record));
-    return {std::string(kReversed) + forward.kind, forward.numbers};
-  }
-  if (begins_with(record.kind, kScaled)) {
-    CurveRecord original = formula_of(inner(record));
-    original.numbers.push_back(record.numbers.back());
-    return {std::string(kScaled) + original.kind, original.numbers};
-  }
-  return resting_bezier(record).bezier().record();
-}
-
-double formula_parameter(const CurveRecord& record, double u) {
-  if (begins_with(record.kind, kReversed)) return 1 - formula_parameter(inner(record), 1 - u);
-  if (begins_with(record.kind, kScaled)) return formula_parameter(inner(record), u);
-  return resting_bezier(record).bezier_parameter(u);
-}
-
 }  // namespace
-
-double formula_parameter(const Curve& curve, double u) {
-  const std::optional<CurveRecord> record = curve.record();
-  return record && is_at_rest(*record) ? formula_parameter(*record, u) : u;
-}
 
 std::vector<CurveRecord> formulas_of(const Outline& outline) {
   const bool is_as_given = !outline.gallery.empty() && !outline.reversed;
@@ -129,12 +77,12 @@ std::vector<CurveRecord> formulas_of(const Outline& outline) {
   if (records.size() == outline.curves.size()) return records;
   records.clear();
   for (const Curve& curve : outline.curves) {
-    const std::optional<CurveRecord> record = curve.record();
+    const std::optional<CurveRecord> record = curve.formula();
     if (!record) {
       throw InputError(fmt::format("{}: curve {} is of a kind that certificates have no formula for", outline.name,
                                    records.size() + 1));
     }
-    records.push_back(formula_of(*record));
+    records.push_back(*record);
   }
   return records;
 }

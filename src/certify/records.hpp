@@ -10,7 +10,4 @@ namespace rollfix {
 /// that has none.
 std::vector<CurveRecord> formulas_of(const Outline& outline);
 
-/// The formula's parameter where the curve's own is u.
-double formula_parameter(const Curve& curve, double u);
-
 }  // namespace rollfix

@@ -72,6 +72,11 @@ bool Residual::is_monotone(double lo, double hi) const {
   return true;
 }
 
+bool Residual::jumps(double lo, double hi) const {
+  const std::vector<Cut> all = cuts(lo, hi);
+  return std::any_of(all.begin(), all.end(), [](const Cut& cut) { return cut.jumps(); });
+}
+
 /// Golden sections around the least of three.
 double Residual::refined(double lo, double hi) const {
   double inner = hi - kGolden * (hi - lo);

@@ -24,6 +24,9 @@ class Residual {
   /// Between these f has one sign of slope, and no jump.
   bool is_monotone(double lo, double hi) const;
 
+  /// Whether f has a jump between these.
+  bool jumps(double lo, double hi) const;
+
   /// The place where |f| is least.
   double nearest(double lo, double hi) const;
 

@@ -40,6 +40,10 @@ double Residuals::size(double s) const {
   return largest;
 }
 
+bool Residuals::jumps(double lo, double hi) const {
+  return std::any_of(f_.begin(), f_.end(), [&](const Residual& f) { return f.jumps(lo, hi); });
+}
+
 double Residuals::edge() const { return (1 + kLeastMiss) * tolerance_ + (f_.size() > 1 ? kTurnAccuracy : 0); }
 
 double Residuals::excluded() const { return f_.size() > 1 ? edge() : tolerance_; }

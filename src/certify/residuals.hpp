@@ -25,6 +25,8 @@ class Residuals {
 
   /// The largest |f|: outside the tolerance where some reading's is.
   double size(double s) const;
+  /// Whether the f of some reading has a jump between these.
+  bool jumps(double lo, double hi) const;
 
   /// What a row beside a placement has to be off by.
   double edge() const;

@@ -324,14 +324,14 @@ CurveRecord BezierFromRest::record() const {
   return recorded(rest_ == Rest::start ? "bezier-from-rest" : "bezier-to-rest", points_, weights_);
 }
 
-Bezier BezierFromRest::bezier() const {
+CurveRecord BezierFromRest::formula() const {
   std::vector<Vec2> points = points_;
   const auto at_rest = static_cast<std::ptrdiff_t>(1 + resting(points_, rest_));
   std::fill_n(rest_ == Rest::start ? points.begin() : points.end() - at_rest, at_rest, origin_);
-  return Bezier(std::move(points), weights_);
+  return recorded("bezier", points, weights_);
 }
 
-double BezierFromRest::bezier_parameter(double v) const {
+double BezierFromRest::formula_parameter(double v) const {
   const double at_rest = rest_ == Rest::start ? 0 : 1;
   return v == at_rest ? at_rest : std::abs(at_rest - distance_from_rest(v));
 }

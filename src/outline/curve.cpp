@@ -48,10 +48,14 @@ struct Reversed {
   double parameter_size(const Interval& range) const {
     return original.parameter_size({std::min(mirror(range.hi), range.lo), std::max(mirror(range.lo), range.hi)});
   }
-  std::optional<CurveRecord> record() const {
-    std::optional<CurveRecord> record = original.record();
-    if (record) record->kind.insert(0, kReversedPrefix);
-    return record;
+  std::optional<CurveRecord> record() const { return backwards(original.record()); }
+  std::optional<CurveRecord> formula() const { return backwards(original.formula()); }
+  /// Every formula runs over the same range as the curve.
+  double formula_parameter(double u) const { return mirror(original.formula_parameter(mirror(u))); }
+
+  static std::optional<CurveRecord> backwards(std::optional<CurveRecord> forwards) {
+    if (forwards) forwards->kind.insert(0, kReversedPrefix);
+    return forwards;
   }
 };
 
@@ -69,8 +73,11 @@ struct Scaled {
   }
   Vec2 velocity(double u) const { return factor * original.velocity(u); }
   double parameter_size(const Interval& range) const { return original.parameter_size(range); }
-  std::optional<CurveRecord> record() const {
-    std::optional<CurveRecord> record = original.record();
+  std::optional<CurveRecord> record() const { return times(original.record()); }
+  std::optional<CurveRecord> formula() const { return times(original.formula()); }
+  double formula_parameter(double u) const { return original.formula_parameter(u); }
+
+  std::optional<CurveRecord> times(std::optional<CurveRecord> record) const {
     if (!record) return record;
     record->kind.insert(0, kScaledPrefix);
     record->numbers.push_back(factor);

@@ -82,6 +82,10 @@ class Curve {
   double parameter_size(const Interval& range) const { return model_->parameter_size(range); }
   /// Nothing for a curve type that does not offer it.
   std::optional<CurveRecord> record() const { return model_->record(); }
+  /// The same curve by the formula that certificates know it by, with the parameter that it has there where this one's
+  /// is u: the record, for a curve type that has no other.
+  std::optional<CurveRecord> formula() const { return model_->formula(); }
+  double formula_parameter(double u) const { return model_->formula_parameter(u); }
 
  private:
   struct Interface {
@@ -91,6 +95,8 @@ class Curve {
     virtual Vec2 velocity(double u) const = 0;
     virtual double parameter_size(const Interval& range) const = 0;
     virtual std::optional<CurveRecord> record() const = 0;
+    virtual std::optional<CurveRecord> formula() const = 0;
+    virtual double formula_parameter(double u) const = 0;
   };
 
   template <class C>
@@ -117,6 +123,20 @@ class Curve {
         return curve.record();
       } else {
         return std::nullopt;
+      }
+    }
+    std::optional<CurveRecord> formula() const override {
+      if constexpr (requires { curve.formula(); }) {
+        return curve.formula();
+      } else {
+        return record();
+      }
+    }
+    double formula_parameter(double u) const override {
+      if constexpr (requires { curve.formula_parameter(u); }) {
+        return curve.formula_parameter(u);
+      } else {
+        return u;
       }
     }
     C curve;

@@ -144,13 +144,12 @@ class BezierFromRest {
   Interval domain() const { return {0, 1}; }
   Jet jet(double v) const;
   CurveRecord record() const;
-  /// The curve by its own parameter, with one place for the control points that rest there.
-  Bezier bezier() const;
-  /// That parameter where this curve's is v.
-  double bezier_parameter(double v) const;
+  /// The Bezier curve itself, with one place for the control points that rest there.
+  CurveRecord formula() const;
+  double formula_parameter(double v) const;
 
  private:
-  double distance_from_rest(double v) const;  // of bezier()'s parameter
+  double distance_from_rest(double v) const;  // by the Bezier curve's parameter
 
   std::vector<Vec2> points_;  // as given
   std::vector<double> weights_;
