@@ -93,6 +93,18 @@ TEST(ReadingsCertificate, of_a_drawn_plate_is_proved_with_its_corners) {
   expect_proved(part, {{0.3, 0.6 * turn}, {0.4, 0.6 * turn + 0.01}}, 1e-3);
 }
 
+/// f is beyond the tolerance before it comes to the corner, but not by half of it.
+TEST(ReadingsCertificate, of_a_placement_close_behind_a_corner_is_proved) {
+  const Part part = certificates::drawn_plate();
+  for (const rollfix::Corner& corner : part.corners()) {
+    const double start = (corner.s + 1e-3) / part.perimeter();
+    const Reading reading = readings(part, start, {0.11}).front();
+    const double at_corner = part.turning().angle(corner.s + reading.length[0]) -
+                             part.turning().angle(corner.s, rollfix::Side::after) - reading.turn;
+    if (std::abs(at_corner) > 1e-6) expect_proved(part, {reading}, std::abs(at_corner) / 1.2);
+  }
+}
+
 TEST(ReadingsCertificate, of_readings_that_fit_at_different_places_proves_that_none_fits_both) {
   const Part part(rollfix::gallery("spline,n=12,seed=4"));
   const std::vector<Reading> apart = {readings(part, 0.2, {0.15})[0], readings(part, 0.6, {0.3})[0]};
