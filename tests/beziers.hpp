@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <random>
 #include <utility>
 #include <vector>
 
@@ -31,12 +30,6 @@ inline std::vector<Vec2> bow(int count) {
   std::vector<Vec2> points;
   for (int k = 0; k < count; ++k) points.emplace_back(3 * std::cos(0.4 * k), 2 * std::sin(0.4 * k));
   return points;
-}
-
-inline Vec2 random_point(std::mt19937_64& generator) {
-  std::uniform_real_distribution<double> coordinate(-10, 10);
-  const double x = coordinate(generator);
-  return {x, coordinate(generator)};
 }
 
 inline rollfix::Outline open_outline(std::vector<rollfix::Curve> curves) { return {"test", std::move(curves), false}; }

@@ -38,12 +38,17 @@ inline Json certificate(const rollfix::Part& part, const std::vector<rollfix::Re
   return Json::parse(format_certificate(certify(part, readings, options)));
 }
 
+inline std::string described(const rollfix::Part& part, const std::vector<rollfix::Reading>& readings,
+                             double tolerance) {
+  std::string question = fmt::format("{}, tolerance {}", part.name(), tolerance);
+  for (const rollfix::Reading& one : readings) question += fmt::format(", {} turns by {}", one.length[0], one.turn);
+  return question;
+}
+
 /// Nothing in it is refused, and all that the search found stands in it: is all of it proved?
 inline bool is_proved(const rollfix::Part& part, const std::vector<rollfix::Reading>& readings,
                       double tolerance = 1e-9) {
-  std::string question = fmt::format("{}, tolerance {}", part.name(), tolerance);
-  for (const rollfix::Reading& one : readings) question += fmt::format(", {} turns by {}", one.length[0], one.turn);
-  SCOPED_TRACE(question);
+  SCOPED_TRACE(described(part, readings, tolerance));
   const Verdict verdict = checked(certificate(part, readings, tolerance));
   EXPECT_EQ(verdict.refusal, "");
   rollfix::LocateOptions options;
@@ -54,7 +59,7 @@ inline bool is_proved(const rollfix::Part& part, const std::vector<rollfix::Read
 
 inline void expect_proved(const rollfix::Part& part, const std::vector<rollfix::Reading>& readings,
                           double tolerance = 1e-9) {
-  EXPECT_TRUE(is_proved(part, readings, tolerance)) << part.name() << ", tolerance " << tolerance;
+  EXPECT_TRUE(is_proved(part, readings, tolerance)) << described(part, readings, tolerance);
 }
 
 /// Of random questions: a few are too near to the edge of the tolerance, or to what rounding leaves of it.

@@ -16,6 +16,7 @@
 #include "rollfix/error.hpp"
 #include "rollfix/outline/outline.hpp"
 #include "rollfix/part/part.hpp"
+#include "shapes.hpp"
 
 namespace outline_bezier_test {
 namespace {
@@ -23,7 +24,6 @@ namespace {
 using beziers::bernstein;
 using beziers::bow;
 using beziers::open_outline;
-using beziers::random_point;
 using rollfix::Bezier;
 using rollfix::check;
 using rollfix::Curve;
@@ -33,6 +33,7 @@ using rollfix::nurbs;
 using rollfix::Outline;
 using rollfix::Part;
 using rollfix::Vec2;
+using shapes::random_point;
 using std::numbers::pi;
 using testing::HasSubstr;
 using testing::IsEmpty;

@@ -1,5 +1,6 @@
 // Lines, arcs, cubic spans, and outlines run backwards.
 #include "rollfix/outline/primitives.hpp"
+#include "shapes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,13 +24,8 @@ using rollfix::Jet;
 using rollfix::Line;
 using rollfix::Outline;
 using rollfix::Vec2;
+using shapes::random_point;
 using std::numbers::pi;
-
-Vec2 random_point(std::mt19937_64& generator) {
-  std::uniform_real_distribution<double> coordinate(-10, 10);
-  const double x = coordinate(generator);
-  return {x, coordinate(generator)};
-}
 
 TEST(Line, ends_are_exact_to_the_last_bit) {
   auto generator = test_generator();

@@ -24,7 +24,6 @@ namespace {
 using beziers::bernstein;
 using beziers::bow;
 using beziers::open_outline;
-using beziers::random_point;
 using rollfix::Bezier;
 using rollfix::bezier_curves;
 using rollfix::BezierFromRest;
@@ -35,12 +34,13 @@ using rollfix::InputError;
 using rollfix::Outline;
 using rollfix::Part;
 using rollfix::Vec2;
+using shapes::random_point;
 using std::numbers::pi;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-/// The cubic with these control points, its length and turn between two values of u >= 0 by its own polynomial, from
-/// which the factor of u in the velocity is taken out where it starts at rest.
+/// The cubic with these control points, its length and turn by its own polynomial, from which the factor of u in the
+/// velocity is taken out.
 struct RestingCubic {
   Vec2 rest, near, far;  // control points: rest, rest, near, far
 

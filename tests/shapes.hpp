@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,6 +26,12 @@ inline std::string as_identifier(const testing::TestParamInfo<std::string>& info
   std::string name = info.param;
   for (char& letter : name) letter = std::isalnum(static_cast<unsigned char>(letter)) != 0 ? letter : '_';
   return name;
+}
+
+inline rollfix::Vec2 random_point(std::mt19937_64& generator) {
+  std::uniform_real_distribution<double> coordinate(-10, 10);
+  const double x = coordinate(generator);
+  return {x, coordinate(generator)};
 }
 
 inline rollfix::Outline polygon(const std::vector<rollfix::Vec2>& corners, bool closed = true) {
