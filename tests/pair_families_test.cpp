@@ -5,6 +5,7 @@
 #include "pair_cases.hpp"
 #include "pair_oracle.hpp"
 #include "random.hpp"
+#include "rollfix/outline/points.hpp"
 #include "shapes.hpp"
 
 namespace pair_families_test {
@@ -56,6 +57,22 @@ TEST(PairFamilies, a_stretch_starts_where_its_first_contact_is_least_whatever_th
         }
       }
     }
+  }
+}
+
+TEST(PairFamilies, a_line_leaves_no_placement_beside_it_that_does_not_fit) {
+  // Found by a random search: on the line the facing is off by up to twice the tolerance where the turn is right.
+  const std::vector<Vec2> points{{0.88202, 0},        {1.09064, 0.79240}, {0.45730, 1.40741},   {-0.27884, 0.85818},
+                                 {-0.25687, 0.18663}, {-0.66588, 0},      {-0.43284, -0.31447}, {-0.24169, -0.74384},
+                                 {0.09289, -0.28588}, {0.71569, -0.51998}};
+  const Part part(Outline{"blob", spline_through(points, true), true});
+  LocateOptions options;
+  options.tolerance = 0.00022461693988221185;
+  options.facing = 1.8213082414664417;
+  options.budget = 20000;
+  constexpr double kMostOff = 1.25;  // of the tolerance: a placement is told by the middle of its band
+  for (const Placement& placement : locate(part, Reading(0, 0, 0), options).placements) {
+    EXPECT_LE(placement.residual, kMostOff * options.tolerance);
   }
 }
 

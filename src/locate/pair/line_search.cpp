@@ -274,6 +274,7 @@ bool LineSearch::take_flat(const Stretch& stretch, const Bounds& along, bool is_
     if (r > along.within[row]) return true;
     largest = std::max(largest, r);
   }
+  if (passes_by(stretch.lo, stretch.hi, along.bound_x)) return true;
   if (!stretch.covered) add_piece(stretch.lo, stretch.hi, along.bound_x);
   if (!is_point && !stretch.covered) return false;
   if (largest <= kTurnAccuracy && is_inside(middle)) add_root(middle, 0, true);
@@ -300,6 +301,8 @@ void LineSearch::take_monotone(const Stretch& stretch, const Bounds& along, std:
     if (std::abs(from) > most) lo = place(reached(std::copysign(most, from)));
     if (std::abs(to) > most) hi = place(reached(std::copysign(most, to)));
   }
+  const Range y = bounds({lo, hi, 0, false}).bound_x;
+  if (passes_by(lo, hi, y)) return;
   if ((at_lo <= 0) != (at_hi <= 0) || std::abs(at_lo) <= kTurnAccuracy || std::abs(at_hi) <= kTurnAccuracy) {
     Place root = std::abs(at_lo) <= kTurnAccuracy   ? stretch.lo
                  : std::abs(at_hi) <= kTurnAccuracy ? stretch.hi
@@ -316,7 +319,7 @@ void LineSearch::take_monotone(const Stretch& stretch, const Bounds& along, std:
     const double determinant = a.slope(q) * b.slope(p) - a.slope(p) * b.slope(q);
     if (is_inside(root) && (exact || !stretch.covered)) add_root(root, determinant > 0 ? 1 : -1, exact);
   }
-  if (!stretch.covered) add_piece(lo, hi, bounds({lo, hi, 0, false}).bound_x);
+  if (!stretch.covered) add_piece(lo, hi, y);
 }
 
 LineSearch::Place LineSearch::solve(std::size_t row, double level, const Place& from, const Place& to) const {
@@ -339,6 +342,32 @@ LineSearch::Place LineSearch::solve(std::size_t row, double level, const Place& 
   return at;
 }
 
+/// Off the line, where the guide is off as well, a residual may be larger than the tolerance on it: is there no place
+/// beside the line, between these two, where all are within it? Told where the equations are straight.
+bool LineSearch::passes_by(const Place& lo, const Place& hi, const Range& y) const {
+  const double least = std::max(y.least - margin_, bound().lo());
+  const double most = std::min(y.most + margin_, bound().hi());
+  if (most < least) return false;
+  const double width = hi.free.x - lo.free.x;
+  const RollPoint bound_lo = bound().point(least);
+  const RollPoint bound_hi = bound().point(most);
+  const double bend = kStraightShare * limits_.tolerance;
+  Polygon left{{lo.free.x, least}, {hi.free.x, least}, {hi.free.x, most}, {lo.free.x, most}};
+  for (std::size_t row = 0; row < free().rows(); ++row) {
+    const double along = free().slope_between(lo.free, hi.free, row).spread() * width;
+    const double across = bound().slope_between(bound_lo, bound_hi, row).spread() * (most - least);
+    if (along + across <= bend) left = within_row(left, lo, row, limits_.tolerance + bend + kTurnAccuracy);
+  }
+  return left.empty();
+}
+
+/// The part of a polygon where an equation, taken as straight from a place on the line, is off by no more than `most`.
+Polygon LineSearch::within_row(const Polygon& polygon, const Place& at, std::size_t row, double most) const {
+  const double sign = free_is_a_ ? 1 : -1;
+  const Vec2 slope(sign * at.free.slope(row), -sign * at.bound.slope(row));
+  return within(polygon, {at.free.x, at.bound.x}, residual(at, row), slope, most);
+}
+
 /// Of a band what every equation leaves, where it is straight from one end of the band to the other.
 Polygon LineSearch::narrow(const Polygon& band, const Place& lo, const Place& hi) const {
   const double width = hi.free.x - lo.free.x;
@@ -346,9 +375,7 @@ Polygon LineSearch::narrow(const Polygon& band, const Place& lo, const Place& hi
   for (std::size_t row = 0; row < free().rows(); ++row) {
     const double bend = residual(lo, row) + width * residual_slope(lo, row) - residual(hi, row);
     if (!(std::abs(bend) <= kStraightShare * limits_.tolerance)) continue;
-    const double sign = free_is_a_ ? 1 : -1;
-    const Vec2 slope(sign * lo.free.slope(row), -sign * lo.bound.slope(row));
-    left = within(left, {lo.free.x, lo.bound.x}, residual(lo, row), slope, limits_.tolerance);
+    left = within_row(left, lo, row, limits_.tolerance);
   }
   return left;
 }

@@ -64,6 +64,8 @@ class LineSearch {
   void take_overlap(std::vector<Place> samples);
   void take_monotone(const Stretch& stretch, const Bounds& along, std::size_t row);
   void add_piece(const Place& lo, const Place& hi, const Range& y);
+  bool passes_by(const Place& lo, const Place& hi, const Range& y) const;
+  Polygon within_row(const Polygon& polygon, const Place& at, std::size_t row, double most) const;
   Polygon narrow(const Polygon& band, const Place& lo, const Place& hi) const;
   void take_hull(const Polygon& polygon, PairPiece& piece) const;
   void add_root(const Place& place, int sign, bool exact);
