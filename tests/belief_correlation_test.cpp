@@ -44,8 +44,9 @@ TEST(BeliefCorrelation, rows_at_rest_make_the_answer_neither_surer_nor_less_sure
   const Part part = belief_cases::part_of("cam");
   const double step = kLengthShare * part.perimeter() / (kRows - 1);
   const double once = sd_of(part, 1, 0.5 * step);  // every row is worth one
-  EXPECT_NEAR(sd_of(part, 5, 0.5 * step) / once, 1, 0.05);
-  EXPECT_NEAR(sd_of(part, 50, 0.5 * step) / once, 1, 0.05);
+  // How far the finger went for a row is known only so well, and no row is worth more than one.
+  EXPECT_NEAR(sd_of(part, 5, 0.5 * step) / once, 1, 0.08);
+  EXPECT_NEAR(sd_of(part, 50, 0.5 * step) / once, 1, 0.08);
 }
 
 }  // namespace belief_correlation_test

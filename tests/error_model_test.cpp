@@ -33,10 +33,11 @@ TEST(ErrorModel, rows_near_together_are_worth_what_their_mean_is_known_better) {
   BeliefOptions alike = options();
   alike.noise.correlation = 0.5;
   const double step = 0.01;
-  const int rows = 20000;
+  const double rows = 20000;
   double variance = rows;  // of the sum of rows of variance 1 whose correlation falls off exponentially
   for (int lag = 1; lag < rows; ++lag) variance += 2 * (rows - lag) * std::exp(-lag * step / 0.5);
-  EXPECT_NEAR(of_one(alike).worth(step), rows / variance, 0.02 * rows / variance);
+  const double worth = rows * rows / variance;
+  EXPECT_NEAR(of_one(alike).worth(rows * step, rows), worth, 0.02 * worth);
 }
 
 TEST(ErrorModel, a_part_that_is_rolled_over_again_is_off_as_it_was) {

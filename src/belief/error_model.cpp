@@ -52,9 +52,15 @@ double SensorErrors::slipped(double length) const {
 }
 
 // The integral of a correlation that falls off over a length is twice that length.
-double SensorErrors::worth(double step) const {
-  if (noise.correlation <= 0 || gathers_rows()) return 1;
-  return std::clamp(0.5 * std::abs(step) / noise.correlation, kLeastWorth, 1.0);
+double SensorErrors::worth(double travelled, double rows) const {
+  if (noise.correlation <= 0 || gathers_rows()) return rows;
+  return std::clamp(0.5 * travelled / noise.correlation, kLeastWorth * rows, rows);
+}
+
+// A log's first contact is off as any other. A sum of increments starts from where it is, and wanders.
+Travel SensorErrors::travel() const {
+  const bool is_exact = bare || gathers_rows();
+  return {{-1, 0, is_exact ? 0 : contact_variance}, gathers_rows() ? contact_variance : 0};
 }
 
 // A gyroscope drifts, and so may the part's outline.
@@ -90,8 +96,6 @@ double ErrorModel::radius_share(double finger_curvature) const {
   return all > 0 ? square(sensor_.noise.radius * finger_curvature) / all : 0;
 }
 
-double ErrorModel::worth(double step) const { return sensor_.worth(step); }
-
 RowCovariance ErrorModel::row(double finger_curvature, double alike) const {
   const double contact = sensor_.row_share * sensor_.contact_variance;
   const double angle = sensor_.row_share * sensor_.angle_variance + alike * sensor_.part_variance();
@@ -99,14 +103,14 @@ RowCovariance ErrorModel::row(double finger_curvature, double alike) const {
   return {contact, -finger_curvature * contact, square(finger_curvature) * contact + angle};
 }
 
-RowCovariance ErrorModel::gathered(double length, const Interval& seconds) const {
+RowCovariance ErrorModel::gathered(double travelled, double rows, const Interval& seconds) const {
   RowCovariance sum;
-  sum.length = sensor_.slipped(length);
+  sum.length = sensor_.slipped(travelled);
   if (sensor_.gathers_rows()) {
-    sum.length += sensor_.contact_variance;
-    sum.turn += sensor_.angle_variance;
+    sum.length += rows * sensor_.contact_variance;
+    sum.turn += rows * sensor_.angle_variance;
   }
-  sum.turn += sensor_.drifted(length, seconds);
+  sum.turn += sensor_.drifted(travelled, seconds);
   return sum;
 }
 

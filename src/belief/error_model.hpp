@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "belief/travel.hpp"
 #include "rollfix/belief/belief.hpp"
 #include "rollfix/contact/noise.hpp"
 
@@ -22,8 +23,11 @@ struct SensorErrors {
   /// Of the length, and of the turn, that is gathered on the way over a length, in these seconds from the start.
   double slipped(double length) const;
   double drifted(double length, const Interval& seconds) const;
-  /// As many rows' worth as one is, this far from the one before: less than 1 where rows close together are off alike.
-  double worth(double step) const;
+  /// As many rows' worth as so many are that a finger travels over this length for: fewer where rows close together are
+  /// off alike.
+  double worth(double travelled, double rows) const;
+  /// Of a log's lengths.
+  Travel travel() const;
   /// Of a tangent's direction, as the part's outline has it.
   double part_variance() const { return noise.part.turn * noise.part.turn; }
   /// Among so many rows, spread over so much of the boundary, the number that the part's outline is off for alike: each
@@ -74,16 +78,16 @@ class ErrorModel {
   double centre_variance() const { return sensor_.noise.position * sensor_.noise.position; }
   /// As far as the scale's variance is that of a wrong radius.
   double radius_share(double finger_curvature) const;
-  /// As many rows' worth as one is, this far from the one before.
-  double worth(double step) const;
+  double worth(double travelled, double rows) const { return sensor_.worth(travelled, rows); }
+  Travel travel() const { return sensor_.travel(); }
   /// Angles are too noisy for one look at every row to do.
   bool is_wide() const { return start_(1, 1) > kWideAngle * kWideAngle; }
   /// Of a row on its own, with the finger's curvature where it touches, and so many rows that the part is off for
   /// alike.
   RowCovariance row(double finger_curvature, double alike = 1) const;
   double rows_alike(double rows, double range) const { return sensor_.rows_alike(rows, range); }
-  /// What the offsets gather over one row that travels over this length, in these seconds from the roll's start.
-  RowCovariance gathered(double length, const Interval& seconds) const;
+  /// What the offsets gather over so many rows that travel over this length, in these seconds from the roll's start.
+  RowCovariance gathered(double travelled, double rows, const Interval& seconds) const;
 
  private:
   SensorErrors sensor_;
@@ -121,7 +125,8 @@ class PairErrors {
   double rows_alike(double rows, double range) const { return sensor_.rows_alike(rows, range); }
   /// With the place u, its error turns the normal that it tells: 1/r for logs of u, else 0.
   double normal_turn(std::size_t finger) const { return normal_turn_[finger]; }
-  double worth(double step) const { return sensor_.worth(step); }
+  double worth(double travelled, double rows) const { return sensor_.worth(travelled, rows); }
+  Travel travel() const { return sensor_.travel(); }
   /// Of a centre's coordinate, each row on its own; 0: centres are not looked at.
   double centre_variance() const { return sensor_.noise.position * sensor_.noise.position; }
   double angle_variance() const { return sensor_.angle_variance; }  // of one finger's orientation, each row on its own

@@ -64,76 +64,96 @@ std::vector<AnyNode> evenly(const std::vector<AnyNode>& nodes, std::size_t most,
 
 }  // namespace
 
-void Nodes::close_block(Node& sum, double& weight) const {
+void Nodes::close_block(Together& sum, double& blocks) const {
   if (block_.empty()) return;
   std::vector<Reading> readings;
   FeltCentre felt;
   const double share = 1 / static_cast<double>(block_.size());
-  double worth = 0;
   for (const Row& row : block_) {
     readings.push_back(row.reading);
-    worth += row.worth;
     felt.centre += share * row.felt.centre;
     felt.arm.at += share * row.felt.arm.at;
     felt.arm.per_length += share * row.felt.arm.per_length;
   }
-  // As of one row: a median of rows on a slope is hardly better. Rows that say the same again count for less.
-  worth *= share;
+  // Worth one row: a median of rows on a slope is hardly better.
   const Reading middle = median_of(readings);
   const double length = middle.length[0];
   const double turn = middle.turn;
-  // The variance among the blocks so far, times their weight (West 1979).
-  if (weight > 0) {
-    const double off = turn + tilt_ * length - (sum.turn + tilt_ * sum.length) / weight;
-    sum.spread += off * off * worth * weight / (worth + weight);
+  // The variance among the blocks so far, times their number (West 1979).
+  if (blocks > 0) {
+    const double off = turn + tilt_ * length - (sum.turn + tilt_ * sum.length) / blocks;
+    sum.spread += off * off * blocks / (1 + blocks);
   }
-  sum.length += worth * length;
-  sum.turn += worth * turn;
-  sum.own += worth * block_own_;
-  sum.felt.centre += worth * felt.centre;
-  sum.felt.arm.at += worth * felt.arm.at;
-  sum.felt.arm.per_length += worth * felt.arm.per_length;
-  weight += worth;
+  sum.length += length;
+  sum.turn += turn;
+  sum.own += block_own_;
+  sum.felt.centre += felt.centre;
+  sum.felt.arm.at += felt.arm.at;
+  sum.felt.arm.per_length += felt.arm.per_length;
+  blocks += 1;
 }
 
 void Nodes::add(const Reading& reading, double finger_curvature, double seconds, const FeltCentre& felt) {
-  const double step = reading.length[0] - length_;
-  const double worth = errors_.worth(step);
-  sum_.gathered += errors_.gathered(step, {seconds_, seconds});
-  sum_.worth += worth;
-  seconds_ = seconds;
-  length_ = reading.length[0];
   ++rows_;
-  ++pending_rows_;
-  range_ = {std::min(range_.lo, length_), std::max(range_.hi, length_)};
+  sum_.rows += 1;
+  sum_.seconds = seconds;
+  range_ = {std::min(range_.lo, reading.length[0]), std::max(range_.hi, reading.length[0])};
   block_own_ = errors_.row(finger_curvature, errors_.rows_alike(static_cast<double>(rows_), range_.width()));
-  block_.push_back({reading, felt, worth});
+  block_.push_back({reading, felt});
   if (block_.size() >= block_of(robust_, stride_)) {
     close_block(sum_, blocks_);
     block_.clear();
   }
-  if (pending_rows_ < stride_) return;
-  nodes_.push_back(*pending());
+  if (sum_.rows < static_cast<double>(stride_)) return;
+  together_.push_back(closed());
+  complete_node(together_.back());
   sum_ = {};
   blocks_ = 0;
-  pending_rows_ = 0;
   block_.clear();
   if (nodes_.size() >= most_) join_neighbours();
 }
 
+Nodes::Together Nodes::closed() const {
+  Together rows = sum_;
+  double blocks = blocks_;
+  close_block(rows, blocks);
+  const double share = 1 / blocks;
+  rows.length *= share;
+  rows.turn *= share;
+  rows.spread *= share;
+  rows.own = share * share * rows.own;
+  rows.felt.centre *= share;
+  rows.felt.arm.at *= share;
+  rows.felt.arm.per_length *= share;
+  return rows;
+}
+
+Travel::Mark Nodes::mark(const Together& rows) const {
+  const double before = static_cast<double>(nodes_.size() * stride_);
+  return {before + 0.5 * (rows.rows - 1), rows.length, rows.own.length};
+}
+
+Node Nodes::node_of(const Together& rows, double travelled) const {
+  const double worth = errors_.worth(travelled, rows.rows);
+  const double before = nodes_.empty() ? 0 : together_[nodes_.size() - 1].seconds;
+  return {rows.length,
+          rows.turn,
+          rows.spread,
+          rows.rows / worth * rows.own,
+          errors_.gathered(travelled, rows.rows, {before, rows.seconds}),
+          worth,
+          rows.felt};
+}
+
+void Nodes::complete_node(const Together& rows) {
+  const double travelled = travel_.add(mark(rows));
+  nodes_.push_back(node_of(rows, travelled));
+}
+
 std::optional<Node> Nodes::pending() const {
-  if (pending_rows_ == 0) return std::nullopt;
-  Node sum = sum_;
-  double weight = blocks_;
-  close_block(sum, weight);
-  const FeltCentre felt{sum.felt.centre / weight, {sum.felt.arm.at / weight, sum.felt.arm.per_length / weight}};
-  return Node{sum.length / weight,
-              sum.turn / weight,
-              sum.spread / weight,
-              1 / (weight * weight) * sum.own,
-              sum.gathered,
-              sum.worth,
-              felt};
+  if (sum_.rows == 0) return std::nullopt;
+  const Together rows = closed();
+  return node_of(rows, travel_.since_last(mark(rows)));
 }
 
 double Nodes::freedom() const {
@@ -144,29 +164,29 @@ double Nodes::freedom() const {
 }
 
 void Nodes::join_neighbours() {
-  for (std::size_t k = 0; 2 * k + 1 < nodes_.size(); ++k) {
-    const Node& a = nodes_[2 * k];
-    const Node& b = nodes_[2 * k + 1];
-    const double of_a = a.worth / (a.worth + b.worth);
-    const double of_b = 1 - of_a;
+  for (std::size_t k = 0; 2 * k + 1 < together_.size(); ++k) {
+    const Together& a = together_[2 * k];
+    const Together& b = together_[2 * k + 1];
     const double apart = b.turn - a.turn + tilt_ * (b.length - a.length);
-    const FeltCentre felt{
-        of_a * a.felt.centre + of_b * b.felt.centre,
-        {of_a * a.felt.arm.at + of_b * b.felt.arm.at, of_a * a.felt.arm.per_length + of_b * b.felt.arm.per_length}};
-    Node both{of_a * a.length + of_b * b.length,
-              of_a * a.turn + of_b * b.turn,
-              of_a * a.spread + of_b * b.spread + of_a * of_b * apart * apart,
-              of_a * of_a * a.own,
-              a.gathered,
-              a.worth + b.worth,
-              felt};
-    both.own += of_b * of_b * b.own;
-    both.gathered += b.gathered;
-    nodes_[k] = both;
+    Together both;
+    both.length = 0.5 * (a.length + b.length);
+    both.turn = 0.5 * (a.turn + b.turn);
+    both.spread = 0.5 * (a.spread + b.spread) + 0.25 * apart * apart;
+    both.own = 0.25 * a.own;
+    both.own += 0.25 * b.own;
+    both.felt = {0.5 * (a.felt.centre + b.felt.centre),
+                 {0.5 * (a.felt.arm.at + b.felt.arm.at), 0.5 * (a.felt.arm.per_length + b.felt.arm.per_length)}};
+    both.rows = a.rows + b.rows;
+    both.seconds = b.seconds;
+    together_[k] = both;
   }
-  nodes_.resize(nodes_.size() / 2);
+  together_.resize(together_.size() / 2);
   stride_ *= 2;
   ++generation_;
+  // The means are less noisy than what was joined: how far the finger travelled is known better.
+  nodes_.clear();
+  travel_.restart();
+  for (const Together& rows : together_) complete_node(rows);
 }
 
 PairCentres PairCentres::of(const PerFinger<FeltCentre>& felt, const PerFinger<double>& facing) {
@@ -209,7 +229,7 @@ std::vector<PairNode> pair_nodes(const std::vector<Reading>& rows, const std::ve
   const double lift = absolute && facing ? *facing : 0;
   const std::size_t stride = std::max<std::size_t>(1, (rows.size() + kMostNodes - 1) / kMostNodes);
   const std::size_t block = block_of(robust, stride);
-  std::array<double, 2> last{};
+  std::array<Travel, 2> travel{errors.travel(), errors.travel()};
   for (std::size_t begin = 0; begin < rows.size(); begin += stride) {
     const std::size_t end = std::min(rows.size(), begin + stride);
     PairNode node;
@@ -226,16 +246,15 @@ std::vector<PairNode> pair_nodes(const std::vector<Reading>& rows, const std::ve
     node.length[0] /= blocks;
     node.length[1] /= blocks;
     node.turn = node.turn / blocks + lift;
-    double worth = 0;
-    for (std::size_t k = begin; k < end; ++k) {
-      const PerFinger<double> before = k > 0 ? rows[k - 1].length : PerFinger<double>(0, 0);
-      worth += errors.worth(std::max(std::abs(rows[k].length[0] - before[0]), std::abs(rows[k].length[1] - before[1])));
-    }
-    // A median of rows on a slope is hardly better than one of them.
-    node.rows = blocks * worth / static_cast<double>(end - begin);
     node.gathered = static_cast<double>(end - begin);
-    node.travelled = {node.length[0] - last[0], node.length[1] - last[1]};
-    last = node.length;
+    for (const std::size_t finger : {0U, 1U}) {
+      const double middle = 0.5 * static_cast<double>(begin + end - 1);
+      const Travel::Mark mark{middle, node.length[finger], errors.contact_variance() / blocks};
+      node.travelled[finger] = travel[finger].add(mark);
+    }
+    const double worth = errors.worth(std::max(node.travelled[0], node.travelled[1]), node.gathered);
+    // A median of rows on a slope is hardly better than one of them.
+    node.rows = blocks * worth / node.gathered;
     if (!centres.empty()) node.centres = mean_of(centres, begin + 1, end + 1);
     nodes.push_back(node);
   }

@@ -7,6 +7,7 @@
 
 #include "belief/centres.hpp"
 #include "belief/error_model.hpp"
+#include "belief/travel.hpp"
 #include "rollfix/contact/reading.hpp"
 #include "rollfix/outline/curve.hpp"
 
@@ -39,7 +40,7 @@ class Nodes {
  public:
   /// `robust`: of rows that make a node together medians are taken first, so that a stray one does not move it.
   Nodes(const ErrorModel& errors, double tilt, bool robust, std::size_t most = kMostNodes)
-      : errors_(errors), tilt_(tilt), robust_(robust), most_(most) {}
+      : errors_(errors), tilt_(tilt), robust_(robust), most_(most), travel_(errors.travel()) {}
 
   /// `finger_curvature`: where the finger touches. `seconds`: since the roll's start. `felt`: where its centre is, if
   /// that is looked at.
@@ -58,10 +59,25 @@ class Nodes {
   struct Row {
     Reading reading;
     FeltCentre felt;
-    double worth = 1;
   };
-  void close_block(Node& sum, double& weight) const;
+  /// Rows that are taken together: a node, but for what follows from how far the finger travelled for it.
+  struct Together {
+    double length = 0;
+    double turn = 0;
+    double spread = 0;
+    RowCovariance own;  // of the mean, where each row is off on its own
+    FeltCentre felt{};
+    double rows = 0;
+    double seconds = 0;  // at the last of them
+  };
+  void close_block(Together& sum, double& blocks) const;
+  /// The pending rows.
+  Together closed() const;
+  Node node_of(const Together& rows, double travelled) const;
+  void complete_node(const Together& rows);
   void join_neighbours();
+  /// The next node's rows, as a place on the way.
+  Travel::Mark mark(const Together& rows) const;
 
   ErrorModel errors_;
   double tilt_;
@@ -70,14 +86,13 @@ class Nodes {
   std::size_t stride_ = 1;  // rows of a node
   std::size_t generation_ = 0;
   std::size_t rows_ = 0;
-  double length_ = 0;  // of the row before
-  double seconds_ = 0;
   Interval range_;  // of all lengths so far
+  std::vector<Together> together_;
   std::vector<Node> nodes_;
+  Travel travel_;  // of them
   // Of the node that is being made: sums over blocks of rows, and the rows of the block that is being filled.
-  Node sum_;
-  double blocks_ = 0;  // their weight
-  std::size_t pending_rows_ = 0;
+  Together sum_;
+  double blocks_ = 0;
   std::vector<Row> block_;
   RowCovariance block_own_;  // of one of its rows
 };
@@ -103,7 +118,7 @@ struct PairNode {
   double rows = 1;                       // as many rows' worth
   double alike = 1;                      // so many nodes the part's outline is off for alike
   double gathered = 0;                   // rows since the node before
-  std::array<double, 2> travelled{};     // length since the node before
+  std::array<double, 2> travelled{};     // by each finger, length since the node before, to and fro
   std::optional<PairCentres> centres{};  // where they are looked at: means
 };
 

@@ -108,10 +108,7 @@ void PointScorer::refresh_likely_first(const std::vector<GridPoint*>& points, co
 
 Errand PointScorer::first_errand(GridPoint& point, const Nodes& nodes) const {
   if (point.generation != nodes.generation()) {
-    // Joined nodes are worth what they were one by one; half of one can't be given back.
-    const std::size_t shift = nodes.generation() - point.generation;
-    if (((point.taken >> shift) << shift) != point.taken) point = make(*point.filter.arc(), point.filter.w());
-    point.taken >>= shift;
+    point = make(*point.filter.arc(), point.filter.w());
     point.generation = nodes.generation();
   }
   const std::vector<Node>& complete = nodes.complete();
