@@ -89,11 +89,11 @@ Observation with_lengths(const Observation& observed, double scale) {
 class Diagnostician {
  public:
   Diagnostician(const Problem& problem, const Observation& observed, Belief& belief)
-      : problem_(problem),
-        observed_(observed),
-        as_said_(belief.fit()),
-        log_evidence_(with_noise_as_it_seems(belief.evidence(), as_said_)),
-        verdict_(belief.verdict()) {}
+      : problem_(problem), observed_(observed), verdict_(belief.verdict()) {
+    std::optional<Belief> as_said = by_rows(problem, observed);
+    as_said_ = as_said->fit();
+    log_evidence_ = with_noise_as_it_seems(as_said->evidence(), as_said_);
+  }
 
   std::vector<Diagnosis> diagnoses() {
     try_noise();
@@ -120,11 +120,20 @@ class Diagnostician {
  private:
   static double steps_of(const Trial& trial) { return std::round(trial.log_evidence / kEvidenceStep); }
 
+  /// Explanations differ in their noise: they are compared by the same rows, joined for their number alone. With
+  /// `rows`, at a glance by so many.
+  static std::optional<Belief> by_rows(const Problem& problem, const Observation& observed, std::size_t rows = 0) {
+    Supposed supposed;
+    if (rows > 0) supposed = {0, rows, true};
+    supposed.by_rows = true;
+    return believe(problem, observed, supposed);
+  }
+
   /// How noisy the rows are is not known better than they say themselves: what was said may be too much as well.
   static double with_noise_as_it_seems(const Evidence& evidence, const Fit& fit) {
     const double times = std::max(kLeastNoise, std::sqrt(fit.chi_square / std::max(1.0, fit.freedom)));
     const double less = 0.5 * fit.chi_square * (1 - 1 / (times * times));
-    return evidence.with(1) + less - fit.freedom * std::log(times);
+    return evidence.with(1) + evidence.gathered + less - fit.freedom * std::log(times);
   }
 
   /// As noisy as they are, the rows may be nothing but that.
@@ -137,7 +146,7 @@ class Diagnostician {
     noisier.noise->angle *= as_said_.excess;
     noisier.noise->position *= as_said_.excess;
     if (noisier.noise->angle > BeliefOptions::kMostAngle) return;
-    std::optional<Belief> belief = believe(noisier, observed_);
+    std::optional<Belief> belief = by_rows(noisier, observed_);
     Diagnosis diagnosis = of(Cause::noise, belief->fit());
     diagnosis.noise_scale = as_said_.excess;
     add(std::move(diagnosis), *belief, -std::log(as_said_.excess));
@@ -297,7 +306,7 @@ class Diagnostician {
   void try_robust() {
     Problem robust = problem_;
     robust.robust = true;
-    std::optional<Belief> belief = believe(robust, observed_);
+    std::optional<Belief> belief = by_rows(robust, observed_);
     const Fit fit = belief->fit();
     const auto rows = static_cast<double>(belief->samples());
     if (fit.stray < 1 || fit.stray > std::max(kMostStray, kMostStrayShare * rows)) return;
@@ -311,7 +320,7 @@ class Diagnostician {
       if (slip <= problem_.noise->slip) continue;
       Problem slipping = problem_;
       slipping.noise->slip = slip;
-      std::optional<Belief> belief = believe(slipping, observed_);
+      std::optional<Belief> belief = by_rows(slipping, observed_);
       Diagnosis diagnosis = of(Cause::slip, belief->fit());
       diagnosis.slip = slip;
       if (add(std::move(diagnosis), *belief, 0, log_odds)) return;
@@ -322,10 +331,10 @@ class Diagnostician {
   void take(Cause cause, const Problem& mended, double log_stretch = 0) {
     try {
       const Observation observed = observe(mended);
-      const Fit glance = believe(mended, observed, {0, kRowsToCompare, true})->fit();
+      const Fit glance = by_rows(mended, observed, kRowsToCompare)->fit();
       if (!std::isfinite(glance.excess)) return;
       if (glance.is_bad() && glance.excess > std::max(kWorthALook, kMuchBetter * glance_excess())) return;
-      std::optional<Belief> belief = believe(mended, observed);
+      std::optional<Belief> belief = by_rows(mended, observed);
       add(of(cause, belief->fit()), *belief, log_stretch);
     } catch (const InputError&) {  // what no log can be explains nothing
     }
@@ -333,7 +342,7 @@ class Diagnostician {
 
   /// What the rows leave as they are, by a few of them.
   double glance_excess() {
-    if (glance_excess_ <= 0) glance_excess_ = believe(problem_, observed_, {0, kRowsToCompare, true})->fit().excess;
+    if (glance_excess_ <= 0) glance_excess_ = by_rows(problem_, observed_, kRowsToCompare)->fit().excess;
     return glance_excess_;
   }
 
@@ -361,7 +370,7 @@ class Diagnostician {
 
   std::optional<Belief> belief_with(double scale, std::size_t rows) const {
     try {
-      return believe(with_lengths(problem_, scale), with_lengths(observed_, scale), {kOpenScale, rows, true});
+      return believe(with_lengths(problem_, scale), with_lengths(observed_, scale), {kOpenScale, rows, true, {}, true});
     } catch (const InputError&) {
       return std::nullopt;
     }
@@ -374,8 +383,8 @@ class Diagnostician {
   const Problem& problem_;
   const Observation& observed_;
   Fit as_said_;
-  double log_evidence_;  // with it, and with as much noise as the rows seem to have
-  Verdict verdict_;      // with it
+  double log_evidence_ = 0;  // with it, and with as much noise as the rows seem to have
+  Verdict verdict_;          // with it
   std::vector<Trial> trials_;
   double glance_excess_ = 0;
   mutable double turn_beyond_ = -1;

@@ -121,6 +121,7 @@ std::optional<Belief> believe(const Problem& problem, const Observation& observe
   options.scale_sd = supposed.scale_sd;
   options.glance = supposed.glance;
   options.nodes = supposed.nodes;
+  options.by_rows = supposed.by_rows;
   options.within = supposed.within;
   options.bare = !problem.felt.is_log();
   if (problem.pose && (!observed.contacts || problem.fingers.empty())) {

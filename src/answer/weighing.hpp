@@ -21,6 +21,7 @@ struct Supposed {
   std::size_t rows = std::numeric_limits<std::size_t>::max();  // no more than about so many are looked at
   bool glance = false;                                         // see BeliefOptions
   std::optional<std::size_t> nodes{};                          // likewise
+  bool by_rows = false;                                        // likewise
   std::vector<Interval> within{};                              // likewise
 };
 /// Nothing without noise.

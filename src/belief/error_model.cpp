@@ -46,10 +46,10 @@ double SensorErrors::scale_variance(double finger_curvature) const {
   return square(noise.slip) + square(noise.radius * finger_curvature) + square(scale_sd) + square(noise.part.length);
 }
 
+double SensorErrors::patch() const { return kSlipPatch * perimeter; }
+
 // What slips at one place has nothing to do with what slips a hundredth of the boundary further on.
-double SensorErrors::slipped(double length) const {
-  return square(slip_here_and_there) * std::abs(length) * kSlipPatch * perimeter;
-}
+double SensorErrors::slipped(double length) const { return square(slip_here_and_there) * std::abs(length) * patch(); }
 
 // The integral of a correlation that falls off over a length is twice that length.
 double SensorErrors::worth(double travelled, double rows) const {
@@ -103,8 +103,8 @@ RowCovariance ErrorModel::row(double finger_curvature, double alike) const {
   return {contact, -finger_curvature * contact, square(finger_curvature) * contact + angle};
 }
 
-RowCovariance ErrorModel::gathered(double travelled, double rows, const Interval& seconds) const {
-  RowCovariance sum;
+Gathered ErrorModel::gathered(double travelled, double rows, const Interval& seconds) const {
+  Gathered sum;
   sum.length = sensor_.slipped(travelled);
   if (sensor_.gathers_rows()) {
     sum.length += rows * sensor_.contact_variance;
@@ -134,10 +134,7 @@ PairErrors::PairErrors(const BeliefOptions& options, LogKind kind, const std::ar
 
 double PairErrors::contact_sd() const { return std::sqrt(contact_variance_); }
 
-bool PairErrors::drifts() const {
-  return sensor_.slip_here_and_there > 0 || sensor_.gathers_rows() || sensor_.is_gyroscope() ||
-         sensor_.noise.part.walk > 0;
-}
+bool PairErrors::drifts() const { return sensor_.slip_here_and_there > 0 || sensor_.gathers(); }
 
 PairShared PairErrors::gathered(double rows, const std::array<double, 2>& travelled) const {
   PairShared sum = PairShared::Zero();

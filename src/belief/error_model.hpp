@@ -35,6 +35,11 @@ struct SensorErrors {
   double rows_alike(double rows, double range) const;
 
   bool gathers_rows() const { return kind == LogKind::increments; }  // every row adds its own to all that follow
+  /// Anything but slip gathers.
+  bool gathers() const { return gathers_rows() || drifts() || noise.part.walk > 0; }
+  bool drifts() const { return !bare && (noise.drift > 0 || noise.walk > 0 || is_gyroscope()); }
+  /// Slip is one and the same over this length.
+  double patch() const;
   bool is_gyroscope() const { return kind == LogKind::travelled && !bare; }
 
   LogKind kind;
@@ -55,10 +60,23 @@ using SharedCovariance = Eigen::Matrix<double, 5, 5>;
 /// The first of them, which lengths and turns tell of.
 inline constexpr int kRolling = 3;
 
-/// Errors of one row on its own, or of what a row adds to the rows before: variances of length and turn.
+/// Errors of one row on its own: variances of length and turn.
 struct RowCovariance {
   double length = 0;
   double both = 0;
+  double turn = 0;
+};
+
+inline RowCovariance operator*(double factor, const RowCovariance& covariance) {
+  return {factor * covariance.length, factor * covariance.both, factor * covariance.turn};
+}
+inline RowCovariance operator+(const RowCovariance& a, const RowCovariance& b) {
+  return {a.length + b.length, a.both + b.both, a.turn + b.turn};
+}
+
+/// Variances of length and turn that gather on the way.
+struct Gathered {
+  double length = 0;
   double turn = 0;
 };
 
@@ -80,6 +98,8 @@ class ErrorModel {
   double radius_share(double finger_curvature) const;
   double worth(double travelled, double rows) const { return sensor_.worth(travelled, rows); }
   Travel travel() const { return sensor_.travel(); }
+  /// Over less than this length what gathers is one and the same.
+  double patch() const { return sensor_.patch(); }
   /// Angles are too noisy for one look at every row to do.
   bool is_wide() const { return start_(1, 1) > kWideAngle * kWideAngle; }
   /// Of a row on its own, with the finger's curvature where it touches, and so many rows that the part is off for
@@ -87,7 +107,7 @@ class ErrorModel {
   RowCovariance row(double finger_curvature, double alike = 1) const;
   double rows_alike(double rows, double range) const { return sensor_.rows_alike(rows, range); }
   /// What the offsets gather over so many rows that travel over this length, in these seconds from the roll's start.
-  RowCovariance gathered(double travelled, double rows, const Interval& seconds) const;
+  Gathered gathered(double travelled, double rows, const Interval& seconds) const;
 
  private:
   SensorErrors sensor_;

@@ -2,49 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+
+#include "belief/posterior.hpp"
 
 namespace rollfix::belief {
 
 namespace {
 
-// Rows of which a median is taken: enough that several stray ones don't matter, few enough to lie close together.
-constexpr std::size_t kRowsOfMedian = 16;
-
-void operator+=(RowCovariance& sum, const RowCovariance& term) {
-  sum.length += term.length;
-  sum.both += term.both;
-  sum.turn += term.turn;
-}
-
-RowCovariance operator*(double factor, const RowCovariance& covariance) {
-  return {factor * covariance.length, factor * covariance.both, factor * covariance.turn};
-}
-
-double median(std::vector<double> values) {
-  const auto upper = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), upper, values.end());
-  if (values.size() % 2 == 1) return *upper;
-  return 0.5 * (*upper + *std::max_element(values.begin(), upper));
-}
-
-/// What rows that are taken together come to: each number's median.
-Reading median_of(const std::vector<Reading>& rows) {
-  Reading middle = rows.front();
-  if (rows.size() == 1) return middle;
-  const auto median_by = [&](const auto& number) {
-    std::vector<double> values;
-    for (const Reading& row : rows) values.push_back(number(row));
-    return median(std::move(values));
-  };
-  for (std::size_t finger = 0; finger < middle.fingers(); ++finger) {
-    middle.length[finger] = median_by([&](const Reading& row) { return row.length[finger]; });
-  }
-  middle.turn = median_by([](const Reading& row) { return row.turn; });
-  return middle;
-}
-
-/// Rows that are taken together before a mean is taken: of robust ones by their median.
-std::size_t block_of(bool robust, std::size_t stride) { return robust ? std::min(stride, kRowsOfMedian) : 1; }
+// Where what gathers is seen, nodes are this many times as long as slip is one and the same: long enough that what
+// gathers in neighbours is independent. There are at least so many, to tell a roll's course.
+constexpr double kPatches = 2.5;
+constexpr double kFewestNodes = 24;
 
 /// `gather`: what a node takes over of one that is passed over.
 template <class AnyNode, class Gather>
@@ -64,96 +33,106 @@ std::vector<AnyNode> evenly(const std::vector<AnyNode>& nodes, std::size_t most,
 
 }  // namespace
 
-void Nodes::close_block(Together& sum, double& blocks) const {
-  if (block_.empty()) return;
-  std::vector<Reading> readings;
-  FeltCentre felt;
-  const double share = 1 / static_cast<double>(block_.size());
-  for (const Row& row : block_) {
-    readings.push_back(row.reading);
-    felt.centre += share * row.felt.centre;
-    felt.arm.at += share * row.felt.arm.at;
-    felt.arm.per_length += share * row.felt.arm.per_length;
-  }
-  // Worth one row: a median of rows on a slope is hardly better.
-  const Reading middle = median_of(readings);
-  const double length = middle.length[0];
-  const double turn = middle.turn;
-  // The variance among the blocks so far, times their number (West 1979).
-  if (blocks > 0) {
-    const double off = turn + tilt_ * length - (sum.turn + tilt_ * sum.length) / blocks;
-    sum.spread += off * off * blocks / (1 + blocks);
-  }
-  sum.length += length;
-  sum.turn += turn;
-  sum.own += block_own_;
-  sum.felt.centre += felt.centre;
-  sum.felt.arm.at += felt.arm.at;
-  sum.felt.arm.per_length += felt.arm.per_length;
-  blocks += 1;
-}
-
 void Nodes::add(const Reading& reading, double finger_curvature, double seconds, const FeltCentre& felt) {
   ++rows_;
-  sum_.rows += 1;
-  sum_.seconds = seconds;
-  range_ = {std::min(range_.lo, reading.length[0]), std::max(range_.hi, reading.length[0])};
-  block_own_ = errors_.row(finger_curvature, errors_.rows_alike(static_cast<double>(rows_), range_.width()));
-  block_.push_back({reading, felt});
-  if (block_.size() >= block_of(robust_, stride_)) {
-    close_block(sum_, blocks_);
-    block_.clear();
+  if (!blocks_.add(reading, finger_curvature, seconds, felt)) return;
+  if (blocks_.is_full()) {
+    blocks_.halve();
+    group_ = (group_ + 1) / 2;
+    make_again();
+  } else if (blocks_.complete().size() % group_ == 0) {
+    complete_node(group(blocks_.complete().size() - group_));
   }
-  if (sum_.rows < static_cast<double>(stride_)) return;
-  together_.push_back(closed());
-  complete_node(together_.back());
-  sum_ = {};
-  blocks_ = 0;
-  block_.clear();
-  if (nodes_.size() >= most_) join_neighbours();
+  while (are_too_many()) {
+    ++group_;
+    make_again();
+  }
 }
 
-Nodes::Together Nodes::closed() const {
-  Together rows = sum_;
-  double blocks = blocks_;
-  close_block(rows, blocks);
-  const double share = 1 / blocks;
-  rows.length *= share;
-  rows.turn *= share;
-  rows.spread *= share;
-  rows.own = share * share * rows.own;
-  rows.felt.centre *= share;
-  rows.felt.arm.at *= share;
-  rows.felt.arm.per_length *= share;
+bool Nodes::are_too_many() const {
+  if (!by_walk_) return false;
+  const double many = std::max(kFewestNodes, travel_.so_far() / (kPatches * errors_.patch()));
+  return static_cast<double>(nodes_.size()) > many && walk_.modes() > 0.5 * many;
+}
+
+JoinedRows Nodes::group(std::size_t begin) const {
+  const std::vector<JoinedRows>& blocks = blocks_.complete();
+  JoinedRows rows = blocks[begin];
+  const std::size_t end = std::min(begin + group_, blocks.size());
+  for (std::size_t k = begin + 1; k < end; ++k) rows = joined(rows, blocks[k], tilt_);
   return rows;
 }
 
-Travel::Mark Nodes::mark(const Together& rows) const {
-  const double before = static_cast<double>(nodes_.size() * stride_);
+// Means of more rows are less noisy: how far the finger travelled is known better.
+void Nodes::make_again() {
+  ++generation_;
+  nodes_.clear();
+  walk_ = {};
+  travel_.restart();
+  seconds_ = 0;
+  for (std::size_t end = group_; end <= blocks_.complete().size(); end += group_) complete_node(group(end - group_));
+}
+
+void Nodes::complete_node(const JoinedRows& rows) {
+  const double travelled = travel_.add(mark(rows));
+  nodes_.push_back(node_of(rows, travelled));
+  walk_.add(nodes_.back());
+  seconds_ = rows.seconds;
+}
+
+std::optional<Node> Nodes::pending() const {
+  const std::size_t begin = nodes_.size() * group_;
+  const bool has_blocks = begin < blocks_.complete().size();
+  if (!has_blocks && !blocks_.has_open()) return std::nullopt;
+  JoinedRows rows = has_blocks ? group(begin) : blocks_.open();
+  if (has_blocks && blocks_.has_open()) rows = joined(rows, blocks_.open(), tilt_);
+  return node_of(rows, travel_.since_last(mark(rows)));
+}
+
+Travel::Mark Nodes::mark(const JoinedRows& rows) const {
+  const double before = static_cast<double>(nodes_.size()) * rows_of_node();
   return {before + 0.5 * (rows.rows - 1), rows.length, rows.own.length};
 }
 
-Node Nodes::node_of(const Together& rows, double travelled) const {
+Node Nodes::node_of(const JoinedRows& rows, double travelled) const {
   const double worth = errors_.worth(travelled, rows.rows);
-  const double before = nodes_.empty() ? 0 : together_[nodes_.size() - 1].seconds;
   return {rows.length,
           rows.turn,
-          rows.spread,
+          spread_of(rows),
           rows.rows / worth * rows.own,
-          errors_.gathered(travelled, rows.rows, {before, rows.seconds}),
+          errors_.gathered(travelled, rows.rows, {seconds_, rows.seconds}),
+          rows.rows,
           worth,
           rows.felt};
 }
 
-void Nodes::complete_node(const Together& rows) {
-  const double travelled = travel_.add(mark(rows));
-  nodes_.push_back(node_of(rows, travelled));
+double Nodes::spread_of(const JoinedRows& rows) const {
+  if (rows.rows < 2) return 0;
+  // What rows scatter by on their own moves no contact.
+  const RowCovariance& own = rows.own;
+  const double noise = (rows.rows - 1) * (tilt_ * tilt_ * own.length + 2 * tilt_ * own.both + own.turn);
+  const double of_noise = noise * std::sqrt(2 / rows.rows);
+  // Of a steady roll: so many rows of the way from the node before, or from the first contact.
+  const bool is_first = nodes_.empty();
+  const double before = is_first ? 0 : nodes_.back().turn + tilt_ * nodes_.back().length;
+  const double since = 0.5 * (rows.rows + (is_first ? 1 : rows_of_node()));
+  const double way = (rows.tilted(tilt_) - before) * rows.rows / since;
+  const double steady = way * way / 12;
+  const double seen = rows.scatter - noise;
+  return std::abs(seen - steady) <= kFarthest * of_noise ? steady : std::max(0.0, seen);
 }
 
-std::optional<Node> Nodes::pending() const {
-  if (sum_.rows == 0) return std::nullopt;
-  const Together rows = closed();
-  return node_of(rows, travel_.since_last(mark(rows)));
+void Nodes::Walk::add(const Node& node) {
+  length += node.gathered.length;
+  turn += node.gathered.turn;
+  length_rows += 1 / node.own.length;
+  turn_rows += 1 / node.own.turn;
+}
+
+// Of a Wiener process with variance G at its end the k-th sine has G / (k pi)^2, and of errors with variance R in each
+// of n rows every sine has R / n: both alike at this k.
+double Nodes::Walk::modes() const {
+  return std::sqrt(std::max(length * length_rows, turn * turn_rows)) / std::numbers::pi;
 }
 
 double Nodes::freedom() const {
@@ -161,32 +140,6 @@ double Nodes::freedom() const {
   for (const Node& node : nodes_) sum += std::min(1.0, node.worth);
   if (const std::optional<Node> last = pending()) sum += std::min(1.0, last->worth);
   return sum * (errors_.centre_variance() > 0 ? 3 : 1);
-}
-
-void Nodes::join_neighbours() {
-  for (std::size_t k = 0; 2 * k + 1 < together_.size(); ++k) {
-    const Together& a = together_[2 * k];
-    const Together& b = together_[2 * k + 1];
-    const double apart = b.turn - a.turn + tilt_ * (b.length - a.length);
-    Together both;
-    both.length = 0.5 * (a.length + b.length);
-    both.turn = 0.5 * (a.turn + b.turn);
-    both.spread = 0.5 * (a.spread + b.spread) + 0.25 * apart * apart;
-    both.own = 0.25 * a.own;
-    both.own += 0.25 * b.own;
-    both.felt = {0.5 * (a.felt.centre + b.felt.centre),
-                 {0.5 * (a.felt.arm.at + b.felt.arm.at), 0.5 * (a.felt.arm.per_length + b.felt.arm.per_length)}};
-    both.rows = a.rows + b.rows;
-    both.seconds = b.seconds;
-    together_[k] = both;
-  }
-  together_.resize(together_.size() / 2);
-  stride_ *= 2;
-  ++generation_;
-  // The means are less noisy than what was joined: how far the finger travelled is known better.
-  nodes_.clear();
-  travel_.restart();
-  for (const Together& rows : together_) complete_node(rows);
 }
 
 PairCentres PairCentres::of(const PerFinger<FeltCentre>& felt, const PerFinger<double>& facing) {
@@ -228,7 +181,7 @@ std::vector<PairNode> pair_nodes(const std::vector<Reading>& rows, const std::ve
   }
   const double lift = absolute && facing ? *facing : 0;
   const std::size_t stride = std::max<std::size_t>(1, (rows.size() + kMostNodes - 1) / kMostNodes);
-  const std::size_t block = block_of(robust, stride);
+  const std::size_t block = rows_of_median(robust, stride);
   std::array<Travel, 2> travel{errors.travel(), errors.travel()};
   for (std::size_t begin = 0; begin < rows.size(); begin += stride) {
     const std::size_t end = std::min(rows.size(), begin + stride);
@@ -262,7 +215,10 @@ std::vector<PairNode> pair_nodes(const std::vector<Reading>& rows, const std::ve
 }
 
 std::vector<Node> some_of(const std::vector<Node>& nodes, std::size_t most) {
-  return evenly(nodes, most, [](Node& node, const Node& passed) { node.gathered += passed.gathered; });
+  return evenly(nodes, most, [](Node& node, const Node& passed) {
+    node.gathered.length += passed.gathered.length;
+    node.gathered.turn += passed.gathered.turn;
+  });
 }
 
 std::vector<PairNode> some_of(const std::vector<PairNode>& nodes, std::size_t most) {

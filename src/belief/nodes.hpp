@@ -7,6 +7,7 @@
 
 #include "belief/centres.hpp"
 #include "belief/error_model.hpp"
+#include "belief/row_blocks.hpp"
 #include "belief/travel.hpp"
 #include "rollfix/contact/reading.hpp"
 #include "rollfix/outline/curve.hpp"
@@ -22,11 +23,18 @@ inline constexpr double kMostFiner = 4;
 struct Node {
   double length = 0;
   double turn = 0;
-  double spread = 0;       // variance of turn + tilt times length among the rows
-  RowCovariance own;       // of the mean
-  RowCovariance gathered;  // by the offsets since the node before
-  double worth = 0;        // as many rows on their own; less than there are where they are off alike
-  FeltCentre felt{};       // where centres are looked at: means
+  double spread = 0;  // variance of turn + tilt times length among the rows, of the course without its noise
+  RowCovariance own;  // of the mean
+  Gathered gathered;  // by the offsets, from the last row of the node before to this one's
+  double rows = 1;    // that are joined
+  double worth = 0;   // as many rows on their own; less than there are where they are off alike
+  FeltCentre felt{};  // where centres are looked at: means
+
+  /// What has gathered by the last row goes into the mean with this share: all of the first row's part does, and next
+  /// to nothing of the last one's. The sums over rows that are evenly spaced.
+  double share_in_mean() const { return (rows + 1) / (2 * rows); }
+  /// Of the variance that this makes, so much less of what gathers is in the mean itself.
+  double share_averaged() const { return (rows + 1) * (rows - 1) / (6 * rows * rows); }
 
   /// The least variance that what a place makes of such a node can have, whatever the curvature there.
   double least_variance(double tilt) const {
@@ -34,13 +42,19 @@ struct Node {
   }
 };
 
-/// A roll's rows as no more than a fixed number of nodes, however many rows there are: when they are too many,
-/// neighbours are joined, and from then on twice as many rows make one.
+/// A roll's rows as no more than a fixed number of nodes, however many rows there are. Where what gathers on the way is
+/// seen in many of them, there are far fewer, each of as many blocks of rows as it takes: a node's place on the path is
+/// one more unknown, and at places that weigh the same errors otherwise such unknowns leave chance a say that grows
+/// with their number. docs/belief.md derives it.
 class Nodes {
  public:
-  /// `robust`: of rows that make a node together medians are taken first, so that a stray one does not move it.
-  Nodes(const ErrorModel& errors, double tilt, bool robust, std::size_t most = kMostNodes)
-      : errors_(errors), tilt_(tilt), robust_(robust), most_(most), travel_(errors.travel()) {}
+  /// `robust`, `most`: see RowBlocks. `by_walk`: fewer where what gathers is seen.
+  Nodes(const ErrorModel& errors, double tilt, bool robust, std::size_t most = kMostNodes, bool by_walk = true)
+      : errors_(errors),
+        tilt_(tilt),
+        by_walk_(by_walk),
+        blocks_(errors, tilt, robust, most),
+        travel_(errors.travel()) {}
 
   /// `finger_curvature`: where the finger touches. `seconds`: since the roll's start. `felt`: where its centre is, if
   /// that is looked at.
@@ -56,45 +70,41 @@ class Nodes {
   double freedom() const;
 
  private:
-  struct Row {
-    Reading reading;
-    FeltCentre felt;
-  };
-  /// Rows that are taken together: a node, but for what follows from how far the finger travelled for it.
-  struct Together {
+  /// What has gathered, and how well the rows together would know one length and one turn.
+  struct Walk {
     double length = 0;
     double turn = 0;
-    double spread = 0;
-    RowCovariance own;  // of the mean, where each row is off on its own
-    FeltCentre felt{};
-    double rows = 0;
-    double seconds = 0;  // at the last of them
+    double length_rows = 0;  // sum of 1 / variance
+    double turn_rows = 0;
+
+    void add(const Node& node);
+    /// So many sines of the course are off more by what has gathered than by the rows' own errors.
+    double modes() const;
   };
-  void close_block(Together& sum, double& blocks) const;
-  /// The pending rows.
-  Together closed() const;
-  Node node_of(const Together& rows, double travelled) const;
-  void complete_node(const Together& rows);
-  void join_neighbours();
+  /// There are more nodes than serve, for as far as the finger has travelled and for what has gathered on the way.
+  bool are_too_many() const;
+  /// Of the block that begins here and those after it.
+  JoinedRows group(std::size_t begin) const;
+  void complete_node(const JoinedRows& rows);
+  void make_again();
+  Node node_of(const JoinedRows& rows, double travelled) const;
+  /// How far the course leads from their mean, on average: see Node.
+  double spread_of(const JoinedRows& rows) const;
   /// The next node's rows, as a place on the way.
-  Travel::Mark mark(const Together& rows) const;
+  Travel::Mark mark(const JoinedRows& rows) const;
+  double rows_of_node() const { return static_cast<double>(group_ * blocks_.rows_of_block()); }
 
   ErrorModel errors_;
   double tilt_;
-  bool robust_;
-  std::size_t most_;
-  std::size_t stride_ = 1;  // rows of a node
+  bool by_walk_;
   std::size_t generation_ = 0;
   std::size_t rows_ = 0;
-  Interval range_;  // of all lengths so far
-  std::vector<Together> together_;
+  RowBlocks blocks_;
+  std::size_t group_ = 1;  // blocks of a node
   std::vector<Node> nodes_;
-  Travel travel_;  // of them
-  // Of the node that is being made: sums over blocks of rows, and the rows of the block that is being filled.
-  Together sum_;
-  double blocks_ = 0;
-  std::vector<Row> block_;
-  RowCovariance block_own_;  // of one of its rows
+  Travel travel_;       // of them
+  Walk walk_;           // likewise
+  double seconds_ = 0;  // at the last one's last row
 };
 
 /// Some of the nodes, evenly, the first and the last among them.

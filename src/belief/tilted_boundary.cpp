@@ -30,7 +30,7 @@ constexpr std::size_t kBucketsPerCell = 2;
 constexpr double kSigmaPoint = std::numbers::sqrt3;
 // Slopes that differ by more than this share of the larger one make a kink.
 constexpr double kKink = 1e-3;
-// Rows that are joined lie on a straight line where the slope changes by less than this share among them.
+// Rows that are joined lie on a parabola where the slope changes by less than this share among them.
 constexpr double kBend = 0.02;
 // Places look alike where s is the same to this share of the perimeter: to what it is known to as a function of w.
 constexpr double kAlike = kShareOfPerimeter;
@@ -89,10 +89,10 @@ SpreadPlace TiltedArc::about(double w, double variance, double spread) const {
     const double bend = 2 * (found.cell->cubic.b + 3 * found.x * found.cell->cubic.c);
     const bool is_straight = bend * bend * spread <= kBend * kBend * place.slope * place.slope;
     if (is_straight && found.x - reach > found.cell->kink_below && found.x + reach < found.cell->kink_above) {
-      return {place.s, place.slope, 0};
+      return {place.s + 0.5 * bend * spread, place.slope, 0};
     }
   }
-  // Three points stand for the normal distribution: weights 1/6, 2/3, 1/6.
+  // Three points stand for the distribution: weights 1/6, 2/3, 1/6 serve a normal one as well as an even one.
   const double below = at(w - reach).s;
   const double middle = at(w).s;
   const double above = at(w + reach).s;

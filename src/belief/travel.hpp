@@ -25,6 +25,8 @@ class Travel {
   double since_last(const Mark& mark) const;
   /// The same, and this one is the last mark from now on.
   double add(const Mark& mark);
+  /// From the first contact to the last mark.
+  double so_far() const { return so_far_.back(); }
   /// Takes all marks away but the first contact.
   void restart();
 

@@ -45,6 +45,9 @@ struct BeliefOptions {
   std::optional<PosePrior> pose{};  // for logs of u and psi and known fingers; places take x and y in the log as well
   /// Of one finger: its samples are joined to so many at most; none: as few as lose nothing.
   std::optional<std::size_t> nodes{};
+  /// Of one finger: its samples are joined for their number alone, whatever the noise, to weigh one noise against
+  /// another.
+  bool by_rows = false;
   /// Of one finger: stretches of [0, P] outside which the first contact can't be; none: it can be anywhere.
   std::vector<Interval> within{};
 };
@@ -108,6 +111,8 @@ struct Fit {
 struct Evidence {
   double peak = -std::numeric_limits<double>::infinity();  // of the likelihood at the likeliest place, ...
   double volume = 0;                                       // ... and of how much of the boundary is about as likely
+  double gathered = 0;  // of one finger: what the likelihood has less because errors may gather on the way; the same at
+                        // about all places, but not with another noise
 
   /// As with so many times the noise: see Fit::widened.
   double with(double widened) const { return peak / (widened * widened) + volume; }

@@ -186,6 +186,7 @@ void Grid::measure_fit(const Nodes& nodes) {
     }
   }
   best_ = best->score.log_likelihood();
+  gathered_ = -0.5 * best->now.log_gathered();
   farthest_ = scorer_.limit() - best->score.log_volume;
   const double freedom = nodes.freedom();
   fit_ = options_.robust ? fit_of(best->now.right_cost(), best->now.right_rows(), best->now.whiteness())

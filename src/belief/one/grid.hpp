@@ -62,7 +62,7 @@ class Grid {
   RollFilter filter(const GridCell& cell, std::size_t end) const;
   /// How well the likeliest point fits. All probabilities are as with Fit::widened times the noise.
   const Fit& fit() const { return fit_; }
-  Evidence evidence() const { return {best_, log_total_}; }
+  Evidence evidence() const { return {best_, log_total_, gathered_}; }
   std::size_t points() const { return count_; }
   /// A bound on the share of the mass in the cells that are not resolved.
   double rest() const { return rest_; }
@@ -104,6 +104,7 @@ class Grid {
   double length_ = 0;             // of the whole boundary, in w
   double best_ = 0;               // the largest log-likelihood of a point
   double farthest_ = 0;           // a cost that can matter
+  double gathered_ = 0;           // see Evidence: at that point
   double log_total_ = 0;          // of the density's integral, as a share of the best point's
   double best_mass_ = 0;          // about the logarithm of the mass around it
   std::size_t laid_out_at_ = 0;

@@ -30,7 +30,7 @@ struct OneFingersGrid {
         has_first(first.has_value()),
         centres(model(part, first)),
         boundary(part, tilt(part, errors.row(curvature)), accuracy(part, errors.row(curvature))),
-        nodes(errors, boundary.tilt(), options.robust, options.nodes.value_or(most_nodes(part))),
+        nodes(errors, boundary.tilt(), options.robust, options.nodes.value_or(most_nodes(part)), !options.by_rows),
         grid(boundary, errors, options, part.boundary(), corner_length(curvature, part),
              has_first ? &centres : nullptr) {}
   OneFingersGrid(const OneFingersGrid&) = delete;

@@ -17,6 +17,9 @@ Eigen::Matrix2d rotation(double angle) {
 }
 Vec2 turned_left(const Vec2& vector) { return {-vector.y(), vector.x()}; }
 
+Eigen::Matrix2d matrix_of(const Gathered& gathered) {
+  return Eigen::Vector2d(gathered.length, gathered.turn).asDiagonal();
+}
 Eigen::Matrix2d matrix_of(const RowCovariance& own) {
   return (Eigen::Matrix2d() << own.length, own.both, own.both, own.turn).finished();
 }
@@ -111,11 +114,13 @@ void RollFilter::add_centre(const SpreadPlace& end, double w, const Corrected& r
 }
 
 void RollFilter::update(const Node& node, const Outliers& outliers) {
-  p_(0, 0) += node.gathered.length;
-  p_(0, 1) += node.gathered.both;
-  p_(1, 0) += node.gathered.both;
-  p_(1, 1) += node.gathered.turn;
+  const auto gather = [&](double share) {
+    p_.topLeftCorner<2, 2>() += share * matrix_of(node.gathered);
+    walk_ += share * matrix_of(node.gathered);
+  };
+  gather(node.share_in_mean());
   absorb(node, outliers);
+  gather(1 - node.share_in_mean());
   // A place that does not fit asks for lengths that no slip explains: it is refused by its cost, not followed.
   if (std::abs(x_[2]) > most_scale_) {
     x_[2] = std::copysign(most_scale_, x_[2]);
@@ -123,13 +128,13 @@ void RollFilter::update(const Node& node, const Outliers& outliers) {
   }
 }
 
-RowShare share_of(int equations, double squared, double own, double all, const Outliers& outliers) {
-  if (outliers.share <= 0) return {1, squared, all / own};
+RowShare share_of(int equations, double squared, double noise, double all, const Outliers& outliers) {
+  if (outliers.share <= 0) return {1, squared, all / noise};
   const double range = std::pow(outliers.range, equations);
   const double stray = outliers.share / range;
   const double flat = std::pow(2 * std::numbers::pi, 0.5 * (equations - 1));
   const Mixture mixture = mixture_of(outliers.share, stray, peak_of(1 / all) / flat, squared);
-  const double most = (1 - outliers.share) * peak_of(1 / own) / flat + stray;
+  const double most = (1 - outliers.share) * peak_of(1 / noise) / flat + stray;
   return {mixture.weight, mixture.cost, square(most / mixture.density)};
 }
 
@@ -140,9 +145,12 @@ void RollFilter::absorb(const Node& node, const Outliers& outliers) {
   Equations rows = equations_at(measured, roll, w_variance, node);
   Eigen::Matrix<double, 5, 3> of_errors;
   Eigen::Matrix3d inverse;
+  const Eigen::Matrix2d averaged = node.share_averaged() * matrix_of(node.gathered);
+  Eigen::Matrix3d own;
   const auto weigh = [&] {
     of_errors = p_ * rows.by_errors.transpose();
-    inverse = (rows.by_errors * of_errors + rows.own_variance).inverse();
+    own = rows.own_variance - rows.by_errors.leftCols<2>() * averaged * rows.by_errors.leftCols<2>().transpose();
+    inverse = (rows.by_errors * of_errors + own).inverse();
   };
   weigh();
   // Where the contact is likely to be, given the equations as well. A slope taken where the turn was measured would go
@@ -164,10 +172,13 @@ void RollFilter::absorb(const Node& node, const Outliers& outliers) {
   const double squared = innovation.dot(inverse * innovation);
   // Where along the roll the row was taken is not known beforehand, nor that it is more likely where the contact goes
   // slowly: only what the rows share has a volume.
-  const RowShare share = share_of(3, squared, rows.own_variance.determinant(), 1 / inverse.determinant(), outliers);
+  const Eigen::Matrix<double, 2, 3> of_walk = walk_ * rows.by_errors.leftCols<2>().transpose();
+  const Eigen::Matrix3d noise = own + rows.by_errors.leftCols<2>() * of_walk;
+  const RowShare share = share_of(3, squared, noise.determinant(), 1 / inverse.determinant(), outliers);
   const double weight = share.weight;
   cost_ += share.cost;
   log_volume_ += std::log(share.volume);
+  log_gathered_ += std::log(noise.determinant() / rows.own_variance.determinant());
   right_rows_ += 3 * weight;
   right_cost_ += weight * squared;
   add_innovation<3>(inverse, std::sqrt(weight) * innovation, whiteness_);
@@ -177,6 +188,7 @@ void RollFilter::absorb(const Node& node, const Outliers& outliers) {
   x_ += gain * innovation;
   dx_ += gain * by_w;
   p_ -= gain * of_errors.transpose();
+  walk_ -= weight * of_walk * noise.inverse() * of_walk.transpose();
 }
 
 TiltedPlace RollFilter::after(const Reading& measured) const {

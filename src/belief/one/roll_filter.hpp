@@ -28,9 +28,9 @@ struct RowShare {
   double volume;
 };
 
-/// Of so many equations: by how much they miss, squared, in standard deviations; and the determinants of their own
-/// covariance and of that with what the rows share.
-RowShare share_of(int equations, double squared, double own, double all, const Outliers& outliers);
+/// Of so many equations: by how much they miss, squared, in standard deviations; and the determinants of their
+/// covariance by noise alone, the row's own and what has gathered on the way, and of that with what the rows share.
+RowShare share_of(int equations, double squared, double noise, double all, const Outliers& outliers);
 
 /// One first contact on trial: an extended Kalman filter of the errors that the whole roll shares, which gives the
 /// samples' likelihood along the way, and how that changes with the place.
@@ -54,6 +54,8 @@ class RollFilter {
   /// Both only grow with every node.
   double cost() const { return cost_; }
   double log_volume() const { return log_volume_ + std::log(volume_); }
+  /// Of the noise' volume, what has gathered on the way has added: for one noise it is about the same everywhere.
+  double log_gathered() const { return log_gathered_ + std::log(gathered_); }
   double deviance() const { return cost_ + log_volume(); }
   /// The deviance is above that: may find out a little late, and takes no logarithm.
   bool is_beyond(double limit) const { return cost_ + log_volume_ > limit; }
@@ -110,10 +112,13 @@ class RollFilter {
   double most_scale_;
   Shared x_ = Shared::Zero();
   SharedCovariance p_;
-  Shared dx_ = Shared::Zero();  // of x by w
+  Eigen::Matrix2d walk_ = Eigen::Matrix2d::Zero();  // of the first two, from what has gathered alone
+  Shared dx_ = Shared::Zero();                      // of x by w
   double cost_ = 0;
-  double log_volume_ = 0;  // but for the logarithm of ...
-  double volume_ = 1;      // ... this
+  double log_volume_ = 0;    // but for the logarithm of ...
+  double volume_ = 1;        // ... this
+  double log_gathered_ = 0;  // likewise
+  double gathered_ = 1;
   double slope_ = 0;
   double information_ = 0;
   std::array<Whiteness, 3> whiteness_;

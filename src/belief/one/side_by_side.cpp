@@ -46,12 +46,19 @@ class SideBySide {
   struct Rows {
     Four length, turn, spread;
     Four own_length, own_both, own_turn;
+    Four averaged_length, averaged_turn;  // of what gathers among the joined rows
+  };
+  /// What gathers after the rows' mean.
+  struct Later {
+    Four length = Four::Zero(), turn = length;
   };
   /// Where the contacts are, the equations' lines there, and their variances.
   struct Lines {
     Four s = Four::Zero(), slope = s, bent = s;
     Four rest = s;  // 1 - c m
     Four miss = s, own = s, all = s;
+    Four noise = s;                   // of the row on its own and of what has gathered on the way
+    Four of_length = s, of_turn = s;  // of what has gathered, with the equation
   };
 
   static Eigen::Index at(std::size_t lane) { return static_cast<Eigen::Index>(lane); }
@@ -83,9 +90,14 @@ class SideBySide {
     copy(p11_, filter.p_(1, 1));
     copy(p12_, filter.p_(1, 2));
     copy(p22_, filter.p_(2, 2));
+    copy(walk00_, filter.walk_(0, 0));
+    copy(walk01_, filter.walk_(0, 1));
+    copy(walk11_, filter.walk_(1, 1));
     copy(cost_, filter.cost_);
     copy(log_volume_, filter.log_volume_);
     copy(volume_, filter.volume_);
+    copy(log_gathered_, filter.log_gathered_);
+    copy(gathered_, filter.gathered_);
     copy(slope_, filter.slope_);
     copy(information_, filter.information_);
   }
@@ -106,9 +118,11 @@ class SideBySide {
     filter.p_(1, 0) = filter.p_(0, 1);
     filter.p_(2, 0) = filter.p_(0, 2);
     filter.p_(2, 1) = filter.p_(1, 2);
+    filter.walk_(1, 0) = filter.walk_(0, 1);
   }
 
-  Rows gather();
+  Rows next_rows();
+  void gather(const Four& length, const Four& turn);
   void look(std::size_t lane, double w, double variance, double spread, Lines& lines) const;
   void take_nodes();
   Four trust(const Lines& lines);
@@ -125,12 +139,15 @@ class SideBySide {
   std::array<Four, kRolling> x_{Four::Zero(), Four::Zero(), Four::Zero()};
   std::array<Four, kRolling> dx_ = x_;
   Four p00_ = Four::Zero(), p01_ = p00_, p02_ = p00_, p11_ = p00_, p12_ = p00_, p22_ = p00_;
-  Four cost_ = p00_, log_volume_ = p00_, volume_ = Four::Ones(), slope_ = p00_, information_ = p00_;
+  Four walk00_ = p00_, walk01_ = p00_, walk11_ = p00_;
+  Later later_;
+  Four cost_ = p00_, log_volume_ = p00_, volume_ = Four::Ones(), log_gathered_ = p00_, gathered_ = Four::Ones(),
+       slope_ = p00_, information_ = p00_;
   Four w_ = p00_, first_s_ = p00_, first_slope_ = p00_, most_scale_ = Four::Ones(), guess_ = p00_, follows_ = p00_;
 };
 
-SideBySide::Rows SideBySide::gather() {
-  static const Node kNone{0, 0, 0, {1, 0, 1}, {}, 1};
+SideBySide::Rows SideBySide::next_rows() {
+  static const Node kNone{0, 0, 0, {1, 0, 1}, {}, 1, 1};
   std::array<const Node*, kLanes> nodes;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     nodes[lane] = errands_[lane].filter != nullptr ? errands_[lane].next : &kNone;
@@ -138,12 +155,27 @@ SideBySide::Rows SideBySide::gather() {
   const auto each = [&](const auto& number) {
     return Four(number(*nodes[0]), number(*nodes[1]), number(*nodes[2]), number(*nodes[3]));
   };
-  p00_ += each([](const Node& node) { return node.gathered.length; });
-  p01_ += each([](const Node& node) { return node.gathered.both; });
-  p11_ += each([](const Node& node) { return node.gathered.turn; });
-  return {each([](const Node& node) { return node.length; }),   each([](const Node& node) { return node.turn; }),
-          each([](const Node& node) { return node.spread; }),   each([](const Node& node) { return node.own.length; }),
-          each([](const Node& node) { return node.own.both; }), each([](const Node& node) { return node.own.turn; })};
+  const Four length = each([](const Node& node) { return node.gathered.length; });
+  const Four turn = each([](const Node& node) { return node.gathered.turn; });
+  const Four in_mean = each([](const Node& node) { return node.share_in_mean(); });
+  const Four averaged = each([](const Node& node) { return node.share_averaged(); });
+  gather(in_mean * length, in_mean * turn);
+  later_ = {(1 - in_mean) * length, (1 - in_mean) * turn};
+  return {each([](const Node& node) { return node.length; }),
+          each([](const Node& node) { return node.turn; }),
+          each([](const Node& node) { return node.spread; }),
+          each([](const Node& node) { return node.own.length; }),
+          each([](const Node& node) { return node.own.both; }),
+          each([](const Node& node) { return node.own.turn; }),
+          averaged * length,
+          averaged * turn};
+}
+
+void SideBySide::gather(const Four& length, const Four& turn) {
+  p00_ += length;
+  p11_ += turn;
+  walk00_ += length;
+  walk11_ += turn;
 }
 
 void SideBySide::look(std::size_t lane, double w, double variance, double spread, Lines& lines) const {
@@ -158,7 +190,7 @@ void SideBySide::look(std::size_t lane, double w, double variance, double spread
 // shared errors that is (1 - c m) g less m times the turn's, g = (1, 0, L) / (1 + scale): what g makes of their
 // covariance does for any m.
 void SideBySide::take_nodes() {
-  const Rows rows = gather();
+  const Rows rows = next_rows();
   const Four per_scale = 1 / (1 + x_[2]);
   const Four length = (rows.length - x_[0]) * per_scale;
   const Four turn_off = (1 - follows_) * (x_[1] - guess_);  // of the turn that is taken, from the likeliest
@@ -175,9 +207,14 @@ void SideBySide::take_nodes() {
   const auto draw = [&](const Four& beyond) {
     const Four& m = lines.slope;
     lines.rest = 1 - tilt_ * m;
+    const Four by_offset = lines.rest * per_scale;
     lines.own =
         lines.rest * (lines.rest * rows.own_length - 2 * m * rows.own_both) + m * m * rows.own_turn + lines.bent;
-    lines.all = lines.own + lines.rest * (lines.rest * length_variance - 2 * m * with_length[1]) + m * m * p11_;
+    const Four alone = lines.own - by_offset * by_offset * rows.averaged_length - m * m * rows.averaged_turn;
+    lines.of_length = by_offset * walk00_ - m * walk01_;
+    lines.of_turn = by_offset * walk01_ - m * walk11_;
+    lines.noise = alone + by_offset * lines.of_length - m * lines.of_turn;
+    lines.all = alone + lines.rest * (lines.rest * length_variance - 2 * m * with_length[1]) + m * m * p11_;
     lines.miss = lines.s + m * (beyond - turn_off) - first_s_ - length;
   };
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
@@ -211,7 +248,7 @@ Four SideBySide::trust(const Lines& lines) {
   if (outliers_.share > 0) {
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       if (errands_[lane].filter == nullptr) continue;
-      const RowShare share = share_of(1, squared[at(lane)], lines.own[at(lane)], lines.all[at(lane)], outliers_);
+      const RowShare share = share_of(1, squared[at(lane)], lines.noise[at(lane)], lines.all[at(lane)], outliers_);
       RollFilter& filter = *errands_[lane].filter;
       filter.right_rows_ += share.weight;
       filter.right_cost_ += share.weight * squared[at(lane)];
@@ -221,12 +258,18 @@ Four SideBySide::trust(const Lines& lines) {
     }
   } else {
     cost_ += squared;
-    volume_ *= lines.all / lines.own;
+    volume_ *= lines.all / lines.noise;
   }
+  gathered_ *= lines.noise / lines.own;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    if (!(volume_[at(lane)] > kLargeVolume)) continue;
-    log_volume_[at(lane)] += std::log(volume_[at(lane)]);
-    volume_[at(lane)] = 1;
+    if (volume_[at(lane)] > kLargeVolume) {
+      log_volume_[at(lane)] += std::log(volume_[at(lane)]);
+      volume_[at(lane)] = 1;
+    }
+    if (gathered_[at(lane)] > kLargeVolume) {
+      log_gathered_[at(lane)] += std::log(gathered_[at(lane)]);
+      gathered_[at(lane)] = 1;
+    }
   }
   return trust;
 }
@@ -256,6 +299,11 @@ void SideBySide::correct(const Lines& lines, const Four& per_scale, const Four& 
   p11_ -= trusted * of_errors[1] * of_errors[1];
   p12_ -= trusted * of_errors[1] * of_errors[2];
   p22_ -= trusted * of_errors[2] * of_errors[2];
+  const Four seen = trusted * lines.all / lines.noise;
+  walk00_ -= seen * lines.of_length * lines.of_length;
+  walk01_ -= seen * lines.of_length * lines.of_turn;
+  walk11_ -= seen * lines.of_turn * lines.of_turn;
+  gather(later_.length, later_.turn);
   // A place that does not fit asks for lengths that no slip explains: it is refused by its cost, not followed.
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     if (!(std::abs(x_[2][at(lane)]) > most_scale_[at(lane)])) continue;

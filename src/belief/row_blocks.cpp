@@ -1,0 +1,120 @@
+#include "belief/row_blocks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace rollfix::belief {
+
+namespace {
+
+// Rows of which a median is taken: enough that several stray ones don't matter, few enough to lie close together.
+constexpr std::size_t kRowsOfMedian = 16;
+
+void add(FeltCentre& sum, double factor, const FeltCentre& felt) {
+  sum.centre += factor * felt.centre;
+  sum.arm.at += factor * felt.arm.at;
+  sum.arm.per_length += factor * felt.arm.per_length;
+}
+
+double median(std::vector<double> values) {
+  const auto upper = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), upper, values.end());
+  if (values.size() % 2 == 1) return *upper;
+  return 0.5 * (*upper + *std::max_element(values.begin(), upper));
+}
+
+}  // namespace
+
+Reading median_of(const std::vector<Reading>& rows) {
+  Reading middle = rows.front();
+  if (rows.size() == 1) return middle;
+  const auto median_by = [&](const auto& number) {
+    std::vector<double> values;
+    for (const Reading& row : rows) values.push_back(number(row));
+    return median(std::move(values));
+  };
+  for (std::size_t finger = 0; finger < middle.fingers(); ++finger) {
+    middle.length[finger] = median_by([&](const Reading& row) { return row.length[finger]; });
+  }
+  middle.turn = median_by([](const Reading& row) { return row.turn; });
+  return middle;
+}
+
+std::size_t rows_of_median(bool robust, std::size_t stride) { return robust ? std::min(stride, kRowsOfMedian) : 1; }
+
+JoinedRows joined(const JoinedRows& a, const JoinedRows& b, double tilt) {
+  JoinedRows both;
+  both.rows = a.rows + b.rows;
+  both.seconds = b.seconds;
+  const double of_a = a.rows / both.rows;
+  const double of_b = b.rows / both.rows;
+  const double apart = b.tilted(tilt) - a.tilted(tilt);
+  both.length = of_a * a.length + of_b * b.length;
+  both.turn = of_a * a.turn + of_b * b.turn;
+  both.scatter = of_a * a.scatter + of_b * b.scatter + of_a * of_b * apart * apart;
+  both.own = of_a * of_a * a.own + of_b * of_b * b.own;
+  add(both.felt, of_a, a.felt);
+  add(both.felt, of_b, b.felt);
+  return both;
+}
+
+bool RowBlocks::add(const Reading& reading, double finger_curvature, double seconds, const FeltCentre& felt) {
+  rows_ += 1;
+  sum_.rows += 1;
+  sum_.seconds = seconds;
+  range_ = {std::min(range_.lo, reading.length[0]), std::max(range_.hi, reading.length[0])};
+  own_ = errors_.row(finger_curvature, errors_.rows_alike(rows_, range_.width()));
+  of_median_.push_back({reading, felt});
+  if (of_median_.size() >= rows_of_median(robust_, stride_)) {
+    close_median(sum_, medians_);
+    of_median_.clear();
+  }
+  if (sum_.rows < static_cast<double>(stride_)) return false;
+  blocks_.push_back(open());
+  sum_ = {};
+  medians_ = 0;
+  of_median_.clear();
+  return true;
+}
+
+void RowBlocks::close_median(JoinedRows& sum, double& medians) const {
+  if (of_median_.empty()) return;
+  std::vector<Reading> readings;
+  for (const Row& row : of_median_) {
+    readings.push_back(row.reading);
+    rollfix::belief::add(sum.felt, 1 / static_cast<double>(of_median_.size()), row.felt);
+  }
+  // Worth one row: a median of rows on a slope is hardly better.
+  const Reading middle = median_of(readings);
+  // The variance among the medians so far, times their number (West 1979).
+  if (medians > 0) {
+    const double off = middle.turn + tilt_ * middle.length[0] - sum.tilted(tilt_) / medians;
+    sum.scatter += off * off * medians / (1 + medians);
+  }
+  sum.length += middle.length[0];
+  sum.turn += middle.turn;
+  sum.own = sum.own + own_;
+  medians += 1;
+}
+
+JoinedRows RowBlocks::open() const {
+  JoinedRows sum = sum_;
+  double medians = medians_;
+  close_median(sum, medians);
+  const double share = 1 / medians;
+  JoinedRows rows{share * sum.length, share * sum.turn, share * sum.scatter, share * share * sum.own, {},
+                  sum.rows,           sum.seconds};
+  rollfix::belief::add(rows.felt, share, sum.felt);
+  return rows;
+}
+
+void RowBlocks::halve() {
+  for (std::size_t k = 0; 2 * k + 1 < blocks_.size(); ++k) {
+    blocks_[k] = joined(blocks_[2 * k], blocks_[2 * k + 1], tilt_);
+  }
+  blocks_.resize(blocks_.size() / 2);
+  stride_ *= 2;
+}
+
+}  // namespace rollfix::belief

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "belief/centres.hpp"
+#include "belief/error_model.hpp"
+#include "rollfix/contact/reading.hpp"
+#include "rollfix/outline/curve.hpp"
+
+namespace rollfix::belief {
+
+/// Rows that are taken together: their means.
+struct JoinedRows {
+  double length = 0;
+  double turn = 0;
+  double scatter = 0;  // variance of turn + tilt times length among the rows
+  RowCovariance own;   // of the mean, where each row is off on its own
+  FeltCentre felt{};   // where centres are looked at
+  double rows = 0;
+  double seconds = 0;  // at the last of them
+
+  double tilted(double tilt) const { return turn + tilt * length; }
+};
+
+/// Two neighbours as one.
+JoinedRows joined(const JoinedRows& a, const JoinedRows& b, double tilt);
+
+/// A roll's rows, joined to blocks of equally many: when there are too many blocks, neighbours are joined, and from
+/// then on twice as many rows make one.
+class RowBlocks {
+ public:
+  /// `robust`: of rows that make a block together medians are taken first, so that a stray one does not move it.
+  RowBlocks(const ErrorModel& errors, double tilt, bool robust, std::size_t most)
+      : errors_(errors), tilt_(tilt), robust_(robust), most_(most) {}
+
+  /// `finger_curvature`: where the finger touches. `seconds`: since the roll's start. True: a block is complete with
+  /// it.
+  bool add(const Reading& reading, double finger_curvature, double seconds, const FeltCentre& felt);
+  /// There are too many blocks.
+  bool is_full() const { return blocks_.size() >= most_ && blocks_.size() % 2 == 0; }
+  void halve();
+
+  const std::vector<JoinedRows>& complete() const { return blocks_; }
+  std::size_t rows_of_block() const { return stride_; }
+  /// After the complete blocks there are rows, ...
+  bool has_open() const { return sum_.rows > 0; }
+  /// ... these.
+  JoinedRows open() const;
+
+ private:
+  struct Row {
+    Reading reading;
+    FeltCentre felt;
+  };
+  void close_median(JoinedRows& sum, double& medians) const;
+
+  ErrorModel errors_;
+  double tilt_;
+  bool robust_;
+  std::size_t most_;
+  std::size_t stride_ = 1;  // rows of a block
+  double rows_ = 0;
+  Interval range_;  // of all lengths so far
+  std::vector<JoinedRows> blocks_;
+  // Of the block that is being made: sums over medians of rows, and the rows of the median that is being filled.
+  JoinedRows sum_;
+  double medians_ = 0;
+  std::vector<Row> of_median_;
+  RowCovariance own_;  // of one of its rows
+};
+
+/// What rows that are taken together come to: each number's median.
+Reading median_of(const std::vector<Reading>& rows);
+/// Rows that are taken together before a mean is taken: of robust ones by their median.
+std::size_t rows_of_median(bool robust, std::size_t stride);
+
+}  // namespace rollfix::belief
