@@ -1,0 +1,386 @@
+#!/usr/bin/env python3
+"""How often the program's answers are true, by a simulator that shares no code with it: see README.md.
+
+    /usr/bin/python3 tests/calibration/study.py --program build/release/rollfix --cells 'dense' --logs 100
+"""
+
+import argparse
+import json
+import math
+import multiprocessing
+import os
+import pathlib
+import re
+import resource
+import subprocess
+import sys
+import tempfile
+import time
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from outlines import FAMILIES, OUTLINES
+from rolls import KINDS, Noise, as_csv
+
+HERE = pathlib.Path(__file__).resolve().parent
+PROGRAM = HERE.parent.parent / "build" / "release" / "rollfix"
+ROWS_AT_ONCE = 4_000_000  # so many rows lie on the disk at a time, for each job
+LOGS_AT_ONCE = 25
+SURE = 0.95
+FAR = 5.0  # standard deviations from a place's mean: nearer counts as listed
+Z95 = 1.959964
+
+
+@dataclass
+class Cell:
+    name: str
+    outlines: str  # a family
+    kind: str = "u,psi"
+    rows: int = 200
+    laps: float = 0.4
+    contact: float = 1e-3  # of the perimeter
+    angle: float = 5e-3
+    slip: float = 0.0
+    here_and_there: bool = False
+    position: float = 0.0  # of the perimeter
+    said: float = 1.0  # so many times the true standard deviations are said
+    said_slip: float = 1.0
+    logs: int = 400
+    quick: int = 0  # logs with --quick
+
+    def noise_on(self, outline):
+        p = outline.perimeter
+        return Noise(self.contact * p, self.angle, self.slip, self.position * p)
+
+    def overstated(self):
+        # Slip is always said as one factor and as five times as much here and there.
+        return self.said > 1 or self.said_slip > 1 or (self.slip > 0 and not self.here_and_there)
+
+
+def cells():
+    made = []
+
+    def add(name, *args, **more):
+        made.append(Cell(name, *args, **more))
+
+    both = dict(slip=0.005, here_and_there=True)
+    strong = dict(slip=0.05, here_and_there=True)
+    # How many rows: 0.4 laps, contact 1e-3 P, 5e-3 rad.
+    for rows, logs, quick in ((20, 400, 100), (200, 500, 200), (2000, 400, 60), (20000, 100, 24), (200000, 30, 0),
+                              (1000000, 10, 0)):
+        more = dict(rows=rows, logs=logs, quick=quick)
+        add(f"rows {rows}, no slip", "all", **{**more, "quick": quick // 2})
+        add(f"rows {rows}, slip .005", "all", **more, **both)
+        add(f"rows {rows}, slip .05", "all", **{**more, "quick": quick // 2}, **strong)
+    add("rows 200, slip .005 one factor", "all", slip=0.005, logs=500, quick=100)
+    add("rows 200, slip .05 one factor", "all", slip=0.05, logs=500)
+    add("rows 20000, slip .05 one factor", "all", rows=20000, slip=0.05, logs=100)
+    # How noisy.
+    for contact in (1e-4, 1e-2):
+        for angle in (1e-3, 5e-2, 0.5):
+            add(f"contact {contact:g}, angle {angle:g}", "all", contact=contact, angle=angle, **both)
+    add("contact 1e-3, angle .1, rows 2000", "all", angle=0.1, rows=2000, **both)
+    add("contact 1e-3, angle .5, rows 20000", "all", angle=0.5, rows=20000, logs=100, **both)
+    add("contact 1e-4, angle 1e-3, rows 20000", "all", contact=1e-4, angle=1e-3, rows=20000, logs=100, **both)
+    # How long.
+    for laps in (0.02, 0.1, 1.0, 2.0):
+        add(f"laps {laps:g}", "all", laps=laps, quick=60 if laps in (0.1, 2.0) else 0, **both)
+    add("laps .02, angle .1", "all", laps=0.02, angle=0.1, **both)
+    add("laps .02, angle .1, rows 20000", "all", laps=0.02, angle=0.1, rows=20000, logs=100, **both)
+    add("laps 2, rows 20000, slip .05", "all", laps=2, rows=20000, logs=100, **strong)
+    # Which outline.
+    for family in ("splines", "curves", "rounded", "drawing", "sharp", "corners", "symmetric"):
+        quick = 60 if family in ("corners", "symmetric") else 0
+        add(f"{family}", family, quick=quick, **both)
+    add("sharp, no slip", "sharp")
+    add("sharp, laps .1, angle .1", "sharp", laps=0.1, angle=0.1, **both)
+    add("sharp, rows 20000", "sharp", rows=20000, logs=100, **both)
+    add("drawing, rows 20000", "drawing", rows=20000, logs=100, **both)
+    # Which log.
+    add("length,turn, no slip", "all", kind="length,turn", quick=60)
+    add("length,turn, slip .005", "all", kind="length,turn", quick=60, **both)
+    add("length,turn, rows 2000, slip .05", "all", kind="length,turn", rows=2000, **strong)
+    add("length,turn, rows 20000, slip .05", "all", kind="length,turn", rows=20000, logs=100, **strong)
+    add("length,turn, sharp", "sharp", kind="length,turn", **both)
+    steps = dict(kind="increments", contact=1e-4)
+    add("increments, no slip", "all", rows=300, quick=60, **steps)
+    add("increments, slip .005", "all", rows=300, quick=60, **steps, **both)
+    add("increments, slip .05", "all", rows=300, **steps, **strong)
+    add("increments, rows 20000, slip .005", "all", rows=20000, logs=100, kind="increments", contact=1e-5, angle=5e-4,
+        **both)
+    add("increments, sharp", "sharp", rows=300, **steps, **both)
+    add("centres, no slip", "all", kind="centres", position=1e-3, quick=60)
+    add("centres, slip .005", "all", kind="centres", position=1e-3, quick=60, **both)
+    add("centres, rows 20000, slip .05", "all", kind="centres", position=1e-3, rows=20000, logs=60, **strong)
+    add("centres, sharp", "sharp", kind="centres", position=1e-3, **both)
+    pair = dict(kind="pair", rows=100, contact=5e-4, angle=2e-3, logs=150)
+    add("pair, no slip", "smooth", quick=20, **pair)
+    add("pair, slip .003 one factor", "smooth", slip=0.003, quick=20, **pair)
+    add("pair, slip .003", "smooth", slip=0.003, here_and_there=True, **pair)
+    add("pair, drawing", "drawing", slip=0.003, **pair)
+    add("pair, rows 20000", "smooth", slip=0.003, **{**pair, "rows": 20000, "logs": 40})
+    seen = {**pair, "kind": "pair centres", "position": 1e-3}
+    add("pair centres, no slip", "smooth", quick=20, **seen)
+    add("pair centres, slip .003 one factor", "smooth", slip=0.003, **seen)
+    # What is said is more than there is.
+    for times in (2, 5, 20):
+        add(f"said x{times}, u,psi", "all", said=times, quick=40 if times == 5 else 0, **both)
+        add(f"said x{times}, u,psi, rows 2000, slip .02", "all", said=times, rows=2000, slip=0.02,
+            here_and_there=True, logs=200)
+        add(f"said x{times}, length,turn", "all", kind="length,turn", said=times, **both)
+        add(f"said x{times}, increments", "all", rows=300, said=times, quick=40 if times == 5 else 0, **steps, **both)
+        add(f"said x{times}, increments, slip .02", "all", rows=300, said=times, slip=0.02, here_and_there=True,
+            **steps)
+        add(f"said x{times}, increments, drawing", "drawing", rows=300, said=times, logs=200, **steps, **both)
+        add(f"said x{times}, centres", "all", kind="centres", position=1e-3, said=times, logs=200, **both)
+        add(f"said x{times}, pair", "smooth", said=times, slip=0.003, **{**pair, "logs": 80})
+        add(f"slip said x{times}, u,psi", "all", said_slip=times, **both)
+        add(f"slip said x{times}, increments", "all", rows=300, said_slip=times, **steps, **both)
+    return made
+
+
+CELLS = cells()
+
+
+@dataclass
+class Count:
+    """What is counted of a cell's logs."""
+
+    logs: int = 0
+    inside: int = 0
+    own: int = 0
+    listed: int = 0
+    first: int = 0
+    claimed: float = 0.0
+    sure_wrong: int = 0
+    misfit: int = 0
+    errors: int = 0
+    sd: list = field(default_factory=list)
+    seconds: float = 0.0
+    wrong: list = field(default_factory=list)
+    message: str = ""
+
+    def add(self, other):
+        for name, value in vars(other).items():
+            setattr(self, name, getattr(self, name) + value if name != "message" else self.message or value)
+
+
+def nearest(x, target, period):
+    return x + period * np.round((target - x) / period)
+
+
+def judge(answer, truth, outline, count):
+    """One log's answer against the true starts, one for each finger."""
+    count.logs += 1
+    if "error" in answer and "placements" not in answer:
+        count.errors += 1
+        count.message = count.message or answer["error"]
+        return
+    verdict = answer["verdict"]
+    if re.search("fits? badly|inconsistent", verdict) or answer.get("diagnosis"):
+        count.misfit += 1
+    found = [p for p in answer["placements"] if p.get("probability")]
+    if not found:
+        return
+    found.sort(key=lambda p: -p["probability"])
+    period, slack = outline.perimeter, 1e-7 * outline.perimeter
+    p = np.array([f["probability"] for f in found])
+    mean = np.array([f["mean"] for f in found])
+    sd = np.array([f["sd"] for f in found])
+    interval = np.array([f["interval"] for f in found])  # places x fingers x 2
+    middle = interval.mean(axis=2)
+    # On a part that looks the same m times one place stands for m, both fingers' together.
+    share = period / outline.symmetry
+    turns = [share * k for k in range(outline.symmetry)]
+    standing = np.array([[nearest(t + turn, middle, period)[:, k] for k, t in enumerate(truth)] for turn in turns])
+    standing = np.moveaxis(standing, 1, 2)  # turns x places x fingers: the truth beside each place
+    outside = np.maximum(0, np.maximum(interval[:, :, 0] - standing, standing - interval[:, :, 1]))
+    far = np.abs(standing - mean) / np.maximum(sd, 1e-9 * period)
+    within = outside.max(axis=2) <= slack  # turns x places
+    near = within | (far.max(axis=2) <= FAR)
+    z = np.where(within, np.minimum(far.max(axis=2), FAR), far.max(axis=2))
+
+    count.listed += bool(near[0].any())
+    count.own += bool(within[0].any())
+    count.inside += in_smallest(p, interval, standing[0], within[0], slack)
+    # The first place with those that look like it, and whether the truth is one of them.
+    closest = z.argmin(axis=1)
+    is_first = any(near[k][0] and closest[k] == 0 for k in range(len(turns)))
+    alike = np.zeros(len(p), dtype=bool)
+    for turn in turns:
+        apart = np.abs(nearest(mean[0] + turn, mean, period) - mean)
+        alike |= (apart <= 0.5 * (sd + sd[0]) + 10 * slack).all(axis=1)
+    alike[0] = True
+    claim = min(1.0, float(p[alike].sum()))
+    count.first += is_first
+    count.claimed += claim
+    if (claim >= SURE or verdict.startswith("unique")) and not is_first:
+        count.sure_wrong += 1
+        count.wrong.append(f"{answer.get('id')}: true {np.round(truth, 4).tolist()}, said {mean[0].round(4).tolist()} "
+                           f"sd {sd[0].round(4).tolist()} p {p[0]:.4f}")
+    count.sd.append(float(sd[0].max()) / period)
+
+
+def in_smallest(p, interval, standing, within, slack):
+    """Whether the smallest set with 95 % holds the truth: each place is a normal density with its own interval."""
+    if interval.shape[1] > 1:
+        return bool(within.any())  # two fingers: as many are within the boxes' sides, see README.md
+    half = np.maximum((interval[:, 0, 1] - interval[:, 0, 0]) / 2, slack) / Z95
+    z = (standing[:, 0] - interval.mean(axis=2)[:, 0]) / half
+    height = p / half
+    mine = np.argmax(np.log(height) - z * z / 2)
+    level = math.log(height[mine]) - z[mine] ** 2 / 2
+    if within[mine] and len(p) == 1:
+        return True
+    reach = np.sqrt(np.maximum(0, 2 * (np.log(height) - level)))
+    held = np.array([math.erf(r / math.sqrt(2)) for r in reach])
+    return bool((p * held).sum() / p.sum() <= 0.95)
+
+
+def run_chunk(task):
+    program, cell, seed, first, logs, folder = task
+    count = Count()
+    names = FAMILIES[cell.outlines]
+    with tempfile.TemporaryDirectory(dir=folder) as here:
+        here = pathlib.Path(here)
+        truth, lines = [], []
+        for k in range(first, first + logs):
+            outline = OUTLINES[names[k % len(names)]]
+            random = np.random.default_rng([seed, *cell.name.encode(), k])
+            noise = cell.noise_on(outline)
+            columns, rolled, radii = KINDS[cell.kind](random, outline, cell.rows, cell.laps, noise,
+                                                      cell.here_and_there)
+            log = here / f"{k}.csv"
+            log.write_bytes(as_csv(columns))
+            said = noise.times(cell.said, cell.said_slip)
+            line = {"id": f"{outline.name}/{k}", "part": outline.write(here), "log": str(log), "noise": said.text()}
+            if radii:
+                line["fingers"] = [f"disk,r={r!r}" for r in radii]
+            truth.append((outline, np.array([r.s[0] % outline.perimeter for r in rolled])))
+            lines.append(line)
+        batch = here / "batch.jsonl"
+        batch.write_text("".join(json.dumps(line) + "\n" for line in lines))
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        done = subprocess.run([program, "locate", lines[0]["part"], "--batch", str(batch), "--json"],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        count.seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+        answers = done.stdout.decode().splitlines()
+        if len(answers) != len(lines):
+            raise RuntimeError(f"{cell.name}: {len(answers)} answers to {len(lines)} logs; {done.stderr.decode()[:500]}")
+        for text, (outline, start), line in zip(answers, truth, lines):
+            answer = json.loads(text)
+            answer["id"] = line["id"]
+            judge(answer, start, outline, count)
+    return count
+
+
+def share(hits, n):
+    """Per cent with a standard error: of hits + 1/2 among n + 1, so that it is never 0."""
+    q = (hits + 0.5) / (n + 1)
+    return 100 * hits / n, 100 * math.sqrt(q * (1 - q) / n)
+
+
+def verdicts(cell, count, quick):
+    """What lies outside of what is promised; `!`: by more than 4 standard errors."""
+    n = count.logs
+    marks, clear = [], []
+
+    def mark(name, off, error):
+        if off > 0:
+            marks.append(name + ("!" if off > 4 * error else ""))
+            if off > 4 * error:
+                clear.append(name)
+
+    inside, inside_error = share(count.inside, n)
+    at_most = 100.0 if cell.overstated() else 97.0
+    mark("in95", max(93.0 - inside, inside - at_most), inside_error)
+    first, first_error = share(count.first, n)
+    claim = 100 * count.claimed / n
+    fair = 100 * math.sqrt(max(claim / 100 * (1 - claim / 100), 0.25 / n) / n)
+    too_sure = claim - first if cell.overstated() else abs(claim - first)
+    mark("claim", too_sure - 3.0, max(first_error, fair))
+    listed, listed_error = share(count.listed, n)
+    mark("listed", 99.5 - listed, listed_error)
+    if count.sure_wrong:
+        # A place claimed with 0.95 to 1 may be wrong now and then; more than that is clear.
+        rate, error = share(count.sure_wrong, n)
+        mark("sure", max(rate - 1.0, 1e-9), error)
+    misfit, misfit_error = share(count.misfit, n)
+    mark("misfit", misfit - 0.5, misfit_error)
+    if count.errors:
+        marks.append("error!")
+        clear.append("error")
+    return marks, clear
+
+
+HEAD = ("| cell | logs | in 95 % | own 95 % | listed | first | claimed | sure, wrong | misfits | median sd [P] | "
+        "s per log | outside |")
+
+
+def row(cell, count, marks):
+    n = count.logs
+    show = lambda hits, digits=1: "{:.{d}f} ± {:.{d}f}".format(*share(hits, n), d=digits)
+    return (f"| {cell.name} | {n} | {show(count.inside)} | {show(count.own)} | {100 * count.listed / n:.1f} | "
+            f"{show(count.first)} | {100 * count.claimed / n:.1f} | {count.sure_wrong} | "
+            f"{100 * count.misfit / n:.1f} | {np.median(count.sd) if count.sd else math.nan:.2g} | "
+            f"{count.seconds / n:.2g} | {' '.join(marks)} |")
+
+
+def run(chosen, options):
+    begin = time.time()
+    failed = []
+    print(HEAD)
+    print("|" + " --- |" * HEAD.count(" | ") + " --- |", flush=True)
+    with tempfile.TemporaryDirectory(prefix="calibration.", dir=options.folder) as folder, \
+            multiprocessing.Pool(options.jobs) as pool:
+        for cell in chosen:
+            if options.minutes and time.time() - begin > 60 * options.minutes:
+                print(f"{options.minutes} minutes are over: left out {cell.name} and what follows", file=sys.stderr)
+                break
+            logs = options.logs or (cell.quick if options.quick else cell.logs)
+            at_once = max(1, min(LOGS_AT_ONCE, ROWS_AT_ONCE // cell.rows))
+            tasks = [(str(options.program), cell, options.seed, k, min(at_once, logs - k), folder)
+                     for k in range(0, logs, at_once)]
+            count = Count()
+            for part in pool.imap(run_chunk, tasks):
+                count.add(part)
+            marks, clear = verdicts(cell, count, options.quick)
+            failed += [(cell.name, clear)] if clear else []
+            print(row(cell, count, marks), flush=True)
+            if count.message:
+                print(f"{cell.name}: {count.errors} errors: {count.message}", file=sys.stderr)
+            for line in count.wrong if options.wrong else []:
+                print(f"{cell.name}: sure and wrong: {line}", file=sys.stderr)
+    print(f"\n{time.time() - begin:.0f} s, seed {options.seed}")
+    for name, clear in failed:
+        print(f"clearly outside: {name}: {', '.join(clear)}")
+    return failed
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--program", type=pathlib.Path, default=PROGRAM)
+    parser.add_argument("--cells", default="", metavar="REGEX", help="only cells whose names this finds")
+    parser.add_argument("--logs", type=int, help="so many for each cell, and not by its cost")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--jobs", type=int, default=min(2, os.cpu_count() or 1))
+    parser.add_argument("--minutes", type=float, help="begin no further cell after that")
+    parser.add_argument("--quick", action="store_true", help="cheap cells with few logs; fails where one clearly does")
+    parser.add_argument("--wrong", action="store_true", help="list what was sure and wrong, on stderr")
+    parser.add_argument("--list", action="store_true", help="list the cells")
+    parser.add_argument("--folder", help="for the logs, up to 300 MB; default: the system's for such files")
+    options = parser.parse_args()
+    chosen = [c for c in CELLS if re.search(options.cells, c.name) and (c.quick or not options.quick)]
+    if options.list:
+        print("\n".join(f"{c.name}: {c}" for c in chosen))
+        return 0
+    if not chosen:
+        parser.error(f"no cell's name has {options.cells!r} in it; --list shows all")
+    failed = run(chosen, options)
+    return 1 if failed and options.quick else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
