@@ -147,7 +147,7 @@ def increments_log(random, outline, rows, laps, noise, here_and_there):
 def corner_without_finger(outline, noise):
     """How much a corner weighs where no disk is known: what a turn is worth in length, by how sure both are."""
     if noise.angle == 0:
-        return 0.0
+        return DISK * outline.perimeter
     return min(noise.contact / noise.angle, DISK * outline.perimeter)
 
 

@@ -27,6 +27,8 @@ HERE = pathlib.Path(__file__).resolve().parent
 PROGRAM = HERE.parent.parent / "build" / "release" / "rollfix"
 ROWS_AT_ONCE = 4_000_000  # so many rows lie on the disk at a time, for each job
 LOGS_AT_ONCE = 25
+MEMORY = 4 << 30  # of the program, bytes
+SECONDS, SECONDS_EACH = 20, 3  # of the program: for so many logs together, and for each
 SURE = 0.95
 FAR = 5.0  # standard deviations from a place's mean: nearer counts as listed
 Z95 = 1.959964
@@ -238,6 +240,31 @@ def in_smallest(p, interval, standing, within, slack):
     return bool((p * held).sum() / p.sum() <= 0.95)
 
 
+def ask(program, lines, folder):
+    """The program's answers. Where it dies or takes too long, half of the logs at a time, down to the one that does it."""
+    batch = folder / "batch.jsonl"
+    batch.write_text("".join(json.dumps(line) + "\n" for line in lines))
+    why = "took too long"
+    try:
+        done = subprocess.run([program, "locate", lines[0]["part"], "--batch", str(batch), "--json"], check=False,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=limit_memory,
+                              timeout=SECONDS + SECONDS_EACH * len(lines))
+        answers = done.stdout.decode().splitlines()
+        if len(answers) == len(lines):
+            return [json.loads(text) for text in answers]
+        why = f"exit code {done.returncode}; {done.stderr.decode().strip()[:300]}"
+    except subprocess.TimeoutExpired:
+        pass
+    if len(lines) == 1:
+        return [{"error": f"no answer to {lines[0]['id']}: {why}"}]
+    half = len(lines) // 2
+    return ask(program, lines[:half], folder) + ask(program, lines[half:], folder)
+
+
+def limit_memory():
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+
+
 def run_chunk(task):
     program, cell, seed, first, logs, folder = task
     count = Count()
@@ -259,20 +286,12 @@ def run_chunk(task):
                 line["fingers"] = [f"disk,r={r!r}" for r in radii]
             truth.append((outline, np.array([r.s[0] % outline.perimeter for r in rolled])))
             lines.append(line)
-        batch = here / "batch.jsonl"
-        batch.write_text("".join(json.dumps(line) + "\n" for line in lines))
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        done = subprocess.run([program, "locate", lines[0]["part"], "--batch", str(batch), "--json"],
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False)
+        answers = ask(program, lines, here)
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
         count.seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-        answers = done.stdout.decode().splitlines()
-        if len(answers) != len(lines):
-            raise RuntimeError(f"{cell.name}: {len(answers)} answers to {len(lines)} logs; {done.stderr.decode()[:500]}")
-        for text, (outline, start), line in zip(answers, truth, lines):
-            answer = json.loads(text)
-            answer["id"] = line["id"]
-            judge(answer, start, outline, count)
+        for answer, (outline, start), line in zip(answers, truth, lines):
+            judge({**answer, "id": line["id"]}, start, outline, count)
     return count
 
 
@@ -310,13 +329,13 @@ def verdicts(cell, count, quick):
     misfit, misfit_error = share(count.misfit, n)
     mark("misfit", misfit - 0.5, misfit_error)
     if count.errors:
-        marks.append("error!")
-        clear.append("error")
+        marks.append("no answer!")
+        clear.append("no answer")
     return marks, clear
 
 
 HEAD = ("| cell | logs | in 95 % | own 95 % | listed | first | claimed | sure, wrong | misfits | median sd [P] | "
-        "s per log | outside |")
+        "s per log | no answer | outside |")
 
 
 def row(cell, count, marks):
@@ -325,7 +344,7 @@ def row(cell, count, marks):
     return (f"| {cell.name} | {n} | {show(count.inside)} | {show(count.own)} | {100 * count.listed / n:.1f} | "
             f"{show(count.first)} | {100 * count.claimed / n:.1f} | {count.sure_wrong} | "
             f"{100 * count.misfit / n:.1f} | {np.median(count.sd) if count.sd else math.nan:.2g} | "
-            f"{count.seconds / n:.2g} | {' '.join(marks)} |")
+            f"{count.seconds / n:.2g} | {count.errors} | {' '.join(marks)} |")
 
 
 def run(chosen, options):
