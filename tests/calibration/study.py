@@ -27,9 +27,10 @@ HERE = pathlib.Path(__file__).resolve().parent
 PROGRAM = HERE.parent.parent / "build" / "release" / "rollfix"
 ROWS_AT_ONCE = 4_000_000  # so many rows lie on the disk at a time, for each job
 LOGS_AT_ONCE = 25
-MEMORY = 4 << 30  # of the program, bytes
-SECONDS, SECONDS_EACH = 20, 3  # of the program: for so many logs together, and for each
+MEMORY = 3 << 30  # of the program, bytes
+SECONDS, SECONDS_EACH, SECONDS_PER_ROW = 10, 1, 1e-5  # of the program: for so many logs together, for each, its rows
 SURE = 0.95
+TWO_SIGMA, FOUR_SIGMA = 0.023, 3.2e-5
 FAR = 5.0  # standard deviations from a place's mean: nearer counts as listed
 Z95 = 1.959964
 
@@ -156,6 +157,7 @@ class Count:
     first: int = 0
     claimed: float = 0.0
     sure_wrong: int = 0
+    doubt: float = 0.0  # what was claimed with SURE and more: how often that says it is wrong
     misfit: int = 0
     errors: int = 0
     sd: list = field(default_factory=list)
@@ -180,9 +182,14 @@ def judge(answer, truth, outline, count):
         count.message = count.message or answer["error"]
         return
     verdict = answer["verdict"]
-    if re.search("fits? badly|inconsistent", verdict) or answer.get("diagnosis"):
-        count.misfit += 1
+    misfit = bool(re.search("fits? badly|inconsistent", verdict) or answer.get("diagnosis"))
+    count.misfit += misfit
     found = [p for p in answer["placements"] if p.get("probability")]
+    known = [p for p in found if not any(v is None for v in (*p["mean"], *p["sd"], *sum(p["interval"], [])))]
+    if len(known) < len(found):
+        count.errors += 1
+        count.message = count.message or f"{answer['id']}: a place whose mean, sd or interval is not a number"
+    found = known
     if not found:
         return
     found.sort(key=lambda p: -p["probability"])
@@ -198,17 +205,24 @@ def judge(answer, truth, outline, count):
     standing = np.array([[nearest(t + turn, middle, period)[:, k] for k, t in enumerate(truth)] for turn in turns])
     standing = np.moveaxis(standing, 1, 2)  # turns x places x fingers: the truth beside each place
     outside = np.maximum(0, np.maximum(interval[:, :, 0] - standing, standing - interval[:, :, 1]))
-    far = np.abs(standing - mean) / np.maximum(sd, 1e-9 * period)
+    wide = np.maximum(sd, 1e-9 * period)
+    far = (np.abs(standing - mean) / wide).max(axis=2)
     within = outside.max(axis=2) <= slack  # turns x places
-    near = within | (far.max(axis=2) <= FAR)
-    z = np.where(within, np.minimum(far.max(axis=2), FAR), far.max(axis=2))
+    near = within | (far <= FAR)
+    # Which of them it is: the one that is densest there.
+    density = np.log(p) - np.log(wide).sum(axis=1) - np.where(within, np.minimum(far, 2), far) ** 2 / 2
+    mine = np.where(near, density, -np.inf).argmax(axis=1)
 
     count.listed += bool(near[0].any())
-    count.own += bool(within[0].any())
-    count.inside += in_smallest(p, interval, standing[0], within[0], slack)
+    if len(truth) == 1:
+        count.own += bool(within[0].any())
+        count.inside += in_smallest(p, interval[:, 0], standing[0, :, 0], within[0], slack)
+    elif near[0].any():
+        sides = outside[0, mine[0]] <= slack
+        count.inside += bool(sides[0])
+        count.own += bool(sides[1])
     # The first place with those that look like it, and whether the truth is one of them.
-    closest = z.argmin(axis=1)
-    is_first = any(near[k][0] and closest[k] == 0 for k in range(len(turns)))
+    is_first = any(near[k][0] and mine[k] == 0 for k in range(len(turns)))
     alike = np.zeros(len(p), dtype=bool)
     for turn in turns:
         apart = np.abs(nearest(mean[0] + turn, mean, period) - mean)
@@ -217,7 +231,9 @@ def judge(answer, truth, outline, count):
     claim = min(1.0, float(p[alike].sum()))
     count.first += is_first
     count.claimed += claim
-    if (claim >= SURE or verdict.startswith("unique")) and not is_first:
+    if claim >= SURE:
+        count.doubt += 1 - claim
+    if (claim >= SURE or (verdict.startswith("unique") and not misfit)) and not is_first:
         count.sure_wrong += 1
         count.wrong.append(f"{answer.get('id')}: true {np.round(truth, 4).tolist()}, said {mean[0].round(4).tolist()} "
                            f"sd {sd[0].round(4).tolist()} p {p[0]:.4f}")
@@ -226,21 +242,19 @@ def judge(answer, truth, outline, count):
 
 def in_smallest(p, interval, standing, within, slack):
     """Whether the smallest set with 95 % holds the truth: each place is a normal density with its own interval."""
-    if interval.shape[1] > 1:
-        return bool(within.any())  # two fingers: as many are within the boxes' sides, see README.md
-    half = np.maximum((interval[:, 0, 1] - interval[:, 0, 0]) / 2, slack) / Z95
-    z = (standing[:, 0] - interval.mean(axis=2)[:, 0]) / half
+    half = np.maximum((interval[:, 1] - interval[:, 0]) / 2, slack) / Z95
+    z = (standing - interval.mean(axis=1)) / half
     height = p / half
     mine = np.argmax(np.log(height) - z * z / 2)
     level = math.log(height[mine]) - z[mine] ** 2 / 2
-    if within[mine] and len(p) == 1:
-        return True
+    if len(p) == 1:
+        return bool(within[0])
     reach = np.sqrt(np.maximum(0, 2 * (np.log(height) - level)))
     held = np.array([math.erf(r / math.sqrt(2)) for r in reach])
     return bool((p * held).sum() / p.sum() <= 0.95)
 
 
-def ask(program, lines, folder):
+def ask(program, lines, folder, rows=0):
     """The program's answers. Where it dies or takes too long, half of the logs at a time, down to the one that does it."""
     batch = folder / "batch.jsonl"
     batch.write_text("".join(json.dumps(line) + "\n" for line in lines))
@@ -248,7 +262,7 @@ def ask(program, lines, folder):
     try:
         done = subprocess.run([program, "locate", lines[0]["part"], "--batch", str(batch), "--json"], check=False,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=limit_memory,
-                              timeout=SECONDS + SECONDS_EACH * len(lines))
+                              timeout=SECONDS + (SECONDS_EACH + SECONDS_PER_ROW * rows) * len(lines))
         answers = done.stdout.decode().splitlines()
         if len(answers) == len(lines):
             return [json.loads(text) for text in answers]
@@ -258,7 +272,7 @@ def ask(program, lines, folder):
     if len(lines) == 1:
         return [{"error": f"no answer to {lines[0]['id']}: {why}"}]
     half = len(lines) // 2
-    return ask(program, lines[:half], folder) + ask(program, lines[half:], folder)
+    return ask(program, lines[:half], folder, rows) + ask(program, lines[half:], folder, rows)
 
 
 def limit_memory():
@@ -287,7 +301,7 @@ def run_chunk(task):
             truth.append((outline, np.array([r.s[0] % outline.perimeter for r in rolled])))
             lines.append(line)
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        answers = ask(program, lines, here)
+        answers = ask(program, lines, here, cell.rows)
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
         count.seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
         for answer, (outline, start), line in zip(answers, truth, lines):
@@ -301,33 +315,39 @@ def share(hits, n):
     return 100 * hits / n, 100 * math.sqrt(q * (1 - q) / n)
 
 
-def verdicts(cell, count, quick):
-    """What lies outside of what is promised; `!`: by more than 4 standard errors."""
+def tail(hits, n, rate):
+    """How likely it is that chance alone is as far on this side of the rate: of hits among n, whichever side they are."""
+    rate = min(max(rate, 1e-12), 1 - 1e-12)
+    counts = range(hits + 1) if hits <= rate * n else range(hits, n + 1)
+    log = lambda k: (math.lgamma(n + 1) - math.lgamma(k + 1) - math.lgamma(n - k + 1) + k * math.log(rate)
+                     + (n - k) * math.log1p(-rate))
+    return sum(math.exp(log(k)) for k in counts)
+
+
+def verdicts(cell, count):
+    """What lies outside of what is promised. `?`: chance alone does that once in 40 times at the limit itself; `!`: not
+    once in 30,000, as 4 standard errors."""
     n = count.logs
     marks, clear = [], []
 
-    def mark(name, off, error):
-        if off > 0:
-            marks.append(name + ("!" if off > 4 * error else ""))
-            if off > 4 * error:
-                clear.append(name)
+    def hold(name, hits, least=0.0, most=1.0):
+        if least * n <= hits <= most * n:
+            return
+        chance = tail(hits, n, least if hits < least * n else most)
+        marks.append(name + ("!" if chance < FOUR_SIGMA else "?" if chance > TWO_SIGMA else ""))
+        if chance < FOUR_SIGMA:
+            clear.append(name)
 
-    inside, inside_error = share(count.inside, n)
-    at_most = 100.0 if cell.overstated() else 97.0
-    mark("in95", max(93.0 - inside, inside - at_most), inside_error)
-    first, first_error = share(count.first, n)
-    claim = 100 * count.claimed / n
-    fair = 100 * math.sqrt(max(claim / 100 * (1 - claim / 100), 0.25 / n) / n)
-    too_sure = claim - first if cell.overstated() else abs(claim - first)
-    mark("claim", too_sure - 3.0, max(first_error, fair))
-    listed, listed_error = share(count.listed, n)
-    mark("listed", 99.5 - listed, listed_error)
+    claim = count.claimed / n
+    hold("in95", count.inside, 0.93, 1.0 if cell.overstated() else 0.97)
+    hold("claim", count.first, claim - 0.03, 1.0 if cell.overstated() else claim + 0.03)
+    hold("listed", count.listed, 0.995)
     if count.sure_wrong:
-        # A place claimed with 0.95 to 1 may be wrong now and then; more than that is clear.
-        rate, error = share(count.sure_wrong, n)
-        mark("sure", max(rate - 1.0, 1e-9), error)
-    misfit, misfit_error = share(count.misfit, n)
-    mark("misfit", misfit - 0.5, misfit_error)
+        # What is claimed with 0.95 to 1 may be wrong as often as that says.
+        chance = tail(count.sure_wrong, n, count.doubt / n + 1e-3)
+        marks.append("sure" + ("!" if chance < FOUR_SIGMA else "?" if chance > TWO_SIGMA else ""))
+        clear += ["sure"] if chance < FOUR_SIGMA else []
+    hold("misfit", count.misfit, 0, 0.005)
     if count.errors:
         marks.append("no answer!")
         clear.append("no answer")
@@ -365,7 +385,7 @@ def run(chosen, options):
             count = Count()
             for part in pool.imap(run_chunk, tasks):
                 count.add(part)
-            marks, clear = verdicts(cell, count, options.quick)
+            marks, clear = verdicts(cell, count)
             failed += [(cell.name, clear)] if clear else []
             print(row(cell, count, marks), flush=True)
             if count.message:
