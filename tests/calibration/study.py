@@ -25,8 +25,8 @@ from rolls import KINDS, Noise, as_csv
 
 HERE = pathlib.Path(__file__).resolve().parent
 PROGRAM = HERE.parent.parent / "build" / "release" / "rollfix"
-ROWS_AT_ONCE = 4_000_000  # so many rows lie on the disk at a time, for each job
-LOGS_AT_ONCE = 25
+ROWS_AT_ONCE = 200_000  # so many rows lie on the disk at a time, for each job, or those of one log
+LOGS_AT_ONCE = 20
 MEMORY = 3 << 30  # of the program, bytes
 SECONDS, SECONDS_EACH, SECONDS_PER_ROW = 10, 1, 1e-5  # of the program: for so many logs together, for each, its rows
 SURE = 0.95
@@ -175,7 +175,7 @@ def nearest(x, target, period):
 
 
 def judge(answer, truth, outline, count):
-    """One log's answer against the true starts, one for each finger."""
+    """Counts one log's answer against the true starts, one for each finger."""
     count.logs += 1
     if "error" in answer and "placements" not in answer:
         count.errors += 1
@@ -281,7 +281,7 @@ def limit_memory():
 
 def run_chunk(task):
     program, cell, seed, first, logs, folder = task
-    count = Count()
+    counts = {}
     names = FAMILIES[cell.outlines]
     with tempfile.TemporaryDirectory(dir=folder) as here:
         here = pathlib.Path(here)
@@ -303,10 +303,12 @@ def run_chunk(task):
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
         answers = ask(program, lines, here, cell.rows)
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        count.seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+        seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
         for answer, (outline, start), line in zip(answers, truth, lines):
+            count = counts.setdefault(outline.name, Count())
+            count.seconds += seconds / len(lines)
             judge({**answer, "id": line["id"]}, start, outline, count)
-    return count
+    return counts
 
 
 def share(hits, n):
@@ -358,13 +360,26 @@ HEAD = ("| cell | logs | in 95 % | own 95 % | listed | first | claimed | sure, w
         "s per log | no answer | outside |")
 
 
-def row(cell, count, marks):
+def row(name, count, marks):
     n = count.logs
     show = lambda hits, digits=1: "{:.{d}f} ± {:.{d}f}".format(*share(hits, n), d=digits)
-    return (f"| {cell.name} | {n} | {show(count.inside)} | {show(count.own)} | {100 * count.listed / n:.1f} | "
+    return (f"| {name} | {n} | {show(count.inside)} | {show(count.own)} | {100 * count.listed / n:.1f} | "
             f"{show(count.first)} | {100 * count.claimed / n:.1f} | {count.sure_wrong} | "
             f"{100 * count.misfit / n:.1f} | {np.median(count.sd) if count.sd else math.nan:.2g} | "
             f"{count.seconds / n:.2g} | {count.errors} | {' '.join(marks)} |")
+
+
+def some_of(pool, tasks, ahead, seconds):
+    """What the tasks give, in their order; none is begun after so many seconds."""
+    begin, waiting = time.time(), []
+    for task in tasks:
+        if len(waiting) == ahead:
+            yield waiting.pop(0).get()
+        if time.time() - begin > seconds:
+            break
+        waiting.append(pool.apply_async(run_chunk, (task,)))
+    for result in waiting:
+        yield result.get()
 
 
 def run(chosen, options):
@@ -379,15 +394,19 @@ def run(chosen, options):
                 print(f"{options.minutes} minutes are over: left out {cell.name} and what follows", file=sys.stderr)
                 break
             logs = options.logs or (cell.quick if options.quick else cell.logs)
-            at_once = max(1, min(LOGS_AT_ONCE, ROWS_AT_ONCE // cell.rows))
+            at_once = max(1, min(LOGS_AT_ONCE, ROWS_AT_ONCE // cell.rows, math.ceil(logs / options.jobs)))
             tasks = [(str(options.program), cell, options.seed, k, min(at_once, logs - k), folder)
                      for k in range(0, logs, at_once)]
-            count = Count()
-            for part in pool.imap(run_chunk, tasks):
-                count.add(part)
+            count, counts = Count(), {}
+            for part in some_of(pool, tasks, 2 * options.jobs, options.cell_seconds):
+                for name, of_outline in part.items():
+                    counts.setdefault(name, Count()).add(of_outline)
+                    count.add(of_outline)
             marks, clear = verdicts(cell, count)
             failed += [(cell.name, clear)] if clear else []
-            print(row(cell, count, marks), flush=True)
+            print(row(cell.name, count, marks), flush=True)
+            for name in sorted(counts) if options.each else ():
+                print(row("&nbsp; " + name, counts[name], verdicts(cell, counts[name])[0]), flush=True)
             if count.message:
                 print(f"{cell.name}: {count.errors} errors: {count.message}", file=sys.stderr)
             for line in count.wrong if options.wrong else []:
@@ -406,8 +425,10 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=min(2, os.cpu_count() or 1))
     parser.add_argument("--minutes", type=float, help="begin no further cell after that")
+    parser.add_argument("--cell-seconds", type=float, default=90, help="take no further logs for a cell after that")
     parser.add_argument("--quick", action="store_true", help="cheap cells with few logs; fails where one clearly does")
     parser.add_argument("--wrong", action="store_true", help="list what was sure and wrong, on stderr")
+    parser.add_argument("--each", action="store_true", help="a line for each outline as well")
     parser.add_argument("--list", action="store_true", help="list the cells")
     parser.add_argument("--folder", help="for the logs, up to 300 MB; default: the system's for such files")
     options = parser.parse_args()
