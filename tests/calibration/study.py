@@ -29,6 +29,7 @@ ROWS_AT_ONCE = 200_000  # so many rows lie on the disk at a time, for each job, 
 LOGS_AT_ONCE = 20
 MEMORY = 3 << 30  # of the program, bytes
 SECONDS, SECONDS_EACH, SECONDS_PER_ROW = 10, 1, 1e-5  # of the program: for so many logs together, for each, its rows
+QUICK = 4
 SURE = 0.95
 TWO_SIGMA, FOUR_SIGMA = 0.023, 3.2e-5
 FAR = 5.0  # standard deviations from a place's mean: nearer counts as listed
@@ -50,7 +51,7 @@ class Cell:
     said: float = 1.0  # so many times the true standard deviations are said
     said_slip: float = 1.0
     logs: int = 400
-    quick: int = 0  # logs with --quick
+    quick: int = 0  # logs with --quick, in units of QUICK
 
     def noise_on(self, outline):
         p = outline.perimeter
@@ -393,7 +394,7 @@ def run(chosen, options):
             if options.minutes and time.time() - begin > 60 * options.minutes:
                 print(f"{options.minutes} minutes are over: left out {cell.name} and what follows", file=sys.stderr)
                 break
-            logs = options.logs or (cell.quick if options.quick else cell.logs)
+            logs = options.logs or (QUICK * cell.quick if options.quick else cell.logs)
             at_once = max(1, min(LOGS_AT_ONCE, ROWS_AT_ONCE // cell.rows, math.ceil(logs / options.jobs)))
             tasks = [(str(options.program), cell, options.seed, k, min(at_once, logs - k), folder)
                      for k in range(0, logs, at_once)]
