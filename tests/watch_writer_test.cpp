@@ -61,7 +61,7 @@ WatchAnswer answer() {
   first.interval = rollfix::Interval{7.0, 7.7};
   first.end_mean = 0.25;
   first.end_sd = 0.3;
-  answer.modes[1].mean = 1;
+  answer.modes[1].start = 1;
   answer.modes[1].probability = 1.0 / 3;
   answer.rest = 1e-17;
   return answer;
@@ -151,7 +151,7 @@ TEST(WatchText, shows_the_places_the_most_probable_first) {
   Printed printed;
   printed.text->changed(answer());
   EXPECT_THAT(printed.out.str(),
-              ContainsRegex("19 +- +0.3000 +-19.099 +ambiguous \\(2\\) +7.1250 +0.2500 +0.143 +66.7 %"
+              ContainsRegex("19 +- +0.3000 +-19.099 +ambiguous \\(2\\) +7.1000 +0.2000 +0.143 +66.7 %"
                             " +or 1.0000 \\(33.3 %\\)\n"));
 }
 

@@ -80,9 +80,10 @@ void expect_same(const WatchAnswer& a, const WatchAnswer& b) {
   EXPECT_EQ(a.verdict.text(), b.verdict.text());
   ASSERT_EQ(a.modes.size(), b.modes.size());
   for (std::size_t k = 0; k < a.modes.size(); ++k) {
-    EXPECT_EQ(a.modes[k].mean[0], b.modes[k].mean[0]);
-    EXPECT_EQ(a.modes[k].sd[0], b.modes[k].sd[0]);
-    EXPECT_EQ(a.modes[k].probability, b.modes[k].probability);
+    // A roll that is over was looked at anew, on a grid of its own.
+    EXPECT_NEAR(a.modes[k].mean[0], b.modes[k].mean[0], 1e-5);
+    EXPECT_NEAR(a.modes[k].sd[0], b.modes[k].sd[0], 1e-5);
+    EXPECT_NEAR(a.modes[k].probability, b.modes[k].probability, 1e-5);
   }
 }
 

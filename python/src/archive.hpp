@@ -204,10 +204,10 @@ void visit(A& a, DensityPiece& v) {
 }
 template <class A>
 void visit(A& a, Fit& v) {
-  auto& [chi_square, freedom, sigmas, correlation, correlation_sigmas, row_sigmas, stray, prior_sigmas, excess, widened,
-         length_scale, length_scale_sd] = v;
-  all(a, chi_square, freedom, sigmas, correlation, correlation_sigmas, row_sigmas, stray, prior_sigmas, excess, widened,
-      length_scale, length_scale_sd);
+  auto& [chi_square, freedom, sigmas, correlation, correlation_sigmas, trend_sigmas, row_sigmas, stray, prior_sigmas,
+         excess, widened, alike_over, length_scale, length_scale_sd] = v;
+  all(a, chi_square, freedom, sigmas, correlation, correlation_sigmas, trend_sigmas, row_sigmas, stray, prior_sigmas,
+      excess, widened, alike_over, length_scale, length_scale_sd);
 }
 template <class A>
 void visit(A& a, Weighing& v) {

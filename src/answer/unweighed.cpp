@@ -175,6 +175,14 @@ std::optional<Noise> noise_that_shows(const Log& log, const std::vector<Finger>&
   return noise;
 }
 
+double jitter_of_centres(const Log& log) {
+  double most = 0;
+  for (const FingerRows& rows : log.fingers) {
+    if (rows.x.size() >= kFewestRows) most = std::max({most, jitter(rows.x), jitter(rows.y)});
+  }
+  return most;
+}
+
 void check_rows(const Problem& problem, const Observation& observed, bool explains, Answer& answer) {
   const RowsCheck check(problem, observed, answer);
   Search agreeing;

@@ -12,6 +12,10 @@ namespace rollfix {
 /// there are too few to tell.
 std::optional<Noise> noise_that_shows(const Log& log, const std::vector<Finger>& fingers);
 
+/// How far the fingers' centres in the world, as a log has them, jitter beside a smooth course: the largest standard
+/// deviation of a coordinate; 0 where they don't, or where there are too few rows to tell.
+double jitter_of_centres(const Log& log);
+
 /// Marks placements that other rows of the log contradict, or the contacts in the world, and puts them last; the
 /// verdict is of the others. Where none is left it says that the rows fit badly, and why, if it `explains`. REQUIRES a
 /// log, and poses where it has them.

@@ -7,14 +7,15 @@
 #include <utility>
 
 #include "rollfix/error.hpp"
+#include "unweighed.hpp"
 
 namespace rollfix {
 namespace {
 
 // A posterior of two fingers is complete when it leaves out no more than this.
 constexpr double kMostRest = 0.01;
-// Centres that nothing was said of are taken to be off by so many times a contact's noise, or this share of the
-// perimeter, and a few rows are looked at first.
+// Centres that nothing was said of are taken to be off by so many times a contact's noise, or what they jitter by, or
+// this share of the perimeter, and a few rows are looked at first.
 constexpr double kBadCentre = 5;
 constexpr double kLeastCentre = 2e-4;
 constexpr std::size_t kRowsOfGlance = 96;
@@ -79,16 +80,21 @@ double probability_if(const Diagnosis& diagnosis, const Placement& placement, co
 }
 
 /// Centres that are not said to be evidence still must not contradict the answer: they are held against it as if they
-/// were known badly. What is wrong if they do; nothing else. One finger's.
+/// were known badly. What is wrong if they do; nothing else: that they are as noisy as they are is no fault of the
+/// rows. One finger's.
 std::vector<Diagnosis> diagnoses_by_centres(const Problem& problem, const Observation& observed) {
   const bool has_centres = problem.felt.is_log() && observed.contacts && !problem.fingers.empty() &&
                            problem.felt.log->fingers.size() == 1 && !problem.felt.log->fingers[0].x.empty();
   if (!has_centres || problem.noise->position > 0 || problem.robust) return {};
   Problem looked_at = problem;
-  looked_at.noise->position = kBadCentre * std::max(problem.noise->contact, kLeastCentre * problem.part.perimeter());
+  looked_at.noise->position = kBadCentre * std::max({problem.noise->contact, kLeastCentre * problem.part.perimeter(),
+                                                     jitter_of_centres(*problem.felt.log)});
   if (!believe(looked_at, observed, {0, kRowsOfGlance})->fit().is_bad()) return {};
   std::optional<Belief> belief = believe(looked_at, observed);
-  return diagnose(looked_at, observed, *belief);
+  std::vector<Diagnosis> found = diagnose(looked_at, observed, *belief);
+  const bool is_noise =
+      !found.empty() && (found.front().cause == Cause::noise || found.front().cause == Cause::correlation);
+  return is_noise ? std::vector<Diagnosis>{} : found;
 }
 
 }  // namespace

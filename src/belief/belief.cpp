@@ -52,6 +52,8 @@ void require_valid(const Part& part, const BeliefOptions& options, const Contact
 
 struct Belief::State {
   void settle();
+  /// What is said beforehand can only sharpen what the rows allow.
+  void hold_against_rows_alone();
   template <class Remaining>
   Verdict verdict_on(const std::vector<Remaining>& remaining);
   template <class Remaining>
@@ -61,7 +63,8 @@ struct Belief::State {
   BeliefOptions options;
   Contacts contacts;
   std::unique_ptr<Posterior> posterior;
-  std::size_t settled_at;  // after so many samples; none: the largest
+  std::unique_ptr<Posterior> of_rows_alone;  // without the prior; none where there is none
+  std::size_t settled_at;                    // after so many samples; none: the largest
   Outcome outcome;
 };
 
@@ -69,6 +72,22 @@ void Belief::State::settle() {
   if (posterior->samples() == settled_at) return;
   outcome = posterior->settle();
   settled_at = posterior->samples();
+  hold_against_rows_alone();
+}
+
+// The best cost with the prior less the best one without is a chi-square, of as many degrees as the prior has. It is no
+// less than the square of how far the place is from the prior: rows that allow that place, but another one far better,
+// make it larger.
+void Belief::State::hold_against_rows_alone() {
+  if (!of_rows_alone || !posterior->has_begun()) return;
+  const Outcome alone = of_rows_alone->settle();
+  const double more = 2 * (alone.evidence.peak - outcome.evidence.peak);
+  if (!std::isfinite(more)) return;
+  // What is noisier than said, or alike, says less.
+  const double of_prior = square(outcome.fit.prior_sigmas);
+  const double cost = of_prior + std::max(0.0, more - of_prior) / square(alone.fit.widened);
+  const double degrees = (options.prior ? 1 : 0) + (options.pose ? std::isfinite(options.pose->place_sd) ? 3 : 1 : 0);
+  outcome.fit.prior_sigmas = degrees > 1 ? normal_deviate(cost, degrees) : std::sqrt(cost);
 }
 
 /// docs/belief.md has the table.
@@ -100,11 +119,16 @@ Belief::Belief(const Part& part, LogKind kind, const BeliefOptions& options, con
   require_valid(part, options, contacts);
   BeliefOptions on_part = options;
   on_part.noise = noise_on(part, options.noise);
-  const bool is_one = contacts.finger_curvature.size() == 1;
+  const auto posterior = [&](const BeliefOptions& with) {
+    const bool is_one = contacts.finger_curvature.size() == 1;
+    return is_one ? posterior_of_one(part, kind, with, contacts) : posterior_of_two(part, kind, with, contacts);
+  };
   state_ = std::make_unique<State>(
-      State{part, on_part, contacts,
-            is_one ? posterior_of_one(part, kind, on_part, contacts) : posterior_of_two(part, kind, on_part, contacts),
-            std::numeric_limits<std::size_t>::max(), Outcome{}});
+      State{part, on_part, contacts, posterior(on_part), nullptr, std::numeric_limits<std::size_t>::max(), Outcome{}});
+  if ((!options.prior && !options.pose) || options.glance) return;
+  on_part.prior.reset();
+  on_part.pose.reset();
+  state_->of_rows_alone = posterior(on_part);
 }
 Belief::~Belief() = default;
 Belief::Belief(Belief&&) noexcept = default;
@@ -117,6 +141,7 @@ void Belief::add(const Sample& sample) {
                                  fingers == 1 ? "one finger" : "two fingers", fingers == 1 ? "two" : "one"));
   }
   state_->posterior->add(sample);
+  if (state_->of_rows_alone) state_->of_rows_alone->add(sample);
 }
 
 void Belief::add(const Reading& reading) {

@@ -94,6 +94,7 @@ class ErrorModel {
   const SharedCovariance& start() const { return start_; }
   /// Of a centre's coordinate, each row on its own; 0: centres are not looked at.
   double centre_variance() const { return sensor_.noise.position * sensor_.noise.position; }
+  bool gathers_rows() const { return sensor_.gathers_rows(); }
   /// As far as the scale's variance is that of a wrong radius.
   double radius_share(double finger_curvature) const;
   double worth(double travelled, double rows) const { return sensor_.worth(travelled, rows); }

@@ -53,10 +53,17 @@ inline double normal_deviate(double chi_square, double freedom) {
   return (std::cbrt(chi_square / freedom) - (1 - spread)) / std::sqrt(spread);
 }
 
+/// Of a filter's equations, each in its standard deviations, in the order of the rows.
+using Innovations = std::array<std::vector<double>, 3>;
+
 /// Whether a filter's innovations, each in its standard deviations, are as they should be: independent, none far out.
 class Whiteness {
  public:
+  /// All that follow are kept as well, there.
+  void record_to(std::vector<double>* kept) { kept_ = kept; }
+
   void add(double innovation) {
+    if (kept_ != nullptr) kept_->push_back(innovation);
     most_ = std::max(most_, innovation * innovation);
     lag_ += innovation * last_;
     last_ = innovation;
@@ -92,7 +99,21 @@ class Whiteness {
   double sums_ = 0;
   double squares_ = 0;
   double count_ = 0;
+  std::vector<double>* kept_ = nullptr;
 };
+
+/// How innovations run in the long term.
+struct Trend {
+  double sigmas = 0;   // how unlikely it is that independent ones do: a standard normal deviate
+  double widened = 1;  // by how many times they are larger there than they should be
+  double jitter = 1;   // from one to the next: the variance of independent ones that differ so
+  double count = 0;    // of them, of each equation
+};
+
+/// Their slowest cosine components, which are independent and as large as any other where the innovations are (Neyman's
+/// smooth test, 1937): what a bias that drifts makes is in them, far below what neighbours or the farthest row show.
+/// `freedom`: so many innovations are independent.
+Trend trend_of(const Innovations& innovations, double freedom);
 
 /// Of a row's N equations, given the inverse of their covariance, made independent of each other.
 template <int N>
@@ -128,6 +149,17 @@ inline Fit fit_of(double cost, double freedom, const std::array<Whiteness, 3>& e
     fit.widened *= std::sqrt((1 + alike) / (1 - alike));
   }
   return fit;
+}
+
+/// Innovations that run so in the long term are alike as well. `step`: from one to the next the finger rolls so far; 0:
+/// neighbours can't be said to be alike.
+inline void add_trend(const Trend& trend, double step, Fit& fit) {
+  fit.trend_sigmas = trend.sigmas;
+  if (trend.sigmas > kExcessSigma) fit.widened = std::max(fit.widened, fit.excess * trend.widened);
+  // As large as said, and correlated by exp(-step / length), neighbours differ by 1 less that: the variogram.
+  const bool may_be_alike = fit.is_too_good() && trend.jitter > 0 && trend.jitter < 1;
+  // Of rows that are alike from end to end it can't be told how much longer it is than the roll.
+  fit.alike_over = may_be_alike ? step * std::min(-1 / std::log1p(-trend.jitter), trend.count) : 0;
 }
 
 /// The highest density of a normal distribution, given the inverse of its variance.

@@ -14,6 +14,10 @@ namespace {
 
 // A placement of the search further than this many standard deviations from a mode is another one.
 constexpr double kNear = 3;
+// 95 % of a normal distribution are within so many standard deviations.
+constexpr double kTwoSides = 1.96;
+// A place that is nearer to a corner than this share of the perimeter is at it.
+constexpr double kAtCorner = 1e-9;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -78,6 +82,26 @@ Placement within(const Placement& found, const Mode& mode, const Part& part) {
   return placement;
 }
 
+/// Whether a finger can be at a convex corner at the first contact or where one of the readings ends, as far as 95 %
+/// go.
+bool is_at_a_corner(const Part& part, const std::vector<Reading>& readings, const Mode& mode) {
+  const auto holds_one = [&](const Interval& s) {
+    return std::any_of(part.corners().begin(), part.corners().end(), [&](const Corner& corner) {
+      return !corner.is_concave() && part.boundary().distance(s, corner.s) <= kAtCorner * part.perimeter();
+    });
+  };
+  for (std::size_t finger = 0; finger < mode.start.size(); ++finger) {
+    const Interval& first = mode.interval[finger];
+    if (holds_one(first)) return true;
+    const double beyond = kTwoSides * mode.end_sd[finger];
+    for (const Reading& reading : readings) {
+      const double length = reading.length[finger];
+      if (holds_one({first.lo + length - beyond, first.hi + length + beyond})) return true;
+    }
+  }
+  return false;
+}
+
 /// With what all samples together say of it.
 Placement with_mode(Placement placement, const Mode& mode, const Part& part) {
   placement.start = mode.start;
@@ -116,7 +140,10 @@ Weighed weigh(const Part& part, const std::vector<Reading>& readings, const std:
       // A wide mode can hold several.
       if (off <= kNear || lies_in(mode.interval, found.placements[k].start, part)) has_mode[k] = true;
     }
-    const bool is_found = nearest != nullptr && least <= kNear;
+    // What the tolerance reaches with a pivot, all samples together may have elsewhere.
+    const bool is_elsewhere =
+        nearest != nullptr && nearest->kind == Kind::corner && !is_at_a_corner(part, readings, mode);
+    const bool is_found = nearest != nullptr && least <= kNear && !is_elsewhere;
     Placement placement = with_mode(is_found ? within(*nearest, mode, part) : placement_of(mode), mode, part);
     const bool is_of_one = mode.start.size() == 1;
     if (!is_of_one || placement.kind != Kind::corner) placement.residual = residual_at(question, mode.start);

@@ -97,12 +97,26 @@ class AskedText : AnswerWords {
     text += fmt::format("samples    {}", weighing.samples);
     if (weighing.fit.excess > 1)
       text += fmt::format("; off by {:.2f} times the noise, widened by that", weighing.fit.excess);
-    text += '\n';
+    text += '\n' + caution_lines(weighing.fit);
     if (answer_.dropped.improbable > 0) {
       text += fmt::format("dropped    {} that the readings alone allow, but not all samples together\n",
                           answer_.dropped.improbable);
     }
     return text;
+  }
+
+  /// Rows that fit far too well.
+  static std::string caution_lines(const Fit& fit) {
+    if (!fit.is_too_good()) return "";
+    std::string text = fmt::format("caution    the rows are off by {:.2g} times the noise only: it is said too large, ",
+                                   std::sqrt(fit.chi_square / fit.freedom));
+    text += "and the answer is wider than it need be";
+    if (fit.alike_over > 0) {
+      text += fmt::format(
+          ";\n           or neighbours are off alike, and the answer is too sure: then --noise correlation={:.2g}",
+          fit.alike_over);
+    }
+    return text + '\n';
   }
 
   std::string prior_text(const PosePrior& prior) const {

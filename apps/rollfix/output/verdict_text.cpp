@@ -132,7 +132,8 @@ class VerdictText : AnswerWords {
                               : ": within the noise every place fits; roll further, or measure better";
     }
     if (fingers_ == 1 && (answer_.placements.size() == 1 || verdict.stretches > 0)) {
-      return fmt::format(": the likeliest start is {}; roll on to know it better", where(first));
+      return fmt::format(": the finger started between s = {} and {} with 95 %; roll on to know it better",
+                         place(first.interval[0].lo), at(answer_.part.boundary().on_first_lap(first.interval[0].hi)));
     }
     return fmt::format(": the likeliest start is {}, with probability {:.2f}; roll on to tell them apart", where(first),
                        first.probability);

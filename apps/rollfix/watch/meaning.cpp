@@ -37,7 +37,26 @@ Problem problem_of(const Part& part, const WatchOptions& watch, LogKind kind, co
   problem.prior = options.prior;
   problem.pose = options.pose;
   problem.robust = options.robust;
+  if (kind == LogKind::increments) {  // one stands for several, which were off each
+    problem.noise->contact *= std::sqrt(static_cast<double>(kept.each()));
+    problem.noise->angle *= std::sqrt(static_cast<double>(kept.each()));
+  }
   return problem;
+}
+
+/// A placement of an answer with noise, as the mode that it was of.
+Mode mode_of(const Placement& placement) {
+  Mode mode;
+  mode.start = placement.start;
+  mode.end = placement.end;
+  mode.tangent = placement.tangent;
+  mode.probability = placement.probability;
+  mode.mean = placement.mean;
+  mode.sd = placement.sd;
+  mode.interval = placement.interval;
+  mode.end_mean = placement.end_mean;
+  mode.end_sd = placement.end_sd;
+  return mode;
 }
 
 class OnPart final : public Meaning {
@@ -60,11 +79,19 @@ class OnPart final : public Meaning {
     answer.excess = belief_.excess();
   }
 
-  /// Why the rows fit badly, if they do.
+  /// What `locate` says of the same rows.
   void look_again(WatchAnswer& answer) override {
-    if (!belief_.fit().is_bad()) return;
     try {
-      answer.diagnoses = solve(problem_of(part_, options_, kind_, kept_)).diagnoses;
+      const Answer located = solve(problem_of(part_, options_, kind_, kept_));
+      answer.diagnoses = located.diagnoses;
+      const bool is_bad = located.verdict.fits_badly || located.verdict.name == Verdict::inconsistent;
+      // Of a long roll only some samples were kept: where they fit, all of them say more.
+      if (kept_.each() > 1 && !is_bad) return;
+      answer.verdict = located.verdict;
+      answer.rest = located.weighing->rest;
+      answer.excess = located.weighing->fit.excess;
+      answer.modes.clear();
+      for (const Placement& placement : located.placements) answer.modes.push_back(mode_of(placement));
     } catch (const InputError&) {  // so few of its samples are no roll any more: what is wrong is not known
     }
   }
@@ -97,11 +124,7 @@ class OnCatalog final : public Meaning {
 
  private:
   void look(WatchAnswer& answer, const IdentifyOptions& options) const {
-    Problem problem = problem_of(part_, options_, kind_, kept_);
-    if (kind_ == LogKind::increments) {  // one stands for several, which were off each
-      problem.noise->contact *= std::sqrt(static_cast<double>(kept_.each()));
-      problem.noise->angle *= std::sqrt(static_cast<double>(kept_.each()));
-    }
+    const Problem problem = problem_of(part_, options_, kind_, kept_);
     try {
       answer.parts = std::make_shared<const Identified>(identify(*options_.catalog, problem, options));
     } catch (const InputError&) {  // so short a roll says nothing yet, or the rows are no roll on any part

@@ -15,6 +15,7 @@
 namespace rollfix::app {
 namespace {
 
+constexpr double kDoubtful = 0.25;  // a place with less: what is said is not more than a third as likely as what else
 constexpr std::size_t kMostOthers = 3;  // places behind the most probable one
 
 // In the order of RollEnd and of WatchEnd.
@@ -56,13 +57,13 @@ class TextWriter : public WatchWriter {
   }
 
   void changed(const WatchAnswer& answer) override {
-    write(row(answer, verdict_of(answer), answer.parts ? parts(*answer.parts) : places(answer)));
+    write(row_of(answer));
     roll_shown_ = answer.roll;
-    samples_shown_ = answer.samples;
+    shown_ = row_of(answer);
   }
 
   void over(const WatchAnswer& answer, RollEnd why) override {
-    if (answer.roll != roll_shown_ || answer.samples != samples_shown_) changed(answer);
+    if (answer.roll != roll_shown_ || row_of(answer) != shown_) changed(answer);
     if (why == RollEnd::ended) return;
     write(row("", "", "", "",
               fmt::format("{}: roll {} is over", kRollIsOver.at(static_cast<std::size_t>(why)), answer.roll), ""));
@@ -92,14 +93,18 @@ class TextWriter : public WatchWriter {
                fixed(sample.reading.length[0], decimals_), degrees(sample.reading.turn), verdict, text);
   }
 
+  std::string row_of(const WatchAnswer& answer) const {
+    return row(answer, verdict_of(answer), answer.parts ? parts(*answer.parts) : places(answer));
+  }
+
   std::string places(const WatchAnswer& answer) const {
     if (answer.modes.empty() || answer.verdict.name == Verdict::inconsistent) return "";
     const Mode& best = answer.modes.front();
-    std::string text = fmt::format("{:>10}  {:>10}  {:>8}  {:>7}", fixed(best.mean[0], decimals_),
-                                   fixed(best.end_mean[0], decimals_), rough(best.sd[0]), percent(best.probability));
+    std::string text = fmt::format("{:>10}  {:>10}  {:>8}  {:>7}", fixed(best.start[0], decimals_),
+                                   fixed(best.end[0], decimals_), rough(best.sd[0]), percent(best.probability));
     const std::size_t shown = std::min(answer.modes.size(), kMostOthers + 1);
     for (std::size_t i = 1; i < shown; ++i) {
-      text += fmt::format("{}{} ({})", i == 1 ? "  or " : ", ", fixed(answer.modes[i].mean[0], decimals_),
+      text += fmt::format("{}{} ({})", i == 1 ? "  or " : ", ", fixed(answer.modes[i].start[0], decimals_),
                           percent(answer.modes[i].probability));
     }
     if (answer.modes.size() > shown) text += fmt::format(" and {} more", answer.modes.size() - shown);
@@ -134,9 +139,12 @@ class TextWriter : public WatchWriter {
     if (last.parts) return conclusion_of_parts(last);
     if (last.verdict.name == Verdict::inconsistent) return last.verdict.text() + ": nothing fits" + why(last);
     if (last.verdict.name != Verdict::unique) return last.verdict.text() + why(last);
+    if (last.modes.empty()) return last.verdict.text() + ": nothing that fits is within the finger's reach";
     const Mode& only = last.modes.front();
-    return fmt::format("{}: roll {} started at s = {} +- {}{}{}", last.verdict.text(), last.roll,
-                       fixed(only.mean[0], decimals_), rough(only.sd[0]), behind(unit_), why(last));
+    const bool is_doubted = !last.diagnoses.empty() && only.probability < kDoubtful;
+    return fmt::format("{}: {}roll {} started at s = {} +- {}{}{}{}", last.verdict.text(),
+                       is_doubted ? "taken as said, " : "", last.roll, fixed(only.start[0], decimals_),
+                       rough(only.sd[0]), behind(unit_), is_doubted ? ", but what follows is likelier" : "", why(last));
   }
 
   /// Where its rows fit badly: what explains them, and the cure.
@@ -151,8 +159,8 @@ class TextWriter : public WatchWriter {
   Noise noise_;
   std::string unit_;  // the part's, or the catalog's
   std::shared_ptr<const Catalog> catalog_;
-  std::size_t roll_shown_ = 0;  // the last row was of this answer
-  std::size_t samples_shown_ = 0;
+  std::size_t roll_shown_ = 0;  // the last row was of this roll
+  std::string shown_;           // that row
 };
 
 }  // namespace

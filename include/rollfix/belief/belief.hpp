@@ -61,7 +61,8 @@ struct Contacts {
 
 /// Where the posterior has its mass: one of several places, or of two fingers pairs of places, that remain.
 struct Mode {
-  PerFinger<double> start;    // s of the first contacts where the density is largest, in [0, P)
+  PerFinger<double> start;    // s of the first contacts where the density is largest, in [0, P); where that is outside
+                              // of the interval, as on a stretch that is flat, the middle of it
   PerFinger<double> end;      // s of the last contacts for that start, in [0, P)
   PerFinger<double> tangent;  // directions at the start, radians, unwrapped; in a corner those of the pivot
   double probability = 0;     // of the first contacts being in here
@@ -87,23 +88,32 @@ using Density = std::vector<DensityPiece>;
 struct Fit {
   // What a standard normal deviate is beyond once in some thousand times.
   static constexpr double kMostSigmas = 3.3;
+  // Of the chi-square that is to be expected, less than this share: of the noise, less than half.
+  static constexpr double kFarTooGood = 0.25;
 
   double chi_square = 0;          // of the samples about that place
   double freedom = 0;             // as much is to be expected of it
   double sigmas = 0;              // how unlikely such a chi-square is: a standard normal deviate
   double correlation = 0;         // of neighbouring samples' errors, which should be independent
   double correlation_sigmas = 0;  // how unlikely that is
+  double trend_sigmas = 0;        // how unlikely it is that independent errors drift so, or go to and fro so slowly
   double row_sigmas = 0;          // how unlikely it is that the row that is farthest off is so far off
   double stray = 0;               // robust: as many rows are
-  double prior_sigmas = 0;        // how far the place is from where the prior has it, in the prior's deviations
+  double prior_sigmas = 0;        // how unlikely it is that rows which fit another place so much better, or are so far
+                                  // from where the prior has it, go with the prior
   double excess = 1;              // by how many times the samples are off more than the noise allows; 1: they are not
   double widened = 1;             // all that is said is as with this many times the noise: the excess, and what
                                   // samples that are alike are worth
+  double alike_over = 0;          // where they fit too well: neighbouring samples may be off alike over so much of the
+                                  // roll, length; 0: no such length is known
   PerFinger<double> length_scale = 1.0;     // lengths are this many times what was measured, ...
   PerFinger<double> length_scale_sd = 0.0;  // ... give or take; 0: they were said to be exact
 
-  bool is_correlated() const { return correlation_sigmas > kMostSigmas; }
-  bool is_bad() const { return std::max({sigmas, correlation_sigmas, row_sigmas, prior_sigmas}) > kMostSigmas; }
+  bool is_correlated() const { return std::max(correlation_sigmas, trend_sigmas) > kMostSigmas; }
+  /// The noise is far less than was said, or neighbours are so much alike that it does not show: then the answer is too
+  /// sure.
+  bool is_too_good() const { return sigmas < -kMostSigmas && chi_square < kFarTooGood * freedom; }
+  bool is_bad() const { return is_correlated() || std::max({sigmas, row_sigmas, prior_sigmas}) > kMostSigmas; }
 };
 
 /// How likely all samples are together, whatever the first contact: to weigh one belief against another whose samples

@@ -80,7 +80,7 @@ struct PoseResidual {
 struct Placement {
   Kind kind = Kind::crossing;
   PerFinger<double> start;     // s of the first contact, in [0, P): the first root, else where the residual is least;
-                               // with noise where the density is largest
+                               // with noise as of a Mode: where the density is largest
   PerFinger<double> end;       // s of the last contact, in [0, P)
   PerFinger<Interval> extent;  // around the connected set: lo in [0, P), hi may exceed P; a loop is [0, P]
   PerFinger<bool> whole_loop;  // the extent is all of a closed boundary

@@ -74,6 +74,7 @@ Grid::Grid(const TiltedBoundary& boundary, const ErrorModel& errors, const Belie
       places_(places),
       scorer_(boundary, errors, options, places, centres),
       corner_length_(corner_length),
+      can_be_alike_(!errors.gathers_rows() && options.noise.correlation == 0),
       folds_(options.prior || options.pose || !options.within.empty() ? 1 : boundary.folds()) {
   for (const TiltedArc& arc : boundary.arcs()) {
     length_ += arc.hi() - arc.lo();
@@ -176,7 +177,7 @@ double Grid::log_prior(double length, double h, double width) const {
   return std::log((slope * boundary_->tilt() > kCornerSlope ? slope : corner_length_) * width);
 }
 
-void Grid::measure_fit(const Nodes& nodes) {
+const GridPoint& Grid::best_point(const Nodes& nodes) const {
   const GridPoint* best = nullptr;
   for (const GridPoints& arc : points_) {
     for (const std::unique_ptr<GridPoint>& point : arc) {
@@ -185,6 +186,26 @@ void Grid::measure_fit(const Nodes& nodes) {
       best = point.get();
     }
   }
+  return *best;
+}
+
+double Grid::step_between(const Nodes& nodes) const {
+  if (!can_be_alike_) return 0;
+  double travelled = 0;
+  double last = 0;
+  double count = 0;
+  const auto pass = [&](const Node& node) {
+    travelled += std::abs(node.length - last);
+    last = node.length;
+    count += 1;
+  };
+  for (const Node& node : nodes.complete()) pass(node);
+  if (const std::optional<Node> pending = nodes.pending()) pass(*pending);
+  return count > 0 ? travelled / count : 0;
+}
+
+void Grid::measure_fit(const Nodes& nodes) {
+  const GridPoint* best = &best_point(nodes);
   best_ = best->score.log_likelihood();
   gathered_ = -0.5 * best->now.log_gathered();
   farthest_ = scorer_.limit() - best->score.log_volume;
@@ -192,6 +213,7 @@ void Grid::measure_fit(const Nodes& nodes) {
   fit_ = options_.robust ? fit_of(best->now.right_cost(), best->now.right_rows(), best->now.whiteness())
                          : fit_of(best->now.cost(), freedom, best->now.whiteness());
   fit_.stray = options_.robust ? freedom - best->now.right_rows() : 0;
+  add_trend(trend_, step_between(nodes), fit_);
   fit_.prior_sigmas = scorer_.prior_sigmas(*best);
   best_mass_ = log_mass(*best);
 }
@@ -362,6 +384,13 @@ void Grid::unfold() {
   }
 }
 
+void Grid::resolve(const Nodes& nodes) {
+  for (int round = 0; round < kMostRounds; ++round) {
+    measure_fit(nodes);
+    if (!refine(nodes)) break;
+  }
+}
+
 void Grid::settle(const Nodes& nodes) {
   scorer_.forget_limit();
   // As the roll goes on, other places of the boundary decide: the first points are laid out anew at each doubling.
@@ -383,10 +412,11 @@ void Grid::settle(const Nodes& nodes) {
     }
     scorer_.refresh(ends, nodes);
   }
-  for (int round = 0; round < kMostRounds; ++round) {
-    measure_fit(nodes);
-    if (!refine(nodes)) break;
-  }
+  trend_ = {};
+  resolve(nodes);
+  // Of the likeliest point alone, and once it is known: where its innovations drift, more of the boundary matters.
+  trend_ = scorer_.trend(best_point(nodes), nodes, traced_);
+  if (trend_.sigmas > kExcessSigma) resolve(nodes);
   spare_.clear();
   measure_fit(nodes);
   weigh();

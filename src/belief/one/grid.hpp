@@ -84,6 +84,11 @@ class Grid {
   /// Adds the cells that look like those with points.
   void unfold();
   void measure_fit(const Nodes& nodes);
+  /// How far the finger rolls from one node to the next; 0 where neighbours can't be said to be alike.
+  double step_between(const Nodes& nodes) const;
+  /// Halves cells until all that matter are resolved.
+  void resolve(const Nodes& nodes);
+  const GridPoint& best_point(const Nodes& nodes) const;
   /// Whether it is not known that the first contact is not in there; unwrapped.
   bool can_start_in(const Interval& s) const;
   bool holds_something(const Nodes& nodes, const Rival& rival) const;
@@ -97,7 +102,10 @@ class Grid {
   Boundary places_;
   PointScorer scorer_;
   double corner_length_;
+  bool can_be_alike_;
   Fit fit_;
+  Trend trend_;                     // of the likeliest point, ...
+  std::unique_ptr<Traced> traced_;  // ... and what is kept to go on from
   double rest_ = 0;
   std::size_t folds_;             // of the boundary look the same to all that is known: points lie on the first one ...
   std::vector<Interval> ranges_;  // ... alone, on each of its arcs between these, in w

@@ -87,18 +87,30 @@ class ModeOfRun {
   Mode mode() const {
     Mode mode;
     for (const GridCell* cell : run_.cells) mode.probability += cell->share;
+    spread(mode);
     const End best = best_end();
     const RollFilter filter = grid_.filter(*run_.cells[best.cell], best.end);
-    const double w = peak(best, filter.w());
-    const double s = filter.arc()->at(w).s;
-    mode.start = question_.places.on_first_lap(s);
-    mode.tangent = w - question_.boundary->tilt() * s;
-    mode.end = question_.places.on_first_lap(filter.after(question_.last).s);
-    spread(mode);
+    start(mode, filter, peak(best, filter.w()));
+    if (!question_.places.contains(mode.interval[0], mode.start[0])) start_in_the_middle(mode);
     return mode;
   }
 
  private:
+  void start(Mode& mode, const RollFilter& filter, double w) const {
+    const double s = filter.arc()->at(w).s;
+    mode.start = question_.places.on_first_lap(s);
+    mode.tangent = w - question_.boundary->tilt() * s;
+    mode.end = question_.places.on_first_lap(filter.after(question_.last, w - filter.w()).s);
+  }
+  /// Where a density is flat its peak is a ripple somewhere, at an edge as well, and says nothing: the median does.
+  void start_in_the_middle(Mode& mode) const {
+    double total = 0;
+    for (const GridCell* cell : run_.cells) total += cell->share;
+    const Place middle = place_of(0.5 * total);
+    const GridCell& cell = *run_.cells[middle.cell];
+    start(mode, grid_.filter(cell, middle.share < 0.5 ? 0 : 1), cell.lo + middle.share * (cell.hi - cell.lo));
+  }
+
   /// The lower or the upper one of a cell.
   struct End {
     std::size_t cell = 0;
@@ -185,8 +197,19 @@ class ModeOfRun {
     return cell.s.lo + share * cell.s.width() + run_.turns[k] * question_.places.perimeter;
   }
 
-  /// The place up to which there is this much mass.
+  /// In a cell, this share of its width above its lower end.
+  struct Place {
+    std::size_t cell = 0;
+    double share = 0;
+  };
+
   double quantile(double mass) const {
+    const Place place = place_of(mass);
+    return at(place.cell, place.share);
+  }
+
+  /// The place up to which there is this much mass.
+  Place place_of(double mass) const {
     double before = 0;
     for (std::size_t k = 0; k < run_.cells.size(); ++k) {
       const GridCell& cell = *run_.cells[k];
@@ -195,9 +218,9 @@ class ModeOfRun {
         continue;
       }
       if (cell.share <= 0) continue;
-      return at(k, cell.quantile((mass - before) / cell.share));
+      return {k, cell.quantile((mass - before) / cell.share)};
     }
-    return at(run_.cells.size() - 1, 1);
+    return {run_.cells.size() - 1, 1};
   }
 
   const Grid& grid_;

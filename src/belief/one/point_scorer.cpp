@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "belief/posterior.hpp"
 #include "outline/turn.hpp"
@@ -172,6 +173,37 @@ void PointScorer::lower_limit(double deviance, const Nodes& nodes) {
   const double noisier = std::max(1.0, deviance / freedom);
   const double farthest = std::sqrt(std::max(0.0, deviance) + kMatters * noisier) + kBeyondMatter * std::sqrt(noisier);
   limit_ = std::min(limit_, square(farthest));
+}
+
+Trend PointScorer::trend(const GridPoint& point, const Nodes& nodes, std::unique_ptr<Traced>& traced) const {
+  const bool goes_on = traced && !errors_.is_wide() && traced->filter.arc() == point.filter.arc() &&
+                       traced->filter.w() == point.filter.w() && traced->generation == nodes.generation();
+  if (!goes_on) {
+    // About the offset of turn that the last pass was taken about, or one as good.
+    traced = std::make_unique<Traced>(Traced{
+        errors_.is_wide() ? point.now.again(errors_.start()) : fresh_filter(*point.filter.arc(), point.filter.w()), 0,
+        nodes.generation()});
+    traced->filter.record_to(traced->innovations);
+  }
+  const auto take = [&](RollFilter& filter, const Node* from, const Node* end) {
+    bool is_begun = false;
+    const auto once = [&](Errand& errand) {
+      errand = {nullptr, 1, &filter, from, end, true};
+      return !std::exchange(is_begun, true) && from != end;
+    };
+    run_errands(once, has_centres(), limit_, outliers_);
+  };
+  const std::vector<Node>& complete = nodes.complete();
+  take(traced->filter, complete.data() + traced->taken, complete.data() + complete.size());
+  traced->taken = complete.size();
+  const std::optional<Node> pending = nodes.pending();
+  if (!pending) return trend_of(traced->innovations, nodes.freedom());
+  // It will change: what it adds is not kept.
+  Innovations all = traced->innovations;
+  RollFilter now = traced->filter;
+  now.record_to(all);
+  take(now, &*pending, &*pending + 1);
+  return trend_of(all, nodes.freedom());
 }
 
 double PointScorer::least_prior_cost(const Interval& s) const {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -33,6 +34,14 @@ struct GridPoint {
   Score score;
 };
 
+/// A first contact's filter that keeps its innovations.
+struct Traced {
+  RollFilter filter;  // has taken `taken` complete nodes
+  std::size_t taken = 0;
+  std::size_t generation = 0;
+  Innovations innovations{};
+};
+
 /// Lets first contacts on trial take the samples, and says what each is worth, the prior included.
 class PointScorer {
  public:
@@ -46,6 +55,9 @@ class PointScorer {
   /// The same, those that some of the nodes speak for first: then the others reach the limit early.
   void refresh_likely_first(const std::vector<GridPoint*>& points, const Nodes& nodes);
   static bool is_stale(const GridPoint& point, const Nodes& nodes) { return point.rows != nodes.rows(); }
+
+  /// How a point's innovations run in the long term; `traced`: what was kept when that was asked before.
+  Trend trend(const GridPoint& point, const Nodes& nodes, std::unique_ptr<Traced>& traced) const;
 
   /// Of a deviance that can matter: it comes down with each better point, until all is new.
   double limit() const { return limit_; }

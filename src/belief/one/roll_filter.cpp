@@ -191,9 +191,9 @@ void RollFilter::absorb(const Node& node, const Outliers& outliers) {
   walk_ -= weight * of_walk * noise.inverse() * of_walk.transpose();
 }
 
-TiltedPlace RollFilter::after(const Reading& measured) const {
+TiltedPlace RollFilter::after(const Reading& measured, double further) const {
   const Corrected roll = corrected(measured.length[0], measured.turn, x_);
-  return arc_->at(w_ + roll.turn + tilt_ * roll.length);
+  return arc_->at(w_ + further + roll.turn + tilt_ * roll.length);
 }
 
 RollFilter RollFilter::moved(const TiltedArc& arc, const Shift& shift) const {

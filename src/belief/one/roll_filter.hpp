@@ -64,14 +64,17 @@ class RollFilter {
   double information() const { return information_; }
   /// Of each equation's innovations.
   const std::array<Whiteness, 3>& whiteness() const { return whiteness_; }
+  void record_to(Innovations& kept) {
+    for (std::size_t k = 0; k < kept.size(); ++k) whiteness_[k].record_to(&kept[k]);
+  }
   /// Of the rows that are not stray: as many, and their part of the cost.
   double right_rows() const { return right_rows_; }
   double right_cost() const { return right_cost_; }
   const Shared& errors() const { return x_; }
   const SharedCovariance& covariance() const { return p_; }
 
-  /// Where the contact is after a roll that is measured as this.
-  TiltedPlace after(const Reading& measured) const;
+  /// Where the contact is after a roll that is measured as this, of a first contact so little further on.
+  TiltedPlace after(const Reading& measured, double further = 0) const;
   /// The same at a first contact that looks like this one.
   RollFilter moved(const TiltedArc& arc, const Shift& shift) const;
   /// Where the part is, as far as the rows tell it for this first contact, and how that changes with w. REQUIRES that

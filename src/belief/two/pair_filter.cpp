@@ -215,6 +215,10 @@ class PairPass {
       : model_(model), at_(at), guess_(guess), unit_(1 / model.errors->turn_variance()) {
     score_.covariance = model.errors->start();
     for (const Eigen::Index i : {2, 3}) most_[i] = most_scale(score_.covariance(i, i));
+    for (std::size_t k = 0; model.kept != nullptr && k < 3; ++k) {
+      (*model.kept)[k].clear();
+      score_.whiteness[k].record_to(&(*model.kept)[k]);
+    }
   }
 
   void take(const PairNode& node) {

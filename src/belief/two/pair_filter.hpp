@@ -92,6 +92,7 @@ struct PairModel {
   std::array<FeltContact, 2> first{};  // ... as they were felt
   const Part* part = nullptr;
   Boundary places;
+  Innovations* kept = nullptr;  // where the last pass's go, if they are asked for
 
   double perimeter() const { return places.perimeter; }
 };

@@ -104,10 +104,43 @@ class PairHill {
       mode.end[finger] = model_.places.on_first_lap(s + rolled(best, finger));
     }
     add_spread(mode);
+    for (const std::size_t finger : {0U, 1U}) {
+      if (!model_.places.contains(mode.interval[finger], mode.start[finger])) return in_the_middle(mode);
+    }
     return mode;
   }
 
  private:
+  /// Where a density is flat its peak is a ripple somewhere, at an edge as well, and says nothing: what is nearest to
+  /// the mean does.
+  Mode in_the_middle(Mode mode) const {
+    const PairLeaf* nearest = nullptr;
+    const PairGrain* middle = nullptr;
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::size_t k : leaves_) {
+      for (const PairGrain& grain : region_.leaves[k].grains) {
+        double off = 0;
+        bool is_inside = true;
+        for (const std::size_t finger : {0U, 1U}) {
+          const double at = model_.places.on_first_lap(grain.s[finger]);
+          off += square(model_.places.offset(mode.mean[finger], at));
+          is_inside = is_inside && model_.places.contains(mode.interval[finger], at);
+        }
+        if (!is_inside || off >= least) continue;
+        least = off;
+        nearest = &region_.leaves[k];
+        middle = &grain;
+      }
+    }
+    if (middle == nullptr) return mode;
+    for (const std::size_t finger : {0U, 1U}) {
+      mode.start[finger] = model_.places.on_first_lap(middle->s[finger]);
+      mode.tangent[finger] = middle->angle[finger];
+      mode.end[finger] = model_.places.on_first_lap(middle->s[finger] + rolled(*nearest, finger));
+    }
+    return mode;
+  }
+
   /// One with room for both fingers.
   static Mode empty_mode() {
     const PerFinger<double> zeros(0, 0);

@@ -168,6 +168,9 @@ class TwoFingersPosterior : public Posterior {
   };
 
   Peaks peaks_of(const Question& question) const;
+  /// How far the fingers roll from one node to the next; 0 where neighbours can't be said to be alike.
+  double step_between(const std::vector<PairNode>& nodes) const;
+  static Innovations innovations_at(const Question& question, const PairPeak& peak);
 
   void keep_first(const Sample& sample) {
     if (!sample.contact || contacts_.fingers.empty()) return;
@@ -222,15 +225,31 @@ class TwoFingersPosterior : public Posterior {
   std::vector<std::vector<Piece>> pieces_;  // of each mode
 };
 
+Innovations TwoFingersPosterior::innovations_at(const Question& question, const PairPeak& peak) {
+  Innovations kept;
+  PairModel model = question.model;
+  model.kept = &kept;
+  score_of(model, peak.start, question.nodes, peak.score.errors, 1);
+  return kept;
+}
+
+double TwoFingersPosterior::step_between(const std::vector<PairNode>& nodes) const {
+  if (kind_ == LogKind::increments || options_.noise.correlation > 0 || nodes.empty()) return 0;
+  double travelled = 0;
+  for (const PairNode& node : nodes) travelled += std::max(std::abs(node.travelled[0]), std::abs(node.travelled[1]));
+  return travelled / static_cast<double>(nodes.size());
+}
+
 /// Where the noise is larger than said, what it allows is wider.
 Peaks TwoFingersPosterior::peaks_of(const Question& question) const {
   const PairErrors& errors = *question.model.errors;
   double freedom = 0;
   for (const PairNode& node : question.nodes) freedom += std::min(1.0, node.rows) * (node.centres ? 3 : 1);
-  const auto fit = [&](const PairPeak& peak) {
+  const auto fit = [&](const PairPeak& peak, const Trend& trend = {}) {
     const PairScore& best = peak.score;
     Fit of_best = options_.robust ? fit_of(best.right_cost, best.right_rows, best.whiteness)
                                   : fit_of(best.cost, freedom, best.whiteness);
+    add_trend(trend, step_between(question.nodes), of_best);
     of_best.stray = options_.robust ? freedom - best.right_rows : 0;
     if (options_.prior) {
       const double s = peak.start.arc[0]->at(peak.start.w[0]).s;
@@ -271,7 +290,7 @@ Peaks TwoFingersPosterior::peaks_of(const Question& question) const {
     found.fit.chi_square = found.fit.sigmas = found.fit.excess = std::numeric_limits<double>::infinity();
     return found;
   }
-  found.fit = fit(peaks.front());
+  found.fit = fit(peaks.front(), trend_of(innovations_at(question, peaks.front()), freedom));
   if (options_.glance && found.fit.excess > 1) peaks.clear();
   return found;
 }

@@ -113,8 +113,12 @@ Json fit_json(const Fit& fit) {
           {"sigmas", json_number(fit.sigmas)},
           {"correlation", json_number(fit.correlation)},
           {"correlation_sigmas", json_number(fit.correlation_sigmas)},
+          {"trend_sigmas", json_number(fit.trend_sigmas)},
           {"row_sigmas", json_number(fit.row_sigmas)},
+          {"prior_sigmas", json_number(fit.prior_sigmas)},
           {"widened", json_number(fit.widened)},
+          {"too_good", fit.is_too_good()},
+          {"alike_over", fit.alike_over > 0 ? json_number(fit.alike_over) : Json(nullptr)},
           {"length_scale", json_numbers(fit.length_scale)},
           {"length_scale_sd", json_numbers(fit.length_scale_sd)}};
 }

@@ -23,7 +23,8 @@ constexpr std::array<CauseText, 17> kCauses = {{
     {Cause::unsaid_noise, "unsaid_noise", "the rows jitter by more than their digits say, and were taken as exact", ""},
     {Cause::noise, "noise", "", ""},
     {Cause::correlation, "correlation",
-     "rows are not off independently: neighbours are off alike, as of a sensor that wobbles or repeats its digits",
+     "rows are not off independently: neighbours are off alike, as of a sensor that drifts, wobbles or "
+     "repeats its digits, or of a part that moved a little",
      "--noise correlation=LENGTH, over how long a roll they are alike"},
     {Cause::prior, "prior", "what --prior, --heading or --pose says contradicts the rows", "leave it out"},
     {Cause::radius, "radius", "", ""},
