@@ -172,4 +172,17 @@ inline Tally tally(const Part& part, double radius, double length_share, const N
   return result;
 }
 
+inline BeliefOptions with(const Noise& noise) {
+  BeliefOptions options;
+  options.noise = noise;
+  return options;
+}
+
+inline rollfix::Sample sample_of(const rollfix::Reading& reading, double finger_curvature = 0) {
+  rollfix::Sample sample;
+  sample.reading = reading;
+  sample.finger_curvature = finger_curvature;
+  return sample;
+}
+
 }  // namespace belief_cases

@@ -1,9 +1,8 @@
-// Numbers beyond any sense, and machines too small: an answer, a refusal with its reason, or `incomplete`; never NaN,
-// and never a wait without end.
+// Numbers beyond any sense: an answer, a refusal with its reason, or `incomplete`; never NaN, and never a wait without
+// end.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <locale>
 
 #include "cli.hpp"
@@ -88,12 +87,6 @@ TEST(HugeNoise, that_leaves_no_numbers_is_refused) {
                  "beyond any double");
 }
 
-TEST(OutlineAlongItself, is_refused_within_seconds) {
-  const auto start = std::chrono::steady_clock::now();
-  expect_refusal("inspect gallery:limacon,b=1e7", "runs along itself too closely to tell near (");
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60));
-}
-
 TEST(Scale, of_a_part_and_its_rolls_changes_no_answer) {
   const auto starts = [](const std::string& unit) {
     std::vector<double> found;
@@ -118,22 +111,6 @@ TEST(Detail, of_a_millionth_of_the_perimeter_is_found) {
   const Json answer = run("locate notch.csv --corner-angle 20deg --reading 0.000004,45deg --json").json();
   EXPECT_EQ(answer["status"], "complete");
   EXPECT_EQ(answer["part"]["corners"], 7);
-}
-
-TEST(Memory, that_does_not_suffice_is_told_and_counts_as_undecided) {
-  const cli::Ran ran = cli::shell(
-      "ulimit -v 400000; rollfix simulate gallery:cam --finger disk,r=0.2 --start 1 --length 1 --samples 99999999");
-  EXPECT_EQ(ran.code, 3) << ran.err;
-  EXPECT_THAT(ran.err, HasSubstr("not enough memory"));
-  EXPECT_EQ(ran.out, "");
-}
-
-TEST(OpenFiles, of_which_there_may_be_no_more_are_told) {
-  const cli::Ran ran = cli::shell(
-      "exec 3>&- 4>&- 5>&- 6>&-; ulimit -n 4; rollfix watch gallery:cam --finger disk,r=0.2 --noise angle=0.01 --log "
-      "/dev/null --once");
-  EXPECT_EQ(ran.code, 2);
-  EXPECT_THAT(ran.err, HasSubstr("Too many open files"));
 }
 
 TEST(Device, slow_that_has_no_end_is_refused) {

@@ -30,36 +30,9 @@ TEST(CliWords, where_nothing_fits_one_voice_says_so) {
   EXPECT_THAT(noisy, StartsWith("inconsistent: nothing fits\nlikeliest: "));
 }
 
-TEST(CliWords, what_the_other_rows_contradict_is_one_sentence) {
-  const cli::Folder folder;
-  folder.write("square.csv", "0 0\n4 0\n4 1\n1 1\n1 2\n0 2\n");
-  std::string rows = "length,turn\n";
-  for (int k = 1; k <= 20; ++k) rows += std::to_string(-0.002 * k) + ",0\n";
-  for (int k = 21; k <= 40; ++k) rows += std::to_string(-0.002 * k) + ",1.5707963\n";
-  folder.write("back.csv", rows);
-  const std::string text = run("locate square.csv --log back.csv").out;
-  EXPECT_THAT(text,
-              StartsWith("unique, but the rows fit badly: the place that the readings allow is contradicted by other "
-                         "rows of the log or by the contacts in the world\n"));
-}
-
 TEST(CliWords, noise_that_was_not_said_is_not_listed) {
   const std::string text = run("locate gallery:cam --reading 2,1.7 --noise contact=0.01,angle=1deg").out;
   EXPECT_THAT(text, HasSubstr("\nnoise      contact 0.01, angle 1.000 deg\n"));
-}
-
-TEST(CliWords, what_is_doubted_is_not_told_as_the_answer) {
-  const cli::Folder folder;
-  ASSERT_EQ(run("simulate gallery:limacon --finger disk,r=0.2 --start 1 --length 5 --samples 400 -o roll.csv "
-                "--noise contact=0.005,angle=0.3deg --seed 4")
-                .code,
-            0);
-  const std::string text =
-      run("locate gallery:limacon --log roll.csv --finger disk,r=0.21 --noise contact=0.005,angle=0.3deg").out;
-  EXPECT_THAT(text, HasSubstr(", but the rows fit badly: taken as said, the "));
-  EXPECT_THAT(text, HasSubstr(", but what follows is likelier\nlikeliest: "));
-  EXPECT_THAT(text, HasSubstr("<0.0001"));
-  EXPECT_THAT(text, Not(HasSubstr(" 0.0000 ")));
 }
 
 TEST(CliWords, exact_rows_teach_an_exact_part_and_not_billionths_of_a_degree) {
@@ -70,12 +43,6 @@ TEST(CliWords, exact_rows_teach_an_exact_part_and_not_billionths_of_a_degree) {
   EXPECT_THAT(ran.err, Not(HasSubstr("e-09 deg")));
   const std::string located = run("locate taught.json --reading 0.9,0.7").out;
   EXPECT_THAT(located, Not(HasSubstr("e-09 deg")));
-}
-
-TEST(CliWords, what_is_missing_first_is_told_first) {
-  EXPECT_THAT(run("locate").err, HasSubstr("expected a PART"));
-  EXPECT_THAT(run("advise").err, HasSubstr("expected a PART"));
-  EXPECT_THAT(run("version").err, HasSubstr("did you mean 'rollfix --version'?"));
 }
 
 TEST(CliWords, an_option_is_named_as_it_was_typed) {

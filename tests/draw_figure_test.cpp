@@ -243,13 +243,6 @@ TEST(PartFigure, says_that_it_cut_a_peak_and_only_then) {
   EXPECT_THAT(draw_part({&ellipse, "", 640}).str(), Not(HasSubstr("peaks cut")));
 }
 
-TEST(PartFigure, of_a_boundary_with_very_many_spirals_stays_small) {
-  const Part part = draw_test::bumpy_part(20000);
-  const rollfix::Svg svg = draw_part({&part, "", 640});
-  EXPECT_EQ(nesting_error(svg.str()), "");
-  EXPECT_LT(svg.str().size(), 1500000U);
-}
-
 TEST(PartFigure, can_be_drawn_of_every_shape_in_the_gallery) {
   for (const rollfix::GalleryShape& shape : rollfix::gallery_shapes()) {
     const Part part = gallery_part(shape.name);

@@ -72,4 +72,56 @@ inline bool holds(const Part& part, const rollfix::Interval& interval, double s)
   return part.boundary().contains(interval, s);
 }
 
+inline BeliefOptions options_with(double contact, double angle, double slip) {
+  BeliefOptions options;
+  options.noise = {contact, angle, slip, 0};
+  return options;
+}
+
+/// A roll of random length from a random place, by fingers that are small against the part.
+inline Case random_pair(const Part& part, std::size_t rows, const Noise& noise, std::mt19937_64& generator) {
+  std::uniform_real_distribution<double> unit(0, 1);
+  const double P = part.perimeter();
+  const auto roll = [&] { return (0.15 + 0.5 * unit(generator)) * P * (unit(generator) < 0.5 ? -1 : 1); };
+  const std::array<double, 2> start{unit(generator) * P, unit(generator) * P};
+  const double La = roll();
+  const double Lb = roll();
+  return noisy_case(part, start, La, Lb, rows, 0.03 * P, 0.024 * P, noise, generator);
+}
+
+/// The modes whose region holds a pair.
+inline std::vector<std::size_t> modes_at(const Part& part, const std::vector<Mode>& modes,
+                                         const std::array<double, 2>& at) {
+  std::vector<std::size_t> found;
+  for (std::size_t k = 0; k < modes.size(); ++k) {
+    if (holds(part, modes[k].region[0], at[0]) && holds(part, modes[k].region[1], at[1])) found.push_back(k);
+  }
+  return found;
+}
+
+/// How often what a posterior claims comes true.
+struct Calibration {
+  int cases = 0;
+  int held = 0;    // intervals that hold the truth; two for each case
+  int listed = 0;  // cases whose truth is in a mode
+  int top = 0;     // in the first
+  double claimed = 0;
+  double variance = 0;  // of how often the first is right, if it claims rightly
+
+  void add(const Part& part, const Case& drawn, Belief belief) {
+    const std::vector<Mode>& modes = belief.modes();
+    const std::vector<std::size_t> at = modes_at(part, modes, drawn.start);
+    ++cases;
+    if (modes.empty()) return;
+    claimed += modes.front().probability;
+    variance += modes.front().probability * (1 - modes.front().probability);
+    if (at.empty()) return;
+    ++listed;
+    top += at.front() == 0 ? 1 : 0;
+    for (const std::size_t finger : {0U, 1U}) {
+      held += holds(part, modes[at.front()].interval[finger], drawn.start[finger]) ? 1 : 0;
+    }
+  }
+};
+
 }  // namespace noisy_pairs

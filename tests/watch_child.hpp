@@ -6,13 +6,20 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "watch_helpers.hpp"
 
 namespace watching {
+
+inline std::vector<std::string> words_of(const std::string& line) {
+  std::istringstream words(line);
+  return {std::istream_iterator<std::string>(words), {}};
+}
 
 /// The program itself, in a process of its own, with its input and output as pipes.
 class Child {

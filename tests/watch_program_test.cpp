@@ -25,11 +25,7 @@ using watching::kOptions;
 using watching::noisy_log;
 using watching::noisy_rows;
 using watching::text_of;
-
-std::vector<std::string> words_of(const std::string& line) {
-  std::istringstream words(line);
-  return {std::istream_iterator<std::string>(words), {}};
-}
+using watching::words_of;
 
 /// The program that watches, printing JSON.
 std::unique_ptr<Child> watch(const std::string& options) {
@@ -65,30 +61,6 @@ void expect_clean_end(Child& child, const std::string& why) {
   EXPECT_EQ(child.next_line(), "");
   EXPECT_EQ(child.wait(), 0);
 }
-
-/// The most memory that a log of so many rows takes, bytes.
-long memory_for(std::size_t rows) {
-  const auto child = watch("--every 1000000");
-  child->send(kHeader + "\n");
-  const std::vector<std::string> roll = noisy_rows(2, 3, 1000);
-  for (std::size_t k = 0; k < rows; k += roll.size()) {
-    std::string text;
-    // The finger stays where it is in the end, as long as it takes; a line in ten can't be read.
-    const std::string psi = roll.back().substr(roll.back().find(','));
-    for (std::size_t i = 0; i < roll.size(); ++i) {
-      text += k == 0 ? roll[i] + "\n" : i % 10 == 0 ? "?,?\n" : std::to_string(1000 + k + i) + psi + "\n";
-    }
-    child->send(text);
-  }
-  child->close_input();
-  const Json end = child->next_event("end");
-  EXPECT_EQ(end["counts"]["lines"], rows + 1);
-  EXPECT_GT(end["counts"]["samples"].get<std::size_t>(), rows / 10 * 9);
-  EXPECT_EQ(child->wait(), 0);
-  return child->peak_memory();
-}
-
-constexpr long kMegabyte = 1024 * 1024;
 
 }  // namespace
 
@@ -254,20 +226,6 @@ TEST(WatchProgram, survives_lines_that_cannot_be_read) {
   EXPECT_THAT(ran.err, StartsWith("rollfix: roll.csv:52: "));
   EXPECT_EQ(events_of(ran.out).back()["counts"]["malformed"], 5);
   EXPECT_EQ(events_of(ran.out).back()["counts"]["samples"], 300);
-}
-
-TEST(WatchProgram, needs_no_more_memory_for_a_longer_log) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "the address sanitizer keeps what was freed";
-#endif
-  EXPECT_LT(memory_for(200000), memory_for(20000) + 2 * kMegabyte);
-}
-
-TEST(WatchProgram, slow_needs_no_more_memory_for_a_million_rows) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "the address sanitizer keeps what was freed";
-#endif
-  EXPECT_LT(memory_for(1000000), memory_for(20000) + 2 * kMegabyte);
 }
 
 TEST(WatchProgram, that_has_nowhere_to_print_says_so) {
