@@ -35,7 +35,8 @@ TEST_F(AdviseCatalog, leaves_one_part_whichever_it_is) {
   const NextRollOfParts next = next_roll(found);
   ASSERT_GT(found.parts.size(), 3U);
   ASSERT_TRUE(next.helps());
-  EXPECT_NEAR(next.advice->advised().placements, 1, 0.05);
+  EXPECT_LT(next.advice->advised().placements, 1.5);
+  EXPECT_LT(next.advice->advised().travel, 1.5 * std::abs(next.advice->advised().length));
   for (const NextRollOfParts::Place& place : next.places) {
     const Part part = catalog_.part(found.parts[place.part].weight.part);
     const double start = place.contender.place - 0.5;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "belief_cases.hpp"
 #include "rollfix/belief/advise.hpp"
@@ -49,6 +50,52 @@ TEST(Advise, the_roll_is_just_long_enough_for_the_first_difference) {
   EXPECT_NEAR(advice.advised().placements, 1, 0.03);
 }
 
+/// On a straight side of a stadium, from 0 to 2: so far from its end, forward, and as probable as said.
+std::vector<Contender> before_the_end(const std::vector<std::pair<double, double>>& all) {
+  std::vector<Contender> contenders;
+  for (const auto& [before, probability] : all) {
+    contenders.push_back({2 - before, 0, probability, contenders.size()});
+  }
+  return contenders;
+}
+
+const rollfix::Prospect& near(const Advice& advice, double length) {
+  return *std::min_element(advice.prospects.begin(), advice.prospects.end(), [&](const auto& a, const auto& b) {
+    return std::abs(a.length - length) < std::abs(b.length - length);
+  });
+}
+
+// Two places are told apart where the side ends for one of them.
+TEST(Advise, the_travel_to_expect_is_that_to_the_nearest_end_and_from_there) {
+  const Part part = part_of("stadium,length=2,r=0.5");
+  const Advice advice = advise(part, before_the_end({{0.5, 0.5}, {1.1, 0.5}}));
+  const double step = part.perimeter() / 400;
+  EXPECT_NEAR(advice.advised().length, 0.5, step);
+  EXPECT_NEAR(advice.advised().travel, 0.5, step);
+  EXPECT_NEAR(near(advice, 0.2).travel, 0.5, step);
+  EXPECT_NEAR(near(advice, -0.2).travel, 0.2 + 0.7, step);  // back again, or on to the other end at 0.9: the same
+  EXPECT_NEAR(near(advice, -0.6).travel, 0.9, step);
+  EXPECT_NEAR(near(advice, -1.5).travel, 1.5, step);
+}
+
+TEST(Advise, what_is_most_likely_enough_is_rolled_before_what_surely_is) {
+  const Part part = part_of("stadium,length=2,r=0.5");
+  // Beyond 0.2 only the second and the third are left, and 0.5 tells these.
+  const Advice advice = advise(part, before_the_end({{0.2, 0.49}, {0.5, 0.49}, {1.2, 0.02}}));
+  const double step = part.perimeter() / 400;
+  EXPECT_NEAR(advice.advised().length, 0.2, step);
+  EXPECT_NEAR(advice.advised().travel, 0.2 + 0.51 * 0.3, step);
+}
+
+TEST(Advise, one_wide_place_does_not_make_the_roll_longer_that_tells_it_from_another) {
+  const Part part = part_of("stadium,length=2,r=0.5");
+  std::vector<Contender> contenders = before_the_end({{0.2, 0.25}, {1.2, 0.25}, {1.25, 0.25}, {1.3, 0.25}});
+  for (std::size_t k = 2; k < 4; ++k) contenders[k].label = 1;
+  const Advice advice = advise(part, contenders);
+  EXPECT_NEAR(advice.advised().length, 0.2, part.perimeter() / 400);
+  EXPECT_NEAR(advice.advised().travel, 0.2, part.perimeter() / 400);
+}
+
 TEST(Advise, it_stays_within_the_travel) {
   const Part part = part_of("limacon");
   AdviceOptions options;
@@ -93,6 +140,9 @@ TEST(Advise, what_a_roll_tells_is_less_the_worse_turn_length_and_place_are_known
     return 1 + left * std::log2(left) + (1 - left) * std::log2(1 - left);
   };
   const AdviceOptions sure{0.01, 0, 0, {}, nullptr};
+  AdviceOptions many_rows{0.04, 0.04, 0, {}, nullptr};
+  many_rows.rows = 16;  // 0.01 of both
+  EXPECT_NEAR(told(many_rows, 0.3), expected({0.01, 0.01, 0, {}, nullptr}, 0.3), 1e-9);
   for (const auto& [options, sd] : std::initializer_list<std::pair<AdviceOptions, double>>{
            {sure, 0}, {{0.01, 0.01, 0, {}, nullptr}, 0}, {{0.01, 0, 0.1, {}, nullptr}, 0}, {sure, 0.3}}) {
     EXPECT_GT(expected(options, sd), 0.05);

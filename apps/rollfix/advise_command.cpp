@@ -68,10 +68,14 @@ std::string headline(const std::string& verdict, const std::optional<Advice>& ad
   if (!advice) return fmt::format("{}: {}", verdict, why);
   if (!advice->helps) return fmt::format("{}: no roll will tell them apart: {}", verdict, why);
   const Prospect& advised = advice->advised();
-  return fmt::format("{}: roll on {} by {}{}: {:.2f} placements are expected to remain, {:.2f} of {:.2f} bits gained",
-                     verdict, advised.length < 0 ? "backwards" : "forwards",
-                     fixed(std::abs(advised.length), decimals_for(part.perimeter())), behind(part.unit()),
-                     advised.placements, advised.bits, advice->bits_wanted);
+  const int decimals = decimals_for(part.perimeter());
+  return fmt::format(
+      "{}: roll on {} by {}{}: {:.2f} placements are expected to remain, {:.2f} of {:.2f} bits gained; travel to "
+      "expect "
+      "until they are told apart: {}{}",
+      verdict, advised.length < 0 ? "backwards" : "forwards", fixed(std::abs(advised.length), decimals),
+      behind(part.unit()), advised.placements, advised.bits, advice->bits_wanted, fixed(advised.travel, decimals),
+      behind(part.unit()));
 }
 
 /// What the contenders of one placement have in common.

@@ -62,7 +62,8 @@ class Advice(Document):
     """Which roll tells the remaining placements apart: the fields of `rollfix/advise/1`, see docs/json.md.
 
     `length` is the advised roll from where the contact is now, positive along the stored outline, or None; `helps`, and
-    where no roll does `why`; `expected_placements`, `bits`, `bits_wanted`, `contenders`, `prospects`.
+    where no roll does `why`; `expected_placements`, `expected_travel`, `bits`, `bits_wanted`, `contenders`,
+    `prospects`.
     """
 
     __slots__ = ("_answer", "_travel")

@@ -15,6 +15,10 @@ namespace {
 
 // Without noise a turn can be read this well: well below what tells two places apart, well above rounding.
 constexpr double kTurnSd = 1e-4;
+// Rows of a log at about the same place, of which the turn there is known: a tenth of the log, and no more than this,
+// as neighbours may be off alike.
+constexpr double kMostRowsTogether = 10;
+constexpr double kTogether = 0.1;
 /// Why a part can't be told apart from itself.
 std::string why_no_roll(const Part& part) {
   const int fold = symmetry(part);
@@ -35,6 +39,7 @@ AdviceOptions advice_options(const Answer& answer, const std::optional<Interval>
     options.turn_sd = std::max(std::hypot(noise.angle, noise.contact * curvature) * std::numbers::sqrt2, kTurnAccuracy);
     options.length_sd = noise.contact * std::numbers::sqrt2;
     options.length_share_sd = std::hypot(noise.slip, noise.radius * curvature);
+    options.rows = std::clamp(kTogether * static_cast<double>(answer.weighing->samples), 1.0, kMostRowsTogether);
   }
   options.travel = travel;
   return options;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "belief_cases.hpp"
 #include "rollfix/belief/advise.hpp"
@@ -19,7 +20,9 @@ class AdviceLoop : public testing::TestWithParam<const char*> {};
 
 }  // namespace
 
-TEST_P(AdviceLoop, two_advised_rolls_leave_one_place) {
+TEST_P(AdviceLoop, a_few_short_advised_rolls_leave_one_place) {
+  constexpr int kMostRolls = 6;
+  constexpr double kMostTravel = 0.1;  // of the perimeter, on average
   const Part part = part_of(GetParam());
   const double P = part.perimeter();
   const double radius = 0.01 * P;
@@ -30,6 +33,7 @@ TEST_P(AdviceLoop, two_advised_rolls_leave_one_place) {
   std::uniform_real_distribution<double> unit;
   const int count = test_count(25);
   int resolved = 0;
+  double travel = 0;
   for (int k = 0; k < count; ++k) {
     const double start = part.closed() ? unit(random) * P : (0.1 + 0.8 * unit(random)) * P;
     const std::uint64_t seed = random();
@@ -43,17 +47,19 @@ TEST_P(AdviceLoop, two_advised_rolls_leave_one_place) {
         resolved += distance(part, mode.start[0], start) < 5 * mode.sd[0] + 1e-6 * P ? 1 : 0;
         break;
       }
-      if (rolls == 2) break;
+      if (rolls == kMostRolls) break;
       AdviceOptions how;
-      how.turn_sd = 2 * options.noise.angle;
-      how.length_sd = 1.5 * options.noise.contact;
+      how.turn_sd = std::numbers::sqrt2 * options.noise.angle;
+      how.length_sd = std::numbers::sqrt2 * options.noise.contact;
       how.length_share_sd = options.noise.slip;
       how.reach = &reach;
       const Advice advice = advise(part, rollfix::contenders_of(part, belief.modes()), how);
       if (!advice.helps) break;
       length = advice.advised().length;
+      travel += std::abs(length) / P;
     }
   }
+  EXPECT_LT(travel, kMostTravel * count);
   EXPECT_GE(resolved, 0.95 * count) << "of " << count;
 }
 

@@ -10,6 +10,7 @@ Json advice_json(const std::string& verdict, const Json& of, const std::optional
                    {"why", why.empty() ? Json(nullptr) : Json(why)},
                    {"length", nullptr},
                    {"expected_placements", nullptr},
+                   {"expected_travel", nullptr},
                    {"bits", nullptr},
                    {"bits_wanted", nullptr},
                    {"contenders", contenders},
@@ -18,6 +19,7 @@ Json advice_json(const std::string& verdict, const Json& of, const std::optional
   if (!advice) return document;
   if (advice->helps) document["length"] = json_number(advice->advised().length);
   document["expected_placements"] = json_number(advice->advised().placements);
+  document["expected_travel"] = json_number(advice->advised().travel);
   document["bits"] = json_number(advice->advised().bits);
   document["bits_wanted"] = json_number(advice->bits_wanted);
   for (const Prospect& prospect : advice->prospects) {
