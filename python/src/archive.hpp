@@ -145,8 +145,8 @@ void visit(A& a, PosePrior& v) {
 }
 template <class A>
 void visit(A& a, Evidence& v) {
-  auto& [peak, volume] = v;
-  all(a, peak, volume);
+  auto& [peak, volume, gathered] = v;
+  all(a, peak, volume, gathered);
 }
 template <class A>
 void visit(A& a, Tolerance& v) {
