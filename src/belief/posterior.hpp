@@ -127,6 +127,13 @@ void add_innovation(const Eigen::Matrix<double, N, N>& inverse, const Eigen::Mat
   }
 }
 
+/// With neighbours that are so much alike, so many times the noise: the root of how many rows are worth one (Bartlett
+/// 1935).
+inline double widened_by(double correlation) {
+  const double alike = std::clamp(correlation, 0.0, kMostAlike);
+  return std::sqrt((1 + alike) / (1 - alike));
+}
+
 /// What the likeliest place leaves of the samples: its cost, as much as is to be expected of it, and how the
 /// innovations of each equation run.
 inline Fit fit_of(double cost, double freedom, const std::array<Whiteness, 3>& equations) {
@@ -144,9 +151,7 @@ inline Fit fit_of(double cost, double freedom, const std::array<Whiteness, 3>& e
   if (fit.sigmas > kExcessSigma) fit.excess = std::max(1.0, std::sqrt(cost / freedom));
   fit.widened = fit.excess;
   if (fit.is_correlated()) {
-    // So many rows are worth one (Bartlett 1935).
-    const double alike = std::clamp(fit.correlation, 0.0, kMostAlike);
-    fit.widened *= std::sqrt((1 + alike) / (1 - alike));
+    fit.widened *= widened_by(fit.correlation);
   }
   return fit;
 }
@@ -155,7 +160,8 @@ inline Fit fit_of(double cost, double freedom, const std::array<Whiteness, 3>& e
 /// neighbours can't be said to be alike.
 inline void add_trend(const Trend& trend, double step, Fit& fit) {
   fit.trend_sigmas = trend.sigmas;
-  if (trend.sigmas > kExcessSigma) fit.widened = std::max(fit.widened, fit.excess * trend.widened);
+  const double widened = fit.excess * std::min(trend.widened, widened_by(kMostAlike));
+  if (trend.sigmas > kExcessSigma) fit.widened = std::max(fit.widened, widened);
   // As large as said, and correlated by exp(-step / length), neighbours differ by 1 less that: the variogram.
   const bool may_be_alike = fit.is_too_good() && trend.jitter > 0 && trend.jitter < 1;
   // Of rows that are alike from end to end it can't be told how much longer it is than the roll.
