@@ -130,7 +130,7 @@ TEST(CliAdvise, the_advised_roll_tells_the_places_apart) {
   const double length = 0.9 + advice["length"].get<double>();
   const double turn = 30.15 * M_PI / 180 + advice["contenders"].back()["turn"].get<double>();
   const Ran after = run("locate gallery:limacon " + reading + " --reading " + std::to_string(length) + "," +
-                        std::to_string(turn) + " --tolerance 0.002");
+                        std::to_string(turn) + " --tolerance 0.0005");
   EXPECT_THAT(after.out, HasSubstr("unique"));
 }
 
