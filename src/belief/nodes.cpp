@@ -59,7 +59,7 @@ JoinedRows Nodes::group(std::size_t begin) const {
   const std::vector<JoinedRows>& blocks = blocks_.complete();
   JoinedRows rows = blocks[begin];
   const std::size_t end = std::min(begin + group_, blocks.size());
-  for (std::size_t k = begin + 1; k < end; ++k) rows = joined(rows, blocks[k], tilt_);
+  for (std::size_t k = begin + 1; k < end; ++k) rows = blocks_.joined(rows, blocks[k]);
   return rows;
 }
 
@@ -85,13 +85,14 @@ std::optional<Node> Nodes::pending() const {
   const bool has_blocks = begin < blocks_.complete().size();
   if (!has_blocks && !blocks_.has_open()) return std::nullopt;
   JoinedRows rows = has_blocks ? group(begin) : blocks_.open();
-  if (has_blocks && blocks_.has_open()) rows = joined(rows, blocks_.open(), tilt_);
+  if (has_blocks && blocks_.has_open()) rows = blocks_.joined(rows, blocks_.open());
   return node_of(rows, travel_.since_last(mark(rows)));
 }
 
 Travel::Mark Nodes::mark(const JoinedRows& rows) const {
   const double before = static_cast<double>(nodes_.size()) * rows_of_node();
-  return {before + 0.5 * (rows.rows - 1), rows.length, rows.own.length};
+  const double middle = errors_.gathers_rows() ? rows.rows - 1 : 0.5 * (rows.rows - 1);
+  return {before + middle, rows.length, rows.own.length};
 }
 
 Node Nodes::node_of(const JoinedRows& rows, double travelled) const {
@@ -101,13 +102,13 @@ Node Nodes::node_of(const JoinedRows& rows, double travelled) const {
           spread_of(rows),
           rows.rows / worth * rows.own,
           errors_.gathered(travelled, rows.rows, {seconds_, rows.seconds}),
-          rows.rows,
+          errors_.gathers_rows() ? 1 : rows.rows,
           worth,
           rows.felt};
 }
 
 double Nodes::spread_of(const JoinedRows& rows) const {
-  if (rows.rows < 2) return 0;
+  if (rows.rows < 2 || errors_.gathers_rows()) return 0;
   // What rows scatter by on their own moves no contact.
   const RowCovariance& own = rows.own;
   const double noise = (rows.rows - 1) * (tilt_ * tilt_ * own.length + 2 * tilt_ * own.both + own.turn);

@@ -11,7 +11,7 @@ namespace {
 // Rows of which a median is taken: enough that several stray ones don't matter, few enough to lie close together.
 constexpr std::size_t kRowsOfMedian = 16;
 
-void add(FeltCentre& sum, double factor, const FeltCentre& felt) {
+void add_share(FeltCentre& sum, double factor, const FeltCentre& felt) {
   sum.centre += factor * felt.centre;
   sum.arm.at += factor * felt.arm.at;
   sum.arm.per_length += factor * felt.arm.per_length;
@@ -43,19 +43,24 @@ Reading median_of(const std::vector<Reading>& rows) {
 
 std::size_t rows_of_median(bool robust, std::size_t stride) { return robust ? std::min(stride, kRowsOfMedian) : 1; }
 
-JoinedRows joined(const JoinedRows& a, const JoinedRows& b, double tilt) {
+JoinedRows RowBlocks::joined(const JoinedRows& a, const JoinedRows& b) const {
+  if (errors_.gathers_rows()) {
+    JoinedRows last = b;
+    last.rows += a.rows;
+    return last;
+  }
   JoinedRows both;
   both.rows = a.rows + b.rows;
   both.seconds = b.seconds;
   const double of_a = a.rows / both.rows;
   const double of_b = b.rows / both.rows;
-  const double apart = b.tilted(tilt) - a.tilted(tilt);
+  const double apart = b.tilted(tilt_) - a.tilted(tilt_);
   both.length = of_a * a.length + of_b * b.length;
   both.turn = of_a * a.turn + of_b * b.turn;
   both.scatter = of_a * a.scatter + of_b * b.scatter + of_a * of_b * apart * apart;
   both.own = of_a * of_a * a.own + of_b * of_b * b.own;
-  add(both.felt, of_a, a.felt);
-  add(both.felt, of_b, b.felt);
+  add_share(both.felt, of_a, a.felt);
+  add_share(both.felt, of_b, b.felt);
   return both;
 }
 
@@ -65,6 +70,12 @@ bool RowBlocks::add(const Reading& reading, double finger_curvature, double seco
   sum_.seconds = seconds;
   range_ = {std::min(range_.lo, reading.length[0]), std::max(range_.hi, reading.length[0])};
   own_ = errors_.row(finger_curvature, errors_.rows_alike(rows_, range_.width()));
+  if (errors_.gathers_rows()) {
+    // Errors that add up are in all rows that follow: the last one tells as much as all.
+    sum_ = {0, 0, 0, {}, {}, sum_.rows, seconds};
+    medians_ = 0;
+    of_median_.clear();
+  }
   of_median_.push_back({reading, felt});
   if (of_median_.size() >= rows_of_median(robust_, stride_)) {
     close_median(sum_, medians_);
@@ -83,7 +94,7 @@ void RowBlocks::close_median(JoinedRows& sum, double& medians) const {
   std::vector<Reading> readings;
   for (const Row& row : of_median_) {
     readings.push_back(row.reading);
-    rollfix::belief::add(sum.felt, 1 / static_cast<double>(of_median_.size()), row.felt);
+    add_share(sum.felt, 1 / static_cast<double>(of_median_.size()), row.felt);
   }
   // Worth one row: a median of rows on a slope is hardly better.
   const Reading middle = median_of(readings);
@@ -105,13 +116,13 @@ JoinedRows RowBlocks::open() const {
   const double share = 1 / medians;
   JoinedRows rows{share * sum.length, share * sum.turn, share * sum.scatter, share * share * sum.own, {},
                   sum.rows,           sum.seconds};
-  rollfix::belief::add(rows.felt, share, sum.felt);
+  add_share(rows.felt, share, sum.felt);
   return rows;
 }
 
 void RowBlocks::halve() {
   for (std::size_t k = 0; 2 * k + 1 < blocks_.size(); ++k) {
-    blocks_[k] = joined(blocks_[2 * k], blocks_[2 * k + 1], tilt_);
+    blocks_[k] = joined(blocks_[2 * k], blocks_[2 * k + 1]);
   }
   blocks_.resize(blocks_.size() / 2);
   stride_ *= 2;

@@ -10,7 +10,7 @@
 
 namespace rollfix::belief {
 
-/// Rows that are taken together: their means.
+/// Rows that are taken together: their means, or of increments the last of them.
 struct JoinedRows {
   double length = 0;
   double turn = 0;
@@ -22,9 +22,6 @@ struct JoinedRows {
 
   double tilted(double tilt) const { return turn + tilt * length; }
 };
-
-/// Two neighbours as one.
-JoinedRows joined(const JoinedRows& a, const JoinedRows& b, double tilt);
 
 /// A roll's rows, joined to blocks of equally many: when there are too many blocks, neighbours are joined, and from
 /// then on twice as many rows make one.
@@ -40,6 +37,8 @@ class RowBlocks {
   /// There are too many blocks.
   bool is_full() const { return blocks_.size() >= most_ && blocks_.size() % 2 == 0; }
   void halve();
+  /// Two neighbours as one: their mean, but of increments the last row.
+  JoinedRows joined(const JoinedRows& a, const JoinedRows& b) const;
 
   const std::vector<JoinedRows>& complete() const { return blocks_; }
   std::size_t rows_of_block() const { return stride_; }
