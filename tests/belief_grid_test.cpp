@@ -47,7 +47,7 @@ std::size_t grid_points_on(const Part& part) {
   Nodes nodes(errors, boundary.tilt(), false);
   const NoisyRoll roll = roll_on(part, kRadius, 0.2 * P, P / 3, 200, options.noise, 7);
   const std::vector<rollfix::Reading> rows = rollfix::readings_as_given(roll.log, {DiskFinger{kRadius}});
-  for (std::size_t k = 1; k < rows.size(); ++k) nodes.add(rows[k], kCurvature, 0);
+  for (std::size_t k = 1; k < rows.size(); ++k) nodes.add({rows[k], kCurvature});
   Grid grid(boundary, errors, options, part.boundary(), corner_length(kCurvature, part), nullptr);
   grid.settle(nodes);
   return grid.points();

@@ -140,7 +140,7 @@ TEST(Belief, noise_that_is_understated_widens_the_answer) {
 TEST(Belief, a_million_rows_are_few_nodes) {
   const Noise noise{1e-3, 1e-3, 0, 0};
   rollfix::belief::Nodes nodes(rollfix::belief::ErrorModel(with(noise), LogKind::contact, 5, 6), 5, false);
-  for (int k = 0; k < 1000000; ++k) nodes.add({1e-6 * k, 2e-6 * k}, 5, 0);
+  for (int k = 0; k < 1000000; ++k) nodes.add({{1e-6 * k, 2e-6 * k}, 5});
   EXPECT_EQ(nodes.rows(), 1000000U);
   EXPECT_LE(nodes.complete().size(), rollfix::belief::kMostNodes);
   EXPECT_NEAR(nodes.complete().front().own.length * static_cast<double>(nodes.rows() / nodes.complete().size()), 1e-6,

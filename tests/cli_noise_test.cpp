@@ -104,6 +104,31 @@ TEST(CliNoise, where_nothing_fits_the_likeliest_reason_is_given) {
   EXPECT_TRUE(ran.json()["placements"].empty());
 }
 
+TEST(CliNoise, a_cure_names_the_columns_that_the_log_has) {
+  const Folder folder;
+  ASSERT_EQ(run("simulate gallery:cam --finger disk,r=0.2 --start 2 --samples 200 --length 3 -o log.csv" +
+                std::string(kNoise))
+                .code,
+            0);
+  folder.write("own.csv", std::regex_replace(read("log.csv"), std::regex("^time,u,psi"), "stamp,wheel,yaw"));
+  const std::string locate = "locate gallery:cam --log own.csv --finger disk,r=0.2 --json" + std::string(kNoise);
+  const Ran ran = run(locate + " --columns time=stamp,u=yaw,psi=wheel");
+  EXPECT_EQ(ran.json()["diagnosis"]["cause"], "u_psi_swapped");
+  const std::string cure = ran.json()["diagnosis"]["cure"];
+  EXPECT_EQ(cure, "--columns time=stamp,u=wheel,psi=yaw");
+  EXPECT_EQ(run(locate + " " + cure).json()["verdict"], "unique");
+}
+
+TEST(CliNoise, turns_whose_errors_add_up_to_more_than_they_tell_are_told) {
+  const Folder folder;
+  std::string increments = "distance,dturn\n";
+  for (int k = 0; k < 600; ++k) increments += "0.01,0.01\n";
+  folder.write("steps.csv", increments);
+  const std::string locate = "locate gallery:cam --log steps.csv --noise contact=0.001,angle=";
+  EXPECT_THAT(run(locate + "5deg").out, HasSubstr("adds up to 122 deg"));
+  EXPECT_THAT(run(locate + "0.5deg").out, Not(HasSubstr("adds up")));
+}
+
 TEST(CliNoise, bare_readings_are_weighed_as_well) {
   const Ran ran = run("locate gallery:cam --reading 2,1.7 --noise contact=0.01,angle=0.01 --json");
   ASSERT_EQ(ran.code, 0) << ran.err;

@@ -20,7 +20,7 @@ std::size_t nodes_of(std::size_t rows, double laps, double slip) {
   std::normal_distribution<double> normal;
   for (std::size_t k = 1; k <= rows; ++k) {
     const double length = laps * static_cast<double>(k) / static_cast<double>(rows);
-    nodes.add({length + 1e-3 * normal(random), 5e-3 * normal(random)}, 30, 0);
+    nodes.add({{length + 1e-3 * normal(random), 5e-3 * normal(random)}, 30});
   }
   return nodes.complete().size();
 }

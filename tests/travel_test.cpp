@@ -36,7 +36,7 @@ double travelled(std::size_t rows, LogKind kind, const std::function<double(doub
     const double n = options.noise.contact * normal(random);
     wandered += n;
     const double off = kind == LogKind::increments ? wandered : n;
-    nodes.add({length_at(static_cast<double>(k) / static_cast<double>(rows)) + off, 0}, 5, 0);
+    nodes.add({{length_at(static_cast<double>(k) / static_cast<double>(rows)) + off, 0}, 5});
   }
   double gathered = 0;
   for (const Node& node : nodes.complete()) gathered += node.gathered.length;

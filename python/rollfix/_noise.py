@@ -32,10 +32,12 @@ class Noise:
         Of a gyroscope's rate all along a roll, radians per second.
     walk : float
         Angle random walk of a gyroscope, radians per square root of a second.
+    gyro : float
+        Of a gyroscope's scale: of all turns that it measures, per turn.
     """
 
     __slots__ = ("_sds",)
-    NAMES = ("contact", "angle", "slip", "radius", "position", "correlation", "drift", "walk")
+    NAMES = ("contact", "angle", "slip", "radius", "position", "correlation", "drift", "walk", "gyro")
 
     def __init__(
         self,
@@ -47,8 +49,9 @@ class Noise:
         correlation: float = 0,
         drift: float = 0,
         walk: float = 0,
+        gyro: float = 0,
     ) -> None:
-        values = (contact, angle, slip, radius, position, correlation, drift, walk)
+        values = (contact, angle, slip, radius, position, correlation, drift, walk, gyro)
         sds = {name: number(value, f"noise: {name}") for name, value in zip(self.NAMES, values)}
         for name, sd in sds.items():
             if sd < 0:

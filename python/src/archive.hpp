@@ -130,8 +130,8 @@ void visit(A& a, Accuracy& v) {
 }
 template <class A>
 void visit(A& a, Noise& v) {
-  auto& [contact, angle, slip, radius, position, correlation, drift, walk, part] = v;
-  all(a, contact, angle, slip, radius, position, correlation, drift, walk, part);
+  auto& [contact, angle, slip, radius, position, correlation, drift, walk, gyro, part] = v;
+  all(a, contact, angle, slip, radius, position, correlation, drift, walk, gyro, part);
 }
 template <class A>
 void visit(A& a, Prior& v) {
@@ -205,9 +205,9 @@ void visit(A& a, DensityPiece& v) {
 template <class A>
 void visit(A& a, Fit& v) {
   auto& [chi_square, freedom, sigmas, correlation, correlation_sigmas, trend_sigmas, row_sigmas, stray, prior_sigmas,
-         excess, widened, alike_over, length_scale, length_scale_sd] = v;
+         excess, widened, alike_over, turn_gathered, length_scale, length_scale_sd, turn_scale, turn_scale_sd] = v;
   all(a, chi_square, freedom, sigmas, correlation, correlation_sigmas, trend_sigmas, row_sigmas, stray, prior_sigmas,
-      excess, widened, alike_over, length_scale, length_scale_sd);
+      excess, widened, alike_over, turn_gathered, length_scale, length_scale_sd, turn_scale, turn_scale_sd);
 }
 template <class A>
 void visit(A& a, Weighing& v) {
@@ -220,9 +220,16 @@ void visit(A& a, Mode& v) {
   all(a, start, end, tangent, probability, mean, sd, covariance, interval, region, end_mean, end_sd);
 }
 template <class A>
+void visit(A& a, ColumnSource& v) {
+  auto& [column, name, unit] = v;
+  all(a, column, name, unit);
+}
+template <class A>
 void visit(A& a, Diagnosis& v) {
-  auto& [cause, excess, log_odds, length_scale, length_scale_sd, noise_scale, noise, stray, slip, verdict, modes] = v;
-  all(a, cause, excess, log_odds, length_scale, length_scale_sd, noise_scale, noise, stray, slip, verdict, modes);
+  auto& [cause, excess, log_odds, length_scale, length_scale_sd, turn_scale, turn_scale_sd, noise_scale, noise, stray,
+         slip, gyro, columns, verdict, modes] = v;
+  all(a, cause, excess, log_odds, length_scale, length_scale_sd, turn_scale, turn_scale_sd, noise_scale, noise, stray,
+      slip, gyro, columns, verdict, modes);
 }
 /// Without the part and the fingers, which Python pickles itself.
 template <class A>
@@ -249,8 +256,8 @@ void visit(A& a, Problem& v) {
 }
 template <class A>
 void visit(A& a, FingerRows& v) {
-  auto& [name, line, u, psi, length, turn, x, y, u_period, place_rounding, angle_rounding, u_dimension] = v;
-  all(a, name, line, u, psi, length, turn, x, y, u_period, place_rounding, angle_rounding, u_dimension);
+  auto& [name, line, u, psi, length, turn, x, y, u_period, place_rounding, angle_rounding, u_dimension, columns] = v;
+  all(a, name, line, u, psi, length, turn, x, y, u_period, place_rounding, angle_rounding, u_dimension, columns);
 }
 template <class A>
 void visit(A& a, Log& v) {

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "column_cure.hpp"
 #include "mirror.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"
@@ -59,6 +60,10 @@ struct RareSlip {
   double log_odds;
 };
 constexpr std::array<RareSlip, 2> kUnsaidSlips = {{{0.04, 6}, {0.2, 18}}};
+// A gyroscope of which nothing is said is off by a few hundredths; that psi is measured by one is rarer.
+constexpr double kUnsaidGyro = 0.03;
+constexpr double kOddsAgainstGyro = 2;
+constexpr double kOddsAgainstGyroOfPsi = 6;
 
 /// A problem as it would be without a mistake, and what the rows make of it.
 struct Trial {
@@ -99,7 +104,9 @@ class Diagnostician {
     try_noise();
     if (problem_.prior || problem_.pose) try_prior();
     try_slips_of_the_pen();
+    try_swapped_fingers();
     try_scale();
+    try_gyroscope();
     if (!problem_.robust) try_robust();
     try_slip();
     std::stable_sort(trials_.begin(), trials_.end(), [](const Trial& a, const Trial& b) {
@@ -177,6 +184,8 @@ class Diagnostician {
       for (double& value : values) value *= by;
     };
     const std::vector<Slip> of_contacts = {
+        {Cause::u_psi_swapped,
+         [](FingerRows& rows) { std::swap(rows.u, rows.psi), std::swap(rows.place_rounding, rows.angle_rounding); }},
         {Cause::both_clockwise, [&](FingerRows& rows) { scale(rows.u, -1), scale(rows.psi, -1); }},
         {Cause::u_clockwise, [&](FingerRows& rows) { scale(rows.u, -1); }},
         {Cause::psi_clockwise, [&](FingerRows& rows) { scale(rows.psi, -1); }},
@@ -208,6 +217,14 @@ class Diagnostician {
     // Of a part that lies face down the centres go as they are seen: only angles would not do.
     const bool has_places = problem_.noise->position > 0 || problem_.pose;
     if (of_contact && has_places) take(Cause::both_clockwise, in_mirror(problem_));
+  }
+
+  /// Logs or radii of two fingers that were given in the wrong order.
+  void try_swapped_fingers() {
+    if (problem_.fingers.size() != 2) return;
+    Problem swapped = problem_;
+    std::swap(swapped.fingers[0], swapped.fingers[1]);
+    take(Cause::fingers_swapped, swapped);
   }
 
   /// Lengths by one factor, of any size.
@@ -315,6 +332,22 @@ class Diagnostician {
     add(std::move(diagnosis), *belief);
   }
 
+  void try_gyroscope() {
+    const bool is_of_log = problem_.felt.is_log() && problem_.felt.log->fingers.size() == 1;
+    if (!is_of_log || problem_.noise->gyro >= kUnsaidGyro) return;
+    Problem scaled = problem_;
+    scaled.noise->gyro = kUnsaidGyro;
+    std::optional<Belief> belief = by_rows(scaled, observed_);
+    const Fit fit = belief->fit();
+    if (std::abs(fit.turn_scale - 1) < kOtherScale * fit.turn_scale_sd) return;
+    Diagnosis diagnosis = of(Cause::gyroscope, fit);
+    diagnosis.gyro = kUnsaidGyro;
+    diagnosis.turn_scale = fit.turn_scale;
+    diagnosis.turn_scale_sd = fit.turn_scale_sd;
+    const bool is_of_psi = problem_.felt.log->kind == LogKind::contact;
+    add(std::move(diagnosis), *belief, 0, is_of_psi ? kOddsAgainstGyroOfPsi : kOddsAgainstGyro);
+  }
+
   void try_slip() {
     for (const auto& [slip, log_odds] : kUnsaidSlips) {
       if (slip <= problem_.noise->slip) continue;
@@ -335,7 +368,9 @@ class Diagnostician {
       if (!std::isfinite(glance.excess)) return;
       if (glance.is_bad() && glance.excess > std::max(kWorthALook, kMuchBetter * glance_excess())) return;
       std::optional<Belief> belief = by_rows(mended, observed);
-      add(of(cause, belief->fit()), *belief, log_stretch);
+      Diagnosis diagnosis = of(cause, belief->fit());
+      if (problem_.felt.is_log()) diagnosis.columns = columns_without(cause, *problem_.felt.log);
+      add(std::move(diagnosis), *belief, log_stretch);
     } catch (const InputError&) {  // what no log can be explains nothing
     }
   }

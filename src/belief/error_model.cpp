@@ -22,16 +22,16 @@ constexpr double kMostSlipHereAndThere = 1;
 // Slip is one and the same over this share of the perimeter.
 constexpr double kSlipPatch = 0.01;
 
+// Where slip here and there has a variance v the filters' intervals are too narrow by about 1 + 3 v: by nothing that
+// can be seen at slip of 0.02, by a fifth at 0.05 (docs/calibration.md).
+constexpr double kTooNarrow = 3;
+
 // A row that says the same again is worth this much of one: it keeps variances finite.
 constexpr double kLeastWorth = 1e-6;
 
 }  // namespace
 
-double slip_here_and_there(const Noise& noise) {
-  return std::min(kSlipHereAndThere * noise.slip, kMostSlipHereAndThere);
-}
-
-SensorErrors::SensorErrors(const BeliefOptions& options, LogKind log_kind, double the_perimeter, double here_and_there)
+SensorErrors::SensorErrors(const BeliefOptions& options, LogKind log_kind, double the_perimeter)
     : kind(log_kind),
       bare(options.bare),
       noise(options.noise),
@@ -40,11 +40,13 @@ SensorErrors::SensorErrors(const BeliefOptions& options, LogKind log_kind, doubl
       angle_variance(square(std::max(options.noise.angle, kLeastAngle))),
       row_share(log_kind == LogKind::increments ? kShareUnderWay : 1),
       perimeter(the_perimeter),
-      slip_here_and_there(here_and_there) {}
+      slip_here_and_there(std::min(kSlipHereAndThere * options.noise.slip, kMostSlipHereAndThere)) {}
 
 double SensorErrors::scale_variance(double finger_curvature) const {
   return square(noise.slip) + square(noise.radius * finger_curvature) + square(scale_sd) + square(noise.part.length);
 }
+
+double SensorErrors::for_large_slip() const { return 1 + kTooNarrow * square(slip_here_and_there); }
 
 double SensorErrors::patch() const { return kSlipPatch * perimeter; }
 
@@ -76,7 +78,7 @@ double SensorErrors::rows_alike(double rows, double range) const {
 }
 
 ErrorModel::ErrorModel(const BeliefOptions& options, LogKind kind, double finger_curvature, double perimeter)
-    : sensor_(options, kind, perimeter, slip_here_and_there(options.noise)) {
+    : sensor_(options, kind, perimeter) {
   if (kind == LogKind::contact) {
     // u0 and psi0 are measured once and taken off every row: offsets n0 of length and -(kappa n0 + a0) of turn.
     start_(0, 0) = sensor_.contact_variance;
@@ -88,7 +90,8 @@ ErrorModel::ErrorModel(const BeliefOptions& options, LogKind kind, double finger
   }
   start_(1, 1) += sensor_.part_variance();  // the tangent of the start, which every turn is measured from
   start_(2, 2) = sensor_.scale_variance(finger_curvature);
-  start_(3, 3) = start_(4, 4) = centre_variance();
+  start_(3, 3) = square(sensor_.noise.gyro);
+  start_(4, 4) = start_(5, 5) = centre_variance();
 }
 
 double ErrorModel::radius_share(double finger_curvature) const {
@@ -116,7 +119,7 @@ Gathered ErrorModel::gathered(double travelled, double rows, const Interval& sec
 
 PairErrors::PairErrors(const BeliefOptions& options, LogKind kind, const std::array<double, 2>& finger_curvature,
                        bool facing, double perimeter)
-    : sensor_(options, kind, perimeter, 0),
+    : sensor_(options, kind, perimeter),
       absolute_(facing && kind == LogKind::contact),
       contact_variance_(sensor_.row_share * sensor_.contact_variance),
       turn_variance_(sensor_.row_share * 2 * sensor_.angle_variance) {  // both fingers'

@@ -9,17 +9,15 @@
 
 namespace rollfix::belief {
 
-/// What a finger slips over short stretches, per length.
-double slip_here_and_there(const Noise& noise);
-
 /// How far the sensors of a finger are off, which of their errors a row has on its own and which a roll gathers: the
 /// same for one finger and for each of two. docs/belief.md derives it.
 struct SensorErrors {
-  /// `here_and_there`: slip over short stretches, per length.
-  SensorErrors(const BeliefOptions& options, LogKind kind, double perimeter, double here_and_there);
+  SensorErrors(const BeliefOptions& options, LogKind kind, double perimeter);
 
   /// Of the scale of lengths: slip all along, and a radius that is off by a share has every length off by it.
   double scale_variance(double finger_curvature) const;
+  /// The noise is to be taken this many times as large: filters take slip to be small, and its errors to be normal.
+  double for_large_slip() const;
   /// Of the length, and of the turn, that is gathered on the way over a length, in these seconds from the start.
   double slipped(double length) const;
   double drifted(double length, const Interval& seconds) const;
@@ -50,15 +48,18 @@ struct SensorErrors {
   double angle_variance;    // of a finger's orientation
   double row_share;         // of both, what a row has on its own: of increments the part that is under way
   double perimeter;
-  double slip_here_and_there;
+  double slip_here_and_there;  // over short stretches, per length
 };
 
-/// Errors that a whole roll of one finger shares: of a length and of a turn as measured, of the scale of lengths, and
-/// of the centre as it is known at the first contact, x and y.
-using Shared = Eigen::Matrix<double, 5, 1>;
-using SharedCovariance = Eigen::Matrix<double, 5, 5>;
-/// The first of them, which lengths and turns tell of.
-inline constexpr int kRolling = 3;
+/// Errors that a whole roll of one finger shares: of a length and of a turn as measured, of the scale of lengths, of a
+/// gyroscope's scale, and of the centre as it is known at the first contact, x and y.
+inline constexpr int kShared = 6;
+using Shared = Eigen::Matrix<double, kShared, 1>;
+using SharedCovariance = Eigen::Matrix<double, kShared, kShared>;
+/// The first of them, which lengths and turns tell of, ...
+inline constexpr int kRolling = 4;
+/// ... and of those the ones that a log has to which no gyroscope belongs.
+inline constexpr int kWithoutGyroscope = 3;
 
 /// Errors of one row on its own: variances of length and turn.
 struct RowCovariance {
@@ -84,7 +85,8 @@ struct Gathered {
 inline constexpr double kWideAngle = 0.02;
 
 /// How the noise enters the measured length and turn of one finger's roll. Measured are
-///   L (1 + scale) + offset of length + the row's own,   theta + offset of turn + the row's own.
+///   L (1 + scale) + offset of length + the row's own,   theta + gyroscope's scale * what it turned + offset of turn +
+///   the row's own.
 class ErrorModel {
  public:
   /// `finger_curvature`: of the finger where it first touched.
@@ -98,11 +100,13 @@ class ErrorModel {
   /// As far as the scale's variance is that of a wrong radius.
   double radius_share(double finger_curvature) const;
   double worth(double travelled, double rows) const { return sensor_.worth(travelled, rows); }
+  double for_large_slip() const { return sensor_.for_large_slip(); }
   Travel travel() const { return sensor_.travel(); }
   /// Over less than this length what gathers is one and the same.
   double patch() const { return sensor_.patch(); }
   /// Angles are too noisy for one look at every row to do.
-  bool is_wide() const { return start_(1, 1) > kWideAngle * kWideAngle; }
+  bool is_wide() const { return start_(1, 1) > kWideAngle * kWideAngle || has_gyroscope_scale(); }
+  bool has_gyroscope_scale() const { return start_(3, 3) > 0; }
   /// Of a row on its own, with the finger's curvature where it touches, and so many rows that the part is off for
   /// alike.
   RowCovariance row(double finger_curvature, double alike = 1) const;
@@ -147,6 +151,7 @@ class PairErrors {
   /// With the place u, its error turns the normal that it tells: 1/r for logs of u, else 0.
   double normal_turn(std::size_t finger) const { return normal_turn_[finger]; }
   double worth(double travelled, double rows) const { return sensor_.worth(travelled, rows); }
+  double for_large_slip() const { return sensor_.for_large_slip(); }
   Travel travel() const { return sensor_.travel(); }
   /// Of a centre's coordinate, each row on its own; 0: centres are not looked at.
   double centre_variance() const { return sensor_.noise.position * sensor_.noise.position; }

@@ -33,9 +33,9 @@ std::vector<AnyNode> evenly(const std::vector<AnyNode>& nodes, std::size_t most,
 
 }  // namespace
 
-void Nodes::add(const Reading& reading, double finger_curvature, double seconds, const FeltCentre& felt) {
+void Nodes::add(const Row& row) {
   ++rows_;
-  if (!blocks_.add(reading, finger_curvature, seconds, felt)) return;
+  if (!blocks_.add(row)) return;
   if (blocks_.is_full()) {
     blocks_.halve();
     group_ = (group_ + 1) / 2;
@@ -99,6 +99,7 @@ Node Nodes::node_of(const JoinedRows& rows, double travelled) const {
   const double worth = errors_.worth(travelled, rows.rows);
   return {rows.length,
           rows.turn,
+          rows.sensed,
           spread_of(rows),
           rows.rows / worth * rows.own,
           errors_.gathered(travelled, rows.rows, {seconds_, rows.seconds}),
@@ -141,6 +142,11 @@ double Nodes::freedom() const {
   for (const Node& node : nodes_) sum += std::min(1.0, node.worth);
   if (const std::optional<Node> last = pending()) sum += std::min(1.0, last->worth);
   return sum * (errors_.centre_variance() > 0 ? 3 : 1);
+}
+
+double Nodes::turn_gathered() const {
+  const std::optional<Node> last = pending();
+  return std::sqrt(walk_.turn + (last ? last->gathered.turn : 0));
 }
 
 PairCentres PairCentres::of(const PerFinger<FeltCentre>& felt, const PerFinger<double>& facing) {

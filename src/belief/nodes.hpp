@@ -23,6 +23,7 @@ inline constexpr double kMostFiner = 4;
 struct Node {
   double length = 0;
   double turn = 0;
+  double sensed = 0;  // of the turn, what a gyroscope has measured
   double spread = 0;  // variance of turn + tilt times length among the rows, of the course without its noise
   RowCovariance own;  // of the mean
   Gathered gathered;  // by the offsets, from the last row of the node before to this one's
@@ -56,9 +57,7 @@ class Nodes {
         blocks_(errors, tilt, robust, most),
         travel_(errors.travel()) {}
 
-  /// `finger_curvature`: where the finger touches. `seconds`: since the roll's start. `felt`: where its centre is, if
-  /// that is looked at.
-  void add(const Reading& reading, double finger_curvature, double seconds, const FeltCentre& felt = {});
+  void add(const Row& row);
 
   /// Those that will not change until `generation` does.
   const std::vector<Node>& complete() const { return nodes_; }
@@ -68,6 +67,8 @@ class Nodes {
   std::size_t rows() const { return rows_; }
   /// As many independent equations as the nodes are.
   double freedom() const;
+  /// What the turn has gathered in all: a standard deviation.
+  double turn_gathered() const;
 
  private:
   /// What has gathered, and how well the rows together would know one length and one turn.

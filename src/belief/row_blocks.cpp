@@ -57,6 +57,7 @@ JoinedRows RowBlocks::joined(const JoinedRows& a, const JoinedRows& b) const {
   const double apart = b.tilted(tilt_) - a.tilted(tilt_);
   both.length = of_a * a.length + of_b * b.length;
   both.turn = of_a * a.turn + of_b * b.turn;
+  both.sensed = of_a * a.sensed + of_b * b.sensed;
   both.scatter = of_a * a.scatter + of_b * b.scatter + of_a * of_b * apart * apart;
   both.own = of_a * of_a * a.own + of_b * of_b * b.own;
   add_share(both.felt, of_a, a.felt);
@@ -64,19 +65,19 @@ JoinedRows RowBlocks::joined(const JoinedRows& a, const JoinedRows& b) const {
   return both;
 }
 
-bool RowBlocks::add(const Reading& reading, double finger_curvature, double seconds, const FeltCentre& felt) {
+bool RowBlocks::add(const Row& row) {
   rows_ += 1;
   sum_.rows += 1;
-  sum_.seconds = seconds;
-  range_ = {std::min(range_.lo, reading.length[0]), std::max(range_.hi, reading.length[0])};
-  own_ = errors_.row(finger_curvature, errors_.rows_alike(rows_, range_.width()));
+  sum_.seconds = row.seconds;
+  range_ = {std::min(range_.lo, row.reading.length[0]), std::max(range_.hi, row.reading.length[0])};
+  own_ = errors_.row(row.finger_curvature, errors_.rows_alike(rows_, range_.width()));
   if (errors_.gathers_rows()) {
     // Errors that add up are in all rows that follow: the last one tells as much as all.
-    sum_ = {0, 0, 0, {}, {}, sum_.rows, seconds};
+    sum_ = {0, 0, 0, 0, {}, {}, sum_.rows, row.seconds};
     medians_ = 0;
     of_median_.clear();
   }
-  of_median_.push_back({reading, felt});
+  of_median_.push_back(row);
   if (of_median_.size() >= rows_of_median(robust_, stride_)) {
     close_median(sum_, medians_);
     of_median_.clear();
@@ -94,7 +95,9 @@ void RowBlocks::close_median(JoinedRows& sum, double& medians) const {
   std::vector<Reading> readings;
   for (const Row& row : of_median_) {
     readings.push_back(row.reading);
-    add_share(sum.felt, 1 / static_cast<double>(of_median_.size()), row.felt);
+    const double share = 1 / static_cast<double>(of_median_.size());
+    sum.sensed += share * row.sensed;
+    add_share(sum.felt, share, row.felt);
   }
   // Worth one row: a median of rows on a slope is hardly better.
   const Reading middle = median_of(readings);
@@ -114,8 +117,9 @@ JoinedRows RowBlocks::open() const {
   double medians = medians_;
   close_median(sum, medians);
   const double share = 1 / medians;
-  JoinedRows rows{share * sum.length, share * sum.turn, share * sum.scatter, share * share * sum.own, {},
-                  sum.rows,           sum.seconds};
+  JoinedRows rows{
+      share * sum.length, share * sum.turn, share * sum.sensed, share * sum.scatter, share * share * sum.own, {},
+      sum.rows,           sum.seconds};
   add_share(rows.felt, share, sum.felt);
   return rows;
 }

@@ -10,10 +10,20 @@
 
 namespace rollfix::belief {
 
+/// What one finger read at an instant.
+struct Row {
+  Reading reading;
+  double finger_curvature = 0;  // where the finger touches
+  double seconds = 0;           // since the roll's start
+  double sensed = 0;            // of the turn, what a gyroscope would have measured; radians
+  FeltCentre felt{};            // where its centre is, if that is looked at
+};
+
 /// Rows that are taken together: their means, or of increments the last of them.
 struct JoinedRows {
   double length = 0;
   double turn = 0;
+  double sensed = 0;   // of the turn, by a gyroscope
   double scatter = 0;  // variance of turn + tilt times length among the rows
   RowCovariance own;   // of the mean, where each row is off on its own
   FeltCentre felt{};   // where centres are looked at
@@ -31,9 +41,8 @@ class RowBlocks {
   RowBlocks(const ErrorModel& errors, double tilt, bool robust, std::size_t most)
       : errors_(errors), tilt_(tilt), robust_(robust), most_(most) {}
 
-  /// `finger_curvature`: where the finger touches. `seconds`: since the roll's start. True: a block is complete with
-  /// it.
-  bool add(const Reading& reading, double finger_curvature, double seconds, const FeltCentre& felt);
+  /// True: a block is complete with it.
+  bool add(const Row& row);
   /// There are too many blocks.
   bool is_full() const { return blocks_.size() >= most_ && blocks_.size() % 2 == 0; }
   void halve();
@@ -48,10 +57,6 @@ class RowBlocks {
   JoinedRows open() const;
 
  private:
-  struct Row {
-    Reading reading;
-    FeltCentre felt;
-  };
   void close_median(JoinedRows& sum, double& medians) const;
 
   ErrorModel errors_;

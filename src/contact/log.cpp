@@ -75,6 +75,9 @@ class LogMaker {
     roll_.fingers.assign(reader_.columns().size(), FingerRows{});
     for (std::size_t k = 0; k < roll_.fingers.size(); ++k) {
       roll_.fingers[k].u_dimension = reader_.columns()[k].u_dimension;
+      for (const ColumnSource& source : reader_.columns()[k].source) {
+        if (!source.name.empty()) roll_.fingers[k].columns.push_back(source);
+      }
     }
     roundings_.assign(roll_.fingers.size(), FingerRounding{});
     odometers_.assign(roll_.fingers.size(), Odometer(reader_.kind(), is_later_roll_));

@@ -94,6 +94,7 @@ struct Columns {
 
   std::array<std::size_t, kColumnCount> cell;       // kNone: the log does not have it
   std::array<Conversion, kColumnCount> conversion;  // of its numbers to radians, seconds, the part's unit
+  std::array<ColumnSource, kColumnCount> source{};  // as the header has it; without a header names are empty
   std::size_t count = 0;                            // cells of a row
   LogKind kind = LogKind::contact;
   std::string suffix;                      // of the finger's columns

@@ -49,7 +49,13 @@ void let_slip(FingerRows& rows, const Finger& finger, double slip) {
   }
 }
 
-/// A gyroscope that tells psi drifts with time.
+/// A gyroscope that tells psi has a scale of its own.
+void let_scale(FingerRows& rows, double scale) {
+  const double first = rows.psi.front();
+  for (double& psi : rows.psi) psi += scale * (psi - first);
+}
+
+/// It drifts with time.
 void let_drift(FingerRows& rows, const std::vector<double>& time, const Noise& noise, NormalNumbers& normal) {
   if (noise.drift == 0 && noise.walk == 0) return;
   const double bias = normal.next(noise.drift);
@@ -75,6 +81,7 @@ void let_sense(NoisyRoll& roll, const std::vector<Finger>& fingers, const Noise&
     if (roll.error[k].slip != 0) let_slip(rows, fingers[k], roll.error[k].slip);
     add_noise(rows, fingers[k], noise, normal);
     require_times(noise, !roll.log.time.empty(), roll.log.name);
+    if (noise.gyro > 0) let_scale(rows, normal.next(noise.gyro));
     let_drift(rows, roll.log.time, noise, normal);
     require_readable(rows, roll.log.name);
   }
@@ -157,13 +164,14 @@ NoisyIncrements noisy_increments(const Part& part, double start, double length, 
   result.error.slip = draw_slip(noise, normal);
   result.log.name = "the increments on " + part.name();
   result.log.kind = LogKind::increments;
+  const double scale = noise.gyro > 0 ? normal.next(noise.gyro) : 0;
   Reading sum;
   double angle = part.turning().angle(start);
   for (std::size_t row = 1; row <= rows; ++row) {
     const double s = start + length * (static_cast<double>(row) / static_cast<double>(rows));
     const double next = part.turning().angle(s);
     sum.length[0] += length / static_cast<double>(rows) / (1 + result.error.slip) + normal.next(noise.contact);
-    sum.turn += (next - angle) + normal.next(noise.angle);
+    sum.turn += (1 + scale) * (next - angle) + normal.next(noise.angle);
     angle = next;
     result.s.push_back(s);
     // Along the outline as the user gave it, as everything that is not of u and psi.

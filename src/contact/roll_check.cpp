@@ -62,7 +62,8 @@ RollCheck::RollCheck(const Part& part, LogKind kind, const std::vector<Finger>& 
 
 RollCheck::StepError RollCheck::error_of(LogKind kind, const Finger* finger, const Noise& noise) {
   const double both_rows = kind == LogKind::increments ? 1 : std::numbers::sqrt2;
-  StepError error{kSurely * both_rows * noise.contact, kSurely * both_rows * noise.angle, kSurely * noise.slip};
+  StepError error{kSurely * both_rows * noise.contact, kSurely * both_rows * noise.angle, kSurely * noise.slip,
+                  kSurely * noise.gyro};
   if (kind != LogKind::contact || finger == nullptr) return error;
   // The contact's place says how its normal is turned.
   error.turn += error.length * finger->turn_per_u() / finger->length_per_u();
@@ -161,8 +162,9 @@ std::optional<RollCheck::Jump> RollCheck::impossible(const PerFinger<Step>& step
 
 /// Over such a length, by rule 2.
 double RollCheck::most_turn(std::size_t finger, double length) const {
-  return (1 + std::floor(length / part_.perimeter())) * std::max(turns_.variation(), 2 * std::numbers::pi) +
-         kSpareTurn + error_[finger].turn;
+  const double laps = 1 + std::floor(length / part_.perimeter());
+  return (1 + error_[finger].turn_share) * laps * std::max(turns_.variation(), 2 * std::numbers::pi) + kSpareTurn +
+         error_[finger].turn;
 }
 
 /// Whether most of the finger's recent steps were far smaller.

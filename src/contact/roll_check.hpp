@@ -82,7 +82,8 @@ class RollCheck {
   struct StepError {
     double length = 0;
     double turn = 0;
-    double share = 0;  // of the length that was travelled
+    double share = 0;       // of the length that was travelled
+    double turn_share = 0;  // of the turn
   };
 
   struct Step {

@@ -23,9 +23,11 @@ class Noise:
     angle: float
     slip: float = 0.0
     position: float = 0.0
+    gyro: float = 0.0
 
     def times(self, all_sds, slip=1.0):
-        return Noise(self.contact * all_sds, self.angle * all_sds, self.slip * all_sds * slip, self.position * all_sds)
+        return Noise(self.contact * all_sds, self.angle * all_sds, self.slip * all_sds * slip, self.position * all_sds,
+                     self.gyro * all_sds)
 
     def text(self):
         said = [f"contact={self.contact!r}", f"angle={self.angle!r}"]
@@ -33,11 +35,17 @@ class Noise:
             said.append(f"slip={self.slip!r}")
         if self.position > 0:
             said.append(f"position={self.position!r}")
+        if self.gyro > 0:
+            said.append(f"gyro={self.gyro!r}")
         return ",".join(said)
 
 
 def disk_on(outline):
     return min(DISK * outline.perimeter, FITS * outline.largest_disk())
+
+
+def gyroscope_scale(random, noise):
+    return 1 + random.normal(0, noise.gyro) if noise.gyro > 0 else 1.0
 
 
 def smooth_course(random, rows, knots=2049):
@@ -102,6 +110,7 @@ def felt(random, rolled, noise, heading):
     normal = rolled.angle + np.pi / 2 + heading
     u = random.uniform(-np.pi, np.pi) - rolled.length / rolled.radius
     psi = normal - u
+    psi = psi[0] + gyroscope_scale(random, noise) * (psi - psi[0])
     whole = 2 * np.pi * np.round(psi[0] / (2 * np.pi))
     return (u + random.normal(0, noise.contact, rows) / rolled.radius,
             psi - whole + random.normal(0, noise.angle, rows), normal)
@@ -131,7 +140,7 @@ def travelled_log(random, outline, rows, laps, noise, here_and_there):
     rolled = roll(random, outline, corner_without_finger(outline, noise), rows + 1, laps, noise, here_and_there)
     steps = np.abs(np.diff(rolled.s)) / outline.perimeter
     drift = np.cumsum(random.normal(0, 1, rows) * noise.angle * np.sqrt(steps))
-    turn = rolled.angle[1:] - rolled.angle[0] + drift
+    turn = gyroscope_scale(random, noise) * (rolled.angle[1:] - rolled.angle[0]) + drift
     columns = {"length": rolled.length[1:] + random.normal(0, noise.contact) + random.normal(0, noise.contact, rows),
                "turn": turn + random.normal(0, noise.angle) + random.normal(0, noise.angle, rows)}
     return columns, [rolled], []
@@ -140,7 +149,7 @@ def travelled_log(random, outline, rows, laps, noise, here_and_there):
 def increments_log(random, outline, rows, laps, noise, here_and_there):
     rolled = roll(random, outline, corner_without_finger(outline, noise), rows + 1, laps, noise, here_and_there)
     columns = {"distance": np.diff(rolled.length) + random.normal(0, noise.contact, rows),
-               "dturn": np.diff(rolled.angle) + random.normal(0, noise.angle, rows)}
+               "dturn": gyroscope_scale(random, noise) * np.diff(rolled.angle) + random.normal(0, noise.angle, rows)}
     return columns, [rolled], []
 
 

@@ -48,6 +48,7 @@ class Cell:
     slip: float = 0.0
     here_and_there: bool = False
     position: float = 0.0  # of the perimeter
+    gyro: float = 0.0
     said: float = 1.0  # so many times the true standard deviations are said
     said_slip: float = 1.0
     logs: int = 400
@@ -55,7 +56,7 @@ class Cell:
 
     def noise_on(self, outline):
         p = outline.perimeter
-        return Noise(self.contact * p, self.angle, self.slip, self.position * p)
+        return Noise(self.contact * p, self.angle, self.slip, self.position * p, self.gyro)
 
     def overstated(self):
         # Slip is always said as one factor and as five times as much here and there.
@@ -118,12 +119,20 @@ def cells():
     add("centres, slip .005", "all", kind="centres", position=1e-3, quick=60, **both)
     add("centres, rows 20000, slip .05", "all", kind="centres", position=1e-3, rows=20000, logs=60, **strong)
     add("centres, sharp", "sharp", kind="centres", position=1e-3, **both)
+    for kind in ("u,psi", "length,turn"):
+        add(f"{kind}, gyro .03", "all", kind=kind, gyro=0.03, quick=40, **both)
+    add("length,turn, gyro .03, rows 20000", "all", kind="length,turn", gyro=0.03, rows=20000, logs=100, **both)
+    add("length,turn, gyro .03, laps 2", "all", kind="length,turn", gyro=0.03, laps=2.0, **both)
+    add("increments, gyro .03", "all", gyro=0.03, rows=300, quick=40, **steps, **both)
+    add("increments, gyro .03, laps 2", "all", gyro=0.03, rows=300, laps=2.0, **steps, **both)
     pair = dict(kind="pair", rows=100, contact=5e-4, angle=2e-3, logs=150)
     add("pair, no slip", "smooth", quick=20, **pair)
     add("pair, slip .003 one factor", "smooth", slip=0.003, quick=20, **pair)
     add("pair, slip .003", "smooth", slip=0.003, here_and_there=True, **pair)
+    add("pair, slip .02", "smooth", slip=0.02, here_and_there=True, **pair)
     add("pair, drawing", "drawing", slip=0.003, **pair)
     add("pair, rows 20000", "smooth", slip=0.003, **{**pair, "rows": 20000, "logs": 40})
+    add("pair, rows 20000, slip .02", "smooth", slip=0.02, here_and_there=True, **{**pair, "rows": 20000, "logs": 40})
     seen = {**pair, "kind": "pair centres", "position": 1e-3}
     add("pair centres, no slip", "smooth", quick=20, **seen)
     add("pair centres, slip .003 one factor", "smooth", slip=0.003, **seen)

@@ -180,6 +180,23 @@ TEST(Diagnosis, names_psi_in_degrees) {
   expect_cured_everywhere([](Case& log) { scale(log.rows()[0].psi, kDegrees); }, Cause::psi_degrees);
 }
 
+TEST(Diagnosis, names_u_and_psi_that_are_exchanged) {
+  expect_cured_everywhere([](Case& log) { std::swap(log.rows()[0].u, log.rows()[0].psi); }, Cause::u_psi_swapped);
+}
+
+TEST(Diagnosis, measures_the_scale_of_a_gyroscope_that_psi_comes_from) {
+  for (const std::string& shape : shapes()) {
+    SCOPED_TRACE(shape);
+    Case spoilt = one_finger(shape);
+    std::vector<double>& psi = spoilt.rows()[0].psi;
+    const double first = psi.front();
+    for (double& each : psi) each = first + (each - first) / 0.95;
+    const Diagnosis diagnosis = expect_cured(spoilt, Cause::gyroscope);
+    EXPECT_NEAR(diagnosis.turn_scale, 0.95, 4 * diagnosis.turn_scale_sd);
+    EXPECT_LT(diagnosis.turn_scale_sd, 0.02);
+  }
+}
+
 TEST(Diagnosis, names_one_stray_row) {
   expect_cured_everywhere([](Case& log) { log.rows()[0].psi[170] += 0.2; }, Cause::stray);
 }
@@ -241,6 +258,17 @@ TEST(DiagnosisOfTwo, estimates_a_radius_that_is_a_tenth_too_small) {
   spoilt.say_radius(0.9);
   const Diagnosis diagnosis = expect_cured(spoilt, Cause::radius);
   EXPECT_NEAR(diagnosis.length_scale * 0.9, 1, 4 * diagnosis.length_scale_sd * 0.9);
+}
+
+TEST(DiagnosisOfTwo, names_fingers_that_are_exchanged) {
+  const Part part = part_of("cam");
+  const double P = part.perimeter();
+  const std::vector<rollfix::Finger> fingers = {rollfix::disk(0.02 * P), rollfix::disk(0.03 * P)};
+  rollfix::FreePlan plan = free_rolls::by_distances(0.02 * P, 0.1 * P, 0.6 * P, 0.03 * P, 0.5 * P, 0.3 * P, -0.3);
+  plan.rows = 300;
+  const rollfix::NoisyRoll roll = rollfix::noisy_roll_free(part, plan, noise_on(part), test_seed() + 1);
+  const Case spoilt{{part, roll.log, {fingers[1], fingers[0]}, noise_on(part)}, {0.1 * P, 0.5 * P}};
+  expect_cured(spoilt, Cause::fingers_swapped);
 }
 
 TEST(DiagnosisOfTwo, names_u_that_is_counted_clockwise) {

@@ -113,7 +113,7 @@ double read_sd(std::string_view value, NoiseKind::Unit unit, const std::string& 
 std::string noise_form() {
   std::vector<std::string> fields;
   for (const NoiseKind& kind : kNoiseKinds) {
-    constexpr std::array<const char*, 5> kForms = {"LENGTH", "ANGLE", "PER_LENGTH", "10deg/h", "0.3deg/sqrt(h)"};
+    constexpr std::array<const char*, 5> kForms = {"LENGTH", "ANGLE", "SHARE", "10deg/h", "0.3deg/sqrt(h)"};
     fields.push_back(fmt::format("{}={}", kind.name, kForms[static_cast<std::size_t>(kind.unit)]));
   }
   return fmt::format("{}", fmt::join(fields, ","));

@@ -105,11 +105,19 @@ class AskedText : AnswerWords {
     return text;
   }
 
-  /// Rows that fit far too well.
+  /// Rows that fit far too well, and turns whose errors add up to more than they tell.
   static std::string caution_lines(const Fit& fit) {
-    if (!fit.is_too_good()) return "";
-    std::string text = fmt::format("caution    the rows are off by {:.2g} times the noise only: it is said too large, ",
-                                   std::sqrt(fit.chi_square / fit.freedom));
+    std::string text;
+    if (fit.turn_gathered > Fit::kMostGathered) {
+      text = fmt::format(
+          "caution    what turns are off by adds up to {:.3g} deg on the way, more than they can tell of the part: of "
+          "a "
+          "log of\n           increments `angle` is what each row is off by, `drift` and `walk` gather with time\n",
+          fit.turn_gathered / kDegree);
+    }
+    if (!fit.is_too_good()) return text;
+    text += fmt::format("caution    the rows are off by {:.2g} times the noise only: it is said too large, ",
+                        std::sqrt(fit.chi_square / fit.freedom));
     text += "and the answer is wider than it need be";
     if (fit.alike_over > 0) {
       text += fmt::format(
@@ -127,21 +135,26 @@ class AskedText : AnswerWords {
                        prior.place_sd, unit_, heading);
   }
 
-  /// What the rows say of the lengths, and what was taken as exact.
+  static std::string scale_text(double scale, double sd, const char* more, const char* less) {
+    std::string text = fmt::format("{:.4f} +- {:.2g} times what was measured", scale, sd);
+    const double off = 100 * (scale - 1);
+    if (std::abs(scale - 1) > 2 * sd)
+      text += fmt::format(": they are {:.2g} % {}", std::abs(off), off > 0 ? more : less);
+    return text + '\n';
+  }
+
+  /// What the rows say of the lengths and of a gyroscope's turns, and what was taken as exact.
   std::string scale_lines() const {
     const Weighing& weighing = *answer_.weighing;
     std::string text;
     for (std::size_t finger = 0; finger < fingers_; ++finger) {
       const double sd = weighing.fit.length_scale_sd[finger];
       if (!(sd > 0)) continue;
-      const double scale = weighing.fit.length_scale[finger];
       const std::string whose = fingers_ == 1 ? "" : finger == 0 ? "of finger a " : "of finger b ";
-      text += fmt::format("lengths    {}{:.4f} +- {:.2g} times what was measured", whose, scale, sd);
-      const double off = 100 * (scale - 1);
-      if (std::abs(scale - 1) > 2 * sd) {
-        text += fmt::format(": they are {:.2g} % {}", std::abs(off), off > 0 ? "longer" : "shorter");
-      }
-      text += '\n';
+      text += "lengths    " + whose + scale_text(weighing.fit.length_scale[finger], sd, "longer", "shorter");
+    }
+    if (const double sd = weighing.fit.turn_scale_sd; sd > 0) {
+      text += "turns      " + scale_text(weighing.fit.turn_scale, sd, "larger", "smaller");
     }
     std::vector<std::string> exact;
     if (weighing.noise.slip <= 0) exact.emplace_back("slip");

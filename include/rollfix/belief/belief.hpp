@@ -90,6 +90,8 @@ struct Fit {
   static constexpr double kMostSigmas = 3.3;
   // Of the chi-square that is to be expected, less than this share: of the noise, less than half.
   static constexpr double kFarTooGood = 0.25;
+  // Turns that are off by more at the end of a roll tell next to nothing there, radians.
+  static constexpr double kMostGathered = 1;
 
   double chi_square = 0;          // of the samples about that place
   double freedom = 0;             // as much is to be expected of it
@@ -106,8 +108,12 @@ struct Fit {
                                   // samples that are alike are worth
   double alike_over = 0;          // where they fit too well: neighbouring samples may be off alike over so much of the
                                   // roll, length; 0: no such length is known
+  double turn_gathered =
+      0;  // what the turns' errors add up to on the way, as the noise is said: sd at the end, radians
   PerFinger<double> length_scale = 1.0;     // lengths are this many times what was measured, ...
   PerFinger<double> length_scale_sd = 0.0;  // ... give or take; 0: they were said to be exact
+  double turn_scale = 1;                    // turns by a gyroscope are this many times what was measured, ...
+  double turn_scale_sd = 0;                 // ... give or take; 0: they were said to be exact
 
   bool is_correlated() const { return std::max(correlation_sigmas, trend_sigmas) > kMostSigmas; }
   /// The noise is far less than was said, or neighbours are so much alike that it does not show: then the answer is too
@@ -148,10 +154,13 @@ enum class Cause {
   turn_degrees,      // of a log without u and psi: the turn is
   u_clockwise,       // u is counted clockwise
   psi_clockwise,     // psi is
+  u_psi_swapped,     // u was taken for psi, and psi for u
+  fingers_swapped,   // of two fingers: finger a was taken for b
   both_clockwise,    // all angles are, or the part lies face down
   length_backwards,  // of a log without u and psi: the length is counted against the outline's direction
   turn_clockwise,    // the turn is counted clockwise
   stray,             // a few rows are anything
+  gyroscope,         // all turns of a gyroscope are off by one factor
   slip,              // lengths are off here and there
   part               // nothing of all that: another part, another finger, another side of it
 };
@@ -163,12 +172,17 @@ struct Diagnosis {
   double log_odds = 0;         // of it against a log that is as noisy as its rows make it seem, but without mistake
   double length_scale = 1;     // radius: lengths are this many times what was measured, ...
   double length_scale_sd = 0;  // ... give or take
+  double turn_scale = 1;       // gyroscope: turns are this many times what was measured, ...
+  double turn_scale_sd = 0;    // ... give or take
   double noise_scale = 1;      // noise: it is this many times what was said
   Noise noise{};               // unsaid_noise: what they seem to have
   std::size_t stray = 0;       // rows
   double slip = 0;             // slip: so much per length would allow it
-  Verdict verdict{};           // the answer
-  std::vector<Mode> modes{};   // likewise, the most probable first
+  double gyro = 0;             // gyroscope: so much per turn would allow it
+  /// Angles in degrees, u and psi swapped: how the log's columns are to be read. Empty: no file's header is known.
+  std::vector<ColumnSource> columns{};
+  Verdict verdict{};          // the answer
+  std::vector<Mode> modes{};  // likewise, the most probable first
 };
 
 /// What a finger feels at an instant: where its contact is in the world, and where the part's inward normal points

@@ -39,6 +39,7 @@ struct FingerRows {
   double place_rounding = 0;               // half a unit of the most precise u (radians) or length or distance
   double angle_rounding = 0;               // the same of psi or turn or dturn
   std::optional<Dimension> u_dimension{};  // where the log says whether u is an angle or a length
+  std::vector<ColumnSource> columns{};     // of a log with a header: what it calls those that were read
 };
 
 /// What one finger, or two together, recorded of one roll, while all of them touched the part.

@@ -19,24 +19,26 @@ struct Noise {
   double correlation = 0;  // over this length of a roll rows are off alike; at rest all are
   double drift = 0;        // of a gyroscope's rate all along a roll, its bias, radians per second
   double walk = 0;  // of what a gyroscope's turn gathers, its angle random walk, radians per square root of a second
+  double gyro = 0;  // of a gyroscope's scale: of all turns that it measures, per turn
   Accuracy part{};  // of the outline that is rolled on: `noise_on` puts it here
 };
 
 /// One of them: what it is called, wherever users read or type it, and in what it is measured.
 struct NoiseKind {
-  enum class Unit { length, angle, per_length, rate, walk };
+  enum class Unit { length, angle, share, rate, walk };
   const char* name;
   double Noise::*sd;
   Unit unit;
 };
-inline constexpr std::array<NoiseKind, 8> kNoiseKinds = {{{"contact", &Noise::contact, NoiseKind::Unit::length},
+inline constexpr std::array<NoiseKind, 9> kNoiseKinds = {{{"contact", &Noise::contact, NoiseKind::Unit::length},
                                                           {"angle", &Noise::angle, NoiseKind::Unit::angle},
-                                                          {"slip", &Noise::slip, NoiseKind::Unit::per_length},
+                                                          {"slip", &Noise::slip, NoiseKind::Unit::share},
                                                           {"radius", &Noise::radius, NoiseKind::Unit::length},
                                                           {"position", &Noise::position, NoiseKind::Unit::length},
                                                           {"correlation", &Noise::correlation, NoiseKind::Unit::length},
                                                           {"drift", &Noise::drift, NoiseKind::Unit::rate},
-                                                          {"walk", &Noise::walk, NoiseKind::Unit::walk}}};
+                                                          {"walk", &Noise::walk, NoiseKind::Unit::walk},
+                                                          {"gyro", &Noise::gyro, NoiseKind::Unit::share}}};
 
 class Part;
 enum class LogKind;

@@ -41,6 +41,8 @@ constexpr double kLeastCell = 1e-13;
 constexpr int kMostRounds = 50;
 // A density that changes by less than this share is even.
 constexpr double kEven = 1e-6;
+// ... and one that changes by more, as a logarithm, is as good as all at its upper end.
+constexpr double kSteep = 600;
 // A grid does not grow beyond this; what is not resolved by then counts as rest.
 constexpr std::size_t kMostPoints = 400000;
 
@@ -64,7 +66,10 @@ Bound bound_of(const Score& lo, const Score& hi, double h, double heat) {
 double GridCell::quantile(double share_of_mass) const {
   // The density as an exponential: its integral, solved for where it ends.
   if (std::abs(rise) < kEven) return share_of_mass;
-  return std::log1p(share_of_mass * std::expm1(rise)) / rise;
+  // Beyond kSteep it is more than a double can hold.
+  const double at =
+      rise > kSteep ? 1 + std::log(share_of_mass) / rise : std::log1p(share_of_mass * std::expm1(rise)) / rise;
+  return std::clamp(at, 0.0, 1.0);
 }
 
 Grid::Grid(const TiltedBoundary& boundary, const ErrorModel& errors, const BeliefOptions& options,
@@ -214,7 +219,9 @@ void Grid::measure_fit(const Nodes& nodes) {
                          : fit_of(best->now.cost(), freedom, best->now.whiteness());
   fit_.stray = options_.robust ? freedom - best->now.right_rows() : 0;
   add_trend(trend_, step_between(nodes), fit_);
+  fit_.widened *= scorer_.for_large_slip();
   fit_.prior_sigmas = scorer_.prior_sigmas(*best);
+  fit_.turn_gathered = nodes.turn_gathered();
   best_mass_ = log_mass(*best);
 }
 
@@ -348,8 +355,7 @@ void Grid::weigh() {
   rest_ = std::min(1.0, rest_ / total);
 }
 
-/// Whatever the place: another start asks for another scale.
-void Grid::measure_scale() {
+Grid::Error Grid::shared_error(int which) const {
   double own = 0;  // for one place
   double mean = 0;
   double square_of = 0;
@@ -357,14 +363,22 @@ void Grid::measure_scale() {
     if (!cell.fine) continue;
     for (const std::size_t end : {cell.first, cell.first + 1}) {
       const RollFilter& filter = points_[cell.arc][end]->now;
-      const double scale = filter.errors()[2];
-      own += 0.5 * cell.share * filter.covariance()(2, 2);
-      mean += 0.5 * cell.share * scale;
-      square_of += 0.5 * cell.share * scale * scale;
+      const double error = filter.errors()[which];
+      own += 0.5 * cell.share * filter.covariance()(which, which);
+      mean += 0.5 * cell.share * error;
+      square_of += 0.5 * cell.share * error * error;
     }
   }
-  fit_.length_scale = 1 / (1 + mean);
-  fit_.length_scale_sd = std::sqrt(square(fit_.widened) * own + std::max(0.0, square_of - mean * mean));
+  return {mean, std::sqrt(square(fit_.widened) * own + std::max(0.0, square_of - mean * mean))};
+}
+
+void Grid::measure_scale() {
+  const Error of_lengths = shared_error(2);
+  const Error of_turns = shared_error(3);
+  fit_.length_scale = 1 / (1 + of_lengths.mean);
+  fit_.length_scale_sd = of_lengths.sd;
+  fit_.turn_scale = 1 - of_turns.mean;
+  fit_.turn_scale_sd = of_turns.sd;
 }
 
 void Grid::unfold() {

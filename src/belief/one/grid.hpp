@@ -80,6 +80,12 @@ class Grid {
   bool is_even(const GridPoint& lo, const GridPoint& hi, double length) const;
   bool refine(const Nodes& nodes);
   void weigh();
+  struct Error {
+    double mean = 0;
+    double sd = 0;
+  };
+  /// Of one that the roll shares, whatever the place: another start asks for another one.
+  Error shared_error(int which) const;
   void measure_scale();
   /// Adds the cells that look like those with points.
   void unfold();
@@ -126,7 +132,7 @@ class Grid {
 /// What the modes are asked about, beyond the grid.
 struct ModeQuestion {
   const TiltedBoundary* boundary = nullptr;
-  Reading last;       // the last sample
+  Row last;           // the last sample
   RowCovariance own;  // its own errors
   Boundary places;
 };

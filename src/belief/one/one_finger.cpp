@@ -79,7 +79,6 @@ class OneFingersPosterior : public Posterior {
 
   void add(const Sample& sample) override {
     const bool is_first = !state_;
-    last_ = sample;
     require_times(options_.noise, sample.time.has_value(), "the samples");
     const std::optional<FeltCentre> felt = felt_centre(sample);
     if (is_first) {
@@ -88,11 +87,13 @@ class OneFingersPosterior : public Posterior {
         first = FirstCentre{*felt, sample.centre.has_value(), facing(contacts_.fingers.front(), (*sample.contact)[0])};
       state_.emplace(part_, kind_, options_, sample.finger_curvature[0], first);
       first_time_ = sample.time.value_or(0);
+      if (sample.contact) first_psi_ = (*sample.contact)[0].psi;
     }
+    last_ = {sample.reading, sample.finger_curvature[0], sample.time.value_or(0) - first_time_, sensed(sample),
+             felt.value_or(FeltCentre{})};
     // Row 1 of a log of contacts is what all others are measured from: it says nothing by itself.
     if (is_first && kind_ == LogKind::contact) return;
-    state_->nodes.add(sample.reading, sample.finger_curvature[0], sample.time.value_or(0) - first_time_,
-                      felt.value_or(FeltCentre{}));
+    state_->nodes.add(last_);
   }
 
   std::size_t samples() const override { return state_ ? state_->nodes.rows() : 0; }
@@ -101,8 +102,7 @@ class OneFingersPosterior : public Posterior {
   Outcome settle() override {
     if (!has_begun()) return {};
     state_->grid.settle(state_->nodes);
-    const ModeQuestion question{&state_->boundary, last_.reading, state_->errors.row(last_.finger_curvature[0]),
-                                part_.boundary()};
+    const ModeQuestion question{&state_->boundary, last_, state_->errors.row(last_.finger_curvature), part_.boundary()};
     return {modes_of(state_->grid, question), state_->grid.fit(), state_->grid.evidence(), state_->grid.rest()};
   }
 
@@ -116,13 +116,13 @@ class OneFingersPosterior : public Posterior {
 
   double variance_of_miss(const std::vector<Reading>& /*readings*/, const std::vector<Mode>& modes) const override {
     const SharedCovariance& shared = state_->errors.start();
-    const RowCovariance own = state_->errors.row(last_.finger_curvature[0]);
+    const RowCovariance own = state_->errors.row(last_.finger_curvature);
     double most = 0;
     for (const Mode& mode : modes) {
       const double kappa = part_.turning().curvature(mode.end[0]);
       // f is off by the turn's error less kappa times the length's.
       Shared by_error = Shared::Zero();
-      by_error.head<kRolling>() << -kappa, 1, -kappa * last_.reading.length[0];
+      by_error.head<kRolling>() << -kappa, 1, -kappa * last_.reading.length[0], last_.sensed;
       const double gathered = square(options_.noise.part.walk) * std::abs(last_.reading.length[0]);
       const double variance =
           by_error.dot(shared * by_error) + gathered + own.turn - 2 * kappa * own.both + kappa * kappa * own.length;
@@ -152,6 +152,11 @@ class OneFingersPosterior : public Posterior {
     const Vec2 centre = sample.centre ? (*sample.centre)[0] : Vec2(0, 0);
     return FeltCentre{centre, arm_of(contacts_.fingers.front(), (*sample.contact)[0].u)};
   }
+  /// Of a log of u and psi psi alone is a gyroscope's, else the turn.
+  double sensed(const Sample& sample) const {
+    if (kind_ != LogKind::contact) return sample.reading.turn;
+    return sample.contact ? (*sample.contact)[0].psi - first_psi_ : 0;
+  }
   const CentreModel* centres() const { return state_->has_first ? &state_->centres : nullptr; }
 
   Part part_;
@@ -159,8 +164,9 @@ class OneFingersPosterior : public Posterior {
   BeliefOptions options_;
   Contacts contacts_;
   std::optional<OneFingersGrid> state_;
-  Sample last_;
+  Row last_;
   double first_time_ = 0;
+  double first_psi_ = 0;
 };
 
 }  // namespace

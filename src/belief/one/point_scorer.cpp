@@ -82,7 +82,7 @@ void PointScorer::refresh(const std::vector<GridPoint*>& points, const Nodes& no
     }
     return false;
   };
-  run_errands(next_of_all, has_centres(), limit_, outliers_);
+  run_errands(next_of_all, equations(), limit_, outliers_);
 }
 
 void PointScorer::refresh_likely_first(const std::vector<GridPoint*>& points, const Nodes& nodes) {
@@ -97,7 +97,7 @@ void PointScorer::refresh_likely_first(const std::vector<GridPoint*>& points, co
     ++begun;
     return true;
   };
-  run_errands(next, has_centres(), limit_, outliers_);
+  run_errands(next, equations(), limit_, outliers_);
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
@@ -191,7 +191,7 @@ Trend PointScorer::trend(const GridPoint& point, const Nodes& nodes, std::unique
       errand = {nullptr, 1, &filter, from, end, true};
       return !std::exchange(is_begun, true) && from != end;
     };
-    run_errands(once, has_centres(), limit_, outliers_);
+    run_errands(once, equations(), limit_, outliers_);
   };
   const std::vector<Node>& complete = nodes.complete();
   take(traced->filter, complete.data() + traced->taken, complete.data() + complete.size());

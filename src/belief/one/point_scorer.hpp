@@ -68,6 +68,8 @@ class PointScorer {
   /// How far off the priors a point is, in standard deviations.
   double prior_sigmas(const GridPoint& point) const;
 
+  double for_large_slip() const { return errors_.for_large_slip(); }
+
  private:
   RollFilter fresh_filter(const TiltedArc& arc, double w) const;
   Errand first_errand(GridPoint& point, const Nodes& nodes) const;
@@ -75,7 +77,9 @@ class PointScorer {
   bool next_errand(Errand& errand, const Nodes& nodes, const std::optional<Node>& pending);
   void score(GridPoint& point, const Nodes& nodes);
   void lower_limit(double deviance, const Nodes& nodes);
-  bool has_centres() const { return centres_ != nullptr && centres_->path != nullptr; }
+  RowEquations equations() const {
+    return {centres_ != nullptr && centres_->path != nullptr, errors_.has_gyroscope_scale()};
+  }
 
   double tilt_;
   const CentreModel* centres_;  // nullptr: they are not looked at

@@ -34,18 +34,19 @@ RollFilter::RollFilter(const TiltedArc& arc, double tilt, double w, const Shared
       w_(w),
       place_(arc.at(w)),
       most_scale_(most_scale(start(2, 2))),
+      most_gyroscope_scale_(most_scale(start(3, 3))),
       p_(start) {}
 
 RollFilter RollFilter::again(const SharedCovariance& start) const {
   RollFilter fresh(*arc_, tilt_, w_, start, centres_);
-  fresh.guess_ = x_[1];
+  fresh.guess_ = {x_[1], x_[3]};
   return fresh;
 }
 
 /// A row as three equations, linear in the errors: e = 0, and the centre's two coordinates.
 struct RollFilter::Equations {
   Eigen::Vector3d miss;
-  Eigen::Matrix<double, 3, 5> by_errors;
+  Eigen::Matrix<double, 3, kShared> by_errors;
   Eigen::Matrix<double, 3, 2> by_own;  // of a row's length and turn
   Eigen::Vector3d by_w;
   Eigen::Matrix3d own_variance;
@@ -56,7 +57,6 @@ struct RollFilter::Equations {
 RollFilter::Equations RollFilter::equations_at(double w, const Corrected& roll, double w_variance,
                                                const Node& node) const {
   const SpreadPlace end = arc_->about(w, w_variance, node.spread);
-  const double per_scale = 1 / (1 + x_[2]);
   const double by_turn = end.slope;
   const double by_length = tilt_ * end.slope - 1;
   Equations rows;
@@ -64,12 +64,14 @@ RollFilter::Equations RollFilter::equations_at(double w, const Corrected& roll, 
   rows.own_variance.setZero();
   // The line through the place at w, where the roll as it was measured leads.
   rows.miss[0] = end.s + end.slope * (w_ + roll.turn + tilt_ * roll.length - w) - place_.s - roll.length;
-  rows.by_errors.block<1, kRolling>(0, 0) << -by_length * per_scale, -by_turn, -by_length * roll.length * per_scale;
   rows.by_own.row(0) << by_length, by_turn;
+  rows.by_errors.block<1, kRolling>(0, 0) = rows.by_own.row(0) * by_rolling(roll);
   rows.by_w[0] = end.slope - place_.slope;
   rows.own_variance(0, 0) = end.variance;
   add_centre(end, w, roll, node, rows);
-  if (guess_) rows.miss += rows.by_errors.col(1) * (x_[1] - *guess_);
+  if (guess_) {
+    rows.miss += rows.by_errors.col(1) * (x_[1] - guess_->offset) + rows.by_errors.col(3) * (x_[3] - guess_->scale);
+  }
   rows.own_variance += rows.by_own * matrix_of(node.own) * rows.by_own.transpose();
   return rows;
 }
@@ -95,7 +97,7 @@ void RollFilter::add_centre(const SpreadPlace& end, double w, const Corrected& r
   const Vec2 by_w = end.slope * of_arm.col(1) * -1 - turn_by_w * turned_left(arm);
   const Vec2 by_w_first = place_.slope * of_first_arm.col(1) * -1 - turn_by_w_first * turned_left(first_arm);
   const Vec2 way = to_world * (centres_->path->at(end.s) - centres_->path->at(place_.s)) - arm + first_arm;
-  const Vec2 centre_off(x_[3], x_[4]);
+  const Vec2 centre_off(x_[4], x_[5]);
 
   const double beyond = w_ + roll.turn + tilt_ * roll.length - w;
   rows.miss.tail<2>() = way + by_w * beyond + centre_off - (node.felt.centre - centres_->first.centre);
@@ -103,6 +105,7 @@ void RollFilter::add_centre(const SpreadPlace& end, double w, const Corrected& r
   by_errors.col(0) = -tilt_ * per_scale * by_w - of_first_arm * centres_->first.arm.per_length;
   by_errors.col(1) = -by_w + turned_left(way);
   by_errors.col(2) = -tilt_ * roll.length * per_scale * by_w + centres_->radius_share * (arm - first_arm);
+  by_errors.col(3) = -roll.sensed * by_w;
   by_errors.rightCols<2>().setIdentity();
   rows.by_own.bottomRows<2>().col(0) = tilt_ * by_w + of_arm * node.felt.arm.per_length;
   rows.by_own.bottomRows<2>().col(1) = by_w;
@@ -122,10 +125,13 @@ void RollFilter::update(const Node& node, const Outliers& outliers) {
   absorb(node, outliers);
   gather(1 - node.share_in_mean());
   // A place that does not fit asks for lengths that no slip explains: it is refused by its cost, not followed.
-  if (std::abs(x_[2]) > most_scale_) {
-    x_[2] = std::copysign(most_scale_, x_[2]);
-    dx_[2] = 0;
-  }
+  const auto bound = [&](int k, double most) {
+    if (std::abs(x_[k]) <= most) return;
+    x_[k] = std::copysign(most, x_[k]);
+    dx_[k] = 0;
+  };
+  bound(2, most_scale_);
+  bound(3, most_gyroscope_scale_);
 }
 
 RowShare share_of(int equations, double squared, double noise, double all, const Outliers& outliers) {
@@ -139,11 +145,11 @@ RowShare share_of(int equations, double squared, double noise, double all, const
 }
 
 void RollFilter::absorb(const Node& node, const Outliers& outliers) {
-  const Corrected roll = corrected(node.length, node.turn, about());
+  const Corrected roll = corrected(node.length, node.turn, node.sensed, about());
   const double measured = w_ + roll.turn + tilt_ * roll.length;
-  const double w_variance = variance_of_roll(roll.length, node.own);
+  const double w_variance = variance_of_roll(roll, node.own);
   Equations rows = equations_at(measured, roll, w_variance, node);
-  Eigen::Matrix<double, 5, 3> of_errors;
+  Eigen::Matrix<double, kShared, 3> of_errors;
   Eigen::Matrix3d inverse;
   const Eigen::Matrix2d averaged = node.share_averaged() * matrix_of(node.gathered);
   Eigen::Matrix3d own;
@@ -155,11 +161,9 @@ void RollFilter::absorb(const Node& node, const Outliers& outliers) {
   weigh();
   // Where the contact is likely to be, given the equations as well. A slope taken where the turn was measured would go
   // with that turn's own error, and what many rows say would be taken for more than it is.
-  const double per_scale = 1 / (1 + x_[2]);
-  const Eigen::Vector3d roll_by_errors(-tilt_ * per_scale, -1, -tilt_ * roll.length * per_scale);
-  const Eigen::Vector2d roll_by_own(tilt_, 1);
-  const Eigen::Vector3d with_roll =
-      of_errors.topRows<kRolling>().transpose() * roll_by_errors + rows.by_own * matrix_of(node.own) * roll_by_own;
+  const Eigen::Vector2d tilted(tilt_, 1);
+  const Eigen::Vector3d with_roll = of_errors.topRows<kRolling>().transpose() * by_rolling(roll).transpose() * tilted +
+                                    rows.by_own * matrix_of(node.own) * tilted;
   const double shift = with_roll.dot(inverse * rows.miss);
   if (std::abs(shift) > kSameLine) {
     const double left = std::max(0.0, w_variance - with_roll.dot(inverse * with_roll));
@@ -182,7 +186,7 @@ void RollFilter::absorb(const Node& node, const Outliers& outliers) {
   right_rows_ += 3 * weight;
   right_cost_ += weight * squared;
   add_innovation<3>(inverse, std::sqrt(weight) * innovation, whiteness_);
-  const Eigen::Matrix<double, 5, 3> gain = weight * of_errors * inverse;
+  const Eigen::Matrix<double, kShared, 3> gain = weight * of_errors * inverse;
   slope_ += weight * innovation.dot(inverse * by_w);
   information_ += weight * by_w.dot(inverse * by_w);
   x_ += gain * innovation;
@@ -191,8 +195,8 @@ void RollFilter::absorb(const Node& node, const Outliers& outliers) {
   walk_ -= weight * of_walk * noise.inverse() * of_walk.transpose();
 }
 
-TiltedPlace RollFilter::after(const Reading& measured, double further) const {
-  const Corrected roll = corrected(measured.length[0], measured.turn, x_);
+TiltedPlace RollFilter::after(const Row& measured, double further) const {
+  const Corrected roll = corrected(measured.reading.length[0], measured.reading.turn, measured.sensed, x_);
   return arc_->at(w_ + further + roll.turn + tilt_ * roll.length);
 }
 
@@ -212,10 +216,10 @@ PoseSpread RollFilter::pose(Eigen::Vector3d* by_w) const {
   const Arm& first = centres_->first.arm;
   const Vec2 arm = rotation(facing) * (1 / (1 + centres_->radius_share * x_[2]) * first.at - x_[0] * first.per_length);
   const Vec2 on_part = spread.mean.turned(centres_->part->point(place_.s));
-  const Vec2 origin = centres_->first.centre + Vec2(x_[3], x_[4]) + arm - on_part;
+  const Vec2 origin = centres_->first.centre + Vec2(x_[4], x_[5]) + arm - on_part;
   spread.mean.x = origin.x();
   spread.mean.y = origin.y();
-  Eigen::Matrix<double, 3, 5> by_errors = Eigen::Matrix<double, 3, 5>::Zero();
+  Eigen::Matrix<double, 3, kShared> by_errors = Eigen::Matrix<double, 3, kShared>::Zero();
   by_errors.topRows<2>().col(0) = -(rotation(facing) * first.per_length);
   by_errors.topRows<2>().col(1) = turned_left(arm - on_part);
   by_errors.topRows<2>().col(2) = -centres_->radius_share * arm;
@@ -232,17 +236,25 @@ PoseSpread RollFilter::pose(Eigen::Vector3d* by_w) const {
   return spread;
 }
 
-double RollFilter::variance_of_roll(double length, const RowCovariance& own) const {
+Eigen::Matrix<double, 2, kRolling> RollFilter::by_rolling(const Corrected& roll) const {
   const double per_scale = 1 / (1 + x_[2]);
-  const Eigen::Vector3d h(-tilt_ * per_scale, -1, -tilt_ * length * per_scale);
+  Eigen::Matrix<double, 2, kRolling> by_errors;
+  by_errors << -per_scale, 0, -roll.length * per_scale, 0,  //
+      0, -1, 0, -roll.sensed;
+  return by_errors;
+}
+
+double RollFilter::variance_of_roll(const Corrected& roll, const RowCovariance& own) const {
+  const Eigen::Matrix<double, kRolling, 1> h = by_rolling(roll).transpose() * Eigen::Vector2d(tilt_, 1);
   const double variance =
       h.dot(p_.topLeftCorner<kRolling, kRolling>() * h) + tilt_ * tilt_ * own.length + 2 * tilt_ * own.both + own.turn;
   return std::max(0.0, variance);
 }
 
-double RollFilter::variance_after(const Reading& measured, const RowCovariance& own) const {
+double RollFilter::variance_after(const Row& measured, const RowCovariance& own) const {
   const double m = after(measured).slope;
-  return m * m * variance_of_roll(corrected(measured.length[0], measured.turn, x_).length, own);
+  const Corrected roll = corrected(measured.reading.length[0], measured.reading.turn, measured.sensed, x_);
+  return m * m * variance_of_roll(roll, own);
 }
 
 }  // namespace rollfix::belief

@@ -38,14 +38,19 @@ class RollFilter {
  public:
   /// `centres`: nullptr where they are not looked at.
   RollFilter(const TiltedArc& arc, double tilt, double w, const SharedCovariance& start, const CentreModel* centres);
-  /// The same again, with what the rows were found to share: rows are linearised about that offset of turn, from the
-  /// first one on.
+  /// The same again, with what the rows were found to share: rows are linearised about that offset and that scale of
+  /// turns, from the first one on.
   RollFilter again(const SharedCovariance& start) const;
 
   /// Takes a row with its centre, as three equations; see side_by_side.hpp for rows without.
   void update(const Node& node, const Outliers& outliers);
-  /// The rows were taken about nearly the offset of turn that they were found to share.
-  bool is_settled(double accuracy) const { return guess_ && std::abs(x_[1] - *guess_) <= accuracy; }
+  /// The rows were taken about nearly the offset and the scale of turns that they were found to share. `accuracy`: of
+  /// the offset, and of the scale's after a full turn.
+  bool is_settled(double accuracy) const {
+    constexpr double kFullTurn = 2 * std::numbers::pi;
+    return guess_ &&
+           std::max(std::abs(x_[1] - guess_->offset), kFullTurn * std::abs(x_[3] - guess_->scale)) <= accuracy;
+  }
 
   const TiltedArc* arc() const { return arc_; }
   double w() const { return w_; }
@@ -74,7 +79,7 @@ class RollFilter {
   const SharedCovariance& covariance() const { return p_; }
 
   /// Where the contact is after a roll that is measured as this, of a first contact so little further on.
-  TiltedPlace after(const Reading& measured, double further = 0) const;
+  TiltedPlace after(const Row& measured, double further = 0) const;
   /// The same at a first contact that looks like this one.
   RollFilter moved(const TiltedArc& arc, const Shift& shift) const;
   /// Where the part is, as far as the rows tell it for this first contact, and how that changes with w. REQUIRES that
@@ -82,30 +87,40 @@ class RollFilter {
   PoseSpread pose(Eigen::Vector3d* by_w = nullptr) const;
   bool has_place() const { return centres_ != nullptr && centres_->has_place; }
   /// The variance of that place from the shared errors and the row's own.
-  double variance_after(const Reading& measured, const RowCovariance& own) const;
+  double variance_after(const Row& measured, const RowCovariance& own) const;
 
  private:
+  template <int kErrors>
   friend class SideBySide;
   struct Corrected {
     double length;
     double turn;
+    double sensed;
+  };
+  /// What turns are linearised about.
+  struct OfTurns {
+    double offset;
+    double scale;
   };
   struct Equations;
   Equations equations_at(double w, const Corrected& roll, double w_variance, const Node& node) const;
   void add_centre(const SpreadPlace& end, double w, const Corrected& roll, const Node& node, Equations& rows) const;
   void absorb(const Node& node, const Outliers& outliers);
-  /// What the shared errors are when a row is looked at: the guess of the turn's, else as they are estimated so far.
+  /// What the shared errors are when a row is looked at: the guess of the turns', else as they are estimated so far.
   Shared about() const {
     Shared errors = x_;
-    if (guess_) errors[1] = *guess_;
+    if (guess_) errors[1] = guess_->offset;
+    if (guess_) errors[3] = guess_->scale;
     return errors;
   }
-  Corrected corrected(double length, double turn, const Shared& errors) const {
-    return {(length - errors[0]) / (1 + errors[2]), turn - errors[1]};
+  Corrected corrected(double length, double turn, double sensed, const Shared& errors) const {
+    return {(length - errors[0]) / (1 + errors[2]), turn - errors[1] - errors[3] * sensed, sensed};
   }
 
+  /// What length and turn are, by the errors that the roll shares.
+  Eigen::Matrix<double, 2, kRolling> by_rolling(const Corrected& roll) const;
   /// The variance of theta + c L, from the shared errors and a row's own.
-  double variance_of_roll(double length, const RowCovariance& own) const;
+  double variance_of_roll(const Corrected& roll, const RowCovariance& own) const;
 
   const TiltedArc* arc_;
   const CentreModel* centres_;
@@ -113,6 +128,7 @@ class RollFilter {
   double w_;
   TiltedPlace place_;
   double most_scale_;
+  double most_gyroscope_scale_;
   Shared x_ = Shared::Zero();
   SharedCovariance p_;
   Eigen::Matrix2d walk_ = Eigen::Matrix2d::Zero();  // of the first two, from what has gathered alone
@@ -127,7 +143,7 @@ class RollFilter {
   std::array<Whiteness, 3> whiteness_;
   double right_rows_ = 0;
   double right_cost_ = 0;
-  std::optional<double> guess_;  // of the offset of turn
+  std::optional<OfTurns> guess_;
 };
 
 }  // namespace rollfix::belief

@@ -19,7 +19,9 @@ using Four = Eigen::Array<double, kLanes, 1>;
 
 }  // namespace
 
-/// Filters that take a row each, as one equation; see RollFilter::update.
+/// Filters that take a row each, as one equation; see RollFilter::update. Of the errors that a roll shares they know
+/// the first so many.
+template <int kErrors>
 class SideBySide {
  public:
   SideBySide(const NextErrand& next, const double& limit, const Outliers& outliers)
@@ -42,15 +44,39 @@ class SideBySide {
   }
 
  private:
+  using PerError = std::array<Four, kErrors>;
+  static PerError all(double value) {
+    PerError each;
+    each.fill(Four::Constant(value));
+    return each;
+  }
+  static std::array<PerError, kErrors> none() {
+    std::array<PerError, kErrors> each;
+    each.fill(all(0));
+    return each;
+  }
+  /// Of the covariance, which is symmetric.
+  const Four& p(std::size_t k, std::size_t j) const { return k < j ? p_[k][j] : p_[j][k]; }
+
   /// Of the rows that are taken at once.
   struct Rows {
-    Four length, turn, spread;
+    Four length, turn, sensed, spread;
     Four own_length, own_both, own_turn;
     Four averaged_length, averaged_turn;  // of what gathers among the joined rows
   };
   /// What gathers after the rows' mean.
   struct Later {
     Four length = Four::Zero(), turn = length;
+  };
+  /// Lengths and turns as they are without what the roll shares.
+  struct Rolled {
+    Four per_scale, length, sensed;
+    PerError with_length, with_turn;  // covariances with the shared errors
+    Four by_turns(const PerError& errors) const {
+      if constexpr (kErrors > 3) return errors[1] + sensed * errors[3];
+      return errors[1];
+    }
+    Four by_lengths(const PerError& errors) const { return per_scale * (errors[0] + length * errors[2]); }
   };
   /// Where the contacts are, the equations' lines there, and their variances.
   struct Lines {
@@ -80,16 +106,12 @@ class SideBySide {
   /// Every number of a filter, next to where the lanes have it.
   template <class Copy>
   void exchange(RollFilter& filter, const Copy& copy) {
-    for (std::size_t k = 0; k < kRolling; ++k) {
-      copy(x_[k], filter.x_[static_cast<int>(k)]);
-      copy(dx_[k], filter.dx_[static_cast<int>(k)]);
+    for (std::size_t k = 0; k < kErrors; ++k) {
+      const auto row = static_cast<Eigen::Index>(k);
+      copy(x_[k], filter.x_[row]);
+      copy(dx_[k], filter.dx_[row]);
+      for (std::size_t j = k; j < kErrors; ++j) copy(p_[k][j], filter.p_(row, static_cast<Eigen::Index>(j)));
     }
-    copy(p00_, filter.p_(0, 0));
-    copy(p01_, filter.p_(0, 1));
-    copy(p02_, filter.p_(0, 2));
-    copy(p11_, filter.p_(1, 1));
-    copy(p12_, filter.p_(1, 2));
-    copy(p22_, filter.p_(2, 2));
     copy(walk00_, filter.walk_(0, 0));
     copy(walk01_, filter.walk_(0, 1));
     copy(walk11_, filter.walk_(1, 1));
@@ -108,26 +130,27 @@ class SideBySide {
     w_[at(lane)] = filter.w_;
     first_s_[at(lane)] = filter.place_.s;
     first_slope_[at(lane)] = filter.place_.slope;
-    most_scale_[at(lane)] = filter.most_scale_;
-    guess_[at(lane)] = filter.guess_.value_or(0);
+    most_[2][at(lane)] = filter.most_scale_;
+    if constexpr (kErrors > 3) most_[3][at(lane)] = filter.most_gyroscope_scale_;
+    const RollFilter::OfTurns guess = filter.guess_.value_or(RollFilter::OfTurns{0, 0});
+    guess_[at(lane)] = guess.offset;
+    guess_of_scale_[at(lane)] = guess.scale;
     follows_[at(lane)] = filter.guess_ ? 0 : 1;
   }
   void save(std::size_t lane) {
     RollFilter& filter = *errands_[lane].filter;
     exchange(filter, [&](const Four& all, double& one) { one = all[at(lane)]; });
-    filter.p_(1, 0) = filter.p_(0, 1);
-    filter.p_(2, 0) = filter.p_(0, 2);
-    filter.p_(2, 1) = filter.p_(1, 2);
+    filter.p_.template triangularView<Eigen::StrictlyLower>() = filter.p_.transpose();
     filter.walk_(1, 0) = filter.walk_(0, 1);
   }
 
   Rows next_rows();
+  Rolled rolled(const Rows& rows) const;
   void gather(const Four& length, const Four& turn);
   void look(std::size_t lane, double w, double variance, double spread, Lines& lines) const;
   void take_nodes();
   Four trust(const Lines& lines);
-  void correct(const Lines& lines, const Four& per_scale, const Four& length,
-               const std::array<Four, kRolling>& with_length);
+  void correct(const Lines& lines, const Rolled& rolled);
 
   const NextErrand& next_;
   const double& limit_;
@@ -136,18 +159,19 @@ class SideBySide {
   std::size_t busy_ = 0;
   double tilt_ = 0;
   // Lanes without an errand go on with these: they only have to stay finite.
-  std::array<Four, kRolling> x_{Four::Zero(), Four::Zero(), Four::Zero()};
-  std::array<Four, kRolling> dx_ = x_;
-  Four p00_ = Four::Zero(), p01_ = p00_, p02_ = p00_, p11_ = p00_, p12_ = p00_, p22_ = p00_;
-  Four walk00_ = p00_, walk01_ = p00_, walk11_ = p00_;
+  PerError x_ = all(0), dx_ = x_, most_ = all(1);
+  std::array<PerError, kErrors> p_ = none();  // its upper half
+  Four walk00_ = Four::Zero(), walk01_ = walk00_, walk11_ = walk00_;
   Later later_;
-  Four cost_ = p00_, log_volume_ = p00_, volume_ = Four::Ones(), log_gathered_ = p00_, gathered_ = Four::Ones(),
-       slope_ = p00_, information_ = p00_;
-  Four w_ = p00_, first_s_ = p00_, first_slope_ = p00_, most_scale_ = Four::Ones(), guess_ = p00_, follows_ = p00_;
+  Four cost_ = walk00_, log_volume_ = walk00_, volume_ = Four::Ones(), log_gathered_ = walk00_,
+       gathered_ = Four::Ones(), slope_ = walk00_, information_ = walk00_;
+  Four w_ = walk00_, first_s_ = walk00_, first_slope_ = walk00_, guess_ = walk00_, guess_of_scale_ = walk00_,
+       follows_ = walk00_;
 };
 
-SideBySide::Rows SideBySide::next_rows() {
-  static const Node kNone{0, 0, 0, {1, 0, 1}, {}, 1, 1};
+template <int kErrors>
+typename SideBySide<kErrors>::Rows SideBySide<kErrors>::next_rows() {
+  static const Node kNone{0, 0, 0, 0, {1, 0, 1}, {}, 1, 1};
   std::array<const Node*, kLanes> nodes;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     nodes[lane] = errands_[lane].filter != nullptr ? errands_[lane].next : &kNone;
@@ -163,6 +187,7 @@ SideBySide::Rows SideBySide::next_rows() {
   later_ = {(1 - in_mean) * length, (1 - in_mean) * turn};
   return {each([](const Node& node) { return node.length; }),
           each([](const Node& node) { return node.turn; }),
+          each([](const Node& node) { return node.sensed; }),
           each([](const Node& node) { return node.spread; }),
           each([](const Node& node) { return node.own.length; }),
           each([](const Node& node) { return node.own.both; }),
@@ -171,14 +196,16 @@ SideBySide::Rows SideBySide::next_rows() {
           averaged * turn};
 }
 
-void SideBySide::gather(const Four& length, const Four& turn) {
-  p00_ += length;
-  p11_ += turn;
+template <int kErrors>
+void SideBySide<kErrors>::gather(const Four& length, const Four& turn) {
+  p_[0][0] += length;
+  p_[1][1] += turn;
   walk00_ += length;
   walk11_ += turn;
 }
 
-void SideBySide::look(std::size_t lane, double w, double variance, double spread, Lines& lines) const {
+template <int kErrors>
+void SideBySide<kErrors>::look(std::size_t lane, double w, double variance, double spread, Lines& lines) const {
   if (errands_[lane].filter == nullptr) return;
   const SpreadPlace end = errands_[lane].filter->arc()->about(w, variance, spread);
   lines.s[at(lane)] = end.s;
@@ -186,35 +213,50 @@ void SideBySide::look(std::size_t lane, double w, double variance, double spread
   lines.bent[at(lane)] = end.variance;
 }
 
-// The true L and theta lead from one place to another: e = s(w + theta + c L) - s(w) - L = 0, with ds/dw = m. By the
-// shared errors that is (1 - c m) g less m times the turn's, g = (1, 0, L) / (1 + scale): what g makes of their
-// covariance does for any m.
-void SideBySide::take_nodes() {
-  const Rows rows = next_rows();
+template <int kErrors>
+typename SideBySide<kErrors>::Rolled SideBySide<kErrors>::rolled(const Rows& rows) const {
   const Four per_scale = 1 / (1 + x_[2]);
-  const Four length = (rows.length - x_[0]) * per_scale;
-  const Four turn_off = (1 - follows_) * (x_[1] - guess_);  // of the turn that is taken, from the likeliest
-  const Four measured = w_ + (rows.turn - (x_[1] - turn_off)) + tilt_ * length;
-  const std::array<Four, kRolling> with_length = {
-      per_scale * (p00_ + length * p02_), per_scale * (p01_ + length * p12_), per_scale * (p02_ + length * p22_)};
-  const Four length_variance = per_scale * (with_length[0] + length * with_length[2]);
+  Rolled rolled{per_scale, (rows.length - x_[0]) * per_scale, rows.sensed, {}, {}};
+  for (std::size_t k = 0; k < kErrors; ++k) {
+    rolled.with_length[k] = per_scale * (p(0, k) + rolled.length * p(2, k));
+    rolled.with_turn[k] = p(1, k);
+    if constexpr (kErrors > 3) rolled.with_turn[k] += rows.sensed * p(3, k);
+  }
+  return rolled;
+}
+
+// The true L and theta lead from one place to another: e = s(w + theta + c L) - s(w) - L = 0, with ds/dw = m. By the
+// shared errors that is (1 - c m) g less m h, g = (1, 0, L, 0) / (1 + scale) and h = (0, 1, 0, what was sensed): what g
+// and h make of their covariance does for any m.
+template <int kErrors>
+void SideBySide<kErrors>::take_nodes() {
+  const Rows rows = next_rows();
+  const Rolled roll = rolled(rows);
+  const Four& length = roll.length;
+  // Of the turn that is taken, from the likeliest.
+  Four turn_off = (1 - follows_) * (x_[1] - guess_);
+  if constexpr (kErrors > 3) turn_off += (1 - follows_) * rows.sensed * (x_[3] - guess_of_scale_);
+  const Four measured = w_ + (rows.turn - (roll.by_turns(x_) - turn_off)) + tilt_ * length;
+  const Four length_variance = roll.by_lengths(roll.with_length);
+  const Four both = roll.by_turns(roll.with_length);
+  const Four turn_variance = roll.by_turns(roll.with_turn);
   // Of the contact's place in w with the length and with the turn.
-  const Four by_length = tilt_ * (length_variance + rows.own_length) + with_length[1] + rows.own_both;
-  const Four by_turn = tilt_ * (with_length[1] + rows.own_both) + p11_ + rows.own_turn;
+  const Four by_length = tilt_ * (length_variance + rows.own_length) + both + rows.own_both;
+  const Four by_turn = tilt_ * (both + rows.own_both) + turn_variance + rows.own_turn;
   const Four variance = (tilt_ * by_length + by_turn).max(0.0);
 
   Lines lines;
   const auto draw = [&](const Four& beyond) {
     const Four& m = lines.slope;
     lines.rest = 1 - tilt_ * m;
-    const Four by_offset = lines.rest * per_scale;
+    const Four by_offset = lines.rest * roll.per_scale;
     lines.own =
         lines.rest * (lines.rest * rows.own_length - 2 * m * rows.own_both) + m * m * rows.own_turn + lines.bent;
     const Four alone = lines.own - by_offset * by_offset * rows.averaged_length - m * m * rows.averaged_turn;
     lines.of_length = by_offset * walk00_ - m * walk01_;
     lines.of_turn = by_offset * walk01_ - m * walk11_;
     lines.noise = alone + by_offset * lines.of_length - m * lines.of_turn;
-    lines.all = alone + lines.rest * (lines.rest * length_variance - 2 * m * with_length[1]) + m * m * p11_;
+    lines.all = alone + lines.rest * (lines.rest * length_variance - 2 * m * both) + m * m * turn_variance;
     lines.miss = lines.s + m * (beyond - turn_off) - first_s_ - length;
   };
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
@@ -237,11 +279,12 @@ void SideBySide::take_nodes() {
     }
     draw(shift);
   }
-  correct(lines, per_scale, length, with_length);
+  correct(lines, roll);
 }
 
 /// How much each row counts, over its variance.
-Four SideBySide::trust(const Lines& lines) {
+template <int kErrors>
+Four SideBySide<kErrors>::trust(const Lines& lines) {
   const Four inverse = 1 / lines.all;
   const Four squared = lines.miss * lines.miss * inverse;
   Four trust = inverse;
@@ -274,31 +317,27 @@ Four SideBySide::trust(const Lines& lines) {
   return trust;
 }
 
-void SideBySide::correct(const Lines& lines, const Four& per_scale, const Four& length,
-                         const std::array<Four, kRolling>& with_length) {
+template <int kErrors>
+void SideBySide<kErrors>::correct(const Lines& lines, const Rolled& rolled) {
   const Four trusted = trust(lines);
   const Four innovation = -trusted.sqrt() * lines.miss;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     if (errands_[lane].filter != nullptr) errands_[lane].filter->whiteness_[0].add(innovation[at(lane)]);
   }
   const Four by_w =
-      first_slope_ - lines.slope - lines.rest * per_scale * (dx_[0] + length * dx_[2]) + lines.slope * dx_[1];
+      first_slope_ - lines.slope - lines.rest * rolled.by_lengths(dx_) + lines.slope * rolled.by_turns(dx_);
   slope_ -= trusted * lines.miss * by_w;
   information_ += trusted * by_w * by_w;
-  const std::array<Four, kRolling> of_errors = {lines.rest * with_length[0] - lines.slope * p01_,
-                                                lines.rest * with_length[1] - lines.slope * p11_,
-                                                lines.rest * with_length[2] - lines.slope * p12_};
-  for (std::size_t k = 0; k < kRolling; ++k) {
+  PerError of_errors;
+  for (std::size_t k = 0; k < kErrors; ++k) {
+    of_errors[k] = lines.rest * rolled.with_length[k] - lines.slope * rolled.with_turn[k];
     const Four gain = trusted * of_errors[k];
     x_[k] -= lines.miss * gain;
     dx_[k] += by_w * gain;
   }
-  p00_ -= trusted * of_errors[0] * of_errors[0];
-  p01_ -= trusted * of_errors[0] * of_errors[1];
-  p02_ -= trusted * of_errors[0] * of_errors[2];
-  p11_ -= trusted * of_errors[1] * of_errors[1];
-  p12_ -= trusted * of_errors[1] * of_errors[2];
-  p22_ -= trusted * of_errors[2] * of_errors[2];
+  for (std::size_t k = 0; k < kErrors; ++k) {
+    for (std::size_t j = k; j < kErrors; ++j) p_[k][j] -= trusted * of_errors[k] * of_errors[j];
+  }
   const Four seen = trusted * lines.all / lines.noise;
   walk00_ -= seen * lines.of_length * lines.of_length;
   walk01_ -= seen * lines.of_length * lines.of_turn;
@@ -306,14 +345,17 @@ void SideBySide::correct(const Lines& lines, const Four& per_scale, const Four& 
   gather(later_.length, later_.turn);
   // A place that does not fit asks for lengths that no slip explains: it is refused by its cost, not followed.
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    if (!(std::abs(x_[2][at(lane)]) > most_scale_[at(lane)])) continue;
-    x_[2][at(lane)] = std::copysign(most_scale_[at(lane)], x_[2][at(lane)]);
-    dx_[2][at(lane)] = 0;
+    for (std::size_t k = 2; k < kErrors; ++k) {
+      if (!(std::abs(x_[k][at(lane)]) > most_[k][at(lane)])) continue;
+      x_[k][at(lane)] = std::copysign(most_[k][at(lane)], x_[k][at(lane)]);
+      dx_[k][at(lane)] = 0;
+    }
   }
 }
 
-void run_errands(const NextErrand& next, bool with_centres, const double& limit, const Outliers& outliers) {
-  if (!with_centres) return SideBySide(next, limit, outliers).run();
+void run_errands(const NextErrand& next, const RowEquations& equations, const double& limit, const Outliers& outliers) {
+  if (!equations.centres && equations.gyroscope_scale) return SideBySide<kRolling>(next, limit, outliers).run();
+  if (!equations.centres) return SideBySide<kWithoutGyroscope>(next, limit, outliers).run();
   for (Errand errand; next(errand);) {
     const auto goes_on = [&] { return errand.whole || !errand.filter->is_beyond(limit); };
     for (; errand.next != errand.end && goes_on(); ++errand.next) errand.filter->update(*errand.next, outliers);

@@ -212,7 +212,7 @@ class LogSum {
 class PairPass {
  public:
   PairPass(const PairModel& model, const StartPlaces& at, const PairShared& guess)
-      : model_(model), at_(at), guess_(guess), unit_(1 / model.errors->turn_variance()) {
+      : model_(model), at_(at), guess_(guess) {
     score_.covariance = model.errors->start();
     for (const Eigen::Index i : {2, 3}) most_[i] = most_scale(score_.covariance(i, i));
     for (std::size_t k = 0; model.kept != nullptr && k < 3; ++k) {
@@ -223,7 +223,9 @@ class PairPass {
 
   void take(const PairNode& node) {
     if (model_.errors->drifts()) {
-      score_.covariance.diagonal() += model_.errors->gathered(node.gathered, node.travelled);
+      const PairShared gathered = model_.errors->gathered(node.gathered, node.travelled);
+      score_.covariance.diagonal() += gathered;
+      walk_.diagonal() += gathered;
     }
     if (node.centres && model_.path != nullptr) {
       absorb<3>(node);
@@ -234,6 +236,7 @@ class PairPass {
 
   PairScore score() {
     score_.log_volume += volume_.value();
+    score_.log_gathered = gathered_.value();
     const PairSharedCovariance& start = model_.errors->start();
     for (Eigen::Index i = 0; i < 5; ++i) {
       if (start(i, i) > 0) score_.direct_cost += guess_[i] * guess_[i] / start(i, i);
@@ -254,6 +257,9 @@ class PairPass {
     const Eigen::Matrix<double, N, 2> by_start = -(rows.by_start + rows.by_errors * score_.errors_by_start);
     const double squared = innovation.dot(inverse * innovation);
     const double density = inverse.determinant();
+    // As of one finger only what the rows share has a volume, see RollFilter::absorb.
+    const Eigen::Matrix<double, 5, N> of_walk = walk_ * rows.by_errors.transpose();
+    const Eigen::Matrix<double, N, N> noise = own + rows.by_errors * of_walk;
     double weight = 1;
     if (model_.outlier_share > 0) {
       const double range = N == 1 ? kTwoPi : kTwoPi * kTwoPi * model_.perimeter();
@@ -262,14 +268,13 @@ class PairPass {
           mixture_of(model_.outlier_share, model_.outlier_share / range, peak_of(density) / flat, squared);
       weight = mixture.weight;
       score_.cost += mixture.cost;
-      const double usual = peak_of(N == 1 ? unit_ : unit_ / (own(1, 1) * own(2, 2))) / flat;
+      const double usual = peak_of(1 / noise.determinant()) / flat;
       score_.log_volume -= 2 * std::log(mixture.density / usual);
       score_.right_rows += N * weight;
       score_.right_cost += weight * squared;
     } else {
       score_.cost += squared;
-      // With the centres' own variances left out, which are about the same everywhere.
-      volume_.add(N == 1 ? unit_ / density : unit_ / (density * own(1, 1) * own(2, 2)));
+      volume_.add(1 / (density * noise.determinant()));
     }
     add_innovation<N>(inverse, std::sqrt(weight) * innovation, score_.whiteness);
     score_.cost += rows.beyond;
@@ -287,15 +292,19 @@ class PairPass {
         score_.errors_by_start.row(i).setZero();
       }
     }
+    if (!model_.errors->drifts()) return;
+    walk_ -= weight * of_walk * noise.inverse() * of_walk.transpose();
+    gathered_.add(noise.determinant() / own.determinant());
   }
 
   const PairModel& model_;
   const StartPlaces& at_;
   const PairShared& guess_;
-  double unit_;
   PairScore score_;
+  PairSharedCovariance walk_ = PairSharedCovariance::Zero();  // of the errors, from what has gathered alone
   PairShared most_ = PairShared::Zero();
   LogSum volume_;
+  LogSum gathered_;
 };
 
 PairScore pass(const PairModel& model, const StartPlaces& at, const std::vector<PairNode>& nodes,

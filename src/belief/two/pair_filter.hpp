@@ -68,6 +68,7 @@ struct PairScore {
   double direct_cost = 0;  // with the errors about which it was linearised: more than the cost, unless that served
                            // badly
   double log_volume = 0;
+  double log_gathered = 0;  // see RollFilter
   std::array<Whiteness, 3> whiteness;
   double right_rows = 0;                                  // robust: that are not stray, ...
   double right_cost = 0;                                  // ... and their part of the cost

@@ -51,8 +51,9 @@ class TwoFingersPosterior : public Posterior {
         boundary_{boundary(0), boundary(1)},
         range_(part_.turning(), kRangeCells) {
     if (options.noise.position > 0) path_.emplace(part_);
-    if (options.noise.drift == 0 && options.noise.walk == 0) return;
-    throw InputError("noise: drift and walk are a gyroscope's beside one finger, found two fingers: leave them out");
+    if (options.noise.drift == 0 && options.noise.walk == 0 && options.noise.gyro == 0) return;
+    throw InputError(
+        "noise: drift, walk and gyro are a gyroscope's beside one finger, found two fingers: leave them out");
   }
 
   void add(const Sample& sample) override {
@@ -80,7 +81,8 @@ class TwoFingersPosterior : public Posterior {
     PairModes modes = modes_of(density, question.model, rows_.empty() ? Reading(0, 0, 0) : rows_.back());
     outcome.modes = std::move(modes.modes);
     pieces_ = std::move(modes.pieces);
-    outcome.evidence = {found.peaks.front().score.log_likelihood(), std::log(density.total)};
+    const PairScore& best = found.peaks.front().score;
+    outcome.evidence = {best.log_likelihood(), std::log(density.total), -0.5 * best.log_gathered};
     outcome.unresolved = density.rest + found.missed;
     return outcome;
   }
@@ -250,11 +252,15 @@ Peaks TwoFingersPosterior::peaks_of(const Question& question) const {
     Fit of_best = options_.robust ? fit_of(best.right_cost, best.right_rows, best.whiteness)
                                   : fit_of(best.cost, freedom, best.whiteness);
     add_trend(trend, step_between(question.nodes), of_best);
+    of_best.widened *= errors.for_large_slip();
     of_best.stray = options_.robust ? freedom - best.right_rows : 0;
     if (options_.prior) {
       const double s = peak.start.arc[0]->at(peak.start.w[0]).s;
       of_best.prior_sigmas = std::abs(part_.boundary().offset(options_.prior->s, s)) / options_.prior->sd;
     }
+    double gathered = 0;
+    for (const PairNode& node : question.nodes) gathered += errors.gathered(node.gathered, node.travelled)[4];
+    of_best.turn_gathered = std::sqrt(gathered);
     of_best.length_scale = {1 / (1 + best.errors[2]), 1 / (1 + best.errors[3])};
     // With that of the places: another start asks for another scale.
     const Eigen::Matrix2d whole = Eigen::Matrix2d::Identity() / square(part_.perimeter());  // nothing is known less

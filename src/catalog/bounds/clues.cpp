@@ -63,7 +63,7 @@ std::vector<RowErrors> errors_of(const Problem& problem, const std::vector<Readi
   options.noise = *problem.noise;
   options.bare = !problem.felt.is_log();
   const LogKind kind = kind_of(problem);
-  const belief::SensorErrors sensor(options, kind, perimeter, belief::slip_here_and_there(options.noise));
+  const belief::SensorErrors sensor(options, kind, perimeter);
   const std::size_t fingers = rows.front().fingers();
   std::vector<RowErrors> errors;
   double slipped = 0;
@@ -94,7 +94,7 @@ std::vector<RowErrors> errors_of(const Problem& problem, const std::vector<Readi
     }
     row.shared = row.own;
     row.length += slipped;
-    row.gathered = drifted;
+    row.gathered = drifted + square(sensor.noise.gyro * rows[k].turn);
     errors.push_back(row);
     before = rows[k];
     time = now;

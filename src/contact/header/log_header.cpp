@@ -200,6 +200,7 @@ void HeaderReader::set(Columns& columns, Column column, std::size_t k) const {
                                  before == names_[k].text ? "" : fmt::format(" ('{}')", shown(before)), k + 1));
   }
   cell = k;
+  columns.source[static_cast<std::size_t>(column)] = {columns.called(column), std::string(names_[k].name)};
   if (column == Column::contact) columns.contact_is_shared = names_[k].name == name_of(Column::contact);
 }
 
@@ -224,6 +225,7 @@ void HeaderReader::set_unit(Columns& columns, Column column, const HeaderName& h
   if (!unit || !takes(column, unit->dimension)) {
     throw InputError(fmt::format("{} is in '{}', expected {}", what, shown(written), what_it_takes(column)));
   }
+  columns.source[static_cast<std::size_t>(column)].unit = written;
   if (column == Column::u) columns.u_dimension = unit->dimension;
   Conversion& to = columns.conversion[static_cast<std::size_t>(column)];
   if (unit->dimension != Dimension::length) {

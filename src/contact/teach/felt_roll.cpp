@@ -88,7 +88,8 @@ double FeltRoll::drift_variance() const {
   const auto rows = static_cast<double>(readings_.size());
   const double seconds = log_.time.empty() ? 0 : log_.time.back() - log_.time.front();
   const double gathered = log_.kind == LogKind::increments ? rows * errors().sd * errors().sd : 0;
-  return gathered + rollfix::drift_variance(noise_, log_.kind, 1, {0, seconds});
+  const double by_scale = noise_.gyro * readings_.back().turn;
+  return gathered + by_scale * by_scale + rollfix::drift_variance(noise_, log_.kind, 1, {0, seconds});
 }
 
 double FeltRoll::drift_share(double rolled, double lap) const {

@@ -119,8 +119,11 @@ Json fit_json(const Fit& fit) {
           {"widened", json_number(fit.widened)},
           {"too_good", fit.is_too_good()},
           {"alike_over", fit.alike_over > 0 ? json_number(fit.alike_over) : Json(nullptr)},
+          {"turn_gathered", json_number(fit.turn_gathered)},
           {"length_scale", json_numbers(fit.length_scale)},
-          {"length_scale_sd", json_numbers(fit.length_scale_sd)}};
+          {"length_scale_sd", json_numbers(fit.length_scale_sd)},
+          {"turn_scale", json_number(fit.turn_scale)},
+          {"turn_scale_sd", json_number(fit.turn_scale_sd)}};
 }
 
 void add_weighing(const Weighing& weighing, Json& document) {
@@ -139,6 +142,8 @@ Json diagnosis_json(const Diagnosis& diagnosis) {
           {"what", about(diagnosis)},
           {"length_scale", json_number(diagnosis.length_scale)},
           {"length_scale_sd", json_number(diagnosis.length_scale_sd)},
+          {"turn_scale", json_number(diagnosis.turn_scale)},
+          {"turn_scale_sd", json_number(diagnosis.turn_scale_sd)},
           {"noise_scale", json_number(diagnosis.noise_scale)},
           {"excess", json_number(diagnosis.excess)},
           {"log_odds", json_number(diagnosis.log_odds)}};

@@ -18,7 +18,7 @@ struct CauseText {
 };
 
 // What is wrong, and what to give instead; where numbers belong in them they are put together below.
-constexpr std::array<CauseText, 17> kCauses = {{
+constexpr std::array<CauseText, 20> kCauses = {{
     {Cause::none, "none", "", ""},
     {Cause::unsaid_noise, "unsaid_noise", "the rows jitter by more than their digits say, and were taken as exact", ""},
     {Cause::noise, "noise", "", ""},
@@ -36,6 +36,9 @@ constexpr std::array<CauseText, 17> kCauses = {{
     {Cause::u_clockwise, "u_clockwise", "u is counted clockwise", "counter-clockwise angles: change the sign of u"},
     {Cause::psi_clockwise, "psi_clockwise", "psi is counted clockwise",
      "counter-clockwise angles: change the sign of psi"},
+    {Cause::u_psi_swapped, "u_psi_swapped", "u and psi are exchanged", "--columns u=psi,psi=u"},
+    {Cause::fingers_swapped, "fingers_swapped", "the two fingers are exchanged: their logs, or their radii", ""},
+    {Cause::gyroscope, "gyroscope", "", ""},
     {Cause::both_clockwise, "both_clockwise", "the part lies face down, or all angles are counted clockwise",
      "--mirror, or change the signs of the angles"},
     {Cause::length_backwards, "length_backwards", "lengths are counted against the outline's direction",
@@ -104,6 +107,14 @@ std::string noise_option(const Noise& noise, double scale) {
   return fmt::format("--noise {}", fmt::join(fields, ","));
 }
 
+std::string columns_option(const std::vector<ColumnSource>& columns) {
+  std::vector<std::string> fields;
+  for (const ColumnSource& source : columns) {
+    fields.push_back(fmt::format("{}={}{}{}", source.column, source.name, source.unit.empty() ? "" : ":", source.unit));
+  }
+  return fmt::format("--columns {}", fmt::join(fields, ","));
+}
+
 }  // namespace
 
 const char* name_of(Cause cause) { return text_of(cause).name; }
@@ -121,6 +132,9 @@ std::string about(const Diagnosis& diagnosis) {
       }
       return scale + (known.empty() ? ": a wrong radius of the finger, or a wrong unit" : ": " + known);
     }
+    case Cause::gyroscope:
+      return fmt::format("all turns are {:.4f} +- {:.2g} times what was measured: a gyroscope's scale",
+                         diagnosis.turn_scale, diagnosis.turn_scale_sd);
     case Cause::stray:
       return fmt::format("{} {} stray", counted(diagnosis.stray, "row", "rows"), diagnosis.stray == 1 ? "is" : "are");
     default:
@@ -132,6 +146,13 @@ std::string cure_of(const Diagnosis& diagnosis, const std::vector<Finger>& finge
   if (diagnosis.cause == Cause::unsaid_noise)
     return noise_option(diagnosis.noise, 1) + ", and slip= and radius= as far as they are not exact";
   if (diagnosis.cause == Cause::slip) return fmt::format("--noise slip={:.2g}, besides what is given", diagnosis.slip);
+  if (diagnosis.cause == Cause::gyroscope)
+    return fmt::format("--noise gyro={:.2g}, besides what is given", diagnosis.gyro);
+  if (!diagnosis.columns.empty()) return columns_option(diagnosis.columns);
+  if (diagnosis.cause == Cause::fingers_swapped) {
+    if (fingers.size() != 2) return "give both in the other order";
+    return fmt::format("--finger {} --finger {}", fingers[1].name(), fingers[0].name());
+  }
   if (diagnosis.cause == Cause::noise) return noise_option(noise, diagnosis.noise_scale);
   if (diagnosis.cause == Cause::radius) {
     const bool of_disks = !fingers.empty() && std::all_of(fingers.begin(), fingers.end(),

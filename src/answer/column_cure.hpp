@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+#include "rollfix/belief/belief.hpp"
+#include "rollfix/contact/log.hpp"
+
+namespace rollfix {
+
+/// How the log's columns are to be read where that is the mistake: those that change, and those that are not found by
+/// their own names. None where no column changes, or no header is known.
+std::vector<ColumnSource> columns_without(Cause cause, const Log& log);
+
+}  // namespace rollfix
