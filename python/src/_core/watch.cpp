@@ -62,6 +62,13 @@ class Watch {
   app::Watcher watcher_;
 };
 
+}  // namespace
+
+template <>
+inline constexpr bool kIsPythonClass<Watch> = true;
+
+namespace {
+
 std::unique_ptr<Watch> watch(const PartHandle& part, const py::iterable& fingers, const py::dict& noise,
                              const std::optional<std::pair<double, double>>& prior,
                              const std::optional<std::vector<double>>& pose, bool robust, std::size_t every,
