@@ -10,6 +10,7 @@ import numpy as np
 from . import _core
 from ._checks import (
     array,
+    by_name,
     corner_angle as corner_angle_given,
     finite,
     flag,
@@ -61,7 +62,7 @@ def of_points(
     corner_angle: Optional[float],
     allow_crossing: bool,
 ) -> _core.Part:
-    points = array(xy, "xy")
+    points = array(by_name(xy, "xy", ("x", "y"), ("X", "Y")), "xy")
     if points.ndim != 2 or points.shape[1] != 2:
         raise InputError(f"xy: expected points, an array of shape (n, 2), found shape {np.shape(xy)}")
     options: Dict[str, Any] = {

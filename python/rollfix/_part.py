@@ -123,7 +123,7 @@ class Part(Shape):
         Parameters
         ----------
         xy : array_like, (n, 2)
-            In order along the boundary; a closed one's first point need not come again. At least 3, of an open one 2.
+            Or a table with columns x and y. In order along the boundary; a closed one's first point need not come again. At least 3, of an open one 2.
         closed : bool
             False: a curve with two ends.
         name, unit, smooth, corner_angle, allow_crossing
@@ -384,7 +384,7 @@ class Part(Shape):
         Parameters
         ----------
         readings : array_like, (n, 2) or (n, 3): a problem of one reading in each row; (n, m, 2) or (n, m, 3): of m each
-            As of `locate`.
+            As of `locate`. Or a table with columns length and turn, of two fingers length_a, length_b and turn.
         finger, noise, tolerance, mirrored, direction, rounding, budget
             As of `locate`, for all problems.
         facing : float or array_like, (n,), optional
