@@ -79,8 +79,8 @@ template <class A>
 void visit(A& a, std::string& value) {
   a.text(value);
 }
-template <class A, int Rows, int Columns>
-void visit(A& a, Eigen::Matrix<double, Rows, Columns>& matrix) {
+template <class A, int Rows, int Columns, int Options>
+void visit(A& a, Eigen::Matrix<double, Rows, Columns, Options>& matrix) {
   for (Eigen::Index k = 0; k < matrix.size(); ++k) a.raw(matrix.data()[k]);
 }
 

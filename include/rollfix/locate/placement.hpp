@@ -101,7 +101,7 @@ struct Placement {
   double probability = std::numeric_limits<double>::quiet_NaN();  // of the first contacts being in here; NaN: no noise
   PerFinger<double> mean;                                         // of them, given that they are in here; in [0, P)
   PerFinger<double> sd;                                           // length
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();           // of two fingers, length^2
+  Mat2 covariance = Mat2::Zero();                                 // of two fingers, length^2
   PerFinger<Interval> interval;  // holds 95 % of this placement's probability; lo in [0, P), hi may exceed P
   PerFinger<double> end_mean;    // of where the contacts are now, in [0, P)
   PerFinger<double> end_sd;
