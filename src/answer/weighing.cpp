@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "part/not_lost.hpp"
 #include "rollfix/error.hpp"
 #include "unweighed.hpp"
 
@@ -137,6 +138,7 @@ std::optional<Belief> believe(const Problem& problem, const Observation& observe
     throw InputError(
         "`pose`: the fingers tell where the part is by their centres, expected a log with columns x and y");
   }
+  if (problem.pose) require_not_lost(problem.part, problem.pose->place_sd, "a pose with a standard deviation", "");
   Belief belief(problem.part, kind_of(problem), options, contacts);
   const bool has_times = problem.felt.is_log() && !problem.felt.log->time.empty();
   require_times(*problem.noise, has_times, problem.felt.is_log() ? problem.felt.log->name : "`readings`");

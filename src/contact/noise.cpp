@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "contact/log_rows.hpp"
 #include "contact/normal_numbers.hpp"
+#include "part/not_lost.hpp"
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
 
@@ -99,7 +101,43 @@ double drift_variance(const Noise& noise, LogKind kind, double laps, const Inter
   return kind == LogKind::travelled ? noise.angle * noise.angle * laps : 0;
 }
 
+namespace {
+
+/// What a kind of noise may be at most on such a part, and what that is.
+double most_of(const NoiseKind& kind, double perimeter) {
+  switch (kind.unit) {
+    case NoiseKind::Unit::length: {
+      const bool is_of_rows = kind.sd == &Noise::contact || kind.sd == &Noise::radius;
+      return (is_of_rows ? kMostLengthNoise : kMostPlaceNoise) * perimeter;
+    }
+    case NoiseKind::Unit::per_length:
+      return kMostSlip;
+    case NoiseKind::Unit::rate:
+    case NoiseKind::Unit::walk:
+      return kMostRate;
+    case NoiseKind::Unit::angle:
+      break;
+  }
+  return std::numeric_limits<double>::infinity();  // of angles the belief has a bound of its own
+}
+
+void require_sensible(const Part& part, const Noise& noise) {
+  if (noise.position > 0) require_not_lost(part, noise.position, "a noise of the position", "");
+  for (const NoiseKind& kind : kNoiseKinds) {
+    const double sd = noise.*kind.sd;
+    const double most = most_of(kind, part.perimeter());
+    if (!(sd > most)) continue;
+    const bool is_length = kind.unit == NoiseKind::Unit::length;
+    throw InputError(fmt::format("noise: {} of {:.6g} says nothing on {}{}, expected at most {:.6g}{}", kind.name, sd,
+                                 part.name(), is_length ? fmt::format(", {:.6g} around", part.perimeter()) : "", most,
+                                 is_length ? ": give it in the outline's unit" : ""));
+  }
+}
+
+}  // namespace
+
 Noise noise_on(const Part& part, const Noise& sensors) {
+  require_sensible(part, sensors);
   Noise noise = sensors;
   noise.part = part.outline().accuracy;
   return noise;
