@@ -9,6 +9,7 @@
 
 #include "rollfix/contact/reading.hpp"
 #include "rollfix/outline/curve.hpp"
+#include "rollfix/part/boundary.hpp"
 #include "rollfix/per_finger.hpp"
 
 // What a search says. Names are those of the JSON document; what is of a finger has an entry for each.
@@ -111,6 +112,10 @@ struct Placement {
   std::optional<PoseResidual> pose_residual;  // over all rows
   bool is_contradicted = false;           // without noise: by other rows of the log, or by the contacts in the world
   std::optional<PoseSpread> pose_spread;  // with noise: at the first contacts
+
+  /// Whether the first contacts can have been at s, across s = 0 as anywhere else: of each finger in `interval` with
+  /// noise, else in `extent`, both with their ends and rounding. Any s that names a place of a closed boundary does.
+  bool contains(const Boundary& boundary, const PerFinger<double>& s) const;
 };
 
 /// The work that a search did.
