@@ -217,6 +217,7 @@ class Part(Shape):
         columns: Columns = None,
         units: Units = None,
         degrees: bool = False,
+        wrapped: Optional[bool] = None,
         roll: Optional[int] = None,
         rounding: Optional[Tuple[float, float]] = None,
         budget: Optional[int] = None,
@@ -234,7 +235,7 @@ class Part(Shape):
         turn : float, optional
             With one length.
         log : path, DataFrame, mapping of arrays, ndarray, Log, Roll, or a pair of them
-            Instead of readings: see `rollfix.read_log`, also for `columns`, `units`, `degrees` and `roll`.
+            Instead of readings: see `rollfix.read_log`, also for `columns`, `units`, `degrees`, `wrapped` and `roll`.
         finger : Disk, Jaw, OutlineFinger, or two of them
             For logs of u and psi; and what it can't reach is dropped. One serves both of two.
         noise : Noise or dict, optional
@@ -293,6 +294,7 @@ class Part(Shape):
             columns=columns,
             units=units,
             degrees=degrees,
+            wrapped=wrapped,
             roll=roll,
             rounding=rounding,
             budget=budget,
@@ -322,6 +324,7 @@ class Part(Shape):
         columns: Columns = None,
         units: Units = None,
         degrees: bool = False,
+        wrapped: Optional[bool] = None,
         roll: Optional[int] = None,
         rounding: Optional[Tuple[float, float]] = None,
         budget: Optional[int] = None,
@@ -358,6 +361,7 @@ class Part(Shape):
             columns=columns,
             units=units,
             degrees=degrees,
+            wrapped=wrapped,
             roll=roll,
             rounding=rounding,
             budget=budget,
@@ -428,6 +432,7 @@ class Part(Shape):
         columns: Columns = None,
         units: Units = None,
         degrees: bool = False,
+        wrapped: Optional[bool] = None,
         roll: Optional[int] = None,
         budget: Optional[int] = None,
         threads: int = 0,
@@ -462,6 +467,7 @@ class Part(Shape):
             columns=columns,
             units=units,
             degrees=degrees,
+            wrapped=wrapped,
             roll=roll,
             budget=budget,
         )
@@ -480,6 +486,7 @@ class Part(Shape):
         columns: Columns = None,
         units: Units = None,
         degrees: bool = False,
+        wrapped: Optional[bool] = None,
         direction: str = "ccw",
         mirrored: bool = False,
         live: bool = False,
@@ -498,6 +505,7 @@ class Part(Shape):
             columns=columns,
             units=units,
             degrees=degrees,
+            wrapped=wrapped,
             direction=direction,
             mirrored=mirrored,
             live=live,

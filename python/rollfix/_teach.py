@@ -61,13 +61,14 @@ def teach(
     columns: Columns = None,
     units: Units = None,
     degrees: bool = False,
+    wrapped: Optional[bool] = None,
 ) -> Taught:
     """A part without a drawing, from one full roll around it.
 
     Parameters
     ----------
     log
-        As of `read_log`, also for `columns`, `units` and `degrees`.
+        As of `read_log`, also for `columns`, `units`, `degrees` and `wrapped`.
     finger : Disk, optional
         For logs of u and psi.
     noise : Noise or dict, optional
@@ -87,7 +88,7 @@ def teach(
     -------
     Taught
     """
-    naming, part_unit, given = Naming(columns, units, degrees), unit_of_length(unit), fingers(finger, 1)
+    naming, part_unit, given = Naming(columns, units, degrees, wrapped), unit_of_length(unit), fingers(finger, 1)
     options = (
         noise_given(noise),
         flag(bridge, "bridge"),
@@ -98,6 +99,7 @@ def teach(
     read = log_of(log, naming, part_unit, False, None)
     if read.kind == "contact":
         require_finger(given, read)
+    read = read._in_unit(part_unit, given)
     try:
         part, document = _core.teach(read._core, given[0] if given else None, *options)
     except InputError as error:

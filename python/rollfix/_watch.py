@@ -47,7 +47,7 @@ class Watch:
         Stray rows don't count.
     every : int
         An event every so many rows; 0: where there is news.
-    columns, units, degrees, direction, mirrored
+    columns, units, degrees, wrapped, direction, mirrored
         As of `Part.locate`.
     live : bool
         Rows come as they are felt: what is new is not kept back for longer than a tenth of a second.
@@ -69,6 +69,7 @@ class Watch:
         columns: Columns = None,
         units: Units = None,
         degrees: bool = False,
+        wrapped: Optional[bool] = None,
         direction: str = "ccw",
         mirrored: bool = False,
         live: bool = False,
@@ -80,7 +81,7 @@ class Watch:
         if not text(name, "name"):
             raise InputError("name: expected what messages call the log, found ''")
         self._alone = threading.RLock()  # whoever has it feeds; a warning's handler may feed as well
-        self._naming = Naming(columns, units, degrees)
+        self._naming = Naming(columns, units, degrees, wrapped)
         self._clock = Clock()
         self._names: Optional[List[str]] = None  # of the columns, once a table came
         self._numbering = Numbering({name: []})
@@ -100,6 +101,7 @@ class Watch:
             name,
             [(column, safe(called), unit) for column, called, unit in self._naming.declared()],
             self._naming.angles,
+            self._naming.wrapped,
             clockwise(direction),
             flag(mirrored, "mirrored"),
             flag(live, "live"),

@@ -99,6 +99,8 @@ struct Columns {
   std::string suffix;                      // of the finger's columns
   bool contact_is_shared = false;          // one column `contact` for both fingers
   std::optional<Dimension> u_dimension{};  // where the log says what u is in
+  std::optional<bool> u_wrapped{};         // where somebody said whether it jumps back after a full turn
+  std::optional<bool> psi_wrapped{};       // the same of psi
 
   Columns() { cell.fill(kNone); }
   bool has(Column column) const { return (*this)[column] != kNone; }

@@ -194,20 +194,26 @@ NoisyIncrements noisy_increments(const Part& part, double start, double length, 
   NoisyIncrements result;
   result.error.slip = draw_slip(noise, normal);
   result.log.name = "the increments on " + part.name();
+  result.log.unit = part.unit();
   result.log.kind = LogKind::increments;
-  Reading sum;
+  Odometer odometer(LogKind::increments, false);  // adds up as a reader does
+  FingerRows& felt = result.log.fingers[0];
   double angle = part.turning().angle(start);
   for (std::size_t row = 1; row <= rows; ++row) {
     const double s = start + length * (static_cast<double>(row) / static_cast<double>(rows));
     const double next = part.turning().angle(s);
-    sum.length[0] += length / static_cast<double>(rows) / (1 + result.error.slip) + normal.next(noise.contact);
-    sum.turn += (next - angle) + normal.next(noise.angle);
+    Reading step;
+    step.length[0] = length / static_cast<double>(rows) / (1 + result.error.slip) + normal.next(noise.contact);
+    step.turn = (next - angle) + normal.next(noise.angle);
     angle = next;
     result.s.push_back(s);
     // Along the outline as the user gave it, as everything that is not of u and psi.
-    const Reading as_given = in_stored_direction(sum, part);
-    result.log.fingers[0].length.push_back(as_given.length[0]);
-    result.log.fingers[0].turn.push_back(as_given.turn);
+    step = in_stored_direction(step, part);
+    const Reading sum = odometer.add({{step.length[0], 0}, {step.turn, 0}});
+    felt.distance.push_back(step.length[0]);
+    felt.dturn.push_back(step.turn);
+    felt.length.push_back(sum.length[0]);
+    felt.turn.push_back(sum.turn);
   }
   return result;
 }

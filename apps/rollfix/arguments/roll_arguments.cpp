@@ -123,7 +123,10 @@ std::string noise_form() {
 void require_sensible(const RollArguments& arguments) {
   const bool from_log = !arguments.logs.empty();
   if (!arguments.roll.empty() && !from_log) throw InputError("--roll chooses from a log: give a --log as well");
-  if (!arguments.columns.empty() && !from_log) throw InputError("--columns is about a log: give a --log as well");
+  if (arguments.reading.any() && !from_log) {
+    throw InputError(fmt::format("--{} is about a log: give a --log as well",
+                                 arguments.reading.columns.empty() ? "wrapped" : "columns"));
+  }
   if (!arguments.instants.empty() && !from_log) throw InputError("--at picks instants of a log: give a --log as well");
   if (from_log && arguments.logs.front() == "-" && arguments.part.part == "-") {
     throw InputError("the part and the log can't both come from standard input: give one of them as a file");
@@ -141,15 +144,21 @@ void require_sensible(const RollArguments& arguments) {
 
 }  // namespace
 
-void add_columns_argument(CLI::App& command, std::string& columns) {
+void add_reading_arguments(CLI::App& command, LogArguments& reading) {
   command
-      .add_option("--columns", columns,
+      .add_option("--columns", reading.columns,
                   "what the log's header calls its columns, and in what they are, where it does not say that itself: "
-                  "u=contact_deg:deg,psi=yaw_deg:deg,time=stamp:ms")
+                  "u=contact_deg:deg,psi=yaw_deg:deg,time=stamp:ms; behind u or psi also :unwrapped or :wrapped")
       ->type_name("COLUMN=NAME:UNIT,...");
+  command
+      .add_option(
+          "--wrapped", reading.wrapped,
+          "whether the log's u and psi jump back after a full turn, where its rows are too far apart to show it: "
+          "yes or no")
+      ->type_name("yes|no");
 }
 
-void add_log_arguments(CLI::App& command, std::vector<std::string>& logs, std::string& roll, std::string& columns) {
+void add_log_arguments(CLI::App& command, std::vector<std::string>& logs, std::string& roll, LogArguments& reading) {
   command.add_option("--log", logs, "a tactile log, - for stdin; of two fingers one file or two")
       ->type_name("FILE")
       ->allow_extra_args(false);
@@ -157,7 +166,7 @@ void add_log_arguments(CLI::App& command, std::vector<std::string>& logs, std::s
       .add_option("--roll", roll,
                   "which roll of a log in which contact is lost and found again, from 1; default the last")
       ->type_name("N");
-  add_columns_argument(command, columns);
+  add_reading_arguments(command, reading);
 }
 
 void add_noise_argument(CLI::App& command, std::string& noise) {
@@ -225,7 +234,7 @@ void add_felt_arguments(CLI::App& command, RollArguments& arguments, bool takes_
                   "of two fingers both lengths and finger a's turn less finger b's: LA,LB,THETA")
       ->type_name("L,THETA")
       ->allow_extra_args(false);
-  add_log_arguments(command, arguments.logs, arguments.roll, arguments.columns);
+  add_log_arguments(command, arguments.logs, arguments.roll, arguments.reading);
   add_finger_argument(command, arguments.fingers);
   command
       .add_option("--tolerance", arguments.tolerance,
@@ -280,8 +289,16 @@ std::optional<Prior> read_prior(const std::string& text, const std::string& unit
   return prior;
 }
 
-LogOptions read_log_options(const std::string& columns, const std::string& unit) {
-  return {columns.empty() ? std::vector<ColumnSource>{} : parse_columns(columns), unit};
+LogOptions read_log_options(const LogArguments& reading, const std::string& unit) {
+  LogOptions options;
+  if (!reading.columns.empty()) options.columns = parse_columns(reading.columns);
+  options.unit = unit;
+  if (reading.wrapped.empty()) return options;
+  if (reading.wrapped != "yes" && reading.wrapped != "no") {
+    throw InputError(fmt::format("--wrapped {}: expected yes or no", shown(reading.wrapped)));
+  }
+  options.wrapped = reading.wrapped == "yes";
+  return options;
 }
 
 std::optional<PosePrior> read_pose(const PoseArguments& arguments, const std::string& unit) {
@@ -360,7 +377,7 @@ Problem read_problem(const RollArguments& arguments, std::vector<std::string>& n
 Problem read_problem(const RollArguments& arguments, Part part, std::vector<std::string>& notes) {
   require_sensible(arguments);
   const std::string unit = part.unit();
-  LogOptions log_options = read_log_options(arguments.columns, unit);
+  LogOptions log_options = read_log_options(arguments.reading, unit);
   const bool is_either = arguments.direction == "either";
   const bool is_clockwise = !is_either && counts_clockwise(arguments.direction);
   log_options.clockwise = is_clockwise;

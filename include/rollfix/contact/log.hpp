@@ -39,6 +39,10 @@ struct FingerRows {
   double place_rounding = 0;               // half a unit of the most precise u (radians) or length or distance
   double angle_rounding = 0;               // the same of psi or turn or dturn
   std::optional<Dimension> u_dimension{};  // where the log says whether u is an angle or a length
+  std::vector<double> distance{};          // of increments: as written, and `length` is their sum
+  std::vector<double> dturn{};             // the same of `turn`
+  std::optional<bool> u_wrapped{};         // whether u jumps back after a full turn, where that was said
+  std::optional<bool> psi_wrapped{};       // the same of psi
 };
 
 /// What one finger, or two together, recorded of one roll, while all of them touched the part.
@@ -73,6 +77,10 @@ Log parse_log(std::string_view text, const std::string& name, const LogOptions& 
 std::vector<Log> read_rolls(const std::string& path, const LogOptions& options = {});
 std::vector<Log> parse_rolls(std::string_view text, const std::string& name, const LogOptions& options = {});
 
+/// The log with its lengths in another unit, u as well where `fingers` are not disks. As it is where it is in that
+/// unit, or one of both is not known: empty. Throws InputError: a unit that can't be converted, such as "px".
+Log in_unit(Log log, const std::string& unit, const std::vector<Finger>& fingers);
+
 /// Two logs of one finger each as one of two fingers, by row. Where a contact column left out rows of one of them, both
 /// are cut to the times that they share. Throws InputError: logs of different kinds, different times, different numbers
 /// of rows (naming the lines), too few rows together, or one that is of two fingers already.
@@ -82,9 +90,10 @@ Log paired(Log a, Log b);
 /// file alone. Throws InputError as read_log and `paired` do.
 Log read_log(const std::string& path_a, const std::string& path_b, const LogOptions& options = {});
 
-/// time,u,psi,x,y (or time,length,turn), of two fingers time,u_a,psi_a,x_a,y_a,u_b,..., 17 significant digits each:
-/// reading it back gives the same bits. Throws InputError when columns differ in length, and when neighbouring rows are
-/// so far apart that a reader would take the angles as wrapped.
+/// time,u,psi,x,y (or time,length,turn, or time,distance,dturn), of two fingers time,u_a,psi_a,x_a,y_a,u_b,..., 17
+/// significant digits each: reading it back gives a log of the same kind and the same bits. Throws InputError when
+/// columns differ in length, and when neighbouring rows are so far apart that a reader would take the angles as
+/// wrapped.
 std::string format_log(const Log& log);
 
 /// Writes that to a file, "-" for standard output. Throws InputError when it can't be written.
