@@ -263,7 +263,7 @@ LoadedPart of_json(const std::string& text, const std::string& name, const LoadO
 LoadedPart of_points(const std::string& text, const std::string& name, const LoadOptions& options) {
   std::vector<std::string> notes;
   OutlineOptions known = options.points;
-  const std::vector<Vec2> points = parse_points(text, name, options.points, &notes, &known.unit);
+  const std::vector<Vec2> points = parse_points(text, name, options.points, &notes, &known.unit, &known.airfoil);
   Outline outline = outline_through(points, name, known, &notes);
   LoadedPart loaded = [&] {
     try {

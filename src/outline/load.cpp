@@ -39,7 +39,7 @@ Outline load_outline(const std::string& argument, const OutlineOptions& options,
   const std::string ending = ending_of(argument);
   if (argument == "-" || ending == ".csv" || ending == ".dat" || ending == ".txt") {
     OutlineOptions known = options;
-    const std::vector<Vec2> points = read_points(argument, options, notes, &known.unit);
+    const std::vector<Vec2> points = read_points(argument, options, notes, &known.unit, &known.airfoil);
     return outline_through(points, argument, known, notes);
   }
   if (ending == ".json" || ending == ".dxf" || ending == ".svg") {
