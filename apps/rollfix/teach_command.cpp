@@ -75,6 +75,7 @@ Report teach_report(const TeachArguments& arguments) {
 
   Report report;
   report.notes = taught.notes;
+  add_skipped_note(log, report.notes);
   const Inspection outcome = inspect(loaded);
   if (arguments.json) {
     report.data = format_taught(outcome, taught);
@@ -98,6 +99,7 @@ void add_teach_command(CLI::App& program, Command& chosen) {
   command->footer(kTeachExamples);
   command->add_option("LOG", arguments->log, "a tactile log, or distance,dturn of a drive; - for stdin")->type_name("");
   add_reading_arguments(*command, arguments->reading);
+  add_skip_argument(*command, arguments->reading);
   add_unit_argument(*command, arguments->unit);
   add_finger_argument(*command, arguments->fingers);
   add_noise_argument(*command, arguments->noise);

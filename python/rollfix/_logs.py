@@ -12,7 +12,7 @@ from ._checks import path, unit_of_length, whole
 from ._clock import Clock
 from ._columns import FINGERS, Columns, Naming, Units
 from ._core import InputError
-from ._messages import warn
+from ._messages import shown, warn
 from ._tables import Table, is_table, path_of, text_of
 from ._words import Numbering, in_python
 
@@ -177,6 +177,7 @@ def read_log(
     wrapped: Optional[bool] = None,
     unit: str = "",
     roll: Optional[int] = None,
+    bad: str = "refuse",
 ) -> Log:
     """A log from a file, a data frame, a dict of arrays, an array, or two of them: one of each finger.
 
@@ -202,6 +203,9 @@ def read_log(
         another unit.
     roll : int, optional
         Of a log in which contact is lost and found again, which roll, from 1. Default: the last, with a warning.
+    bad : 'refuse' or 'skip'
+        What to do with rows that can't be read: an empty cell, NaN, a time that does not grow. Skipped ones are told of in
+        a warning.
 
     Returns
     -------
@@ -212,10 +216,20 @@ def read_log(
     InputError
         Naming the column, and of a table the row: missing, not a number, in what it can't be.
     """
-    return log_of(log, Naming(columns, units, degrees, wrapped), unit_of_length(unit), False, roll)
+    if bad not in ("refuse", "skip"):
+        raise InputError(f"bad: expected 'refuse' or 'skip', found {shown(bad)}")
+    naming = Naming(columns, units, degrees, wrapped)
+    found = log_of(log, naming, unit_of_length(unit), False, roll, skip_bad=bad == "skip")
+    skipped = found._core.skipped
+    if skipped:
+        some = "1 row was" if len(skipped) == 1 else f"{len(skipped)} rows were"
+        warn(f"{found.name}: {some} left out, the first: {found._said(skipped[0])}")
+    return found
 
 
-def log_of(log: Any, naming: Naming, unit: str, clockwise: bool, roll: Optional[int]) -> Log:
+def log_of(
+    log: Any, naming: Naming, unit: str, clockwise: bool, roll: Optional[int], skip_bad: bool = False
+) -> Log:
     """`unit` of the part, `clockwise` lengths, which `roll` of several."""
     ready = log.log if isinstance(log, Roll) else log
     if isinstance(ready, Log):
@@ -223,6 +237,7 @@ def log_of(log: Any, naming: Naming, unit: str, clockwise: bool, roll: Optional[
             raise InputError("log: is read already, expected `columns`, `units`, `degrees`, `wrapped` and `direction` where it was")
         return ready
     options = {"unit": unit, "angles": naming.angles, "wrapped": naming.wrapped, "clockwise": clockwise}
+    options["skip_bad"] = skip_bad
     if isinstance(log, (tuple, list)) and log and all(_is_log(one) for one in log):
         if len(log) == 2:
             return _pair(log, naming, options, roll)

@@ -256,8 +256,8 @@ void visit(A& a, FingerRows& v) {
 }
 template <class A>
 void visit(A& a, Log& v) {
-  auto& [name, kind, time, fingers, contact_was_off, unit] = v;
-  all(a, name, kind, time, fingers, contact_was_off, unit);
+  auto& [name, kind, time, fingers, contact_was_off, unit, skipped] = v;
+  all(a, name, kind, time, fingers, contact_was_off, unit, skipped);
 }
 template <class A>
 void visit(A& a, Felt& v) {

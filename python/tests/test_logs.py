@@ -271,3 +271,14 @@ def test_two_files_are_read_in_degrees_as_one_is(tmp_path):
         (tmp_path / name).write_text("u,psi\n0,0\n10,-10\n")
     log = rollfix.read_log((tmp_path / "a", tmp_path / "b"), degrees=True)
     np.testing.assert_allclose(log["u_b"], [0, np.radians(10)])
+
+
+def test_rows_that_can_not_be_read_are_skipped_where_that_is_asked(tmp_path):
+    rows = {"time": [0.0, 1.0, 1.0, 2.0, 3.0], "u": [0.0, -0.1, -0.1, np.nan, -0.3], "psi": [0.0, 0.15, 0.15, 0.3, 0.45]}
+    with pytest.raises(InputError, match=r"row 2: time is '1', .*; read_log\(..., bad='skip'\) leaves such rows out"):
+        rollfix.read_log(rows)
+    with pytest.warns(rollfix.RollfixWarning, match="^log: 2 rows were left out, the first: log: row 2: time"):
+        log = rollfix.read_log(rows, bad="skip")
+    np.testing.assert_array_equal(log["time"], [0, 1, 3])
+    with pytest.raises(InputError, match="^bad: expected 'refuse' or 'skip', found 'drop'"):
+        rollfix.read_log(rows, bad="drop")

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -142,18 +143,35 @@ class LogMaker {
   bool any_without_contact_ = false;
 };
 
+/// The next row; nothing where it can't be read and is left out.
+std::optional<RowKind> read_row(RowReader& reader, std::string_view line, bool skips, LogRow& row,
+                                std::vector<std::string>& skipped) {
+  try {
+    return reader.read(line, row);
+  } catch (const InputError& error) {
+    if (!reader.knows_columns()) throw;  // of the header
+    if (!skips) throw InputError(fmt::format("{}; `skip_bad` leaves such rows out", error.what()));
+    skipped.emplace_back(error.what());
+    return std::nullopt;
+  }
+}
+
 /// Runs a stream of lines to its end.
 std::vector<Log> rolls_in(LogLines& lines, Splitting splitting, const LogOptions& options) {
   RowReader reader(lines.name(), options);
   LogMaker maker(reader, splitting);
+  std::vector<std::string> skipped;
   LogRow row;
   std::string_view line;
   while (lines.next(line)) {
-    const RowKind kind = reader.read(line, row);
-    maker.take(kind, row);
-    if (kind != RowKind::none) reader.accept(row);
+    const std::optional<RowKind> kind = read_row(reader, line, options.skip_bad, row, skipped);
+    if (!kind) continue;
+    maker.take(*kind, row);
+    if (*kind != RowKind::none) reader.accept(row);
   }
-  return maker.finish();
+  std::vector<Log> rolls = maker.finish();
+  for (Log& roll : rolls) roll.skipped = skipped;
+  return rolls;
 }
 
 std::vector<Log> rolls_of_text(std::string_view text, const std::string& name, Splitting splitting,
@@ -315,6 +333,7 @@ Log paired(Log a, Log b) {
   b.fingers[0].name = b.name;
   a.fingers.push_back(std::move(b.fingers[0]));
   a.contact_was_off = a.contact_was_off || b.contact_was_off;
+  a.skipped.insert(a.skipped.end(), b.skipped.begin(), b.skipped.end());
   return a;
 }
 

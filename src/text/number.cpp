@@ -12,15 +12,8 @@ namespace rollfix {
 namespace {
 
 constexpr double kRadiansOfDegree = std::numbers::pi / 180;
-constexpr std::string_view kDegreeMark = "deg";
+constexpr std::array<std::string_view, 2> kDegreeMarks = {"deg", "\xC2\xB0"};  // the second is the degree sign
 constexpr int kMostPower = 1000;  // beyond it every double is 0 or infinite
-
-/// Takes the mark off the text; whether there was one.
-bool strip_degrees(std::string_view& text) {
-  if (text.size() <= kDegreeMark.size() || text.substr(text.size() - kDegreeMark.size()) != kDegreeMark) return false;
-  text.remove_suffix(kDegreeMark.size());
-  return true;
-}
 
 /// 5 * 10^-(places + 1), half a unit in this decimal place. The powers that occur all the time come from a table.
 double half_unit(int places) {
@@ -36,7 +29,17 @@ double half_unit(int places) {
 }  // namespace
 
 std::optional<double> parse_angle(std::string_view text) {
-  const bool in_degrees = strip_degrees(text);
+  const bool in_degrees = take_degrees(text);
+bool take_degrees(std::string_view& text) {
+  for (const std::string_view mark : kDegreeMarks) {
+    if (text.size() <= mark.size() || text.substr(text.size() - mark.size()) != mark) continue;
+    text.remove_suffix(mark.size());
+    while (text.size() > 1 && text.back() == ' ') text.remove_suffix(1);
+    return true;
+  }
+  return false;
+}
+
   const std::optional<double> value = parse_number(text);
   if (!value || !in_degrees) return value;
   return *value * kRadiansOfDegree;
@@ -63,7 +66,7 @@ std::string decimal_comma_hint(std::string_view text) {
 }
 
 double rounding_of(std::string_view number) {
-  const double unit = strip_degrees(number) ? kRadiansOfDegree : 1;
+  const double unit = take_degrees(number) ? kRadiansOfDegree : 1;
   bool after_point = false;
   bool is_zero = true;
   int places = 0;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -21,15 +23,11 @@
 namespace rollfix::app {
 namespace {
 
-constexpr std::string_view kDegreeMark = "deg";
-
-bool in_degrees(std::string_view angle) {
-  return angle.size() > kDegreeMark.size() && angle.substr(angle.size() - kDegreeMark.size()) == kDegreeMark;
-}
+bool in_degrees(std::string_view angle) { return take_degrees(angle); }
 
 /// Half a unit of the last decimal, whatever the unit is.
 double half_unit(std::string_view number) {
-  if (in_degrees(number)) number.remove_suffix(kDegreeMark.size());
+  take_degrees(number);
   return rounding_of(number);
 }
 
@@ -124,8 +122,10 @@ void require_sensible(const RollArguments& arguments) {
   const bool from_log = !arguments.logs.empty();
   if (!arguments.roll.empty() && !from_log) throw InputError("--roll chooses from a log: give a --log as well");
   if (arguments.reading.any() && !from_log) {
-    throw InputError(fmt::format("--{} is about a log: give a --log as well",
-                                 arguments.reading.columns.empty() ? "wrapped" : "columns"));
+    throw InputError(
+        fmt::format("--{} is about a log: give a --log as well", !arguments.reading.columns.empty()   ? "columns"
+                                                                 : !arguments.reading.wrapped.empty() ? "wrapped"
+                                                                                                      : "skip-bad"));
   }
   if (!arguments.instants.empty() && !from_log) throw InputError("--at picks instants of a log: give a --log as well");
   if (from_log && arguments.logs.front() == "-" && arguments.part.part == "-") {
@@ -158,6 +158,17 @@ void add_reading_arguments(CLI::App& command, LogArguments& reading) {
       ->type_name("yes|no");
 }
 
+void add_skip_argument(CLI::App& command, LogArguments& reading) {
+  add_switch(command, "--skip-bad", reading.skip_bad,
+             "leave out rows that can't be read: an empty cell, no number, a time that does not grow");
+}
+
+void add_skipped_note(const Log& log, std::vector<std::string>& notes) {
+  if (log.skipped.empty()) return;
+  notes.push_back(fmt::format("{}: {} left out, the first: {}", log.name, counted(log.skipped.size(), "row", "rows"),
+                              log.skipped.front()));
+}
+
 void add_log_arguments(CLI::App& command, std::vector<std::string>& logs, std::string& roll, LogArguments& reading) {
   command.add_option("--log", logs, "a tactile log, - for stdin; of two fingers one file or two")
       ->type_name("FILE")
@@ -167,6 +178,7 @@ void add_log_arguments(CLI::App& command, std::vector<std::string>& logs, std::s
                   "which roll of a log in which contact is lost and found again, from 1; default the last")
       ->type_name("N");
   add_reading_arguments(command, reading);
+  add_skip_argument(command, reading);
 }
 
 void add_noise_argument(CLI::App& command, std::string& noise) {
@@ -293,6 +305,7 @@ LogOptions read_log_options(const LogArguments& reading, const std::string& unit
   LogOptions options;
   if (!reading.columns.empty()) options.columns = parse_columns(reading.columns);
   options.unit = unit;
+  options.skip_bad = reading.skip_bad;
   if (reading.wrapped.empty()) return options;
   if (reading.wrapped != "yes" && reading.wrapped != "no") {
     throw InputError(fmt::format("--wrapped {}: expected yes or no", shown(reading.wrapped)));
@@ -336,7 +349,9 @@ Log read_roll(const std::vector<std::string>& paths, const std::string& roll, co
   const std::size_t number = roll.empty() ? 0 : read_count(roll, "--roll", 1);
   if (paths.size() != 1) {
     if (number > 0) throw InputError("--roll chooses from one log, and --log is given more than once; split the logs");
-    return read_both_logs(paths, options);
+    Log log = read_both_logs(paths, options);
+    add_skipped_note(log, notes);
+    return log;
   }
   std::vector<Log> rolls = read_rolls(paths.front(), options);
   const std::size_t count = rolls.size();
@@ -346,6 +361,7 @@ Log read_roll(const std::vector<std::string>& paths, const std::string& roll, co
   }
   const std::size_t chosen = number > 0 ? number : count;
   Log log = std::move(rolls[chosen - 1]);
+  add_skipped_note(log, notes);
   if (count > 1) {
     notes.push_back(
         fmt::format("{}: roll {} of {}{}", log.name, chosen, count, number > 0 ? "" : "; --roll N takes another"));
@@ -354,6 +370,19 @@ Log read_roll(const std::vector<std::string>& paths, const std::string& roll, co
 }
 
 namespace {
+
+// A turn of more than this, and of as much again for each lap that was rolled, radians, was hardly meant as radians.
+constexpr double kHardlyRadians = 4 * std::numbers::pi;
+
+/// Where a turn that was typed without a unit was likely meant in degrees; else empty.
+std::string degrees_hint(const std::string& typed, const Reading& reading, const Part& part) {
+  const std::string_view turn = trimmed(split(typed, ',').back());
+  double laps = 0;
+  for (const double length : reading.length) laps += std::abs(length) / part.perimeter();
+  if (in_degrees(turn) || std::abs(reading.turn) <= kHardlyRadians * (1 + laps)) return "";
+  return fmt::format("--reading {}: a turn of {} rad is {:.3g} turns; did you mean {}deg?", typed, turn,
+                     std::abs(reading.turn) / (2 * std::numbers::pi), turn);
+}
 
 /// What --heading and --pose are held against.
 void require_u_and_psi(const Problem& problem, const PoseArguments& pose) {
@@ -391,6 +420,10 @@ Problem read_problem(const RollArguments& arguments, Part part, std::vector<std:
     for (Reading& reading : felt.readings) {
       for (double& length : reading.length) length = -length;
     }
+  }
+  for (std::size_t k = 0; k < arguments.readings.size() && !felt.is_log(); ++k) {
+    const std::string hint = degrees_hint(arguments.readings[k], felt.readings[k], part);
+    if (!hint.empty()) notes.push_back(hint);
   }
   const bool of_two = felt.is_log() ? felt.log->fingers.size() == 2 : felt.readings.front().fingers() == 2;
   if (!arguments.facing.empty()) {

@@ -19,8 +19,9 @@ struct PoseArguments {
 struct LogArguments {
   std::string columns;
   std::string wrapped;
+  bool skip_bad = false;
 
-  bool any() const { return !columns.empty() || !wrapped.empty(); }
+  bool any() const { return !columns.empty() || !wrapped.empty() || skip_bad; }
 };
 
 /// What `locate` and `advise` are given of a roll, as typed; empty: not given.
@@ -50,7 +51,7 @@ void add_roll_arguments(CLI::App& command, RollArguments& arguments, bool takes_
 void add_felt_arguments(CLI::App& command, RollArguments& arguments, bool takes_either = false);
 /// Adds --noise alone.
 void add_noise_argument(CLI::App& command, std::string& noise);
-/// Adds --log, --roll, --columns and --wrapped alone.
+/// Adds --log, --roll, --columns, --wrapped and --skip-bad alone.
 void add_log_arguments(CLI::App& command, std::vector<std::string>& logs, std::string& roll, LogArguments& reading);
 /// Adds --heading and --pose.
 void add_pose_arguments(CLI::App& command, PoseArguments& arguments);
@@ -58,6 +59,10 @@ void add_pose_arguments(CLI::App& command, PoseArguments& arguments);
 void add_side_arguments(CLI::App& command, bool& mirror, std::string& direction, bool takes_either = false);
 /// Whether --direction says that lengths count against the outline. Throws InputError: neither ccw nor cw.
 bool counts_clockwise(const std::string& direction);
+/// Adds --skip-bad.
+void add_skip_argument(CLI::App& command, LogArguments& reading);
+/// Tells of the rows that were left out.
+void add_skipped_note(const Log& log, std::vector<std::string>& notes);
 /// Adds --columns and --wrapped alone.
 void add_reading_arguments(CLI::App& command, LogArguments& reading);
 /// Adds --noise, --prior and --robust.
@@ -78,7 +83,7 @@ std::optional<Noise> read_noise(const std::string& text, const std::string& unit
 std::optional<Prior> read_prior(const std::string& text, const std::string& unit);
 /// --heading or --pose as typed. Throws InputError.
 std::optional<PosePrior> read_pose(const PoseArguments& arguments, const std::string& unit);
-/// --columns and --wrapped as typed, and the part's unit. Throws InputError.
+/// --columns, --wrapped and --skip-bad as typed, and the part's unit. Throws InputError.
 LogOptions read_log_options(const LogArguments& reading, const std::string& unit);
 
 /// One roll of what --log names: one file of one finger or of two, or two files of one each. Of a file with several

@@ -53,6 +53,7 @@ struct Log {
   std::vector<FingerRows> fingers{FingerRows{}};  // one or two; row k of all is the same instant
   bool contact_was_off = false;                   // rows without contact, before these or after them, were left out
   std::string unit{};                             // of its lengths, as the options had it; empty: not known
+  std::vector<std::string> skipped{};             // why rows were left out that could not be read, as the options asked
 
   std::size_t rows() const { return kind == LogKind::contact ? fingers[0].u.size() : fingers[0].length.size(); }
 };
@@ -60,11 +61,12 @@ struct Log {
 /// Reads a log of one finger or, with u_a, psi_a, u_b, psi_b and so on in columns side by side, of two: columns by name
 /// in any order, unknown ones ignored; two columns without a header are distance and dturn. Separated by commas,
 /// semicolons, tabs or blanks. Angles may be written 73deg; a unit may stand behind a column's name, in brackets: psi
-/// [deg], x (mm). `options` says what columns are called where they are not called that, and in what unit. `#`
-/// comments, blank lines, quotes, a byte order mark and both kinds of line ends are allowed. Rows with contact 0, of
-/// either finger, before the first contact and after the last are skipped, whatever they hold. "-" is standard input.
-/// Throws InputError with file, line and value: no such file, no known header, a cell that is missing or not a finite
-/// number, a time that does not grow, contact lost and found again, too few rows.
+/// [deg], x (mm). Between semicolons a comma is a decimal one: 0,5;1,25. `options` says what columns are called where
+/// they are not called that, and in what unit. `#` comments, blank lines, quotes, a byte order mark and both kinds of
+/// line ends are allowed. Rows with contact 0, of either finger, before the first contact and after the last are
+/// skipped, whatever they hold. "-" is standard input. Throws InputError with file, line and value: no such file, no
+/// known header, a cell that is missing or not a finite number, a time that does not grow, contact lost and found
+/// again, too few rows.
 Log read_log(const std::string& path, const LogOptions& options = {});
 
 /// The same from a text; `name` is what messages call it.

@@ -29,6 +29,8 @@ struct LogOptions {
   std::string angles{};
   /// Whether u and psi jump back after a full turn, where `columns` does not say it. None: the rows show it.
   std::optional<bool> wrapped{};
+  /// Rows that can't be read, a time that does not grow among them, are left out, and Log::skipped tells of them.
+  bool skip_bad = false;
   /// As a mirror shows it: u, length, turn, distance, dturn and x with the other sign, pi - psi for psi. What is felt
   /// of a part that lies face down reads so like what is felt of the part as it was drawn.
   bool mirrored = false;

@@ -6,8 +6,8 @@
 #include "archive.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "fingers.hpp"
 #include "contact/log_rows.hpp"
+#include "fingers.hpp"
 #include "rollfix/contact/log.hpp"
 
 namespace rollfix::python {
@@ -22,6 +22,7 @@ LogOptions log_options(const py::dict& given) {
   options.unit = given["unit"].cast<std::string>();
   options.angles = given["angles"].cast<std::string>();
   options.wrapped = given["wrapped"].cast<std::optional<bool>>();
+  options.skip_bad = given["skip_bad"].cast<bool>();
   options.clockwise = given["clockwise"].cast<bool>();
   return options;
 }
@@ -111,6 +112,7 @@ void bind_log(py::module_& module) {
       .def_property_readonly("name", [](const LogHandle& handle) { return handle.log->name; })
       .def_property_readonly("unit", [](const LogHandle& handle) { return handle.log->unit; })
       .def_property_readonly("kind", &kind_of)
+      .def_property_readonly("skipped", [](const LogHandle& handle) { return handle.log->skipped; })
       .def("columns", &columns_of)
       .def("text", [](const LogHandle& handle) { return format_log(*handle.log); })
       .def("is_same",
