@@ -16,6 +16,7 @@ from ._core import InputError
 from ._documents import Advice, Inspection
 from ._fingers import Finger, FingerLike, fingers
 from ._many import ManyAnswers, Result, locate_logs, locate_many
+from ._messages import in_a_page
 from ._noise import Noise, NoiseLike
 from ._logs import Roll
 from ._question import Question, solved
@@ -580,7 +581,7 @@ class Part(Shape):
         return _draw.part_figure(self._core, reach, text(title, "title"), wide)
 
     def _repr_svg_(self) -> str:
-        return self.to_svg()
+        return in_a_page(self.to_svg())
 
     def close(self) -> None:
         """Lets go of what was computed. Asking afterwards is an InputError; a thread that is at work ends its work."""

@@ -11,6 +11,7 @@ from ._core import InputError
 from ._documents import Document
 from ._fingers import Finger, fingers
 from ._logs import log_of
+from ._messages import in_a_page
 from ._noise import NoiseLike, noise as noise_given
 from ._part import Part
 from ._question import require_finger
@@ -39,7 +40,7 @@ class Taught(Document):
         return self._part.notes
 
     def _repr_svg_(self) -> str:
-        return self._part.to_svg()
+        return in_a_page(self._part.to_svg())
 
     def __repr__(self) -> str:
         return f"<Taught: {self.taught['closing']}, {self._part!r}>"
