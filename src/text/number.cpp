@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <string>
+#include <utility>
 
 namespace rollfix {
 
@@ -28,8 +30,6 @@ double half_unit(int places) {
 
 }  // namespace
 
-std::optional<double> parse_angle(std::string_view text) {
-  const bool in_degrees = take_degrees(text);
 bool take_degrees(std::string_view& text) {
   for (const std::string_view mark : kDegreeMarks) {
     if (text.size() <= mark.size() || text.substr(text.size() - mark.size()) != mark) continue;
@@ -40,9 +40,48 @@ bool take_degrees(std::string_view& text) {
   return false;
 }
 
+std::optional<double> parse_angle(std::string_view text) {
+  const bool in_degrees = take_degrees(text);
   const std::optional<double> value = parse_number(text);
   if (!value || !in_degrees) return value;
   return *value * kRadiansOfDegree;
+}
+
+namespace {
+
+/// "-0,5", "1,25e-3", ",5".
+bool has_decimal_comma(std::string_view cell) {
+  const std::size_t comma = cell.find(',');
+  if (comma == std::string_view::npos || comma + 1 == cell.size()) return false;
+  const char next = cell[comma + 1];
+  if (next < '0' || next > '9') return false;
+  std::string number(cell);
+  number[comma] = '.';
+  return parse_angle(number).has_value();
+}
+
+}  // namespace
+
+std::optional<std::string> with_decimal_points(std::string_view row) {
+  if (row.find(';') == std::string_view::npos || row.find(',') == std::string_view::npos) return std::nullopt;
+  std::string result(row);
+  bool any = false;
+  std::size_t start = 0;
+  while (start <= result.size()) {
+    const std::size_t end = std::min(result.find(';', start), result.size());
+    const std::string_view padded(result.data() + start, end - start);
+    const std::size_t first = padded.find_first_not_of(" \t\r\"");
+    if (first != std::string_view::npos) {
+      const std::size_t last = padded.find_last_not_of(" \t\r\"");
+      const std::string_view cell = padded.substr(first, last - first + 1);
+      if (has_decimal_comma(cell)) {
+        result[start + first + cell.find(',')] = '.';
+        any = true;
+      }
+    }
+    start = end + 1;
+  }
+  return any ? std::optional<std::string>(std::move(result)) : std::nullopt;
 }
 
 std::string decimal_comma_hint(std::string_view text) {
