@@ -179,6 +179,7 @@ std::size_t choice(const std::string& name, const Loops& found, const LoadOption
         "{}: `open` expects a chain of curves with two ends, found closed loops only: leave the option out", name));
   }
   if (found.closed.empty()) refuse_open(name, found.open.front());
+  if (!found.doubt.empty()) throw InputError(found.doubt);
   return 0;
 }
 
