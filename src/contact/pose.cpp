@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "contact/log_rows.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/part/boundary.hpp"
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "outline/box.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/units.hpp"
 #include "text/number.hpp"

@@ -219,9 +219,10 @@ void bind_placement(py::module_& module) {
   bind_place(placement);
   bind_details(placement);
   bind_weight(placement);
-  placement.def("contains", &may_hold, py::arg("s"),
-                "bool: whether the roll can have started at s: in `interval` with noise, else in `extent`, across s = 0\n"
-                "as anywhere else. Of two fingers s is a pair; of one it may be an array, and so is the answer then.");
+  placement.def(
+      "contains", &may_hold, py::arg("s"),
+      "bool: whether the roll can have started at s: in `interval` with noise, else in `extent`, across s = 0\n"
+      "as anywhere else. Of two fingers s is a pair; of one it may be an array, and so is the answer then.");
   placement.def("to_dict", &document_of, "Its entry of `placements` in the JSON document.");
   placement.def("__eq__", [](const PlacementHandle& one, const py::object& other) {
     return py::isinstance<PlacementHandle>(other) && bytes_of(*one) == bytes_of(*other.cast<const PlacementHandle&>());

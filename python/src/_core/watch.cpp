@@ -74,7 +74,8 @@ std::unique_ptr<Watch> watch(const PartHandle& part, const py::iterable& fingers
                              const std::optional<std::vector<double>>& pose, bool robust, std::size_t every,
                              const std::string& name,
                              const std::vector<std::tuple<std::string, std::string, std::string>>& columns,
-                             const std::string& angles, const std::optional<bool>& wrapped, bool clockwise, bool mirrored, bool live) {
+                             const std::string& angles, const std::optional<bool>& wrapped, bool clockwise,
+                             bool mirrored, bool live) {
   app::WatchOptions options;
   options.name = name;
   options.fingers = fingers_from(fingers);
