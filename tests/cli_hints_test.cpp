@@ -60,12 +60,12 @@ TEST(CliHints, what_is_known_stands_on_a_line_of_its_own) {
 
 TEST(CliHints, decimal_commas_are_named_wherever_numbers_are) {
   const cli::Folder folder;
-  folder.write("semicolons.csv", "0,5;1,5\n2,5;3,5\n4,5;1\n");
-  folder.write("quoted.csv", "x;y\n0,5;1,5\n2,5;3,5\n4,5;1\n");
-  folder.write("log.csv", "time;u;psi\n0,0;0,5;1\n0,1;0,4;1,1\n");
+  folder.write("blanks.csv", "0,5 1,5\n2,5 3,5\n4,5 1\n");
+  folder.write("tabs.csv", "x\ty\n0,5\t1,5\n2,5\t3,5\n4,5\t1\n");
+  folder.write("log.csv", "time\tu\tpsi\n0,0\t0,5\t1\n0,1\t0,4\t1,1\n");
   folder.write("commas.csv", "time,u,psi\n0,0,0,5,1,0\n0,1,0,4,1,1\n");
   for (const char* const command :
-       {"inspect semicolons.csv", "inspect quoted.csv", "locate gallery:cam --finger disk,r=0.2 --log log.csv",
+       {"inspect blanks.csv", "inspect tabs.csv", "locate gallery:cam --finger disk,r=0.2 --log log.csv",
         "locate gallery:cam --finger disk,r=0.2 --log commas.csv", "locate gallery:cam --reading 0,5,1,5deg",
         "locate gallery:cam --reading 0.5,1 --tolerance 0,01", "locate gallery:cam --reading 0.5,1 --finger disk,r=0,2",
         "locate gallery:cam --reading 0.5,1 --noise contact=0,1",

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <regex>
 #include <string>
 
 #include "cli.hpp"
@@ -12,6 +13,7 @@ namespace cli_noise_test {
 using cli::Folder;
 using cli::Json;
 using cli::Ran;
+using cli::read;
 using cli::run;
 using testing::HasSubstr;
 using testing::Not;

@@ -174,4 +174,26 @@ TEST(Help, has_examples_that_work) {
 
 TEST(Version, is_told) { EXPECT_THAT(run("--version").out, StartsWith("rollfix 0.")); }
 
+TEST(Inspect, joints_of_rounded_digits_are_no_corners_and_stop_no_disk) {
+  const cli::Folder folder;
+  for (const char* const middle : {"0.0001", "-0.0001"}) {  // either side of the line
+    folder.write("plate.svg", std::string("<svg xmlns='http://www.w3.org/2000/svg' viewBox='-1 -1 30 20' width='30mm' "
+                                          "height='20mm'><path d='M 0 0 L 10 ") +
+                                  middle + " L 20 0 L 20 10 L 0 10 Z'/></svg>");
+    const std::string text = run("inspect plate.svg").out;
+    EXPECT_THAT(text, HasSubstr("corners      4, at"));
+    EXPECT_THAT(text,
+                HasSubstr("joints       1, of at most 0.0011 deg: smooth but for rounded digits, and rolled over"));
+    EXPECT_THAT(text, HasSubstr("disk         of any size rolls all around"));
+    EXPECT_EQ(run("inspect plate.svg --json").json()["corners"][0]["joint"], false);
+  }
+}
+
+TEST(Inspect, a_corner_that_stops_every_disk_is_named) {
+  const cli::Folder folder;
+  folder.write("notch.csv", "0 0\n2 0\n2 2\n1 1\n0 2\n");
+  EXPECT_THAT(run("inspect notch.csv").out,
+              HasSubstr("disk         of no size rolls all around: the corner at 5.414214 is concave, -90.000 deg"));
+}
+
 }  // namespace cli_output_test

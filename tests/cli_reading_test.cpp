@@ -102,4 +102,26 @@ TEST(CliTolerance, keeps_the_true_place_however_roughly_a_reading_is_written_dow
   }
 }
 
+TEST(CliReading, degrees_may_have_their_sign_or_stand_apart) {
+  const std::vector<std::string> part{"locate", "gallery:ellipse,a=2,b=1", "--json", "--reading"};
+  const auto answer = [&](const std::string& reading) {
+    std::vector<std::string> words = part;
+    words.push_back(reading);
+    Json json = cli::run_words(words).json();
+    json.erase("counts");
+    return json;
+  };
+  EXPECT_EQ(answer("1.50,35.0\xC2\xB0"), answer("1.50,35.0deg"));
+  EXPECT_EQ(answer("1.50,35.0 deg"), answer("1.50,35.0deg"));
+  EXPECT_EQ(answer("1.50, 35.0 \xC2\xB0"), answer("1.50,35.0deg"));
+}
+
+TEST(CliReading, a_turn_that_was_likely_meant_in_degrees_is_asked_about) {
+  const std::string told = run("locate gallery:ellipse,a=2,b=1 --reading 1,73").err;
+  EXPECT_NE(told.find("--reading 1,73: a turn of 73 rad is 11.6 turns; did you mean 73deg?"), std::string::npos)
+      << told;
+  EXPECT_EQ(run("locate gallery:ellipse,a=2,b=1 --reading 1,73deg").err.find("did you mean"), std::string::npos);
+  EXPECT_EQ(run("locate gallery:ellipse,a=2,b=1 --reading 50,34").err.find("did you mean"), std::string::npos);
+}
+
 }  // namespace cli_reading_test

@@ -206,9 +206,10 @@ TEST(CliUnits, corners_made_of_a_sparse_curve_are_told) {
     return points;
   };
   folder.write("sparse.csv", ellipse(12));
-  const cli::Ran sparse = run("locate sparse.csv --reading 1,0.5");
+  const cli::Ran sparse = run("locate sparse.csv --reading 1,0.5 --corner-angle 59deg");
   EXPECT_THAT(sparse.err,
               AllOf(HasSubstr("sparse.csv: made 2 corners"), HasSubstr("s = 0, "), HasSubstr("--corner-angle 110deg")));
+  EXPECT_EQ(run("inspect sparse.csv --json").json()["part"]["corners"], 0);
   EXPECT_EQ(run("inspect sparse.csv --corner-angle 110deg --json").json()["part"]["corners"], 0);
   EXPECT_EQ(run("inspect sparse.csv --corner-angle 110deg --json").err, "");
   folder.write("dense.csv", ellipse(60));

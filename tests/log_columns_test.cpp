@@ -194,5 +194,22 @@ TEST(LogColumns, a_stream_takes_the_same_options_as_a_file) {
   }
 }
 
+TEST(LogColumns, what_is_suggested_for_two_fingers_names_both_and_keeps_their_units) {
+  const std::string header = "stamp_ms,skin_deg_a,yaw_deg_a,skin_deg_b,yaw_deg_b\n";
+  const std::string told = refusal(header + "0,0,0,0,0\n10,1,1,1,1\n");
+  const std::string cure =
+      "u_a=skin_deg_a:deg,psi_a=yaw_deg_a:deg,time=stamp_ms:ms,u_b=skin_deg_b:deg,psi_b=yaw_deg_b:deg";
+  EXPECT_THAT(told, HasSubstr("`columns` " + cure));
+  const Log log = log_of(header + "0,0,0,0,0\n10,1,1,1,1\n", columns(cure));  // as it stands
+  EXPECT_EQ(log.fingers.size(), 2U);
+  EXPECT_THAT(log.fingers[1].u, ElementsAre(0, kPi / 180));
+}
+
+TEST(LogColumns, a_name_that_sounds_like_a_unit_does_so_with_a_finger_behind_it) {
+  const std::string header = "contact_deg_a,psi_a,contact_deg_b,psi_b\n";
+  EXPECT_THAT(refusal(header + "0,0,0,0\n1,1,1,1\n", columns("u_a=contact_deg_a,u_b=contact_deg_b")),
+              HasSubstr("'contact_deg_a' (u_a) sounds like deg, which is not taken for granted"));
+}
+
 }  // namespace
 }  // namespace rollfix::log_columns_test

@@ -87,7 +87,9 @@ TEST(LogErrors, more_cells_than_columns) {
               AllOf(StartsWith("run.csv:3: '0,5,1,5,2' has 5 cells, expected 3"), HasSubstr("decimal point")));
 }
 
-TEST(LogErrors, a_decimal_comma) { EXPECT_THAT(refusal("u;psi\n0;0\n0,5;1\n"), StartsWith("run.csv:3: u is '0,5'")); }
+TEST(LogErrors, a_decimal_comma) {
+  EXPECT_THAT(refusal("u\tpsi\n0\t0\n0,5\t1\n"), StartsWith("run.csv:3: u is '0,5'"));
+}
 
 TEST(LogErrors, a_time_that_does_not_grow) {
   EXPECT_THAT(refusal("time,u,psi\n0,0,0\n\n0.5,1,1\n0.5,2,2\n"),

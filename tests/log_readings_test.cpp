@@ -320,7 +320,10 @@ TEST(WrittenNumber, an_angle_is_radians_or_degrees) {
   EXPECT_EQ(parse_angle("1.25"), 1.25);
   EXPECT_EQ(parse_angle("-73deg"), -73 * kDegree);
   EXPECT_EQ(parse_angle("1e2deg"), 100 * kDegree);
-  for (const char* text : {"", "deg", "1 deg", "73degrees", "1rad", "1,5", "x"}) {
+  EXPECT_EQ(parse_angle("1 deg"), kDegree);
+  EXPECT_EQ(parse_angle("73\xC2\xB0"), 73 * kDegree);
+  EXPECT_EQ(parse_angle("-73 \xC2\xB0"), -73 * kDegree);
+  for (const char* text : {"", "deg", " deg", "\xC2\xB0", "\xB0", "73degrees", "1rad", "1,5", "x"}) {
     EXPECT_EQ(parse_angle(text), std::nullopt) << text;
   }
 }

@@ -1,4 +1,5 @@
 // What is written is what is read: bit for bit.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -81,6 +82,61 @@ TEST(LogRoundTrip, random_numbers_of_any_size_come_back_bit_for_bit) {
     const std::string text = format_log(log);
     EXPECT_THAT(text, StartsWith(fingers == 1 ? "length,turn\n" : "length_a,turn_a,length_b,turn_b\n"));
     expect_same(parse_log(text, "again"), log);
+  }
+}
+
+/// Steps to and fro, so that sums come close to 0 and need more digits than a step has.
+std::string written_steps(std::size_t fingers, int rows) {
+  std::mt19937_64 generator = test_generator(42);
+  std::normal_distribution<double> step;
+  std::string text = fingers == 1 ? "distance,dturn\n" : "distance_a,dturn_a,distance_b,dturn_b\n";
+  for (int row = 0; row < rows; ++row) {
+    for (std::size_t k = 0; k < 2 * fingers; ++k) {
+      text += fmt::format("{}{:#.17g}", k == 0 ? "" : ",", step(generator));
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+TEST(LogRoundTrip, increments_stay_increments_and_keep_their_bits) {
+  for (const std::size_t fingers : {1U, 2U}) {
+    const std::string text = written_steps(fingers, 500);
+    const Log log = parse_log(text, "steps");
+    EXPECT_EQ(format_log(log), text);
+    const Log again = parse_log(format_log(log), "again");
+    EXPECT_EQ(again.kind, LogKind::increments);
+    expect_same(again, log);
+  }
+}
+
+TEST(LogRoundTrip, a_wheel_and_a_gyroscope_come_back_bit_for_bit) {
+  const Noise noise{.contact = 0.01, .angle = 0.01};
+  const Log log = noisy_increments(Part(gallery("ellipse")), 1, 3, 300, noise, 5).log;
+  const Log again = parse_log(format_log(log), "again");
+  EXPECT_EQ(again.kind, LogKind::increments);
+  expect_same(again, log);
+}
+
+TEST(LogRoundTrip, a_later_roll_of_increments_is_measured_from_its_own_first_contact_once_more) {
+  const std::vector<Log> rolls =
+      parse_rolls("contact,distance,dturn\n1,0.1,0.2\n1,0.3,0.1\n0,5,5\n1,7,7\n1,0.25,0.5\n1,0.1,0.1\n", "two rolls");
+  ASSERT_EQ(rolls.size(), 2U);
+  EXPECT_EQ(rolls[1].fingers[0].length, (std::vector<double>{0, 0.25, 0.35}));
+  expect_same(parse_log(format_log(rolls[1]), "again"), rolls[1]);
+}
+
+TEST(LogRoundTrip, sums_that_were_made_without_increments_come_back_to_rounding) {
+  Log log;
+  log.kind = LogKind::increments;
+  log.fingers[0].length = {0.1, 0.3, -1e-3, 1000};
+  log.fingers[0].turn = {0.5, -0.2, 0.7, 0.1};
+  const Log again = parse_log(format_log(log), "again");
+  EXPECT_EQ(again.kind, LogKind::increments);
+  for (std::size_t row = 0; row < 4; ++row) {
+    EXPECT_NEAR(again.fingers[0].length[row], log.fingers[0].length[row],
+                1e-16 + 1e-16 * std::abs(log.fingers[0].length[row]));
+    EXPECT_NEAR(again.fingers[0].turn[row], log.fingers[0].turn[row], 2e-16);
   }
 }
 

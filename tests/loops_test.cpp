@@ -187,6 +187,36 @@ TEST(Loops, a_branch_is_refused_with_its_place) {
               HasSubstr("drawing.dxf: 3 ends of curves meet near (0, 0), expected two at most"));
 }
 
+TEST(Loops, a_branch_inside_of_a_sound_loop_is_left_out_and_told) {
+  // A square with a hole whose side has a construction line at a corner.
+  std::vector<Curve> hole;
+  for (const Curve& side : square(1)) {
+    hole.emplace_back(Line(0.25 * side.front() + Vec2(0.3, 0.3), 0.25 * side.back() + Vec2(0.3, 0.3)));
+  }
+  hole.emplace_back(Line(hole.front().front(), hole.front().front() + Vec2(0.1, 0.15)));
+  const Loops found = rollfix::loops(drawing(together(square(1), hole)));
+  ASSERT_EQ(found.closed.size(), 1U);
+  EXPECT_NEAR(found.closed[0].length, 4, 1e-12);
+  EXPECT_TRUE(found.open.empty());
+  EXPECT_EQ(found.doubt, "");
+  EXPECT_THAT(found.notes,
+              ElementsAre(HasSubstr("left out: 5 curves that hang together where 3 ends of curves meet near ")));
+}
+
+TEST(Loops, a_branch_around_the_sound_loops_is_a_doubt_which_one_is_meant) {
+  std::vector<Curve> hole;
+  for (const Curve& side : square(1)) {
+    hole.emplace_back(Line(0.25 * side.front() + Vec2(0.3, 0.3), 0.25 * side.back() + Vec2(0.3, 0.3)));
+  }
+  std::vector<Curve> outer = square(1);
+  outer.emplace_back(Line({0, 0}, {-0.5, -0.5}));  // a leader
+  const Loops found = rollfix::loops(drawing(together(outer, hole)));
+  ASSERT_EQ(found.closed.size(), 1U);
+  EXPECT_NEAR(found.closed[0].length, 1, 1e-12);
+  EXPECT_THAT(found.doubt, HasSubstr("drawing.dxf: 3 ends of curves meet near (0, 0), expected two at most"));
+  EXPECT_THAT(found.doubt, HasSubstr("or take one of the 1 sound loops with `loop` 1"));
+}
+
 TEST(Loops, a_drawing_without_curves_is_refused) {
   EXPECT_THAT(message_of(Drawing{"drawing.dxf", "", {}, {}}), HasSubstr("draws no curve"));
 }

@@ -38,10 +38,10 @@ constexpr const char* kProgramExamples = R"(Examples:
 
 /// The library names the fields of its structs, `allow_crossing`; who typed options reads --allow-crossing.
 std::string with_options(std::string text) {
-  constexpr std::array kFields = {"allow_crossing", "at",     "bridge", "columns",   "corner_angle",
-                                  "facing",         "finger", "gap",    "layer",     "loop",
-                                  "mirror",         "noise",  "open",   "pose",      "prior",
-                                  "robust",         "roll",   "smooth", "tolerance", "unit"};
+  constexpr std::array kFields = {"allow_crossing", "at",        "bridge", "columns", "corner_angle", "facing",
+                                  "finger",         "gap",       "layer",  "loop",    "mirror",       "noise",
+                                  "open",           "pose",      "prior",  "robust",  "roll",         "skip_bad",
+                                  "smooth",         "tolerance", "unit",   "wrapped"};
   for (const std::string field : kFields) {
     boost::replace_all(text, "`" + field + "`", "--" + boost::replace_all_copy(field, "_", "-"));
   }

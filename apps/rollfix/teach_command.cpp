@@ -35,7 +35,7 @@ struct TeachArguments {
   std::vector<std::string> fingers;
   std::string noise;
   std::string corner_angle;
-  std::string columns;
+  LogArguments reading;
   std::string unit;
   OutputArgument output;
   bool bridge = false;
@@ -69,12 +69,13 @@ Report teach_report(const TeachArguments& arguments) {
   if (arguments.log.empty()) throw InputError("teach: expected a LOG of one roll around the part, found none");
   const TeachOptions options = options_of(arguments);
   require_part_output(arguments.output, arguments.json);
-  const Log log = read_log(arguments.log, read_log_options(arguments.columns, arguments.unit));
+  const Log log = read_log(arguments.log, read_log_options(arguments.reading, arguments.unit));
   const Taught taught = rollfix::teach(log, options);
   const LoadedPart loaded{Part(taught.outline, {arguments.allow_crossing}), taught.outline.unit, {}, 0, {}};
 
   Report report;
   report.notes = taught.notes;
+  add_skipped_note(log, report.notes);
   const Inspection outcome = inspect(loaded);
   if (arguments.json) {
     report.data = format_taught(outcome, taught);
@@ -97,7 +98,8 @@ void add_teach_command(CLI::App& program, Command& chosen) {
   CLI::App* command = program.add_subcommand("teach", "A part without a drawing, from one full roll around it.");
   command->footer(kTeachExamples);
   command->add_option("LOG", arguments->log, "a tactile log, or distance,dturn of a drive; - for stdin")->type_name("");
-  add_columns_argument(*command, arguments->columns);
+  add_reading_arguments(*command, arguments->reading);
+  add_skip_argument(*command, arguments->reading);
   add_unit_argument(*command, arguments->unit);
   add_finger_argument(*command, arguments->fingers);
   add_noise_argument(*command, arguments->noise);

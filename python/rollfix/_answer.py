@@ -12,6 +12,7 @@ from . import _core
 from ._checks import least, path, places, text, travel as travel_given, whole
 from ._core import Answer as CoreAnswer, InputError, Placement as Placement
 from ._fingers import Finger, finger_from
+from ._messages import in_a_page
 from ._words import diagnosis_in_python, in_python
 
 if TYPE_CHECKING:
@@ -67,6 +68,11 @@ class Answer(SequenceABC):  # type: ignore[type-arg]
         except AttributeError:
             self._placements = tuple(self._core.placement(k) for k in range(len(self._core)))
             return self._placements
+
+    @property
+    def best(self) -> Optional[Placement]:
+        """Placement or None: the most probable; without noise the first that nothing contradicts, of the fewest doubts."""
+        return self.placements[0] if len(self) > 0 else None
 
     @property
     def starts(self) -> np.ndarray:
@@ -234,7 +240,10 @@ class Answer(SequenceABC):  # type: ignore[type-arg]
     # --- as a table, as a figure ---
 
     def to_frame(self) -> Any:
-        """A pandas.DataFrame with a row for each placement; of two fingers with columns `start_a`, `start_b`, ..."""
+        """A pandas.DataFrame with a row for each placement; of two fingers with columns `start_a`, `start_b`, ...
+
+        `extent_lo`, `extent_hi`: within the tolerance. With noise `interval_lo`, `interval_hi`: 95 %. `hi` may exceed P.
+        """
         from ._logs import pandas
 
         return pandas().DataFrame(self._columns())
@@ -247,14 +256,24 @@ class Answer(SequenceABC):  # type: ignore[type-arg]
         for k, end in enumerate(ends):
             columns["start" + end] = [one.start[k] for one in self]
             columns["end" + end] = [one.end[k] for one in self]
-            columns["lo" + end] = [one.extent[k, 0] for one in self]
-            columns["hi" + end] = [one.extent[k, 1] for one in self]
+            columns["extent_lo" + end] = [one.extent[k, 0] for one in self]
+            columns["extent_hi" + end] = [one.extent[k, 1] for one in self]
             columns["x" + end] = [one.point[k, 0] for one in self]
             columns["y" + end] = [one.point[k, 1] for one in self]
             columns["tangent" + end] = [one.tangent[k] for one in self]
             if self._core.has_noise:
                 columns["mean" + end] = [None if one.mean is None else one.mean[k] for one in self]
                 columns["sd" + end] = [None if one.sd is None else one.sd[k] for one in self]
+                for name, side in (("interval_lo", 0), ("interval_hi", 1)):
+                    columns[name + end] = [None if one.interval is None else one.interval[k, side] for one in self]
+                columns["end_mean" + end] = [None if one.end_mean is None else one.end_mean[k] for one in self]
+                columns["end_sd" + end] = [None if one.end_sd is None else one.end_sd[k] for one in self]
+        poses = [one.pose for one in self]
+        if any(pose is not None for pose in poses):
+            for k, name in enumerate(("pose_x", "pose_y", "pose_heading")):  # at the first contact
+                columns[name] = [None if pose is None else pose[0, k] for pose in poses]
+        if not self._core.has_noise:
+            columns["contradicted"] = [one.contradicted for one in self]
         columns["residual"] = [one.residual for one in self]
         columns["error"] = [one.error for one in self]
         return columns
@@ -298,7 +317,7 @@ class Answer(SequenceABC):  # type: ignore[type-arg]
         return plot_answer(self, ax)
 
     def _repr_svg_(self) -> str:
-        return self.to_svg()
+        return in_a_page(self.to_svg())
 
     def _repr_html_(self) -> str:
         from ._plots import answer_html
@@ -340,7 +359,9 @@ class Answer(SequenceABC):  # type: ignore[type-arg]
         if self._core.has_noise:
             shown = [f"{one} ({p.probability:.3f})" for one, p in zip(shown, self.placements)]
         more = ", ..." if len(self) > most else ""
-        return f"<Answer: {self.verdict}{'; start ' if shown else ''}{', '.join(shown)}{more}>"
+        against = sum(one.contradicted for one in self.placements)
+        contradicted = f"; {against} of {len(self)} contradicted" if against else ""
+        return f"<Answer: {self.verdict}{'; start ' if shown else ''}{', '.join(shown)}{more}{contradicted}>"
 
     def __reduce__(self) -> Any:
         part, given, state = self._core.state()

@@ -196,6 +196,7 @@ class Catalog:
         columns: Columns = None,
         units: Units = None,
         degrees: bool = False,
+        wrapped: Optional[bool] = None,
         roll: Optional[int] = None,
         rounding: Optional[Tuple[float, float]] = None,
         budget: Optional[int] = None,
@@ -225,6 +226,7 @@ class Catalog:
         options = dict(
             finger=finger, noise=noise, tolerance=tolerance, facing=facing, at=at, heading=heading, pose=pose,
             mirrored=mirrored, direction=direction, robust=robust, columns=columns, units=units, degrees=degrees,
+            wrapped=wrapped,
             roll=roll, rounding=rounding, budget=budget,
         )  # fmt: skip
         which = None if shard is None else _shard(shard)

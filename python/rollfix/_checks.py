@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import math
 import os
-from typing import Any, List, Optional, Tuple
+from typing import Any, List, Mapping, Optional, Tuple
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from ._core import InputError
 from ._messages import shown
 
 Array = np.ndarray  # of float64
+READINGS = (("length", "turn"), ("length_a", "length_b", "turn"))  # by name, of one finger or of two
 
 
 def number(value: Any, name: str) -> float:
@@ -43,6 +44,9 @@ def least(value: Any, name: str, lowest: float, what: str) -> float:
 
 def numbers(value: Any, count: int, name: str, form: str) -> List[float]:
     """So many finite numbers."""
+    named = names_in(value)
+    if named:
+        raise InputError(f"{name}: expected {form}, found one by names, {', '.join(named)}: give a tuple in that order")
     try:
         found = [] if isinstance(value, (str, bytes)) else [number(one, name) for one in value]
     except TypeError:
@@ -124,6 +128,49 @@ def array(values: Any, name: str, masked_is_nan: bool = False) -> Array:
         raise InputError(f"{name}: expected an array of numbers, found {shown(values)} ({found})") from None
 
 
+def names_in(values: Any) -> Optional[List[str]]:
+    """What a table, or one row of it, calls its columns; None where they have no names, only places."""
+    labels = _labels(values)
+    if labels == list(range(len(labels))):
+        return None
+    return [str(one).strip() for one in labels]
+
+
+def by_name(values: Any, name: str, *wanted: Tuple[str, ...]) -> Any:
+    """The columns of a table in the order in which an array has them; what has no names stays as it is.
+
+    `wanted`: the names, of which the first that are all there count.
+    """
+    if isinstance(values, (list, tuple)) and len(values) > 0 and names_in(values[0]) is not None:
+        return [by_name(one, name, *wanted) for one in values]
+    found = names_in(values)
+    if found is None:
+        return values
+    for names in wanted:
+        if all(found.count(one) == 1 for one in names):
+            keys = dict(zip(found, _labels(values)))
+            columns = [array(values[keys[one]], f"{name}: {one}", masked_is_nan=True) for one in names]
+            return np.stack(np.broadcast_arrays(*columns), axis=-1)
+    expected = " or ".join(" and ".join((", ".join(names[:-1]), names[-1])) for names in wanted)
+    hint = f"{name}[[...]].to_numpy()" if hasattr(values, "to_numpy") else "numpy.array"
+    raise InputError(
+        f"{name}: expected the columns {expected}, found {', '.join(found) or 'none'}; name them so, or give an array, "
+        f"in that order, as of {hint}"
+    )
+
+
+def _labels(values: Any) -> List[Any]:
+    """None of what has no names."""
+    if hasattr(values, "columns") and hasattr(values, "dtypes"):
+        return list(values.columns)
+    if getattr(getattr(values, "dtype", None), "names", None):
+        return list(values.dtype.names)
+    if isinstance(values, Mapping):
+        return list(values)
+    is_row = hasattr(values, "index") and hasattr(values, "to_dict") and any(isinstance(one, str) for one in values.index)
+    return list(values.index) if is_row else []  # a Series, as of iterrows
+
+
 def _holds_text(values: np.ndarray) -> bool:
     return any(isinstance(one, (str, bytes)) for one in values.flat)
 
@@ -175,7 +222,7 @@ def readings(given: Any, turn: Any, name: str = "readings") -> Array:
             )
         rows = np.stack([np.atleast_1d(length), np.atleast_1d(turned)], axis=-1)
     else:
-        rows = array(given, name)
+        rows = array(by_name(given, name, *READINGS), name)
         if rows.ndim == 1:
             rows = rows[np.newaxis]
     if rows.ndim != 2 or rows.shape[1] not in (2, 3):

@@ -18,15 +18,18 @@ Units = Optional[Mapping[str, str]]
 
 
 class Naming:
-    """What `columns`, `units` and `degrees` say, checked."""
+    """What `columns`, `units`, `degrees` and `wrapped` say, checked."""
 
-    __slots__ = ("names", "units", "of_array", "angles")
+    __slots__ = ("names", "units", "of_array", "angles", "wrapped")
 
-    def __init__(self, columns: Columns = None, units: Units = None, degrees: bool = False) -> None:
+    def __init__(
+        self, columns: Columns = None, units: Units = None, degrees: bool = False, wrapped: Optional[bool] = None
+    ) -> None:
         self.names: Dict[str, Any] = {}  # what the log calls a column: a name, or (name, unit)
         self.of_array: Optional[Tuple[str, ...]] = None  # the columns of an array in order
         self.units = _units(units)
         self.angles = "deg" if flag(degrees, "degrees") else ""
+        self.wrapped = None if wrapped is None else flag(wrapped, "wrapped")
         if isinstance(columns, str):
             self.names = {column: (name, unit) for column, name, unit in _core.parse_columns(columns)}
         elif isinstance(columns, Mapping):
@@ -43,7 +46,7 @@ class Naming:
 
     @property
     def says_nothing(self) -> bool:
-        return not (self.names or self.units or self.of_array or self.angles)
+        return self.wrapped is None and not (self.names or self.units or self.of_array or self.angles)
 
     def sources(self, keys: Optional[Collection[Any]] = None) -> List[Source]:
         """For C++. `keys`: what a table calls its columns; a file's are text."""
@@ -69,7 +72,7 @@ class Naming:
         """What is said of both fingers, and of this one: '_a' or '_b'."""
         other = FINGERS[1 - FINGERS.index(own)]
         result = Naming()
-        result.angles, result.of_array = self.angles, self.of_array
+        result.angles, result.of_array, result.wrapped = self.angles, self.of_array, self.wrapped
         for said, mine in ((self.names, result.names), (self.units, result.units)):
             for column, value in said.items():
                 if not column.endswith(other):

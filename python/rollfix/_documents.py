@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any, Dict, Optional, Tuple
 
+from ._messages import in_a_page
+
 if TYPE_CHECKING:
     from . import _core
 
@@ -92,7 +94,7 @@ class Advice(Document):
         return _draw.next_roll_figure(_core.next_roll(self._answer, self._travel))
 
     def _repr_svg_(self) -> Optional[str]:
-        return self.to_svg() if self.prospects else None
+        return in_a_page(self.to_svg()) if self.prospects else None
 
     def __repr__(self) -> str:
         if not self.helps:

@@ -47,6 +47,7 @@ def identify(
     columns: Columns = None,
     units: Units = None,
     degrees: bool = False,
+    wrapped: Optional[bool] = None,
     roll: Optional[int] = None,
     rounding: Optional[Tuple[float, float]] = None,
     budget: Optional[int] = None,
@@ -80,6 +81,7 @@ def identify(
     options = dict(
         finger=finger, noise=noise, tolerance=tolerance, facing=facing, at=at, heading=heading, pose=pose,
         mirrored=mirrored, direction=direction, robust=robust, columns=columns, units=units, degrees=degrees,
+        wrapped=wrapped,
         roll=roll, rounding=rounding, budget=budget,
     )  # fmt: skip
     count = whole(threads, "threads")

@@ -12,7 +12,7 @@ from ._checks import path, unit_of_length, whole
 from ._clock import Clock
 from ._columns import FINGERS, Columns, Naming, Units
 from ._core import InputError
-from ._messages import warn
+from ._messages import shown, warn
 from ._tables import Table, is_table, path_of, text_of
 from ._words import Numbering, in_python
 
@@ -21,7 +21,8 @@ class Log:
     """What one finger, or two together, recorded of one roll.
 
     Made by `read_log` and `simulate`. Angles are radians, unwrapped or not as they were given; lengths are in the part's
-    unit; `time` is in seconds. `len` is the number of rows; `log["u"]` is a column.
+    unit; `time` is in seconds. `len` is the number of rows; `log["u"]` is a column. Of increments `log["length"]` and
+    `log["turn"]` are their sums from the first contact.
     """
 
     __slots__ = ("_core", "_columns", "_numbering", "_clock")
@@ -37,7 +38,7 @@ class Log:
     def to_dict(self) -> Dict[str, np.ndarray]:
         """The columns by name, of two fingers `u_a`, `psi_a`, ..., `u_b`, ...: arrays that can't be written to."""
         if self._columns is None:
-            self._columns = self._core.columns()
+            self._columns = self._core.columns(False)
         return dict(self._columns)
 
     @property
@@ -47,7 +48,7 @@ class Log:
 
     @property
     def kind(self) -> str:
-        """str: 'contact' (u, psi), 'travelled' (length, turn) or 'increments' (distance, dturn; here added up)."""
+        """str: 'contact' (u, psi), 'travelled' (length, turn) or 'increments' (distance, dturn)."""
         return self._core.kind
 
     @property
@@ -61,11 +62,11 @@ class Log:
         return self._numbering.said(self._core.name)
 
     def to_frame(self) -> Any:
-        """The columns as a pandas.DataFrame."""
+        """The columns as a pandas.DataFrame: a log of the same kind and the same bits."""
         return pandas().DataFrame(self.to_dict())
 
     def save(self, file: Any) -> None:
-        """Writes it as CSV with 17 digits: reading it back gives the same bits."""
+        """Writes it as CSV with 17 digits: reading it back gives a log of the same kind and the same bits."""
         with open(path(file, "file"), "w", encoding="utf-8") as out:
             out.write(self._core.text())
 
@@ -74,9 +75,12 @@ class Log:
 
     def __getitem__(self, column: str) -> np.ndarray:
         columns = self.to_dict()
-        if column not in columns:
+        if column in columns:
+            return columns[column]
+        sums = self._core.columns(True) if self.kind == "increments" else {}
+        if column not in sums:
             raise KeyError(f"{column!r}; the log has {', '.join(columns)}")
-        return columns[column]
+        return sums[column]
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.columns)
@@ -92,6 +96,15 @@ class Log:
 
     def __reduce__(self) -> Any:
         return (_log, (self._core, self._numbering.headers, self._clock))
+
+    def _in_unit(self, unit: str, given: Sequence[Any]) -> "Log":
+        """As a part in this unit has it; the same where one of both units is not known."""
+        if not self._core.unit or not unit or self._core.unit == unit:
+            return self
+        try:
+            return Log(self._core.in_unit(unit, given), self._numbering, self._clock)
+        except InputError as error:
+            raise InputError(self._said(str(error))) from None
 
     def _said(self, message: str) -> str:
         """What C++ says of it, in Python's words."""
@@ -161,8 +174,10 @@ def read_log(
     columns: Columns = None,
     units: Units = None,
     degrees: bool = False,
+    wrapped: Optional[bool] = None,
     unit: str = "",
     roll: Optional[int] = None,
+    bad: str = "refuse",
 ) -> Log:
     """A log from a file, a data frame, a dict of arrays, an array, or two of them: one of each finger.
 
@@ -180,10 +195,17 @@ def read_log(
         In what a column is: {"time": "ms", "psi": "deg", "x": "m"}.
     degrees : bool
         All columns of angles that have no other unit are in degrees.
+    wrapped : bool, optional
+        Whether u and psi jump back after a full turn. Default: the rows show it; where they are too far apart to show it,
+        it is asked. Of one column in `units`: {"u": "unwrapped"}, {"psi": "deg:wrapped"}.
     unit : str
-        The part's, for columns of lengths with a unit of their own.
+        Of the log's lengths: columns with a unit of their own are converted to it, and all of them to that of a part in
+        another unit.
     roll : int, optional
         Of a log in which contact is lost and found again, which roll, from 1. Default: the last, with a warning.
+    bad : 'refuse' or 'skip'
+        What to do with rows that can't be read: an empty cell, NaN, a time that does not grow. Skipped ones are told of in
+        a warning.
 
     Returns
     -------
@@ -194,17 +216,28 @@ def read_log(
     InputError
         Naming the column, and of a table the row: missing, not a number, in what it can't be.
     """
-    return log_of(log, Naming(columns, units, degrees), unit_of_length(unit), False, roll)
+    if bad not in ("refuse", "skip"):
+        raise InputError(f"bad: expected 'refuse' or 'skip', found {shown(bad)}")
+    naming = Naming(columns, units, degrees, wrapped)
+    found = log_of(log, naming, unit_of_length(unit), False, roll, skip_bad=bad == "skip")
+    skipped = found._core.skipped
+    if skipped:
+        some = "1 row was" if len(skipped) == 1 else f"{len(skipped)} rows were"
+        warn(f"{found.name}: {some} left out, the first: {found._said(skipped[0])}")
+    return found
 
 
-def log_of(log: Any, naming: Naming, unit: str, clockwise: bool, roll: Optional[int]) -> Log:
+def log_of(
+    log: Any, naming: Naming, unit: str, clockwise: bool, roll: Optional[int], skip_bad: bool = False
+) -> Log:
     """`unit` of the part, `clockwise` lengths, which `roll` of several."""
     ready = log.log if isinstance(log, Roll) else log
     if isinstance(ready, Log):
         if not naming.says_nothing or clockwise:
-            raise InputError("log: is read already, expected `columns`, `units`, `degrees` and `direction` where it was")
+            raise InputError("log: is read already, expected `columns`, `units`, `degrees`, `wrapped` and `direction` where it was")
         return ready
-    options = {"unit": unit, "angles": naming.angles, "clockwise": clockwise}
+    options = {"unit": unit, "angles": naming.angles, "wrapped": naming.wrapped, "clockwise": clockwise}
+    options["skip_bad"] = skip_bad
     if isinstance(log, (tuple, list)) and log and all(_is_log(one) for one in log):
         if len(log) == 2:
             return _pair(log, naming, options, roll)

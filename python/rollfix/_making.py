@@ -10,9 +10,11 @@ import numpy as np
 from . import _core
 from ._checks import (
     array,
+    by_name,
     corner_angle as corner_angle_given,
     finite,
     flag,
+    names_in,
     optional_number,
     path,
     text,
@@ -46,10 +48,25 @@ def of_file(
         "gap": optional_number(gap, "gap"),
         "allow_crossing": flag(allow_crossing, "allow_crossing"),
     }
+    hint = _points_hint(source)
+    if hint:
+        raise InputError(f"source: expected a path, found {hint}")
     try:
         return _core.load_part(path(source, "source"), options)
     except InputError as error:
         raise InputError(in_python(str(error))) from None
+
+
+def _points_hint(source: Any) -> str:
+    """Of what is no path and holds an outline all the same: how a part is made of it."""
+    if hasattr(source, "exterior") and hasattr(source.exterior, "coords"):
+        return "a polygon: Part.from_points(polygon.exterior.coords), a hole Part.from_points(polygon.interiors[0].coords)"
+    if hasattr(source, "modelspace") and hasattr(source, "saveas"):
+        return "a drawing in memory: write it, drawing.saveas('part.dxf'), and give Part('part.dxf')"
+    is_list = isinstance(source, (list, tuple)) and not any(isinstance(one, str) for one in source)
+    if is_list or isinstance(source, (np.ndarray, Mapping)) or names_in(source):
+        return "points: Part.from_points(xy) makes a part of them"
+    return ""
 
 
 def of_points(
@@ -61,7 +78,7 @@ def of_points(
     corner_angle: Optional[float],
     allow_crossing: bool,
 ) -> _core.Part:
-    points = array(xy, "xy")
+    points = array(by_name(xy, "xy", ("x", "y"), ("X", "Y")), "xy")
     if points.ndim != 2 or points.shape[1] != 2:
         raise InputError(f"xy: expected points, an array of shape (n, 2), found shape {np.shape(xy)}")
     options: Dict[str, Any] = {

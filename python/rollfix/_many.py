@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _core
 from ._answer import Answer
-from ._checks import array, finite, whole
+from ._checks import READINGS, array, by_name, finite, whole
 from ._core import InputError
 from ._logs import Log, Roll
 from ._messages import shown
@@ -221,7 +221,7 @@ def _many(columns: Dict[str, Any], *rest: Any) -> ManyAnswers:
 
 
 def locate_many(question: Question, readings: Any, facing: Any, threads: int, progress: Optional[bool]) -> ManyAnswers:
-    rows = array(readings, "readings", masked_is_nan=True)  # as NaN: an error stays with its problem
+    rows = array(by_name(readings, "readings", *READINGS), "readings", masked_is_nan=True)  # as NaN: an error stays with its problem
     if rows.ndim == 2:
         rows = rows[:, np.newaxis, :]
     if rows.ndim != 3 or rows.shape[2] not in (2, 3) or rows.shape[1] == 0:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import os
+import re
 import sys
 import warnings
 from typing import Any, Iterable
@@ -40,3 +41,8 @@ def shown(value: Any) -> str:
 def did_you_mean(name: Any, known: Iterable[str]) -> str:
     near = difflib.get_close_matches(str(name), list(known), 1)
     return f"did you mean {near[0]!r}? " if near else ""
+
+
+def in_a_page(svg: str) -> str:
+    """A figure as a page of HTML can hold it: without the declaration that a file of its own begins with."""
+    return re.sub(r"^\s*<\?xml[^>]*\?>\s*", "", svg)

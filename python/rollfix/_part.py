@@ -16,6 +16,7 @@ from ._core import InputError
 from ._documents import Advice, Inspection
 from ._fingers import Finger, FingerLike, fingers
 from ._many import ManyAnswers, Result, locate_logs, locate_many
+from ._messages import in_a_page
 from ._noise import Noise, NoiseLike
 from ._logs import Roll
 from ._question import Question, solved
@@ -123,7 +124,7 @@ class Part(Shape):
         Parameters
         ----------
         xy : array_like, (n, 2)
-            In order along the boundary; a closed one's first point need not come again. At least 3, of an open one 2.
+            Or a table with columns x and y. In order along the boundary; a closed one's first point need not come again. At least 3, of an open one 2.
         closed : bool
             False: a curve with two ends.
         name, unit, smooth, corner_angle, allow_crossing
@@ -217,6 +218,7 @@ class Part(Shape):
         columns: Columns = None,
         units: Units = None,
         degrees: bool = False,
+        wrapped: Optional[bool] = None,
         roll: Optional[int] = None,
         rounding: Optional[Tuple[float, float]] = None,
         budget: Optional[int] = None,
@@ -234,7 +236,7 @@ class Part(Shape):
         turn : float, optional
             With one length.
         log : path, DataFrame, mapping of arrays, ndarray, Log, Roll, or a pair of them
-            Instead of readings: see `rollfix.read_log`, also for `columns`, `units`, `degrees` and `roll`.
+            Instead of readings: see `rollfix.read_log`, also for `columns`, `units`, `degrees`, `wrapped` and `roll`.
         finger : Disk, Jaw, OutlineFinger, or two of them
             For logs of u and psi; and what it can't reach is dropped. One serves both of two.
         noise : Noise or dict, optional
@@ -293,6 +295,7 @@ class Part(Shape):
             columns=columns,
             units=units,
             degrees=degrees,
+            wrapped=wrapped,
             roll=roll,
             rounding=rounding,
             budget=budget,
@@ -322,6 +325,7 @@ class Part(Shape):
         columns: Columns = None,
         units: Units = None,
         degrees: bool = False,
+        wrapped: Optional[bool] = None,
         roll: Optional[int] = None,
         rounding: Optional[Tuple[float, float]] = None,
         budget: Optional[int] = None,
@@ -358,6 +362,7 @@ class Part(Shape):
             columns=columns,
             units=units,
             degrees=degrees,
+            wrapped=wrapped,
             roll=roll,
             rounding=rounding,
             budget=budget,
@@ -384,7 +389,7 @@ class Part(Shape):
         Parameters
         ----------
         readings : array_like, (n, 2) or (n, 3): a problem of one reading in each row; (n, m, 2) or (n, m, 3): of m each
-            As of `locate`.
+            As of `locate`. Or a table with columns length and turn, of two fingers length_a, length_b and turn.
         finger, noise, tolerance, mirrored, direction, rounding, budget
             As of `locate`, for all problems.
         facing : float or array_like, (n,), optional
@@ -428,6 +433,7 @@ class Part(Shape):
         columns: Columns = None,
         units: Units = None,
         degrees: bool = False,
+        wrapped: Optional[bool] = None,
         roll: Optional[int] = None,
         budget: Optional[int] = None,
         threads: int = 0,
@@ -462,6 +468,7 @@ class Part(Shape):
             columns=columns,
             units=units,
             degrees=degrees,
+            wrapped=wrapped,
             roll=roll,
             budget=budget,
         )
@@ -480,6 +487,7 @@ class Part(Shape):
         columns: Columns = None,
         units: Units = None,
         degrees: bool = False,
+        wrapped: Optional[bool] = None,
         direction: str = "ccw",
         mirrored: bool = False,
         live: bool = False,
@@ -498,6 +506,7 @@ class Part(Shape):
             columns=columns,
             units=units,
             degrees=degrees,
+            wrapped=wrapped,
             direction=direction,
             mirrored=mirrored,
             live=live,
@@ -572,7 +581,7 @@ class Part(Shape):
         return _draw.part_figure(self._core, reach, text(title, "title"), wide)
 
     def _repr_svg_(self) -> str:
-        return self.to_svg()
+        return in_a_page(self.to_svg())
 
     def close(self) -> None:
         """Lets go of what was computed. Asking afterwards is an InputError; a thread that is at work ends its work."""

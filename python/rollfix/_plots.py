@@ -70,6 +70,8 @@ def answer_html(answer: "Answer") -> str:
 
 
 def _cell(value: Any) -> str:
+    if isinstance(value, bool):
+        return "yes" if value else "no"
     return "" if value is None else html.escape(value) if isinstance(value, str) else f"{value:.6g}"
 
 

@@ -56,6 +56,7 @@ class Question:
         columns: Columns = None,
         units: Units = None,
         degrees: bool = False,
+        wrapped: Optional[bool] = None,
         roll: Optional[int] = None,
         rounding: Optional[Tuple[float, float]] = None,
         budget: Optional[int] = None,
@@ -72,7 +73,7 @@ class Question:
         self._either = isinstance(direction, str) and direction == "either"
         self._clockwise = not self._either and clockwise(direction, either=True)
         self._robust = flag(robust, "robust")
-        self._naming = Naming(columns, units, degrees)
+        self._naming = Naming(columns, units, degrees, wrapped)
         self._roll = None if roll is None else whole(roll, "roll", 1)
         self._rounding = None if rounding is None else rounding_given(rounding)
         self._budget = None if budget is None else whole(budget, "budget", 1)
@@ -121,6 +122,7 @@ class Question:
             require_finger(self._fingers, read)
             if self._clockwise or self._either:
                 raise InputError("direction: the log has u and psi, which say the direction themselves: leave it out")
+        read = read._in_unit(self._part.unit, self._fingers)
         problem = self._problem()
         problem.set_log(read._core)
         return problem, read

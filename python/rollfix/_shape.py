@@ -108,6 +108,19 @@ class Shape:
         """Theta(s) in (-pi, pi]. Shapes as of `turning`."""
         return self._core.tangent(places(s))
 
+    def distance(self, s: Any, t: Any) -> Any:
+        """How far apart places are along the boundary, of a closed part the shorter way round, whatever laps they name.
+
+        Parameters
+        ----------
+        s, t : array_like, of shapes that go together
+
+        Returns
+        -------
+        float, or ndarray
+        """
+        return self._core.distance(*np.broadcast_arrays(places(s), places(t)))[()]
+
     def samples(self) -> Dict[str, np.ndarray]:
         """The boundary as numbers, as densely as its shape asks for: `s`, `x`, `y`, `tangent` (unwrapped), `curvature`."""
         return self._core.samples()

@@ -11,6 +11,7 @@ from ._core import InputError
 from ._documents import Document
 from ._fingers import Finger, fingers
 from ._logs import log_of
+from ._messages import in_a_page
 from ._noise import NoiseLike, noise as noise_given
 from ._part import Part
 from ._question import require_finger
@@ -39,7 +40,7 @@ class Taught(Document):
         return self._part.notes
 
     def _repr_svg_(self) -> str:
-        return self._part.to_svg()
+        return in_a_page(self._part.to_svg())
 
     def __repr__(self) -> str:
         return f"<Taught: {self.taught['closing']}, {self._part!r}>"
@@ -61,13 +62,14 @@ def teach(
     columns: Columns = None,
     units: Units = None,
     degrees: bool = False,
+    wrapped: Optional[bool] = None,
 ) -> Taught:
     """A part without a drawing, from one full roll around it.
 
     Parameters
     ----------
     log
-        As of `read_log`, also for `columns`, `units` and `degrees`.
+        As of `read_log`, also for `columns`, `units`, `degrees` and `wrapped`.
     finger : Disk, optional
         For logs of u and psi.
     noise : Noise or dict, optional
@@ -87,7 +89,7 @@ def teach(
     -------
     Taught
     """
-    naming, part_unit, given = Naming(columns, units, degrees), unit_of_length(unit), fingers(finger, 1)
+    naming, part_unit, given = Naming(columns, units, degrees, wrapped), unit_of_length(unit), fingers(finger, 1)
     options = (
         noise_given(noise),
         flag(bridge, "bridge"),
@@ -98,6 +100,7 @@ def teach(
     read = log_of(log, naming, part_unit, False, None)
     if read.kind == "contact":
         require_finger(given, read)
+    read = read._in_unit(part_unit, given)
     try:
         part, document = _core.teach(read._core, given[0] if given else None, *options)
     except InputError as error:

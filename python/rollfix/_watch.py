@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import threading
 from typing import TYPE_CHECKING, Any, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
@@ -29,6 +30,8 @@ Event = Dict[str, Any]
 class Watch:
     """Where the finger is, live, from a log that grows: the events of `rollfix watch`, in constant memory. One finger.
 
+    Any number of threads can feed it: what is given to one call of `add` is taken as a whole, before the next call's.
+
     Parameters
     ----------
     part : Part
@@ -44,7 +47,7 @@ class Watch:
         Stray rows don't count.
     every : int
         An event every so many rows; 0: where there is news.
-    columns, units, degrees, direction, mirrored
+    columns, units, degrees, wrapped, direction, mirrored
         As of `Part.locate`.
     live : bool
         Rows come as they are felt: what is new is not kept back for longer than a tenth of a second.
@@ -66,6 +69,7 @@ class Watch:
         columns: Columns = None,
         units: Units = None,
         degrees: bool = False,
+        wrapped: Optional[bool] = None,
         direction: str = "ccw",
         mirrored: bool = False,
         live: bool = False,
@@ -76,7 +80,8 @@ class Watch:
             raise InputError("noise: expected how far the sensors are off, as in Noise(contact=0.1, angle=0.01)")
         if not text(name, "name"):
             raise InputError("name: expected what messages call the log, found ''")
-        self._naming = Naming(columns, units, degrees)
+        self._alone = threading.RLock()  # whoever has it feeds; a warning's handler may feed as well
+        self._naming = Naming(columns, units, degrees, wrapped)
         self._clock = Clock()
         self._names: Optional[List[str]] = None  # of the columns, once a table came
         self._numbering = Numbering({name: []})
@@ -96,6 +101,7 @@ class Watch:
             name,
             [(column, safe(called), unit) for column, called, unit in self._naming.declared()],
             self._naming.angles,
+            self._naming.wrapped,
             clockwise(direction),
             flag(mirrored, "mirrored"),
             flag(live, "live"),
@@ -117,11 +123,12 @@ class Watch:
             What is new: events of docs/json.md, `rollfix/watch/1`: 'begin', 'found', 'placements', 'over', ... Where rows
             are no text `row` is the number of the last one, from 0; a diagnosis says its cure as keyword arguments.
         """
-        if self._is_over:
-            raise InputError("rows: the watch is over; make another one")
-        for some in rows if _is_list_of_rows(rows) else [rows]:
-            self._take(some)
-        return self._events()
+        with self._alone:
+            if self._is_over:
+                raise InputError("rows: the watch is over; make another one")
+            for some in rows if _is_list_of_rows(rows) else [rows]:
+                self._take(some)
+            return self._events()
 
     def follow(self, source: Iterable[Any]) -> Iterator[Event]:
         """The events of a source of lines or rows as they come, until it ends; then the last ones.
@@ -147,17 +154,19 @@ class Watch:
 
     def finish(self) -> List[Event]:
         """The log is over: the last events."""
-        if self._is_over:
-            return []
-        self._is_over = True
-        self._core.finish()
-        return self._events()
+        with self._alone:
+            if self._is_over:
+                return []
+            self._is_over = True
+            self._core.finish()
+            return self._events()
 
     def resume(self) -> List[Event]:
         """After a dropped connection: the next row continues the roll, however far it is, and a header may come again."""
-        self._core.resume()
-        self._names = None
-        return self._events()
+        with self._alone:
+            self._core.resume()
+            self._names = None
+            return self._events()
 
     @property
     def answer(self) -> Optional[Event]:

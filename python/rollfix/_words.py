@@ -16,6 +16,9 @@ _VALUE = re.compile(rf"`(\w+)` ({NUMBER}|N)(?=[\s,;:)]|$)")
 _PLAIN = (
     (r"; the part comes first and the log behind --log, .*", "; a log goes to `locate`: part.locate(log=...)"),
     (r"of readings (\d+)deg\b", r"of readings np.radians(\1)"),
+    (r"; `skip_bad` leaves such rows out", "; read_log(..., bad='skip') leaves such rows out"),
+    (r"`wrapped` no\b", "wrapped=False"),
+    (r"`wrapped` yes\b", "wrapped=True"),
     (r"; degrees are written \d+deg", "; of degrees say degrees=True"),
     (r"\(degrees are written as in (\d+)deg\)", r"(of degrees make radians: np.radians(\1))"),
     (r"with `unit`, (?:as in|such as) `unit` (\w+)", r"with unit='\1'"),

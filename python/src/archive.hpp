@@ -79,8 +79,8 @@ template <class A>
 void visit(A& a, std::string& value) {
   a.text(value);
 }
-template <class A, int Rows, int Columns>
-void visit(A& a, Eigen::Matrix<double, Rows, Columns>& matrix) {
+template <class A, int Rows, int Columns, int Options>
+void visit(A& a, Eigen::Matrix<double, Rows, Columns, Options>& matrix) {
   for (Eigen::Index k = 0; k < matrix.size(); ++k) a.raw(matrix.data()[k]);
 }
 
@@ -256,13 +256,15 @@ void visit(A& a, Problem& v) {
 }
 template <class A>
 void visit(A& a, FingerRows& v) {
-  auto& [name, line, u, psi, length, turn, x, y, u_period, place_rounding, angle_rounding, u_dimension, columns] = v;
-  all(a, name, line, u, psi, length, turn, x, y, u_period, place_rounding, angle_rounding, u_dimension, columns);
+  auto& [name, line, u, psi, length, turn, x, y, u_period, place_rounding, angle_rounding, u_dimension, distance, dturn,
+         u_wrapped, psi_wrapped, columns] = v;
+  all(a, name, line, u, psi, length, turn, x, y, u_period, place_rounding, angle_rounding, u_dimension, distance, dturn,
+      u_wrapped, psi_wrapped, columns);
 }
 template <class A>
 void visit(A& a, Log& v) {
-  auto& [name, kind, time, fingers, contact_was_off, unit] = v;
-  all(a, name, kind, time, fingers, contact_was_off, unit);
+  auto& [name, kind, time, fingers, contact_was_off, unit, skipped] = v;
+  all(a, name, kind, time, fingers, contact_was_off, unit, skipped);
 }
 template <class A>
 void visit(A& a, Felt& v) {

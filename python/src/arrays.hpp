@@ -91,8 +91,8 @@ inline py::array_t<double> array_of(const std::vector<Vec2>& points) {
   });
 }
 
-template <int Size>
-py::array_t<double> array_of(const Eigen::Matrix<double, Size, Size>& matrix) {
+template <int Size, int Options>
+py::array_t<double> array_of(const Eigen::Matrix<double, Size, Size, Options>& matrix) {
   py::array_t<double> array({py::ssize_t{Size}, py::ssize_t{Size}});
   for (int i = 0; i < Size; ++i) {
     for (int j = 0; j < Size; ++j) array.mutable_at(i, j) = matrix(i, j);

@@ -9,12 +9,15 @@
 #include <utility>
 #include <vector>
 
+#include "made.hpp"
 #include "rollfix/answer/answer.hpp"
 #include "rollfix/answer/next_roll.hpp"
+#include "rollfix/answer/solve.hpp"
 #include "rollfix/contact/log.hpp"
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/files/load_part.hpp"
+#include "rollfix/part/reach.hpp"
 
 // What Python holds of the library's values. All are immutable and shared, so that a thread that works without the
 // interpreter's lock keeps what it works on, whatever Python does meanwhile.
@@ -65,5 +68,22 @@ struct PlacementHandle {
   const Placement& operator*() const { return answer->placements[index]; }
   const Placement* operator->() const { return &answer->placements[index]; }
 };
+
+template <>
+inline constexpr bool kIsPythonClass<PartHandle> = true;
+template <>
+inline constexpr bool kIsPythonClass<AnswerHandle> = true;
+template <>
+inline constexpr bool kIsPythonClass<LogHandle> = true;
+template <>
+inline constexpr bool kIsPythonClass<RollHandle> = true;
+template <>
+inline constexpr bool kIsPythonClass<NextRollHandle> = true;
+template <>
+inline constexpr bool kIsPythonClass<PlacementHandle> = true;
+template <>
+inline constexpr bool kIsPythonClass<Reach> = true;
+template <>
+inline constexpr bool kIsPythonClass<Problem> = true;
 
 }  // namespace rollfix::python

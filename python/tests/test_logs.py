@@ -201,3 +201,84 @@ def test_what_can_not_be_meant_is_a_sentence(wing, noise, frame, change, options
 def test_wrong_arguments_are_named(ellipse, call, message):
     with pytest.raises(InputError, match=message):
         call(ellipse)
+
+
+NOISE = Noise(contact=0.002, angle=0.002, slip=0.002)
+
+
+def logs_of_every_kind():
+    ellipse = rollfix.Part.gallery("ellipse", a=2, b=1)
+    roll = ellipse.simulate(Disk(0.2), start=1.0, length=2.0, samples=60, noise=NOISE, seed=4).log
+    drive = ellipse.simulate(start=2.0, length=3.0, samples=200, noise=NOISE, seed=4).log
+    pair = rollfix.read_log({"distance_a": [0.1, 0.3], "dturn_a": [0.1, 0.2], "distance_b": [0.7, -0.6999], "dturn_b": [0.1, 0.25]})
+    travelled = rollfix.read_log({"time": [0.0, 1.0], "length": [0.5, 1.0], "turn": [0.1, 0.7]})
+    return {"contact": roll, "increments": drive, "increments of two fingers": pair, "travelled": travelled}
+
+
+@pytest.mark.parametrize("way", ["save", "to_frame", "to_dict"])
+@pytest.mark.parametrize("kind", list(logs_of_every_kind()))
+def test_a_log_keeps_its_kind_and_its_bits_through_every_format(tmp_path, kind, way):
+    log = logs_of_every_kind()[kind]
+    log.save(tmp_path / "log.csv")
+    again = rollfix.read_log({"save": tmp_path / "log.csv"}.get(way) or getattr(log, way)())
+    assert again.kind == log.kind == kind.split()[0] and again.columns == log.columns
+    sums = ["length" + end for end in ("", "_a", "_b") if "distance" + end in log.columns]
+    for column in (*log.columns, *sums):
+        assert again[column].tobytes() == log[column].tobytes()
+
+
+def test_increments_that_were_saved_are_weighed_as_before():
+    drive = logs_of_every_kind()["increments"]
+    ellipse = rollfix.Part.gallery("ellipse", a=2, b=1)
+    for again in (drive.to_frame(), drive.to_dict()):
+        answer = ellipse.locate(log=again, noise=NOISE)
+        assert answer.to_dict()["placements"] == ellipse.locate(log=drive, noise=NOISE).to_dict()["placements"]
+
+
+COARSE = {"u": [0.0, -4.0, -5.0], "psi": [0.0, 4.5, 5.7]}
+
+
+def test_rows_that_are_far_apart_are_asked_about_and_what_is_said_is_done():
+    circle = rollfix.Part.gallery("circle", r=2)
+    with pytest.raises(InputError, match=r"row 1: u goes from 0 to -4 in one row.* say it with wrapped=False, or wrapped=True"):
+        circle.locate(log=COARSE, finger=Disk(0.3))
+    unwrapped = circle.locate(log=COARSE, finger=Disk(0.3), wrapped=False)
+    np.testing.assert_allclose(unwrapped.readings[-1], [1.5, 0.7])
+    wrapped = circle.locate(log=COARSE, finger=Disk(0.3), wrapped=True)
+    np.testing.assert_allclose(wrapped.readings[-1], [0.3 * (5 - 2 * np.pi), 0.7])
+    one = circle.locate(log=COARSE, finger=Disk(0.3), units={"u": "unwrapped", "psi": "rad:unwrapped"})
+    np.testing.assert_allclose(one.readings, unwrapped.readings)
+    with pytest.raises(InputError, match="^wrapped: expected True or False, found 'no'"):
+        circle.locate(log=COARSE, finger=Disk(0.3), wrapped="no")
+
+
+def test_a_log_in_one_unit_on_a_part_in_another_is_converted(tmp_path):
+    xy = 20 * np.stack([np.cos(np.arange(40) * np.pi / 20), 0.5 * np.sin(np.arange(40) * np.pi / 20)], axis=1)
+    in_mm, in_cm = rollfix.Part.from_points(xy, unit="mm"), rollfix.Part.from_points(xy / 10, unit="cm")
+    log = rollfix.read_log({"length [mm]": [10.0], "turn": [0.625]}, unit="mm")
+    expected = in_mm.locate(log=log)
+    found = in_cm.locate(log=log)
+    assert len(found) == len(expected) > 0
+    np.testing.assert_allclose(found.starts * 10, expected.starts, rtol=1e-9)
+    assert found.log["length"][0] == pytest.approx(1.0)
+    roll = in_mm.simulate(Disk(2), start=1.0, length=30.0, samples=20)
+    starts = in_cm.locate(log=roll, finger=Disk(0.2)).starts
+    assert np.min(in_cm.distance(starts[:, 0], 0.1)) < 1e-6
+
+
+def test_two_files_are_read_in_degrees_as_one_is(tmp_path):
+    for name in "ab":
+        (tmp_path / name).write_text("u,psi\n0,0\n10,-10\n")
+    log = rollfix.read_log((tmp_path / "a", tmp_path / "b"), degrees=True)
+    np.testing.assert_allclose(log["u_b"], [0, np.radians(10)])
+
+
+def test_rows_that_can_not_be_read_are_skipped_where_that_is_asked(tmp_path):
+    rows = {"time": [0.0, 1.0, 1.0, 2.0, 3.0], "u": [0.0, -0.1, -0.1, np.nan, -0.3], "psi": [0.0, 0.15, 0.15, 0.3, 0.45]}
+    with pytest.raises(InputError, match=r"row 2: time is '1', .*; read_log\(..., bad='skip'\) leaves such rows out"):
+        rollfix.read_log(rows)
+    with pytest.warns(rollfix.RollfixWarning, match="^log: 2 rows were left out, the first: log: row 2: time"):
+        log = rollfix.read_log(rows, bad="skip")
+    np.testing.assert_array_equal(log["time"], [0, 1, 3])
+    with pytest.raises(InputError, match="^bad: expected 'refuse' or 'skip', found 'drop'"):
+        rollfix.read_log(rows, bad="drop")

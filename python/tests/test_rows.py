@@ -62,7 +62,7 @@ def test_a_simulated_roll_has_rows_from_0_too():
 
 
 @pytest.mark.parametrize("cells, message", [
-    (dict(u=np.nan), "^log: row 7: u is 'nan', expected a finite number$"),
+    (dict(u=np.nan), "^log: row 7: u is 'nan', expected a finite number; read_log"),
     (dict(psi=50.0), "^log: row 7: .* since row 6, but"),
     (dict(time=0.0), "^log: row 7: time .* in row 6: time must grow"),
     (dict(contact=0.5), "^log: row 7: contact is '0.5', expected 0 or 1"),

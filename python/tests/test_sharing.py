@@ -138,3 +138,24 @@ def test_memory_does_not_grow(ellipse, name, request):
            "many": lambda: ellipse.locate_many([[1.0, 0.625]] * 3, threads=1)}[name]
     calls = calls if name != "document" else calls // 10
     assert grows(calls, job) < 2e6 / calls + 50  # bytes a call; a leak of one answer is 2,000
+
+
+def test_threads_that_feed_one_watch_lose_no_row(ellipse):
+    noise = rollfix.Noise(contact=0.01, angle=0.01)
+    roll = ellipse.simulate(rollfix.Disk(0.1), start=1, length=2, samples=300, noise=noise, seed=1)
+    rows = roll.log.to_frame()[["u", "psi"]].to_dict("records")
+    for _ in range(5):  # most often the first one crashed
+        watch, waiting, begun = ellipse.watch(finger=rollfix.Disk(0.1), noise=noise), iter(rows), threading.Barrier(4)
+
+        def feed():
+            begun.wait()
+            for row in iter(lambda: next(waiting, None), None):
+                watch.add(row)
+
+        threads = [threading.Thread(target=feed) for _ in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        counts = watch.finish()[-1]["counts"]
+        assert counts["samples"] + counts["malformed"] == len(rows)

@@ -388,7 +388,7 @@ class Diagnostician {
     const bool is_better = !fit.is_correlated() && fit.excess < kMuchBetter * as_said_.excess;
     if (!is_right && !is_better) return false;
     diagnosis.verdict = belief.verdict();
-    diagnosis.modes = belief.modes();
+    diagnosis.modes = modes_of(belief);
     // What would have any place fit explains nothing, unless they all look alike.
     const bool is_empty = diagnosis.verdict.name == Verdict::unobservable && verdict_.name != Verdict::unobservable;
     if (diagnosis.modes.empty() || is_empty) return false;

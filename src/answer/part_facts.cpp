@@ -98,7 +98,7 @@ Interval curvature_range(const Part& part) {
 }
 
 double largest_disk(const Part& part) {
-  const auto is_concave = [](const Corner& corner) { return corner.turn < 0; };
+  const auto is_concave = [](const Corner& corner) { return corner.is_concave(); };  // tiny joints are rolled over
   if (std::any_of(part.corners().begin(), part.corners().end(), is_concave)) return 0;
   const double most_concave = -curvature_range(part).lo;
   // A straight line's curvature is 0 but for rounding.

@@ -34,6 +34,10 @@ void require_consistent(const Problem& problem) {
   if (problem.robust) throw InputError("`robust`: is about noise, expected noise as well");
 }
 
+bool is_in_another_unit(const Log& log, const Part& part) {
+  return !log.unit.empty() && !part.unit().empty() && log.unit != part.unit();
+}
+
 Tolerance tolerance_of(const Problem& problem, const Observation& observed, std::optional<Belief>& belief) {
   if (problem.tolerance) return tolerance_given(*problem.tolerance);
   return belief ? tolerance_from_noise(belief->tolerance(observed.readings))
@@ -175,6 +179,11 @@ Reach reach_of(const Part& part, const Finger& finger) {
 
 Answer solve(const Problem& problem) {
   require_consistent(problem);
+  if (problem.felt.is_log() && is_in_another_unit(*problem.felt.log, problem.part)) {
+    Problem converted = problem;
+    converted.felt.log = in_unit(*problem.felt.log, problem.part.unit(), problem.fingers);
+    return solve(converted);
+  }
   if (problem.mirrored) {
     Problem seen = in_mirror(problem);
     seen.mirrored = false;

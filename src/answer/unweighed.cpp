@@ -135,7 +135,7 @@ std::vector<Diagnosis> diagnoses_with(const Problem& problem, const Observation&
   diagnosis.cause = Cause::unsaid_noise;
   diagnosis.noise = noise;
   diagnosis.verdict = belief->verdict();
-  diagnosis.modes = belief->modes();
+  diagnosis.modes = modes_of(*belief);
   return {std::move(diagnosis)};
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "part/not_lost.hpp"
 #include "rollfix/error.hpp"
 #include "unweighed.hpp"
 
@@ -137,6 +138,7 @@ std::optional<Belief> believe(const Problem& problem, const Observation& observe
     throw InputError(
         "`pose`: the fingers tell where the part is by their centres, expected a log with columns x and y");
   }
+  if (problem.pose) require_not_lost(problem.part, problem.pose->place_sd, "a pose with a standard deviation", "");
   Belief belief(problem.part, kind_of(problem), options, contacts);
   const bool has_times = problem.felt.is_log() && !problem.felt.log->time.empty();
   require_times(*problem.noise, has_times, problem.felt.is_log() ? problem.felt.log->name : "`readings`");
@@ -154,6 +156,24 @@ std::optional<Belief> believe(const Problem& problem, const Observation& observe
   }
   return belief;
 }
+
+std::vector<Mode> modes_of(Belief& belief) {
+  std::vector<Mode> modes = belief.modes();
+  for (Mode& mode : modes) mode.probability = std::min(1.0, mode.probability);
+  return modes;
+}
+
+namespace {
+
+/// Sums and quotients of probabilities may come out beyond 1 by rounding.
+void keep_probabilities(Answer& answer) {
+  for (std::vector<Placement>* placements : {&answer.placements, &answer.weighing->improbable}) {
+    for (Placement& placement : *placements) placement.probability = std::min(1.0, placement.probability);
+  }
+  answer.weighing->rest = std::clamp(answer.weighing->rest, 0.0, 1.0);
+}
+
+}  // namespace
 
 void weigh(const Problem& problem, const Observation& observed, bool explains, Belief& belief, Answer& answer) {
   Weighing weighing;
@@ -188,6 +208,7 @@ void weigh(const Problem& problem, const Observation& observed, bool explains, B
     answer.status = weighing.rest <= kMostRest ? Status::complete : Status::incomplete;
   }
   answer.weighing = std::move(weighing);
+  keep_probabilities(answer);
 }
 
 void conclude(Belief& belief, Answer& answer) {
@@ -202,7 +223,7 @@ void conclude(Belief& belief, Answer& answer) {
     answer.verdict.fits_badly |= fits_badly;
   }
   const double as_said = trust(answer);
-  if (as_said == 1) return;
+  if (as_said == 1) return keep_probabilities(answer);
   double listed = 0;
   for (Placement& placement : answer.placements) {
     placement.probability *= as_said;
@@ -211,6 +232,7 @@ void conclude(Belief& belief, Answer& answer) {
     listed += placement.probability;
   }
   answer.weighing->rest = std::max(0.0, 1 - listed);
+  keep_probabilities(answer);
 }
 
 }  // namespace rollfix

@@ -27,6 +27,10 @@ struct Supposed {
 /// Nothing without noise.
 std::optional<Belief> believe(const Problem& problem, const Observation& observed, const Supposed& supposed = {});
 
+/// What the belief says now: its modes, whose probabilities, sums over many cells, are not carried beyond 1 by
+/// rounding.
+std::vector<Mode> modes_of(Belief& belief);
+
 /// Puts what the samples leave in place of what the search found. What nothing explains is not listed. Unless it
 /// `explains`, nothing is said of what may be wrong.
 void weigh(const Problem& problem, const Observation& observed, bool explains, Belief& belief, Answer& answer);

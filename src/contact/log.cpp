@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -78,6 +79,8 @@ class LogMaker {
       for (const ColumnSource& source : reader_.columns()[k].source) {
         if (!source.name.empty()) roll_.fingers[k].columns.push_back(source);
       }
+      roll_.fingers[k].u_wrapped = reader_.columns()[k].u_wrapped;
+      roll_.fingers[k].psi_wrapped = reader_.columns()[k].psi_wrapped;
     }
     roundings_.assign(roll_.fingers.size(), FingerRounding{});
     odometers_.assign(roll_.fingers.size(), Odometer(reader_.kind(), is_later_roll_));
@@ -99,6 +102,11 @@ class LogMaker {
         const Reading reading = odometers_[k].add(cells);
         finger.length.push_back(reading.length[0]);
         finger.turn.push_back(reading.turn);
+      }
+      if (roll_.kind == LogKind::increments) {  // that of a later roll's first contact does not count
+        const bool counts = !is_later_roll_ || finger.length.size() > 1;
+        finger.distance.push_back(counts ? cells.place.value : 0);
+        finger.dturn.push_back(counts ? cells.angle.value : 0);
       }
       if (reader_.columns()[k].has(Column::x)) {
         finger.x.push_back(cells.x);
@@ -138,18 +146,35 @@ class LogMaker {
   bool any_without_contact_ = false;
 };
 
+/// The next row; nothing where it can't be read and is left out.
+std::optional<RowKind> read_row(RowReader& reader, std::string_view line, bool skips, LogRow& row,
+                                std::vector<std::string>& skipped) {
+  try {
+    return reader.read(line, row);
+  } catch (const InputError& error) {
+    if (!reader.knows_columns()) throw;  // of the header
+    if (!skips) throw InputError(fmt::format("{}; `skip_bad` leaves such rows out", error.what()));
+    skipped.emplace_back(error.what());
+    return std::nullopt;
+  }
+}
+
 /// Runs a stream of lines to its end.
 std::vector<Log> rolls_in(LogLines& lines, Splitting splitting, const LogOptions& options) {
   RowReader reader(lines.name(), options);
   LogMaker maker(reader, splitting);
+  std::vector<std::string> skipped;
   LogRow row;
   std::string_view line;
   while (lines.next(line)) {
-    const RowKind kind = reader.read(line, row);
-    maker.take(kind, row);
-    if (kind != RowKind::none) reader.accept(row);
+    const std::optional<RowKind> kind = read_row(reader, line, options.skip_bad, row, skipped);
+    if (!kind) continue;
+    maker.take(*kind, row);
+    if (*kind != RowKind::none) reader.accept(row);
   }
-  return maker.finish();
+  std::vector<Log> rolls = maker.finish();
+  for (Log& roll : rolls) roll.skipped = skipped;
+  return rolls;
 }
 
 std::vector<Log> rolls_of_text(std::string_view text, const std::string& name, Splitting splitting,
@@ -166,7 +191,8 @@ std::vector<Log> rolls_of_file(const std::string& path, Splitting splitting, con
 
 /// What the options say of one of two files.
 LogOptions options_for(const LogOptions& options, std::size_t finger) {
-  LogOptions result{{}, options.unit};
+  LogOptions result = options;
+  result.columns.clear();
   for (ColumnSource source : options.columns) {
     const std::string end = source.column.size() > 2 ? source.column.substr(source.column.size() - 2) : "";
     if (end == kFingerSuffixes[1 - finger]) continue;
@@ -310,7 +336,27 @@ Log paired(Log a, Log b) {
   b.fingers[0].name = b.name;
   a.fingers.push_back(std::move(b.fingers[0]));
   a.contact_was_off = a.contact_was_off || b.contact_was_off;
+  a.skipped.insert(a.skipped.end(), b.skipped.begin(), b.skipped.end());
   return a;
+}
+
+Log in_unit(Log log, const std::string& unit, const std::vector<Finger>& fingers) {
+  if (log.unit.empty() || unit.empty() || log.unit == unit) return log;
+  const Conversion convert = length_conversion(log.unit, unit, log.name);
+  for (std::size_t k = 0; k < log.fingers.size(); ++k) {
+    FingerRows& rows = log.fingers[k];
+    const Finger* const finger = finger_of(fingers, k);
+    const bool is_length = finger != nullptr ? !finger->is_disk() : rows.u_dimension == Dimension::length;
+    std::vector<std::vector<double>*> lengths{&rows.length, &rows.distance, &rows.x, &rows.y};
+    if (is_length) lengths.push_back(&rows.u);
+    for (std::vector<double>* const column : lengths) {
+      for (double& value : *column) value = convert(value);
+    }
+    if (is_length) rows.u_period = convert(rows.u_period);
+    if (is_length || log.kind != LogKind::contact) rows.place_rounding = convert(rows.place_rounding);
+  }
+  log.unit = unit;
+  return log;
 }
 
 Log one_finger(const Log& log, std::size_t finger) {

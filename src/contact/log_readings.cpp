@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,14 +26,32 @@ std::string place_of(const Log& log, std::size_t finger, std::size_t row) {
   return row < rows.line.size() ? fmt::format("{}:{}", name, rows.line[row]) : fmt::format("{}, row {}", name, row + 1);
 }
 
+constexpr double kTurn = 2 * std::numbers::pi;
+
+/// Throws InputError where rows are so far apart that a column may be wrapped or not, and nobody said which.
+void require_clear(const Log& log, std::size_t which, const Finger& finger) {
+  const FingerRows& rows = log.fingers[which];
+  const auto require = [&](Column column, const std::vector<double>& angles, const std::optional<std::size_t>& row) {
+    if (!row) return;
+    throw InputError(
+        fmt::format("{}: {}{} goes from {:.6g} to {:.6g} in one row, which is more than half way round: whether it is "
+                    "wrapped there "
+                    "can't be told, because the rows are far apart; say it with `wrapped` no, or `wrapped` yes",
+                    place_of(log, which, *row), name_of(column), log.fingers.size() == 1 ? "" : kFingerSuffixes[which],
+                    angles[*row - 1], angles[*row]));
+  };
+  require(Column::u, rows.u, unclear_step(rows.u, rows.place_rounding, finger.period(), rows.u_wrapped));
+  require(Column::psi, rows.psi, unclear_step(rows.psi, rows.angle_rounding, kTurn, rows.psi_wrapped));
+}
+
 /// One finger's rows as readings from its own first contact.
 class FingerCourse {
  public:
   FingerCourse(const Log& log, const std::vector<Finger>& fingers, std::size_t which)
       : kind_(log.kind), rows_(log.fingers[which]), finger_(finger_of(fingers, which)) {
     if (kind_ != LogKind::contact) return;
-    u_ = unwrapped(rows_.u, rows_.place_rounding, finger_->period());
-    psi_ = unwrapped(rows_.psi, rows_.angle_rounding);
+    u_ = unwrapped_as_said(rows_.u, rows_.place_rounding, finger_->period(), rows_.u_wrapped);
+    psi_ = unwrapped_as_said(rows_.psi, rows_.angle_rounding, kTurn, rows_.psi_wrapped);
   }
 
   /// Lengths along the outline as the user gave it.
@@ -56,6 +75,7 @@ class Courses {
     require_fingers(fingers, log.fingers.size(), log.kind == LogKind::contact, log.name);
     for (std::size_t k = 0; k < log.fingers.size(); ++k) {
       require_unit_of_u(log.fingers[k].u_dimension, finger_of(fingers, k), log.name);
+      if (log.kind == LogKind::contact) require_clear(log, k, *finger_of(fingers, k));
       courses_.emplace_back(log, fingers, k);
     }
   }
@@ -232,8 +252,8 @@ std::vector<Reading> readings(const Log& log, const Part& part, const std::vecto
 }
 
 std::vector<Contact> contacts_of(const FingerRows& rows, const Finger& finger) {
-  const std::vector<double> u = unwrapped(rows.u, rows.place_rounding, finger.period());
-  const std::vector<double> psi = unwrapped(rows.psi, rows.angle_rounding);
+  const std::vector<double> u = unwrapped_as_said(rows.u, rows.place_rounding, finger.period(), rows.u_wrapped);
+  const std::vector<double> psi = unwrapped_as_said(rows.psi, rows.angle_rounding, kTurn, rows.psi_wrapped);
   std::vector<Contact> contacts;
   for (std::size_t row = 0; row < u.size(); ++row) contacts.push_back({u[row], psi[row]});
   return contacts;

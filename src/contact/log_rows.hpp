@@ -149,8 +149,26 @@ class Odometer {
   ExactSum turn_;
 };
 
+/// What a log of increments says from row to row.
+struct Increments {
+  std::vector<double> distance;
+  std::vector<double> dturn;
+};
+
+/// Those that were written, where `length` and `turn` are still their sums; else what leads from sum to sum.
+Increments increments_of(const FingerRows& rows);
+
 /// Throws InputError where a log says that u is an angle, or a length, and of this finger it is the other.
 void require_unit_of_u(const std::optional<Dimension>& dimension, const Finger* finger, const std::string& log);
+
+/// The column without jumps, as `unwrapped`, or as it was said to be.
+std::vector<double> unwrapped_as_said(const std::vector<double>& angles, double rounding, double period,
+                                      const std::optional<bool>& is_wrapped);
+
+/// The first row that is so far from the one before that the column may be wrapped there or may not; nothing where the
+/// rows around show which it is, or where it was said.
+std::optional<std::size_t> unclear_step(const std::vector<double>& angles, double rounding, double period,
+                                        const std::optional<bool>& is_wrapped);
 
 /// Throws InputError when a reader of these rows of a log would take angles as wrapped that are not.
 void require_readable(const FingerRows& rows, const std::string& log);
@@ -158,7 +176,9 @@ void require_readable(const FingerRows& rows, const std::string& log);
 /// Unwraps a column as it grows: what `unwrapped` would make of the last of all angles so far, bit by bit.
 class GrowingAngle {
  public:
-  explicit GrowingAngle(double period) : period_(period) {}
+  /// `is_wrapped`: as it was said to be.
+  explicit GrowingAngle(double period, const std::optional<bool>& is_wrapped = {})
+      : period_(period), said_(is_wrapped) {}
 
   /// `rounding`: of each angle so far.
   double add(double angle, double rounding);
@@ -167,7 +187,10 @@ class GrowingAngle {
   double before() const { return before_; }
 
  private:
+  bool is_wrapped(double rounding) const;
+
   double period_;
+  std::optional<bool> said_;
   Interval range_;
   std::size_t count_ = 0;
   double last_ = 0;    // as written

@@ -15,13 +15,15 @@ namespace {
 
 /// What a finger's roll is measured by while it lasts.
 struct OngoingRoll {
-  OngoingRoll(LogKind kind, const Finger* finger, bool is_later_roll)
-      : u(finger != nullptr ? finger->period() : 2 * std::numbers::pi), odometer(kind, is_later_roll) {}
+  OngoingRoll(const Columns& columns, const Finger* finger, bool is_later_roll)
+      : u(finger != nullptr ? finger->period() : 2 * std::numbers::pi, columns.u_wrapped),
+        psi(2 * std::numbers::pi, columns.psi_wrapped),
+        odometer(columns.kind, is_later_roll) {}
 
   bool has_first = false;
   Contact first;  // of u and psi
   GrowingAngle u;
-  GrowingAngle psi{2 * std::numbers::pi};
+  GrowingAngle psi;
   FingerRounding rounding;
   Odometer odometer;  // of everything else
   Reading last;
@@ -130,7 +132,9 @@ LogLine LogStream::State::skip(const InputError& error) {
 void LogStream::State::begin_roll() {
   rolls_.clear();
   strays_ = 0;
-  for (std::size_t k = 0; k < count(); ++k) rolls_.emplace_back(kind(), finger_of(fingers, k), is_later_roll_);
+  for (std::size_t k = 0; k < count(); ++k) {
+    rolls_.emplace_back(reader.columns()[k], finger_of(fingers, k), is_later_roll_);
+  }
   is_later_roll_ = true;
   check_->restart();
 }

@@ -28,6 +28,7 @@ std::string_view bare(std::string_view cell) {
 }
 
 char separator_of(std::string_view row) {
+  if (with_decimal_points(row)) return ';';
   for (const char mark : {',', ';', '\t'}) {
     if (row.find(mark) != std::string_view::npos) return mark;
   }
@@ -41,6 +42,8 @@ std::string_view plain_beginning(std::string_view text, const std::string& name)
   if (mark == "\xFF\xFE" || mark == "\xFE\xFF") {
     throw InputError(fmt::format("{}: is UTF-16 text, expected plain text; save it as UTF-8", name));
   }
+  if (is_gzip(text)) throw InputError(fmt::format("{}: is compressed, expected plain text: gunzip -k {}", name, name));
+  if (has_only_returns(text)) throw InputError(fmt::format("{}: {}", name, kOnlyReturns));
   if (text.substr(0, 1024).find('\0') != std::string_view::npos) {
     throw InputError(fmt::format("{}: is not a text file, expected a log with one row per line", name));
   }
@@ -100,6 +103,13 @@ bool TableCutter::cut(std::string_view line, std::size_t number, TableRow& row) 
   if (separator_ == '\0') separator_ = separator_of(data);
   row.line = number;
   row.text = line;
+  if (separator_ == ';') {
+    if (std::optional<std::string> converted = with_decimal_points(data)) {
+      with_points_ = std::move(*converted);
+      split(with_points_, row.cells);
+      return true;
+    }
+  }
   split(separator_ == '\t' ? bare_line : data, row.cells);
   return true;
 }

@@ -51,7 +51,8 @@ struct TableRow {
 /// Cuts the lines of a comma, semicolon, tab or blank separated table into cells: the first row shows which it is.
 class TableCutter {
  public:
-  /// Makes a row of the line, false where there is none in it. The row refers to the line.
+  /// Makes a row of the line, false where there is none in it. The row refers to the line, or to what this holds until
+  /// the next one.
   bool cut(std::string_view line, std::size_t number, TableRow& row);
 
   /// The next row shows anew what separates.
@@ -60,7 +61,8 @@ class TableCutter {
  private:
   void split(std::string_view data, std::vector<std::string_view>& cells) const;
 
-  char separator_ = '\0';  // not known yet
+  char separator_ = '\0';    // not known yet
+  std::string with_points_;  // of a row with decimal commas
 };
 
 /// "run.csv:12", for messages.
@@ -100,6 +102,8 @@ struct Columns {
   std::string suffix;                      // of the finger's columns
   bool contact_is_shared = false;          // one column `contact` for both fingers
   std::optional<Dimension> u_dimension{};  // where the log says what u is in
+  std::optional<bool> u_wrapped{};         // where somebody said whether it jumps back after a full turn
+  std::optional<bool> psi_wrapped{};       // the same of psi
 
   Columns() { cell.fill(kNone); }
   bool has(Column column) const { return (*this)[column] != kNone; }

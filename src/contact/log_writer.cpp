@@ -20,27 +20,33 @@ namespace rollfix {
 namespace {
 
 /// A column of a table that is to be written.
-using NamedColumn = std::pair<std::string, const std::vector<double>*>;
+using NamedColumn = std::pair<std::string, std::vector<double>>;
 
 /// The columns that a log has. Throws InputError when one is shorter or longer than the others.
 std::vector<NamedColumn> columns_of(const Log& log) {
   std::vector<NamedColumn> present;
-  const auto add = [&](const std::string& name, const std::vector<double>& column) {
+  const auto add = [&](const std::string& name, std::vector<double> column) {
     if (column.empty()) return;
     if (column.size() != log.rows()) {
       throw InputError(
           fmt::format("{}: expected {} values in column '{}', found {}", log.name, log.rows(), name, column.size()));
     }
-    present.emplace_back(name, &column);
+    present.emplace_back(name, std::move(column));
   };
   add(name_of(Column::time), log.time);
   for (std::size_t k = 0; k < log.fingers.size(); ++k) {
     const FingerRows& rows = log.fingers[k];
     const std::string suffix = log.fingers.size() == 1 ? "" : kFingerSuffixes[k];
-    add(name_of(Column::u) + suffix, rows.u);
-    add(name_of(Column::psi) + suffix, rows.psi);
-    add(name_of(Column::length) + suffix, rows.length);
-    add(name_of(Column::turn) + suffix, rows.turn);
+    if (log.kind == LogKind::increments) {
+      Increments increments = increments_of(rows);
+      add(name_of(Column::distance) + suffix, std::move(increments.distance));
+      add(name_of(Column::dturn) + suffix, std::move(increments.dturn));
+    } else {
+      add(name_of(Column::u) + suffix, rows.u);
+      add(name_of(Column::psi) + suffix, rows.psi);
+      add(name_of(Column::length) + suffix, rows.length);
+      add(name_of(Column::turn) + suffix, rows.turn);
+    }
     add(name_of(Column::x) + suffix, rows.x);
     add(name_of(Column::y) + suffix, rows.y);
   }
@@ -56,7 +62,7 @@ std::string format_table(const std::vector<NamedColumn>& columns, std::size_t ro
   for (std::size_t row = 0; row < rows; ++row) {
     for (std::size_t k = 0; k < columns.size(); ++k) {
       // With trailing zeros: they say how precise the number is.
-      fmt::format_to(out, "{}{:#.17g}", k == 0 ? "" : ",", (*columns[k].second)[row]);
+      fmt::format_to(out, "{}{:#.17g}", k == 0 ? "" : ",", columns[k].second[row]);
     }
     text.push_back('\n');
   }

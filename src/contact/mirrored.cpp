@@ -58,6 +58,8 @@ void mirror(FingerRows& rows, const Finger* finger) {
   for (double& psi : rows.psi) psi = mirrored_psi(finger, psi);
   negate(rows.length);
   negate(rows.turn);
+  negate(rows.distance);
+  negate(rows.dturn);
   negate(rows.x);
 }
 

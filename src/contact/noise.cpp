@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "contact/log_rows.hpp"
 #include "contact/normal_numbers.hpp"
+#include "part/not_lost.hpp"
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
 
@@ -106,7 +108,43 @@ double drift_variance(const Noise& noise, LogKind kind, double laps, const Inter
   return kind == LogKind::travelled ? noise.angle * noise.angle * laps : 0;
 }
 
+namespace {
+
+/// What a kind of noise may be at most on such a part, and what that is.
+double most_of(const NoiseKind& kind, double perimeter) {
+  switch (kind.unit) {
+    case NoiseKind::Unit::length: {
+      const bool is_of_rows = kind.sd == &Noise::contact || kind.sd == &Noise::radius;
+      return (is_of_rows ? kMostLengthNoise : kMostPlaceNoise) * perimeter;
+    }
+    case NoiseKind::Unit::per_length:
+      return kMostSlip;
+    case NoiseKind::Unit::rate:
+    case NoiseKind::Unit::walk:
+      return kMostRate;
+    case NoiseKind::Unit::angle:
+      break;
+  }
+  return std::numeric_limits<double>::infinity();  // of angles the belief has a bound of its own
+}
+
+void require_sensible(const Part& part, const Noise& noise) {
+  if (noise.position > 0) require_not_lost(part, noise.position, "a noise of the position", "");
+  for (const NoiseKind& kind : kNoiseKinds) {
+    const double sd = noise.*kind.sd;
+    const double most = most_of(kind, part.perimeter());
+    if (!(sd > most)) continue;
+    const bool is_length = kind.unit == NoiseKind::Unit::length;
+    throw InputError(fmt::format("noise: {} of {:.6g} says nothing on {}{}, expected at most {:.6g}{}", kind.name, sd,
+                                 part.name(), is_length ? fmt::format(", {:.6g} around", part.perimeter()) : "", most,
+                                 is_length ? ": give it in the outline's unit" : ""));
+  }
+}
+
+}  // namespace
+
 Noise noise_on(const Part& part, const Noise& sensors) {
+  require_sensible(part, sensors);
   Noise noise = sensors;
   noise.part = part.outline().accuracy;
   return noise;
@@ -163,21 +201,27 @@ NoisyIncrements noisy_increments(const Part& part, double start, double length, 
   NoisyIncrements result;
   result.error.slip = draw_slip(noise, normal);
   result.log.name = "the increments on " + part.name();
+  result.log.unit = part.unit();
   result.log.kind = LogKind::increments;
   const double scale = noise.gyro > 0 ? normal.next(noise.gyro) : 0;
-  Reading sum;
+  Odometer odometer(LogKind::increments, false);  // adds up as a reader does
+  FingerRows& felt = result.log.fingers[0];
   double angle = part.turning().angle(start);
   for (std::size_t row = 1; row <= rows; ++row) {
     const double s = start + length * (static_cast<double>(row) / static_cast<double>(rows));
     const double next = part.turning().angle(s);
-    sum.length[0] += length / static_cast<double>(rows) / (1 + result.error.slip) + normal.next(noise.contact);
-    sum.turn += (1 + scale) * (next - angle) + normal.next(noise.angle);
+    Reading step;
+    step.length[0] = length / static_cast<double>(rows) / (1 + result.error.slip) + normal.next(noise.contact);
+    step.turn = (1 + scale) * (next - angle) + normal.next(noise.angle);
     angle = next;
     result.s.push_back(s);
     // Along the outline as the user gave it, as everything that is not of u and psi.
-    const Reading as_given = in_stored_direction(sum, part);
-    result.log.fingers[0].length.push_back(as_given.length[0]);
-    result.log.fingers[0].turn.push_back(as_given.turn);
+    step = in_stored_direction(step, part);
+    const Reading sum = odometer.add({{step.length[0], 0}, {step.turn, 0}});
+    felt.distance.push_back(step.length[0]);
+    felt.dturn.push_back(step.turn);
+    felt.length.push_back(sum.length[0]);
+    felt.turn.push_back(sum.turn);
   }
   return result;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "contact/log_rows.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/part/boundary.hpp"
 
@@ -23,8 +24,8 @@ class FeltPart {
         finger_(finger),
         rows_(rows),
         start_(start),
-        u_(unwrapped(rows.u, rows.place_rounding, finger.period())),
-        psi_(unwrapped(rows.psi, rows.angle_rounding)) {}
+        u_(unwrapped_as_said(rows.u, rows.place_rounding, finger.period(), rows.u_wrapped)),
+        psi_(unwrapped_as_said(rows.psi, rows.angle_rounding, 2 * std::numbers::pi, rows.psi_wrapped)) {}
 
   /// The part's heading that the contact's normal asks for: u + psi = heading + Theta(s) + pi / 2. At a convex corner
   /// the tangent may have any direction of the pivot, so that this is an interval; unwrapped over the rows.

@@ -10,6 +10,7 @@
 
 #include "contact/log_table.hpp"
 #include "outline/turn.hpp"
+#include "part/not_lost.hpp"
 #include "part/turning_range.hpp"
 
 namespace rollfix {
@@ -57,6 +58,10 @@ RollCheck::RollCheck(const Part& part, LogKind kind, const std::vector<Finger>& 
       noise_in_place_(kSurely * noise.contact),
       error_(PerFinger<StepError>::of(count)),
       recent_(PerFinger<std::array<double, kRecent>>::of(count)) {
+  for (const Finger& finger : fingers) {
+    if (kind != LogKind::contact || !finger.is_disk()) continue;
+    require_not_lost(part, finger.length_per_u(), "a disk with a radius", ": give it in the outline's unit");
+  }
   for (std::size_t k = 0; k < count; ++k) error_[k] = error_of(kind, finger_of(fingers, k), noise);
 }
 

@@ -264,6 +264,7 @@ Roll roll_with(Solve solve, const Part& part, const Finger& finger, const RollPl
   rolling.motion = plan_motion(rolling.track(), plan);
   Roll roll;
   roll.log.name = name_of_roll(part);
+  roll.log.unit = part.unit();
   roll.log.time = times_of(rolling.motion, plan.rows);
   rolling.states = solve(rolling.track(), rolling.motion, roll.log.time);
   roll.log.fingers[0] = rows_of(rolling, {}, {});
@@ -284,6 +285,7 @@ Roll roll_with(Solve solve, const Part& part, const FreePlan& plan) {
   if (is_by_distances(plan)) share_duration(both[0].motion, both[1].motion, plan);
   Roll roll;
   roll.log.name = name_of_roll(part);
+  roll.log.unit = part.unit();
   roll.log.time = times_of(both[0].motion, plan.rows);
   for (std::size_t k = 0; k < 2; ++k) {
     naming(kNames[k], [&] { both[k].states = solve(both[k].track(), both[k].motion, roll.log.time); });

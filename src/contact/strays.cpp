@@ -22,7 +22,8 @@ class RowByRow {
         part_(part),
         rows_(log.fingers[which]),
         finger_(finger),
-        u_(finger != nullptr ? finger->period() : 2 * std::numbers::pi) {}
+        u_(finger != nullptr ? finger->period() : 2 * std::numbers::pi, rows_.u_wrapped),
+        psi_(2 * std::numbers::pi, rows_.psi_wrapped) {}
 
   struct Step {
     Reading before;
@@ -43,7 +44,7 @@ class RowByRow {
   const FingerRows& rows_;
   const Finger* finger_;
   GrowingAngle u_;
-  GrowingAngle psi_{2 * std::numbers::pi};
+  GrowingAngle psi_;
   std::optional<Contact> first_;
   Reading last_;
 };

@@ -179,6 +179,7 @@ std::size_t choice(const std::string& name, const Loops& found, const LoadOption
         "{}: `open` expects a chain of curves with two ends, found closed loops only: leave the option out", name));
   }
   if (found.closed.empty()) refuse_open(name, found.open.front());
+  if (!found.doubt.empty()) throw InputError(found.doubt);
   return 0;
 }
 
@@ -263,7 +264,7 @@ LoadedPart of_json(const std::string& text, const std::string& name, const LoadO
 LoadedPart of_points(const std::string& text, const std::string& name, const LoadOptions& options) {
   std::vector<std::string> notes;
   OutlineOptions known = options.points;
-  const std::vector<Vec2> points = parse_points(text, name, options.points, &notes, &known.unit);
+  const std::vector<Vec2> points = parse_points(text, name, options.points, &notes, &known.unit, &known.airfoil);
   Outline outline = outline_through(points, name, known, &notes);
   LoadedPart loaded = [&] {
     try {

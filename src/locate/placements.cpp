@@ -207,6 +207,15 @@ std::string Verdict::places_text() const {
   return fmt::format("ambiguous ({}, of them {} {})", places, stretches, noun);
 }
 
+bool Placement::contains(const Boundary& boundary, const PerFinger<double>& s) const {
+  const double slack = kLengthAccuracy * boundary.perimeter;
+  for (std::size_t finger = 0; finger < s.size(); ++finger) {
+    const Interval& arc = std::isnan(probability) ? extent[finger] : interval[finger];
+    if (!boundary.is_full(arc) && !boundary.contains(arc, s[finger], slack)) return false;
+  }
+  return true;
+}
+
 Verdict Search::verdict() const {
   if (status == Status::incomplete) return {Verdict::undecided};
   if (placements.empty()) return {Verdict::inconsistent};

@@ -25,6 +25,7 @@ std::string gallery_hint(const std::string& argument) {
 
 std::string unknown_ending(const std::string& path, const std::string& known) {
   const std::string ending = ending_of(path);
+  if (ending == ".gz") return fmt::format("{}: is compressed, expected plain text: gunzip -k {}", path, path);
   const std::string found = ending.empty() ? "has no ending" : fmt::format("has the unknown ending '{}'", ending);
   return fmt::format("{}: {}, expected {}{}", path, found, known, gallery_hint(path));
 }
@@ -39,7 +40,7 @@ Outline load_outline(const std::string& argument, const OutlineOptions& options,
   const std::string ending = ending_of(argument);
   if (argument == "-" || ending == ".csv" || ending == ".dat" || ending == ".txt") {
     OutlineOptions known = options;
-    const std::vector<Vec2> points = read_points(argument, options, notes, &known.unit);
+    const std::vector<Vec2> points = read_points(argument, options, notes, &known.unit, &known.airfoil);
     return outline_through(points, argument, known, notes);
   }
   if (ending == ".json" || ending == ".dxf" || ending == ".svg") {

@@ -146,31 +146,77 @@ class Assembler {
       ends.push_back(back(chains_[k].steps.back()));
     }
     const EndClusters clusters(ends, gap_);
-    refuse_branches(clusters, ends, open);
-    std::vector<bool> done(open.size(), false);
+    std::vector<bool> done = branching(clusters, open.size());
+    if (std::find(done.begin(), done.end(), true) != done.end()) tell_of_branches(clusters, ends, open, done);
     for (std::size_t i = 0; i < open.size(); ++i) {
       if (!done[i]) whole_.push_back(chain_through(i, open, clusters, done));
     }
   }
 
-  void refuse_branches(const EndClusters& clusters, const std::vector<Vec2>& ends,
-                       const std::vector<std::size_t>& open) const {
-    for (std::size_t end = 0; end < ends.size(); ++end) {
-      const std::vector<std::size_t>& meeting = clusters.members(clusters.of(end));
-      if (meeting.size() <= 2) continue;
-      std::vector<std::string> names;
-      for (std::size_t k = 0; k < std::min<std::size_t>(meeting.size(), 4); ++k) {
-        const Chain& chain = chains_[open[meeting[k] / 2]];
-        const Step& step = meeting[k] % 2 == 0 ? chain.steps.front() : chain.steps.back();
-        names.push_back(called(drawing_.curves[step.curve].origin));
-      }
-      throw InputError(
-          fmt::format("{}: {} ends of curves meet near {}, expected two at most ({}{}): remove the curves that do not "
-                      "belong to the outline, or take one layer only with `layer`; ends within {:.3g} count as meeting "
-                      "(`gap`)",
-                      drawing_.name, meeting.size(), place(ends[end]), fmt::join(names, ", "),
-                      meeting.size() > names.size() ? ", ..." : "", gap_));
+  /// Which of the open chains hang together with an end where more than two meet.
+  static std::vector<bool> branching(const EndClusters& clusters, std::size_t chains) {
+    std::vector<bool> branches(chains, false);
+    std::vector<std::size_t> waiting;
+    const auto take = [&](std::size_t chain) {
+      if (branches[chain]) return;
+      branches[chain] = true;
+      waiting.push_back(chain);
+    };
+    for (std::size_t end = 0; end < 2 * chains; ++end) {
+      if (clusters.members(clusters.of(end)).size() > 2) take(end / 2);
     }
+    while (!waiting.empty()) {
+      const std::size_t chain = waiting.back();
+      waiting.pop_back();
+      for (const std::size_t end : {2 * chain, 2 * chain + 1}) {
+        const std::vector<std::size_t>& meeting = clusters.members(clusters.of(end));
+        if (meeting.size() > 2) continue;  // all of them are taken
+        for (const std::size_t other : meeting) take(other / 2);
+      }
+    }
+    return branches;
+  }
+
+  void tell_of_branches(const EndClusters& clusters, const std::vector<Vec2>& ends,
+                        const std::vector<std::size_t>& open, const std::vector<bool>& branches) {
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < open.size(); ++k) {
+      if (!branches[k]) continue;
+      for (const Step& step : chains_[open[k]].steps) branching_.extend(measured(step.curve).box);
+      count += chains_[open[k]].steps.size();
+    }
+    const std::size_t end = first_branch(clusters, ends.size());
+    const std::vector<std::size_t>& meeting = clusters.members(clusters.of(end));
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < std::min<std::size_t>(meeting.size(), 4); ++k) {
+      const Chain& chain = chains_[open[meeting[k] / 2]];
+      const Step& step = meeting[k] % 2 == 0 ? chain.steps.front() : chain.steps.back();
+      names.push_back(called(drawing_.curves[step.curve].origin));
+    }
+    branch_ = fmt::format("{} ends of curves meet near {}, expected two at most ({}{})", meeting.size(),
+                          place(ends[end]), fmt::join(names, ", "), meeting.size() > names.size() ? ", ..." : "");
+    notes_.push_back(fmt::format("left out: {} curves that hang together where {}", count, branch_));
+  }
+
+  static std::size_t first_branch(const EndClusters& clusters, std::size_t ends) {
+    std::size_t end = 0;
+    while (end + 1 < ends && clusters.members(clusters.of(end)).size() <= 2) ++end;
+    return end;
+  }
+
+  /// Throws InputError where nothing else is closed; else says why the largest loop may not be the one that is meant.
+  void hold_against_branches(Loops& found) const {
+    if (branch_.empty()) return;
+    const std::string cure = fmt::format(
+        "remove the curves that do not belong to the outline, or take one layer only with `layer`; ends "
+        "within {:.3g} count as meeting (`gap`)",
+        gap_);
+    if (found.closed.empty()) throw InputError(fmt::format("{}: {}: {}", drawing_.name, branch_, cure));
+    if (box_around(polygon_of(found.closed.front().outline).points).contains(branching_)) return;
+    found.doubt = fmt::format(
+        "{}: {}, on curves outside of the largest sound loop, of length {:.6g}: {}; or take one of the {} "
+        "sound loops with `loop` 1",
+        drawing_.name, branch_, found.closed.front().length, cure, found.closed.size());
   }
 
   /// From chain i on to where no other follows or to its own start, then back from its start.
@@ -253,6 +299,7 @@ class Assembler {
     std::stable_sort(result.open.begin(), result.open.end(),
                      [](const Loop& a, const Loop& b) { return a.length > b.length; });
     find_depths(result.closed);
+    hold_against_branches(result);
     result.notes = std::move(notes_);
     return result;
   }
@@ -277,6 +324,8 @@ class Assembler {
   std::vector<Chain> chains_;  // of one entity each
   std::vector<Chain> whole_;
   std::vector<std::string> notes_;
+  std::string branch_;  // where more than two ends meet; empty: nowhere
+  Box branching_;       // around the curves that hang together there
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "outline/box.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/units.hpp"
 #include "text/number.hpp"
@@ -66,6 +67,8 @@ LineKind read_line(std::string_view line, Vec2& point) {
 
 void refuse_binary(std::string_view text, const std::string& name) {
   const std::string_view head = text.substr(0, 1024);
+  if (is_gzip(text)) throw InputError(fmt::format("{}: is compressed, expected plain text: gunzip -k {}", name, name));
+  if (has_only_returns(text)) throw InputError(fmt::format("{}: {}", name, kOnlyReturns));
   if (has_utf16_mark(text))
     throw InputError(fmt::format("{}: is UTF-16 text, expected plain text; save it as UTF-8", name));
   if (head.find('\0') != std::string_view::npos) {
@@ -102,10 +105,19 @@ struct Title {
   std::string unit;
 };
 
+/// "x_mm", "y mm" as x and mm, y and mm. Other names may end in anything.
+Title title_with_unit(const std::string& name) {
+  const bool is_coordinate =
+      name.size() > 2 && (name[0] == 'x' || name[0] == 'y') && (name[1] == '_' || name[1] == ' ');
+  const std::optional<Unit> unit = is_coordinate ? unit_named(name.substr(2)) : std::nullopt;
+  if (!unit || unit->dimension != Dimension::length) return {name, ""};
+  return {name.substr(0, 1), std::string(unit->name)};
+}
+
 Title title_of(std::string_view cell) {
   const char open = cell.empty() ? '\0' : cell.back() == ']' ? '[' : cell.back() == ')' ? '(' : '\0';
   const std::size_t at = open == '\0' ? std::string_view::npos : cell.rfind(open);
-  if (at == std::string_view::npos) return {lower_case(cell), ""};
+  if (at == std::string_view::npos) return title_with_unit(lower_case(cell));
   return {lower_case(trimmed(cell.substr(0, at))), std::string(trimmed(cell.substr(at + 1, cell.size() - at - 2)))};
 }
 
@@ -186,15 +198,19 @@ class TableReader {
     line_ = rest_.substr(0, end);
     rest_.remove_prefix(std::min(end + 1, rest_.size()));
     data_ = line_.substr(0, line_.find('#'));
+    if (std::optional<std::string> converted = with_decimal_points(data_)) {
+      with_points_ = std::move(*converted);
+      data_ = with_points_;
+    }
     ++number_;
     return true;
   }
 
   /// The next line that is not blank, as far as it is data.
-  std::string_view line_ahead() const {
+  std::string line_ahead() const {
     TableReader ahead(rest_, name_);
     while (ahead.next_line()) {
-      if (!trimmed(ahead.data_).empty()) return ahead.data_;
+      if (!trimmed(ahead.data_).empty()) return std::string(ahead.data_);
     }
     return {};
   }
@@ -229,6 +245,7 @@ class TableReader {
     if (x && y) {
       --titles_;
       take_unit(header);
+      if (header.has("z")) result_.notes.push_back("the column z is not looked at: outlines are plane");
       header_ = header;
       return;
     }
@@ -292,7 +309,8 @@ class TableReader {
 
   std::string_view rest_;
   std::string_view line_;
-  std::string_view data_;  // without a comment
+  std::string_view data_;    // without a comment
+  std::string with_points_;  // the same with decimal points for commas
   const std::string& name_;
   std::size_t number_ = 0;
   std::size_t titles_ = 0;

@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "outline/box.hpp"
+#include "outline/chord_turns.hpp"
 #include "outline/point_table.hpp"
 #include "rollfix/error.hpp"
 #include "text/text.hpp"
@@ -183,10 +184,11 @@ void convert(NumberedPoints& data, const std::string& name, const std::string& w
 }  // namespace
 
 std::vector<Vec2> parse_points(std::string_view text, const std::string& name, const OutlineOptions& options,
-                               std::vector<std::string>* notes, std::string* unit) {
+                               std::vector<std::string>* notes, std::string* unit, bool* airfoil) {
   NumberedPoints data = read_point_table(text, name);
-  const std::string airfoil = order_airfoil(data, name);
-  if (!airfoil.empty()) data.notes.push_back(airfoil);
+  const std::string order = order_airfoil(data, name);
+  if (!order.empty()) data.notes.push_back(order);
+  if (airfoil != nullptr) *airfoil = !order.empty();
   convert(data, name, options.unit);
   if (unit != nullptr) *unit = data.unit;
   for (std::size_t k = 0; notes != nullptr && k < data.notes.size(); ++k) {
@@ -210,8 +212,8 @@ std::vector<Vec2> parse_points(std::string_view text, const std::string& name, c
 }
 
 std::vector<Vec2> read_points(const std::string& path, const OutlineOptions& options, std::vector<std::string>* notes,
-                              std::string* unit) {
-  return parse_points(read_text(path), path == "-" ? "standard input" : path, options, notes, unit);
+                              std::string* unit, bool* airfoil) {
+  return parse_points(read_text(path), path == "-" ? "standard input" : path, options, notes, unit, airfoil);
 }
 
 Outline outline_through(const std::vector<Vec2>& points, const std::string& name, const OutlineOptions& options,
@@ -222,7 +224,11 @@ Outline outline_through(const std::vector<Vec2>& points, const std::string& name
   outline.unit = options.unit;
   const double corner_angle = options.corner_angle.value_or(kCornerAngle);
   if (!options.smooth) {
-    outline.curves = spline_through(points, outline.closed, corner_angle);
+    const bool is_usable = points.size() > 2;  // what is not is refused there
+    outline.curves =
+        options.corner_angle || !is_usable
+            ? spline_through(points, outline.closed, corner_angle)
+            : spline_with_corners(points, outline.closed, corners_of_points(points, outline.closed, options.airfoil));
     return outline;
   }
   const double within = in_unit(*options.smooth, options.unit, "`smooth`");

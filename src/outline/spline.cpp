@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "outline/chord_turns.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline/curve.hpp"
@@ -228,10 +229,10 @@ std::vector<Curve> periodic_spline(const Chords& chords) {
 
 }  // namespace
 
-std::vector<Curve> spline_through(const std::vector<Vec2>& points, bool closed, double corner_angle) {
-  require_usable(points, closed, corner_angle);
-  const Chords chords(points, closed);
-  const std::vector<std::size_t> breaks = chords.breaks(corner_angle);
+namespace {
+
+/// `breaks`: where a new spline starts, in order; of an open curve its first point among them.
+std::vector<Curve> spline_in_runs(const Chords& chords, const std::vector<std::size_t>& breaks) {
   if (breaks.empty()) return periodic_spline(chords);
 
   // The run across the seam is drawn first and turned last: its tail belongs to the front of the list.
@@ -242,11 +243,32 @@ std::vector<Curve> spline_through(const std::vector<Vec2>& points, bool closed, 
     (i < breaks.front() ? before_first_break : curves).push_back(std::move(curve));
   };
   for (std::size_t k = 0; k < breaks.size(); ++k) {
-    const std::size_t end = k + 1 < breaks.size() ? breaks[k + 1] : chords.size() + (closed ? breaks.front() : 0);
+    const std::size_t end =
+        k + 1 < breaks.size() ? breaks[k + 1] : chords.size() + (chords.closed() ? breaks.front() : 0);
     draw_run(chords, {breaks[k], end - breaks[k]}, place);
   }
   curves.insert(curves.begin(), before_first_break.begin(), before_first_break.end());
   return curves;
+}
+
+}  // namespace
+
+std::vector<Curve> spline_through(const std::vector<Vec2>& points, bool closed, double corner_angle) {
+  require_usable(points, closed, corner_angle);
+  const Chords chords(points, closed);
+  return spline_in_runs(chords, chords.breaks(corner_angle));
+}
+
+std::vector<Curve> spline_with_corners(const std::vector<Vec2>& points, bool closed,
+                                       const std::vector<std::size_t>& corners) {
+  require_usable(points, closed, kCornerAngle);
+  const Chords chords(points, closed);
+  std::vector<std::size_t> breaks;
+  if (!closed && (corners.empty() || corners.front() != 0)) breaks.push_back(0);
+  for (const std::size_t corner : corners) {
+    if (corner < chords.size()) breaks.push_back(corner);
+  }
+  return spline_in_runs(chords, breaks);
 }
 
 }  // namespace rollfix

@@ -6,21 +6,16 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <string>
+#include <utility>
 
 namespace rollfix {
 
 namespace {
 
 constexpr double kRadiansOfDegree = std::numbers::pi / 180;
-constexpr std::string_view kDegreeMark = "deg";
+constexpr std::array<std::string_view, 2> kDegreeMarks = {"deg", "\xC2\xB0"};  // the second is the degree sign
 constexpr int kMostPower = 1000;  // beyond it every double is 0 or infinite
-
-/// Takes the mark off the text; whether there was one.
-bool strip_degrees(std::string_view& text) {
-  if (text.size() <= kDegreeMark.size() || text.substr(text.size() - kDegreeMark.size()) != kDegreeMark) return false;
-  text.remove_suffix(kDegreeMark.size());
-  return true;
-}
 
 /// 5 * 10^-(places + 1), half a unit in this decimal place. The powers that occur all the time come from a table.
 double half_unit(int places) {
@@ -35,11 +30,58 @@ double half_unit(int places) {
 
 }  // namespace
 
+bool take_degrees(std::string_view& text) {
+  for (const std::string_view mark : kDegreeMarks) {
+    if (text.size() <= mark.size() || text.substr(text.size() - mark.size()) != mark) continue;
+    text.remove_suffix(mark.size());
+    while (text.size() > 1 && text.back() == ' ') text.remove_suffix(1);
+    return true;
+  }
+  return false;
+}
+
 std::optional<double> parse_angle(std::string_view text) {
-  const bool in_degrees = strip_degrees(text);
+  const bool in_degrees = take_degrees(text);
   const std::optional<double> value = parse_number(text);
   if (!value || !in_degrees) return value;
   return *value * kRadiansOfDegree;
+}
+
+namespace {
+
+/// "-0,5", "1,25e-3", ",5".
+bool has_decimal_comma(std::string_view cell) {
+  const std::size_t comma = cell.find(',');
+  if (comma == std::string_view::npos || comma + 1 == cell.size()) return false;
+  const char next = cell[comma + 1];
+  if (next < '0' || next > '9') return false;
+  std::string number(cell);
+  number[comma] = '.';
+  return parse_angle(number).has_value();
+}
+
+}  // namespace
+
+std::optional<std::string> with_decimal_points(std::string_view row) {
+  if (row.find(';') == std::string_view::npos || row.find(',') == std::string_view::npos) return std::nullopt;
+  std::string result(row);
+  bool any = false;
+  std::size_t start = 0;
+  while (start <= result.size()) {
+    const std::size_t end = std::min(result.find(';', start), result.size());
+    const std::string_view padded(result.data() + start, end - start);
+    const std::size_t first = padded.find_first_not_of(" \t\r\"");
+    if (first != std::string_view::npos) {
+      const std::size_t last = padded.find_last_not_of(" \t\r\"");
+      const std::string_view cell = padded.substr(first, last - first + 1);
+      if (has_decimal_comma(cell)) {
+        result[start + first + cell.find(',')] = '.';
+        any = true;
+      }
+    }
+    start = end + 1;
+  }
+  return any ? std::optional<std::string>(std::move(result)) : std::nullopt;
 }
 
 std::string decimal_comma_hint(std::string_view text) {
@@ -63,7 +105,7 @@ std::string decimal_comma_hint(std::string_view text) {
 }
 
 double rounding_of(std::string_view number) {
-  const double unit = strip_degrees(number) ? kRadiansOfDegree : 1;
+  const double unit = take_degrees(number) ? kRadiansOfDegree : 1;
   bool after_point = false;
   bool is_zero = true;
   int places = 0;

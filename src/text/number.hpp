@@ -36,6 +36,13 @@ inline std::optional<double> parse_number(std::string_view text) {
 /// "nan" and "inf" are numbers here, for the caller to refuse.
 std::optional<double> parse_angle(std::string_view text);
 
+/// Takes the mark of degrees off an angle's end, "deg" or the degree sign, and blanks before it; whether there was one.
+bool take_degrees(std::string_view& text);
+
+/// The row with points for the decimal commas of its numbers, "0.5;1.25" of "0,5;1,25"; nothing where semicolons
+/// separate no such number. Between them a comma can be nothing else.
+std::optional<std::string> with_decimal_points(std::string_view row);
+
 /// "; numbers take a decimal point, as in 0.5, not a comma" of a number with a decimal comma, such as "0,5",
 /// "-12,25deg" or "8,5mm": the end of a message that refuses it. Empty of all else.
 std::string decimal_comma_hint(std::string_view text);

@@ -199,4 +199,12 @@ std::string read_text(const std::string& path) {
   return read_all(file.get(), expected, path);
 }
 
+bool has_only_returns(std::string_view text) {
+  constexpr std::size_t kBeginning = 4096;
+  const std::string_view head = text.substr(0, kBeginning);
+  const std::size_t first = head.find('\r');
+  // The last character may be the first half of a line's end.
+  return first != std::string_view::npos && first + 1 < head.size() && head.find('\n') == std::string_view::npos;
+}
+
 }  // namespace rollfix

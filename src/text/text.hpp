@@ -54,4 +54,12 @@ OpenFile open_text(const std::string& path);
 /// device without an end.
 std::string read_text(const std::string& path);
 
+/// Whether a file begins like one that gzip wrote.
+inline bool is_gzip(std::string_view text) { return text.substr(0, 2) == "\x1F\x8B"; }
+
+/// Whether the lines of a text end in carriage returns alone, as far as its beginning shows.
+bool has_only_returns(std::string_view text);
+inline constexpr const char* kOnlyReturns =
+    "has lines that end in a carriage return alone, expected line feeds: tr '\\r' '\\n' < OLD > NEW";
+
 }  // namespace rollfix

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -21,15 +23,11 @@
 namespace rollfix::app {
 namespace {
 
-constexpr std::string_view kDegreeMark = "deg";
-
-bool in_degrees(std::string_view angle) {
-  return angle.size() > kDegreeMark.size() && angle.substr(angle.size() - kDegreeMark.size()) == kDegreeMark;
-}
+bool in_degrees(std::string_view angle) { return take_degrees(angle); }
 
 /// Half a unit of the last decimal, whatever the unit is.
 double half_unit(std::string_view number) {
-  if (in_degrees(number)) number.remove_suffix(kDegreeMark.size());
+  take_degrees(number);
   return rounding_of(number);
 }
 
@@ -123,7 +121,12 @@ std::string noise_form() {
 void require_sensible(const RollArguments& arguments) {
   const bool from_log = !arguments.logs.empty();
   if (!arguments.roll.empty() && !from_log) throw InputError("--roll chooses from a log: give a --log as well");
-  if (!arguments.columns.empty() && !from_log) throw InputError("--columns is about a log: give a --log as well");
+  if (arguments.reading.any() && !from_log) {
+    throw InputError(
+        fmt::format("--{} is about a log: give a --log as well", !arguments.reading.columns.empty()   ? "columns"
+                                                                 : !arguments.reading.wrapped.empty() ? "wrapped"
+                                                                                                      : "skip-bad"));
+  }
   if (!arguments.instants.empty() && !from_log) throw InputError("--at picks instants of a log: give a --log as well");
   if (from_log && arguments.logs.front() == "-" && arguments.part.part == "-") {
     throw InputError("the part and the log can't both come from standard input: give one of them as a file");
@@ -141,15 +144,32 @@ void require_sensible(const RollArguments& arguments) {
 
 }  // namespace
 
-void add_columns_argument(CLI::App& command, std::string& columns) {
+void add_reading_arguments(CLI::App& command, LogArguments& reading) {
   command
-      .add_option("--columns", columns,
+      .add_option("--columns", reading.columns,
                   "what the log's header calls its columns, and in what they are, where it does not say that itself: "
-                  "u=contact_deg:deg,psi=yaw_deg:deg,time=stamp:ms")
+                  "u=contact_deg:deg,psi=yaw_deg:deg,time=stamp:ms; behind u or psi also :unwrapped or :wrapped")
       ->type_name("COLUMN=NAME:UNIT,...");
+  command
+      .add_option(
+          "--wrapped", reading.wrapped,
+          "whether the log's u and psi jump back after a full turn, where its rows are too far apart to show it: "
+          "yes or no")
+      ->type_name("yes|no");
 }
 
-void add_log_arguments(CLI::App& command, std::vector<std::string>& logs, std::string& roll, std::string& columns) {
+void add_skip_argument(CLI::App& command, LogArguments& reading) {
+  add_switch(command, "--skip-bad", reading.skip_bad,
+             "leave out rows that can't be read: an empty cell, no number, a time that does not grow");
+}
+
+void add_skipped_note(const Log& log, std::vector<std::string>& notes) {
+  if (log.skipped.empty()) return;
+  notes.push_back(fmt::format("{}: {} left out, the first: {}", log.name, counted(log.skipped.size(), "row", "rows"),
+                              log.skipped.front()));
+}
+
+void add_log_arguments(CLI::App& command, std::vector<std::string>& logs, std::string& roll, LogArguments& reading) {
   command.add_option("--log", logs, "a tactile log, - for stdin; of two fingers one file or two")
       ->type_name("FILE")
       ->allow_extra_args(false);
@@ -157,7 +177,8 @@ void add_log_arguments(CLI::App& command, std::vector<std::string>& logs, std::s
       .add_option("--roll", roll,
                   "which roll of a log in which contact is lost and found again, from 1; default the last")
       ->type_name("N");
-  add_columns_argument(command, columns);
+  add_reading_arguments(command, reading);
+  add_skip_argument(command, reading);
 }
 
 void add_noise_argument(CLI::App& command, std::string& noise) {
@@ -225,7 +246,7 @@ void add_felt_arguments(CLI::App& command, RollArguments& arguments, bool takes_
                   "of two fingers both lengths and finger a's turn less finger b's: LA,LB,THETA")
       ->type_name("L,THETA")
       ->allow_extra_args(false);
-  add_log_arguments(command, arguments.logs, arguments.roll, arguments.columns);
+  add_log_arguments(command, arguments.logs, arguments.roll, arguments.reading);
   add_finger_argument(command, arguments.fingers);
   command
       .add_option("--tolerance", arguments.tolerance,
@@ -280,8 +301,17 @@ std::optional<Prior> read_prior(const std::string& text, const std::string& unit
   return prior;
 }
 
-LogOptions read_log_options(const std::string& columns, const std::string& unit) {
-  return {columns.empty() ? std::vector<ColumnSource>{} : parse_columns(columns), unit};
+LogOptions read_log_options(const LogArguments& reading, const std::string& unit) {
+  LogOptions options;
+  if (!reading.columns.empty()) options.columns = parse_columns(reading.columns);
+  options.unit = unit;
+  options.skip_bad = reading.skip_bad;
+  if (reading.wrapped.empty()) return options;
+  if (reading.wrapped != "yes" && reading.wrapped != "no") {
+    throw InputError(fmt::format("--wrapped {}: expected yes or no", shown(reading.wrapped)));
+  }
+  options.wrapped = reading.wrapped == "yes";
+  return options;
 }
 
 std::optional<PosePrior> read_pose(const PoseArguments& arguments, const std::string& unit) {
@@ -319,7 +349,9 @@ Log read_roll(const std::vector<std::string>& paths, const std::string& roll, co
   const std::size_t number = roll.empty() ? 0 : read_count(roll, "--roll", 1);
   if (paths.size() != 1) {
     if (number > 0) throw InputError("--roll chooses from one log, and --log is given more than once; split the logs");
-    return read_both_logs(paths, options);
+    Log log = read_both_logs(paths, options);
+    add_skipped_note(log, notes);
+    return log;
   }
   std::vector<Log> rolls = read_rolls(paths.front(), options);
   const std::size_t count = rolls.size();
@@ -329,6 +361,7 @@ Log read_roll(const std::vector<std::string>& paths, const std::string& roll, co
   }
   const std::size_t chosen = number > 0 ? number : count;
   Log log = std::move(rolls[chosen - 1]);
+  add_skipped_note(log, notes);
   if (count > 1) {
     notes.push_back(
         fmt::format("{}: roll {} of {}{}", log.name, chosen, count, number > 0 ? "" : "; --roll N takes another"));
@@ -337,6 +370,19 @@ Log read_roll(const std::vector<std::string>& paths, const std::string& roll, co
 }
 
 namespace {
+
+// A turn of more than this, and of as much again for each lap that was rolled, radians, was hardly meant as radians.
+constexpr double kHardlyRadians = 4 * std::numbers::pi;
+
+/// Where a turn that was typed without a unit was likely meant in degrees; else empty.
+std::string degrees_hint(const std::string& typed, const Reading& reading, const Part& part) {
+  const std::string_view turn = trimmed(split(typed, ',').back());
+  double laps = 0;
+  for (const double length : reading.length) laps += std::abs(length) / part.perimeter();
+  if (in_degrees(turn) || std::abs(reading.turn) <= kHardlyRadians * (1 + laps)) return "";
+  return fmt::format("--reading {}: a turn of {} rad is {:.3g} turns; did you mean {}deg?", typed, turn,
+                     std::abs(reading.turn) / (2 * std::numbers::pi), turn);
+}
 
 /// What --heading and --pose are held against.
 void require_u_and_psi(const Problem& problem, const PoseArguments& pose) {
@@ -360,7 +406,7 @@ Problem read_problem(const RollArguments& arguments, std::vector<std::string>& n
 Problem read_problem(const RollArguments& arguments, Part part, std::vector<std::string>& notes) {
   require_sensible(arguments);
   const std::string unit = part.unit();
-  LogOptions log_options = read_log_options(arguments.columns, unit);
+  LogOptions log_options = read_log_options(arguments.reading, unit);
   const bool is_either = arguments.direction == "either";
   const bool is_clockwise = !is_either && counts_clockwise(arguments.direction);
   log_options.clockwise = is_clockwise;
@@ -374,6 +420,10 @@ Problem read_problem(const RollArguments& arguments, Part part, std::vector<std:
     for (Reading& reading : felt.readings) {
       for (double& length : reading.length) length = -length;
     }
+  }
+  for (std::size_t k = 0; k < arguments.readings.size() && !felt.is_log(); ++k) {
+    const std::string hint = degrees_hint(arguments.readings[k], felt.readings[k], part);
+    if (!hint.empty()) notes.push_back(hint);
   }
   const bool of_two = felt.is_log() ? felt.log->fingers.size() == 2 : felt.readings.front().fingers() == 2;
   if (!arguments.facing.empty()) {

@@ -15,6 +15,15 @@ struct PoseArguments {
   std::string pose;
 };
 
+/// How a log is to be read, as typed; empty: not given.
+struct LogArguments {
+  std::string columns;
+  std::string wrapped;
+  bool skip_bad = false;
+
+  bool any() const { return !columns.empty() || !wrapped.empty() || skip_bad; }
+};
+
 /// What `locate` and `advise` are given of a roll, as typed; empty: not given.
 struct RollArguments {
   PartArgument part;
@@ -22,7 +31,7 @@ struct RollArguments {
   std::vector<std::string> logs;
   std::vector<std::string> fingers;
   std::string roll;
-  std::string columns;
+  LogArguments reading;
   std::string facing;
   std::string instants;
   std::string tolerance;
@@ -42,16 +51,20 @@ void add_roll_arguments(CLI::App& command, RollArguments& arguments, bool takes_
 void add_felt_arguments(CLI::App& command, RollArguments& arguments, bool takes_either = false);
 /// Adds --noise alone.
 void add_noise_argument(CLI::App& command, std::string& noise);
-/// Adds --log, --roll and --columns alone.
-void add_log_arguments(CLI::App& command, std::vector<std::string>& logs, std::string& roll, std::string& columns);
+/// Adds --log, --roll, --columns, --wrapped and --skip-bad alone.
+void add_log_arguments(CLI::App& command, std::vector<std::string>& logs, std::string& roll, LogArguments& reading);
 /// Adds --heading and --pose.
 void add_pose_arguments(CLI::App& command, PoseArguments& arguments);
 /// Adds --mirror and --direction.
 void add_side_arguments(CLI::App& command, bool& mirror, std::string& direction, bool takes_either = false);
 /// Whether --direction says that lengths count against the outline. Throws InputError: neither ccw nor cw.
 bool counts_clockwise(const std::string& direction);
-/// Adds --columns alone.
-void add_columns_argument(CLI::App& command, std::string& columns);
+/// Adds --skip-bad.
+void add_skip_argument(CLI::App& command, LogArguments& reading);
+/// Tells of the rows that were left out.
+void add_skipped_note(const Log& log, std::vector<std::string>& notes);
+/// Adds --columns and --wrapped alone.
+void add_reading_arguments(CLI::App& command, LogArguments& reading);
 /// Adds --noise, --prior and --robust.
 void add_noise_arguments(CLI::App& command, std::string& noise, std::string& prior, bool& robust);
 
@@ -70,8 +83,8 @@ std::optional<Noise> read_noise(const std::string& text, const std::string& unit
 std::optional<Prior> read_prior(const std::string& text, const std::string& unit);
 /// --heading or --pose as typed. Throws InputError.
 std::optional<PosePrior> read_pose(const PoseArguments& arguments, const std::string& unit);
-/// --columns as typed, and the part's unit. Throws InputError.
-LogOptions read_log_options(const std::string& columns, const std::string& unit);
+/// --columns, --wrapped and --skip-bad as typed, and the part's unit. Throws InputError.
+LogOptions read_log_options(const LogArguments& reading, const std::string& unit);
 
 /// One roll of what --log names: one file of one finger or of two, or two files of one each. Of a file with several
 /// rolls the one that --roll names, from 1; the last where it is empty, because that is where the finger is now.

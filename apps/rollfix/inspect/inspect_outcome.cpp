@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "files/documents/documents.hpp"
 #include "rollfix/output/answer_output.hpp"
@@ -57,12 +58,29 @@ std::string list(const std::vector<double>& places, int decimals) {
   return list(texts);
 }
 
-std::string list(const std::vector<Corner>& corners, int decimals) {
+bool is_joint(const Corner& corner) { return std::abs(corner.turn) < kJointTurn; }
+
+/// Those that are meant.
+std::string corners_text(const Part& part, int decimals) {
   std::vector<std::string> texts;
-  texts.reserve(corners.size());
-  for (const Corner& corner : corners)
-    texts.push_back(fmt::format("{} ({} deg)", fixed(corner.s, decimals), degrees(corner.turn)));
+  for (const Corner& corner : part.corners()) {
+    if (!is_joint(corner)) texts.push_back(fmt::format("{} ({} deg)", fixed(corner.s, decimals), degrees(corner.turn)));
+  }
   return list(texts);
+}
+
+/// What the rounded digits of a drawing leave where its curves meet; empty where there are none.
+std::string joints_text(const Part& part) {
+  std::size_t count = 0;
+  double most = 0;
+  for (const Corner& corner : part.corners()) {
+    if (!is_joint(corner)) continue;
+    ++count;
+    most = std::max(most, std::abs(corner.turn));
+  }
+  if (count == 0) return "";
+  return fmt::format("{}, of at most {:.2g} deg: smooth but for rounded digits, and rolled over", count,
+                     most * 180 / std::numbers::pi);
 }
 
 std::string shape_text(const Part& part) {
@@ -74,9 +92,14 @@ std::string shape_text(const Part& part) {
                      part.reversed() ? "; given clockwise, stored counter-clockwise" : "");
 }
 
-std::string disk_text(double radius) {
+std::string disk_text(const Part& part, double radius) {
   if (std::isinf(radius)) return "of any size rolls all around: nothing is concave";
-  if (radius == 0) return "of no size rolls all around: there is a concave corner";
+  if (radius == 0) {
+    const auto sharpest = std::min_element(part.corners().begin(), part.corners().end(),
+                                           [](const Corner& a, const Corner& b) { return a.turn < b.turn; });
+    return fmt::format("of no size rolls all around: the corner at {} is concave, {} deg",
+                       fixed(sharpest->s, decimals_for(part.perimeter())), degrees(sharpest->turn));
+  }
   return fmt::format(
       "of radius {:.6g} at most rolls all around, by the curvature (a narrow neck may stop a smaller one)", radius);
 }
@@ -145,10 +168,11 @@ std::string inspect_text(const Inspection& outcome) {
                             fixed(part.point(0).y(), decimals), degrees(part.tangent(0))));
   line("inflections", list(part.inflections(), decimals));
   line("vertices", list(part.vertices(), decimals));
-  line("corners", list(part.corners(), decimals));
+  line("corners", corners_text(part, decimals));
+  if (const std::string joints = joints_text(part); !joints.empty()) line("joints", joints);
   line("spirals", fmt::format("{}", part.turning().spirals().size()));
   line("curvature", fmt::format("{:.6g} to {:.6g}", outcome.curvature.lo, outcome.curvature.hi));
-  line("disk", disk_text(outcome.largest_disk));
+  line("disk", disk_text(part, outcome.largest_disk));
   if (outcome.reach) line("reach", reach_text(outcome));
   line("symmetry", symmetry_text(outcome.symmetry));
   return text + ambiguity_text(outcome.ambiguity);

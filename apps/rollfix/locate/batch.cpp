@@ -85,12 +85,13 @@ struct Field {
   const char* name;
   void (*set)(const Json& value, RollArguments& arguments);
 };
-constexpr std::array<Field, 16> kFields = {{
+constexpr std::array<Field, 17> kFields = {{
     {"readings", [](const Json& value, RollArguments& to) { to.readings = typed_readings(value); }},
     {"log", [](const Json& value, RollArguments& to) { to.logs = typed_each(value, "log"); }},
     {"fingers", [](const Json& value, RollArguments& to) { to.fingers = typed_each(value, "fingers"); }},
     {"roll", [](const Json& value, RollArguments& to) { to.roll = typed(value, "roll"); }},
-    {"columns", [](const Json& value, RollArguments& to) { to.columns = typed(value, "columns"); }},
+    {"columns", [](const Json& value, RollArguments& to) { to.reading.columns = typed(value, "columns"); }},
+    {"wrapped", [](const Json& value, RollArguments& to) { to.reading.wrapped = typed(value, "wrapped"); }},
     {"facing", [](const Json& value, RollArguments& to) { to.facing = typed(value, "facing"); }},
     {"at", [](const Json& value, RollArguments& to) { to.instants = typed_list(value, "at"); }},
     {"tolerance", [](const Json& value, RollArguments& to) { to.tolerance = typed(value, "tolerance"); }},

@@ -47,7 +47,7 @@ struct WatchArguments {
   PartArgument part;
   std::string catalog;
   std::string log;
-  std::string columns;
+  LogArguments reading;
   std::vector<std::string> fingers;
   std::string noise;
   std::string prior;
@@ -100,7 +100,7 @@ WatchOptions watch_options(const WatchArguments& arguments, const std::string& l
   options.name = log == "-" ? "standard input" : log;
   options.fingers = read_fingers(arguments.fingers, 1, unit);
   options.belief = belief_options(arguments, unit);
-  options.log = read_log_options(arguments.columns, unit);
+  options.log = read_log_options(arguments.reading, unit);
   options.log.mirrored = arguments.mirror;
   options.log.clockwise = counts_clockwise(arguments.direction);
   for (Finger& finger : options.fingers) {
@@ -290,7 +290,7 @@ void add_watch_command(CLI::App& program, Command& chosen, std::ostream& out, st
                    "the growing log: a file, which is followed as tail -F does; a serial device; tcp:HOST:PORT or "
                    "tcp:PORT, a server to connect to; - for stdin, the default")
       ->type_name("SOURCE");
-  add_columns_argument(*command, arguments->columns);
+  add_reading_arguments(*command, arguments->reading);
   add_finger_argument(*command, arguments->fingers);
   add_noise_arguments(*command, arguments->noise, arguments->prior, arguments->robust);
   add_pose_arguments(*command, arguments->pose);

@@ -1,5 +1,6 @@
 #include "rollfix/watch/meaning.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -75,6 +76,7 @@ class OnPart final : public Meaning {
   void look(WatchAnswer& answer) override {
     answer.verdict = belief_.verdict();
     answer.modes = belief_.modes();
+    for (Mode& mode : answer.modes) mode.probability = std::min(1.0, mode.probability);  // a sum, with its rounding
     answer.rest = belief_.rest();
     answer.excess = belief_.excess();
   }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "part/not_lost.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/part/boundary.hpp"
 #include "rollfix/watch/meaning.hpp"
@@ -81,6 +82,8 @@ double WatchCounts::seconds_per_sample() const {
 Watcher::Watcher(const Part& part, WatchOptions options, WatchListener& listener)
     : part_(part), options_(std::move(options)), listener_(listener), stream_(new_stream()) {
   // What can't be right of the noise is said now and not at the first contact.
+  const std::optional<PosePrior>& pose = options_.belief.pose;
+  if (pose) require_not_lost(part_, pose->place_sd, "a pose with a standard deviation", "");
   const Belief trial(part_, LogKind::contact, options_.belief);
 }
 Watcher::~Watcher() = default;

@@ -68,10 +68,10 @@ struct Mode {
   double probability = 0;     // of the first contacts being in here
   PerFinger<double> mean;     // of them, given that they are in here; in [0, P)
   PerFinger<double> sd;       // length
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // of two fingers, length^2
-  PerFinger<Interval> interval;  // holds 95 % of this mode's probability; lo in [0, P), hi may exceed P
-  PerFinger<Interval> region;    // holds all of it: up to where the density is least, or next to nothing
-  PerFinger<double> end_mean;    // mean of where the contacts are now, in [0, P)
+  Mat2 covariance = Mat2::Zero();  // of two fingers, length^2
+  PerFinger<Interval> interval;    // holds 95 % of this mode's probability; lo in [0, P), hi may exceed P
+  PerFinger<Interval> region;      // holds all of it: up to where the density is least, or next to nothing
+  PerFinger<double> end_mean;      // mean of where the contacts are now, in [0, P)
   PerFinger<double> end_sd;
 };
 

@@ -40,6 +40,10 @@ struct FingerRows {
   double angle_rounding = 0;               // the same of psi or turn or dturn
   std::optional<Dimension> u_dimension{};  // where the log says whether u is an angle or a length
   std::vector<ColumnSource> columns{};     // of a log with a header: what it calls those that were read
+  std::vector<double> distance{};          // of increments: as written, and `length` is their sum
+  std::vector<double> dturn{};             // the same of `turn`
+  std::optional<bool> u_wrapped{};         // whether u jumps back after a full turn, where that was said
+  std::optional<bool> psi_wrapped{};       // the same of psi
 };
 
 /// What one finger, or two together, recorded of one roll, while all of them touched the part.
@@ -50,6 +54,7 @@ struct Log {
   std::vector<FingerRows> fingers{FingerRows{}};  // one or two; row k of all is the same instant
   bool contact_was_off = false;                   // rows without contact, before these or after them, were left out
   std::string unit{};                             // of its lengths, as the options had it; empty: not known
+  std::vector<std::string> skipped{};             // why rows were left out that could not be read, as the options asked
 
   std::size_t rows() const { return kind == LogKind::contact ? fingers[0].u.size() : fingers[0].length.size(); }
 };
@@ -57,11 +62,12 @@ struct Log {
 /// Reads a log of one finger or, with u_a, psi_a, u_b, psi_b and so on in columns side by side, of two: columns by name
 /// in any order, unknown ones ignored; two columns without a header are distance and dturn. Separated by commas,
 /// semicolons, tabs or blanks. Angles may be written 73deg; a unit may stand behind a column's name, in brackets: psi
-/// [deg], x (mm). `options` says what columns are called where they are not called that, and in what unit. `#`
-/// comments, blank lines, quotes, a byte order mark and both kinds of line ends are allowed. Rows with contact 0, of
-/// either finger, before the first contact and after the last are skipped, whatever they hold. "-" is standard input.
-/// Throws InputError with file, line and value: no such file, no known header, a cell that is missing or not a finite
-/// number, a time that does not grow, contact lost and found again, too few rows.
+/// [deg], x (mm). Between semicolons a comma is a decimal one: 0,5;1,25. `options` says what columns are called where
+/// they are not called that, and in what unit. `#` comments, blank lines, quotes, a byte order mark and both kinds of
+/// line ends are allowed. Rows with contact 0, of either finger, before the first contact and after the last are
+/// skipped, whatever they hold. "-" is standard input. Throws InputError with file, line and value: no such file, no
+/// known header, a cell that is missing or not a finite number, a time that does not grow, contact lost and found
+/// again, too few rows.
 Log read_log(const std::string& path, const LogOptions& options = {});
 
 /// The same from a text; `name` is what messages call it.
@@ -74,6 +80,10 @@ Log parse_log(std::string_view text, const std::string& name, const LogOptions& 
 std::vector<Log> read_rolls(const std::string& path, const LogOptions& options = {});
 std::vector<Log> parse_rolls(std::string_view text, const std::string& name, const LogOptions& options = {});
 
+/// The log with its lengths in another unit, u as well where `fingers` are not disks. As it is where it is in that
+/// unit, or one of both is not known: empty. Throws InputError: a unit that can't be converted, such as "px".
+Log in_unit(Log log, const std::string& unit, const std::vector<Finger>& fingers);
+
 /// Two logs of one finger each as one of two fingers, by row. Where a contact column left out rows of one of them, both
 /// are cut to the times that they share. Throws InputError: logs of different kinds, different times, different numbers
 /// of rows (naming the lines), too few rows together, or one that is of two fingers already.
@@ -83,9 +93,10 @@ Log paired(Log a, Log b);
 /// file alone. Throws InputError as read_log and `paired` do.
 Log read_log(const std::string& path_a, const std::string& path_b, const LogOptions& options = {});
 
-/// time,u,psi,x,y (or time,length,turn), of two fingers time,u_a,psi_a,x_a,y_a,u_b,..., 17 significant digits each:
-/// reading it back gives the same bits. Throws InputError when columns differ in length, and when neighbouring rows are
-/// so far apart that a reader would take the angles as wrapped.
+/// time,u,psi,x,y (or time,length,turn, or time,distance,dturn), of two fingers time,u_a,psi_a,x_a,y_a,u_b,..., 17
+/// significant digits each: reading it back gives a log of the same kind and the same bits. Throws InputError when
+/// columns differ in length, and when neighbouring rows are so far apart that a reader would take the angles as
+/// wrapped.
 std::string format_log(const Log& log);
 
 /// Writes that to a file, "-" for standard output. Throws InputError when it can't be written.

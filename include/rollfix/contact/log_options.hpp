@@ -2,6 +2,7 @@
 
 #include "rollfix/cpp20.hpp"  // IWYU pragma: keep
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,7 +14,8 @@ struct ColumnSource {
   std::string column;  // the known name: "u", "psi", "time", "x"; of one of two fingers "u_a"
   std::string name;    // what the header calls it
   std::string unit{};  // deg, rad, mm, cm, m, in, s, ms, us, ns, ...; empty: what the header says, else radians,
-                       // seconds, or the part's unit
+                       // seconds, or the part's unit. Of u and psi it may be, or end in, "wrapped" or "unwrapped", as
+                       // in "deg:unwrapped": whether the column jumps back after a full turn
 };
 
 /// How to read a log: see docs/rolling.md.
@@ -25,6 +27,10 @@ struct LogOptions {
   std::string unit{};
   /// What columns of angles are in where neither `columns` nor the header says it: "deg". Empty: radians.
   std::string angles{};
+  /// Whether u and psi jump back after a full turn, where `columns` does not say it. None: the rows show it.
+  std::optional<bool> wrapped{};
+  /// Rows that can't be read, a time that does not grow among them, are left out, and Log::skipped tells of them.
+  bool skip_bad = false;
   /// As a mirror shows it: u, length, turn, distance, dturn and x with the other sign, pi - psi for psi. What is felt
   /// of a part that lies face down reads so like what is felt of the part as it was drawn.
   bool mirrored = false;

@@ -9,6 +9,7 @@
 
 #include "rollfix/contact/reading.hpp"
 #include "rollfix/outline/curve.hpp"
+#include "rollfix/part/boundary.hpp"
 #include "rollfix/per_finger.hpp"
 
 // What a search says. Names are those of the JSON document; what is of a finger has an entry for each.
@@ -101,7 +102,7 @@ struct Placement {
   double probability = std::numeric_limits<double>::quiet_NaN();  // of the first contacts being in here; NaN: no noise
   PerFinger<double> mean;                                         // of them, given that they are in here; in [0, P)
   PerFinger<double> sd;                                           // length
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();           // of two fingers, length^2
+  Mat2 covariance = Mat2::Zero();                                 // of two fingers, length^2
   PerFinger<Interval> interval;  // holds 95 % of this placement's probability; lo in [0, P), hi may exceed P
   PerFinger<double> end_mean;    // of where the contacts are now, in [0, P)
   PerFinger<double> end_sd;
@@ -111,6 +112,10 @@ struct Placement {
   std::optional<PoseResidual> pose_residual;  // over all rows
   bool is_contradicted = false;           // without noise: by other rows of the log, or by the contacts in the world
   std::optional<PoseSpread> pose_spread;  // with noise: at the first contacts
+
+  /// Whether the first contacts can have been at s, across s = 0 as anywhere else: of each finger in `interval` with
+  /// noise, else in `extent`, both with their ends and rounding. Any s that names a place of a closed boundary does.
+  bool contains(const Boundary& boundary, const PerFinger<double>& s) const;
 };
 
 /// The work that a search did.

@@ -18,6 +18,10 @@ namespace rollfix {
 /// A point or a vector of the plane, in the outline's own unit.
 using Vec2 = Eigen::Vector2d;
 
+/// A 2 by 2 matrix that is laid out alike in every program: Eigen's own is aligned by the vector instructions that a
+/// program is compiled for, and so would be all that holds it.
+using Mat2 = Eigen::Matrix<double, 2, 2, Eigen::DontAlign>;
+
 /// z component of the cross product: positive where b is to the left of a.
 inline double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 

@@ -55,11 +55,13 @@ struct Loop {
 struct Loops {
   std::vector<Loop> closed;        // by falling area: the first is the outer one
   std::vector<Loop> open;          // by falling length
-  std::vector<std::string> notes;  // what was left out: curves drawn twice, curves without length
+  std::vector<std::string> notes;  // what was left out: curves drawn twice, curves without length, chains that branch
+  std::string doubt;               // why the first of them may not be the outer one: a chain around it branches
 };
 
-/// Joins a drawing's curves, whatever their order and direction, where ends meet within the gap.
-/// Throws InputError: no curves, or an end at which more than two curves meet (with the place).
+/// Joins a drawing's curves, whatever their order and direction, where ends meet within the gap. Where more than two
+/// ends meet, the curves that hang together there are left out, and a note says where that is. Throws InputError: no
+/// curves, or none but such as branch (with the place).
 Loops loops(const Drawing& drawing, const LoopOptions& options = {});
 
 /// The area that a closed outline encloses, above 0 whichever way it runs; relative error 1e-11 or so.

@@ -31,9 +31,11 @@ std::vector<Curve> spline_through(const std::vector<Vec2>& points, bool closed, 
 /// How to make an outline of points.
 struct OutlineOptions {
   bool open = false;                        // a curve with two ends
-  std::optional<double> corner_angle = {};  // radians, in [0, pi], as for spline_through; default kCornerAngle
+  std::optional<double> corner_angle = {};  // radians, in [0, pi], as for spline_through; default kCornerAngle, and a
+                                            // sparsely sampled nose is no corner
   std::optional<Length> smooth = {};        // points of a scan, to be met within this and not exactly
   std::string unit = {};  // that all lengths are to be in; what the file states is converted; empty: what it states
+  bool airfoil = false;   // from the trailing edge over the top and back: corners are at the trailing edge only
 };
 
 /// Points closer together than this share of the bounding box's diagonal are the same point.
@@ -44,20 +46,25 @@ inline constexpr double kSamePoint = 1e-9;
 /// lines, # comments, a byte order mark, both kinds of line ends, and title lines before the first point are allowed.
 /// Where a closed outline's last point is the same as its first, it is dropped. Airfoils in Lednicer's order (numbers
 /// of points, then both surfaces from the nose on) are brought into Selig's: from the trailing edge over the top and
-/// back. `notes`, where given, is told which order an airfoil was in, and what was passed over; `unit` the unit that
-/// the points come in: the options', to which a header's is converted, else the header's. `name` is what errors call
-/// the text: a file's name. Throws InputError naming the line: the header of a log, not two numbers, not finite, the
-/// same point twice in a row (which a scan that is smoothed may hold), an airfoil with other numbers of points than it
-/// says; or too few points (closed: 3, open: 2), no size, or a closed outline with all points on one line.
+/// back; `airfoil`, where given, is told whether the points are one. `notes`, where given, is told which order an
+/// airfoil was in, and what was passed over; `unit` the unit that the points come in: the options', to which a header's
+/// is converted, else the header's. `name` is what errors call the text: a file's name. Throws InputError naming the
+/// line: the header of a log, not two numbers, not finite, the same point twice in a row (which a scan that is smoothed
+/// may hold), an airfoil with other numbers of points than it says; or too few points (closed: 3, open: 2), no size, or
+/// a closed outline with all points on one line.
 std::vector<Vec2> parse_points(std::string_view text, const std::string& name, const OutlineOptions& options = {},
-                               std::vector<std::string>* notes = nullptr, std::string* unit = nullptr);
+                               std::vector<std::string>* notes = nullptr, std::string* unit = nullptr,
+                               bool* airfoil = nullptr);
 
 /// The same from a file, "-" for standard input. Throws InputError also when it can't be read.
 std::vector<Vec2> read_points(const std::string& path, const OutlineOptions& options = {},
-                              std::vector<std::string>* notes = nullptr, std::string* unit = nullptr);
+                              std::vector<std::string>* notes = nullptr, std::string* unit = nullptr,
+                              bool* airfoil = nullptr);
 
-/// The spline through points (see spline_through) or, where they are to be smoothed, near them (see smooth_spline);
-/// `notes`, where given, is told how near, and how many corners there are. The points are in the unit of the options.
+/// The spline through points (see spline_through; without a corner angle of the options a point whose neighbours show
+/// that it is a sparsely sampled nose, by turning the same way and more and more towards it, is no corner) or, where
+/// they are to be smoothed, near them (see smooth_spline); `notes`, where given, is told how near, and how many corners
+/// there are. The points are in the unit of the options.
 Outline outline_through(const std::vector<Vec2>& points, const std::string& name, const OutlineOptions& options = {},
                         std::vector<std::string>* notes = nullptr);
 

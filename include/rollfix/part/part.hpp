@@ -61,6 +61,9 @@ class Part {
   /// Direction of the tangent just after s (just before it at an open end), in (-pi, pi].
   double tangent(double s) const;
 
+  /// How far apart two places are along the boundary, of a closed one the shorter way round, whatever laps they name.
+  double distance(double s, double t) const { return boundary().distance(s, t); }
+
   /// A polyline through `count` + 1 points from s = lo to s = hi, corners included: for drawing.
   std::vector<Vec2> polyline(double lo, double hi, int count) const;
 

@@ -46,7 +46,7 @@ inline constexpr std::size_t kPanelBlock = 4;
 
 /// A polynomial by its rising powers, kept in place.
 inline constexpr int kMostPowers = 20;
-using Powers = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostPowers, 1>;
+using Powers = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::DontAlign, kMostPowers, 1>;
 
 /// Theta(s), the tangent's angle by arc length (Arkin et al. 1991): what every question is asked of.
 /// Piecewise polynomial on panels; accurate to kTurnAccuracy at an s accurate to kLengthAccuracy * P.

@@ -12,6 +12,13 @@ struct CatalogHandle {
   std::shared_ptr<const Catalog> catalog;
 };
 
+}  // namespace
+
+template <>
+inline constexpr bool kIsPythonClass<CatalogHandle> = true;
+
+namespace {
+
 CatalogHandle open(const std::string& path) {
   const py::gil_scoped_release others_may_run;
   return {std::make_shared<const Catalog>(path)};

@@ -6,6 +6,8 @@
 #include "archive.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "contact/log_rows.hpp"
+#include "fingers.hpp"
 #include "rollfix/contact/log.hpp"
 
 namespace rollfix::python {
@@ -19,6 +21,8 @@ LogOptions log_options(const py::dict& given) {
   }
   options.unit = given["unit"].cast<std::string>();
   options.angles = given["angles"].cast<std::string>();
+  options.wrapped = given["wrapped"].cast<std::optional<bool>>();
+  options.skip_bad = given["skip_bad"].cast<bool>();
   options.clockwise = given["clockwise"].cast<bool>();
   return options;
 }
@@ -60,8 +64,8 @@ std::string table_text(const std::vector<std::string>& names, const std::vector<
   return text + '\n';
 }
 
-/// All columns by their names in a file, of two fingers u_a, u_b and so on.
-py::dict columns_of(const LogHandle& handle) {
+/// All columns by their names in a file, of two fingers u_a, u_b and so on. `added_up`: of increments their sums.
+py::dict columns_of(const LogHandle& handle, bool added_up) {
   const Log& log = *handle.log;
   py::dict result;
   if (!log.time.empty()) result["time"] = array_of(log.time);
@@ -71,10 +75,16 @@ py::dict columns_of(const LogHandle& handle) {
     const auto add = [&](const char* name, const std::vector<double>& values) {
       if (!values.empty()) result[py::str(name + suffix)] = array_of(values);
     };
-    add("u", rows.u);
-    add("psi", rows.psi);
-    add("length", rows.length);
-    add("turn", rows.turn);
+    if (log.kind == LogKind::increments && !added_up) {
+      const Increments increments = increments_of(rows);
+      add("distance", increments.distance);
+      add("dturn", increments.dturn);
+    } else {
+      add("u", rows.u);
+      add("psi", rows.psi);
+      add("length", rows.length);
+      add("turn", rows.turn);
+    }
     add("x", rows.x);
     add("y", rows.y);
   }
@@ -102,10 +112,15 @@ void bind_log(py::module_& module) {
       .def_property_readonly("name", [](const LogHandle& handle) { return handle.log->name; })
       .def_property_readonly("unit", [](const LogHandle& handle) { return handle.log->unit; })
       .def_property_readonly("kind", &kind_of)
+      .def_property_readonly("skipped", [](const LogHandle& handle) { return handle.log->skipped; })
       .def("columns", &columns_of)
       .def("text", [](const LogHandle& handle) { return format_log(*handle.log); })
       .def("is_same",
            [](const LogHandle& one, const LogHandle& two) { return bytes_of(*one.log) == bytes_of(*two.log); })
+      .def("in_unit",
+           [](const LogHandle& handle, const std::string& unit, const py::iterable& fingers) {
+             return handle_of(in_unit(*handle.log, unit, fingers_from(fingers)));
+           })
       .def("paired", [](const LogHandle& a, const LogHandle& b) { return handle_of(paired(*a.log, *b.log)); })
       .def(py::pickle([](const LogHandle& handle) { return py::bytes(bytes_of(*handle.log)); },
                       [](const py::bytes& bytes) {

@@ -1,6 +1,7 @@
 #include <pybind11/pybind11.h>
 
 #include "bindings.hpp"
+#include "made.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/version.hpp"
 
@@ -23,4 +24,5 @@ PYBIND11_MODULE(_core, module) {
   bind_reach(module);
   bind_watch(module);
   bind_catalog(module);
+  let_be_pickled(module);
 }

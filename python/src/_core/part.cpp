@@ -102,6 +102,14 @@ py::array_t<double> each(const PartHandle& handle, const Numbers& places, py::ss
   return result;
 }
 
+/// Of places in arrays of one shape.
+py::array_t<double> distances(const PartHandle& handle, const Numbers& s, const Numbers& t) {
+  const Part part = handle.part();
+  py::array_t<double> result(std::vector<py::ssize_t>(s.shape(), s.shape() + s.ndim()));
+  for (py::ssize_t k = 0; k < s.size(); ++k) result.mutable_data()[k] = part.distance(s.data()[k], t.data()[k]);
+  return result;
+}
+
 py::dict samples(const PartHandle& handle) {
   const std::vector<BoundarySample> all = samples_of(handle.part());
   const auto column = [&](const auto& value) {
@@ -196,6 +204,7 @@ void bind_part(py::module_& module) {
   part.def("tangent", [](const PartHandle& handle, const Numbers& s) {
     return each(handle, s, 0, [](const Part& of, double at, double* out) { *out = of.tangent(at); });
   });
+  part.def("distance", &distances);
   module.def("load_part", &load);
   module.def("part_from_points", &from_points);
   module.def("part_from_pieces", &from_pieces);

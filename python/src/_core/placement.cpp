@@ -66,6 +66,23 @@ py::object document_of(const PlacementHandle& placement) {
   return document["placements"][py::int_(placement.index)];
 }
 
+/// Of one finger for each of many places.
+py::object may_hold(const PlacementHandle& placement, const Numbers& places) {
+  const Boundary boundary = placement.answer->part.boundary();
+  const double* const s = places.data();
+  for (py::ssize_t k = 0; k < places.size(); ++k) {
+    if (!std::isfinite(s[k])) throw InputError(fmt::format("s: expected finite places, found {}", s[k]));
+  }
+  if (placement.answer->finger_count() == 2) {
+    if (places.size() == 2) return py::bool_(placement->contains(boundary, {s[0], s[1]}));
+    throw InputError(fmt::format("s: expected a pair of places, one of each finger, found {}", places.size()));
+  }
+  if (places.ndim() == 0) return py::bool_(placement->contains(boundary, s[0]));
+  py::array_t<bool> result(std::vector<py::ssize_t>(places.shape(), places.shape() + places.ndim()));
+  for (py::ssize_t k = 0; k < places.size(); ++k) result.mutable_data()[k] = placement->contains(boundary, s[k]);
+  return result;
+}
+
 /// "<Placement crossing: start 0.5760, end 1.5737>".
 std::string text_of(const PlacementHandle& placement) {
   const auto places = [](const PerFinger<double>& each) {
@@ -202,6 +219,10 @@ void bind_placement(py::module_& module) {
   bind_place(placement);
   bind_details(placement);
   bind_weight(placement);
+  placement.def(
+      "contains", &may_hold, py::arg("s"),
+      "bool: whether the roll can have started at s: in `interval` with noise, else in `extent`, across s = 0\n"
+      "as anywhere else. Of two fingers s is a pair; of one it may be an array, and so is the answer then.");
   placement.def("to_dict", &document_of, "Its entry of `placements` in the JSON document.");
   placement.def("__eq__", [](const PlacementHandle& one, const py::object& other) {
     return py::isinstance<PlacementHandle>(other) && bytes_of(*one) == bytes_of(*other.cast<const PlacementHandle&>());

@@ -1,3 +1,4 @@
+#include <mutex>
 #include <sstream>
 
 #include "arrays.hpp"
@@ -9,7 +10,8 @@
 namespace rollfix::python {
 namespace {
 
-/// The program's watcher, whose events are kept as the lines that it would print until somebody takes them.
+/// The program's watcher, whose events are kept as the lines that it would print until somebody takes them. Any thread
+/// can call it: whoever works without the interpreter's lock has this one's.
 class Watch {
  public:
   Watch(const PartHandle& handle, app::WatchOptions options)
@@ -18,27 +20,33 @@ class Watch {
         watcher_(part_, begun(std::move(options)), *writer_) {}
 
   void push(const std::string& lines) {
+    const std::lock_guard alone(mutex_);
     std::istringstream stream(lines);
     for (std::string line; std::getline(stream, line);) watcher_.push(line);
   }
-  void catch_up() { watcher_.catch_up(); }
+  void catch_up() {
+    const std::lock_guard alone(mutex_);
+    watcher_.catch_up();
+  }
   void finish() {
+    const std::lock_guard alone(mutex_);
     watcher_.finish();
     writer_->show();
     writer_->end(app::WatchEnd::stream, watcher_.last_answer(), watcher_.counts());
   }
   void resume() {
+    const std::lock_guard alone(mutex_);
     watcher_.resume();
     writer_->resumed(watcher_.counts());
   }
   /// What was written since the last time: events and notes.
   std::pair<std::string, std::string> take() {
+    const std::lock_guard alone(mutex_);
     std::pair<std::string, std::string> taken(events_.str(), notes_.str());
     events_.str("");
     notes_.str("");
     return taken;
   }
-  const app::WatchCounts& counts() const { return watcher_.counts(); }
 
  private:
   app::WatchOptions begun(app::WatchOptions options) {
@@ -46,6 +54,7 @@ class Watch {
     return options;
   }
 
+  std::mutex mutex_;
   Part part_;
   std::ostringstream events_;
   std::ostringstream notes_;
@@ -53,12 +62,20 @@ class Watch {
   app::Watcher watcher_;
 };
 
+}  // namespace
+
+template <>
+inline constexpr bool kIsPythonClass<Watch> = true;
+
+namespace {
+
 std::unique_ptr<Watch> watch(const PartHandle& part, const py::iterable& fingers, const py::dict& noise,
                              const std::optional<std::pair<double, double>>& prior,
                              const std::optional<std::vector<double>>& pose, bool robust, std::size_t every,
                              const std::string& name,
                              const std::vector<std::tuple<std::string, std::string, std::string>>& columns,
-                             const std::string& angles, bool clockwise, bool mirrored, bool live) {
+                             const std::string& angles, const std::optional<bool>& wrapped, bool clockwise,
+                             bool mirrored, bool live) {
   app::WatchOptions options;
   options.name = name;
   options.fingers = fingers_from(fingers);
@@ -69,6 +86,7 @@ std::unique_ptr<Watch> watch(const PartHandle& part, const py::iterable& fingers
   options.every = every;
   options.log.unit = part.part().unit();
   options.log.angles = angles;
+  options.log.wrapped = wrapped;
   options.log.clockwise = clockwise;
   options.log.mirrored = mirrored;
   options.live = live;
@@ -84,8 +102,8 @@ void bind_watch(py::module_& module) {
       .def("push", &Watch::push, py::call_guard<py::gil_scoped_release>())
       .def("catch_up", &Watch::catch_up, py::call_guard<py::gil_scoped_release>())
       .def("finish", &Watch::finish, py::call_guard<py::gil_scoped_release>())
-      .def("resume", &Watch::resume)
-      .def("take", &Watch::take);
+      .def("resume", &Watch::resume, py::call_guard<py::gil_scoped_release>())
+      .def("take", &Watch::take, py::call_guard<py::gil_scoped_release>());
 }
 
 }  // namespace rollfix::python

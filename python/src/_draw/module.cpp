@@ -5,6 +5,10 @@
 #include "rollfix/draw/part_figure.hpp"
 
 namespace rollfix::python {
+
+template <>
+inline constexpr bool kIsPythonClass<Svg> = true;
+
 namespace {
 
 Svg answer_figure(const AnswerHandle& handle, const std::optional<LogHandle>& log,
@@ -44,4 +48,5 @@ PYBIND11_MODULE(_draw, module) {
   module.def("answer_figure", &answer_figure);
   module.def("part_figure", &part_figure);
   module.def("next_roll_figure", &next_roll_figure);
+  let_be_pickled(module);
 }

@@ -55,6 +55,15 @@ std::optional<Column> column_named(std::string_view name, const std::string& suf
   return std::nullopt;
 }
 
+/// What is said of a column besides its unit, "wrapped" or "unwrapped", taken off the end of "deg:unwrapped".
+std::optional<bool> take_wrapping(std::string_view& unit) {
+  const std::size_t colon = unit.rfind(':');
+  const std::string_view last = colon == std::string_view::npos ? unit : trimmed(unit.substr(colon + 1));
+  if (last != "wrapped" && last != "unwrapped") return std::nullopt;
+  unit = colon == std::string_view::npos ? std::string_view() : trimmed(unit.substr(0, colon));
+  return last == "wrapped";
+}
+
 /// "u [deg]", "u(deg)".
 HeaderName header_name(std::string_view text) {
   HeaderName result{text, text, {}};
@@ -148,6 +157,8 @@ Columns HeaderReader::finger_columns(const std::string& suffix) const {
   add_named(columns, taken);
   add_known(columns, taken);
   columns.kind = kind_of(columns);
+  if (!columns.u_wrapped) columns.u_wrapped = options_.wrapped;
+  if (!columns.psi_wrapped) columns.psi_wrapped = options_.wrapped;
   if (columns.has(Column::x) != columns.has(Column::y)) {
     throw InputError(fmt::format("{}: the header has a column '{}' but no '{}', expected both or neither{}",
                                  where(log_, row_.line), columns.called(columns.has(Column::x) ? Column::x : Column::y),
@@ -170,7 +181,10 @@ void HeaderReader::add_named(Columns& columns, std::vector<bool>& taken) const {
     const std::size_t cell = find(source);
     taken[cell] = true;
     set(columns, *column, cell);
-    set_unit(columns, *column, names_[cell], source.unit);
+    std::string_view unit = source.unit;
+    if (*column == Column::u) columns.u_wrapped = take_wrapping(unit);
+    if (*column == Column::psi) columns.psi_wrapped = take_wrapping(unit);
+    set_unit(columns, *column, names_[cell], std::string(unit));
   }
 }
 
@@ -334,6 +348,14 @@ ColumnSource parse_source(std::string_view field, const std::string& what) {
                                  shown(source.column),
                                  known_names(source.column, {kColumnNames.begin(), kColumnNames.end()})));
   }
+  std::string wrapping;
+  std::string_view before = source.name;
+  const bool may_wrap = column == Column::u || column == Column::psi;
+  if (may_wrap && before.find(':') != std::string_view::npos && take_wrapping(before)) {
+    wrapping = trimmed(std::string_view(source.name).substr(source.name.rfind(':') + 1));
+    source.name = before;
+  }
+  source.unit = wrapping;
   const std::size_t colon = source.name.rfind(':');
   if (colon == std::string::npos) return source;
   const std::optional<Unit> unit = unit_named(trimmed(std::string_view(source.name).substr(colon + 1)));
@@ -343,7 +365,7 @@ ColumnSource parse_source(std::string_view field, const std::string& what) {
                     "goes another colon and the unit",
                     what, shown(source.name), source.column, what_it_takes(*column)));
   }
-  source.unit = unit->name;
+  source.unit = fmt::format("{}{}{}", unit->name, wrapping.empty() ? "" : ":", wrapping);
   source.name = trimmed(std::string_view(source.name).substr(0, colon));
   return source;
 }

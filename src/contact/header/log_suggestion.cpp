@@ -49,6 +49,13 @@ std::vector<std::string> words_of(std::string_view name) {
   return words;
 }
 
+/// The finger that a name is of, by its last word: "contact_deg_a" is finger a's. Its place in kFingerSuffixes.
+std::optional<std::size_t> finger_in(const std::vector<std::string>& words) {
+  if (words.size() < 2) return std::nullopt;
+  if (words.back() == "a") return 0;
+  return words.back() == "b" ? std::optional<std::size_t>(1) : std::nullopt;
+}
+
 /// How much a name sounds like a column: 0 not at all.
 int likeness(const HeaderName& header, Column column) {
   const auto* const habit =
@@ -102,9 +109,8 @@ class Guesses {
     return sum;
   }
 
-  std::string text() const {
+  std::vector<std::string> fields() const {
     std::vector<std::string> fields;
-    bool has_blank = false;
     for (const Guess& guess : guesses_) {
       const std::string column = found_.called(guess.column);
       if (guess.likeness == 0) {
@@ -113,11 +119,9 @@ class Guesses {
       }
       const HeaderName& header = header_[guess.cell];
       const std::string unit = header.unit.empty() ? unit_in_name(header.name, guess.column, "") : "";
-      has_blank = has_blank || header.name.find(' ') != std::string_view::npos;
       fields.push_back(fmt::format("{}={}{}", column, header.name, unit.empty() ? "" : ":" + unit));
     }
-    const std::string all = fmt::format("{}", fmt::join(fields, ","));
-    return has_blank ? fmt::format("\"{}\"", all) : all;
+    return fields;
   }
 
  private:
@@ -127,19 +131,7 @@ class Guesses {
   std::vector<Guess> guesses_;
 };
 
-}  // namespace
-
-std::string unit_in_name(std::string_view name, Column column, const std::string& part_unit) {
-  const std::vector<std::string> words = words_of(name);
-  if (words.size() < 2) return "";
-  const std::optional<Unit> unit = unit_named(words.back());
-  if (!unit || !takes(column, unit->dimension)) return "";
-  const bool changes =
-      unit->dimension == Dimension::length ? unit->name != part_unit : !conversion_to_plain(*unit).is_identity();
-  return changes ? std::string(unit->name) : "";
-}
-
-std::string suggested_columns(const std::vector<HeaderName>& header, const Columns& found) {
+std::vector<std::string> fields_for(const std::vector<HeaderName>& header, const Columns& found, bool with_time) {
   const auto half = [&](const ColumnPair& pair) { return found.has(pair.place) != found.has(pair.angle); };
   const bool any_half = std::any_of(kColumnPairs.begin(), kColumnPairs.end(), half);
   const auto whole = [&](const ColumnPair& pair) { return found.has(pair.place) && found.has(pair.angle); };
@@ -152,10 +144,56 @@ std::string suggested_columns(const std::vector<HeaderName>& header, const Colum
     guesses.add(pair.angle, true);
     if (!best || guesses.likeness_of_all() > best->likeness_of_all()) best.emplace(guesses);
   }
-  best->add(Column::time, false);
+  if (with_time) best->add(Column::time, false);
   best->add(Column::x, found.has(Column::y));
   best->add(Column::y, found.has(Column::x));
-  return best->text();
+  return best->fields();
+}
+
+/// Those of one finger and what is of no finger; the others' places stay, without names.
+std::vector<HeaderName> of_finger(const std::vector<HeaderName>& header, std::size_t finger) {
+  std::vector<HeaderName> result = header;
+  for (HeaderName& one : result) {
+    if (finger_in(words_of(one.name)).value_or(finger) != finger) one = {};
+  }
+  return result;
+}
+
+/// Whether the names are of two fingers, in ways of their own.
+bool names_two_fingers(const std::vector<HeaderName>& header) {
+  std::array<int, 2> count{};
+  for (const HeaderName& one : header) {
+    if (const auto finger = finger_in(words_of(one.name))) ++count[*finger];
+  }
+  return count[0] >= 2 && count[1] >= 2;
+}
+
+}  // namespace
+
+std::string unit_in_name(std::string_view name, Column column, const std::string& part_unit) {
+  std::vector<std::string> words = words_of(name);
+  if (finger_in(words)) words.pop_back();
+  if (words.size() < 2) return "";
+  const std::optional<Unit> unit = unit_named(words.back());
+  if (!unit || !takes(column, unit->dimension)) return "";
+  const bool changes =
+      unit->dimension == Dimension::length ? unit->name != part_unit : !conversion_to_plain(*unit).is_identity();
+  return changes ? std::string(unit->name) : "";
+}
+
+std::string suggested_columns(const std::vector<HeaderName>& header, const Columns& found) {
+  std::vector<std::string> fields;
+  const bool is_of_two = found.suffix.empty() && names_two_fingers(header);
+  for (std::size_t finger = 0; finger < (is_of_two ? 2U : 1U); ++finger) {
+    Columns own = found;
+    if (is_of_two) own.suffix = kFingerSuffixes[finger];
+    const std::vector<std::string> more = fields_for(is_of_two ? of_finger(header, finger) : header, own, finger == 0);
+    fields.insert(fields.end(), more.begin(), more.end());
+  }
+  const bool has_blank = std::any_of(fields.begin(), fields.end(),
+                                     [](const std::string& field) { return field.find(' ') != std::string::npos; });
+  const std::string all = fmt::format("{}", fmt::join(fields, ","));
+  return has_blank ? fmt::format("\"{}\"", all) : all;
 }
 
 }  // namespace rollfix

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "documents.hpp"
 #include "outline_numbers.hpp"
 #include "rollfix/answer/solve.hpp"
@@ -13,7 +15,9 @@ namespace {
 Json corners_json(const Part& part) {
   Json list = Json::array();
   for (const Corner& corner : part.corners()) {
-    list.push_back({{"s", json_number(corner.s)}, {"turn", json_number(corner.turn)}});
+    list.push_back({{"s", json_number(corner.s)},
+                    {"turn", json_number(corner.turn)},
+                    {"joint", std::abs(corner.turn) < kJointTurn}});
   }
   return list;
 }

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "rollfix/outline/curve.hpp"
+
+namespace rollfix {
+
+/// How the chords between points turn, to the left; at an open end not at all.
+class ChordTurns {
+ public:
+  ChordTurns(const std::vector<Vec2>& points, bool closed) : points_(points), closed_(closed) {}
+
+  double at(std::size_t k) const;
+
+  /// Whether the curve bends on both sides of this point as it does here, behind those that turn by `least` as well: a
+  /// curve that is sampled sparsely, and no corner.
+  bool goes_on(std::size_t k, double least) const;
+  /// The same of a nose: towards the point it bends more and more, from both sides. Along arcs that meet in a corner it
+  /// does not.
+  bool is_nose(std::size_t k, double least) const;
+
+ private:
+  std::size_t next(std::size_t k) const { return (k + 1) % points_.size(); }
+  std::size_t previous(std::size_t k) const { return (k + points_.size() - 1) % points_.size(); }
+  bool is_open_end(std::size_t k) const { return !closed_ && (k == 0 || k + 1 == points_.size()); }
+  double curvature(std::size_t k) const;
+
+  const std::vector<Vec2>& points_;
+  bool closed_;
+};
+
+/// The points, in order, where a spline through them has its corners: where neighbouring chords turn by kCornerAngle,
+/// unless the neighbours show that it is a sparsely sampled nose. `airfoil`: from the trailing edge over the top and
+/// back; then only those at the trailing edge.
+std::vector<std::size_t> corners_of_points(const std::vector<Vec2>& points, bool closed, bool airfoil);
+
+/// As spline_through, with corners at these points, in order.
+std::vector<Curve> spline_with_corners(const std::vector<Vec2>& points, bool closed,
+                                       const std::vector<std::size_t>& corners);
+
+}  // namespace rollfix

@@ -1,0 +1,70 @@
+// Rows that loggers always have: refused with what leaves them out, or left out and told.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "cli.hpp"
+#include "refusal.hpp"
+#include "rollfix/contact/log.hpp"
+
+namespace rollfix::skipped_rows_test {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr const char* kRows =
+    "time,u,psi\n0,0,0\n1,-0.1,0.15\n1,-0.1,0.15\n2,nan,0.3\n3,-0.3,\n4,-0.4,0.6\n5,-0.5,0.75\n6,-0.6";
+
+LogOptions skipping() {
+  LogOptions options;
+  options.skip_bad = true;
+  return options;
+}
+
+TEST(SkippedRows, a_row_that_can_not_be_read_is_refused_with_what_leaves_it_out) {
+  EXPECT_THAT(refusal_of([] { parse_log(kRows, "run.csv"); }),
+              AllOf(HasSubstr("run.csv:4: time is '1', expected more than 1 in line 3"),
+                    HasSubstr("; `skip_bad` leaves such rows out")));
+}
+
+TEST(SkippedRows, they_are_left_out_where_that_is_asked_and_told) {
+  const Log log = parse_log(kRows, "run.csv", skipping());
+  EXPECT_THAT(log.time, ElementsAre(0, 1, 4, 5));
+  EXPECT_THAT(log.fingers[0].u, ElementsAre(0, -0.1, -0.4, -0.5));
+  EXPECT_THAT(log.fingers[0].line, ElementsAre(2U, 3U, 7U, 8U));
+  ASSERT_EQ(log.skipped.size(), 4U);
+  EXPECT_THAT(log.skipped[0], HasSubstr("run.csv:4: time"));
+  EXPECT_THAT(log.skipped[1], HasSubstr("run.csv:5: u is 'nan'"));
+  EXPECT_THAT(log.skipped[3], HasSubstr("run.csv:9: '6,-0.6' has no psi"));
+}
+
+TEST(SkippedRows, a_header_that_is_wrong_is_refused_all_the_same) {
+  EXPECT_THAT(refusal_of([] { parse_log("a,b\n1,2\n", "run.csv", skipping()); }), HasSubstr("does not say"));
+}
+
+TEST(SkippedRows, of_two_logs_both_are_told) {
+  const Log a = parse_log("u,psi\n0,0\nx,1\n1,1\n", "a.csv", skipping());
+  const Log b = parse_log("u,psi\n0,0\n1,1\n1,-\n", "b.csv", skipping());
+  EXPECT_EQ(paired(a, b).skipped.size(), 2U);
+}
+
+TEST(SkippedRows, the_program_says_how_many_and_goes_on) {
+  const cli::Folder folder;
+  folder.write("run.csv", kRows);
+  const std::string words = "locate gallery:circle,r=2 --log run.csv --finger disk,r=1";
+  const cli::Ran refused = cli::run(words);
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("; --skip-bad leaves such rows out"));
+  const cli::Ran ran = cli::run(words + " --skip-bad");
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.err, HasSubstr("run.csv: 4 rows left out, the first: run.csv:4: time is '1'"));
+  EXPECT_THAT(cli::run("locate gallery:circle,r=2 --reading 1,0.5 --skip-bad").err,
+              HasSubstr("--skip-bad is about a log"));
+}
+
+}  // namespace
+}  // namespace rollfix::skipped_rows_test
