@@ -97,6 +97,7 @@ Database::Database(const std::string& path, Access access) : path_(path) {
   if (code != SQLITE_OK) fail(path, opened, code);
   sqlite3_extended_result_codes(opened, 0);
   sqlite3_busy_timeout(opened, kPatienceMilliseconds);
+  run("PRAGMA cell_size_check = ON; PRAGMA trusted_schema = OFF");  // the file may be damaged, or a stranger's
 }
 
 Statement Database::prepare(const std::string& sql) const {
