@@ -119,6 +119,7 @@ WatchOptions watch_options(const WatchArguments& arguments, const std::string& l
     finger = mirrored(finger);
   }
   options.live = !arguments.once;
+  options.midway = may_begin_midway(log);
   options.log.any_part = !arguments.catalog.empty();
   if (!arguments.every.empty()) options.every = read_count(arguments.every, "--every", 1);
   return options;
@@ -269,8 +270,8 @@ Report watch(const WatchArguments& arguments, std::ostream& out, std::ostream& e
   for (const std::string& note : notes) err << "rollfix: " << note << '\n';
   writer->begin(part, options);
   const WatchEnd why = hearing.run();
-  require_rows(why, watcher, options.name);
   watcher.finish();
+  require_rows(why, watcher, options.name);
   writer->end(why, watcher.last_answer(), watcher.counts());
   Report report;
   if (watcher.last_answer().verdict.name == Verdict::inconsistent) report.exit_code = ExitCode::nothing_fits;
