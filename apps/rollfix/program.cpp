@@ -188,7 +188,9 @@ int run(const std::vector<std::string>& arguments, std::ostream& out, std::ostre
     deliver(report, out, notes);
     return code(report.exit_code);
   } catch (const CLI::Success& request) {  // --help, --version
-    return program.exit(request, out, err);
+    const int exit_code = program.exit(request, out, err);
+    out << std::flush;
+    return out ? exit_code : fail(err, "standard output can't be written to", ExitCode::bad_input);
   } catch (const CLI::ParseError& error) {
     return fail(err, explain(error), ExitCode::bad_input);
   } catch (const InputError& error) {
