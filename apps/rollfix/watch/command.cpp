@@ -23,6 +23,7 @@
 #include "rollfix/usage.hpp"
 #include "rollfix/watch/source.hpp"
 #include "rollfix/watch/writer.hpp"
+#include "text/text.hpp"
 
 namespace rollfix::app {
 namespace {
@@ -267,7 +268,7 @@ Report watch(const WatchArguments& arguments, std::ostream& out, std::ostream& e
   Hearing hearing(*io, watcher, *writer, err, idle_timeout);
   const std::unique_ptr<Source> source = open_source(
       io, log, source_options(arguments), [&hearing](Heard what, std::string_view text) { hearing.hear(what, text); });
-  for (const std::string& note : notes) err << "rollfix: " << note << '\n';
+  for (const std::string& note : notes) err << "rollfix: " << plain(note) << '\n';
   writer->begin(part, options);
   const WatchEnd why = hearing.run();
   watcher.finish();

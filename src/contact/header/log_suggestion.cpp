@@ -104,7 +104,6 @@ class Guesses {
 
   std::string text() const {
     std::vector<std::string> fields;
-    bool has_blank = false;
     for (const Guess& guess : guesses_) {
       const std::string column = found_.called(guess.column);
       if (guess.likeness == 0) {
@@ -113,11 +112,10 @@ class Guesses {
       }
       const HeaderName& header = header_[guess.cell];
       const std::string unit = header.unit.empty() ? unit_in_name(header.name, guess.column, "") : "";
-      has_blank = has_blank || header.name.find(' ') != std::string_view::npos;
       fields.push_back(fmt::format("{}={}{}", column, header.name, unit.empty() ? "" : ":" + unit));
     }
     const std::string all = fmt::format("{}", fmt::join(fields, ","));
-    return has_blank ? fmt::format("\"{}\"", all) : all;
+    return quoted_for_shell(all);
   }
 
  private:
