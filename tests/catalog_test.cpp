@@ -284,5 +284,43 @@ TEST_F(CatalogFile, keeps_what_was_reported_when_the_build_is_killed) {
   EXPECT_GE(rest.unchanged, reported);
 }
 
+TEST_F(CatalogFile, that_a_killed_build_left_half_written_is_read_as_it_was_before) {
+  of({"cam"});
+  const pid_t child = fork();
+  if (child == 0) {
+    sqlite3* database = nullptr;
+    sqlite3_open("parts.db", &database);
+    // More than the cache holds, so that half of it is in the file already, and its journal beside it.
+    sqlite3_exec(database,
+                 "PRAGMA cache_size = 1; BEGIN; CREATE TABLE other (a); "
+                 "WITH RECURSIVE n (k) AS (SELECT 1 UNION ALL SELECT k + 1 FROM n WHERE k < 3000) "
+                 "INSERT INTO other SELECT zeroblob(1000) FROM n; DELETE FROM parts; PRAGMA cache_spill = 1",
+                 nullptr, nullptr, nullptr);
+    kill(getpid(), SIGKILL);
+  }
+  waitpid(child, nullptr, 0);
+  ASSERT_TRUE(cli::fs::exists("parts.db-journal"));
+  EXPECT_THAT(names(), ElementsAre("cam"));
+}
+
+TEST_F(CatalogFile, that_several_build_at_once_is_built_once_and_can_be_read_meanwhile) {
+  std::string list;
+  for (int k = 1; k <= 150; ++k) list += "gallery:spline,n=9,wobble=0.2,seed=" + std::to_string(k) + "\n";
+  write("list.txt", list);
+  of({"cam"});
+  const cli::Ran ran = cli::shell(
+      "for k in 1 2 3; do rollfix catalog build list.txt -o parts.db --json > report$k & done; "
+      "for k in 1 2 3 4 5 6; do rollfix catalog list parts.db > /dev/null || echo failed; done; wait");
+  EXPECT_EQ(ran.out, "");
+  EXPECT_EQ(names().size(), 151U);
+  double added = 0;
+  for (const char* const report : {"report1", "report2", "report3"}) {
+    const Json said = Json::parse(cli::read(report));
+    added += said["added"].get<double>();
+    EXPECT_EQ(said["replaced"].get<double>(), 0);
+  }
+  EXPECT_EQ(added, 150);
+}
+
 }  // namespace
 }  // namespace catalog_test

@@ -171,13 +171,13 @@ class CatalogWriter {
     make_tables(database_);
     // What is reported as done survives a crash of the machine.
     database_.run("PRAGMA synchronous = FULL");
+    Transaction all(database_);
     unit_ = fact(database_, "unit");
     if (unit.empty() || unit == unit_) return;
     if (!unit_.empty() || parts() > 0) {
       throw InputError(fmt::format("`unit` {}: the lengths of {} are in {}: expected that unit, or another file", unit,
                                    path, unit_.empty() ? "no known unit" : unit_));
     }
-    Transaction all(database_);
     set_unit(unit);
     commit(all);
   }
@@ -199,13 +199,19 @@ class CatalogWriter {
 
   /// In place of what was there of this source, in the catalog's unit.
   void write(const CatalogSource& source, const BuildOptions& options, ReadySource& ready, BuildReport& report) {
+    const std::string stamp = stamp_of(source, options);
+    if (is_there(source.argument, stamp)) {  // another build was faster
+      ++report.unchanged;
+      return;
+    }
+    unit_ = fact(database_, "unit");  // which that may have set
     if (!ready.unit.empty() && !ready.parts.empty() && ready.unit != unit_) {
       if (unit_.empty()) set_unit(ready.unit);
       if (ready.unit != unit_) ready = read_source(source, in_unit(options, unit_));
     }
     if (forget(source.argument)) ++report.replaced;
     Statement put = database_.prepare("INSERT INTO sources (argument, stamp) VALUES (?, ?)");
-    put.bind_text(0, source.argument).bind_text(1, stamp_of(source, options)).run();
+    put.bind_text(0, source.argument).bind_text(1, stamp).run();
     const std::int64_t id = database_.last_id();
     for (const ReadyPart& part : ready.parts) {
       if (const std::string other = source_that_has(part.entry.name); !other.empty()) {
@@ -261,6 +267,11 @@ class CatalogWriter {
     sum_change_ += sum_of_unit(unit) - sum_of_unit(unit_);
     set_fact(database_, "unit", unit);
     unit_ = unit;
+  }
+
+  bool is_there(const std::string& argument, const std::string& stamp) const {
+    Statement asked = database_.prepare("SELECT 1 FROM sources WHERE argument = ? AND stamp = ?");
+    return asked.bind_text(0, argument).bind_text(1, stamp).step();
   }
 
   /// Whether there was anything.

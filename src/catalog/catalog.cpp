@@ -87,9 +87,11 @@ struct Stored {
 
 struct Catalog::State {
   explicit State(const std::string& file) : database(file, Database::Access::read), path(file) {
+    Transaction all(database, Database::Access::read);
     require_catalog(database);
     unit = fact(database, "unit");
     read_entries();
+    all.commit();
     index.fine = [this](const std::vector<std::size_t>& parts) { return fine_profiles(parts); };
   }
   State(const State&) = delete;

@@ -76,8 +76,8 @@ bool has_tables(const Database& database) { return database.prepare("SELECT 1 FR
 }  // namespace
 
 void make_tables(const Database& database) {
+  Transaction all(database);  // of two builds of one new file one makes them
   if (has_tables(database)) return require_catalog(database);
-  Transaction all(database);
   database.run(kTables);
   set_fact(database, "schema", kCatalogSchema);
   set_whole_sum(database, sum_of_unit(""));
