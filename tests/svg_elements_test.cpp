@@ -367,9 +367,9 @@ TEST(SvgStructure, deep_nesting_is_refused) {
     for (int k = 0; k < depth; ++k) text += "</g>";
     return svg(text);
   };
-  EXPECT_EQ(message_of(nested(399)), "no error");
-  EXPECT_THAT(message_of(nested(400)), HasSubstr("elements are nested more than 400 deep"));
-  EXPECT_THAT(message_of(nested(200000)), HasSubstr("elements are nested more than 400 deep"));
+  EXPECT_EQ(message_of(nested(149)), "no error");
+  EXPECT_THAT(message_of(nested(150)), HasSubstr("elements are nested more than 150 deep"));
+  EXPECT_THAT(message_of(nested(200000)), HasSubstr("elements are nested more than 150 deep"));
 }
 
 TEST(SvgStructure, switch_draws_its_first_child) {

@@ -136,6 +136,8 @@ std::string nearest_name(const std::string& typed, const std::vector<std::string
   std::size_t least = std::max<std::size_t>(typed.size() / 3, 1) + 1;
   std::string nearest;
   for (const std::string& name : names) {
+    // What is so much longer takes as many edits, and may be a file's worth of text.
+    if (typed.size() > name.size() + least || name.size() > typed.size() + least) continue;
     const std::size_t distance = edit_distance(typed, name);
     if (distance < least) {
       least = distance;

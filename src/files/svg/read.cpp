@@ -23,8 +23,8 @@ namespace {
 
 using namespace svg;
 
-/// Elements inside each other. Far above what drawing programs write, and within the stack.
-constexpr int kMostNesting = 400;
+/// Elements inside each other. Far above what drawing programs write, and within a stack of 64 kB.
+constexpr int kMostNesting = 150;
 /// Elements and segments that <use> may copy in all: ten uses of ten uses, and so on, would never end.
 constexpr std::size_t kMostCopies = 1000000;
 /// So much text, read again for a copy, counts as one of them.
