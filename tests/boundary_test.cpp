@@ -275,6 +275,20 @@ TEST(AnglesOver, hold_theta_everywhere_on_an_arc_and_reach_it) {
   }
 }
 
+TEST(AnglesOver, of_many_laps_are_those_of_the_first_and_the_last) {
+  for (const char* shape : {"cam", "reuleaux", "limacon"}) {
+    const Part part = part_of(shape);
+    const double P = part.perimeter();
+    const Interval few = rollfix::angles_over(part.turning(), {0.3 * P, 2.1 * P});  // two laps at most: one by one
+    const Interval many = rollfix::angles_over(part.turning(), {0.3 * P, 7.1 * P});
+    EXPECT_NEAR(many.lo, few.lo, 1e-11);
+    EXPECT_NEAR(many.hi, few.hi + 5 * part.turning().period_turn(), 1e-11);
+    // Walked along it takes days.
+    const Interval laps = rollfix::angles_over(part.turning(), {0.3 * P, 0.3 * P + 1e9 * P});
+    EXPECT_NEAR(laps.width(), 1e9 * part.turning().period_turn(), 10);
+  }
+}
+
 TEST(AnglesOver, hold_all_of_a_corner_at_their_ends) {
   const Part part = part_of("reuleaux");
   for (const rollfix::Corner& corner : part.corners()) {

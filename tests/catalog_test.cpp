@@ -8,8 +8,10 @@
 
 #include <chrono>
 #include <fstream>
+#include <functional>
 #include <thread>
 
+#include "catalog/sums.hpp"
 #include "catalogs.hpp"
 #include "refusal.hpp"
 
@@ -42,10 +44,19 @@ class CatalogFile : public testing::Test {
     return all;
   }
   /// What no command of ours does to a catalog.
-  static void meddle(const char* sql) {
+  static void meddle(const std::string& sql) {
     sqlite3* database = nullptr;
     sqlite3_open("parts.db", &database);
-    sqlite3_exec(database, sql, nullptr, nullptr, nullptr);
+    EXPECT_EQ(sqlite3_exec(database, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(database);
+    sqlite3_close(database);
+  }
+  static void ask(const char* sql, const std::function<void(sqlite3_stmt*)>& take) {
+    sqlite3* database = nullptr;
+    sqlite3_open("parts.db", &database);
+    sqlite3_stmt* rows = nullptr;
+    sqlite3_prepare_v2(database, sql, -1, &rows, nullptr);
+    while (sqlite3_step(rows) == SQLITE_ROW) take(rows);
+    sqlite3_finalize(rows);
     sqlite3_close(database);
   }
 
@@ -130,7 +141,19 @@ TEST_F(CatalogFile, lean_computes_the_same_parts_when_they_are_asked_for) {
 
 TEST_F(CatalogFile, computes_anew_what_another_version_computed) {
   of({"cam"});
-  meddle("UPDATE shapes SET format = format - 1");
+  // As that version would have written it, its checksum and all.
+  std::uint64_t part = 0;
+  ask("SELECT checksum FROM parts",
+      [&](sqlite3_stmt* row) { part = static_cast<std::uint64_t>(sqlite3_column_int64(row, 0)); });
+  std::uint64_t sum = 0;
+  ask("SELECT outline, numbers, format - 1, computed FROM shapes", [&](sqlite3_stmt* row) {
+    const auto bytes = [&](int column) {
+      const auto* data = static_cast<const char*>(sqlite3_column_blob(row, column));
+      return std::string_view(data, static_cast<std::size_t>(sqlite3_column_bytes(row, column)));
+    };
+    sum = sum_of(ShapeRow{bytes(0), bytes(1), sqlite3_column_int64(row, 2), bytes(3)}, part);
+  });
+  meddle("UPDATE shapes SET format = format - 1, checksum = " + std::to_string(static_cast<std::int64_t>(sum)));
   EXPECT_EQ(Catalog("parts.db").part(0).turning().angle(2.5), load_part("gallery:cam").turning().angle(2.5));
 }
 
@@ -141,6 +164,75 @@ TEST_F(CatalogFile, that_was_damaged_says_so) {
   write("text.db", "no catalog at all, but some text that is longer than the header of a file that SQLite would have");
   EXPECT_THAT(refusal_of([] { Catalog("text.db"); }), HasSubstr("is not a catalog"));
   EXPECT_THAT(refusal_of([] { Catalog("nowhere.db"); }), HasSubstr("there is no such file"));
+}
+
+constexpr const char* kNothing = "nothing was thrown";
+
+/// Everything that is said of the parts, or the refusal.
+std::string all_said() {
+  return refusal_of([] {
+    const Catalog catalog("parts.db");
+    for (std::size_t k = 0; k < catalog.size(); ++k) {
+      identify(catalog, {catalog.part(k), roll_on(catalog.part(k), 1, {0.5, 1.1})});
+    }
+  });
+}
+
+TEST_F(CatalogFile, is_refused_with_any_column_of_any_part_changed) {
+  of({"cam", "limacon"});
+  const std::string whole = cli::read("parts.db");
+  ASSERT_EQ(all_said(), kNothing);
+  for (const std::string change :
+       {"parts SET name = 'other'", "parts SET source = source + 1", "parts SET perimeter = perimeter * 1.0000001",
+        "parts SET perimeter = 1e300", "parts SET period_turn = -period_turn", "parts SET most_curvature = 0",
+        "parts SET closed = 0", "parts SET reversed = 1", "parts SET measured = 1", "parts SET symmetry = 2",
+        "parts SET count = 1e9", "parts SET checksum = checksum + 1", "parts SET id = 7",
+        "parts SET profile = (SELECT profile FROM parts WHERE id = 2)",
+        "shapes SET fine = (SELECT fine FROM shapes WHERE part = 2)",
+        "shapes SET (fine, fine_checksum) = (SELECT fine, fine_checksum FROM shapes WHERE part = 2)",
+        "shapes SET outline = outline || ' '", "shapes SET format = 7",
+        "shapes SET (outline, numbers, format, computed, checksum) = "
+        "(SELECT outline, numbers, format, computed, checksum FROM shapes WHERE part = 2)"}) {
+    write("parts.db", whole);
+    meddle("UPDATE " + change + (change.starts_with("parts") ? " WHERE id = 1" : " WHERE part = 1"));
+    EXPECT_NE(all_said(), kNothing) << change;
+  }
+}
+
+TEST_F(CatalogFile, is_refused_with_parts_exchanged_or_missing) {
+  of({"cam", "limacon"});
+  const std::string whole = cli::read("parts.db");
+  for (const std::string sql :
+       {"UPDATE shapes SET part = 3 - part + 10; UPDATE shapes SET part = part - 10", "DELETE FROM parts WHERE id = 1",
+        "UPDATE facts SET value = 'mm' WHERE name = 'unit'; INSERT OR IGNORE INTO facts VALUES ('unit', 'mm')"}) {
+    write("parts.db", whole);
+    meddle(sql);
+    EXPECT_THAT(all_said(), HasSubstr("checksum")) << sql;
+  }
+}
+
+TEST_F(CatalogFile, is_refused_with_a_view_in_place_of_a_table) {
+  of({"cam", "limacon"});
+  meddle("ALTER TABLE parts RENAME TO kept; CREATE VIEW parts AS SELECT * FROM kept");
+  EXPECT_THAT(all_said(), HasSubstr("view"));
+}
+
+TEST_F(CatalogFile, is_refused_with_another_table_in_place_of_its_own) {
+  of({"cam"});
+  meddle("CREATE TABLE own AS SELECT * FROM parts; DROP TABLE parts; ALTER TABLE own RENAME TO parts");
+  EXPECT_THAT(all_said(), HasSubstr("'parts' is not as rollfix made it"));
+}
+
+TEST_F(CatalogFile, keeps_its_checksum_through_all_that_is_done_to_it) {
+  write("shapes/square.csv", kSquare);
+  write("shapes/plate.svg", kTwoLoops);
+  run("catalog build shapes -o parts.db");
+  EXPECT_EQ(all_said(), kNothing);
+  write("shapes/square.csv", kTriangle);
+  run("catalog build shapes -o parts.db");
+  EXPECT_EQ(all_said(), kNothing);
+  run("catalog remove parts.db square.csv");
+  EXPECT_EQ(all_said(), kNothing);
 }
 
 TEST_F(CatalogFile, has_one_unit_for_all) {
@@ -190,6 +282,44 @@ TEST_F(CatalogFile, keeps_what_was_reported_when_the_build_is_killed) {
   const BuildReport rest = build_catalog("parts.db", catalog_sources("list.txt"));
   EXPECT_EQ(Catalog("parts.db").size(), 3000U);
   EXPECT_GE(rest.unchanged, reported);
+}
+
+TEST_F(CatalogFile, that_a_killed_build_left_half_written_is_read_as_it_was_before) {
+  of({"cam"});
+  const pid_t child = fork();
+  if (child == 0) {
+    sqlite3* database = nullptr;
+    sqlite3_open("parts.db", &database);
+    // More than the cache holds, so that half of it is in the file already, and its journal beside it.
+    sqlite3_exec(database,
+                 "PRAGMA cache_size = 1; BEGIN; CREATE TABLE other (a); "
+                 "WITH RECURSIVE n (k) AS (SELECT 1 UNION ALL SELECT k + 1 FROM n WHERE k < 3000) "
+                 "INSERT INTO other SELECT zeroblob(1000) FROM n; DELETE FROM parts; PRAGMA cache_spill = 1",
+                 nullptr, nullptr, nullptr);
+    kill(getpid(), SIGKILL);
+  }
+  waitpid(child, nullptr, 0);
+  ASSERT_TRUE(cli::fs::exists("parts.db-journal"));
+  EXPECT_THAT(names(), ElementsAre("cam"));
+}
+
+TEST_F(CatalogFile, that_several_build_at_once_is_built_once_and_can_be_read_meanwhile) {
+  std::string list;
+  for (int k = 1; k <= 150; ++k) list += "gallery:spline,n=9,wobble=0.2,seed=" + std::to_string(k) + "\n";
+  write("list.txt", list);
+  of({"cam"});
+  const cli::Ran ran = cli::shell(
+      "for k in 1 2 3; do rollfix catalog build list.txt -o parts.db --json > report$k & done; "
+      "for k in 1 2 3 4 5 6; do rollfix catalog list parts.db > /dev/null || echo failed; done; wait");
+  EXPECT_EQ(ran.out, "");
+  EXPECT_EQ(names().size(), 151U);
+  double added = 0;
+  for (const char* const report : {"report1", "report2", "report3"}) {
+    const Json said = Json::parse(cli::read(report));
+    added += said["added"].get<double>();
+    EXPECT_EQ(said["replaced"].get<double>(), 0);
+  }
+  EXPECT_EQ(added, 150);
 }
 
 }  // namespace

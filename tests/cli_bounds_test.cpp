@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <locale>
 
 #include "cli.hpp"
+#include "outline/turn.hpp"
 
 namespace cli_bounds_test {
 namespace {
@@ -58,6 +60,21 @@ INSTANTIATE_TEST_SUITE_P(Numbers, AnyNumber,
                          testing::Values("0", "-0", "5e-324", "1e-310", "1e-300", "1e-12", "1e12", "1e20", "1e300",
                                          "1.7976931348623157e308", "-1e300", "nan", "inf", "-inf", "1e999"),
                          [](const auto& shape) { return "number_" + std::to_string(shape.index); });
+
+TEST(Facing, of_so_many_turns_that_rounding_is_all_that_is_left_of_it_is_refused) {
+  const std::string question = "locate gallery:cam --reading 1.5,-0.8,110.97deg --facing ";
+  expect_refusal(question + "1e12", "a facing of at most 1000000 rad");
+  expect_refusal(question + "-1000001", "check the units");
+  EXPECT_EQ(run(question + "-1000000").code, 0);
+}
+
+TEST(Facing, of_many_turns_is_reduced_in_all_its_digits) {
+  constexpr long double kTurn = 6.283185307179586476925286766559L;
+  for (const double angle : {1e6, -1e6, 876543.21, 3.0, -4.0, 0.0}) {
+    const auto reduced = static_cast<double>(std::remainder(static_cast<long double>(angle), kTurn));
+    EXPECT_NEAR(rollfix::without_laps(angle), reduced, 2e-14) << angle;
+  }
+}
 
 TEST(Laps, beyond_which_a_perimeter_does_not_tell_where_a_roll_ends_are_refused) {
   expect_refusal("locate gallery:cam --reading 1e12,0.5", "no more than 1000000 laps of gallery:cam");

@@ -239,6 +239,60 @@ TEST(Messages, send_no_control_characters_to_a_terminal) {
   EXPECT_EQ(ran.err.find('\x1b'), std::string::npos) << ran.err;
 }
 
+/// ESC, C1's CSI, the mark that writes from right to left, a line's end, and a byte that is no character.
+const std::string kHostile =
+    "a\x1b[31m\xC2\x9B"
+    "2J\xE2\x80\xAE"
+    "b\nc\xFF";
+
+/// Nothing but text and the ends of its lines.
+void expect_harmless(const std::string& text) {
+  for (const char* const piece : {"\x1b", "\xC2\x9B", "\xE2\x80\xAE", "\xFF", "b\nc"}) {
+    EXPECT_EQ(text.find(piece), std::string::npos) << text;
+  }
+}
+
+TEST(Names, from_outside_do_nothing_to_a_terminal_and_break_no_table) {
+  const cli::Folder folder;
+  const std::string name = kHostile + ".csv";
+  folder.write(name, "0,0\n10,0\n10,10\n0,10\n");
+  folder.write("bad" + name, "0,0\n10,10\n10,0\n0,10\n");
+  folder.write("log" + name, "stamp,contact" + kHostile.substr(0, 8) + "_deg,yaw_deg\n0,1,2\n");
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"inspect", name},
+           {"locate", name, "--reading", "3,90deg"},
+           {"locate", name, "--reading", "3,90deg", "-o", "new" + name + ".svg"},
+           {"locate", name, "--log", "log" + name, "--finger", "disk,r=1"},
+           {"catalog", "build", ".", "-o", "parts.db"},
+           {"catalog", "list", "parts.db"},
+           {"identify", "parts.db", "--reading", "3,90deg"},
+           {"watch", name, "--log", "log" + name, "--once", "--finger", "disk,r=1", "--noise", "angle=0.1"}}) {
+    const cli::Ran ran = run_words(words);
+    EXPECT_NE(ran.code, 4) << ran.err;
+    expect_harmless(ran.out);
+    expect_harmless(ran.err);
+  }
+}
+
+TEST(Units, from_outside_do_nothing_to_a_terminal) {
+  const cli::Folder folder;
+  folder.write("disk.json",
+               R"({"curves": [{"type": "arc", "centre": [0, 0], "radius": 1}], "unit": "m\u001b[31m\u009b\u202e\nm"})");
+  const cli::Ran ran = run("inspect disk.json");
+  for (const std::string& text : {ran.out, ran.err}) expect_harmless(text);
+}
+
+TEST(HintsToPaste, are_one_word_to_a_shell) {
+  const cli::Folder folder;
+  folder.write("log.csv", "time,contact$(id>PWN)_deg,yaw_deg\n0,1,2\n");
+  const std::string err = run("locate gallery:cam --log log.csv --finger disk,r=0.2").err;
+  const std::size_t at = err.find("--columns ");
+  ASSERT_NE(at, std::string::npos) << err;
+  const std::string hint = err.substr(at, err.find('\n', at) - at);
+  cli::shell("printf '%s' " + hint.substr(0, hint.rfind('\'') + 1));
+  EXPECT_FALSE(cli::fs::exists("PWN")) << hint;
+}
+
 TEST(UnreadableFile, is_named) {
   const cli::Folder folder;
   folder.write("locked.csv", "0 0\n1 0\n0 1\n");

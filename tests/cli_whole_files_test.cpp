@@ -44,6 +44,53 @@ TEST(SeveralFiles, of_which_one_can_not_be_written_are_all_left_out) {
   EXPECT_EQ(folder.files(), Names{"a.csv"});
 }
 
+TEST(SeveralFiles, of_which_one_came_to_be_meanwhile_are_all_left_out) {
+  const cli::Folder folder;
+  folder.write("b.csv", "of somebody else");
+  EXPECT_THROW(rollfix::app::write_files({{"a.csv", "new", false}, {"b.csv", "new", false}}), rollfix::InputError);
+  EXPECT_EQ(cli::read("b.csv"), "of somebody else");
+  EXPECT_EQ(folder.files(), Names{"b.csv"});
+}
+
+TEST(SeveralFiles, that_are_one_are_refused) {
+  const cli::Folder folder;
+  const cli::Ran ran = run("locate gallery:ellipse --reading 1.5,73.2deg --certify z.svg -o ./z.svg");
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_THAT(ran.err, HasSubstr("two files would be written to it"));
+  EXPECT_EQ(folder.files(), Names{});
+}
+
+TEST(ManyRunsWithOneNewFile, write_it_once_and_the_others_say_that_it_exists) {
+  const cli::Folder folder;
+  std::string runs;
+  for (int k = 0; k < 12; ++k) {
+    runs += "{ rollfix " + kSimulate + "--samples 50000 --quiet -o same.csv 2>/dev/null && echo wrote; } & ";
+  }
+  const std::string out = shell(runs + "wait").out;
+  EXPECT_EQ(out, "wrote\n");
+}
+
+TEST(PlantedLink, beside_the_output_is_not_followed) {
+  const cli::Folder folder;
+  folder.write("victim", "precious");
+  // The shell's number becomes the program's.
+  EXPECT_EQ(shell("ln -s victim .a.svg.$$; exec rollfix inspect gallery:cam --quiet -o a.svg").code, 0);
+  EXPECT_EQ(cli::read("victim"), "precious");
+}
+
+TEST(LongNames, are_written_up_to_the_longest_that_a_folder_takes) {
+  const cli::Folder folder;
+  const std::string name = std::string(251, 'a') + ".svg";
+  EXPECT_EQ(run("inspect gallery:cam -o " + name).code, 0);
+  EXPECT_EQ(folder.files(), Names{name});
+}
+
+TEST(FullStandardOutput, is_told_for_help_and_version_too) {
+  for (const std::string command : {"--help", "--version", "locate --help"}) {
+    EXPECT_EQ(shell("rollfix " + command + " > /dev/full").code, 2) << command;
+  }
+}
+
 TEST(TwoRunsWithOneFile, leave_the_whole_of_one) {
   const cli::Folder folder;
   const auto roll = [](const std::string& seed, const std::string& file) {

@@ -178,6 +178,16 @@ TEST(DxfInsertRefusal, scale_of_0) {
   EXPECT_THAT(message_of(with_blocks(block("A", ""), insert("A", 0, 0, {{41, 0}}))), HasSubstr("has a scale of 0"));
 }
 
+TEST(DxfInsertRefusal, scales_that_multiply_beyond_all_numbers_are_told_without_any) {
+  std::string blocks = block("B0", circle(0, 0, 1));
+  for (int k = 1; k <= 8; ++k) {
+    blocks += block("B" + std::to_string(k), insert("B" + std::to_string(k - 1), 0, 0, {{41, 1e60}, {42, 1e60}}));
+  }
+  const std::string message = message_of(with_blocks(blocks, insert("B8", 0, 0)));
+  EXPECT_THAT(message, HasSubstr("beyond all numbers"));
+  EXPECT_EQ(message.find("nan"), std::string::npos) << message;
+}
+
 TEST(DxfInsertRefusal, scales_that_multiply_beyond_the_range) {
   const std::string blocks = block("A", circle(1, 0, 1)) + block("B", insert("A", 0, 0, {{41, 1e60}, {42, 1e60}}));
   EXPECT_THAT(message_of(with_blocks(blocks, insert("B", 0, 0, {{41, 1e60}, {42, 1e60}}))),

@@ -136,7 +136,7 @@ TEST(LogColumns, the_option_that_is_pasted_reads_the_log) {
     const std::string told = refusal(text);
     const std::size_t start = told.find("`columns` ") + 10;
     std::string option = told.substr(start, told.find(" (the header", start) - start);
-    if (option.front() == '"') option = option.substr(1, option.size() - 2);
+    if (option.front() == '\'') option = option.substr(1, option.size() - 2);
     SCOPED_TRACE(option);
     expect_the_rows(log_of(text, columns(option)));
   }

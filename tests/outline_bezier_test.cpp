@@ -13,6 +13,7 @@
 
 #include "beziers.hpp"
 #include "random.hpp"
+#include "refusal.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline/outline.hpp"
 #include "rollfix/part/part.hpp"
@@ -306,6 +307,18 @@ TEST(Nurbs, of_doubled_control_points_makes_a_part) {
   points[1] = points[0];
   const Part part(open_outline(nurbs(3, {0, 0, 0, 0, 1, 2, 3, 3, 3, 3}, points)));
   EXPECT_THAT(part.corners(), IsEmpty());
+}
+
+TEST(Nurbs, weights_too_far_apart_are_refused_and_not_worked_on_for_hours) {
+  const auto with_weights = [](double second, double third) {
+    Outline outline{"leaf", {}, true};
+    outline.curves.emplace_back(Bezier({{0, 0}, {1, 0}, {1, 1}}, {1, second, third}));
+    outline.curves.emplace_back(rollfix::Line({1, 1}, {0, 0}));
+    return outline;
+  };
+  EXPECT_THAT(refusal_of([&] { Part{with_weights(1, 500)}; }), HasSubstr("as with weights far apart"));
+  EXPECT_THAT(refusal_of([&] { Part{with_weights(2, 1000)}; }), HasSubstr("as with weights far apart"));
+  EXPECT_GT(Part(with_weights(1, 200)).perimeter(), 2.8);
 }
 
 TEST(Nurbs, bad_input_is_refused) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
+#include <vector>
 
 #include "pair_cases.hpp"
 #include "rollfix/locate/locate.hpp"
@@ -123,6 +125,39 @@ TEST(PairCorners, where_a_reading_is_given_twice_have_no_roots_but_where_all_equ
     EXPECT_LE(placement.residual, 4e-12) << placement.start[0] << ", " << placement.start[1];
     EXPECT_EQ(placement.roots.size(), 1U) << placement.start[0] << ", " << placement.start[1];
   }
+}
+
+/// Eight lines and arcs, one of them 0.004 long on an outline of 273.
+Part plate_with_a_tiny_fillet() {
+  Outline outline{"plate", {}, true};
+  outline.curves.emplace_back(Line({5.912705367766222, 9.369597883453551}, {-11.777893555475272, 40.0106140348311}));
+  outline.curves.emplace_back(
+      Arc({-31.777893555475266, -7.293834365951092}, 51.35864911095564, 1.1707963267948966, 0.8));
+  outline.curves.emplace_back(Line({-51.77789355547526, 40.0106140348311}, {-71.77789355547529, 5.369597883453557}));
+  outline.curves.emplace_back(Line({-71.77789355547529, 5.369597883453557}, {-51.77904825601368, -29.269418267923985}));
+  outline.curves.emplace_back(
+      Arc({-51.775584154398544, -29.267418267923986}, 0.004, -2.6179938779916254, 1.0471975511965979));
+  outline.curves.emplace_back(
+      Line({-51.775584154398544, -29.271418267923984}, {-11.777893555475272, -29.27141826792399}));
+  outline.curves.emplace_back(Line({-11.777893555475272, -29.27141826792399}, {5.912705367766222, 1.369597883453554}));
+  outline.curves.emplace_back(
+      Arc({-1.0154978625092879, 5.369597883453553}, 8.0, -0.5235987755982987, 1.0471975511965974));
+  return Part(outline);
+}
+
+TEST(PairCorners, many_pieces_in_one_pivot_cost_no_more_than_the_budget) {
+  const Part part = plate_with_a_tiny_fillet();
+  const std::vector<Reading> readings{{16.074455404606155, 27.154737855854762, 0.3781562840084265},
+                                      {80.00187938912804, -271.4164342842274, 9.80293424477767}};
+  LocateOptions options;
+  options.tolerance = 1e-10;
+  options.budget = 4000;
+  const std::size_t placements = locate(part, readings, options).placements.size();
+  options.budget = 100'000;
+  const std::clock_t begin = std::clock();
+  EXPECT_EQ(locate(part, readings, options).placements.size(), placements);
+  // Each piece with each takes minutes.
+  EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 10);
 }
 
 }  // namespace

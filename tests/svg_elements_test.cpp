@@ -345,6 +345,20 @@ TEST(SvgStructure, exploding_references_are_refused) {
               HasSubstr("<use> copies more than 1000000 elements"));
 }
 
+TEST(SvgStructure, references_to_long_paths_count_each_of_their_segments) {
+  std::string path = "M0 0";
+  for (int k = 0; k < 4000; ++k) path += "h1v1";
+  std::string file = "<path id='a' d='" + path + "'/>";
+  for (int k = 0; k < 200; ++k) file += "<use href='#a'/>";  // 1.6 million
+  EXPECT_THAT(message_of(svg(file)), HasSubstr("<use> copies more than 1000000 elements and segments"));
+}
+
+TEST(SvgStructure, references_to_long_texts_count_what_is_read_again) {
+  std::string file = "<path id='a' d='M0 0" + std::string(100'000, ' ') + "h1v1z'/>";
+  for (int k = 0; k < 700; ++k) file += "<use href='#a'/>";
+  EXPECT_THAT(message_of(svg(file)), HasSubstr("<use> copies more than 1000000 elements and segments"));
+}
+
 TEST(SvgStructure, deep_nesting_is_refused) {
   const auto nested = [](int depth) {
     std::string text;
@@ -353,9 +367,9 @@ TEST(SvgStructure, deep_nesting_is_refused) {
     for (int k = 0; k < depth; ++k) text += "</g>";
     return svg(text);
   };
-  EXPECT_EQ(message_of(nested(399)), "no error");
-  EXPECT_THAT(message_of(nested(400)), HasSubstr("elements are nested more than 400 deep"));
-  EXPECT_THAT(message_of(nested(200000)), HasSubstr("elements are nested more than 400 deep"));
+  EXPECT_EQ(message_of(nested(149)), "no error");
+  EXPECT_THAT(message_of(nested(150)), HasSubstr("elements are nested more than 150 deep"));
+  EXPECT_THAT(message_of(nested(200000)), HasSubstr("elements are nested more than 150 deep"));
 }
 
 TEST(SvgStructure, switch_draws_its_first_child) {

@@ -317,4 +317,65 @@ TEST(News, are_not_two_places_that_change_ranks) {
   EXPECT_FALSE(is_news(said, now, cam()));
 }
 
+// --- A serial line, a connection: joined in the middle.
+
+WatchOptions joined() {
+  WatchOptions how = options();
+  how.midway = true;
+  return how;
+}
+
+TEST(WatcherMidway, half_a_row_before_the_header_is_skipped) {
+  for (const std::string half : {"3,0.0712", "12,0.4,0.0712,1", "0712", ",1"}) {
+    Watch watch(joined());
+    watch.push(half).push(kHeader).push(noisy_rows(2, 3, 600)).watcher.finish();
+    EXPECT_THAT(watch.diary.happened, ElementsAre("found 1", "ended 1")) << half;
+    expect_found(watch.diary.answers.back(), 2, 3);
+    EXPECT_EQ(watch.watcher.counts().malformed, 1U) << half;
+    EXPECT_EQ(watch.diary.answers.back().sample.line, 602U) << half;
+  }
+}
+
+TEST(WatcherMidway, rows_before_the_header_are_skipped_where_they_need_one) {
+  Watch watch(joined());
+  const std::vector<std::string> rows = noisy_rows(2, 3, 600);
+  watch.push("0.4,1").push(part_of(rows, 0, 40)).push(kHeader).push(rows).watcher.finish();
+  EXPECT_THAT(watch.diary.happened, ElementsAre("found 1", "ended 1"));
+  expect_found(watch.diary.answers.back(), 2, 3);
+  EXPECT_EQ(watch.watcher.counts().malformed, 41U);
+}
+
+TEST(WatcherMidway, a_header_that_comes_after_rows_that_need_none_is_taken) {
+  Watch watch(joined());
+  watch.push({"0.1,0.02", "0.1,0.02", "0.1,0.03"}).push(kHeader).push(noisy_rows(2, 3, 600)).watcher.finish();
+  EXPECT_THAT(watch.diary.happened, ElementsAre("found 1", "restarted 1", "found 2", "ended 2"));
+  expect_found(watch.diary.answers.back(), 2, 3);
+}
+
+TEST(WatcherMidway, rows_without_a_header_are_distance_and_dturn_all_the_same) {
+  Watch watch(joined());
+  watch.push({"0.1,0.02", "0.1,0.02", "0.1,0.03"}).watcher.finish();
+  EXPECT_EQ(watch.watcher.counts().samples, 3U);
+}
+
+TEST(WatcherMidway, a_header_that_never_comes_is_asked_for) {
+  Watch watch(joined());
+  EXPECT_THROW(for (int k = 0; k < 1000; ++k) watch.push("0.1,0.02,0.3"), rollfix::InputError);
+  Watch one_row(joined());
+  one_row.push("0.1,0.02,0.3");
+  EXPECT_THROW(one_row.watcher.finish(), rollfix::InputError);
+}
+
+TEST(WatcherMidway, what_is_no_text_before_the_header_is_skipped) {
+  using namespace std::string_literals;
+  for (const std::string& noise : {"\0\0\0"s, "\xFF\xFE"s, "\xF8\x00\xE1,\x03 3"s, "\x80u,psi"s + "\xFF"s}) {
+    Watch watch(joined());
+    watch.push(noise).push("\0\xFF"s + kHeader);
+    watch.push(noisy_rows(2, 3, 600)).watcher.finish();
+    EXPECT_THAT(watch.diary.happened, ElementsAre("found 1", "ended 1"));
+    EXPECT_EQ(watch.watcher.counts().malformed, 1U);
+    expect_found(watch.diary.answers.back(), 2, 3);
+  }
+}
+
 }  // namespace watcher_test

@@ -20,6 +20,7 @@
 #include "rollfix/output/report.hpp"
 #include "rollfix/usage.hpp"
 #include "rollfix/version.hpp"
+#include "text/text.hpp"
 
 namespace rollfix::app {
 namespace {
@@ -145,7 +146,7 @@ void deliver(const Report& report, std::ostream& out, std::ostream& notes) {
   write_files(report.files);
   out << report.data << std::flush;
   if (!out) throw InputError("standard output can't be written to");
-  for (const std::string& note : report.notes) notes << "rollfix: " << with_options(note) << '\n';
+  for (const std::string& note : report.notes) notes << "rollfix: " << plain(with_options(note)) << '\n';
 }
 
 /// What is known stands on a line of its own.
@@ -162,8 +163,7 @@ void set_known_names_apart(std::string& message) {
 /// An error is one line, whatever is in the names that it quotes, and does nothing to a terminal; and one of what would
 /// be known.
 int fail(std::ostream& err, std::string message, ExitCode exit_code) {
-  std::replace_if(
-      message.begin(), message.end(), [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) != 0; }, ' ');
+  message = plain(message, ' ');
   set_known_names_apart(message);
   err << "rollfix: " << with_options(message) << '\n';
   return code(exit_code);
@@ -188,7 +188,9 @@ int run(const std::vector<std::string>& arguments, std::ostream& out, std::ostre
     deliver(report, out, notes);
     return code(report.exit_code);
   } catch (const CLI::Success& request) {  // --help, --version
-    return program.exit(request, out, err);
+    const int exit_code = program.exit(request, out, err);
+    out << std::flush;
+    return out ? exit_code : fail(err, "standard output can't be written to", ExitCode::bad_input);
   } catch (const CLI::ParseError& error) {
     return fail(err, explain(error), ExitCode::bad_input);
   } catch (const InputError& error) {

@@ -6,6 +6,7 @@
 
 #include "diagnosis.hpp"
 #include "locate/corner_sets.hpp"
+#include "outline/turn.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate/locate.hpp"
 #include "weighing.hpp"
@@ -112,7 +113,8 @@ class RowsCheck {
   static constexpr double kLeastOff = 1e-6;  // of the perimeter: an outline's own accuracy
 
   double off(const Placement& placement) const {
-    const Question question{part_, observed_.rolls, answer_.facing};
+    Question question{part_, observed_.rolls};
+    if (answer_.facing) question.facing = without_laps(*answer_.facing);
     double least = residual_at(question, placement.start);
     for (const PerFinger<double>& root : placement.roots) least = std::min(least, residual_at(question, root));
     return least;

@@ -24,19 +24,7 @@ constexpr double kWide = 0.1;
 constexpr double kAnywhere = 0.9;
 
 void require_valid(const Part& part, const BeliefOptions& options, const Contacts& contacts) {
-  const Noise& noise = options.noise;
-  rollfix::require_valid(noise);
-  if (noise.contact <= 0 && noise.angle <= 0) {
-    throw InputError(
-        "noise: expected a standard deviation of the contact or of the angle above 0, found neither; without noise "
-        "there is nothing to be unsure of");
-  }
-  if (noise.angle > BeliefOptions::kMostAngle) {
-    throw InputError(fmt::format(
-        "noise: an angle's standard deviation of {} rad is {:.3g} deg, expected at most {} rad: beyond that a "
-        "row says nothing; degrees are written {}deg",
-        noise.angle, noise.angle * 180 / std::numbers::pi, BeliefOptions::kMostAngle, noise.angle));
-  }
+  belief::require_weighable(options.noise);
   if (options.prior &&
       !(std::isfinite(options.prior->s) && std::isfinite(options.prior->sd) && options.prior->sd > 0)) {
     throw InputError(fmt::format("prior: expected a place and a standard deviation above 0, found {} and {}",
@@ -49,6 +37,21 @@ void require_valid(const Part& part, const BeliefOptions& options, const Contact
 }
 
 }  // namespace
+
+void belief::require_weighable(const Noise& noise) {
+  rollfix::require_valid(noise);
+  if (noise.contact <= 0 && noise.angle <= 0) {
+    throw InputError(
+        "noise: expected a standard deviation of the contact or of the angle above 0, found neither; without noise "
+        "there is nothing to be unsure of");
+  }
+  if (noise.angle > BeliefOptions::kMostAngle) {
+    throw InputError(fmt::format(
+        "noise: an angle's standard deviation of {} rad is {:.3g} deg, expected at most {} rad: beyond that a "
+        "row says nothing; degrees are written {}deg",
+        noise.angle, noise.angle * 180 / std::numbers::pi, BeliefOptions::kMostAngle, noise.angle));
+  }
+}
 
 struct Belief::State {
   void settle();

@@ -45,6 +45,9 @@ inline constexpr double kCredible = 0.95;
 // A piece of the posterior with less of it is not told of.
 inline constexpr double kLeastShare = 1e-9;
 
+/// Throws InputError: noise that is not valid, that is none, or beyond which a row says nothing.
+void require_weighable(const Noise& noise);
+
 inline double square(double x) { return x * x; }
 
 /// The standard normal deviate that is as unlikely as this chi-square (Wilson and Hilferty 1931).

@@ -11,11 +11,11 @@
 
 #include "answer/crew.hpp"
 #include "bounds/profile.hpp"
-#include "files/byte_stream.hpp"
 #include "files/part_record.hpp"
 #include "rollfix/answer/part_facts.hpp"
 #include "rollfix/catalog/catalog.hpp"
 #include "rollfix/error.hpp"
+#include "sums.hpp"
 #include "tables.hpp"
 
 namespace rollfix {
@@ -171,6 +171,7 @@ class CatalogWriter {
     make_tables(database_);
     // What is reported as done survives a crash of the machine.
     database_.run("PRAGMA synchronous = FULL");
+    Transaction all(database_);
     unit_ = fact(database_, "unit");
     if (unit.empty() || unit == unit_) return;
     if (!unit_.empty() || parts() > 0) {
@@ -178,6 +179,7 @@ class CatalogWriter {
                                    path, unit_.empty() ? "no known unit" : unit_));
     }
     set_unit(unit);
+    commit(all);
   }
 
   const std::string& unit() const { return unit_; }
@@ -197,13 +199,19 @@ class CatalogWriter {
 
   /// In place of what was there of this source, in the catalog's unit.
   void write(const CatalogSource& source, const BuildOptions& options, ReadySource& ready, BuildReport& report) {
+    const std::string stamp = stamp_of(source, options);
+    if (is_there(source.argument, stamp)) {  // another build was faster
+      ++report.unchanged;
+      return;
+    }
+    unit_ = fact(database_, "unit");  // which that may have set
     if (!ready.unit.empty() && !ready.parts.empty() && ready.unit != unit_) {
       if (unit_.empty()) set_unit(ready.unit);
       if (ready.unit != unit_) ready = read_source(source, in_unit(options, unit_));
     }
     if (forget(source.argument)) ++report.replaced;
     Statement put = database_.prepare("INSERT INTO sources (argument, stamp) VALUES (?, ?)");
-    put.bind_text(0, source.argument).bind_text(1, stamp_of(source, options)).run();
+    put.bind_text(0, source.argument).bind_text(1, stamp).run();
     const std::int64_t id = database_.last_id();
     for (const ReadyPart& part : ready.parts) {
       if (const std::string other = source_that_has(part.entry.name); !other.empty()) {
@@ -226,7 +234,7 @@ class CatalogWriter {
   std::size_t remove(const std::vector<std::string>& names) {
     Transaction all(database_);
     for (const std::string& name : names) {
-      Statement asked = database_.prepare("SELECT id, source FROM parts WHERE name = ?");
+      Statement asked = database_.prepare("SELECT id, source, checksum FROM parts WHERE name = ?");
       asked.bind_text(0, name);
       if (!asked.step()) {
         throw InputError(
@@ -236,21 +244,34 @@ class CatalogWriter {
       }
       const std::int64_t id = asked.whole(0);
       const std::int64_t source = asked.whole(1);
+      sum_change_ -= static_cast<std::uint64_t>(asked.whole(2));
       database_.prepare("DELETE FROM shapes WHERE part = ?").bind(0, id).run();
       database_.prepare("DELETE FROM parts WHERE id = ?").bind(0, id).run();
       // So that a build takes it in again.
       database_.prepare("UPDATE sources SET stamp = '' WHERE id = ?").bind(0, source).run();
     }
-    all.commit();
+    commit(all);
     return names.size();
+  }
+
+  /// What was written, with the whole catalog's sum.
+  void commit(Transaction& all) {
+    if (sum_change_ != 0) set_whole_sum(database_, whole_sum(database_) + std::exchange(sum_change_, 0));
+    all.commit();
   }
 
   const Database& database() const { return database_; }
 
  private:
   void set_unit(const std::string& unit) {
+    sum_change_ += sum_of_unit(unit) - sum_of_unit(unit_);
     set_fact(database_, "unit", unit);
     unit_ = unit;
+  }
+
+  bool is_there(const std::string& argument, const std::string& stamp) const {
+    Statement asked = database_.prepare("SELECT 1 FROM sources WHERE argument = ? AND stamp = ?");
+    return asked.bind_text(0, argument).bind_text(1, stamp).step();
   }
 
   /// Whether there was anything.
@@ -259,6 +280,9 @@ class CatalogWriter {
     asked.bind_text(0, argument);
     if (!asked.step()) return false;
     const std::int64_t id = asked.whole(0);
+    Statement parts = database_.prepare("SELECT checksum FROM parts WHERE source = ?");
+    parts.bind(0, id);
+    while (parts.step()) sum_change_ -= static_cast<std::uint64_t>(parts.whole(0));
     for (const char* const sql : {"DELETE FROM shapes WHERE part IN (SELECT id FROM parts WHERE source = ?)",
                                   "DELETE FROM parts WHERE source = ?", "DELETE FROM left_out WHERE source = ?",
                                   "DELETE FROM sources WHERE id = ?"}) {
@@ -274,31 +298,47 @@ class CatalogWriter {
     return asked.step() ? std::string(asked.bytes(0)) : std::string();
   }
 
-  void write_part(const ReadyPart& part, std::int64_t source) {
+  /// The row's checksum.
+  std::uint64_t write_row(const ReadyPart& part, std::int64_t source) {
     Statement row = database_.prepare(
         "INSERT INTO parts (name, source, perimeter, period_turn, most_curvature, closed, reversed, measured, "
-        "symmetry, "
-        "count, profile) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+        "symmetry, count, profile, checksum) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, 0)");
     const CatalogEntry& entry = part.entry;
     row.bind_text(0, entry.name).bind(1, source).bind(2, entry.perimeter).bind(3, part.period_turn);
     row.bind(4, part.most_curvature).bind(5, std::int64_t{entry.closed}).bind(6, std::int64_t{entry.reversed});
     row.bind(7, std::int64_t{part.measured}).bind(8, std::int64_t{entry.symmetry}).bind(9, entry.count);
     row.bind_bytes(10, part.cells).run();
+    const std::int64_t id = database_.last_id();  // known only now, and part of the sum
+    const std::uint64_t sum =
+        sum_of({id, entry.name, source, entry.perimeter, part.period_turn, part.most_curvature, entry.closed,
+                entry.reversed, part.measured, entry.symmetry, entry.count, part.cells});
+    Statement put = database_.prepare("UPDATE parts SET checksum = ? WHERE id = ?");
+    put.bind(0, static_cast<std::int64_t>(sum)).bind(1, id).run();
+    return sum;
+  }
+
+  void write_part(const ReadyPart& part, std::int64_t source) {
+    const std::uint64_t sum = write_row(part, source);
+    const std::int64_t id = database_.last_id();
+    sum_change_ += sum;
     const PartRecord& record = part.record;
-    Statement shape = database_.prepare("INSERT INTO shapes VALUES (?, ?, ?, ?, ?, ?, ?)");
-    shape.bind(0, database_.last_id()).bind_bytes(1, part.fine);
-    shape.bind_text(2, record.outline).bind_bytes(3, record.numbers).bind(4, std::int64_t{kComputedFormat});
+    Statement shape = database_.prepare(
+        "INSERT INTO shapes (part, fine, fine_checksum, outline, numbers, format, computed, checksum) "
+        "VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
+    shape.bind(0, id).bind_bytes(1, part.fine).bind(2, static_cast<std::int64_t>(sum_of_fine(part.fine, sum)));
+    shape.bind_text(3, record.outline).bind_bytes(4, record.numbers).bind(5, std::int64_t{kComputedFormat});
     if (record.computed.empty()) {
-      shape.bind_nothing(5);
+      shape.bind_nothing(6);
     } else {
-      shape.bind_bytes(5, record.computed);
+      shape.bind_bytes(6, record.computed);
     }
-    const std::uint64_t sum = checksum(record.outline + record.numbers + record.computed);
-    shape.bind(6, static_cast<std::int64_t>(sum)).run();
+    const ShapeRow row{record.outline, record.numbers, kComputedFormat, record.computed};
+    shape.bind(7, static_cast<std::int64_t>(sum_of(row, sum))).run();
   }
 
   Database database_;
   std::string unit_;
+  std::uint64_t sum_change_ = 0;  // of the whole catalog's, since the last commit
 };
 
 }  // namespace
@@ -329,7 +369,7 @@ BuildReport build_catalog(const std::string& path, const std::vector<CatalogSour
       for (auto& [k, source] : ready) {
         writer.write(sources[wanted[k]], options, source, report);
       }
-      all.commit();
+      writer.commit(all);
       progress.done += ready.size();
       progress.parts = writer.parts();
     }

@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "bounds/index.hpp"
-#include "files/byte_stream.hpp"
 #include "files/part_record.hpp"
 #include "rollfix/error.hpp"
+#include "sums.hpp"
 #include "tables.hpp"
 
 namespace rollfix {
@@ -24,24 +24,51 @@ constexpr std::size_t kMostKept = 4096;
 constexpr std::size_t kMostFineKept = 16384;
 
 constexpr const char* kTakenOut = "was taken out of the catalog meanwhile";
-constexpr const char* kDamaged = "was damaged since it was written: its checksum does not fit";
+constexpr const char* kDamaged = "was damaged since it was written: its checksum does not fit; build the catalog again";
+
+constexpr const char* kPartRows =
+    "SELECT id, name, source, perimeter, period_turn, most_curvature, closed, reversed, measured, symmetry, count, "
+    "profile, checksum FROM parts ORDER BY id";
+constexpr int kPartSum = 12;  // its column
+
+/// Good until the next step.
+PartRow part_row(const Statement& rows) {
+  PartRow row;
+  row.id = rows.whole(0);
+  row.name = rows.bytes(1);
+  row.source = rows.whole(2);
+  row.perimeter = rows.number(3);
+  row.period_turn = rows.number(4);
+  row.most_curvature = rows.number(5);
+  row.closed = rows.whole(6) != 0;
+  row.reversed = rows.whole(7) != 0;
+  row.measured = rows.whole(8) != 0;
+  row.symmetry = rows.whole(9);
+  row.count = rows.number(10);
+  row.profile = rows.bytes(11);
+  return row;
+}
 
 /// Reads the fine cells of one part after the other.
 class FineReader {
  public:
   explicit FineReader(const Database& database)
       : open_(database.prepare("SELECT 1 FROM facts")),
-        row_(database.prepare("SELECT fine FROM shapes WHERE part = ?")) {
+        row_(database.prepare("SELECT fine, fine_checksum FROM shapes WHERE part = ?")) {
     // While a statement stands on a row the file is open for reading: else it would be opened for each part anew.
     open_.step();
   }
 
-  /// Until the next ones are asked for. Nothing: there is no such part.
-  std::optional<std::string_view> bytes(std::int64_t part) {
+  /// False: there is no such part.
+  bool find(std::int64_t part) {
     row_.reset();
     row_.bind(0, part);
-    if (!row_.step()) return std::nullopt;
-    return row_.bytes(0);
+    return row_.step();
+  }
+  /// Of the part that was found, until the next one is.
+  std::string_view bytes() const { return row_.bytes(0); }
+  bool fits(std::uint64_t part_sum) const {
+    return static_cast<std::int64_t>(sum_of_fine(bytes(), part_sum)) == row_.whole(1);
   }
 
  private:
@@ -60,9 +87,11 @@ struct Stored {
 
 struct Catalog::State {
   explicit State(const std::string& file) : database(file, Database::Access::read), path(file) {
+    Transaction all(database, Database::Access::read);
     require_catalog(database);
     unit = fact(database, "unit");
     read_entries();
+    all.commit();
     index.fine = [this](const std::vector<std::size_t>& parts) { return fine_profiles(parts); };
   }
   State(const State&) = delete;
@@ -77,6 +106,7 @@ struct Catalog::State {
   std::string path;
   std::string unit;
   std::vector<CatalogEntry> entries;
+  std::vector<std::uint64_t> sums;  // the checksum of each
   Index index;
   std::mutex mutex;  // of the file, and of what is kept
   std::unordered_map<std::size_t, Part> kept;
@@ -90,31 +120,31 @@ void Catalog::State::read_entries() {
     return asked.whole(0);
   }());
   entries.reserve(count);
+  sums.reserve(count);
   index.courses.reserve(count);
   index.coarse.reserve(count);
   index.cells.reserve(count);
   index.measured.reserve(count);
-  Statement rows = database.prepare(
-      "SELECT id, name, perimeter, symmetry, closed, reversed, count, period_turn, most_curvature, measured, profile "
-      "FROM parts ORDER BY id");
+  std::uint64_t whole = sum_of_unit(unit);
+  Statement rows = database.prepare(kPartRows);
   while (rows.step()) {
-    CatalogEntry entry;
-    entry.id = rows.whole(0);
-    entry.name = rows.bytes(1);
-    entry.perimeter = rows.number(2);
-    entry.symmetry = static_cast<int>(rows.whole(3));
-    entry.closed = rows.whole(4) != 0;
-    entry.reversed = rows.whole(5) != 0;
-    entry.count = rows.number(6);
-    const std::optional<Profile<kCells>> profile = profile_from(rows.bytes(10));
-    if (!profile) throw InputError(fmt::format("{}: {}: {}", path, entry.name, kDamaged));
-    index.courses.push_back({static_cast<float>(entry.perimeter), static_cast<float>(rows.number(7)),
-                             static_cast<float>(rows.number(8)), entry.closed});
+    const PartRow row = part_row(rows);
+    const std::uint64_t sum = sum_of(row);
+    const std::optional<Profile<kCells>> profile = profile_from(row.profile);
+    if (!profile || static_cast<std::int64_t>(sum) != rows.whole(kPartSum)) {
+      throw InputError(fmt::format("{}: {}: {}", path, row.name, kDamaged));
+    }
+    whole += sum;
+    sums.push_back(sum);
+    index.courses.push_back({static_cast<float>(row.perimeter), static_cast<float>(row.period_turn),
+                             static_cast<float>(row.most_curvature), row.closed});
     index.coarse.push_back(coarser(*profile));
     index.cells.push_back(*profile);
-    index.measured.push_back(static_cast<std::uint8_t>(rows.whole(9) != 0));
-    entries.push_back(std::move(entry));
+    index.measured.push_back(static_cast<std::uint8_t>(row.measured));
+    entries.push_back({row.id, std::string(row.name), row.perimeter, static_cast<int>(row.symmetry), row.closed,
+                       row.reversed, row.count});
   }
+  if (whole != whole_sum(database)) throw InputError(fmt::format("{}: {}", path, kDamaged));
 }
 
 Stored Catalog::State::stored(std::size_t which) {
@@ -125,7 +155,7 @@ Stored Catalog::State::stored(std::size_t which) {
   Stored stored{std::string(row.bytes(0)), std::string(row.bytes(1)), std::nullopt};
   const bool is_current = row.whole(2) == kComputedFormat && !row.is_nothing(3);
   if (is_current) stored.computed = std::string(row.bytes(3));
-  const std::uint64_t sum = checksum(stored.outline + stored.numbers + std::string(row.bytes(3)));
+  const std::uint64_t sum = sum_of(ShapeRow{stored.outline, stored.numbers, row.whole(2), row.bytes(3)}, sums[which]);
   if (static_cast<std::int64_t>(sum) != row.whole(4)) refuse(which, kDamaged);
   return stored;
 }
@@ -143,9 +173,9 @@ std::vector<Profile<kFineCells>> Catalog::State::fine_profiles(const std::vector
       continue;
     }
     if (!reader) reader.emplace(database);
-    const std::optional<std::string_view> bytes = reader->bytes(entries[which].id);
-    if (!bytes) refuse(which, kTakenOut);
-    const std::optional<Profile<kFineCells>> profile = fine_profile_from(*bytes, index.cells[which]);
+    if (!reader->find(entries[which].id)) refuse(which, kTakenOut);
+    if (!reader->fits(sums[which])) refuse(which, kDamaged);
+    const std::optional<Profile<kFineCells>> profile = fine_profile_from(reader->bytes(), index.cells[which]);
     if (!profile) refuse(which, kDamaged);
     profiles.push_back(*profile);
     if (is_small) fine_kept.emplace(which, *profile);

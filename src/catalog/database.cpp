@@ -13,11 +13,17 @@ namespace rollfix {
 namespace {
 
 // Another program that writes is waited for so long.
-constexpr int kPatienceMilliseconds = 10000;
+constexpr int kPatienceMilliseconds = 60000;
 
 [[noreturn]] void fail(const std::string& path, sqlite3* database, int code) {
   const std::string why = database != nullptr ? sqlite3_errmsg(database) : sqlite3_errstr(code);
   if (code == SQLITE_NOTADB) throw InputError(fmt::format("{}: is not a catalog: expected an SQLite file", path));
+  if (code == SQLITE_READONLY) {
+    throw InputError(fmt::format(
+        "{}: was left half written by a build that was stopped, and may not be written here: run that build "
+        "again, or read it once where it may be written",
+        path));
+  }
   if (code == SQLITE_BUSY) throw InputError(fmt::format("{}: another program is writing to it", path));
   throw InputError(fmt::format("{}: {}", path, why));
 }
@@ -90,13 +96,17 @@ Database::Database(const std::string& path, Access access) : path_(path) {
   if (access == Access::read && !std::filesystem::exists(path)) {
     throw InputError(fmt::format("{}: there is no such file; rollfix catalog build makes one", path));
   }
-  const int flags = access == Access::read ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+  // For reading as well: what a build that was killed left half done has to be taken back first. Where the file may not
+  // be written SQLite opens it for reading only.
+  const int flags = SQLITE_OPEN_READWRITE | (access == Access::read ? 0 : SQLITE_OPEN_CREATE);
   sqlite3* opened = nullptr;
   const int code = sqlite3_open_v2(path.c_str(), &opened, flags | SQLITE_OPEN_NOMUTEX, nullptr);
   database_.reset(opened);
   if (code != SQLITE_OK) fail(path, opened, code);
   sqlite3_extended_result_codes(opened, 0);
   sqlite3_busy_timeout(opened, kPatienceMilliseconds);
+  if (access == Access::read) run("PRAGMA query_only = ON");
+  run("PRAGMA cell_size_check = ON; PRAGMA trusted_schema = OFF");  // the file may be damaged, or a stranger's
 }
 
 Statement Database::prepare(const std::string& sql) const {

@@ -62,10 +62,14 @@ class Database {
   std::string path_;
 };
 
-/// All or nothing: what was done since it was made is undone unless it is committed.
+/// All or nothing: what was done since it was made is undone unless it is committed. Of one that only reads: all of it
+/// is of one state, whatever others write meanwhile.
 class Transaction {
  public:
-  explicit Transaction(const Database& database) : database_(database) { database_.run("BEGIN IMMEDIATE"); }
+  explicit Transaction(const Database& database, Database::Access access = Database::Access::write)
+      : database_(database) {
+    database_.run(access == Database::Access::write ? "BEGIN IMMEDIATE" : "BEGIN");
+  }
   ~Transaction();
   Transaction(const Transaction&) = delete;
   Transaction& operator=(const Transaction&) = delete;

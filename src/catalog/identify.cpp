@@ -20,6 +20,21 @@ namespace {
 // Without noise tangents of parts that are the same differ by no more, radians.
 constexpr double kSameTurn = 1e-7;
 
+// Contacts that are known no better than to so many laps of the largest part tell nothing of any.
+constexpr double kMostLaps = 1000;
+
+/// Throws InputError: noise that no part's answer could take.
+void require_weighable(const Catalog& catalog, const Noise& noise) {
+  belief::require_weighable(noise);
+  double most = 0;
+  for (std::size_t k = 0; k < catalog.size(); ++k) most = std::max(most, catalog.entry(k).perimeter);
+  if (noise.contact <= kMostLaps * most) return;
+  throw InputError(fmt::format(
+      "noise: a contact's standard deviation of {:.6g} is more than {:.0f} laps of the largest part, whose perimeter "
+      "is {:.6g}: a row says nothing then; check the unit",
+      noise.contact, kMostLaps, most));
+}
+
 /// Of all that is asked of every part.
 std::string fingerprint(const Problem& problem) {
   ByteWriter bytes;
@@ -94,6 +109,7 @@ Identified identify(const Catalog& catalog, const Problem& like, const IdentifyO
     found.verdict = "none";
     return found;
   }
+  if (like.noise) require_weighable(catalog, *like.noise);
   const std::vector<std::size_t> parts = parts_of(catalog, options);
   found.asked = parts.size();
   found.noise = like.noise;

@@ -117,8 +117,8 @@ double most_of(const NoiseKind& kind, double perimeter) {
       const bool is_of_rows = kind.sd == &Noise::contact || kind.sd == &Noise::radius;
       return (is_of_rows ? kMostLengthNoise : kMostPlaceNoise) * perimeter;
     }
-    case NoiseKind::Unit::per_length:
-      return kMostSlip;
+    case NoiseKind::Unit::share:
+      return kMostShare;
     case NoiseKind::Unit::rate:
     case NoiseKind::Unit::walk:
       return kMostRate;

@@ -1,13 +1,12 @@
 #include "rollfix/draw/svg.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <random>
 
 #include "draw/render.hpp"
 #include "rollfix/error.hpp"
@@ -29,9 +28,8 @@ constexpr double kPngScale = 2;  // pixels of the image for each of the figure's
 class TemporaryFile {
  public:
   explicit TemporaryFile(const fs::path& final_name) : final_name_(final_name) {
-    static std::atomic<unsigned> counter{0};
-    temporary_name_ = final_name;
-    temporary_name_.replace_filename(fmt::format(".{}.{}.{}", final_name.filename().string(), getpid(), counter++));
+    std::random_device random;  // a name that nobody can foresee, however long the final one is
+    temporary_name_ = final_name.parent_path() / fmt::format(".rollfix-{:08x}{:08x}", random(), random());
     file_ = std::fopen(temporary_name_.c_str(), "wbx");
     if (file_ == nullptr) fail(final_name_, errno);
   }

@@ -39,6 +39,9 @@ void require_tolerance(const LocateOptions& options) {
   }
 }
 
+// A larger facing, as a double, is off by more than the turn's accuracy.
+constexpr double kMostFacing = 1e6;
+
 void require_enough(std::span<const Reading> readings, const LocateOptions& options) {
   if (readings.empty()) {
     throw InputError(
@@ -57,6 +60,12 @@ void require_enough(std::span<const Reading> readings, const LocateOptions& opti
   }
   if (options.facing && !std::isfinite(*options.facing)) {
     throw InputError(fmt::format("expected a finite facing angle, found {}", *options.facing));
+  }
+  if (options.facing && std::abs(*options.facing) > kMostFacing) {
+    throw InputError(fmt::format(
+        "expected a facing of at most {:.0f} rad, found {:.6g}: whole turns say nothing, and so many leave no digits "
+        "for the rest; check the units",
+        kMostFacing, *options.facing));
   }
   if (readings.size() == 1 && !options.facing) {
     throw InputError(
@@ -128,8 +137,7 @@ void search(const Part& part, std::span<const Reading> readings, const LocateOpt
   LocateOptions clamped = options;
   clamped.tolerance = std::max(options.tolerance, kLeastTolerance);
   Question question{part, readings};
-  // Whole turns are nothing to it, and a huge angle's would be lost in rounding.
-  if (options.facing) question.facing = std::remainder(*options.facing, kFullTurn);
+  if (options.facing) question.facing = without_laps(*options.facing);
   if (question.fingers() == 1) {
     search_one(question, clamped, work, search);
   } else {

@@ -20,6 +20,14 @@ inline double nearest_angle(double angle) {
   return turned <= -std::numbers::pi ? std::numbers::pi : turned;
 }
 
+/// The same angle within half a turn of 0, in all its digits: 2 pi itself, not the double next to it, is taken off. For
+/// angles of at most a billion turns.
+inline double without_laps(double angle) {
+  constexpr double kRest = 2.4492935982947064e-16;  // 2 pi - kFullTurn
+  const double laps = std::nearbyint(angle / kFullTurn);
+  return std::fma(-laps, kRest, std::fma(-laps, kFullTurn, angle));
+}
+
 /// The signed angle from one direction to another, in (-pi, pi].
 inline double angle_between(const Vec2& from, const Vec2& to) { return std::atan2(cross(from, to), from.dot(to)); }
 

@@ -34,6 +34,11 @@ constexpr double kStructureTurn = 1e-13;
 // A panel shorter than this share of its curve's domain that still isn't resolved holds a cusp.
 constexpr double kShortestPanel = 1e-11;
 
+// A curve of a drawing takes some tens of attempts, a spiral of a hundred turns some thousand. One that takes more has
+// a parameter so uneven that its rounding alone keeps panels from being resolved: it would go on for hours.
+constexpr std::size_t kOwnAttempts = 64;
+constexpr std::size_t kMostAttempts = 200'000;  // of all curves of an outline, beyond their own
+
 // A speed that varies by no more than this on a panel is known well enough on either half of it.
 constexpr double kEvenSpeed = 4;
 
@@ -52,6 +57,14 @@ constexpr int kFineDegree = 16;
       fmt::format("expected a tangent at every point, found none (a cusp) at ({:.6g}, {:.6g}), parameter {:.6g}: "
                   "remove the cusp or end the curve there, so that it becomes a corner",
                   place.x(), place.y(), u));
+}
+
+[[noreturn]] void throw_uneven(const Curve& curve, double u) {
+  const Vec2 place = curve.position(u);
+  throw InputError(
+      fmt::format("expected an outline that {} pieces resolve, found a curve that takes more, at ({:.6g}, {:.6g}), "
+                  "parameter {:.6g}: its parameter is too uneven, as with weights far apart: draw it anew",
+                  kMostAttempts, place.x(), place.y(), u));
 }
 
 /// One attempt at a panel: is the curve resolved on this range by polynomials of this degree?
@@ -228,8 +241,8 @@ class Attempt {
 
 class Resolver {
  public:
-  Resolver(const Curve& curve, double size, const std::function<void(const ResolvedPanel&)>& sink)
-      : curve_(curve), size_(size), sink_(sink) {}
+  Resolver(const Curve& curve, double size, std::size_t& spent, const std::function<void(const ResolvedPanel&)>& sink)
+      : curve_(curve), size_(size), spent_(spent), sink_(sink) {}
 
   void run() {
     const Interval domain = curve_.domain();
@@ -249,6 +262,7 @@ class Resolver {
     std::array<Fine::Values, 2> speeds;
     bool has_speeds = false;
     if (halvings == 0) {
+      if (++attempts_ > kOwnAttempts && ++spent_ > kMostAttempts) throw_uneven(curve_, range.middle());
       Fine attempt(curve_, size_, range, speed);
       if (attempt.fill(panel_)) return sink_(panel_);
       halvings = attempt.halvings();
@@ -262,14 +276,17 @@ class Resolver {
 
   const Curve& curve_;
   double size_;
+  std::size_t attempts_ = 0;
+  std::size_t& spent_;
   const std::function<void(const ResolvedPanel&)>& sink_;
   ResolvedPanel panel_;
 };
 
 }  // namespace
 
-void resolve(const Curve& curve, double size, const std::function<void(const ResolvedPanel&)>& sink) {
-  Resolver(curve, size, sink).run();
+void resolve(const Curve& curve, double size, std::size_t& spent,
+             const std::function<void(const ResolvedPanel&)>& sink) {
+  Resolver(curve, size, spent, sink).run();
 }
 
 }  // namespace rollfix

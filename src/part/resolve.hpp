@@ -19,7 +19,9 @@ struct ResolvedPanel {
 };
 
 /// Cuts a curve into panels, in order. `size` is the outline's length or so: errors far below it don't count.
-/// Throws InputError where the curve has no tangent (a cusp), with the place.
-void resolve(const Curve& curve, double size, const std::function<void(const ResolvedPanel&)>& sink);
+/// `spent`: attempts so far, of all curves of the outline. Throws InputError where the curve has no tangent (a cusp),
+/// or too many attempts were made, with the place.
+void resolve(const Curve& curve, double size, std::size_t& spent,
+             const std::function<void(const ResolvedPanel&)>& sink);
 
 }  // namespace rollfix

@@ -43,7 +43,8 @@ class TurningFunctionBuilder {
   void store(const chebyshev::Series& turn, const chebyshev::Series& curvature, Panel& panel);
 
   const Outline& outline_;
-  double size_ = 0;         // the outline's length or so
+  double size_ = 0;  // the outline's length or so
+  std::size_t attempts_ = 0;
   double length_ = 0;       // so far, with ...
   double length_rest_ = 0;  // ... what rounding left out of it
   double angle_ = 0;        // of the tangent where the last panel ended

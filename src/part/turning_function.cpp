@@ -132,7 +132,7 @@ void TurningFunctionBuilder::add_curve(std::uint32_t index) {
     }
   }
   new_curve_ = true;
-  resolve(curve, size_, [&](const ResolvedPanel& panel) { add_panel(panel, index); });
+  resolve(curve, size_, attempts_, [&](const ResolvedPanel& panel) { add_panel(panel, index); });
 }
 
 void TurningFunctionBuilder::add_panel(const ResolvedPanel& resolved, std::uint32_t curve) {

@@ -18,6 +18,13 @@ constexpr Interval kAnyAngle{-1e9, 1e9};
 }  // namespace
 
 Interval angles_over(const TurningFunction& turning, const Interval& arc) {
+  const double lap = turning.perimeter();
+  if (turning.boundary().closed && arc.width() > 2 * lap) {
+    // A place's angles are a lap's turn apart: the least and the largest of them are on its first lap and its last.
+    const Interval first = angles_over(turning, {arc.lo, arc.lo + lap});
+    const Interval last = angles_over(turning, {arc.hi - lap, arc.hi});
+    return {std::min(first.lo, last.lo), std::max(first.hi, last.hi)};
+  }
   const double first = turning.angle(arc.lo, Side::before);
   Interval angles{first, first};
   const auto include = [&](double angle) { angles = {std::min(angles.lo, angle), std::max(angles.hi, angle)}; };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstddef>
 #include <cstdio>
@@ -19,6 +20,18 @@ namespace {
 constexpr std::size_t kLeastBeginning = 4;  // of a name: so many letters may stand for it
 
 bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xc0U) == 0x80U; }
+
+/// C0, DEL and C1, and Unicode's line ends and marks of direction.
+bool is_control(std::string_view character) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(character[i]); };
+  if (character.size() == 1) return byte(0) < 0x20 || byte(0) == 0x7F;
+  if (character.size() == 2) return (byte(0) == 0xC2 && byte(1) < 0xA0) || character == "\u061C";
+  if (character.size() != 3 || byte(0) != 0xE2) return false;
+  const bool of_lines_or_direction =
+      byte(1) == 0x80 && (byte(2) == 0x8E || byte(2) == 0x8F || (byte(2) >= 0xA8 && byte(2) <= 0xAE));
+  const bool of_isolation = byte(1) == 0x81 && byte(2) >= 0xA6 && byte(2) <= 0xA9;
+  return of_lines_or_direction || of_isolation;
+}
 
 /// Optimal string alignment distance.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
@@ -77,16 +90,40 @@ std::string lower_case(std::string_view text) {
 
 std::string ending_of(const std::string& path) { return lower_case(std::filesystem::path(path).extension().string()); }
 
+std::string plain(std::string_view text, char instead) {
+  std::string result;
+  result.reserve(text.size());
+  while (!text.empty()) {
+    const std::size_t length = utf8_length(text);
+    const std::string_view character = text.substr(0, std::max<std::size_t>(length, 1));
+    if (length == 0 || is_control(character)) {
+      result += instead;
+    } else {
+      result += character;
+    }
+    text.remove_prefix(character.size());
+  }
+  return result;
+}
+
+std::string quoted_for_shell(std::string_view word) {
+  const bool is_safe = std::all_of(word.begin(), word.end(), [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+           std::string_view("_-+.,:=/@%").find(c) != std::string::npos;
+  });
+  if (is_safe && !word.empty()) return std::string(word);
+  std::string result = "'";
+  for (const char c : word) c == '\'' ? result += "'\\''" : result += c;
+  return result + "'";
+}
+
 std::string shown(std::string_view text) {
   constexpr std::size_t kMost = 60;
   text = trimmed(text);
   const bool is_long = text.size() > kMost;
   std::size_t length = is_long ? kMost : text.size();
   while (is_long && length > 0 && is_continuation(text[length])) --length;
-  std::string result(text.substr(0, length));
-  for (char& c : result) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-  }
+  const std::string result = plain(text.substr(0, length));
   return is_long ? result + "..." : result;
 }
 
@@ -99,6 +136,8 @@ std::string nearest_name(const std::string& typed, const std::vector<std::string
   std::size_t least = std::max<std::size_t>(typed.size() / 3, 1) + 1;
   std::string nearest;
   for (const std::string& name : names) {
+    // What is so much longer takes as many edits, and may be a file's worth of text.
+    if (typed.size() > name.size() + least || name.size() > typed.size() + least) continue;
     const std::size_t distance = edit_distance(typed, name);
     if (distance < least) {
       least = distance;

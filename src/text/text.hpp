@@ -27,6 +27,13 @@ std::string lower_case(std::string_view text);
 /// What follows the last dot of a file's name, in lower case: ".csv"; empty when there is none.
 std::string ending_of(const std::string& path);
 
+/// Text from outside, on one line: control characters, those that turn the direction of writing, and bytes that are no
+/// character become `instead`, so that it can neither break a table nor do anything to a terminal.
+std::string plain(std::string_view text, char instead = '?');
+
+/// A word as a shell takes it for one, whatever is in it.
+std::string quoted_for_shell(std::string_view word);
+
 /// A piece of a user's text as a message can show it: on one line and not too long.
 std::string shown(std::string_view text);
 

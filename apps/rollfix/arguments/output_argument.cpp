@@ -48,7 +48,7 @@ void add_figure(const OutputArgument& argument, const Svg& figure, Report& repor
     report.data = figure.str();
     return;
   }
-  report.files.push_back({argument.file, encode(figure, figure_format(argument.file))});
+  report.files.push_back({argument.file, encode(figure, figure_format(argument.file)), argument.force});
   report.notes.push_back(fmt::format("wrote {}", argument.file));
 }
 
@@ -58,7 +58,7 @@ void add_table(const OutputArgument& argument, const std::string& table, Report&
     report.data = table;
     return;
   }
-  report.files.push_back({argument.file, table});
+  report.files.push_back({argument.file, table, argument.force});
   report.notes.push_back(fmt::format("wrote {}", argument.file));
 }
 
@@ -77,7 +77,8 @@ void add_part_output(const OutputArgument& argument, const Part& part, const std
     add_figure(argument, figure(), report);
     return;
   }
-  report.files.push_back({argument.file, names_a_part(argument) ? format_part(part) : outline_table(part)});
+  report.files.push_back(
+      {argument.file, names_a_part(argument) ? format_part(part) : outline_table(part), argument.force});
   report.notes.push_back(fmt::format("wrote {}", argument.file));
 }
 

@@ -129,7 +129,7 @@ Report build_report(const BuildArguments& arguments) {
                              {"left_out", left_out_json(left_out)}});
   } else {
     report.data =
-        fmt::format("{}: {}; {} added from {}, {} unchanged, {} read again, {} left out\n", arguments.catalog,
+        fmt::format("{}: {}; {} added from {}, {} unchanged, {} read again, {} left out\n", plain(arguments.catalog),
                     counted(catalog.size(), "part", "parts"), built.added, counted(sources.size(), "file", "files"),
                     built.unchanged, built.replaced, left_out.size()) +
         left_out_table(left_out);
@@ -173,8 +173,8 @@ Report list_report(const ListArguments& arguments) {
                    entry.symmetry == 0 ? "circle" : fmt::format("{}", entry.symmetry),
                    fmt::format("{:g}", entry.count)});
   }
-  report.data = fmt::format("{}: {}\n\n", arguments.catalog, counted(catalog.size(), "part", "parts")) + table.str() +
-                left_out_table(left_out);
+  report.data = fmt::format("{}: {}\n\n", plain(arguments.catalog), counted(catalog.size(), "part", "parts")) +
+                table.str() + left_out_table(left_out);
   return report;
 }
 
@@ -182,7 +182,7 @@ Report remove_report(const ListArguments& arguments) {
   if (arguments.names.empty()) throw InputError("catalog remove: expected the names of parts, found none");
   const std::size_t removed = remove_from_catalog(arguments.catalog, arguments.names);
   Report report;
-  report.data = fmt::format("{}: {} taken out\n", arguments.catalog, counted(removed, "part", "parts"));
+  report.data = fmt::format("{}: {} taken out\n", plain(arguments.catalog), counted(removed, "part", "parts"));
   return report;
 }
 

@@ -67,7 +67,8 @@ std::string congruent_lines(const Json& document) {
     if (++lines > kMostNotes) continue;
     std::vector<std::string> others;
     for (const Json& name : part["congruent_with"]) others.push_back(name.get<std::string>());
-    text += fmt::format("{} can't be told from {}\n", part["name"].get<std::string>(), fmt::join(others, ", "));
+    text += fmt::format("{} can't be told from {}\n", plain(part["name"].get<std::string>()),
+                        plain(fmt::format("{}", fmt::join(others, ", "))));
   }
   if (lines > kMostNotes) text += fmt::format("... and {} more such lines\n", lines - kMostNotes);
   return text;
@@ -77,7 +78,8 @@ std::string refused_lines(const Json& document) {
   std::string text;
   const Json& refused = document["refused"];
   for (std::size_t k = 0; k < std::min(refused.size(), kMostNotes); ++k) {
-    text += fmt::format("not on {}: {}\n", refused[k]["name"].get<std::string>(), refused[k]["why"].get<std::string>());
+    text += fmt::format("not on {}: {}\n", plain(refused[k]["name"].get<std::string>()),
+                        plain(refused[k]["why"].get<std::string>()));
   }
   if (refused.size() > kMostNotes) text += fmt::format("... and not on {} more\n", refused.size() - kMostNotes);
   return text;

@@ -9,6 +9,7 @@
 #include "files/documents/documents.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/table.hpp"
+#include "text/text.hpp"
 
 namespace rollfix::app {
 namespace {
@@ -149,12 +150,12 @@ std::string inspect_text(const Inspection& outcome) {
   const Part& part = outcome.part;
   const int decimals = decimals_for(part.perimeter());
   const Vec2 size = outcome.box.hi - outcome.box.lo;
-  std::string text = part.name() + '\n';
+  std::string text = plain(part.name()) + '\n';
   const auto line = [&text](const char* title, const std::string& value) {
     text += fmt::format("{:<12} {}\n", title, value);
   };
   text += loops_text(outcome);
-  if (!outcome.unit.empty()) line("unit", outcome.unit);
+  if (!outcome.unit.empty()) line("unit", plain(outcome.unit));
   line("shape", shape_text(part));
   if (const Accuracy& accuracy = part.outline().accuracy; !accuracy.is_exact()) {
     line("accuracy", accuracy_text(accuracy));

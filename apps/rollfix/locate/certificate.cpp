@@ -54,14 +54,15 @@ void require_certificate(const std::string& file, bool force, bool json, const s
   }
 }
 
-void add_certificate(const std::string& file, const Problem& problem, const Answer& answer, Report& report) {
+void add_certificate(const std::string& file, bool force, const Problem& problem, const Answer& answer,
+                     Report& report) {
   require_plain(problem);
   Written certificate = written(problem, answer);
   if (file == "-") {
     report.notes.push_back(report.data.substr(0, report.data.find('\n')));
     report.data = std::move(certificate.text);
   } else {
-    report.files.push_back({file, std::move(certificate.text)});
+    report.files.push_back({file, std::move(certificate.text), force});
     report.notes.push_back(fmt::format("wrote {}", file));
   }
   if (certificate.is_complete) return;

@@ -10,7 +10,7 @@ namespace rollfix::app {
 
 /// Adds the certificate of an answer as a file of this name, or, where it is "-", in place of the data. The exit code
 /// says where it leaves something unproved. Throws InputError: what certificates can't be of.
-void add_certificate(const std::string& file, const Problem& problem, const Answer& answer, Report& report);
+void add_certificate(const std::string& file, bool force, const Problem& problem, const Answer& answer, Report& report);
 
 /// Throws InputError where --certify can't be followed, before any work.
 void require_certificate(const std::string& file, bool force, bool json, const std::string& output);

@@ -12,6 +12,7 @@
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/table.hpp"
 #include "rollfix/usage.hpp"
+#include "text/text.hpp"
 
 namespace rollfix::app {
 namespace {
@@ -242,9 +243,9 @@ std::string table_of(const Part& part, const Marched& marched) {
 std::string march_text(const Part& part, const MarchQuestion& question, const Marched& marched) {
   const int decimals = decimals_for(part.perimeter());
   const auto loop = static_cast<double>(marched.steps_per_loop);
-  std::string text =
-      fmt::format("{}: by the paper's march\n\npart       {}, {}, perimeter {}{}\n", verdict_of(marched), part.name(),
-                  part.closed() ? "closed" : "open", fixed(part.perimeter(), decimals), behind(part.unit()));
+  std::string text = fmt::format("{}: by the paper's march\n\npart       {}, {}, perimeter {}{}\n", verdict_of(marched),
+                                 plain(part.name()), part.closed() ? "closed" : "open",
+                                 fixed(part.perimeter(), decimals), behind(part.unit()));
   for (const MarchReading& reading : question.readings) {
     std::string lengths = fixed(reading.length[0], decimals);
     if (reading.length.size() == 2) lengths += " and " + fixed(reading.length[1], decimals);

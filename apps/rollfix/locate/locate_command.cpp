@@ -150,7 +150,8 @@ Report locate_report(const LocateArguments& arguments, std::ostream& out) {
     if (problem.felt.is_log() && !answer.mirrored) figure.log = &*problem.felt.log;
     add_figure(arguments.output, draw_answer(figure), report);
   }
-  if (!arguments.certificate.empty()) add_certificate(arguments.certificate, problem, answer, report);
+  if (!arguments.certificate.empty())
+    add_certificate(arguments.certificate, arguments.output.force, problem, answer, report);
   return report;
 }
 

@@ -7,6 +7,7 @@
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/answer_sections.hpp"
 #include "rollfix/output/answer_words.hpp"
+#include "text/text.hpp"
 
 namespace rollfix::app {
 namespace {
@@ -17,7 +18,7 @@ class AskedText : AnswerWords {
 
   std::string text() const {
     const Part& part = answer_.part;
-    return fmt::format("part       {}, {}, perimeter {}\n", part.name(), part.closed() ? "closed" : "open",
+    return fmt::format("part       {}, {}, perimeter {}\n", plain(part.name()), part.closed() ? "closed" : "open",
                        at(part.perimeter())) +
            accuracy_line() + reading_lines() + direction_line() + tolerance_line() +
            (answer_.weighing ? weighing_lines() : "");

@@ -1,8 +1,11 @@
 #include "rollfix/output/files.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -10,7 +13,9 @@
 #include <deque>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <system_error>
+#include <utility>
 
 #include "rollfix/error.hpp"
 
@@ -39,8 +44,8 @@ bool is_file(const std::string& path) {
   return !fs::exists(status) || fs::is_regular_file(status);
 }
 
-void write_bytes(const std::string& path, const std::string& bytes, const std::string& shown) {
-  File file(std::fopen(path.c_str(), "wb"));
+/// `shown`: what the user called it.
+void write_bytes(File file, const std::string& bytes, const std::string& shown) {
   if (!file) fail(shown, "written", errno);
   bool written = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size() && std::fflush(file.get()) == 0;
   // A name that outlives a power cut must not name less than all of it. Pipes and devices know no such thing.
@@ -65,14 +70,48 @@ class SignalsWait {
   sigset_t before_ = {};
 };
 
+[[noreturn]] void refuse_existing(const std::string& path) {
+  throw InputError(fmt::format("{}: exists already; give another name, or --force to replace it", path));
+}
+
+/// A name in the same folder that nobody can foresee, however long the file's own is.
+fs::path name_beside(const fs::path& target) {
+  std::array<unsigned char, 12> random{};
+  if (::getentropy(random.data(), random.size()) != 0) fail(target.string(), "written", errno);
+  return target.parent_path() / fmt::format(".rollfix-{:02x}", fmt::join(random, ""));
+}
+
+/// A new file: what stands there already, a link to elsewhere as well, is not opened.
+File create(const fs::path& path) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  return File(descriptor < 0 ? nullptr : ::fdopen(descriptor, "wb"));
+}
+
+/// 0, or the error.
+int move_over(const fs::path& from, const fs::path& to) {
+  return std::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
+}
+
+/// 0, or the error. Of several programs that do so one succeeds, the others get EEXIST.
+int rename_to_nothing(const fs::path& from, const fs::path& to) {
+  if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
+  if (errno != EINVAL && errno != ENOSYS) return errno;
+  // The file system does not know that.
+  if (::link(from.c_str(), to.c_str()) != 0) return errno;
+  ::unlink(from.c_str());
+  return 0;
+}
+
 /// A file that is written beside its place, and gone again unless it takes that.
 class Waiting {
  public:
-  explicit Waiting(const OutputFile& file) : shown_(file.path), target_(target_of(file.path)), beside_(target_) {
-    beside_.replace_filename(fmt::format(".{}.{}", target_.filename().string(), getpid()));
+  explicit Waiting(const OutputFile& file)
+      : shown_(file.path), target_(target_of(file.path)), beside_(name_beside(target_)), replaces_(file.replace) {
+    File opened = create(beside_);
+    if (!opened) fail(shown_, "written", errno);
     try {
-      write_bytes(beside_.string(), file.bytes, shown_);
-      keep_permissions();
+      write_bytes(std::move(opened), file.bytes, shown_);
+      if (replaces_) keep_permissions();
     } catch (...) {
       std::remove(beside_.c_str());
       throw;
@@ -85,8 +124,14 @@ class Waiting {
   Waiting& operator=(const Waiting&) = delete;
 
   void take_place() {
-    if (std::rename(beside_.c_str(), target_.c_str()) != 0) fail(shown_, "written", errno);
+    const int error = replaces_ ? move_over(beside_, target_) : rename_to_nothing(beside_, target_);
+    if (error == EEXIST && !replaces_) refuse_existing(shown_);
+    if (error != 0) fail(shown_, "written", error);
     is_in_place_ = true;
+  }
+  /// Where another one could not: what replaced nothing goes again.
+  void leave_place() const {
+    if (is_in_place_ && !replaces_) std::remove(target_.c_str());
   }
 
  private:
@@ -106,8 +151,21 @@ class Waiting {
   std::string shown_;
   fs::path target_;
   fs::path beside_;
+  bool replaces_;
   bool is_in_place_ = false;
 };
+
+/// Throws InputError: one of them would be written over another.
+void require_different(const std::vector<OutputFile>& files) {
+  std::set<fs::path> names;
+  for (const OutputFile& file : files) {
+    if (!is_file(file.path)) continue;
+    std::error_code ignored;
+    if (!names.insert(fs::weakly_canonical(fs::absolute(file.path, ignored), ignored)).second) {
+      throw InputError(fmt::format("{}: two files would be written to it, expected a name for each", file.path));
+    }
+  }
+}
 
 }  // namespace
 
@@ -125,7 +183,7 @@ void require_writable(const std::string& path, bool force) {
   const fs::file_status status = status_of(path);
   if (fs::is_directory(status)) throw InputError(fmt::format("{}: is a directory, expected the name of a file", path));
   if (fs::is_regular_file(status) && !force) {
-    throw InputError(fmt::format("{}: exists already; give another name, or --force to replace it", path));
+    refuse_existing(path);
   }
   const fs::path folder = fs::path(path).parent_path();
   if (!folder.empty() && !fs::is_directory(status_of(folder.string()))) {
@@ -134,15 +192,21 @@ void require_writable(const std::string& path, bool force) {
 }
 
 void write_files(const std::vector<OutputFile>& files) {
+  require_different(files);
   for (const OutputFile& file : files) {
-    if (!is_file(file.path)) write_bytes(file.path, file.bytes, file.path);
+    if (!is_file(file.path)) write_bytes(File(std::fopen(file.path.c_str(), "wb")), file.bytes, file.path);
   }
   const SignalsWait wait;
   std::deque<Waiting> ready;
   for (const OutputFile& file : files) {
     if (is_file(file.path)) ready.emplace_back(file);
   }
-  for (Waiting& file : ready) file.take_place();
+  try {
+    for (Waiting& file : ready) file.take_place();
+  } catch (...) {
+    for (const Waiting& file : ready) file.leave_place();
+    throw;
+  }
 }
 
 }  // namespace rollfix::app

@@ -7,15 +7,19 @@
 #include <utility>
 
 #include "outline/turn.hpp"
+#include "text/text.hpp"
 
 namespace rollfix::app {
 
 void Table::add_column(std::string title, Align align) {
-  rows_.front().push_back(std::move(title));
+  rows_.front().push_back(plain(title));
   aligns_.push_back(align);
 }
 
-void Table::add_row(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
+void Table::add_row(std::vector<std::string> cells) {
+  for (std::string& cell : cells) cell = plain(cell);
+  rows_.push_back(std::move(cells));
+}
 
 std::string Table::str() const {
   std::vector<std::size_t> widths(aligns_.size(), 0);
@@ -37,10 +41,10 @@ std::string Table::str() const {
 }
 
 std::string title_in(const std::string& title, const std::string& unit) {
-  return unit.empty() ? title : fmt::format("{} [{}]", title, unit);
+  return unit.empty() ? title : fmt::format("{} [{}]", title, plain(unit));
 }
 
-std::string behind(const std::string& unit) { return unit.empty() ? "" : " " + unit; }
+std::string behind(const std::string& unit) { return unit.empty() ? "" : " " + plain(unit); }
 
 int decimals_for(double size) {
   constexpr int kDigits = 7;

@@ -78,7 +78,7 @@ Report simulate_one(const SimulateArguments& arguments) {
   report.notes.push_back(roll_text(part, roll.s[0], roll.angle[0]));
   add_reach_note(report, beyond_reach_note(part, finger, roll.s[0], "a real finger "));
   if (noise) report.notes.push_back(roll_error_text(finger, noisy.error[0]));
-  add_log(report, file, format_log(arguments.mirror ? in_mirror(noisy.log, seen) : noisy.log));
+  add_log(report, file, format_log(arguments.mirror ? in_mirror(noisy.log, seen) : noisy.log), arguments.force);
   return report;
 }
 

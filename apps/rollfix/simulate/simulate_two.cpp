@@ -74,11 +74,11 @@ std::string part_text(const Part& part, const Roll& roll) {
                      fixed(last.y - first.y, decimals));
 }
 
-void add_logs(Report& report, const std::vector<std::string>& files, const Log& log) {
+void add_logs(Report& report, const std::vector<std::string>& files, const Log& log, bool force) {
   if (files.size() == 2) {
-    for (const std::size_t which : {0U, 1U}) add_log(report, files[which], format_log(one_finger(log, which)));
+    for (const std::size_t which : {0U, 1U}) add_log(report, files[which], format_log(one_finger(log, which)), force);
   } else {
-    add_log(report, files.empty() ? "-" : files.front(), format_log(log));
+    add_log(report, files.empty() ? "-" : files.front(), format_log(log), force);
   }
 }
 
@@ -117,7 +117,8 @@ Report simulate_two(const SimulateArguments& arguments) {
   for (std::size_t which = 0; which < 2 && noise; ++which) {
     report.notes.push_back(names[which] + ": " + roll_error_text(*finger_of(fingers, which), noisy.error[which]));
   }
-  add_logs(report, arguments.files, arguments.mirror ? in_mirror(noisy.log, fingers.front()) : noisy.log);
+  add_logs(report, arguments.files, arguments.mirror ? in_mirror(noisy.log, fingers.front()) : noisy.log,
+           arguments.force);
   return report;
 }
 

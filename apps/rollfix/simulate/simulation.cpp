@@ -88,12 +88,12 @@ void require_writable_log(const std::string& file, bool force) {
   require_writable(file, force);
 }
 
-void add_log(Report& report, const std::string& file, const std::string& text) {
+void add_log(Report& report, const std::string& file, const std::string& text, bool force) {
   if (is_stdout(file)) {
     report.data = text;
     return;
   }
-  report.files.push_back({file, text});
+  report.files.push_back({file, text, force});
   report.notes.push_back(fmt::format("wrote {}", file));
 }
 

@@ -70,6 +70,6 @@ Log in_mirror(Log log, const Finger& seen);
 void require_writable_log(const std::string& file, bool force);
 
 /// Adds a log to the report: as a file and a note, or as the data where it goes to stdout.
-void add_log(Report& report, const std::string& file, const std::string& text);
+void add_log(Report& report, const std::string& file, const std::string& text, bool force);
 
 }  // namespace rollfix::app

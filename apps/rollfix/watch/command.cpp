@@ -23,6 +23,7 @@
 #include "rollfix/usage.hpp"
 #include "rollfix/watch/source.hpp"
 #include "rollfix/watch/writer.hpp"
+#include "text/text.hpp"
 
 namespace rollfix::app {
 namespace {
@@ -119,6 +120,7 @@ WatchOptions watch_options(const WatchArguments& arguments, const std::string& l
     finger = mirrored(finger);
   }
   options.live = !arguments.once;
+  options.midway = may_begin_midway(log);
   options.log.any_part = !arguments.catalog.empty();
   if (!arguments.every.empty()) options.every = read_count(arguments.every, "--every", 1);
   return options;
@@ -266,11 +268,11 @@ Report watch(const WatchArguments& arguments, std::ostream& out, std::ostream& e
   Hearing hearing(*io, watcher, *writer, err, idle_timeout);
   const std::unique_ptr<Source> source = open_source(
       io, log, source_options(arguments), [&hearing](Heard what, std::string_view text) { hearing.hear(what, text); });
-  for (const std::string& note : notes) err << "rollfix: " << note << '\n';
+  for (const std::string& note : notes) err << "rollfix: " << plain(note) << '\n';
   writer->begin(part, options);
   const WatchEnd why = hearing.run();
-  require_rows(why, watcher, options.name);
   watcher.finish();
+  require_rows(why, watcher, options.name);
   writer->end(why, watcher.last_answer(), watcher.counts());
   Report report;
   if (watcher.last_answer().verdict.name == Verdict::inconsistent) report.exit_code = ExitCode::nothing_fits;

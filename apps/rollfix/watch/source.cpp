@@ -39,6 +39,11 @@ void refuse_to_read(const std::string& name, const error_code& error) {
   throw InputError(fmt::format("{}: can't be read: {}", name, error.message()));
 }
 
+bool may_begin_midway(const std::string& name) {
+  struct stat status = {};
+  return name.starts_with(kTcp) || (name != "-" && ::stat(name.c_str(), &status) == 0 && S_ISCHR(status.st_mode));
+}
+
 std::unique_ptr<Source> open_source(const std::shared_ptr<asio::io_context>& io, const std::string& name,
                                     const SourceOptions& options, Hear hear) {
   if (name == "-") return read_descriptor(*io, STDIN_FILENO, std::move(hear));

@@ -50,6 +50,9 @@ class Source {
   Source& operator=(const Source&) = delete;
 };
 
+/// Whether what a source says may have begun before it is heard: a terminal, a server.
+bool may_begin_midway(const std::string& name);
+
 /// The source that a user names: "-" standard input; "tcp:HOST:PORT" or "tcp:PORT"; else a path, whose kind decides: a
 /// terminal is a serial line, a pipe is read to its end, a file is followed. Throws InputError: no such thing; and when
 /// it runs, of what can't be read at all and is not worth another try.

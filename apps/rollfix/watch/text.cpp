@@ -29,7 +29,7 @@ class TextWriter : public WatchWriter {
   TextWriter(const Part& part, std::ostream& out, std::ostream& err, std::function<bool()> is_ready)
       : WatchWriter(out, err, std::move(is_ready)),
         decimals_(std::max(0, decimals_for(part.perimeter()) - 2)),
-        unit_(part.unit()) {}
+        unit_(plain(part.unit())) {}
 
   void begin(const Part& part, const WatchOptions& options) override {
     const int decimals = decimals_for(part.perimeter());
@@ -38,16 +38,17 @@ class TextWriter : public WatchWriter {
     noise_ = options.belief.noise;
     catalog_ = options.catalog;
     if (catalog_) return announce_catalog(options);
-    announce(fmt::format("part  {}, {}, perimeter {}{}\nlog   {}\n\n", part.name(), part.closed() ? "closed" : "open",
-                         fixed(part.perimeter(), decimals), unit, options.name) +
+    announce(fmt::format("part  {}, {}, perimeter {}{}\nlog   {}\n\n", plain(part.name()),
+                         part.closed() ? "closed" : "open", fixed(part.perimeter(), decimals), unit,
+                         plain(options.name)) +
              row("line", "time [s]", "length", "turn [deg]", "verdict",
                  fmt::format("{:>10}  {:>10}  {:>8}  {:>7}", "start", "now", "sd", "p")));
   }
 
   void announce_catalog(const WatchOptions& options) {
     const std::string unit = unit_.empty() ? "" : fmt::format("; all lengths are in {}", unit_);
-    announce(fmt::format("catalog  {}, {}{}\nlog      {}\n\n", catalog_->path(),
-                         counted(catalog_->size(), "part", "parts"), unit, options.name) +
+    announce(fmt::format("catalog  {}, {}{}\nlog      {}\n\n", plain(catalog_->path()),
+                         counted(catalog_->size(), "part", "parts"), unit, plain(options.name)) +
              row("line", "time [s]", "length", "turn [deg]", "verdict",
                  fmt::format("     {:>10}  {:>8}  {}", "start", "p", "part")));
   }
@@ -116,7 +117,7 @@ class TextWriter : public WatchWriter {
     std::string text;
     for (std::size_t k = 0; k < std::min(found.parts.size(), kMostOthers + 1); ++k) {
       const PartFound& one = found.parts[k];
-      const std::string& name = catalog_->entry(one.weight.part).name;
+      const std::string name = plain(catalog_->entry(one.weight.part).name);
       text += k > 0 ? fmt::format("{}{} ({})", k == 1 ? " or " : ", ", name, percent(one.probability))
                     : fmt::format("     {:>10}  {:>8}  {}", fixed(one.answer.placements.front().start[0], decimals_),
                                   percent(one.probability), name);
@@ -129,7 +130,7 @@ class TextWriter : public WatchWriter {
     if (last.parts->parts.empty()) return last.parts->verdict;
     const PartFound& best = last.parts->parts.front();
     return fmt::format("{}: roll {} was on {}, from s = {}{}, with probability {}", last.parts->verdict, last.roll,
-                       catalog_->entry(best.weight.part).name,
+                       plain(catalog_->entry(best.weight.part).name),
                        fixed(best.answer.placements.front().start[0], decimals_), behind(unit_),
                        fixed(best.probability, 4));
   }
@@ -187,7 +188,7 @@ void WatchWriter::note(const std::string& message) {
   const std::optional<std::size_t> left_out = limit_.allow(std::chrono::steady_clock::now());
   if (!left_out) return;
   if (*left_out > 0) err_ << fmt::format("rollfix: ... {} such lines were left out here\n", *left_out);
-  err_ << "rollfix: " << message << std::endl;
+  err_ << "rollfix: " << plain(message) << std::endl;
 }
 
 void WatchWriter::write(const std::string& lines) {

@@ -10,6 +10,7 @@
 #include "part/not_lost.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/part/boundary.hpp"
+#include "rollfix/watch/beginning.hpp"
 #include "rollfix/watch/meaning.hpp"
 
 namespace rollfix::app {
@@ -19,6 +20,13 @@ using WorkClock = std::chrono::steady_clock;
 
 // What is known of a roll changes little while it grows by less than this.
 constexpr double kGrowth = 0.1;
+
+// Rows without a header are distance and dturn. Where they have other columns a header may still come: a device that
+// sends it now and then does so within that many.
+constexpr std::size_t kCellsWithoutHeader = 2;
+constexpr std::size_t kMostRowsBeforeHeader = 200;
+constexpr const char* kHalfRow = "the end of a row that was not heard whole";
+constexpr const char* kNoHeader = "a row before the header, which says what its numbers are";
 
 constexpr double kOtherProbability = 0.1;  // below that nobody decides otherwise
 constexpr double kTwiceAsSure = 0.5;       // the new standard deviation, as a share of the old one
@@ -89,6 +97,62 @@ Watcher::Watcher(const Part& part, WatchOptions options, WatchListener& listener
 Watcher::~Watcher() = default;
 
 void Watcher::push(std::string_view line) {
+  if (options_.midway && begins_) return push_beginning(line);
+  if (!has_header_ && take_late_header(line)) return;
+  take_line(line);
+}
+
+void Watcher::push_beginning(std::string_view line) {
+  const std::string_view text = from_its_text(line);
+  const FirstLine first = first_line(text);
+  if (first.kind == FirstLine::Kind::garbage || (text.empty() && !line.empty())) {
+    return skip("no text, or the end of a line that was not heard whole");
+  }
+  if (first.kind == FirstLine::Kind::empty) return take_line(text);
+  if (first.kind == FirstLine::Kind::numbers) return push_numbers(text, first.cells);
+  if (std::exchange(held_cells_, 0) > 0) skip(kHalfRow);
+  begins_ = false;
+  take_line(text);
+}
+
+void Watcher::push_numbers(std::string_view line, std::size_t cells) {
+  const std::string before = std::exchange(held_, std::string(line));
+  const std::size_t cells_before = std::exchange(held_cells_, cells);
+  if (cells_before == 0) return;
+  if (cells_before != cells) return skip(kHalfRow);
+  if (cells != kCellsWithoutHeader && ++rows_before_header_ < kMostRowsBeforeHeader) return skip(kNoHeader);
+  begins_ = has_header_ = false;
+  held_cells_ = 0;
+  take_line(before);
+  take_line(line);
+}
+
+bool Watcher::take_late_header(std::string_view line) {
+  if (first_line(line).kind != FirstLine::Kind::words) return false;
+  LogStream other = new_stream();
+  try {
+    for (std::size_t k = 0; k < stream_.lines(); ++k) other.push("#");
+    other.push(line);
+  } catch (const InputError&) {  // no header of a log: a row like any other
+    return false;
+  }
+  end_roll(RollEnd::restarted);
+  stream_ = std::move(other);
+  ++counts_.lines;
+  has_header_ = true;
+  listener_.note(
+      fmt::format("{}:{}: a header; the rows before it had been taken without one", options_.name, stream_.lines()));
+  return true;
+}
+
+void Watcher::skip(const std::string& why) {
+  stream_.push("#");  // it counts as a line all the same
+  ++counts_.lines;
+  ++counts_.malformed;
+  listener_.note(fmt::format("{}:{}: skipped: {}", options_.name, stream_.lines(), why));
+}
+
+void Watcher::take_line(std::string_view line) {
   const LogLine row = read(line);
   switch (row.kind) {
     case LineKind::nothing:
@@ -125,9 +189,14 @@ void Watcher::resume() {
 void Watcher::restart() {
   end_roll(RollEnd::restarted);
   stream_ = new_stream();
+  begins_ = has_header_ = true;
+  held_cells_ = rows_before_header_ = 0;
 }
 
-void Watcher::finish() { end_roll(RollEnd::ended); }
+void Watcher::finish() {
+  if (std::exchange(held_cells_, 0) > 0) take_line(held_);
+  end_roll(RollEnd::ended);
+}
 
 LogStream Watcher::new_stream() const {
   return LogStream(options_.name, part_, options_.fingers, options_.belief.noise, options_.log, options_.belief.robust);

@@ -72,6 +72,7 @@ struct WatchOptions {
   BeliefOptions belief;                      // a pose's prior is of every roll's first contact
   LogOptions log;                            // what its columns are called, and the part's unit
   std::shared_ptr<const Catalog> catalog{};  // which of its parts is it? none: the part is known
+  bool midway = false;                       // its first line may be the rest of one: a serial line, a connection
   std::size_t every = 0;                     // tell every so many samples; 0: when there is news
   bool live = false;  // somebody waits: nothing that is new is kept back for longer than kMostDelay
 };
@@ -124,6 +125,14 @@ class Watcher {
 
  private:
   LogStream new_stream() const;
+  /// A line of a log that may have been joined in the middle, before it is known what its rows are.
+  void push_beginning(std::string_view line);
+  /// Tries without a header, as rows of numbers come: twice the same, for the first may be the rest of one.
+  void push_numbers(std::string_view line, std::size_t cells);
+  /// Whether the line is a header, in place of what was made of rows without one.
+  bool take_late_header(std::string_view line);
+  void take_line(std::string_view line);
+  void skip(const std::string& why);
   LogLine read(std::string_view line);
   /// Throws InputError: the log does not have what the noise or the pose's prior is about.
   void require_evidence(const Sample& first) const;
@@ -140,6 +149,11 @@ class Watcher {
   WatchOptions options_;
   WatchListener& listener_;
   LogStream stream_;
+  bool begins_ = true;          // of a log that was joined in the middle: what its rows are is not known yet
+  bool has_header_ = true;      // false: it was joined in the middle, and taken without one
+  std::string held_;            // its last row of numbers, not taken yet: ...
+  std::size_t held_cells_ = 0;  // ... 0: there is none
+  std::size_t rows_before_header_ = 0;
   std::unique_ptr<Meaning> meaning_;  // of the roll that goes on
   std::size_t samples_ = 0;           // of this roll
   Sample last_;                       // of these

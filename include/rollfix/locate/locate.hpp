@@ -26,7 +26,7 @@ struct LocateOptions {
 /// a part that is free to move: eqs. (8) and (9), by branch and prune on pairs of spirals; two readings are the least
 /// without the facing equation, one with it. See docs/search.md.
 /// Throws InputError: too few readings, readings of one finger and of two, a number that is not finite, a roll longer
-/// than an open curve or than a million laps of a closed one, a facing of one finger.
+/// than an open curve or than a million laps of a closed one, a facing of one finger or beyond 1e6 rad.
 Search locate(const Part& part, const std::vector<Reading>& readings, const LocateOptions& options = {});
 Search locate(const Part& part, const Reading& reading, const LocateOptions& options = {});
 

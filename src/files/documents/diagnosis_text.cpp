@@ -112,7 +112,7 @@ std::string columns_option(const std::vector<ColumnSource>& columns) {
   for (const ColumnSource& source : columns) {
     fields.push_back(fmt::format("{}={}{}{}", source.column, source.name, source.unit.empty() ? "" : ":", source.unit));
   }
-  return fmt::format("--columns {}", fmt::join(fields, ","));
+  return "--columns " + quoted_for_shell(fmt::format("{}", fmt::join(fields, ",")));
 }
 
 }  // namespace

@@ -103,6 +103,9 @@ void Canvas::require_flat() const {
 Vec2 Canvas::placed(const Placement& placement, const Vec3& point) {
   Vec2 result = placement.point(point);
   const double height = placement.height(point);
+  if (!result.allFinite() || !std::isfinite(height)) {
+    refuse(fmt::format("its INSERTs scale it beyond all numbers, expected coordinates of at most {}", kMostCoordinate));
+  }
   if (!(result.cwiseAbs().maxCoeff() <= kMostCoordinate && std::abs(height) <= kMostCoordinate)) {
     refuse(fmt::format("its INSERT puts it at ({}, {}, {}), expected coordinates of at most {}", result.x(), result.y(),
                        height, kMostCoordinate));

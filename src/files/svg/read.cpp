@@ -23,10 +23,12 @@ namespace {
 
 using namespace svg;
 
-/// Elements inside each other. Far above what drawing programs write, and within the stack.
-constexpr int kMostNesting = 400;
-/// Elements that <use> may copy in all: ten uses of ten uses, and so on, would never end.
+/// Elements inside each other. Far above what drawing programs write, and within a stack of 64 kB.
+constexpr int kMostNesting = 150;
+/// Elements and segments that <use> may copy in all: ten uses of ten uses, and so on, would never end.
 constexpr std::size_t kMostCopies = 1000000;
+/// So much text, read again for a copy, counts as one of them.
+constexpr std::size_t kTextOfACopy = 64;
 /// A transformation whose determinant is below this share of its size squared is singular but for rounding.
 constexpr double kSingular = 1e-14;
 
@@ -212,8 +214,24 @@ class Walker {
     }
   }
 
+  /// What is made for a <use>.
+  void count_copies(std::size_t number) {
+    if (uses_.empty()) return;
+    copies_ += number;
+    if (copies_ <= kMostCopies) return;
+    document_.refuse(uses_.front(), fmt::format("<use> copies more than {} elements and segments", kMostCopies));
+  }
+
+  void count_copy(pugi::xml_node node) {
+    if (uses_.empty()) return;
+    std::size_t text = std::string_view(node.child_value()).size();
+    for (const pugi::xml_attribute& attribute : node.attributes()) text += std::string_view(attribute.value()).size();
+    count_copies(1 + text / kTextOfACopy);
+  }
+
   void draw_children(pugi::xml_node parent, const Surroundings& around) {
     for (const pugi::xml_node child : parent) {
+      count_copies(std::string_view(child.value()).size() / kTextOfACopy);
       if (child.type() == pugi::node_pcdata && std::string_view(child.value()).find('&') != std::string_view::npos) {
         document_.refuse(child,
                          fmt::format("'{}' uses an entity of its own, which is not read: save the file as plain SVG",
@@ -230,9 +248,7 @@ class Walker {
     if (++around.depth > kMostNesting) {
       document_.refuse(node, fmt::format("elements are nested more than {} deep", kMostNesting));
     }
-    if (!uses_.empty() && ++copies_ > kMostCopies) {
-      document_.refuse(uses_.front(), fmt::format("<use> copies more than {} elements", kMostCopies));
-    }
+    count_copy(node);
     if (!is_shape(kind) && !is_group(kind) && kind != "use") {
       ++left_out.by_name[shown(kind)];
       return;
@@ -265,6 +281,7 @@ class Walker {
       return;
     }
     for (Subpath& path : drawn) {
+      count_copies(1 + path.segments.size());
       path.start = around.map(path.start);
       for (Segment& segment : path.segments) segment = mapped(around.map, segment);
       const std::string_view id = node.attribute("id").value();

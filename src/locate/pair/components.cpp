@@ -125,6 +125,17 @@ bool holds(const PairBox& box, const PairPoint& at) {
   return at[0] >= box[0].lo && at[0] <= box[0].hi && at[1] >= box[1].lo && at[1] <= box[1].hi;
 }
 
+// What is found where a finger pivots may be a million pieces at one place, and each meets each. Those that begin in
+// the same square with sides of this share of the width below which places are one are joined to the first of them, a
+// clump.
+constexpr double kClump = 0.25;
+
+/// Can nothing in the piece be told from its box's corner? `width` is a clump's.
+bool is_a_point(const PairPiece& piece, double width) {
+  return !piece.exact && piece.line.empty() &&
+         std::max(piece.box[0].width(), piece.box[1].width()) + piece.error <= width;
+}
+
 /// Their indices in order of where they begin.
 std::vector<std::size_t> by_place(const std::vector<Interval>& intervals) {
   std::vector<std::size_t> order(intervals.size());
@@ -142,6 +153,7 @@ class Joiner {
         period_(part.perimeter()),
         closed_(part.closed()),
         same_place_(same_place),
+        room_(pieces_.size(), 0),
         links_(pieces_.size()) {}
 
   std::vector<PairCluster> run() {
@@ -167,13 +179,36 @@ class Joiner {
     return all;
   }
 
-  double slack_of(const PairPiece& one, const PairPiece& two) const {
-    const bool both_exact = one.exact && two.exact;
-    return both_exact ? kJointWidth * period_ : same_place_;
+  double slack_of(bool both_exact) const { return both_exact ? kJointWidth * period_ : same_place_; }
+
+  /// Where a piece can be, with its error, and with all of its clump.
+  PairBox reach_box(std::size_t piece) const {
+    return widened(pieces_[piece].box, pieces_[piece].error + room_[piece]);
   }
 
-  /// Where a piece can be, with its error.
-  PairBox reach_box(std::size_t piece) const { return widened(pieces_[piece].box, pieces_[piece].error); }
+  /// Joins each clump to its first piece, which stands for it from here on: returns what is left to be swept.
+  std::vector<std::size_t> clump() {
+    std::vector<std::size_t> left;
+    std::map<std::array<double, 2>, std::size_t> firsts;
+    const double width = kClump * same_place_;
+    for (std::size_t k = 0; k < pieces_.size(); ++k) {
+      const PairBox& box = pieces_[k].box;
+      if (!is_a_point(pieces_[k], width)) {
+        left.push_back(k);
+        continue;
+      }
+      const auto [at, is_first] = firsts.try_emplace({std::floor(box[0].lo / width), std::floor(box[1].lo / width)}, k);
+      if (is_first) {
+        left.push_back(k);
+        continue;
+      }
+      const std::size_t first = at->second;
+      room_[first] = 2 * width;  // a square's side and a box in it
+      links_[first].push_back({k, {0, 0}});
+      links_[k].push_back({first, {0, 0}});
+    }
+    return left;
+  }
 
   /// Most pieces are so far from s = 0 and t = 0 that on other laps they meet nothing.
   PairBox box_around_all() const {
@@ -187,26 +222,36 @@ class Joiner {
     return all;
   }
 
-  /// Pieces that reach about as far along s, in order of where they begin along the slant.
+  /// Orders neighbours that begin at the same s: by how far they reach along s, and by where from.
+  void rank(const std::vector<std::size_t>& swept) {
+    std::vector<Interval> along_s;
+    along_s.reserve(swept.size());
+    for (const std::size_t k : swept) along_s.push_back(reach_box(k)[0]);
+    const auto width = [&](std::size_t at) { return std::ilogb(std::max(along_s[at].width(), kJointWidth * period_)); };
+    std::vector<std::size_t> order = by_place(along_s);
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return width(a) < width(b); });
+    rank_.resize(pieces_.size());
+    for (std::size_t k = 0; k < order.size(); ++k) rank_[swept[order[k]]] = k;
+  }
+
+  /// Pieces that reach about as far along the slant, exact ones or others, in order of where they begin.
   struct Strip {
     std::vector<std::size_t> pieces;
     double widest = 0;
+    bool exact = false;
   };
+  using Strips = std::map<std::pair<int, bool>, Strip>;
 
-  std::map<int, Strip> strips() {
-    std::vector<Interval> along_s;
-    along_s.reserve(pieces_.size());
-    for (std::size_t k = 0; k < pieces_.size(); ++k) along_s.push_back(reach_box(k)[0]);
-    std::map<int, Strip> strips;
-    for (const std::size_t k : by_place(along_s)) {
-      Strip& strip = strips[std::ilogb(std::max(along_s[k].width(), kJointWidth * period_))];
+  Strips strips(const std::vector<std::size_t>& swept) {
+    Strips strips;
+    for (const std::size_t k : swept) {
+      const bool exact = pieces_[k].exact;
+      Strip& strip = strips[{std::ilogb(std::max(reach_[k].width(), slack_of(exact))), exact}];
       strip.pieces.push_back(k);
       strip.widest = std::max(strip.widest, reach_[k].width());
+      strip.exact = exact;
     }
-    rank_.resize(pieces_.size());
-    std::size_t rank = 0;
-    for (auto& [width, strip] : strips) {
-      for (const std::size_t k : strip.pieces) rank_[k] = rank++;
+    for (auto& [key, strip] : strips) {
       std::sort(strip.pieces.begin(), strip.pieces.end(),
                 [&](std::size_t a, std::size_t b) { return reach_[a].lo < reach_[b].lo; });
     }
@@ -214,25 +259,28 @@ class Joiner {
   }
 
   /// Sweeps along the slant: a piece meets those whose reach is still open. Each width by itself, lest a wide piece, or
-  /// one with a large error, has every narrow one looked at.
+  /// one with a large error, has every narrow one looked at; and exact ones, which are joined from further off, too.
   void link() {
     if (pieces_.size() < 2) return;
+    const std::vector<std::size_t> swept = clump();
     reach_.reserve(pieces_.size());
     for (std::size_t k = 0; k < pieces_.size(); ++k) reach_.push_back(along_slant(reach_box(k)));
-    const std::map<int, Strip> all = strips();
+    rank(swept);
+    const Strips all = strips(swept);
     std::vector<std::size_t> near;
     const PairBox whole = box_around_all();
     for (const Shift& shift : shifts()) {
       const PairBox moved_whole = moved(whole, shift);
-      for (std::size_t one = 0; one < pieces_.size(); ++one) {
+      for (const std::size_t one : swept) {
         if (!boxes_meet(reach_box(one), moved_whole, 2 * kJointWidth * period_)) continue;
         near.clear();
-        for (const auto& [width, strip] : all) add_near(strip, one, shift, near);
+        for (const auto& [key, strip] : all) add_near(strip, one, shift, near);
         std::sort(near.begin(), near.end(), [&](std::size_t a, std::size_t b) {
           return std::tie(pieces_[a].box[0].lo, rank_[a]) < std::tie(pieces_[b].box[0].lo, rank_[b]);
         });
         for (const std::size_t two : near) {
-          if (pieces_meet(pieces_[one], pieces_[two], shift, slack_of(pieces_[one], pieces_[two]))) {
+          const double slack = slack_of(pieces_[one].exact && pieces_[two].exact) + room_[one] + room_[two];
+          if (pieces_meet(pieces_[one], pieces_[two], shift, slack)) {
             links_[one].push_back({two, shift});
           }
         }
@@ -243,7 +291,7 @@ class Joiner {
   /// Those whose boxes, moved by the shift, meet the piece's.
   void add_near(const Strip& strip, std::size_t piece, const Shift& shift, std::vector<std::size_t>& near) const {
     const PairPiece& one = pieces_[piece];
-    const double slack = std::max(kJointWidth * period_, same_place_);
+    const double slack = slack_of(one.exact && strip.exact);
     const double by = along_slant(shift);
     const double room = along_slant(PairPoint{slack, slack});
     const double from = reach_[piece].lo - by - strip.widest - room;
@@ -251,8 +299,7 @@ class Joiner {
     auto next = std::lower_bound(strip.pieces.begin(), strip.pieces.end(), from,
                                  [&](std::size_t k, double value) { return reach_[k].lo < value; });
     for (; next != strip.pieces.end() && reach_[*next].lo <= to; ++next) {
-      const PairPiece& two = pieces_[*next];
-      if (*next != piece && boxes_meet(one.box, moved(two.box, shift), slack + one.error + two.error)) {
+      if (*next != piece && boxes_meet(reach_box(piece), moved(reach_box(*next), shift), slack)) {
         near.push_back(*next);
       }
     }
@@ -348,10 +395,19 @@ class Joiner {
   }
 
   void sort_roots() {
-    root_taken_.assign(roots_.size(), false);
+    not_taken_.resize(roots_.size() + 1);
+    std::iota(not_taken_.begin(), not_taken_.end(), std::size_t{0});
     roots_at_.reserve(roots_.size());
     for (const PairRoot& root : roots_) roots_at_.push_back({along_slant(root.at), along_slant(root.at)});
     root_order_ = by_place(roots_at_);
+  }
+
+  /// The first in the roots' order from this one on that no piece has taken. What it passes it need not pass again.
+  std::size_t not_taken(std::size_t from) {
+    std::size_t found = from;
+    while (not_taken_[found] != found) found = not_taken_[found];
+    while (from != found) from = std::exchange(not_taken_[from], found);
+    return found;
   }
 
   /// A root is the first piece's that holds it.
@@ -360,12 +416,14 @@ class Joiner {
     for (const std::size_t k : members) {
       const PairBox box = widened(pieces_[k].box, same_place_);
       const Interval reach = along_slant(box);
-      auto next = std::lower_bound(root_order_.begin(), root_order_.end(), reach.lo,
-                                   [&](std::size_t root, double value) { return roots_at_[root].lo < value; });
-      for (; next != root_order_.end() && roots_at_[*next].lo <= reach.hi; ++next) {
-        if (root_taken_[*next] || !holds(box, roots_[*next].at)) continue;
-        root_taken_[*next] = true;
-        found.emplace_back(*next, moved(roots_[*next].at, shift_of_[k]));
+      const auto from = std::lower_bound(root_order_.begin(), root_order_.end(), reach.lo,
+                                         [&](std::size_t root, double value) { return roots_at_[root].lo < value; });
+      auto next = not_taken(static_cast<std::size_t>(from - root_order_.begin()));
+      for (; next < root_order_.size() && roots_at_[root_order_[next]].lo <= reach.hi; next = not_taken(next + 1)) {
+        const std::size_t root = root_order_[next];
+        if (!holds(box, roots_[root].at)) continue;
+        not_taken_[next] = next + 1;
+        found.emplace_back(root, moved(roots_[root].at, shift_of_[k]));
       }
     }
     std::sort(found.begin(), found.end());
@@ -380,13 +438,14 @@ class Joiner {
   double period_;
   bool closed_;
   double same_place_;
+  std::vector<double> room_;       // around each piece for the rest of its clump
   std::vector<Interval> reach_;    // of each piece along the slant
-  std::vector<std::size_t> rank_;  // of each piece: by width, and by where it begins along s
+  std::vector<std::size_t> rank_;  // of each piece
   std::vector<std::vector<PieceLink>> links_;
-  std::vector<Shift> shift_of_;  // of each piece, from where it is to its place in its cluster
-  std::vector<bool> root_taken_;
+  std::vector<Shift> shift_of_;          // of each piece, from where it is to its place in its cluster
   std::vector<Interval> roots_at_;       // along the slant, and ...
-  std::vector<std::size_t> root_order_;  // ... in that order
+  std::vector<std::size_t> root_order_;  // ... in that order, in which ...
+  std::vector<std::size_t> not_taken_;   // ... from each one there leads a way to the next that is not taken
 };
 
 }  // namespace
