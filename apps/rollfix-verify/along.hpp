@@ -38,6 +38,9 @@ bool is_smooth(const Boundary& boundary, const Place& from, const Place& to);
 /// The tangent's angles: a set for each run of segments between concave corners.
 std::vector<Ball> angles(const Boundary& boundary, const std::vector<Segment>& all);
 
+/// Whether there is a corner, or a place where a curve is at rest, within so much of a place.
+bool is_at_corner(const Boundary& boundary, const Ball& s, double reach);
+
 /// [0, length]
 inline Ball up_to(const Ball& length) { return hull(0.0, length); }
 
