@@ -13,6 +13,8 @@ inline constexpr double kSmooth = 1e-12;
 inline constexpr double kConcave = 1e-3;
 /// Places this share of the perimeter apart are one place: what is that near to a corner is at it.
 inline constexpr double kSamePlace = 4e-12;
+/// Rows keep this share of the perimeter from corners.
+inline constexpr double kClear = 1e-12;
 
 /// Both ends of a stretch of a curve.
 struct Segment {

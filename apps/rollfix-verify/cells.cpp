@@ -14,7 +14,10 @@ constexpr double kFlat = 4e-12;
 constexpr double kShare = 0.9;
 constexpr int kMostDepth = 80;
 // Where a cell is halved; the next ones where that is at a joint.
-constexpr double kSplits[] = {0.4990234375, 0.5166015625, 0.4697265625};
+constexpr double kSplits[] = {0.4990234375, 0.5166015625, 0.4697265625, 0.27, 0.73, 0.13, 0.87};
+// What is shorter than this share of the perimeter is halved only where no contact is within the other one of a corner:
+// contacts that come to corners at once to rounding are not to be told apart.
+constexpr double kFine = 1e-9;
 
 // Stretches over more joints than this are halved first.
 constexpr long kMostJoints = 6;
@@ -156,7 +159,11 @@ bool OneReading::holds(const Claim& claim, const Range& range, const Row& from, 
       return is_below(range, from, to, claim.bound);
     }
     case Claim::apart:
-      return misses(range, range.corner ? tolerance_ : claim.bound);
+      if (misses(range, range.corner ? tolerance_ : claim.bound)) return true;
+      if (range.corner && (to.start.s - from.start.s).is_below(kSamePlace * period_)) {
+        refuse("it fits at a corner near s = " + std::to_string(from.start.s.middle()));
+      }
+      return false;
   }
   return false;
 }
@@ -177,9 +184,17 @@ Rows rows_between(const Boundary& boundary, const std::vector<const OneReading*>
                   const Place& to) {
   const double lo = from.s.middle();
   const double hi = to.s.middle();
+  const bool is_fine = hi - lo < kFine * boundary.perimeter().middle();
+  const auto is_clear = [&](double s) {
+    const double reach = kClear * boundary.perimeter().middle();
+    return !is_at_corner(boundary, s, reach) &&
+           std::none_of(readings.begin(), readings.end(), [&](const OneReading* reading) {
+             return is_at_corner(boundary, s + reading->length(), reach);
+           });
+  };
   for (const double share : kSplits) {
     const double s = lo + share * (hi - lo);
-    if (!(Ball(s).is_above(from.s) && to.s.is_above(s))) continue;
+    if (!(Ball(s).is_above(from.s) && to.s.is_above(s)) || (is_fine && !is_clear(s))) continue;
     const std::optional<Place> start = boundary.after(s);
     if (!start) continue;
     Rows rows;

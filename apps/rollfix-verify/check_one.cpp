@@ -16,7 +16,7 @@ namespace {
 // Rows on both sides of a place are looked for at these shares of the perimeter; the next ones where they are at a
 // joint.
 constexpr double kBeside[] = {0.25 * kSamePlace, 0.5 * kSamePlace, 0.75 * kSamePlace, kSamePlace};
-// The same of a root's start, in units of what it is stated to.
+// The same of a root's start, in units of what it is stated to; no further than its cell.
 constexpr double kRootShares[] = {1.1, 1.13, 1.17};
 
 /// What is claimed on the starts from one row to the next.
@@ -80,6 +80,10 @@ class OneFinger {
       if (!row) refuse(name + " ends at a joint");
       const Place end = document_.place_at(stated.at("end").at(k));
       if (!document_.is_as_far(row->end.s, end.s)) refuse(name + " ends elsewhere");
+      const double clear = kClear * period_;
+      if (is_at_corner(boundary_, start.s, clear) || is_at_corner(boundary_, row->end.s, clear)) {
+        refuse(name + " is at a corner");
+      }
       const Ball slack = kTurnSlack + kRounding * period_ * (abs(row->start_ahead[0]) + abs(row->end_ahead[0]));
       if (!abs(row->f - Ball(stated.at("off").at(k).get<double>()) * document_.tolerance()).is_below(slack)) {
         refuse(name + " turns by another angle");
@@ -282,7 +286,7 @@ class OneFinger {
       group->used = true;
       check_kind(name, kind, start, *group);
       if (readings_.size() == 1 && is_one(*group, "crossing")) {
-        check_root(name, start);
+        check_root(name, start, *group);
       } else if (!fits(start)) {
         refuse(name + " does not fit");
       }
@@ -316,16 +320,25 @@ class OneFinger {
       const bool changes = readings_[0].changes_sign(rows_[0][group.first], last);
       const bool is_open = !is_smooth || readings_.size() > 1;
       fits = !has(group, "stretch") && !has(group, "corner") && (is_open || changes == (kind == "crossing"));
+      if (readings_.size() == 1 && is_one(group, "crossing")) fits = kind == "crossing";
     }
     if (!fits) refuse(name + " is of another kind than its cells");
   }
 
-  /// A root within the accuracy that is promised on either side of the start.
-  void check_root(const std::string& name, const Place& start) const {
+  /// The one root of a cell is within the accuracy that is promised on either side of the start, in the cell.
+  void check_root(const std::string& name, const Place& start, const Group& group) const {
+    const Row& from = rows_[0][group.first];
+    const Row& to = rows_[0][group.first + 1];
+    const auto ahead = [&](const Place& place) {  // of the start, by the nearest lap
+      const double way = (place.s - start.s).middle();
+      return boundary_.closed() ? std::remainder(way, period_) : way;
+    };
     for (const double share : kRootShares) {
       const double reach = share * kRootLength * period_;
-      const std::optional<Row> lo = readings_[0].row_beside(start, -reach);
-      const std::optional<Row> hi = readings_[0].row_beside(start, reach);
+      const bool from_cell = std::abs(ahead(from.start)) <= reach;
+      const bool to_cell = std::abs(ahead(to.start)) <= reach;
+      const std::optional<Row> lo = from_cell ? from : readings_[0].row_beside(start, -reach);
+      const std::optional<Row> hi = to_cell ? to : readings_[0].row_beside(start, reach);
       if (!lo || !hi) continue;
       const double slope = std::abs((hi->f - lo->f).middle()) / (2 * reach);
       if (slope * reach >= kRootTurn) {

@@ -17,7 +17,7 @@ namespace rollfix_verify {
 namespace {
 
 constexpr int kDeepest = 120;
-constexpr std::size_t kMostPairs = 100000;  // of a cell, before it is given up
+constexpr std::size_t kMostPairs = 400000;  // of a cell, before it is given up
 constexpr double kMeetWork = 1e-3;          // to compare two cells, in expansions
 // A start that fits is off by no more than so many tolerances: the search's outlines are good to a quarter of one.
 constexpr double kBeyondTolerance = 1.25;
