@@ -210,6 +210,22 @@ TEST(Certificate, is_of_one_finger_on_curves_that_have_a_formula) {
   EXPECT_THROW(certify(own, {rollfix::Reading(0.5, 0.1)}), rollfix::InputError);
 }
 
+TEST(Certificate, of_an_outline_that_takes_too_long_is_not_decided) {
+  const rollfix::Part part(rollfix::gallery("cam"));
+  const Json found = certificate(part, shapes::reading_from(part, 2, 1));
+  Json changed = found;
+  std::vector<double> points(6000);
+  for (std::size_t k = 0; k < points.size(); ++k) points[k] = static_cast<double>(k * 7919 % 100) / 10;
+  changed["curves"][0] = {{"kind", "bezier"}, {"numbers", points}};
+  EXPECT_EQ(checked(changed).refusal, "not decided within the budget of work");
+  changed["curves"][0] = {{"kind", "line"}, {"numbers", {0, 0, 0, 0}}};
+  EXPECT_EQ(checked(changed).refusal, "not decided within the budget of work");
+  changed = found;
+  for (int k = 0; k < 14; ++k)
+    changed["curves"][0]["kind"] = "reversed " + changed["curves"][0]["kind"].get<std::string>();
+  EXPECT_EQ(checked(changed).refusal, "");
+}
+
 // ---- one number changed ----
 
 TEST(Certificate, with_one_number_changed_is_refused) {

@@ -259,6 +259,34 @@ TEST(PairCertificate, with_a_placement_twice_is_refused) {
   EXPECT_NE(checked(found).refusal, "");
 }
 
+TEST(PairCertificate, of_one_continuum_said_to_be_two_is_refused) {
+  const rollfix::Part part(rollfix::gallery("circle"));
+  Json found = certificate(part, {{0.5, 0.2, 0.3}, {1.0, 0.4, 0.6}});
+  ASSERT_TRUE(checked(found).is_complete());
+  found["placements"].push_back(found["placements"][0]);
+  found["cells"] = "s[0][1]";
+  EXPECT_FALSE(checked(found).is_complete());
+}
+
+TEST(PairCertificate, of_a_kind_that_is_not_or_a_facing_without_digits_is_refused) {
+  const rollfix::Part part(rollfix::gallery("cam"));
+  const Json found = certificate(part, two_readings(part, 0.37, 0.59));
+  Json kind = found;
+  kind["placements"][0]["kind"] = "banana";
+  EXPECT_NE(checked(kind).refusal, "");
+  Json facing = certificate(part, two_readings(part, 0.37, 0.59), 1e-9, 0.3);
+  facing["facing"] = 1e20;
+  EXPECT_NE(checked(facing).refusal, "");
+}
+
+TEST(PairCertificate, that_leaves_a_root_s_cells_without_their_box_says_that_they_exclude_nothing) {
+  const rollfix::Part part(rollfix::gallery("cam"));
+  Json found = certificate(part, two_readings(part, 0.37, 0.59));
+  found["placements"][0].erase("box");
+  found["placements"][0]["proof"] = "fits";
+  EXPECT_FALSE(checked(found).is_complete());
+}
+
 TEST(PairCertificate, that_calls_a_placement_s_cell_apart_is_refused) {
   const rollfix::Part part(rollfix::gallery("cam"));
   const Json found = certificate(part, two_readings(part, 0.37, 0.59));
