@@ -54,7 +54,7 @@ inline bool is_proved(const rollfix::Part& part, const std::vector<rollfix::Read
   rollfix::LocateOptions options;
   options.tolerance = tolerance;
   EXPECT_EQ(verdict.placements, locate(part, readings, options).placements.size());
-  return verdict.unproved == 0;
+  return verdict.is_complete();
 }
 
 inline void expect_proved(const rollfix::Part& part, const std::vector<rollfix::Reading>& readings,

@@ -20,7 +20,10 @@ TEST(CliCertify, writes_a_certificate_that_the_verifier_proves) {
   const Ran ran = run("locate gallery:cam --reading 0.9,40deg --tolerance 1e-9 --certify proof.json");
   EXPECT_EQ(ran.code, 0);
   EXPECT_EQ(verified("proof.json").code, 0);
-  EXPECT_EQ(verified("proof.json").out, "proved: 4 placements, 8 cells, nothing else\n");
+  EXPECT_THAT(verified("proof.json").out,
+              testing::MatchesRegex("proved: 4 placements, 8 cells, nothing else\npart \"gallery:cam[^\n]*, closed, "
+                                    "perimeter [0-9.]+\nreading length 0.9, turn 0.698[0-9]* rad\n"
+                                    "tolerance 1e-09 rad\n"));
 }
 
 TEST(CliCertify, is_refused_where_its_turn_is_changed) {
@@ -65,7 +68,10 @@ TEST(CliCertify, of_two_fingers_writes_what_the_verifier_proves) {
 
 TEST(CliCertify, of_two_fingers_and_their_facing_is_proved) {
   const Folder folder;
-  EXPECT_EQ(run("locate gallery:cam --reading 1.5,-0.8,110.97deg --facing -142.4deg --certify proof.json").code, 0);
+  EXPECT_EQ(
+      run("locate gallery:cam --reading 1.5,-0.8,110.97deg --facing -142.4deg --tolerance 1e-6 --certify proof.json")
+          .code,
+      0);
   EXPECT_EQ(verified("proof.json").code, 0);
 }
 

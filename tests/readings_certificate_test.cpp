@@ -117,7 +117,7 @@ TEST(ReadingsCertificate, of_a_polygon_proves_pivots_that_both_readings_share) {
   const Part part(rollfix::gallery("polygon,n=5"));
   const Json found = certificate(part, {{0.3, 0.5}, {0.4, 0.5}});
   EXPECT_EQ(checked(found).refusal, "");
-  EXPECT_EQ(checked(found).unproved, 0U);
+  EXPECT_EQ(checked(found).open, 0U);
   EXPECT_EQ(checked(found).placements, locate(part, std::vector<Reading>{{0.3, 0.5}, {0.4, 0.5}}).placements.size());
 }
 

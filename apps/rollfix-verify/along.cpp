@@ -1,5 +1,7 @@
 #include "along.hpp"
 
+#include <cmath>
+
 namespace rollfix_verify {
 
 std::vector<Segment> segments(const Boundary& boundary, const Place& from, const Place& to) {
@@ -32,6 +34,20 @@ bool is_smooth(const Boundary& boundary, const Place& from, const Place& to) {
     if (!abs(boundary.jump(curve)).is_below(kSmooth) || boundary.is_at_rest(curve)) return false;
   }
   return true;
+}
+
+bool is_at_corner(const Boundary& boundary, const Ball& s, double reach) {
+  const double period = boundary.perimeter().middle();
+  const long count = boundary.curves();
+  const long laps = boundary.closed() ? static_cast<long>(std::floor(s.middle() / period)) : 0;
+  const long joints = boundary.closed() ? count : count - 1;
+  for (long k = -1; k <= joints; ++k) {
+    if (!boundary.closed() && (k < 0 || k >= joints)) continue;
+    const long curve = k + laps * count;
+    const bool is_corner = !abs(boundary.jump(curve)).is_below(kSmooth) || boundary.is_at_rest(curve);
+    if (is_corner && abs(boundary.front(curve + 1).s - s).is_below(reach)) return true;
+  }
+  return false;
 }
 
 std::vector<Ball> angles(const Boundary& boundary, const std::vector<Segment>& all) {

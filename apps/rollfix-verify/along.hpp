@@ -13,6 +13,8 @@ inline constexpr double kSmooth = 1e-12;
 inline constexpr double kConcave = 1e-3;
 /// Places this share of the perimeter apart are one place: what is that near to a corner is at it.
 inline constexpr double kSamePlace = 4e-12;
+/// Rows keep this share of the perimeter from corners.
+inline constexpr double kClear = 1e-12;
 
 /// Both ends of a stretch of a curve.
 struct Segment {
@@ -37,6 +39,9 @@ bool is_smooth(const Boundary& boundary, const Place& from, const Place& to);
 
 /// The tangent's angles: a set for each run of segments between concave corners.
 std::vector<Ball> angles(const Boundary& boundary, const std::vector<Segment>& all);
+
+/// Whether there is a corner, or a place where a curve is at rest, within so much of a place.
+bool is_at_corner(const Boundary& boundary, const Ball& s, double reach);
 
 /// [0, length]
 inline Ball up_to(const Ball& length) { return hull(0.0, length); }

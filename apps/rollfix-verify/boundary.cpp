@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "budget.hpp"
+
 namespace rollfix_verify {
 namespace {
 
@@ -16,6 +18,8 @@ constexpr double kMargin = 1.0 / 64;
 // Of a curve's point: the curvature's derivative takes three of them.
 constexpr slong kBendTerms = 4;
 constexpr slong kTurnTerms = 3;  // the angle's takes two
+constexpr double kFewTermsWork = 0.25;
+constexpr double kPieceWork = 40;  // what one keeps of memory
 constexpr int kNewtonSteps = 8;
 constexpr double kNewtonGoal = 1e-15;
 // A ball around a parameter is larger than it need be by this factor, for the rounding of its own size.
@@ -68,6 +72,7 @@ void Boundary::add_pieces(std::size_t curve, double lo, double hi, int depth) {
   const double middle = 0.5 * (lo + hi);
   const double half = std::max(hi - middle, middle - lo);
   const Formula& formula = curves_[curve];
+  Budget::spend(2 * formula.work);
   const Motion thin = formula.motion(middle);
   const double margin = kMargin * (hi - lo);
   const Motion wide = formula.motion(hull(Ball(lo) - margin, Ball(hi) + margin));
@@ -93,6 +98,7 @@ void Boundary::add_pieces(std::size_t curve, double lo, double hi, int depth) {
     add_pieces(curve, middle, hi, depth + 1);
     return;
   }
+  Budget::spend(kPieceWork);
   Place& here = starts_.back();
   const Ball from = Ball(lo) - middle;
   piece.s = here.s;
@@ -193,7 +199,14 @@ std::optional<Place> Boundary::after(const Ball& s) const {
   return moved(place, laps);
 }
 
+std::optional<Place> Boundary::after_or_end(const Ball& s) const {
+  if (!closed_ && !s.is_above(0.0)) return front(0);
+  if (!closed_ && !s.is_below(perimeter())) return back(curves() - 1);
+  return after(s);
+}
+
 Boundary::Bend Boundary::bend(long curve, const Ball& u) const {
+  Budget::spend(kFewTermsWork * formula(curve).work);
   const FewerTerms terms(kBendTerms);
   const Motion motion = formula(curve).motion(u);
   const Ball speed = motion.speed[0];
@@ -202,11 +215,13 @@ Boundary::Bend Boundary::bend(long curve, const Ball& u) const {
 }
 
 Ball Boundary::turning(long curve, const Ball& u) const {
+  Budget::spend(kFewTermsWork * formula(curve).work);
   const FewerTerms terms(kTurnTerms);
   return formula(curve).motion(u).turning[0];
 }
 
 Taylor Boundary::taylor(long curve, const Ball& u) const {
+  Budget::spend(formula(curve).work);
   const Motion motion = formula(curve).motion(u);
   if (!motion.speed[0].is_above(0.0)) return Taylor(static_cast<std::size_t>(kOrder), unknown());
   const Series place = inverse(integral(motion.speed));

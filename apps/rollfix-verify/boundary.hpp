@@ -36,6 +36,8 @@ class Boundary {
   Place at(long curve, double u) const;
   /// The place that far along; none where that can't be told from a joint or an end.
   std::optional<Place> after(const Ball& s) const;
+  /// The same; of an open outline the end where that is not clear before it.
+  std::optional<Place> after_or_end(const Ball& s) const;
   Point position(const Place& place) const { return formula(place.curve).position(place.u); }
   Point velocity(const Place& place) const { return formula(place.curve).velocity(place.u); }
 

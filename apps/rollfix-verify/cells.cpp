@@ -6,31 +6,18 @@
 
 namespace rollfix_verify {
 
-/// What f is on all the starts from one row to the next.
-struct Range {
-  bool known = false;
-  int slope = 0;  // +-1: f rises, falls all the way
-  bool corner = false;
-  std::vector<Ball> parts;  // f is in one of these at each start; several where it jumps at a concave corner
-  double blur = 0;          // what f changes by as places are rounded
-};
-
 namespace {
 
 // |f| on a stretch, radians.
 constexpr double kFlat = 4e-12;
 // On what is excluded f misses the tolerance by at least this share of what it does at the nearer end.
 constexpr double kShare = 0.9;
-// Within a cell |f| may be larger than at its ends by this factor.
-constexpr double kBeyond = 1.01;
 constexpr int kMostDepth = 80;
-constexpr std::size_t kMostParts = 400000;  // of a cell, before it is given up
 // Where a cell is halved; the next ones where that is at a joint.
-constexpr double kSplits[] = {0.4990234375, 0.5166015625, 0.4697265625};
-
-// Rows on both sides of a place are looked for at these shares of the perimeter; the next ones where they are at a
-// joint.
-constexpr double kBeside[] = {0.25 * kSamePlace, 0.5 * kSamePlace, 0.75 * kSamePlace, kSamePlace};
+constexpr double kSplits[] = {0.4990234375, 0.5166015625, 0.4697265625, 0.27, 0.73, 0.13, 0.87};
+// What is shorter than this share of the perimeter is halved only where no contact is within the other one of a corner:
+// contacts that come to corners at once to rounding are not to be told apart.
+constexpr double kFine = 1e-9;
 
 // Stretches over more joints than this are halved first.
 constexpr long kMostJoints = 6;
@@ -64,16 +51,6 @@ Range smooth_range(const Boundary& boundary, const Row& from, const Row& to) {
 
 double size_of(const Row& row) { return abs(row.f).lower(); }
 
-bool misses(const Range& range, double bound) {
-  return std::all_of(range.parts.begin(), range.parts.end(),
-                     [&](const Ball& part) { return part.is_above(bound) || part.is_below(-bound); });
-}
-
-bool meets(const Range& range, double bound) {
-  return std::any_of(range.parts.begin(), range.parts.end(),
-                     [&](const Ball& part) { return part.lower() <= bound && part.upper() >= -bound; });
-}
-
 /// Bounds f from row to row. REQUIRES `to` ahead of `from`.
 Range range_between(const Boundary& boundary, const Ball& turn, const Row& from, const Row& to) {
   const long joints = (to.start.curve - from.start.curve) + (to.end.curve - from.end.curve);
@@ -94,7 +71,37 @@ Range range_between(const Boundary& boundary, const Ball& turn, const Row& from,
   return range;
 }
 
+/// Both ends of an interval.
+struct Limits {
+  double lo;
+  double hi;
+};
+
+/// What is in a set and in one of others.
+std::vector<Limits> common(const std::vector<Limits>& some, const std::vector<Limits>& others) {
+  std::vector<Limits> result;
+  for (const Limits& one : some) {
+    for (const Limits& other : others) {
+      const Limits both{std::max(one.lo, other.lo), std::min(one.hi, other.hi)};
+      if (both.lo <= both.hi) result.push_back(both);
+    }
+  }
+  return result;
+}
+
 }  // namespace
+
+bool misses(const Range& range, double bound) {
+  return std::all_of(range.parts.begin(), range.parts.end(),
+                     [&](const Ball& part) { return part.is_above(bound) || part.is_below(-bound); });
+}
+
+bool is_below(const Range& range, const Row& from, const Row& to, double bound) {
+  const double most = bound + range.blur;
+  if (range.slope != 0 && !range.corner) return abs(from.f).upper() <= most && abs(to.f).upper() <= most;
+  return std::all_of(range.parts.begin(), range.parts.end(),
+                     [&](const Ball& part) { return part.upper() <= most && part.lower() >= -most; });
+}
 
 bool spans_corner(const Boundary& boundary, const Row& from, const Row& to) {
   return !is_smooth(boundary, from.start, to.start) || !is_smooth(boundary, from.end, to.end);
@@ -102,8 +109,8 @@ bool spans_corner(const Boundary& boundary, const Row& from, const Row& to) {
 
 /// What a cell is claimed to be.
 struct OneReading::Claim {
-  enum Kind { apart, crossing, within, corner } kind = apart;
-  double bound = 0;  // apart, corner: |f| is above it (but at the corner); within: below it
+  enum Kind { apart, crossing, flat } kind = apart;
+  double bound = 0;  // apart: |f| is above it; flat: below it
   int slope = 0;     // of a crossing
 };
 
@@ -119,6 +126,8 @@ std::optional<Row> OneReading::row_beside(const Place& start, double distance) c
   return place ? row_at(*place) : std::nullopt;
 }
 
+Range OneReading::range(const Row& from, const Row& to) const { return range_between(boundary_, turn_, from, to); }
+
 bool OneReading::changes_sign(const Row& from, const Row& to) const {
   return size_of(from) > tolerance_ && size_of(to) > tolerance_ && sign_of(from.f) != sign_of(to.f);
 }
@@ -129,81 +138,92 @@ OneReading::Claim OneReading::claim_of(const std::string& kind, const Row& from,
     if (!(nearer > tolerance_)) refuse("f is within the tolerance at an end of it");
     return {Claim::apart, tolerance_ + kShare * (nearer - tolerance_), 0};
   }
-  if (kind == "crossing" || kind == "corner") {
+  if (kind == "crossing") {
     if (!changes_sign(from, to)) refuse("f does not change its sign from end to end of it");
-    return {kind == "corner" ? Claim::corner : Claim::crossing, tolerance_, sign_of(to.f)};
+    return {Claim::crossing, tolerance_, sign_of(to.f)};
   }
-  if (kind == "stretch") return {Claim::within, kFlat, 0};
-  if (kind == "within") {
-    const double farther = std::max({abs(from.f).upper(), abs(to.f).upper(), tolerance_});
-    return {Claim::within, kBeyond * farther, 0};
-  }
+  if (kind == "stretch") return {Claim::flat, kFlat, 0};
   refuse("its kind '" + kind + "' is not known");
-}
-
-bool OneReading::is_narrow(const Row& from, const Row& to) const {
-  return (to.start.s - from.start.s).is_below(kSamePlace * period_);
 }
 
 /// What the claim says of a part of its cell, as far as this range tells.
 bool OneReading::holds(const Claim& claim, const Range& range, const Row& from, const Row& to) const {
   if (!range.known) return false;
-  const bool at_corner = range.corner && is_narrow(from, to);
   switch (claim.kind) {
     case Claim::crossing:
       return range.slope == claim.slope;
-    case Claim::within: {
-      if (at_corner && meets(range, claim.bound)) return true;
-      const double most = claim.bound + range.blur;
-      if (range.slope != 0) return abs(from.f).upper() <= most && abs(to.f).upper() <= most;
-      return std::all_of(range.parts.begin(), range.parts.end(),
-                         [&](const Ball& part) { return part.upper() <= most && part.lower() >= -most; });
+    case Claim::flat: {
+      // Where both ends of the roll come to a corner at once all of it is a jump there and back.
+      const bool is_narrow = (to.start.s - from.start.s).is_below(kSamePlace * period_);
+      if (range.corner && is_narrow && !misses(range, claim.bound)) return true;
+      return is_below(range, from, to, claim.bound);
     }
-    case Claim::corner:
-      if (at_corner && meets(range, 0)) return true;
-      return misses(range, claim.bound);
     case Claim::apart:
-      return misses(range, range.corner ? tolerance_ : claim.bound);
+      if (misses(range, range.corner ? tolerance_ : claim.bound)) return true;
+      if (range.corner && (to.start.s - from.start.s).is_below(kSamePlace * period_)) {
+        refuse("it fits at a corner near s = " + std::to_string(from.start.s.middle()));
+      }
+      return false;
   }
   return false;
 }
 
 void OneReading::prove(const std::string& kind, const Row& from, const Row& to) const {
-  std::size_t parts = 0;
-  prove(claim_of(kind, from, to), from, to, 0, parts);
+  prove(claim_of(kind, from, to), from, to, 0);
 }
 
-void OneReading::prove(const Claim& claim, const Row& from, const Row& to, int depth, std::size_t& parts) const {
-  if (holds(claim, range_between(boundary_, turn_, from, to), from, to)) return;
-  if (depth == kMostDepth || ++parts > kMostParts) {
-    refuse("it could not be proved near s = " + std::to_string(from.start.s.middle()));
-  }
-  const Row middle = between(from, to);
-  prove(claim, from, middle, depth + 1, parts);
-  prove(claim, middle, to, depth + 1, parts);
+void OneReading::prove(const Claim& claim, const Row& from, const Row& to, int depth) const {
+  if (holds(claim, range(from, to), from, to)) return;
+  if (depth == kMostDepth) refuse("it could not be proved near s = " + std::to_string(from.start.s.middle()));
+  const Row middle = rows_between(boundary_, {this}, from.start, to.start).front();
+  prove(claim, from, middle, depth + 1);
+  prove(claim, middle, to, depth + 1);
 }
 
-Row OneReading::between(const Row& from, const Row& to) const {
-  const double lo = from.start.s.middle();
-  const double hi = to.start.s.middle();
+Rows rows_between(const Boundary& boundary, const std::vector<const OneReading*>& readings, const Place& from,
+                  const Place& to) {
+  const double lo = from.s.middle();
+  const double hi = to.s.middle();
+  const bool is_fine = hi - lo < kFine * boundary.perimeter().middle();
+  const auto is_clear = [&](double s) {
+    const double reach = kClear * boundary.perimeter().middle();
+    return !is_at_corner(boundary, s, reach) &&
+           std::none_of(readings.begin(), readings.end(), [&](const OneReading* reading) {
+             return is_at_corner(boundary, s + reading->length(), reach);
+           });
+  };
   for (const double share : kSplits) {
     const double s = lo + share * (hi - lo);
-    if (!(Ball(s).is_above(from.start.s) && to.start.s.is_above(s))) continue;
-    const std::optional<Place> start = boundary_.after(s);
-    const std::optional<Row> row = start ? row_at(*start) : std::nullopt;
-    if (row) return *row;
+    if (!(Ball(s).is_above(from.s) && to.s.is_above(s)) || (is_fine && !is_clear(s))) continue;
+    const std::optional<Place> start = boundary.after(s);
+    if (!start) continue;
+    Rows rows;
+    for (const OneReading* reading : readings) {
+      const std::optional<Row> row = reading->row_at(*start);
+      if (row) rows.push_back(*row);
+    }
+    if (rows.size() == readings.size()) return rows;
   }
   refuse("it can't be halved near s = " + std::to_string(lo));
 }
 
-bool OneReading::fits(const Place& start) const {
-  const double most = tolerance_ * (1 + kPlaceSlack) + kTurnSlack;
-  for (const double share : kBeside) {
-    const std::optional<Row> lo = row_beside(start, -share * period_);
-    const std::optional<Row> hi = row_beside(start, share * period_);
-    if (lo && hi) return meets(range_between(boundary_, turn_, *lo, *hi), most);
+/// Angles are taken from that at the first start on, so that doubles hold them.
+bool fit_together(const Boundary& boundary, const std::vector<const OneReading*>& readings, const Segment& starts,
+                  const std::vector<Segment>& ends, double most) {
+  const Ball base = starts.from.angle;
+  std::vector<Limits> tangents;
+  for (const Ball& set : angles(boundary, segments(boundary, starts.from, starts.to))) {
+    tangents.push_back({(set - base).lower(), (set - base).upper()});
   }
-  return !boundary_.closed();  // at its end
+  for (std::size_t k = 0; k < readings.size(); ++k) {
+    std::vector<Limits> allowed;
+    for (const Ball& set : angles(boundary, segments(boundary, ends[k].from, ends[k].to))) {
+      const Ball tangent = set - base - readings[k]->turn();
+      allowed.push_back({(tangent - most).lower(), (tangent + most).upper()});
+    }
+    tangents = common(tangents, allowed);
+  }
+  return !tangents.empty();
 }
 
 }  // namespace rollfix_verify

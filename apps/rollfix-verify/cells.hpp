@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,14 +21,24 @@ struct Row {
 /// Whether the start or the end of the roll passes a corner from row to row.
 bool spans_corner(const Boundary& boundary, const Row& from, const Row& to);
 
-struct Range;
+/// What f is on all the starts from one row to the next.
+struct Range {
+  bool known = false;
+  int slope = 0;  // +-1: f rises, falls all the way
+  bool corner = false;
+  std::vector<Ball> parts;  // f is in one of these at each start; several where it jumps at a concave corner
+  double blur = 0;          // what f changes by as places are rounded
+};
+
+bool misses(const Range& range, double bound);
+bool is_below(const Range& range, const Row& from, const Row& to, double bound);
 
 /// One reading: its f from row to row.
 class OneReading {
  public:
   /// Of {"length": L, "turn": theta}.
   OneReading(const Document& document, const Json& stated)
-      : OneReading(document, Ball(stated.at("length").get<double>()), Ball(stated.at("turn").get<double>()),
+      : OneReading(document, document.length(stated.at("length")), Document::turn(stated.at("turn")),
                    document.tolerance()) {}
 
   /// Where this one's roll is from there on at the other one's end: where both fit that is off by twice the tolerance
@@ -39,21 +48,21 @@ class OneReading {
   }
 
   const Ball& length() const { return length_; }
+  const Ball& turn() const { return turn_; }
 
   /// The roll from there; nothing where it ends at a joint.
   std::optional<Row> row_at(const Place& start) const;
   /// The same from so far beside it.
   std::optional<Row> row_beside(const Place& start, double distance) const;
 
+  Range range(const Row& from, const Row& to) const;
+
   /// f is outside the tolerance at both ends of a cell, on opposite sides of it.
   bool changes_sign(const Row& from, const Row& to) const;
 
-  /// Proves what is claimed of f on all the starts between the two, by the name that the certificate has for it. Throws
-  /// std::domain_error: it could not.
+  /// Proves of f on all the starts between the two that it is `apart` from 0, has one `crossing`, or is a `stretch` of
+  /// nothing else than 0. Throws std::domain_error: it could not.
   void prove(const std::string& kind, const Row& from, const Row& to) const;
-
-  /// Whether the place itself fits, as far as it can be told from what is beside it.
-  bool fits(const Place& start) const;
 
  private:
   OneReading(const Document& document, const Ball& length, const Ball& turn, double tolerance)
@@ -66,10 +75,8 @@ class OneReading {
 
   struct Claim;
   Claim claim_of(const std::string& kind, const Row& from, const Row& to) const;
-  bool is_narrow(const Row& from, const Row& to) const;
   bool holds(const Claim& claim, const Range& range, const Row& from, const Row& to) const;
-  void prove(const Claim& claim, const Row& from, const Row& to, int depth, std::size_t& parts) const;
-  Row between(const Row& from, const Row& to) const;
+  void prove(const Claim& claim, const Row& from, const Row& to, int depth) const;
 
   const Document& document_;
   const Boundary& boundary_;
@@ -78,5 +85,17 @@ class OneReading {
   double tolerance_;
   double period_;
 };
+
+/// Several readings' rolls from one start.
+using Rows = std::vector<Row>;
+
+/// The rolls from a start between two others. Throws std::domain_error where they can't be told from joints.
+Rows rows_between(const Boundary& boundary, const std::vector<const OneReading*>& readings, const Place& from,
+                  const Place& to);
+
+/// Whether all readings can fit at once, by no more than that each, where the contacts are anywhere between two places,
+/// each on its own, and the tangent at the start is the same one for all. `starts`: from, to; `ends`: of each reading.
+bool fit_together(const Boundary& boundary, const std::vector<const OneReading*>& readings, const Segment& starts,
+                  const std::vector<Segment>& ends, double most);
 
 }  // namespace rollfix_verify

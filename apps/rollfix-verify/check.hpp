@@ -5,16 +5,26 @@
 
 namespace rollfix_verify {
 
+/// A longer text is not looked at: 100 times as long as any that is known.
+inline constexpr std::size_t kMostBytes = std::size_t{1} << 25U;
+
 /// What checking a certificate came to.
 struct Verdict {
   std::size_t placements = 0;
   std::size_t cells = 0;
-  std::size_t unproved = 0;  // cells about which the certificate claims nothing
-  double open = 0;           // of two fingers: the share of all pairs of which it is only said whose they are
-  std::string refusal;       // why it is refused; empty: all that it claims is proved
+  std::size_t open = 0;      // cells that exclude nothing, of which not all is proved to fit either
+  double share = 0;          // of all starts (of two fingers: of all pairs) that are in such cells
+  std::size_t unproved = 0;  // placements of which no more is proved than that their starts fit
+  std::string question;      // which part, readings, facing and tolerance
+  std::string refusal;       // why it is refused; empty: all but what is open is proved
+
+  bool is_complete() const { return refusal.empty() && open == 0 && unproved == 0; }
 };
 
-/// Proves what a certificate claims, or says why not. Throws std::runtime_error: a text that is no certificate.
+/// Proves what a certificate claims, or says why not. Throws std::exception: a text that is no certificate.
 Verdict check(const std::string& text);
+
+/// The verdict as it is printed.
+std::string described(const Verdict& verdict);
 
 }  // namespace rollfix_verify

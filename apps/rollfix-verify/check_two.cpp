@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
+#include "budget.hpp"
 #include "cover.hpp"
 #include "pair_equations.hpp"
 
@@ -15,6 +18,7 @@ namespace {
 
 constexpr int kDeepest = 120;
 constexpr std::size_t kMostPairs = 400000;  // of a cell, before it is given up
+constexpr double kMeetWork = 1e-3;          // to compare two cells, in expansions
 // A start that fits is off by no more than so many tolerances: the search's outlines are good to a quarter of one.
 constexpr double kBeyondTolerance = 1.25;
 // A root's start is looked at on this share of the perimeter to either side.
@@ -29,6 +33,8 @@ struct Placement {
   std::optional<Box> box;
   enum Proof { one, fits, none } proof = none;  // exactly one root in its box; its start fits
   bool has_start = false;                       // in its box or in a cell of its own
+  bool is_single = false;                       // no more than one root of some two equations in its box
+  std::vector<Box> cells;                       // of one that is not single
 };
 
 class TwoFingers {
@@ -42,23 +48,28 @@ class TwoFingers {
         period_(document.period()) {}
 
   Verdict check() {
-    document_.check();
     if (equations_.count() < 2) refuse("it has fewer than two equations");
+    const Box all = whole();
+    range_ = all;
     read_placements();
     check_boxes();
-    const Box all = whole();
-    Verdict verdict{placements_.size(), 0, 0, 0, {}};
+    for (Placement& placement : placements_) check_roots(placement);
+    Verdict verdict;
+    verdict.placements = placements_.size();
     const auto check_leaf = [&](const Leaf& leaf) {
       ++verdict.cells;
       check_cell(leaf, verdict.cells - 1);
-      verdict.unproved += leaf.kind == Leaf::unproved ? 1 : 0;
-      if (is_open(leaf)) verdict.open += area(leaf.box) / area(all);
+      if (!is_open(leaf)) return;
+      ++verdict.open;
+      verdict.share += area(leaf.box) / area(all);
     };
     read_cover(document_.json().at("cells").get<std::string>(), all, check_leaf);
     for (const Placement& placement : placements_) {
       check_placement(placement);
-      verdict.unproved += placement.proof == Placement::none ? 1 : 0;
+      const bool has_kind = placement.is_single || placement.kind == "touching" || placement.kind == "stretch";
+      verdict.unproved += placement.proof == Placement::none || !has_kind ? 1 : 0;
     }
+    if (verdict.open == 0) check_owners();
     return verdict;
   }
 
@@ -68,20 +79,20 @@ class TwoFingers {
   std::vector<Ball> lengths(std::size_t finger) const {
     std::vector<Ball> result = {0.0};
     for (const Json& reading : document_.json().at("readings")) {
-      result.emplace_back(reading.at("length").at(finger).get<double>());
+      result.push_back(document_.length(reading.at("length").at(finger)));
     }
     return result;
   }
 
   std::vector<Ball> turns() const {
     std::vector<Ball> result;
-    for (const Json& reading : document_.json().at("readings")) result.emplace_back(reading.at("turn").get<double>());
+    for (const Json& reading : document_.json().at("readings")) result.push_back(Document::turn(reading.at("turn")));
     return result;
   }
 
   std::optional<Ball> facing() const {
     const Json& stated = document_.json().at("facing");
-    return stated.is_null() ? std::nullopt : std::optional<Ball>(stated.get<double>());
+    return stated.is_null() ? std::nullopt : std::optional<Ball>(Document::turn(stated));
   }
 
   /// All first contacts of a finger: on an open outline those whose rolls stay on it.
@@ -206,18 +217,22 @@ class TwoFingers {
     } else {
       placement.has_start = placement.has_start || holds(leaf.box, placement.start);
     }
+    if (!placement.is_single) placement.cells.push_back(leaf.box);
   }
 
   static double area(const Box& box) { return (box[0].hi - box[0].lo) * (box[1].hi - box[1].lo); }
 
-  /// A cell of a placement that is not known to be the only one there, and not all of it fits.
+  /// A cell that excludes nothing: of a placement that is not known to be the only one there, and not all of it is near
+  /// to fitting.
   bool is_open(const Leaf& leaf) {
-    if (leaf.kind != Leaf::placement || placements_[leaf.number].proof == Placement::one) return false;
+    if (leaf.kind == Leaf::apart) return false;
+    if (leaf.kind == Leaf::unproved) return true;
+    if (placements_[leaf.number].is_single) return false;
     const std::vector<Stretch>& all_b = curves_[1].over(leaf.box[1].lo, leaf.box[1].hi);
     for (const Stretch& a : curves_[0].over(leaf.box[0].lo, leaf.box[0].hi)) {
       for (const Stretch& b : all_b) {
         for (const Ball& off : equations_.off(a, b)) {
-          if (!abs(off).is_below(kBeyondTolerance * tolerance_)) return true;
+          if (!abs(off).is_below(kNear * tolerance_)) return true;
         }
       }
     }
@@ -252,6 +267,8 @@ class TwoFingers {
       Placement placement;
       placement.name = "placement " + std::to_string(placements_.size());
       const std::string kind = stated.at("kind").get<std::string>();
+      Document::check_kind(placement.name, kind);
+      if (kind == "corner" && stated.contains("tangent")) refuse(placement.name + " has a tangent, but pivots");
       for (std::size_t finger = 0; finger < 2; ++finger) {
         placement.start[finger] = document_.place_at(stated.at("at").at(finger));
         Document::Stated numbers{
@@ -295,20 +312,71 @@ class TwoFingers {
     return true;
   }
 
-  void check_placement(const Placement& placement) {
-    if (placement.proof == Placement::none) return;
-    if (!placement.has_start) refuse(placement.name + " is in no cell of its own");
-    if (placement.proof == Placement::fits) {
-      if (!fits(placement, kBeyondTolerance * tolerance_)) refuse(placement.name + " does not fit");
+  /// Whether its box has no more than one root, and what of that is claimed.
+  void check_roots(Placement& placement) {
+    if (!placement.box || placement.proof == Placement::none) return;
+    const Roots roots = roots_in(*placement.box, tolerance_);
+    placement.is_single = roots != Roots::unknown;
+    const bool is_one = placement.proof == Placement::one;
+    if (!placement.is_single) {
+      if (is_one) refuse(placement.name + " could not be proved to be the only one");
       return;
     }
-    const Roots roots = roots_in(*placement.box, tolerance_);
-    if (roots == Roots::unknown) refuse(placement.name + " could not be proved to be the only one");
-    if (placement.kind != (roots == Roots::one_pivot ? "corner" : "crossing")) {
+    if (is_one && equations_.count() != 2) refuse(placement.name + " is a root of two equations of more");
+    if (is_one && placement.kind != (roots == Roots::one_pivot ? "corner" : "crossing")) {
       refuse(placement.name + " is of another kind than its proof");
     }
+  }
+
+  void check_placement(const Placement& placement) {
+    if (placement.kind == "corner" && !is_at_corner(placement)) refuse(placement.name + " is at no corner");
+    if (!fits(placement, kBeyondTolerance * tolerance_) && placement.proof != Placement::one) {
+      refuse(placement.name + " does not fit");
+    }
+    if (placement.proof == Placement::none) return;
+    if (!placement.has_start) refuse(placement.name + " is in no cell of its own");
+    if (placement.proof == Placement::fits) return;
     if (!fits(placement, 2.2 * kRootTurn) && roots_in(around(placement, kBesideRoot), 0) == Roots::unknown) {
       refuse(placement.name + " is not where the equations are solved");
+    }
+  }
+
+  bool is_at_corner(const Placement& placement) const {
+    for (std::size_t finger = 0; finger < 2; ++finger) {
+      for (const Ball& length : lengths(finger)) {
+        if (rollfix_verify::is_at_corner(boundary_, placement.start[finger].s + length, kLengthSlack * period_)) {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  /// Where all that is not excluded is near to fitting: each placement's cells are one piece, next to no other one's.
+  void check_owners() const {
+    std::vector<std::pair<std::size_t, Box>> cells;
+    for (std::size_t k = 0; k < placements_.size(); ++k) {
+      for (const Box& box : placements_[k].cells) cells.emplace_back(k, box);
+      if (placements_[k].is_single) cells.emplace_back(k, *placements_[k].box);
+    }
+    Budget::spend(kMeetWork * static_cast<double>(cells.size() * cells.size()));
+    std::vector<std::size_t> piece(cells.size());
+    std::iota(piece.begin(), piece.end(), 0U);
+    const auto first = [&](std::size_t i) {
+      while (piece[i] != i) i = piece[i] = piece[piece[i]];
+      return i;
+    };
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      for (std::size_t k = 0; k < i; ++k) {
+        if (!meet(cells[i].second, cells[k].second)) continue;
+        if (cells[i].first != cells[k].first) refuse("cells of two placements meet");
+        piece[first(i)] = first(k);
+      }
+    }
+    std::vector<std::size_t> pieces(placements_.size(), 0);
+    for (std::size_t i = 0; i < cells.size(); ++i) pieces[cells[i].first] += piece[i] == i ? 1 : 0;
+    for (std::size_t k = 0; k < placements_.size(); ++k) {
+      if (pieces[k] > 1) refuse(placements_[k].name + " is of several pieces");
     }
   }
 
@@ -317,6 +385,9 @@ class TwoFingers {
     for (std::size_t finger = 0; finger < 2; ++finger) {
       const double s = placement.start[finger].s.middle();
       box[finger] = {s - share * period_, s + share * period_};
+      if (boundary_.closed()) continue;
+      box[finger].lo = std::clamp(box[finger].lo, range_[finger].lo, range_[finger].hi - 2 * share * period_);
+      box[finger].hi = std::clamp(box[finger].hi, range_[finger].lo + 2 * share * period_, range_[finger].hi);
     }
     return box;
   }
@@ -351,11 +422,7 @@ class TwoFingers {
     const std::vector<Stretch>& all_b = curves_[1].over(box[1].lo, box[1].hi);
     for (const Stretch& a : curves_[0].over(box[0].lo, box[0].hi)) {
       for (const Stretch& b : all_b) {
-        const std::vector<Ball> off = equations_.off(a, b);
-        if (std::all_of(off.begin(), off.end(),
-                        [&](const Ball& one) { return one.lower() <= most && one.upper() >= -most; })) {
-          return true;
-        }
+        if (equations_.fit_together(a, b, most)) return true;
       }
     }
     return false;
@@ -367,6 +434,7 @@ class TwoFingers {
   PairEquations equations_;
   double tolerance_;
   double period_;
+  Box range_;  // all pairs
   std::vector<Placement> placements_;
 };
 

@@ -3,10 +3,13 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "budget.hpp"
+
 namespace rollfix_verify {
 namespace {
 
 constexpr int kMostSplits = 200;
+constexpr double kLeafWork = 0.1;  // in expansions
 const std::string kLevels = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdef";
 
 class Reader {
@@ -14,6 +17,7 @@ class Reader {
   Reader(const std::string& text, const std::function<void(const Leaf&)>& use) : text_(text), use_(use) {}
 
   void read(const Box& box, int depth) {
+    Budget::spend(kLeafWork);
     const char token = next();
     if (token == 's' || token == 't') {
       if (depth == kMostSplits) throw std::domain_error("its cells are halved too often");

@@ -9,6 +9,11 @@ namespace {
 
 // Tangents are stated in (-pi, pi].
 constexpr double kHalfTurn = 3.1415926536;
+constexpr double kFullTurnUp = 2 * kHalfTurn;
+// Longer rolls and larger angles are not looked at: the digits of a double are used up.
+constexpr double kMostLaps = 1e6;
+// Curves meet to this share of the perimeter.
+constexpr double kMostGap = 1e-9;
 
 std::vector<Formula> formulas(const Json& curves) {
   std::vector<Formula> result;
@@ -34,10 +39,31 @@ void Document::check() const {
   }
   const double stated = json_.at("perimeter").get<double>();
   if (!abs(boundary_.perimeter() - stated).is_below(kLengthSlack * period_)) refuse("the perimeter is another one");
+  if (!(period_ > 0)) refuse("the outline has no length");
+  if (!(boundary_.largest_gap() <= kMostGap * period_)) refuse("its curves do not meet");
   const double gap = json_.at("gap").get<double>();
   if (!(std::abs(boundary_.largest_gap() - gap) <= kLengthSlack * period_)) refuse("its curves meet otherwise");
   const Place first = boundary_.at(0, boundary_.front(0).u.middle());
   if (!is_at(boundary_.position(first), json_.at("origin"))) refuse("the outline starts elsewhere");
+}
+
+Ball Document::length(const Json& stated) const {
+  const double value = stated.get<double>();
+  if (!(std::abs(value) <= kMostLaps * period_)) refuse("a roll of more than a million laps");
+  return value;
+}
+
+Ball Document::turn(const Json& stated) {
+  const double value = stated.get<double>();
+  if (!(std::abs(value) <= kMostLaps * kFullTurnUp)) refuse("an angle of more than a million turns");
+  return value;
+}
+
+void Document::check_kind(const std::string& name, const std::string& kind) {
+  for (const char* known : {"crossing", "touching", "corner", "stretch"}) {
+    if (kind == known) return;
+  }
+  refuse(name + " is of a kind that is not known");
 }
 
 bool Document::is_at(const Point& point, const Json& stated) const {

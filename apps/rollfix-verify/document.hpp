@@ -23,6 +23,9 @@ inline constexpr double kRootTurn = 4e-12;
 // The least tolerance: below it rounding decides.
 inline constexpr double kLeastTolerance = 4e-12;
 
+// Starts that are taken for one placement are off by no more than so many tolerances.
+inline constexpr double kNear = 8;
+
 /// Ends the check: the certificate is refused.
 [[noreturn]] void refuse(const std::string& why);
 
@@ -38,6 +41,13 @@ class Document {
 
   /// The tolerance is one, and the outline is the one that is stated.
   void check() const;
+
+  /// Of the question: refused where it is too large for its digits.
+  Ball length(const Json& stated) const;
+  static Ball turn(const Json& stated);
+
+  /// It has one of the names that there are.
+  static void check_kind(const std::string& name, const std::string& kind);
 
   /// Of [curve, its parameter].
   Place place_at(const Json& stated) const;

@@ -5,6 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "budget.hpp"
+
 namespace rollfix_verify {
 namespace {
 
@@ -13,6 +15,10 @@ constexpr double kNudge = 4e-13;
 constexpr int kMostNudges = 6;
 // Stretches over more joints than this are halved before anything is said of their curvatures.
 constexpr std::size_t kMostSegments = 8;
+// Stretches that are kept for the next who asks, before all are dropped.
+constexpr std::size_t kMostKept = 30000;
+// To look whether a joint is in a range, in expansions.
+constexpr double kJointWork = 0.01;
 
 Ball weighted(const std::vector<Ball>& weights, const std::vector<Ball>& values) {
   Ball result = 0.0;
@@ -46,6 +52,15 @@ Ball curvatures_by_slope(const Boundary& boundary, const std::vector<Segment>& a
   return result;
 }
 
+/// Whether a contact between two places may pivot: at a corner that is not concave, or where a curve is at rest.
+bool pivots_between(const Boundary& boundary, const Place& from, const Place& to) {
+  for (long curve = from.curve; curve < to.curve; ++curve) {
+    if (boundary.is_at_rest(curve)) return true;
+    if (!abs(boundary.jump(curve)).is_below(kSmooth) && !boundary.jump(curve).is_below(-kConcave)) return true;
+  }
+  return false;
+}
+
 /// Half of an interval.
 Ball half_of(const Ball& range, bool upper) {
   const double middle = range.middle();
@@ -66,6 +81,12 @@ Ball Stretch::sum(const std::vector<Ball>& weights) const {
   for (std::size_t c = 0; c < weights.size(); ++c) jumps = jumps + abs(weights[c]) * abs(jump[c]);
   Ball together = hull(weighted(weights, from), weighted(weights, to)) + around_zero(sag) + around_zero(jumps);
   return apart.is_finite() && spread(apart) < spread(together) ? apart : together;
+}
+
+Ball Stretch::angle(std::size_t contact) const {
+  std::vector<Ball> weights(from.size(), Ball(0.0));
+  weights[contact] = 1.0;
+  return sum(weights);
 }
 
 std::size_t Stretch::widest() const {
@@ -113,6 +134,7 @@ std::vector<double> FingerCurve::corners_between(double lo, double hi) const {
     };
     const long joints = boundary_.closed() ? boundary_.curves() : boundary_.curves() - 1;
     for (long laps = lap(lo) - 1; laps <= lap(hi); ++laps) {
+      Budget::spend(kJointWork * static_cast<double>(joints));
       for (long k = 0; k < joints; ++k) {
         if (abs(boundary_.jump(k)).is_below(kSmooth)) continue;
         const long curve = k + laps * boundary_.curves();
@@ -161,14 +183,17 @@ std::vector<Stretch> FingerCurve::at_corner(double lo, double hi) const {
   const std::vector<Place> last = places(empty.hi, 1);
   std::vector<Stretch> result = {empty};
   for (std::size_t c = 0; c < first.size(); ++c) {
+    const std::size_t more = pivots_between(boundary_, first[c], last[c]) ? 1 : 0;
     std::vector<Stretch> longer;
     for (const Ball& set : angles(boundary_, segments(boundary_, first[c], last[c]))) {
       for (Stretch one : result) {
         one.from.push_back(set);
+        one.pivots += more;
         longer.push_back(one);
       }
     }
     result = longer;
+    Budget::spend(static_cast<double>(result.size()));
   }
   return result;
 }
@@ -176,6 +201,10 @@ std::vector<Stretch> FingerCurve::at_corner(double lo, double hi) const {
 const std::vector<Stretch>& FingerCurve::over(double lo, double hi) {
   const auto found = known_.find({lo, hi});
   if (found != known_.end()) return found->second;
+  if (kept_ > kMostKept) {
+    known_.clear();
+    kept_ = 0;
+  }
   std::vector<Stretch> result;
   const double beside = kSamePlace * period_;
   double here = lo;
@@ -189,11 +218,13 @@ const std::vector<Stretch>& FingerCurve::over(double lo, double hi) {
     here = after;
   }
   if (hi > here) result.push_back(smooth(here, hi));
+  kept_ += result.size();
   return known_[{lo, hi}] = std::move(result);
 }
 
-const std::pair<Stretch, Stretch>& FingerCurve::halved(const Stretch& stretch) const {
+const std::pair<Stretch, Stretch>& FingerCurve::halved(const Stretch& stretch) {
   if (stretch.halves) return *stretch.halves;
+  kept_ += 2;
   if (!stretch.pivot) {
     const double middle = stretch.lo + 0.5 * stretch.width();
     if (!(middle > stretch.lo && middle < stretch.hi)) throw std::domain_error("a stretch is too short to be halved");

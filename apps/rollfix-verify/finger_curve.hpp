@@ -14,6 +14,7 @@ struct Stretch {
   double lo = 0;  // first contacts, s
   double hi = 0;
   bool pivot = false;       // at one place to kSamePlace: each contact's angle is anywhere in its range, on its own
+  std::size_t pivots = 0;   // how many contacts are at a corner that is not concave
   std::vector<Ball> from;   // the angle of each contact at lo, the first contact's first; of a pivot its range
   std::vector<Ball> to;     // at hi; of a pivot unused
   std::vector<Ball> rate;   // its curvatures in between; of a pivot unused
@@ -28,6 +29,8 @@ struct Stretch {
   std::size_t widest() const;
   /// How far a contact turns from end to end; of a pivot the one that pivots.
   double turn(std::size_t contact) const;
+  /// A contact's angle anywhere on the stretch.
+  Ball angle(std::size_t contact) const;
   /// What a sum of the angles is, each with its weight, anywhere on the stretch.
   Ball sum(const std::vector<Ball>& weights) const;
 };
@@ -41,11 +44,11 @@ class FingerCurve {
   std::size_t contacts() const { return lengths_.size(); }
 
   /// All first contacts from lo to hi: cut at each that brings a contact to a corner, with what happens there in
-  /// between. Throws std::domain_error where that can't be told.
+  /// between. Throws std::domain_error where that can't be told. What it returns is valid until the next call.
   const std::vector<Stretch>& over(double lo, double hi);
 
   /// Both halves, kept for the next one who asks.
-  const std::pair<Stretch, Stretch>& halved(const Stretch& stretch) const;
+  const std::pair<Stretch, Stretch>& halved(const Stretch& stretch);
 
  private:
   std::vector<Place> places(double& s, int way) const;
@@ -58,6 +61,7 @@ class FingerCurve {
   std::vector<Ball> lengths_;
   double period_;
   std::map<std::pair<double, double>, std::vector<Stretch>> known_;
+  std::size_t kept_ = 0;  // about how many stretches that makes
 };
 
 }  // namespace rollfix_verify

@@ -43,6 +43,9 @@ Formula from_path(double lo, double hi, const Path& path) {
   return formula;
 }
 
+// Two series multiplied, in expansions.
+constexpr double kProductWork = 0.2;
+
 Series whole_power(const Series& base, std::size_t exponent) {
   Series result(1.0);
   for (std::size_t k = 0; k < exponent; ++k) result = result * base;
@@ -73,15 +76,14 @@ Formula reversed(const Formula& forward) {
   return formula;
 }
 
-Formula scaled(const Formula& original, double factor) {
-  if (!(factor > 0)) throw std::runtime_error("a curve scaled by a factor that is not above 0");
+Formula scaled(const Formula& original, const Ball& factor) {
   Formula formula = original;
   const auto times = [factor](const Point& p) { return Point{factor * p.x, factor * p.y}; };
   formula.position = [=](const Ball& u) { return times(original.position(u)); };
   formula.velocity = [=](const Ball& u) { return times(original.velocity(u)); };
   formula.motion = [=](const Ball& u) {
     const Motion motion = original.motion(u);
-    return Motion{factor * motion.speed, motion.turning};
+    return Motion{Series(factor) * motion.speed, motion.turning};
   };
   return formula;
 }
@@ -169,7 +171,8 @@ Formula turning_span(const Numbers& n) {  // start, the cubic of its tangent's a
 }
 
 Formula regular_bezier(const Numbers& n, std::size_t each) {
-  return from_path(0, 1, [n, each](const Series& t) {
+  const auto points = static_cast<double>(n.size()) / static_cast<double>(each);
+  Formula formula = from_path(0, 1, [n, each](const Series& t) {
     std::vector<std::vector<Series>> row;
     for (std::size_t k = 0; k < n.size(); k += each) {
       const Ball weight = each == 3 ? n[k + 2] : 1.0;
@@ -184,6 +187,8 @@ Formula regular_bezier(const Numbers& n, std::size_t each) {
     if (each == 2) return Pair<Series>{row[0][0], row[0][1]};
     return Pair<Series>{row[0][0] / row[0][2], row[0][1] / row[0][2]};
   });
+  formula.work = 1 + kProductWork * points * points * static_cast<double>(each);
+  return formula;
 }
 
 double choices(std::size_t n, std::size_t k) {
@@ -216,6 +221,7 @@ Formula bezier_from_rest(const Numbers& n, std::size_t each, std::size_t m) {
     return Pair<Series>{along(sum[0]), along(sum[1])};
   };
   Formula formula;
+  formula.work = 1 + 3 * kProductWork * static_cast<double>(degree * degree);
   formula.motion = [=](const Ball& at) {
     const Series u = Series::variable(at);
     const Pair<Series> q = steady(u);
@@ -300,11 +306,13 @@ Pair<Series> superellipse_point(const Numbers& n, const Series& t) {
 }
 
 Formula superellipse(const Numbers& n) {
-  return from_path(0, kFullTurn, [=](const Series& t) { return superellipse_point(n, t); });
+  Formula formula = from_path(0, kFullTurn, [=](const Series& t) { return superellipse_point(n, t); });
+  formula.work = 1 + 2 * kProductWork * n[2];
+  return formula;
 }
 
 Formula superellipse_quarter(const Numbers& n) {
-  return from_path(0, kFullTurn / 4, [=](const Series& t) {
+  Formula formula = from_path(0, kFullTurn / 4, [=](const Series& t) {
     Pair<Series> point = superellipse_point(n, t);
     if (n[3] == 0) return point;
     if (n[3] == 1) return Pair<Series>{Series(0.0) - point.y, point.x};
@@ -312,6 +320,8 @@ Formula superellipse_quarter(const Numbers& n) {
     if (n[3] == 3) return Pair<Series>{point.y, Series(0.0) - point.x};
     throw std::runtime_error("a quarter of a superellipse that is not 0, 1, 2 or 3");
   });
+  formula.work = 1 + 2 * kProductWork * n[2];
+  return formula;
 }
 
 /// A NACA section of four digits: chord, thickness, camber and its place, the range of v = -+sqrt(x).
@@ -370,20 +380,37 @@ const std::map<std::string, Kind>& kinds() {
 
 }  // namespace
 
+/// The words before a kind, from the outermost one: `reversed` twice is nothing, factors multiply.
 Formula formula_of(const std::string& kind, const Numbers& numbers) {
   const std::string reversed_prefix = "reversed ";
   const std::string scaled_prefix = "scaled ";
-  if (kind.rfind(reversed_prefix, 0) == 0) return reversed(formula_of(kind.substr(reversed_prefix.size()), numbers));
-  if (kind.rfind(scaled_prefix, 0) == 0) {
-    if (numbers.empty()) throw std::runtime_error("a scaled curve without a factor");
-    return scaled(formula_of(kind.substr(scaled_prefix.size()), {numbers.begin(), numbers.end() - 1}), numbers.back());
+  std::string plain = kind;
+  Numbers own = numbers;
+  bool is_reversed = false;
+  Ball factor = 1.0;
+  bool is_scaled = false;
+  for (;;) {
+    if (plain.rfind(reversed_prefix, 0) == 0) {
+      is_reversed = !is_reversed;
+      plain.erase(0, reversed_prefix.size());
+    } else if (plain.rfind(scaled_prefix, 0) == 0) {
+      if (own.empty() || !(own.back() > 0)) throw std::runtime_error("a curve scaled by a factor that is not above 0");
+      factor = factor * own.back();
+      is_scaled = true;
+      own.pop_back();
+      plain.erase(0, scaled_prefix.size());
+    } else {
+      break;
+    }
   }
-  const auto found = kinds().find(kind);
-  if (found == kinds().end()) throw std::runtime_error("the curve kind '" + kind + "' is not known");
-  if (found->second.numbers != 0 && found->second.numbers != numbers.size()) {
-    throw std::runtime_error("a curve of kind '" + kind + "' with a wrong number of numbers");
+  const auto found = kinds().find(plain);
+  if (found == kinds().end()) throw std::runtime_error("the curve kind '" + plain + "' is not known");
+  if (found->second.numbers != 0 && found->second.numbers != own.size()) {
+    throw std::runtime_error("a curve of kind '" + plain + "' with a wrong number of numbers");
   }
-  return found->second.make(numbers);
+  Formula formula = found->second.make(own);
+  if (is_scaled) formula = scaled(formula, factor);
+  return is_reversed ? reversed(formula) : formula;
 }
 
 }  // namespace rollfix_verify

@@ -30,6 +30,7 @@ struct Motion {
 struct Formula {
   double lo = 0;  // its parameter runs from here to there
   double hi = 1;
+  double work = 1;  // of an expansion, about as many as of an ellipse's
   std::function<Motion(const Ball&)> motion;
   std::function<Point(const Ball&)> position;
   std::function<Point(const Ball&)> velocity;  // or, where it is at rest, a direction: only that is asked for

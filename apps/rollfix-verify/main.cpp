@@ -2,7 +2,7 @@
 // search's code.
 #include <fstream>
 #include <iostream>
-#include <iterator>
+#include <istream>
 #include <string>
 
 #include "check.hpp"
@@ -11,11 +11,19 @@ namespace {
 
 enum ExitCode { proved = 0, refused = 1, bad_input = 2, incomplete = 3 };
 
+/// No more than shows that it is too long.
+std::string read(std::istream& stream) {
+  std::string text(rollfix_verify::kMostBytes + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  return text;
+}
+
 std::string read(const std::string& path) {
-  if (path == "-") return {std::istreambuf_iterator<char>(std::cin), {}};
+  if (path == "-") return read(std::cin);
   std::ifstream file(path, std::ios::binary);
   if (!file) throw std::runtime_error("can't be read");
-  return {std::istreambuf_iterator<char>(file), {}};
+  return read(file);
 }
 
 }  // namespace
@@ -26,27 +34,14 @@ int main(int count, char** arguments) {
     (count == 2 ? std::cout : std::cerr)
         << "Usage: rollfix-verify CERTIFICATE\n"
            "Proves again what a certificate of `rollfix locate --certify` claims; -: from stdin.\n"
-           "Exit codes: 0 proved, 1 refused, 2 bad usage or input, 3 proved but for cells that claim nothing.\n";
+           "Exit codes: 0 proved, 1 refused, 2 bad usage or input, 3 proved but for cells that exclude nothing.\n";
     return count == 2 ? proved : bad_input;
   }
   try {
     const rollfix_verify::Verdict verdict = rollfix_verify::check(read(argument));
-    if (!verdict.refusal.empty()) {
-      std::cout << "refused: " << verdict.refusal << "\n";
-      return refused;
-    }
-    std::cout << "proved: " << verdict.placements << (verdict.placements == 1 ? " placement, " : " placements, ")
-              << verdict.cells << (verdict.cells == 1 ? " cell" : " cells");
-    if (verdict.unproved > 0) {
-      std::cout << ", of which " << verdict.unproved << " claim nothing\n";
-      return incomplete;
-    }
-    std::cout << ", nothing else";
-    if (verdict.open > 0) {
-      std::cout << "; of " << 100 * verdict.open << " % of all pairs only whose they are if they fit";
-    }
-    std::cout << "\n";
-    return proved;
+    std::cout << rollfix_verify::described(verdict);
+    if (!verdict.refusal.empty()) return refused;
+    return verdict.is_complete() ? proved : incomplete;
   } catch (const std::exception& error) {
     std::cerr << "rollfix-verify: " << argument << ": " << error.what() << "\n";
     return bad_input;

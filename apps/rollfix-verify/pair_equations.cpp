@@ -1,12 +1,18 @@
 #include "pair_equations.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "budget.hpp"
 
 namespace rollfix_verify {
 namespace {
 
 // Whole turns that a facing may be off by on two stretches, before they are halved.
 constexpr long kMostTurns = 4;
+// To look at a combination of equations, and at a root, in expansions.
+constexpr double kApartWork = 0.1;
+constexpr double kMapWork = 1;
 // Most halvings by which the curvatures of a whole stretch are told from those of its parts.
 constexpr int kRateDepth = 7;
 
@@ -23,7 +29,7 @@ double size_of(const Weights& weights) {
 }
 
 /// The curvatures on all of a stretch; of its halves they are known better.
-std::vector<Ball> rates(const FingerCurve& curve, const Stretch& stretch, int depth) {
+std::vector<Ball> rates(FingerCurve& curve, const Stretch& stretch, int depth) {
   if (depth == 0) return stretch.rate;
   const std::pair<Stretch, Stretch>& halves = curve.halved(stretch);
   std::vector<Ball> first = rates(curve, halves.first, depth - 1);
@@ -34,7 +40,7 @@ std::vector<Ball> rates(const FingerCurve& curve, const Stretch& stretch, int de
 
 using Linear = PairEquations::Linear;
 
-Linear linear(const FingerCurve& curve, const Stretch& stretch, int depth) {
+Linear linear(FingerCurve& curve, const Stretch& stretch, int depth) {
   Linear result;
   if (!stretch.pivot) {
     const Stretch& first = curve.halved(stretch).first;
@@ -101,6 +107,7 @@ std::optional<std::pair<long, long>> PairEquations::whole_turns(const Stretch& a
 }
 
 bool PairEquations::are_apart(const Stretch& a, const Stretch& b, double bound) const {
+  Budget::spend(kApartWork * static_cast<double>(count() * count()));
   const std::optional<std::pair<long, long>> turns = whole_turns(a, b, bound);
   if (!turns) return true;
   if (turns->second - turns->first >= kMostTurns) return false;
@@ -154,26 +161,54 @@ std::vector<Ball> PairEquations::off(const Stretch& a, const Stretch& b) const {
   return result;
 }
 
-bool PairEquations::have_one_root(const FingerCurve& curve_a, const Stretch& a, const FingerCurve& curve_b,
-                                  const Stretch& b, double slack) const {
-  if (count() != 2) return false;
+/// Each says where the difference of the first contacts' tangents is; the facing but for whole turns.
+bool PairEquations::fit_together(const Stretch& a, const Stretch& b, double most) const {
+  const Ball base = a.angle(0).middle() - Ball(b.angle(0).middle());
+  const Ball all = a.angle(0) - b.angle(0) - base;
+  double lo = all.lower();
+  double hi = all.upper();
+  const auto keep = [&](const Ball& difference) {
+    lo = std::max(lo, (difference - most).lower());
+    hi = std::min(hi, (difference + most).upper());
+  };
+  for (std::size_t k = 0; k < turns_.size(); ++k) keep(a.angle(k + 1) - b.angle(k + 1) - turns_[k] - base);
+  if (facing_ && lo <= hi) {
+    const Ball full = 2.0 * pi();
+    const Ball off = *facing_ - base;
+    keep(off + std::round(((Ball(0.5 * (lo + hi)) - off) / full).middle()) * full);
+  }
+  return lo <= hi;
+}
+
+bool PairEquations::have_one_root(FingerCurve& curve_a, const Stretch& a, FingerCurve& curve_b, const Stretch& b,
+                                  double slack) const {
+  if ((a.pivot && a.pivots != 1) || (b.pivot && b.pivots != 1)) return false;
   for (int depth = 0; depth <= kRateDepth; ++depth) {
-    if (map_inside(linear(curve_a, a, depth), linear(curve_b, b, depth), slack)) return true;
+    const Linear of_a = linear(curve_a, a, depth);
+    const Linear of_b = linear(curve_b, b, depth);
+    for (std::size_t k = 0; k < count(); ++k) {
+      for (std::size_t l = k + 1; l < count(); ++l) {
+        if (map_inside(of_a, of_b, {k, l}, slack)) return true;
+      }
+    }
   }
   return false;
 }
 
 /// With x the middle, X all of the stretches, F continuous with slopes in J: x - Y (F(x) + slack) + (1 - Y J)(X - x)
-/// inside of X proves a root (Brouwer), and that J has an inverse, so that there is no second one.
-bool PairEquations::map_inside(const Linear& of_a, const Linear& of_b, double slack) const {
+/// inside of X proves a root (Brouwer), and that J has an inverse, so that there is no second one. `rows`: which two
+/// equations.
+bool PairEquations::map_inside(const Linear& of_a, const Linear& of_b, const std::array<std::size_t, 2>& rows,
+                               double slack) const {
+  Budget::spend(kMapWork);
   const Ball full = 2.0 * pi();
   const Ball lo[2] = {of_a.lo, of_b.lo};
   const Ball hi[2] = {of_a.hi, of_b.hi};
   Ball j[2][2];
   Ball f[2];
   for (std::size_t k = 0; k < 2; ++k) {
-    const std::vector<Ball> contacts = contact_weights(unit(2, k));
-    f[k] = hull(-slack, slack) - right_side(unit(2, k), 0.0);
+    const std::vector<Ball> contacts = contact_weights(unit(count(), rows[k]));
+    f[k] = hull(-slack, slack) - right_side(unit(count(), rows[k]), 0.0);
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       f[k] = f[k] + contacts[c] * (of_a.middle[c] - of_b.middle[c]);
       j[k][0] = j[k][0] + contacts[c] * of_a.rate[c];
@@ -181,7 +216,7 @@ bool PairEquations::map_inside(const Linear& of_a, const Linear& of_b, double sl
     }
     if (!(j[k][0].is_finite() && j[k][1].is_finite())) return false;
   }
-  if (facing_) {  // no other number of whole turns fits
+  if (facing_ && rows[1] + 1 == count()) {  // no other number of whole turns fits
     f[1] = f[1] - std::round((f[1] / full).middle()) * full;
     const Ball range = abs(f[1] + hull(lo[0], hi[0]) * j[1][0] + hull(lo[1], hi[1]) * j[1][1]);
     if (!range.is_below(full)) return false;

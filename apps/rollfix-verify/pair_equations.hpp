@@ -27,9 +27,14 @@ class PairEquations {
   /// Of each equation what it is off by, anywhere on two stretches; the facing to the nearest whole turn.
   std::vector<Ball> off(const Stretch& a, const Stretch& b) const;
 
-  /// Whether exactly one pair of two stretches solves both of two equations, by Krawczyk's operator; and so when each
-  /// is off by anything up to `slack`, so that the pairs within it are one connected set.
-  bool have_one_root(const FingerCurve& curve_a, const Stretch& a, const FingerCurve& curve_b, const Stretch& b,
+  /// Whether all equations can be off by no more than that at once, each contact on its own and the first ones'
+  /// tangents the same for all.
+  bool fit_together(const Stretch& a, const Stretch& b, double most) const;
+
+  /// Whether exactly one pair of two stretches solves some two of the equations, by Krawczyk's operator; and so when
+  /// each is off by anything up to `slack`, so that the pairs within it are one connected set. Where a finger pivots
+  /// one contact has to be at a corner: two would make a family.
+  bool have_one_root(FingerCurve& curve_a, const Stretch& a, FingerCurve& curve_b, const Stretch& b,
                      double slack) const;
 
   /// A stretch by a parameter that runs through it in steps of its width: the contacts' angles about in the middle,
@@ -44,7 +49,7 @@ class PairEquations {
  private:
   Ball combined(const Stretch& a, const Stretch& b, const Weights& weights, const Ball& turned) const;
   bool are_apart(const Stretch& a, const Stretch& b, double bound, const Ball& turned) const;
-  bool map_inside(const Linear& of_a, const Linear& of_b, double slack) const;
+  bool map_inside(const Linear& of_a, const Linear& of_b, const std::array<std::size_t, 2>& rows, double slack) const;
   std::vector<Ball> contact_weights(const Weights& weights) const;
   Ball right_side(const Weights& weights, const Ball& turned) const;
   std::optional<std::pair<long, long>> whole_turns(const Stretch& a, const Stretch& b, double bound) const;

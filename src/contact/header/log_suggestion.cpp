@@ -190,10 +190,7 @@ std::string suggested_columns(const std::vector<HeaderName>& header, const Colum
     const std::vector<std::string> more = fields_for(is_of_two ? of_finger(header, finger) : header, own, finger == 0);
     fields.insert(fields.end(), more.begin(), more.end());
   }
-  const bool has_blank = std::any_of(fields.begin(), fields.end(),
-                                     [](const std::string& field) { return field.find(' ') != std::string::npos; });
-  const std::string all = fmt::format("{}", fmt::join(fields, ","));
-  return has_blank ? fmt::format("\"{}\"", all) : all;
+  return quoted_for_shell(fmt::format("{}", fmt::join(fields, ",")));
 }
 
 }  // namespace rollfix

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <exception>
+#include <optional>
+#include <random>
+#include <vector>
+
+#include "certificates.hpp"
+#include "liar.hpp"
+#include "random.hpp"
+#include "random_outlines.hpp"
+#include "rollfix/error.hpp"
+
+// Every kind of lie about random questions.
+namespace certificate_lies {
+
+using certificates::Json;
+
+inline bool is_proved(const Json& certificate) {
+  try {
+    return certificates::checked(certificate).is_complete();
+  } catch (const std::exception&) {  // it is no certificate
+    return false;
+  }
+}
+
+/// How often each kind was told; none of them may be proved.
+inline std::vector<int> tell(int questions, std::mt19937_64& generator) {
+  std::vector<int> told(liar::Liar::all().size(), 0);
+  for (int k = 0; k < questions; ++k) {
+    const random_outlines::Question drawn = random_outlines::question(generator);
+    Json truth;
+    try {
+      truth = certificates::certificate(drawn.part, drawn.readings, drawn.tolerance);
+    } catch (const rollfix::InputError&) {  // a roll as long as an open outline
+      continue;
+    }
+    liar::Liar liar(drawn, truth, generator);
+    for (std::size_t i = 0; i < told.size(); ++i) {
+      const liar::Liar::Lie& lie = liar::Liar::all()[i];
+      const std::optional<Json> document = liar.told(lie);
+      if (!document) continue;
+      ++told[i];
+      EXPECT_FALSE(is_proved(*document)) << k << ": " << lie.name << ", "
+                                         << certificates::described(drawn.part, drawn.readings, drawn.tolerance);
+    }
+  }
+  return told;
+}
+
+}  // namespace certificate_lies
