@@ -269,10 +269,10 @@ TEST_F(Identify, misses_no_shard_in_silence) {
 
 TEST_F(Identify, refuses_noise_in_which_a_row_says_nothing) {
   EXPECT_THAT(run("identify parts.db --noise contact=1e9,angle=1e-12" + typed_roll(0, 1)).err,
-              HasSubstr("more than 1000 laps of the largest part"));
+              HasSubstr("more than the perimeter of the largest part"));
   EXPECT_THAT(run("identify parts.db --noise contact=1,angle=1e9" + typed_roll(0, 1)).err,
               HasSubstr("expected at most 0.5 rad"));
-  EXPECT_EQ(run("identify parts.db --noise contact=1000,angle=1e-12" + typed_roll(0, 1)).err.find("rollfix:"),
+  EXPECT_EQ(run("identify parts.db --noise contact=1,angle=1e-12" + typed_roll(0, 1)).err.find("rollfix:"),
             std::string::npos);
 }
 

@@ -13,6 +13,7 @@
 
 #include "outline/turning_span.hpp"
 #include "random.hpp"
+#include "refusal.hpp"
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate/locate.hpp"
@@ -291,6 +292,24 @@ TEST(Teach, gap_beyond_the_drift_is_never_spread) {
   EXPECT_THAT(all_notes(open), HasSubstr("`bridge`"));
   const Part part(open.outline);
   EXPECT_NEAR(part.total_turn(), log.fingers[0].turn.back(), 0.01);
+}
+
+TEST(Teach, a_bridge_that_is_asked_for_is_built_even_where_drift_would_explain_the_gap) {
+  const Part truth = shape("cam");
+  TeachOptions options;
+  options.bridge = true;
+  options.noise = Noise{0.001, 0.002, 0.2, 0};  // a fifth of the lap may be slip
+  const Taught taught = teach(drive(truth, 0.5, 0.9 * truth.perimeter(), 600), options);
+  EXPECT_EQ(taught.closing, Closing::bridged);
+  EXPECT_GT(taught.gap_allowed, taught.gap);
+  EXPECT_NEAR(taught.bridge, 0.1 * truth.perimeter(), 0.03 * truth.perimeter());
+}
+
+TEST(Teach, a_roll_beyond_its_start_has_no_gap_to_bridge) {
+  TeachOptions options;
+  options.bridge = true;
+  const Log beyond = drive(shape("cam"), 0.5, 1.1 * shape("cam").perimeter(), 600);
+  EXPECT_THAT(refusal_of([&] { teach(beyond, options); }), HasSubstr("comes back"));
 }
 
 TEST(Teach, gap_is_bridged_where_asked_for) {

@@ -103,7 +103,7 @@ void add_teach_command(CLI::App& program, Command& chosen) {
   add_unit_argument(*command, arguments->unit);
   add_finger_argument(*command, arguments->fingers);
   add_noise_argument(*command, arguments->noise);
-  add_switch(*command, "--bridge", arguments->bridge, "close a gap that drift does not explain by a piece");
+  add_switch(*command, "--bridge", arguments->bridge, "close the gap by a piece, whatever drift explains of it");
   add_switch(*command, "--open", arguments->open, "the roll runs along an open curve: close nothing");
   command
       ->add_option("--corner-angle", arguments->corner_angle,

@@ -20,19 +20,16 @@ namespace {
 // Without noise tangents of parts that are the same differ by no more, radians.
 constexpr double kSameTurn = 1e-7;
 
-// Contacts that are known no better than to so many laps of the largest part tell nothing of any.
-constexpr double kMostLaps = 1000;
-
 /// Throws InputError: noise that no part's answer could take.
 void require_weighable(const Catalog& catalog, const Noise& noise) {
   belief::require_weighable(noise);
   double most = 0;
   for (std::size_t k = 0; k < catalog.size(); ++k) most = std::max(most, catalog.entry(k).perimeter);
-  if (noise.contact <= kMostLaps * most) return;
+  if (noise.contact <= kMostLengthNoise * most) return;
   throw InputError(fmt::format(
-      "noise: a contact's standard deviation of {:.6g} is more than {:.0f} laps of the largest part, whose perimeter "
-      "is {:.6g}: a row says nothing then; check the unit",
-      noise.contact, kMostLaps, most));
+      "noise: a contact's standard deviation of {:.6g} is more than the perimeter of the largest part, {:.6g}: a row "
+      "says nothing then; check the unit",
+      noise.contact, most));
 }
 
 /// Of all that is asked of every part.

@@ -118,7 +118,7 @@ double most_of(const NoiseKind& kind, double perimeter) {
       return (is_of_rows ? kMostLengthNoise : kMostPlaceNoise) * perimeter;
     }
     case NoiseKind::Unit::share:
-      return kMostShare;
+      return kMostSlip;
     case NoiseKind::Unit::rate:
     case NoiseKind::Unit::walk:
       return kMostRate;

@@ -72,47 +72,47 @@ def cells():
     both = dict(slip=0.005, here_and_there=True)
     strong = dict(slip=0.05, here_and_there=True)
     # How many rows: 0.4 laps, contact 1e-3 P, 5e-3 rad.
-    for rows, logs, quick in ((20, 400, 100), (200, 500, 200), (2000, 400, 60), (20000, 100, 24), (200000, 30, 0),
-                              (1000000, 10, 0)):
+    for rows, logs, quick in ((20, 400, 100), (200, 500, 200), (2000, 400, 60), (20000, 200, 24), (200000, 200, 0),
+                              (1000000, 40, 0)):
         more = dict(rows=rows, logs=logs, quick=quick)
         add(f"rows {rows}, no slip", "all", **{**more, "quick": quick // 2})
         add(f"rows {rows}, slip .005", "all", **more, **both)
         add(f"rows {rows}, slip .05", "all", **{**more, "quick": quick // 2}, **strong)
     add("rows 200, slip .005 one factor", "all", slip=0.005, logs=500, quick=100)
     add("rows 200, slip .05 one factor", "all", slip=0.05, logs=500)
-    add("rows 20000, slip .05 one factor", "all", rows=20000, slip=0.05, logs=100)
+    add("rows 20000, slip .05 one factor", "all", rows=20000, slip=0.05, logs=200)
     # How noisy.
     for contact in (1e-4, 1e-2):
         for angle in (1e-3, 5e-2, 0.5):
             add(f"contact {contact:g}, angle {angle:g}", "all", contact=contact, angle=angle, **both)
     add("contact 1e-3, angle .1, rows 2000", "all", angle=0.1, rows=2000, **both)
-    add("contact 1e-3, angle .5, rows 20000", "all", angle=0.5, rows=20000, logs=100, **both)
-    add("contact 1e-4, angle 1e-3, rows 20000", "all", contact=1e-4, angle=1e-3, rows=20000, logs=100, **both)
+    add("contact 1e-3, angle .5, rows 20000", "all", angle=0.5, rows=20000, logs=200, **both)
+    add("contact 1e-4, angle 1e-3, rows 20000", "all", contact=1e-4, angle=1e-3, rows=20000, logs=200, **both)
     # How long.
     for laps in (0.02, 0.1, 1.0, 2.0):
         add(f"laps {laps:g}", "all", laps=laps, quick=60 if laps in (0.1, 2.0) else 0, **both)
     add("laps .02, angle .1", "all", laps=0.02, angle=0.1, **both)
-    add("laps .02, angle .1, rows 20000", "all", laps=0.02, angle=0.1, rows=20000, logs=100, **both)
-    add("laps 2, rows 20000, slip .05", "all", laps=2, rows=20000, logs=100, **strong)
+    add("laps .02, angle .1, rows 20000", "all", laps=0.02, angle=0.1, rows=20000, logs=200, **both)
+    add("laps 2, rows 20000, slip .05", "all", laps=2, rows=20000, logs=200, **strong)
     # Which outline.
     for family in ("splines", "curves", "rounded", "drawing", "sharp", "corners", "symmetric"):
         quick = 60 if family in ("corners", "symmetric") else 0
         add(f"{family}", family, quick=quick, **both)
     add("sharp, no slip", "sharp")
     add("sharp, laps .1, angle .1", "sharp", laps=0.1, angle=0.1, **both)
-    add("sharp, rows 20000", "sharp", rows=20000, logs=100, **both)
-    add("drawing, rows 20000", "drawing", rows=20000, logs=100, **both)
+    add("sharp, rows 20000", "sharp", rows=20000, logs=200, **both)
+    add("drawing, rows 20000", "drawing", rows=20000, logs=200, **both)
     # Which log.
     add("length,turn, no slip", "all", kind="length,turn", quick=60)
     add("length,turn, slip .005", "all", kind="length,turn", quick=60, **both)
     add("length,turn, rows 2000, slip .05", "all", kind="length,turn", rows=2000, **strong)
-    add("length,turn, rows 20000, slip .05", "all", kind="length,turn", rows=20000, logs=100, **strong)
+    add("length,turn, rows 20000, slip .05", "all", kind="length,turn", rows=20000, logs=200, **strong)
     add("length,turn, sharp", "sharp", kind="length,turn", **both)
     steps = dict(kind="increments", contact=1e-4)
     add("increments, no slip", "all", rows=300, quick=60, **steps)
     add("increments, slip .005", "all", rows=300, quick=60, **steps, **both)
     add("increments, slip .05", "all", rows=300, **steps, **strong)
-    add("increments, rows 20000, slip .005", "all", rows=20000, logs=100, kind="increments", contact=1e-5, angle=5e-4,
+    add("increments, rows 20000, slip .005", "all", rows=20000, logs=200, kind="increments", contact=1e-5, angle=5e-4,
         **both)
     add("increments, sharp", "sharp", rows=300, **steps, **both)
     add("centres, no slip", "all", kind="centres", position=1e-3, quick=60)
@@ -121,7 +121,7 @@ def cells():
     add("centres, sharp", "sharp", kind="centres", position=1e-3, **both)
     for kind in ("u,psi", "length,turn"):
         add(f"{kind}, gyro .03", "all", kind=kind, gyro=0.03, quick=40, **both)
-    add("length,turn, gyro .03, rows 20000", "all", kind="length,turn", gyro=0.03, rows=20000, logs=100, **both)
+    add("length,turn, gyro .03, rows 20000", "all", kind="length,turn", gyro=0.03, rows=20000, logs=200, **both)
     add("length,turn, gyro .03, laps 2", "all", kind="length,turn", gyro=0.03, laps=2.0, **both)
     add("increments, gyro .03", "all", gyro=0.03, rows=300, quick=40, **steps, **both)
     add("increments, gyro .03, laps 2", "all", gyro=0.03, rows=300, laps=2.0, **steps, **both)
@@ -129,7 +129,7 @@ def cells():
     add("pair, no slip", "smooth", quick=20, **pair)
     add("pair, slip .003 one factor", "smooth", slip=0.003, quick=20, **pair)
     add("pair, slip .003", "smooth", slip=0.003, here_and_there=True, **pair)
-    add("pair, slip .02", "smooth", slip=0.02, here_and_there=True, **pair)
+    add("pair, slip .02", "smooth", slip=0.02, here_and_there=True, quick=20, **pair)
     add("pair, drawing", "drawing", slip=0.003, **pair)
     add("pair, rows 20000", "smooth", slip=0.003, **{**pair, "rows": 20000, "logs": 40})
     add("pair, rows 20000, slip .02", "smooth", slip=0.02, here_and_there=True, **{**pair, "rows": 20000, "logs": 40})

@@ -51,7 +51,7 @@ double drift_variance(const Noise& noise, LogKind kind, double laps, const Inter
 // Beyond these a row says nothing, and a number was meant otherwise.
 inline constexpr double kMostLengthNoise = 1;   // of a contact or a radius, in perimeters
 inline constexpr double kMostPlaceNoise = 1e6;  // of a centre or a correlation, in perimeters
-inline constexpr double kMostSlip = 1;          // per length: half of it may be slip
+inline constexpr double kMostSlip = 1;          // per length, half of it may be slip; likewise of a gyroscope's scale
 inline constexpr double kMostRate = 10;         // of drift and walk, radians per second, or per square root of one
 
 /// The noise of a roll on this part: that of the sensors, and what the part's own outline is off by. Throws InputError:

@@ -17,7 +17,7 @@ namespace rollfix {
 struct TeachOptions {
   std::optional<Finger> finger{};      // for logs of u and psi: a disk
   std::optional<Noise> noise{};        // none: only what the digits written and the rows' distance leave open
-  bool bridge = false;                 // a gap that drift does not explain is bridged by a piece
+  bool bridge = false;                 // the gap is bridged by a piece, however much of it drift explains
   bool open = false;                   // the roll runs along an open curve: nothing is closed
   double corner_angle = kCornerAngle;  // radians: neighbouring rows that turn by at least this make a corner
 };

@@ -1,5 +1,7 @@
 #include "rollfix/contact/teach.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,6 +12,7 @@
 #include "contact/teach/round_course.hpp"
 #include "contact/teach/teach_notes.hpp"
 #include "outline/turn.hpp"
+#include "rollfix/error.hpp"
 #include "rollfix/outline/primitives.hpp"
 
 namespace rollfix {
@@ -22,6 +25,8 @@ constexpr double kInterpolated = 16;
 constexpr double kUnseen = 1.2;
 /// A turn that does not close makes a corner of the seam when it is as large as this, radians.
 constexpr double kLeastCorner = 0.1;
+/// Ends that are nearer together than this share of the lap have no gap between them.
+constexpr double kNoGap = 1e-6;
 /// What rounding alone leaves: of lengths a share, of turns radians.
 constexpr double kRounding = 1e-9;
 class Teacher {
@@ -38,6 +43,8 @@ class Teacher {
     if (options_.open) {
       taught_.closing = Closing::not_asked;
       draw_open();
+    } else if (options_.bridge) {
+      bridge();
     } else {
       close();
     }
@@ -98,15 +105,16 @@ class Teacher {
 
   void take_lap() {
     const double row_sd = roll_.is_noisy() ? roll_.errors().sd : std::max(roll_.how().tolerance, interpolated_);
-    const RoundRoll round{roll_.whole(),
-                          whole_course_,
-                          row_sd,
-                          std::sqrt(roll_.drift_variance()),
-                          taught_.turn_allowed,
-                          taught_.gap_allowed,
-                          gap_sd(),
-                          std::max({roll_.noise().contact, roll_.radius() * roll_.place_rounding(),
-                                    kSamePlace * roll_.whole().length()})};
+    const RoundRoll round{
+        roll_.whole(),
+        whole_course_,
+        row_sd,
+        std::sqrt(roll_.drift_variance()),
+        taught_.turn_allowed,
+        options_.bridge ? kDeviations * gap_sd() + kNoGap * roll_.whole().length() : taught_.gap_allowed,
+        gap_sd(),
+        std::max(
+            {roll_.noise().contact, roll_.radius() * roll_.place_rounding(), kSamePlace * roll_.whole().length()})};
     const Lap lap = find_lap(round).value_or(Lap{roll_.whole().length(), 0, 0, false});
     goes_on_ = lap.goes_on;
     lap_sd_ = lap.length_sd;
@@ -188,14 +196,26 @@ class Teacher {
     }
     course_ = open_course(roll_, lap_, sums_);
     measure_deviation(course_, lap_);
-    if (options_.bridge) {
-      taught_.closing = Closing::bridged;
-      draw(course, true);
-      build_bridge();
-      return;
-    }
     taught_.closing = Closing::kept_open;
     draw(course, false);
+  }
+
+  /// Whatever drift allows: who asks for it knows that the roll did not come back.
+  void bridge() {
+    measure_turn();
+    taught_.gap = gap_of(course_, lap_);
+    if (goes_on_ || taught_.gap <= kNoGap * taught_.lap) {
+      throw InputError(
+          fmt::format("{}: `bridge`: expected a roll that ends before its start, found one that {}; leave "
+                      "`bridge` out",
+                      roll_.log().name,
+                      goes_on_ ? fmt::format("comes back to it after {:.6g} of {:.6g}", taught_.lap, taught_.rolled)
+                               : "ends where it started"));
+    }
+    measure_deviation(course_, lap_);
+    taught_.closing = Closing::bridged;
+    draw(course_, true);
+    build_bridge();
   }
 
   void draw_open() {
