@@ -13,6 +13,8 @@ namespace {
 
 // Linearised within this share of a standard deviation of where the errors come out: as good as exact.
 constexpr double kSameErrors = 0.3;
+// Of the shared errors those of the lengths' scales: they do not walk.
+constexpr Eigen::Index kScales = 2;
 constexpr double kTwoPi = 2 * std::numbers::pi;
 // A step of w by which the pose's change is taken, radians.
 constexpr double kPoseStep = 1e-5;
@@ -247,7 +249,7 @@ class PairPass {
  private:
   template <int N>
   void absorb(const PairNode& node) {
-    const PairShared& about = model_.errors->drifts() ? score_.errors : guess_;
+    const PairShared about = linearised_about();
     const PairEquations<N> rows =
         node.is_facing ? facing_equations<N>(model_, at_, node, about) : row_equations<N>(model_, at_, node, about);
     const Eigen::Matrix<double, 5, N> of_errors = score_.covariance * rows.by_errors.transpose();
@@ -295,6 +297,14 @@ class PairPass {
     if (!model_.errors->drifts()) return;
     walk_ -= weight * of_walk * noise.inverse() * of_walk.transpose();
     gathered_.add(noise.determinant() / own.determinant());
+  }
+
+  /// The guess; but what walks is where it has got to.
+  PairShared linearised_about() const {
+    if (!model_.errors->drifts()) return guess_;
+    PairShared about = score_.errors;
+    about.segment<2>(kScales) = guess_.segment<2>(kScales);
+    return about;
   }
 
   const PairModel& model_;
@@ -347,6 +357,15 @@ void add_pose_prior(const PairModel& model, const PairStart& start, const StartP
   score.information += by_start.transpose() * by_start;
 }
 
+/// Of what does not walk.
+bool has_same_scales(const PairScore& score, const PairShared& guess) {
+  for (const Eigen::Index i : {kScales, kScales + 1}) {
+    const double off = score.errors[i] - guess[i];
+    if (off * off > kSameErrors * kSameErrors * score.covariance(i, i)) return false;
+  }
+  return true;
+}
+
 bool is_about_same(const PairScore& score, const PairShared& guess, const PairErrors& errors) {
   for (Eigen::Index i = 0; i < 5; ++i) {
     const double off = score.errors[i] - guess[i];
@@ -362,6 +381,13 @@ PairScore score_of(const PairModel& model, const PairStart& start, const std::ve
   const StartPlaces at = places_of(model, start);
   const PairErrors& errors = *model.errors;
   PairScore score = pass(model, at, nodes, guess);
+  if (errors.drifts()) {
+    PairShared about = guess;
+    for (int k = 1; k < most_passes && !has_same_scales(score, about); ++k) {
+      about = score.errors;
+      score = pass(model, at, nodes, about);
+    }
+  }
   if (!errors.drifts() && most_passes > 1 && !is_about_same(score, guess, errors)) {
     // Errors that do not settle, as about corners: a straight line that fits well is not to be believed. They are worth
     // what they cost as they are, the best of those that were tried.
