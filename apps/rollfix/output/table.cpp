@@ -11,7 +11,7 @@
 
 namespace rollfix::app {
 
-void Table::add_column(std::string title, Align align) {
+void Table::add_column(std::string_view title, Align align) {
   rows_.front().push_back(plain(title));
   aligns_.push_back(align);
 }

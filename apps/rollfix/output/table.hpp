@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace rollfix::app {
@@ -14,7 +15,7 @@ class Table {
  public:
   enum class Align { left, right };
 
-  void add_column(std::string title, Align align = Align::right);
+  void add_column(std::string_view title, Align align = Align::right);
   /// One cell per column.
   void add_row(std::vector<std::string> cells);
 

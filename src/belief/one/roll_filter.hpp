@@ -90,7 +90,7 @@ class RollFilter {
   double variance_after(const Row& measured, const RowCovariance& own) const;
 
  private:
-  template <int kErrors>
+  template <int Errors>
   friend class SideBySide;
   struct Corrected {
     double length;

@@ -21,7 +21,7 @@ using Four = Eigen::Array<double, kLanes, 1>;
 
 /// Filters that take a row each, as one equation; see RollFilter::update. Of the errors that a roll shares they know
 /// the first so many.
-template <int kErrors>
+template <int Errors>
 class SideBySide {
  public:
   SideBySide(const NextErrand& next, const double& limit, const Outliers& outliers)
@@ -44,14 +44,14 @@ class SideBySide {
   }
 
  private:
-  using PerError = std::array<Four, kErrors>;
+  using PerError = std::array<Four, Errors>;
   static PerError all(double value) {
     PerError each;
     each.fill(Four::Constant(value));
     return each;
   }
-  static std::array<PerError, kErrors> none() {
-    std::array<PerError, kErrors> each;
+  static std::array<PerError, Errors> none() {
+    std::array<PerError, Errors> each;
     each.fill(all(0));
     return each;
   }
@@ -73,7 +73,7 @@ class SideBySide {
     Four per_scale, length, sensed;
     PerError with_length, with_turn;  // covariances with the shared errors
     Four by_turns(const PerError& errors) const {
-      if constexpr (kErrors > 3) return errors[1] + sensed * errors[3];
+      if constexpr (Errors > 3) return errors[1] + sensed * errors[3];
       return errors[1];
     }
     Four by_lengths(const PerError& errors) const { return per_scale * (errors[0] + length * errors[2]); }
@@ -106,11 +106,11 @@ class SideBySide {
   /// Every number of a filter, next to where the lanes have it.
   template <class Copy>
   void exchange(RollFilter& filter, const Copy& copy) {
-    for (std::size_t k = 0; k < kErrors; ++k) {
+    for (std::size_t k = 0; k < Errors; ++k) {
       const auto row = static_cast<Eigen::Index>(k);
       copy(x_[k], filter.x_[row]);
       copy(dx_[k], filter.dx_[row]);
-      for (std::size_t j = k; j < kErrors; ++j) copy(p_[k][j], filter.p_(row, static_cast<Eigen::Index>(j)));
+      for (std::size_t j = k; j < Errors; ++j) copy(p_[k][j], filter.p_(row, static_cast<Eigen::Index>(j)));
     }
     copy(walk00_, filter.walk_(0, 0));
     copy(walk01_, filter.walk_(0, 1));
@@ -131,7 +131,7 @@ class SideBySide {
     first_s_[at(lane)] = filter.place_.s;
     first_slope_[at(lane)] = filter.place_.slope;
     most_[2][at(lane)] = filter.most_scale_;
-    if constexpr (kErrors > 3) most_[3][at(lane)] = filter.most_gyroscope_scale_;
+    if constexpr (Errors > 3) most_[3][at(lane)] = filter.most_gyroscope_scale_;
     const RollFilter::OfTurns guess = filter.guess_.value_or(RollFilter::OfTurns{0, 0});
     guess_[at(lane)] = guess.offset;
     guess_of_scale_[at(lane)] = guess.scale;
@@ -160,7 +160,7 @@ class SideBySide {
   double tilt_ = 0;
   // Lanes without an errand go on with these: they only have to stay finite.
   PerError x_ = all(0), dx_ = x_, most_ = all(1);
-  std::array<PerError, kErrors> p_ = none();  // its upper half
+  std::array<PerError, Errors> p_ = none();  // its upper half
   Four walk00_ = Four::Zero(), walk01_ = walk00_, walk11_ = walk00_;
   Later later_;
   Four cost_ = walk00_, log_volume_ = walk00_, volume_ = Four::Ones(), log_gathered_ = walk00_,
@@ -169,8 +169,8 @@ class SideBySide {
        follows_ = walk00_;
 };
 
-template <int kErrors>
-typename SideBySide<kErrors>::Rows SideBySide<kErrors>::next_rows() {
+template <int Errors>
+typename SideBySide<Errors>::Rows SideBySide<Errors>::next_rows() {
   static const Node kNone{0, 0, 0, 0, {1, 0, 1}, {}, 1, 1};
   std::array<const Node*, kLanes> nodes;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
@@ -196,16 +196,16 @@ typename SideBySide<kErrors>::Rows SideBySide<kErrors>::next_rows() {
           averaged * turn};
 }
 
-template <int kErrors>
-void SideBySide<kErrors>::gather(const Four& length, const Four& turn) {
+template <int Errors>
+void SideBySide<Errors>::gather(const Four& length, const Four& turn) {
   p_[0][0] += length;
   p_[1][1] += turn;
   walk00_ += length;
   walk11_ += turn;
 }
 
-template <int kErrors>
-void SideBySide<kErrors>::look(std::size_t lane, double w, double variance, double spread, Lines& lines) const {
+template <int Errors>
+void SideBySide<Errors>::look(std::size_t lane, double w, double variance, double spread, Lines& lines) const {
   if (errands_[lane].filter == nullptr) return;
   const SpreadPlace end = errands_[lane].filter->arc()->about(w, variance, spread);
   lines.s[at(lane)] = end.s;
@@ -213,14 +213,14 @@ void SideBySide<kErrors>::look(std::size_t lane, double w, double variance, doub
   lines.bent[at(lane)] = end.variance;
 }
 
-template <int kErrors>
-typename SideBySide<kErrors>::Rolled SideBySide<kErrors>::rolled(const Rows& rows) const {
+template <int Errors>
+typename SideBySide<Errors>::Rolled SideBySide<Errors>::rolled(const Rows& rows) const {
   const Four per_scale = 1 / (1 + x_[2]);
   Rolled rolled{per_scale, (rows.length - x_[0]) * per_scale, rows.sensed, {}, {}};
-  for (std::size_t k = 0; k < kErrors; ++k) {
+  for (std::size_t k = 0; k < Errors; ++k) {
     rolled.with_length[k] = per_scale * (p(0, k) + rolled.length * p(2, k));
     rolled.with_turn[k] = p(1, k);
-    if constexpr (kErrors > 3) rolled.with_turn[k] += rows.sensed * p(3, k);
+    if constexpr (Errors > 3) rolled.with_turn[k] += rows.sensed * p(3, k);
   }
   return rolled;
 }
@@ -228,14 +228,14 @@ typename SideBySide<kErrors>::Rolled SideBySide<kErrors>::rolled(const Rows& row
 // The true L and theta lead from one place to another: e = s(w + theta + c L) - s(w) - L = 0, with ds/dw = m. By the
 // shared errors that is (1 - c m) g less m h, g = (1, 0, L, 0) / (1 + scale) and h = (0, 1, 0, what was sensed): what g
 // and h make of their covariance does for any m.
-template <int kErrors>
-void SideBySide<kErrors>::take_nodes() {
+template <int Errors>
+void SideBySide<Errors>::take_nodes() {
   const Rows rows = next_rows();
   const Rolled roll = rolled(rows);
   const Four& length = roll.length;
   // Of the turn that is taken, from the likeliest.
   Four turn_off = (1 - follows_) * (x_[1] - guess_);
-  if constexpr (kErrors > 3) turn_off += (1 - follows_) * rows.sensed * (x_[3] - guess_of_scale_);
+  if constexpr (Errors > 3) turn_off += (1 - follows_) * rows.sensed * (x_[3] - guess_of_scale_);
   const Four measured = w_ + (rows.turn - (roll.by_turns(x_) - turn_off)) + tilt_ * length;
   const Four length_variance = roll.by_lengths(roll.with_length);
   const Four both = roll.by_turns(roll.with_length);
@@ -283,8 +283,8 @@ void SideBySide<kErrors>::take_nodes() {
 }
 
 /// How much each row counts, over its variance.
-template <int kErrors>
-Four SideBySide<kErrors>::trust(const Lines& lines) {
+template <int Errors>
+Four SideBySide<Errors>::trust(const Lines& lines) {
   const Four inverse = 1 / lines.all;
   const Four squared = lines.miss * lines.miss * inverse;
   Four trust = inverse;
@@ -317,8 +317,8 @@ Four SideBySide<kErrors>::trust(const Lines& lines) {
   return trust;
 }
 
-template <int kErrors>
-void SideBySide<kErrors>::correct(const Lines& lines, const Rolled& rolled) {
+template <int Errors>
+void SideBySide<Errors>::correct(const Lines& lines, const Rolled& rolled) {
   const Four trusted = trust(lines);
   const Four innovation = -trusted.sqrt() * lines.miss;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
@@ -329,14 +329,14 @@ void SideBySide<kErrors>::correct(const Lines& lines, const Rolled& rolled) {
   slope_ -= trusted * lines.miss * by_w;
   information_ += trusted * by_w * by_w;
   PerError of_errors;
-  for (std::size_t k = 0; k < kErrors; ++k) {
+  for (std::size_t k = 0; k < Errors; ++k) {
     of_errors[k] = lines.rest * rolled.with_length[k] - lines.slope * rolled.with_turn[k];
     const Four gain = trusted * of_errors[k];
     x_[k] -= lines.miss * gain;
     dx_[k] += by_w * gain;
   }
-  for (std::size_t k = 0; k < kErrors; ++k) {
-    for (std::size_t j = k; j < kErrors; ++j) p_[k][j] -= trusted * of_errors[k] * of_errors[j];
+  for (std::size_t k = 0; k < Errors; ++k) {
+    for (std::size_t j = k; j < Errors; ++j) p_[k][j] -= trusted * of_errors[k] * of_errors[j];
   }
   const Four seen = trusted * lines.all / lines.noise;
   walk00_ -= seen * lines.of_length * lines.of_length;
@@ -345,7 +345,7 @@ void SideBySide<kErrors>::correct(const Lines& lines, const Rolled& rolled) {
   gather(later_.length, later_.turn);
   // A place that does not fit asks for lengths that no slip explains: it is refused by its cost, not followed.
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    for (std::size_t k = 2; k < kErrors; ++k) {
+    for (std::size_t k = 2; k < Errors; ++k) {
       if (!(std::abs(x_[k][at(lane)]) > most_[k][at(lane)])) continue;
       x_[k][at(lane)] = std::copysign(most_[k][at(lane)], x_[k][at(lane)]);
       dx_[k][at(lane)] = 0;
