@@ -176,6 +176,8 @@ TEST(BeliefGrid, half_of_a_cells_mass_lies_where_its_density_is_larger) {
   EXPECT_NEAR(cell.quantile(0.5), std::log(2.0) / std::log(3.0), 1e-12);
   // The mean of that density is 3/2 - 1/ln 3.
   EXPECT_NEAR(cell.mean(), 1.5 - 1 / std::log(3.0), 1e-3);
+  cell.rise = 2e5;  // more than a double can hold: nearly all is at the upper end
+  EXPECT_NEAR(cell.quantile(0.5), 1 + std::log(0.5) / 2e5, 1e-12);
 }
 
 }  // namespace

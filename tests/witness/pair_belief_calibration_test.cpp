@@ -176,7 +176,7 @@ TEST(PairBelief, claims_what_comes_true_on_many_parts) {
       all.add(part, drawn, belief_of(part, drawn, options));
     }
   }
-  // Of 1,440 cases four were in no mode, all of them on the naca section.
+  // Of 200 rolls on each part none was in no mode, but for one or two on the naca section.
   EXPECT_LE(all.cases - all.listed, 1 + all.cases / 300) << "seed " << test_seed();
   // 95 % within four standard deviations; intervals of one roll hold or fail together.
   const double share = all.held / (2.0 * all.cases);

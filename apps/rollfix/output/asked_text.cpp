@@ -111,9 +111,8 @@ class AskedText : AnswerWords {
     std::string text;
     if (fit.turn_gathered > Fit::kMostGathered) {
       text = fmt::format(
-          "caution    what turns are off by adds up to {:.3g} deg on the way, more than they can tell of the part: of "
-          "a "
-          "log of\n           increments `angle` is what each row is off by, `drift` and `walk` gather with time\n",
+          "caution    what turns are off by adds up to {:.3g} deg on the way, more than they can tell of the part;\n"
+          "           of increments `angle` is what each row is off by, `drift` and `walk` gather with time\n",
           fit.turn_gathered / kDegree);
     }
     if (!fit.is_too_good()) return text;

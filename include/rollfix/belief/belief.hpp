@@ -108,8 +108,7 @@ struct Fit {
                                   // samples that are alike are worth
   double alike_over = 0;          // where they fit too well: neighbouring samples may be off alike over so much of the
                                   // roll, length; 0: no such length is known
-  double turn_gathered =
-      0;  // what the turns' errors add up to on the way, as the noise is said: sd at the end, radians
+  double turn_gathered = 0;       // standard deviation of what the turns gather by the end of the roll, radians
   PerFinger<double> length_scale = 1.0;     // lengths are this many times what was measured, ...
   PerFinger<double> length_scale_sd = 0.0;  // ... give or take; 0: they were said to be exact
   double turn_scale = 1;                    // turns by a gyroscope are this many times what was measured, ...
