@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "budget.hpp"
+#include "convex.hpp"
 #include "cover.hpp"
 #include "pair_equations.hpp"
 
@@ -18,6 +19,7 @@ namespace {
 
 constexpr int kDeepest = 120;
 constexpr std::size_t kMostPairs = 400000;  // of a cell, before it is given up
+constexpr std::size_t kMostParts = 200;     // of a cell in which what may fit is looked for
 constexpr double kMeetWork = 1e-3;          // to compare two cells, in expansions
 // A start that fits is off by no more than so many tolerances: the search's outlines are good to a quarter of one.
 constexpr double kBeyondTolerance = 1.25;
@@ -34,7 +36,8 @@ struct Placement {
   enum Proof { one, fits, none } proof = none;  // exactly one root in its box; its start fits
   bool has_start = false;                       // in its box or in a cell of its own
   bool is_single = false;                       // no more than one root of some two equations in its box
-  std::vector<Box> cells;                       // of one that is not single
+  std::vector<Polygon> remains;                 // of its cells, where it is not single
+  bool is_one_piece = true;                     // they are, and next to no other one's
 };
 
 class TwoFingers {
@@ -58,18 +61,17 @@ class TwoFingers {
     verdict.placements = placements_.size();
     const auto check_leaf = [&](const Leaf& leaf) {
       ++verdict.cells;
-      check_cell(leaf, verdict.cells - 1);
-      if (!is_open(leaf)) return;
+      if (!check_cell(leaf, verdict.cells - 1)) return;
       ++verdict.open;
       verdict.share += area(leaf.box) / area(all);
     };
     read_cover(document_.json().at("cells").get<std::string>(), all, check_leaf);
+    if (verdict.open == 0) look_at_pieces();
     for (const Placement& placement : placements_) {
       check_placement(placement);
       const bool has_kind = placement.is_single || placement.kind == "touching" || placement.kind == "stretch";
-      verdict.unproved += placement.proof == Placement::none || !has_kind ? 1 : 0;
+      verdict.unproved += placement.proof == Placement::none || !has_kind || !placement.is_one_piece ? 1 : 0;
     }
-    if (verdict.open == 0) check_owners();
     return verdict;
   }
 
@@ -200,16 +202,19 @@ class TwoFingers {
     return true;
   }
 
-  void check_cell(const Leaf& leaf, std::size_t number) {
+  /// Whether it excludes nothing: it is of a placement that is not known to be the only one there, and what may fit in
+  /// it can't be told.
+  bool check_cell(const Leaf& leaf, std::size_t number) {
     const std::string name = "cell " + std::to_string(number);
+    if (leaf.kind == Leaf::unproved) return true;
     if (leaf.kind == Leaf::apart) {
       try {
         prove_apart(leaf.box, std::max(leaf.bound, tolerance_));
       } catch (const std::domain_error& error) {
         refuse(name + ": " + error.what());
       }
+      return false;
     }
-    if (leaf.kind != Leaf::placement) return;
     if (leaf.number >= placements_.size()) refuse(name + " is of a placement that is not listed");
     Placement& placement = placements_[leaf.number];
     if (placement.box) {
@@ -217,26 +222,56 @@ class TwoFingers {
     } else {
       placement.has_start = placement.has_start || holds(leaf.box, placement.start);
     }
-    if (!placement.is_single) placement.cells.push_back(leaf.box);
+    return !placement.is_single && !add_remains(leaf.box, placement.remains);
   }
 
   static double area(const Box& box) { return (box[0].hi - box[0].lo) * (box[1].hi - box[1].lo); }
 
-  /// A cell that excludes nothing: of a placement that is not known to be the only one there, and not all of it is near
-  /// to fitting.
-  bool is_open(const Leaf& leaf) {
-    if (leaf.kind == Leaf::apart) return false;
-    if (leaf.kind == Leaf::unproved) return true;
-    if (placements_[leaf.number].is_single) return false;
-    const std::vector<Stretch>& all_b = curves_[1].over(leaf.box[1].lo, leaf.box[1].hi);
-    for (const Stretch& a : curves_[0].over(leaf.box[0].lo, leaf.box[0].hi)) {
-      for (const Stretch& b : all_b) {
-        for (const Ball& off : equations_.off(a, b)) {
-          if (!abs(off).is_below(kNear * tolerance_)) return true;
+  /// What may fit in a box. False: it can't be told.
+  bool add_remains(const Box& box, std::vector<Polygon>& remains) {
+    std::size_t parts = 0;
+    try {
+      const std::vector<Stretch>& all_b = curves_[1].over(box[1].lo, box[1].hi, FingerCurve::Cuts::bends);
+      for (const Stretch& a : curves_[0].over(box[0].lo, box[0].hi, FingerCurve::Cuts::bends)) {
+        for (const Stretch& b : all_b) {
+          if (!add_remains(a, b, parts, remains)) return false;
         }
       }
+    } catch (const std::domain_error&) {
+      return false;
     }
-    return false;
+    return true;
+  }
+
+  /// Where equations are planes to some tolerances, a convex set holds all that fits, and what it holds is off by
+  /// kNear tolerances at the most.
+  bool add_remains(const Stretch& a, const Stretch& b, std::size_t& parts, std::vector<Polygon>& remains) {
+    if (equations_.are_apart(a, b, tolerance_)) return true;
+    const std::vector<PairEquations::Plane> planes = equations_.planes(a, b);
+    const auto is_flat = [&](const PairEquations::Plane& plane) { return plane.off <= 0.5 * (kNear - 1) * tolerance_; };
+    if (!planes.empty() && std::all_of(planes.begin(), planes.end(), is_flat)) {
+      Polygon set{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+      for (const PairEquations::Plane& plane : planes) {
+        set = clipped(set, plane.at, {plane.by_a, plane.by_b}, tolerance_ + plane.off);
+        set = clipped(set, -plane.at, {-plane.by_a, -plane.by_b}, tolerance_ + plane.off);
+      }
+      for (auto& [s, t] : set) {
+        s = a.lo + s * a.width();
+        t = b.lo + t * b.width();
+      }
+      if (!set.empty()) remains.push_back(set);
+      return true;
+    }
+    if (++parts > kMostParts || !(std::max(a.change(), b.change()) > 0)) return false;
+    const bool halve_a = is_wider(a, b);
+    const std::pair<Stretch, Stretch>& halves = halve_a ? curves_[0].halved(a) : curves_[1].halved(b);
+    return add_remains(halve_a ? halves.first : a, halve_a ? b : halves.first, parts, remains) &&
+           add_remains(halve_a ? halves.second : a, halve_a ? b : halves.second, parts, remains);
+  }
+
+  /// Whether the angles change more on the first.
+  static bool is_wider(const Stretch& a, const Stretch& b) {
+    return a.change() > b.change() || (a.change() == b.change() && a.width() > b.width());
   }
 
   void prove_apart(const Box& box, double bound) {
@@ -253,7 +288,7 @@ class TwoFingers {
     if (depth == kDeepest || ++parts > kMostPairs || !(std::max(a.change(), b.change()) > 0)) {
       refuse("it could not be proved near s = " + std::to_string(a.lo) + ", t = " + std::to_string(b.lo));
     }
-    const bool halve_a = a.change() > b.change() || (a.change() == b.change() && a.width() > b.width());
+    const bool halve_a = is_wider(a, b);
     const std::pair<Stretch, Stretch>& halves = halve_a ? curves_[0].halved(a) : curves_[1].halved(b);
     for (const Stretch* half : {&halves.first, &halves.second}) {
       prove_apart(halve_a ? *half : a, halve_a ? b : *half, bound, depth + 1, parts);
@@ -352,32 +387,47 @@ class TwoFingers {
     return false;
   }
 
-  /// Where all that is not excluded is near to fitting: each placement's cells are one piece, next to no other one's.
-  void check_owners() const {
-    std::vector<std::pair<std::size_t, Box>> cells;
+  /// Where all that is not excluded is near to fitting: whether each placement's is one piece, next to no other one's.
+  void look_at_pieces() {
+    std::vector<std::pair<std::size_t, Polygon>> all;
     for (std::size_t k = 0; k < placements_.size(); ++k) {
-      for (const Box& box : placements_[k].cells) cells.emplace_back(k, box);
-      if (placements_[k].is_single) cells.emplace_back(k, *placements_[k].box);
+      for (const Polygon& remains : placements_[k].remains) all.emplace_back(k, remains);
+      if (!placements_[k].is_single) continue;
+      const auto& [s, t] = *placements_[k].box;
+      all.push_back({k, {{s.lo, t.lo}, {s.hi, t.lo}, {s.hi, t.hi}, {s.lo, t.hi}}});
     }
-    Budget::spend(kMeetWork * static_cast<double>(cells.size() * cells.size()));
-    std::vector<std::size_t> piece(cells.size());
+    Budget::spend(kMeetWork * static_cast<double>(all.size() * all.size()));
+    std::vector<std::size_t> piece(all.size());
     std::iota(piece.begin(), piece.end(), 0U);
     const auto first = [&](std::size_t i) {
       while (piece[i] != i) i = piece[i] = piece[piece[i]];
       return i;
     };
-    for (std::size_t i = 0; i < cells.size(); ++i) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
       for (std::size_t k = 0; k < i; ++k) {
-        if (!meet(cells[i].second, cells[k].second)) continue;
-        if (cells[i].first != cells[k].first) refuse("cells of two placements meet");
+        if (!meet(all[i].second, all[k].second)) continue;
+        if (all[i].first != all[k].first) {
+          placements_[all[i].first].is_one_piece = placements_[all[k].first].is_one_piece = false;
+        }
         piece[first(i)] = first(k);
       }
     }
     std::vector<std::size_t> pieces(placements_.size(), 0);
-    for (std::size_t i = 0; i < cells.size(); ++i) pieces[cells[i].first] += piece[i] == i ? 1 : 0;
+    for (std::size_t i = 0; i < all.size(); ++i) pieces[all[i].first] += piece[i] == i ? 1 : 0;
     for (std::size_t k = 0; k < placements_.size(); ++k) {
-      if (pieces[k] > 1) refuse(placements_[k].name + " is of several pieces");
+      if (pieces[k] > 1) placements_[k].is_one_piece = false;
     }
+  }
+
+  /// To what places are told to.
+  bool meet(const Polygon& one, const Polygon& two) const {
+    for (const int s : {-1, 0, 1}) {
+      for (const int t : {-1, 0, 1}) {
+        if (!boundary_.closed() && (s != 0 || t != 0)) continue;
+        if (are_near(one, two, {s * period_, t * period_}, 2 * kSamePlace * period_)) return true;
+      }
+    }
+    return false;
   }
 
   Box around(const Placement& placement, double share) const {

@@ -15,6 +15,8 @@ constexpr double kNudge = 4e-13;
 constexpr int kMostNudges = 6;
 // Stretches over more joints than this are halved before anything is said of their curvatures.
 constexpr std::size_t kMostSegments = 8;
+// A curvature that jumps by this many radians over the perimeter ends a stretch that is nearly an arc.
+constexpr double kBend = 1e-6;
 // Stretches that are kept for the next who asks, before all are dropped.
 constexpr std::size_t kMostKept = 30000;
 // To look whether a joint is in a range, in expansions.
@@ -61,6 +63,14 @@ bool pivots_between(const Boundary& boundary, const Place& from, const Place& to
   return false;
 }
 
+/// Whether the curvature jumps at a joint.
+bool bends_at(const Boundary& boundary, long curve) {
+  const Place before = boundary.back(curve);
+  const Place after = boundary.front(curve + 1);
+  const Ball jump = boundary.bend(after.curve, after.u).curvature - boundary.bend(before.curve, before.u).curvature;
+  return !(abs(jump) * boundary.perimeter()).is_below(kBend);
+}
+
 /// Half of an interval.
 Ball half_of(const Ball& range, bool upper) {
   const double middle = range.middle();
@@ -69,18 +79,32 @@ Ball half_of(const Ball& range, bool upper) {
 
 }  // namespace
 
-/// By their ranges; or on one side of the chord or the other by a quarter of the slope's change times the width at the
-/// most, where that is less.
+/// By their ranges, or by the chord, which may tell more.
 Ball Stretch::sum(const std::vector<Ball>& weights) const {
   if (pivot) return weighted(weights, from);
-  Ball apart = weighted(weights, range);
-  const Ball slope = weighted(weights, rate);
-  if (!slope.is_finite()) return apart;
-  const Ball sag = 0.25 * (Ball(hi) - lo) * (Ball(slope.upper()) - slope.lower());
-  Ball jumps = 0.0;
-  for (std::size_t c = 0; c < weights.size(); ++c) jumps = jumps + abs(weights[c]) * abs(jump[c]);
-  Ball together = hull(weighted(weights, from), weighted(weights, to)) + around_zero(sag) + around_zero(jumps);
+  const Ball apart = weighted(weights, range);
+  const Chord chord = this->chord(weights);
+  if (!chord.off.is_finite()) return apart;
+  const Ball together = hull(chord.from, chord.to) + around_zero(chord.off);
   return apart.is_finite() && spread(apart) < spread(together) ? apart : together;
+}
+
+/// On one side of the chord or the other by a quarter of the slope's change times the width at the most, and by what
+/// joints turn. Of a pivot the contact that turns most goes from its least angle to its largest.
+Stretch::Chord Stretch::chord(const std::vector<Ball>& weights) const {
+  if (pivot) {
+    const std::size_t turning = widest();
+    std::vector<Ball> angles = from;
+    angles[turning] = from[turning].lower();
+    Chord chord{weighted(weights, angles), {}, 0.0};
+    angles[turning] = from[turning].upper();
+    chord.to = weighted(weights, angles);
+    return chord;
+  }
+  const Ball slope = weighted(weights, rate);
+  Ball off = slope.is_finite() ? 0.25 * (Ball(hi) - lo) * (Ball(slope.upper()) - slope.lower()) : unknown();
+  for (std::size_t c = 0; c < weights.size(); ++c) off = off + abs(weights[c]) * abs(jump[c]);
+  return {weighted(weights, from), weighted(weights, to), off};
 }
 
 Ball Stretch::angle(std::size_t contact) const {
@@ -125,9 +149,9 @@ std::vector<Place> FingerCurve::places(double& s, int way) const {
   throw std::domain_error("contacts can't be told from joints near " + std::to_string(s));
 }
 
-/// First contacts that bring a contact to a corner, rising.
-std::vector<double> FingerCurve::corners_between(double lo, double hi) const {
-  std::vector<double> result;
+/// Rising.
+std::vector<FingerCurve::Cut> FingerCurve::cuts_between(double lo, double hi, Cuts cuts) const {
+  std::vector<Cut> result;
   for (const Ball& length : lengths_) {
     const auto lap = [&](double s) {
       return boundary_.closed() ? static_cast<long>(std::floor((s + length.middle()) / period_)) : 0;
@@ -136,14 +160,14 @@ std::vector<double> FingerCurve::corners_between(double lo, double hi) const {
     for (long laps = lap(lo) - 1; laps <= lap(hi); ++laps) {
       Budget::spend(kJointWork * static_cast<double>(joints));
       for (long k = 0; k < joints; ++k) {
-        if (abs(boundary_.jump(k)).is_below(kSmooth)) continue;
-        const long curve = k + laps * boundary_.curves();
-        const double s = (boundary_.back(curve).s - length).middle();
-        if (s > lo && s < hi) result.push_back(s);
+        const bool is_corner = !abs(boundary_.jump(k)).is_below(kSmooth);
+        if (!is_corner && (cuts == Cuts::corners || !bends_at(boundary_, k))) continue;
+        const double s = (boundary_.back(k + laps * boundary_.curves()).s - length).middle();
+        if (s > lo && s < hi) result.push_back({s, is_corner});
       }
     }
   }
-  std::sort(result.begin(), result.end());
+  std::sort(result.begin(), result.end(), [](const Cut& one, const Cut& two) { return one.s < two.s; });
   return result;
 }
 
@@ -198,8 +222,8 @@ std::vector<Stretch> FingerCurve::at_corner(double lo, double hi) const {
   return result;
 }
 
-const std::vector<Stretch>& FingerCurve::over(double lo, double hi) {
-  const auto found = known_.find({lo, hi});
+const std::vector<Stretch>& FingerCurve::over(double lo, double hi, Cuts cuts) {
+  const auto found = known_.find({lo, hi, cuts});
   if (found != known_.end()) return found->second;
   if (kept_ > kMostKept) {
     known_.clear();
@@ -208,18 +232,23 @@ const std::vector<Stretch>& FingerCurve::over(double lo, double hi) {
   std::vector<Stretch> result;
   const double beside = kSamePlace * period_;
   double here = lo;
-  const std::vector<double> corners = corners_between(lo - beside, hi + beside);
-  for (std::size_t k = 0; k < corners.size(); ++k) {
-    const double before = corners[k] - beside;
-    while (k + 1 < corners.size() && corners[k + 1] - corners[k] <= 4 * beside) ++k;
-    const double after = corners[k] + beside;
+  const std::vector<Cut> all = cuts_between(lo - beside, hi + beside, cuts);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const double before = all[k].s - beside;
+    bool is_corner = all[k].is_corner;
+    for (; k + 1 < all.size() && all[k + 1].s - all[k].s <= 4 * beside; ++k) is_corner |= all[k + 1].is_corner;
+    const double after = all[k].s + beside;
     if (before > here) result.push_back(smooth(here, before));
-    for (Stretch& one : at_corner(before, after)) result.push_back(std::move(one));
+    if (is_corner) {
+      for (Stretch& one : at_corner(before, after)) result.push_back(std::move(one));
+    } else {
+      result.push_back(smooth(before, after));
+    }
     here = after;
   }
   if (hi > here) result.push_back(smooth(here, hi));
   kept_ += result.size();
-  return known_[{lo, hi}] = std::move(result);
+  return known_[{lo, hi, cuts}] = std::move(result);
 }
 
 const std::pair<Stretch, Stretch>& FingerCurve::halved(const Stretch& stretch) {

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <memory>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -33,6 +34,13 @@ struct Stretch {
   Ball angle(std::size_t contact) const;
   /// What a sum of the angles is, each with its weight, anywhere on the stretch.
   Ball sum(const std::vector<Ball>& weights) const;
+  /// The same as the straight way from the one end to the other, which it leaves by no more than `off`.
+  struct Chord {
+    Ball from;
+    Ball to;
+    Ball off;
+  };
+  Chord chord(const std::vector<Ball>& weights) const;
 };
 
 /// What one finger's readings come to: the angles Theta(s + L_k) for all its first contacts s, L_0 = 0.
@@ -43,16 +51,23 @@ class FingerCurve {
 
   std::size_t contacts() const { return lengths_.size(); }
 
+  enum class Cuts { corners, bends };  // bends: and where the curvature jumps
+
   /// All first contacts from lo to hi: cut at each that brings a contact to a corner, with what happens there in
   /// between. Throws std::domain_error where that can't be told. What it returns is valid until the next call.
-  const std::vector<Stretch>& over(double lo, double hi);
+  const std::vector<Stretch>& over(double lo, double hi, Cuts cuts = Cuts::corners);
 
   /// Both halves, kept for the next one who asks.
   const std::pair<Stretch, Stretch>& halved(const Stretch& stretch);
 
  private:
   std::vector<Place> places(double& s, int way) const;
-  std::vector<double> corners_between(double lo, double hi) const;
+  /// A first contact that brings a contact to a joint.
+  struct Cut {
+    double s = 0;
+    bool is_corner = false;
+  };
+  std::vector<Cut> cuts_between(double lo, double hi, Cuts cuts) const;
   Stretch smooth(double lo, double hi) const;
   Ball range_of(const std::vector<Segment>& all, const Ball& curvature) const;
   std::vector<Stretch> at_corner(double lo, double hi) const;
@@ -60,7 +75,7 @@ class FingerCurve {
   const Boundary& boundary_;
   std::vector<Ball> lengths_;
   double period_;
-  std::map<std::pair<double, double>, std::vector<Stretch>> known_;
+  std::map<std::tuple<double, double, Cuts>, std::vector<Stretch>> known_;
   std::size_t kept_ = 0;  // about how many stretches that makes
 };
 

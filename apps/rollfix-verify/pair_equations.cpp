@@ -15,6 +15,8 @@ constexpr double kApartWork = 0.1;
 constexpr double kMapWork = 1;
 // Most halvings by which the curvatures of a whole stretch are told from those of its parts.
 constexpr int kRateDepth = 7;
+// A plane is looked at in doubles: what their rounding makes of its terms.
+constexpr double kPlaneRounding = 1e-14;
 
 Weights unit(std::size_t count, std::size_t k) {
   Weights result(count, 0.0);
@@ -157,6 +159,31 @@ std::vector<Ball> PairEquations::off(const Stretch& a, const Stretch& b) const {
     const bool is_facing = k == turns_.size();
     const Ball full = 2.0 * pi();
     if (is_facing) result[k] = result[k] - std::round((result[k] / full).middle()) * full;
+  }
+  return result;
+}
+
+std::vector<PairEquations::Plane> PairEquations::planes(const Stretch& a, const Stretch& b) const {
+  std::vector<Plane> result;
+  for (std::size_t k = 0; k < count(); ++k) {
+    const std::vector<Ball> contacts = contact_weights(unit(count(), k));
+    const Stretch::Chord of_a = a.chord(contacts);
+    const Stretch::Chord of_b = b.chord(contacts);
+    Ball at = of_a.from - of_b.from - right_side(unit(count(), k), 0.0);
+    const Ball by_a = of_a.to - of_a.from;
+    const Ball by_b = of_b.from - of_b.to;
+    if (k == turns_.size()) {
+      const Ball full = 2.0 * pi();
+      const Ball middle = at + 0.5 * by_a + 0.5 * by_b;
+      at = at - std::round((middle / full).middle()) * full;
+      const Ball reach = abs(at + 0.5 * by_a + 0.5 * by_b) + 0.5 * (abs(by_a) + abs(by_b)) + of_a.off + of_b.off;
+      if (!reach.is_below(pi())) return {};
+    }
+    Plane plane{at.middle(), by_a.middle(), by_b.middle(), 0};
+    const Ball left = abs(at - plane.at) + abs(by_a - plane.by_a) + abs(by_b - plane.by_b) + of_a.off + of_b.off;
+    const double size = std::abs(plane.at) + std::abs(plane.by_a) + std::abs(plane.by_b);
+    plane.off = left.upper() + kPlaneRounding * size;
+    result.push_back(plane);
   }
   return result;
 }

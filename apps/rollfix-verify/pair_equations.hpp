@@ -24,6 +24,16 @@ class PairEquations {
   /// Whether some equation is off by more than `bound` at each pair of two stretches.
   bool are_apart(const Stretch& a, const Stretch& b, double bound) const;
 
+  /// An equation on two stretches by the share of each that is behind: `at` + `by_a` x + `by_b` y, but for `off`.
+  struct Plane {
+    double at;
+    double by_a;
+    double by_b;
+    double off;
+  };
+  /// All of them; none where the facing may be off by one number of whole turns or another.
+  std::vector<Plane> planes(const Stretch& a, const Stretch& b) const;
+
   /// Of each equation what it is off by, anywhere on two stretches; the facing to the nearest whole turn.
   std::vector<Ball> off(const Stretch& a, const Stretch& b) const;
 

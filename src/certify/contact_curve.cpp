@@ -7,6 +7,12 @@
 #include "places.hpp"
 
 namespace rollfix {
+namespace {
+
+// A curvature that jumps by this many radians over the perimeter ends a stretch that is nearly an arc.
+constexpr double kBend = 1e-6;
+
+}  // namespace
 
 std::size_t ContactStretch::widest() const {
   const auto found = std::max_element(angle.begin(), angle.end(),
@@ -19,22 +25,51 @@ double ContactStretch::turn(std::size_t contact) const {
   return contact == widest() ? angle[contact].spread() : 0;
 }
 
-/// Each angle is on one side of its chord, or changes sides, by a quarter of what its slope changes by times the width.
 Range ContactStretch::sum(const std::vector<double>& weights) const {
+  if (!pivot) {
+    const Chord way = chord(weights);
+    return {std::min(way.from, way.to) - way.off, std::max(way.from, way.to) + way.off};
+  }
   Range all{0, 0};
-  if (pivot) {
-    for (std::size_t c = 0; c < weights.size(); ++c) all = all + weights[c] * angle[c];
-    return all;
-  }
-  double first = 0;
-  double last = 0;
+  for (std::size_t c = 0; c < weights.size(); ++c) all = all + weights[c] * angle[c];
+  return all;
+}
+
+/// Each angle is on one side of its chord, or changes sides, by a quarter of what its slope changes by times the width.
+/// Of a pivot the contact that turns most goes from its least angle to its largest, the others leave theirs open.
+ContactStretch::Chord ContactStretch::chord(const std::vector<double>& weights) const {
+  Chord way;
+  Range slope{0, 0};
+  const std::size_t turning = pivot ? widest() : 0;
   for (std::size_t c = 0; c < weights.size(); ++c) {
-    first += weights[c] * from[c];
-    last += weights[c] * to[c];
-    all = all + weights[c] * rate[c];
+    if (!pivot) {
+      way.from += weights[c] * from[c];
+      way.to += weights[c] * to[c];
+      slope = slope + weights[c] * rate[c];
+    } else if (c == turning) {
+      way.from += weights[c] * angle[c].least;
+      way.to += weights[c] * angle[c].most;
+    } else {
+      way.from += weights[c] * angle[c].middle();
+      way.to += weights[c] * angle[c].middle();
+      way.off += std::abs(weights[c]) * angle[c].spread();
+    }
   }
-  const double sag = 0.25 * width() * all.spread();
-  return {std::min(first, last) - sag, std::max(first, last) + sag};
+  if (!pivot) way.off = 0.25 * width() * slope.spread();
+  return way;
+}
+
+ContactCurve::ContactCurve(const Part& part, std::vector<double> lengths) : part_(part), lengths_(std::move(lengths)) {
+  const TurningFunction& turning = part_.turning();
+  Cursor cursor(turning, 0);
+  const std::size_t joints = turning.spirals().size() - (part_.closed() ? 0 : 1);
+  for (std::size_t k = 0; k < joints; ++k) {
+    const double s = cursor.hi();
+    const double before = cursor.spiral().end.curvature;
+    cursor.advance();
+    const double jump = std::abs(cursor.spiral().start.curvature - before);
+    if (jump * part_.perimeter() > kBend) bends_.push_back(s);
+  }
 }
 
 std::vector<double> ContactCurve::angles(double s, Side side) const {
@@ -43,17 +78,20 @@ std::vector<double> ContactCurve::angles(double s, Side side) const {
   return result;
 }
 
-std::vector<ContactCurve::Event> ContactCurve::events(double lo, double hi) const {
+std::vector<ContactCurve::Event> ContactCurve::events(double lo, double hi, Cuts cuts) const {
   std::vector<Event> result;
-  for (std::size_t c = 0; c < lengths_.size(); ++c) {
-    for (const Corner& corner : part_.corners()) {
-      double s = corner.s - lengths_[c];
-      if (part_.closed()) s = lo + wrap(s - lo, part_.perimeter()).base;
-      for (; s < hi; s += part_.perimeter()) {
-        if (s > lo) result.push_back({s, c, corner.turn, corner.is_concave()});
-        if (!part_.closed()) break;
-      }
+  const auto add = [&](std::size_t contact, double place, const Event& event) {
+    double s = place - lengths_[contact];
+    if (part_.closed()) s = lo + wrap(s - lo, part_.perimeter()).base;
+    for (; s < hi; s += part_.perimeter()) {
+      if (s > lo) result.push_back({s, contact, event.turn, event.concave, event.is_corner});
+      if (!part_.closed()) break;
     }
+  };
+  for (std::size_t c = 0; c < lengths_.size(); ++c) {
+    for (const Corner& corner : part_.corners()) add(c, corner.s, {0, 0, corner.turn, corner.is_concave(), true});
+    if (cuts == Cuts::corners) continue;
+    for (const double s : bends_) add(c, s, {});
   }
   std::sort(result.begin(), result.end(), [](const Event& one, const Event& two) { return one.s < two.s; });
   return result;
@@ -120,24 +158,28 @@ std::vector<ContactStretch> ContactCurve::at_corner(double lo, double hi, const 
   return result;
 }
 
-const std::vector<ContactStretch>& ContactCurve::over(double lo, double hi) {
-  const auto found = known_.find({lo, hi});
+const std::vector<ContactStretch>& ContactCurve::over(double lo, double hi, Cuts cuts) {
+  const auto found = known_.find({lo, hi, cuts});
   if (found != known_.end()) return found->second;
   std::vector<ContactStretch> result;
   const double beside = least_step(part_);
   double here = lo;
-  const std::vector<Event> all = events(lo - beside, hi + beside);
+  const std::vector<Event> all = events(lo - beside, hi + beside, cuts);
   for (std::size_t k = 0; k < all.size();) {
     std::vector<Event> near = {all[k++]};
     while (k < all.size() && all[k].s - near.back().s <= 4 * beside) near.push_back(all[k++]);
     const double before = near.front().s - beside;
     const double after = near.back().s + beside;
     if (before > here) result.push_back(smooth(here, before));
-    for (ContactStretch& one : at_corner(before, after, near)) result.push_back(std::move(one));
+    if (std::any_of(near.begin(), near.end(), [](const Event& event) { return event.is_corner; })) {
+      for (ContactStretch& one : at_corner(before, after, near)) result.push_back(std::move(one));
+    } else {
+      result.push_back(smooth(before, after));
+    }
     here = after;
   }
   if (hi > here) result.push_back(smooth(here, hi));
-  return known_[{lo, hi}] = std::move(result);
+  return known_[{lo, hi, cuts}] = std::move(result);
 }
 
 }  // namespace rollfix

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "locate/pair/convex.hpp"
+
 namespace rollfix {
 namespace {
 
@@ -16,6 +18,11 @@ constexpr double kFill = 0.35;
 constexpr double kPivotRoom = 0.1;
 // A pivot has no slopes to be bounded.
 constexpr double kPivotFill = 0.499;
+// Equations are planes to so many tolerances, fewer than the verifier asks for; a facing turns by less than this then,
+// radians. What is off by so many tolerances is off for the verifier, too.
+constexpr double kFlat = 2;
+constexpr double kPlainTurn = 3;
+constexpr double kClearly = 1.1;
 // Parts in which what is beside a root, or around a box, is to be told apart.
 constexpr int kParts = 200;
 
@@ -153,6 +160,48 @@ double PairBounds::bound(const ContactStretch& a, const ContactStretch& b, int t
   return most;
 }
 
+std::optional<std::vector<PairBox>> PairBounds::remains(const PairBox& box, double tolerance) {
+  std::vector<PairBox> result;
+  const std::vector<ContactStretch>& all_b = curves_[1].over(box[1].lo, box[1].hi, ContactCurve::Cuts::bends);
+  for (const ContactStretch& a : curves_[0].over(box[0].lo, box[0].hi, ContactCurve::Cuts::bends)) {
+    for (const ContactStretch& b : all_b) {
+      if (!add_remains(a, b, tolerance, result)) return std::nullopt;
+    }
+  }
+  return result;
+}
+
+/// As the verifier looks at it: a convex set, by the share of each stretch that is behind.
+bool PairBounds::add_remains(const ContactStretch& a, const ContactStretch& b, double tolerance,
+                             std::vector<PairBox>& remains) const {
+  if (bound(a, b) > kClearly * tolerance) return true;
+  Polygon set{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  for (std::size_t k = 0; k < count(); ++k) {
+    const Weights contacts = contact_weights(unit(k));
+    const ContactStretch::Chord of_a = a.chord(contacts);
+    const ContactStretch::Chord of_b = b.chord(contacts);
+    const double off = of_a.off + of_b.off;
+    if (!(off <= kFlat * tolerance)) return false;
+    const Vec2 slope(of_a.to - of_a.from, of_b.from - of_b.to);
+    double at = of_a.from - of_b.from - right_side(unit(k), 0);
+    if (k == turns_.size()) {
+      at -= kFullTurn * std::round((at + 0.5 * slope.sum()) / kFullTurn);
+      if (!(std::abs(at + 0.5 * slope.sum()) + 0.5 * slope.lpNorm<1>() < kPlainTurn)) return false;
+    }
+    set = within(set, Vec2(0, 0), at, slope, tolerance + off);
+  }
+  if (set.empty()) return true;
+  Vec2 lo = set.front();
+  Vec2 hi = set.front();
+  for (const Vec2& corner : set) {
+    lo = lo.cwiseMin(corner);
+    hi = hi.cwiseMax(corner);
+  }
+  remains.push_back({Interval{a.lo + lo.x() * a.width(), a.lo + hi.x() * a.width()},
+                     Interval{b.lo + lo.y() * b.width(), b.lo + hi.y() * b.width()}});
+  return true;
+}
+
 double PairBounds::change(const Interval& side, std::size_t finger, double share_of_pivots) {
   double most = 0;
   for (const ContactStretch& stretch : curves_[finger].over(side.lo, side.hi)) {
@@ -184,7 +233,7 @@ bool PairBounds::has_one_root(const PairBox& box, std::array<std::size_t, 2> row
     for (const ContactStretch& b : all_b) {
       if (has_one_root(a, b, rows, tolerance)) {
         ++roots;
-      } else if ((a.pivot && b.pivot && !(bound(a, b) > 1.1 * tolerance)) ||
+      } else if ((a.pivot && b.pivot && !(bound(a, b) > kClearly * tolerance)) ||
                  !are_apart({Interval{a.lo, a.hi}, Interval{b.lo, b.hi}}, tolerance)) {
         return false;
       }
@@ -200,7 +249,7 @@ bool PairBounds::are_apart(const PairBox& box, double tolerance) {
 
 /// `budget`: of parts to look at.
 bool PairBounds::is_apart(const PairBox& box, double tolerance, int& budget) {
-  if (bound(box) > 1.1 * tolerance) return true;
+  if (bound(box) > kClearly * tolerance) return true;
   if (--budget <= 0) return false;
   const std::size_t side = use_of_halving(box[0], 0) > use_of_halving(box[1], 1) ? 0 : 1;
   PairBox first = box;

@@ -28,6 +28,9 @@ class PairBounds {
   /// The same of the tolerance, as far as some halvings tell.
   bool are_apart(const PairBox& box, double tolerance);
 
+  /// Boxes around all that may fit in a box, where equations are planes to some tolerances. Nothing: it can't be told.
+  std::optional<std::vector<PairBox>> remains(const PairBox& box, double tolerance);
+
   /// How much an equation changes at the most while a finger's first contact moves, or pivots, in a range; of what
   /// pivots change, this share.
   double change(const Interval& side, std::size_t finger, double share_of_pivots = 1);
@@ -55,6 +58,8 @@ class PairBounds {
                     double tolerance) const;
   bool has_one_root(const PairBox& box, std::array<std::size_t, 2> rows, double tolerance);
   bool is_apart(const PairBox& box, double tolerance, int& budget);
+  bool add_remains(const ContactStretch& a, const ContactStretch& b, double tolerance,
+                   std::vector<PairBox>& remains) const;
 
   std::array<ContactCurve, 2> curves_;
   std::vector<double> turns_;

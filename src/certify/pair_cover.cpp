@@ -77,27 +77,63 @@ std::string PairCover::settled(const PairBox& box) {
     if (pairs_[k].box && is_inside(box, *pairs_[k].box)) return fmt::format("[{}]", k);
   }
   const double bound = kStated * bounds_.bound(box);
-  return bound > tolerance_ ? level_of(bound) : "";
+  if (bound > tolerance_) return level_of(bound);
+  const std::optional<std::size_t> owner = this->owner(box);
+  if (!owner) return "";
+  pairs_[*owner].has_cell = pairs_[*owner].has_cell || holds_start(box, *pairs_[*owner].placement);
+  return fmt::format("[{}]", *owner);
+}
+
+/// The placement that all that may fit in a box belongs to, where that can be told.
+std::optional<std::size_t> PairCover::owner(const PairBox& box) {
+  const std::optional<std::vector<PairBox>> sets = bounds_.remains(box, tolerance_);
+  std::optional<std::size_t> owner;
+  if (!sets) return owner;
+  for (const PairBox& set : *sets) {
+    for (std::size_t k = 0; k < pairs_.size(); ++k) {
+      if (!is_of(set, pairs_[k])) continue;
+      if (pairs_[k].box || (owner && *owner != k)) return std::nullopt;
+      owner = k;
+    }
+  }
+  return owner;
 }
 
 bool PairCover::is_flat(const PairBox& box) {
   return bounds_.change(box[0], 0) + bounds_.change(box[1], 1) <= kFlatShare * tolerance_;
 }
 
+/// Whether a set that may fit belongs to a placement: to its box, its line or its extent.
+bool PairCover::is_of(const PairBox& set, const CoveredPair& pair) const {
+  const double room = 16 * least_step(part_);
+  if (pair.box || pair.placement->family.empty()) {
+    const PairBox& all = pair.box ? *pair.box : PairBox{pair.placement->extent[0], pair.placement->extent[1]};
+    const auto meet = [&](std::size_t finger) {
+      const Interval here{set[finger].lo - room, set[finger].hi + room};
+      return part_.boundary().distance(all[finger], here.lo) <= 0 ||
+             part_.boundary().distance(here, all[finger].lo) <= 0;
+    };
+    return meet(0) && meet(1);
+  }
+  const double reach = 0.5 * std::min(set[0].width(), set[1].width());
+  return is_near_line(set, *pair.placement, reach + pair.placement->family_error + room);
+}
+
+bool PairCover::holds_start(const PairBox& box, const Placement& placement) const {
+  const double slack = least_step(part_);
+  for (std::size_t finger = 0; finger < 2; ++finger) {
+    const Interval side{box[finger].lo - slack, box[finger].hi + slack};
+    const double s = placement.start[finger];
+    const double lap = part_.closed() ? part_.perimeter() : 0;
+    if (!side.contains(s) && !side.contains(s + lap) && !side.contains(s - lap)) return false;
+  }
+  return true;
+}
+
 /// A placement that it is near to: that starts in it, if there is one.
 std::string PairCover::left_over(const PairBox& box) {
-  const double slack = least_step(part_);
-  const auto holds = [&](const Placement& placement) {
-    for (std::size_t finger = 0; finger < 2; ++finger) {
-      const Interval side{box[finger].lo - slack, box[finger].hi + slack};
-      const double s = placement.start[finger];
-      const double lap = part_.closed() ? part_.perimeter() : 0;
-      if (!side.contains(s) && !side.contains(s + lap) && !side.contains(s - lap)) return false;
-    }
-    return true;
-  };
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
-    if (pairs_[k].box || pairs_[k].has_cell || !holds(*pairs_[k].placement)) continue;
+    if (pairs_[k].box || pairs_[k].has_cell || !holds_start(box, *pairs_[k].placement)) continue;
     pairs_[k].has_cell = true;
     return fmt::format("[{}]", k);
   }

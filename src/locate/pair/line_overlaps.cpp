@@ -130,7 +130,9 @@ LineSearch::Place LineSearch::turn_between(const Place& one, const Place& two) c
   }
 }
 
-void LineSearch::take_overlap(std::vector<Place> samples) {
+/// The set within the tolerance is a band about the line: it also holds what lies beyond the line's ends, where the
+/// line leaves the box at a slant.
+void LineSearch::take_overlap(const Stretch& whole, std::vector<Place> samples) {
   for (std::size_t k = samples.size() - 1; k > 0; --k) {  // backwards: what is put in moves the rest
     if (direction(samples[k - 1]) * direction(samples[k]) >= 0) continue;
     samples.insert(samples.begin() + static_cast<std::ptrdiff_t>(k), turn_between(samples[k - 1], samples[k]));
@@ -138,24 +140,29 @@ void LineSearch::take_overlap(std::vector<Place> samples) {
   PairPiece piece;
   piece.exact = true;
   piece.corner = sides_.pivots();
-  Range s = hull(contacts(samples.front())[0], contacts(samples.back())[0]);
-  Range t = hull(contacts(samples.front())[1], contacts(samples.back())[1]);
-  for (std::size_t k = 0; k < samples.size(); ++k) {
-    const PairPoint at = contacts(samples[k]);
-    piece.line.push_back(at);
-    s = {std::min(s.least, at[0]), std::max(s.most, at[0])};
-    t = {std::min(t.least, at[1]), std::max(t.most, at[1])};
-    if (k == 0) continue;
+  for (const Place& sample : samples) piece.line.push_back(contacts(sample));
+  std::vector<PairPoint> around = piece.line;
+  for (std::size_t k = 1; k < samples.size(); ++k) {
     // Between two samples the line is no further from its chord than its change of direction allows; twice that, for
     // the direction may change more in between.
     const double width = samples[k].free.x - samples[k - 1].free.x;
-    const double bend = std::abs(direction(samples[k]) - direction(samples[k - 1]));
-    piece.error = std::max(piece.error, 0.5 * width * bend);
+    const double bend = 0.5 * width * std::abs(direction(samples[k]) - direction(samples[k - 1]));
+    piece.error = std::max(piece.error, bend);
+    for (const Vec2& corner : band(samples[k - 1], samples[k], bend)) around.push_back(contacts(corner));
   }
+  piece.box = box_about(around);
   piece.error = length_of(piece.error + margin_);
-  piece.box = {Interval{s.least, s.most}, Interval{t.least, t.most}};
   findings_.roots.push_back({piece.line.front(), 0, piece.corner});
   findings_.pieces.push_back(std::move(piece));
+  if (whole.covered) return;
+  if (whole.lo.free.x < samples.front().free.x) add_beyond(whole.lo, samples.front());
+  if (whole.hi.free.x > samples.back().free.x) add_beyond(samples.back(), whole.hi);
+}
+
+/// What a line that has left the box still has within the tolerance in it.
+void LineSearch::add_beyond(const Place& lo, const Place& hi) {
+  const Range y = bounds({lo, hi, 0, false}).bound_x;
+  if (!passes_by(lo, hi, y)) add_piece(lo, hi, y);
 }
 
 }  // namespace rollfix

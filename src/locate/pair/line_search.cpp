@@ -1,6 +1,7 @@
 #include "line_search.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -220,7 +221,7 @@ void LineSearch::decide(Stretch stretch) {
   }
   std::vector<Place> samples;
   if (overlaps(stretch, samples)) {
-    take_overlap(std::move(samples));
+    take_overlap(stretch, std::move(samples));
     return;
   }
   if (stretch.depth > 0 && budget_ == 0) {
@@ -380,20 +381,23 @@ Polygon LineSearch::narrow(const Polygon& band, const Place& lo, const Place& hi
   return left;
 }
 
-/// Makes a polygon of both contacts a piece's hull, with the box around it.
-void LineSearch::take_hull(const Polygon& polygon, PairPiece& piece) const {
-  if (polygon.empty()) return;
-  for (const std::size_t k : {0U, 1U}) piece.box[k] = {piece.box[k].hi, piece.box[k].lo};
-  piece.hull.reserve(polygon.size());
-  for (const Vec2& at : polygon) {
-    const double one = free().s(at.x());
-    const double other = bound().s(at.y());
-    const PairPoint corner = free_is_a_ ? PairPoint{one, other} : PairPoint{other, one};
-    piece.hull.push_back(corner);
-    for (const std::size_t k : {0U, 1U}) {
-      piece.box[k] = {std::min(piece.box[k].lo, corner[k]), std::max(piece.box[k].hi, corner[k])};
-    }
-  }
+PairPoint LineSearch::contacts(const Vec2& at) const {
+  const double one = free().s(at.x());
+  const double other = bound().s(at.y());
+  return free_is_a_ ? PairPoint{one, other} : PairPoint{other, one};
+}
+
+/// The set within the tolerance about the line between two places, where the line may leave its chord by `bend`: the
+/// part of a band that lies in the box, so that neighbours have their common edge in common.
+Polygon LineSearch::band(const Place& lo, const Place& hi, double bend) const {
+  const double off = margin_ + bend;
+  const Polygon all{{lo.free.x, lo.bound.x - off},
+                    {hi.free.x, hi.bound.x - off},
+                    {hi.free.x, hi.bound.x + off},
+                    {lo.free.x, lo.bound.x + off}};
+  const Polygon inside = clipped(all, {free().lo(), bound().lo()}, {free().hi(), bound().hi()});
+  const Polygon narrowed = narrow(inside, lo, hi);
+  return narrowed.empty() ? inside : narrowed;
 }
 
 /// The band about the line between two places, as far as it lies in the box.
@@ -401,23 +405,15 @@ void LineSearch::add_piece(const Place& lo, const Place& hi, const Range& y) {
   const Interval x{std::max(lo.free.x, free().lo()), std::min(hi.free.x, free().hi())};
   const Interval across{std::max(y.least - margin_, bound().lo()), std::min(y.most + margin_, bound().hi())};
   if (across.hi < across.lo) return;
-  const Interval x_box{free().s(x.lo), free().s(x.hi)};
-  const Interval y_box{bound().s(across.lo), bound().s(across.hi)};
   PairPiece piece;
-  piece.box = free_is_a_ ? PairBox{x_box, y_box} : PairBox{y_box, x_box};
   const double bend = bounds({lo, hi, 0, false}).direction.spread() * x.width();
   piece.error = length_of(std::min(bend, margin_));
   piece.corner = sides_.pivots();
-  // The band's four corners, cut off where they are beyond the box: neighbours have their common edge in common.
   if (bend <= kBandBend * margin_) {
-    const Polygon band{{lo.free.x, lo.bound.x - margin_},
-                       {hi.free.x, hi.bound.x - margin_},
-                       {hi.free.x, hi.bound.x + margin_},
-                       {lo.free.x, lo.bound.x + margin_}};
-    const Polygon inside = clipped(band, {free().lo(), bound().lo()}, {free().hi(), bound().hi()});
-    const Polygon narrowed = narrow(inside, lo, hi);
-    take_hull(narrowed.empty() ? inside : narrowed, piece);
+    for (const Vec2& corner : band(lo, hi, 0)) piece.hull.push_back(contacts(corner));
   }
+  const std::array around{contacts(Vec2(x.lo, across.lo)), contacts(Vec2(x.hi, across.hi))};
+  piece.box = piece.hull.empty() ? box_about(around) : box_about(piece.hull);
   findings_.pieces.push_back(std::move(piece));
 }
 

@@ -61,16 +61,18 @@ class LineSearch {
   bool vanishes(const Place& place) const;
   double residual_rounding(const Place& place) const;
   Place turn_between(const Place& one, const Place& two) const;
-  void take_overlap(std::vector<Place> samples);
+  void take_overlap(const Stretch& whole, std::vector<Place> samples);
+  void add_beyond(const Place& lo, const Place& hi);
   void take_monotone(const Stretch& stretch, const Bounds& along, std::size_t row);
   void add_piece(const Place& lo, const Place& hi, const Range& y);
   bool passes_by(const Place& lo, const Place& hi, const Range& y) const;
   Polygon within_row(const Polygon& polygon, const Place& at, std::size_t row, double most) const;
   Polygon narrow(const Polygon& band, const Place& lo, const Place& hi) const;
-  void take_hull(const Polygon& polygon, PairPiece& piece) const;
+  Polygon band(const Place& lo, const Place& hi, double bend) const;
   void add_root(const Place& place, int sign, bool exact);
   Place solve(std::size_t row, double level, const Place& from, const Place& to) const;
   PairPoint contacts(const Place& place) const;
+  PairPoint contacts(const Vec2& at) const;
   bool is_inside(const Place& place) const;
   void split(const Stretch& stretch);
 

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
 
 #include "rollfix/locate/placement.hpp"
+#include "rollfix/part/boundary.hpp"
 #include "rollfix/part/turning_function.hpp"
 
 namespace rollfix {
@@ -24,6 +26,16 @@ inline PairPoint moved(const PairPoint& point, const Shift& shift) {
 
 inline PairBox moved(const PairBox& box, const Shift& shift) {
   return {Interval{box[0].lo + shift[0], box[0].hi + shift[0]}, Interval{box[1].lo + shift[1], box[1].hi + shift[1]}};
+}
+
+/// The least box around points; around none an empty one.
+template <class Points>
+PairBox box_about(const Points& points) {
+  PairBox box{Boundary::empty_arc(), Boundary::empty_arc()};
+  for (const PairPoint& at : points) {
+    for (const std::size_t k : {0U, 1U}) box[k] = {std::min(box[k].lo, at[k]), std::max(box[k].hi, at[k])};
+  }
+  return box;
 }
 
 inline double distance(const PairPoint& one, const PairPoint& two) {

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace rollfix_verify {
+
+/// The corners of a convex set of pairs in order; none: empty.
+using Polygon = std::vector<std::array<double, 2>>;
+
+/// What is left of it where a linear function, `at` + `slope` . pair, is no more than `most`.
+inline Polygon clipped(const Polygon& polygon, double at, const std::array<double, 2>& slope, double most) {
+  const auto excess = [&](const std::array<double, 2>& p) { return at + slope[0] * p[0] + slope[1] * p[1] - most; };
+  Polygon kept;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const auto& here = polygon[k];
+    const auto& next = polygon[(k + 1) % polygon.size()];
+    const double from = excess(here);
+    const double to = excess(next);
+    if (from <= 0) kept.push_back(here);
+    if (!((from < 0 && to > 0) || (from > 0 && to < 0))) continue;
+    const double share = from / (from - to);
+    kept.push_back({here[0] + share * (next[0] - here[0]), here[1] + share * (next[1] - here[1])});
+  }
+  return kept;
+}
+
+/// Whether two of them, the other one moved by `shift`, are further apart than `slack` as seen along a direction.
+inline bool are_apart_along(const std::array<double, 2>& direction, const Polygon& one, const Polygon& other,
+                            const std::array<double, 2>& shift, double slack) {
+  const auto& from = one.front();  // small ones keep their digits
+  const auto along = [&](const std::array<double, 2>& p, double s, double t) {
+    return direction[0] * (p[0] + s - from[0]) + direction[1] * (p[1] + t - from[1]);
+  };
+  double lo = 0;
+  double hi = 0;
+  for (const auto& p : one) {
+    lo = std::min(lo, along(p, 0, 0));
+    hi = std::max(hi, along(p, 0, 0));
+  }
+  const auto at = [&](const auto& p) { return along(p, shift[0], shift[1]); };
+  return std::all_of(other.begin(), other.end(), [&](const auto& p) { return at(p) > hi + slack; }) ||
+         std::all_of(other.begin(), other.end(), [&](const auto& p) { return at(p) < lo - slack; });
+}
+
+/// Whether two come as near as `slack`: no direction along an edge or across one has them further apart.
+inline bool are_near(const Polygon& one, const Polygon& other, const std::array<double, 2>& shift, double slack) {
+  std::vector<std::array<double, 2>> directions{{1, 0}, {0, 1}};
+  for (const Polygon* polygon : {&one, &other}) {
+    for (std::size_t k = 0; k < polygon->size(); ++k) {
+      const auto& from = (*polygon)[k];
+      const auto& to = (*polygon)[(k + 1) % polygon->size()];
+      const double length = std::hypot(to[0] - from[0], to[1] - from[1]);
+      if (!(length > 0)) continue;
+      directions.push_back({(to[0] - from[0]) / length, (to[1] - from[1]) / length});
+      directions.push_back({-directions.back()[1], directions.back()[0]});
+    }
+  }
+  return std::none_of(directions.begin(), directions.end(),
+                      [&](const auto& direction) { return are_apart_along(direction, one, other, shift, slack); });
+}
+
+}  // namespace rollfix_verify
