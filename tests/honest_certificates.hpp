@@ -46,6 +46,10 @@ inline Tally tally(int count, std::uint64_t stream, const Draw& draw, const Cert
       ADD_FAILURE() << k << ": " << certificates::described(drawn.part, drawn.readings, drawn.tolerance) << ": "
                     << verdict.refusal;
     }
+    if (verdict.refusal.empty() && !verdict.is_complete()) {
+      std::printf("%d: %zu cells open, %zu kinds unproved: %s\n", k, verdict.open, verdict.unproved,
+                  certificates::described(drawn.part, drawn.readings, drawn.tolerance).c_str());
+    }
     result.proved += verdict.is_complete() ? 1 : 0;
     result.open += verdict.refusal.empty() && !verdict.is_complete() ? 1 : 0;
     result.share += verdict.share / count;

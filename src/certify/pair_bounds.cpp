@@ -213,6 +213,18 @@ double PairBounds::change(const Interval& side, std::size_t finger, double share
   return most;
 }
 
+double PairBounds::spread(const Interval& side, std::size_t finger) {
+  double most = 0;
+  for (std::size_t k = 0; k < count(); ++k) {
+    Range all{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for (const ContactStretch& stretch : curves_[finger].over(side.lo, side.hi)) {
+      all = hull(all, stretch.sum(contact_weights(unit(k))));
+    }
+    most = std::max(most, all.spread());
+  }
+  return most;
+}
+
 double PairBounds::use_of_halving(const Interval& side, std::size_t finger) {
   return change(side, finger, std::min(1.0, side.width() / (kPivotRoom * period_)));
 }

@@ -35,6 +35,9 @@ class PairBounds {
   /// pivots change, this share.
   double change(const Interval& side, std::size_t finger, double share_of_pivots = 1);
 
+  /// From the least to the largest that its part of an equation is anywhere in a range.
+  double spread(const Interval& side, std::size_t finger);
+
   /// How much there is to be gained by halving that range.
   double use_of_halving(const Interval& side, std::size_t finger);
 

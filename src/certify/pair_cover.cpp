@@ -100,23 +100,26 @@ std::optional<std::size_t> PairCover::owner(const PairBox& box) {
 }
 
 bool PairCover::is_flat(const PairBox& box) {
-  return bounds_.change(box[0], 0) + bounds_.change(box[1], 1) <= kFlatShare * tolerance_;
+  return bounds_.spread(box[0], 0) + bounds_.spread(box[1], 1) <= kFlatShare * tolerance_;
 }
 
-/// Whether a set that may fit belongs to a placement: to its box, its line or its extent.
+/// Whether a set that may fit belongs to a placement: to its box, or to its extent and to the line through it.
 bool PairCover::is_of(const PairBox& set, const CoveredPair& pair) const {
   const double room = 16 * least_step(part_);
-  if (pair.box || pair.placement->family.empty()) {
-    const PairBox& all = pair.box ? *pair.box : PairBox{pair.placement->extent[0], pair.placement->extent[1]};
-    const auto meet = [&](std::size_t finger) {
-      const Interval here{set[finger].lo - room, set[finger].hi + room};
-      return part_.boundary().distance(all[finger], here.lo) <= 0 ||
-             part_.boundary().distance(here, all[finger].lo) <= 0;
-    };
-    return meet(0) && meet(1);
-  }
+  if (pair.box) return meets(set, *pair.box, room);
+  const Placement& placement = *pair.placement;
+  if (!meets(set, {placement.extent[0], placement.extent[1]}, room)) return false;
   const double reach = 0.5 * std::min(set[0].width(), set[1].width());
-  return is_near_line(set, *pair.placement, reach + pair.placement->family_error + room);
+  return placement.family.empty() || is_near_line(set, placement, reach + placement.family_error + room);
+}
+
+bool PairCover::meets(const PairBox& one, const PairBox& two, double room) const {
+  const Boundary boundary = part_.boundary();
+  for (const std::size_t finger : {0U, 1U}) {
+    const Interval wide{one[finger].lo - room, one[finger].hi + room};
+    if (boundary.distance(two[finger], wide.lo) > 0 && boundary.distance(wide, two[finger].lo) > 0) return false;
+  }
+  return true;
 }
 
 bool PairCover::holds_start(const PairBox& box, const Placement& placement) const {
@@ -160,17 +163,13 @@ bool PairCover::is_inside(const PairBox& inner, const PairBox& outer) const {
 bool PairCover::is_near(const PairBox& box, const Placement& placement) const {
   const double reach = 2 * std::max(box[0].width(), box[1].width());
   bool is_thin = placement.family.empty();
-  for (const Interval& extent : placement.extent) is_thin = is_thin || extent.width() < kThin * part_.perimeter();
-  if (!is_thin) return is_near_line(box, placement, reach + placement.family_error);
-  for (std::size_t finger = 0; finger < 2; ++finger) {
-    const Interval& extent = placement.extent[finger];
+  PairBox wide{placement.extent[0], placement.extent[1]};
+  for (Interval& extent : wide) {
+    is_thin = is_thin || extent.width() < kThin * part_.perimeter();
     const double room = reach + kRoom * extent.width();
-    const double from = extent.lo - room;
-    const double middle = box[finger].middle();
-    const double ahead = part_.closed() ? wrap(middle - from, part_.perimeter()).base : middle - from;
-    if (!(ahead >= 0 && ahead <= extent.width() + 2 * room)) return false;
+    extent = {extent.lo - room, extent.hi + room};
   }
-  return true;
+  return meets(box, wide, 0) && (is_thin || is_near_line(box, placement, reach + placement.family_error));
 }
 
 /// To the line through a continuum, by the larger of both fingers' distances.

@@ -38,6 +38,7 @@ class PairCover {
   std::string settled(const PairBox& box);
   std::optional<std::size_t> owner(const PairBox& box);
   bool is_of(const PairBox& set, const CoveredPair& pair) const;
+  bool meets(const PairBox& one, const PairBox& two, double room) const;
   bool holds_start(const PairBox& box, const Placement& placement) const;
   std::string left_over(const PairBox& box);
   bool is_flat(const PairBox& box);
