@@ -23,6 +23,7 @@ using cli::Json;
 using cli::run;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 constexpr const char* kSquare = "0,0\n10,0\n10,10\n0,10\n";
 constexpr const char* kTriangle = "0,0\n10,0\n5,8\n";
@@ -69,7 +70,7 @@ TEST_F(CatalogFile, takes_every_outline_in_a_folder_and_says_what_it_left_out) {
   write("shapes/plate.svg", kTwoLoops);
   write("shapes/bow.csv", "0,0\n10,10\n10,0\n0,10\n");
   write("shapes/notes.md", "not an outline");
-  const cli::Ran plain = run("catalog build shapes -o parts.db");
+  const cli::Ran plain = run("catalog build shapes -o parts.db --unit mm");
   EXPECT_EQ(plain.code, 0) << plain.err;
   EXPECT_THAT(names(), testing::UnorderedElementsAre("deep/triangle.csv", "plate.svg#1", "plate.svg#2", "square.csv"));
   EXPECT_THAT(plain.out, HasSubstr("bow.csv"));
@@ -243,6 +244,32 @@ TEST_F(CatalogFile, has_one_unit_for_all) {
   EXPECT_EQ(catalog.unit(), "mm");
   EXPECT_NEAR(catalog.entry(2).perimeter, 4 * 25.4, 1e-9);
   EXPECT_THAT(run("catalog build shapes -o parts.db --unit in").err, HasSubstr("are in mm"));
+}
+
+TEST_F(CatalogFile, leaves_out_what_states_no_unit_beside_what_does) {
+  write("shapes/a.svg", kTwoLoops);
+  write("shapes/b.csv", kSquare);
+  const cli::Ran ran = run("catalog build shapes -o parts.db");
+  EXPECT_THAT(names(), ElementsAre("a.svg#1", "a.svg#2"));
+  EXPECT_THAT(ran.out, HasSubstr("nobody says in what its lengths are, and the catalog is in mm: give --unit mm"));
+  run("catalog build shapes -o parts.db --unit mm");
+  EXPECT_THAT(names(), ElementsAre("a.svg#1", "a.svg#2", "b.csv"));
+}
+
+TEST_F(CatalogFile, leaves_out_what_states_a_unit_beside_what_does_not) {
+  write("shapes/a.csv", kSquare);
+  write("shapes/b.svg", kTwoLoops);
+  EXPECT_THAT(run("catalog build shapes -o parts.db").out, HasSubstr("build them anew, with --unit mm"));
+  EXPECT_THAT(names(), ElementsAre("a.csv"));
+}
+
+TEST_F(CatalogFile, tells_what_is_alike_once_and_what_was_left_out_last) {
+  for (const std::string name : {"a", "b", "c"})
+    write("shapes/" + name + ".csv", "x,y,z\n0,0,0\n1,0,0\n0," + std::to_string(name[0]) + ",0\n");
+  write("shapes/d.csv", "0 0\n");
+  const cli::Ran ran = cli::shell("rollfix catalog build shapes -o parts.db 2>&1");
+  EXPECT_THAT(ran.out, StartsWith("rollfix: 3 files: the column z is not looked at: outlines are plane\n"));
+  EXPECT_GT(ran.out.find("left out"), ran.out.find("3 files"));
 }
 
 TEST_F(CatalogFile, refuses_a_name_that_is_there_already) {

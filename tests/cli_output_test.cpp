@@ -9,16 +9,21 @@ namespace {
 
 using cli::Json;
 using cli::run;
+using testing::AllOf;
+using testing::AnyOf;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-/// The lines of help pages that show a command.
+/// The lines of help pages that show a command, with those that go on after a backslash.
 std::vector<std::string> examples_in(const std::string& help) {
   std::istringstream lines(help);
   std::vector<std::string> examples;
+  bool goes_on = false;
   for (std::string line; std::getline(lines, line);) {
-    if (line.rfind("  rollfix ", 0) == 0) examples.push_back(line);
+    if (goes_on) examples.back() += "\n" + line;
+    if (!goes_on && line.rfind("  rollfix ", 0) == 0) examples.push_back(line);
+    goes_on = !examples.empty() && line.size() > 1 && line.back() == '\\';
   }
   return examples;
 }
@@ -170,6 +175,14 @@ TEST(Help, has_examples_that_work) {
       EXPECT_EQ(ran.code, 0) << example << "\n" << ran.err;
     }
   }
+}
+
+TEST(Verbose, adds_widths_sensitivities_and_what_was_taken_as_exact) {
+  const std::string locate = "locate gallery:ellipse --reading 1.5,1.25";
+  const std::string text = run(locate).out;
+  EXPECT_THAT(text, StartsWith("ambiguous (4): roll on to tell them apart\n\n    kind"));
+  EXPECT_THAT(text, Not(AnyOf(HasSubstr("width"), HasSubstr("ds/dturn"), HasSubstr("error"))));
+  EXPECT_THAT(run(locate + " --verbose").out, AllOf(HasSubstr("width"), HasSubstr("ds/dturn"), HasSubstr("error")));
 }
 
 TEST(Version, is_told) { EXPECT_THAT(run("--version").out, StartsWith("rollfix 0.")); }

@@ -13,6 +13,7 @@ namespace {
 using cli::Json;
 using cli::run;
 using testing::HasSubstr;
+using testing::Not;
 
 double perimeter_of(const std::string& part) { return run("inspect " + part + " --json").json()["part"]["perimeter"]; }
 
@@ -56,6 +57,18 @@ TEST(CliTeach, noise_decides_what_is_drift) {
   folder.write("lap.csv", text);  // a circle of radius 1, and a gyroscope that drifts by 0.123 rad
   EXPECT_EQ(run("teach lap.csv --json").json()["taught"]["closing"], "kept_open");
   EXPECT_EQ(run("teach lap.csv --noise angle=2deg --json").json()["taught"]["closing"], "spread");
+}
+
+TEST(CliTeach, rows_that_jitter_are_told_with_the_noise_to_give) {
+  const cli::Folder folder;
+  const std::string roll = "simulate gallery:cam --finger disk,r=0.2 --start 0 --length 7.6 --samples 800 ";
+  run(roll + "--noise angle=0.3deg --seed 1 -o noisy.csv");
+  run(roll + "-o exact.csv");
+  const std::string noisy = run("teach noisy.csv --finger disk,r=0.2").err;
+  EXPECT_THAT(noisy, HasSubstr("jitter by 0."));
+  EXPECT_THAT(noisy, HasSubstr("smooth it with --noise angle=0."));
+  EXPECT_THAT(run("teach exact.csv --finger disk,r=0.2").err, Not(HasSubstr("jitter")));
+  EXPECT_THAT(run("teach noisy.csv --finger disk,r=0.2 --noise angle=0.3deg").err, Not(HasSubstr("jitter by")));
 }
 
 TEST(CliTeach, what_can_not_be_meant_is_refused) {

@@ -85,7 +85,7 @@ TEST(CliUnits, a_roll_in_two_units_is_one_roll) {
 }
 
 TEST(CliUnits, the_unit_stands_in_the_text) {
-  const std::string text = run("locate gallery:cam --unit mm --reading 0.9,40deg").out;
+  const std::string text = run("locate gallery:cam --unit mm --reading 0.9,40deg --verbose").out;
   EXPECT_THAT(text, AllOf(HasSubstr("perimeter 7.558250 mm"), HasSubstr("start [mm]"), HasSubstr("x [mm]"),
                           HasSubstr("[mm/deg]"), HasSubstr("length 0.900000 mm")));
   EXPECT_THAT(run("locate gallery:cam --reading 0.9,40deg").out, Not(HasSubstr("mm")));

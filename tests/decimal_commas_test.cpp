@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cli.hpp"
 #include "refusal.hpp"
 #include "rollfix/contact/log.hpp"
 #include "rollfix/outline/load.hpp"
@@ -49,6 +50,32 @@ TEST(DecimalCommas, points_are_read_with_a_header_and_without) {
               ElementsAre(Vec2(0.5, 0), Vec2(2, 0.25), Vec2(1, 1.5)));
   EXPECT_THAT(parse_points("y;x\n0;0,5\n0,25;2\n1,5;1\n", "part.csv"),
               ElementsAre(Vec2(0.5, 0), Vec2(2, 0.25), Vec2(1, 1.5)));
+}
+
+TEST(DecimalCommas, between_blanks_and_tabs_are_read_where_that_is_said) {
+  LogOptions log_options;
+  log_options.decimal_comma = true;
+  const Log log = parse_log("time\tu\tpsi\n0\t0,5\t0,10\n0,25\t0,25\t1\n", "run.csv", log_options);
+  EXPECT_THAT(log.time, ElementsAre(0, 0.25));
+  EXPECT_THAT(log.fingers[0].u, ElementsAre(0.5, 0.25));
+  EXPECT_THAT(parse_log("0,5 0,25\n1 0,5\n", "drive.csv", log_options).fingers[0].length, ElementsAre(0.5, 1.5));
+  OutlineOptions options;
+  options.decimal_comma = true;
+  EXPECT_THAT(parse_points("0,5 0\n2 0,25\n1 1,5\n", "part.csv", options),
+              ElementsAre(Vec2(0.5, 0), Vec2(2, 0.25), Vec2(1, 1.5)));
+  EXPECT_THAT(parse_points("0.5,0\n2,0.25\n1,1.5\n", "part.csv", options),  // a comma that separates
+              ElementsAre(Vec2(0.5, 0), Vec2(2, 0.25), Vec2(1, 1.5)));
+}
+
+TEST(DecimalCommas, are_said_by_an_option_of_the_program) {
+  const cli::Folder folder;
+  folder.write("part.csv", "0,5 0\n2 0,25\n1 1,5\n");
+  EXPECT_THAT(cli::run("inspect part.csv").err, HasSubstr("with decimal points, not commas, which --decimal , takes"));
+  EXPECT_EQ(cli::run("inspect part.csv --decimal ,").code, 0);
+  folder.write("drive.csv", "length\tturn\n0,5\t0,25\n1\t0,5\n");
+  EXPECT_THAT(cli::run("locate gallery:cam --log drive.csv").err, HasSubstr("; --decimal , takes them"));
+  EXPECT_EQ(cli::run("locate gallery:cam --log drive.csv --decimal ,").code, 1);
+  EXPECT_THAT(cli::run("inspect part.csv --decimal x").err, HasSubstr("expected a comma or a point"));
 }
 
 TEST(NearlyRight, a_compressed_file_is_told_how_to_unpack) {

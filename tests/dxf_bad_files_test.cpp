@@ -189,7 +189,8 @@ TEST(BadDxfEntity, without_what_it_needs) {
 }
 
 TEST(BadDxfEntity, with_sizes_that_make_no_sense) {
-  EXPECT_EQ(message_of(file(circle(0, 0, -1))), "part.dxf:6: CIRCLE has the radius -1, expected one of at least 0");
+  EXPECT_THAT(message_of_entity("ARC", {{10, 0}, {20, 0}, {40, -1}, {50, 0}, {51, 90}}),
+              HasSubstr("ARC has the radius -1, expected one of at least 0"));
   EXPECT_THAT(message_of_entity("ELLIPSE", {{10, 0}, {20, 0}, {11, 1}, {21, 0}, {40, 0}, {41, 0}, {42, 1}}),
               HasSubstr("has axes of ratio 0"));
 }

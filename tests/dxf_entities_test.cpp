@@ -219,6 +219,12 @@ TEST(DxfEntities, what_has_no_length_is_left_out_and_counted) {
   EXPECT_THAT(drawing.notes, ElementsAre(HasSubstr("left out: 5 curves without length")));
 }
 
+TEST(DxfEntities, a_circle_of_a_radius_below_0_is_of_no_outline_and_left_out) {
+  const Drawing drawing = parsed(file(circle(0, 0, -1) + circle(5, 5, 2)));
+  EXPECT_EQ(drawing.curves.size(), 1U);
+  EXPECT_THAT(drawing.notes, ElementsAre("left out: 1 circle of a radius below 0"));
+}
+
 TEST(DxfEntities, extrusion_below_mirrors_x_and_turns_the_sense) {
   const Drawing drawing = parsed(file(arc(3, 1, 2, 0, 90, {{210, 0}, {220, 0}, {230, -1}})));
   EXPECT_THAT(kinds_of(drawing), ElementsAre("arc"));

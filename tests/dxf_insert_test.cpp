@@ -194,9 +194,14 @@ TEST(DxfInsertRefusal, scales_that_multiply_beyond_the_range) {
               HasSubstr("CIRCLE on layer '0': its INSERT puts it at ("));
 }
 
+TEST(DxfInsert, two_blocks_of_one_name_are_a_note_where_none_is_drawn) {
+  EXPECT_THAT(parsed(with_blocks(block("A", "") + block("a", ""), circle(0, 0, 1))).notes,
+              ElementsAre("block 'A' stands in the file twice, and is not drawn"));
+}
+
 TEST(DxfInsertRefusal, two_blocks_of_one_name) {
-  EXPECT_EQ(message_of(with_blocks(block("A", "") + block("a", ""), "")),
-            "part.dxf:20: block 'a' stands in the file twice");
+  EXPECT_THAT(message_of(with_blocks(block("A", "") + block("a", ""), insert("A", 0, 0))),
+              HasSubstr("block 'A' stands in the file twice"));
 }
 
 }  // namespace

@@ -205,6 +205,18 @@ TEST(LogColumns, what_is_suggested_for_two_fingers_names_both_and_keeps_their_un
   EXPECT_THAT(log.fingers[1].u, ElementsAre(0, kPi / 180));
 }
 
+TEST(LogColumns, of_one_finger_the_other_ones_are_told_and_how_both_are_taken) {
+  const std::string rows = "0,0,0,0\n1,1,1,1\n";
+  const Log own = log_of("skin_a,yaw_a,skin_b,yaw_b\n" + rows, columns("u=skin_a,psi=yaw_a"));
+  ASSERT_EQ(own.notes.size(), 1U);
+  EXPECT_THAT(own.notes[0],
+              HasSubstr("this is about one finger: the columns of another, skin_b, yaw_b, are not looked "
+                        "at; both are taken with `columns` u_a=skin_a,psi_a=yaw_a,u_b=skin_b,psi_b=yaw_b"));
+  EXPECT_EQ(log_of("u,psi,u_b,psi_b\n" + rows).notes.size(), 1U);
+  EXPECT_EQ(log_of("u,psi,x,y\n" + rows).notes.size(), 0U);
+  EXPECT_EQ(log_of("u_a,psi_a,u_b,psi_b\n" + rows).notes.size(), 0U);
+}
+
 TEST(LogColumns, a_name_that_sounds_like_a_unit_does_so_with_a_finger_behind_it) {
   const std::string header = "contact_deg_a,psi_a,contact_deg_b,psi_b\n";
   EXPECT_THAT(refusal(header + "0,0,0,0\n1,1,1,1\n", columns("u_a=contact_deg_a,u_b=contact_deg_b")),

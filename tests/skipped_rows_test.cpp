@@ -15,6 +15,7 @@ namespace {
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr const char* kRows =
     "time,u,psi\n0,0,0\n1,-0.1,0.15\n1,-0.1,0.15\n2,nan,0.3\n3,-0.3,\n4,-0.4,0.6\n5,-0.5,0.75\n6,-0.6";
@@ -64,6 +65,37 @@ TEST(SkippedRows, the_program_says_how_many_and_goes_on) {
   EXPECT_THAT(ran.err, HasSubstr("run.csv: 4 rows left out, the first: run.csv:4: time is '1'"));
   EXPECT_THAT(cli::run("locate gallery:circle,r=2 --reading 1,0.5 --skip-bad").err,
               HasSubstr("--skip-bad is about a log"));
+}
+
+TEST(SkippedRows, of_a_batch_are_told_in_the_answer) {
+  const cli::Folder folder;
+  folder.write("run.csv", kRows);
+  folder.write("problems.jsonl", "{\"log\": \"run.csv\", \"skip_bad\": true}\n");
+  const cli::Ran ran = cli::run("locate gallery:circle,r=2 --finger disk,r=1 --batch problems.jsonl");
+  EXPECT_EQ(ran.code, 0) << ran.out;
+  EXPECT_THAT(ran.json()["notes"][0].get<std::string>(), HasSubstr("run.csv: 4 rows left out"));
+}
+
+TEST(SkippedRows, of_swapped_halves_watch_says_once_that_time_went_back) {
+  const cli::Folder folder;
+  cli::run("simulate gallery:circle,r=2 --finger disk,r=1 --start 1 --length 3 --samples 40 -o roll.csv");
+  EXPECT_EQ(cli::shell("head -1 roll.csv > swapped.csv; tail -20 roll.csv >> swapped.csv; head -21 roll.csv | tail -20 "
+                       ">> swapped.csv")
+                .code,
+            0);
+  const cli::Ran ran =
+      cli::run("watch gallery:circle,r=2 --finger disk,r=1 --noise angle=1deg --log swapped.csv --once");
+  EXPECT_THAT(ran.err,
+              AllOf(HasSubstr("swapped.csv:22: time is"),
+                    HasSubstr("swapped.csv:23: time went back: rows are left out"), Not(HasSubstr("swapped.csv:24"))));
+}
+
+TEST(SkippedRows, one_that_is_repeated_is_a_row_like_any_other) {
+  const cli::Folder folder;
+  folder.write("run.csv", "time,u,psi\n0,0,0\n1,-0.1,0.15\n1,-0.1,0.15\n2,-0.2,0.3\n2,-0.2,0.3\n3,-0.3,0.45\n");
+  const cli::Ran ran = cli::run("watch gallery:circle,r=2 --finger disk,r=1 --noise angle=1deg --log run.csv --once");
+  EXPECT_THAT(ran.err,
+              AllOf(HasSubstr("run.csv:4: time is"), HasSubstr("run.csv:6: time is"), Not(HasSubstr("went back"))));
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <boost/algorithm/string/replace.hpp>
 #include <boost/system/system_error.hpp>
 #include <cctype>
 #include <exception>
@@ -15,8 +14,11 @@
 #include <string_view>
 #include <utility>
 
+#include "rollfix/arguments/settings_file.hpp"
 #include "rollfix/commands.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/help/help_page.hpp"
+#include "rollfix/help/option_groups.hpp"
 #include "rollfix/output/report.hpp"
 #include "rollfix/usage.hpp"
 #include "rollfix/version.hpp"
@@ -36,18 +38,6 @@ constexpr const char* kProgramExamples = R"(Examples:
   rollfix simulate gallery:cam --finger disk,r=0.2 --start 0.5 --length 1 -o roll.csv
   rollfix watch wing.csv --finger disk,r=10 --noise contact=0.1,angle=0.1deg --log wing-roll.csv --once
 )";
-
-/// The library names the fields of its structs, `allow_crossing`; who typed options reads --allow-crossing.
-std::string with_options(std::string text) {
-  constexpr std::array kFields = {"allow_crossing", "at",        "bridge", "columns", "corner_angle", "facing",
-                                  "finger",         "gap",       "layer",  "loop",    "mirror",       "noise",
-                                  "open",           "pose",      "prior",  "robust",  "roll",         "skip_bad",
-                                  "smooth",         "tolerance", "unit",   "wrapped"};
-  for (const std::string field : kFields) {
-    boost::replace_all(text, "`" + field + "`", "--" + boost::replace_all_copy(field, "_", "-"));
-  }
-  return text;
-}
 
 bool is_long_option_without_value(std::string_view argument) {
   return argument.size() > 2 && argument.substr(0, 2) == "--" && argument.find('=') == std::string_view::npos;
@@ -86,20 +76,34 @@ std::string names_of_commands(CLI::App& program) {
   return names;
 }
 
-/// What all commands have in common, and the commands of commands.
-void set_up(CLI::App& program, bool& quiet) {
+/// What all commands have in common.
+struct Common {
+  bool quiet = false;
+  SettingsArgument settings;
+};
+
+/// Adds that to the commands, and to the commands of commands.
+void set_up(CLI::App& program, Common& common) {
+  constexpr std::array<std::string_view, 7> kOfRobots = {"inspect",  "locate", "advise", "identify",
+                                                         "simulate", "teach",  "watch"};
   for (CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
     command->allow_extras();
     command->group("Commands");
-    add_switch(*command, "--quiet", quiet, "no notes on stderr; errors are told all the same");
-    set_up(*command, quiet);
+    add_switch(*command, "--quiet", common.quiet, "no notes on stderr; errors are told all the same");
+    const bool is_of_robots = std::find(kOfRobots.begin(), kOfRobots.end(), command->get_name()) != kOfRobots.end();
+    if (is_of_robots) add_settings_argument(*command, common.settings);
+    group_options(*command);
+    set_up(*command, common);
   }
 }
+
+/// All commands, as pages and shells list them.
+void describe(CLI::App& program);
 
 /// Where the arguments begin with a command's name, that one alone: to describe the options of all takes longer than to
 /// locate.
 void add_commands(CLI::App& program, Command& chosen, const std::string& first, std::ostream& out, std::ostream& err) {
-  const std::array<std::pair<const char*, std::function<void()>>, 10> commands = {{
+  const std::array<std::pair<const char*, std::function<void()>>, 12> commands = {{
       {"inspect", [&] { add_inspect_command(program, chosen); }},
       {"locate", [&] { add_locate_command(program, chosen, out); }},
       {"advise", [&] { add_advise_command(program, chosen); }},
@@ -110,6 +114,8 @@ void add_commands(CLI::App& program, Command& chosen, const std::string& first, 
       {"watch", [&] { add_watch_command(program, chosen, out, err); }},
       {"demo", [&] { add_demo_command(program, chosen); }},
       {"paper", [&] { add_paper_command(program, chosen); }},
+      {"completion", [&] { add_completion_command(program, chosen, describe); }},
+      {"man", [&] { add_man_command(program, chosen, describe); }},
   }};
   const auto is_first = [&](const auto& command) { return first == command.first; };
   const bool named = std::any_of(commands.begin(), commands.end(), is_first);
@@ -118,35 +124,70 @@ void add_commands(CLI::App& program, Command& chosen, const std::string& first, 
   }
 }
 
-/// Adds commands to a program and returns the one that the arguments name.
-Command parse(CLI::App& program, const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err,
-              bool& quiet) {
-  Command chosen;
+/// The program with the command of that name, or else with all.
+void set_up(CLI::App& program, Command& chosen, const std::string& first, std::ostream& out, std::ostream& err,
+            Common& common) {
   set_help_style(program);
+  program.description(kDescription);
+  program.name("rollfix");
   program.footer(kProgramExamples);
   program.set_version_flag("--version", std::string("rollfix ") + kVersion);
   program.require_subcommand(0, 1);
-  add_commands(program, chosen, arguments.empty() ? "" : arguments.front(), out, err);
+  add_commands(program, chosen, first, out, err);
   // What the parser does not know is refused here, with better words.
   program.allow_extras();
-  set_up(program, quiet);
+  group_options(program);
+  set_up(program, common);
+}
 
+void describe(CLI::App& program) {
+  static Common nobody;
+  static Command none;
+  set_up(program, none, "", std::cout, std::cerr, nobody);
+}
+
+void parse(CLI::App& program, const std::vector<std::string>& arguments) {
   std::vector<std::string> reversed = with_negative_values_attached(arguments);
   std::reverse(reversed.begin(), reversed.end());
   program.parse(std::move(reversed));
   refuse_leftovers(program);
-  if (!chosen) throw InputError("expected a command: " + names_of_commands(program) + "; see rollfix --help");
-  return chosen;
 }
 
+/// What the arguments, and a file of settings where there is one, ask for.
+struct Asked {
+  Command command{};
+  Settings settings{};
+  bool quiet = false;
+
+  void parse(CLI::App& program, std::vector<std::string> arguments, std::ostream& out, std::ostream& err,
+             bool with_settings) {
+    Common common;
+    set_up(program, command, arguments.empty() ? "" : arguments.front(), out, err, common);
+    app::parse(program, arguments);
+    if (!command) throw InputError("expected a command: " + names_of_commands(program) + "; see rollfix --help");
+    const CLI::App& typed = *program.get_subcommands().front();
+    if (with_settings && typed.get_option_no_throw("--config") != nullptr) {
+      settings = read_settings(typed, common.settings, describe);
+      arguments.insert(arguments.end(), settings.arguments.begin(), settings.arguments.end());
+      if (!settings.arguments.empty()) app::parse(program, arguments);
+    }
+    quiet = common.quiet;
+  }
+};
+
 int code(ExitCode exit_code) { return static_cast<int>(exit_code); }
+
+void tell(const std::vector<std::string>& narration, std::ostream& notes) {
+  for (const std::string& note : narration) notes << "rollfix: " << plain(with_options(note)) << '\n' << std::flush;
+}
 
 /// `notes`: where the narration goes.
 void deliver(const Report& report, std::ostream& out, std::ostream& notes) {
   write_files(report.files);
+  if (report.notes_first) tell(report.notes, notes);
   out << report.data << std::flush;
   if (!out) throw InputError("standard output can't be written to");
-  for (const std::string& note : report.notes) notes << "rollfix: " << plain(with_options(note)) << '\n';
+  if (!report.notes_first) tell(report.notes, notes);
 }
 
 /// What is known stands on a line of its own.
@@ -172,19 +213,25 @@ int fail(std::ostream& err, std::string message, ExitCode exit_code) {
 }  // namespace
 
 Command command_of(const std::vector<std::string>& arguments) {
-  CLI::App program(kDescription, "rollfix");
-  bool quiet = false;
-  return parse(program, arguments, std::cout, std::cerr, quiet);
+  CLI::App program;
+  Asked asked;
+  asked.parse(program, arguments, std::cout, std::cerr, false);
+  return asked.command;
 }
 
 int run(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) {
-  CLI::App program(kDescription, "rollfix");
+  CLI::App program;
   std::ostream notes(err.rdbuf());
+  Asked asked;
   try {
-    bool quiet = false;
-    const Command command = parse(program, arguments, out, notes, quiet);
-    if (quiet) notes.rdbuf(nullptr);  // what is written to it goes nowhere
-    const Report report = command();
+    asked.parse(program, arguments, out, notes, true);
+    if (asked.quiet) notes.rdbuf(nullptr);  // what is written to it goes nowhere
+    // What prints as it goes begins with where its options are from.
+    const bool is_live = !arguments.empty() && arguments.front() == "watch";
+    const std::vector<std::string> settings = asked.settings.notes();
+    if (is_live) tell(settings, notes);
+    Report report = asked.command();
+    if (!is_live) report.notes.insert(report.notes.begin(), settings.begin(), settings.end());
     deliver(report, out, notes);
     return code(report.exit_code);
   } catch (const CLI::Success& request) {  // --help, --version
@@ -192,9 +239,9 @@ int run(const std::vector<std::string>& arguments, std::ostream& out, std::ostre
     out << std::flush;
     return out ? exit_code : fail(err, "standard output can't be written to", ExitCode::bad_input);
   } catch (const CLI::ParseError& error) {
-    return fail(err, explain(error), ExitCode::bad_input);
+    return fail(err, asked.settings.with_origins(explain(error)), ExitCode::bad_input);
   } catch (const InputError& error) {
-    return fail(err, error.what(), ExitCode::bad_input);
+    return fail(err, asked.settings.with_origins(with_options(error.what())), ExitCode::bad_input);
   } catch (const boost::system::system_error& error) {
     return fail(err, std::string("the system refuses what this needs: ") + error.what(), ExitCode::bad_input);
   } catch (const std::bad_alloc&) {

@@ -75,7 +75,7 @@ Report teach_report(const TeachArguments& arguments) {
 
   Report report;
   report.notes = taught.notes;
-  add_skipped_note(log, report.notes);
+  add_log_notes(log, report.notes);
   const Inspection outcome = inspect(loaded);
   if (arguments.json) {
     report.data = format_taught(outcome, taught);

@@ -4,51 +4,21 @@
 
 #include <algorithm>
 #include <array>
-#include <memory>
-#include <utility>
+#include <boost/algorithm/string/replace.hpp>
 #include <vector>
 
 #include "rollfix/error.hpp"
+#include "rollfix/help/help_page.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::app {
 namespace {
-
-/// "rollfix catalog build".
-std::string full_name_of(const CLI::App& app) {
-  return app.get_parent() == nullptr ? app.get_name() : full_name_of(*app.get_parent()) + " " + app.get_name();
-}
 
 /// The command that was typed, of a command that has some the one of those.
 const CLI::App& chosen_of(const CLI::App& app) {
   const std::vector<CLI::App*> chosen = app.get_subcommands();
   return chosen.empty() ? app : chosen_of(*chosen.front());
 }
-
-class Help : public CLI::Formatter {
- public:
-  Help() { column_width(kColumn); }
-
-  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
-    if (mode == CLI::AppFormatMode::Sub) return CLI::Formatter::make_help(app, std::move(name), mode);
-    const std::string full_name = full_name_of(*app);
-    return fmt::format("{}\n\n{}\n{}{}{}{}", app->get_description(), app->get_footer(),
-                       make_usage(app, "Usage: " + full_name), make_positionals(app), make_groups(app, mode),
-                       make_subcommands(app, mode));
-  }
-
-  std::string make_usage(const CLI::App* app, std::string name) const override {
-    const bool has_commands = !app->get_subcommands([](const CLI::App*) { return true; }).empty();
-    if (has_commands) name += " COMMAND";
-    for (const CLI::Option* option : app->get_options([](const CLI::Option* one) { return one->get_positional(); })) {
-      name += " " + option->get_name(true);
-    }
-    return name + " [OPTIONS]\n";
-  }
-
- private:
-  static constexpr std::size_t kColumn = 28;
-};
 
 std::vector<std::string> option_names(const CLI::App& command) {
   std::vector<std::string> names;
@@ -112,8 +82,6 @@ std::string known_options(const std::string& name, const CLI::App& command) {
 
 }  // namespace
 
-void set_help_style(CLI::App& program) { program.formatter(std::make_shared<Help>()); }
-
 CLI::Option* add_switch(CLI::App& command, const std::string& name, bool& value, const std::string& meaning) {
   return command.add_flag(name, value, meaning)->disable_flag_override();
 }
@@ -140,6 +108,18 @@ void refuse_leftovers(const CLI::App& program) {
   }
   throw InputError(fmt::format("{}: '{}' is one argument too many; quote names with blanks, and see {} --help",
                                command.get_name(), leftovers.front(), full_name_of(command)));
+}
+
+std::string with_options(std::string text) {
+  constexpr std::array kFields = {"allow_crossing", "at",        "bridge", "columns", "corner_angle", "facing",
+                                  "finger",         "gap",       "layer",  "loop",    "mirror",       "noise",
+                                  "open",           "pose",      "prior",  "robust",  "roll",         "skip_bad",
+                                  "smooth",         "tolerance", "unit",   "wrapped"};
+  boost::replace_all(text, "`decimal_comma`", "--decimal ,");
+  for (const std::string field : kFields) {
+    boost::replace_all(text, "`" + field + "`", "--" + boost::replace_all_copy(field, "_", "-"));
+  }
+  return text;
 }
 
 std::string explain(const CLI::ParseError& error) {

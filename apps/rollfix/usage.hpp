@@ -5,15 +5,16 @@
 
 namespace rollfix::app {
 
-/// Makes help pages start with what the command does and its worked examples (kept in the command's footer).
-void set_help_style(CLI::App& program);
-
 /// A flag without a value.
 CLI::Option* add_switch(CLI::App& command, const std::string& name, bool& value, const std::string& meaning);
 
 /// Throws InputError for whatever the parser left over: an unknown option or command, with the nearest valid one,
 /// or a word too many.
 void refuse_leftovers(const CLI::App& program);
+
+/// The library's text for who typed options: it names the fields of its structs, `allow_crossing`, and this
+/// --allow-crossing.
+std::string with_options(std::string text);
 
 /// What a parse error means, in one line.
 std::string explain(const CLI::ParseError& error);

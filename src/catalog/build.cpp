@@ -41,6 +41,13 @@ struct ReadySource {
   std::vector<LeftOut> left_out;
   std::vector<std::string> notes;
   std::string unit;
+  bool again = false;  // left out for what the next build may say
+
+  void leave_out(const CatalogSource& source, const std::string& why) {
+    parts.clear();
+    left_out.push_back({source.name, fmt::format("{}: {}", source.argument, why)});
+    again = true;
+  }
 };
 
 /// How a source was when it was read, and how it was taken.
@@ -54,9 +61,9 @@ std::string stamp_of(const CatalogSource& source, const BuildOptions& options) {
   };
   const OutlineOptions& points = options.load.points;
   // The unit is the catalog's, which stays.
-  return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", file, source.name, source.count, points.open,
+  return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}{}", file, source.name, source.count, points.open,
                      points.corner_angle.value_or(-1), length(points.smooth), length(options.load.gap),
-                     options.load.layer, options.load.allow_crossing, options.lean);
+                     options.load.layer, options.load.allow_crossing, options.lean, points.decimal_comma ? "|," : "");
 }
 
 BuildOptions in_unit(BuildOptions options, const std::string& unit) {
@@ -106,6 +113,20 @@ ReadySource read_source(const CatalogSource& source, const BuildOptions& options
   } catch (const InputError& error) {
     ready.left_out.push_back({source.name, error.what()});
   }
+  return ready;
+}
+
+/// Pixels are no length either.
+bool states_a_length(const std::string& unit) { return !unit.empty() && unit != "px"; }
+
+/// The same in the catalog's unit, where that is known and the options say none. What states no unit is left out.
+ReadySource in_catalogs_unit(ReadySource ready, const CatalogSource& source, const BuildOptions& options,
+                             const std::string& unit) {
+  if (unit.empty() || !options.load.points.unit.empty() || ready.parts.empty() || ready.unit == unit) return ready;
+  if (states_a_length(ready.unit)) return read_source(source, in_unit(options, unit));
+  ready.leave_out(source, fmt::format("nobody says in what its lengths are, and the catalog is in {0}: give `unit` {0} "
+                                      "where they are as well",
+                                      unit));
   return ready;
 }
 
@@ -205,13 +226,20 @@ class CatalogWriter {
       return;
     }
     unit_ = fact(database_, "unit");  // which that may have set
-    if (!ready.unit.empty() && !ready.parts.empty() && ready.unit != unit_) {
-      if (unit_.empty()) set_unit(ready.unit);
-      if (ready.unit != unit_) ready = read_source(source, in_unit(options, unit_));
+    if (unit_.empty() && !ready.unit.empty() && !ready.parts.empty()) {
+      if (parts() == 0) {
+        set_unit(ready.unit);
+      } else {
+        ready.leave_out(source,
+                        fmt::format("is in {0}, and nobody says in what the parts are that are there: build them "
+                                    "anew, with `unit` {0}",
+                                    ready.unit));
+      }
     }
+    ready = in_catalogs_unit(std::move(ready), source, options, unit_);
     if (forget(source.argument)) ++report.replaced;
     Statement put = database_.prepare("INSERT INTO sources (argument, stamp) VALUES (?, ?)");
-    put.bind_text(0, source.argument).bind_text(1, stamp).run();
+    put.bind_text(0, source.argument).bind_text(1, ready.again ? "" : stamp).run();
     const std::int64_t id = database_.last_id();
     for (const ReadyPart& part : ready.parts) {
       if (const std::string other = source_that_has(part.entry.name); !other.empty()) {
@@ -347,7 +375,7 @@ BuildReport build_catalog(const std::string& path, const std::vector<CatalogSour
                           const BuildOptions& options) {
   const NoEmptyFile none(path);
   CatalogWriter writer(path, options.load.points.unit);
-  const BuildOptions known = in_unit(options, writer.unit());
+  const std::string unit = writer.unit();  // which may be set while parts are read
   BuildReport report;
   const std::unordered_map<std::string, std::string> there = writer.stamps();
   std::vector<std::size_t> wanted;
@@ -388,7 +416,8 @@ BuildReport build_catalog(const std::string& path, const std::vector<CatalogSour
   Crew crew(wanted.size(), 1);
   crew.run(options.jobs, go_on, [&](std::size_t lo, std::size_t hi) {
     for (std::size_t k = lo; k < hi; ++k) {
-      if (!waiting.put(k, read_source(sources[wanted[k]], known))) return;
+      const CatalogSource& source = sources[wanted[k]];
+      if (!waiting.put(k, in_catalogs_unit(read_source(source, options), source, options, unit))) return;
     }
   });
   if (!report.stopped) {

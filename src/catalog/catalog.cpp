@@ -231,8 +231,8 @@ Part Catalog::part(std::size_t index) const {
     return part;
   } catch (const InputError&) {
     throw;
-  } catch (const std::exception& error) {
-    throw InputError(fmt::format("{}: {}: is damaged: {}", state_->path, name, error.what()));
+  } catch (const std::exception&) {  // of a library, in its own words
+    throw InputError(fmt::format("{}: {}: is damaged: build the catalog again", state_->path, name));
   }
 }
 

@@ -258,8 +258,8 @@ std::string merge_shards(const Catalog& catalog, const std::vector<std::string>&
         throw InputError(fmt::format("is one of {} shards, the others of {}", of, shards));
       shards = of;
       if (!there.insert(shard).second) throw InputError(fmt::format("shard {} of {} is there twice", shard, of));
-    } catch (const Json::exception& error) {
-      throw InputError(fmt::format("{}: expected the lines that identify --shard prints: {}", names[k], error.what()));
+    } catch (const Json::exception&) {
+      throw InputError(fmt::format("{}: expected the lines that identify --shard prints, found others", names[k]));
     } catch (const InputError& error) {
       throw InputError(fmt::format("{}: {}", names[k], error.what()));
     }

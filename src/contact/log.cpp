@@ -173,7 +173,11 @@ std::vector<Log> rolls_in(LogLines& lines, Splitting splitting, const LogOptions
     if (*kind != RowKind::none) reader.accept(row);
   }
   std::vector<Log> rolls = maker.finish();
-  for (Log& roll : rolls) roll.skipped = skipped;
+  for (Log& roll : rolls) {
+    roll.skipped = skipped;
+    const std::string& note = reader.columns().front().note;
+    if (!note.empty()) roll.notes = {fmt::format("{}: {}", lines.name(), note)};
+  }
   return rolls;
 }
 
@@ -337,6 +341,7 @@ Log paired(Log a, Log b) {
   a.fingers.push_back(std::move(b.fingers[0]));
   a.contact_was_off = a.contact_was_off || b.contact_was_off;
   a.skipped.insert(a.skipped.end(), b.skipped.begin(), b.skipped.end());
+  a.notes.clear();  // each was of one finger
   return a;
 }
 

@@ -205,10 +205,11 @@ WrittenValue RowReader::written(const Columns& columns, Column column) const {
   const auto number = parse_number(text);
   const auto value = number ? convert(*number) : may_say_degrees ? parse_angle(text) : std::nullopt;
   if (value && std::isfinite(*value)) return {*value, number ? convert(rounding_of(text)) : rounding_of(text)};
-  throw InputError(fmt::format("{}: {} is '{}', expected a {}number{}{}", where(name_, lines_), columns.called(column),
-                               shown(text), value ? "finite " : "",
-                               may_say_degrees ? " such as 1.25 (radians) or 73deg" : " such as 1.25",
-                               decimal_comma_hint(text)));
+  const std::string comma = decimal_comma_hint(text);
+  throw InputError(fmt::format("{}: {} is '{}', expected a {}number{}{}{}", where(name_, lines_),
+                               columns.called(column), shown(text), value ? "finite " : "",
+                               may_say_degrees ? " such as 1.25 (radians) or 73deg" : " such as 1.25", comma,
+                               comma.empty() ? "" : "; `decimal_comma` takes them"));
 }
 
 bool RowReader::touches(const Columns& columns) const {
@@ -230,8 +231,8 @@ std::optional<double> RowReader::time() const {
 
 void RowReader::require_later(double time, std::string_view written, std::size_t line) const {
   if (time_line_ == 0 || time > time_) return;
-  throw InputError(fmt::format("{}: time is '{}', expected more than {} in line {}: time must grow", where(name_, line),
-                               shown(written), time_, time_line_));
+  throw NotLater(fmt::format("{}: time is '{}', expected more than {} in line {}: time must grow", where(name_, line),
+                             shown(written), time_, time_line_));
 }
 
 FingerCells RowReader::cells(const Columns& columns) const {

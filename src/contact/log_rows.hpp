@@ -10,6 +10,7 @@
 #include "contact/log_table.hpp"
 #include "rollfix/contact/log.hpp"
 #include "rollfix/contact/log_options.hpp"
+#include "rollfix/error.hpp"
 #include "rollfix/outline/curve.hpp"
 
 namespace rollfix {
@@ -66,11 +67,17 @@ struct LogRow {
 
 /// Reads the rows of a log of one finger or of two, from its lines or as numbers: the one place in which headers, cells
 /// and times are judged, of a file as of a stream.
+/// A row's time is not after that of the row before.
+class NotLater : public InputError {
+ public:
+  using InputError::InputError;
+};
+
 class RowReader {
  public:
   /// `name`: of the log, for messages.
   explicit RowReader(std::string name, LogOptions options = {})
-      : name_(std::move(name)), options_(std::move(options)) {}
+      : name_(std::move(name)), options_(std::move(options)), cutter_(options_.decimal_comma) {}
 
   /// The next line. Throws InputError: before the columns are known because they can't be, later because of this line
   /// only. A row leaves no trace before it is accepted.

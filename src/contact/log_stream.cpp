@@ -126,6 +126,7 @@ LogLine LogStream::State::skip(const InputError& error) {
   LogLine result;
   result.kind = LineKind::malformed;
   result.message = error.what();
+  result.goes_back = dynamic_cast<const NotLater*>(&error) != nullptr;
   return result;
 }
 

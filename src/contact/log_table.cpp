@@ -28,7 +28,6 @@ std::string_view bare(std::string_view cell) {
 }
 
 char separator_of(std::string_view row) {
-  if (with_decimal_points(row)) return ';';
   for (const char mark : {',', ';', '\t'}) {
     if (row.find(mark) != std::string_view::npos) return mark;
   }
@@ -100,17 +99,16 @@ bool TableCutter::cut(std::string_view line, std::size_t number, TableRow& row) 
   const std::string_view bare_line = line.substr(0, line.find('#'));
   const std::string_view data = trimmed(bare_line);
   if (data.empty()) return false;
-  if (separator_ == '\0') separator_ = separator_of(data);
   row.line = number;
   row.text = line;
-  if (separator_ == ';') {
-    if (std::optional<std::string> converted = with_decimal_points(data)) {
-      with_points_ = std::move(*converted);
-      split(with_points_, row.cells);
-      return true;
-    }
-  }
-  split(separator_ == '\t' ? bare_line : data, row.cells);
+  const bool may_have_commas = separator_ == '\0' || separator_ == ';' || decimal_comma_;
+  std::optional<std::string> converted;
+  if (may_have_commas) converted = with_decimal_points(bare_line, decimal_comma_);
+  if (converted) with_points_ = std::move(*converted);
+  const std::string_view untrimmed = converted ? std::string_view(with_points_) : bare_line;
+  const bool has_semicolons = converted && untrimmed.find(';') != std::string_view::npos;
+  if (separator_ == '\0') separator_ = has_semicolons ? ';' : separator_of(trimmed(untrimmed));
+  split(separator_ == '\t' ? untrimmed : trimmed(untrimmed), row.cells);
   return true;
 }
 

@@ -51,6 +51,9 @@ struct TableRow {
 /// Cuts the lines of a comma, semicolon, tab or blank separated table into cells: the first row shows which it is.
 class TableCutter {
  public:
+  /// `decimal_comma`: as in the options of a log.
+  explicit TableCutter(bool decimal_comma) : decimal_comma_(decimal_comma) {}
+
   /// Makes a row of the line, false where there is none in it. The row refers to the line, or to what this holds until
   /// the next one.
   bool cut(std::string_view line, std::size_t number, TableRow& row);
@@ -61,6 +64,7 @@ class TableCutter {
  private:
   void split(std::string_view data, std::vector<std::string_view>& cells) const;
 
+  bool decimal_comma_;
   char separator_ = '\0';    // not known yet
   std::string with_points_;  // of a row with decimal commas
 };
@@ -104,6 +108,7 @@ struct Columns {
   std::optional<Dimension> u_dimension{};  // where the log says what u is in
   std::optional<bool> u_wrapped{};         // where somebody said whether it jumps back after a full turn
   std::optional<bool> psi_wrapped{};       // the same of psi
+  std::string note{};                      // what else the header has that may have been meant
 
   Columns() { cell.fill(kNone); }
   bool has(Column column) const { return (*this)[column] != kNone; }

@@ -59,7 +59,9 @@ LineKind read_line(std::string_view line, Vec2& point) {
     case LineKind::one_number:
       throw InputError(where + " is only one number, expected two as in '1.5 2'; a title goes behind a #");
     case LineKind::mixed_separators:
-      throw InputError(where + " mixes separators, expected 'x y' or 'x,y' with decimal points, not commas");
+      throw InputError(where +
+                       " mixes separators, expected 'x y' or 'x,y' with decimal points, not commas, "
+                       "which `decimal_comma` takes");
     default:
       throw InputError(where + " is not two numbers, expected a point as in '1.5 2' or '1.5,2'");
   }
@@ -168,7 +170,8 @@ bool is_followed_by_points(const Header& header, std::string_view next) {
 
 class TableReader {
  public:
-  TableReader(std::string_view text, const std::string& name) : rest_(text), name_(name) {}
+  TableReader(std::string_view text, const std::string& name, bool decimal_comma)
+      : rest_(text), name_(name), decimal_comma_(decimal_comma) {}
 
   NumberedPoints run() {
     while (next_line()) {
@@ -198,7 +201,7 @@ class TableReader {
     line_ = rest_.substr(0, end);
     rest_.remove_prefix(std::min(end + 1, rest_.size()));
     data_ = line_.substr(0, line_.find('#'));
-    if (std::optional<std::string> converted = with_decimal_points(data_)) {
+    if (std::optional<std::string> converted = with_decimal_points(data_, decimal_comma_)) {
       with_points_ = std::move(*converted);
       data_ = with_points_;
     }
@@ -208,7 +211,7 @@ class TableReader {
 
   /// The next line that is not blank, as far as it is data.
   std::string line_ahead() const {
-    TableReader ahead(rest_, name_);
+    TableReader ahead(rest_, name_, decimal_comma_);
     while (ahead.next_line()) {
       if (!trimmed(ahead.data_).empty()) return std::string(ahead.data_);
     }
@@ -312,6 +315,7 @@ class TableReader {
   std::string_view data_;    // without a comment
   std::string with_points_;  // the same with decimal points for commas
   const std::string& name_;
+  bool decimal_comma_;
   std::size_t number_ = 0;
   std::size_t titles_ = 0;
   std::optional<Header> header_;
@@ -320,9 +324,9 @@ class TableReader {
 
 }  // namespace
 
-NumberedPoints read_point_table(std::string_view text, const std::string& name) {
+NumberedPoints read_point_table(std::string_view text, const std::string& name, bool decimal_comma) {
   refuse_binary(text, name);
-  return TableReader(without_mark(text), name).run();
+  return TableReader(without_mark(text), name, decimal_comma).run();
 }
 
 }  // namespace rollfix

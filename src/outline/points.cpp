@@ -185,7 +185,7 @@ void convert(NumberedPoints& data, const std::string& name, const std::string& w
 
 std::vector<Vec2> parse_points(std::string_view text, const std::string& name, const OutlineOptions& options,
                                std::vector<std::string>* notes, std::string* unit, bool* airfoil) {
-  NumberedPoints data = read_point_table(text, name);
+  NumberedPoints data = read_point_table(text, name, options.decimal_comma);
   const std::string order = order_airfoil(data, name);
   if (!order.empty()) data.notes.push_back(order);
   if (airfoil != nullptr) *airfoil = !order.empty();

@@ -62,13 +62,16 @@ bool has_decimal_comma(std::string_view cell) {
 
 }  // namespace
 
-std::optional<std::string> with_decimal_points(std::string_view row) {
-  if (row.find(';') == std::string_view::npos || row.find(',') == std::string_view::npos) return std::nullopt;
+std::optional<std::string> with_decimal_points(std::string_view row, bool decimal_comma) {
+  if (row.find(',') == std::string_view::npos) return std::nullopt;
+  const bool has_semicolons = row.find(';') != std::string_view::npos;
+  if (!has_semicolons && !decimal_comma) return std::nullopt;
+  const char* const separators = has_semicolons ? ";" : " \t";
   std::string result(row);
   bool any = false;
   std::size_t start = 0;
   while (start <= result.size()) {
-    const std::size_t end = std::min(result.find(';', start), result.size());
+    const std::size_t end = std::min(result.find_first_of(separators, start), result.size());
     const std::string_view padded(result.data() + start, end - start);
     const std::size_t first = padded.find_first_not_of(" \t\r\"");
     if (first != std::string_view::npos) {

@@ -62,20 +62,19 @@ Finger read_outlined(const std::string& text, const std::string& unit) {
   }
 }
 
-/// "pad.csv", "gallery:stadium", "-" is not; neither is "disc,r=0.1".
-bool names_outline(const std::string& text) {
-  if (text.find("gallery:") == 0) return true;
-  const std::size_t dot = text.rfind('.');
-  return dot != std::string::npos && dot + 1 < text.size() &&
-         std::isalpha(static_cast<unsigned char>(text[dot + 1])) != 0;
-}
-
 Finger read_any(const std::string& text, const std::string& unit) {
   if (text == kJaw) return jaw();
   return names_outline(text) ? read_outlined(text, unit) : Finger(read_disk(text, unit));
 }
 
 }  // namespace
+
+bool names_outline(const std::string& text) {
+  if (text.find("gallery:") == 0) return true;
+  const std::size_t dot = text.rfind('.');
+  return dot != std::string::npos && dot + 1 < text.size() &&
+         std::isalpha(static_cast<unsigned char>(text[dot + 1])) != 0;
+}
 
 void add_finger_argument(CLI::App& command, std::vector<std::string>& fingers) {
   command

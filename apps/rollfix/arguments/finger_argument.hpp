@@ -17,6 +17,9 @@ void add_finger_argument(CLI::App& command, std::vector<std::string>& fingers);
 /// InputError: no such finger, or too many.
 std::vector<Finger> read_fingers(const std::vector<std::string>& fingers, std::size_t most, const std::string& unit);
 
+/// Whether a finger is the outline of a file or of the gallery: "pad.csv", "gallery:stadium", and not "disc,r=0.1".
+bool names_outline(const std::string& text);
+
 /// Throws InputError where one is no disk; `what` says for what it must be.
 void require_disks(const std::vector<Finger>& fingers, const std::string& what);
 

@@ -19,6 +19,7 @@ LoadOptions read_load_options(const PartArgument& argument) {
   if (!argument.gap.empty()) options.gap = read_given_length(argument.gap, "--gap");
   options.layer = argument.layer;
   options.points.unit = argument.unit;
+  options.points.decimal_comma = has_decimal_comma(argument.decimal);
   options.allow_crossing = argument.allow_crossing;
   return options;
 }
@@ -29,6 +30,21 @@ void add_unit_argument(CLI::App& command, std::string& unit) {
                   "the unit of all lengths, typed and printed: mm, cm, m, in, ...; a part whose file states another is "
                   "converted to it, one whose file states none is in it")
       ->type_name("UNIT");
+}
+
+void add_decimal_argument(CLI::App& command, std::string& decimal) {
+  if (command.get_option_no_throw("--decimal") != nullptr) return;
+  command
+      .add_option("--decimal", decimal,
+                  "what numbers in files have for a decimal point, , or .; a comma is seen between semicolons, and has "
+                  "to be said where blanks or tabs separate")
+      ->type_name("MARK");
+}
+
+bool has_decimal_comma(const std::string& decimal) {
+  if (decimal == ",") return true;
+  if (decimal.empty() || decimal == ".") return false;
+  throw InputError(fmt::format("--decimal {}: expected a comma or a point, as in --decimal ,", decimal));
 }
 
 void add_part_argument(CLI::App& command, PartArgument& argument) {
@@ -58,6 +74,7 @@ void add_load_arguments(CLI::App& command, PartArgument& argument) {
                   "the points are a scan: stay within this length of each, and leave out noise and pixel stairs")
       ->type_name("TOL");
   add_unit_argument(command, argument.unit);
+  add_decimal_argument(command, argument.decimal);
   add_switch(command, "--allow-crossing", argument.allow_crossing, "take an outline that crosses itself");
 }
 

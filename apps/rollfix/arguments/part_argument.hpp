@@ -18,6 +18,7 @@ struct PartArgument {
   std::string gap;
   std::string layer;
   std::string unit;
+  std::string decimal;
   bool open = false;
   bool allow_crossing = false;
 };
@@ -29,6 +30,11 @@ void add_part_argument(CLI::App& command, PartArgument& argument);
 void add_load_arguments(CLI::App& command, PartArgument& argument);
 /// What they say. Throws InputError: an option that is not what it should be.
 LoadOptions read_load_options(const PartArgument& argument);
+
+/// Adds --decimal, unless the command has it.
+void add_decimal_argument(CLI::App& command, std::string& decimal);
+/// Whether that says that numbers have commas. Throws InputError: neither a comma nor a point.
+bool has_decimal_comma(const std::string& decimal);
 
 /// Adds --unit alone.
 void add_unit_argument(CLI::App& command, std::string& unit);

@@ -108,13 +108,13 @@ double read_sd(std::string_view value, NoiseKind::Unit unit, const std::string& 
 }
 
 /// "contact=LENGTH,angle=ANGLE,...".
-std::string noise_form() {
+std::string noise_form(const char* separator) {
   std::vector<std::string> fields;
   for (const NoiseKind& kind : kNoiseKinds) {
     constexpr std::array<const char*, 5> kForms = {"LENGTH", "ANGLE", "SHARE", "10deg/h", "0.3deg/sqrt(h)"};
     fields.push_back(fmt::format("{}={}", kind.name, kForms[static_cast<std::size_t>(kind.unit)]));
   }
-  return fmt::format("{}", fmt::join(fields, ","));
+  return fmt::format("{}", fmt::join(fields, separator));
 }
 
 /// What can't be meant, before any file is read.
@@ -156,6 +156,7 @@ void add_reading_arguments(CLI::App& command, LogArguments& reading) {
           "whether the log's u and psi jump back after a full turn, where its rows are too far apart to show it: "
           "yes or no")
       ->type_name("yes|no");
+  add_decimal_argument(command, reading.decimal);
 }
 
 void add_skip_argument(CLI::App& command, LogArguments& reading) {
@@ -163,7 +164,8 @@ void add_skip_argument(CLI::App& command, LogArguments& reading) {
              "leave out rows that can't be read: an empty cell, no number, a time that does not grow");
 }
 
-void add_skipped_note(const Log& log, std::vector<std::string>& notes) {
+void add_log_notes(const Log& log, std::vector<std::string>& notes) {
+  notes.insert(notes.end(), log.notes.begin(), log.notes.end());
   if (log.skipped.empty()) return;
   notes.push_back(fmt::format("{}: {} left out, the first: {}", log.name, counted(log.skipped.size(), "row", "rows"),
                               log.skipped.front()));
@@ -183,8 +185,9 @@ void add_log_arguments(CLI::App& command, std::vector<std::string>& logs, std::s
 
 void add_noise_argument(CLI::App& command, std::string& noise) {
   command
-      .add_option("--noise", noise,
-                  "how far the sensors are off, as standard deviations: " + noise_form() + ", any of them")
+      .add_option(
+          "--noise", noise,
+          "how far the sensors are off, as standard deviations, any of them with commas between: " + noise_form(", "))
       ->type_name("NOISE");
 }
 
@@ -306,6 +309,7 @@ LogOptions read_log_options(const LogArguments& reading, const std::string& unit
   if (!reading.columns.empty()) options.columns = parse_columns(reading.columns);
   options.unit = unit;
   options.skip_bad = reading.skip_bad;
+  options.decimal_comma = has_decimal_comma(reading.decimal);
   if (reading.wrapped.empty()) return options;
   if (reading.wrapped != "yes" && reading.wrapped != "no") {
     throw InputError(fmt::format("--wrapped {}: expected yes or no", shown(reading.wrapped)));
@@ -350,7 +354,7 @@ Log read_roll(const std::vector<std::string>& paths, const std::string& roll, co
   if (paths.size() != 1) {
     if (number > 0) throw InputError("--roll chooses from one log, and --log is given more than once; split the logs");
     Log log = read_both_logs(paths, options);
-    add_skipped_note(log, notes);
+    add_log_notes(log, notes);
     return log;
   }
   std::vector<Log> rolls = read_rolls(paths.front(), options);
@@ -361,7 +365,7 @@ Log read_roll(const std::vector<std::string>& paths, const std::string& roll, co
   }
   const std::size_t chosen = number > 0 ? number : count;
   Log log = std::move(rolls[chosen - 1]);
-  add_skipped_note(log, notes);
+  add_log_notes(log, notes);
   if (count > 1) {
     notes.push_back(
         fmt::format("{}: roll {} of {}{}", log.name, chosen, count, number > 0 ? "" : "; --roll N takes another"));
@@ -407,6 +411,7 @@ Problem read_problem(const RollArguments& arguments, Part part, std::vector<std:
   require_sensible(arguments);
   const std::string unit = part.unit();
   LogOptions log_options = read_log_options(arguments.reading, unit);
+  log_options.decimal_comma |= has_decimal_comma(arguments.part.decimal);
   const bool is_either = arguments.direction == "either";
   const bool is_clockwise = !is_either && counts_clockwise(arguments.direction);
   log_options.clockwise = is_clockwise;

@@ -19,6 +19,7 @@ struct PoseArguments {
 struct LogArguments {
   std::string columns;
   std::string wrapped;
+  std::string decimal;
   bool skip_bad = false;
 
   bool any() const { return !columns.empty() || !wrapped.empty() || skip_bad; }
@@ -61,8 +62,8 @@ void add_side_arguments(CLI::App& command, bool& mirror, std::string& direction,
 bool counts_clockwise(const std::string& direction);
 /// Adds --skip-bad.
 void add_skip_argument(CLI::App& command, LogArguments& reading);
-/// Tells of the rows that were left out.
-void add_skipped_note(const Log& log, std::vector<std::string>& notes);
+/// Tells of the rows that were left out, and of what else the log holds.
+void add_log_notes(const Log& log, std::vector<std::string>& notes);
 /// Adds --columns and --wrapped alone.
 void add_reading_arguments(CLI::App& command, LogArguments& reading);
 /// Adds --noise, --prior and --robust.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -77,14 +78,32 @@ std::string left_out_table(const std::vector<LeftOut>& all) {
   Table table;
   table.add_column("left out", Table::Align::left);
   table.add_column("why", Table::Align::left);
-  for (const LeftOut& one : all) table.add_row({one.source, one.why});
+  for (const LeftOut& one : all) table.add_row({one.source, with_options(one.why)});
   return "\n" + table.str();
 }
 
 Json left_out_json(const std::vector<LeftOut>& all) {
   Json list = Json::array();
-  for (const LeftOut& one : all) list.push_back({{"name", one.source}, {"why", one.why}});
+  for (const LeftOut& one : all) list.push_back({{"name", one.source}, {"why", with_options(one.why)}});
   return list;
+}
+
+/// "a.dat: TEXT", or where several say the same of their files "1,129 files: TEXT".
+std::vector<std::string> gathered(const std::vector<std::string>& notes) {
+  std::vector<std::string> texts;  // in the order in which they come first
+  std::map<std::string, std::vector<std::string>> notes_of;
+  for (const std::string& note : notes) {
+    const std::size_t colon = note.find(": ");
+    const std::string text = colon == std::string::npos ? note : note.substr(colon + 2);
+    if (notes_of[text].empty()) texts.push_back(text);
+    notes_of[text].push_back(note);
+  }
+  std::vector<std::string> lines;
+  for (const std::string& text : texts) {
+    const std::vector<std::string>& same = notes_of[text];
+    lines.push_back(same.size() == 1 ? same.front() : fmt::format("{} files: {}", same.size(), text));
+  }
+  return lines;
 }
 
 BuildOptions read_options(const BuildArguments& arguments) {
@@ -117,7 +136,8 @@ Report build_report(const BuildArguments& arguments) {
   const Catalog catalog(arguments.catalog);
   const std::vector<LeftOut> left_out = catalog.left_out();
   Report report;
-  report.notes = built.notes;
+  report.notes = gathered(built.notes);
+  report.notes_first = true;
   if (arguments.json) {
     report.data = json_text({{"schema", "rollfix/catalog/1"},
                              {"file", arguments.catalog},

@@ -16,6 +16,7 @@
 #include "rollfix/answer/many.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/output/answer_output.hpp"
+#include "rollfix/usage.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::app {
@@ -85,13 +86,14 @@ struct Field {
   const char* name;
   void (*set)(const Json& value, RollArguments& arguments);
 };
-constexpr std::array<Field, 17> kFields = {{
+constexpr std::array<Field, 18> kFields = {{
     {"readings", [](const Json& value, RollArguments& to) { to.readings = typed_readings(value); }},
     {"log", [](const Json& value, RollArguments& to) { to.logs = typed_each(value, "log"); }},
     {"fingers", [](const Json& value, RollArguments& to) { to.fingers = typed_each(value, "fingers"); }},
     {"roll", [](const Json& value, RollArguments& to) { to.roll = typed(value, "roll"); }},
     {"columns", [](const Json& value, RollArguments& to) { to.reading.columns = typed(value, "columns"); }},
     {"wrapped", [](const Json& value, RollArguments& to) { to.reading.wrapped = typed(value, "wrapped"); }},
+    {"skip_bad", [](const Json& value, RollArguments& to) { to.reading.skip_bad = typed_switch(value, "skip_bad"); }},
     {"facing", [](const Json& value, RollArguments& to) { to.facing = typed(value, "facing"); }},
     {"at", [](const Json& value, RollArguments& to) { to.instants = typed_list(value, "at"); }},
     {"tolerance", [](const Json& value, RollArguments& to) { to.tolerance = typed(value, "tolerance"); }},
@@ -139,6 +141,7 @@ class Parts {
 struct BatchLine {
   Json id;  // null: it has none
   std::optional<Problem> problem{};
+  std::vector<std::string> notes{};
   std::string error{};
 };
 
@@ -164,12 +167,13 @@ BatchLine read_line(const std::string& text, const std::string& where, const Rol
     if (arguments.readings.empty() == arguments.logs.empty()) {
       throw InputError("expected either \"readings\" or \"log\"");
     }
-    std::vector<std::string> notes;
-    line.problem = read_problem(arguments, parts.of(arguments.part.part), notes);
-  } catch (const Json::exception& error) {
-    line.error = fmt::format("{}: not a JSON object in one line: {}", where, error.what());
+    line.problem = read_problem(arguments, parts.of(arguments.part.part), line.notes);
+  } catch (const Json::parse_error& error) {
+    line.error = fmt::format("{}: not a JSON object in one line, from its character {} on", where, error.byte);
+  } catch (const Json::exception&) {
+    line.error = where + ": holds a number that is out of range";
   } catch (const InputError& error) {
-    line.error = fmt::format("{}: {}", where, error.what());
+    line.error = fmt::format("{}: {}", where, with_options(error.what()));
   }
   return line;
 }
@@ -196,7 +200,8 @@ ExitCode answer_lines(const std::vector<BatchLine>& lines, const std::string& na
     const BatchLine& line = lines[k];
     const Solved* const found = line.problem ? &solved[next++] : nullptr;
     std::string error = line.error;
-    if (found != nullptr && !found->answer) error = fmt::format("{}:{}: {}", name, first + k, found->error);
+    if (found != nullptr && !found->answer)
+      error = fmt::format("{}:{}: {}", name, first + k, with_options(found->error));
     Json document;
     if (error.empty()) {
       document = answer_json(*found->answer, explain);
@@ -204,6 +209,7 @@ ExitCode answer_lines(const std::vector<BatchLine>& lines, const std::string& na
       document = {{"schema", "rollfix/locate/1"}, {"error", error}};
     }
     if (!line.id.is_null()) document["id"] = line.id;
+    for (const std::string& note : line.notes) document["notes"].push_back(with_options(note));
     out << json_line(document);
     worst = worse_of(worst, error.empty() ? exit_code_of(*found->answer) : ExitCode::bad_input);
   }

@@ -45,7 +45,7 @@ Two fingers on a part that is free to move:
 struct LocateArguments {
   RollArguments roll;
   bool json = false;
-  bool explain = false;
+  AnswerDetail detail;
   std::vector<std::string> maps;
   std::string batch;
   std::string certificate;
@@ -62,7 +62,7 @@ void require_sensible(const LocateArguments& arguments) {
   if (!roll.readings.empty() && !roll.logs.empty()) {
     throw InputError("locate: expected --reading or --log, found both: they can't be of the same roll");
   }
-  if (arguments.explain && roll.fingers.empty()) {
+  if (arguments.detail.explain && roll.fingers.empty()) {
     throw InputError("--explain lists what the finger can't reach: give --finger as well");
   }
 }
@@ -77,7 +77,7 @@ void require_march(const LocateArguments& arguments) {
   refuse(!roll.facing.empty(), "--facing");
   refuse(!roll.budget.empty(), "--budget");
   refuse(!arguments.output.file.empty(), "-o");
-  refuse(arguments.explain, "--explain");
+  refuse(arguments.detail.explain, "--explain");
   refuse(roll.mirror, "--mirror");
   refuse(roll.direction == "either", "--direction either");
   refuse(!arguments.maps.empty(), "--map");
@@ -118,7 +118,7 @@ void require_batch(const LocateArguments& arguments) {
 Report locate_report(const LocateArguments& arguments, std::ostream& out) {
   if (!arguments.batch.empty()) {
     require_batch(arguments);
-    return locate_batch(arguments.roll, arguments.batch, arguments.explain, out);
+    return locate_batch(arguments.roll, arguments.batch, arguments.detail.explain, out);
   }
   require_sensible(arguments);
   const OutputArgument& output = arguments.output;
@@ -137,8 +137,8 @@ Report locate_report(const LocateArguments& arguments, std::ostream& out) {
   const Answer answer = solve(problem);
   add_notes(answer, report);
   report.exit_code = exit_code_of(answer);
-  report.data =
-      arguments.json ? format_answer(answer, Layout::lines, arguments.explain) : answer_text(answer, arguments.explain);
+  report.data = arguments.json ? format_answer(answer, Layout::lines, arguments.detail.explain)
+                               : answer_text(answer, arguments.detail);
   if (!arguments.maps.empty()) {
     add_table(output, mapped_points(answer, arguments.maps, others, report.notes), report);
   } else if (!output.file.empty()) {
@@ -216,8 +216,10 @@ void add_locate_command(CLI::App& program, Command& chosen, std::ostream& out) {
       ->type_name("FILE");
   add_output_argument(*command, arguments->output,
                       "a figure of the placements: .svg, .png or .pdf, - for SVG on stdout");
-  add_switch(*command, "--explain", arguments->explain,
+  add_switch(*command, "--explain", arguments->detail.explain,
              "list what fits and was dropped all the same, because the finger can't get there, and why");
+  add_switch(*command, "--verbose", arguments->detail.verbose,
+             "how wide placements are, how they move with the reading, and what was taken as exact as well");
   add_map_argument(*command, arguments->maps);
   add_march_arguments(*command, arguments->march);
   add_switch(*command, "--json", arguments->json, "print JSON (rollfix/locate/1)");

@@ -25,7 +25,7 @@ struct PointSet {
 };
 
 PointSet read_set(const std::string& file, const std::string& unit) {
-  NumberedPoints table = read_point_table(read_text(file), file);
+  NumberedPoints table = read_point_table(read_text(file), file, false);
   if (table.points.empty())
     throw InputError(fmt::format("--map {}: holds no points, expected one 'x y' per line", file));
   if (!table.unit.empty() && !unit.empty() && table.unit != unit) {

@@ -8,8 +8,14 @@
 
 namespace rollfix::app {
 
-/// For people: the verdict, what was asked, a table of the placements, and what is special about some.
-std::string answer_text(const Answer& answer, bool explain);
+/// How much of an answer is told.
+struct AnswerDetail {
+  bool explain = false;  // what was dropped, one by one
+  bool verbose = false;  // how wide placements are, how they move with what was measured, what was taken as exact
+};
+
+/// For people: the verdict, a table of the placements, what is special about some, and what was asked.
+std::string answer_text(const Answer& answer, const AnswerDetail& detail);
 
 /// What an answer tells whoever called the program.
 ExitCode exit_code_of(const Answer& answer);

@@ -19,12 +19,12 @@ class AnswerText : AnswerWords {
  public:
   explicit AnswerText(const Answer& answer) : AnswerWords(answer) {}
 
-  std::string text(bool explain) const {
-    std::string text = verdict_lines(answer_) + "\n" + asked_lines(answer_) + dropped_lines(answer_, explain);
-    if (!answer_.placements.empty()) text += "\n" + placements_table(answer_);
+  std::string text(const AnswerDetail& detail) const {
+    std::string text = verdict_lines(answer_) + "\n";
+    if (!answer_.placements.empty()) text += placements_table(answer_, detail.verbose) + "\n";
     const std::string below = remarks() + pose_lines() + unresolved_lines();
-    if (!below.empty()) text += "\n" + below;
-    return text;
+    if (!below.empty()) text += below + "\n";
+    return text + asked_lines(answer_, detail.verbose) + dropped_lines(answer_, detail.explain);
   }
 
  private:
@@ -130,6 +130,6 @@ std::string about_pose(const Placement& placement, const Answer& answer) {
                      fixed(last.y, decimals), behind(part.unit()), degrees(last.heading), agreement);
 }
 
-std::string answer_text(const Answer& answer, bool explain) { return AnswerText(answer).text(explain); }
+std::string answer_text(const Answer& answer, const AnswerDetail& detail) { return AnswerText(answer).text(detail); }
 
 }  // namespace rollfix::app

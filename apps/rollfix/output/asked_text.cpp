@@ -14,7 +14,7 @@ namespace {
 
 class AskedText : AnswerWords {
  public:
-  explicit AskedText(const Answer& answer) : AnswerWords(answer) {}
+  AskedText(const Answer& answer, bool verbose) : AnswerWords(answer), verbose_(verbose) {}
 
   std::string text() const {
     const Part& part = answer_.part;
@@ -156,6 +156,7 @@ class AskedText : AnswerWords {
     if (const double sd = weighing.fit.turn_scale_sd; sd > 0) {
       text += "turns      " + scale_text(weighing.fit.turn_scale, sd, "larger", "smaller");
     }
+    if (!verbose_) return text;
     std::vector<std::string> exact;
     if (weighing.noise.slip <= 0) exact.emplace_back("slip");
     if (weighing.noise.radius <= 0 && !answer_.fingers.empty() && answer_.fingers.front().is_disk()) {
@@ -167,11 +168,13 @@ class AskedText : AnswerWords {
     }
     return text;
   }
+
+  bool verbose_;
 };
 
 }  // namespace
 
-std::string asked_lines(const Answer& answer) { return AskedText(answer).text(); }
+std::string asked_lines(const Answer& answer, bool verbose) { return AskedText(answer, verbose).text(); }
 
 std::string accuracy_text(const Accuracy& accuracy) {
   constexpr double kExact = 1e-8;  // radians, or a share: rounding

@@ -16,7 +16,7 @@ using Rows = std::vector<std::string>;
 
 class PlacementTable : AnswerWords {
  public:
-  explicit PlacementTable(const Answer& answer) : AnswerWords(answer) {}
+  PlacementTable(const Answer& answer, bool verbose) : AnswerWords(answer), verbose_(verbose) {}
 
   std::string text() const { return answer_.weighing ? weighed_table() : placement_table(); }
 
@@ -57,35 +57,44 @@ class PlacementTable : AnswerWords {
     return steepest(own);
   }
 
-  std::string placement_table() const {
+  /// How wide they are, and how they move with what was measured.
+  void add_detail_columns(Table& table) const {
     const std::string most = fingers_ == 2 || answer_.readings.size() > 1 ? "max " : "";
-    Table table;
-    table.add_column("", fingers_ == 1 ? Table::Align::left : Table::Align::right);
-    table.add_column("kind", Table::Align::left);
-    if (answer_.either_way) table.add_column("way", Table::Align::left);
-    for (const char* title : {"start", "end", "width"}) add_columns(table, title);
-    add_position_columns(table);
+    add_columns(table, "width");
     for (std::size_t finger = 0; finger < fingers_; ++finger) {
       const char* change = fingers_ == 1 ? "ds" : finger == 0 ? "da" : "db";
       table.add_column(fmt::format("{}{}/dturn [{}/deg]", most, change, answer_.part.unit()));
     }
     if (fingers_ == 1) table.add_column(most + "ds/dlength");
     table.add_column(over_lengths("error"));
+  }
+  void add_details(const Placement& placement, Rows& cells) const {
+    const Sensitivity& sensitivity = placement.sensitivity;
+    add_cells(cells, [&](std::size_t finger) { return rough(placement.extent[finger].width()); });
+    add_cells(cells, [&](std::size_t finger) {
+      return rough(finger < sensitivity.per_turn.size() ? steepest(sensitivity.per_turn[finger]) * kDegree
+                                                        : std::numeric_limits<double>::quiet_NaN());
+    });
+    if (fingers_ == 1) cells.push_back(rough(steepest_by_length(sensitivity)));
+    cells.push_back(rough(placement.error));
+  }
+
+  std::string placement_table() const {
+    Table table;
+    table.add_column("", fingers_ == 1 ? Table::Align::left : Table::Align::right);
+    table.add_column("kind", Table::Align::left);
+    if (answer_.either_way) table.add_column("way", Table::Align::left);
+    for (const char* title : {"start", "end"}) add_columns(table, title);
+    add_position_columns(table);
+    if (verbose_) add_detail_columns(table);
     for (std::size_t i = 0; i < std::min(answer_.placements.size(), kMostRows); ++i) {
       const Placement& placement = answer_.placements[i];
       Rows cells{label(i), name_of(placement.kind)};
       if (answer_.either_way) cells.emplace_back(placement.clockwise ? "cw" : "ccw");
       add_cells(cells, [&](std::size_t finger) { return place(placement.start[finger]); });
       add_cells(cells, [&](std::size_t finger) { return place(placement.end[finger]); });
-      add_cells(cells, [&](std::size_t finger) { return rough(placement.extent[finger].width()); });
       add_position(placement, cells);
-      const Sensitivity& sensitivity = placement.sensitivity;
-      add_cells(cells, [&](std::size_t finger) {
-        return rough(finger < sensitivity.per_turn.size() ? steepest(sensitivity.per_turn[finger]) * kDegree
-                                                          : std::numeric_limits<double>::quiet_NaN());
-      });
-      if (fingers_ == 1) cells.push_back(rough(steepest_by_length(sensitivity)));
-      cells.push_back(rough(placement.error));
+      if (verbose_) add_details(placement, cells);
       table.add_row(std::move(cells));
     }
     return table.str() + more_line(answer_.placements.size());
@@ -124,10 +133,12 @@ class PlacementTable : AnswerWords {
     }
     return table.str() + more_line(answer_.placements.size());
   }
+
+  bool verbose_;
 };
 
 }  // namespace
 
-std::string placements_table(const Answer& answer) { return PlacementTable(answer).text(); }
+std::string placements_table(const Answer& answer, bool verbose) { return PlacementTable(answer, verbose).text(); }
 
 }  // namespace rollfix::app

@@ -22,6 +22,7 @@ enum class ExitCode {
 struct Report {
   std::string data;                // for stdout
   std::vector<std::string> notes;  // narration for stderr, a line each
+  bool notes_first = false;        // on a terminal data is the last that is seen
   std::vector<OutputFile> files;
   ExitCode exit_code = ExitCode::fits;
 };

@@ -31,7 +31,7 @@ std::string_view from_its_text(std::string_view line) {
 
 FirstLine first_line(std::string_view line) {
   if (!is_text(line)) return {FirstLine::Kind::garbage};
-  TableCutter cutter;
+  TableCutter cutter(false);
   TableRow row;
   if (!cutter.cut(line, 1, row)) return {FirstLine::Kind::empty};
   if (is_data(row)) return {FirstLine::Kind::numbers, row.cells.size()};

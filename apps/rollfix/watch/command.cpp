@@ -29,10 +29,12 @@ namespace rollfix::app {
 namespace {
 
 constexpr const char* kExamples =
-    R"(A finger rolls, its log grows, and this says where it is as soon as that changes. The log is read from a pipe, from a
-file that is being written, from a serial device, or from a TCP server; Ctrl-C ends it with a summary. --noise is
-needed: how sure an answer is follows from it. Exit code 0: something fits in the end; 1: nothing does.
-
+    "A finger rolls, its log grows, and this says where it is as soon as that changes. The log is read from a pipe, "
+    "from "
+    "a file that is being written, from a serial device, or from a TCP server; Ctrl-C ends it with a summary. --noise "
+    "is "
+    "needed: how sure an answer is follows from it. Exit code 0: something fits in the end; 1: nothing does.\n"
+    R"(
 Examples:
   robot-log | rollfix watch part.dxf --finger disk,r=5 --noise contact=0.1,angle=0.5deg
   rollfix watch part.dxf --finger disk,r=5 --noise contact=0.1,angle=0.5deg --log roll.csv
@@ -102,6 +104,7 @@ WatchOptions watch_options(const WatchArguments& arguments, const std::string& l
   options.fingers = read_fingers(arguments.fingers, 1, unit);
   options.belief = belief_options(arguments, unit);
   options.log = read_log_options(arguments.reading, unit);
+  options.log.decimal_comma |= has_decimal_comma(arguments.part.decimal);
   options.log.mirrored = arguments.mirror;
   options.log.clockwise = counts_clockwise(arguments.direction);
   for (Finger& finger : options.fingers) {

@@ -9,6 +9,7 @@
 #include "rollfix/error.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/table.hpp"
+#include "rollfix/usage.hpp"
 #include "rollfix/watch/writer.hpp"
 #include "text/text.hpp"
 
@@ -188,7 +189,7 @@ void WatchWriter::note(const std::string& message) {
   const std::optional<std::size_t> left_out = limit_.allow(std::chrono::steady_clock::now());
   if (!left_out) return;
   if (*left_out > 0) err_ << fmt::format("rollfix: ... {} such lines were left out here\n", *left_out);
-  err_ << "rollfix: " << plain(message) << std::endl;
+  err_ << "rollfix: " << plain(with_options(message)) << std::endl;
 }
 
 void WatchWriter::write(const std::string& lines) {

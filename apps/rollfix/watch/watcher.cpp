@@ -154,6 +154,7 @@ void Watcher::skip(const std::string& why) {
 
 void Watcher::take_line(std::string_view line) {
   const LogLine row = read(line);
+  if (row.kind != LineKind::malformed && row.kind != LineKind::nothing) rows_back_ = 0;
   switch (row.kind) {
     case LineKind::nothing:
       return;
@@ -176,9 +177,20 @@ void Watcher::take_line(std::string_view line) {
       return;
     case LineKind::malformed:
       ++counts_.malformed;
-      listener_.note(row.message);
+      note_malformed(row);
       return;
   }
+}
+
+/// One row whose time does not grow is a row like any other; after the second in a row it is the clock.
+void Watcher::note_malformed(const LogLine& row) {
+  const std::size_t before = row.goes_back ? rows_back_++ : std::exchange(rows_back_, 0);
+  if (!row.goes_back || before == 0) return listener_.note(row.message);
+  if (before > 1) return;
+  listener_.note(fmt::format(
+      "{}:{}: time went back: rows are left out, and not told one by one, until their time is after {:.9g} s; "
+      "where the clock was set anew, or parts of the log were swapped, what follows is a log of its own",
+      options_.name, stream_.lines(), last_.time.value_or(0)));
 }
 
 void Watcher::resume() {

@@ -132,6 +132,7 @@ class Watcher {
   /// Whether the line is a header, in place of what was made of rows without one.
   bool take_late_header(std::string_view line);
   void take_line(std::string_view line);
+  void note_malformed(const LogLine& row);
   void skip(const std::string& why);
   LogLine read(std::string_view line);
   /// Throws InputError: the log does not have what the noise or the pose's prior is about.
@@ -154,6 +155,7 @@ class Watcher {
   std::string held_;            // its last row of numbers, not taken yet: ...
   std::size_t held_cells_ = 0;  // ... 0: there is none
   std::size_t rows_before_header_ = 0;
+  std::size_t rows_back_ = 0;         // in a row, whose time is not after that of the last one that was taken
   std::unique_ptr<Meaning> meaning_;  // of the roll that goes on
   std::size_t samples_ = 0;           // of this roll
   Sample last_;                       // of these

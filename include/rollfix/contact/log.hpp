@@ -54,6 +54,7 @@ struct Log {
   std::vector<FingerRows> fingers{FingerRows{}};  // one or two; row k of all is the same instant
   bool contact_was_off = false;                   // rows without contact, before these or after them, were left out
   std::string unit{};                             // of its lengths, as the options had it; empty: not known
+  std::vector<std::string> notes{};               // what else stands in it that may have been meant
   std::vector<std::string> skipped{};             // why rows were left out that could not be read, as the options asked
 
   std::size_t rows() const { return kind == LogKind::contact ? fingers[0].u.size() : fingers[0].length.size(); }
@@ -171,8 +172,9 @@ enum class LineKind {
 
 struct LogLine {
   LineKind kind = LineKind::nothing;
-  Sample sample;        // of first, sample and jump
-  std::string message;  // of malformed, stray and jump: "name:line: expected ..., found ..."
+  Sample sample;           // of first, sample and jump
+  std::string message;     // of malformed, stray and jump: "name:line: expected ..., found ..."
+  bool goes_back = false;  // of malformed: because its time is not after that of the row before
 };
 
 /// What a finger that touches says of one instant, as numbers.

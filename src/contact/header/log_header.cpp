@@ -108,7 +108,11 @@ class HeaderReader {
       : row_(row), names_(names_in(row)), log_(log), options_(options) {}
 
   std::vector<Columns> columns() const {
-    if (!is_of_two()) return {finger_columns("")};
+    if (!is_of_two()) {
+      Columns one = finger_columns("");
+      one.note = other_finger_note(names_, one);
+      return {one};
+    }
     std::vector<Columns> fingers;
     for (const char* suffix : kFingerSuffixes) fingers.push_back(finger_columns(suffix));
     if (fingers[0].kind == fingers[1].kind) return fingers;

@@ -25,6 +25,10 @@ std::vector<Columns> columns_of(const TableRow& header, const std::string& log, 
 /// The columns of a log without a header. Throws InputError unless there are two.
 Columns bare_columns(const TableRow& row, const std::string& log, const LogOptions& options = {});
 
+/// Where the columns of one finger were taken and the header has another's as well: what stands there, and how both are
+/// taken; else empty.
+std::string other_finger_note(const std::vector<HeaderName>& header, const Columns& found);
+
 /// Whether the unit can be one of the column.
 bool takes(Column column, Dimension dimension);
 /// "an angle: rad, deg", "an angle or a length: ...".

@@ -181,6 +181,25 @@ std::string unit_in_name(std::string_view name, Column column, const std::string
   return changes ? std::string(unit->name) : "";
 }
 
+std::string other_finger_note(const std::vector<HeaderName>& header, const Columns& found) {
+  const ColumnPair& pair = kColumnPairs[static_cast<std::size_t>(found.kind)];
+  const auto is_taken = [&](std::size_t k) {
+    return std::find(found.cell.begin(), found.cell.end(), k) != found.cell.end();
+  };
+  const std::optional<std::size_t> own = finger_in(words_of(header[found[pair.place]].name));
+  std::vector<std::string_view> others;
+  for (std::size_t k = 0; k < header.size(); ++k) {
+    const std::optional<std::size_t> finger = finger_in(words_of(header[k].name));
+    if (is_taken(k) || !finger || finger == own) continue;
+    if (likeness(header[k], pair.place) > 0 || likeness(header[k], pair.angle) > 0) others.push_back(header[k].name);
+  }
+  if (others.empty()) return "";
+  const std::string cure =
+      names_two_fingers(header) ? fmt::format("; both are taken with `columns` {}", suggested_columns(header, {})) : "";
+  return fmt::format("this is about one finger: the columns of another, {}, are not looked at{}",
+                     fmt::join(others, ", "), cure);
+}
+
 std::string suggested_columns(const std::vector<HeaderName>& header, const Columns& found) {
   std::vector<std::string> fields;
   const bool is_of_two = found.suffix.empty() && names_two_fingers(header);

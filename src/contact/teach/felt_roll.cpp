@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "outline/turn.hpp"
@@ -62,6 +63,31 @@ TurningFit FeltRoll::how() const {
 RowErrors FeltRoll::errors() const {
   const double normal = log_.kind == LogKind::contact ? 1 / radius_ : 0;
   return {std::hypot(noise_.angle, noise_.contact * (bend() + normal)), log_.kind == LogKind::increments};
+}
+
+double FeltRoll::unsaid_noise() const {
+  constexpr std::size_t kLeastRows = 50;
+  // Noise of its own in each row turns a difference's sign from one to the next in four of five cases, and a smooth
+  // curve, however it bends, hardly ever.
+  constexpr double kLeastTurns = 0.65;
+  constexpr double kSdOfMedian = 1.4826;  // of a normal distribution, by the median of its sizes
+  if (options_.noise || readings_.size() < kLeastRows) return 0;
+  const bool is_summed = log_.kind == LogKind::increments;
+  std::vector<double> differences;
+  for (const Reading& reading : readings_) differences.push_back(reading.turn);
+  // The fourth differences, which hardly see a smooth curve; what is summed is differenced once already.
+  for (int k = 0; k < 4; ++k) {
+    std::adjacent_difference(differences.begin(), differences.end(), differences.begin());
+    differences.erase(differences.begin());
+  }
+  double turns = 0;
+  for (std::size_t k = 1; k < differences.size(); ++k) turns += differences[k] * differences[k - 1] < 0 ? 1 : 0;
+  if (turns < kLeastTurns * static_cast<double>(differences.size())) return 0;
+  for (double& one : differences) one = std::abs(one);
+  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
+  std::nth_element(differences.begin(), middle, differences.end());
+  const double sd = kSdOfMedian * *middle / std::sqrt(is_summed ? 20.0 : 70.0);
+  return sd > how().tolerance ? sd : 0;
 }
 
 double FeltRoll::bend() const { return std::abs(readings_.back().turn - readings_.front().turn) / whole_.length(); }

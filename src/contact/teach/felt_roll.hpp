@@ -31,6 +31,8 @@ class FeltRoll {
   const TurningRuns& whole() const { return whole_; }
   std::size_t rows() const { return readings_.size(); }
 
+  /// What the rows' turns seem to be off by, each for itself, where no noise was given; 0 where nothing shows it.
+  double unsaid_noise() const;
   bool is_noisy() const { return noise_.angle > 0 || noise_.contact > 0; }
   /// How near to exact rows Theta has to be.
   TurningFit how() const;

@@ -27,6 +27,12 @@ class Notes {
                                 : fmt::format("rows' turns within {:.2g} deg", taught_.deviation / kDegree);
     say(fmt::format("taught from {} places: {:.6g} long, turn {:.6g} deg, {}, {}", taught_.rows, taught_.lap,
                     taught_.turn / kDegree, counted(taught_.corners, "corner", "corners"), met));
+    if (const double noise = roll_.unsaid_noise(); noise > 0) {
+      say(
+          fmt::format("the rows' turns jitter by {0:.2g} deg, and no noise was given: the part has it all; smooth it "
+                      "with `noise` angle={0:.2g}deg",
+                      noise / kDegree));
+    }
     tell_accuracy();
     if (taught_.overlap > 0) {
       say(fmt::format("the roll is back at its start after {:.6g}; the {:.6g} that it goes on from there {}",

@@ -198,6 +198,10 @@ void Canvas::draw_shape(const OtherShape&, const Placement&) { ++tally_.others[m
 void Canvas::draw_shape(const LineShape& line, const Placement& outer) { draw_line(outer, line.from, line.to); }
 
 void Canvas::draw_shape(const ArcShape& arc, const Placement& outer) {
+  if (arc.radius < 0) {
+    ++tally_.negative;
+    return;
+  }
   draw_arc(placement_of(*entity_, outer), arc.centre, {arc.radius, 0}, {0, arc.radius}, in_radians(arc.start),
            in_radians(sweep_of(arc)));
 }

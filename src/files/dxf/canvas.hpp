@@ -43,6 +43,7 @@ struct Tally {
   std::size_t paper = 0;
   std::size_t other_layers = 0;
   std::size_t without_length = 0;
+  std::size_t negative = 0;    // circles of a radius below 0
   std::size_t wide = 0;        // polylines with widths
   std::size_t spline_fit = 0;  // polylines that stand for a spline
   std::size_t fit_points = 0;  // splines without control points

@@ -91,6 +91,9 @@ std::vector<std::string> notes_of(const Tally& tally, const std::string& layer) 
   left_out(tally.invisible, "marked as invisible");
   left_out(tally.paper, "in paper space");
   left_out(tally.other_layers, fmt::format("on other layers than '{}'", shown(layer)));
+  if (tally.negative > 0) {
+    notes.push_back(fmt::format("left out: {} of a radius below 0", counted(tally.negative, "circle", "circles")));
+  }
   if (tally.without_length > 0) {
     notes.push_back(fmt::format("left out: {} without length (between equal points or of radius 0)",
                                 counted(tally.without_length, "curve", "curves")));
@@ -190,6 +193,7 @@ class Expansion {
     if (!block.defined) {
       refuse(reader_, entity.place, fmt::format("INSERT of block '{}', which the file does not have", name));
     }
+    if (block.again) refuse(reader_, *block.again, fmt::format("block '{}' stands in the file twice", name));
     if (block.external) {
       ++tally_.others["INSERT of another file"];
       return;
@@ -240,6 +244,11 @@ void expand(const Model& model, const TagReader& reader, const std::string& laye
   Expansion expansion(model, reader, layer, drawing);
   expansion.draw_all(model.entities, {}, kLayerZero);
   std::vector<std::string> notes = notes_of(expansion.tally(), layer);
+  for (std::size_t k = 0; k < model.blocks.size(); ++k) {
+    if (!model.blocks[k].again) continue;
+    notes.push_back(
+        fmt::format("block '{}' stands in the file twice, and is not drawn", shown(model.block_names.name(k))));
+  }
   drawing.notes.insert(drawing.notes.end(), notes.begin(), notes.end());
   expansion.canvas().require_flat();
 }

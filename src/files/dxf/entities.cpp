@@ -108,7 +108,9 @@ ArcShape read_arc(EntityTags& tags, bool whole_circle) {
   tags.require_point(10);
   tags.require({40}, "its radius (group code 40)");
   if (!whole_circle) tags.require({50, 51}, "its angles (group codes 50 and 51)");
-  if (arc.radius < 0) tags.refuse(fmt::format("has the radius {}, expected one of at least 0", arc.radius));
+  // A circle is an outline by itself, and what is wrong with it is of no other: it is left out when it is drawn.
+  if (arc.radius < 0 && !whole_circle)
+    tags.refuse(fmt::format("has the radius {}, expected one of at least 0", arc.radius));
   return arc;
 }
 

@@ -110,7 +110,8 @@ struct Layer {
 
 struct Block {
   bool defined = false;
-  bool external = false;  // in another file
+  bool external = false;               // in another file
+  std::optional<std::size_t> again{};  // place of a second definition
   Vec3 base = Vec3::Zero();
   std::vector<Entity> entities;
 };

@@ -76,10 +76,14 @@ void read_block(Cursor& cursor, Model& model) {
   }
   const std::string whose = fmt::format("block '{}'", shown(name));
   const std::size_t number = model.block_names.number_of(name);
-  if (item_at(model.blocks, number).defined) refuse(cursor.reader, place, whose + " stands in the file twice");
   read_entities(cursor, model, block.entities, "ENDBLK", whose);
   cursor.skip_record();
-  item_at(model.blocks, number) = std::move(block);
+  Block& known = item_at(model.blocks, number);
+  if (known.defined) {
+    known.again = place;
+  } else {
+    known = std::move(block);
+  }
 }
 
 void read_header(Cursor& cursor, Model& model) {

@@ -1,0 +1,294 @@
+#include "rollfix/arguments/settings_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <sstream>
+#include <utility>
+
+#include "rollfix/arguments/finger_argument.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/help/option_groups.hpp"
+#include "rollfix/usage.hpp"
+#include "text/text.hpp"
+
+namespace rollfix::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kUsualFile = "rollfix.toml";
+
+/// A key with its values, and where it stands.
+struct Setting {
+  std::string command;  // the one it is for; empty: for all
+  std::string key;
+  std::vector<std::string> values;
+  std::string where;
+};
+
+/// What is of one run and not of a robot.
+constexpr std::array<std::string_view, 6> kOfOneRun = {"force", "help", "version", "config", "no-config", "certify"};
+
+/// An option or argument that is called so; null where the command has none.
+const CLI::Option* option_of(const CLI::App& command, const std::string& key) {
+  if (std::find(kOfOneRun.begin(), kOfOneRun.end(), key) != kOfOneRun.end()) return nullptr;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->nonpositional() ? name_of(*option) == "--" + key : lower_case(option->get_name(true)) == key) {
+      return option;
+    }
+  }
+  return nullptr;
+}
+
+bool takes_settings(const CLI::App& command) { return command.get_option_no_throw("--config") != nullptr; }
+
+bool is_switch(const CLI::Option& option) { return option.get_expected_min() == 0; }
+
+/// Whether a value is written as TOML has it.
+bool is_toml(std::string_view value) {
+  if (value.empty()) return false;
+  if (std::string_view("\"'[+-0123456789").find(value.front()) == std::string_view::npos) {
+    return value.substr(0, 4) == "true" || value.substr(0, 5) == "false";
+  }
+  return std::string_view("\"'[").find(value.front()) != std::string_view::npos ||
+         value.substr(0, value.find('#')).find(',') == std::string_view::npos;
+}
+
+/// Finds the lines of a file's keys, which come in their order.
+class Lines {
+ public:
+  explicit Lines(const std::string& text) : lines_(split(text, '\n')) {}
+
+  /// Throws InputError: what stands there is no KEY = VALUE.
+  std::string place_of(const CLI::ConfigItem& item, const std::string& file) {
+    for (std::size_t k = next_; k < lines_.size(); ++k) {
+      const std::string_view line = lines_[k];
+      if (key_of(line) != item.name) continue;
+      next_ = k + 1;
+      const std::string where = fmt::format("{}:{}", file, next_);
+      const std::size_t equals = line.find('=');
+      if (equals == std::string_view::npos) {
+        throw InputError(fmt::format("{}: expected KEY = VALUE, found {}", where, shown(line)));
+      }
+      if (const std::string_view value = trimmed(line.substr(equals + 1)); !is_toml(value)) {
+        throw InputError(fmt::format("{}: expected a text in quotes, {} = \"{}\", found {}", where, item.name,
+                                     shown(value), shown(value)));
+      }
+      return where;
+    }
+    return file;
+  }
+
+ private:
+  /// "every" of "every = 3", "watch.every = 3" and "\"every\" = 3".
+  static std::string_view key_of(std::string_view line) {
+    line = trimmed(line.substr(0, std::min(line.find('='), line.find('#'))));
+    if (const std::size_t dot = line.rfind('.'); dot != std::string_view::npos) line = trimmed(line.substr(dot + 1));
+    const bool is_quoted =
+        line.size() > 2 && line.front() == line.back() && (line.front() == '"' || line.front() == '\'');
+    return is_quoted ? line.substr(1, line.size() - 2) : line;
+  }
+
+  std::vector<std::string_view> lines_;
+  std::size_t next_ = 0;
+};
+
+/// CLI11 reads the file; all that it would take in silence is refused.
+std::vector<Setting> read_file(const std::string& file) {
+  const std::string text(without_mark(read_text(file)));
+  std::istringstream stream(text);
+  Lines lines(text);
+  std::vector<Setting> settings;
+  for (const CLI::ConfigItem& item : CLI::ConfigTOML().from_config(stream)) {
+    if (item.name == "++" || item.name == "--") continue;  // a section begins or ends
+    const std::string where = lines.place_of(item, file);
+    if (item.parents.size() > 1) {
+      throw InputError(fmt::format("{}: expected a key of a command, as in [watch], found {}", where, item.fullname()));
+    }
+    for (const std::string& value : item.inputs) {
+      if (value.empty() || value.front() == '"' || value.front() == '\'') {
+        throw InputError(fmt::format("{}: {}: expected a text between quotes, without a '#'", where, item.name));
+      }
+    }
+    settings.push_back({item.parents.empty() ? "" : item.parents.front(), item.name, item.inputs, where});
+  }
+  return settings;
+}
+
+/// Throws InputError: no command knows such a key, or none has such a name.
+void require_known(const Setting& setting, const CLI::App& program) {
+  std::set<std::string> commands;
+  std::set<std::string> keys;
+  bool is_known = false;
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App* one) { return takes_settings(*one); })) {
+    commands.insert(command->get_name());
+    if (!setting.command.empty() && command->get_name() != setting.command) continue;
+    is_known = is_known || option_of(*command, setting.key) != nullptr;
+    for (const CLI::Option* option : command->get_options()) {
+      const std::string name = option->nonpositional() ? name_of(*option) : "--" + lower_case(option->get_name(true));
+      if (name.size() > 2 && option_of(*command, name.substr(2)) != nullptr) keys.insert(name.substr(2));
+    }
+  }
+  const auto known = [](const std::string& typed, const std::set<std::string>& names) {
+    return known_names(typed, std::vector<std::string>(names.begin(), names.end()));
+  };
+  if (!setting.command.empty() && commands.count(setting.command) == 0) {
+    throw InputError(fmt::format("{}: there is no command '{}' that takes settings; {}", setting.where, setting.command,
+                                 known(setting.command, commands)));
+  }
+  if (is_known) return;
+  throw InputError(
+      fmt::format("{}: there is no setting '{}'; {}", setting.where, setting.key, known(setting.key, keys)));
+}
+
+/// What is typed, and what of a file does not go with it, or is of what it replaces.
+const std::map<std::string, std::set<std::string>>& replaced_by() {
+  static const std::map<std::string, std::set<std::string>> all = {
+      {"part", {"catalog", "loop", "layer", "gap", "open", "corner-angle", "smooth", "allow-crossing", "mirror"}},
+      {"catalog",
+       {"part", "loop", "layer", "gap", "open", "corner-angle", "smooth", "allow-crossing", "unit", "prior"}},
+      {"reading", {"log", "batch", "roll", "at", "columns", "wrapped", "skip-bad", "heading", "pose", "map"}},
+      {"log", {"reading", "batch"}},
+      {"batch", {"reading", "log", "roll", "at", "map"}},
+      {"merge", {"reading", "log", "shard"}},
+      {"march", {"noise", "prior", "robust", "heading", "pose", "facing", "budget", "mirror", "map", "explain"}},
+      {"heading", {"pose"}},
+      {"pose", {"heading"}},
+      {"every", {"on-change"}},
+      {"on-change", {"every"}},
+      {"open", {"bridge"}},
+      {"bridge", {"open"}}};
+  return all;
+}
+
+bool is_typed(const CLI::App& command, const std::string& key) {
+  const CLI::Option* const option = option_of(command, key);
+  return option != nullptr && option->count() > 0;
+}
+
+bool is_replaced(const CLI::App& command, const Setting& setting, bool names_part) {
+  if (is_typed(command, setting.key)) return true;
+  return std::any_of(replaced_by().begin(), replaced_by().end(), [&](const auto& one) {
+    const auto& [typed, replaced] = one;
+    const bool is_of_catalogs = typed == "catalog" && command.get_name() == "identify";
+    if (replaced.count(setting.key) == 0 || !(is_typed(command, typed) || is_of_catalogs)) return false;
+    return typed != "part" || names_part || setting.key == "catalog";  // else they are of all parts
+  });
+}
+
+/// The same file as seen from here.
+std::string beside(const std::string& file, const std::string& settings_file) {
+  const fs::path folder = fs::path(settings_file).parent_path();
+  if (folder.empty() || file == "-" || file.find(':') != std::string::npos || fs::path(file).is_absolute()) return file;
+  return (folder / file).string();
+}
+
+std::string value_as_typed(const Setting& setting, const std::string& value, const std::string& file) {
+  constexpr std::array<std::string_view, 5> kFiles = {"part", "log", "catalog", "batch", "map"};
+  const bool is_file = std::find(kFiles.begin(), kFiles.end(), setting.key) != kFiles.end() && value != "loops";
+  return is_file || (setting.key == "finger" && names_outline(value)) ? beside(value, file) : value;
+}
+
+void add_setting(const Setting& setting, const CLI::Option& option, Settings& settings) {
+  const auto add = [&](std::string argument, std::string shown_as) {
+    settings.arguments.push_back(std::move(argument));
+    settings.origins.push_back({std::move(shown_as), setting.where});
+  };
+  const std::string name = "--" + setting.key;
+  for (const std::string& value : setting.values) {
+    if (is_switch(option)) {
+      if (value != "true" && value != "false") {
+        throw InputError(fmt::format("{}: {}: expected true or false, found {}", setting.where, setting.key, value));
+      }
+      if (value == "true") add(name, name);
+      continue;
+    }
+    const std::string typed = value_as_typed(setting, value, settings.file);
+    if (option.nonpositional()) {
+      add(fmt::format("{}={}", name, typed), name);
+    } else {
+      add(typed, typed);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> Settings::notes() const {
+  if (arguments.empty()) return {};
+  std::string text = file + ":";
+  for (const std::string& argument : arguments) {
+    const bool is_option = argument.rfind("--", 0) == 0;
+    const std::size_t equals = is_option ? argument.find('=') : std::string::npos;
+    text += ' ' + (equals == std::string::npos
+                       ? quoted_for_shell(argument)
+                       : argument.substr(0, equals) + ' ' + quoted_for_shell(argument.substr(equals + 1)));
+  }
+  return {text};
+}
+
+std::string Settings::with_origins(const std::string& message) const {
+  // What is known stands behind what is told.
+  const std::string head = message.substr(0, message.find(" Known are: "));
+  const auto tells_of = [&](const std::string& argument) {
+    const std::size_t at = head.find(argument);
+    if (at == std::string::npos) return false;
+    const char next = at + argument.size() < head.size() ? head[at + argument.size()] : ' ';
+    return next != '-' && std::isalnum(static_cast<unsigned char>(next)) == 0;
+  };
+  std::set<std::string> told;
+  for (const Origin& origin : origins) {
+    if (tells_of(origin.argument)) told.insert(fmt::format("{} is from {}", origin.argument, origin.where));
+  }
+  if (told.empty()) return message;
+  return fmt::format("{} ({}){}", head, fmt::join(told, ", "), message.substr(head.size()));
+}
+
+void add_settings_argument(CLI::App& command, SettingsArgument& argument) {
+  command
+      .add_option("--config", argument.file,
+                  "options of a robot, KEY = VALUE in each line: part, finger, noise, columns, unit and all others by "
+                  "their names; what is typed counts; default rollfix.toml, where there is one")
+      ->type_name("FILE");
+  add_switch(command, "--no-config", argument.none, "heed no rollfix.toml");
+}
+
+Settings read_settings(const CLI::App& command, const SettingsArgument& argument,
+                       const std::function<void(CLI::App&)>& describe) {
+  Settings settings;
+  if (argument.none) {
+    if (argument.file.empty()) return settings;
+    throw InputError("--config and --no-config: expected one of them, found both");
+  }
+  settings.file = argument.file.empty() ? kUsualFile : argument.file;
+  std::error_code ignored;
+  if (argument.file.empty() && !fs::is_regular_file(settings.file, ignored)) return {};
+
+  const std::vector<Setting> all = read_file(settings.file);
+  CLI::App program;
+  const bool names_part = std::any_of(all.begin(), all.end(), [](const Setting& one) { return one.key == "part"; });
+  const auto is_for_this = [&](const Setting& one) { return one.command == command.get_name(); };
+  for (const Setting& setting : all) {
+    const bool is_of_another = !setting.command.empty() && !is_for_this(setting);
+    const CLI::Option* const option = is_of_another ? nullptr : option_of(command, setting.key);
+    if (option == nullptr) {
+      if (program.get_subcommands([](const CLI::App*) { return true; }).empty()) describe(program);
+      require_known(setting, program);
+      continue;
+    }
+    const bool is_said_for_this =
+        setting.command.empty() && std::any_of(all.begin(), all.end(), [&](const Setting& one) {
+          return is_for_this(one) && one.key == setting.key;
+        });
+    if (!is_said_for_this && !is_replaced(command, setting, names_part)) add_setting(setting, *option, settings);
+  }
+  return settings;
+}
+
+}  // namespace rollfix::app

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <string>
+
+namespace rollfix::app {
+
+/// What options are about, in the order in which pages list them.
+inline constexpr std::array kOptionGroups = {"Part", "Log", "Finger", "Noise", "Roll", "Search", "Output", "General"};
+
+/// Puts each option of a command into its group.
+void group_options(CLI::App& command);
+
+/// What an option is called where it has one name: --log, or -o.
+std::string name_of(const CLI::Option& option);
+
+}  // namespace rollfix::app
