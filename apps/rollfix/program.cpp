@@ -1,5 +1,7 @@
 #include "rollfix/program.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -17,7 +19,9 @@
 
 #include "rollfix/commands.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/output/progress_line.hpp"
 #include "rollfix/output/report.hpp"
+#include "rollfix/pulse.hpp"
 #include "rollfix/usage.hpp"
 #include "rollfix/version.hpp"
 #include "text/text.hpp"
@@ -139,6 +143,19 @@ Command parse(CLI::App& program, const std::vector<std::string>& arguments, std:
   return chosen;
 }
 
+/// Runs it; what takes long says on a terminal what is being done. What is told line by line, as by watch, is not
+/// written over.
+Report carried_out(const Command& command, bool shows_progress) {
+  constexpr double kPatience = 0.5;  // seconds
+  ProgressLine line(shows_progress);
+  if (!line.is_shown()) return command();
+  const Pulse pulse([&](const char* doing) {
+    if (doing != nullptr && line.seconds() > kPatience)
+      line.show(fmt::format("rollfix: {}, {:.0f} s", doing, line.seconds()));
+  });
+  return command();
+}
+
 int code(ExitCode exit_code) { return static_cast<int>(exit_code); }
 
 /// `notes`: where the narration goes.
@@ -184,7 +201,8 @@ int run(const std::vector<std::string>& arguments, std::ostream& out, std::ostre
     bool quiet = false;
     const Command command = parse(program, arguments, out, notes, quiet);
     if (quiet) notes.rdbuf(nullptr);  // what is written to it goes nowhere
-    const Report report = command();
+    const bool is_live = !arguments.empty() && arguments.front() == "watch";
+    const Report report = carried_out(command, !quiet && !is_live);
     deliver(report, out, notes);
     return code(report.exit_code);
   } catch (const CLI::Success& request) {  // --help, --version

@@ -85,7 +85,7 @@ struct Field {
   const char* name;
   void (*set)(const Json& value, RollArguments& arguments);
 };
-constexpr std::array<Field, 17> kFields = {{
+constexpr std::array<Field, 18> kFields = {{
     {"readings", [](const Json& value, RollArguments& to) { to.readings = typed_readings(value); }},
     {"log", [](const Json& value, RollArguments& to) { to.logs = typed_each(value, "log"); }},
     {"fingers", [](const Json& value, RollArguments& to) { to.fingers = typed_each(value, "fingers"); }},
@@ -103,6 +103,7 @@ constexpr std::array<Field, 17> kFields = {{
     {"direction", [](const Json& value, RollArguments& to) { to.direction = typed(value, "direction"); }},
     {"mirrored", [](const Json& value, RollArguments& to) { to.mirror = typed_switch(value, "mirrored"); }},
     {"robust", [](const Json& value, RollArguments& to) { to.robust = typed_switch(value, "robust"); }},
+    {"may_overlap", [](const Json& value, RollArguments& to) { to.may_overlap = typed_switch(value, "may_overlap"); }},
 }};
 
 void set_field(const std::string& name, const Json& value, RollArguments& arguments) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "../accuracy.hpp"
+#include "rollfix/pulse.hpp"
 
 namespace rollfix {
 namespace {
@@ -201,6 +202,7 @@ void LineSearch::split(const Stretch& stretch) {
 }
 
 void LineSearch::decide(Stretch stretch) {
+  beat();
   ++findings_.counts.intervals;
   if (!clip(stretch, margin_)) return;
   const Bounds along = bounds(stretch);
