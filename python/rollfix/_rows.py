@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import collections.abc
 from typing import Any, Dict, Iterator, List, Tuple
 
 from ._core import Placement
@@ -50,23 +50,23 @@ def row_of(placement: Placement) -> Dict[str, Any]:
     return row
 
 
-def _keys(placement: Placement) -> List[str]:
-    has_noise = placement.probability is not None
-    return list(names_of(len(placement.start), has_noise, placement.pose is not None))
+def _keys(self: Placement) -> List[str]:
+    has_noise = self.probability is not None
+    return list(names_of(len(self.start), has_noise, self.pose is not None))
 
 
-def _item(placement: Placement, name: str) -> Any:
-    if name not in _keys(placement):
+def _item(self: Placement, name: str) -> Any:
+    if name not in _keys(self):
         raise KeyError(name)
-    return row_of(placement)[name]
+    return row_of(self)[name]
 
 
-def _iterate(placement: Placement) -> Iterator[str]:
-    return iter(_keys(placement))
+def _iterate(self: Placement) -> Iterator[str]:
+    return iter(_keys(self))
 
 
 # C++ makes the class. A data frame asks whether its rows are mappings.
 setattr(Placement, "keys", _keys)
 setattr(Placement, "__getitem__", _item)
 setattr(Placement, "__iter__", _iterate)
-Mapping.register(Placement)
+collections.abc.Mapping.register(Placement)
