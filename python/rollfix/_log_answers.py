@@ -74,7 +74,8 @@ class Results(SequenceABC, Generic[One]):  # type: ignore[type-arg]
 
     def __repr__(self) -> str:
         errors = len(self.errors)
-        return f"<{type(self).__name__}: {len(self) - errors} answers{f', {errors} errors' if errors else ''}>"
+        failed = f", {errors} error{'s' if errors > 1 else ''}" if errors else ""
+        return f"<{type(self).__name__}: {len(self) - errors} answers{failed}>"
 
     def __reduce__(self) -> Any:
         return (type(self), (self._all,))
