@@ -379,23 +379,7 @@ class WorldPicture {
   double fan_by_ = 1;
 };
 
-bool has_places(const Log& log) {
-  return log.kind == LogKind::contact && log.rows() > 0 &&
-         std::all_of(log.fingers.begin(), log.fingers.end(),
-                     [](const FingerRows& rows) { return !rows.x.empty() && !rows.y.empty() && !rows.psi.empty(); });
-}
-
 }  // namespace
-
-std::size_t Plan::world_placement() const {
-  if (shown) return *shown;
-  return figure->highlight.value_or(0);
-}
-
-bool Plan::has_world() const {
-  if (figure->log == nullptr || placements().empty() || figure->answer->fingers.empty()) return false;
-  return has_places(*figure->log) && !placements()[world_placement()].pose.empty();
-}
 
 double world_width(const Plan& plan) { return plan.has_world() ? kWorldShare * plan.width() : 0; }
 
