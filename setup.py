@@ -26,6 +26,7 @@ class CMakeBuild(build_ext):
             "CMAKE_BUILD_TYPE": "Release",
             "CMAKE_UNITY_BUILD": "ON",
             "ROLLFIX_TOGETHER": "4",  # a compiler takes less than 700 MB
+            "ROLLFIX_COMPILED_ALONE": "pair_filter",
             "Python_EXECUTABLE": sys.executable,
             "ROLLFIX_BUILD_PYTHON": "ON",
             "ROLLFIX_BUILD_CATALOG": "ON",

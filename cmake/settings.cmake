@@ -13,6 +13,9 @@ endif()
 # rollfix_rooms(TARGET): in a unity build (see CMakePresets.json) the files of a folder are compiled together.
 set(ROLLFIX_COMPILED_ALONE "" CACHE STRING "Files that even then are compiled by themselves, as a regular expression")
 set(ROLLFIX_TOGETHER 0 CACHE STRING "Most files of a folder that are compiled together; 0: all. Fewer take less memory")
+if(ROLLFIX_TOGETHER AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  add_compile_options(--param=ggc-min-expand=10 --param=ggc-min-heapsize=32768)  # it gathers its garbage sooner
+endif()
 function(rollfix_rooms target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
   get_target_property(sources ${target} SOURCES)
