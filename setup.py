@@ -25,6 +25,8 @@ class CMakeBuild(build_ext):
         options = {
             "CMAKE_BUILD_TYPE": "Release",
             "CMAKE_UNITY_BUILD": "ON",
+            "ROLLFIX_TOGETHER": "4",  # a compiler takes less than 700 MB
+            "ROLLFIX_COMPILED_ALONE": "pair_filter",
             "Python_EXECUTABLE": sys.executable,
             "ROLLFIX_BUILD_PYTHON": "ON",
             "ROLLFIX_BUILD_CATALOG": "ON",

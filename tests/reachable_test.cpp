@@ -307,6 +307,16 @@ TEST(Overlap, says_when_and_by_how_much) {
   EXPECT_NEAR(dropped[0].depth, 1, 1e-6);
 }
 
+TEST(Overlap, of_fingers_at_different_heights_is_none) {
+  const Part part(gallery("circle,r=1"));
+  const std::vector<Reading> readings{{kPi / 4, -kPi / 4, 2 * kPi / 4}};
+  LocateOptions options;
+  options.facing = -kPi / 2;
+  Search search = locate(part, readings, options);
+  EXPECT_TRUE(drop_unreachable(part, disks(part, 0.5, 0.5), readings, search, {}, 0, true).empty());
+  EXPECT_EQ(search.placements.size(), 1U);
+}
+
 TEST(Overlap, drops_an_extent_only_where_the_disks_are_in_each_other_from_everywhere_in_it) {
   // On a circle of radius 1, disks of radius 0.5 are apart where their contacts are 2 asin(1 / 3) = 0.68 apart.
   const Part part(gallery("circle,r=1"));

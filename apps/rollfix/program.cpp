@@ -1,5 +1,7 @@
 #include "rollfix/program.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -19,7 +21,9 @@
 #include "rollfix/error.hpp"
 #include "rollfix/help/help_page.hpp"
 #include "rollfix/help/option_groups.hpp"
+#include "rollfix/output/progress_line.hpp"
 #include "rollfix/output/report.hpp"
+#include "rollfix/pulse.hpp"
 #include "rollfix/usage.hpp"
 #include "rollfix/version.hpp"
 #include "text/text.hpp"
@@ -175,6 +179,19 @@ struct Asked {
   }
 };
 
+/// Runs it; what takes long says on a terminal what is being done. What is told line by line, as by watch, is not
+/// written over.
+Report carried_out(const Command& command, bool shows_progress) {
+  constexpr double kPatience = 0.5;  // seconds
+  ProgressLine line(shows_progress);
+  if (!line.is_shown()) return command();
+  const Pulse pulse([&](const char* doing) {
+    if (doing != nullptr && line.seconds() > kPatience)
+      line.show(fmt::format("rollfix: {}, {:.0f} s", doing, line.seconds()));
+  });
+  return command();
+}
+
 int code(ExitCode exit_code) { return static_cast<int>(exit_code); }
 
 void tell(const std::vector<std::string>& narration, std::ostream& notes) {
@@ -230,7 +247,7 @@ int run(const std::vector<std::string>& arguments, std::ostream& out, std::ostre
     const bool is_live = !arguments.empty() && arguments.front() == "watch";
     const std::vector<std::string> settings = asked.settings.notes();
     if (is_live) tell(settings, notes);
-    Report report = asked.command();
+    Report report = carried_out(asked.command, !asked.quiet && !is_live);
     if (!is_live) report.notes.insert(report.notes.begin(), settings.begin(), settings.end());
     deliver(report, out, notes);
     return code(report.exit_code);

@@ -10,12 +10,13 @@ one, the material on the left. The names are those of the JSON documents of the 
 """
 
 from ._answer import Answer, Placement
-from ._catalog import Catalog, CatalogEntry
+from ._catalog import Catalog, CatalogEntry, ManyIdentified, PartsAdvice
 from ._core import InputError, InternalError, __version__
 from ._documents import Advice, Inspection
 from ._fingers import Disk, Finger, Jaw, OutlineFinger
 from ._identified import Identified, PartFound
 from ._identify import identify
+from ._log_answers import LogAnswers
 from ._logs import Log, Roll, read_log
 from ._making import gallery_shapes
 from ._many import ManyAnswers
@@ -23,6 +24,7 @@ from ._messages import RollfixWarning
 from ._noise import Noise
 from ._part import Part
 from ._reach import Reach
+from ._resample import resample
 from ._teach import Taught, teach
 from ._watch import Watch
 
@@ -41,11 +43,14 @@ __all__ = [
     "InternalError",
     "Jaw",
     "Log",
+    "LogAnswers",
     "ManyAnswers",
+    "ManyIdentified",
     "Noise",
     "OutlineFinger",
     "Part",
     "PartFound",
+    "PartsAdvice",
     "Placement",
     "Reach",
     "Roll",
@@ -56,5 +61,6 @@ __all__ = [
     "gallery_shapes",
     "identify",
     "read_log",
+    "resample",
     "teach",
 ]

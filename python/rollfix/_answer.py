@@ -12,7 +12,8 @@ from . import _core
 from ._checks import least, path, places, text, travel as travel_given, whole
 from ._core import Answer as CoreAnswer, InputError, Placement as Placement
 from ._fingers import Finger, finger_from
-from ._messages import in_a_page
+from ._messages import in_a_page, warn
+from ._rows import names_of, row_of
 from ._words import diagnosis_in_python, in_python
 
 if TYPE_CHECKING:
@@ -178,7 +179,7 @@ class Answer(SequenceABC):  # type: ignore[type-arg]
             return
         whys = {
             "reach": "the finger can't touch there",
-            "overlap": "the fingers would overlap",
+            "overlap": "the fingers would overlap; of fingers at different heights say may_overlap=True",
             "improbable": "they are too improbable",
         }
         for reason, count in self.dropped.items():
@@ -196,6 +197,36 @@ class Answer(SequenceABC):  # type: ignore[type-arg]
         """
         document: Dict[str, Any] = json.loads(self._core.document(explain))
         return document
+
+    def certify(self, file: Any = None, budget: Optional[int] = None) -> Dict[str, Any]:
+        """The proof that there is no other place: the document that `rollfix-verify` checks with code of its own.
+
+        Of an answer to its readings, without noise, the part face up, one way round. A RollfixWarning says where something
+        is left unproved. docs/certificates.md says what is proved.
+
+        Parameters
+        ----------
+        file : path, optional
+            Also writes it there.
+        budget : int, optional
+            As of `Part.locate`.
+        """
+        for found, what in (
+            (self._core.has_noise, "noise"),
+            (self._core.either_way, "direction='either'"),
+            (self.mirrored, "mirrored=True"),
+        ):
+            if found:
+                raise InputError(f"certify: a certificate is of one way round without noise, found {what}")
+        most = None if budget is None else whole(budget, "budget", 1)
+        document, is_complete = self._core.certificate(most)
+        if file is not None:
+            with open(path(file, "file"), "w", encoding="utf-8") as out:
+                out.write(document)
+        if not is_complete:
+            warn("certify: the certificate leaves something unproved: its cells say where")
+        certificate: Dict[str, Any] = json.loads(document)
+        return certificate
 
     def density(self, s: Any = None, finger: int = 0) -> Any:
         """The posterior of where the first contact was. Needs noise.
@@ -242,6 +273,8 @@ class Answer(SequenceABC):  # type: ignore[type-arg]
     def to_frame(self) -> Any:
         """A pandas.DataFrame with a row for each placement; of two fingers with columns `start_a`, `start_b`, ...
 
+        `pandas.DataFrame(answer)` is the same, its columns by name.
+
         `extent_lo`, `extent_hi`: within the tolerance. With noise `interval_lo`, `interval_hi`: 95 %. `hi` may exceed P.
         """
         from ._logs import pandas
@@ -249,34 +282,12 @@ class Answer(SequenceABC):  # type: ignore[type-arg]
         return pandas().DataFrame(self._columns())
 
     def _columns(self) -> Dict[str, List[Any]]:
-        ends = [""] if self.fingers == 1 else ["_a", "_b"]
-        columns: Dict[str, List[Any]] = {"kind": [one.kind for one in self]}
-        if self._core.has_noise:
-            columns["probability"] = [one.probability for one in self]
-        for k, end in enumerate(ends):
-            columns["start" + end] = [one.start[k] for one in self]
-            columns["end" + end] = [one.end[k] for one in self]
-            columns["extent_lo" + end] = [one.extent[k, 0] for one in self]
-            columns["extent_hi" + end] = [one.extent[k, 1] for one in self]
-            columns["x" + end] = [one.point[k, 0] for one in self]
-            columns["y" + end] = [one.point[k, 1] for one in self]
-            columns["tangent" + end] = [one.tangent[k] for one in self]
-            if self._core.has_noise:
-                columns["mean" + end] = [None if one.mean is None else one.mean[k] for one in self]
-                columns["sd" + end] = [None if one.sd is None else one.sd[k] for one in self]
-                for name, side in (("interval_lo", 0), ("interval_hi", 1)):
-                    columns[name + end] = [None if one.interval is None else one.interval[k, side] for one in self]
-                columns["end_mean" + end] = [None if one.end_mean is None else one.end_mean[k] for one in self]
-                columns["end_sd" + end] = [None if one.end_sd is None else one.end_sd[k] for one in self]
-        poses = [one.pose for one in self]
-        if any(pose is not None for pose in poses):
-            for k, name in enumerate(("pose_x", "pose_y", "pose_heading")):  # at the first contact
-                columns[name] = [None if pose is None else pose[0, k] for pose in poses]
-        if not self._core.has_noise:
-            columns["contradicted"] = [one.contradicted for one in self]
-        columns["residual"] = [one.residual for one in self]
-        columns["error"] = [one.error for one in self]
-        return columns
+        rows = [row_of(one) for one in self]
+        return {name: [row[name] for row in rows] for name in names_of(self.fingers, self._core.has_noise, self._has_pose)}
+
+    @property
+    def _has_pose(self) -> bool:
+        return any(one.pose is not None for one in self)
 
     def to_svg(self, *, highlight: Optional[int] = None, title: str = "", width: float = 0) -> str:
         """The figure of the placements, as SVG: that of `rollfix locate -o`.
@@ -306,15 +317,15 @@ class Answer(SequenceABC):  # type: ignore[type-arg]
         log = None if self.log is None or self._core.strays else self.log._core
         return _draw.answer_figure(self._core, log, highlight, text(title, "title"), wide)
 
-    def plot(self, ax: Any = None) -> Any:
+    def plot(self, ax: Any = None, **style: Any) -> Any:
         """Draws the outline and the placements on matplotlib axes, and returns them.
 
         Each placement is a line along the boundary from its start (a dot) to its end; with noise as strong as it is
-        probable. New axes are made where none are given.
+        probable. New axes are made where none are given. `style`: as of matplotlib's `plot`, for these lines.
         """
         from ._plots import plot_answer
 
-        return plot_answer(self, ax)
+        return plot_answer(self, ax, style)
 
     def _repr_svg_(self) -> str:
         return in_a_page(self.to_svg())

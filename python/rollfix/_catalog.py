@@ -9,20 +9,22 @@ from typing import Any, Callable, Dict, Iterable, Iterator, List, Optional, Sequ
 
 from . import _core
 from ._answer import Answer
-from ._checks import flag, number, path as path_given, unit_of_length, whole
+from ._catalog_sources import sources_from
+from ._checks import flag, path as path_given, travel as travel_given, unit_of_length, whole
 from ._columns import Columns, Units
 from ._core import InputError
+from ._documents import Document
 from ._fingers import FingerLike
 from ._identified import Identified, answers_of
+from ._log_answers import Results, checked, errors_given, several
 from ._logs import Log
 from ._messages import did_you_mean, shown, warn
 from ._noise import NoiseLike
 from ._part import Part
 from ._progress import Progress
 from ._question import Question, refused
+from ._watch import Watch
 from ._words import in_python
-
-Source = Tuple[str, str, float]  # what to load, the part's name, how many of it there are
 
 
 @dataclass(frozen=True)
@@ -84,9 +86,10 @@ class Catalog:
         ----------
         path : path
             The catalog's file.
-        sources : path, or a list of paths, 'gallery:NAME,key=value,...', or pairs (one of them, count)
+        sources : path, list or mapping
             A folder: all outlines in it and in the folders in it. A text file with one of them in each line, behind a
-            tabulator how many of it there are. Or an outline.
+            tabulator how many of it there are. Or an outline. A list of them, of 'gallery:NAME,key=value,...', of `Part`, of
+            arrays of points, or of pairs (one of them, count). A mapping gives parts and arrays their names.
         unit : str
             Of all parts, 'mm', 'in', ...; others are converted. Default: that of the first part that states one.
         threads : int
@@ -94,7 +97,7 @@ class Catalog:
         lean : bool
             Keep outlines only and compute parts when they are asked for: a seventh of the size.
         progress : bool, optional
-            A bar, by tqdm. Default: where tqdm is installed, stderr is a terminal, and it lasts more than a second.
+            A bar, by tqdm. Default: where tqdm is installed, in a notebook or on a terminal, after half a second.
 
         Returns
         -------
@@ -102,7 +105,7 @@ class Catalog:
         """
         file, known = path_given(path, "path"), unit_of_length(unit)
         is_lean, count = flag(lean, "lean"), whole(threads, "threads")
-        taken = _taken(sources)
+        taken = sources_from(sources)
         with Progress(len(taken), progress, "files") as bar:
             left_out, _ = _core.build_catalog(file, taken, known, count, is_lean, bar.report)
         if left_out:
@@ -193,6 +196,7 @@ class Catalog:
         mirrored: bool = False,
         direction: str = "ccw",
         robust: bool = False,
+        may_overlap: bool = False,
         columns: Columns = None,
         units: Units = None,
         degrees: bool = False,
@@ -225,7 +229,7 @@ class Catalog:
         """
         options = dict(
             finger=finger, noise=noise, tolerance=tolerance, facing=facing, at=at, heading=heading, pose=pose,
-            mirrored=mirrored, direction=direction, robust=robust, columns=columns, units=units, degrees=degrees,
+            mirrored=mirrored, direction=direction, robust=robust, may_overlap=may_overlap, columns=columns, units=units, degrees=degrees,
             wrapped=wrapped,
             roll=roll, rounding=rounding, budget=budget,
         )  # fmt: skip
@@ -233,6 +237,73 @@ class Catalog:
         count = whole(threads, "threads")
         problem, read = self._asked(readings, turn, log, options)
         return self._search(problem, read, which, count)
+
+    def identify_many(
+        self,
+        readings: Any = None,
+        *,
+        logs: Any = None,
+        threads: int = 0,
+        progress: Optional[bool] = None,
+        errors: str = "collect",
+        **options: Any,
+    ) -> "ManyIdentified":
+        """What `identify` finds of each of many rolls, one after the other, each on all cores.
+
+        Parameters
+        ----------
+        readings : iterable
+            Of each roll its readings, as of `identify`: an array (n, 2) or (n, 3) is of n rolls, one of each row. Or
+        logs : iterable of logs
+            as of `identify`.
+        threads, **options
+            As of `identify`, for all of them.
+        progress, errors
+            As of `Part.locate_logs`.
+
+        Returns
+        -------
+        ManyIdentified
+            A sequence of `Identified`, and of InputError where a roll can't be worked with; `answers`, `errors`, `to_frame`.
+        """
+        if (readings is None) == (logs is None):
+            raise InputError(f"readings: expected readings or `logs`, found {'neither' if logs is None else 'both'}")
+        then = errors_given(errors)
+        rolls = [dict(log=one) for one in several(logs)] if readings is None else [dict(readings=one) for one in readings]
+        found: List[Union[Identified, InputError]] = []
+        with Progress(len(rolls), progress, "rolls") as bar:
+            for roll in rolls:
+                try:
+                    found.append(self.identify(threads=threads, **roll, **options))
+                except InputError as error:
+                    found.append(error)
+                bar.report(len(found))
+        return ManyIdentified(checked(found, then, "logs" if readings is None else "readings"))
+
+    def advise(
+        self, readings: Any = None, turn: Any = None, *, log: Any = None, travel: Any = None, **options: Any
+    ) -> "PartsAdvice":
+        """The next roll: which one tells apart the parts that remain, and the places on them. Of one finger.
+
+        Parameters
+        ----------
+        readings, turn, log, **options
+            The roll so far, as of `identify`.
+        travel : float or (float, float), optional
+            How far the finger can roll on, as of `Part.advise`.
+        """
+        range_given = travel_given(travel)
+        problem, read = self._asked(readings, turn, log, options)
+        try:
+            return PartsAdvice(self._core.advise(problem, range_given))
+        except InputError as error:
+            raise refused(error, read) from None
+
+    def watch(self, *, noise: NoiseLike, **options: Any) -> Watch:
+        """A `Watch` on whichever of the parts it is: fewer and fewer of them remain. Options as of `Part.watch`."""
+        if len(self) == 0:
+            raise InputError(f"{self.path}: the catalog has no parts")
+        return Watch(self.part(0), noise=noise, catalog=self, **options)
 
     def merge(self, shards: Iterable[Identified]) -> Identified:
         """What one search would have found, to the bit, from what was found in all shards, in any order."""
@@ -300,30 +371,18 @@ def _shard(given: Any) -> Tuple[int, int]:
     return whole(k, "shard", 1, count), count
 
 
-def _taken(sources: Any) -> List[Source]:
-    """Every outline of them."""
-    if isinstance(sources, (str, os.PathLike)):
-        return _core.catalog_sources(path_given(sources, "sources"))
-    if not hasattr(sources, "__iter__"):
-        raise InputError(f"sources: expected a folder, a list of outlines, or paths, found {shown(sources)}")
-    taken: List[Source] = []
-    for one in sources:
-        if isinstance(one, (str, os.PathLike)):
-            taken += _core.catalog_sources(path_given(one, "sources"))
-            continue
-        if not isinstance(one, (tuple, list)) or len(one) != 2:
-            raise InputError(f"sources: expected a path, 'gallery:...', or one with its count, found {shown(one)}")
-        count = _count(one[1])
-        taken += [
-            (argument, name, count) for argument, name, _ in _core.catalog_sources(path_given(one[0], "sources"))
-        ]
-    if not taken:
-        raise InputError("sources: expected outlines, found none")
-    return taken
+class ManyIdentified(Results[Identified]):
+    """What was found of many rolls: a sequence of `Identified`, and of InputError where a roll can't be worked with."""
+
+    __slots__ = ()
 
 
-def _count(given: Any) -> float:
-    count = number(given, "sources")
-    if not count > 0:
-        raise InputError(f"sources: expected a count above 0, found {count!r}")
-    return count
+class PartsAdvice(Document):
+    """Which roll tells the remaining parts apart: the fields of `rollfix/advise/1`, see docs/json.md, with each contender's part."""
+
+    __slots__ = ()
+
+    def __repr__(self) -> str:
+        if not self.helps:
+            return f"<PartsAdvice: {self.verdict}; {self.why}>"
+        return f"<PartsAdvice: {self.verdict}; roll on by {self.length:.6g}>"

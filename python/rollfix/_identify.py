@@ -44,6 +44,7 @@ def identify(
     mirrored: bool = False,
     direction: str = "ccw",
     robust: bool = False,
+    may_overlap: bool = False,
     columns: Columns = None,
     units: Units = None,
     degrees: bool = False,
@@ -80,7 +81,7 @@ def identify(
     asked = catalog if isinstance(catalog, Catalog) else Catalog(path(catalog, "catalog"))
     options = dict(
         finger=finger, noise=noise, tolerance=tolerance, facing=facing, at=at, heading=heading, pose=pose,
-        mirrored=mirrored, direction=direction, robust=robust, columns=columns, units=units, degrees=degrees,
+        mirrored=mirrored, direction=direction, robust=robust, may_overlap=may_overlap, columns=columns, units=units, degrees=degrees,
         wrapped=wrapped,
         roll=roll, rounding=rounding, budget=budget,
     )  # fmt: skip

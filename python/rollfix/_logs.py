@@ -17,12 +17,13 @@ from ._tables import Table, is_table, path_of, text_of
 from ._words import Numbering, in_python
 
 
-class Log:
-    """What one finger, or two together, recorded of one roll.
+class Log(Dict[str, np.ndarray]):
+    """What one finger, or two together, recorded of one roll: its columns by name. It can't be changed.
 
     Made by `read_log` and `simulate`. Angles are radians, unwrapped or not as they were given; lengths are in the part's
     unit; `time` is in seconds. `len` is the number of rows; `log["u"]` is a column. Of increments `log["length"]` and
-    `log["turn"]` are their sums from the first contact.
+    `log["turn"]` are their sums from the first contact. A dict to whoever asks, such as `pandas.DataFrame(log)`; empty as
+    such, as the columns are made when they are asked for.
     """
 
     __slots__ = ("_core", "_columns", "_numbering", "_clock")
@@ -62,7 +63,7 @@ class Log:
         return self._numbering.said(self._core.name)
 
     def to_frame(self) -> Any:
-        """The columns as a pandas.DataFrame: a log of the same kind and the same bits."""
+        """The columns as a pandas.DataFrame: a log of the same kind and the same bits. So is `pandas.DataFrame(log)`."""
         return pandas().DataFrame(self.to_dict())
 
     def save(self, file: Any) -> None:
@@ -85,10 +86,48 @@ class Log:
     def __iter__(self) -> Iterator[str]:
         return iter(self.columns)
 
+    def __contains__(self, column: object) -> bool:
+        return column in self.columns
+
+    def keys(self) -> Any:
+        """The columns' names."""
+        return self.to_dict().keys()
+
+    def values(self) -> Any:
+        """The columns."""
+        return self.to_dict().values()
+
+    def items(self) -> Any:
+        """The columns with their names."""
+        return self.to_dict().items()
+
+    def get(self, column: str, default: Any = None) -> Any:
+        """A column, or `default` where the log has none of the name."""
+        return self[column] if column in self else default
+
+    def copy(self) -> Dict[str, np.ndarray]:
+        """The columns as a dict of its own."""
+        return self.to_dict()
+
+    def _refuse(self, *given: Any, **named: Any) -> Any:
+        raise TypeError("a Log can't be changed: change log.copy(), a dict, and give that to read_log")
+
+    __setitem__ = __delitem__ = _refuse
+    update = pop = popitem = clear = setdefault = __ior__ = _refuse  # type: ignore[assignment]
+
+    def plot(self, ax: Any = None, **style: Any) -> Any:
+        """Draws the columns over time, or over rows, on matplotlib axes, and returns them; `style` as of `plot`."""
+        from ._plots import plot_log
+
+        return plot_log(self, ax, style)
+
+    def __ne__(self, other: object) -> bool:
+        return not self == other
+
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Log) and self._core.is_same(other._core)
 
-    def __hash__(self) -> int:
+    def __hash__(self) -> int:  # type: ignore[override]
         return hash((self.name, len(self)))
 
     def __repr__(self) -> str:

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import operator
-import os
-from typing import Any, Dict, Iterable, Iterator, List, Optional, Tuple, Union, overload
+from typing import Any, Dict, Iterator, List, Optional, Union, overload
 
 import numpy as np
 
@@ -12,11 +11,9 @@ from . import _core
 from ._answer import Answer
 from ._checks import READINGS, array, by_name, finite, whole
 from ._core import InputError
-from ._logs import Log, Roll
 from ._messages import shown
 from ._progress import Progress
 from ._question import Question, solved
-from ._tables import is_frame, is_table
 
 Result = Union[Answer, InputError]
 KINDS: np.ndarray = np.array(["crossing", "touching", "stretch", "corner"])
@@ -241,34 +238,3 @@ def locate_many(question: Question, readings: Any, facing: Any, threads: int, pr
         like, along = question.like_rows(rows.shape[1]), np.ascontiguousarray(question.along_outline(rows))
         columns = _core.solve_many(like, along, facings, whole(threads, "threads"), bar.report)
     return ManyAnswers(columns, question, rows, facings)
-
-
-def locate_logs(question: Question, logs: Any, threads: int, progress: Optional[bool]) -> List[Result]:
-    count = whole(threads, "threads")
-    asked = [_asked(question, log) for log in _several(logs)]
-    problems = [one[0] for one in asked if not isinstance(one, InputError)]
-    with Progress(len(problems), progress) as bar:
-        found = iter(_core.solve_problems(problems, count, bar.report))
-    return [one if isinstance(one, InputError) else _of_log(next(found), one[1]) for one in asked]
-
-
-def _several(logs: Any) -> Iterable[Any]:
-    is_one = isinstance(logs, (str, bytes, os.PathLike, Log, Roll)) or is_table(logs)
-    if is_one and not (isinstance(logs, np.ndarray) and logs.ndim == 3):
-        kind = "a data frame" if is_frame(logs) else f"a {type(logs).__name__}"
-        raise InputError(f"logs: expected a list of logs, found {kind}: give [log], or ask locate(log=log)")
-    if not hasattr(logs, "__iter__"):
-        raise InputError(f"logs: expected a list of logs, found {shown(logs)}")
-    several: Iterable[Any] = logs
-    return several
-
-
-def _asked(question: Question, log: Any) -> Union[Tuple[_core.Problem, Log], InputError]:
-    try:
-        return question.of_log(log)
-    except InputError as error:
-        return error
-
-
-def _of_log(solution: Union[_core.Answer, str], log: Log) -> Result:
-    return InputError(log._said(solution)) if isinstance(solution, str) else Answer(solution, log)

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import math
+import re
 from typing import Any, Dict, Mapping, Optional, Union
 
 from ._checks import degrees_hint, number
 from ._core import InputError
-from ._messages import did_you_mean, shown
+from ._messages import did_you_mean, shown, warn
 
 MOST_ANGLE = 0.5  # radians: beyond that a row says nothing, and degrees were meant
+UNUSUAL_ANGLE = 0.1  # radians: from there on a number without a unit may well be degrees
+_ANGLE = re.compile(r"\s*([-+]?[\d.]+(?:e[-+]?\d+)?)\s*(deg|°|rad)\s*", re.IGNORECASE)
 
 
 class Noise:
@@ -18,8 +22,9 @@ class Noise:
     ----------
     contact : float
         Of a contact's place along the outline, in the part's unit, each row on its own.
-    angle : float
-        Of a turn, radians, each row on its own.
+    angle : float or str
+        Of a turn, each row on its own: a number in radians, or a text with the unit, "0.5deg" or "0.2rad". A number of 0.1
+        or more is taken in radians as any other, with a warning that says how to write degrees.
     slip : float
         Of the length travelled, per length.
     radius : float
@@ -42,7 +47,7 @@ class Noise:
     def __init__(
         self,
         contact: float = 0,
-        angle: float = 0,
+        angle: Union[float, str] = 0,
         slip: float = 0,
         radius: float = 0,
         position: float = 0,
@@ -51,7 +56,7 @@ class Noise:
         walk: float = 0,
         gyro: float = 0,
     ) -> None:
-        values = (contact, angle, slip, radius, position, correlation, drift, walk, gyro)
+        values = (contact, _angle(angle), slip, radius, position, correlation, drift, walk, gyro)
         sds = {name: number(value, f"noise: {name}") for name, value in zip(self.NAMES, values)}
         for name, sd in sds.items():
             if sd < 0:
@@ -83,7 +88,24 @@ class Noise:
         return f"Noise({', '.join(f'{name}={sd!r}' for name, sd in self._sds.items() if sd != 0)})"
 
 
-NoiseLike = Union[Noise, Mapping[str, float], None]
+def _angle(given: Any) -> float:
+    """Radians."""
+    if isinstance(given, str):
+        found = _ANGLE.fullmatch(given)
+        if not found:
+            raise InputError(f"noise: angle: expected radians as a number, or a text such as '0.5deg', found {given!r}")
+        value = number(float(found[1]), "noise: angle")
+        return value if found[2].lower() == "rad" else math.radians(value)
+    value = number(given, "noise: angle")
+    if UNUSUAL_ANGLE <= value <= MOST_ANGLE:
+        warn(
+            f"noise: angle {value!r} is in radians, {math.degrees(value):.3g} degrees: "
+            f"write angle='{value:g}deg' or angle='{value:g}rad'"
+        )
+    return value
+
+
+NoiseLike = Union[Noise, Mapping[str, Any], None]
 
 
 def noise(given: NoiseLike) -> Optional[Dict[str, float]]:

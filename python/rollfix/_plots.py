@@ -1,10 +1,10 @@
-"""What notebooks show."""
+"""What notebooks show, and figures by matplotlib."""
 
 from __future__ import annotations
 
 import base64
 import html
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Dict
 
 import numpy as np
 
@@ -13,11 +13,39 @@ from ._messages import shown
 
 if TYPE_CHECKING:
     from ._answer import Answer
+    from ._logs import Log
+    from ._part import Part
 
 MOST_ROWS = 30
 
 
-def plot_answer(answer: "Answer", ax: Any = None) -> Any:
+def plot_part(part: "Part", ax: Any, style: Dict[str, Any]) -> Any:
+    ax = _axes(ax)
+    outline = part.samples()
+    ax.plot(outline["x"], outline["y"], **{"label": part.name, **style})
+    _in_the_plane(ax, part)
+    return ax
+
+
+def plot_log(log: "Log", ax: Any, style: Dict[str, Any]) -> Any:
+    """All columns but the times, of increments their sums, by the time or by the row."""
+    ax = _axes(ax)
+    has_time = "time" in log.columns
+    along = log["time"] if has_time else np.arange(len(log))
+    sums = {"distance": "length", "dturn": "turn"}
+    for name in log.columns:
+        if name == "time":
+            continue
+        base, _, finger = name.partition("_")
+        shown_name = sums.get(base, base) + (f"_{finger}" if finger else "")
+        ax.plot(along, log[shown_name], **{"label": shown_name, **style})
+    ax.set_xlabel("time [s]" if has_time else "row")
+    ax.set_title(log.name)
+    ax.legend()
+    return ax
+
+
+def plot_answer(answer: "Answer", ax: Any, style: Dict[str, Any]) -> Any:
     ax = _axes(ax)
     part = answer.part
     outline = part.samples()
@@ -28,16 +56,20 @@ def plot_answer(answer: "Answer", ax: Any = None) -> Any:
             travelled = answer.readings[-1, k]
             s = placement.start[k] + np.linspace(0, travelled, 100)
             line = part.point(s)
-            strength = 0.25 + 0.75 * probability
-            (drawn,) = ax.plot(line[:, 0], line[:, 1], linewidth=2, alpha=strength, color=f"C{number % 10}")
-            ax.plot(*placement.point[k], "o", markersize=5, color=drawn.get_color(), alpha=strength)
+            own = {"linewidth": 2, "alpha": 0.25 + 0.75 * probability, "color": f"C{number % 10}", **style}
+            (drawn,) = ax.plot(line[:, 0], line[:, 1], **own)
+            ax.plot(*placement.point[k], "o", markersize=5, color=drawn.get_color(), alpha=drawn.get_alpha())
             name = f"{number}" if answer.fingers == 1 else f"{number}{'ab'[k]}"
             ax.annotate(name, placement.point[k], textcoords="offset points", xytext=(5, 5), fontsize=8)
-    ax.set_aspect("equal")
     ax.set_title(answer.verdict)
+    _in_the_plane(ax, part)
+    return ax
+
+
+def _in_the_plane(ax: Any, part: "Part") -> None:
+    ax.set_aspect("equal")
     ax.set_xlabel(f"x{_unit(part.unit)}")
     ax.set_ylabel(f"y{_unit(part.unit)}")
-    return ax
 
 
 def _axes(given: Any) -> Any:

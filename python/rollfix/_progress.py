@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import sys
 import time
+import warnings
 from typing import Any, Optional
 
-PATIENCE = 1.0  # seconds
+PATIENCE = 0.5  # seconds
 
 
 class Progress:
@@ -18,7 +19,7 @@ class Progress:
         self._wanted = wanted
         self._start = time.monotonic()
         self._bar: Any = None
-        self._is_off = wanted is False or (wanted is None and not sys.stderr.isatty())
+        self._is_off = wanted is False or (wanted is None and not (sys.stderr.isatty() or "ipykernel" in sys.modules))
 
     def report(self, done: int) -> None:
         """So many are done."""
@@ -34,7 +35,9 @@ class Progress:
 
     def _new_bar(self) -> Any:
         try:
-            from tqdm import tqdm
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # of notebooks without widgets: the bar is text then
+                from tqdm.auto import tqdm
         except ImportError:
             self._is_off = True
             return None

@@ -35,7 +35,7 @@ class Question:
 
     __slots__ = (
         "_part", "_fingers", "_noise", "_tolerance", "_facing", "_at", "_prior", "_pose", "_mirrored", "_clockwise",
-        "_either", "_robust", "_naming", "_roll", "_rounding", "_budget", "_of_logs",
+        "_either", "_robust", "_may_overlap", "_naming", "_roll", "_rounding", "_budget", "_of_logs",
     )  # fmt: skip
 
     def __init__(
@@ -53,6 +53,7 @@ class Question:
         mirrored: bool = False,
         direction: str = "ccw",
         robust: bool = False,
+        may_overlap: bool = False,
         columns: Columns = None,
         units: Units = None,
         degrees: bool = False,
@@ -73,6 +74,7 @@ class Question:
         self._either = isinstance(direction, str) and direction == "either"
         self._clockwise = not self._either and clockwise(direction, either=True)
         self._robust = flag(robust, "robust")
+        self._may_overlap = flag(may_overlap, "may_overlap")
         self._naming = Naming(columns, units, degrees, wrapped)
         self._roll = None if roll is None else whole(roll, "roll", 1)
         self._rounding = None if rounding is None else rounding_given(rounding)
@@ -105,6 +107,7 @@ class Question:
         problem.set_prior(self._prior)
         problem.set_pose(self._pose)
         problem.robust = self._robust
+        problem.may_overlap = self._may_overlap
         return problem
 
     def of_log(self, log: Any, turn: Any = None) -> Tuple[_core.Problem, Log]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from typing import Any, Dict, List, Optional
 
 import numpy as np
@@ -10,13 +11,55 @@ from . import _core
 from ._checks import array, number, numbers, optional_number, whole
 from ._core import InputError
 from ._fingers import FingerLike, fingers
-from ._messages import shown
+from ._messages import shown, warn
 from ._noise import NoiseLike, noise as noise_given
 
 MOST_SEED = 2**64 - 1
 
 
 def simulated(
+    part: _core.Part,
+    finger: Optional[FingerLike],
+    start: Any,
+    length: Any,
+    rotation: Optional[float],
+    samples: int,
+    contact: Any,
+    part_rotation: float,
+    noise: NoiseLike,
+    seed: int,
+) -> _core.Roll:
+    roll = _rolled(part, finger, start, length, rotation, samples, contact, part_rotation, noise, seed)
+    given = fingers(finger)
+    if given:
+        _tell_of_dropped(part, roll, given)
+    return roll
+
+
+def _tell_of_dropped(part: _core.Part, roll: _core.Roll, given: List[Any]) -> None:
+    """What no such finger can do is simulated all the same, and `locate` leaves it out."""
+    names = [""] if len(roll.s) == 1 else ["finger a: ", "finger b: "]
+    for which, name in enumerate(names):
+        one = given[min(which, len(given) - 1)]
+        if not isinstance(one, (float, str)):
+            continue
+        met = roll.obstruction(part, _reach_of(part, one), which)
+        if met:
+            why = f"enter the part by {met[1]:.3g}" if met[1] > 0 else "roll over a concave corner"
+            warn(f"simulate: {name}a real one can't do this roll: at s = {met[0]:.6g} it would {why}; `locate` leaves it out")
+    if len(names) == 2 and (deepest := roll.overlap(given)):
+        warn(
+            f"simulate: the fingers overlap, by {deepest[1]:.3g} in row {deepest[0]}: `locate` leaves such a roll out; "
+            "of fingers at different heights say may_overlap=True there"
+        )
+
+
+@functools.lru_cache(maxsize=4)
+def _reach_of(part: _core.Part, given: Any) -> _core.Reach:
+    return _core.reach_of(part, given)
+
+
+def _rolled(
     part: _core.Part,
     finger: Optional[FingerLike],
     start: Any,

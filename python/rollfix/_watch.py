@@ -17,12 +17,13 @@ from ._columns import Columns, Naming, Units
 from ._core import InputError
 from ._fingers import Finger, fingers
 from ._messages import shown, warn
-from ._noise import Noise, weighing
+from ._noise import NoiseLike, weighing
 from ._tables import Table, is_frame, safe, text_of
 from ._words import Numbering, diagnosis_in_python, in_python
 
 if TYPE_CHECKING:
-    from ._part import Part
+    from ._catalog import Catalog
+    from ._shape import Shape
 
 Event = Dict[str, Any]
 
@@ -53,14 +54,16 @@ class Watch:
         Rows come as they are felt: what is new is not kept back for longer than a tenth of a second.
     name : str
         What messages call the log.
+    catalog : Catalog, optional
+        Which of its parts is it? `part` is any of them then: `Catalog.watch` makes such a watch.
     """
 
     def __init__(
         self,
-        part: "Part",
+        part: "Shape",
         *,
         finger: Optional[Finger] = None,
-        noise: Union[Noise, Mapping[str, float]],
+        noise: NoiseLike,
         prior: Optional[Tuple[float, float]] = None,
         heading: Optional[Tuple[float, float]] = None,
         pose: Optional[Sequence[float]] = None,
@@ -74,6 +77,7 @@ class Watch:
         mirrored: bool = False,
         live: bool = False,
         name: str = "log",
+        catalog: Optional["Catalog"] = None,
     ) -> None:
         sds = weighing(noise)
         if sds is None:
@@ -105,6 +109,7 @@ class Watch:
             clockwise(direction),
             flag(mirrored, "mirrored"),
             flag(live, "live"),
+            None if catalog is None else catalog._core,
         )
 
     def add(self, rows: Any) -> List[Event]:

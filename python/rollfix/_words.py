@@ -25,7 +25,9 @@ _PLAIN = (
     (r", or with :rad where", ", or with 'rad' where"),
     (r"(?<!\S)--mirror\b", "mirrored=True"),
     (r"(?<!\S)--robust\b", "robust=True"),
-    (r"(?<!\S)--direction\b", "the other `direction`"),
+    (r"(?<!\S)--direction (\w+)\b", r"direction='\1'"),
+    (r"(?<!\S)--may-overlap\b", "may_overlap=True"),
+    (r"with their unit, as in (\d+)deg\b", r"in radians, as in np.radians(\1)"),
     (r"`either_way`", "direction"),
     (r"(?<!\S)--([a-z]+)", r"\1"),
 )

@@ -251,8 +251,8 @@ void visit(A& a, Felt& v);
 template <class A>
 void visit(A& a, Problem& v) {
   auto& [part, felt, fingers, noise, tolerance, budget, facing, at, prior, pose, mirrored, either_way, robust,
-         diagnose] = v;
-  all(a, felt, noise, tolerance, budget, facing, at, prior, pose, mirrored, either_way, robust, diagnose);
+         may_overlap, diagnose] = v;
+  all(a, felt, noise, tolerance, budget, facing, at, prior, pose, mirrored, either_way, robust, may_overlap, diagnose);
 }
 template <class A>
 void visit(A& a, FingerRows& v) {

@@ -13,6 +13,7 @@
 #include "rollfix/answer/answer.hpp"
 #include "rollfix/answer/next_roll.hpp"
 #include "rollfix/answer/solve.hpp"
+#include "rollfix/catalog/catalog.hpp"
 #include "rollfix/contact/log.hpp"
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
@@ -52,6 +53,10 @@ struct LogHandle {
   std::shared_ptr<const Log> log;
 };
 
+struct CatalogHandle {
+  std::shared_ptr<const Catalog> catalog;
+};
+
 struct RollHandle {
   std::shared_ptr<const NoisyRoll> roll;
 };
@@ -75,6 +80,8 @@ template <>
 inline constexpr bool kIsPythonClass<AnswerHandle> = true;
 template <>
 inline constexpr bool kIsPythonClass<LogHandle> = true;
+template <>
+inline constexpr bool kIsPythonClass<CatalogHandle> = true;
 template <>
 inline constexpr bool kIsPythonClass<RollHandle> = true;
 template <>

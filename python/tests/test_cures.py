@@ -25,21 +25,18 @@ def ask(wing, noise):
 
 
 def typed(cure):
-    """The keyword arguments that a cure's beginning says, as Python reads them."""
-    return eval(f"dict({re.split(', (?:or|of|over|and|besides) ', cure)[0]})", vars(rollfix) | {"np": np})
+    """The keyword arguments that a cure is, as Python reads them."""
+    return eval(f"dict({cure})", vars(rollfix) | {"np": np})
 
 
 @pytest.mark.parametrize("words, said", [
     ("--finger disk,r=10.082", "finger=Disk(10.082)"),
     ("--finger disk,r=10 --finger disk,r=7.5e-05", "finger=(Disk(10), Disk(7.5e-05))"),
     ("--noise contact=0.05,angle=0.344deg,slip=0.004", "noise=Noise(contact=0.05, angle=0.006, slip=0.004)"),
-    ("--noise slip=0.04, besides what is given", "noise=Noise(slip=0.04), besides what is given"),
-    ("--noise correlation=LENGTH, over how long a roll", "noise=Noise(correlation=LENGTH), over how long a roll"),
+    ("--direction either", "direction='either'"),
     ("--columns u=u:deg,psi=psi:deg", 'units={"u": "deg", "psi": "deg"}'),
-    ("--columns turn=turn:deg, of a log of increments dturn=dturn:deg; of readings 73deg",
-     'units={"turn": "deg"}, of a log of increments units={"dturn": "deg"}; of readings np.radians(73)'),
-    ("--mirror, or change the signs of the angles", "mirrored=True, or change the signs of the angles"),
-    ("--direction, or change the sign", "the other `direction`, or change the sign"),
+    ("give turns with their unit, as in 73deg", "give turns in radians, as in np.radians(73)"),
+    ("--mirror", "mirrored=True"),
     ("what --prior, --heading or --pose says", "what prior, heading or pose says"),
     ("--robust", "robust=True"),
     ("leave it out", "leave it out"),
@@ -73,6 +70,44 @@ def test_doing_what_it_says_helps(ask, frame, change, options, cause):
     assert badly.diagnosis["cause"] == cause and "--" not in badly.diagnosis["cure"]
     mended = ask(log, **{**options, **typed(badly.diagnosis["cure"])})
     assert mended.diagnosis is None and mended.starts.shape[0] > 0
+
+
+def slipping(f):
+    u = f.u.to_numpy().copy()
+    u[10:] += 0.12 * (u[10:] - u[10]) + 0.05
+    return f.assign(u=u)
+
+
+MISTAKES = {
+    "radius": (lambda f: f, dict(finger=Disk(20))),
+    "psi in degrees": (lambda f: f.assign(psi=np.degrees(f.psi)), {}),
+    "u in degrees": (lambda f: f.assign(u=np.degrees(f.u)), {}),
+    "both in degrees": (lambda f: f.assign(u=np.degrees(f.u), psi=np.degrees(f.psi)), {}),
+    "noise": (lambda f: f, dict(noise=Noise(contact=0.05, angle=0.0006, slip=0.004))),
+    "stray": (lambda f: f.assign(psi=np.where(f.index == 15, f.psi + 0.2, f.psi)), {}),
+    "face down": (lambda f: f.assign(u=-f.u, psi=-f.psi), {}),
+    "u clockwise": (lambda f: f.assign(u=-f.u), {}),
+    "exchanged": (lambda f: f.assign(u=f.psi, psi=f.u), {}),
+    "slip": (slipping, {}),
+    "no noise said": (lambda f: f.assign(psi=f.psi + 0.003 * np.sin(7 * np.arange(len(f)))), dict(noise=None)),
+    "another part": (lambda f: f.assign(psi=f.psi * 1.3 + 0.02 * np.sin(f.index)), {}),
+    "a prior that is wrong": (lambda f: f, dict(prior=(5.0, 0.5))),
+}
+
+
+@pytest.mark.parametrize("mistake", MISTAKES)
+def test_every_cure_is_a_sentence_or_can_be_typed_as_it_stands(ask, frame, mistake):
+    change, options = MISTAKES[mistake]
+    log = change(frame)
+    found = ask(log, **options).diagnosis
+    for one in [] if found is None else [found, *found.get("others", [])]:
+        cure = one["cure"]
+        if re.search(r"\w=|--", cure) is None:
+            assert "`" not in cure  # a sentence
+            continue
+        arguments = typed(cure)
+        assert arguments
+        ask(log, **{**options, **arguments})
 
 
 def test_the_document_is_the_program_s(ask, frame, program, wing, roll_csv):

@@ -181,7 +181,7 @@ def test_what_is_no_path_names_what_makes_a_part_of_it(source, hint):
         rollfix.Part(source)
 
 
-@pytest.mark.parametrize("radius, why", [(0.2, "the fingers would overlap"), (1, "the finger can't touch there")])
+@pytest.mark.parametrize("radius, why", [(0.2, "the fingers would overlap; of fingers at different heights say may_overlap=True"), (1, "the finger can't touch there")])
 def test_an_empty_answer_says_what_took_its_placements_out(radius, why):
     part = rollfix.Part.gallery("spline,n=9,seed=7,wobble=0.2")
     s, travelled = np.array([1.0, 1.3]), np.array([[0.5, 0.4], [1.0, 0.8]])

@@ -20,7 +20,7 @@ def whole_session(path: str) -> None:
     density: np.ndarray = weighed.density(np.linspace(0, 1, 5))
     many: rollfix.ManyAnswers = part.locate_many(np.ones((5, 2)), threads=2)
     rows: np.ndarray = many.start[many.rows(0)]
-    logs: List[Union[rollfix.Answer, rollfix.InputError]] = part.locate_logs(["a.csv"], finger=rollfix.Jaw())
+    logs: rollfix.LogAnswers = part.locate_logs(["a.csv"], finger=rollfix.Jaw())
     for event in part.watch(noise=noise).follow(["1,2"]):
         name: str = event["event"]
     some_answers: List[Union[rollfix.Answer, rollfix.InputError]] = [*many[:2], *many]

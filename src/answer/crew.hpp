@@ -12,13 +12,15 @@
 #include <vector>
 
 #include "rollfix/error.hpp"
+#include "rollfix/pulse.hpp"
 
 namespace rollfix {
 
 // How long nobody is asked whether to go on: short for a person, long for a machine.
 inline constexpr std::chrono::milliseconds kMostSilence{50};
 
-/// Blocks of work for several threads, and the first exception of one of them.
+/// Blocks of work for several threads, and the first exception of one of them. Where the work is stopped threads do not
+/// end the block that they are at; whoever waits is the one that the caller's Pulse beats in.
 class Crew {
  public:
   Crew(std::size_t count, std::size_t block) : count_(count), block_(block) {}
@@ -29,6 +31,7 @@ class Crew {
     const std::size_t blocks = (count_ + block_ - 1) / block_;
     const std::size_t wanted = threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
     const std::size_t crew = std::min(wanted, blocks);
+    pulse_ = Pulse::current();
     if (crew <= 1 && !go_on) return serve(work);
     std::vector<std::thread> all;
     {
@@ -36,6 +39,9 @@ class Crew {
       working_ = crew;
     }
     const auto help = [&] {
+      const Pulse stopping([this](const char* /*doing*/) {
+        if (stop_) throw Stopped();
+      });
       serve(work);
       const std::lock_guard lock(mutex_);
       --working_;
@@ -59,6 +65,8 @@ class Crew {
   }
 
  private:
+  struct Stopped {};  // in the middle of a block
+
   template <class Work>
   void serve(const Work& work) {
     try {
@@ -69,6 +77,7 @@ class Crew {
         work(lo, hi);
         done_ += hi - lo;
       }
+    } catch (const Stopped&) {  // nothing of its own went wrong
     } catch (...) {
       const std::lock_guard lock(mutex_);
       if (!thrown_) thrown_ = std::current_exception();
@@ -90,7 +99,7 @@ class Crew {
   void wait(const std::function<bool(std::size_t)>& go_on) {
     std::unique_lock lock(mutex_);
     while (working_ > 0) {
-      if (!go_on) {
+      if (!go_on && pulse_ == nullptr) {
         ended_.wait(lock);
         continue;
       }
@@ -106,7 +115,8 @@ class Crew {
 
   bool asks(const std::function<bool(std::size_t)>& go_on) {
     try {
-      return go_on(done_);
+      if (pulse_ != nullptr) pulse_->look_up();
+      return !go_on || go_on(done_);
     } catch (...) {
       const std::lock_guard lock(mutex_);
       if (!thrown_) thrown_ = std::current_exception();
@@ -119,7 +129,8 @@ class Crew {
   std::atomic<std::size_t> next_{0};
   std::atomic<std::size_t> done_{0};
   std::atomic<bool> stop_{false};
-  bool stopped_ = false;  // by go_on
+  bool stopped_ = false;  // by go_on or by the pulse
+  Pulse* pulse_ = nullptr;
   std::size_t working_ = 0;
   std::exception_ptr thrown_;
   std::mutex mutex_;

@@ -11,6 +11,7 @@
 #include "mirror.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/pulse.hpp"
 #include "weighing.hpp"
 
 namespace rollfix {
@@ -429,6 +430,7 @@ class Diagnostician {
 
 std::vector<Diagnosis> diagnose(const Problem& problem, const Observation& observed, Belief& belief) {
   if (!belief.fit().is_bad()) return {};
+  const Doing doing("trying what may be wrong with the log");
   return Diagnostician(problem, observed, belief).diagnoses();
 }
 

@@ -15,6 +15,7 @@
 #include "rollfix/contact/pose.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate/locate.hpp"
+#include "rollfix/pulse.hpp"
 #include "unweighed.hpp"
 #include "weighing.hpp"
 
@@ -46,6 +47,7 @@ Tolerance tolerance_of(const Problem& problem, const Observation& observed, std:
 
 /// Everything that fits the readings.
 void search(const Problem& problem, Answer& answer) {
+  const Doing doing("searching for all places that fit");
   LocateOptions options;
   options.tolerance = answer.tolerance.value;
   options.facing = answer.facing;
@@ -69,13 +71,14 @@ PerFinger<Reach> reaches_of(const Part& part, const std::vector<Finger>& fingers
 }
 
 /// What the fingers can't do goes, where that is known of all of them.
-void drop_impossible(const Observation& observed, Answer& answer) {
+void drop_impossible(const Observation& observed, bool may_overlap, Answer& answer) {
+  const Doing doing("looking where the fingers can reach");
   if (answer.fingers.empty() || !std::all_of(answer.fingers.begin(), answer.fingers.end(), has_reach)) return;
   answer.has_reach = true;
   Search kept;
   kept.placements = std::move(answer.placements);
   answer.impossible = drop_unreachable(answer.part, reaches_of(answer.part, answer.fingers, answer.finger_count()),
-                                       answer.readings, kept, observed.rolls, observed.length_error());
+                                       answer.readings, kept, observed.rolls, observed.length_error(), may_overlap);
   answer.placements = std::move(kept.placements);
   for (const Impossible& item : answer.impossible) {
     ++(item.reason == Impossible::Reason::reach ? answer.dropped.reach : answer.dropped.overlap);
@@ -122,7 +125,7 @@ Answer solve_roll(const Problem& problem, bool explains) {
   answer.tolerance = tolerance_of(problem, observed, belief);
   search(problem, answer);
   if (belief) weigh(problem, observed, explains, *belief, answer);
-  drop_impossible(observed, answer);
+  drop_impossible(observed, problem.may_overlap, answer);
   if (belief) conclude(*belief, answer);
   add_poses(problem, answer);
   if (!belief && problem.felt.is_log() && !problem.tolerance && problem.at.empty())

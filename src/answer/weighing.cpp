@@ -8,6 +8,7 @@
 
 #include "part/not_lost.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/pulse.hpp"
 #include "unweighed.hpp"
 
 namespace rollfix {
@@ -176,6 +177,7 @@ void keep_probabilities(Answer& answer) {
 }  // namespace
 
 void weigh(const Problem& problem, const Observation& observed, bool explains, Belief& belief, Answer& answer) {
+  const Doing doing("weighing all rows");
   Weighing weighing;
   weighing.noise = *problem.noise;
   weighing.prior = problem.prior;

@@ -7,6 +7,7 @@
 #include "belief/posterior.hpp"
 #include "belief/two/pair_filter.hpp"
 #include "rollfix/part/boundary.hpp"
+#include "rollfix/pulse.hpp"
 
 namespace rollfix::belief {
 
@@ -97,6 +98,7 @@ FeltTurning::FeltTurning(const TurningFunction& turning, double sd, double corne
 }
 
 Felt FeltTurning::integrated(double s) const {
+  beat();
   const TurningFunction& turning = *turning_;
   const std::vector<Spiral>& spirals = turning.spirals();
   const double P = turning.perimeter();

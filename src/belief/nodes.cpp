@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "belief/posterior.hpp"
+#include "rollfix/pulse.hpp"
 
 namespace rollfix::belief {
 
@@ -34,6 +35,7 @@ std::vector<AnyNode> evenly(const std::vector<AnyNode>& nodes, std::size_t most,
 }  // namespace
 
 void Nodes::add(const Row& row) {
+  beat();
   ++rows_;
   if (!blocks_.add(row)) return;
   if (blocks_.is_full()) {

@@ -11,6 +11,7 @@
 
 #include "answer/crew.hpp"
 #include "bounds/profile.hpp"
+#include "files/byte_stream.hpp"
 #include "files/part_record.hpp"
 #include "rollfix/answer/part_facts.hpp"
 #include "rollfix/catalog/catalog.hpp"
@@ -55,7 +56,11 @@ std::string stamp_of(const CatalogSource& source, const BuildOptions& options) {
   std::error_code error;
   const auto size = std::filesystem::file_size(source.argument, error);
   const auto time = std::filesystem::last_write_time(source.argument, error);
-  const std::string file = error ? "" : fmt::format("{} {}", size, time.time_since_epoch().count());
+  std::string file = error ? "" : fmt::format("{} {}", size, time.time_since_epoch().count());
+  if (source.part) {
+    const PartRecord record = record_of(*source.part);
+    file = fmt::format("{:016x}", checksum(record.outline + record.numbers));
+  }
   const auto length = [](const std::optional<Length>& one) {
     return one ? fmt::format("{}{}", one->value, one->unit) : std::string();
   };
@@ -89,7 +94,8 @@ ReadyPart ready_part(const Part& part, const std::string& name, double count, bo
 ReadySource read_source(const CatalogSource& source, const BuildOptions& options) {
   ReadySource ready;
   try {
-    const LoadedPart loaded = load_part(source.argument, options.load);
+    const LoadedPart loaded =
+        source.part ? loaded_part(*source.part, options.load) : load_part(source.argument, options.load);
     ready.notes = loaded.notes;
     ready.unit = loaded.unit;
     std::vector<const Loop*> closed;

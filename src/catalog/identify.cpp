@@ -62,7 +62,8 @@ std::string fingerprint(const Problem& problem) {
   for (const NoiseKind& kind : kNoiseKinds) bytes.number(problem.noise ? (*problem.noise).*kind.sd : -1);
   for (const auto& number : {problem.tolerance, problem.facing}) bytes.number(number.value_or(-1));
   add_all(problem.at);
-  for (const bool is_so : {problem.mirrored, problem.either_way, problem.robust}) bytes.whole(is_so ? 1 : 0);
+  for (const bool is_so : {problem.mirrored, problem.either_way, problem.robust, problem.may_overlap})
+    bytes.whole(is_so ? 1 : 0);
   return fmt::format("{:016x}", checksum(bytes.bytes()));
 }
 

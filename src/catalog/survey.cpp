@@ -10,6 +10,7 @@
 #include "glance.hpp"
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/pulse.hpp"
 #include "weights.hpp"
 
 namespace rollfix {
@@ -42,6 +43,7 @@ Outcome outcome_of(const Catalog& catalog, const Problem& like, std::size_t part
 }  // namespace
 
 void Survey::look(const std::vector<std::size_t>& parts, double excess, Identified& found) {
+  const Doing doing("searching the catalog's parts");
   const bool widely = excess > 1;
   std::vector<PartLeft> bounded;
   if (options_.use_index) {

@@ -1,4 +1,5 @@
 #include "pair_bounds.hpp"
+#include "rollfix/pulse.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -115,6 +116,7 @@ PairBounds::Turns PairBounds::turns(const ContactStretch& a, const ContactStretc
 }
 
 double PairBounds::bound(const PairBox& box) {
+  beat();
   double least = std::numeric_limits<double>::infinity();
   const std::vector<ContactStretch>& all_b = curves_[1].over(box[1].lo, box[1].hi);
   for (const ContactStretch& a : curves_[0].over(box[0].lo, box[0].hi)) {

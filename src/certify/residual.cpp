@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "part/cursor.hpp"
+#include "rollfix/pulse.hpp"
 
 namespace rollfix {
 namespace {
@@ -120,6 +121,7 @@ double Residual::nearest(double lo, double hi) const {
   double last = lo;
   for (std::size_t k = 0; k + 1 < all.size(); ++k) {
     const double from = all[k].s + step_;
+    beat();
     const double width = all[k + 1].s - step_ - from;
     if (all[k].jumps()) last = from;
     if (!(width > step_)) continue;

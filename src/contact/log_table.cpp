@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "rollfix/error.hpp"
+#include "rollfix/pulse.hpp"
 #include "text/number.hpp"
 #include "text/text.hpp"
 
@@ -77,6 +78,7 @@ bool LogLines::refill() {
 }
 
 bool LogLines::next(std::string_view& line) {
+  beat();
   std::size_t seen = 0;  // of the line, without an end
   while (true) {
     const auto rest = static_cast<std::size_t>(end_ - cursor_);

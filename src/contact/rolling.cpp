@@ -362,6 +362,20 @@ Roll roll_in_closed_form(const Part& part, const Finger& finger, const RollPlan&
   return roll_with(&in_closed_form, part, finger, plan);
 }
 
+std::optional<Overlap> overlap_of(const Roll& roll, const Finger& a, const Finger& b) {
+  constexpr double kRounding = 1e-9;  // of the radii: disks that touch are apart
+  if (!a.is_disk() || !b.is_disk() || roll.log.fingers.size() != 2) return std::nullopt;
+  const FingerRows& of_a = roll.log.fingers[0];
+  const FingerRows& of_b = roll.log.fingers[1];
+  const double radii = a.disk()->radius + b.disk()->radius;
+  Overlap deepest;
+  for (std::size_t k = 0; k < of_a.x.size(); ++k) {
+    const double depth = radii - std::hypot(of_a.x[k] - of_b.x[k], of_a.y[k] - of_b.y[k]);
+    if (depth > deepest.depth) deepest = {k, depth};
+  }
+  return deepest.depth > kRounding * radii ? std::optional<Overlap>(deepest) : std::nullopt;
+}
+
 Roll roll_free(const Part& part, const FreePlan& plan) { return roll_with(&integrated, part, plan); }
 
 Roll roll_free_in_closed_form(const Part& part, const FreePlan& plan) { return roll_with(&in_closed_form, part, plan); }

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "rollfix/error.hpp"
+#include "rollfix/pulse.hpp"
 
 namespace rollfix {
 
@@ -88,6 +89,7 @@ class Integration {
   }
 
   void step(double limit) {
+    beat();
     const bool is_cut = step_ >= limit - time_;
     const double size = is_cut ? limit - time_ : step_;
     State next;
@@ -203,6 +205,7 @@ class Walk {
   Walk(const Track& track, std::int64_t index) : track_(track) { enter(index); }
 
   Found to(double rotation) {
+    beat();
     // Turned back at falls, the finger is behind by that much.
     const double rounding = kRotationRounding * (std::abs(rotation) + std::abs(rotation_.lo) + std::abs(rotation_.hi));
     while (rotation + fallen_ > rotation_.hi + rounding) go(1);

@@ -39,6 +39,31 @@ std::vector<double> binned(const Density& density, const Boundary& places, const
   return bins;
 }
 
+std::vector<double> highest(const Density& density, const Boundary& places, const Interval& range, std::size_t count) {
+  std::vector<double> heights(count, 0.0);
+  std::vector<double> points(count, 0.0);
+  const double per_length = static_cast<double>(count) / range.width();
+  for (const DensityPiece& piece : density) {
+    for (const double lap : {-1.0, 0.0, 1.0}) {
+      if (lap != 0 && !places.closed) continue;
+      const double lo = piece.s.lo + lap * places.perimeter - range.lo;
+      if (piece.s.width() == 0) {
+        if (lo < places.perimeter) spread(lo * per_length, lo * per_length, piece.probability * per_length, points);
+        continue;
+      }
+      const double height = piece.probability / piece.s.width();
+      const double begin = std::max(0.0, std::floor(lo * per_length));
+      const double end = std::min(static_cast<double>(count), std::ceil((lo + piece.s.width()) * per_length));
+      for (double k = begin; k < end; ++k) {
+        double& here = heights[static_cast<std::size_t>(k)];
+        here = std::max(here, height);
+      }
+    }
+  }
+  for (std::size_t k = 0; k < count; ++k) heights[k] += points[k];
+  return heights;
+}
+
 std::vector<double> smoothed(const std::vector<double>& bins, double sd, bool around) {
   const auto reach = static_cast<std::ptrdiff_t>(std::ceil(kTail * sd));
   const auto count = static_cast<std::ptrdiff_t>(bins.size());

@@ -136,6 +136,17 @@ void Obstacles::finish() {
   }
 }
 
+void Obstacles::forbid(const Vec2& lo, const Vec2& hi) {
+  add_box(lo, hi);
+  forbidden_.emplace_back(lo, hi);
+}
+
+bool Obstacles::allows(const Box& box) const {
+  const Vec2 page(static_cast<double>(columns_) * kCell, static_cast<double>(rows_) * kCell);
+  if (box.min().minCoeff() < 0 || (page - box.max()).minCoeff() < 0) return false;
+  return std::none_of(forbidden_.begin(), forbidden_.end(), [&](const Box& one) { return overlap(box, one) > 0; });
+}
+
 double Obstacles::covered(const Box& box) const {
   const auto column = [&](double x) {
     return std::clamp<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(std::floor(x / kCell)), -1, columns_ - 1);
@@ -194,9 +205,19 @@ void LabelSet::add(std::vector<Vec2> anchors, const Vec2& normal, Text text, std
 void LabelSet::draw(Svg& svg, Obstacles& obstacles) const {
   obstacles.finish();
   const std::vector<LabelPlace> places = place_labels(requests_, obstacles);
-  svg.open_group("labels");
-  for (std::size_t i = 0; i < labels_.size(); ++i) draw_leader(svg, places[i], requests_[i].size, labels_[i].colour);
+  std::vector<std::size_t> kept;
+  std::vector<Box> boxes;
   for (std::size_t i = 0; i < labels_.size(); ++i) {
+    const Box box = rimmed(places[i].centre, requests_[i].size);
+    const bool is_free =
+        std::none_of(boxes.begin(), boxes.end(), [&](const Box& one) { return overlap(box, one) > 0; });
+    if (!is_free || !obstacles.allows(box)) continue;
+    kept.push_back(i);
+    boxes.push_back(box);
+  }
+  svg.open_group("labels");
+  for (const std::size_t i : kept) draw_leader(svg, places[i], requests_[i].size, labels_[i].colour);
+  for (const std::size_t i : kept) {
     TextStyle style;
     style.size = labels_[i].size;
     style.align = Align::middle;

@@ -26,12 +26,18 @@ class Obstacles {
   /// How many of the raster's cells in this box are taken; those beyond the page are.
   double covered(const Box& box) const;
 
+  /// Where no label may stand at all, not even for want of a better place: other texts.
+  void forbid(const Vec2& lo, const Vec2& hi);
+  /// On the page, and nowhere forbidden.
+  bool allows(const Box& box) const;
+
  private:
   void mark(double x, double y);
 
   std::ptrdiff_t columns_;
   std::ptrdiff_t rows_;
   std::vector<int> taken_;  // then the sums over all cells above and to the left
+  std::vector<Box> forbidden_;
 };
 
 /// A label to be placed near one of its anchors, best straight along `normal` or against it.
@@ -56,7 +62,8 @@ class LabelSet {
   /// `anchors`: the places the label may stand at; `normal`: a direction away from the lines there.
   void add(std::vector<Vec2> anchors, const Vec2& normal, Text text, std::string_view colour, double size);
 
-  /// Draws them all, with a thin line to the anchor where one had to stand off.
+  /// Draws all that there is room for, those that were added first before others, with a thin line to the anchor where
+  /// one had to stand off.
   void draw(Svg& svg, Obstacles& obstacles) const;
 
  private:

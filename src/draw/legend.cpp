@@ -33,6 +33,11 @@ std::string shortened(const std::string& text, double width, double size, bool b
   return "\u2026";
 }
 
+double fitting_size(const Text& text, double size, double room) {
+  const double width = text_width(text, size);
+  return width <= room ? size : size * room / width;
+}
+
 Paint stroke(std::string_view colour, double width, std::string_view dash, double opacity) {
   Paint paint;
   paint.stroke = colour;
@@ -123,7 +128,8 @@ void Legend::draw(Svg& svg, double top) const {
     const Vec2 at(kPageMargin + column_width * static_cast<double>(column),
                   top + 14 + kRowHeight * static_cast<double>(row));
     draw_sign(svg, entries_[i].sign, at + Vec2(10, 0), entries_[i].colour, 1, entries_[i].dash);
-    svg.text(at + Vec2(kTextIndent, 4), entries_[i].text, {kLegendTextSize});
+    const double room = column_width - kTextIndent - (columns_ > 1 ? 0.5 * kColumnGap : 0);
+    svg.text(at + Vec2(kTextIndent, 4), entries_[i].text, {fitting_size(entries_[i].text, kLegendTextSize, room)});
   }
   svg.close_group();
 }
@@ -136,7 +142,8 @@ void draw_header(Svg& svg, const std::string& title, const std::string& outcome,
   svg.open_group("header");
   svg.text({kPageMargin, 20}, {{fitting, false, true, false}}, {title_size});
   svg.text({right, 20}, {{outcome, false, true, false}}, {12, Align::end});
-  if (!small_print.empty()) svg.text({kPageMargin, 37}, small_print, {11, Align::start, std::string(kSoftInk)});
+  const double small = fitting_size(small_print, 11, right - kPageMargin);
+  if (!small_print.empty()) svg.text({kPageMargin, 37}, small_print, {small, Align::start, std::string(kSoftInk)});
   svg.close_group();
   svg.describe(title + ": " + outcome);
 }

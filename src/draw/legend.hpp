@@ -25,6 +25,9 @@ constexpr std::string_view kMaterial = "#f3efe6";  // the part's inside
 
 constexpr std::string_view kPaper = "#ffffff";
 
+/// The size at which a text takes no more than this room: its own, or a smaller one.
+double fitting_size(const Text& text, double size, double room);
+
 /// A plain line's paint.
 Paint stroke(std::string_view colour, double width, std::string_view dash = "", double opacity = 1);
 /// An area's, without a rim and with one.

@@ -111,6 +111,7 @@ namespace {
 
 constexpr double kNumberSize = 9.5;  // pixels
 constexpr double kTitleSize = 11;
+constexpr double kBetweenNumbers = 4;
 constexpr double kColumn = 1.0 / 3;
 constexpr std::string_view kGrid = "#e4e4e4";
 
@@ -122,22 +123,33 @@ void draw_axes(Svg& svg, const Axes& axes, const Ticks& x_ticks, const Ticks& y_
   TextStyle numbers{kNumberSize, Align::middle, std::string(kSoftInk)};
   svg.open_group("axes");
   std::vector<Vec2> grid;
+  double free_from = 0;
   for (const double x : x_ticks.at) {
     grid.insert(grid.end(), {Vec2(axes.page_x(x), axes.corner.y()), Vec2(axes.page_x(x), end.y())});
-    svg.text({axes.page_x(x), end.y() + 13}, {{tick_text(x, x_ticks.decimals)}}, numbers);
+    const std::string number = tick_text(x, x_ticks.decimals);
+    const double half = 0.5 * text_width({{number}}, kNumberSize);
+    if (axes.page_x(x) - half < free_from || axes.page_x(x) + half > svg.width()) continue;  // numbers are kept apart
+    free_from = axes.page_x(x) + half + kBetweenNumbers;
+    svg.text({axes.page_x(x), end.y() + 13}, {{number}}, numbers);
   }
   numbers.align = Align::end;
   for (const double y : y_ticks.at) {
     grid.insert(grid.end(), {Vec2(axes.corner.x(), axes.page_y(y)), Vec2(end.x(), axes.page_y(y))});
-    svg.text({axes.corner.x() - 6, axes.page_y(y) + 3.4}, {{tick_text(y, y_ticks.decimals)}}, numbers);
+    const Text number{{tick_text(y, y_ticks.decimals)}};
+    numbers.size = fitting_size(number, kNumberSize, axes.corner.x() - 6 - kBetweenNumbers);
+    svg.text({axes.corner.x() - 6, axes.page_y(y) + 3.4}, number, numbers);
   }
   svg.segments(grid, stroke(kGrid, 0.8));
   if (axes.y.lo < 0 && axes.y.hi > 0) {
     svg.segments({axes(axes.x.lo, 0), axes(axes.x.hi, 0)}, stroke("#9a9a9a", 0.8));
   }
   svg.rectangle(axes.corner.x(), axes.corner.y(), axes.size.x(), axes.size.y(), stroke(kSoftInk, 0.8));
-  svg.text(axes.corner + Vec2(0, -6), title, {kTitleSize});
-  if (!note.empty()) svg.text({end.x(), axes.corner.y() - 6}, {{note}}, numbers);
+  svg.text(axes.corner + Vec2(0, -6), title, {fitting_size(title, kTitleSize, svg.width() - axes.corner.x())});
+  numbers.size = kNumberSize;
+  const double room = axes.size.x() - text_width(title, kTitleSize) - 2 * kBetweenNumbers;
+  if (!note.empty() && text_width({{note}}, kNumberSize) < room) {
+    svg.text({end.x(), axes.corner.y() - 6}, {{note}}, numbers);
+  }
   svg.close_group();
 }
 

@@ -165,7 +165,7 @@ std::vector<Vec2> path_beside(const Trace& stretch, const Clearance& boundary,
 namespace {
 
 constexpr std::string_view kFingerColour = "#8a8a8a";
-constexpr double kMostFingerReach = 0.3;  // beyond the part, as a fraction of its size
+constexpr double kMostFingerReach = 2;  // beyond the part, as a fraction of its size: a larger finger is cut off
 
 }  // namespace
 

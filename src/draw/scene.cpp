@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kBoundaryWidth = 1.6;   // pixels
 constexpr double kExtrasMargin = 8;      // around fingers and the like
-constexpr double kStripHeight = 24;      // below the drawing, for the scale bar
 constexpr double kScaleBarWidth = 0.22;  // at most, of the drawing's width
 
 std::vector<Vec2> rectangle(const Box& box) {

@@ -19,6 +19,8 @@ struct View {
   Vec2 operator()(const Vec2& point) const { return {origin.x() + scale * point.x(), origin.y() - scale * point.y()}; }
 };
 
+inline constexpr double kStripHeight = 24;  // below the drawing, for the scale bar, pixels
+
 /// What has to be seen, and how much room to leave around it.
 struct Framing {
   Box part;           // in the outline's unit

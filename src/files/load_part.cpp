@@ -261,7 +261,9 @@ LoadedPart of_json(const std::string& text, const std::string& name, const LoadO
   return of_outline(std::move(outline), options);
 }
 
-LoadedPart of_points(const std::string& text, const std::string& name, const LoadOptions& options) {
+}  // namespace
+
+LoadedPart load_points(const std::string& text, const std::string& name, const LoadOptions& options) {
   std::vector<std::string> notes;
   OutlineOptions known = options.points;
   const std::vector<Vec2> points = parse_points(text, name, options.points, &notes, &known.unit, &known.airfoil);
@@ -283,9 +285,10 @@ LoadedPart of_points(const std::string& text, const std::string& name, const Loa
   return loaded;
 }
 
+namespace {
+
 /// What was saved stays, to the bit, unless it is to be in another unit.
-LoadedPart of_saved_part(const std::string& text, const std::string& name, const LoadOptions& options) {
-  Part part = parse_part(text, name);
+LoadedPart in_unit_asked_for(Part part, const std::string& name, const LoadOptions& options) {
   std::vector<std::string> notes;
   const auto [unit, factor] = unified(name, part.unit(), options.points.unit, notes);
   if (unit != part.unit()) {
@@ -294,6 +297,12 @@ LoadedPart of_saved_part(const std::string& text, const std::string& name, const
   }
   for (std::string& note : notes) note.insert(0, name + ": ");
   return {std::move(part), unit, {}, 0, std::move(notes)};
+}
+
+LoadedPart of_saved_part(const std::string& text, const std::string& name, const LoadOptions& options) {
+  const Part part = parse_part(text, name);
+  const std::string saved = options.saved_name ? saved_name(text) : "";
+  return in_unit_asked_for(saved.empty() ? part : with_name(part, saved), name, options);
 }
 
 LoadedPart of_file(FileKind kind, const std::string& text, const std::string& name, const LoadOptions& options) {
@@ -307,7 +316,7 @@ LoadedPart of_file(FileKind kind, const std::string& text, const std::string& na
     case FileKind::json:
       return of_json(text, name, options);
     default:
-      return of_points(text, name, options);
+      return load_points(text, name, options);
   }
 }
 
@@ -333,6 +342,10 @@ LoadedPart load_part(const std::string& argument, const LoadOptions& options) {
     const bool named = argument.rfind("gallery:", 0) == 0 || message.find(name) != std::string::npos;
     throw InputError(named ? message : fmt::format("{}: {}", name, message));
   }
+}
+
+LoadedPart loaded_part(const Part& part, const LoadOptions& options) {
+  return in_unit_asked_for(part, part.name(), options);
 }
 
 }  // namespace rollfix

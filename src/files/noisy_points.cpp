@@ -23,6 +23,14 @@ constexpr double kFarthest = 3.5;
 /// scatters less than this share of its spacing was drawn so.
 constexpr double kLeastScatter = 0.02;
 
+/// Rounded digits of dense points bend a flat curve to and fro where noise of a scan would bend it everywhere. Of so
+/// many inflections most follow on one another closer than a shape that is sampled to be seen has any, in mean
+/// spacings.
+constexpr std::size_t kFewestClose = 20;
+constexpr double kClose = 2;
+/// Of noise alone neighbouring fourth differences point opposite ways; of a smooth curve hardly any.
+constexpr double kOppositeShare = 0.75;
+
 double mean_spacing(const std::vector<Vec2>& points) {
   double length = 0;
   for (std::size_t k = 1; k < points.size(); ++k) length += (points[k] - points[k - 1]).norm();
@@ -32,20 +40,44 @@ double mean_spacing(const std::vector<Vec2>& points) {
 /// What `smooth` takes, in two digits.
 std::string tolerance_for(double scatter) { return fmt::format("{:.2g}", kFarthest * scatter); }
 
-}  // namespace
+constexpr std::array<double, 5> kWeights = {1, -4, 6, -4, 1};
 
-double scatter_of(const std::vector<Vec2>& points, bool closed) {
-  constexpr std::array<double, 5> kWeights = {1, -4, 6, -4, 1};
-  constexpr double kVariance = 70;  // the sum of their squares
+std::vector<Vec2> fourth_differences(const std::vector<Vec2>& points, bool closed) {
   const std::size_t count = points.size();
-  if (count < kLeastPoints) return 0;
-  std::vector<double> sizes;
+  std::vector<Vec2> differences;
   const std::size_t last = closed ? count : count - (kWeights.size() - 1);
   for (std::size_t k = 0; k < last; ++k) {
     Vec2 sum = Vec2::Zero();
     for (std::size_t j = 0; j < kWeights.size(); ++j) sum += kWeights[j] * points[(k + j) % count];
-    sizes.push_back(sum.squaredNorm());
+    differences.push_back(sum);
   }
+  return differences;
+}
+
+/// Whether most of the curve's inflections are made by the digits of its points.
+bool is_bent_by_rounding(const std::vector<Vec2>& points, const Part& part) {
+  const std::vector<double>& inflections = part.inflections();
+  const double limit = kClose * mean_spacing(points);
+  std::size_t close = 0;
+  for (std::size_t k = 1; k < inflections.size(); ++k) {
+    if (inflections[k] - inflections[k - 1] < limit) ++close;
+  }
+  if (close < kFewestClose || 2 * close < inflections.size()) return false;
+  const std::vector<Vec2> differences = fourth_differences(points, part.closed());
+  std::size_t opposite = 0;
+  for (std::size_t k = 1; k < differences.size(); ++k) {
+    if (differences[k].dot(differences[k - 1]) < 0) ++opposite;
+  }
+  return static_cast<double>(opposite) > kOppositeShare * static_cast<double>(differences.size());
+}
+
+}  // namespace
+
+double scatter_of(const std::vector<Vec2>& points, bool closed) {
+  constexpr double kVariance = 70;  // the sum of the weights' squares
+  if (points.size() < kLeastPoints) return 0;
+  std::vector<double> sizes;
+  for (const Vec2& difference : fourth_differences(points, closed)) sizes.push_back(difference.squaredNorm());
   // The median, for corners do not scatter. Of two coordinates the square is exponential: its median is ln 2 of its
   // mean, which is that of both.
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
@@ -56,9 +88,17 @@ double scatter_of(const std::vector<Vec2>& points, bool closed) {
 std::string noisy_points_note(const std::vector<Vec2>& points, const OutlineOptions& options, const Part& part) {
   const auto count = static_cast<double>(points.size());
   const auto inflections = static_cast<double>(part.inflections().size());
-  if (options.smooth || points.size() < kLeastPoints || inflections < kNoisyShare * count) return "";
+  if (options.smooth || points.size() < kLeastPoints) return "";
+  const bool is_scan = inflections >= kNoisyShare * count;
+  if (!is_scan && !is_bent_by_rounding(points, part)) return "";
   const double scatter = scatter_of(points, part.closed());
   if (!(scatter > 0)) return "";
+  if (!is_scan) {
+    return fmt::format(
+        "{}: most of the {} inflections of the curve through its {} points come of their rounded digits, and searches "
+        "take long for it: `smooth` {} leaves them out",
+        part.name(), part.inflections().size(), points.size(), tolerance_for(scatter));
+  }
   return fmt::format(
       "{}: the curve through its {} points has {} inflections, as if they were a scan with noise of about {:.2g}: "
       "`smooth` {} leaves that out",

@@ -83,6 +83,11 @@ Part parse_part(std::string_view text, const std::string& name) {
   }
 }
 
+std::string saved_name(std::string_view text) {
+  const Json json = Json::parse(std::string(text.substr(0, text.find(kDataField))) + "}", nullptr, false);
+  return json.is_object() ? json.value("name", "") : "";
+}
+
 void save_part(const Part& part, const std::string& path) {
   const std::string text = format_part(part);
   std::ofstream file(path, std::ios::binary);

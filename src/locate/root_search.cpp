@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "interpolation.hpp"
+#include "rollfix/pulse.hpp"
 
 namespace rollfix {
 namespace {
@@ -104,6 +105,7 @@ RootSearch::RootSearch(const LocateOptions& options, double perimeter, Findings&
 }
 
 void RootSearch::look_at(const SpiralPair& pair, const ResidualSample& lo, const ResidualSample& hi) {
+  beat();
   start_panel_ = end_panel_ = nullptr;
   if (is_stretch(pair, lo, hi)) {
     add_piece(lo.s, hi.s, true);
@@ -132,6 +134,7 @@ bool RootSearch::is_stretch(const SpiralPair& pair, const ResidualSample& lo, co
 }
 
 void RootSearch::decide(const SpiralPair& pair, const SampledRange& range) {
+  beat();
   ++findings.counts.intervals;
   if (budget_ == 0) {
     findings.unresolved.push_back({range.lo.s, range.hi.s});

@@ -42,7 +42,7 @@ Ball centre_of(const Part& part, double radius, const Interval& contacts) {
 class Sieve {
  public:
   Sieve(const Part& part, const PerFinger<Reach>& reach, const std::vector<Reading>& readings,
-        const std::vector<Reading>& more, double length_error)
+        const std::vector<Reading>& more, double length_error, bool may_overlap)
       : part_(part), reach_(reach), last_(PerFinger<double>::of(reach.size())) {
     Reading first;
     first.length = last_;
@@ -58,7 +58,7 @@ class Sieve {
       roll = {std::min(0.0, roll.lo + length_error), std::max(0.0, roll.hi - length_error)};
       if (!readings.empty()) last_[finger] = readings.back().length[finger];
     }
-    are_two_disks_ = reach.size() == 2 && reach[0].curvature > 0 && reach[1].curvature > 0;
+    must_be_apart_ = !may_overlap && reach.size() == 2 && reach[0].curvature > 0 && reach[1].curvature > 0;
   }
 
   /// Why a placement is impossible; nothing when it may be possible.
@@ -66,7 +66,7 @@ class Sieve {
     const std::vector<PerFinger<Interval>> boxes = boxes_of(placement);
     const auto is_beyond = [&](const PerFinger<Interval>& box) { return leaves_reach(box); };
     if (!can_pivot(placement) || std::all_of(boxes.begin(), boxes.end(), is_beyond)) return beyond_reach(placement);
-    if (!are_two_disks_) return std::nullopt;
+    if (!must_be_apart_) return std::nullopt;
     const auto is_out = [&](const PerFinger<Interval>& box) { return leaves_reach(box) || overlaps(box); };
     if (!std::all_of(boxes.begin(), boxes.end(), is_out)) return std::nullopt;
     Impossible found{placement, Impossible::Reason::overlap, 0, {}, 0, 0};
@@ -177,15 +177,15 @@ class Sieve {
   std::vector<Reading> rolls_;  // the first contacts first
   PerFinger<Interval> roll_;    // of each finger, from its first contact to the furthest on both sides
   PerFinger<double> last_;      // to the last reading searched with
-  bool are_two_disks_ = false;
+  bool must_be_apart_ = false;  // two disks at one height
 };
 
 }  // namespace
 
 std::vector<Impossible> drop_unreachable(const Part& part, const PerFinger<Reach>& reach,
                                          const std::vector<Reading>& readings, Search& search,
-                                         const std::vector<Reading>& more, double length_error) {
-  const Sieve sieve(part, reach, readings, more, length_error);
+                                         const std::vector<Reading>& more, double length_error, bool may_overlap) {
+  const Sieve sieve(part, reach, readings, more, length_error, may_overlap);
   std::vector<Impossible> dropped;
   std::vector<Placement> kept;
   for (Placement& placement : search.placements) {

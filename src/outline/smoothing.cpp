@@ -14,6 +14,7 @@
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline/primitives.hpp"
+#include "rollfix/pulse.hpp"
 
 namespace rollfix {
 
@@ -240,6 +241,7 @@ class Smoother {
     std::size_t span = knots_.span_at(t);
     const double width = knots_.breaks[span + 1] - knots_.breaks[span];
     double u = std::clamp((t - knots_.breaks[span]) / width, 0.0, 1.0);
+    beat();
     Place best = at(point, span, u);
     for (int round = 0; round < kNewtonRounds; ++round) {
       const Jet jet = fitted_->spans()[span].jet(u);

@@ -5,6 +5,7 @@
 
 #include "outline/box.hpp"
 #include "part_data.hpp"
+#include "rollfix/pulse.hpp"
 
 namespace rollfix {
 namespace {
@@ -73,6 +74,7 @@ class CrossingSearch {
   }
 
   void add_arcs(const Spiral& spiral, double lo, double hi, double jump) {
+    beat();
     const TurningFunction& turning = part_.turning();
     const double turn = std::abs(turning.on_spiral(spiral, hi).angle - turning.on_spiral(spiral, lo).angle);
     const int count = 1 + static_cast<int>(turn / kCrossingLeafTurn);

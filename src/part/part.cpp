@@ -12,6 +12,7 @@
 #include "part_data.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline/load.hpp"
+#include "rollfix/pulse.hpp"
 #include "turning_builder.hpp"
 
 namespace rollfix {
@@ -87,6 +88,7 @@ std::vector<double> changes(const TurningFunction& turning, Sign sign, Breaks br
 }  // namespace
 
 Part::Part(Outline outline, const PartOptions& options) {
+  const Doing doing("computing what the part is like");
   auto data = std::make_shared<Data>();
   const bool is_empty = outline.curves.empty();
   if (outline.closed && !is_empty && (rough_area(outline) < 0) != outline.hole) outline = rollfix::reversed(outline);
@@ -194,6 +196,12 @@ std::vector<Vec2> Part::polyline(double lo, double hi, int count) const {
 Part with_unit(const Part& part, const std::string& unit) {
   PartAccess::Data data = PartAccess::data(part);
   data.outline.unit = unit;
+  return PartAccess::part(std::move(data));
+}
+
+Part with_name(const Part& part, const std::string& name) {
+  PartAccess::Data data = PartAccess::data(part);
+  data.outline.name = name;
   return PartAccess::part(std::move(data));
 }
 

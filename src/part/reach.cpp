@@ -14,6 +14,7 @@
 #include "not_lost.hpp"
 #include "reach_search.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/pulse.hpp"
 
 namespace rollfix {
 namespace {
@@ -126,6 +127,7 @@ Hit deepest_hit(BoundaryTree& tree, double curvature, double s, double angle) {
   std::priority_queue<std::pair<double, std::int32_t>> open;
   open.push({std::numeric_limits<double>::infinity(), tree.root()});
   while (!open.empty() && open.top().first > best + kDeepest * tree.diagonal()) {
+    beat();
     const std::int32_t whole = open.top().second;
     open.pop();
     const auto [first, second] = tree.halves(whole);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cursor.hpp"
+#include "rollfix/pulse.hpp"
 
 namespace rollfix {
 namespace {
@@ -131,6 +132,7 @@ std::vector<std::int32_t> ReachSearch::left_of(const Stance& stance, const std::
     const std::int32_t index = open.back();
     open.pop_back();
     if (++tests_ > budget_) return candidates;
+    beat();
     const BoundaryTree::Node& node = tree_.node(index);
     const Comparison found = compare(view, node);
     if (found.most <= most_ + doubt_) continue;
@@ -282,6 +284,7 @@ void ReachSearch::decide(const Stance& stance, const std::vector<std::int32_t>& 
   std::vector<std::int32_t> left;
   std::optional<Interval> safe;
   while (!open.empty()) {
+    beat();
     if (++tests_ > budget_) {
       is_decided_ = false;
       add(stance, true);

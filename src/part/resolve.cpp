@@ -10,6 +10,7 @@
 
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/pulse.hpp"
 
 namespace rollfix {
 namespace {
@@ -101,6 +102,7 @@ class Attempt {
   static double tail(const Values& series) { return series.template segment<3>(Degree - 2).abs().maxCoeff(); }
 
   bool measure_speed() {
+    beat();
     Values squares;
     for (int j = 0; j <= Degree; ++j) {
       squares[j] = curve_.velocity(range_.middle() + half_ * grid_.point(j)).squaredNorm();

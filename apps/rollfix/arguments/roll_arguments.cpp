@@ -251,6 +251,8 @@ void add_felt_arguments(CLI::App& command, RollArguments& arguments, bool takes_
       ->allow_extra_args(false);
   add_log_arguments(command, arguments.logs, arguments.roll, arguments.reading);
   add_finger_argument(command, arguments.fingers);
+  add_switch(command, "--may-overlap", arguments.may_overlap,
+             "two fingers at different heights: keep places where their disks would overlap");
   command
       .add_option("--tolerance", arguments.tolerance,
                   "how far the turn may be off; default 1e-9, or the rounding of the digits given, "
@@ -443,6 +445,7 @@ Problem read_problem(const RollArguments& arguments, Part part, std::vector<std:
   problem.pose = read_pose(arguments.pose, unit);
   if (problem.pose) require_u_and_psi(problem, arguments.pose);
   problem.robust = arguments.robust;
+  problem.may_overlap = arguments.may_overlap;
   problem.mirrored = arguments.mirror;
   problem.either_way = is_either;
   problem.at = read_instants(arguments.instants);

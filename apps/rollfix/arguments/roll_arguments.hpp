@@ -43,6 +43,7 @@ struct RollArguments {
   std::string direction;
   bool mirror = false;
   bool robust = false;
+  bool may_overlap = false;
 };
 
 /// Adds PART, --reading, --log, --roll, --finger, --tolerance, --noise, --prior, --robust, --heading, --pose, --mirror

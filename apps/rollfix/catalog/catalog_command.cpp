@@ -1,9 +1,6 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cstdio>
 #include <map>
 #include <memory>
 #include <string>
@@ -15,6 +12,7 @@
 #include "rollfix/catalog/catalog.hpp"
 #include "rollfix/commands.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/output/progress_line.hpp"
 #include "rollfix/output/table.hpp"
 #include "rollfix/usage.hpp"
 #include "text/text.hpp"
@@ -44,34 +42,15 @@ struct ListArguments {
   bool json = false;
 };
 
-/// A line on a terminal that is written over again and again.
-class ProgressLine {
- public:
-  ProgressLine() : is_shown_(isatty(STDERR_FILENO) != 0) {}
-  ~ProgressLine() {
-    if (is_shown_ && width_ > 0) std::fprintf(stderr, "\r%*s\r", static_cast<int>(width_), "");
-  }
-  ProgressLine(const ProgressLine&) = delete;
-  ProgressLine& operator=(const ProgressLine&) = delete;
-
-  void show(const BuildProgress& progress) {
-    if (!is_shown_) return;
-    constexpr std::size_t kBar = 30;
-    const double share =
-        static_cast<double>(progress.done) / static_cast<double>(std::max<std::size_t>(1, progress.sources));
-    const auto filled = static_cast<std::size_t>(share * kBar);
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    const std::string line = fmt::format("[{:#<{}}{:.<{}}] {} of {} files, {} parts, {:.0f} s", "", filled, "",
-                                         kBar - filled, progress.done, progress.sources, progress.parts, seconds);
-    std::fprintf(stderr, "\r%s", line.c_str());
-    width_ = std::max(width_, line.size());
-  }
-
- private:
-  bool is_shown_;
-  std::size_t width_ = 0;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
+/// How far a build is, with a bar.
+std::string progress_text(const BuildProgress& progress, double seconds) {
+  constexpr std::size_t kBar = 30;
+  const double share =
+      static_cast<double>(progress.done) / static_cast<double>(std::max<std::size_t>(1, progress.sources));
+  const auto filled = static_cast<std::size_t>(share * kBar);
+  return fmt::format("[{:#<{}}{:.<{}}] {} of {} files, {} parts, {:.0f} s", "", filled, "", kBar - filled,
+                     progress.done, progress.sources, progress.parts, seconds);
+}
 
 std::string left_out_table(const std::vector<LeftOut>& all) {
   if (all.empty()) return "";
@@ -128,7 +107,7 @@ Report build_report(const BuildArguments& arguments) {
   {
     ProgressLine line;
     options.go_on = [&](const BuildProgress& progress) {
-      line.show(progress);
+      if (line.is_shown()) line.show(progress_text(progress, line.seconds()));
       return true;
     };
     built = build_catalog(arguments.catalog, sources, options);

@@ -105,6 +105,7 @@ constexpr std::array<Field, 18> kFields = {{
     {"direction", [](const Json& value, RollArguments& to) { to.direction = typed(value, "direction"); }},
     {"mirrored", [](const Json& value, RollArguments& to) { to.mirror = typed_switch(value, "mirrored"); }},
     {"robust", [](const Json& value, RollArguments& to) { to.robust = typed_switch(value, "robust"); }},
+    {"may_overlap", [](const Json& value, RollArguments& to) { to.may_overlap = typed_switch(value, "may_overlap"); }},
 }};
 
 void set_field(const std::string& name, const Json& value, RollArguments& arguments) {

@@ -21,7 +21,9 @@ class DroppedText : AnswerWords {
                           fingers_ == 1 ? "the" : "a", hint);
     }
     if (answer_.dropped.overlap > 0) {
-      text += fmt::format("dropped    {} whose fingers would overlap{}\n", answer_.dropped.overlap, hint);
+      text += fmt::format(
+          "dropped    {} whose fingers would overlap{}; of fingers at different heights say --may-overlap\n",
+          answer_.dropped.overlap, hint);
     }
     if (!explain) return text;
     for (std::size_t k = 0; k < std::min(answer_.impossible.size(), kMostRows); ++k) {

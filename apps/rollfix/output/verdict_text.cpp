@@ -39,6 +39,11 @@ class VerdictText : AnswerWords {
         static_cast<std::size_t>(std::count_if(answer_.placements.begin(), answer_.placements.end(),
                                                [](const Placement& placement) { return placement.is_contradicted; }));
     if (contradicted > 0) return advice_on_contradicted(contradicted);
+    if (answer_.placements.empty() && answer_.dropped.overlap > 0) {
+      return fmt::format(
+          ": {} would fit, but the fingers would overlap; of fingers at different heights say --may-overlap",
+          counted(answer_.impossible.size(), "placement", "placements"));
+    }
     if (answer_.placements.empty() && !answer_.impossible.empty()) {
       return fmt::format(": {} would fit, but the finger can't get there; check the finger's size, or see --explain",
                          counted(answer_.impossible.size(), "placement", "placements"));

@@ -113,6 +113,13 @@ Report simulate_two(const SimulateArguments& arguments) {
     const Finger& finger = *finger_of(fingers, which);
     add_reach_note(report, beyond_reach_note(part, finger, roll.s[which], "a real " + names[which] + " "));
   }
+  if (const auto overlap = overlap_of(roll, *finger_of(fingers, 0), *finger_of(fingers, 1))) {
+    report.notes.push_back(
+        fmt::format("the fingers overlap, by {} in row {} of the log: locate leaves out such a roll, unless "
+                    "--may-overlap says that "
+                    "they are at different heights",
+                    rough(overlap->depth) + behind(part.unit()), overlap->row + 1));
+  }
   report.notes.push_back(part_text(part, roll));
   for (std::size_t which = 0; which < 2 && noise; ++which) {
     report.notes.push_back(names[which] + ": " + roll_error_text(*finger_of(fingers, which), noisy.error[which]));

@@ -47,9 +47,10 @@ struct Problem {
   std::optional<Prior> prior{};         // with noise: about where finger a started
   std::optional<PosePrior> pose{};      // with noise: about how the part lay then
   bool mirrored = false;                // the part lies face down: the fingers felt the outline's mirror image
-  bool either_way = false;  // lengths, of readings or of a log without u and psi, may count clockwise: both are tried
-  bool robust = false;      // with noise: stray rows don't count, and rows that jump away are left out
-  bool diagnose = true;     // where the rows fit badly it is found out what may be wrong, which takes a while
+  bool either_way = false;   // lengths, of readings or of a log without u and psi, may count clockwise: both are tried
+  bool robust = false;       // with noise: stray rows don't count, and rows that jump away are left out
+  bool may_overlap = false;  // two fingers at different heights: disks that would overlap pass one another
+  bool diagnose = true;      // where the rows fit badly it is found out what may be wrong, which takes a while
 };
 
 /// The search's tolerance and where it comes from.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -61,11 +62,12 @@ class Catalog {
   std::unique_ptr<State> state_;
 };
 
-/// What a catalog is built of: a file or "gallery:...", and how many parts of it there are.
+/// What a catalog is built of: a file, "gallery:..." or a part that is there, and how many parts of it there are.
 struct CatalogSource {
   std::string argument;  // as load_part takes it
   std::string name;      // of its part; of a drawing with several loops "name#1", "name#2", ... by falling area
   double count = 1;
+  std::optional<Part> part{};  // what `argument` is called after; none: it is to be loaded
 };
 
 /// All that load_part takes in a folder and the folders in it, by name; or what a list names: a text file with a file

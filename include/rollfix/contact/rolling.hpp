@@ -83,12 +83,21 @@ Roll roll(const Part& part, const Finger& finger, const RollPlan& plan);
 Roll roll_in_closed_form(const Part& part, const Finger& finger, const RollPlan& plan);
 
 /// Rolls two fingers on a part that moves: eqs. (1) and (2) for each contact, with the finger's angular velocity
-/// against the part, integrated as `roll` does. Neither that a finger hits the part elsewhere nor that the fingers hit
-/// each other is checked. Throws InputError as `roll` does, and says which finger it is about.
+/// against the part, integrated as `roll` does. That a finger hits the part elsewhere is not checked; whether the
+/// fingers hit each other overlap_of tells. Throws InputError as `roll` does, and says which finger it is about.
 Roll roll_free(const Part& part, const FreePlan& plan);
 
 /// The same without integration of the contacts: see docs/rolling.md. Accurate to rounding and faster.
 Roll roll_free_in_closed_form(const Part& part, const FreePlan& plan);
+
+/// The row in which two disks are deepest in one another.
+struct Overlap {
+  std::size_t row = 0;
+  double depth = 0;  // length
+};
+
+/// Nothing where they are apart in every row, or are not both disks. `roll`: of two fingers.
+std::optional<Overlap> overlap_of(const Roll& roll, const Finger& a, const Finger& b);
 
 /// What was drawn once for a whole roll of one finger.
 struct RollError {

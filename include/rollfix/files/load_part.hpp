@@ -18,6 +18,7 @@ struct LoadOptions {
   std::optional<Length> gap;        // of a drawing: ends this close together meet; default see LoopOptions
   std::string layer;                // of a DXF: only this one
   bool allow_crossing = false;      // see PartOptions
+  bool saved_name = false;          // a saved part is called as it was when it was saved, not as its file
 };
 
 /// A part with what its file said besides. Its unit is that of the options: where the file states another, the part is
@@ -37,5 +38,11 @@ struct LoadedPart {
 /// does not apply, or a drawing without a closed loop (with the size and the place of the gap). Options are always
 /// given, mostly as {}: load_part(argument) is the core's, which takes the gallery and points only.
 LoadedPart load_part(const std::string& argument, const LoadOptions& options);
+
+/// The part through the points of such a text, which messages call by this name. Throws InputError as load_part does.
+LoadedPart load_points(const std::string& text, const std::string& name, const LoadOptions& options);
+
+/// A part that is there, as if it had been saved and loaded: converted to the unit of the options.
+LoadedPart loaded_part(const Part& part, const LoadOptions& options);
 
 }  // namespace rollfix

@@ -20,6 +20,9 @@ Part parse_part(std::string_view text, const std::string& name);
 /// Whether a JSON text says of itself, in its first field, that it is a saved part of whatever version.
 bool is_saved_part(std::string_view text);
 
+/// What the part of such a text, of one that parse_part takes, was called when it was saved.
+std::string saved_name(std::string_view text);
+
 /// Writes format_part to a file. Throws InputError also when it can't be written.
 void save_part(const Part& part, const std::string& path);
 

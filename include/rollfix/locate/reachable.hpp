@@ -41,9 +41,11 @@ std::optional<Obstruction> obstruction_of(const Part& part, const Reach& reach, 
 /// its rows. The contact has been everywhere in between. `length_error`: how far a length may be off, so that a finger
 /// that rolled until it met something is not taken to have gone further. Two disks overlap where their centres are
 /// closer together than their radii (less the smaller slack), looked at where both are at the same instant: at the
-/// first contacts and at each of the others. Jaws are not compared with each other.
+/// first contacts and at each of the others. Jaws are not compared with each other, nor are fingers at different
+/// heights, which `may_overlap`.
 std::vector<Impossible> drop_unreachable(const Part& part, const PerFinger<Reach>& reach,
                                          const std::vector<Reading>& readings, Search& search,
-                                         const std::vector<Reading>& more = {}, double length_error = 0);
+                                         const std::vector<Reading>& more = {}, double length_error = 0,
+                                         bool may_overlap = false);
 
 }  // namespace rollfix

@@ -77,6 +77,9 @@ class Part {
 /// The same part with a name for the unit of its lengths, which stay the numbers that they are.
 Part with_unit(const Part& part, const std::string& unit);
 
+/// The same part with another name.
+Part with_name(const Part& part, const std::string& name);
+
 /// The part of what load_outline takes: "gallery:NAME,key=value,...", or points in .csv, .dat or .txt. Throws
 /// InputError as that does and as Part does. Drawings, saved parts, and options: rollfix/files/load_part.hpp.
 Part load_part(const std::string& source);

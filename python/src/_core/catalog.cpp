@@ -3,24 +3,14 @@
 #include "bindings.hpp"
 #include "rollfix/catalog/documents.hpp"
 #include "rollfix/catalog/identify.hpp"
+#include "rollfix/catalog/next_roll.hpp"
 #include "signals.hpp"
 
 namespace rollfix::python {
 namespace {
 
-struct CatalogHandle {
-  std::shared_ptr<const Catalog> catalog;
-};
-
-}  // namespace
-
-template <>
-inline constexpr bool kIsPythonClass<CatalogHandle> = true;
-
-namespace {
-
 CatalogHandle open(const std::string& path) {
-  const py::gil_scoped_release others_may_run;
+  const Unlocked others_may_run;
   return {std::make_shared<const Catalog>(path)};
 }
 
@@ -32,7 +22,7 @@ Part in_catalogs_unit(const Catalog& catalog, const Part& part) {
 PartHandle part_of(const CatalogHandle& handle, std::size_t index) {
   const Catalog& catalog = *handle.catalog;
   if (index >= catalog.size()) throw py::index_error("part");
-  const py::gil_scoped_release others_may_run;
+  const Unlocked others_may_run;
   return PartHandle(in_catalogs_unit(catalog, catalog.part(index)));
 }
 
@@ -85,7 +75,7 @@ std::optional<RivalTuple> likeliest_part(const CatalogHandle& handle, const Prob
   options.shards = shards;
   options.threads = threads;
   options.go_on = [&nobody](std::size_t done) { return goes_on(nobody, done); };
-  const py::gil_scoped_release others_may_run;
+  const Unlocked others_may_run;
   return rival_tuple(likeliest(*catalog, own, options));
 }
 
@@ -108,7 +98,7 @@ py::tuple identify_roll(const CatalogHandle& handle, const Problem& like, std::o
   std::vector<std::pair<std::int64_t, AnswerHandle>> answers;
   bool is_narrow = false;
   {
-    const py::gil_scoped_release others_may_run;
+    const Unlocked others_may_run;
     Identified found = identify(*catalog, own, options);
     is_narrow = found.narrowly;
     document = format_identified(*catalog, found, Layout::line);
@@ -124,19 +114,33 @@ py::tuple identify_roll(const CatalogHandle& handle, const Problem& like, std::o
   return py::make_tuple(document, lines, list, is_narrow);
 }
 
+/// The document of what tells apart the parts that remain.
+std::string advise_on(const CatalogHandle& handle, const Problem& like,
+                      const std::optional<std::pair<double, double>>& travel) {
+  const std::shared_ptr<const Catalog> catalog = handle.catalog;
+  const Problem own = like;
+  const Unlocked others_may_run;
+  const Identified found = identify(*catalog, own);
+  const std::optional<Interval> range =
+      travel ? std::optional<Interval>(Interval{travel->first, travel->second}) : std::nullopt;
+  return format_next_roll(*catalog, found, next_roll(found, range), Layout::line);
+}
+
 std::string merge(const CatalogHandle& handle, const std::vector<std::string>& texts,
                   const std::vector<std::string>& names) {
   const std::shared_ptr<const Catalog> catalog = handle.catalog;
-  const py::gil_scoped_release others_may_run;
+  const Unlocked others_may_run;
   return merge_shards(*catalog, texts, names, Layout::line);
 }
 
-using SourceTuple = std::tuple<std::string, std::string, double>;  // argument, name, count
+// Argument, name, count, and what is there already.
+using SourceTuple = std::tuple<std::string, std::string, double, std::optional<PartHandle>>;
 
 std::vector<SourceTuple> sources_of(const std::string& argument) {
-  const py::gil_scoped_release others_may_run;
+  const Unlocked others_may_run;
   std::vector<SourceTuple> result;
-  for (const CatalogSource& one : catalog_sources(argument)) result.emplace_back(one.argument, one.name, one.count);
+  for (const CatalogSource& one : catalog_sources(argument))
+    result.emplace_back(one.argument, one.name, one.count, std::nullopt);
   return result;
 }
 
@@ -144,7 +148,9 @@ std::vector<SourceTuple> sources_of(const std::string& argument) {
 py::tuple build(const std::string& path, const std::vector<SourceTuple>& given, const std::string& unit,
                 unsigned threads, bool lean, const py::object& progress) {
   std::vector<CatalogSource> sources;
-  for (const auto& [argument, name, count] : given) sources.push_back({argument, name, count});
+  for (const auto& [argument, name, count, part] : given) {
+    sources.push_back({argument, name, count, part ? std::optional<Part>(part->part()) : std::nullopt});
+  }
   BuildOptions options;
   options.load.points.unit = unit;
   options.jobs = threads;
@@ -152,14 +158,14 @@ py::tuple build(const std::string& path, const std::vector<SourceTuple>& given, 
   options.go_on = [&progress](const BuildProgress& far) { return goes_on(progress, far.done); };
   BuildReport report;
   {
-    const py::gil_scoped_release others_may_run;
+    const Unlocked others_may_run;
     report = build_catalog(path, sources, options);
   }
   return py::make_tuple(pairs_of(report.left_out), report.notes);
 }
 
 std::size_t take_out(const std::string& path, const std::vector<std::string>& names) {
-  const py::gil_scoped_release others_may_run;
+  const Unlocked others_may_run;
   return remove_from_catalog(path, names);
 }
 
@@ -176,6 +182,7 @@ void bind_catalog(py::module_& module) {
       .def("part", &part_of)
       .def("identify", &identify_roll)
       .def("likeliest", &likeliest_part)
+      .def("advise", &advise_on)
       .def("merge", &merge);
   module.def("best_rival", &best_rival);
   module.def("catalog_sources", &sources_of);

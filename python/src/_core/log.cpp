@@ -9,6 +9,7 @@
 #include "contact/log_rows.hpp"
 #include "fingers.hpp"
 #include "rollfix/contact/log.hpp"
+#include "signals.hpp"
 
 namespace rollfix::python {
 namespace {
@@ -37,16 +38,18 @@ std::vector<LogHandle> handles_of(std::vector<Log> logs) {
 
 std::vector<LogHandle> read_files(const std::vector<std::string>& paths, const py::dict& given) {
   const LogOptions options = log_options(given);
-  const py::gil_scoped_release others_may_run;
+  const Unlocked others_may_run;
   if (paths.size() == 2) return {handle_of(read_log(paths[0], paths[1], options))};
   return handles_of(read_rolls(paths.at(0), options));
 }
 
 std::vector<LogHandle> read_text(const std::string& text, const std::string& name, const py::dict& given) {
   const LogOptions options = log_options(given);
-  const py::gil_scoped_release others_may_run;
+  const Unlocked others_may_run;
   return handles_of(parse_rolls(text, name, options));
 }
+
+constexpr py::ssize_t kRowsAtOnce = 50000;
 
 /// Columns as the text of a log: each number with as few digits as give it back, which are those of the file that it
 /// was read from. So a table is a log like any other, with the same checks and the same rounding.
@@ -55,6 +58,7 @@ std::string table_text(const std::vector<std::string>& names, const std::vector<
   for (std::size_t k = 0; k < names.size(); ++k) text += (k == 0 ? "\"" : ",\"") + names[k] + "\"";
   const py::ssize_t rows = columns.empty() ? 0 : columns.front().size();
   for (py::ssize_t row = 0; row < rows; ++row) {
+    if (row % kRowsAtOnce == 0) hear_signals();
     text += '\n';
     for (std::size_t k = 0; k < columns.size(); ++k) {
       if (k > 0) text += ',';

@@ -82,7 +82,7 @@ py::dict solve_many(const Problem& like, const Numbers& rows, const std::optiona
   const ManyOptions options = many_options(threads, progress);
   AnswerTable table;
   {
-    const py::gil_scoped_release others_may_run;
+    const Unlocked others_may_run;
     table = solve_table(
         like, count, [&](std::size_t k, Problem& problem) { readings.make(k, problem); }, readings.fingers(), options);
   }
@@ -94,7 +94,7 @@ py::list solve_problems(const std::vector<Problem>& problems, unsigned threads, 
   const ManyOptions options = many_options(threads, progress);
   std::vector<Solved> solved;
   {
-    const py::gil_scoped_release others_may_run;
+    const Unlocked others_may_run;
     solved = solve(problems, options);
   }
   py::list result;
@@ -113,7 +113,7 @@ double seconds_of_rows(const PartHandle& handle, const Numbers& rows, bool as_ta
   const Part part = handle.part();
   const auto count = static_cast<std::size_t>(rows.shape(0));
   const auto reading = [&](std::size_t k) { return Reading(rows.data()[2 * k], rows.data()[2 * k + 1]); };
-  const py::gil_scoped_release others_may_run;
+  const Unlocked others_may_run;
   const std::clock_t start = std::clock();
   if (as_table) {
     ManyOptions options;

@@ -8,9 +8,9 @@
 #include "rollfix/files/documents.hpp"
 #include "rollfix/files/saved_part.hpp"
 #include "rollfix/outline/gallery.hpp"
-#include "rollfix/outline/points.hpp"
 #include "rollfix/outline/primitives.hpp"
 #include "rollfix/part/samples.hpp"
+#include "signals.hpp"
 
 namespace rollfix::python {
 namespace {
@@ -33,13 +33,14 @@ LoadOptions load_options(const py::dict& options) {
   result.loop = get("loop").cast<std::optional<std::size_t>>();
   result.gap = length("gap");
   result.layer = options.contains("layer") ? options["layer"].cast<std::string>() : "";
+  result.saved_name = true;
   result.allow_crossing = options.contains("allow_crossing") && options["allow_crossing"].cast<bool>();
   return result;
 }
 
 PartHandle load(const std::string& source, const py::dict& options) {
   const LoadOptions chosen = load_options(options);
-  const py::gil_scoped_release others_may_run;
+  const Unlocked others_may_run;
   return PartHandle(load_part(source, chosen));
 }
 
@@ -50,13 +51,8 @@ PartHandle from_points(const Numbers& points, const std::string& name, const py:
   for (py::ssize_t k = 0; k < points.shape(0); ++k) {
     fmt::format_to(std::back_inserter(text), "{} {}\n", points.at(k, 0), points.at(k, 1));
   }
-  const py::gil_scoped_release others_may_run;
-  std::vector<std::string> notes;
-  std::string unit;
-  const std::vector<Vec2> parsed = parse_points(text, name, chosen.points, &notes, &unit);
-  Outline outline = outline_through(parsed, name, chosen.points, &notes);
-  const Part part(std::move(outline), {chosen.allow_crossing});
-  return PartHandle(LoadedPart{part, part.unit(), {}, 0, notes});
+  const Unlocked others_may_run;
+  return PartHandle(load_points(text, name, chosen));
 }
 
 /// Curves by the control points of Bezier pieces, one after the other.
@@ -72,7 +68,7 @@ PartHandle from_pieces(const std::vector<Numbers>& pieces, const std::string& na
     for (py::ssize_t k = 0; k < piece.shape(0); ++k) points.emplace_back(piece.at(k, 0), piece.at(k, 1));
     outline.curves.emplace_back(Bezier(std::move(points)));
   }
-  const py::gil_scoped_release others_may_run;
+  const Unlocked others_may_run;
   return PartHandle(Part(std::move(outline), {allow_crossing}));
 }
 
@@ -91,12 +87,15 @@ py::array_t<double> each(const PartHandle& handle, const Numbers& places, py::ss
     if (!std::isfinite(in[k])) throw InputError(fmt::format("s: expected finite places, found {}", in[k]));
   }
   const auto work = [&] {
-    for (py::ssize_t k = 0; k < count; ++k) at(part, in[k], out + k * step);
+    for (py::ssize_t k = 0; k < count; ++k) {
+      beat();
+      at(part, in[k], out + k * step);
+    }
   };
   if (count < kManyPlaces) {
     work();
   } else {
-    const py::gil_scoped_release others_may_run;
+    const Unlocked others_may_run;
     work();
   }
   return result;

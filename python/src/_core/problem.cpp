@@ -5,6 +5,7 @@
 #include "bindings.hpp"
 #include "fingers.hpp"
 #include "rollfix/answer/solve.hpp"
+#include "signals.hpp"
 
 namespace rollfix::python {
 namespace {
@@ -39,14 +40,14 @@ Problem problem_from_state(const PartHandle& part, const py::tuple& fingers, con
 
 AnswerHandle solve_without_lock(const Problem& problem) {
   const Problem own = problem;  // another thread may change the original meanwhile
-  const py::gil_scoped_release others_may_run;
+  const Unlocked others_may_run;
   return {std::make_shared<const Answer>(solve(own))};
 }
 
 /// One reading of one finger, and nothing else: the shortest way to an answer.
 AnswerHandle locate_one(const PartHandle& handle, double length, double turn) {
   const Problem problem{handle.part(), Reading(length, turn)};
-  const py::gil_scoped_release others_may_run;
+  const Unlocked others_may_run;
   return {std::make_shared<const Answer>(solve(problem))};
 }
 
@@ -80,6 +81,7 @@ void bind_problem(py::module_& module) {
       .def_readwrite("mirrored", &Problem::mirrored)
       .def_readwrite("either_way", &Problem::either_way)
       .def_readwrite("robust", &Problem::robust)
+      .def_readwrite("may_overlap", &Problem::may_overlap)
       .def("solve", &solve_without_lock)
       .def("state", &problem_state);
   module.def("problem_from_state", &problem_from_state);

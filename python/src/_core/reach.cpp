@@ -5,6 +5,7 @@
 #include "fingers.hpp"
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/files/documents.hpp"
+#include "signals.hpp"
 
 namespace rollfix::python {
 namespace {
@@ -13,7 +14,7 @@ Reach reach_on(const PartHandle& handle, const py::object& given) {
   const Part part = handle.part();
   const Finger finger = finger_from(given);
   if (!has_reach(finger)) throw InputError("finger: where a finger can touch is known of disks and jaws only");
-  const py::gil_scoped_release others_may_run;
+  const Unlocked others_may_run;
   return reach_of(part, finger);
 }
 
@@ -31,7 +32,7 @@ py::array_t<bool> contains(const Reach& reach, const Numbers& places) {
 std::string inspect_document(const PartHandle& handle, const py::object& given) {
   const std::shared_ptr<const LoadedPart> loaded = handle.loaded();
   const std::optional<Finger> finger = given.is_none() ? std::nullopt : std::optional<Finger>(finger_from(given));
-  const py::gil_scoped_release others_may_run;
+  const Unlocked others_may_run;
   return format_inspection(inspect(*loaded, finger), Layout::line);
 }
 

@@ -1,4 +1,6 @@
 // Simulated rolls, a part from a roll, the next roll.
+#include <algorithm>
+
 #include "archive.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
@@ -7,6 +9,7 @@
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/contact/teach.hpp"
 #include "rollfix/files/documents.hpp"
+#include "signals.hpp"
 
 namespace rollfix::python {
 namespace {
@@ -35,7 +38,7 @@ RollHandle simulate_one(const PartHandle& handle, const py::object& finger_given
   } else {
     plan.u = contact;
   }
-  const py::gil_scoped_release others_may_run;
+  const Unlocked others_may_run;
   if (noise) return handle_of(noisy_roll(part, finger, plan, *noise, seed));
   NoisyRoll exact;
   exact.truth = roll(part, finger, plan);
@@ -58,7 +61,7 @@ RollHandle simulate_two(const PartHandle& handle, const py::iterable& fingers_gi
   }
   plan.part_rotation = part_rotation;
   plan.rows = rows;
-  const py::gil_scoped_release others_may_run;
+  const Unlocked others_may_run;
   if (noise) return handle_of(noisy_roll_free(part, plan, *noise, seed));
   NoisyRoll exact;
   exact.truth = roll_free(part, plan);
@@ -71,13 +74,33 @@ RollHandle simulate_drive(const PartHandle& handle, double start, double length,
                           const py::object& noise_given, std::uint64_t seed) {
   const Part part = handle.part();
   const Noise noise = noise_from_optional(noise_given).value_or(Noise{});
-  const py::gil_scoped_release others_may_run;
+  const Unlocked others_may_run;
   NoisyIncrements drive = noisy_increments(part, start, length, rows, noise, seed);
   NoisyRoll result;
   result.log = std::move(drive.log);
   result.truth.s = PerFinger<std::vector<double>>(std::move(drive.s));
   result.error = PerFinger<RollError>(drive.error);
   return handle_of(std::move(result));
+}
+
+/// Of two disks: the row in which they are deepest in one another, and how deep.
+std::optional<std::pair<std::size_t, double>> overlap_in(const RollHandle& handle, const py::iterable& given) {
+  const std::vector<Finger> fingers = fingers_from(given);
+  const auto overlap = overlap_of(handle.roll->truth, *finger_of(fingers, 0), *finger_of(fingers, 1));
+  if (!overlap) return std::nullopt;
+  return std::pair(overlap->row, overlap->depth);
+}
+
+/// Where a finger, of two one of them, would have to leave its reach on its way, and how deep it would enter the part
+/// there; over a concave corner: 0.
+std::optional<std::pair<double, double>> obstruction_in(const RollHandle& handle, const PartHandle& part_handle,
+                                                        const Reach& reach, std::size_t which) {
+  const Part part = part_handle.part();
+  const std::vector<double>& s = handle.roll->truth.s[which];
+  const auto [least, most] = std::minmax_element(s.begin(), s.end());
+  const auto met = obstruction_of(part, reach, s.front(), {*least - s.front(), *most - s.front()});
+  if (!met) return std::nullopt;
+  return std::pair(met->s, met->concave_corner ? 0.0 : met->hit.depth);
 }
 
 py::tuple truth_of(const RollHandle& handle) {
@@ -104,7 +127,7 @@ py::tuple teach_part(const LogHandle& log, const py::object& finger, const py::o
   std::optional<LoadedPart> loaded;
   std::string document;
   {
-    const py::gil_scoped_release others_may_run;
+    const Unlocked others_may_run;
     const Taught taught = teach(*log.log, options);
     const Part part(taught.outline, {allow_crossing});
     loaded = LoadedPart{part, taught.outline.unit, {}, 0, taught.notes};
@@ -114,7 +137,7 @@ py::tuple teach_part(const LogHandle& log, const py::object& finger, const py::o
 }
 
 NextRollHandle next_roll_of(const AnswerHandle& answer, const std::optional<std::pair<double, double>>& travel) {
-  const py::gil_scoped_release others_may_run;
+  const Unlocked others_may_run;
   const std::optional<Interval> range =
       travel ? std::optional<Interval>(Interval{travel->first, travel->second}) : std::nullopt;
   return {std::make_shared<const NextRoll>(next_roll(*answer.answer, range))};
@@ -128,6 +151,8 @@ void bind_rolls(py::module_& module) {
           "log", [](const RollHandle& handle) { return LogHandle{std::make_shared<const Log>(handle.roll->log)}; })
       .def_property_readonly("s", &truth_of)
       .def_property_readonly("pose", [](const RollHandle& handle) { return array_of(handle.roll->truth.pose); })
+      .def("overlap", &overlap_in)
+      .def("obstruction", &obstruction_in)
       .def_property_readonly("slip",
                              [](const RollHandle& handle) {
                                std::vector<double> slips;

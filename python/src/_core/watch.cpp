@@ -1,3 +1,4 @@
+#include <chrono>
 #include <mutex>
 #include <sstream>
 
@@ -6,9 +7,12 @@
 #include "fingers.hpp"
 #include "rollfix/watch/watcher.hpp"
 #include "rollfix/watch/writer.hpp"
+#include "signals.hpp"
 
 namespace rollfix::python {
 namespace {
+
+constexpr std::chrono::milliseconds kBetweenSignals{20};
 
 /// The program's watcher, whose events are kept as the lines that it would print until somebody takes them. Any thread
 /// can call it: whoever works without the interpreter's lock has this one's.
@@ -22,7 +26,15 @@ class Watch {
   void push(const std::string& lines) {
     const std::lock_guard alone(mutex_);
     std::istringstream stream(lines);
-    for (std::string line; std::getline(stream, line);) watcher_.push(line);
+    auto last = std::chrono::steady_clock::now();
+    for (std::string line; std::getline(stream, line);) {
+      watcher_.push(line);
+      // Between lines: what is half taken would be lost.
+      if (const auto now = std::chrono::steady_clock::now(); now - last > kBetweenSignals) {
+        last = now;
+        hear_signals();
+      }
+    }
   }
   void catch_up() {
     const std::lock_guard alone(mutex_);
@@ -75,7 +87,7 @@ std::unique_ptr<Watch> watch(const PartHandle& part, const py::iterable& fingers
                              const std::string& name,
                              const std::vector<std::tuple<std::string, std::string, std::string>>& columns,
                              const std::string& angles, const std::optional<bool>& wrapped, bool clockwise,
-                             bool mirrored, bool live) {
+                             bool mirrored, bool live, const std::optional<CatalogHandle>& catalog) {
   app::WatchOptions options;
   options.name = name;
   options.fingers = fingers_from(fingers);
@@ -90,6 +102,8 @@ std::unique_ptr<Watch> watch(const PartHandle& part, const py::iterable& fingers
   options.log.clockwise = clockwise;
   options.log.mirrored = mirrored;
   options.live = live;
+  if (catalog) options.catalog = catalog->catalog;
+  options.log.any_part = catalog.has_value();
   for (const auto& [column, called, unit] : columns) options.log.columns.push_back({column, called, unit});
   return std::make_unique<Watch>(part, std::move(options));
 }

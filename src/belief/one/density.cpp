@@ -19,6 +19,30 @@ constexpr double kDensityStep = 1.0 / 3;
 // ... which are no more than this many.
 constexpr double kMostDensitySteps = 300;
 
+// The pieces stand for little squares on a lattice that lies askew to the boundary: counted as points they would make
+// ripples with the steps. So each is spread over so many steps on both sides; of too few steps none is.
+constexpr double kSpread = 2;
+constexpr double kFewestSmoothed = 6;
+
+/// What is held by steps from `lo` on, `inner` of them and those that the spread reaches.
+std::vector<double> spread_out(const std::vector<Piece>& pieces, std::size_t finger, double lo, double step,
+                               std::size_t inner) {
+  std::vector<double> held(inner + 2 * static_cast<std::size_t>(kSpread), 0.0);
+  const auto below = [](double x) {  // of a hat over kSpread steps on both sides of 0
+    const double at = std::clamp(x / kSpread, -1.0, 1.0);
+    return at < 0 ? 0.5 * (1 + at) * (1 + at) : 1 - 0.5 * (1 - at) * (1 - at);
+  };
+  for (const Piece& piece : pieces) {
+    const double at = (piece.s[finger] - lo) / step;
+    const auto begin = static_cast<std::size_t>(std::max(0.0, std::floor(at - kSpread)));
+    for (std::size_t k = begin; k < held.size() && static_cast<double>(k) < at + kSpread; ++k) {
+      const double left = static_cast<double>(k) - at;
+      held[k] += piece.share * (below(left + 1) - below(left));
+    }
+  }
+  return held;
+}
+
 DensityPiece piece_on(const Boundary& places, double lo, double hi, double probability) {
   const double at = places.on_first_lap(lo);
   return {{at, at + (hi - lo)}, probability};
@@ -54,14 +78,19 @@ void add_density(const std::vector<Piece>& pieces, const Mode& mode, std::size_t
   if (pieces.empty()) return;
   const auto [first, last] = std::minmax_element(
       pieces.begin(), pieces.end(), [&](const Piece& a, const Piece& b) { return a.s[finger] < b.s[finger]; });
-  const Interval range{first->s[finger], last->s[finger]};
+  Interval range{first->s[finger], last->s[finger]};
   const double wanted = range.width() / std::max(kDensityStep * mode.sd[finger], 1e-300);
-  const double count = range.width() > 0 ? std::clamp(std::ceil(wanted), 1.0, kMostDensitySteps) : 1;
-  const double step = range.width() / count;
-  std::vector<double> held(static_cast<std::size_t>(count), 0.0);
-  for (const Piece& piece : pieces) {
-    const double at = step > 0 ? std::floor((piece.s[finger] - range.lo) / step) : 0;
-    held[static_cast<std::size_t>(std::clamp(at, 0.0, count - 1))] += piece.share;
+  const double inner = range.width() > 0 ? std::clamp(std::ceil(wanted), 1.0, kMostDensitySteps) : 1;
+  const double step = range.width() / inner;
+  std::vector<double> held(static_cast<std::size_t>(inner), 0.0);
+  if (step > 0 && inner >= kFewestSmoothed) {
+    range.lo -= kSpread * step;
+    held = spread_out(pieces, finger, range.lo, step, held.size());
+  } else {
+    for (const Piece& piece : pieces) {
+      const double at = step > 0 ? std::floor((piece.s[finger] - range.lo) / step) : 0;
+      held[static_cast<std::size_t>(std::clamp(at, 0.0, inner - 1))] += piece.share;
+    }
   }
   for (std::size_t k = 0; k < held.size(); ++k) {
     const double lo = range.lo + static_cast<double>(k) * step;

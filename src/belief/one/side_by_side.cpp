@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "belief/posterior.hpp"
+#include "rollfix/pulse.hpp"
 
 namespace rollfix::belief {
 
@@ -90,6 +91,7 @@ class SideBySide {
   static Eigen::Index at(std::size_t lane) { return static_cast<Eigen::Index>(lane); }
 
   void begin(std::size_t lane) {
+    beat();
     Errand& errand = errands_[lane];
     while (next_(errand)) {
       if (is_over(errand, errand.filter->is_beyond(limit_))) continue;

@@ -5,6 +5,7 @@
 
 #include "belief/two/pair_density.hpp"
 #include "outline/turn.hpp"
+#include "rollfix/pulse.hpp"
 
 namespace rollfix::belief {
 
@@ -82,6 +83,7 @@ class PairSieve {
 
   /// The square around (s, t), half as wide as this.
   bool is_possible(double s, double t, double half) const {
+    beat();
     const double P = model_.perimeter();
     const bool absolute = model_.errors->absolute();
     const Interval at_s = absolute ? Interval{} : range_.over(s - half, s + half);

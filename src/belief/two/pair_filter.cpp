@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "belief/posterior.hpp"
+#include "rollfix/pulse.hpp"
 
 namespace rollfix::belief {
 
@@ -319,6 +320,7 @@ class PairPass {
 
 PairScore pass(const PairModel& model, const StartPlaces& at, const std::vector<PairNode>& nodes,
                const PairShared& guess) {
+  beat();
   PairPass through(model, at, guess);
   for (const PairNode& node : nodes) through.take(node);
   return through.score();

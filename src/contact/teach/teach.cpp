@@ -14,6 +14,7 @@
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline/primitives.hpp"
+#include "rollfix/pulse.hpp"
 
 namespace rollfix {
 
@@ -297,6 +298,9 @@ class Teacher {
 
 }  // namespace
 
-Taught teach(const Log& log, const TeachOptions& options) { return Teacher(log, options).teach(); }
+Taught teach(const Log& log, const TeachOptions& options) {
+  const Doing doing("making a part of the roll");
+  return Teacher(log, options).teach();
+}
 
 }  // namespace rollfix

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include "rollfix/outline/curve.hpp"
+#include "rollfix/pulse.hpp"
 
 namespace rollfix {
 
@@ -96,6 +97,7 @@ Closure close_gap(TurningCourse& course) {
   Eigen::Vector2d weights(0, 0);
   Closure closure;
   for (int round = 0; round < kNewtonRounds; ++round) {
+    beat();
     const TurningPath path = path_of(course, Vec2::Zero());
     const double length = path.end() - path.s.front();
     const Vec2 gap = path.gap();

@@ -6,6 +6,7 @@
 
 #include "outline/fitted_spline.hpp"
 #include "rollfix/outline/curve.hpp"
+#include "rollfix/pulse.hpp"
 
 namespace rollfix {
 
@@ -60,6 +61,7 @@ class RowSpline {
     std::optional<FittedSpline> spline;
     for (int round = 0;; ++round) {
       spline.emplace(through(knots));
+      beat();
       std::vector<double> worst_of(knots.spans(), 0);
       std::vector<std::size_t> count(knots.spans(), 0);
       double largest = 0;

@@ -7,6 +7,7 @@
 
 #include "contact/teach/turning_fit.hpp"
 #include "outline/fitted_spline.hpp"
+#include "rollfix/pulse.hpp"
 
 namespace rollfix {
 
@@ -97,6 +98,7 @@ Knots finer(const Knots& knots, const ScalarRows& rows, const std::vector<Vec2>&
 FittedSpline least_squares(const ScalarRows& rows, Knots knots) {
   std::optional<FittedSpline> spline;
   for (int round = 0;; ++round) {
+    beat();
     spline.emplace(knots, rows.s, rows.value, kLittleStiffness);
     Knots next = finer(knots, rows, off_by(*spline, rows));
     if (next.spans() == knots.spans() || round == kMostHalvings) return std::move(*spline);

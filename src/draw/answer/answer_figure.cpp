@@ -16,7 +16,8 @@ namespace rollfix {
 namespace draw {
 namespace {
 
-constexpr double kWorldHeight = 340;  // below two fingers' square, pixels
+constexpr double kScaleBarShare = 0.38;  // of the drawing's width, with its number, at the lower left
+constexpr double kWorldHeight = 340;     // below two fingers' square, pixels
 
 /// One plan on a page of its own, drawn from the bottom to the top.
 class AnswerPicture {
@@ -48,6 +49,9 @@ class AnswerPicture {
     PlacementPen(svg_, plan_, scene_, pen_, labels_).draw();
     draw_scale_bar(svg_, scene_, plan_.part());
     draw_key();
+    const Box& area = scene_.area;
+    obstacles_.forbid({0, 0}, {svg_.width(), kHeaderHeight - 4});
+    obstacles_.forbid({area.min().x(), area.max().y() - kStripHeight + 4}, area.max());
     labels_.add({scene_.at(0)}, scene_.normal(0), {{"s", true, false, false}, {" = 0"}}, kSoftInk, 10);
     labels_.draw(svg_, obstacles_);
     svg_.close_group();
@@ -79,7 +83,8 @@ class AnswerPicture {
     const std::string text = plan_.key();
     if (text.empty()) return;
     const Vec2 at = scene_.area.max() + Vec2(-kPageMargin, -7);
-    svg_.text(at, {{text}}, {10, Align::end, std::string(kSoftInk)});
+    const double room = (1 - kScaleBarShare) * scene_.area.sizes().x() - kPageMargin;
+    svg_.text(at, {{text}}, {fitting_size({{text}}, 10, room), Align::end, std::string(kSoftInk)});
   }
 
   /// The finger at both ends of a way. Its spoke is fixed to it; at the first contact it points at the part.

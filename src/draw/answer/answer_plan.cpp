@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "rollfix/contact/log.hpp"
 #include "rollfix/error.hpp"
 
 namespace rollfix::draw {
@@ -86,7 +87,23 @@ std::vector<PairLine> lines_of(const Answer& answer) {
   return lines;
 }
 
+bool has_places(const Log& log) {
+  return log.kind == LogKind::contact && log.rows() > 0 &&
+         std::all_of(log.fingers.begin(), log.fingers.end(),
+                     [](const FingerRows& rows) { return !rows.x.empty() && !rows.y.empty() && !rows.psi.empty(); });
+}
+
 }  // namespace
+
+std::size_t Plan::world_placement() const {
+  if (shown) return *shown;
+  return figure->highlight.value_or(0);
+}
+
+bool Plan::has_world() const {
+  if (figure->log == nullptr || placements().empty() || figure->answer->fingers.empty()) return false;
+  return has_places(*figure->log) && !placements()[world_placement()].pose.empty();
+}
 
 bool Plan::has_arcs() const { return has_pairs() || placements().size() <= most.arcs; }
 bool Plan::has_labels() const { return placements().size() <= most.labels; }

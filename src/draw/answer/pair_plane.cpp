@@ -249,9 +249,9 @@ class PlanePicture {
 
   void numbers() {
     const Vec2 end = axes_.corner + axes_.size;
-    obstacles_.add_box({0, 0}, {axes_.corner.x() - 2, svg_.height()});
-    obstacles_.add_box({0, 0}, {svg_.width(), axes_.corner.y() - 1});
-    obstacles_.add_box({0, end.y() + 1}, {svg_.width(), svg_.height()});
+    obstacles_.forbid({0, 0}, {axes_.corner.x() - 2, svg_.height()});
+    obstacles_.forbid({0, 0}, {svg_.width(), axes_.corner.y() - 1});
+    obstacles_.forbid({0, end.y() + 1}, {svg_.width(), svg_.height()});
     LabelSet labels;
     for (std::size_t i = 0; i < plan_.placements().size(); ++i) {
       const PerFinger<double>& start = plan_.placements()[i].start;

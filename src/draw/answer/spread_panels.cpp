@@ -58,10 +58,13 @@ std::vector<std::size_t> zoomed(const Plan& plan) {
 /// A density as steps, with the area below it in the placement's colours.
 class DensityPlot {
  public:
-  DensityPlot(Svg& svg, const Plan& plan, const Axes& axes, std::size_t finger)
+  enum class Heights { mean, highest };  // of each column
+
+  DensityPlot(Svg& svg, const Plan& plan, const Axes& axes, std::size_t finger, Heights heights)
       : svg_(svg), plan_(plan), axes_(axes), finger_(finger) {
     const auto count = static_cast<std::size_t>(std::max(1.0, std::round(axes.size.x() / kColumn)));
-    heights_ = binned(density_of(plan, finger), plan.part().boundary(), axes.x, count);
+    const auto of_columns = heights == Heights::mean ? &binned : &draw::highest;
+    heights_ = of_columns(density_of(plan, finger), plan.part().boundary(), axes.x, count);
   }
 
   /// Without the steps that the density was computed in, over so many columns.
@@ -146,16 +149,17 @@ void draw_whole(Svg& svg, const Plan& plan, double top) {
   axes.corner = {kDensityLeft, top + kDensityAbove};
   axes.size = {plan.width() - kDensityLeft - kDensityRight, kDensityHeight};
   axes.x = {0, plan.part().perimeter()};
-  DensityPlot plot(svg, plan, axes, 0);
+  DensityPlot plot(svg, plan, axes, 0, DensityPlot::Heights::highest);
   axes = with_heights(axes, plot.most());
   svg.open_group("density-over-s");
   draw_axes(svg, axes, round_ticks(axes.x, 10), round_ticks(axes.y, 4), density_title(plan, {{"the first contact"}}),
             "shaded: 95 % of each place");
   plot.draw(axes);
   Obstacles obstacles(svg.width(), svg.height());
-  obstacles.add_box({0, 0}, {svg.width(), axes.corner.y() - 1});
-  obstacles.add_box({0, 0}, {axes.corner.x(), svg.height()});
-  obstacles.add_box({axes.corner.x() + axes.size.x(), 0}, {svg.width(), svg.height()});
+  obstacles.forbid({0, 0}, {svg.width(), axes.corner.y() - 1});
+  obstacles.forbid({0, 0}, {axes.corner.x(), svg.height()});
+  obstacles.forbid({axes.corner.x() + axes.size.x(), 0}, {svg.width(), svg.height()});
+  obstacles.forbid({0, axes.corner.y() + axes.size.y()}, {svg.width(), svg.height()});
   LabelSet labels;
   for (std::size_t k = 0; k < plan.placements().size() && plan.has_labels(); ++k) {
     const Placement& placement = plan.placements()[k];
@@ -177,7 +181,7 @@ void draw_zoom(Svg& svg, const Plan& plan, std::size_t placement, const Vec2& co
   const double least = 1e-9 * plan.part().perimeter();
   axes.x = widened({held.lo, held.lo + std::max(held.width(), least)}, kZoomMargin);
   if (!plan.part().closed()) axes.x = {std::max(0.0, axes.x.lo), std::min(plan.part().perimeter(), axes.x.hi)};
-  DensityPlot plot(svg, plan, axes, 0);
+  DensityPlot plot(svg, plan, axes, 0, DensityPlot::Heights::mean);
   plot.smooth(kSmoothShare * held.width() / axes.x.width() * width);
   axes = with_heights(axes, plot.most());
   svg.open_group("zoom");

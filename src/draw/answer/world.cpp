@@ -9,6 +9,7 @@
 
 #include "draw/answer/answer_plan.hpp"
 #include "draw/answer/ellipse.hpp"
+#include "draw/legend.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/contact/log.hpp"
 
@@ -19,8 +20,9 @@ constexpr double kWorldShare = 0.44;  // of the page's width
 constexpr double kWorldLeft = 54;     // around the frame, pixels
 constexpr double kWorldRight = 14;
 constexpr double kWorldAbove = 26;
-constexpr double kWorldBelow = 88;
+constexpr double kWorldBelow = 32;  // ... to the first line of words
 constexpr double kWordsLine = 14;
+constexpr double kWordsSize = 10.5;
 constexpr double kMostSpreadSeen = 0.4;     // of the part's size, beyond the part
 constexpr double kWorldMargin = 0.06;       // around what is shown, as a share of it
 constexpr double kPoseWorthDrawing = 0.01;  // probability
@@ -129,9 +131,13 @@ class WorldPicture {
         seen.extend(box_around(moved(shape_of(finger_at(finger), size_), finger_pose(finger, row))));
       }
     }
+    for (const FingerRows& rows : log_.fingers) {
+      for (std::size_t row = 0; row < rows.x.size(); ++row) seen.extend(Vec2(rows.x[row], rows.y[row]));
+    }
     include_spread(seen);
+    const double below = kWorldBelow + kWordsLine * static_cast<double>(most_lines());
     axes_.corner = area.min() + Vec2(kWorldLeft, kWorldAbove);
-    axes_.size = area.sizes() - Vec2(kWorldLeft + kWorldRight, kWorldAbove + kWorldBelow);
+    axes_.size = area.sizes() - Vec2(kWorldLeft + kWorldRight, kWorldAbove + below);
     const Vec2 needed = (1 + 2 * kWorldMargin) * seen.sizes();
     scale_ = std::min(axes_.size.x() / needed.x(), axes_.size.y() / needed.y());
     // No more frame than is needed: what is not seen is not there.
@@ -299,29 +305,50 @@ class WorldPicture {
   // ---- what it says
 
   void words() {
-    const double x = axes_.corner.x(), y = axes_.corner.y() + axes_.size.y();
-    TextStyle style{10.5, Align::start, std::string(kInk)};
-    svg_.text({x, y + 32}, pose_text(), style);
+    const double x = axes_.corner.x(), room = axes_.size.x();
+    double y = axes_.corner.y() + axes_.size.y() + kWorldBelow;
+    TextStyle style{kWordsSize, Align::start, std::string(kInk)};
+    for (const Text& line : pose_lines()) {
+      style.size = fitting_size(line, kWordsSize, room);
+      svg_.text({x, y}, line, style);
+      y += kWordsLine;
+    }
     style.fill = std::string(kSoftInk);
-    double line = y + 32;
-    for (const std::string& text : key_texts()) svg_.text({x, line += kWordsLine}, {{text}}, style);
+    for (const std::string& line : key_texts()) {
+      style.size = fitting_size({{line}}, kWordsSize, room);
+      svg_.text({x, y}, {{line}}, style);
+      y += kWordsLine;
+    }
   }
 
-  Text pose_text() const {
+  /// How many there may be: how much is magnified is known when there is a frame.
+  std::size_t most_lines() const {
+    constexpr std::size_t kOfPose = 2;
+    const std::size_t of_spread = main().pose_spread ? 3 : 0;
+    return kOfPose + 1 + of_spread + (plan_.has_pairs() ? 1 : 0) + (shown_.size() > 1 ? 1 : 0);
+  }
+
+  std::vector<Text> pose_lines() const {
     const Pose pose = first_pose(main());
     const double heading = nearest_angle(pose.heading);
-    Text text = plan_.has_pairs() ? Text{{"part"}} : contact_name(plan_, {shown_.back(), 0}, 0);
+    Text where = plan_.has_pairs() ? Text{{"part"}} : contact_name(plan_, {shown_.back(), 0}, 0);
+    std::string turned;
     if (!main().pose_spread) {
-      text.push_back({": x " + with_unit(pretty(pose.x), plan_.part()) + ", y " +
-                      with_unit(pretty(pose.y), plan_.part()) + ", heading " + pretty_degrees(heading)});
-      return text;
+      where.push_back(
+          {": x " + with_unit(pretty(pose.x), plan_.part()) + ", y " + with_unit(pretty(pose.y), plan_.part())});
+      turned = "heading " + pretty_degrees(heading);
+    } else {
+      const Eigen::Matrix3d& covariance = main().pose_spread->covariance;
+      const auto sd = [&](int k) { return std::sqrt(std::max(0.0, covariance(k, k))); };
+      where.push_back({": x " + with_unit(with_sd(pose.x, sd(0)), plan_.part()) + ", y " +
+                       with_unit(with_sd(pose.y, sd(1)), plan_.part())});
+      turned = sd(2) < kUnknownHeading ? "heading " + with_sd(heading / kDegree, sd(2) / kDegree) + "\u00b0"
+                                       : "heading not known";
     }
-    const Eigen::Matrix3d& covariance = main().pose_spread->covariance;
-    const auto sd = [&](int k) { return std::sqrt(std::max(0.0, covariance(k, k))); };
-    text.push_back({": x " + with_unit(with_sd(pose.x, sd(0)), plan_.part()) + ", y " +
-                    with_unit(with_sd(pose.y, sd(1)), plan_.part()) + ", heading "});
-    text.push_back({sd(2) < kUnknownHeading ? with_sd(heading / kDegree, sd(2) / kDegree) + "\u00b0" : "not known"});
-    return text;
+    Text both = where;
+    both.push_back({", " + turned});
+    if (text_width(both, kWordsSize) <= axes_.size.x()) return {both};
+    return {where, {{turned}}};
   }
 
   std::vector<std::string> key_texts() const {
@@ -330,11 +357,9 @@ class WorldPicture {
                                         : "arrow: the part's x axis, at its middle");
     if (main().pose_spread) {
       const bool is_known = heading_sd(*main().pose_spread) < kUnknownHeading;
-      std::string text = is_known ? "ellipse and fan: 95 %" : "the heading may be any";
-      if (ellipse_by_ > 1) text += "; the ellipse is drawn " + pretty(ellipse_by_) + " times as large";
-      if (fan_by_ > 1) text += ellipse_by_ > 1 ? ", the fan " : "; the fan is drawn ";
-      if (fan_by_ > 1) text += pretty(fan_by_) + " times as wide";
-      lines.push_back(text);
+      lines.emplace_back(is_known ? "ellipse and fan: 95 %" : "the heading may be any");
+      if (ellipse_by_ > 1) lines.push_back("the ellipse is drawn " + pretty(ellipse_by_) + " times as large");
+      if (fan_by_ > 1) lines.push_back("the fan is drawn " + pretty(fan_by_) + " times as wide");
     }
     if (plan_.has_pairs()) lines.emplace_back("dashed: the part after the roll");
     if (shown_.size() > 1) lines.emplace_back("dashed: the part in the other places");
@@ -354,23 +379,7 @@ class WorldPicture {
   double fan_by_ = 1;
 };
 
-bool has_places(const Log& log) {
-  return log.kind == LogKind::contact && log.rows() > 0 &&
-         std::all_of(log.fingers.begin(), log.fingers.end(),
-                     [](const FingerRows& rows) { return !rows.x.empty() && !rows.y.empty() && !rows.psi.empty(); });
-}
-
 }  // namespace
-
-std::size_t Plan::world_placement() const {
-  if (shown) return *shown;
-  return figure->highlight.value_or(0);
-}
-
-bool Plan::has_world() const {
-  if (figure->log == nullptr || placements().empty() || figure->answer->fingers.empty()) return false;
-  return has_places(*figure->log) && !placements()[world_placement()].pose.empty();
-}
 
 double world_width(const Plan& plan) { return plan.has_world() ? kWorldShare * plan.width() : 0; }
 

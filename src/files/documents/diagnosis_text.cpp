@@ -17,22 +17,24 @@ struct CauseText {
   const char* cure;
 };
 
-// What is wrong, and what to give instead; where numbers belong in them they are put together below.
+// What is wrong, and what to give instead: options that can be typed as they stand, or a sentence without any. Where
+// numbers belong in them they are put together below.
 constexpr std::array<CauseText, 20> kCauses = {{
     {Cause::none, "none", "", ""},
-    {Cause::unsaid_noise, "unsaid_noise", "the rows jitter by more than their digits say, and were taken as exact", ""},
+    {Cause::unsaid_noise, "unsaid_noise",
+     "the rows jitter by more than their digits say, and were taken as exact; slip and the radius may be off besides",
+     ""},
     {Cause::noise, "noise", "", ""},
     {Cause::correlation, "correlation",
      "rows are not off independently: neighbours are off alike, as of a sensor that drifts, wobbles or "
      "repeats its digits, or of a part that moved a little",
-     "--noise correlation=LENGTH, over how long a roll they are alike"},
+     "say as well over how long a roll neighbours are off alike: the noise's correlation, a length"},
     {Cause::prior, "prior", "what --prior, --heading or --pose says contradicts the rows", "leave it out"},
     {Cause::radius, "radius", "", ""},
     {Cause::u_degrees, "u_degrees", "u is in degrees", "--columns u=u:deg"},
     {Cause::psi_degrees, "psi_degrees", "psi is in degrees", "--columns psi=psi:deg"},
     {Cause::angles_degrees, "angles_degrees", "u and psi are in degrees", "--columns u=u:deg,psi=psi:deg"},
-    {Cause::turn_degrees, "turn_degrees", "turns are in degrees",
-     "--columns turn=turn:deg, of a log of increments dturn=dturn:deg; of readings 73deg"},
+    {Cause::turn_degrees, "turn_degrees", "turns are in degrees", "give turns with their unit, as in 73deg"},
     {Cause::u_clockwise, "u_clockwise", "u is counted clockwise", "counter-clockwise angles: change the sign of u"},
     {Cause::psi_clockwise, "psi_clockwise", "psi is counted clockwise",
      "counter-clockwise angles: change the sign of psi"},
@@ -40,9 +42,9 @@ constexpr std::array<CauseText, 20> kCauses = {{
     {Cause::fingers_swapped, "fingers_swapped", "the two fingers are exchanged: their logs, or their radii", ""},
     {Cause::gyroscope, "gyroscope", "", ""},
     {Cause::both_clockwise, "both_clockwise", "the part lies face down, or all angles are counted clockwise",
-     "--mirror, or change the signs of the angles"},
+     "--mirror"},
     {Cause::length_backwards, "length_backwards", "lengths are counted against the outline's direction",
-     "--direction, or change the sign of the lengths"},
+     "--direction either"},
     {Cause::turn_clockwise, "turn_clockwise", "turns are counted clockwise",
      "counter-clockwise angles: change the sign of the turn"},
     {Cause::stray, "stray", "", "--robust"},
@@ -143,11 +145,13 @@ std::string about(const Diagnosis& diagnosis) {
 }
 
 std::string cure_of(const Diagnosis& diagnosis, const std::vector<Finger>& fingers, const Noise& noise) {
-  if (diagnosis.cause == Cause::unsaid_noise)
-    return noise_option(diagnosis.noise, 1) + ", and slip= and radius= as far as they are not exact";
-  if (diagnosis.cause == Cause::slip) return fmt::format("--noise slip={:.2g}, besides what is given", diagnosis.slip);
-  if (diagnosis.cause == Cause::gyroscope)
-    return fmt::format("--noise gyro={:.2g}, besides what is given", diagnosis.gyro);
+  if (diagnosis.cause == Cause::unsaid_noise) return noise_option(diagnosis.noise, 1);
+  if (diagnosis.cause == Cause::slip || diagnosis.cause == Cause::gyroscope) {
+    Noise more = noise;
+    if (diagnosis.cause == Cause::slip) more.slip = diagnosis.slip;
+    if (diagnosis.cause == Cause::gyroscope) more.gyro = diagnosis.gyro;
+    return noise_option(more, 1);
+  }
   if (!diagnosis.columns.empty()) return columns_option(diagnosis.columns);
   if (diagnosis.cause == Cause::fingers_swapped) {
     if (fingers.size() != 2) return "give both in the other order";

@@ -11,6 +11,7 @@
 #include "convex.hpp"
 #include "line_search.hpp"
 #include "outline/turn.hpp"
+#include "rollfix/pulse.hpp"
 
 namespace rollfix {
 namespace {
@@ -164,6 +165,7 @@ void BoxSearch::run() {
 }
 
 void BoxSearch::decide(const Box& box) {
+  beat();
   ++findings_.counts.intervals;
   const PairLimits limits = box.covered ? limits_.inside() : limits_;
   const double tolerance = limits.tolerance;

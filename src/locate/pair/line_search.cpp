@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "../accuracy.hpp"
+#include "rollfix/pulse.hpp"
 
 namespace rollfix {
 namespace {
@@ -202,6 +203,7 @@ void LineSearch::split(const Stretch& stretch) {
 }
 
 void LineSearch::decide(Stretch stretch) {
+  beat();
   ++findings_.counts.intervals;
   if (!clip(stretch, margin_)) return;
   const Bounds along = bounds(stretch);

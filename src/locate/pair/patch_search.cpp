@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "outline/turn.hpp"
+#include "rollfix/pulse.hpp"
 
 namespace rollfix {
 namespace {
@@ -121,6 +122,7 @@ class PatchSearch {
 
  private:
   void decide(std::int32_t index) {
+    beat();
     ++findings_.counts.intervals;
     for (std::size_t row = 0; row < values_.size(); ++row) values_[row] = other_.components(index)[row].value;
     const bool one_lap = !limits_.facing || values_.back().spread() <= std::numbers::pi;

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <utility>
+
+namespace rollfix {
+
+/// While one lives, long computations of its thread, and of threads that they start, look up every 20 ms or so: `beat`
+/// is called by its thread with what is being done, in a few words, or with nullptr. What it throws ends the
+/// computation and comes out of it.
+class Pulse {
+ public:
+  using Beat = std::function<void(const char* doing)>;
+
+  explicit Pulse(Beat beat) : beat_(std::move(beat)), outer_(current_) { current_ = this; }
+  ~Pulse() { current_ = outer_; }
+  Pulse(const Pulse&) = delete;
+  Pulse& operator=(const Pulse&) = delete;
+
+  /// That of this thread; nullptr: nobody wants to know.
+  static Pulse* current() { return current_; }
+
+  /// By inner loops, every millisecond or more often.
+  void count() {
+    if (++calls_ % kCalls == 0) look_up();
+  }
+  /// Calls `beat` unless it was called a moment ago.
+  void look_up();
+
+ private:
+  friend class Doing;
+  static constexpr unsigned kCalls = 8;
+
+  static constinit thread_local Pulse* current_;
+  Beat beat_;
+  Pulse* outer_;
+  unsigned calls_ = 0;
+  const char* doing_ = nullptr;
+  std::chrono::steady_clock::time_point last_{};
+};
+
+/// What inner loops call.
+inline void beat() {
+  if (Pulse* const pulse = Pulse::current()) pulse->count();
+}
+
+/// Says what is being done while it lives, and what was done before thereafter.
+class Doing {
+ public:
+  explicit Doing(const char* what) : pulse_(Pulse::current()) {
+    if (pulse_ != nullptr) before_ = std::exchange(pulse_->doing_, what);
+  }
+  ~Doing() {
+    if (pulse_ != nullptr) pulse_->doing_ = before_;
+  }
+  Doing(const Doing&) = delete;
+  Doing& operator=(const Doing&) = delete;
+
+ private:
+  Pulse* pulse_;
+  const char* before_ = nullptr;
+};
+
+}  // namespace rollfix

@@ -1,0 +1,336 @@
+"""Where the finger is: what is asked of a part about rolls that are over."""
+
+from __future__ import annotations
+
+import functools
+from typing import Any, Callable, Iterable, Optional, Sequence, Tuple, TypeVar, cast
+
+import numpy as np
+
+from . import _core
+from ._answer import Answer
+from ._checks import clockwise, travel as travel_given
+from ._columns import Columns, Units
+from ._core import InputError
+from ._documents import Advice
+from ._fingers import FingerLike
+from ._log_answers import LogAnswers, locate_logs
+from ._many import ManyAnswers, locate_many
+from ._noise import NoiseLike
+from ._question import Question, solved
+from ._rounding import offer_rounding
+from ._shape import Shape
+
+Method = TypeVar("Method", bound=Callable[..., Answer])
+
+
+def _quick(locate: Method) -> Method:
+    """One reading of one finger and nothing else, the job of tight loops, takes the shortest way to C++."""
+
+    @functools.wraps(locate)
+    def quick(self: "Asked", readings: Any = None, turn: Any = None, **options: Any) -> Answer:
+        if not options and isinstance(readings, float) and isinstance(turn, float):
+            answer = Answer._of(_core.locate_one(self._core, readings, turn))
+            return answer if len(answer) else offer_rounding(answer, np.array([[readings, turn]]))
+        return locate(self, readings, turn, **options)
+
+    return cast(Method, quick)
+
+
+class Asked(Shape):
+    """A part that can be asked where a roll was."""
+
+    __slots__ = ()
+
+    @_quick
+    def locate(
+        self,
+        readings: Any = None,
+        turn: Any = None,
+        *,
+        log: Any = None,
+        finger: Optional[FingerLike] = None,
+        noise: NoiseLike = None,
+        tolerance: Optional[float] = None,
+        facing: Optional[float] = None,
+        at: Any = None,
+        prior: Optional[Tuple[float, float]] = None,
+        heading: Optional[Tuple[float, float]] = None,
+        pose: Optional[Sequence[float]] = None,
+        mirrored: bool = False,
+        direction: str = "ccw",
+        robust: bool = False,
+        may_overlap: bool = False,
+        columns: Columns = None,
+        units: Units = None,
+        degrees: bool = False,
+        wrapped: Optional[bool] = None,
+        roll: Optional[int] = None,
+        rounding: Optional[Tuple[float, float]] = None,
+        budget: Optional[int] = None,
+    ) -> Answer:
+        """Every place where the roll can have started. There is no other: see `Answer.status`.
+
+        `locate(length, turn)`, `locate(readings)`, or `locate(log=..., finger=..., noise=...)`. One finger on a part at
+        rest: eqs. (4) and (5). Two on a part that is free to move: eqs. (8) and (9).
+
+        Parameters
+        ----------
+        readings : float with `turn`, or array_like, (2,), (3,), (n, 2) or (n, 3)
+            (L, theta) of one finger: arc length travelled, along the stored outline, and turn of the tangent, radians. Of
+            two (La, Lb, theta), theta being finger a's turn less finger b's. Each from the first contact; taken as exact.
+        turn : float, optional
+            With one length.
+        log : path, DataFrame, mapping of arrays, ndarray, Log, Roll, or a pair of them
+            Instead of readings: see `rollfix.read_log`, also for `columns`, `units`, `degrees`, `wrapped` and `roll`.
+        finger : Disk, Jaw, OutlineFinger, or two of them
+            For logs of u and psi; and what it can't reach is dropped. One serves both of two.
+        noise : Noise or dict, optional
+            All rows are weighed, and placements have probabilities. None: exact but for rounded digits.
+        tolerance : float, optional
+            How far the turn may be off, radians. Default: from the noise, or the log's digits; of readings 1e-9.
+        facing : float, optional
+            Of readings of two fingers: how far finger a's contact normal is turned from finger b's at the first contacts,
+            radians. Then one reading suffices. A log has it itself.
+        at : array_like, optional
+            Instants of a log to search with, seconds. Default: its last row, of two fingers the middle one as well.
+        prior : (s, sd), optional
+            With noise: about where the finger (of two finger a) started.
+        heading : (angle, sd), optional
+            With noise and a log of u and psi: about how the part is turned in the world, radians.
+        pose : (x, y, heading, sd, sd_heading), optional
+            The same with where it lies.
+        mirrored : bool
+            The part lies face down: what is felt is the outline's mirror image.
+        direction : 'ccw', 'cw' or 'either'
+            Which way round the part lengths count as positive; either: both are tried, and each placement's `direction`
+            says which. Of u and psi it is not asked.
+        robust : bool
+            With noise: stray rows don't count.
+        may_overlap : bool
+            Two fingers at different heights: places where their disks would overlap are kept.
+        rounding : (length, turn), optional
+            Of readings: how far their digits may be off, half a unit of the last one each; widens the tolerance as that
+            asks for.
+        budget : int, optional
+            Intervals, of two fingers boxes, to look at before giving up; default 1000000.
+
+        Returns
+        -------
+        Answer
+
+        Raises
+        ------
+        InputError
+            What can't be meant; the message names the argument.
+        """
+        if (readings is None) == (log is None):
+            found = "neither" if log is None else "both: they can't be of the same roll"
+            raise InputError(f"readings: expected readings or `log`, found {found}")
+        question = Question(
+            self._core,
+            finger=finger,
+            noise=noise,
+            tolerance=tolerance,
+            facing=facing,
+            at=at,
+            prior=prior,
+            heading=heading,
+            pose=pose,
+            mirrored=mirrored,
+            direction=direction,
+            robust=robust,
+            may_overlap=may_overlap,
+            columns=columns,
+            units=units,
+            degrees=degrees,
+            wrapped=wrapped,
+            roll=roll,
+            rounding=rounding,
+            budget=budget,
+        )
+        if log is None:
+            answer = solved(question.of_readings(readings, turn))
+            is_exact = noise is None and tolerance is None and rounding is None
+            return offer_rounding(answer, answer.readings) if is_exact and not len(answer) else answer
+        return solved(*question.of_log(log, turn))
+
+    def advise(
+        self,
+        readings: Any = None,
+        turn: Any = None,
+        *,
+        travel: Any = None,
+        log: Any = None,
+        finger: Optional[FingerLike] = None,
+        noise: NoiseLike = None,
+        tolerance: Optional[float] = None,
+        facing: Optional[float] = None,
+        at: Any = None,
+        prior: Optional[Tuple[float, float]] = None,
+        heading: Optional[Tuple[float, float]] = None,
+        pose: Optional[Sequence[float]] = None,
+        mirrored: bool = False,
+        direction: str = "ccw",
+        robust: bool = False,
+        may_overlap: bool = False,
+        columns: Columns = None,
+        units: Units = None,
+        degrees: bool = False,
+        wrapped: Optional[bool] = None,
+        roll: Optional[int] = None,
+        rounding: Optional[Tuple[float, float]] = None,
+        budget: Optional[int] = None,
+    ) -> Advice:
+        """The next roll: which one tells the remaining placements apart. Of one finger.
+
+        Parameters
+        ----------
+        readings, turn, log, ...
+            The roll so far, as of `locate`.
+        travel : float or (float, float), optional
+            How far the finger can roll on: a length, or (back, forward) with back <= 0. Default: one lap.
+
+        Returns
+        -------
+        Advice
+        """
+        range_given = travel_given(travel)
+        answer = self.locate(
+            readings,
+            turn,
+            log=log,
+            finger=finger,
+            noise=noise,
+            tolerance=tolerance,
+            facing=facing,
+            at=at,
+            prior=prior,
+            heading=heading,
+            pose=pose,
+            mirrored=mirrored,
+            direction=direction,
+            robust=robust,
+            may_overlap=may_overlap,
+            columns=columns,
+            units=units,
+            degrees=degrees,
+            wrapped=wrapped,
+            roll=roll,
+            rounding=rounding,
+            budget=budget,
+        )
+        return Advice(answer._core, range_given)
+
+    def locate_many(
+        self,
+        readings: Any,
+        *,
+        finger: Optional[FingerLike] = None,
+        noise: NoiseLike = None,
+        tolerance: Optional[float] = None,
+        facing: Any = None,
+        mirrored: bool = False,
+        direction: str = "ccw",
+        may_overlap: bool = False,
+        rounding: Optional[Tuple[float, float]] = None,
+        budget: Optional[int] = None,
+        threads: int = 0,
+        progress: Optional[bool] = None,
+    ) -> ManyAnswers:
+        """The answers to many problems, on all cores, as arrays. Ctrl-C stops it; an error stays with its problem.
+
+        Parameters
+        ----------
+        readings : array_like, (n, 2) or (n, 3): a problem of one reading in each row; (n, m, 2) or (n, m, 3): of m each
+            As of `locate`. Or a table with columns length and turn, of two fingers length_a, length_b and turn.
+        finger, noise, tolerance, mirrored, direction, may_overlap, rounding, budget
+            As of `locate`, for all problems.
+        facing : float or array_like, (n,), optional
+            Of two fingers.
+        threads : int
+            0: as many as there are processors. The answers have the same bits with any number.
+        progress : bool, optional
+            A bar, by tqdm. Default: where tqdm is installed, in a notebook or on a terminal, after half a second.
+
+        Returns
+        -------
+        ManyAnswers
+        """
+        clockwise(direction)  # not both ways at once
+        question = Question(
+            self._core,
+            finger=finger,
+            noise=noise,
+            tolerance=tolerance,
+            mirrored=mirrored,
+            direction=direction,
+            may_overlap=may_overlap,
+            rounding=rounding,
+            budget=budget,
+        )
+        return locate_many(question, readings, facing, threads, progress)
+
+    def locate_logs(
+        self,
+        logs: Iterable[Any],
+        *,
+        finger: Optional[FingerLike] = None,
+        noise: NoiseLike = None,
+        tolerance: Optional[float] = None,
+        at: Any = None,
+        prior: Optional[Tuple[float, float]] = None,
+        heading: Optional[Tuple[float, float]] = None,
+        pose: Optional[Sequence[float]] = None,
+        mirrored: bool = False,
+        direction: str = "ccw",
+        robust: bool = False,
+        may_overlap: bool = False,
+        columns: Columns = None,
+        units: Units = None,
+        degrees: bool = False,
+        wrapped: Optional[bool] = None,
+        roll: Optional[int] = None,
+        budget: Optional[int] = None,
+        threads: int = 0,
+        progress: Optional[bool] = None,
+        errors: str = "collect",
+    ) -> LogAnswers:
+        """The answers to many logs, on all cores: `locate(log=one, ...)` of each, in order.
+
+        Parameters
+        ----------
+        logs : iterable of logs
+        finger, noise, ...
+            As of `locate`, for all of them; what can't be meant raises InputError at once.
+        threads, progress
+            As of `locate_many`; reading the logs counts.
+        errors : 'collect' or 'raise'
+            Of a log that can't be worked with: keep its InputError in its place, or raise the first one. Where all fail
+            for one reason that is raised in any case.
+
+        Returns
+        -------
+        LogAnswers
+        """
+        question = Question(
+            self._core,
+            finger=finger,
+            noise=noise,
+            tolerance=tolerance,
+            at=at,
+            prior=prior,
+            heading=heading,
+            pose=pose,
+            mirrored=mirrored,
+            direction=direction,
+            robust=robust,
+            may_overlap=may_overlap,
+            columns=columns,
+            units=units,
+            degrees=degrees,
+            wrapped=wrapped,
+            roll=roll,
+            budget=budget,
+        )
+        return locate_logs(question, logs, threads, progress, errors)
