@@ -129,7 +129,8 @@ TEST(BadPoints, lone_number_is_named_with_its_line) {
 
 TEST(BadPoints, decimal_commas_are_not_taken_for_points) {
   EXPECT_EQ(message_of("1,5 2,5\n"),
-            "part.csv:1: '1,5 2,5' mixes separators, expected 'x y' or 'x,y' with decimal points, not commas");
+            "part.csv:1: '1,5 2,5' mixes separators, expected 'x y' or 'x,y' with decimal points, not commas, "
+            "which `decimal_comma` takes");
   EXPECT_THAT(message_of("0,5 2,5\n"), HasSubstr("mixes separators"));
   EXPECT_THAT(message_of("0,5\t2,5\n"), HasSubstr("mixes separators"));
 }
