@@ -1,5 +1,7 @@
 #include "rollfix/program.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -7,16 +9,19 @@
 #include <boost/system/system_error.hpp>
 #include <cctype>
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <new>
 #include <ostream>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "rollfix/commands.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/output/progress_line.hpp"
 #include "rollfix/output/report.hpp"
 #include "rollfix/usage.hpp"
 #include "rollfix/version.hpp"
@@ -24,6 +29,8 @@
 
 namespace rollfix::app {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr const char* kDescription =
     "Finds every place where a rolling finger may touch a curved part of known outline.";
@@ -141,6 +148,38 @@ Command parse(CLI::App& program, const std::vector<std::string>& arguments, std:
 
 int code(ExitCode exit_code) { return static_cast<int>(exit_code); }
 
+/// Whether an argument is a file's name, by itself or with its option: -oFILE, --log=FILE.
+bool names(const std::string& argument, const std::string& file) {
+  const auto is_same = [&](const std::string& name) {
+    std::error_code error;
+    return fs::equivalent(name, file, error) && !error;
+  };
+  const bool has_letter = argument.size() > 2 && argument.substr(0, 2) == "-o";
+  return is_same(argument) || is_same(argument.substr(argument.find('=') + 1)) ||
+         (has_letter && is_same(argument.substr(2)));
+}
+
+/// Throws InputError: a file would be written over what was read: two of the arguments name it.
+void require_no_input(const std::vector<OutputFile>& files, const std::vector<std::string>& arguments) {
+  for (const OutputFile& file : files) {
+    std::error_code error;
+    if (!fs::is_regular_file(file.path, error)) continue;
+    const auto is_named = [&](const std::string& argument) { return names(argument, file.path); };
+    if (std::count_if(arguments.begin(), arguments.end(), is_named) < 2) continue;
+    throw InputError(fmt::format("{}: was read, and would be written over: give another name", file.path));
+  }
+}
+
+/// Whoever waits before a terminal is told what takes so long.
+Report watched(const Command& command, bool wanted) {
+  const ProgressLine progress(wanted);
+  return command();
+}
+
+bool tells_by_itself(const std::vector<std::string>& arguments) {
+  return !arguments.empty() && (arguments.front() == "watch" || arguments.front() == "catalog");
+}
+
 /// `notes`: where the narration goes.
 void deliver(const Report& report, std::ostream& out, std::ostream& notes) {
   write_files(report.files);
@@ -184,7 +223,8 @@ int run(const std::vector<std::string>& arguments, std::ostream& out, std::ostre
     bool quiet = false;
     const Command command = parse(program, arguments, out, notes, quiet);
     if (quiet) notes.rdbuf(nullptr);  // what is written to it goes nowhere
-    const Report report = command();
+    const Report report = watched(command, !quiet && &err == &std::cerr && !tells_by_itself(arguments));
+    require_no_input(report.files, arguments);
     deliver(report, out, notes);
     return code(report.exit_code);
   } catch (const CLI::Success& request) {  // --help, --version
