@@ -15,6 +15,7 @@
 #include "rollfix/contact/pose.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate/locate.hpp"
+#include "text/doing.hpp"
 #include "unweighed.hpp"
 #include "weighing.hpp"
 
@@ -53,6 +54,7 @@ void search(const Problem& problem, Answer& answer) {
   if (of_two_with_noise) options.budget = kBudgetWithNoise;
   if (problem.budget) options.budget = *problem.budget;
   if (of_two_with_noise && options.tolerance > kWidestSearch) return;
+  const Doing doing("looking for every place that fits");
   Search found = locate(answer.part, answer.readings, options);
   answer.status = found.status;
   answer.verdict = found.verdict();
@@ -111,6 +113,7 @@ Problem without_jumps(const Problem& problem, std::vector<std::size_t>& strays) 
 }
 
 Answer solve_roll(const Problem& problem, bool explains) {
+  const Doing doing("weighing the rows against every place");
   const Observation observed = observe(problem);
   std::optional<Belief> belief = believe(problem, observed);
   Answer answer{problem.part, problem.fingers};
