@@ -311,6 +311,19 @@ TEST_F(CatalogFile, keeps_what_was_reported_when_the_build_is_killed) {
   EXPECT_GE(rest.unchanged, reported);
 }
 
+TEST_F(CatalogFile, is_left_whole_by_a_build_that_a_signal_ends) {
+  std::string list;
+  for (int k = 1; k <= 3000; ++k) list += "gallery:spline,n=9,wobble=0.2,seed=" + std::to_string(k) + "\n";
+  write("list.txt", list);
+  for (int k = 0; k < 20; ++k) {
+    const std::string signal = k % 2 == 0 ? "TERM" : "INT";
+    cli::shell("timeout -s " + signal + " 0." + std::to_string(100 + 13 * k) +
+               " rollfix catalog build list.txt -o parts.db --quiet");
+    EXPECT_FALSE(cli::fs::exists("parts.db-journal"));
+  }
+  EXPECT_GT(Catalog("parts.db").size(), 0U);
+}
+
 TEST_F(CatalogFile, that_a_killed_build_left_half_written_is_read_as_it_was_before) {
   of({"cam"});
   const pid_t child = fork();

@@ -260,11 +260,15 @@ TEST(Names, from_outside_do_nothing_to_a_terminal_and_break_no_table) {
   folder.write("log" + name, "stamp,contact" + kHostile.substr(0, 8) + "_deg,yaw_deg\n0,1,2\n");
   for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
            {"inspect", name},
+           {"inspect", name, "--json"},
+           {"inspect", name, "-o", "-"},
            {"locate", name, "--reading", "3,90deg"},
+           {"locate", name, "--reading", "3,90deg", "--json"},
            {"locate", name, "--reading", "3,90deg", "-o", "new" + name + ".svg"},
            {"locate", name, "--log", "log" + name, "--finger", "disk,r=1"},
            {"catalog", "build", ".", "-o", "parts.db"},
            {"catalog", "list", "parts.db"},
+           {"catalog", "list", "parts.db", "--json"},
            {"identify", "parts.db", "--reading", "3,90deg"},
            {"watch", name, "--log", "log" + name, "--once", "--finger", "disk,r=1", "--noise", "angle=0.1"}}) {
     const cli::Ran ran = run_words(words);
@@ -272,6 +276,15 @@ TEST(Names, from_outside_do_nothing_to_a_terminal_and_break_no_table) {
     expect_harmless(ran.out);
     expect_harmless(ran.err);
   }
+}
+
+TEST(Names, in_json_read_back_as_they_are_but_for_bytes_that_are_no_text) {
+  const cli::Folder folder;
+  const std::string name = kHostile.substr(0, kHostile.size() - 1) + ".csv";
+  folder.write(name, "0,0\n10,0\n10,10\n0,10\n");
+  const cli::Ran ran = run_words({"inspect", name, "--json"});
+  EXPECT_THAT(ran.out, HasSubstr("\\u009b2J\\u202e"));
+  EXPECT_EQ(ran.json()["part"]["name"], name);
 }
 
 TEST(Units, from_outside_do_nothing_to_a_terminal) {

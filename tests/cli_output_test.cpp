@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "cli.hpp"
 
 namespace cli_output_test {
@@ -207,6 +209,19 @@ TEST(Inspect, a_corner_that_stops_every_disk_is_named) {
   folder.write("notch.csv", "0 0\n2 0\n2 2\n1 1\n0 2\n");
   EXPECT_THAT(run("inspect notch.csv").out,
               HasSubstr("disk         of no size rolls all around: the corner at 5.414214 is concave, -90.000 deg"));
+}
+
+TEST(Progress, is_told_on_a_terminal_and_gone_in_the_end) {
+  const cli::Folder folder;
+  std::ofstream points("dense.csv");
+  points.precision(12);
+  const double kStep = 2 * std::acos(-1) / 400000;
+  for (int k = 0; k < 400000; ++k) points << std::cos(k * kStep) << ' ' << std::sin(k * kStep) << '\n';
+  points.close();
+  const cli::Ran ran = cli::shell("script -qec 'rollfix inspect dense.csv' /dev/null");
+  EXPECT_EQ(ran.code, 0);
+  EXPECT_THAT(ran.out, testing::ContainsRegex("outline(, [0-9]+ %)?, [0-9] s"));
+  EXPECT_EQ(cli::shell("rollfix inspect dense.csv").err.find("\r"), std::string::npos);
 }
 
 }  // namespace cli_output_test

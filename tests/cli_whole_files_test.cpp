@@ -86,8 +86,15 @@ TEST(LongNames, are_written_up_to_the_longest_that_a_folder_takes) {
 }
 
 TEST(FullStandardOutput, is_told_for_help_and_version_too) {
+  const cli::Folder folder;
+  ASSERT_EQ(run("locate gallery:ellipse --reading 1.5,73.2deg --certify proof").code, 0);
   for (const std::string command : {"--help", "--version", "locate --help"}) {
     EXPECT_EQ(shell("rollfix " + command + " > /dev/full").code, 2) << command;
+    EXPECT_EQ(shell("rollfix " + command + " >&-").code, 2) << command;
+  }
+  for (const std::string command : {"--help", "proof"}) {
+    EXPECT_EQ(shell("rollfix-verify " + command + " > /dev/full").code, 2) << command;
+    EXPECT_EQ(shell("rollfix-verify " + command + " >&-").code, 2) << command;
   }
 }
 
@@ -114,13 +121,19 @@ TEST(OneFileForTwoLogs, is_refused) {
   EXPECT_EQ(folder.files(), Names{});
 }
 
-TEST(Output, that_is_the_input_is_refused_and_with_force_replaces_it_whole) {
+TEST(Output, that_is_the_input_is_refused_with_force_as_well) {
   const cli::Folder folder;
-  folder.write("square.csv", "0 0\n1 0\n1 1\n0 1\n");
+  const std::string square = "0 0\n1 0\n1 1\n0 1\n";
+  folder.write("square.csv", square);
+  cli::fs::create_symlink("square.csv", "link.csv");
   EXPECT_EQ(run("inspect square.csv -o square.csv").code, 2);
-  EXPECT_EQ(cli::read("square.csv"), "0 0\n1 0\n1 1\n0 1\n");
-  EXPECT_EQ(run("inspect square.csv -o square.csv --force").code, 0);
-  EXPECT_THAT(cli::read("square.csv"), HasSubstr("s,x,y,tangent,curvature"));
+  for (const std::string output : {"-o square.csv", "-o ./square.csv", "-o link.csv", "-osquare.csv"}) {
+    const cli::Ran ran = run("inspect square.csv --force " + output);
+    EXPECT_EQ(ran.code, 2) << output;
+    EXPECT_THAT(ran.err, HasSubstr("was read, and would be written over")) << output;
+  }
+  EXPECT_EQ(run("locate gallery:ellipse --map=square.csv --reading 1.5,73.2deg --certify square.csv --force").code, 2);
+  EXPECT_EQ(cli::read("square.csv"), square);
 }
 
 TEST(ReplacedFile, keeps_who_may_read_it) {

@@ -54,7 +54,7 @@ TEST(KeptSamples, of_increments_leave_the_place_as_sure_as_all_of_them) {
     all.fingers[0].turn.push_back(sample.reading.turn);
   }
   rollfix::app::WatchAnswer answer;
-  kept->look_again(answer);
+  kept->conclude(answer, true);
   const double sd = sd_of(rollfix::identify(*options.catalog, {part, all, {}, options.belief.noise}));
   EXPECT_NEAR(sd_of(*answer.parts), sd, 0.02 * sd);
 }

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "outline/joining.hpp"
+#include "outline/nesting.hpp"
 #include "random.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline/primitives.hpp"
@@ -25,6 +26,7 @@ using rollfix::InputError;
 using rollfix::Line;
 using rollfix::Loops;
 using rollfix::Part;
+using rollfix::Polygon;
 using rollfix::Vec2;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -249,6 +251,66 @@ TEST(Loops, a_hundred_thousand_lines_at_one_place_end_soon) {
     curves.emplace_back(Line({0, 0}, {std::cos(angle), std::sin(angle)}));
   }
   EXPECT_THAT(message_of(drawing(curves)), HasSubstr("100000 ends of curves meet near (0, 0)"));
+}
+
+Polygon ring(const Vec2& middle, double radius, int sides, double first, bool clockwise = false) {
+  Polygon result;
+  for (int k = 0; k < sides; ++k) {
+    const double angle = first + (clockwise ? -2 : 2) * std::numbers::pi * k / sides;
+    result.points.emplace_back(middle + radius * Vec2(std::cos(angle), std::sin(angle)));
+  }
+  result.box = rollfix::box_around(result.points);
+  return result;
+}
+
+std::vector<int> one_by_one(const std::vector<Polygon>& polygons) {
+  std::vector<int> depths(polygons.size(), 0);
+  for (std::size_t inner = 0; inner < polygons.size(); ++inner) {
+    for (std::size_t outer = 0; outer < inner; ++outer) {
+      depths[inner] += polygons[outer].contains(polygons[inner].points.front()) ? 1 : 0;
+    }
+  }
+  return depths;
+}
+
+/// Rings in rings in rings, side by side, of any direction; none touches another.
+void add_rings(std::vector<Polygon>& all, const Vec2& middle, double radius, std::mt19937_64& random) {
+  const auto number = [&](double lo, double hi) { return std::uniform_real_distribution(lo, hi)(random); };
+  if (radius < 0.02) return;
+  all.push_back(ring(middle, radius, 3 + static_cast<int>(random() % 9), number(0, 7), random() % 2 == 0));
+  if (random() % 3 == 0) return add_rings(all, middle, 0.49 * radius, random);
+  for (const Vec2& side : {Vec2(-1, 0), Vec2(1, 0)})
+    add_rings(all, middle + 0.2 * radius * side, 0.18 * radius, random);
+}
+
+void sort_by_size(std::vector<Polygon>& all) {
+  std::stable_sort(all.begin(), all.end(), [](const Polygon& a, const Polygon& b) {
+    return a.box.diagonal().norm() > b.box.diagonal().norm();
+  });
+}
+
+TEST(Nesting, of_polygons_that_do_not_meet_is_what_asking_each_of_each_says) {
+  for (int k = 0; k < test_count(50); ++k) {
+    std::mt19937_64 random = test_generator(static_cast<std::uint64_t>(k));
+    std::vector<Polygon> all;
+    for (int j = 0; j < 12; ++j) add_rings(all, Vec2(2.5 * j, j), 1, random);
+    sort_by_size(all);
+    EXPECT_EQ(rollfix::nesting_depths(all), one_by_one(all)) << k;
+  }
+}
+
+TEST(Nesting, of_polygons_that_cross_is_one_deeper_than_the_smallest_around_the_first_point) {
+  const std::vector<Polygon> all = {ring({0, 0}, 10, 16, 0), ring({0, 0}, 4, 16, 0), ring({4, 0}, 1, 16, 0),
+                                    ring({-4, 0}, 1, 16, 0)};
+  EXPECT_THAT(rollfix::nesting_depths(all), ElementsAre(0, 1, 1, 2));
+}
+
+TEST(Nesting, of_rings_in_rings_is_found_without_asking_each_of_each) {
+  constexpr int kRings = 20'000;
+  std::vector<Polygon> all;
+  for (int k = 0; k < kRings; ++k) all.push_back(ring({0, 0}, kRings - k, 16, 0));
+  const std::vector<int> depths = rollfix::nesting_depths(all);
+  for (int k = 0; k < kRings; ++k) ASSERT_EQ(depths[static_cast<std::size_t>(k)], k);
 }
 
 }  // namespace

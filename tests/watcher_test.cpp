@@ -209,6 +209,24 @@ TEST(Watcher, begins_anew_with_a_contact_that_was_lost_and_found_again) {
   EXPECT_EQ(watch.watcher.counts().samples, 800U);
 }
 
+TEST(Watcher, looks_for_what_is_wrong_with_some_of_many_short_rolls_and_with_the_last) {
+  WatchOptions exact = options();
+  exact.belief.noise.contact *= 0.1;
+  exact.belief.noise.angle *= 0.1;
+  Watch watch(exact);
+  watch.push(kHeader);
+  for (int roll = 0; roll < 12; ++roll) {
+    watch.push(noisy_rows(1, 2, 300, 100.0 * roll)).push(std::to_string(100 * roll + 90) + ",0,0,0");
+  }
+  watch.push(noisy_rows(1, 2, 300, 1200)).watcher.finish();
+  std::size_t explained = 0;
+  for (const WatchAnswer& answer : watch.diary.answers) explained += answer.diagnoses.empty() ? 0 : 1;
+  EXPECT_THAT(watch.diary.answers, SizeIs(13));
+  EXPECT_LE(explained, 3U);
+  EXPECT_FALSE(watch.diary.answers.front().diagnoses.empty());
+  EXPECT_FALSE(watch.diary.answers.back().diagnoses.empty());
+}
+
 TEST(Watcher, goes_on_after_a_connection_that_dropped) {
   const std::vector<std::string> rows = noisy_rows(2, 3, 400);
   Watch watch;

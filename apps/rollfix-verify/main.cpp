@@ -11,6 +11,16 @@ namespace {
 
 enum ExitCode { proved = 0, refused = 1, bad_input = 2, incomplete = 3 };
 
+constexpr const char* kHelp =
+    "Usage: rollfix-verify CERTIFICATE\n"
+    "Proves again what a certificate of `rollfix locate --certify` claims; -: from stdin.\n"
+    "Exit codes: 0 proved, 1 refused, 2 bad usage or input, 3 proved but for cells that exclude nothing.\n";
+
+void print(const std::string& text) {
+  std::cout << text << std::flush;
+  if (!std::cout) throw std::runtime_error("standard output can't be written to");
+}
+
 /// No more than shows that it is too long.
 std::string read(std::istream& stream) {
   std::string text(rollfix_verify::kMostBytes + 1, '\0');
@@ -29,17 +39,18 @@ std::string read(const std::string& path) {
 }  // namespace
 
 int main(int count, char** arguments) {
-  const std::string argument = count == 2 ? arguments[1] : "--help";
-  if (argument == "--help" || argument == "-h") {
-    (count == 2 ? std::cout : std::cerr)
-        << "Usage: rollfix-verify CERTIFICATE\n"
-           "Proves again what a certificate of `rollfix locate --certify` claims; -: from stdin.\n"
-           "Exit codes: 0 proved, 1 refused, 2 bad usage or input, 3 proved but for cells that exclude nothing.\n";
-    return count == 2 ? proved : bad_input;
+  if (count != 2) {
+    std::cerr << kHelp;
+    return bad_input;
   }
+  const std::string argument = arguments[1];
   try {
+    if (argument == "--help" || argument == "-h") {
+      print(kHelp);
+      return proved;
+    }
     const rollfix_verify::Verdict verdict = rollfix_verify::check(read(argument));
-    std::cout << rollfix_verify::described(verdict);
+    print(rollfix_verify::described(verdict));
     if (!verdict.refusal.empty()) return refused;
     return verdict.is_complete() ? proved : incomplete;
   } catch (const std::exception& error) {

@@ -8,12 +8,14 @@
 #include <boost/system/system_error.hpp>
 #include <cctype>
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <new>
 #include <ostream>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "rollfix/arguments/settings_file.hpp"
@@ -30,6 +32,8 @@
 
 namespace rollfix::app {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr const char* kDescription =
     "Finds every place where a rolling finger may touch a curved part of known outline.";
@@ -194,6 +198,28 @@ Report carried_out(const Command& command, bool shows_progress) {
 
 int code(ExitCode exit_code) { return static_cast<int>(exit_code); }
 
+/// Whether an argument is a file's name, by itself or with its option: -oFILE, --log=FILE.
+bool names(const std::string& argument, const std::string& file) {
+  const auto is_same = [&](const std::string& name) {
+    std::error_code error;
+    return fs::equivalent(name, file, error) && !error;
+  };
+  const bool has_letter = argument.size() > 2 && argument.substr(0, 2) == "-o";
+  return is_same(argument) || is_same(argument.substr(argument.find('=') + 1)) ||
+         (has_letter && is_same(argument.substr(2)));
+}
+
+/// Throws InputError: a file would be written over what was read: two of the arguments name it.
+void require_no_input(const std::vector<OutputFile>& files, const std::vector<std::string>& arguments) {
+  for (const OutputFile& file : files) {
+    std::error_code error;
+    if (!fs::is_regular_file(file.path, error)) continue;
+    const auto is_named = [&](const std::string& argument) { return names(argument, file.path); };
+    if (std::count_if(arguments.begin(), arguments.end(), is_named) < 2) continue;
+    throw InputError(fmt::format("{}: was read, and would be written over: give another name", file.path));
+  }
+}
+
 void tell(const std::vector<std::string>& narration, std::ostream& notes) {
   for (const std::string& note : narration) notes << "rollfix: " << plain(with_options(note)) << '\n' << std::flush;
 }
@@ -249,6 +275,9 @@ int run(const std::vector<std::string>& arguments, std::ostream& out, std::ostre
     if (is_live) tell(settings, notes);
     Report report = carried_out(asked.command, !asked.quiet && !is_live);
     if (!is_live) report.notes.insert(report.notes.begin(), settings.begin(), settings.end());
+    std::vector<std::string> all = arguments;
+    all.insert(all.end(), asked.settings.arguments.begin(), asked.settings.arguments.end());
+    require_no_input(report.files, all);
     deliver(report, out, notes);
     return code(report.exit_code);
   } catch (const CLI::Success& request) {  // --help, --version

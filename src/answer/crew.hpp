@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "answer/signals_wait.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
 
@@ -48,6 +49,7 @@ class Crew {
       ended_.notify_all();
     };
     try {
+      const SignalsWait wait;  // signals are for the thread that asks: it knows when the program may end
       while (all.size() < crew) all.emplace_back(help);
     } catch (const std::exception&) {  // there are no more threads, or no memory for them: fewer do it as well
       const std::lock_guard lock(mutex_);

@@ -52,6 +52,8 @@ constexpr double kMostStray = 3;
 constexpr double kEvidenceStep = 6;
 // ... and what is this much less likely than the likeliest is not worth a word.
 constexpr double kFarLessLikely = 12;
+// What a trial leaves open of the probability.
+constexpr double kMostLeftOpen = 0.5;
 // Rows that are this much less noisy than said are exact.
 constexpr double kLeastNoise = 1e-3;
 // Slip of so much per length all along, and five times as much here and there, is what nobody says beforehand; the
@@ -96,9 +98,12 @@ class Diagnostician {
  public:
   Diagnostician(const Problem& problem, const Observation& observed, Belief& belief)
       : problem_(problem), observed_(observed), verdict_(belief.verdict()) {
-    std::optional<Belief> as_said = by_rows(problem, observed);
-    as_said_ = as_said->fit();
-    log_evidence_ = with_noise_as_it_seems(as_said->evidence(), as_said_);
+    // Two fingers' rows are always joined for their number alone.
+    std::optional<Belief> joined;
+    if (!is_of_two()) joined = by_rows(problem, observed);
+    Belief& as_said = joined ? *joined : belief;
+    as_said_ = as_said.fit();
+    log_evidence_ = with_noise_as_it_seems(as_said.evidence(), as_said_);
   }
 
   std::vector<Diagnosis> diagnoses() {
@@ -154,7 +159,8 @@ class Diagnostician {
     noisier.noise->angle *= as_said_.excess;
     noisier.noise->position *= as_said_.excess;
     if (noisier.noise->angle > BeliefOptions::kMostAngle) return;
-    std::optional<Belief> belief = by_rows(noisier, observed_);
+    // Of two fingers as the answer itself is: what wide noise leaves may be long, and it is the likeliest of all.
+    std::optional<Belief> belief = is_of_two() ? believe(noisier, observed_) : by_rows(noisier, observed_);
     Diagnosis diagnosis = of(Cause::noise, belief->fit());
     diagnosis.noise_scale = as_said_.excess;
     add(std::move(diagnosis), *belief, -std::log(as_said_.excess));
@@ -251,7 +257,7 @@ class Diagnostician {
 
   /// Those to try: two fingers, whose search takes long, about 1 and where units are mistaken.
   std::vector<double> scales() const {
-    if (observed_rows().front().fingers() == 2) return {kScalesOfTwo.begin(), kScalesOfTwo.end()};
+    if (is_of_two()) return {kScalesOfTwo.begin(), kScalesOfTwo.end()};
     std::vector<double> scales;
     for (double scale = kLeastScale; scale < kMostScale; scale *= kScaleStep) {
       if (may_be(scale)) scales.push_back(scale);
@@ -390,8 +396,10 @@ class Diagnostician {
     if (!is_right && !is_better) return false;
     diagnosis.verdict = belief.verdict();
     diagnosis.modes = modes_of(belief);
-    // What would have any place fit explains nothing, unless they all look alike.
-    const bool is_empty = diagnosis.verdict.name == Verdict::unobservable && verdict_.name != Verdict::unobservable;
+    // What would have any place fit explains nothing, unless they all look alike; nor does what leaves so many that no
+    // trial has the time for them.
+    const bool is_empty = verdict_.name != Verdict::unobservable &&
+                          (diagnosis.verdict.name == Verdict::unobservable || belief.rest() > kMostLeftOpen);
     if (diagnosis.modes.empty() || is_empty) return false;
     const double log_evidence =
         with_noise_as_it_seems(belief.evidence(), fit) + fit.freedom * log_stretch - log_odds_against;
@@ -400,6 +408,7 @@ class Diagnostician {
     return is_right;
   }
 
+  bool is_of_two() const { return observed_rows().front().fingers() == 2; }
   const std::vector<Reading>& observed_rows() const {
     return problem_.felt.is_log() ? observed_.rolls : observed_.readings;
   }
@@ -430,7 +439,7 @@ class Diagnostician {
 
 std::vector<Diagnosis> diagnose(const Problem& problem, const Observation& observed, Belief& belief) {
   if (!belief.fit().is_bad()) return {};
-  const Doing doing("trying what may be wrong with the log");
+  const Doing doing("looking for what explains the misfit");
   return Diagnostician(problem, observed, belief).diagnoses();
 }
 

@@ -114,6 +114,7 @@ Problem without_jumps(const Problem& problem, std::vector<std::size_t>& strays) 
 }
 
 Answer solve_roll(const Problem& problem, bool explains) {
+  const Doing doing("weighing the rows against every place");
   const Observation observed = observe(problem);
   std::optional<Belief> belief = believe(problem, observed);
   Answer answer{problem.part, problem.fingers};

@@ -55,6 +55,7 @@ void belief::require_weighable(const Noise& noise) {
 
 struct Belief::State {
   void settle();
+  const Fit& fit();
   /// What is said beforehand can only sharpen what the rows allow.
   void hold_against_rows_alone();
   template <class Remaining>
@@ -76,6 +77,16 @@ void Belief::State::settle() {
   outcome = posterior->settle();
   settled_at = posterior->samples();
   hold_against_rows_alone();
+}
+
+// Where that is all that is asked.
+const Fit& Belief::State::fit() {
+  const bool is_settled = posterior->samples() == settled_at;
+  if (!is_settled && !of_rows_alone) {
+    if (std::optional<Fit> alone = posterior->fit_alone()) return outcome.fit = std::move(*alone);
+  }
+  settle();
+  return outcome.fit;
 }
 
 // The best cost with the prior less the best one without is a chi-square, of as many degrees as the prior has. It is no
@@ -175,10 +186,7 @@ PerFinger<Density> Belief::density() {
 
 double Belief::excess() { return fit().excess; }
 
-const Fit& Belief::fit() {
-  state_->settle();
-  return state_->outcome.fit;
-}
+const Fit& Belief::fit() { return state_->fit(); }
 
 const Evidence& Belief::evidence() {
   state_->settle();

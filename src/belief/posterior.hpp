@@ -223,6 +223,9 @@ class Posterior {
   /// Takes all samples so far. What follows is not asked before.
   virtual Outcome settle() = 0;
 
+  /// How well all samples so far fit, where that is known long before what they leave; else nothing.
+  virtual std::optional<Fit> fit_alone() { return std::nullopt; }
+
   /// See Belief. Not after settle().
   virtual bool is_hopeless(const Rival& /*rival*/) { return false; }
 

@@ -2,8 +2,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+
+#include "answer/signals_wait.hpp"
 
 struct sqlite3;
 struct sqlite3_stmt;
@@ -62,13 +65,15 @@ class Database {
   std::string path_;
 };
 
-/// All or nothing: what was done since it was made is undone unless it is committed. Of one that only reads: all of it
-/// is of one state, whatever others write meanwhile.
+/// All or nothing: what was done since it was made is undone unless it is committed, and a signal waits for that, so
+/// that none leaves the file half written. Of one that only reads: all of it is of one state, whatever others write
+/// meanwhile.
 class Transaction {
  public:
   explicit Transaction(const Database& database, Database::Access access = Database::Access::write)
       : database_(database) {
     database_.run(access == Database::Access::write ? "BEGIN IMMEDIATE" : "BEGIN");
+    if (access == Database::Access::write) signals_wait_.emplace();  // now: before it may have to wait for others
   }
   ~Transaction();
   Transaction(const Transaction&) = delete;
@@ -79,6 +84,7 @@ class Transaction {
  private:
   const Database& database_;
   bool is_open_ = true;
+  std::optional<SignalsWait> signals_wait_;
 };
 
 }  // namespace rollfix

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "rollfix/error.hpp"
+#include "text/control.hpp"
 #include "text/text.hpp"
 
 namespace rollfix {
@@ -232,7 +233,7 @@ std::string escape_xml(std::string_view text) {
     if (length == 0) {
       out += "\xef\xbf\xbd";  // the replacement character
     } else if (length > 1) {
-      out += text.substr(0, length);
+      out += is_control(text.substr(0, length)) ? " " : text.substr(0, length);
     } else if (text[0] == '&') {
       out += "&amp;";
     } else if (text[0] == '<') {
@@ -242,8 +243,7 @@ std::string escape_xml(std::string_view text) {
     } else if (text[0] == '"') {
       out += "&quot;";
     } else {
-      const auto byte = static_cast<unsigned char>(text[0]);
-      out += byte < 0x20 || byte == 0x7f ? ' ' : text[0];
+      out += is_control(text.substr(0, 1)) ? ' ' : text[0];
     }
     text.remove_prefix(std::max<std::size_t>(1, length));
   }

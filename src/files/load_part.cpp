@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstddef>
+#include <iterator>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -14,6 +15,7 @@
 #include "rollfix/error.hpp"
 #include "rollfix/files/saved_part.hpp"
 #include "rollfix/outline/load.hpp"
+#include "rollfix/pulse.hpp"
 #include "text/text.hpp"
 
 namespace rollfix {
@@ -234,13 +236,16 @@ LoadedPart of_drawing(Drawing drawing, const LoadOptions& options) {
   LoopOptions joining;
   if (options.gap) joining.gap = in_unit(*options.gap, states_a_length(unit) ? unit : "", "`gap`");
   Loops found = loops(drawing, joining);
+  drawing.curves = std::vector<DrawnCurve>();  // what follows takes memory
   for (std::vector<Loop>* some : {&found.closed, &found.open}) {
     for (Loop& loop : *some) loop.outline.unit = unit;
   }
-  std::vector<Loop> all = found.closed;
-  all.insert(all.end(), found.open.begin(), found.open.end());
   const std::size_t chosen = choice(drawing.name, found, options);
-  std::vector<std::string> notes = notes_on(drawing, found, chosen, all[chosen], options);
+  const std::size_t closed = found.closed.size();
+  std::vector<std::string> notes =
+      notes_on(drawing, found, chosen, chosen < closed ? found.closed[chosen] : found.open[chosen - closed], options);
+  std::vector<Loop> all = std::move(found.closed);
+  std::move(found.open.begin(), found.open.end(), std::back_inserter(all));
   const bool corner_angle_alone = !options.points.smooth && options.points.corner_angle.has_value();
   refuse(corner_angle_alone ? "`corner_angle`" : "", "points", drawing.name, "a drawing");
   Outline outline =
@@ -267,6 +272,7 @@ LoadedPart load_points(const std::string& text, const std::string& name, const L
   std::vector<std::string> notes;
   OutlineOptions known = options.points;
   const std::vector<Vec2> points = parse_points(text, name, options.points, &notes, &known.unit, &known.airfoil);
+  std::string().swap(text);  // what follows takes memory
   Outline outline = outline_through(points, name, known, &notes);
   LoadedPart loaded = [&] {
     try {
@@ -305,12 +311,14 @@ LoadedPart of_saved_part(const std::string& text, const std::string& name, const
   return in_unit_asked_for(saved.empty() ? part : with_name(part, saved), name, options);
 }
 
-LoadedPart of_file(FileKind kind, const std::string& text, const std::string& name, const LoadOptions& options) {
+LoadedPart of_file(FileKind kind, std::string text, const std::string& name, const LoadOptions& options) {
   switch (kind) {
     case FileKind::dxf:
-      return of_drawing(parse_dxf(text, name, {options.layer}), options);
-    case FileKind::svg:
-      return of_drawing(parse_svg(text, name), options);
+    case FileKind::svg: {
+      Drawing drawing = kind == FileKind::dxf ? parse_dxf(text, name, {options.layer}) : parse_svg(text, name);
+      std::string().swap(text);  // what follows takes memory
+      return of_drawing(std::move(drawing), options);
+    }
     case FileKind::saved_part:
       return of_saved_part(text, name, options);
     case FileKind::json:
@@ -325,6 +333,7 @@ LoadedPart of_file(FileKind kind, const std::string& text, const std::string& na
 LoadedPart load_part(const std::string& argument, const LoadOptions& options) {
   const LoadOptions known = with_known_unit(options);
   const std::string name = argument == "-" ? kStandardInput : argument;
+  const Doing doing("reading the outline");
   try {
     const FileKind by_name = kind_by_name(argument);
     if (by_name == FileKind::gallery) {
@@ -333,10 +342,10 @@ LoadedPart load_part(const std::string& argument, const LoadOptions& options) {
       outline.unit = known.points.unit;
       return of_outline(std::move(outline), known);
     }
-    const std::string text = read_text(argument);
+    std::string text = read_text(argument);
     const FileKind kind = kind_by_content(by_name, argument == "-", text);
     if (kind != FileKind::json) require_options_for(kind, name, known);
-    return of_file(kind, text, name, known);
+    return of_file(kind, std::move(text), name, known);
   } catch (const InputError& error) {
     const std::string message = error.what();
     const bool named = argument.rfind("gallery:", 0) == 0 || message.find(name) != std::string::npos;

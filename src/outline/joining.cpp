@@ -3,11 +3,11 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <numeric>
-#include <unordered_map>
+#include <utility>
 
 namespace rollfix {
 
@@ -41,7 +41,7 @@ bool is_line(const Curve& curve) {
 CurveMeasure measure(const Curve& curve) {
   const Interval domain = curve.domain();
   CurveMeasure result;
-  result.front = result.origin = curve.front();
+  result.front = curve.front();
   result.box.extend(result.front);
   result.back = curve.back();
   result.middle = curve.position(domain.middle());
@@ -65,7 +65,7 @@ CurveMeasure measure(const Curve& curve) {
   const double with_length = integral(
       [&](double u) {
         const Jet jet = curve.jet(u);
-        return cross(jet.position - result.origin, jet.first) + result.length * jet.first.norm();
+        return cross(jet.position - result.front, jet.first) + result.length * jet.first.norm();
       },
       domain, std::max(kQuadratureTolerance, rounding));
   result.twice_area = with_length - result.length * result.length;
@@ -118,43 +118,66 @@ class Sets {
   std::vector<std::size_t> parent_;
 };
 
-/// A square of the grid. Its diagonal is just below the gap: all points in one square are one cluster.
+/// A square of a grid, with points in it. Its diagonal is just below the gap: all of them are one cluster.
 struct Square {
   std::int64_t column = 0;
   std::int64_t row = 0;
-  bool operator==(const Square& other) const { return column == other.column && row == other.row; }
+  std::size_t first = 0;  // of a list of points
+  std::size_t last = 0;   // behind the last
 };
 
-struct SquareHash {
-  std::size_t operator()(const Square& square) const {
-    const std::uint64_t mixed =
-        static_cast<std::uint64_t>(square.column) * 0x9E3779B97F4A7C15U ^ static_cast<std::uint64_t>(square.row);
-    return std::hash<std::uint64_t>()(mixed);
+/// Those that hold points, by column and row; `points` are sorted by their squares.
+std::vector<Square> squares_of(const std::vector<Vec2>& places, double side, std::vector<std::size_t>& points) {
+  Vec2 corner = places.empty() ? Vec2(0, 0) : places.front();
+  for (const Vec2& place : places) corner = corner.cwiseMin(place);
+  const auto square_of = [&](std::size_t point) {
+    const Vec2 at = (places[point] - corner) / side;
+    return std::pair(static_cast<std::int64_t>(at.x()), static_cast<std::int64_t>(at.y()));
+  };
+  points.resize(places.size());
+  std::iota(points.begin(), points.end(), std::size_t{0});
+  std::sort(points.begin(), points.end(),
+            [&](std::size_t a, std::size_t b) { return std::pair(square_of(a), a) < std::pair(square_of(b), b); });
+  std::vector<Square> squares;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const auto [column, row] = square_of(points[k]);
+    const bool is_new = squares.empty() || squares.back().column != column || squares.back().row != row;
+    if (is_new) squares.push_back({column, row, k, k});
+    squares.back().last = k + 1;
   }
-};
+  return squares;
+}
 
 }  // namespace
 
 EndClusters::EndClusters(const std::vector<Vec2>& points, double gap) : cluster_(points.size(), kNone) {
   Sets sets(points.size());
-  std::unordered_map<Square, std::vector<std::size_t>, SquareHash> grid;
-  const double side = 0.7 * gap;
-  Vec2 corner = points.empty() ? Vec2(0, 0) : points.front();
-  for (const Vec2& point : points) corner = corner.cwiseMin(point);
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const Square own{static_cast<std::int64_t>((points[k].x() - corner.x()) / side),
-                     static_cast<std::int64_t>((points[k].y() - corner.y()) / side)};
-    // Two squares to each side are near enough to hold a point within the gap.
-    for (std::int64_t column = own.column - 2; column <= own.column + 2; ++column) {
-      for (std::int64_t row = own.row - 2; row <= own.row + 2; ++row) {
-        const auto found = grid.find({column, row});
-        if (found == grid.end() || sets.root(found->second.front()) == sets.root(k)) continue;
-        const auto near = [&](std::size_t other) { return (points[other] - points[k]).norm() <= gap; };
-        const auto link = std::find_if(found->second.begin(), found->second.end(), near);
-        if (link != found->second.end()) sets.join(*link, k);
+  std::vector<std::size_t> sorted;
+  const std::vector<Square> squares = squares_of(points, 0.7 * gap, sorted);
+  const auto are_near = [&](const Square& one, const Square& other) {
+    for (std::size_t i = one.first; i < one.last; ++i) {
+      for (std::size_t j = other.first; j < other.last; ++j) {
+        if ((points[sorted[i]] - points[sorted[j]]).norm() <= gap) return true;
       }
     }
-    grid[own].push_back(k);
+    return false;
+  };
+  // Two squares to each side are near enough to hold a point within the gap. Of two the later one looks for the
+  // earlier: in each column those are found by walking on.
+  std::array<std::size_t, 3> next{};
+  for (std::size_t k = 0; k < squares.size(); ++k) {
+    const Square& own = squares[k];
+    for (std::size_t i = own.first + 1; i < own.last; ++i) sets.join(sorted[own.first], sorted[i]);
+    for (std::size_t back = 0; back < next.size(); ++back) {
+      const std::pair from(own.column - static_cast<std::int64_t>(back), own.row - 2);
+      std::size_t& begin = next[back];
+      while (std::pair(squares[begin].column, squares[begin].row) < from) ++begin;
+      for (std::size_t j = begin; j < k && squares[j].column == from.first && squares[j].row <= own.row + 2; ++j) {
+        const std::size_t one = sorted[own.first];
+        const std::size_t other = sorted[squares[j].first];
+        if (sets.root(one) != sets.root(other) && are_near(own, squares[j])) sets.join(one, other);
+      }
+    }
   }
   for (std::size_t k = 0; k < points.size(); ++k) {
     const std::size_t root = sets.root(k);  // never above k: it has its number by now

@@ -16,8 +16,7 @@ struct CurveMeasure {
   Vec2 middle;  // at the middle of its parameter
   Box box;      // around points of it, its ends among them
   double length = 0;
-  Vec2 origin;            // its front
-  double twice_area = 0;  // swept by the ray from `origin`, counter-clockwise
+  double twice_area = 0;  // swept by the ray from its front, counter-clockwise
 };
 
 CurveMeasure measure(const Curve& curve);

@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "outline/joining.hpp"
+#include "outline/nesting.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/pulse.hpp"
 
 namespace rollfix {
 
@@ -279,7 +281,7 @@ class Assembler {
       const Curve& curve = drawing_.curves[step.curve].curve;
       loop.outline.curves.push_back(step.forward ? curve : reversed(curve));
       loop.length += one.length;
-      const double swept = one.twice_area + cross(one.origin - origin, one.back - one.front);
+      const double swept = one.twice_area + cross(one.front - origin, one.back - one.front);
       twice_area += step.forward ? swept : -swept;
       if (k + 1 == count && !chain.closed) break;
       const Vec2 next = front(chain.steps[(k + 1) % count]);
@@ -308,12 +310,10 @@ class Assembler {
     std::vector<Polygon> polygons;
     polygons.reserve(closed.size());
     for (const Loop& loop : closed) polygons.push_back(polygon_of(loop.outline));
-    for (std::size_t inner = 0; inner < closed.size(); ++inner) {
-      const Vec2& probe = polygons[inner].points.front();
-      for (std::size_t outer = 0; outer < inner; ++outer) {
-        if (polygons[outer].contains(probe)) ++closed[inner].depth;
-      }
-      closed[inner].outline.hole = closed[inner].depth % 2 == 1;
+    const std::vector<int> depths = nesting_depths(polygons);
+    for (std::size_t k = 0; k < closed.size(); ++k) {
+      closed[k].depth = depths[k];
+      closed[k].outline.hole = depths[k] % 2 == 1;
     }
   }
 
@@ -335,11 +335,14 @@ double enclosed_area(const Outline& outline) {
   const Vec2 origin = outline.curves.front().front();
   for (const Curve& curve : outline.curves) {
     const CurveMeasure one = measure(curve);
-    twice_area += one.twice_area + cross(one.origin - origin, one.back - one.front);
+    twice_area += one.twice_area + cross(one.front - origin, one.back - one.front);
   }
   return 0.5 * std::abs(twice_area);
 }
 
-Loops loops(const Drawing& drawing, const LoopOptions& options) { return Assembler(drawing, options).run(); }
+Loops loops(const Drawing& drawing, const LoopOptions& options) {
+  const Doing doing("joining the curves of the drawing");
+  return Assembler(drawing, options).run();
+}
 
 }  // namespace rollfix

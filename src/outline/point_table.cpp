@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "outline/box.hpp"
+#include "outline/size_limit.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/units.hpp"
 #include "text/number.hpp"
@@ -306,6 +307,7 @@ class TableReader {
       throw InputError(fmt::format("{}:{}: the point ({}, {}) is out of range, expected finite numbers of at most {}",
                                    name_, number_, point.x(), point.y(), kMostCoordinate));
     }
+    if (result_.points.size() == kMostPieces) require_few_pieces(kMostPieces + 1, fmt::format("{}:{}", name_, number_));
     result_.points.push_back(point);
     result_.lines.push_back(number_);
   }

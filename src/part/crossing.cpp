@@ -27,20 +27,27 @@ struct Arc {
   Vec2 start;
   Vec2 end;
   double turn = 0;  // of the tangent in all, |corner at its start| not included
+  double bulge = 0;
 
-  /// An arc lies no further from its chord than the isosceles triangle with the same turn.
+  Arc(double from, double to, const Vec2& starts, const Vec2& ends, double turns)
+      : lo(from), hi(to), start(starts), end(ends), turn(turns) {
+    // No further from its chord than the isosceles triangle with the same turn.
+    bulge = 0.5 * (end - start).norm() * std::tan(0.5 * std::min(turn, 2.0)) * (1 + 1e-9);
+  }
+
   Box box() const {
-    const double bulge = 0.5 * (end - start).norm() * std::tan(0.5 * std::min(turn, 2.0)) * (1 + 1e-9);
     const Vec2 margin = Vec2::Constant(bulge);
     return {Vec2(start.cwiseMin(end) - margin), Vec2(start.cwiseMax(end) + margin)};
   }
 };
 
-/// A binary tree over consecutive arcs. A node knows its box, and how far the tangent turns in it.
+/// A binary tree over consecutive arcs. A node knows its box, and how far the tangent turns in it; of one arc there is
+/// none, the arc knows that.
 class CrossingSearch {
  public:
   explicit CrossingSearch(const Part& part) : part_(part) {
     collect_arcs();
+    nodes_.reserve(arcs_.size());
     build(0, arcs_.size());
   }
 
@@ -52,14 +59,15 @@ class CrossingSearch {
  private:
   struct Node {
     Box box;
-    double turn = 0;   // corners between its arcs included
-    double reach = 0;  // length
+    double turn = 0;  // corners between its arcs included
     std::size_t right = 0;
   };
 
   void collect_arcs() {
     const std::vector<Spiral>& spirals = part_.turning().spirals();
     const std::vector<Panel>& panels = part_.turning().panels();
+    arcs_.reserve(panels.size() + spirals.size());
+    corners_.reserve(panels.size() + spirals.size());
     auto corner = part_.corners().begin();
     for (const Spiral& spiral : spirals) {
       double jump = 0;
@@ -93,19 +101,21 @@ class CrossingSearch {
 
   std::size_t build(std::size_t first, std::size_t last) {
     const std::size_t index = nodes_.size();
+    if (last - first == 1) return index;
     nodes_.emplace_back();
-    if (last - first == 1) {
-      const Arc& leaf = arcs_[first];
-      nodes_[index] = {leaf.box(), leaf.turn, leaf.hi - leaf.lo, 0};
-      return index;
-    }
     const std::size_t middle = first + (last - first) / 2;
     const std::size_t left = build(first, middle);
     const std::size_t right = build(middle, last);
-    nodes_[index] = {nodes_[left].box.merged(nodes_[right].box),
-                     nodes_[left].turn + corners_[middle] + nodes_[right].turn,
-                     nodes_[left].reach + nodes_[right].reach, right};
+    nodes_[index] = {box(left, first, middle).merged(box(right, middle, last)),
+                     turn(left, first, middle) + corners_[middle] + turn(right, middle, last), right};
     return index;
+  }
+
+  Box box(std::size_t node, std::size_t first, std::size_t last) const {
+    return last - first == 1 ? arcs_[first].box() : nodes_[node].box;
+  }
+  double turn(std::size_t node, std::size_t first, std::size_t last) const {
+    return last - first == 1 ? arcs_[first].turn : nodes_[node].turn;
   }
 
   /// Does the stretch of arcs [first, last) meet itself?
@@ -120,17 +130,18 @@ class CrossingSearch {
   /// Do two stretches, the first before the second, meet elsewhere than where they join?
   void between(std::size_t node1, std::size_t first1, std::size_t last1, std::size_t node2, std::size_t first2,
                std::size_t last2) {
-    if (found_ || !nodes_[node1].box.intersects(nodes_[node2].box)) return;
-    if (last1 == first2 && nodes_[node1].turn + corners_[first2] + nodes_[node2].turn < kSimpleTurn) return;
-    if (last2 == arcs_.size() && first1 == 0 && part_.closed() &&
-        nodes_[node1].turn + corners_[0] + nodes_[node2].turn < kSimpleTurn) {
-      return;
-    }
+    if (found_) return;
+    const Box box1 = box(node1, first1, last1);
+    const Box box2 = box(node2, first2, last2);
+    if (!box1.intersects(box2)) return;
+    const double turns = turn(node1, first1, last1) + turn(node2, first2, last2);
+    if (last1 == first2 && turns + corners_[first2] < kSimpleTurn) return;
+    if (last2 == arcs_.size() && first1 == 0 && part_.closed() && turns + corners_[0] < kSimpleTurn) return;
     const bool leaf1 = last1 - first1 == 1;
     const bool leaf2 = last2 - first2 == 1;
     if (leaf1 && leaf2) {
       meet(arcs_[first1], arcs_[first2], joint_turn(last1, first2, last2, first1));
-    } else if (leaf2 || (!leaf1 && nodes_[node1].box.sizes().maxCoeff() >= nodes_[node2].box.sizes().maxCoeff())) {
+    } else if (leaf2 || (!leaf1 && box1.sizes().maxCoeff() >= box2.sizes().maxCoeff())) {
       const std::size_t middle = first1 + (last1 - first1) / 2;
       between(node1 + 1, first1, middle, node2, first2, last2);
       between(nodes_[node1].right, middle, last1, node2, first2, last2);
@@ -191,13 +202,16 @@ class CrossingSearch {
   const Part& part_;
   std::vector<Arc> arcs_;
   std::vector<double> corners_;  // |turn| of the corner where each arc starts
-  std::vector<Node> nodes_;      // a node's left child is the next one
+  std::vector<Node> nodes_;      // a node's left child is the next one, unless that is an arc
   std::size_t comparisons_ = 0;
   std::optional<Crossing> found_;
 };
 
 }  // namespace
 
-std::optional<Crossing> find_crossing(const Part& part) { return CrossingSearch(part).run(); }
+std::optional<Crossing> find_crossing(const Part& part) {
+  const Doing doing("looking whether the outline crosses itself");
+  return CrossingSearch(part).run();
+}
 
 }  // namespace rollfix

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "not_lost.hpp"
+#include "outline/size_limit.hpp"
 #include "outline/turn.hpp"
 #include "part_data.hpp"
 #include "rollfix/error.hpp"
@@ -91,6 +92,7 @@ Part::Part(Outline outline, const PartOptions& options) {
   const Doing doing("computing what the part is like");
   auto data = std::make_shared<Data>();
   const bool is_empty = outline.curves.empty();
+  require_few_pieces(outline.curves.size(), outline.name);
   if (outline.closed && !is_empty && (rough_area(outline) < 0) != outline.hole) outline = rollfix::reversed(outline);
   for (int attempt = 0;; ++attempt) {
     TurningFunctionBuilder builder(outline);
@@ -108,10 +110,10 @@ Part::Part(Outline outline, const PartOptions& options) {
   data->outline = std::move(outline);
   data->inflections = find_inflections(data->turning);
   data->vertices = find_vertices(data->turning, data->corners);
-  data->tree = TurningTree(data->turning);
-  data_ = std::move(data);
-  if (options.allow_crossing) return;
-  if (const auto crossing = find_crossing(*this)) {
+  data_ = data;
+  const auto crossing = options.allow_crossing ? std::nullopt : find_crossing(*this);
+  data->tree = TurningTree(data->turning);  // now: finding a crossing takes as much memory, and gives it back
+  if (crossing) {
     throw InputError(fmt::format(
         "{}: expected an outline that does not cross itself, found that it {} near ({:.9g}, {:.9g}), at arc lengths "
         "{:.9g} and {:.9g} of {:.9g}: mend it, or take it as it is with `allow_crossing`",

@@ -40,6 +40,7 @@ class TurningFunctionBuilder {
   void add_spiral(double lo, double hi, std::uint32_t panel);
   void join(const Vec2& direction, double s);
   void close();
+  bool is_dense() const;
   void store(const chebyshev::Series& turn, const chebyshev::Series& curvature, Panel& panel);
 
   const Outline& outline_;

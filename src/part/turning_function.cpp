@@ -9,6 +9,7 @@
 
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/pulse.hpp"
 #include "turning_builder.hpp"
 
 namespace rollfix {
@@ -98,6 +99,12 @@ double rough_length(const Outline& outline) {
   return sum;
 }
 
+// A scan of so many points has no memory to waste: there, powers that change an angle (radians) or a parameter (as a
+// share of it) by less than they are rounded are left out, which leaves two or three of nine.
+constexpr std::size_t kManyCurves = 20'000;
+constexpr double kNoTurn = 1e-16;
+constexpr double kNoShare = 8e-16;
+
 }  // namespace
 
 double Parametrization::parameter(std::size_t panel, double x) const {
@@ -114,7 +121,11 @@ TurningFunctionBuilder::TurningFunctionBuilder(const Outline& outline) : outline
     throw InputError(fmt::format("expected an outline of finite size above 0, found length {}", size_));
   }
   turning.closed_ = outline.closed;
-  for (std::uint32_t index = 0; index < outline.curves.size(); ++index) add_curve(index);
+  const Doing doing("measuring the outline");
+  for (std::uint32_t index = 0; index < outline.curves.size(); ++index) {
+    beat();
+    add_curve(index);
+  }
   close();
 }
 
@@ -155,18 +166,29 @@ void TurningFunctionBuilder::add_panel(const ResolvedPanel& resolved, std::uint3
   turning.panels_.push_back(panel);
 
   const Series& parameter = resolved.parameter;
-  parametrization.pieces.push_back({curve, static_cast<std::uint32_t>(parametrization.coefficients.size()),
-                                    static_cast<std::uint32_t>(parameter.size())});
-  parametrization.coefficients.insert(parametrization.coefficients.end(), parameter.begin(), parameter.end());
+  const double least = kNoShare * parameter.cwiseAbs().maxCoeff();
+  Eigen::Index size = parameter.size();
+  while (size > 1 && is_dense() && std::abs(parameter[size - 1]) <= least) --size;
+  parametrization.pieces.push_back(
+      {curve, static_cast<std::uint32_t>(parametrization.coefficients.size()), static_cast<std::uint32_t>(size)});
+  parametrization.coefficients.insert(parametrization.coefficients.end(), parameter.begin(), parameter.begin() + size);
 
   angle_ += resolved.turn.sum();
   add_spirals(resolved.curvature);
 }
 
+bool TurningFunctionBuilder::is_dense() const { return outline_.curves.size() >= kManyCurves; }
+
 void TurningFunctionBuilder::store(const Series& turn, const Series& curvature, Panel& panel) {
   auto& all = turning.coefficients_;
   panel.offset = static_cast<std::uint32_t>(all.size());
-  for (Eigen::Index k = 0; k < turn.size(); ++k) all.emplace_back(turn[k], k < curvature.size() ? curvature[k] : 0);
+  const double half = 0.5 * (panel.hi - panel.lo);
+  const auto counts = [&](Eigen::Index k) {
+    return std::abs(turn[k]) > kNoTurn || (k < curvature.size() && half * std::abs(curvature[k]) > kNoTurn);
+  };
+  Eigen::Index size = turn.size();
+  while (size > 1 && is_dense() && !counts(size - 1)) --size;
+  for (Eigen::Index k = 0; k < size; ++k) all.emplace_back(turn[k], k < curvature.size() ? curvature[k] : 0);
   while ((all.size() - panel.offset) % kPanelBlock != 0) all.emplace_back(0, 0);
   panel.count = static_cast<std::uint32_t>(all.size()) - panel.offset;
 }

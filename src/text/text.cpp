@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "rollfix/error.hpp"
+#include "text/control.hpp"
 
 namespace rollfix {
 
@@ -20,18 +21,6 @@ namespace {
 constexpr std::size_t kLeastBeginning = 4;  // of a name: so many letters may stand for it
 
 bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xc0U) == 0x80U; }
-
-/// C0, DEL and C1, and Unicode's line ends and marks of direction.
-bool is_control(std::string_view character) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(character[i]); };
-  if (character.size() == 1) return byte(0) < 0x20 || byte(0) == 0x7F;
-  if (character.size() == 2) return (byte(0) == 0xC2 && byte(1) < 0xA0) || character == "\u061C";
-  if (character.size() != 3 || byte(0) != 0xE2) return false;
-  const bool of_lines_or_direction =
-      byte(1) == 0x80 && (byte(2) == 0x8E || byte(2) == 0x8F || (byte(2) >= 0xA8 && byte(2) <= 0xAE));
-  const bool of_isolation = byte(1) == 0x81 && byte(2) >= 0xA6 && byte(2) <= 0xA9;
-  return of_lines_or_direction || of_isolation;
-}
 
 /// Optimal string alignment distance.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
@@ -89,6 +78,17 @@ std::string lower_case(std::string_view text) {
 }
 
 std::string ending_of(const std::string& path) { return lower_case(std::filesystem::path(path).extension().string()); }
+
+bool is_control(std::string_view character) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(character[i]); };
+  if (character.size() == 1) return byte(0) < 0x20 || byte(0) == 0x7F;
+  if (character.size() == 2) return (byte(0) == 0xC2 && byte(1) < 0xA0) || character == "\u061C";
+  if (character.size() != 3 || byte(0) != 0xE2) return false;
+  const bool of_lines_or_direction =
+      byte(1) == 0x80 && (byte(2) == 0x8E || byte(2) == 0x8F || (byte(2) >= 0xA8 && byte(2) <= 0xAE));
+  const bool of_isolation = byte(1) == 0x81 && byte(2) >= 0xA6 && byte(2) <= 0xA9;
+  return of_lines_or_direction || of_isolation;
+}
 
 std::string plain(std::string_view text, char instead) {
   std::string result;

@@ -7,7 +7,6 @@
 
 #include <array>
 #include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <deque>
@@ -17,6 +16,7 @@
 #include <system_error>
 #include <utility>
 
+#include "answer/signals_wait.hpp"
 #include "rollfix/error.hpp"
 
 namespace rollfix::app {
@@ -53,22 +53,6 @@ void write_bytes(File file, const std::string& bytes, const std::string& shown) 
   if (!written) fail(shown, "written", errno);
   if (std::fclose(file.release()) != 0) fail(shown, "written", errno);  // some disks say only now that they are full
 }
-
-/// As long as it lives signals wait, so that none ends the program with files half written.
-class SignalsWait {
- public:
-  SignalsWait() {
-    sigset_t all;
-    ::sigfillset(&all);
-    ::pthread_sigmask(SIG_BLOCK, &all, &before_);
-  }
-  ~SignalsWait() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-  SignalsWait(const SignalsWait&) = delete;
-  SignalsWait& operator=(const SignalsWait&) = delete;
-
- private:
-  sigset_t before_ = {};
-};
 
 [[noreturn]] void refuse_existing(const std::string& path) {
   throw InputError(fmt::format("{}: exists already; give another name, or --force to replace it", path));

@@ -99,7 +99,7 @@ class JsonlWriter : public WatchWriter {
     }
     event["pose_prior"] = pose_prior_json(options.belief.pose);
     event["robust"] = options.belief.robust;
-    announce(line_of(event));
+    announce(json_line(event));
   }
 
   void found(const WatchAnswer& answer) override { write_event(answer_json("found", answer, part_, catalog_.get())); }
@@ -130,10 +130,7 @@ class JsonlWriter : public WatchWriter {
   }
 
  private:
-  static std::string line_of(const Json& event) {
-    return event.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
-  }
-  void write_event(const Json& event) { write(line_of(event)); }
+  void write_event(const Json& event) { write(json_line(event)); }
 
   Part part_;
   std::shared_ptr<const Catalog> catalog_;

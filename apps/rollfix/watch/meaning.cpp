@@ -82,19 +82,22 @@ class OnPart final : public Meaning {
   }
 
   /// What `locate` says of the same rows.
-  void look_again(WatchAnswer& answer) override {
+  void conclude(WatchAnswer& answer, bool explains) override {
     try {
-      const Answer located = solve(problem_of(part_, options_, kind_, kept_));
+      Problem problem = problem_of(part_, options_, kind_, kept_);
+      problem.diagnose = explains;
+      const Answer located = solve(problem);
       answer.diagnoses = located.diagnoses;
       const bool is_bad = located.verdict.fits_badly || located.verdict.name == Verdict::inconsistent;
       // Of a long roll only some samples were kept: where they fit, all of them say more.
-      if (kept_.each() > 1 && !is_bad) return;
+      if (kept_.each() > 1 && !is_bad) return look(answer);
       answer.verdict = located.verdict;
       answer.rest = located.weighing->rest;
       answer.excess = located.weighing->fit.excess;
       answer.modes.clear();
       for (const Placement& placement : located.placements) answer.modes.push_back(mode_of(placement));
     } catch (const InputError&) {  // so few of its samples are no roll any more: what is wrong is not known
+      look(answer);
     }
   }
 
@@ -122,7 +125,7 @@ class OnCatalog final : public Meaning {
     if (answer.parts->counted || !answer.parts->parts.empty()) left_ = answer.parts->left;
   }
 
-  void look_again(WatchAnswer& answer) override { look(answer, {}); }
+  void conclude(WatchAnswer& answer, bool /*explains*/) override { look(answer, {}); }
 
  private:
   void look(WatchAnswer& answer, const IdentifyOptions& options) const {

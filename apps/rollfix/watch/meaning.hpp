@@ -19,8 +19,9 @@ class Meaning {
   virtual void add(const Sample& sample) = 0;
   /// What is known by now goes into the answer.
   virtual void look(WatchAnswer& answer) = 0;
-  /// The same when the roll is over and there is time.
-  virtual void look_again(WatchAnswer& answer) = 0;
+  /// The same when the roll is over, of the roll as a whole. `explains`: and, where its rows fit badly, why, which
+  /// takes far longer.
+  virtual void conclude(WatchAnswer& answer, bool explains) = 0;
 };
 
 /// Of a roll that begins with this sample. Throws InputError: noise or prior that are not valid.

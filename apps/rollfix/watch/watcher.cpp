@@ -19,7 +19,10 @@ namespace {
 using WorkClock = std::chrono::steady_clock;
 
 // What is known of a roll changes little while it grows by less than this.
-constexpr double kGrowth = 0.1;
+constexpr double kGrowth = 0.25;
+
+// To find out why rows fit badly takes as long as to take in so many. Nobody waits for all of a log's many short rolls.
+constexpr std::size_t kSamplesForWhy = 5000;
 
 // Rows without a header are distance and dturn. Where they have other columns a header may still come: a device that
 // sends it now and then does so within that many.
@@ -288,13 +291,17 @@ bool Watcher::is_time_to_look() const {
   return options_.live && WorkClock::now() >= next_look_;
 }
 
-void Watcher::look() {
-  const WorkTime time(counts_.seconds);
-  const WorkClock::time_point start = WorkClock::now();
+void Watcher::begin_answer() {
   answer_ = {};
   answer_.roll = counts_.rolls;
   answer_.samples = samples_;
   answer_.sample = last_;
+}
+
+void Watcher::look() {
+  const WorkTime time(counts_.seconds);
+  const WorkClock::time_point start = WorkClock::now();
+  begin_answer();
   meaning_->look(answer_);
   has_news_ = is_news(said_, answer_, part_);
   if (!options_.live) return;
@@ -305,8 +312,11 @@ void Watcher::look() {
 
 void Watcher::end_roll(RollEnd why) {
   if (!meaning_) return;
-  if (answer_.samples < samples_) look();
-  meaning_->look_again(answer_);
+  const bool explains =
+      options_.live || why == RollEnd::ended || explained_ == 0 || counts_.samples >= explained_ + kSamplesForWhy;
+  begin_answer();
+  meaning_->conclude(answer_, explains);
+  if (!answer_.diagnoses.empty()) explained_ = counts_.samples;
   meaning_.reset();
   has_news_ = false;
   listener_.over(answer_, why);

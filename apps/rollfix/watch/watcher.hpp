@@ -96,7 +96,7 @@ class Meaning;
 /// Turns the lines of a growing log into news of where the contact is, in constant memory. Knows no files or streams.
 ///
 /// Taking a sample is cheap, working out what it means is not. So that is done after every sample at first, and then
-/// each time a roll has grown by a tenth; where it is live as often as kMostDelay asks for as well.
+/// each time a roll has grown by a quarter; where it is live as often as kMostDelay asks for as well.
 class Watcher {
  public:
   /// Throws InputError: noise or prior that are not valid.
@@ -141,6 +141,7 @@ class Watcher {
   void add(const Sample& sample);
   void take(const Sample& sample);
   bool is_time_to_look() const;
+  void begin_answer();
   void look();
   void end_roll(RollEnd why);
   void tell_news();
@@ -163,6 +164,7 @@ class Watcher {
   WatchAnswer said_;                  // what the listener knows
   std::chrono::steady_clock::time_point next_look_{};
   bool has_news_ = false;
+  std::size_t explained_ = 0;  // as many samples there were when it was last looked for what is wrong
   WatchCounts counts_;
 };
 

@@ -25,6 +25,7 @@ constexpr double kLongestSquare = 1.0 / 96;
 constexpr int kMostPairHalvings = 8;
 // Hypotheses looked at; what is not resolved by then counts as rest.
 constexpr std::size_t kMostHypotheses = 60000;
+constexpr std::size_t kMostOnTrial = 6000;
 // A region of more whole squares than this has them too small, and is begun again with larger ones, ...
 constexpr std::size_t kManySquares = 2500;
 // ... by this factor, so often at most.
@@ -64,6 +65,7 @@ class Spreading {
         heat_(excess * excess),
         corner_length_(corner_length),
         best_(best),
+        most_hypotheses_(model.on_trial ? kMostOnTrial : kMostHypotheses),
         density_(density) {}
 
   void from(const PairPeak& peak);
@@ -91,6 +93,7 @@ class Spreading {
   double heat_;
   std::array<double, 2> corner_length_;
   double best_;
+  std::size_t most_hypotheses_;
   PairDensity& density_;
   std::size_t hypotheses_ = 0;
   double total_ = 0;
@@ -154,7 +157,7 @@ bool Spreading::look_into(PairRegion& region, const Task& task, std::vector<std:
   const double most = -0.5 * (std::min(leaf.score.cost, distance * distance) + leaf.score.log_volume);
   if ((most - best_) / heat_ < -kNegligiblePair) return false;
   const bool is_fine = rate * task.size <= kFinePairStep * std::sqrt(heat_);
-  if (!is_fine && task.depth < kMostPairHalvings && hypotheses_ < kMostHypotheses) {
+  if (!is_fine && task.depth < kMostPairHalvings && hypotheses_ < most_hypotheses_) {
     bool matters = false;
     for (const double x : {-0.25, 0.25}) {
       for (const double y : {-0.25, 0.25}) {
@@ -187,7 +190,7 @@ bool Spreading::spread(PairRegion& region, const PairPeak& peak, std::size_t mos
   while (!tasks.empty()) {
     const Task task = tasks.front();
     tasks.pop_front();
-    if (hypotheses_ >= kMostHypotheses) {
+    if (hypotheses_ >= most_hypotheses_) {
       unresolved_ = std::numeric_limits<double>::infinity();
       return true;
     }
@@ -242,7 +245,7 @@ void Spreading::from(const PairPeak& peak) {
     }
     const double unresolved = unresolved_;
     const bool is_last = beginning + 1 == kMostBeginnings;
-    if (!spread(region, peak, is_last ? kMostHypotheses : kManySquares)) {
+    if (!spread(region, peak, is_last ? most_hypotheses_ : kManySquares)) {
       unresolved_ = unresolved;
       continue;
     }

@@ -21,6 +21,10 @@ constexpr int kFineSteps = 8;
 constexpr double kHopeless = 120;
 constexpr std::size_t kMostStarts = 400;
 constexpr std::size_t kMostPeaks = 200;
+// Of an explanation on trial only the best peak matters.
+constexpr std::size_t kMostStartsOnTrial = 100;
+constexpr std::size_t kMostPeaksOnTrial = 24;
+constexpr std::size_t kMostSearchedOnTrial = 3;
 constexpr double kSmallStep = 1e-3;  // in standard deviations
 // Near corners variances change so fast that the cost's slope misleads: from where it leads to, steps along and across
 // are tried, from this many standard deviations down to that many.
@@ -185,13 +189,14 @@ std::vector<PairPeak> best_of_neighbours(const PairModel& model, const PairCandi
   return best;
 }
 
-/// Of peaks, the best first, those that may be the answer, each once. `rows`: by which they were compared.
-std::vector<PairPeak> distinct(const std::vector<PairPeak>& peaks, double rows) {
+/// Of peaks, the best first, those that may be the answer, each once, no more than `most`. `rows`: by which they were
+/// compared.
+std::vector<PairPeak> distinct(const std::vector<PairPeak>& peaks, double rows, std::size_t most) {
   std::vector<PairPeak> found;
   for (const PairPeak& peak : peaks) {
     const double scale = std::max(1.0, peaks.front().score.cost / rows);
     if (deviance(peak.score) > deviance(peaks.front().score) + kHopeless * scale) break;
-    if (found.size() == kMostPeaks) break;
+    if (found.size() == most) break;
     const bool is_known = std::any_of(found.begin(), found.end(), [&](const PairPeak& other) {
       if (other.start.arc != peak.start.arc) return false;
       const Eigen::Vector2d off(peak.start.w[0] - other.start.w[0], peak.start.w[1] - other.start.w[1]);
@@ -222,13 +227,14 @@ std::vector<PairPeak> pair_peaks(const PairModel& model, const PairCandidates& c
   const std::vector<PairNode> few = without_centres(some_of(nodes, kFewRows));
   std::vector<PairPeak> chosen = best_of_neighbours(model, candidates, without_centres(some_of(nodes, kVeryFewRows)));
   std::sort(chosen.begin(), chosen.end(), by_deviance);
-  if (chosen.size() > kMostStarts) chosen.resize(kMostStarts);
+  chosen.resize(std::min(chosen.size(), model.on_trial ? kMostStartsOnTrial : kMostStarts));
   for (PairPeak& peak : chosen) {
     peak.score = score_of(model, peak.start, few, PairShared::Zero(), 1);
     peak = climb(model, peak, few, kCoarseSteps);
   }
   std::sort(chosen.begin(), chosen.end(), by_deviance);
-  std::vector<PairPeak> found = distinct(chosen, static_cast<double>(few.size()));
+  std::vector<PairPeak> found =
+      distinct(chosen, static_cast<double>(few.size()), model.on_trial ? kMostPeaksOnTrial : kMostPeaks);
   if (few.size() < nodes.size() || nodes.back().centres) {
     for (PairPeak& peak : found) {
       peak.score = score_of(model, peak.start, nodes, peak.score.errors, 3);
@@ -236,7 +242,9 @@ std::vector<PairPeak> pair_peaks(const PairModel& model, const PairCandidates& c
     }
     std::sort(found.begin(), found.end(), by_deviance);
   }
-  for (PairPeak& peak : found) {
+  const std::size_t searched = model.on_trial ? kMostSearchedOnTrial : found.size();
+  for (std::size_t k = 0; k < std::min(searched, found.size()); ++k) {
+    PairPeak& peak = found[k];
     const double scale = std::max(1.0, found.front().score.cost / static_cast<double>(nodes.size()));
     if (deviance(peak.score) <= deviance(found.front().score) + kWorthTrying * scale) {
       peak = search_around(model, peak, nodes);

@@ -57,6 +57,7 @@ class TwoFingersPosterior : public Posterior {
   }
 
   void add(const Sample& sample) override {
+    question_.reset();
     const Reading& row = sample.reading;
     if (const auto centres = centres_of(sample)) centres_.push_back(*centres);
     if (rows_.empty() && !has_first_) keep_first(sample);
@@ -69,11 +70,19 @@ class TwoFingersPosterior : public Posterior {
   std::size_t samples() const override { return rows_.size(); }
   bool has_begun() const override { return !rows_.empty() || contacts_.facing.has_value(); }
 
+  std::optional<Fit> fit_alone() override {
+    if (!question_) {
+      question_ = std::make_unique<Question>(*this, errors_);
+      peaks_ = peaks_of(*question_);
+    }
+    return peaks_.fit;
+  }
+
   Outcome settle() override {
-    const Question question(*this, errors_);
-    const Peaks found = peaks_of(question);
     Outcome outcome;
-    outcome.fit = found.fit;
+    outcome.fit = *fit_alone();
+    const Question& question = *question_;
+    const Peaks& found = peaks_;
     pieces_.clear();
     if (found.peaks.empty()) return outcome;
     const PairDensity density =
@@ -160,6 +169,7 @@ class TwoFingersPosterior : public Posterior {
       model.first = of.first_;
       model.path = of.path_ && errors.absolute() ? &*of.path_ : nullptr;
       model.places = of.part_.boundary();
+      model.on_trial = of.options_.by_rows;
     }
     Question(const Question&) = delete;
     Question& operator=(const Question&) = delete;
@@ -222,8 +232,10 @@ class TwoFingersPosterior : public Posterior {
   std::optional<BoundaryPath> path_;  // where centres are evidence
   std::vector<Reading> rows_;
   bool has_first_ = false;
-  std::array<FeltContact, 2> first_;        // as felt at the first contacts
-  std::vector<PairCentres> centres_;        // of the first contacts, then of each row
+  std::array<FeltContact, 2> first_;          // as felt at the first contacts
+  std::vector<PairCentres> centres_;          // of the first contacts, then of each row
+  std::unique_ptr<const Question> question_;  // of all rows so far, with its peaks; none: they were not looked for yet
+  Peaks peaks_;
   std::vector<std::vector<Piece>> pieces_;  // of each mode
 };
 

@@ -1,12 +1,39 @@
 #include "json_output.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <string_view>
+
+#include "text/control.hpp"
+#include "text/text.hpp"
 
 namespace rollfix {
 namespace {
 
-/// On one line. File names may hold bytes that are no text; JSON can't.
-std::string compact(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
+/// The number of a character below U+10000 in UTF-8.
+unsigned code_point(std::string_view character) {
+  constexpr unsigned kLeadBits[] = {0, 0x7F, 0x1F, 0x0F};
+  unsigned code = static_cast<unsigned char>(character.front()) & kLeadBits[character.size()];
+  for (const char c : character.substr(1)) code = code << 6U | (static_cast<unsigned char>(c) & 0x3FU);
+  return code;
+}
+
+/// On one line. File names may hold bytes that are no text; JSON can't. What JSON lets pass and a terminal obeys is
+/// escaped.
+std::string compact(const Json& value) {
+  const std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string result;
+  result.reserve(text.size());
+  for (std::string_view rest = text; !rest.empty();) {
+    const std::string_view character = rest.substr(0, std::max<std::size_t>(utf8_length(rest), 1));
+    is_control(character) ? result += fmt::format("\\u{:04x}", code_point(character)) : result += character;
+    rest.remove_prefix(character.size());
+  }
+  return result;
+}
 
 std::string value_text(const Json& value) {
   if (!value.is_array() || value.empty() || !value.front().is_object()) return compact(value);

@@ -9,6 +9,7 @@
 #include <utility>
 #include <variant>
 
+#include "outline/size_limit.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline/points.hpp"
@@ -130,6 +131,7 @@ std::vector<Vec2> Canvas::placed(const Placement& placement, const std::vector<V
 }
 
 void Canvas::take(Curve curve) {
+  require_few_pieces(drawing_.curves.size() + 1, drawing_.name);
   drawing_.curves.push_back(
       {std::move(curve), {model_.types.name(entity_->type), model_.layer_names.name(layer_), entity_->place}});
 }

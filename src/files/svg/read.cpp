@@ -15,6 +15,7 @@
 #include "files/svg/segment.hpp"
 #include "files/svg/shapes.hpp"
 #include "files/svg/value.hpp"
+#include "outline/size_limit.hpp"
 #include "text/text.hpp"
 
 namespace rollfix {
@@ -282,6 +283,9 @@ class Walker {
     }
     for (Subpath& path : drawn) {
       count_copies(1 + path.segments.size());
+      segments_ += path.segments.size();
+      if (segments_ > kMostPieces)
+        document_.refuse(node, fmt::format("up to here there are more than {} segments, expected fewer", kMostPieces));
       path.start = around.map(path.start);
       for (Segment& segment : path.segments) segment = mapped(around.map, segment);
       const std::string_view id = node.attribute("id").value();
@@ -395,6 +399,7 @@ class Walker {
   std::optional<Ids> ids_;
   std::vector<pugi::xml_node> uses_;  // what the uses around refer to, outermost first
   std::size_t copies_ = 0;
+  std::size_t segments_ = 0;
 };
 
 }  // namespace

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <string>
+
+#include "rollfix/error.hpp"
+
+namespace rollfix {
+
+/// Points of an outline, or curves of a drawing. A part takes some 600 bytes for each.
+inline constexpr std::size_t kMostPieces = 10'000'000;
+
+/// Throws InputError beyond that. `where`: the file, and what of it.
+inline void require_few_pieces(std::size_t count, const std::string& where) {
+  if (count <= kMostPieces) return;
+  throw InputError(
+      fmt::format("{}: expected no more than {} points or curves, found more: thin it out", where, kMostPieces));
+}
+
+}  // namespace rollfix
