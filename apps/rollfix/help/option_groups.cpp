@@ -21,7 +21,7 @@ const std::vector<Group>& groups() {
       {"Log",
        {"--reading", "--log", "--roll", "--at", "--columns", "--wrapped", "--decimal", "--skip-bad", "--direction",
         "--batch", "--once", "--idle-timeout", "--baud", "--samples"}},
-      {"Finger", {"--finger"}},
+      {"Finger", {"--finger", "--may-overlap"}},
       {"Noise", {"--noise", "--prior", "--robust", "--heading", "--pose", "--seed"}},
       {"Roll", {"--start", "--length", "--rotation", "--part-rotation", "--contact-angle", "--contact", "--travel"}},
       {"Search",

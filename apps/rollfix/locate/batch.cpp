@@ -86,7 +86,7 @@ struct Field {
   const char* name;
   void (*set)(const Json& value, RollArguments& arguments);
 };
-constexpr std::array<Field, 18> kFields = {{
+constexpr std::array<Field, 19> kFields = {{
     {"readings", [](const Json& value, RollArguments& to) { to.readings = typed_readings(value); }},
     {"log", [](const Json& value, RollArguments& to) { to.logs = typed_each(value, "log"); }},
     {"fingers", [](const Json& value, RollArguments& to) { to.fingers = typed_each(value, "fingers"); }},

@@ -40,7 +40,7 @@ struct LoadedPart {
 LoadedPart load_part(const std::string& argument, const LoadOptions& options);
 
 /// The part through the points of such a text, which messages call by this name. Throws InputError as load_part does.
-LoadedPart load_points(const std::string& text, const std::string& name, const LoadOptions& options);
+LoadedPart load_points(std::string text, const std::string& name, const LoadOptions& options);
 
 /// A part that is there, as if it had been saved and loaded: converted to the unit of the options.
 LoadedPart loaded_part(const Part& part, const LoadOptions& options);
