@@ -268,6 +268,18 @@ TEST(PairCertificate, of_one_continuum_said_to_be_two_is_refused) {
   EXPECT_FALSE(checked(found).is_complete());
 }
 
+/// Each finger on either of the two flats.
+TEST(PairCertificate, of_four_continua_said_to_be_one_says_that_it_is_not_proved) {
+  const rollfix::Part part(rollfix::gallery("stadium"));
+  Json found = certificate(part, {{0.2, 0.1, 0.0}, {0.3, 0.05, 0.0}});
+  ASSERT_EQ(found["placements"].size(), 4U);
+  ASSERT_TRUE(checked(found).is_complete());
+  found["placements"] = Json::array({found["placements"][0]});
+  found["cells"] = "[0]";
+  EXPECT_EQ(checked(found).open, 0U);
+  EXPECT_EQ(checked(found).unproved, 1U);
+}
+
 TEST(PairCertificate, of_a_kind_that_is_not_or_a_facing_without_digits_is_refused) {
   const rollfix::Part part(rollfix::gallery("cam"));
   const Json found = certificate(part, two_readings(part, 0.37, 0.59));

@@ -82,7 +82,7 @@ Ball half_of(const Ball& range, bool upper) {
 /// By their ranges, or by the chord, which may tell more.
 Ball Stretch::sum(const std::vector<Ball>& weights) const {
   if (pivot) return weighted(weights, from);
-  const Ball apart = weighted(weights, range);
+  Ball apart = weighted(weights, range);
   const Chord chord = this->chord(weights);
   if (!chord.off.is_finite()) return apart;
   const Ball together = hull(chord.from, chord.to) + around_zero(chord.off);

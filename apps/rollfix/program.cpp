@@ -23,6 +23,7 @@
 #include "rollfix/error.hpp"
 #include "rollfix/help/help_page.hpp"
 #include "rollfix/help/option_groups.hpp"
+#include "rollfix/output/option_names.hpp"
 #include "rollfix/output/progress_line.hpp"
 #include "rollfix/output/report.hpp"
 #include "rollfix/pulse.hpp"

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/algorithm/string/replace.hpp>
 #include <vector>
 
 #include "rollfix/error.hpp"
@@ -108,18 +107,6 @@ void refuse_leftovers(const CLI::App& program) {
   }
   throw InputError(fmt::format("{}: '{}' is one argument too many; quote names with blanks, and see {} --help",
                                command.get_name(), leftovers.front(), full_name_of(command)));
-}
-
-std::string with_options(std::string text) {
-  constexpr std::array kFields = {"allow_crossing", "at",        "bridge", "columns", "corner_angle", "facing",
-                                  "finger",         "gap",       "layer",  "loop",    "mirror",       "noise",
-                                  "open",           "pose",      "prior",  "robust",  "roll",         "skip_bad",
-                                  "smooth",         "tolerance", "unit",   "wrapped"};
-  boost::replace_all(text, "`decimal_comma`", "--decimal ,");
-  for (const std::string field : kFields) {
-    boost::replace_all(text, "`" + field + "`", "--" + boost::replace_all_copy(field, "_", "-"));
-  }
-  return text;
 }
 
 std::string explain(const CLI::ParseError& error) {

@@ -12,10 +12,6 @@ CLI::Option* add_switch(CLI::App& command, const std::string& name, bool& value,
 /// or a word too many.
 void refuse_leftovers(const CLI::App& program);
 
-/// The library's text for who typed options: it names the fields of its structs, `allow_crossing`, and this
-/// --allow-crossing.
-std::string with_options(std::string text);
-
 /// What a parse error means, in one line.
 std::string explain(const CLI::ParseError& error);
 

@@ -263,8 +263,8 @@ void visit(A& a, FingerRows& v) {
 }
 template <class A>
 void visit(A& a, Log& v) {
-  auto& [name, kind, time, fingers, contact_was_off, unit, skipped] = v;
-  all(a, name, kind, time, fingers, contact_was_off, unit, skipped);
+  auto& [name, kind, time, fingers, contact_was_off, unit, notes, skipped] = v;
+  all(a, name, kind, time, fingers, contact_was_off, unit, notes, skipped);
 }
 template <class A>
 void visit(A& a, Felt& v) {

@@ -83,7 +83,7 @@ void Belief::State::settle() {
 const Fit& Belief::State::fit() {
   const bool is_settled = posterior->samples() == settled_at;
   if (!is_settled && !of_rows_alone) {
-    if (std::optional<Fit> alone = posterior->fit_alone()) return outcome.fit = std::move(*alone);
+    if (std::optional<Fit> alone = posterior->fit_alone()) return outcome.fit = *alone;
   }
   settle();
   return outcome.fit;

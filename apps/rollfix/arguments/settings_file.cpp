@@ -71,7 +71,7 @@ class Lines {
       const std::string_view line = lines_[k];
       if (key_of(line) != item.name) continue;
       next_ = k + 1;
-      const std::string where = fmt::format("{}:{}", file, next_);
+      std::string where = fmt::format("{}:{}", file, next_);
       const std::size_t equals = line.find('=');
       if (equals == std::string_view::npos) {
         throw InputError(fmt::format("{}: expected KEY = VALUE, found {}", where, shown(line)));

@@ -12,6 +12,7 @@
 #include "rollfix/catalog/catalog.hpp"
 #include "rollfix/commands.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/output/option_names.hpp"
 #include "rollfix/output/progress_line.hpp"
 #include "rollfix/output/table.hpp"
 #include "rollfix/usage.hpp"

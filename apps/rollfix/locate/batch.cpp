@@ -16,6 +16,7 @@
 #include "rollfix/answer/many.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/output/answer_output.hpp"
+#include "rollfix/output/option_names.hpp"
 #include "rollfix/usage.hpp"
 #include "text/text.hpp"
 

@@ -8,8 +8,8 @@
 
 #include "rollfix/error.hpp"
 #include "rollfix/output/answer_output.hpp"
+#include "rollfix/output/option_names.hpp"
 #include "rollfix/output/table.hpp"
-#include "rollfix/usage.hpp"
 #include "rollfix/watch/writer.hpp"
 #include "text/text.hpp"
 
