@@ -1,5 +1,7 @@
 #pragma once
 
+#include "rollfix/cpp20.hpp"  // IWYU pragma: keep
+
 #include <chrono>
 #include <functional>
 #include <utility>

@@ -12,7 +12,7 @@ REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 DOCUMENT = (REPOSITORY / "docs/python.md").read_text()
 TABLE = DOCUMENT[DOCUMENT.index("## What the program can") : DOCUMENT.index("## Notebooks")]
 ROWS = re.findall(r"^\| `([^`]+)` \| (.+) \|$", TABLE, re.MULTILINE)
-OF_THE_PROGRAM_ALONE = {"demo", "paper"}
+OF_THE_PROGRAM_ALONE = {"completion", "demo", "man", "paper"}
 
 
 def of_python(name):
