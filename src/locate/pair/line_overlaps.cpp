@@ -89,20 +89,16 @@ bool LineSearch::overlaps(const Stretch& whole, std::vector<Place>& samples) con
   const double width = stretch.hi.free.x - stretch.lo.free.x;
   if (width <= kShortestOverlap * (free().pivots() ? 1 : limits_.perimeter)) return false;
   if (!vanishes(stretch.lo) || !vanishes(stretch.hi)) return false;
+  if (free().is_straight() && bound().is_straight()) {  // zero in between where it is at both ends
+    if (!slopes_vanish(stretch.lo)) return false;
+    samples = {stretch.lo, stretch.hi};
+    return true;
+  }
   samples.reserve(kOverlapSamples + 1);
   samples.push_back(stretch.lo);
-  const bool straight = free().is_straight() && bound().is_straight();  // zero in between where it is at both ends
-  if (straight && !slopes_vanish(stretch.lo)) return false;
   for (int k = 1; k < kOverlapSamples; ++k) {
-    const double x = stretch.lo.free.x + width * k / kOverlapSamples;
-    if (straight) {
-      samples.push_back(stretch.lo);
-      samples.back().free.x = x;
-      samples.back().bound.x += (stretch.hi.bound.x - stretch.lo.bound.x) * k / kOverlapSamples;
-    } else {
-      samples.push_back(place(x));
-      if (!slopes_vanish(samples.back()) || !vanishes(samples.back())) return false;
-    }
+    samples.push_back(place(stretch.lo.free.x + width * k / kOverlapSamples));
+    if (!slopes_vanish(samples.back()) || !vanishes(samples.back())) return false;
   }
   samples.push_back(stretch.hi);
   return true;
