@@ -9,7 +9,7 @@ from ._columns import Columns, Units
 from ._fingers import Finger, FingerLike
 from ._logs import Roll
 from ._noise import Noise, NoiseLike
-from ._simulate import simulated
+from ._simulate import simulated, tell_of_dropped
 from ._watch import Watch
 
 
@@ -96,8 +96,8 @@ class RolledOn(Asked):
         -------
         Roll
         """
-        return Roll(
-            simulated(
-                self._core, finger, start, length, rotation, samples, contact, part_rotation, noise, seed
-            )
+        roll = simulated(
+            self._core, finger, start, length, rotation, samples, contact, part_rotation, noise, seed
         )
+        tell_of_dropped(self._core, roll, finger)
+        return Roll(roll)

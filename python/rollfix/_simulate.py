@@ -17,27 +17,11 @@ from ._noise import NoiseLike, noise as noise_given
 MOST_SEED = 2**64 - 1
 
 
-def simulated(
-    part: _core.Part,
-    finger: Optional[FingerLike],
-    start: Any,
-    length: Any,
-    rotation: Optional[float],
-    samples: int,
-    contact: Any,
-    part_rotation: float,
-    noise: NoiseLike,
-    seed: int,
-) -> _core.Roll:
-    roll = _rolled(part, finger, start, length, rotation, samples, contact, part_rotation, noise, seed)
-    given = fingers(finger)
-    if given:
-        _tell_of_dropped(part, roll, given)
-    return roll
-
-
-def _tell_of_dropped(part: _core.Part, roll: _core.Roll, given: List[Any]) -> None:
+def tell_of_dropped(part: _core.Part, roll: _core.Roll, finger: Optional[FingerLike]) -> None:
     """What no such finger can do is simulated all the same, and `locate` leaves it out."""
+    given = fingers(finger)
+    if not given:
+        return
     names = [""] if len(roll.s) == 1 else ["finger a: ", "finger b: "]
     for which, name in enumerate(names):
         one = given[min(which, len(given) - 1)]
@@ -59,7 +43,7 @@ def _reach_of(part: _core.Part, given: Any) -> _core.Reach:
     return _core.reach_of(part, given)
 
 
-def _rolled(
+def simulated(
     part: _core.Part,
     finger: Optional[FingerLike],
     start: Any,

@@ -45,8 +45,8 @@ struct BeliefOptions {
   std::optional<PosePrior> pose{};  // for logs of u and psi and known fingers; places take x and y in the log as well
   /// Of one finger: its samples are joined to so many at most; none: as few as lose nothing.
   std::optional<std::size_t> nodes{};
-  /// Of one finger: its samples are joined for their number alone, whatever the noise, to weigh one noise against
-  /// another.
+  /// To weigh one explanation against another. Of one finger samples are joined for their number alone, whatever the
+  /// noise. Of two the effort is bounded: what is too wide for it is left open, in Belief::rest.
   bool by_rows = false;
   /// Of one finger: stretches of [0, P] outside which the first contact can't be; none: it can be anywhere.
   std::vector<Interval> within{};

@@ -93,8 +93,7 @@ struct PairModel {
   std::array<FeltContact, 2> first{};  // ... as they were felt
   const Part* part = nullptr;
   Boundary places;
-  bool on_trial =
-      false;  // one of many explanations, of which each may take only so long: what is too wide is left open
+  bool on_trial = false;        // one of many explanations, each of which may take only so long
   Innovations* kept = nullptr;  // where the last pass's go, if they are asked for
 
   double perimeter() const { return places.perimeter; }
