@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kDeepest = 120;
 constexpr std::size_t kMostPairs = 400000;  // of a cell, before it is given up
-constexpr std::size_t kMostParts = 200;     // of a cell in which what may fit is looked for
+constexpr std::size_t kMostParts = 24;      // of a cell in which what may fit is looked for
 constexpr double kMeetWork = 1e-3;          // to compare two cells, in expansions
 // A start that fits is off by no more than so many tolerances: the search's outlines are good to a quarter of one.
 constexpr double kBeyondTolerance = 1.25;

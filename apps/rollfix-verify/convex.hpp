@@ -45,9 +45,12 @@ inline bool are_apart_along(const std::array<double, 2>& direction, const Polygo
          std::all_of(other.begin(), other.end(), [&](const auto& p) { return at(p) < lo - slack; });
 }
 
-/// Whether two come as near as `slack`: no direction along an edge or across one has them further apart.
+/// Whether two come as near as `slack`: no direction along an edge or across one has them further apart. Nearly always
+/// an axis settles it.
 inline bool are_near(const Polygon& one, const Polygon& other, const std::array<double, 2>& shift, double slack) {
-  std::vector<std::array<double, 2>> directions{{1, 0}, {0, 1}};
+  if (are_apart_along({1, 0}, one, other, shift, slack) || are_apart_along({0, 1}, one, other, shift, slack))
+    return false;
+  std::vector<std::array<double, 2>> directions;
   for (const Polygon* polygon : {&one, &other}) {
     for (std::size_t k = 0; k < polygon->size(); ++k) {
       const auto& from = (*polygon)[k];

@@ -191,8 +191,8 @@ Report carried_out(const Command& command, bool shows_progress) {
   ProgressLine line(shows_progress);
   if (!line.is_shown()) return command();
   const Pulse pulse([&](const char* doing) {
-    if (doing != nullptr && line.seconds() > kPatience)
-      line.show(fmt::format("rollfix: {}, {:.0f} s", doing, line.seconds()));
+    if (doing == nullptr || line.seconds() < kPatience) return;
+    line.show(fmt::format("rollfix: {}, {:.0f} s", doing, line.seconds()));
   });
   return command();
 }

@@ -24,7 +24,8 @@ class ProgressLine {
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
 
   void show(const std::string& line) {
-    if (!is_shown_) return;
+    if (!is_shown_ || line == last_) return;
+    last_ = line;
     std::fprintf(stderr, "\r%-*s", static_cast<int>(width_), line.c_str());
     std::fflush(stderr);
     width_ = std::max(width_, line.size());
@@ -32,6 +33,7 @@ class ProgressLine {
 
  private:
   bool is_shown_;
+  std::string last_;
   std::size_t width_ = 0;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
