@@ -11,7 +11,7 @@ PATIENCE = 0.5  # seconds
 
 
 class Progress:
-    """`report(done)` is called now and then. Nothing is shown of what is over soon."""
+    """`report(done)` is called now and then. Unless asked for, nothing is shown of what is over soon."""
 
     def __init__(self, total: int, wanted: Optional[bool], what: str = "problems") -> None:
         self._total = total
@@ -44,6 +44,8 @@ class Progress:
         return tqdm(total=self._total, unit=f" {self._what}")
 
     def __enter__(self) -> "Progress":
+        if self._wanted:
+            self.report(0)  # who asks for a bar sees one, however soon it is over
         return self
 
     def __exit__(self, kind: Any, *rest: Any) -> None:
