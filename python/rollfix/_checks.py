@@ -75,6 +75,13 @@ def flag(value: Any, name: str) -> bool:
     return bool(value)
 
 
+def decimal_comma(decimal: Any) -> bool:
+    """Whether numbers have commas."""
+    if decimal not in (".", ","):
+        raise InputError(f"decimal: expected '.' or ',', found {shown(decimal)}")
+    return bool(decimal == ",")
+
+
 def text(value: Any, name: str) -> str:
     if not isinstance(value, str):
         raise InputError(f"{name}: expected a text, found {shown(value)}")

@@ -8,7 +8,7 @@ from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple
 import numpy as np
 
 from . import _core
-from ._checks import path, unit_of_length, whole
+from ._checks import decimal_comma, path, unit_of_length, whole
 from ._clock import Clock
 from ._columns import FINGERS, Columns, Naming, Units
 from ._core import InputError
@@ -61,6 +61,11 @@ class Log(Dict[str, np.ndarray]):
     def name(self) -> str:
         """str: what messages call it."""
         return self._numbering.said(self._core.name)
+
+    @property
+    def notes(self) -> Tuple[str, ...]:
+        """tuple of str: what else stands in it that may have been meant, such as another finger."""
+        return tuple(self._said(note) for note in self._core.notes)
 
     def to_frame(self) -> Any:
         """The columns as a pandas.DataFrame: a log of the same kind and the same bits. So is `pandas.DataFrame(log)`."""
@@ -217,6 +222,7 @@ def read_log(
     unit: str = "",
     roll: Optional[int] = None,
     bad: str = "refuse",
+    decimal: str = ".",
 ) -> Log:
     """A log from a file, a data frame, a dict of arrays, an array, or two of them: one of each finger.
 
@@ -245,6 +251,8 @@ def read_log(
     bad : 'refuse' or 'skip'
         What to do with rows that can't be read: an empty cell, NaN, a time that does not grow. Skipped ones are told of in
         a warning.
+    decimal : '.' or ','
+        What numbers in a file have for a decimal point; between semicolons a comma is seen.
 
     Returns
     -------
@@ -258,7 +266,7 @@ def read_log(
     if bad not in ("refuse", "skip"):
         raise InputError(f"bad: expected 'refuse' or 'skip', found {shown(bad)}")
     naming = Naming(columns, units, degrees, wrapped)
-    found = log_of(log, naming, unit_of_length(unit), False, roll, skip_bad=bad == "skip")
+    found = log_of(log, naming, unit_of_length(unit), False, roll, skip_bad=bad == "skip", decimal=decimal)
     skipped = found._core.skipped
     if skipped:
         some = "1 row was" if len(skipped) == 1 else f"{len(skipped)} rows were"
@@ -267,7 +275,7 @@ def read_log(
 
 
 def log_of(
-    log: Any, naming: Naming, unit: str, clockwise: bool, roll: Optional[int], skip_bad: bool = False
+    log: Any, naming: Naming, unit: str, clockwise: bool, roll: Optional[int], skip_bad: bool = False, decimal: str = "."
 ) -> Log:
     """`unit` of the part, `clockwise` lengths, which `roll` of several."""
     ready = log.log if isinstance(log, Roll) else log
@@ -277,13 +285,17 @@ def log_of(
         return ready
     options = {"unit": unit, "angles": naming.angles, "wrapped": naming.wrapped, "clockwise": clockwise}
     options["skip_bad"] = skip_bad
+    options["decimal_comma"] = decimal_comma(decimal)
     if isinstance(log, (tuple, list)) and log and all(_is_log(one) for one in log):
         if len(log) == 2:
             return _pair(log, naming, options, roll)
         if not all(isinstance(one, np.ndarray) and one.ndim == 1 for one in log):
             hint = "; rows as dicts make a table: pandas.DataFrame(rows)" if isinstance(log[0], Mapping) else ""
             raise InputError(f"log: expected one, or a pair of one of each finger, found a list of {len(log)}{hint}")
-    return _one(log, naming, options, roll)
+    found = _one(log, naming, options, roll)
+    for note in found.notes:
+        warn(note)
+    return found
 
 
 def _is_log(one: Any) -> bool:

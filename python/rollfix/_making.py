@@ -12,6 +12,7 @@ from ._checks import (
     array,
     by_name,
     corner_angle as corner_angle_given,
+    decimal_comma,
     finite,
     flag,
     names_in,
@@ -36,6 +37,8 @@ def of_file(
     loop: Optional[int] = None,
     layer: str = "",
     gap: Optional[float] = None,
+    outer: bool = False,
+    decimal: str = ".",
     allow_crossing: bool = False,
 ) -> _core.Part:
     options: Dict[str, Any] = {
@@ -46,6 +49,8 @@ def of_file(
         "loop": None if loop is None else whole(loop, "loop", 1),
         "layer": text(layer, "layer"),
         "gap": optional_number(gap, "gap"),
+        "outer": flag(outer, "outer"),
+        "decimal_comma": decimal_comma(decimal),
         "allow_crossing": flag(allow_crossing, "allow_crossing"),
     }
     hint = _points_hint(source)

@@ -41,6 +41,10 @@ class Part(RolledOn):
         Of a DXF: only this one.
     gap : float, optional
         Of a drawing: ends this close together meet.
+    outer : bool
+        Of a drawing: where more than two ends meet, take the curves around the outside.
+    decimal : '.' or ','
+        What numbers in a file of points have for a decimal point; between semicolons a comma is seen.
     allow_crossing : bool
         Take an outline that crosses itself.
 
@@ -63,6 +67,8 @@ class Part(RolledOn):
         loop: Optional[int] = None,
         layer: str = "",
         gap: Optional[float] = None,
+        outer: bool = False,
+        decimal: str = ".",
         allow_crossing: bool = False,
     ) -> None:
         self._core = _told(_making.of_file(
@@ -74,6 +80,8 @@ class Part(RolledOn):
             loop=loop,
             layer=layer,
             gap=gap,
+            outer=outer,
+            decimal=decimal,
             allow_crossing=allow_crossing,
         ))
 

@@ -282,3 +282,25 @@ def test_rows_that_can_not_be_read_are_skipped_where_that_is_asked(tmp_path):
     np.testing.assert_array_equal(log["time"], [0, 1, 3])
     with pytest.raises(InputError, match="^bad: expected 'refuse' or 'skip', found 'drop'"):
         rollfix.read_log(rows, bad="drop")
+
+
+def test_decimal_commas_are_read_when_it_is_said(tmp_path, frame):
+    file = tmp_path / "roll.txt"
+    rows = "\n".join(f"{u!r}\t{psi!r}".replace(".", ",") for u, psi in zip(frame.u, frame.psi))
+    file.write_text("u\tpsi\n" + rows + "\n")
+    with pytest.raises(InputError, match="decimal=','"):
+        rollfix.read_log(file)
+    log = rollfix.read_log(file, decimal=",")
+    np.testing.assert_array_equal(log["u"], frame.u)
+    with pytest.raises(InputError, match="^decimal: expected '.' or ',', found ';'"):
+        rollfix.read_log(file, decimal=";")
+    points = tmp_path / "square.txt"
+    points.write_text("0,0 0,0\n1,5 0,0\n1,5 1,5\n0,0 1,5\n")
+    assert rollfix.Part(points, decimal=",").perimeter == 6
+
+
+def test_another_finger_in_the_log_is_told(ask, frame):
+    both = frame.assign(u_b=frame.u, psi_b=frame.psi)
+    with pytest.warns(UserWarning, match="u_b"):
+        log = rollfix.read_log(both)
+    assert len(log.notes) == 1 and "u_b" in log.notes[0]

@@ -130,3 +130,12 @@ def test_the_gallery_is_listed():
     assert Part.gallery("gallery:cam") == Part.gallery("cam") == Part("gallery:cam")
     with pytest.raises(InputError, match="ellipse"):
         Part.gallery("elipse")
+
+
+def test_outer_takes_what_is_around_the_outside(tmp_path):
+    file = tmp_path / "part.svg"
+    file.write_text('<svg xmlns="http://www.w3.org/2000/svg">'
+                    '<path id="a" d="M0 0H6V4"/><path id="b" d="M6 4H0V0"/><path id="leader" d="M0 0L-2 -2"/></svg>')
+    with pytest.raises(InputError, match="outer"):
+        Part(file)
+    assert Part(file, outer=True).perimeter == 20

@@ -81,6 +81,7 @@ struct Given {
     if (options.points.smooth) for_points = "`smooth`";
     if (options.loop) for_drawings = "`loop`";
     if (options.gap) for_drawings = "`gap`";
+    if (options.outer) for_drawings = "`outer`";
     if (layer) for_drawings = "`layer`";
   }
 };
@@ -235,6 +236,7 @@ LoadedPart of_drawing(Drawing drawing, const LoadOptions& options) {
   }
   LoopOptions joining;
   if (options.gap) joining.gap = in_unit(*options.gap, states_a_length(unit) ? unit : "", "`gap`");
+  joining.outer = options.outer;
   Loops found = loops(drawing, joining);
   drawing.curves = std::vector<DrawnCurve>();  // what follows takes memory
   for (std::vector<Loop>* some : {&found.closed, &found.open}) {

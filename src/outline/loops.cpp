@@ -8,6 +8,7 @@
 
 #include "outline/joining.hpp"
 #include "outline/nesting.hpp"
+#include "outline/outer_face.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
 
@@ -39,7 +40,7 @@ std::string called(const Origin& origin) {
 
 class Assembler {
  public:
-  Assembler(const Drawing& drawing, const LoopOptions& options) : drawing_(drawing) {
+  Assembler(const Drawing& drawing, const LoopOptions& options) : drawing_(drawing), outer_(options.outer) {
     if (drawing.curves.empty()) {
       throw InputError(fmt::format("{}: draws no curve: expected lines, arcs or splines", drawing.name));
     }
@@ -149,7 +150,11 @@ class Assembler {
     }
     const EndClusters clusters(ends, gap_);
     std::vector<bool> done = branching(clusters, open.size());
-    if (std::find(done.begin(), done.end(), true) != done.end()) tell_of_branches(clusters, ends, open, done);
+    std::vector<bool> left_out = done;
+    if (outer_) take_outer_faces(clusters, open, left_out);
+    if (std::find(left_out.begin(), left_out.end(), true) != left_out.end()) {
+      tell_of_branches(clusters, ends, open, left_out);
+    }
     for (std::size_t i = 0; i < open.size(); ++i) {
       if (!done[i]) whole_.push_back(chain_through(i, open, clusters, done));
     }
@@ -187,7 +192,7 @@ class Assembler {
       for (const Step& step : chains_[open[k]].steps) branching_.extend(measured(step.curve).box);
       count += chains_[open[k]].steps.size();
     }
-    const std::size_t end = first_branch(clusters, ends.size());
+    const std::size_t end = first_branch(clusters, branches);
     const std::vector<std::size_t>& meeting = clusters.members(clusters.of(end));
     std::vector<std::string> names;
     for (std::size_t k = 0; k < std::min<std::size_t>(meeting.size(), 4); ++k) {
@@ -200,19 +205,76 @@ class Assembler {
     notes_.push_back(fmt::format("left out: {} curves that hang together where {}", count, branch_));
   }
 
-  static std::size_t first_branch(const EndClusters& clusters, std::size_t ends) {
+  static std::size_t first_branch(const EndClusters& clusters, const std::vector<bool>& branches) {
     std::size_t end = 0;
-    while (end + 1 < ends && clusters.members(clusters.of(end)).size() <= 2) ++end;
+    while (end + 1 < 2 * branches.size() && !(branches[end / 2] && clusters.members(clusters.of(end)).size() > 2))
+      ++end;
     return end;
+  }
+
+  /// Of the branching chains those around the outside of what hangs together become a loop. Those whose outside is no
+  /// loop stay left out.
+  void take_outer_faces(const EndClusters& clusters, const std::vector<std::size_t>& open,
+                        std::vector<bool>& left_out) {
+    std::vector<Edge> edges;
+    std::vector<std::size_t> chains;  // of each edge, its place in `open`
+    for (std::size_t k = 0; k < open.size(); ++k) {
+      if (!left_out[k]) continue;
+      const std::vector<Step>& steps = chains_[open[k]].steps;
+      const Departure front = departure(clusters.of(2 * k), steps.front());
+      const Departure back = departure(clusters.of(2 * k + 1), {steps.back().curve, !steps.back().forward});
+      edges.push_back({front, back, points_on(steps)});
+      chains.push_back(k);
+    }
+    for (const Face& face : outer_faces(edges, 2 * open.size())) {
+      if (face.encloses && face.around.empty()) continue;
+      Chain loop{{}, true};
+      for (const Passage& one : face.around) append(chains_[open[chains[one.edge]]], one.forward, loop.steps);
+      std::size_t all = 0;
+      for (const std::size_t edge : face.edges) {
+        left_out[chains[edge]] = false;
+        all += chains_[open[chains[edge]]].steps.size();
+      }
+      const std::size_t taken = loop.steps.size();
+      notes_.push_back(taken == 0
+                           ? fmt::format("left out: {} curves that hang together and enclose nothing", all)
+                           : fmt::format("of {} curves that hang together {} are around the outside: they are one "
+                                         "loop (`outer`), the others are left out",
+                                         all, taken));
+      if (taken > 0) whole_.push_back(std::move(loop));
+    }
+  }
+
+  /// How a curve leaves the start of this step.
+  Departure departure(std::size_t node, const Step& step) const {
+    const Curve& curve = drawing_.curves[step.curve].curve;
+    const Interval domain = curve.domain();
+    const Jet jet = curve.jet(step.forward ? domain.lo : domain.hi);
+    Vec2 along = step.forward ? jet.first : Vec2(-jet.first);
+    const bool at_rest = !(along.norm() > 0);
+    if (at_rest) along = measured(step.curve).middle - front(step);
+    const double bend = at_rest ? 0 : curvature(jet);
+    return {node, std::atan2(along.y(), along.x()), step.forward ? bend : -bend};
+  }
+
+  std::vector<Vec2> points_on(const std::vector<Step>& steps) const {
+    Outline passed;
+    for (const Step& step : steps) {
+      const Curve& curve = drawing_.curves[step.curve].curve;
+      passed.curves.push_back(step.forward ? curve : reversed(curve));
+    }
+    std::vector<Vec2> points = polygon_of(passed).points;
+    points.push_back(back(steps.back()));
+    return points;
   }
 
   /// Throws InputError where nothing else is closed; else says why the largest loop may not be the one that is meant.
   void hold_against_branches(Loops& found) const {
     if (branch_.empty()) return;
     const std::string cure = fmt::format(
-        "remove the curves that do not belong to the outline, or take one layer only with `layer`; ends "
+        "{}remove the curves that do not belong to the outline, or take one layer only with `layer`; ends "
         "within {:.3g} count as meeting (`gap`)",
-        gap_);
+        outer_ ? "their outside is not one loop; " : "take what is around the outside of them with `outer`, ", gap_);
     if (found.closed.empty()) throw InputError(fmt::format("{}: {}: {}", drawing_.name, branch_, cure));
     if (box_around(polygon_of(found.closed.front().outline).points).contains(branching_)) return;
     found.doubt = fmt::format(
@@ -319,6 +381,7 @@ class Assembler {
 
   const Drawing& drawing_;
   std::vector<CurveMeasure> measures_;
+  bool outer_ = false;
   double gap_ = 0;
   std::vector<std::size_t> used_;
   std::vector<Chain> chains_;  // of one entity each

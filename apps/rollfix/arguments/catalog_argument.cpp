@@ -18,10 +18,10 @@ void require_part_or_catalog(const std::string& command, const PartArgument& par
   }
   if (catalog.empty()) return;
   const std::string said = part.corner_angle + part.smooth + part.loop + part.gap + part.layer + part.unit;
-  if (part.open || part.allow_crossing || !said.empty()) {
+  if (part.open || part.outer || part.allow_crossing || !said.empty()) {
     throw InputError(
         "--catalog: its parts were loaded when it was built: leave --corner-angle, --smooth, --loop, --gap, --layer, "
-        "--unit, --open and --allow-crossing out");
+        "--outer, --unit, --open and --allow-crossing out");
   }
 }
 

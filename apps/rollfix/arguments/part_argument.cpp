@@ -17,6 +17,7 @@ LoadOptions read_load_options(const PartArgument& argument) {
   if (!argument.smooth.empty()) options.points.smooth = read_given_length(argument.smooth, "--smooth");
   if (!argument.loop.empty()) options.loop = read_count(argument.loop, "--loop", 1);
   if (!argument.gap.empty()) options.gap = read_given_length(argument.gap, "--gap");
+  options.outer = argument.outer;
   options.layer = argument.layer;
   options.points.unit = argument.unit;
   options.points.decimal_comma = has_decimal_comma(argument.decimal);
@@ -63,6 +64,8 @@ void add_load_arguments(CLI::App& command, PartArgument& argument) {
       .add_option("--gap", argument.gap,
                   "ends of a drawing's curves this close together meet; default a millionth of its diagonal")
       ->type_name("LENGTH");
+  add_switch(command, "--outer", argument.outer,
+             "where more than two ends of a drawing's curves meet, take those around the outside");
   command.add_option("--layer", argument.layer, "take only this layer of a DXF")->type_name("NAME");
   add_switch(command, "--open", argument.open, "the points or curves have two ends and are not a loop");
   command

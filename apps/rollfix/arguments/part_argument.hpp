@@ -20,6 +20,7 @@ struct PartArgument {
   std::string unit;
   std::string decimal;
   bool open = false;
+  bool outer = false;
   bool allow_crossing = false;
 };
 

@@ -16,8 +16,8 @@ struct Group {
 const std::vector<Group>& groups() {
   static const std::vector<Group> all = {
       {"Part",
-       {"--catalog", "--loop", "--layer", "--gap", "--open", "--corner-angle", "--smooth", "--unit", "--allow-crossing",
-        "--mirror", "--bridge", "--lean"}},
+       {"--catalog", "--loop", "--layer", "--gap", "--outer", "--open", "--corner-angle", "--smooth", "--unit",
+        "--allow-crossing", "--mirror", "--bridge", "--lean"}},
       {"Log",
        {"--reading", "--log", "--roll", "--at", "--columns", "--wrapped", "--decimal", "--skip-bad", "--direction",
         "--batch", "--once", "--idle-timeout", "--baud", "--samples"}},

@@ -16,6 +16,7 @@ struct LoadOptions {
   OutlineOptions points;            // `open` and `unit` are for drawings as well: the longest open chain
   std::optional<std::size_t> loop;  // of a drawing, counted from 1 as in LoadedPart::loops
   std::optional<Length> gap;        // of a drawing: ends this close together meet; default see LoopOptions
+  bool outer = false;               // of a drawing: where more than two ends meet, what is around the outside
   std::string layer;                // of a DXF: only this one
   bool allow_crossing = false;      // see PartOptions
   bool saved_name = false;          // a saved part is called as it was when it was saved, not as its file

@@ -37,6 +37,7 @@ inline constexpr double kGapShare = 1e-6;
 
 struct LoopOptions {
   std::optional<double> gap;  // a length: ends this close together meet; default: kGapShare of the diagonal
+  bool outer = false;         // where more than two ends meet: take what is around the outside
 };
 
 /// Curves of a drawing joined end to end.
@@ -60,7 +61,8 @@ struct Loops {
 };
 
 /// Joins a drawing's curves, whatever their order and direction, where ends meet within the gap. Where more than two
-/// ends meet, the curves that hang together there are left out, and a note says where that is. Throws InputError: no
+/// ends meet, the curves that hang together there are left out, and a note says where that is; with `outer` those of
+/// them that are around the outside are a loop, and leaders and construction lines are left out. Throws InputError: no
 /// curves, or none but such as branch (with the place).
 Loops loops(const Drawing& drawing, const LoopOptions& options = {});
 

@@ -24,6 +24,7 @@ LogOptions log_options(const py::dict& given) {
   options.angles = given["angles"].cast<std::string>();
   options.wrapped = given["wrapped"].cast<std::optional<bool>>();
   options.skip_bad = given["skip_bad"].cast<bool>();
+  options.decimal_comma = given["decimal_comma"].cast<bool>();
   options.clockwise = given["clockwise"].cast<bool>();
   return options;
 }
@@ -117,6 +118,7 @@ void bind_log(py::module_& module) {
       .def_property_readonly("unit", [](const LogHandle& handle) { return handle.log->unit; })
       .def_property_readonly("kind", &kind_of)
       .def_property_readonly("skipped", [](const LogHandle& handle) { return handle.log->skipped; })
+      .def_property_readonly("notes", [](const LogHandle& handle) { return handle.log->notes; })
       .def("columns", &columns_of)
       .def("text", [](const LogHandle& handle) { return format_log(*handle.log); })
       .def("is_same",

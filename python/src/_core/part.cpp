@@ -32,6 +32,8 @@ LoadOptions load_options(const py::dict& options) {
   result.points.unit = options.contains("unit") ? options["unit"].cast<std::string>() : "";
   result.loop = get("loop").cast<std::optional<std::size_t>>();
   result.gap = length("gap");
+  result.outer = options.contains("outer") && options["outer"].cast<bool>();
+  result.points.decimal_comma = options.contains("decimal_comma") && options["decimal_comma"].cast<bool>();
   result.layer = options.contains("layer") ? options["layer"].cast<std::string>() : "";
   result.saved_name = true;
   result.allow_crossing = options.contains("allow_crossing") && options["allow_crossing"].cast<bool>();

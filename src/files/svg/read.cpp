@@ -52,14 +52,25 @@ bool is_definition(std::string_view kind) {
   return is_one_of(kind, kDefinitions);
 }
 
+/// Elements that are wrong in one way.
+struct Wrong {
+  std::size_t count = 0;
+  std::size_t first = 0;  // its line
+
+  void add(std::size_t line) {
+    if (count++ == 0) first = line;
+  }
+};
+
 /// What was left out, for the user to read.
 struct LeftOut {
   std::map<std::string, std::size_t> by_name;
   std::size_t hidden = 0;
   std::size_t without_size = 0;
   std::size_t without_length = 0;
-  std::size_t singular = 0;
-  std::size_t first_singular = 0;  // its line
+  Wrong singular;
+  Wrong below_zero;
+  Wrong dangling;
   std::size_t clipped = 0;
   std::size_t style_sheets = 0;
 
@@ -74,12 +85,13 @@ struct LeftOut {
     add(hidden, "hidden element", "hidden elements");
     add(without_size, "element without a size", "elements without a size");
     add(without_length, "segment without length", "segments without length");
-    if (singular > 0) {
-      notes.push_back(fmt::format("left out: {}, the first on line {}",
-                                  counted(singular, "element that a singular transform makes flat",
-                                          "elements that singular transforms make flat"),
-                                  first_singular));
-    }
+    const auto add_wrong = [&](const Wrong& wrong, const char* one, const char* many) {
+      if (wrong.count == 0) return;
+      notes.push_back(fmt::format("left out: {}, the first on line {}", counted(wrong.count, one, many), wrong.first));
+    };
+    add_wrong(singular, "element that a singular transform makes flat", "elements that singular transforms make flat");
+    add_wrong(below_zero, "element of a size below 0", "elements of a size below 0");
+    add_wrong(dangling, "<use> of an id that no element has", "<use> of ids that no element has");
     if (clipped > 0)
       notes.push_back(fmt::format("drawn whole: {}", counted(clipped, "clipped element", "clipped elements")));
     if (style_sheets > 0) {
@@ -274,14 +286,18 @@ class Walker {
       ++left_out.hidden;
       return;
     }
-    std::vector<Subpath> drawn = shape(document_, node, around.viewport);
-    if (drawn.empty()) ++left_out.without_size;
-    const Eigen::Matrix2d& linear = around.map.linear;
-    if (!(std::abs(cross(linear.col(0), linear.col(1))) > kSingular * linear.squaredNorm()) && linear.allFinite()) {
-      if (left_out.singular++ == 0) left_out.first_singular = document_.line_of(node);
+    std::optional<std::vector<Subpath>> drawn = shape(document_, node, around.viewport);
+    if (!drawn) {
+      left_out.below_zero.add(document_.line_of(node));
       return;
     }
-    for (Subpath& path : drawn) {
+    if (drawn->empty()) ++left_out.without_size;
+    const Eigen::Matrix2d& linear = around.map.linear;
+    if (!(std::abs(cross(linear.col(0), linear.col(1))) > kSingular * linear.squaredNorm()) && linear.allFinite()) {
+      left_out.singular.add(document_.line_of(node));
+      return;
+    }
+    for (Subpath& path : *drawn) {
       count_copies(1 + path.segments.size());
       segments_ += path.segments.size();
       if (segments_ > kMostPieces)
@@ -339,7 +355,10 @@ class Walker {
     if (reference->text.front() != '#') refuse("expected an element of this file as in '#id'");
     if (!ids_) ids_.emplace(document_.root());
     const pugi::xml_node target = ids_->find(reference->text.substr(1));
-    if (!target) refuse("but no element has this id");
+    if (!target) {
+      left_out.dangling.add(document_.line_of(node));
+      return;
+    }
     if (std::find(uses_.begin(), uses_.end(), target) != uses_.end() || target == document_.root()) {
       refuse("which holds this very reference");
     }

@@ -38,22 +38,22 @@ class Lengths {
     const std::optional<double> ry = size("ry", viewport_.y());
     return {rx ? *rx : ry.value_or(0), ry ? *ry : rx.value_or(0)};
   }
+  /// Whether a size that was read is one that nothing can have.
+  bool below_zero() const { return below_zero_; }
 
  private:
   std::optional<double> read(const char* name, double whole) const { return length_of(document_, node_, name, whole); }
 
   std::optional<double> size(const char* name, double whole) const {
     const std::optional<double> result = read(name, whole);
-    if (result && *result < 0) {
-      const Value value = *document_.attribute(node_, name);
-      value.refuse(value.text.data(), fmt::format("{} is {}, expected 0 or more", name, shown(value.text)));
-    }
+    below_zero_ = below_zero_ || (result && *result < 0);
     return result;
   }
 
   const Document& document_;
   pugi::xml_node node_;
   Vec2 viewport_;
+  mutable bool below_zero_ = false;
 };
 
 using Subpaths = std::vector<Subpath>;
@@ -125,9 +125,10 @@ bool is_shape(std::string_view kind) {
   return std::find(kShapes.begin(), kShapes.end(), kind) != kShapes.end();
 }
 
-std::vector<Subpath> shape(const Document& document, pugi::xml_node node, const Vec2& viewport) {
+namespace {
+
+Subpaths drawn(const Document& document, pugi::xml_node node, const Lengths& lengths) {
   const std::string_view kind = document.kind(node);
-  const Lengths lengths(document, node, viewport);
   if (kind == "path") {
     const std::optional<Value> data = document.attribute(node, "d");
     return data ? parse_path(*data) : Subpaths();
@@ -138,6 +139,15 @@ std::vector<Subpath> shape(const Document& document, pugi::xml_node node, const 
   if (kind == "line") return chain({lengths.point("x1", "y1"), lengths.point("x2", "y2")}, false);
   const std::optional<Value> points = document.attribute(node, "points");
   return points ? chain(parse_point_list(*points), kind == "polygon") : Subpaths();
+}
+
+}  // namespace
+
+std::optional<std::vector<Subpath>> shape(const Document& document, pugi::xml_node node, const Vec2& viewport) {
+  const Lengths lengths(document, node, viewport);
+  Subpaths result = drawn(document, node, lengths);
+  if (lengths.below_zero()) return std::nullopt;
+  return result;
 }
 
 }  // namespace rollfix::svg

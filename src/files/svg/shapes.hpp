@@ -14,8 +14,8 @@ namespace rollfix::svg {
 bool is_shape(std::string_view kind);
 
 /// What it draws, before its transformations, in the direction and from the point that SVG gives it; nothing where it
-/// has no size. Percentages are of `viewport`. Throws InputError with the place.
-std::vector<Subpath> shape(const Document& document, pugi::xml_node node, const Vec2& viewport);
+/// has no size. No value: a size of it is below 0. Percentages are of `viewport`. Throws InputError with the place.
+std::optional<std::vector<Subpath>> shape(const Document& document, pugi::xml_node node, const Vec2& viewport);
 
 /// An attribute's length in user units, of which `whole` is 100 %; nothing where it is missing, empty or "auto".
 /// Throws InputError: a unit or a percentage of something unknown.
