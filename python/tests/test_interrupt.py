@@ -13,7 +13,7 @@ import rollfix
 from rollfix import Disk, Noise, Part
 
 PRESSED = 0.4  # seconds after the call
-HEARD = 0.3  # seconds later at most, on a machine that has nothing else to do
+HEARD = 0.3  # seconds of a processor later at most: what else the machine does is no matter
 
 
 @pytest.fixture(scope="module")
@@ -32,6 +32,20 @@ def locate_two(part):
     part.locate(log=roll, finger=finger, noise=noise, may_overlap=True)
 
 
+def locate_many_rows(part):
+    noise, finger = Noise(contact=0.02, angle="0.05rad", slip=0.05), Disk(0.05)
+    roll = part.simulate(finger, start=5.0, length=1.0, samples=500_000, noise=noise)
+    for _ in range(10):
+        part.locate(log=roll, finger=finger, noise=noise)
+
+
+def teach_many_rows(part):
+    noise, finger = Noise(contact=1e-4, angle="1e-4rad"), Disk(0.05)
+    roll = part.simulate(finger, start=5.0, length=2.1 * part.perimeter, samples=200_000, noise=noise)
+    for _ in range(100):
+        rollfix.teach(roll.log, finger, noise=noise)
+
+
 @functools.lru_cache
 def two_fingers():
     """That fits none of the parts: what may be wrong is looked for on all."""
@@ -43,6 +57,8 @@ def two_fingers():
 PLACES = np.linspace(0, 50, 5_000_000)
 CALLS = {
     "locate of two fingers": locate_two,
+    "locate of many rows": locate_many_rows,
+    "teach": teach_many_rows,
     "simulate": lambda part: part.simulate(Disk(0.5), start=1.0, length=200.0, samples=2_000_000),
     "locate_many": lambda part: part.locate_many(np.tile([[5.0, 0.3]], (3_000_000, 1))),
     "points": lambda part: part.point(PLACES),
@@ -77,7 +93,7 @@ def test_ctrl_c_is_heard(name, wriggly):
     pressed = []
 
     def press():
-        pressed.append(time.monotonic())
+        pressed.append(time.process_time())
         os.kill(os.getpid(), signal.SIGINT)
 
     timer = threading.Timer(PRESSED, press)
@@ -85,9 +101,7 @@ def test_ctrl_c_is_heard(name, wriggly):
         timer.start()
         CALLS[name](wriggly)
     except KeyboardInterrupt:
-        taken = time.monotonic() - pressed[0]
-        busy = max(1.0, os.getloadavg()[0] / (os.cpu_count() or 1))
-        assert taken < HEARD * busy + 0.1
+        assert time.process_time() - pressed[0] < HEARD * (os.cpu_count() or 1)
     else:
         timer.cancel()
         if not pressed:

@@ -7,6 +7,7 @@
 #include "contact/log_rows.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/part/boundary.hpp"
+#include "rollfix/pulse.hpp"
 
 namespace rollfix {
 
@@ -129,11 +130,14 @@ Poses resting_poses(const FeltPart& felt, const std::vector<std::size_t>& rows) 
   const double resting = resting_heading(felt);
   const double first = clamped(resting, felt.heading(0));
   const double turns = turns_to_near(first);
+  const Vec2 first_on_part = felt.on_part(0);
+  const Vec2 first_in_world = felt.in_world(0);
   Poses result;
   for (const std::size_t row : rows) {
+    beat();
     const double heading = clamped(resting, felt.heading(row));
     result.pose.push_back(pose_with(heading + turns, felt.on_part(row), felt.in_world(row)));
-    result.residual.push_back((result.pose.back().world(felt.on_part(0)) - felt.in_world(0)).norm());
+    result.residual.push_back((result.pose.back().world(first_on_part) - first_in_world).norm());
     result.turn_residual.push_back(std::abs(heading - first));
   }
   return result;
@@ -143,6 +147,7 @@ Poses moving_poses(const FeltPart& a, const FeltPart& b, const std::vector<std::
   const double turns = turns_to_near(agreed_heading(a, b, 0).heading);
   Poses result;
   for (const std::size_t row : rows) {
+    beat();
     const auto [heading, gap] = agreed_heading(a, b, row);
     const Pose of_a = pose_with(heading + turns, a.on_part(row), a.in_world(row));
     const Pose of_b = pose_with(heading + turns, b.on_part(row), b.in_world(row));
