@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "belief/one/grid.hpp"
@@ -37,10 +38,11 @@ TiltedBoundary boundary_of(const Part& part, double contact) {
   return TiltedBoundary(part, tilt_of(kCurvature, 0, part), accuracy_of(contact, part));
 }
 
-/// The points of the grid after a roll over a third of the egg.
-std::size_t grid_points_on(const Part& part) {
+/// The points of the grid after a roll over a third of the egg that starts at 0.2 P.
+std::size_t grid_points_on(const Part& part, std::optional<rollfix::Prior> prior = {}) {
   const double P = part.perimeter();
   BeliefOptions options;
+  options.prior = prior;
   options.noise = noise_on(part, 1e-3, 5e-3, 5e-3);
   const ErrorModel errors(options, LogKind::contact, kCurvature, P);
   const TiltedBoundary boundary = boundary_of(part, options.noise.contact);
@@ -57,6 +59,34 @@ TEST(BeliefGrid, an_egg_of_many_points_needs_no_more_places_on_trial_than_one_of
   const auto few = static_cast<double>(grid_points_on(egg_through(60)));
   EXPECT_LE(static_cast<double>(grid_points_on(egg_through(400))), 1.2 * few);
   EXPECT_LE(static_cast<double>(grid_points_on(egg_through(2000))), 1.2 * few);
+}
+
+TEST(BeliefGrid, a_narrow_prior_far_from_where_the_rows_fit_needs_few_places_on_trial) {
+  const Part egg = egg_through(60);
+  const double P = egg.perimeter();
+  const auto without = static_cast<double>(grid_points_on(egg));
+  for (double sd = 1e-2; sd > 1e-8; sd /= 10) {
+    for (const double s : {0.2, 0.45, 0.7, 0.95}) {
+      EXPECT_LE(static_cast<double>(grid_points_on(egg, rollfix::Prior{s * P, sd * P})), 3 * without + 200)
+          << sd << " P at " << s << " P";
+    }
+  }
+}
+
+TEST(BeliefGrid, a_prior_narrower_than_what_the_rows_tell_decides_as_noisy_as_it_is_taken) {
+  const Part part = part_of("cam");
+  const double P = part.perimeter();
+  const double radius = 0.03 * P;
+  BeliefOptions options;
+  options.noise = noise_on(part, 1e-3, 5e-3, 5e-3);
+  const NoisyRoll roll = roll_on(part, radius, 0.2 * P, 0.4 * P, 65, options.noise, 7);
+  for (const double s : {0.2, 0.5, 0.8}) {
+    options.prior = rollfix::Prior{s * P, 1e-6 * P};
+    Belief belief = belief_in(part, roll.log, radius, options);
+    const double sd = 1e-6 * P * belief.fit().widened;
+    EXPECT_NEAR(belief.modes().front().mean[0], s * P, 0.1 * sd);
+    EXPECT_NEAR(belief.modes().front().sd[0], sd, 0.1 * sd);
+  }
 }
 
 TEST(BeliefGrid, a_spline_through_points_has_no_kinks) {

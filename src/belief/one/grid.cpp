@@ -46,19 +46,15 @@ constexpr double kSteep = 600;
 // A grid does not grow beyond this; what is not resolved by then counts as rest.
 constexpr std::size_t kMostPoints = 400000;
 
-/// No more than this can be in a cell: the distance can't fall faster than it changes at the ends.
-struct Bound {
-  double rate = 0;         // of the distance, by w
-  double log_density = 0;  // without the prior
-};
+double rate_of(const Score& lo, const Score& hi, double h) {
+  return std::max(std::sqrt(std::max(lo.information, hi.information)),
+                  std::abs(std::sqrt(hi.cost) - std::sqrt(lo.cost)) / h);
+}
 
-Bound bound_of(const Score& lo, const Score& hi, double h, double heat) {
-  const double from = std::sqrt(lo.cost);
-  const double to = std::sqrt(hi.cost);
-  const double rate = std::max(std::sqrt(std::max(lo.information, hi.information)), std::abs(to - from) / h);
-  const double least_distance = std::max(0.0, 0.5 * (from + to - kSlopeSafety * rate * h));
-  const double cost = std::min({square(least_distance), lo.cost, hi.cost});
-  return {rate, -0.5 * (cost + std::min(lo.log_volume, hi.log_volume)) / heat};
+double least_cost_of(const Score& lo, const Score& hi, double h) {
+  const double distances = std::sqrt(lo.cost) + std::sqrt(hi.cost);
+  const double least_distance = std::max(0.0, 0.5 * (distances - kSlopeSafety * rate_of(lo, hi, h) * h));
+  return std::min({square(least_distance), lo.cost, hi.cost});
 }
 
 }  // namespace
@@ -199,8 +195,7 @@ bool Grid::is_even(const GridPoint& lo, const GridPoint& hi, double length) cons
          std::abs(length - slope * h) <= kEvenSlope * length;
 }
 
-Score Grid::at_least(const GridPoint& point) const {
-  Score score = point.score;
+Score Grid::at_least(Score score, const GridPoint& point) const {
   // What stopped on the way, and what did not although it is as far off, must look alike: else the grid would be made
   // ever finer between them.
   if (point.deviance > scorer_.limit()) {
@@ -209,6 +204,22 @@ Score Grid::at_least(const GridPoint& point) const {
   }
   score.cost = std::min(score.cost, farthest_);
   return score;
+}
+
+Score Grid::of_rows(const GridPoint& point) const {
+  const Score prior = scorer_.narrow_prior(point);
+  Score score = point.score;
+  score.cost = std::max(0.0, score.cost - prior.cost);
+  score.information = std::max(0.0, score.information - prior.information);
+  return at_least(score, point);
+}
+
+Grid::Bound Grid::bound_of(const GridPoint& lo, const GridPoint& hi, const GridCell& cell) const {
+  const double h = cell.hi - cell.lo;
+  const double cost = least_cost_of(of_rows(lo), of_rows(hi), h) + scorer_.least_narrow_cost(cell.s);
+  const double log_volume = std::min(at_least(lo.score, lo).log_volume, at_least(hi.score, hi).log_volume);
+  return {rate_of(at_least(lo.score, lo), at_least(hi.score, hi), h),
+          -0.5 * (cost + log_volume) / square(fit_.widened)};
 }
 
 bool Grid::refine(const Nodes& nodes) {
@@ -232,16 +243,12 @@ bool Grid::refine(const Nodes& nodes) {
       }
       const double h = cell.hi - cell.lo;
       const double log_width = log_prior(cell.s.width(), h, h);
-      const double most_by_prior =
-          -0.5 * (scorer_.least_prior_cost(cell.s) + std::min(lo.score.log_volume, hi.score.log_volume)) / heat;
-      Bound bound = bound_of(at_least(lo), at_least(hi), h, heat);
-      bound.log_density = std::min(bound.log_density, most_by_prior);
+      Bound bound = bound_of(lo, hi, cell);
       // A cost only grows with more samples: one that was too large before is so now.
       const bool stale = PointScorer::is_stale(lo, nodes) || PointScorer::is_stale(hi, nodes);
       if (stale && bound.log_density + log_width - best_mass_ > -kNegligible) {
         scorer_.refresh({&lo, &hi}, nodes);
-        bound = bound_of(at_least(lo), at_least(hi), h, heat);
-        bound.log_density = std::min(bound.log_density, most_by_prior);
+        bound = bound_of(lo, hi, cell);
         changed = changed || (!PointScorer::is_stale(lo, nodes) && !PointScorer::is_stale(hi, nodes));
       }
       const double most = bound.log_density + log_width;

@@ -76,7 +76,16 @@ class Grid {
   /// One that was kept, or a new one.
   std::unique_ptr<GridPoint> point_at(std::size_t arc, double w);
   /// What the point costs, or as much as is known of one that stopped early.
-  Score at_least(const GridPoint& point) const;
+  Score at_least(Score score, const GridPoint& point) const;
+  /// The same without what a narrow prior adds.
+  Score of_rows(const GridPoint& point) const;
+  /// No more than this can be in a cell: the distance of the rows can't fall faster than it changes at the ends, and
+  /// what a narrow prior costs is known.
+  struct Bound {
+    double rate = 0;         // of the distance, by w
+    double log_density = 0;  // but for the boundary's own
+  };
+  Bound bound_of(const GridPoint& lo, const GridPoint& hi, const GridCell& cell) const;
   bool is_even(const GridPoint& lo, const GridPoint& hi, double length) const;
   bool refine(const Nodes& nodes);
   void weigh();

@@ -26,8 +26,9 @@ constexpr int kPassesOfWide = 3;
 // ... unless what they share of the turn changes by no more than this, radians: the lines would be the same ones.
 constexpr double kSettledTurn = 1e-5;
 // What a prior narrower than this share of the boundary leaves of a cell is known without looking into it, and must be:
-// all around cells would be split down to its width.
-constexpr double kNarrowPrior = 1e-5;
+// else the distance that it is off, many of its standard deviations, hides that the rows alone change slowly, and cells
+// all around are split down to its width.
+constexpr double kNarrowPrior = 0.01;
 
 Score score_of(const RollFilter& filter) {
   return {filter.cost(), filter.log_volume(), filter.slope(), filter.information()};
@@ -149,21 +150,13 @@ bool PointScorer::next_errand(Errand& errand, const Nodes& nodes, const std::opt
 void PointScorer::score(GridPoint& point, const Nodes& nodes) {
   point.rows = nodes.rows();
   point.score = score_of(point.now);
-  if (options_.prior) {
-    // The prior is one sample more.
-    const TiltedPlace& place = point.now.place();
-    const double precision = 1 / square(options_.prior->sd);
-    const double off = places_.offset(options_.prior->s, place.s);
-    point.score.cost += square(off) * precision;
-    point.score.slope -= off * place.slope * precision;
-    point.score.information += square(place.slope) * precision;
-  }
-  if (options_.pose) {
-    const Score prior = score_of(*options_.pose, point.now);
+  const auto add = [&](const Score& prior) {
     point.score.cost += prior.cost;
     point.score.slope += prior.slope;
     point.score.information += prior.information;
-  }
+  };
+  if (options_.prior) add(prior_at(point.now.place()));
+  if (options_.pose) add(score_of(*options_.pose, point.now));
   lower_limit(point.score.cost + point.score.log_volume, nodes);
 }
 
@@ -206,8 +199,22 @@ Trend PointScorer::trend(const GridPoint& point, const Nodes& nodes, std::unique
   return trend_of(all, nodes.freedom());
 }
 
-double PointScorer::least_prior_cost(const Interval& s) const {
-  if (!options_.prior || options_.prior->sd > kNarrowPrior * places_.perimeter) return 0;
+Score PointScorer::prior_at(const TiltedPlace& place) const {
+  const double precision = 1 / square(options_.prior->sd);
+  const double off = places_.offset(options_.prior->s, place.s);
+  return {square(off) * precision, 0, -off * place.slope * precision, square(place.slope) * precision};
+}
+
+bool PointScorer::has_narrow_prior() const {
+  return options_.prior && options_.prior->sd <= kNarrowPrior * places_.perimeter;
+}
+
+Score PointScorer::narrow_prior(const GridPoint& point) const {
+  return has_narrow_prior() ? prior_at(point.now.place()) : Score{};
+}
+
+double PointScorer::least_narrow_cost(const Interval& s) const {
+  if (!has_narrow_prior()) return 0;
   // No place of the interval is nearer than its middle, less half of its width.
   const double off = std::abs(places_.offset(options_.prior->s, s.middle())) - 0.5 * s.width();
   return off > 0 ? square(off / options_.prior->sd) : 0;

@@ -63,8 +63,10 @@ class PointScorer {
   double limit() const { return limit_; }
   void forget_limit() { limit_ = std::numeric_limits<double>::infinity(); }
 
-  /// What a narrow prior adds to a cost anywhere on a stretch, at least.
-  double least_prior_cost(const Interval& s) const;
+  /// What a narrow prior adds to a cost anywhere on a stretch, at least; and what it added to a point's score. None of
+  /// a wide one.
+  double least_narrow_cost(const Interval& s) const;
+  Score narrow_prior(const GridPoint& point) const;
   /// How far off the priors a point is, in standard deviations.
   double prior_sigmas(const GridPoint& point) const;
 
@@ -76,6 +78,9 @@ class PointScorer {
   /// After another one; false: the point is scored.
   bool next_errand(Errand& errand, const Nodes& nodes, const std::optional<Node>& pending);
   void score(GridPoint& point, const Nodes& nodes);
+  bool has_narrow_prior() const;
+  /// The prior is one sample more: what it adds.
+  Score prior_at(const TiltedPlace& place) const;
   void lower_limit(double deviance, const Nodes& nodes);
   RowEquations equations() const {
     return {centres_ != nullptr && centres_->path != nullptr, errors_.has_gyroscope_scale()};
