@@ -73,18 +73,23 @@ TEST(BeliefGrid, a_narrow_prior_far_from_where_the_rows_fit_needs_few_places_on_
   }
 }
 
+/// 65 rows over 0.4 of its perimeter P, from 0.2 on.
+struct RollOnCam {
+  Part part = part_of("cam");
+  double P = part.perimeter();
+  double radius = 0.03 * P;
+  BeliefOptions options{noise_on(part, 1e-3, 5e-3, 5e-3)};
+  NoisyRoll roll = roll_on(part, radius, 0.2 * P, 0.4 * P, 65, options.noise, 7);
+};
+
 TEST(BeliefGrid, a_prior_narrower_than_what_the_rows_tell_decides_as_noisy_as_it_is_taken) {
-  const Part part = part_of("cam");
-  const double P = part.perimeter();
-  const double radius = 0.03 * P;
-  BeliefOptions options;
-  options.noise = noise_on(part, 1e-3, 5e-3, 5e-3);
-  const NoisyRoll roll = roll_on(part, radius, 0.2 * P, 0.4 * P, 65, options.noise, 7);
+  const RollOnCam cam;
   for (const double s : {0.2, 0.5, 0.8}) {
-    options.prior = rollfix::Prior{s * P, 1e-6 * P};
-    Belief belief = belief_in(part, roll.log, radius, options);
-    const double sd = 1e-6 * P * belief.fit().widened;
-    EXPECT_NEAR(belief.modes().front().mean[0], s * P, 0.1 * sd);
+    BeliefOptions options = cam.options;
+    options.prior = rollfix::Prior{s * cam.P, 1e-6 * cam.P};
+    Belief belief = belief_in(cam.part, cam.roll.log, cam.radius, options);
+    const double sd = 1e-6 * cam.P * belief.fit().widened;
+    EXPECT_NEAR(belief.modes().front().mean[0], s * cam.P, 0.1 * sd);
     EXPECT_NEAR(belief.modes().front().sd[0], sd, 0.1 * sd);
   }
 }
@@ -176,25 +181,20 @@ TEST(BeliefGrid, places_that_look_alike_are_as_probable) {
 }
 
 TEST(BeliefGrid, a_roll_that_has_grown_is_what_it_is_at_once) {
-  const Part part = part_of("cam");
-  const double P = part.perimeter();
-  const double radius = 0.03 * P;
-  BeliefOptions options;
-  options.noise = noise_on(part, 1e-3, 5e-3, 5e-3);
-  const NoisyRoll roll = roll_on(part, radius, 0.2 * P, 0.4 * P, 65, options.noise, 7);
-  Belief at_once = belief_in(part, roll.log, radius, options);
-  Belief growing(part, LogKind::contact, options);
-  for (const rollfix::Reading& reading : rollfix::readings_as_given(roll.log, {DiskFinger{radius}})) {
+  const RollOnCam cam;
+  Belief at_once = belief_in(cam.part, cam.roll.log, cam.radius, cam.options);
+  Belief growing(cam.part, LogKind::contact, cam.options);
+  for (const rollfix::Reading& reading : rollfix::readings_as_given(cam.roll.log, {DiskFinger{cam.radius}})) {
     rollfix::Sample sample;
     sample.reading = reading;
-    sample.finger_curvature = 1 / radius;
+    sample.finger_curvature = 1 / cam.radius;
     growing.add(sample);
     growing.modes();
   }
   ASSERT_EQ(growing.modes().size(), at_once.modes().size());
   for (std::size_t k = 0; k < at_once.modes().size(); ++k) {
-    EXPECT_NEAR(growing.modes()[k].mean[0], at_once.modes()[k].mean[0], 1e-9 * P);
-    EXPECT_NEAR(growing.modes()[k].sd[0], at_once.modes()[k].sd[0], 1e-9 * P);
+    EXPECT_NEAR(growing.modes()[k].mean[0], at_once.modes()[k].mean[0], 1e-9 * cam.P);
+    EXPECT_NEAR(growing.modes()[k].sd[0], at_once.modes()[k].sd[0], 1e-9 * cam.P);
   }
 }
 

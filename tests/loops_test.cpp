@@ -172,6 +172,36 @@ TEST(Loops, curves_drawn_twice_count_once_and_it_is_said) {
   EXPECT_THAT(found.notes, ElementsAre(HasSubstr("4 curves that are drawn twice, such as the LINE '0' of line 8")));
 }
 
+TEST(Loops, a_wall_that_two_entities_share_stays_with_both) {
+  Drawing both = drawing(together(square(1), square(1)));
+  for (std::size_t k = 0; k < both.curves.size(); ++k) {
+    const auto& side = both.curves[k].curve;
+    const Vec2 shift = k < 4 ? Vec2(0, 0) : Vec2(0, 1);
+    both.curves[k] = {Line(side.front() + shift, side.back() + shift), {"LWPOLYLINE", "0", k / 4}};
+  }
+  EXPECT_EQ(rollfix::loops(both).closed.size(), 2U);
+  EXPECT_THAT(rollfix::loops(both).notes, testing::IsEmpty());
+}
+
+TEST(Loops, a_line_traced_over_a_side_of_an_outline_is_left_out_whichever_comes_first) {
+  for (const bool line_first : {true, false}) {
+    Drawing traced = drawing(square(1));
+    for (auto& drawn : traced.curves) drawn.origin = {"LWPOLYLINE", "0", 1};
+    traced.curves.insert(line_first ? traced.curves.begin() : traced.curves.end(),
+                         {Line({0, 0}, {1, 0}), {"LINE", "0", 9}});
+    EXPECT_EQ(rollfix::loops(traced).closed.size(), 1U) << line_first;
+    EXPECT_THAT(rollfix::loops(traced).notes, ElementsAre(HasSubstr("1 curve that is drawn twice, such as the LINE")));
+  }
+}
+
+TEST(Loops, a_hole_that_touches_the_outside_where_it_starts_is_a_hole) {
+  const Loops found = rollfix::loops(drawing({Arc({0, 0}, 40, 0, 2 * kPi), Arc({20, 0}, 20, 0, 2 * kPi)}));
+  ASSERT_EQ(found.closed.size(), 2U);
+  EXPECT_TRUE(found.closed[1].outline.hole);
+  const Loops beside = rollfix::loops(drawing({Arc({0, 0}, 40, 0, 2 * kPi), Arc({60, 0}, 20, kPi, 2 * kPi)}));
+  EXPECT_FALSE(beside.closed[1].outline.hole);
+}
+
 TEST(Loops, two_arcs_over_one_chord_are_not_the_same_curve) {
   const Loops found = rollfix::loops(drawing({Arc({0, 0}, 1, 0, kPi), Arc({0, 0}, 1, kPi, kPi)}));
   ASSERT_EQ(found.closed.size(), 1U);

@@ -11,6 +11,7 @@
 #include "outline/outer_face.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
+#include "text/text.hpp"
 
 namespace rollfix {
 
@@ -53,8 +54,9 @@ class Assembler {
   }
 
   Loops run() {
-    leave_out_the_needless();
+    leave_out_tiny_curves();
     make_chains();
+    leave_out_what_is_drawn_twice();
     join_chains();
     return sorted();
   }
@@ -65,45 +67,67 @@ class Assembler {
   Vec2 back(const Step& step) const { return step.forward ? measured(step.curve).back : measured(step.curve).front; }
   bool meet(const Vec2& a, const Vec2& b) const { return (a - b).norm() <= gap_; }
 
-  /// Curves no larger than the gap, and curves that are drawn twice.
-  void leave_out_the_needless() {
+  void leave_out_tiny_curves() {
     std::size_t tiny = 0;
-    std::vector<std::size_t> rest;
     for (std::size_t k = 0; k < measures_.size(); ++k) {
       if (measured(k).box.diagonal().norm() <= gap_) {
         ++tiny;
       } else {
-        rest.push_back(k);
+        used_.push_back(k);
       }
     }
-    if (rest.empty()) {
+    if (used_.empty()) {
       throw InputError(fmt::format("{}: all {} curves are shorter than the gap of {:.3g} within which ends meet",
                                    drawing_.name, tiny, gap_));
     }
     if (tiny > 0) notes_.push_back(fmt::format("left out: {} curves no longer than {:.3g}", tiny, gap_));
+  }
 
+  /// Chains all of whose curves other chains draw as well; of several alike the first stays. Two outlines that share a
+  /// wall keep it both.
+  void leave_out_what_is_drawn_twice() {
+    std::vector<std::size_t> chain_of;
+    std::vector<std::size_t> curves;
     std::vector<Vec2> middles;
-    middles.reserve(rest.size());
-    for (const std::size_t k : rest) middles.push_back(measured(k).middle);
-    const EndClusters places(middles, gap_);
-    std::size_t twice = 0;
-    std::size_t example = 0;
-    for (std::size_t i = 0; i < rest.size(); ++i) {
-      const std::vector<std::size_t>& beside = places.members(places.of(i));
-      const bool drawn_before = std::any_of(beside.begin(), beside.end(), [&](std::size_t j) {
-        return j < i && is_same(measured(rest[i]), measured(rest[j]));
-      });
-      if (drawn_before) {
-        ++twice;
-        example = rest[i];
-      } else {
-        used_.push_back(rest[i]);
+    for (std::size_t chain = 0; chain < chains_.size(); ++chain) {
+      for (const Step& step : chains_[chain].steps) {
+        chain_of.push_back(chain);
+        curves.push_back(step.curve);
+        middles.push_back(measured(step.curve).middle);
       }
     }
-    if (twice > 0) {
-      notes_.push_back(fmt::format("left out: {} curves that are drawn twice, such as the {}", twice,
-                                   called(drawing_.curves[example].origin)));
+    const EndClusters places(middles, gap_);
+    std::vector<bool> is_gone(chains_.size(), false);
+    const auto is_drawn_elsewhere = [&](std::size_t i) {
+      const std::vector<std::size_t>& beside = places.members(places.of(i));
+      return std::any_of(beside.begin(), beside.end(), [&](std::size_t j) {
+        return chain_of[j] != chain_of[i] && !is_gone[chain_of[j]] && is_same(measured(curves[i]), measured(curves[j]));
+      });
+    };
+    for (std::size_t end = curves.size(); end > 0;) {
+      const std::size_t chain = chain_of[end - 1];
+      const std::size_t count = chains_[chain].steps.size();
+      std::size_t k = end - count;
+      while (k < end && is_drawn_elsewhere(k)) ++k;
+      if (k == end) {
+        count_as_twice(curves[end - 1], count);
+        is_gone[chain] = true;
+      }
+      end -= count;
     }
+    if (twice_ == 0) return;
+    notes_.push_back(fmt::format("left out: {} that {} drawn twice, such as the {}", counted(twice_, "curve", "curves"),
+                                 twice_ == 1 ? "is" : "are", called(drawing_.curves[example_].origin)));
+    std::vector<Chain> kept;
+    for (std::size_t chain = 0; chain < chains_.size(); ++chain) {
+      if (!is_gone[chain]) kept.push_back(std::move(chains_[chain]));
+    }
+    chains_ = std::move(kept);
+  }
+
+  void count_as_twice(std::size_t curve, std::size_t count) {
+    if (twice_ == 0) example_ = curve;
+    twice_ += count;
   }
 
   bool is_same(const CurveMeasure& a, const CurveMeasure& b) const {
@@ -112,11 +136,16 @@ class Assembler {
     return same_ends && meet(a.middle, b.middle) && meet(a.box.min(), b.box.min()) && meet(a.box.max(), b.box.max());
   }
 
-  /// What one entity draws in a row belongs together, also where it passes one of its own points again.
+  /// What one entity draws in a row belongs together, also where it passes one of its own points again; but not where
+  /// the outside of all is asked for, of which it may be a part only.
   void make_chains() {
     for (const std::size_t curve : used_) {
       const Step step{curve, true};
       if (continues(curve)) {
+        if (is_same(measured(chains_.back().steps.back().curve), measured(curve))) {  // there and back
+          count_as_twice(curve, 1);
+          continue;
+        }
         chains_.back().steps.push_back(step);
       } else {
         chains_.push_back({{step}, false});
@@ -127,7 +156,7 @@ class Assembler {
   }
 
   bool continues(std::size_t curve) const {
-    if (chains_.empty() || chains_.back().closed) return false;
+    if (outer_ || chains_.empty() || chains_.back().closed) return false;
     const std::size_t before = chains_.back().steps.back().curve;
     const Origin& one = drawing_.curves[before].origin;
     const Origin& other = drawing_.curves[curve].origin;
@@ -212,60 +241,46 @@ class Assembler {
     return end;
   }
 
-  /// Of the branching chains those around the outside of what hangs together become a loop. Those whose outside is no
-  /// loop stay left out.
+  /// Of the branching chains those around the outside of what hangs together become loops. Those whose outside is none
+  /// stay left out.
   void take_outer_faces(const EndClusters& clusters, const std::vector<std::size_t>& open,
                         std::vector<bool>& left_out) {
     std::vector<Edge> edges;
     std::vector<std::size_t> chains;  // of each edge, its place in `open`
     for (std::size_t k = 0; k < open.size(); ++k) {
       if (!left_out[k]) continue;
-      const std::vector<Step>& steps = chains_[open[k]].steps;
-      const Departure front = departure(clusters.of(2 * k), steps.front());
-      const Departure back = departure(clusters.of(2 * k + 1), {steps.back().curve, !steps.back().forward});
-      edges.push_back({front, back, points_on(steps)});
+      edges.push_back(edge_along(curves_of(chains_[open[k]]), clusters.of(2 * k), clusters.of(2 * k + 1)));
       chains.push_back(k);
     }
     for (const Face& face : outer_faces(edges, 2 * open.size())) {
-      if (face.encloses && face.around.empty()) continue;
-      Chain loop{{}, true};
-      for (const Passage& one : face.around) append(chains_[open[chains[one.edge]]], one.forward, loop.steps);
+      if (face.encloses && face.loops.empty()) continue;
       std::size_t all = 0;
       for (const std::size_t edge : face.edges) {
         left_out[chains[edge]] = false;
         all += chains_[open[chains[edge]]].steps.size();
       }
-      const std::size_t taken = loop.steps.size();
+      std::size_t taken = 0;
+      for (const std::vector<Passage>& around : face.loops) {
+        Chain loop{{}, true};
+        for (const Passage& one : around) append(chains_[open[chains[one.edge]]], one.forward, loop.steps);
+        taken += loop.steps.size();
+        whole_.push_back(std::move(loop));
+      }
       notes_.push_back(taken == 0
                            ? fmt::format("left out: {} curves that hang together and enclose nothing", all)
-                           : fmt::format("of {} curves that hang together {} are around the outside: they are one "
-                                         "loop (`outer`), the others are left out",
-                                         all, taken));
-      if (taken > 0) whole_.push_back(std::move(loop));
+                           : fmt::format("of {} curves that hang together {} are around the outside (`outer`), in {}; "
+                                         "the others are left out",
+                                         all, taken, counted(face.loops.size(), "loop", "loops")));
     }
   }
 
-  /// How a curve leaves the start of this step.
-  Departure departure(std::size_t node, const Step& step) const {
-    const Curve& curve = drawing_.curves[step.curve].curve;
-    const Interval domain = curve.domain();
-    const Jet jet = curve.jet(step.forward ? domain.lo : domain.hi);
-    Vec2 along = step.forward ? jet.first : Vec2(-jet.first);
-    const bool at_rest = !(along.norm() > 0);
-    if (at_rest) along = measured(step.curve).middle - front(step);
-    const double bend = at_rest ? 0 : curvature(jet);
-    return {node, std::atan2(along.y(), along.x()), step.forward ? bend : -bend};
-  }
-
-  std::vector<Vec2> points_on(const std::vector<Step>& steps) const {
-    Outline passed;
-    for (const Step& step : steps) {
+  std::vector<Curve> curves_of(const Chain& chain) const {
+    std::vector<Curve> curves;
+    for (const Step& step : chain.steps) {
       const Curve& curve = drawing_.curves[step.curve].curve;
-      passed.curves.push_back(step.forward ? curve : reversed(curve));
+      curves.push_back(step.forward ? curve : reversed(curve));
     }
-    std::vector<Vec2> points = polygon_of(passed).points;
-    points.push_back(back(steps.back()));
-    return points;
+    return curves;
   }
 
   /// Throws InputError where nothing else is closed; else says why the largest loop may not be the one that is meant.
@@ -274,7 +289,7 @@ class Assembler {
     const std::string cure = fmt::format(
         "{}remove the curves that do not belong to the outline, or take one layer only with `layer`; ends "
         "within {:.3g} count as meeting (`gap`)",
-        outer_ ? "their outside is not one loop; " : "take what is around the outside of them with `outer`, ", gap_);
+        outer_ ? "their outside is no loop; " : "take what is around the outside of them with `outer`, ", gap_);
     if (found.closed.empty()) throw InputError(fmt::format("{}: {}: {}", drawing_.name, branch_, cure));
     if (box_around(polygon_of(found.closed.front().outline).points).contains(branching_)) return;
     found.doubt = fmt::format(
@@ -387,8 +402,10 @@ class Assembler {
   std::vector<Chain> chains_;  // of one entity each
   std::vector<Chain> whole_;
   std::vector<std::string> notes_;
-  std::string branch_;  // where more than two ends meet; empty: nowhere
-  Box branching_;       // around the curves that hang together there
+  std::size_t twice_ = 0;    // curves left out because others are the same, ...
+  std::size_t example_ = 0;  // ... one of them
+  std::string branch_;       // where more than two ends meet; empty: nowhere
+  Box branching_;            // around the curves that hang together there
 };
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <functional>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace rollfix {
 
@@ -25,15 +26,35 @@ using BoxedPolygon = std::pair<geometry::model::box<BoxCorner>, std::size_t>;
 /// around.
 constexpr std::size_t kNeighbours = 16;
 
+/// In the middle of the widest piece of the horizontal line halfway up.
+Vec2 point_inside(const Polygon& polygon) {
+  const double y = 0.5 * (polygon.box.min().y() + polygon.box.max().y());
+  std::vector<double> crossings;
+  for (std::size_t k = 0; k < polygon.points.size(); ++k) {
+    const Vec2& a = polygon.points[k];
+    const Vec2& b = polygon.points[(k + 1) % polygon.points.size()];
+    if ((a.y() > y) != (b.y() > y)) crossings.push_back(a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+  }
+  std::sort(crossings.begin(), crossings.end());
+  Vec2 widest = polygon.points.front();
+  double width = 0;
+  for (std::size_t k = 0; k + 1 < crossings.size(); k += 2) {
+    if (crossings[k + 1] - crossings[k] <= width) continue;
+    width = crossings[k + 1] - crossings[k];
+    widest = {crossings[k] + 0.5 * width, y};
+  }
+  return widest;
+}
+
 BoxCorner box_corner(const Vec2& point) { return {point.x(), point.y()}; }
 
 class Nesting {
  public:
   explicit Nesting(const std::vector<Polygon>& polygons) : polygons_(polygons), tree_(boxes_of(polygons)) {}
 
-  /// The smallest of those before k that is around its first point.
+  /// The smallest of those before k that is around it: around a point inside of it, as those on it may be on both.
   std::optional<std::size_t> around(std::size_t k) const {
-    const Vec2& point = polygons_[k].points.front();
+    const Vec2 point = point_inside(polygons_[k]);
     const std::size_t last = k > kNeighbours ? k - kNeighbours : 0;
     for (std::size_t j = k; j-- > last;) {
       if (polygons_[j].contains(point)) return j;

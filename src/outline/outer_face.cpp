@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <utility>
 
 #include "outline/joining.hpp"
 #include "outline/turn.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace rollfix {
 
@@ -16,6 +19,16 @@ namespace {
 /// Tangents closer together than this are one, and the curvature says which edge is on which side: drawings hold some
 /// seven digits.
 constexpr double kSameHeading = 1e-6;
+
+Departure departure(const Curve& curve, bool forward, std::size_t node) {
+  const Interval domain = curve.domain();
+  const Jet jet = curve.jet(forward ? domain.lo : domain.hi);
+  Vec2 along = forward ? jet.first : Vec2(-jet.first);
+  const bool at_rest = !(along.norm() > 0);
+  if (at_rest) along = curve.position(domain.middle()) - jet.position;
+  const double bend = at_rest ? 0 : curvature(jet);
+  return {node, std::atan2(along.y(), along.x()), forward ? bend : -bend};
+}
 
 class OuterFace {
  public:
@@ -55,14 +68,20 @@ class OuterFace {
 
   /// An edge alone at one of its ends is loose, and what it leaves alone is loose as well.
   void leave_out_loose_ends() {
-    std::vector<std::size_t> waiting(at_.size());
-    for (std::size_t node = 0; node < at_.size(); ++node) waiting[node] = node;
+    std::vector<std::size_t> count(at_.size());
+    std::vector<std::size_t> waiting;
+    for (std::size_t node = 0; node < at_.size(); ++node) {
+      count[node] = at_[node].size();
+      if (count[node] == 1) waiting.push_back(node);
+    }
     while (!waiting.empty()) {
-      const std::vector<Passage> here = kept(waiting.back());
+      const std::size_t node = waiting.back();
       waiting.pop_back();
-      if (here.size() != 1) continue;
-      loose_[here.front().edge] = true;
-      waiting.push_back(end_of(here.front()));
+      if (count[node] != 1) continue;  // the other end of one that was taken
+      const Passage last = kept(node).front();
+      loose_[last.edge] = true;
+      --count[node];
+      if (--count[end_of(last)] == 1) waiting.push_back(end_of(last));
     }
   }
 
@@ -86,17 +105,35 @@ class OuterFace {
     const std::optional<Passage> first = leftmost(face.edges);
     face.encloses = first.has_value();
     if (!first) return face;
-    std::vector<bool> passed(edges_.size(), false);
     std::vector<Passage> around;
     Passage now = *first;
     do {
-      if (passed[now.edge]) return face;  // the outside passes one edge twice: a bridge between two loops
-      passed[now.edge] = true;
       around.push_back(now);
       now = rightmost(end_of(now), {now.edge, !now.forward});
     } while (now.edge != first->edge || now.forward != first->forward);
-    if (surrounds(around, passed, face.edges)) face.around = std::move(around);
+    std::vector<std::vector<Passage>> loops = loops_of(around);
+    if (surround(loops, around, face.edges)) face.loops = std::move(loops);
     return face;
+  }
+
+  /// The way around in pieces that pass no node twice; there and back along a bridge is none.
+  std::vector<std::vector<Passage>> loops_of(const std::vector<Passage>& around) const {
+    std::vector<std::vector<Passage>> loops;
+    std::vector<Passage> open;
+    std::map<std::size_t, std::size_t> reached;  // of each node on the way, how much of `open` led there
+    reached[leaving(around.front()).node] = 0;
+    for (const Passage& one : around) {
+      open.push_back(one);
+      const auto [known, is_new] = reached.try_emplace(end_of(one), open.size());
+      if (is_new) continue;
+      const auto begin = open.begin() + static_cast<std::ptrdiff_t>(known->second);
+      std::vector<Passage> loop(begin, open.end());
+      for (auto passed = loop.begin(); passed + 1 != loop.end(); ++passed) reached.erase(end_of(*passed));
+      open.erase(begin, open.end());
+      const bool is_bridge = loop.size() == 2 && loop[0].edge == loop[1].edge;
+      if (!is_bridge) loops.push_back(std::move(loop));
+    }
+    return loops;
   }
 
   /// An edge at the very left, passed through downwards: as the outside is counter-clockwise.
@@ -109,12 +146,22 @@ class OuterFace {
       for (std::size_t i = 0; i < points.size(); ++i) {
         if (best && !(points[i].x() < least)) continue;
         least = points[i].x();
-        const bool at_node = i == 0 || i + 1 == points.size();
-        best = at_node ? lowest_at(i == 0 ? edges_[k].front.node : edges_[k].back.node)
-                       : Passage{k, points[i + 1].y() < points[i - 1].y()};
+        if (i == 0) {
+          best = lowest_at(edges_[k].front.node);
+        } else if (i + 1 == points.size()) {
+          best = lowest_at(edges_[k].back.node);
+        } else {
+          best = Passage{k, turns_left(points[i - 1], points[i], points[i + 1])};
+        }
       }
     }
     return best;
+  }
+
+  /// On the way through a leftmost point: then it is counter-clockwise.
+  static bool turns_left(const Vec2& before, const Vec2& point, const Vec2& after) {
+    const double turn = cross(point - before, after - point);
+    return turn != 0 ? turn > 0 : after.y() < before.y();
   }
 
   /// All edges of a leftmost node lead to the right: the rightmost turn of who comes from the left is the lowest.
@@ -150,22 +197,34 @@ class OuterFace {
     });
   }
 
-  bool surrounds(const std::vector<Passage>& around, const std::vector<bool>& passed,
-                 const std::vector<std::size_t>& piece) const {
+  Polygon polygon_of(const std::vector<Passage>& loop) const {
     Polygon polygon;
-    for (const Passage& one : around) {
+    for (const Passage& one : loop) {
       std::vector<Vec2> points = edges_[one.edge].points;
       if (!one.forward) std::reverse(points.begin(), points.end());
       polygon.points.insert(polygon.points.end(), points.begin(), points.end() - 1);
     }
     polygon.box = box_around(polygon.points);
+    return polygon;
+  }
+
+  /// Whether all edges that are not around the outside lie within one of the loops.
+  bool surround(const std::vector<std::vector<Passage>>& loops, const std::vector<Passage>& around,
+                const std::vector<std::size_t>& piece) const {
+    std::vector<Polygon> polygons;
+    for (const std::vector<Passage>& loop : loops) polygons.push_back(polygon_of(loop));
+    std::vector<bool> is_around(edges_.size(), false);
+    for (const Passage& one : around) is_around[one.edge] = true;
+    const auto is_inside = [&](const Vec2& point) {
+      return std::any_of(polygons.begin(), polygons.end(),
+                         [&](const Polygon& polygon) { return polygon.contains(point); });
+    };
     return std::all_of(piece.begin(), piece.end(), [&](std::size_t k) {
       const std::vector<Vec2>& points = edges_[k].points;
-      if (passed[k] || loose_[k]) return true;
+      if (is_around[k] || loose_[k]) return true;
       // Its ends may be nodes of the face itself: points of the polygon.
-      return points.size() == 2 ? polygon.contains(0.5 * (points.front() + points.back()))
-                                : std::all_of(points.begin() + 1, points.end() - 1,
-                                              [&](const Vec2& point) { return polygon.contains(point); });
+      return points.size() == 2 ? is_inside(0.5 * (points.front() + points.back()))
+                                : std::all_of(points.begin() + 1, points.end() - 1, is_inside);
     });
   }
 
@@ -175,6 +234,14 @@ class OuterFace {
 };
 
 }  // namespace
+
+Edge edge_along(const std::vector<Curve>& curves, std::size_t front, std::size_t back) {
+  Outline outline;
+  outline.curves = curves;
+  std::vector<Vec2> points = polygon_of(outline).points;
+  points.push_back(curves.back().back());
+  return {departure(curves.front(), true, front), departure(curves.back(), false, back), std::move(points)};
+}
 
 std::vector<Face> outer_faces(const std::vector<Edge>& edges, std::size_t nodes) {
   return OuterFace(edges, nodes).run();

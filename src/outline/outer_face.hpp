@@ -21,6 +21,9 @@ struct Edge {
   std::vector<Vec2> points;  // on it from front to back, its ends among them
 };
 
+/// The curves follow one another from the node `front` to the node `back`.
+Edge edge_along(const std::vector<Curve>& curves, std::size_t front, std::size_t back);
+
 /// An edge as it is passed through.
 struct Passage {
   std::size_t edge = 0;
@@ -29,14 +32,15 @@ struct Passage {
 
 /// A connected piece of a plane graph.
 struct Face {
-  std::vector<std::size_t> edges;  // all that hang together, in rising order
-  std::vector<Passage> around;     // counter-clockwise around all of them but for loose ends; empty: no loop does
-  bool encloses = false;           // whether anything is left without loose ends
+  std::vector<std::size_t> edges;           // all that hang together, in rising order
+  std::vector<std::vector<Passage>> loops;  // around the outside, each counter-clockwise; none: it is no loop
+  bool encloses = false;                    // whether anything is left without loose ends
 };
 
 /// The outer face of each connected piece. Edges that lead nowhere (leaders, construction lines) are no part of it. One
-/// edge at the outside is followed by the one that turns rightmost, until the first comes again. What comes out is held
-/// against the points of all other edges, so that edges which cross without a node give no wrong face.
+/// edge at the outside is followed by the one that turns rightmost, until the first comes again; where that passes a
+/// node twice it is more than one loop, and where it passes an edge twice that is a bridge between two. What comes out
+/// is held against the points of all other edges, so that edges which cross without a node give no wrong face.
 std::vector<Face> outer_faces(const std::vector<Edge>& edges, std::size_t nodes);
 
 }  // namespace rollfix
