@@ -132,7 +132,17 @@ std::vector<Diagnosis> diagnoses_with(const Problem& problem, const Observation&
   noisy.noise = noise;
   noisy.noise->contact = std::max(noise.contact, kLeastContact * problem.part.perimeter());
   std::optional<Belief> belief = believe(noisy, observed);
-  if (belief->fit().is_bad()) return diagnose(noisy, observed, *belief);
+  if (belief->fit().is_bad()) {
+    std::vector<Diagnosis> found = diagnose(noisy, observed, *belief);
+    for (Diagnosis& one : found) {
+      one.noise = *noisy.noise;  // the cure says it all
+      if (one.cause != Cause::noise) continue;
+      one.cause = Cause::unsaid_noise;
+      one.noise.contact *= one.noise_scale;
+      one.noise.angle *= one.noise_scale;
+    }
+    return found;
+  }
   Diagnosis diagnosis;
   diagnosis.cause = Cause::unsaid_noise;
   diagnosis.noise = noise;

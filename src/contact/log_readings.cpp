@@ -90,13 +90,14 @@ class Courses {
   std::vector<FingerCourse> courses_;
 };
 
+constexpr double kTurnInDegrees = 360;
+
 /// Whether a column of angles in radians looks like one of degrees: no further from 0 than one turn in degrees, and it
 /// wraps by such a turn, at this row.
 bool looks_like_degrees(const std::vector<double>& angles, std::size_t row) {
-  constexpr double kOneTurn = 360;
   constexpr double kNearlyOne = 300;  // the last step before the wrap may be a long one
   const auto [least, most] = std::minmax_element(angles.begin(), angles.end());
-  return *least >= -kOneTurn && *most <= kOneTurn && std::abs(angles[row] - angles[row - 1]) >= kNearlyOne;
+  return *least >= -kTurnInDegrees && *most <= kTurnInDegrees && std::abs(angles[row] - angles[row - 1]) >= kNearlyOne;
 }
 
 /// What to do about a jump: a log in degrees that is read as radians has one wherever its degrees wrap.
@@ -106,7 +107,13 @@ std::string cure_of_jump(const Log& log, const std::vector<Finger>& fingers, std
   const std::string suffix = log.fingers.size() == 1 ? "" : kFingerSuffixes[finger];
   const bool has_angle_u = shape != nullptr && shape->is_disk();
   std::string split = "split the log there, or let stray rows pass with `robust` (and `noise`)";
-  if (log.kind != LogKind::contact) return split;
+  if (log.kind != LogKind::contact) {
+    const double step = std::abs(rows.turn[row] - rows.turn[row - 1]);
+    if (step < std::numbers::pi || step > kTurnInDegrees) return split;
+    const char* const column = log.kind == LogKind::increments ? "dturn" : "turn";
+    return fmt::format("{0}; if the turns are in degrees, that is written `columns` {1}{2}={1}{2}:deg", split, column,
+                       suffix);
+  }
   if (!looks_like_degrees(rows.psi, row) && !(has_angle_u && looks_like_degrees(rows.u, row))) return split;
   const std::string u = has_angle_u ? fmt::format("u{0}=u{0}:deg,", suffix) : "";
   return fmt::format("{0}; if the angles are in degrees, that is written `columns` {1}psi{2}=psi{2}:deg", split, u,

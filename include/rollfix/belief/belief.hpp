@@ -174,7 +174,7 @@ struct Diagnosis {
   double turn_scale = 1;       // gyroscope: turns are this many times what was measured, ...
   double turn_scale_sd = 0;    // ... give or take
   double noise_scale = 1;      // noise: it is this many times what was said
-  Noise noise{};               // unsaid_noise: what they seem to have
+  Noise noise{};               // where none was said: what they seem to have
   std::size_t stray = 0;       // rows
   double slip = 0;             // slip: so much per length would allow it
   double gyro = 0;             // gyroscope: so much per turn would allow it

@@ -38,6 +38,9 @@ std::string what_it_takes(Column column);
 /// of dist_mm. Empty where there is none.
 std::string unit_in_name(std::string_view name, Column column, const std::string& part_unit);
 
+/// Whether any name may be that of a column of this finger: not that of the other one, and like one that is needed.
+bool holds_columns_of(const std::vector<HeaderName>& header, std::size_t finger);
+
 /// What to write for the columns that a log of this kind needs and the header does not have, by what its names sound
 /// like: "u=contact_deg:deg,psi=yaw_deg:deg". Only for people to read and judge: nothing is read by it.
 std::string suggested_columns(const std::vector<HeaderName>& header, const Columns& found);

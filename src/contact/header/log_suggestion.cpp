@@ -200,13 +200,24 @@ std::string other_finger_note(const std::vector<HeaderName>& header, const Colum
                      fmt::join(others, ", "), cure);
 }
 
+bool holds_columns_of(const std::vector<HeaderName>& header, std::size_t finger) {
+  return std::any_of(header.begin(), header.end(), [&](const HeaderName& one) {
+    if (finger_in(words_of(one.name)).value_or(finger) != finger) return false;
+    return std::any_of(kColumnPairs.begin(), kColumnPairs.end(), [&](const ColumnPair& pair) {
+      return likeness(one, pair.place) > 0 || likeness(one, pair.angle) > 0;
+    });
+  });
+}
+
 std::string suggested_columns(const std::vector<HeaderName>& header, const Columns& found) {
   std::vector<std::string> fields;
   const bool is_of_two = found.suffix.empty() && names_two_fingers(header);
   for (std::size_t finger = 0; finger < (is_of_two ? 2U : 1U); ++finger) {
     Columns own = found;
     if (is_of_two) own.suffix = kFingerSuffixes[finger];
-    const std::vector<std::string> more = fields_for(is_of_two ? of_finger(header, finger) : header, own, finger == 0);
+    const std::size_t whose = own.suffix == kFingerSuffixes[1] ? 1 : 0;
+    const std::vector<std::string> more =
+        fields_for(own.suffix.empty() ? header : of_finger(header, whose), own, finger == 0);
     fields.insert(fields.end(), more.begin(), more.end());
   }
   return quoted_for_shell(fmt::format("{}", fmt::join(fields, ",")));

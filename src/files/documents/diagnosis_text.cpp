@@ -144,8 +144,9 @@ std::string about(const Diagnosis& diagnosis) {
   }
 }
 
-std::string cure_of(const Diagnosis& diagnosis, const std::vector<Finger>& fingers, const Noise& noise) {
+std::string cure_of(const Diagnosis& diagnosis, const std::vector<Finger>& fingers, const Noise& said) {
   if (diagnosis.cause == Cause::unsaid_noise) return noise_option(diagnosis.noise, 1);
+  const Noise& noise = said.contact > 0 || said.angle > 0 ? said : diagnosis.noise;
   if (diagnosis.cause == Cause::slip || diagnosis.cause == Cause::gyroscope) {
     Noise more = noise;
     if (diagnosis.cause == Cause::slip) more.slip = diagnosis.slip;

@@ -32,7 +32,7 @@ Json taught_json(const Taught& taught);
 std::string about(const Diagnosis& diagnosis);
 const char* name_of(Cause cause);
 /// What to give instead, with these fingers and this noise as given.
-std::string cure_of(const Diagnosis& diagnosis, const std::vector<Finger>& fingers, const Noise& noise);
+std::string cure_of(const Diagnosis& diagnosis, const std::vector<Finger>& fingers, const Noise& said);
 
 /// What was done about a taught course's ends, in one word.
 const char* name_of(Closing closing);
