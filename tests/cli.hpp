@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "cures.hpp"
 #include "rollfix/program.hpp"
 
 namespace cli {
@@ -33,12 +34,21 @@ struct Ran {
   Json json() const { return Json::parse(out); }
 };
 
-/// The program, run inside this process.
-inline Ran run_words(const std::vector<std::string>& arguments) {
+inline Ran run_once(const std::vector<std::string>& arguments) {
   std::ostringstream out;
   std::ostringstream err;
   const int code = rollfix::app::run(arguments, out, err);
   return {code, out.str(), err.str()};
+}
+
+/// The program, run inside this process; so is what it offers as a cure, if anything.
+inline Ran run_words(const std::vector<std::string>& arguments) {
+  const Ran ran = run_once(arguments);
+  expect_cures_can_be_typed(arguments, ran.out, ran.err, [](const std::vector<std::string>& cured) {
+    const Ran again = run_once(cured);
+    return std::make_pair(again.code, again.err);
+  });
+  return ran;
 }
 
 /// The same with the arguments in one text, separated by blanks: run("locate gallery:cam --reading 1,0.5").

@@ -2,10 +2,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <regex>
 #include <string>
+#include <vector>
 
 #include "cli.hpp"
+#include "rollfix/outline/gallery.hpp"
+#include "rollfix/part/part.hpp"
 
 namespace cli_cure_test {
 namespace {
@@ -58,6 +62,60 @@ TEST(Cures, where_no_noise_was_said_the_cure_says_all_of_it) {
   const std::string cure = option_in(run("locate gallery:cam --log roll.csv").out, "noise");
   EXPECT_THAT(cure, HasSubstr("contact="));
   EXPECT_THAT(run("locate gallery:cam --log roll.csv " + cure).out, StartsWith("ambiguous"));
+}
+
+TEST(Cures, of_a_wrong_radius_say_the_noise_that_its_digits_need) {
+  const cli::Folder folder;
+  ASSERT_EQ(run("simulate gallery:cam --finger disk,r=0.2012345 --start 2 --length 3 -o roll.csv").code, 0);
+  const std::string text = run("locate gallery:cam --log roll.csv --finger disk,r=0.21").out;
+  const std::string cure = option_in(text, "finger") + " " + option_in(text, "noise");
+  EXPECT_THAT(run("locate gallery:cam --log roll.csv " + cure).out, StartsWith("unique"));
+}
+
+TEST(Cures, radians_that_were_said_to_be_degrees_are_told) {
+  const cli::Folder folder;
+  ASSERT_EQ(run("simulate gallery:cam --finger disk,r=0.2 --start 2 --length 3 -o roll.csv").code, 0);
+  const std::string locate = "locate gallery:cam --finger disk,r=0.2 --log roll.csv";
+  const std::string text = run(locate + " --columns u=u:deg,psi=psi:deg").out;
+  EXPECT_THAT(text, HasSubstr("likeliest: u and psi are in radians"));
+  EXPECT_THAT(run(locate + " " + option_in(text, "columns")).out, StartsWith("unique"));
+  EXPECT_THAT(run(locate + " --columns psi=psi:deg").out, HasSubstr("likeliest: psi is in radians"));
+}
+
+TEST(Cures, turns_in_radians_that_were_said_to_be_degrees_are_told) {
+  const cli::Folder folder;
+  ASSERT_EQ(run("simulate gallery:cam --finger disk,r=0.2 --start 2 --length 3 -o contacts.csv").code, 0);
+  std::ofstream log("roll.csv");
+  log.precision(12);
+  log << "length,turn\n";
+  const rollfix::Part cam(rollfix::gallery("cam"));
+  for (int k = 0; k <= 40; ++k)
+    log << 0.08 * k << ',' << cam.turning().angle(2 + 0.08 * k) - cam.turning().angle(2) << '\n';
+  log.close();
+  const std::string text = run("locate gallery:cam --log roll.csv --columns turn=turn:deg").out;
+  EXPECT_THAT(text, HasSubstr("likeliest: turns are in radians"));
+  EXPECT_THAT(run("locate gallery:cam --log roll.csv " + option_in(text, "columns")).out,
+              HasSubstr("  2.000000  5.200000"));
+}
+
+// Each run of the program in these tests types what it offers: see cures.hpp. That sees what is offered:
+
+TEST(Cures, are_found_in_messages) {
+  using Cures = std::vector<cli::Cure>;
+  EXPECT_EQ(cli::cures::of_errors("rollfix: a.csv:3: time must grow; --skip-bad leaves such rows out"),
+            (Cures{{"--skip-bad"}}));
+  EXPECT_EQ(cli::cures::of_errors("x: say it with --wrapped no, or --wrapped yes\n"),
+            (Cures{{"--wrapped", "no"}, {"--wrapped", "yes"}}));
+  EXPECT_EQ(cli::cures::of_errors("say which column is which, as in --columns 'u=a b,psi=c:deg' (the header has a b)"),
+            (Cures{{"--columns", "u=a b,psi=c:deg"}}));
+  EXPECT_EQ(cli::cures::of_errors("x: --loop N takes another; --noise is from rollfix.toml:3"), Cures{});
+  EXPECT_EQ(cli::cures::of_diagnoses("likeliest: a wrong radius\n  --finger disk,r=0.2 --noise contact=1; then unique"),
+            (Cures{{"--finger", "disk,r=0.2", "--noise", "contact=1"}}));
+}
+
+TEST(Cures, take_the_place_of_what_was_typed) {
+  EXPECT_EQ(cli::cures::with({"locate", "cam", "--noise", "angle=1", "-o", "a.svg", "--json"}, {"--noise", "angle=2"}),
+            (std::vector<std::string>{"locate", "cam", "--json", "--noise", "angle=2"}));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -124,11 +125,22 @@ TEST_F(CliSettings, what_is_wrong_in_it_is_told_with_its_line_and_what_was_meant
       {"finger = disk,r=0.2\n", "rollfix.toml:1: expected a text in quotes, finger = \"disk,r=0.2\", found disk,r=0.2"},
       {"unit = mm\n", "rollfix.toml:1: expected a text in quotes, unit = \"mm\", found mm"},
       {"noise\n", "rollfix.toml:1: expected KEY = VALUE, found noise"},
-      {"part = \"a#b.csv\"\n", "rollfix.toml:1: part: expected a text between quotes, without a '#'"},
+      {"part = \"a.csv\nunit = \"mm\"\n", "rollfix.toml:1: expected a text between two quotes"},
+      {"unit = \"mm\"\nunit = \"cm\"\n", "rollfix.toml:2: error while parsing key-value pair: cannot redefine"},
+      {"time = 2026-01-01\n", "rollfix.toml:1: time: expected a text, a number, true or false, or a list of them"},
       {"open = 1\n", "rollfix.toml:1: open: expected true or false, found 1"},
       {"force = true\n", "rollfix.toml:1: there is no setting 'force'"},
-      {"a.b = 1\n", "rollfix.toml:1: "}};
+      {"a.b = 1\n", "rollfix.toml:1: there is no command 'a' that takes settings"},
+      {"watch.a.b = 1\n", "rollfix.toml:1: expected a key of a command, as in [watch], found watch.a"}};
   for (const auto& [text, error] : cases) EXPECT_THAT(refusal(text), HasSubstr(error)) << text;
+}
+
+TEST_F(CliSettings, pairs_may_stand_in_a_table_and_a_name_may_hold_a_hash) {
+  std::ofstream("a#b.csv") << cli::read("roll.csv");
+  folder_.write("rollfix.toml", "log = \"a#b.csv\"\nnoise = {contact = 0.002, angle = \"0.2deg\"}\n");
+  const cli::Ran ran = run("locate gallery:cam --finger disk,r=0.2");
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.err, HasSubstr("--noise contact=0.002,angle=0.2deg"));
 }
 
 TEST_F(CliSettings, a_file_that_is_asked_for_has_to_be_there) {

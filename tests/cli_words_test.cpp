@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <regex>
 #include <string>
 
 #include "cli.hpp"
@@ -43,6 +44,36 @@ TEST(CliWords, exact_rows_teach_an_exact_part_and_not_billionths_of_a_degree) {
   EXPECT_THAT(ran.err, Not(HasSubstr("e-09 deg")));
   const std::string located = run("locate taught.json --reading 0.9,0.7").out;
   EXPECT_THAT(located, Not(HasSubstr("e-09 deg")));
+}
+
+TEST(CliWords, a_figure_of_an_exact_log_shows_no_rounding) {
+  const cli::Folder folder;
+  ASSERT_EQ(run("simulate gallery:cam --finger disk,r=0.2 --start 2 --samples 200 --length 3 -o roll.csv").code, 0);
+  ASSERT_EQ(run("locate gallery:cam --log roll.csv --finger disk,r=0.2 -o place.svg").code, 0);
+  const std::string figure = cli::read("place.svg");
+  EXPECT_THAT(figure, HasSubstr("in the world"));
+  EXPECT_FALSE(std::regex_search(figure, std::regex("\\de(-|\u2212)[1-9]|(-|\u2212)0(\\.0*)?[ ,<]")));
+}
+
+TEST(CliWords, a_finger_that_is_too_large_for_the_figure_is_told) {
+  const cli::Folder folder;
+  const std::string locate = "locate gallery:cam --reading 1.5,-0.8,110.97000deg --facing -142.40990deg -o pair.svg ";
+  ASSERT_EQ(run(locate + "--finger disk,r=0.05 --finger disk,r=40").code, 0);
+  EXPECT_THAT(cli::read("pair.svg"), HasSubstr("a finger is too large to be drawn whole"));
+  ASSERT_EQ(run(locate + "--finger disk,r=0.05 --force").code, 0);
+  EXPECT_THAT(cli::read("pair.svg"), Not(HasSubstr("too large")));
+}
+
+TEST(CliWords, a_wrong_ending_of_a_parts_file_is_told_with_all_that_are_right) {
+  EXPECT_THAT(run("inspect gallery:cam -o cam.dxf").err,
+              HasSubstr("must end in .svg, .png or .pdf, the part's in .json, a table's of its outline in .csv"));
+}
+
+TEST(CliWords, no_help_shows_the_types_of_a_library) {
+  for (const char* const command : {"catalog list", "catalog remove", "catalog build", "identify", "watch", "teach"}) {
+    const std::string page = run(std::string(command) + " --help").out;
+    EXPECT_FALSE(std::regex_search(page, std::regex("\\b(TEXT|REQUIRED|FLOAT|UINT|INT)\\b"))) << page;
+  }
 }
 
 TEST(CliWords, an_option_is_named_as_it_was_typed) {

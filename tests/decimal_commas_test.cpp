@@ -67,6 +67,16 @@ TEST(DecimalCommas, between_blanks_and_tabs_are_read_where_that_is_said) {
               ElementsAre(Vec2(0.5, 0), Vec2(2, 0.25), Vec2(1, 1.5)));
 }
 
+TEST(DecimalCommas, a_point_that_is_said_leaves_no_comma_between_semicolons_either) {
+  LogOptions options;
+  options.decimal_comma = false;
+  EXPECT_THAT(refusal_of([&] { parse_log("u;psi\n0,5;1\n1;2\n", "run.csv", options); }),
+              HasSubstr("u is '0,5', expected a number"));
+  OutlineOptions points;
+  points.decimal_comma = false;
+  EXPECT_THAT(refusal_of([&] { parse_points("0,5;0\n2;0,25\n1;1,5\n", "part.csv", points); }), HasSubstr("part.csv:1"));
+}
+
 TEST(DecimalCommas, are_said_by_an_option_of_the_program) {
   const cli::Folder folder;
   folder.write("part.csv", "0,5 0\n2 0,25\n1 1,5\n");
@@ -87,7 +97,8 @@ TEST(NearlyRight, a_compressed_file_is_told_how_to_unpack) {
 }
 
 TEST(NearlyRight, lines_that_end_in_carriage_returns_alone_are_told_how_to_change) {
-  EXPECT_THAT(refusal_of([] { parse_log("u,psi\r0,0\r1,1\r", "run.csv"); }), HasSubstr("tr '\\r' '\\n' < OLD > NEW"));
+  EXPECT_THAT(refusal_of([] { parse_log("u,psi\r0,0\r1,1\r", "run.csv"); }),
+              HasSubstr("tr '\\r' '\\n' < run.csv > run_lf.csv"));
   EXPECT_THAT(refusal_of([] { parse_points("0 0\r1 0\r0 1\r", "part.csv"); }), HasSubstr("tr '\\r' '\\n'"));
   EXPECT_EQ(parse_points("0 0\r\n1 0\r\n0 1\r\n", "part.csv").size(), 3U);
 }

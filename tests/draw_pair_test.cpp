@@ -250,6 +250,7 @@ TEST(AnswerFigureOfTwo, of_nothing_that_fits_is_the_part_and_the_equations) {
   EXPECT_THAT(svg, HasSubstr("inconsistent"));
   EXPECT_EQ(count_of(svg, "class=\"equation\""), 2);
   EXPECT_TRUE(dots_of(svg).empty());
+  EXPECT_EQ(count_of(svg, "finger a"), 1);  // beside the axis: none is drawn
 }
 
 TEST(AnswerFigureOfTwo, shows_where_the_search_is_unresolved) {

@@ -196,12 +196,12 @@ TEST(DxfInsertRefusal, scales_that_multiply_beyond_the_range) {
 
 TEST(DxfInsert, two_blocks_of_one_name_are_a_note_where_none_is_drawn) {
   EXPECT_THAT(parsed(with_blocks(block("A", "") + block("a", ""), circle(0, 0, 1))).notes,
-              ElementsAre("block 'A' stands in the file twice, and is not drawn"));
+              ElementsAre("block 'A' is defined more than once, and not drawn"));
 }
 
 TEST(DxfInsertRefusal, two_blocks_of_one_name) {
   EXPECT_THAT(message_of(with_blocks(block("A", "") + block("a", ""), insert("A", 0, 0))),
-              HasSubstr("block 'A' stands in the file twice"));
+              HasSubstr("block 'A' is defined here again"));
 }
 
 }  // namespace

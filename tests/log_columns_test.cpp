@@ -127,6 +127,7 @@ TEST(LogColumns, a_missing_columns_message_has_the_option_to_paste) {
   EXPECT_THAT(refusal("time,odometer_mm,heading_deg\n0,0,0\n"),
               HasSubstr("`columns` length=odometer_mm:mm,turn=heading_deg:deg"));
   EXPECT_THAT(refusal("a b,c\n0,0\n"), HasSubstr("=NAME"));
+  EXPECT_THAT(refusal("time,u\n0,0\n"), AllOf(HasSubstr("; the header has time, u"), Not(HasSubstr("=NAME"))));
 }
 
 TEST(LogColumns, the_option_that_is_pasted_reads_the_log) {

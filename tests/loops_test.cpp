@@ -211,7 +211,7 @@ TEST(Loops, two_arcs_over_one_chord_are_not_the_same_curve) {
 TEST(Loops, curves_below_the_gap_are_left_out_and_counted) {
   const Loops found = rollfix::loops(drawing(together(square(1), std::vector<Curve>{Line({0, 0}, {1e-9, 0})})));
   EXPECT_EQ(found.closed.size(), 1U);
-  EXPECT_THAT(found.notes, ElementsAre(HasSubstr("left out: 1 curves no longer than")));
+  EXPECT_THAT(found.notes, ElementsAre(HasSubstr("left out: 1 curve no longer than")));
 }
 
 TEST(Loops, a_branch_is_refused_with_its_place) {
@@ -246,7 +246,7 @@ TEST(Loops, a_branch_around_the_sound_loops_is_a_doubt_which_one_is_meant) {
   ASSERT_EQ(found.closed.size(), 1U);
   EXPECT_NEAR(found.closed[0].length, 1, 1e-12);
   EXPECT_THAT(found.doubt, HasSubstr("drawing.dxf: 3 ends of curves meet near (0, 0), expected two at most"));
-  EXPECT_THAT(found.doubt, HasSubstr("or take one of the 1 sound loops with `loop` 1"));
+  EXPECT_THAT(found.doubt, HasSubstr("or take it with `loop` 1"));
 }
 
 TEST(Loops, a_drawing_without_curves_is_refused) {

@@ -43,6 +43,24 @@ TEST(SkippedRows, they_are_left_out_where_that_is_asked_and_told) {
   EXPECT_THAT(log.skipped[3], HasSubstr("run.csv:9: '6,-0.6' has no psi"));
 }
 
+TEST(SkippedRows, where_no_row_can_be_read_leaving_them_out_is_no_cure) {
+  EXPECT_THAT(refusal_of([] { parse_log("time,u,psi\n2026-01-01,0,0\n2026-01-02,-0.1,0.15\n", "run.csv"); }),
+              AllOf(HasSubstr("run.csv:2: time is '2026-01-01'"), Not(HasSubstr("skip_bad"))));
+}
+
+TEST(SkippedRows, where_all_are_left_out_the_log_is_refused_with_the_reason) {
+  EXPECT_THAT(
+      refusal_of([] { parse_log("u,psi\n0,5,1,25\n0,6,1,5\n", "run.csv", skipping()); }),
+      AllOf(HasSubstr("run.csv: holds 0 rows of a roll"), HasSubstr("2 rows were left out, the first: run.csv:2")));
+}
+
+TEST(SkippedRows, decimal_commas_between_commas_are_told_what_separates_cells_beside_them) {
+  LogOptions options;
+  options.decimal_comma = true;
+  EXPECT_THAT(refusal_of([&] { parse_log("u,psi\n0,5,1,25\n", "run.csv", options); }),
+              HasSubstr("beside decimal commas cells are separated by semicolons, tabs or blanks"));
+}
+
 TEST(SkippedRows, a_header_that_is_wrong_is_refused_all_the_same) {
   EXPECT_THAT(refusal_of([] { parse_log("a,b\n1,2\n", "run.csv", skipping()); }), HasSubstr("does not say"));
 }

@@ -330,7 +330,7 @@ TEST(SvgStructure, symbols_are_drawn_by_use_with_a_viewport) {
 
 TEST(SvgStructure, references_to_nothing_are_left_out_with_their_line) {
   const rollfix::Drawing drawing = drawn("\n<use href='#nothing'/><path d='M0 0h1'/><use href='#less'/>");
-  EXPECT_THAT(drawing.notes, ElementsAre("left out: 2 <use> of ids that no element has, the first on line 2"));
+  EXPECT_THAT(drawing.notes, ElementsAre("left out: 2 <use> of what is not there, the first on line 2"));
   EXPECT_EQ(drawing.curves.size(), 1U);
 }
 
@@ -342,7 +342,7 @@ TEST(SvgStructure, references_out_of_the_file_or_to_what_holds_them_are_refused)
   EXPECT_THAT(message_of(svg("<g id='a'><use href='#b'/></g><g id='b'><use href='#a'/></g>")),
               HasSubstr("holds this very reference"));
   EXPECT_THAT(message_of(svg("<use href='#root'/>", "id='root'")), HasSubstr("holds this very reference"));
-  EXPECT_THAT(drawn("<use/>").notes, ElementsAre("left out: 1 element without a size"));
+  EXPECT_THAT(drawn("<use/>").notes, ElementsAre("left out: 1 <use> of what is not there, the first on line 1"));
 }
 
 TEST(SvgStructure, exploding_references_are_refused) {

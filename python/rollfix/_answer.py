@@ -12,6 +12,7 @@ from . import _core
 from ._checks import least, path, places, text, travel as travel_given, whole
 from ._core import Answer as CoreAnswer, InputError, Placement as Placement
 from ._fingers import Finger, finger_from
+from ._made import Made
 from ._messages import in_a_page, warn
 from ._rows import names_of, row_of
 from ._words import diagnosis_in_python, in_python
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
     from ._part import Part
 
 
-class Answer(SequenceABC):  # type: ignore[type-arg]
+class Answer(Made, SequenceABC):  # type: ignore[type-arg]
     """Every place where the roll can have started: a sequence of `Placement`, and what is known of all together.
 
     It can't be changed, can be pickled, and equals another answer of the same bits. The names are those of the JSON

@@ -18,6 +18,7 @@ from ._fingers import FingerLike
 from ._identified import Identified, answers_of
 from ._log_answers import Results, checked, errors_given, several
 from ._logs import Log
+from ._made import Made
 from ._messages import did_you_mean, shown, warn
 from ._noise import NoiseLike
 from ._part import Part
@@ -28,7 +29,7 @@ from ._words import in_python
 
 
 @dataclass(frozen=True)
-class CatalogEntry:
+class CatalogEntry(Made):
     """A part of a catalog, as its lists show it."""
 
     name: str  # no two have the same
@@ -40,7 +41,7 @@ class CatalogEntry:
     count: float  # so many of it are among what may be touched
 
 
-class Catalog:
+class Catalog(Made):
     """Many parts in one file, as `Catalog.build` or `rollfix catalog build` makes it. Iterating gives their names.
 
     Parts are loaded when they are asked for. Any number of threads can ask. It is pickled by its path.

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any, Dict, Optional, Tuple
 
+from ._made import no_value
 from ._messages import in_a_page
 
 if TYPE_CHECKING:
@@ -27,7 +28,7 @@ class Document:
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_"):
-            raise AttributeError(name)
+            raise no_value(self, name)
         fields = self.to_dict()
         if name not in fields:
             raise AttributeError(f"{type(self).__name__} has no field {name!r}; it has {', '.join(fields)}")

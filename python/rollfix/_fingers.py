@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, Any, List, Optional, Sequence, Union
 from . import _core
 from ._checks import number
 from ._core import InputError
+from ._made import Made
 from ._messages import shown
 
 if TYPE_CHECKING:
     from ._part import Part
 
 
-class Finger:
+class Finger(Made):
     """A convex finger that rolls on a part without slipping: `Disk`, `Jaw` or `OutlineFinger`."""
 
     __slots__ = ()

@@ -10,11 +10,12 @@ from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple, Union, 
 from . import _core
 from ._answer import Answer
 from ._logs import Log
+from ._made import Made
 from ._words import in_python
 
 
 @dataclass(frozen=True, repr=False)
-class PartFound:
+class PartFound(Made):
     """A part that the roll may have been on."""
 
     name: str  # in the catalog
@@ -30,7 +31,7 @@ class PartFound:
         return f"<PartFound {self.name!r}: {probability}{self.verdict}>"
 
 
-class Identified(SequenceABC):  # type: ignore[type-arg]
+class Identified(Made, SequenceABC):  # type: ignore[type-arg]
     """Every part of a catalog that a roll fits: a sequence of `PartFound`, the likeliest first.
 
     Without noise they are in the catalog's order. It can't be changed, can be pickled, and equals another that says the

@@ -14,6 +14,7 @@ from ._answer import Answer
 from ._checks import whole
 from ._core import InputError
 from ._logs import Log, Roll
+from ._made import Made
 from ._messages import shown
 from ._progress import Progress
 from ._question import Question
@@ -22,7 +23,7 @@ from ._tables import is_frame, is_table
 One = TypeVar("One")  # what is found of each
 
 
-class Results(SequenceABC, Generic[One]):  # type: ignore[type-arg]
+class Results(Made, SequenceABC, Generic[One]):  # type: ignore[type-arg]
     """What was found of each of many, in order, or the InputError of what can't be worked with: a sequence of both.
 
     `answers` are those without, `errors` the others by number. It can't be changed, and can be pickled.

@@ -12,12 +12,13 @@ from ._checks import decimal_comma, path, unit_of_length, whole
 from ._clock import Clock
 from ._columns import FINGERS, Columns, Naming, Units
 from ._core import InputError
+from ._made import Made
 from ._messages import shown, warn
 from ._tables import Table, is_table, path_of, text_of
 from ._words import Numbering, in_python
 
 
-class Log(Dict[str, np.ndarray]):
+class Log(Made, Dict[str, np.ndarray]):
     """What one finger, or two together, recorded of one roll: its columns by name. It can't be changed.
 
     Made by `read_log` and `simulate`. Angles are radians, unwrapped or not as they were given; lengths are in the part's
@@ -64,8 +65,13 @@ class Log(Dict[str, np.ndarray]):
 
     @property
     def notes(self) -> Tuple[str, ...]:
-        """tuple of str: what else stands in it that may have been meant, such as another finger."""
-        return tuple(self._said(note) for note in self._core.notes)
+        """tuple of str: what else stands in it that may have been meant, such as another finger, and what was left out."""
+        notes = [self._said(note) for note in self._core.notes]
+        skipped = self._core.skipped
+        if skipped:
+            some = "1 row was" if len(skipped) == 1 else f"{len(skipped)} rows were"
+            notes.append(f"{self.name}: {some} left out, the first: {self._said(skipped[0])}")
+        return tuple(notes)
 
     def to_frame(self) -> Any:
         """The columns as a pandas.DataFrame: a log of the same kind and the same bits. So is `pandas.DataFrame(log)`."""
@@ -159,7 +165,7 @@ def _log(core: _core.Log, headers: Dict[str, List[int]], clock: Clock) -> Log:
     return Log(core, Numbering(headers), clock)
 
 
-class Roll:
+class Roll(Made):
     """A simulated roll: what the sensors say, and how it really was.
 
     `part.locate(log=roll, ...)` takes it as it is.
@@ -252,7 +258,7 @@ def read_log(
         What to do with rows that can't be read: an empty cell, NaN, a time that does not grow. Skipped ones are told of in
         a warning.
     decimal : '.' or ','
-        What numbers in a file have for a decimal point; between semicolons a comma is seen.
+        What numbers in a file, or texts in a table, have for a decimal point; between semicolons a comma is seen.
 
     Returns
     -------
@@ -266,12 +272,7 @@ def read_log(
     if bad not in ("refuse", "skip"):
         raise InputError(f"bad: expected 'refuse' or 'skip', found {shown(bad)}")
     naming = Naming(columns, units, degrees, wrapped)
-    found = log_of(log, naming, unit_of_length(unit), False, roll, skip_bad=bad == "skip", decimal=decimal)
-    skipped = found._core.skipped
-    if skipped:
-        some = "1 row was" if len(skipped) == 1 else f"{len(skipped)} rows were"
-        warn(f"{found.name}: {some} left out, the first: {found._said(skipped[0])}")
-    return found
+    return log_of(log, naming, unit_of_length(unit), False, roll, skip_bad=bad == "skip", decimal=decimal)
 
 
 def log_of(
@@ -288,14 +289,17 @@ def log_of(
     options["decimal_comma"] = decimal_comma(decimal)
     if isinstance(log, (tuple, list)) and log and all(_is_log(one) for one in log):
         if len(log) == 2:
-            return _pair(log, naming, options, roll)
+            return _told(_pair(log, naming, options, roll))
         if not all(isinstance(one, np.ndarray) and one.ndim == 1 for one in log):
             hint = "; rows as dicts make a table: pandas.DataFrame(rows)" if isinstance(log[0], Mapping) else ""
             raise InputError(f"log: expected one, or a pair of one of each finger, found a list of {len(log)}{hint}")
-    found = _one(log, naming, options, roll)
-    for note in found.notes:
+    return _told(_one(log, naming, options, roll))
+
+
+def _told(log: Log) -> Log:
+    for note in log.notes:
         warn(note)
-    return found
+    return log
 
 
 def _is_log(one: Any) -> bool:
@@ -323,7 +327,7 @@ def _side(log: Any, naming: Naming, options: Dict[str, Any], roll: Optional[int]
     if isinstance(log, (Log, Roll)):
         return log.log if isinstance(log, Roll) else log
     file = path_of(log, name)
-    return Table(log, naming, name) if file is None else _chosen(_of_files([file], naming, options), roll)
+    return Table(log, naming, name, options["decimal_comma"]) if file is None else _chosen(_of_files([file], naming, options), roll)
 
 
 def _common_clock(sides: Sequence[Union[Log, Table]], names: Sequence[str]) -> Clock:
@@ -339,7 +343,7 @@ def _one(log: Any, naming: Naming, options: Dict[str, Any], roll: Optional[int])
     file = path_of(log, "log")
     if file is not None:
         return _chosen(_of_files([file], naming, options), roll)
-    return _chosen(_of_table(Table(log, naming, "log"), options, Clock()), roll)
+    return _chosen(_of_table(Table(log, naming, "log", options["decimal_comma"]), options, Clock()), roll)
 
 
 def _of_files(paths: List[str], naming: Naming, options: Dict[str, Any]) -> List[Log]:

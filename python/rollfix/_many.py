@@ -11,6 +11,7 @@ from . import _core
 from ._answer import Answer
 from ._checks import READINGS, array, by_name, finite, whole
 from ._core import InputError
+from ._made import Made
 from ._messages import shown
 from ._progress import Progress
 from ._question import Question, solved
@@ -21,7 +22,7 @@ STATUSES: np.ndarray = np.array(["complete", "incomplete"])
 VERDICTS: np.ndarray = np.array(["unique", "ambiguous", "unobservable", "inconsistent", "undecided"])
 
 
-class ManyAnswers:
+class ManyAnswers(Made):
     """The answers to many problems, as arrays: placement number p of problem k is row `offsets[k] + p`.
 
     What is of a finger has an axis for it. Arrays can't be written to. `many[k]` is the whole `Answer` to problem k,

@@ -8,6 +8,7 @@ from typing import Any, Dict, Mapping, Optional, Union
 
 from ._checks import degrees_hint, number
 from ._core import InputError
+from ._made import no_value
 from ._messages import did_you_mean, shown, warn
 
 MOST_ANGLE = 0.5  # radians: beyond that a row says nothing, and degrees were meant
@@ -70,7 +71,7 @@ class Noise:
     def __getattr__(self, name: str) -> float:
         if name in Noise.NAMES:
             return self._sds[name]
-        raise AttributeError(name)
+        raise no_value(self, name)
 
     def __getstate__(self) -> Dict[str, float]:
         return self._sds

@@ -9,9 +9,10 @@ import numpy as np
 from . import _core
 from ._checks import places
 from ._fingers import Finger, finger_from
+from ._made import Made
 
 
-class Reach:
+class Reach(Made):
     """Where a finger can touch a part without entering it anywhere.
 
     See docs/reach.md. Lengths are in the part's unit; s runs along the stored outline.

@@ -8,10 +8,11 @@ import numpy as np
 
 from . import _core
 from ._checks import places
+from ._made import Made
 from ._words import in_python
 
 
-class Shape:
+class Shape(Made):
     """An outline as numbers: facts, and functions of arc length."""
 
     __slots__ = ("_core", "__weakref__")

@@ -26,9 +26,11 @@ class Table:
 
     __slots__ = ("name", "columns", "times", "sources", "_wanted")
 
-    def __init__(self, log: Any, naming: Naming, name: str) -> None:
+    def __init__(self, log: Any, naming: Naming, name: str, decimal_comma: bool = False) -> None:
         self.name = name
         pairs = _pairs_of(log, naming, name)
+        if decimal_comma:
+            pairs = [(key, _with_points(values)) for key, values in pairs]
         self.sources = naming.sources([key for key, _ in pairs])
         self._wanted = _KNOWN.union(called for _, called, _ in self.sources)
         self.times: Dict[int, Times] = {}  # of the columns that are times
@@ -184,6 +186,14 @@ def _felt(pairs: Pairs, called: Set[str]) -> Optional[np.ndarray]:
     return felt
 
 
+def _with_points(values: Any) -> Any:
+    """Texts with points for commas."""
+    cells = np.asarray(values)
+    if cells.dtype.kind not in "OU":
+        return values
+    return np.array([one.replace(",", ".") if isinstance(one, str) else one for one in cells.tolist()], dtype=object)
+
+
 def _numbers(values: Any, key: str, name: str, felt: Optional[np.ndarray]) -> np.ndarray:
     try:
         column = array(values, key, masked_is_nan=True)
@@ -213,7 +223,7 @@ def _cell_by_cell(values: Any, key: str, name: str, felt: Optional[np.ndarray]) 
 
 def _decimal_comma(cell: Any) -> str:
     has_comma = isinstance(cell, str) and re.fullmatch(r"\s*[-+]?\d*,\d+\s*", cell)
-    return " with a decimal point" if has_comma else ""
+    return " with a decimal point; read_log(..., decimal=',') takes commas" if has_comma else ""
 
 
 def path_of(log: Any, name: str) -> Optional[str]:

@@ -16,6 +16,7 @@ from ._clock import Clock
 from ._columns import Columns, Naming, Units
 from ._core import InputError
 from ._fingers import Finger, fingers
+from ._made import Made
 from ._messages import shown, warn
 from ._noise import NoiseLike, weighing
 from ._tables import Table, is_frame, safe, text_of
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
 Event = Dict[str, Any]
 
 
-class Watch:
+class Watch(Made):
     """Where the finger is, live, from a log that grows: the events of `rollfix watch`, in constant memory. One finger.
 
     Any number of threads can feed it: what is given to one call of `add` is taken as a whole, before the next call's.
@@ -245,6 +246,9 @@ class Watch:
 
     def __exit__(self, *error: Any) -> None:
         self.finish()
+
+    def __reduce__(self) -> Any:
+        raise TypeError("cannot pickle a Watch, which is at work: keep its rows, and feed another")
 
     def __repr__(self) -> str:
         return f"<Watch: {self.verdict or 'no contact yet'}>"

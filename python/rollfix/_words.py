@@ -29,6 +29,7 @@ _PLAIN = (
     (r"(?<!\S)--may-overlap\b", "may_overlap=True"),
     (r"with their unit, as in (\d+)deg\b", r"in radians, as in np.radians(\1)"),
     (r"`decimal_comma`", "decimal=','"),
+    (r"([)}']|=True) noise=Noise", r"\1, noise=Noise"),
     (r"`either_way`", "direction"),
     (r"(?<!\S)--([a-z]+)", r"\1"),
 )

@@ -25,7 +25,7 @@ def holding(frame, cell, row=7):
 
 @pytest.mark.parametrize("cell, message", [
     ("--", "^log: row 7: u is '--', expected a number$"),
-    ("1,5", "^log: row 7: u is '1,5', expected a number with a decimal point$"),
+    ("1,5", "^log: row 7: u is '1,5', expected a number with a decimal point; read_log"),
     (pandas.NA, "^log: row 7: u is <NA>, expected a number$"),
     (1j, "^log: (row 7: u is 1j|the column 'u' holds complex numbers)"),
     (pandas.Timestamp("2026-01-01"), "^log: row 7: u is Timestamp"),

@@ -280,6 +280,7 @@ def test_rows_that_can_not_be_read_are_skipped_where_that_is_asked(tmp_path):
     with pytest.warns(rollfix.RollfixWarning, match="^log: 2 rows were left out, the first: log: row 2: time"):
         log = rollfix.read_log(rows, bad="skip")
     np.testing.assert_array_equal(log["time"], [0, 1, 3])
+    assert len(log.notes) == 1 and log.notes[0].startswith("log: 2 rows were left out")
     with pytest.raises(InputError, match="^bad: expected 'refuse' or 'skip', found 'drop'"):
         rollfix.read_log(rows, bad="drop")
 
@@ -297,6 +298,14 @@ def test_decimal_commas_are_read_when_it_is_said(tmp_path, frame):
     points = tmp_path / "square.txt"
     points.write_text("0,0 0,0\n1,5 0,0\n1,5 1,5\n0,0 1,5\n")
     assert rollfix.Part(points, decimal=",").perimeter == 6
+
+
+def test_decimal_commas_in_the_texts_of_a_frame_are_read_when_it_is_said(frame):
+    texts = frame[["u", "psi"]].map if hasattr(frame, "map") else frame[["u", "psi"]].applymap
+    commas = texts(lambda value: repr(value).replace(".", ","))
+    with pytest.raises(InputError, match=r"decimal=','\) takes commas"):
+        rollfix.read_log(commas)
+    np.testing.assert_array_equal(rollfix.read_log(commas, decimal=",")["u"], frame.u)
 
 
 def test_another_finger_in_the_log_is_told(ask, frame):

@@ -45,10 +45,29 @@ def test_a_placement_without_its_value_has_no_text():
         repr(rollfix.Placement.__new__(rollfix.Placement))
 
 
+PYTHON_CLASSES = [one for one in vars(rollfix).values() if isinstance(one, type) and one.__module__.startswith("rollfix._")
+                  and one not in CLASSES and not issubclass(one, (Exception, tuple))]
+
+
+@pytest.mark.parametrize("cls", PYTHON_CLASSES, ids=lambda one: one.__name__)
+def test_a_text_of_what_was_never_made_is_a_sentence(cls):
+    try:
+        assert repr(cls.__new__(cls))
+    except (AttributeError, TypeError) as error:
+        assert str(error).startswith(f"{cls.__name__}: has no value"), error
+
+
+def test_a_name_that_is_wrong_is_told_as_python_tells_it(ellipse):
+    with pytest.raises(AttributeError, match="'Part' object has no attribute 'perimetre'"):
+        ellipse.perimetre
+
+
 @pytest.mark.parametrize("protocol", range(pickle.HIGHEST_PROTOCOL + 1))
 def test_every_protocol_of_pickle_gives_the_same_back_or_refuses(ellipse, protocol):
     answer = ellipse.locate(1.0, 0.625)
     for one in (answer, answer[0], ellipse, ellipse.reach(rollfix.Disk(0.1))):
         assert pickle.loads(pickle.dumps(one, protocol)) == one
+    with pytest.raises(TypeError, match="cannot pickle a Watch, which is at work"):
+        pickle.dumps(ellipse.watch(noise=rollfix.Noise(angle=0.01)), protocol)
     with pytest.raises(TypeError, match="cannot pickle"):
         pickle.dumps(ellipse.watch(noise=rollfix.Noise(angle=0.1))._core, protocol)

@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <utility>
 
 #include "column_cure.hpp"
 #include "mirror.hpp"
-#include "outline/turn.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
+#include "slips_of_the_pen.hpp"
 #include "weighing.hpp"
 
 namespace rollfix {
@@ -180,48 +179,12 @@ class Diagnostician {
     take(Cause::prior, without);
   }
 
-  /// Angles in degrees, angles that are counted clockwise, and lengths that are counted the other way.
   void try_slips_of_the_pen() {
-    struct Slip {
-      Cause cause;
-      std::function<void(FingerRows&)> mend;
-      int in_degrees = 0;  // columns
-    };
-    const auto scale = [](std::vector<double>& values, double by) {
-      for (double& value : values) value *= by;
-    };
-    const std::vector<Slip> of_contacts = {
-        {Cause::u_psi_swapped,
-         [](FingerRows& rows) { std::swap(rows.u, rows.psi), std::swap(rows.place_rounding, rows.angle_rounding); }},
-        {Cause::both_clockwise, [&](FingerRows& rows) { scale(rows.u, -1), scale(rows.psi, -1); }},
-        {Cause::u_clockwise, [&](FingerRows& rows) { scale(rows.u, -1); }},
-        {Cause::psi_clockwise, [&](FingerRows& rows) { scale(rows.psi, -1); }},
-        {Cause::u_degrees, [&](FingerRows& rows) { scale(rows.u, kDegree); }, 1},
-        {Cause::psi_degrees, [&](FingerRows& rows) { scale(rows.psi, kDegree); }, 1},
-        {Cause::angles_degrees, [&](FingerRows& rows) { scale(rows.u, kDegree), scale(rows.psi, kDegree); }, 2}};
-    const std::vector<Slip> of_courses = {
-        {Cause::both_clockwise, [&](FingerRows& rows) { scale(rows.length, -1), scale(rows.turn, -1); }},
-        {Cause::length_backwards, [&](FingerRows& rows) { scale(rows.length, -1); }},
-        {Cause::turn_clockwise, [&](FingerRows& rows) { scale(rows.turn, -1); }},
-        {Cause::turn_degrees, [&](FingerRows& rows) { scale(rows.turn, kDegree); }, 1}};
-    const bool of_contact = problem_.felt.is_log() && problem_.felt.log->kind == LogKind::contact;
-    for (const Slip& slip : of_contact ? of_contacts : of_courses) {
-      Problem mended = problem_;
-      if (mended.felt.is_log()) {
-        for (FingerRows& rows : mended.felt.log->fingers) slip.mend(rows);
-      } else {
-        for (Reading& reading : mended.felt.readings) {
-          FingerRows rows;
-          rows.length = {reading.length.begin(), reading.length.end()};
-          rows.turn = {reading.turn};
-          slip.mend(rows);
-          for (std::size_t k = 0; k < reading.fingers(); ++k) reading.length[k] = rows.length[k];
-          reading.turn = rows.turn.front();
-        }
-      }
-      take(slip.cause, mended, slip.in_degrees * std::log(kDegree));
+    for (const SlipOfThePen& slip : slips_of_the_pen(problem_.felt)) {
+      take(slip.cause, without(slip, problem_), slip.log_stretch);
     }
     // Of a part that lies face down the centres go as they are seen: only angles would not do.
+    const bool of_contact = problem_.felt.is_log() && problem_.felt.log->kind == LogKind::contact;
     const bool has_places = problem_.noise->position > 0 || problem_.pose;
     if (of_contact && has_places) take(Cause::both_clockwise, in_mirror(problem_));
   }

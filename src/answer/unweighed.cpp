@@ -126,8 +126,15 @@ class RowsCheck {
   double centre_rounding_ = 0;
 };
 
+/// Whether rows that are exact fit exactly where that mistake is mended: the cure says no number that was estimated.
+bool is_mended_exactly(Cause cause) {
+  return cause != Cause::radius && cause != Cause::slip && cause != Cause::gyroscope && cause != Cause::noise &&
+         cause != Cause::unsaid_noise;
+}
+
 /// What is wrong, found out with noise that the log was not said to have.
-std::vector<Diagnosis> diagnoses_with(const Problem& problem, const Observation& observed, const Noise& noise) {
+std::vector<Diagnosis> diagnoses_with(const Problem& problem, const Observation& observed, const Noise& noise,
+                                      bool rows_are_exact = false) {
   Problem noisy = problem;
   noisy.noise = noise;
   noisy.noise->contact = std::max(noise.contact, kLeastContact * problem.part.perimeter());
@@ -135,7 +142,7 @@ std::vector<Diagnosis> diagnoses_with(const Problem& problem, const Observation&
   if (belief->fit().is_bad()) {
     std::vector<Diagnosis> found = diagnose(noisy, observed, *belief);
     for (Diagnosis& one : found) {
-      one.noise = *noisy.noise;  // the cure says it all
+      if (!rows_are_exact || !is_mended_exactly(one.cause)) one.noise = *noisy.noise;  // the cure says it all
       if (one.cause != Cause::noise) continue;
       one.cause = Cause::unsaid_noise;
       one.noise.contact *= one.noise_scale;
@@ -156,7 +163,7 @@ std::vector<Diagnosis> diagnoses_of(const Problem& problem, const Observation& o
   if (const auto shown = noise_that_shows(*problem.felt.log, problem.fingers)) {
     return diagnoses_with(problem, observed, *shown);
   }
-  std::vector<Diagnosis> fine = diagnoses_with(problem, observed, {kFineContact * P, kFineAngle});
+  std::vector<Diagnosis> fine = diagnoses_with(problem, observed, {kFineContact * P, kFineAngle}, true);
   if (fine.front().cause != Cause::part && fine.front().cause != Cause::correlation) return fine;
   return diagnoses_with(problem, observed, {kUsualContact * P, kUsualAngle});
 }

@@ -69,7 +69,11 @@ std::string stamp_of(const CatalogSource& source, const BuildOptions& options) {
   return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}{}", file, source.name, source.count, points.open,
                      points.corner_angle.value_or(-1), length(points.smooth), length(options.load.gap),
                      options.load.layer, options.load.allow_crossing, options.lean,
-                     fmt::format("{}{}", points.decimal_comma ? "|," : "", options.load.outer ? "|outer" : ""));
+                     fmt::format("{}{}",
+                                 !points.decimal_comma   ? ""
+                                 : *points.decimal_comma ? "|,"
+                                                         : "|.",
+                                 options.load.outer ? "|outer" : ""));
 }
 
 BuildOptions in_unit(BuildOptions options, const std::string& unit) {

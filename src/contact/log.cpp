@@ -46,7 +46,8 @@ class LogMaker {
     add(row);
   }
 
-  std::vector<Log> finish() {
+  /// `skipped`: why rows were left out.
+  std::vector<Log> finish(const std::vector<std::string>& skipped) {
     if (!reader_.knows_columns()) {
       throw InputError(fmt::format("{}: is empty, expected a log with a header such as 'time,u,psi'", reader_.name()));
     }
@@ -55,11 +56,15 @@ class LogMaker {
     if (rolls_.empty()) {
       const bool none_in_contact = last_rows == 0 && any_row_;
       throw InputError(fmt::format(
-          "{}: holds {} row{} of a roll{}, expected at least {}", reader_.name(), last_rows, last_rows == 1 ? "" : "s",
-          none_in_contact ? " in contact" : "",
-          least_rows(reader_.kind(), false) == 2 ? "2: the first contact and where it went from there" : "1"));
+          "{}: holds {} row{} of a roll{}, expected at least {}{}", reader_.name(), last_rows,
+          last_rows == 1 ? "" : "s", none_in_contact ? " in contact" : "",
+          least_rows(reader_.kind(), false) == 2 ? "2: the first contact and where it went from there" : "1",
+          skipped.empty() ? ""
+                          : fmt::format("; {} {} left out, the first: {}", skipped.size(),
+                                        skipped.size() == 1 ? "row was" : "rows were", skipped.front())));
     }
     for (Log& roll : rolls_) {
+      roll.skipped = skipped;
       roll.contact_was_off = any_without_contact_;
       if (rolls_.size() == 1) break;
       const std::vector<std::size_t>& line = roll.fingers[0].line;
@@ -146,36 +151,78 @@ class LogMaker {
   bool any_without_contact_ = false;
 };
 
-/// The next row; nothing where it can't be read and is left out.
-std::optional<RowKind> read_row(RowReader& reader, std::string_view line, bool skips, LogRow& row,
-                                std::vector<std::string>& skipped) {
-  try {
-    return reader.read(line, row);
-  } catch (const InputError& error) {
-    if (!reader.knows_columns()) throw;  // of the header
-    if (!skips) throw InputError(fmt::format("{}; `skip_bad` leaves such rows out", error.what()));
-    skipped.emplace_back(error.what());
-    return std::nullopt;
+// So many rows after one that can't be read are looked at for one that can.
+constexpr int kRowsAhead = 1000;
+
+/// Whether a row can be read further on: else leaving rows out leaves nothing.
+bool any_row_can_be_read(RowReader& reader, LogLines& lines) {
+  LogRow row;
+  std::string_view line;
+  for (int k = 0; k < kRowsAhead && lines.next(line); ++k) {
+    try {
+      if (reader.read(line, row) != RowKind::none) return true;
+    } catch (const InputError&) {  // nor this one
+    }
   }
+  return false;
 }
+
+/// Reads rows one after the other, and leaves out what can't be read where that was asked for.
+class RowsInLines {
+ public:
+  RowsInLines(LogLines& lines, const LogOptions& options)
+      : lines_(lines), skips_(options.skip_bad), reader_(lines.name(), options) {}
+
+  const RowReader& reader() const { return reader_; }
+  const std::vector<std::string>& skipped() const { return skipped_; }
+
+  /// False after the last row.
+  bool next(RowKind& kind, LogRow& row) {
+    std::string_view line;
+    while (lines_.next(line)) {
+      try {
+        kind = reader_.read(line, row);
+      } catch (const InputError& error) {
+        leave_out(error);
+        continue;
+      }
+      if (kind == RowKind::none) continue;
+      any_ = true;
+      reader_.accept(row);
+      return true;
+    }
+    return false;
+  }
+
+ private:
+  void leave_out(const InputError& error) {
+    if (!reader_.knows_columns()) throw;  // of the header
+    if (skips_) {
+      skipped_.emplace_back(error.what());
+    } else if (any_ || any_row_can_be_read(reader_, lines_)) {
+      throw InputError(fmt::format("{}; `skip_bad` leaves such rows out", error.what()));
+    } else {
+      throw;
+    }
+  }
+
+  LogLines& lines_;
+  bool skips_;
+  RowReader reader_;
+  bool any_ = false;
+  std::vector<std::string> skipped_;  // why
+};
 
 /// Runs a stream of lines to its end.
 std::vector<Log> rolls_in(LogLines& lines, Splitting splitting, const LogOptions& options) {
-  RowReader reader(lines.name(), options);
-  LogMaker maker(reader, splitting);
-  std::vector<std::string> skipped;
+  RowsInLines rows(lines, options);
+  LogMaker maker(rows.reader(), splitting);
+  RowKind kind = RowKind::none;
   LogRow row;
-  std::string_view line;
-  while (lines.next(line)) {
-    const std::optional<RowKind> kind = read_row(reader, line, options.skip_bad, row, skipped);
-    if (!kind) continue;
-    maker.take(*kind, row);
-    if (*kind != RowKind::none) reader.accept(row);
-  }
-  std::vector<Log> rolls = maker.finish();
+  while (rows.next(kind, row)) maker.take(kind, row);
+  std::vector<Log> rolls = maker.finish(rows.skipped());
+  const std::string& note = rows.reader().columns().front().note;
   for (Log& roll : rolls) {
-    roll.skipped = skipped;
-    const std::string& note = reader.columns().front().note;
     if (!note.empty()) roll.notes = {fmt::format("{}: {}", lines.name(), note)};
   }
   return rolls;

@@ -101,12 +101,15 @@ bool looks_like_degrees(const std::vector<double>& angles, std::size_t row) {
 }
 
 /// What to do about a jump: a log in degrees that is read as radians has one wherever its degrees wrap.
-std::string cure_of_jump(const Log& log, const std::vector<Finger>& fingers, std::size_t finger, std::size_t row) {
+std::string cure_of_jump(const Log& log, const Part& part, const std::vector<Finger>& fingers, const Noise& noise,
+                         std::size_t finger, std::size_t row) {
   const FingerRows& rows = log.fingers[finger];
   const Finger* const shape = finger_of(fingers, finger);
   const std::string suffix = log.fingers.size() == 1 ? "" : kFingerSuffixes[finger];
   const bool has_angle_u = shape != nullptr && shape->is_disk();
-  std::string split = "split the log there, or let stray rows pass with `robust` (and `noise`)";
+  const bool comes_back = without_strays(log, part, fingers, noise).rows() < log.rows();
+  const std::string split =
+      fmt::format("split the log there{}", comes_back ? ", or let stray rows pass with `robust` (and `noise`)" : "");
   if (log.kind != LogKind::contact) {
     const double step = std::abs(rows.turn[row] - rows.turn[row - 1]);
     if (step < std::numbers::pi || step > kTurnInDegrees) return split;
@@ -122,7 +125,8 @@ std::string cure_of_jump(const Log& log, const std::vector<Finger>& fingers, std
 
 /// Throws InputError where a finger is beyond its ends or goes where none can: see RollCheck.
 void require_physical(const Log& log, const Courses& courses, const Part& part, const std::vector<Finger>& fingers,
-                      RollCheck check) {
+                      const Noise& noise) {
+  RollCheck check(part, log.kind, fingers, log.fingers.size(), noise);
   const std::size_t count = log.fingers.size();
   for (std::size_t k = 0; k < count && log.kind == LogKind::contact; ++k) {
     const FingerRows& rows = log.fingers[k];
@@ -144,7 +148,7 @@ void require_physical(const Log& log, const Courses& courses, const Part& part, 
     if (const auto jump = check.jump(line, before, now, time)) {
       throw InputError(fmt::format("{}: expected a roll that goes on, found a jump: {}; {}",
                                    place_of(log, jump->finger, row), jump->why,
-                                   cure_of_jump(log, fingers, jump->finger, row)));
+                                   cure_of_jump(log, part, fingers, noise, jump->finger, row)));
     }
     before = now;
   }
@@ -248,7 +252,7 @@ std::vector<Reading> readings_as_given(const Log& log, const std::vector<Finger>
 std::vector<Reading> readings(const Log& log, const Part& part, const std::vector<Finger>& fingers,
                               const std::vector<double>& times, const Noise& noise) {
   const Courses courses(log, fingers);
-  require_physical(log, courses, part, fingers, RollCheck(part, log.kind, fingers, log.fingers.size(), noise));
+  require_physical(log, courses, part, fingers, noise);
   std::vector<Reading> result;
   for (const std::size_t row : rows_at(log, times)) {
     // A contact log needs no change of direction: the finger rolls on the part, however that was drawn.

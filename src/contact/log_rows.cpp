@@ -263,9 +263,11 @@ void RowReader::require_width() const {
   const std::size_t count = columns_.front().count;
   for (std::size_t k = count; k < table_row_.cells.size(); ++k) {
     if (table_row_.cells[k].empty()) continue;
-    throw InputError(
-        fmt::format("{}: '{}' has {} cells, expected {} as in the first row; numbers take a decimal point, not a comma",
-                    where(name_, lines_), shown(table_row_.text), table_row_.cells.size(), count));
+    throw InputError(fmt::format("{}: '{}' has {} cells, expected {} as in the first row; {}", where(name_, lines_),
+                                 shown(table_row_.text), table_row_.cells.size(), count,
+                                 options_.decimal_comma == true
+                                     ? "beside decimal commas cells are separated by semicolons, tabs or blanks"
+                                     : "numbers take a decimal point, not a comma"));
   }
 }
 

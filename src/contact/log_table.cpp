@@ -43,7 +43,7 @@ std::string_view plain_beginning(std::string_view text, const std::string& name)
     throw InputError(fmt::format("{}: is UTF-16 text, expected plain text; save it as UTF-8", name));
   }
   if (is_gzip(text)) throw InputError(fmt::format("{}: is compressed, expected plain text: gunzip -k {}", name, name));
-  if (has_only_returns(text)) throw InputError(fmt::format("{}: {}", name, kOnlyReturns));
+  if (has_only_returns(text)) throw InputError(about_only_returns(name));
   if (text.substr(0, 1024).find('\0') != std::string_view::npos) {
     throw InputError(fmt::format("{}: is not a text file, expected a log with one row per line", name));
   }
@@ -103,7 +103,7 @@ bool TableCutter::cut(std::string_view line, std::size_t number, TableRow& row) 
   if (data.empty()) return false;
   row.line = number;
   row.text = line;
-  const bool may_have_commas = separator_ == '\0' || separator_ == ';' || decimal_comma_;
+  const bool may_have_commas = separator_ == '\0' || separator_ == ';' || decimal_comma_ == true;
   std::optional<std::string> converted;
   if (may_have_commas) converted = with_decimal_points(bare_line, decimal_comma_);
   if (converted) with_points_ = std::move(*converted);

@@ -52,7 +52,7 @@ struct TableRow {
 class TableCutter {
  public:
   /// `decimal_comma`: as in the options of a log.
-  explicit TableCutter(bool decimal_comma) : decimal_comma_(decimal_comma) {}
+  explicit TableCutter(std::optional<bool> decimal_comma) : decimal_comma_(decimal_comma) {}
 
   /// Makes a row of the line, false where there is none in it. The row refers to the line, or to what this holds until
   /// the next one.
@@ -64,7 +64,7 @@ class TableCutter {
  private:
   void split(std::string_view data, std::vector<std::string_view>& cells) const;
 
-  bool decimal_comma_;
+  std::optional<bool> decimal_comma_;
   char separator_ = '\0';    // not known yet
   std::string with_points_;  // of a row with decimal commas
 };

@@ -21,6 +21,12 @@ std::string with_minus(std::string text) {
   return text;
 }
 
+/// Nothing where it is so little that rounding may have left it.
+double without_rounding(double value, double scale) {
+  constexpr double kRounding = 1e-9;  // as sure as an exact answer is
+  return std::abs(value) <= kRounding * scale ? 0 : value;
+}
+
 Ticks ticks_at(const Interval& range, double step) {
   Ticks ticks;
   const double slack = 1e-9 * range.width();
@@ -38,7 +44,13 @@ std::string pretty(double value, int digits) {
   return with_minus(text == "-0" ? "0" : text);
 }
 
-std::string pretty_degrees(double radians, int digits) { return pretty(radians / kDegree, digits) + "\u00b0"; }
+std::string pretty_degrees(double radians, int digits) {
+  return pretty(without_rounding(radians, 1) / kDegree, digits) + "\u00b0";
+}
+
+std::string pretty_on(const Part& part, double length, int digits) {
+  return pretty(without_rounding(length, part.perimeter()), digits);
+}
 
 std::string percent(double probability) {
   if (probability > 0.999) return "> 99.9 %";
@@ -51,7 +63,15 @@ namespace {
 /// Decimals that show two digits of a standard deviation.
 int decimals_of(double sd) { return std::clamp(1 - static_cast<int>(std::floor(std::log10(sd))), 0, 12); }
 
-std::string fixed(double value, int decimals) { return with_minus(fmt::format("{:.{}f}", value, decimals)); }
+/// "0.00", never "-0.00".
+std::string without_sign_of_zero(std::string text) {
+  const bool is_zero = text.find_first_of("123456789") == std::string::npos;
+  return is_zero && text[0] == '-' ? text.substr(1) : text;
+}
+
+std::string fixed(double value, int decimals) {
+  return with_minus(without_sign_of_zero(fmt::format("{:.{}f}", value, decimals)));
+}
 
 }  // namespace
 
@@ -102,9 +122,7 @@ Ticks degree_ticks(const Interval& range, int count) {
 
 std::string tick_text(double value, int decimals) {
   if (decimals > kMostDecimals || std::abs(value) >= kMostPlain) return pretty(value, 6);
-  const std::string text = fmt::format("{:.{}f}", value, decimals);
-  const bool zero = text.find_first_of("123456789") == std::string::npos;
-  return with_minus(zero && text[0] == '-' ? text.substr(1) : text);
+  return fixed(value, decimals);
 }
 
 namespace {

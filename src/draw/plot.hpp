@@ -13,7 +13,10 @@ namespace rollfix::draw {
 /// A number for the eye: so many significant digits, a true minus sign.
 std::string pretty(double value, int digits = 4);
 
-/// An angle in radians shown in degrees.
+/// The same of a length or coordinate on the part, 0 where rounding left a little.
+std::string pretty_on(const Part& part, double length, int digits = 4);
+
+/// An angle in radians shown in degrees, likewise.
 std::string pretty_degrees(double radians, int digits = 4);
 
 /// A probability as a percentage; never 0 % or 100 %, which nothing is.

@@ -230,13 +230,13 @@ Vec2 finger_centre(const Part& part, double s, double radius) {
   return part.point(at) + radius * Vec2(std::sin(tangent), -std::cos(tangent));
 }
 
-void include_finger(Box& box, const Box& bounds, const Part& part, double s, double radius) {
+bool include_finger(Box& box, const Box& bounds, const Part& part, double s, double radius) {
   const Vec2 reach = Vec2::Constant(kMostFingerReach * bounds.sizes().maxCoeff());
+  const Box most(bounds.min() - reach, bounds.max() + reach);
   const Vec2 centre = finger_centre(part, s, radius);
-  for (const double side : {-radius, radius}) {
-    const Vec2 edge = centre + Vec2::Constant(side);
-    box.extend(edge.cwiseMax(bounds.min() - reach).cwiseMin(bounds.max() + reach));
-  }
+  const Box finger(centre - Vec2::Constant(radius), centre + Vec2::Constant(radius));
+  box.extend(finger.intersection(most));
+  return most.contains(finger);
 }
 
 }  // namespace rollfix::draw

@@ -115,7 +115,8 @@ class RollPen {
 /// its pivot.
 Vec2 finger_centre(const Part& part, double s, double radius);
 
-/// Widens a box so that this disk is seen, unless it reaches too far beyond the part (of these bounds).
-void include_finger(Box& box, const Box& bounds, const Part& part, double s, double radius);
+/// Widens a box so that this disk is seen, as far as it does not reach too far beyond the part (of these bounds);
+/// whether it is seen whole.
+bool include_finger(Box& box, const Box& bounds, const Part& part, double s, double radius);
 
 }  // namespace rollfix::draw

@@ -68,13 +68,13 @@ fs::path followed(const fs::path& file) {
 
 }  // namespace
 
-FigureFormat figure_format(const fs::path& file) {
+FigureFormat figure_format(const fs::path& file, std::string_view besides) {
   const std::string ending = ending_of(file.string());
   if (ending == ".svg") return FigureFormat::svg;
   if (ending == ".png") return FigureFormat::png;
   if (ending == ".pdf") return FigureFormat::pdf;
-  throw InputError(fmt::format("{}: a figure's file name must end in .svg, .png or .pdf, found {}", file.string(),
-                               ending.empty() ? "no ending" : "\"" + ending + "\""));
+  throw InputError(fmt::format("{}: a figure's file name must end in .svg, .png or .pdf{}, found {}", file.string(),
+                               besides, ending.empty() ? "no ending" : "\"" + ending + "\""));
 }
 
 std::string encode(const Svg& figure, FigureFormat format) {

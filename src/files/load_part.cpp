@@ -67,7 +67,7 @@ FileKind kind_by_content(FileKind by_name, bool is_standard_input, std::string_v
 
 constexpr const char* kStandardInput = "standard input";
 
-std::string place(const Vec2& point) { return fmt::format("({:.9g}, {:.9g})", point.x(), point.y()); }
+std::string place(const Vec2& point) { return shown_point(point.x(), point.y()); }
 
 /// The options that were given, by what they apply to.
 struct Given {
@@ -194,9 +194,10 @@ std::vector<std::string> notes_on(const Drawing& drawing, const Loops& found, st
   for (const std::string& note : found.notes) add(note);
   const bool is_choice = found.closed.size() + found.open.size() > 1;
   if (is_choice && !options.loop) {
-    add(fmt::format("{} and {}: took number {}, the {}; `loop` N takes another",
-                    counted(found.closed.size(), "closed loop", "closed loops"),
-                    counted(found.open.size(), "open chain", "open chains"), chosen + 1,
+    std::vector<std::string> kinds;
+    if (!found.closed.empty()) kinds.push_back(counted(found.closed.size(), "closed loop", "closed loops"));
+    if (!found.open.empty()) kinds.push_back(counted(found.open.size(), "open chain", "open chains"));
+    add(fmt::format("{}: took number {}, the {}; `loop` N takes another", fmt::join(kinds, " and "), chosen + 1,
                     loop.outline.closed ? "largest loop" : "longest chain"));
   }
   if (loop.has_gap()) {

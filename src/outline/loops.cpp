@@ -32,7 +32,7 @@ struct Chain {
   bool closed = false;
 };
 
-std::string place(const Vec2& point) { return fmt::format("({:.9g}, {:.9g})", point.x(), point.y()); }
+std::string place(const Vec2& point) { return shown_point(point.x(), point.y()); }
 
 std::string called(const Origin& origin) {
   const std::string layer = origin.layer.empty() ? "" : fmt::format(" '{}'", origin.layer);
@@ -80,7 +80,8 @@ class Assembler {
       throw InputError(fmt::format("{}: all {} curves are shorter than the gap of {:.3g} within which ends meet",
                                    drawing_.name, tiny, gap_));
     }
-    if (tiny > 0) notes_.push_back(fmt::format("left out: {} curves no longer than {:.3g}", tiny, gap_));
+    if (tiny > 0)
+      notes_.push_back(fmt::format("left out: {} no longer than {:.3g}", counted(tiny, "curve", "curves"), gap_));
   }
 
   /// Chains all of whose curves other chains draw as well; of several alike the first stays. Two outlines that share a
@@ -293,9 +294,9 @@ class Assembler {
     if (found.closed.empty()) throw InputError(fmt::format("{}: {}: {}", drawing_.name, branch_, cure));
     if (box_around(polygon_of(found.closed.front().outline).points).contains(branching_)) return;
     found.doubt = fmt::format(
-        "{}: {}, on curves outside of the largest sound loop, of length {:.6g}: {}; or take one of the {} "
-        "sound loops with `loop` 1",
-        drawing_.name, branch_, found.closed.front().length, cure, found.closed.size());
+        "{}: {}, on curves outside of the largest sound loop, of length {:.6g}: {}; or take {} with `loop` 1",
+        drawing_.name, branch_, found.closed.front().length, cure,
+        found.closed.size() == 1 ? "it" : fmt::format("one of the {} sound loops", found.closed.size()));
   }
 
   /// From chain i on to where no other follows or to its own start, then back from its start.

@@ -71,7 +71,7 @@ LineKind read_line(std::string_view line, Vec2& point) {
 void refuse_binary(std::string_view text, const std::string& name) {
   const std::string_view head = text.substr(0, 1024);
   if (is_gzip(text)) throw InputError(fmt::format("{}: is compressed, expected plain text: gunzip -k {}", name, name));
-  if (has_only_returns(text)) throw InputError(fmt::format("{}: {}", name, kOnlyReturns));
+  if (has_only_returns(text)) throw InputError(about_only_returns(name));
   if (has_utf16_mark(text))
     throw InputError(fmt::format("{}: is UTF-16 text, expected plain text; save it as UTF-8", name));
   if (head.find('\0') != std::string_view::npos) {
@@ -171,7 +171,7 @@ bool is_followed_by_points(const Header& header, std::string_view next) {
 
 class TableReader {
  public:
-  TableReader(std::string_view text, const std::string& name, bool decimal_comma)
+  TableReader(std::string_view text, const std::string& name, std::optional<bool> decimal_comma)
       : rest_(text), name_(name), decimal_comma_(decimal_comma) {}
 
   NumberedPoints run() {
@@ -317,7 +317,7 @@ class TableReader {
   std::string_view data_;    // without a comment
   std::string with_points_;  // the same with decimal points for commas
   const std::string& name_;
-  bool decimal_comma_;
+  std::optional<bool> decimal_comma_;
   std::size_t number_ = 0;
   std::size_t titles_ = 0;
   std::optional<Header> header_;
@@ -326,7 +326,7 @@ class TableReader {
 
 }  // namespace
 
-NumberedPoints read_point_table(std::string_view text, const std::string& name, bool decimal_comma) {
+NumberedPoints read_point_table(std::string_view text, const std::string& name, std::optional<bool> decimal_comma) {
   refuse_binary(text, name);
   return TableReader(without_mark(text), name, decimal_comma).run();
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,6 @@ struct NumberedPoints {
 
 /// The table of points that a text is, in one pass: titles, a header or none, and a point in each line. Throws
 /// InputError naming the line.
-NumberedPoints read_point_table(std::string_view text, const std::string& name, bool decimal_comma);
+NumberedPoints read_point_table(std::string_view text, const std::string& name, std::optional<bool> decimal_comma);
 
 }  // namespace rollfix

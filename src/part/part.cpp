@@ -14,6 +14,7 @@
 #include "rollfix/error.hpp"
 #include "rollfix/outline/load.hpp"
 #include "rollfix/pulse.hpp"
+#include "text/text.hpp"
 #include "turning_builder.hpp"
 
 namespace rollfix {
@@ -115,10 +116,10 @@ Part::Part(Outline outline, const PartOptions& options) {
   data->tree = TurningTree(data->turning);  // now: finding a crossing takes as much memory, and gives it back
   if (crossing) {
     throw InputError(fmt::format(
-        "{}: expected an outline that does not cross itself, found that it {} near ({:.9g}, {:.9g}), at arc lengths "
+        "{}: expected an outline that does not cross itself, found that it {} near {}, at arc lengths "
         "{:.9g} and {:.9g} of {:.9g}: mend it, or take it as it is with `allow_crossing`",
-        name(), crossing->is_certain ? "does" : "runs along itself too closely to tell", crossing->point.x(),
-        crossing->point.y(), crossing->first, crossing->second, perimeter()));
+        name(), crossing->is_certain ? "does" : "runs along itself too closely to tell",
+        shown_point(crossing->point.x(), crossing->point.y()), crossing->first, crossing->second, perimeter()));
   }
 }
 

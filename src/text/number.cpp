@@ -62,8 +62,8 @@ bool has_decimal_comma(std::string_view cell) {
 
 }  // namespace
 
-std::optional<std::string> with_decimal_points(std::string_view row, bool decimal_comma) {
-  if (row.find(',') == std::string_view::npos) return std::nullopt;
+std::optional<std::string> with_decimal_points(std::string_view row, std::optional<bool> decimal_comma) {
+  if (row.find(',') == std::string_view::npos || decimal_comma == false) return std::nullopt;
   const bool has_semicolons = row.find(';') != std::string_view::npos;
   if (!has_semicolons && !decimal_comma) return std::nullopt;
   const char* const separators = has_semicolons ? ";" : " \t";

@@ -41,7 +41,7 @@ bool take_degrees(std::string_view& text);
 
 /// The row with points for the decimal commas of its numbers, "0.5;1.25" of "0,5;1,25"; nothing where semicolons
 /// separate no such number. Between them a comma can be nothing else.
-std::optional<std::string> with_decimal_points(std::string_view row, bool decimal_comma = false);
+std::optional<std::string> with_decimal_points(std::string_view row, std::optional<bool> decimal_comma = {});
 
 /// "; numbers take a decimal point, as in 0.5, not a comma" of a number with a decimal comma, such as "0,5",
 /// "-12,25deg" or "8,5mm": the end of a message that refuses it. Empty of all else.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <cstring>
@@ -96,7 +97,9 @@ std::string plain(std::string_view text, char instead) {
   while (!text.empty()) {
     const std::size_t length = utf8_length(text);
     const std::string_view character = text.substr(0, std::max<std::size_t>(length, 1));
-    if (length == 0 || is_control(character)) {
+    if (character == "\t") {
+      result += ' ';
+    } else if (length == 0 || is_control(character)) {
       result += instead;
     } else {
       result += character;
@@ -125,6 +128,13 @@ std::string shown(std::string_view text) {
   while (is_long && length > 0 && is_continuation(text[length])) --length;
   const std::string result = plain(text.substr(0, length));
   return is_long ? result + "..." : result;
+}
+
+std::string shown_point(double x, double y) {
+  constexpr double kRounding = 1e-12;  // of the other coordinate
+  const double size = std::max(std::abs(x), std::abs(y));
+  const auto clean = [&](double value) { return std::abs(value) <= kRounding * size ? 0 : value; };
+  return fmt::format("({:.9g}, {:.9g})", clean(x), clean(y));
 }
 
 std::string counted(std::size_t count, std::string_view one, std::string_view many) {
@@ -236,6 +246,13 @@ std::string read_text(const std::string& path) {
     if (error) expected = 0;
   }
   return read_all(file.get(), expected, path);
+}
+
+std::string about_only_returns(const std::string& name) {
+  const std::string ending = ending_of(name);
+  const std::string other = name.substr(0, name.size() - ending.size()) + "_lf" + ending;
+  return fmt::format("{}: has lines that end in a carriage return alone, expected line feeds: tr '\\r' '\\n' < {} > {}",
+                     name, quoted_for_shell(name), quoted_for_shell(other));
 }
 
 bool has_only_returns(std::string_view text) {

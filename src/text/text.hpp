@@ -27,8 +27,9 @@ std::string lower_case(std::string_view text);
 /// What follows the last dot of a file's name, in lower case: ".csv"; empty when there is none.
 std::string ending_of(const std::string& path);
 
-/// Text from outside, on one line: control characters, those that turn the direction of writing, and bytes that are no
-/// character become `instead`, so that it can neither break a table nor do anything to a terminal.
+/// Text from outside, on one line: a tabulator becomes a blank; other control characters, those that turn the direction
+/// of writing, and bytes that are no character become `instead`, so that it can neither break a table nor do anything
+/// to a terminal.
 std::string plain(std::string_view text, char instead = '?');
 
 /// A word as a shell takes it for one, whatever is in it.
@@ -36,6 +37,9 @@ std::string quoted_for_shell(std::string_view word);
 
 /// A piece of a user's text as a message can show it: on one line and not too long.
 std::string shown(std::string_view text);
+
+/// A point for a message: "(1.5, 0)", where rounding left (1.5, -1.8e-16).
+std::string shown_point(double x, double y);
 
 /// "1 curve", "2 curves".
 std::string counted(std::size_t count, std::string_view one, std::string_view many);
@@ -66,7 +70,7 @@ inline bool is_gzip(std::string_view text) { return text.substr(0, 2) == "\x1F\x
 
 /// Whether the lines of a text end in carriage returns alone, as far as its beginning shows.
 bool has_only_returns(std::string_view text);
-inline constexpr const char* kOnlyReturns =
-    "has lines that end in a carriage return alone, expected line feeds: tr '\\r' '\\n' < OLD > NEW";
+/// What is wrong with such a file, and what makes another of it.
+std::string about_only_returns(const std::string& name);
 
 }  // namespace rollfix

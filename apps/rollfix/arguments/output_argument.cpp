@@ -32,13 +32,13 @@ void add_output_argument(CLI::App& command, OutputArgument& argument, const std:
   add_switch(command, "--force", argument.force, "replace files that exist");
 }
 
-void require_figure_output(const OutputArgument& argument, bool json) {
+void require_figure_output(const OutputArgument& argument, bool json, std::string_view besides) {
   if (argument.file.empty()) return;
   if (argument.file == "-") {
     if (json) throw InputError("-o - and --json both go to standard output: give the figure the name of a file");
     return;
   }
-  figure_format(argument.file);
+  figure_format(argument.file, besides);
   require_writable(argument.file, argument.force);
 }
 
@@ -66,7 +66,7 @@ void require_part_output(const OutputArgument& argument, bool json) {
   if (names_a_part(argument) || names_a_table(argument)) {
     require_writable(argument.file, argument.force);
   } else {
-    require_figure_output(argument, json);
+    require_figure_output(argument, json, ", the part's in .json, a table's of its outline in .csv");
   }
 }
 

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
+#include <string_view>
 
 #include "rollfix/draw/svg.hpp"
 #include "rollfix/output/report.hpp"
@@ -19,8 +20,8 @@ struct OutputArgument {
 void add_output_argument(CLI::App& command, OutputArgument& argument, const std::string& meaning);
 
 /// Throws InputError when -o can't be followed: an ending that no figure has, stdout where JSON goes already, or what
-/// require_writable throws.
-void require_figure_output(const OutputArgument& argument, bool json);
+/// require_writable throws. `besides`: what else the command takes, for the message.
+void require_figure_output(const OutputArgument& argument, bool json, std::string_view besides = "");
 
 /// Adds the figure to the report as -o says. On stdout (-o -) it is SVG and takes the place of the data, whose first
 /// line is narrated.

@@ -36,15 +36,16 @@ void add_unit_argument(CLI::App& command, std::string& unit) {
 void add_decimal_argument(CLI::App& command, std::string& decimal) {
   if (command.get_option_no_throw("--decimal") != nullptr) return;
   command
-      .add_option("--decimal", decimal,
-                  "what numbers in files have for a decimal point, , or .; a comma is seen between semicolons, and has "
-                  "to be said where blanks or tabs separate")
+      .add_option(
+          "--decimal", decimal,
+          "the decimal mark of numbers in files: a comma or a point; a comma is seen between semicolons, and has "
+          "to be said where blanks or tabs separate")
       ->type_name("MARK");
 }
 
-bool has_decimal_comma(const std::string& decimal) {
-  if (decimal == ",") return true;
-  if (decimal.empty() || decimal == ".") return false;
+std::optional<bool> has_decimal_comma(const std::string& decimal) {
+  if (decimal.empty()) return std::nullopt;
+  if (decimal == "," || decimal == ".") return decimal == ",";
   throw InputError(fmt::format("--decimal {}: expected a comma or a point, as in --decimal ,", decimal));
 }
 

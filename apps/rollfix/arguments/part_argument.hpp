@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,7 +36,7 @@ LoadOptions read_load_options(const PartArgument& argument);
 /// Adds --decimal, unless the command has it.
 void add_decimal_argument(CLI::App& command, std::string& decimal);
 /// Whether that says that numbers have commas. Throws InputError: neither a comma nor a point.
-bool has_decimal_comma(const std::string& decimal);
+std::optional<bool> has_decimal_comma(const std::string& decimal);
 
 /// Adds --unit alone.
 void add_unit_argument(CLI::App& command, std::string& unit);

@@ -413,7 +413,7 @@ Problem read_problem(const RollArguments& arguments, Part part, std::vector<std:
   require_sensible(arguments);
   const std::string unit = part.unit();
   LogOptions log_options = read_log_options(arguments.reading, unit);
-  log_options.decimal_comma |= has_decimal_comma(arguments.part.decimal);
+  if (!log_options.decimal_comma) log_options.decimal_comma = has_decimal_comma(arguments.part.decimal);
   const bool is_either = arguments.direction == "either";
   const bool is_clockwise = !is_either && counts_clockwise(arguments.direction);
   log_options.clockwise = is_clockwise;

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <toml++/toml.h>
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <filesystem>
 #include <map>
 #include <set>
-#include <sstream>
 #include <utility>
 
 #include "rollfix/arguments/finger_argument.hpp"
@@ -50,73 +50,95 @@ bool takes_settings(const CLI::App& command) { return command.get_option_no_thro
 
 bool is_switch(const CLI::Option& option) { return option.get_expected_min() == 0; }
 
-/// Whether a value is written as TOML has it.
-bool is_toml(std::string_view value) {
-  if (value.empty()) return false;
-  if (std::string_view("\"'[+-0123456789").find(value.front()) == std::string_view::npos) {
-    return value.substr(0, 4) == "true" || value.substr(0, 5) == "false";
-  }
-  return std::string_view("\"'[").find(value.front()) != std::string_view::npos ||
-         value.substr(0, value.find('#')).find(',') == std::string_view::npos;
+/// The keys of a table as they stand in the file.
+std::vector<std::pair<std::string, const toml::node*>> in_their_order(const toml::table& table) {
+  std::vector<std::pair<std::string, const toml::node*>> keys;
+  for (const auto& [key, value] : table) keys.emplace_back(std::string(key.str()), &value);
+  std::stable_sort(keys.begin(), keys.end(), [](const auto& a, const auto& b) {
+    const toml::source_position& one = a.second->source().begin;
+    const toml::source_position& other = b.second->source().begin;
+    return std::make_pair(one.line, one.column) < std::make_pair(other.line, other.column);
+  });
+  return keys;
 }
 
-/// Finds the lines of a file's keys, which come in their order.
-class Lines {
- public:
-  explicit Lines(const std::string& text) : lines_(split(text, '\n')) {}
+std::string place_of(const toml::node& node, const std::string& file) {
+  return fmt::format("{}:{}", file, node.source().begin.line);
+}
 
-  /// Throws InputError: what stands there is no KEY = VALUE.
-  std::string place_of(const CLI::ConfigItem& item, const std::string& file) {
-    for (std::size_t k = next_; k < lines_.size(); ++k) {
-      const std::string_view line = lines_[k];
-      if (key_of(line) != item.name) continue;
-      next_ = k + 1;
-      std::string where = fmt::format("{}:{}", file, next_);
-      const std::size_t equals = line.find('=');
-      if (equals == std::string_view::npos) {
-        throw InputError(fmt::format("{}: expected KEY = VALUE, found {}", where, shown(line)));
-      }
-      if (const std::string_view value = trimmed(line.substr(equals + 1)); !is_toml(value)) {
-        throw InputError(fmt::format("{}: expected a text in quotes, {} = \"{}\", found {}", where, item.name,
-                                     shown(value), shown(value)));
-      }
-      return where;
+/// What would be typed for it: "contact=0.002,angle=0.2deg" for a table within a line.
+std::string typed(const toml::node& value, const std::string& key, const std::string& where) {
+  if (const auto* const text = value.as_string()) return text->get();
+  if (const auto* const whole = value.as_integer()) return fmt::format("{}", whole->get());
+  if (const auto* const number = value.as_floating_point()) return fmt::format("{}", number->get());
+  if (const auto* const is_so = value.as_boolean()) return is_so->get() ? "true" : "false";
+  const toml::table* const table = value.as_table();
+  if (table == nullptr || !table->is_inline()) {
+    throw InputError(fmt::format("{}: {}: expected a text, a number, true or false, or a list of them, found {}", where,
+                                 key,
+                                 value.is_table()   ? "a section"
+                                 : value.is_array() ? "a list"
+                                                    : "a date or time"));
+  }
+  std::vector<std::string> fields;
+  for (const auto& [name, field] : in_their_order(*table)) {
+    fields.push_back(fmt::format("{}={}", name, typed(*field, key, where)));
+  }
+  return fmt::format("{}", fmt::join(fields, ","));
+}
+
+std::vector<std::string> typed_values(const toml::node& value, const std::string& key, const std::string& where) {
+  if (!value.is_array()) return {typed(value, key, where)};
+  std::vector<std::string> values;
+  for (const toml::node& one : *value.as_array()) values.push_back(typed(one, key, where));
+  return values;
+}
+
+/// Throws InputError, with what was likely meant where a value stands without quotes.
+[[noreturn]] void refuse(const toml::parse_error& error, const std::string& text, const std::string& file) {
+  const std::size_t number = error.source().begin.line;
+  const std::vector<std::string_view> lines = split(text, '\n');
+  const std::string_view line = number <= lines.size() ? trimmed(lines[number - 1]) : "";
+  const std::string where = fmt::format("{}:{}", file, number);
+  const std::size_t equals = line.find('=');
+  if (equals == std::string_view::npos && !line.empty() && line.front() != '[') {
+    throw InputError(fmt::format("{}: expected KEY = VALUE, found {}", where, shown(line)));
+  }
+  const std::string_view value = equals == std::string_view::npos ? "" : trimmed(line.substr(equals + 1));
+  if (std::count(line.begin(), line.end(), '"') % 2 != 0) {
+    throw InputError(fmt::format("{}: expected a text between two quotes, found {}", where, shown(line)));
+  }
+  const std::string why = fmt::format("{}: {}; found {}", where, lower_case(error.description()), shown(line));
+  if (value.empty() || value.find_first_of("\"'[{") != std::string_view::npos) throw InputError(why);
+  const std::string_view bare = trimmed(value.substr(0, value.find('#')));
+  throw InputError(fmt::format("{}: expected a text in quotes, {} = \"{}\", found {}", where,
+                               trimmed(line.substr(0, equals)), shown(bare), shown(bare)));
+}
+
+/// The settings of a section, and below it.
+void add_settings(const toml::table& section, const std::string& command, const std::string& file,
+                  std::vector<Setting>& settings) {
+  for (const auto& [name, value] : in_their_order(section)) {
+    const std::string where = place_of(*value, file);
+    const toml::table* const below = value->as_table();
+    if (below == nullptr || below->is_inline()) {
+      settings.push_back({command, name, typed_values(*value, name, where), where});
+    } else if (command.empty()) {
+      add_settings(*below, name, file, settings);
+    } else {
+      throw InputError(
+          fmt::format("{}: expected a key of a command, as in [watch], found {}.{}", where, command, name));
     }
-    return file;
   }
+}
 
- private:
-  /// "every" of "every = 3", "watch.every = 3" and "\"every\" = 3".
-  static std::string_view key_of(std::string_view line) {
-    line = trimmed(line.substr(0, std::min(line.find('='), line.find('#'))));
-    if (const std::size_t dot = line.rfind('.'); dot != std::string_view::npos) line = trimmed(line.substr(dot + 1));
-    const bool is_quoted =
-        line.size() > 2 && line.front() == line.back() && (line.front() == '"' || line.front() == '\'');
-    return is_quoted ? line.substr(1, line.size() - 2) : line;
-  }
-
-  std::vector<std::string_view> lines_;
-  std::size_t next_ = 0;
-};
-
-/// CLI11 reads the file; all that it would take in silence is refused.
 std::vector<Setting> read_file(const std::string& file) {
   const std::string text(without_mark(read_text(file)));
-  std::istringstream stream(text);
-  Lines lines(text);
   std::vector<Setting> settings;
-  for (const CLI::ConfigItem& item : CLI::ConfigTOML().from_config(stream)) {
-    if (item.name == "++" || item.name == "--") continue;  // a section begins or ends
-    const std::string where = lines.place_of(item, file);
-    if (item.parents.size() > 1) {
-      throw InputError(fmt::format("{}: expected a key of a command, as in [watch], found {}", where, item.fullname()));
-    }
-    for (const std::string& value : item.inputs) {
-      if (value.empty() || value.front() == '"' || value.front() == '\'') {
-        throw InputError(fmt::format("{}: {}: expected a text between quotes, without a '#'", where, item.name));
-      }
-    }
-    settings.push_back({item.parents.empty() ? "" : item.parents.front(), item.name, item.inputs, where});
+  try {
+    add_settings(toml::parse(text), "", file, settings);
+  } catch (const toml::parse_error& error) {
+    refuse(error, text, file);
   }
   return settings;
 }
@@ -152,7 +174,7 @@ const std::map<std::string, std::set<std::string>>& replaced_by() {
   static const std::map<std::string, std::set<std::string>> all = {
       {"part", {"catalog", "loop", "layer", "gap", "open", "corner-angle", "smooth", "allow-crossing", "mirror"}},
       {"catalog",
-       {"part", "loop", "layer", "gap", "open", "corner-angle", "smooth", "allow-crossing", "unit", "prior"}},
+       {"part", "loop", "layer", "outer", "gap", "open", "corner-angle", "smooth", "allow-crossing", "unit", "prior"}},
       {"reading", {"log", "batch", "roll", "at", "columns", "wrapped", "skip-bad", "heading", "pose", "map"}},
       {"log", {"reading", "batch"}},
       {"batch", {"reading", "log", "roll", "at", "map"}},

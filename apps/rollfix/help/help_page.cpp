@@ -31,7 +31,11 @@ class HelpPage : public CLI::Formatter {
   }
 
   std::string make_option(const CLI::Option* option, bool is_positional) const override {
-    return entry(make_option_name(option, is_positional) + make_option_opts(option), option->get_description());
+    // A positional argument is its own type, and the line of usage says whether it can be left out.
+    const std::string value = !is_positional                         ? make_option_opts(option)
+                              : option->get_items_expected_max() > 1 ? " ..."
+                                                                     : "";
+    return entry(make_option_name(option, is_positional) + value, option->get_description());
   }
 
   std::string make_subcommand(const CLI::App* command) const override {

@@ -7,7 +7,8 @@
 namespace rollfix::app {
 
 /// What options are about, in the order in which pages list them.
-inline constexpr std::array kOptionGroups = {"Part", "Log", "Finger", "Noise", "Roll", "Search", "Output", "General"};
+inline constexpr std::array kOptionGroups = {"Part", "Log",    "Files",  "Finger", "Noise",
+                                             "Roll", "Search", "Output", "General"};
 
 /// Puts each option of a command into its group.
 void group_options(CLI::App& command);

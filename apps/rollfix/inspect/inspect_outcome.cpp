@@ -32,9 +32,9 @@ std::string loops_text(const Inspection& outcome) {
     const Loop& loop = outcome.loops[k];
     const std::string area = loop.outline.closed ? fmt::format(", area {:.8g}", loop.area) : "";
     const std::string gap = loop.has_gap() ? fmt::format(", gaps up to {:.2g}", loop.gap) : "";
-    text +=
-        fmt::format("{:<12} {}: {}, {} curves, length {:.8g}{}{}{}\n", title, k + 1, kind_of(loop),
-                    loop.outline.curves.size(), loop.length, area, gap, k + 1 == outcome.loop ? "  <- this one" : "");
+    text += fmt::format("{:<12} {}: {}, {}, length {:.8g}{}{}{}\n", title, k + 1, kind_of(loop),
+                        counted(loop.outline.curves.size(), "curve", "curves"), loop.length, area, gap,
+                        k + 1 == outcome.loop ? "  <- this one" : "");
     title = "";
   }
   if (shown < outcome.loops.size()) {

@@ -104,7 +104,7 @@ WatchOptions watch_options(const WatchArguments& arguments, const std::string& l
   options.fingers = read_fingers(arguments.fingers, 1, unit);
   options.belief = belief_options(arguments, unit);
   options.log = read_log_options(arguments.reading, unit);
-  options.log.decimal_comma |= has_decimal_comma(arguments.part.decimal);
+  if (!options.log.decimal_comma) options.log.decimal_comma = has_decimal_comma(arguments.part.decimal);
   options.log.mirrored = arguments.mirror;
   options.log.clockwise = counts_clockwise(arguments.direction);
   for (Finger& finger : options.fingers) {

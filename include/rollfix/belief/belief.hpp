@@ -151,6 +151,10 @@ enum class Cause {
   psi_degrees,       // psi is
   angles_degrees,    // both are
   turn_degrees,      // of a log without u and psi: the turn is
+  u_radians,         // u is in radians, and was said to be in degrees
+  psi_radians,       // psi is
+  angles_radians,    // both are
+  turn_radians,      // of a log without u and psi: the turn is
   u_clockwise,       // u is counted clockwise
   psi_clockwise,     // psi is
   u_psi_swapped,     // u was taken for psi, and psi for u
@@ -174,11 +178,12 @@ struct Diagnosis {
   double turn_scale = 1;       // gyroscope: turns are this many times what was measured, ...
   double turn_scale_sd = 0;    // ... give or take
   double noise_scale = 1;      // noise: it is this many times what was said
-  Noise noise{};               // where none was said: what they seem to have
+  Noise noise{};               // where none was said: what they seem to have, and are to be read with
   std::size_t stray = 0;       // rows
   double slip = 0;             // slip: so much per length would allow it
   double gyro = 0;             // gyroscope: so much per turn would allow it
-  /// Angles in degrees, u and psi swapped: how the log's columns are to be read. Empty: no file's header is known.
+  /// Angles in degrees or radians, u and psi swapped: how the log's columns are to be read. Empty: no file's header is
+  /// known.
   std::vector<ColumnSource> columns{};
   Verdict verdict{};          // the answer
   std::vector<Mode> modes{};  // likewise, the most probable first

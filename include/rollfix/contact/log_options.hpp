@@ -29,8 +29,8 @@ struct LogOptions {
   std::string angles{};
   /// Whether u and psi jump back after a full turn, where `columns` does not say it. None: the rows show it.
   std::optional<bool> wrapped{};
-  /// Numbers have a comma for the decimal point, between blanks or tabs too: 0,5 1,25. Between semicolons that is seen.
-  bool decimal_comma = false;
+  /// Whether numbers have a comma for the decimal point, as in 0,5 1,25. None: they may between semicolons.
+  std::optional<bool> decimal_comma{};
   /// Rows that can't be read, a time that does not grow among them, are left out, and Log::skipped tells of them.
   bool skip_bad = false;
   /// As a mirror shows it: u, length, turn, distance, dturn and x with the other sign, pi - psi for psi. What is felt

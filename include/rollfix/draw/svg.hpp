@@ -99,8 +99,8 @@ std::string escape_xml(std::string_view text);
 enum class FigureFormat { svg, png, pdf };
 
 /// The format that a file name's ending asks for, upper case or lower.
-/// Throws InputError listing the known endings.
-FigureFormat figure_format(const std::filesystem::path& file);
+/// Throws InputError listing the known endings; `besides`: what it says of others that the caller takes.
+FigureFormat figure_format(const std::filesystem::path& file, std::string_view besides = "");
 
 /// The figure as the bytes of a file. PNG: white background, two pixels for each of the figure's.
 /// The same figure gives the same bytes on the same machine (PNG and PDF depend on its fonts).

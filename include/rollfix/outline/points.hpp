@@ -35,8 +35,8 @@ struct OutlineOptions {
                                             // sparsely sampled nose is no corner
   std::optional<Length> smooth = {};        // points of a scan, to be met within this and not exactly
   std::string unit = {};  // that all lengths are to be in; what the file states is converted; empty: what it states
-  bool decimal_comma = false;  // as in 0,5 1,25; between semicolons that is seen
-  bool airfoil = false;        // from the trailing edge over the top and back: corners are at the trailing edge only
+  std::optional<bool> decimal_comma{};  // as in 0,5 1,25; none: there may be between semicolons
+  bool airfoil = false;  // from the trailing edge over the top and back: corners are at the trailing edge only
 };
 
 /// Points closer together than this share of the bounding box's diagonal are the same point.

@@ -24,7 +24,7 @@ LogOptions log_options(const py::dict& given) {
   options.angles = given["angles"].cast<std::string>();
   options.wrapped = given["wrapped"].cast<std::optional<bool>>();
   options.skip_bad = given["skip_bad"].cast<bool>();
-  options.decimal_comma = given["decimal_comma"].cast<bool>();
+  if (given["decimal_comma"].cast<bool>()) options.decimal_comma = true;
   options.clockwise = given["clockwise"].cast<bool>();
   return options;
 }

@@ -33,7 +33,7 @@ LoadOptions load_options(const py::dict& options) {
   result.loop = get("loop").cast<std::optional<std::size_t>>();
   result.gap = length("gap");
   result.outer = options.contains("outer") && options["outer"].cast<bool>();
-  result.points.decimal_comma = options.contains("decimal_comma") && options["decimal_comma"].cast<bool>();
+  if (options.contains("decimal_comma") && options["decimal_comma"].cast<bool>()) result.points.decimal_comma = true;
   result.layer = options.contains("layer") ? options["layer"].cast<std::string>() : "";
   result.saved_name = true;
   result.allow_crossing = options.contains("allow_crossing") && options["allow_crossing"].cast<bool>();

@@ -40,12 +40,13 @@ std::vector<Way> ways_of(const Plan& plan) {
 }
 
 /// The fingers that are drawn, as far as they are not too far off.
-Box fingers_of(const Plan& plan) {
+Box fingers_of(Plan& plan) {
   Box box;
   for (const Way& way : plan.ways) {
     if (!plan.has_finger(way)) continue;
     for (const double s : {plan.start(way), plan.placement(way).end[way.finger]}) {
-      include_finger(box, plan.framing.part, plan.part(), s, *plan.radius(way.finger));
+      const bool is_whole = include_finger(box, plan.framing.part, plan.part(), s, *plan.radius(way.finger));
+      plan.cuts_finger = plan.cuts_finger || !is_whole;
     }
   }
   return box;
@@ -137,6 +138,7 @@ std::string Plan::key() const {
   if (part().corners().size() > kMostCorners) {
     texts.push_back(fmt::format("{} corners: no marks", part().corners().size()));
   }
+  if (cuts_finger) texts.emplace_back("a finger is too large to be drawn whole");
   return fmt::format("{}", fmt::join(texts, "; "));
 }
 

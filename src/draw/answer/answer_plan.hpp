@@ -50,8 +50,9 @@ struct Plan {
   Framing framing;                   // of the part; beside it is the square of two fingers
   std::vector<PairLine> lines;       // what the square shows
   Most most;
-  double label_size = 13;  // of contacts, pixels
-  bool fades = false;      // with noise: rolls are as strong as they are probable, and labels don't say how probable
+  double label_size = 13;    // of contacts, pixels
+  bool cuts_finger = false;  // one is so much larger than the part
+  bool fades = false;        // with noise: rolls are as strong as they are probable, and labels don't say how probable
 
   bool has_pairs() const { return figure->answer->finger_count() == 2; }
   const Part& part() const { return figure->answer->part; }

@@ -69,14 +69,15 @@ Text placement_text(const Plan& plan, const Way& way) {
   const std::size_t last = plan.roll(way).contacts.size();
   Text text = contact_name(plan, way, 0);
   if (placement.kind == Kind::stretch) {
-    text.push_back({fmt::format(" in [{}, {}]", pretty(placement.extent[0].lo), pretty(placement.extent[0].hi))});
+    text.push_back({fmt::format(" in [{}, {}]", pretty_on(plan.part(), placement.extent[0].lo),
+                                pretty_on(plan.part(), placement.extent[0].hi))});
   } else {
-    text.push_back({" " + pretty(placement.start[0])});
+    text.push_back({" " + pretty_on(plan.part(), placement.start[0])});
   }
   if (last > 0) {
     text.push_back({" \u2192 "});
     append(text, contact_name(plan, way, last));
-    text.push_back({" " + pretty(placement.end[0])});
+    text.push_back({" " + pretty_on(plan.part(), placement.end[0])});
   }
   if (placement.kind == Kind::touching) text.push_back({" touching"});
   if (placement.kind == Kind::corner) text.push_back({" corner"});
@@ -162,7 +163,7 @@ Text small_print(const Plan& plan) {
 Legend legend_of(const Plan& plan) {
   std::vector<LegendEntry> entries;
   if (plan.has_pairs()) {
-    for (std::size_t finger = 0; finger < 2; ++finger) {
+    for (std::size_t finger = 0; finger < 2 && !plan.ways.empty(); ++finger) {
       entries.push_back({Sign::line, kFingerColours[finger], finger_text(plan, finger)});
     }
     for (std::size_t k = 0; plan.has_noise() && k < std::min(plan.placements().size(), kMostPairs); ++k) {

@@ -334,8 +334,8 @@ class WorldPicture {
     Text where = plan_.has_pairs() ? Text{{"part"}} : contact_name(plan_, {shown_.back(), 0}, 0);
     std::string turned;
     if (!main().pose_spread) {
-      where.push_back(
-          {": x " + with_unit(pretty(pose.x), plan_.part()) + ", y " + with_unit(pretty(pose.y), plan_.part())});
+      where.push_back({": x " + with_unit(pretty_on(plan_.part(), pose.x), plan_.part()) + ", y " +
+                       with_unit(pretty_on(plan_.part(), pose.y), plan_.part())});
       turned = "heading " + pretty_degrees(heading);
     } else {
       const Eigen::Matrix3d& covariance = main().pose_spread->covariance;

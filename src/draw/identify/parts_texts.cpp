@@ -30,7 +30,7 @@ bool is_anywhere(const Plan& plan, std::size_t k, std::size_t finger) {
 
 /// With noise as many digits as are known of both ends of a roll.
 std::string place_text(const Plan& plan, double s, double sd) {
-  return " " + (plan.has_noise() ? as_sure_as(s, sd) : pretty(s, 5));
+  return " " + (plan.has_noise() ? as_sure_as(s, sd) : pretty_on(plan.part(), s, 5));
 }
 
 /// Where a first contact was.
@@ -40,7 +40,8 @@ std::string start_text(const Plan& plan, std::size_t k, std::size_t finger, doub
   if (is_anywhere(plan, k, finger)) return " anywhere";
   const bool is_range = !plan.has_noise() && !plan.has_pairs() && placement.kind == Kind::stretch;
   if (!is_range) return place_text(plan, placement.start[finger], sd);
-  return fmt::format(" in [{}, {}]", pretty(extent.lo), pretty(plan.part().boundary().base(extent.hi)));
+  return fmt::format(" in [{}, {}]", pretty_on(plan.part(), extent.lo),
+                     pretty_on(plan.part(), plan.part().boundary().base(extent.hi)));
 }
 
 std::string probability_text(const Plan& plan, std::size_t k) {

@@ -19,7 +19,7 @@ struct CauseText {
 
 // What is wrong, and what to give instead: options that can be typed as they stand, or a sentence without any. Where
 // numbers belong in them they are put together below.
-constexpr std::array<CauseText, 20> kCauses = {{
+constexpr std::array<CauseText, 24> kCauses = {{
     {Cause::none, "none", "", ""},
     {Cause::unsaid_noise, "unsaid_noise",
      "the rows jitter by more than their digits say, and were taken as exact; slip and the radius may be off besides",
@@ -35,6 +35,10 @@ constexpr std::array<CauseText, 20> kCauses = {{
     {Cause::psi_degrees, "psi_degrees", "psi is in degrees", "--columns psi=psi:deg"},
     {Cause::angles_degrees, "angles_degrees", "u and psi are in degrees", "--columns u=u:deg,psi=psi:deg"},
     {Cause::turn_degrees, "turn_degrees", "turns are in degrees", "give turns with their unit, as in 73deg"},
+    {Cause::u_radians, "u_radians", "u is in radians", "--columns u=u:rad"},
+    {Cause::psi_radians, "psi_radians", "psi is in radians", "--columns psi=psi:rad"},
+    {Cause::angles_radians, "angles_radians", "u and psi are in radians", "--columns u=u:rad,psi=psi:rad"},
+    {Cause::turn_radians, "turn_radians", "turns are in radians", "--columns turn=turn:rad"},
     {Cause::u_clockwise, "u_clockwise", "u is counted clockwise", "counter-clockwise angles: change the sign of u"},
     {Cause::psi_clockwise, "psi_clockwise", "psi is counted clockwise",
      "counter-clockwise angles: change the sign of psi"},
@@ -117,6 +121,35 @@ std::string columns_option(const std::vector<ColumnSource>& columns) {
   return "--columns " + quoted_for_shell(fmt::format("{}", fmt::join(fields, ",")));
 }
 
+/// What is to be given, without the noise that it is to be given with.
+std::string cure_alone(const Diagnosis& diagnosis, const std::vector<Finger>& fingers, const Noise& noise) {
+  if (diagnosis.cause == Cause::unsaid_noise) return noise_option(diagnosis.noise, 1);
+  if (diagnosis.cause == Cause::slip || diagnosis.cause == Cause::gyroscope) {
+    Noise more = noise;
+    if (diagnosis.cause == Cause::slip) more.slip = diagnosis.slip;
+    if (diagnosis.cause == Cause::gyroscope) more.gyro = diagnosis.gyro;
+    return noise_option(more, 1);
+  }
+  if (!diagnosis.columns.empty()) return columns_option(diagnosis.columns);
+  if (diagnosis.cause == Cause::fingers_swapped) {
+    if (fingers.size() != 2) return "give both in the other order";
+    return fmt::format("--finger {} --finger {}", fingers[1].name(), fingers[0].name());
+  }
+  if (diagnosis.cause == Cause::noise) return noise_option(noise, diagnosis.noise_scale);
+  if (diagnosis.cause == Cause::radius) {
+    const bool of_disks = !fingers.empty() && std::all_of(fingers.begin(), fingers.end(),
+                                                          [](const Finger& finger) { return finger.is_disk(); });
+    if (!of_disks) return fmt::format("lengths that are {:.5g} times as long", diagnosis.length_scale);
+    std::vector<std::string> options;
+    for (const Finger& finger : fingers)
+      options.push_back(fmt::format("--finger disk,r={:.5g}", diagnosis.length_scale * finger.disk()->radius));
+    return fmt::format("{}", fmt::join(options, " "));
+  }
+  return text_of(diagnosis.cause).cure;
+}
+
+bool is_any(const Noise& noise) { return noise.contact > 0 || noise.angle > 0; }
+
 }  // namespace
 
 const char* name_of(Cause cause) { return text_of(cause).name; }
@@ -145,30 +178,10 @@ std::string about(const Diagnosis& diagnosis) {
 }
 
 std::string cure_of(const Diagnosis& diagnosis, const std::vector<Finger>& fingers, const Noise& said) {
-  if (diagnosis.cause == Cause::unsaid_noise) return noise_option(diagnosis.noise, 1);
-  const Noise& noise = said.contact > 0 || said.angle > 0 ? said : diagnosis.noise;
-  if (diagnosis.cause == Cause::slip || diagnosis.cause == Cause::gyroscope) {
-    Noise more = noise;
-    if (diagnosis.cause == Cause::slip) more.slip = diagnosis.slip;
-    if (diagnosis.cause == Cause::gyroscope) more.gyro = diagnosis.gyro;
-    return noise_option(more, 1);
-  }
-  if (!diagnosis.columns.empty()) return columns_option(diagnosis.columns);
-  if (diagnosis.cause == Cause::fingers_swapped) {
-    if (fingers.size() != 2) return "give both in the other order";
-    return fmt::format("--finger {} --finger {}", fingers[1].name(), fingers[0].name());
-  }
-  if (diagnosis.cause == Cause::noise) return noise_option(noise, diagnosis.noise_scale);
-  if (diagnosis.cause == Cause::radius) {
-    const bool of_disks = !fingers.empty() && std::all_of(fingers.begin(), fingers.end(),
-                                                          [](const Finger& finger) { return finger.is_disk(); });
-    if (!of_disks) return fmt::format("lengths that are {:.5g} times as long", diagnosis.length_scale);
-    std::vector<std::string> options;
-    for (const Finger& finger : fingers)
-      options.push_back(fmt::format("--finger disk,r={:.5g}", diagnosis.length_scale * finger.disk()->radius));
-    return fmt::format("{}", fmt::join(options, " "));
-  }
-  return text_of(diagnosis.cause).cure;
+  const std::string cure = cure_alone(diagnosis, fingers, is_any(said) ? said : diagnosis.noise);
+  const bool is_all =
+      is_any(said) || !is_any(diagnosis.noise) || !cure.starts_with("--") || cure.find("--noise") != std::string::npos;
+  return is_all ? cure : fmt::format("{} {}", cure, noise_option(diagnosis.noise, 1));
 }
 
 }  // namespace rollfix

@@ -193,7 +193,13 @@ class Expansion {
     if (!block.defined) {
       refuse(reader_, entity.place, fmt::format("INSERT of block '{}', which the file does not have", name));
     }
-    if (block.again) refuse(reader_, *block.again, fmt::format("block '{}' stands in the file twice", name));
+    if (block.again) {
+      refuse(
+          reader_, *block.again,
+          fmt::format("block '{}' is defined here again, and which one is meant can't be told: rename one of them, or "
+                      "explode what is inserted, and save the drawing anew",
+                      name));
+    }
     if (block.external) {
       ++tally_.others["INSERT of another file"];
       return;
@@ -247,7 +253,7 @@ void expand(const Model& model, const TagReader& reader, const std::string& laye
   for (std::size_t k = 0; k < model.blocks.size(); ++k) {
     if (!model.blocks[k].again) continue;
     notes.push_back(
-        fmt::format("block '{}' stands in the file twice, and is not drawn", shown(model.block_names.name(k))));
+        fmt::format("block '{}' is defined more than once, and not drawn", shown(model.block_names.name(k))));
   }
   drawing.notes.insert(drawing.notes.end(), notes.begin(), notes.end());
   expansion.canvas().require_flat();

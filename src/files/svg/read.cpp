@@ -91,7 +91,7 @@ struct LeftOut {
     };
     add_wrong(singular, "element that a singular transform makes flat", "elements that singular transforms make flat");
     add_wrong(below_zero, "element of a size below 0", "elements of a size below 0");
-    add_wrong(dangling, "<use> of an id that no element has", "<use> of ids that no element has");
+    add_wrong(dangling, "<use> of what is not there", "<use> of what is not there");
     if (clipped > 0)
       notes.push_back(fmt::format("drawn whole: {}", counted(clipped, "clipped element", "clipped elements")));
     if (style_sheets > 0) {
@@ -346,7 +346,7 @@ class Walker {
   void draw_use(pugi::xml_node node, Surroundings around) {
     const std::optional<Value> reference = reference_of(node);
     if (!reference || reference->text.empty()) {
-      ++left_out.without_size;
+      left_out.dangling.add(document_.line_of(node));
       return;
     }
     const auto refuse = [&](const char* why) {

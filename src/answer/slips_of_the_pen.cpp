@@ -1,0 +1,99 @@
+#include "slips_of_the_pen.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "column_cure.hpp"
+#include "outline/turn.hpp"
+
+namespace rollfix {
+namespace {
+
+using Column = std::vector<double> FingerRows::*;
+
+/// `power`: 1 for degrees that were taken for radians, -1 for radians that were taken for degrees.
+SlipOfThePen in_other_angles(Cause cause, int power, const std::vector<Column>& columns) {
+  const double factor = power > 0 ? kDegree : 1 / kDegree;
+  const auto mend = [factor, columns](FingerRows& rows) {
+    for (const Column column : columns) {
+      for (double& value : rows.*column) value *= factor;
+    }
+  };
+  return {cause, mend, static_cast<double>(columns.size()) * std::log(factor)};
+}
+
+SlipOfThePen in_degrees(Cause cause, const std::vector<Column>& columns) { return in_other_angles(cause, 1, columns); }
+SlipOfThePen in_radians(Cause cause, const std::vector<Column>& columns) { return in_other_angles(cause, -1, columns); }
+
+SlipOfThePen the_other_way(Cause cause, const std::vector<Column>& columns) {
+  const auto mend = [columns](FingerRows& rows) {
+    for (const Column column : columns) {
+      for (double& value : rows.*column) value = -value;
+    }
+  };
+  return {cause, mend};
+}
+
+void swap_u_and_psi(FingerRows& rows) {
+  std::swap(rows.u, rows.psi);
+  std::swap(rows.place_rounding, rows.angle_rounding);
+}
+
+std::vector<SlipOfThePen> slips_of_contacts(const std::vector<FingerRows>& fingers) {
+  constexpr Column u = &FingerRows::u;
+  constexpr Column psi = &FingerRows::psi;
+  std::vector<SlipOfThePen> slips = {
+      {Cause::u_psi_swapped, swap_u_and_psi},     the_other_way(Cause::both_clockwise, {u, psi}),
+      the_other_way(Cause::u_clockwise, {u}),     the_other_way(Cause::psi_clockwise, {psi}),
+      in_degrees(Cause::u_degrees, {u}),          in_degrees(Cause::psi_degrees, {psi}),
+      in_degrees(Cause::angles_degrees, {u, psi})};
+  const bool u_may_be = says_degrees(fingers, "u");
+  const bool psi_may_be = says_degrees(fingers, "psi");
+  if (u_may_be) slips.push_back(in_radians(Cause::u_radians, {u}));
+  if (psi_may_be) slips.push_back(in_radians(Cause::psi_radians, {psi}));
+  if (u_may_be && psi_may_be) slips.push_back(in_radians(Cause::angles_radians, {u, psi}));
+  return slips;
+}
+
+std::vector<SlipOfThePen> slips_of_courses(const std::vector<FingerRows>& fingers) {
+  constexpr Column length = &FingerRows::length;
+  constexpr Column turn = &FingerRows::turn;
+  std::vector<SlipOfThePen> slips = {
+      the_other_way(Cause::both_clockwise, {length, turn}), the_other_way(Cause::length_backwards, {length}),
+      the_other_way(Cause::turn_clockwise, {turn}), in_degrees(Cause::turn_degrees, {turn})};
+  if (says_degrees(fingers, "turn") || says_degrees(fingers, "dturn")) {
+    slips.push_back(in_radians(Cause::turn_radians, {turn}));
+  }
+  return slips;
+}
+
+void mend(const SlipOfThePen& slip, Reading& reading) {
+  FingerRows rows;
+  rows.length = {reading.length.begin(), reading.length.end()};
+  rows.turn = {reading.turn};
+  slip.mend(rows);
+  std::copy(rows.length.begin(), rows.length.end(), reading.length.begin());
+  reading.turn = rows.turn.front();
+}
+
+}  // namespace
+
+std::vector<SlipOfThePen> slips_of_the_pen(const Felt& felt) {
+  if (!felt.is_log()) return slips_of_courses({});
+  return felt.log->kind == LogKind::contact ? slips_of_contacts(felt.log->fingers)
+                                            : slips_of_courses(felt.log->fingers);
+}
+
+Problem without(const SlipOfThePen& slip, const Problem& problem) {
+  Problem mended = problem;
+  if (mended.felt.is_log()) {
+    for (FingerRows& rows : mended.felt.log->fingers) slip.mend(rows);
+  } else {
+    for (Reading& reading : mended.felt.readings) mend(slip, reading);
+  }
+  return mended;
+}
+
+}  // namespace rollfix
