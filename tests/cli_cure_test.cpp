@@ -2,12 +2,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <regex>
 #include <string>
 #include <vector>
 
 #include "cli.hpp"
+#include "rollfix/contact/log.hpp"
 #include "rollfix/outline/gallery.hpp"
 #include "rollfix/part/part.hpp"
 
@@ -15,7 +17,9 @@ namespace cli_cure_test {
 namespace {
 
 using cli::run;
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 constexpr const char* kFinger = " --finger disk,r=0.2 --noise contact=0.002,angle=0.2deg";
@@ -96,6 +100,91 @@ TEST(Cures, turns_in_radians_that_were_said_to_be_degrees_are_told) {
   EXPECT_THAT(text, HasSubstr("likeliest: turns are in radians"));
   EXPECT_THAT(run("locate gallery:cam --log roll.csv " + option_in(text, "columns")).out,
               HasSubstr("  2.000000  5.200000"));
+}
+
+/// A roll of a disk that sticks to its skin for some rows: u stands still while the finger turns on.
+TEST(Cures, a_short_roll_in_degrees_does_not_explain_what_it_hides) {
+  const cli::Folder folder;
+  ASSERT_EQ(run("simulate gallery:cam --finger disk,r=0.2 --start 2 --length 3 --samples 120 -o roll.csv").code, 0);
+  const rollfix::Log roll = rollfix::read_log("roll.csv");
+  std::ofstream log("stuck.csv");
+  log << "u,psi\n";
+  double off = 0;
+  for (std::size_t k = 0; k < roll.rows(); ++k) {
+    if (k > 50 && k <= 60) off += roll.fingers[0].u[k - 1] - roll.fingers[0].u[k];
+    log << roll.fingers[0].u[k] + off << ',' << roll.fingers[0].psi[k] << '\n';
+  }
+  log.close();
+  const std::string text = run(std::string("locate gallery:cam --log stuck.csv") + kFinger).out;
+  EXPECT_THAT(text, HasSubstr("likeliest: "));
+  EXPECT_THAT(text, Not(HasSubstr("degrees")));
+}
+
+TEST(Cures, of_psi_alone_in_degrees_is_that_and_no_jump) {
+  const cli::Folder folder;
+  ASSERT_EQ(run("simulate gallery:cam --finger disk,r=0.2 --start 2 --length 3 --samples 40 -o roll.csv").code, 0);
+  const rollfix::Log roll = rollfix::read_log("roll.csv");
+  std::ofstream log("degrees.csv");
+  log << "u,psi\n";
+  for (std::size_t k = 0; k < roll.rows(); ++k) {
+    log << roll.fingers[0].u[k] << ',' << roll.fingers[0].psi[k] * 180 / std::acos(-1) << '\n';
+  }
+  log.close();
+  const std::string locate = std::string("locate gallery:cam --log degrees.csv") + kFinger;
+  const cli::Ran ran = run(locate);
+  const std::string told = ran.code == 2 ? ran.err : ran.out;
+  EXPECT_THAT(told, HasSubstr("psi is in degrees"));
+  EXPECT_THAT(run(locate + " " + option_in(told, "columns")).out, StartsWith("unique"));
+}
+
+TEST(Cures, of_exchanged_fingers_are_both_with_their_radii) {
+  const cli::Folder folder;
+  const std::string simulate = "simulate gallery:cam --finger disk,r=0.3 --finger disk,r=0.1 --start 1 --start 4 ";
+  ASSERT_EQ(run(simulate + "--length 1.5 --length -0.8 -o roll.csv").code, 0);
+  const std::string locate = "locate gallery:cam --log roll.csv --noise contact=0.001,angle=0.1deg ";
+  const std::string cure = "--finger disk,r=0.3 --finger disk,r=0.1";
+  EXPECT_THAT(run(locate + "--finger disk,r=0.1 --finger disk,r=0.3").out, HasSubstr("\n  " + cure + "; then unique"));
+  EXPECT_THAT(run(locate + cure).out, StartsWith("unique"));
+}
+
+TEST(Cures, of_a_stray_row_say_the_noise_that_robust_needs) {
+  const cli::Folder folder;
+  ASSERT_EQ(run("simulate gallery:cam --finger disk,r=0.2 --start 2 --length 3 --samples 60 -o roll.csv").code, 0);
+  const rollfix::Log roll = rollfix::read_log("roll.csv");
+  std::ofstream log("stray.csv");
+  log.precision(12);
+  log << "u,psi\n";
+  for (std::size_t k = 0; k < roll.rows(); ++k) {
+    log << roll.fingers[0].u[k] << ',' << roll.fingers[0].psi[k] + (k == 30 ? 0.2 : 0.0) << '\n';
+  }
+  log.close();
+  EXPECT_THAT(run("locate gallery:cam --log stray.csv --finger disk,r=0.2").out,
+              HasSubstr("--robust --noise contact="));
+}
+
+TEST(Cures, a_row_of_units_is_no_row_to_leave_out) {
+  const cli::Folder folder;
+  folder.write("roll.csv", "time,u,psi\ns,deg,deg\n0,0,0\n1,-10,20\n");
+  const cli::Ran ran = run("locate gallery:cam --log roll.csv --finger disk,r=0.2");
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_THAT(ran.err, AllOf(HasSubstr("roll.csv:2: 's,deg,deg' are units"), Not(HasSubstr("skip-bad"))));
+}
+
+TEST(Cures, an_empty_value_is_refused_and_not_left_out) {
+  for (const char* const option : {"--noise", "--tolerance", "--unit", "--certify", "-o", "--layer"}) {
+    const auto ran = cli::run_words({"locate", "gallery:cam", "--reading", "1,0.5", option, ""});
+    EXPECT_EQ(ran.code, 2) << option;
+    EXPECT_THAT(ran.err, HasSubstr("expected a value behind it, found an empty one"));
+  }
+  EXPECT_EQ(run("locate gallery:cam --reading 1,0.5 --noise=").code, 2);
+}
+
+TEST(Cures, a_heading_of_ninety_radians_is_one_of_degrees) {
+  const cli::Folder folder;
+  ASSERT_EQ(run("simulate gallery:cam --finger disk,r=0.2 --start 2 --length 3 -o roll.csv").code, 0);
+  const cli::Ran ran = run(std::string("locate gallery:cam --log roll.csv --heading 90,5") + kFinger);
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_THAT(ran.err, HasSubstr("degrees are written 90deg"));
 }
 
 // Each run of the program in these tests types what it offers: see cures.hpp. That sees what is offered:

@@ -135,6 +135,11 @@ TEST_F(CliSettings, what_is_wrong_in_it_is_told_with_its_line_and_what_was_meant
   for (const auto& [text, error] : cases) EXPECT_THAT(refusal(text), HasSubstr(error)) << text;
 }
 
+TEST_F(CliSettings, a_list_of_numbers_is_one_value_where_one_is_taken) {
+  folder_.write("rollfix.toml", std::string(kRobot) + "at = [3, 5.5]\n");
+  EXPECT_THAT(run("locate --log roll.csv").err, HasSubstr("--at 3,5.5"));
+}
+
 TEST_F(CliSettings, pairs_may_stand_in_a_table_and_a_name_may_hold_a_hash) {
   std::ofstream("a#b.csv") << cli::read("roll.csv");
   folder_.write("rollfix.toml", "log = \"a#b.csv\"\nnoise = {contact = 0.002, angle = \"0.2deg\"}\n");

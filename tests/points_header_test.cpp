@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -79,6 +82,19 @@ TEST(PointsHeader, several_titles_are_passed_over_and_counted) {
   const std::string text = "S1223\nSelig high lift\n\ncoordinates follow\n0 0\n1 0\n0 2\n";
   EXPECT_EQ(parsed(text), kTriangle);
   EXPECT_THAT(notes_on(text), ElementsAre(HasSubstr("3 title lines")));
+}
+
+TEST(PointsHeader, more_columns_than_two_without_one_are_told) {
+  const std::string rows = "0,20.0,0.0\n1,19.0,1.0\n2,18.0,3.0\n3,12,8\n";
+  EXPECT_THAT(notes_on(rows), ElementsAre(HasSubstr("3 columns without a header: the first two are taken as x and y")));
+  EXPECT_THAT(notes_on("id,x,y\n" + rows), ElementsAre());
+}
+
+TEST(PointsHeader, points_that_lack_a_piece_of_the_outline_are_told) {
+  std::string text;
+  for (int k = 0; k < 150; ++k) text += fmt::format("{} {}\n", std::cos(k * 0.0314159), std::sin(k * 0.0314159));
+  EXPECT_THAT(notes_on(text),
+              ElementsAre(AllOf(HasSubstr("the last point is 1.43"), HasSubstr("`open` leaves it open"))));
 }
 
 TEST(PointsHeader, a_point_with_a_slip_of_the_pen_is_no_second_title) {

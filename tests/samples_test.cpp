@@ -58,6 +58,13 @@ TEST(Samples, have_both_tangents_at_a_corner) {
   EXPECT_GE(corners, 3);  // the fourth may be where the outline starts and ends
 }
 
+TEST(Samples, keep_the_parts_unit_in_a_table) {
+  const cli::Folder folder;
+  ASSERT_EQ(cli::run("inspect gallery:ellipse --unit in -o outline.csv").code, 0);
+  EXPECT_EQ(cli::read("outline.csv").substr(0, 28), "s [in],x [in],y [in],tangent");
+  EXPECT_THAT(cli::run("inspect outline.csv --unit mm").out, testing::HasSubstr("perimeter    246."));  // 9.688 in
+}
+
 TEST(Samples, are_the_same_in_a_table_and_in_json) {
   const cli::Folder folder;
   const cli::Ran ran = cli::run("inspect gallery:ellipse --json -o outline.csv");

@@ -9,6 +9,7 @@
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/points.hpp"
 
 namespace weighed_placement_test {
 namespace {
@@ -110,6 +111,38 @@ TEST(WeighedPlacement, is_turned_as_surely_where_the_first_contact_is_off) {
   };
   EXPECT_NEAR(heading_sd(0.02), heading_sd(0), 0.1 * heading_sd(0));
   EXPECT_LT(heading_sd(0), 1);
+}
+
+/// A disk that pivots by that much at a corner, whichever it is, and rolls on along the side behind it.
+Problem pivot_and_roll(const Part& part, double radius, double pivot, double length, const Noise& noise) {
+  constexpr int kRows = 40;
+  rollfix::Log log;
+  log.fingers.resize(1);
+  for (int k = 0; k <= kRows; ++k) {
+    const double turn = pivot * std::min(1.0, 2.0 * k / kRows);
+    const double rolled = length * std::max(0.0, 2.0 * k / kRows - 1);
+    log.fingers[0].u.push_back(-rolled / radius);
+    log.fingers[0].psi.push_back(turn + rolled / radius);
+  }
+  return {part, log, {rollfix::disk(radius)}, noise};
+}
+
+// Corners at six angles of a circle: a disk reaches all of it. With so wide an angle all corners are one placement of
+// the search, whose pivot is of one of them.
+TEST(WeighedPlacement, of_a_convex_part_is_never_out_of_reach_however_wide_the_noise) {
+  std::vector<rollfix::Vec2> corners;
+  for (const double angle : {0.0, 0.7, 1.9, 3.1, 4.1, 5.2}) corners.emplace_back(std::cos(angle), std::sin(angle));
+  rollfix::OutlineOptions options;
+  options.corner_angle = 0.1;
+  const Part part(rollfix::outline_through(corners, "hexagon", options));
+  ASSERT_EQ(part.corners().size(), 6U);
+  const rollfix::Answer answer = rollfix::solve(pivot_and_roll(part, 0.2, 0.5, 0.4, Noise{0.006, 0.1}));
+  EXPECT_EQ(answer.dropped.reach, 0U);
+  for (const rollfix::Corner& corner : part.corners()) {
+    EXPECT_TRUE(std::any_of(answer.placements.begin(), answer.placements.end(), [&](const Placement& placement) {
+      return placement.probability > 0.05 && part.distance(placement.start[0], corner.s) < 0.01;
+    })) << corner.s;
+  }
 }
 
 TEST(WeighedPlacement, of_two_that_look_alike_is_as_probable_as_a_vague_heading_has_it) {

@@ -155,7 +155,21 @@ void describe(CLI::App& program) {
   set_up(program, none, "", std::cout, std::cerr, nobody);
 }
 
+/// What an empty variable of a shell leaves behind: --noise "$NOISE". Throws InputError.
+void refuse_empty_values(const std::vector<std::string>& arguments) {
+  for (std::size_t k = 0; k < arguments.size(); ++k) {
+    const std::string& argument = arguments[k];
+    const bool is_option = argument.size() > 1 && argument[0] == '-';
+    const bool ends_empty = is_option && argument.substr(0, 2) == "--" && argument.back() == '=';
+    const bool is_followed = is_option && k + 1 < arguments.size() && arguments[k + 1].empty();
+    if (!ends_empty && !is_followed) continue;
+    throw InputError(
+        fmt::format("{}: expected a value behind it, found an empty one", argument.substr(0, argument.find('='))));
+  }
+}
+
 void parse(CLI::App& program, const std::vector<std::string>& arguments) {
+  refuse_empty_values(arguments);
   std::vector<std::string> reversed = with_negative_values_attached(arguments);
   std::reverse(reversed.begin(), reversed.end());
   program.parse(std::move(reversed));

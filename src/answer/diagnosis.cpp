@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -62,6 +63,11 @@ struct RareSlip {
   double log_odds;
 };
 constexpr std::array<RareSlip, 2> kUnsaidSlips = {{{0.04, 6}, {0.2, 18}}};
+// What would leave less than this of a roll, radians, is no explanation where of the chi-square that is to be expected
+// less than this share is left as well.
+constexpr double kShortRoll = 1;
+constexpr double kShareOfShort = 0.1;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // A gyroscope of which nothing is said is off by a few hundredths; that psi is measured by one is rarer.
 constexpr double kUnsaidGyro = 0.03;
 constexpr double kOddsAgainstGyro = 2;
@@ -181,7 +187,7 @@ class Diagnostician {
 
   void try_slips_of_the_pen() {
     for (const SlipOfThePen& slip : slips_of_the_pen(problem_.felt)) {
-      take(slip.cause, without(slip, problem_), slip.log_stretch);
+      take(slip.cause, without(slip, problem_), slip.log_stretch, slip.left_of_roll);
     }
     // Of a part that lies face down the centres go as they are seen: only angles would not do.
     const bool of_contact = problem_.felt.is_log() && problem_.felt.log->kind == LogKind::contact;
@@ -330,14 +336,18 @@ class Diagnostician {
     }
   }
 
-  /// `log_stretch`: by how much each row's numbers are stretched, their density with them.
-  void take(Cause cause, const Problem& mended, double log_stretch = 0) {
+  /// `log_stretch`: by how much each row's numbers are stretched, their density with them. `left_of_roll`: of a mistake
+  /// without which the roll is shorter.
+  void take(Cause cause, const Problem& mended, double log_stretch = 0, double left_of_roll = kInfinity) {
     try {
       const Observation observed = observe(mended);
       const Fit glance = by_rows(mended, observed, kRowsToCompare)->fit();
       if (!std::isfinite(glance.excess)) return;
       if (glance.is_bad() && glance.excess > std::max(kWorthALook, kMuchBetter * glance_excess())) return;
       std::optional<Belief> belief = by_rows(mended, observed);
+      // Of a short roll next to nothing is left that could misfit.
+      const Fit& fit = belief->fit();
+      if (left_of_roll < kShortRoll && fit.chi_square < kShareOfShort * fit.freedom) return;
       Diagnosis diagnosis = of(cause, belief->fit());
       if (problem_.felt.is_log()) diagnosis.columns = columns_without(cause, *problem_.felt.log);
       add(std::move(diagnosis), *belief, log_stretch);

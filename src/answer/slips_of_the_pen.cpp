@@ -24,7 +24,23 @@ SlipOfThePen in_other_angles(Cause cause, int power, const std::vector<Column>& 
   return {cause, mend, static_cast<double>(columns.size()) * std::log(factor)};
 }
 
-SlipOfThePen in_degrees(Cause cause, const std::vector<Column>& columns) { return in_other_angles(cause, 1, columns); }
+double range_of(const std::vector<double>& values) {
+  if (values.empty()) return 0;
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  return *most - *least;
+}
+
+SlipOfThePen in_degrees(Cause cause, const std::vector<Column>& columns, const std::vector<FingerRows>& fingers) {
+  SlipOfThePen slip = in_other_angles(cause, 1, columns);
+  if (fingers.empty()) return slip;
+  slip.left_of_roll = 0;
+  for (const FingerRows& rows : fingers) {
+    for (const Column column : columns) {
+      slip.left_of_roll = std::max(slip.left_of_roll, kDegree * range_of(rows.*column));
+    }
+  }
+  return slip;
+}
 SlipOfThePen in_radians(Cause cause, const std::vector<Column>& columns) { return in_other_angles(cause, -1, columns); }
 
 SlipOfThePen the_other_way(Cause cause, const std::vector<Column>& columns) {
@@ -44,11 +60,13 @@ void swap_u_and_psi(FingerRows& rows) {
 std::vector<SlipOfThePen> slips_of_contacts(const std::vector<FingerRows>& fingers) {
   constexpr Column u = &FingerRows::u;
   constexpr Column psi = &FingerRows::psi;
-  std::vector<SlipOfThePen> slips = {
-      {Cause::u_psi_swapped, swap_u_and_psi},     the_other_way(Cause::both_clockwise, {u, psi}),
-      the_other_way(Cause::u_clockwise, {u}),     the_other_way(Cause::psi_clockwise, {psi}),
-      in_degrees(Cause::u_degrees, {u}),          in_degrees(Cause::psi_degrees, {psi}),
-      in_degrees(Cause::angles_degrees, {u, psi})};
+  std::vector<SlipOfThePen> slips = {{Cause::u_psi_swapped, swap_u_and_psi},
+                                     the_other_way(Cause::both_clockwise, {u, psi}),
+                                     the_other_way(Cause::u_clockwise, {u}),
+                                     the_other_way(Cause::psi_clockwise, {psi}),
+                                     in_degrees(Cause::u_degrees, {u}, fingers),
+                                     in_degrees(Cause::psi_degrees, {psi}, fingers),
+                                     in_degrees(Cause::angles_degrees, {u, psi}, fingers)};
   const bool u_may_be = says_degrees(fingers, "u");
   const bool psi_may_be = says_degrees(fingers, "psi");
   if (u_may_be) slips.push_back(in_radians(Cause::u_radians, {u}));
@@ -62,7 +80,7 @@ std::vector<SlipOfThePen> slips_of_courses(const std::vector<FingerRows>& finger
   constexpr Column turn = &FingerRows::turn;
   std::vector<SlipOfThePen> slips = {
       the_other_way(Cause::both_clockwise, {length, turn}), the_other_way(Cause::length_backwards, {length}),
-      the_other_way(Cause::turn_clockwise, {turn}), in_degrees(Cause::turn_degrees, {turn})};
+      the_other_way(Cause::turn_clockwise, {turn}), in_degrees(Cause::turn_degrees, {turn}, fingers)};
   if (says_degrees(fingers, "turn") || says_degrees(fingers, "dturn")) {
     slips.push_back(in_radians(Cause::turn_radians, {turn}));
   }

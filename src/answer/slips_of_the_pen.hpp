@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "rollfix/answer/solve.hpp"
@@ -13,6 +14,8 @@ struct SlipOfThePen {
   Cause cause;
   std::function<void(FingerRows&)> mend;
   double log_stretch = 0;  // by how much the numbers of a row grow, and their density with them: the logarithm of it
+  double left_of_roll = std::numeric_limits<double>::infinity();  // where it makes the roll shorter: how far the
+                                                                  // columns still go, radians
 };
 
 /// Those that what was felt may have.

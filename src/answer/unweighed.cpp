@@ -129,7 +129,7 @@ class RowsCheck {
 /// Whether rows that are exact fit exactly where that mistake is mended: the cure says no number that was estimated.
 bool is_mended_exactly(Cause cause) {
   return cause != Cause::radius && cause != Cause::slip && cause != Cause::gyroscope && cause != Cause::noise &&
-         cause != Cause::unsaid_noise;
+         cause != Cause::unsaid_noise && cause != Cause::stray;
 }
 
 /// What is wrong, found out with noise that the log was not said to have.

@@ -26,6 +26,11 @@ constexpr double kSlipPatch = 0.01;
 // can be seen at slip of 0.02, by a fifth at 0.05 (docs/calibration.md).
 constexpr double kTooNarrow = 3;
 
+// Slip here and there bends the way on which rows lie that are joined, and their mean is off the straight line that the
+// filters take, most over one stretch of it: by this share of what slips over a stretch, and by slip times this angle.
+constexpr double kBentLength = 0.6;
+constexpr double kBentTurn = 0.06;  // radians
+
 // A row that says the same again is worth this much of one: it keeps variances finite.
 constexpr double kLeastWorth = 1e-6;
 
@@ -47,6 +52,13 @@ double SensorErrors::scale_variance(double finger_curvature) const {
 }
 
 double SensorErrors::for_large_slip() const { return 1 + kTooNarrow * square(slip_here_and_there); }
+
+RowCovariance SensorErrors::bent(double travelled) const {
+  if (gathers_rows() || !(travelled > 0)) return {};
+  const double patches = travelled / patch();
+  const double most = std::min(patches, 1 / patches) * square(slip_here_and_there);
+  return {most * square(kBentLength * patch()), 0, most * square(kBentTurn)};
+}
 
 double SensorErrors::patch() const { return kSlipPatch * perimeter; }
 

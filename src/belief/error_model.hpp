@@ -9,6 +9,20 @@
 
 namespace rollfix::belief {
 
+/// Errors of one row on its own: variances of length and turn.
+struct RowCovariance {
+  double length = 0;
+  double both = 0;
+  double turn = 0;
+};
+
+inline RowCovariance operator*(double factor, const RowCovariance& covariance) {
+  return {factor * covariance.length, factor * covariance.both, factor * covariance.turn};
+}
+inline RowCovariance operator+(const RowCovariance& a, const RowCovariance& b) {
+  return {a.length + b.length, a.both + b.both, a.turn + b.turn};
+}
+
 /// How far the sensors of a finger are off, which of their errors a row has on its own and which a roll gathers: the
 /// same for one finger and for each of two. docs/belief.md derives it.
 struct SensorErrors {
@@ -18,6 +32,8 @@ struct SensorErrors {
   double scale_variance(double finger_curvature) const;
   /// The noise is to be taken this many times as large: filters take slip to be small, and its errors to be normal.
   double for_large_slip() const;
+  /// What slips among rows that are joined over this length leaves of their mean open, besides what gathers.
+  RowCovariance bent(double travelled) const;
   /// Of the length, and of the turn, that is gathered on the way over a length, in these seconds from the start.
   double slipped(double length) const;
   double drifted(double length, const Interval& seconds) const;
@@ -61,20 +77,6 @@ inline constexpr int kRolling = 4;
 /// ... and of those the ones that a log has to which no gyroscope belongs.
 inline constexpr int kWithoutGyroscope = 3;
 
-/// Errors of one row on its own: variances of length and turn.
-struct RowCovariance {
-  double length = 0;
-  double both = 0;
-  double turn = 0;
-};
-
-inline RowCovariance operator*(double factor, const RowCovariance& covariance) {
-  return {factor * covariance.length, factor * covariance.both, factor * covariance.turn};
-}
-inline RowCovariance operator+(const RowCovariance& a, const RowCovariance& b) {
-  return {a.length + b.length, a.both + b.both, a.turn + b.turn};
-}
-
 /// Variances of length and turn that gather on the way.
 struct Gathered {
   double length = 0;
@@ -100,6 +102,7 @@ class ErrorModel {
   /// As far as the scale's variance is that of a wrong radius.
   double radius_share(double finger_curvature) const;
   double worth(double travelled, double rows) const { return sensor_.worth(travelled, rows); }
+  RowCovariance bent(double travelled) const { return sensor_.bent(travelled); }
   double for_large_slip() const { return sensor_.for_large_slip(); }
   Travel travel() const { return sensor_.travel(); }
   /// Over less than this length what gathers is one and the same.

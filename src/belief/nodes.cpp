@@ -103,7 +103,7 @@ Node Nodes::node_of(const JoinedRows& rows, double travelled) const {
           rows.turn,
           rows.sensed,
           spread_of(rows),
-          rows.rows / worth * rows.own,
+          rows.rows / worth * rows.own + (by_walk_ ? errors_.bent(travelled) : RowCovariance{}),
           errors_.gathered(travelled, rows.rows, {seconds_, rows.seconds}),
           errors_.gathers_rows() ? 1 : rows.rows,
           worth,

@@ -145,6 +145,8 @@ Weighed weigh(const Part& part, const std::vector<Reading>& readings, const std:
         nearest != nullptr && nearest->kind == Kind::corner && !is_at_a_corner(part, readings, mode);
     const bool is_found = nearest != nullptr && least <= kNear && !is_elsewhere;
     Placement placement = with_mode(is_found ? within(*nearest, mode, part) : placement_of(mode), mode, part);
+    // Within a wide tolerance one placement spans several corners, and its pivot is of one of them.
+    if (placement.pivot) placement.pivot = pivots_at(question, mode.start);
     const bool is_of_one = mode.start.size() == 1;
     if (!is_of_one || placement.kind != Kind::corner) placement.residual = residual_at(question, mode.start);
     if (is_of_one && placement.kind != Kind::corner) {

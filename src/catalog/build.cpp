@@ -134,6 +134,12 @@ bool states_a_length(const std::string& unit) { return !unit.empty() && unit != 
 ReadySource in_catalogs_unit(ReadySource ready, const CatalogSource& source, const BuildOptions& options,
                              const std::string& unit) {
   if (unit.empty() || !options.load.points.unit.empty() || ready.parts.empty() || ready.unit == unit) return ready;
+  if (states_a_length(ready.unit) && !states_a_length(unit)) {
+    ready.leave_out(source, fmt::format("is in {0}, and the catalog is in {1}, as its first part: build another file, "
+                                        "with `unit` {0}",
+                                        ready.unit, unit));
+    return ready;
+  }
   if (states_a_length(ready.unit)) return read_source(source, in_unit(options, unit));
   ready.leave_out(source, fmt::format("nobody says in what its lengths are, and the catalog is in {0}: give `unit` {0} "
                                       "where they are as well",

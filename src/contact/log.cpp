@@ -14,6 +14,7 @@
 #include "contact/log_rows.hpp"
 #include "contact/log_table.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/units.hpp"
 #include "text/text.hpp"
 
 namespace rollfix {
@@ -151,6 +152,13 @@ class LogMaker {
   bool any_without_contact_ = false;
 };
 
+/// Whether a row holds the units of a header above it, and nothing else.
+bool holds_units(const std::vector<std::string_view>& cells) {
+  return !cells.empty() && std::all_of(cells.begin(), cells.end(), [](std::string_view cell) {
+    return cell.empty() || cell == "-" || cell == "1" || unit_named(cell).has_value();
+  });
+}
+
 // So many rows after one that can't be read are looked at for one that can.
 constexpr int kRowsAhead = 1000;
 
@@ -197,6 +205,12 @@ class RowsInLines {
  private:
   void leave_out(const InputError& error) {
     if (!reader_.knows_columns()) throw;  // of the header
+    if (!any_ && skipped_.empty() && holds_units(reader_.row().cells)) {
+      throw InputError(
+          fmt::format("{}:{}: '{}' are units, expected them behind the names of the columns, as in 'u [deg]', "
+                      "or said by `columns`, as in u=u:deg",
+                      lines_.name(), reader_.lines(), shown(reader_.row().text)));
+    }
     if (skips_) {
       skipped_.emplace_back(error.what());
     } else if (any_ || any_row_can_be_read(reader_, lines_)) {

@@ -100,6 +100,19 @@ bool looks_like_degrees(const std::vector<double>& angles, std::size_t row) {
   return *least >= -kTurnInDegrees && *most <= kTurnInDegrees && std::abs(angles[row] - angles[row - 1]) >= kNearlyOne;
 }
 
+/// Whether a column of angles in radians goes on by more than a radian and no more than a turn in degrees, at this row
+/// and, most of all, from row to row.
+bool goes_in_degrees(const std::vector<double>& angles, std::size_t row) {
+  constexpr double kLeastStep = 1;
+  const auto is_long = [&](std::size_t k) {
+    const double step = std::abs(angles[k] - angles[k - 1]);
+    return step >= kLeastStep && step <= kTurnInDegrees;
+  };
+  std::size_t count = 0;
+  for (std::size_t k = 1; k < angles.size(); ++k) count += is_long(k) ? 1 : 0;
+  return is_long(row) && 2 * count > angles.size();
+}
+
 /// What to do about a jump: a log in degrees that is read as radians has one wherever its degrees wrap.
 std::string cure_of_jump(const Log& log, const Part& part, const std::vector<Finger>& fingers, const Noise& noise,
                          std::size_t finger, std::size_t row) {
@@ -117,10 +130,16 @@ std::string cure_of_jump(const Log& log, const Part& part, const std::vector<Fin
     return fmt::format("{0}; if the turns are in degrees, that is written `columns` {1}{2}={1}{2}:deg", split, column,
                        suffix);
   }
-  if (!looks_like_degrees(rows.psi, row) && !(has_angle_u && looks_like_degrees(rows.u, row))) return split;
-  const std::string u = has_angle_u ? fmt::format("u{0}=u{0}:deg,", suffix) : "";
-  return fmt::format("{0}; if the angles are in degrees, that is written `columns` {1}psi{2}=psi{2}:deg", split, u,
-                     suffix);
+  if (looks_like_degrees(rows.psi, row) || (has_angle_u && looks_like_degrees(rows.u, row))) {
+    const std::string u = has_angle_u ? fmt::format("u{0}=u{0}:deg,", suffix) : "";
+    return fmt::format("{0}; if the angles are in degrees, that is written `columns` {1}psi{2}=psi{2}:deg", split, u,
+                       suffix);
+  }
+  // One of them alone, that is not wrapped: its rows go in steps of whole degrees.
+  const bool is_psi = goes_in_degrees(rows.psi, row);
+  if (!is_psi && !(has_angle_u && goes_in_degrees(rows.u, row))) return split;
+  return fmt::format("{0}; if {1} is in degrees, that is written `columns` {1}{2}={1}{2}:deg", split,
+                     is_psi ? "psi" : "u", suffix);
 }
 
 /// Throws InputError where a finger is beyond its ends or goes where none can: see RollCheck.

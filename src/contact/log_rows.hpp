@@ -97,6 +97,8 @@ class RowReader {
   LogKind kind() const { return columns_.front().kind; }
   bool has_centre() const;
   std::size_t lines() const { return lines_; }
+  /// As it was read last.
+  const TableRow& row() const { return table_row_; }
   const std::string& name() const { return name_; }
   const std::string& unit() const { return options_.unit; }  // of lengths; empty: not known
 

@@ -188,6 +188,7 @@ class TableReader {
           continue;
         }
         if (kind != LineKind::point) refuse_line(name_, number_, line_, kind);
+        if (titles_ == 0 && !header_) look_for_more_columns();
       }
       add(point);
     }
@@ -196,6 +197,18 @@ class TableReader {
   }
 
  private:
+  /// Without a header nobody says that x and y are the first two.
+  void look_for_more_columns() {
+    if (!result_.points.empty()) return;
+    const char separator = separator_in(data_);
+    std::vector<std::string_view> cells = cells_of(data_, separator);
+    while (!cells.empty() && trimmed(cells.back()).empty()) cells.pop_back();
+    if (cells.size() < 3) return;
+    result_.notes.push_back(fmt::format(
+        "{} columns without a header: the first two are taken as x and y; a line such as {} in front says otherwise",
+        cells.size(), separator == ',' ? "'id,x,y'" : "'id x y'"));
+  }
+
   bool next_line() {
     if (rest_.empty()) return false;
     const std::size_t end = std::min(rest_.find('\n'), rest_.size());

@@ -181,6 +181,21 @@ void convert(NumberedPoints& data, const std::string& name, const std::string& w
   data.unit = wanted;
 }
 
+// Points that are to be closed by a chord so many times as long as any other may lack a piece. (Those of an arc alone
+// may be meant to be closed by its chord, which is that long where they are dense.)
+constexpr double kWideGap = 20;
+
+void note_wide_gap(const std::vector<Vec2>& points, const std::string& name, std::vector<std::string>& notes) {
+  double longest = 0;
+  for (std::size_t k = 1; k < points.size(); ++k) longest = std::max(longest, (points[k] - points[k - 1]).norm());
+  const double gap = (points.front() - points.back()).norm();
+  if (gap <= kWideGap * longest) return;
+  notes.push_back(fmt::format(
+      "{}: the last point is {:.4g} from the first, which closes the outline, and no other two neighbours are "
+      "more than {:.4g} apart; `open` leaves it open",
+      name, gap, longest));
+}
+
 }  // namespace
 
 std::vector<Vec2> parse_points(std::string_view text, const std::string& name, const OutlineOptions& options,
@@ -206,6 +221,7 @@ std::vector<Vec2> parse_points(std::string_view text, const std::string& name, c
     data.lines.pop_back();
   }
   require_enough(data, name, options);
+  if (notes != nullptr && !options.open && !ends_meet) note_wide_gap(data.points, name, *notes);
   if (!options.smooth) refuse_repeated(data, size, name, options.open);
   if (!options.open) refuse_flat(data.points, size, name);
   return std::move(data.points);

@@ -34,6 +34,8 @@ SURE = 0.95
 TWO_SIGMA, FOUR_SIGMA = 0.023, 3.2e-5
 FAR = 5.0  # standard deviations from a place's mean: nearer counts as listed
 Z95 = 1.959964
+FLAT = 1.8  # half of an interval with 95 %, in standard deviations: 1.65 of a flat density, 1.96 of a normal one
+ALIKE = 0.2  # logarithms of densities that differ by less are alike
 
 
 @dataclass
@@ -226,7 +228,7 @@ def judge(answer, truth, outline, count):
     count.listed += bool(near[0].any())
     if len(truth) == 1:
         count.own += bool(within[0].any())
-        count.inside += in_smallest(p, interval[:, 0], standing[0, :, 0], within[0], slack)
+        count.inside += in_smallest(p, interval[:, 0], sd[:, 0], standing[0, :, 0], within[0], slack)
     elif near[0].any():
         sides = outside[0, mine[0]] <= slack
         count.inside += bool(sides[0])
@@ -250,17 +252,24 @@ def judge(answer, truth, outline, count):
     count.sd.append(float(sd[0].max()) / period)
 
 
-def in_smallest(p, interval, standing, within, slack):
-    """Whether the smallest set with 95 % holds the truth: each place is a normal density with its own interval."""
-    half = np.maximum((interval[:, 1] - interval[:, 0]) / 2, slack) / Z95
-    z = (standing - interval.mean(axis=1)) / half
-    height = p / half
-    mine = np.argmax(np.log(height) - z * z / 2)
-    level = math.log(height[mine]) - z[mine] ** 2 / 2
+def in_smallest(p, interval, sd, standing, within, slack):
+    """Whether the smallest set with 95 % holds the truth: each place is a normal density with its own interval, or a flat
+    one where that is as short beside the standard deviation as only a flat one's is."""
     if len(p) == 1:
         return bool(within[0])
-    reach = np.sqrt(np.maximum(0, 2 * (np.log(height) - level)))
-    held = np.array([math.erf(r / math.sqrt(2)) for r in reach])
+    half = np.maximum((interval[:, 1] - interval[:, 0]) / 2, slack)
+    flat = half < FLAT * sd
+    reach = np.where(flat, half / 0.95, half / Z95)  # to the end of a flat one, else a standard deviation
+    height = p / np.where(flat, 2 * reach, math.sqrt(2 * math.pi) * reach)
+    z = np.abs(standing - interval.mean(axis=1)) / reach
+    log_density = np.log(height) + np.where(flat, np.where(z <= 1, 0, -np.inf), -z * z / 2)
+    if not np.isfinite(log_density).any():
+        return False
+    mine = np.argmax(log_density)
+    above = np.log(height) - log_density[mine]
+    held = np.array([math.erf(math.sqrt(max(0, a))) for a in above])
+    # Flat ones that are about as high are filled from their middles, all of them at once.
+    held = np.where(flat, np.where(np.abs(above) < ALIKE, min(1, z[mine]) if flat[mine] else 0, above > 0), held)
     return bool((p * held).sum() / p.sum() <= 0.95)
 
 

@@ -320,6 +320,9 @@ LogOptions read_log_options(const LogArguments& reading, const std::string& unit
   return options;
 }
 
+// What is known no better than that is not known.
+constexpr double kMostHeadingSd = 1.6;  // radians: 92 degrees
+
 std::optional<PosePrior> read_pose(const PoseArguments& arguments, const std::string& unit) {
   if (arguments.heading.empty() && arguments.pose.empty()) return std::nullopt;
   if (!arguments.heading.empty() && !arguments.pose.empty()) {
@@ -337,8 +340,16 @@ std::optional<PosePrior> read_pose(const PoseArguments& arguments, const std::st
                                    "first contact, and its standard deviation"));
   }
   PosePrior prior;
-  prior.mean.heading = read_angle(fields[is_pose ? 2 : 0], what);
+  const std::string_view heading = fields[is_pose ? 2 : 0];
+  prior.mean.heading = read_angle(heading, what);
   prior.heading_sd = read_angle(fields.back(), what);
+  // No one counts laps of a part's heading, nor knows it worse than by a radian and says so: degrees, most likely.
+  if (std::abs(prior.mean.heading) > kFullTurn || prior.heading_sd > kMostHeadingSd) {
+    throw InputError(
+        fmt::format("{}: a heading of {} rad, give or take {} rad, is none: expected an angle within a turn, "
+                    "known to {} rad at least; degrees are written {}deg",
+                    what, prior.mean.heading, prior.heading_sd, kMostHeadingSd, heading));
+  }
   if (is_pose) {
     prior.mean.x = read_length(fields[0], what, unit);
     prior.mean.y = read_length(fields[1], what, unit);

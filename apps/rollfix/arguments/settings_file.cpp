@@ -223,7 +223,10 @@ void add_setting(const Setting& setting, const CLI::Option& option, Settings& se
     settings.origins.push_back({std::move(shown_as), setting.where});
   };
   const std::string name = "--" + setting.key;
-  for (const std::string& value : setting.values) {
+  // A list is of what can be given more than once, or else the numbers of one value: at = [1, 2.5].
+  const bool is_one = !is_switch(option) && option.get_items_expected_max() == 1 && setting.values.size() > 1;
+  const std::vector<std::string> joined = {fmt::format("{}", fmt::join(setting.values, ","))};
+  for (const std::string& value : is_one ? joined : setting.values) {
     if (is_switch(option)) {
       if (value != "true" && value != "false") {
         throw InputError(fmt::format("{}: {}: expected true or false, found {}", setting.where, setting.key, value));

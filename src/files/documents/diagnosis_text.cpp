@@ -113,6 +113,12 @@ std::string noise_option(const Noise& noise, double scale) {
   return fmt::format("--noise {}", fmt::join(fields, ","));
 }
 
+/// As it was typed, whatever its digits.
+std::string finger_option(const Finger& finger) {
+  if (!finger.is_disk()) return "--finger " + quoted_for_shell(finger.name());
+  return fmt::format("--finger disk,r={}", finger.disk()->radius);
+}
+
 std::string columns_option(const std::vector<ColumnSource>& columns) {
   std::vector<std::string> fields;
   for (const ColumnSource& source : columns) {
@@ -133,7 +139,7 @@ std::string cure_alone(const Diagnosis& diagnosis, const std::vector<Finger>& fi
   if (!diagnosis.columns.empty()) return columns_option(diagnosis.columns);
   if (diagnosis.cause == Cause::fingers_swapped) {
     if (fingers.size() != 2) return "give both in the other order";
-    return fmt::format("--finger {} --finger {}", fingers[1].name(), fingers[0].name());
+    return fmt::format("{} {}", finger_option(fingers[1]), finger_option(fingers[0]));
   }
   if (diagnosis.cause == Cause::noise) return noise_option(noise, diagnosis.noise_scale);
   if (diagnosis.cause == Cause::radius) {

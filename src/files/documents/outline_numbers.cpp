@@ -4,6 +4,7 @@
 
 #include <array>
 #include <iterator>
+#include <string_view>
 #include <utility>
 
 #include "rollfix/part/samples.hpp"
@@ -23,7 +24,12 @@ constexpr std::array<Column, 5> kColumns = {{{"s", [](const BoundarySample& at) 
 
 std::string outline_table(const Part& part) {
   std::string text;
-  for (const auto& [name, value] : kColumns) text += fmt::format("{}{}", text.empty() ? "" : ",", name);
+  for (const auto& [name, value] : kColumns) {
+    const std::string_view title = name;
+    const bool is_length = title == "s" || title == "x" || title == "y";
+    const std::string unit = is_length && !part.unit().empty() ? fmt::format(" [{}]", part.unit()) : "";
+    text += fmt::format("{}{}{}", text.empty() ? "" : ",", title, unit);
+  }
   text += '\n';
   for (const BoundarySample& sample : samples_of(part)) {
     const char* separator = "";
