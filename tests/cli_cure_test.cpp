@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <regex>
 #include <string>
@@ -17,6 +18,7 @@ namespace cli_cure_test {
 namespace {
 
 using cli::run;
+namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
@@ -177,6 +179,37 @@ TEST(Cures, an_empty_value_is_refused_and_not_left_out) {
     EXPECT_THAT(ran.err, HasSubstr("expected a value behind it, found an empty one"));
   }
   EXPECT_EQ(run("locate gallery:cam --reading 1,0.5 --noise=").code, 2);
+}
+
+TEST(Cures, of_two_fingers_by_names_of_ones_own_are_of_two) {
+  const cli::Folder folder;
+  ASSERT_EQ(
+      run("simulate gallery:cam --finger disk,r=0.2 --start 1 --start 4 --length 1.5 --length -0.8 -o two.csv").code,
+      0);
+  const std::string text = cli::read("two.csv");
+  folder.write("own.csv", "t,skinL,yawL,skinR,yawR,xL,yL,xR,yR" + text.substr(text.find('\n')));
+  const std::string locate = std::string("locate gallery:cam --log own.csv") + kFinger;
+  const cli::Ran refused = run(locate);
+  EXPECT_THAT(refused.err, HasSubstr("u_a=skinL,psi_a=yawL,time=t,x_a=xL,y_a=yL,u_b=skinR,psi_b=yawR,x_b=xR,y_b=yR"));
+  EXPECT_THAT(run(locate + " " + option_in(refused.err, "columns")).out, HasSubstr("finger a"));
+}
+
+TEST(Cures, one_column_is_not_read_as_two) {
+  const cli::Folder folder;
+  folder.write("roll.csv", "u,psi\n0,0\n1,1\n");
+  EXPECT_THAT(run("locate gallery:cam --log roll.csv --finger disk,r=0.2 --columns u=u,psi=u").err,
+              HasSubstr("reads 'u' twice, as psi as well"));
+}
+
+TEST(Cures, a_part_in_pixels_first_in_a_catalog_says_what_unit_to_give) {
+  const cli::Folder folder;
+  fs::create_directory("parts");
+  folder.write("parts/a.svg", "<svg xmlns='http://www.w3.org/2000/svg'><rect width='40' height='20'/></svg>");
+  folder.write("parts/b.csv", "x [mm],y [mm]\n0,0\n40,0\n40,20\n");
+  const cli::Ran mixed = run("catalog build parts -o parts.db");
+  EXPECT_THAT(mixed.err + mixed.out,
+              HasSubstr("the catalog is in px, as its first part: build another file, with --unit mm"));
+  EXPECT_EQ(run("catalog build parts -o other.db --unit mm").code, 0);
 }
 
 TEST(Cures, a_heading_of_ninety_radians_is_one_of_degrees) {

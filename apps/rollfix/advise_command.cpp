@@ -58,7 +58,7 @@ Interval read_travel(const std::string& text, const std::string& unit) {
   }
   const Interval travel{read_length(fields[0], what, unit), read_length(fields[1], what, unit)};
   if (!(travel.lo <= 0 && travel.hi >= 0 && travel.width() > 0)) {
-    throw InputError(what + ": expected a length of at most 0, backwards, and one of at least 0, forwards");
+    throw InputError(what + ": expected a length of at most 0, backwards, and one of at least 0, forwards, not both 0");
   }
   return travel;
 }

@@ -104,8 +104,7 @@ void require_fingers(const std::vector<Finger>& fingers, std::size_t rolled, boo
   if (fingers.empty() && must_be_known) {
     throw InputError(
         fmt::format("{}: u says where on the finger the contact is, expected the finger's shape as well: `finger` "
-                    "disk,r=0.01, with "
-                    "the radius in the outline's unit",
+                    "disk,r=RADIUS, with the radius in the outline's unit",
                     log));
   }
   if (fingers.size() > rolled) {

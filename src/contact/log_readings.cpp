@@ -121,7 +121,7 @@ std::string cure_of_jump(const Log& log, const Part& part, const std::vector<Fin
   const std::string suffix = log.fingers.size() == 1 ? "" : kFingerSuffixes[finger];
   const bool has_angle_u = shape != nullptr && shape->is_disk();
   const bool comes_back = without_strays(log, part, fingers, noise).rows() < log.rows();
-  const std::string split =
+  std::string split =
       fmt::format("split the log there{}", comes_back ? ", or let stray rows pass with `robust` (and `noise`)" : "");
   if (log.kind != LogKind::contact) {
     const double step = std::abs(rows.turn[row] - rows.turn[row - 1]);

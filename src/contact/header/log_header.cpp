@@ -183,6 +183,11 @@ void HeaderReader::add_named(Columns& columns, std::vector<bool>& taken) const {
       continue;
     }
     const std::size_t cell = find(source);
+    if (taken[cell]) {
+      throw InputError(
+          fmt::format("{}: `columns` reads '{}' twice, as {} as well: expected a column of its own for each",
+                      where(log_, row_.line), source.name, source.column));
+    }
     taken[cell] = true;
     set(columns, *column, cell);
     std::string_view unit = source.unit;

@@ -34,26 +34,39 @@ constexpr std::array kHabits = {
     Habit{Column::dturn, {"dturn", "gyro", "dtheta", "dyaw", "dpsi", "dheading"}},
 };
 
-/// "contact_deg" as contact, deg.
+/// "contact_deg" as contact, deg; "skinL" as skin, l.
 std::vector<std::string> words_of(std::string_view name) {
   std::vector<std::string> words(1);
-  for (const char c : lower_case(name)) {
+  const std::string letters = lower_case(name);
+  for (std::size_t k = 0; k < name.size(); ++k) {
+    const char c = letters[k];
     const bool is_letter = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
-    if (is_letter) {
-      words.back() += c;
-    } else if (!words.back().empty()) {
-      words.emplace_back();
-    }
+    const bool begins = k > 0 && c != name[k] && letters[k - 1] == name[k - 1];  // a capital behind none
+    if ((begins || !is_letter) && !words.back().empty()) words.emplace_back();
+    if (is_letter) words.back() += c;
   }
   if (words.back().empty() && words.size() > 1) words.pop_back();
   return words;
 }
 
-/// The finger that a name is of, by its last word: "contact_deg_a" is finger a's. Its place in kFingerSuffixes.
+/// What people tell two fingers apart by, in the order of kFingerSuffixes.
+constexpr std::array<std::array<std::string_view, 2>, 3> kFingerWords = {{{"a", "b"}, {"left", "right"}, {"l", "r"}}};
+
+/// The word that says which finger a name is of, as in "contact_deg_a", "left_skin", "skinL_deg"; the end where none
+/// does.
+std::vector<std::string>::const_iterator finger_word(const std::vector<std::string>& words) {
+  return std::find_if(words.begin(), words.end(), [&](const std::string& word) {
+    return words.size() > 1 && std::any_of(kFingerWords.begin(), kFingerWords.end(),
+                                           [&](const auto& two) { return word == two[0] || word == two[1]; });
+  });
+}
+
+/// The finger that a name is of: its place in kFingerSuffixes.
 std::optional<std::size_t> finger_in(const std::vector<std::string>& words) {
-  if (words.size() < 2) return std::nullopt;
-  if (words.back() == "a") return 0;
-  return words.back() == "b" ? std::optional<std::size_t>(1) : std::nullopt;
+  const auto word = finger_word(words);
+  if (word == words.end()) return std::nullopt;
+  return std::any_of(kFingerWords.begin(), kFingerWords.end(), [&](const auto& two) { return *word == two[1]; }) ? 1
+                                                                                                                 : 0;
 }
 
 /// How much a name sounds like a column: 0 not at all.
@@ -172,7 +185,7 @@ bool names_two_fingers(const std::vector<HeaderName>& header) {
 
 std::string unit_in_name(std::string_view name, Column column, const std::string& part_unit) {
   std::vector<std::string> words = words_of(name);
-  if (finger_in(words)) words.pop_back();
+  if (const auto word = finger_word(words); word != words.end()) words.erase(word);
   if (words.size() < 2) return "";
   const std::optional<Unit> unit = unit_named(words.back());
   if (!unit || !takes(column, unit->dimension)) return "";
