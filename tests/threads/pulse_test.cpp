@@ -41,11 +41,11 @@ TEST(Pulse, what_it_throws_ends_the_computation_and_comes_out_of_it) {
 }
 
 TEST(Pulse, many_problems_end_in_the_middle_of_one) {
+  const std::vector<Problem> problems(200000, problem_of(40));
   const Clock::time_point start = Clock::now();
   const Pulse pulse([&](const char* /*doing*/) {
     if (seconds_since(start) > 0.1) throw Enough();
   });
-  const std::vector<Problem> problems(200000, problem_of(40));
   EXPECT_THROW(solve(problems), Enough);
 }
 
