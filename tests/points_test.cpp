@@ -127,6 +127,13 @@ TEST(BadPoints, lone_number_is_named_with_its_line) {
   EXPECT_THAT(message_of("0,0\n1,\n0,1\n"), StartsWith("part.csv:2: '1,' is only one number"));
 }
 
+TEST(BadPoints, more_than_ten_million_are_refused_where_they_stand) {
+  std::string text;
+  for (int k = 0; k <= 10'000'000; ++k) text += "1 0\n";
+  EXPECT_EQ(message_of(text),
+            "part.csv:10000001: expected no more than 10000000 points or curves, found more: thin it out");
+}
+
 TEST(BadPoints, decimal_commas_are_not_taken_for_points) {
   EXPECT_EQ(message_of("1,5 2,5\n"),
             "part.csv:1: '1,5 2,5' mixes separators, expected 'x y' or 'x,y' with decimal points, not commas, "
