@@ -154,9 +154,10 @@ class LogMaker {
 
 /// Whether a row holds the units of a header above it, and nothing else.
 bool holds_units(const std::vector<std::string_view>& cells) {
-  return !cells.empty() && std::all_of(cells.begin(), cells.end(), [](std::string_view cell) {
-    return cell.empty() || cell == "-" || cell == "1" || unit_named(cell).has_value();
-  });
+  const auto is_unit = [](std::string_view cell) { return unit_named(cell).has_value(); };
+  const auto is_none = [](std::string_view cell) { return cell.empty() || cell == "-" || cell == "1"; };
+  return std::any_of(cells.begin(), cells.end(), is_unit) &&
+         std::all_of(cells.begin(), cells.end(), [&](std::string_view cell) { return is_none(cell) || is_unit(cell); });
 }
 
 // So many rows after one that can't be read are looked at for one that can.
