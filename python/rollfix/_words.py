@@ -7,7 +7,8 @@ import re
 from typing import Any, Dict, List, Match, Mapping, Optional, Tuple
 
 NUMBER = r"[-+]?[\d.]+(?:e[-+]?\d+)?"
-_FINGERS = re.compile(rf"(?:--finger|`finger`) disk,r={NUMBER}(?: (?:--finger|`finger`) disk,r={NUMBER})*")
+_RADIUS = rf"(?:{NUMBER}|RADIUS)"
+_FINGERS = re.compile(rf"(?:--finger|`finger`) disk,r={_RADIUS}(?: (?:--finger|`finger`) disk,r={_RADIUS})*")
 _NOISE = re.compile(r"(?:--noise|`noise`) (\w+=[^,\s]+(?:,\w+=[^,\s]+)*)")
 _COLUMNS = re.compile(r'(?:--columns|`columns`) (?:"(\w+=[^"]*)"|(\w+=\S*[^\s,;:.]))')
 _COLUMN = re.compile(r"\b(\w+)=\1:([a-z]+)\b")
@@ -49,7 +50,7 @@ def in_python(text: str) -> str:
 
 
 def _fingers(found: Match[str]) -> str:
-    disks = [f"Disk({radius})" for radius in re.findall(rf"r=({NUMBER})", found[0])]
+    disks = [f"Disk({radius})" for radius in re.findall(rf"r=({_RADIUS})", found[0])]
     return f"finger={disks[0]}" if len(disks) == 1 else f"finger=({', '.join(disks)})"
 
 
