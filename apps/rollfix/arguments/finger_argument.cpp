@@ -49,7 +49,7 @@ DiskFinger read_disk(const std::string& text, const std::string& unit) {
 /// "pad.csv", "pad.csv,open", "gallery:stadium".
 Finger read_outlined(const std::string& text, const std::string& unit) {
   LoadOptions options;
-  options.points.unit = unit;
+  if (unit_named(unit)) options.points.unit = unit;  // of a part in pixels, which are no length, as it is
   std::string name = text;
   if (text.size() > kOpen.size() && text.substr(text.size() - kOpen.size()) == kOpen) {
     options.points.open = true;
