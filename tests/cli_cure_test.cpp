@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <regex>
 #include <string>
 #include <vector>
@@ -104,19 +105,32 @@ TEST(Cures, turns_in_radians_that_were_said_to_be_degrees_are_told) {
               HasSubstr("  2.000000  5.200000"));
 }
 
+/// The log roll.csv with other numbers.
+void write_changed(const std::string& file, const std::function<void(std::size_t, double&, double&)>& change) {
+  const rollfix::FingerRows rows = rollfix::read_log("roll.csv").fingers[0];
+  std::ofstream log(file);
+  log.precision(12);
+  log << "u,psi\n";
+  for (std::size_t k = 0; k < rows.u.size(); ++k) {
+    double u = rows.u[k];
+    double psi = rows.psi[k];
+    change(k, u, psi);
+    log << u << ',' << psi << '\n';
+  }
+}
+
 /// A roll of a disk that sticks to its skin for some rows: u stands still while the finger turns on.
 TEST(Cures, a_short_roll_in_degrees_does_not_explain_what_it_hides) {
   const cli::Folder folder;
   ASSERT_EQ(run("simulate gallery:cam --finger disk,r=0.2 --start 2 --length 3 --samples 120 -o roll.csv").code, 0);
-  const rollfix::Log roll = rollfix::read_log("roll.csv");
-  std::ofstream log("stuck.csv");
-  log << "u,psi\n";
   double off = 0;
-  for (std::size_t k = 0; k < roll.rows(); ++k) {
-    if (k > 50 && k <= 60) off += roll.fingers[0].u[k - 1] - roll.fingers[0].u[k];
-    log << roll.fingers[0].u[k] + off << ',' << roll.fingers[0].psi[k] << '\n';
-  }
-  log.close();
+  double before = 0;
+  write_changed("stuck.csv", [&](std::size_t k, double& u, double& /*psi*/) {
+    const double now = u;
+    if (k > 50 && k <= 60) off += before - now;
+    before = now;
+    u += off;
+  });
   const std::string text = run(std::string("locate gallery:cam --log stuck.csv") + kFinger).out;
   EXPECT_THAT(text, HasSubstr("likeliest: "));
   EXPECT_THAT(text, Not(HasSubstr("degrees")));
@@ -125,13 +139,7 @@ TEST(Cures, a_short_roll_in_degrees_does_not_explain_what_it_hides) {
 TEST(Cures, of_psi_alone_in_degrees_is_that_and_no_jump) {
   const cli::Folder folder;
   ASSERT_EQ(run("simulate gallery:cam --finger disk,r=0.2 --start 2 --length 3 --samples 40 -o roll.csv").code, 0);
-  const rollfix::Log roll = rollfix::read_log("roll.csv");
-  std::ofstream log("degrees.csv");
-  log << "u,psi\n";
-  for (std::size_t k = 0; k < roll.rows(); ++k) {
-    log << roll.fingers[0].u[k] << ',' << roll.fingers[0].psi[k] * 180 / std::acos(-1) << '\n';
-  }
-  log.close();
+  write_changed("degrees.csv", [](std::size_t, double& /*u*/, double& psi) { psi *= 180 / std::acos(-1); });
   const std::string locate = std::string("locate gallery:cam --log degrees.csv") + kFinger;
   const cli::Ran ran = run(locate);
   const std::string told = ran.code == 2 ? ran.err : ran.out;
@@ -152,14 +160,7 @@ TEST(Cures, of_exchanged_fingers_are_both_with_their_radii) {
 TEST(Cures, of_a_stray_row_say_the_noise_that_robust_needs) {
   const cli::Folder folder;
   ASSERT_EQ(run("simulate gallery:cam --finger disk,r=0.2 --start 2 --length 3 --samples 60 -o roll.csv").code, 0);
-  const rollfix::Log roll = rollfix::read_log("roll.csv");
-  std::ofstream log("stray.csv");
-  log.precision(12);
-  log << "u,psi\n";
-  for (std::size_t k = 0; k < roll.rows(); ++k) {
-    log << roll.fingers[0].u[k] << ',' << roll.fingers[0].psi[k] + (k == 30 ? 0.2 : 0.0) << '\n';
-  }
-  log.close();
+  write_changed("stray.csv", [](std::size_t k, double& /*u*/, double& psi) { psi += k == 30 ? 0.2 : 0; });
   EXPECT_THAT(run("locate gallery:cam --log stray.csv --finger disk,r=0.2").out,
               HasSubstr("--robust --noise contact="));
 }
