@@ -66,7 +66,7 @@ constexpr std::array<RareSlip, 2> kUnsaidSlips = {{{0.04, 6}, {0.2, 18}}};
 // What would leave less than this of a roll, radians, is no explanation where of the chi-square that is to be expected
 // less than this share is left as well.
 constexpr double kShortRoll = 1;
-constexpr double kShareOfShort = 0.1;
+constexpr double kShareOfShort = 0.5;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // A gyroscope of which nothing is said is off by a few hundredths; that psi is measured by one is rarer.
 constexpr double kUnsaidGyro = 0.03;
