@@ -187,12 +187,7 @@ class Part(RolledOn):
         if name.lower().endswith(".json"):
             self._core.save(name)
         else:
-            try:
-                self._figure(None).save(name)
-            except InputError as error:
-                if "must end in" not in str(error):
-                    raise
-                raise InputError(f"{error}; .json is the part itself") from None
+            self._figure(None).save(name, ", the part's in .json")
 
     def to_svg(self, *, finger: Optional[Finger] = None, title: str = "", width: float = 640) -> str:
         """The figure of `rollfix inspect -o`; with a finger also where it can't touch."""

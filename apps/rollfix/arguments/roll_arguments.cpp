@@ -200,21 +200,6 @@ void add_noise_arguments(CLI::App& command, std::string& noise, std::string& pri
   add_switch(command, "--robust", robust, "with --noise: stray rows don't count");
 }
 
-void add_pose_arguments(CLI::App& command, PoseArguments& arguments) {
-  command
-      .add_option(
-          "--heading", arguments.heading,
-          "with --noise and a log of u and psi: about how the part is turned in the world at the first contact, "
-          "and how sure that is")
-      ->type_name("ANGLE,SD");
-  command
-      .add_option(
-          "--pose", arguments.pose,
-          "the same with where it lies, of a log with x and y: X,Y,HEADING and the standard deviations of x and "
-          "y and of the heading")
-      ->type_name("X,Y,HEADING,SD,SD_HEADING");
-}
-
 void add_side_arguments(CLI::App& command, bool& mirror, std::string& direction, bool takes_either) {
   add_switch(command, "--mirror", mirror,
              "the part lies face down: what is felt is the outline's mirror image; places are told along the outline "
@@ -318,47 +303,6 @@ LogOptions read_log_options(const LogArguments& reading, const std::string& unit
   }
   options.wrapped = reading.wrapped == "yes";
   return options;
-}
-
-// What is known no better than that is not known.
-constexpr double kMostHeadingSd = 1.6;  // radians: 92 degrees
-
-std::optional<PosePrior> read_pose(const PoseArguments& arguments, const std::string& unit) {
-  if (arguments.heading.empty() && arguments.pose.empty()) return std::nullopt;
-  if (!arguments.heading.empty() && !arguments.pose.empty()) {
-    throw InputError("--heading and --pose both say how the part is turned: leave one out");
-  }
-  const bool is_pose = !arguments.pose.empty();
-  const std::string what = is_pose ? "--pose " + arguments.pose : "--heading " + arguments.heading;
-  const std::vector<std::string_view> fields = split(is_pose ? arguments.pose : arguments.heading, ',');
-  if (fields.size() != (is_pose ? 5U : 2U)) {
-    throw InputError(what + (is_pose
-                                 ? ": expected X,Y,HEADING,SD,SD_HEADING as in 100,40,12deg,0.5,2deg: where the part "
-                                   "lies in the world at the first contact, and the standard deviations of x and y "
-                                   "and of the heading"
-                                 : ": expected ANGLE,SD as in 12deg,2deg: how the part is turned in the world at the "
-                                   "first contact, and its standard deviation"));
-  }
-  PosePrior prior;
-  const std::string_view heading = fields[is_pose ? 2 : 0];
-  prior.mean.heading = read_angle(heading, what);
-  prior.heading_sd = read_angle(fields.back(), what);
-  // No one counts laps of a part's heading, nor knows it worse than by a radian and says so: degrees, most likely.
-  if (std::abs(prior.mean.heading) > kFullTurn || prior.heading_sd > kMostHeadingSd) {
-    throw InputError(
-        fmt::format("{}: a heading of {} rad, give or take {} rad, is none: expected an angle within a turn, "
-                    "known to {} rad at least; degrees are written {}deg",
-                    what, prior.mean.heading, prior.heading_sd, kMostHeadingSd, heading));
-  }
-  if (is_pose) {
-    prior.mean.x = read_length(fields[0], what, unit);
-    prior.mean.y = read_length(fields[1], what, unit);
-    prior.place_sd = read_length(fields[3], what, unit);
-  }
-  if (!(prior.heading_sd > 0) || !(prior.place_sd > 0)) {
-    throw InputError(what + ": expected standard deviations above 0");
-  }
-  return prior;
 }
 
 Log read_roll(const std::vector<std::string>& paths, const std::string& roll, const LogOptions& options,

@@ -6,14 +6,9 @@
 
 #include "rollfix/answer/answer.hpp"
 #include "rollfix/arguments/part_argument.hpp"
+#include "rollfix/arguments/pose_arguments.hpp"
 
 namespace rollfix::app {
-
-/// What is known of how the part lies, as typed: at most one of both.
-struct PoseArguments {
-  std::string heading;
-  std::string pose;
-};
 
 /// How a log is to be read, as typed; empty: not given.
 struct LogArguments {
@@ -55,8 +50,6 @@ void add_felt_arguments(CLI::App& command, RollArguments& arguments, bool takes_
 void add_noise_argument(CLI::App& command, std::string& noise);
 /// Adds --log, --roll, --columns, --wrapped and --skip-bad alone.
 void add_log_arguments(CLI::App& command, std::vector<std::string>& logs, std::string& roll, LogArguments& reading);
-/// Adds --heading and --pose.
-void add_pose_arguments(CLI::App& command, PoseArguments& arguments);
 /// Adds --mirror and --direction.
 void add_side_arguments(CLI::App& command, bool& mirror, std::string& direction, bool takes_either = false);
 /// Whether --direction says that lengths count against the outline. Throws InputError: neither ccw nor cw.
@@ -83,8 +76,6 @@ Problem read_problem(const RollArguments& arguments, Part part, std::vector<std:
 std::optional<Noise> read_noise(const std::string& text, const std::string& unit);
 /// --prior as typed. Throws InputError.
 std::optional<Prior> read_prior(const std::string& text, const std::string& unit);
-/// --heading or --pose as typed. Throws InputError.
-std::optional<PosePrior> read_pose(const PoseArguments& arguments, const std::string& unit);
 /// --columns, --wrapped and --skip-bad as typed, and the part's unit. Throws InputError.
 LogOptions read_log_options(const LogArguments& reading, const std::string& unit);
 

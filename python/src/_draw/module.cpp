@@ -42,9 +42,15 @@ PYBIND11_MODULE(_draw, module) {
   using rollfix::Svg;
   module.doc() = "The figures of rollfix. Use `save` and `to_svg` of what is to be drawn.";
   py::module_::import("rollfix._core");
-  py::class_<Svg>(module, "Figure").def("svg", &Svg::str).def("save", [](const Svg& figure, const std::string& file) {
-    rollfix::save_figure(figure, file);
-  });
+  py::class_<Svg>(module, "Figure")
+      .def("svg", &Svg::str)
+      .def(
+          "save",
+          [](const Svg& figure, const std::string& file, const std::string& besides) {
+            rollfix::figure_format(file, besides);  // refuses other endings, in words that say what else there is
+            rollfix::save_figure(figure, file);
+          },
+          py::arg("file"), py::arg("besides") = "");
   module.def("answer_figure", &answer_figure);
   module.def("part_figure", &part_figure);
   module.def("next_roll_figure", &next_roll_figure);

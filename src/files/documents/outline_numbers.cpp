@@ -4,7 +4,6 @@
 
 #include <array>
 #include <iterator>
-#include <string_view>
 #include <utility>
 
 #include "rollfix/part/samples.hpp"
@@ -12,29 +11,32 @@
 namespace rollfix {
 namespace {
 
-/// A column's name and its value of a sample.
-using Column = std::pair<const char*, double (*)(const BoundarySample&)>;
-constexpr std::array<Column, 5> kColumns = {{{"s", [](const BoundarySample& at) { return at.s; }},
-                                             {"x", [](const BoundarySample& at) { return at.point.x(); }},
-                                             {"y", [](const BoundarySample& at) { return at.point.y(); }},
-                                             {"tangent", [](const BoundarySample& at) { return at.tangent; }},
-                                             {"curvature", [](const BoundarySample& at) { return at.curvature; }}}};
+/// A column: its value of a sample, and whether that is a length.
+struct Column {
+  const char* name;
+  double (*value)(const BoundarySample&);
+  bool is_length;
+};
+constexpr std::array<Column, 5> kColumns = {
+    {{"s", [](const BoundarySample& at) { return at.s; }, true},
+     {"x", [](const BoundarySample& at) { return at.point.x(); }, true},
+     {"y", [](const BoundarySample& at) { return at.point.y(); }, true},
+     {"tangent", [](const BoundarySample& at) { return at.tangent; }, false},
+     {"curvature", [](const BoundarySample& at) { return at.curvature; }, false}}};
 
 }  // namespace
 
 std::string outline_table(const Part& part) {
   std::string text;
-  for (const auto& [name, value] : kColumns) {
-    const std::string_view title = name;
-    const bool is_length = title == "s" || title == "x" || title == "y";
-    const std::string unit = is_length && !part.unit().empty() ? fmt::format(" [{}]", part.unit()) : "";
-    text += fmt::format("{}{}{}", text.empty() ? "" : ",", title, unit);
+  for (const Column& column : kColumns) {
+    const std::string unit = column.is_length && !part.unit().empty() ? fmt::format(" [{}]", part.unit()) : "";
+    text += fmt::format("{}{}{}", text.empty() ? "" : ",", column.name, unit);
   }
   text += '\n';
   for (const BoundarySample& sample : samples_of(part)) {
     const char* separator = "";
-    for (const auto& [name, value] : kColumns) {
-      fmt::format_to(std::back_inserter(text), "{}{}", separator, value(sample));
+    for (const Column& column : kColumns) {
+      fmt::format_to(std::back_inserter(text), "{}{}", separator, column.value(sample));
       separator = ",";
     }
     text += '\n';
@@ -45,10 +47,10 @@ std::string outline_table(const Part& part) {
 Json outline_json(const Part& part) {
   Json lists = Json::object();
   const std::vector<BoundarySample> samples = samples_of(part);
-  for (const auto& [name, value] : kColumns) {
+  for (const Column& column : kColumns) {
     Json list = Json::array();
-    for (const BoundarySample& sample : samples) list.push_back(json_number(value(sample)));
-    lists[name] = std::move(list);
+    for (const BoundarySample& sample : samples) list.push_back(json_number(column.value(sample)));
+    lists[column.name] = std::move(list);
   }
   return lists;
 }

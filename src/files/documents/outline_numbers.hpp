@@ -7,7 +7,8 @@
 
 namespace rollfix {
 
-/// The boundary as samples_of gives it, as CSV with a line of titles: s,x,y,tangent,curvature; the tangent in radians.
+/// The boundary as samples_of gives it, as CSV with a line of titles: s,x,y,tangent,curvature, lengths with the part's
+/// unit behind them as in x [mm]; the tangent in radians.
 /// Numbers read back as the same doubles.
 std::string outline_table(const Part& part);
 
