@@ -6,6 +6,7 @@
 
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/contact/log.hpp"
+#include "rollfix/contact/rolling.hpp"
 #include "rollfix/outline/gallery.hpp"
 #include "rollfix/part/part.hpp"
 

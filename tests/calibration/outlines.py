@@ -40,6 +40,11 @@ class Outline:
         least = float(self.curvature.min())
         return math.inf if least >= 0 else -1 / least
 
+    def is_corner(self, s):
+        ends = self.s[1:][self.jump > 0]
+        off = np.abs(ends - s)
+        return bool(np.any(np.minimum(off, self.perimeter - off) <= 1e-12 * self.perimeter))
+
     def write(self, folder):
         """The program's name for the part; a file is written where it is no gallery shape."""
         if self.text is None:

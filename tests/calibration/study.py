@@ -228,7 +228,8 @@ def judge(answer, truth, outline, count):
     count.listed += bool(near[0].any())
     if len(truth) == 1:
         count.own += bool(within[0].any())
-        count.inside += in_smallest(p, interval[:, 0], sd[:, 0], standing[0, :, 0], within[0], slack)
+        count.inside += bool(within[0].any() and outline.is_corner(truth[0])) or in_smallest(
+            p, interval[:, 0], sd[:, 0], standing[0, :, 0], within[0], slack)
     elif near[0].any():
         sides = outside[0, mine[0]] <= slack
         count.inside += bool(sides[0])
@@ -254,7 +255,8 @@ def judge(answer, truth, outline, count):
 
 def in_smallest(p, interval, sd, standing, within, slack):
     """Whether the smallest set with 95 % holds the truth: each place is a normal density with its own interval, or a flat
-    one where that is as short beside the standard deviation as only a flat one's is."""
+    one where that is as short beside the standard deviation as only a flat one's is. (A corner, which has no size, is in
+    that set wherever a place's interval holds it.)"""
     if len(p) == 1:
         return bool(within[0])
     half = np.maximum((interval[:, 1] - interval[:, 0]) / 2, slack)

@@ -23,8 +23,9 @@ constexpr double kMatters = 50;
 constexpr double kBeyondMatter = 5;
 // Where angles are so noisy that a row is not linear in what all rows share, it is gone through so many times.
 constexpr int kPassesOfWide = 3;
-// ... unless what they share of the turn changes by no more than this, radians: the lines would be the same ones.
-constexpr double kSettledTurn = 1e-5;
+// ... unless contacts move by no more than this with what they share, radians: the lines would be the same ones, for a
+// kink is felt over what an angle is off, 20 times as far.
+constexpr double kSettledTurn = 1e-3;
 // What a prior narrower than this share of the boundary leaves of a cell is known without looking into it, and must be:
 // else the distance that it is off, many of its standard deviations, hides that the rows alone change slowly, and cells
 // all around are split down to its width.

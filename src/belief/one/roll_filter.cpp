@@ -39,8 +39,29 @@ RollFilter::RollFilter(const TiltedArc& arc, double tilt, double w, const Shared
 
 RollFilter RollFilter::again(const SharedCovariance& start) const {
   RollFilter fresh(*arc_, tilt_, w_, start, centres_);
-  fresh.guess_ = {x_[1], x_[3]};
+  fresh.found_ =
+      std::make_shared<const Found>(Found{x_.head<kRolling>(), p_.topLeftCorner<kRolling, kRolling>(), on_the_way_});
   return fresh;
+}
+
+// In a first pass as it is estimated so far. The end of a pass knows all rows, but for what gathers until then: where
+// less is open of the length's offset by the rows so far, that.
+RollFilter::About RollFilter::about() const {
+  About about{x_, p_};
+  if (!found_) return about;
+  about.errors.head<kRolling>() = found_->errors;
+  about.open.topRows<kRolling>().setZero();
+  about.open.leftCols<kRolling>().setZero();
+  about.open.topLeftCorner<kRolling, kRolling>() = found_->covariance;
+  about.open(0, 0) += std::max(0.0, found_->gathered.length - on_the_way_.length);
+  about.open(1, 1) += std::max(0.0, found_->gathered.turn - on_the_way_.turn);
+  if (p_(0, 0) < about.open(0, 0)) {
+    about.errors[0] = x_[0];
+    about.open.row(0).setZero();
+    about.open.col(0).setZero();
+    about.open(0, 0) = p_(0, 0);
+  }
+  return about;
 }
 
 /// A row as three equations, linear in the errors: e = 0, and the centre's two coordinates.
@@ -54,8 +75,9 @@ struct RollFilter::Equations {
 
 // The true L and theta lead from this place to another: e = s(w + theta + c L) - s(w) - L = 0, with ds/dw = m.
 // With de/dtheta = m and de/dL = c m - 1, e tells of the errors of L and theta what can be told.
-RollFilter::Equations RollFilter::equations_at(double w, const Corrected& roll, double w_variance,
+RollFilter::Equations RollFilter::equations_at(double w, const About& about, double w_variance,
                                                const Node& node) const {
+  const Corrected roll = corrected(node.length, node.turn, node.sensed, about.errors);
   const SpreadPlace end = arc_->about(w, w_variance, node.spread);
   const double by_turn = end.slope;
   const double by_length = tilt_ * end.slope - 1;
@@ -65,35 +87,34 @@ RollFilter::Equations RollFilter::equations_at(double w, const Corrected& roll, 
   // The line through the place at w, where the roll as it was measured leads.
   rows.miss[0] = end.s + end.slope * (w_ + roll.turn + tilt_ * roll.length - w) - place_.s - roll.length;
   rows.by_own.row(0) << by_length, by_turn;
-  rows.by_errors.block<1, kRolling>(0, 0) = rows.by_own.row(0) * by_rolling(roll);
+  rows.by_errors.block<1, kRolling>(0, 0) = rows.by_own.row(0) * by_rolling(roll, about.errors);
   rows.by_w[0] = end.slope - place_.slope;
   rows.own_variance(0, 0) = end.variance;
-  add_centre(end, w, roll, node, rows);
-  if (guess_) {
-    rows.miss += rows.by_errors.col(1) * (x_[1] - guess_->offset) + rows.by_errors.col(3) * (x_[3] - guess_->scale);
-  }
+  add_centre(end, w, about, node, rows);
+  rows.miss += rows.by_errors.leftCols<kRolling>() * (x_ - about.errors).head<kRolling>();
   rows.own_variance += rows.by_own * matrix_of(node.own) * rows.by_own.transpose();
   return rows;
 }
 
 // The centre goes along q(s) = p(s) - R(Theta + pi/2) arm, as the part lies in the world: from where it was at the
 // first contact by R(heading) (q(s) - q(s0)). The first contact's normal tells the heading: facing - pi/2 - Theta(s0).
-void RollFilter::add_centre(const SpreadPlace& end, double w, const Corrected& roll, const Node& node,
+void RollFilter::add_centre(const SpreadPlace& end, double w, const About& about, const Node& node,
                             Equations& rows) const {
   constexpr double kQuarter = std::numbers::pi / 2;
-  const double per_scale = 1 / (1 + x_[2]);
-  const double smaller = 1 / (1 + centres_->radius_share * x_[2]);  // the finger, where its radius is wrong
+  const Shared& errors = about.errors;
+  const Corrected roll = corrected(node.length, node.turn, node.sensed, errors);
+  const double per_scale = 1 / (1 + errors[2]);
+  const double smaller = 1 / (1 + centres_->radius_share * errors[2]);  // the finger, where its radius is wrong
   const double angle = w - tilt_ * end.s;
   const double angle_first = w_ - tilt_ * place_.s;
   const double turn_by_w = 1 - tilt_ * end.slope;
   const double turn_by_w_first = 1 - tilt_ * place_.slope;
-  const double heading = centres_->facing + about()[1] - kQuarter - angle_first;
+  const double heading = centres_->facing + errors[1] - kQuarter - angle_first;
   const Eigen::Matrix2d to_world = rotation(heading);
   const Eigen::Matrix2d of_arm = rotation(heading + angle + kQuarter);
   const Eigen::Matrix2d of_first_arm = rotation(heading + angle_first + kQuarter);
   const Vec2 arm = of_arm * (smaller * node.felt.arm.at);
-  const Vec2 first_arm =
-      of_first_arm * (smaller * centres_->first.arm.at - about()[0] * centres_->first.arm.per_length);
+  const Vec2 first_arm = of_first_arm * (smaller * centres_->first.arm.at - errors[0] * centres_->first.arm.per_length);
   const Vec2 by_w = end.slope * of_arm.col(1) * -1 - turn_by_w * turned_left(arm);
   const Vec2 by_w_first = place_.slope * of_first_arm.col(1) * -1 - turn_by_w_first * turned_left(first_arm);
   const Vec2 way = to_world * (centres_->path->at(end.s) - centres_->path->at(place_.s)) - arm + first_arm;
@@ -120,6 +141,8 @@ void RollFilter::update(const Node& node, const Outliers& outliers) {
   const auto gather = [&](double share) {
     p_.topLeftCorner<2, 2>() += share * matrix_of(node.gathered);
     walk_ += share * matrix_of(node.gathered);
+    on_the_way_.length += share * node.gathered.length;
+    on_the_way_.turn += share * node.gathered.turn;
   };
   gather(node.share_in_mean());
   absorb(node, outliers);
@@ -145,10 +168,11 @@ RowShare share_of(int equations, double squared, double noise, double all, const
 }
 
 void RollFilter::absorb(const Node& node, const Outliers& outliers) {
-  const Corrected roll = corrected(node.length, node.turn, node.sensed, about());
+  const About about = this->about();
+  const Corrected roll = corrected(node.length, node.turn, node.sensed, about.errors);
   const double measured = w_ + roll.turn + tilt_ * roll.length;
-  const double w_variance = variance_of_roll(roll, node.own);
-  Equations rows = equations_at(measured, roll, w_variance, node);
+  const double w_variance = variance_of_roll(roll, about, node.own);
+  Equations rows = equations_at(measured, about, w_variance, node);
   Eigen::Matrix<double, kShared, 3> of_errors;
   Eigen::Matrix3d inverse;
   const Eigen::Matrix2d averaged = node.share_averaged() * matrix_of(node.gathered);
@@ -162,12 +186,16 @@ void RollFilter::absorb(const Node& node, const Outliers& outliers) {
   // Where the contact is likely to be, given the equations as well. A slope taken where the turn was measured would go
   // with that turn's own error, and what many rows say would be taken for more than it is.
   const Eigen::Vector2d tilted(tilt_, 1);
-  const Eigen::Vector3d with_roll = of_errors.topRows<kRolling>().transpose() * by_rolling(roll).transpose() * tilted +
-                                    rows.by_own * matrix_of(node.own) * tilted;
-  const double shift = with_roll.dot(inverse * rows.miss);
+  const Eigen::Matrix<double, kShared, 3> of_open = about.open * rows.by_errors.transpose();
+  const Eigen::Matrix3d open_inverse = found_ ? (rows.by_errors * of_open + own).inverse() : inverse;
+  const Eigen::Vector3d miss = rows.miss - rows.by_errors * (x_ - about.errors);
+  const Eigen::Vector3d with_roll =
+      of_open.topRows<kRolling>().transpose() * by_rolling(roll, about.errors).transpose() * tilted +
+      rows.by_own * matrix_of(node.own) * tilted;
+  const double shift = with_roll.dot(open_inverse * miss);
   if (std::abs(shift) > kSameLine) {
-    const double left = std::max(0.0, w_variance - with_roll.dot(inverse * with_roll));
-    rows = equations_at(measured - shift, roll, left, node);
+    const double left = std::max(0.0, w_variance - with_roll.dot(open_inverse * with_roll));
+    rows = equations_at(measured - shift, about, left, node);
     weigh();
   }
 
@@ -236,25 +264,25 @@ PoseSpread RollFilter::pose(Eigen::Vector3d* by_w) const {
   return spread;
 }
 
-Eigen::Matrix<double, 2, kRolling> RollFilter::by_rolling(const Corrected& roll) const {
-  const double per_scale = 1 / (1 + x_[2]);
+Eigen::Matrix<double, 2, kRolling> RollFilter::by_rolling(const Corrected& roll, const Shared& errors) {
+  const double per_scale = 1 / (1 + errors[2]);
   Eigen::Matrix<double, 2, kRolling> by_errors;
   by_errors << -per_scale, 0, -roll.length * per_scale, 0,  //
       0, -1, 0, -roll.sensed;
   return by_errors;
 }
 
-double RollFilter::variance_of_roll(const Corrected& roll, const RowCovariance& own) const {
-  const Eigen::Matrix<double, kRolling, 1> h = by_rolling(roll).transpose() * Eigen::Vector2d(tilt_, 1);
-  const double variance =
-      h.dot(p_.topLeftCorner<kRolling, kRolling>() * h) + tilt_ * tilt_ * own.length + 2 * tilt_ * own.both + own.turn;
+double RollFilter::variance_of_roll(const Corrected& roll, const About& about, const RowCovariance& own) const {
+  const Eigen::Matrix<double, kRolling, 1> h = by_rolling(roll, about.errors).transpose() * Eigen::Vector2d(tilt_, 1);
+  const double variance = h.dot(about.open.topLeftCorner<kRolling, kRolling>() * h) + tilt_ * tilt_ * own.length +
+                          2 * tilt_ * own.both + own.turn;
   return std::max(0.0, variance);
 }
 
 double RollFilter::variance_after(const Row& measured, const RowCovariance& own) const {
   const double m = after(measured).slope;
   const Corrected roll = corrected(measured.reading.length[0], measured.reading.turn, measured.sensed, x_);
-  return m * m * variance_of_roll(roll, own);
+  return m * m * variance_of_roll(roll, {x_, p_}, own);
 }
 
 }  // namespace rollfix::belief

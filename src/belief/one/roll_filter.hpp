@@ -1,9 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
+#include <memory>
 
 #include "belief/error_model.hpp"
 #include "belief/nodes.hpp"
@@ -38,18 +39,19 @@ class RollFilter {
  public:
   /// `centres`: nullptr where they are not looked at.
   RollFilter(const TiltedArc& arc, double tilt, double w, const SharedCovariance& start, const CentreModel* centres);
-  /// The same again, with what the rows were found to share: rows are linearised about that offset and that scale of
-  /// turns, from the first one on.
+  /// The same again, with what the rows were found to share: from the first one on they are linearised about that, and
+  /// over what that leaves open.
   RollFilter again(const SharedCovariance& start) const;
 
   /// Takes a row with its centre, as three equations; see side_by_side.hpp for rows without.
   void update(const Node& node, const Outliers& outliers);
-  /// The rows were taken about nearly the offset and the scale of turns that they were found to share. `accuracy`: of
-  /// the offset, and of the scale's after a full turn.
+  /// The rows were taken about nearly what they were found to share. `accuracy`: of the contact's place in w after a
+  /// full turn.
   bool is_settled(double accuracy) const {
     constexpr double kFullTurn = 2 * std::numbers::pi;
-    return guess_ &&
-           std::max(std::abs(x_[1] - guess_->offset), kFullTurn * std::abs(x_[3] - guess_->scale)) <= accuracy;
+    if (!found_) return false;
+    const Eigen::Vector4d off = (x_.head<kRolling>() - found_->errors).cwiseAbs();
+    return std::max({tilt_ * off[0], off[1], kFullTurn * off[3]}) <= accuracy;
   }
 
   const TiltedArc* arc() const { return arc_; }
@@ -97,30 +99,30 @@ class RollFilter {
     double turn;
     double sensed;
   };
-  /// What turns are linearised about.
-  struct OfTurns {
-    double offset;
-    double scale;
+  /// What a pass found that a roll's rows share, and what gathered on the whole way.
+  struct Found {
+    Eigen::Matrix<double, kRolling, 1> errors;
+    Eigen::Matrix<double, kRolling, kRolling> covariance;
+    Gathered gathered;
+  };
+  /// What a row is linearised about, and over.
+  struct About {
+    Shared errors;
+    SharedCovariance open;
   };
   struct Equations;
-  Equations equations_at(double w, const Corrected& roll, double w_variance, const Node& node) const;
-  void add_centre(const SpreadPlace& end, double w, const Corrected& roll, const Node& node, Equations& rows) const;
+  Equations equations_at(double w, const About& about, double w_variance, const Node& node) const;
+  void add_centre(const SpreadPlace& end, double w, const About& about, const Node& node, Equations& rows) const;
   void absorb(const Node& node, const Outliers& outliers);
-  /// What the shared errors are when a row is looked at: the guess of the turns', else as they are estimated so far.
-  Shared about() const {
-    Shared errors = x_;
-    if (guess_) errors[1] = guess_->offset;
-    if (guess_) errors[3] = guess_->scale;
-    return errors;
-  }
-  Corrected corrected(double length, double turn, double sensed, const Shared& errors) const {
+  About about() const;
+  static Corrected corrected(double length, double turn, double sensed, const Shared& errors) {
     return {(length - errors[0]) / (1 + errors[2]), turn - errors[1] - errors[3] * sensed, sensed};
   }
 
   /// What length and turn are, by the errors that the roll shares.
-  Eigen::Matrix<double, 2, kRolling> by_rolling(const Corrected& roll) const;
+  static Eigen::Matrix<double, 2, kRolling> by_rolling(const Corrected& roll, const Shared& errors);
   /// The variance of theta + c L, from the shared errors and a row's own.
-  double variance_of_roll(const Corrected& roll, const RowCovariance& own) const;
+  double variance_of_roll(const Corrected& roll, const About& about, const RowCovariance& own) const;
 
   const TiltedArc* arc_;
   const CentreModel* centres_;
@@ -143,7 +145,8 @@ class RollFilter {
   std::array<Whiteness, 3> whiteness_;
   double right_rows_ = 0;
   double right_cost_ = 0;
-  std::optional<OfTurns> guess_;
+  Gathered on_the_way_;                 // so far
+  std::shared_ptr<const Found> found_;  // by the pass before; nullptr in the first
 };
 
 }  // namespace rollfix::belief

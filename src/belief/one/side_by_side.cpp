@@ -51,13 +51,17 @@ class SideBySide {
     each.fill(Four::Constant(value));
     return each;
   }
-  static std::array<PerError, Errors> none() {
-    std::array<PerError, Errors> each;
-    each.fill(all(0));
-    return each;
-  }
-  /// Of the covariance, which is symmetric.
-  const Four& p(std::size_t k, std::size_t j) const { return k < j ? p_[k][j] : p_[j][k]; }
+  /// Symmetric: its upper half.
+  struct Covariance {
+    std::array<PerError, Errors> upper;
+    const Four& operator()(std::size_t k, std::size_t j) const { return k < j ? upper[k][j] : upper[j][k]; }
+    Four& operator()(std::size_t k, std::size_t j) { return k < j ? upper[k][j] : upper[j][k]; }
+    static Covariance none() {
+      Covariance covariance;
+      covariance.upper.fill(all(0));
+      return covariance;
+    }
+  };
 
   /// Of the rows that are taken at once.
   struct Rows {
@@ -65,19 +69,28 @@ class SideBySide {
     Four own_length, own_both, own_turn;
     Four averaged_length, averaged_turn;  // of what gathers among the joined rows
   };
-  /// What gathers after the rows' mean.
-  struct Later {
+  /// Variances that gather.
+  struct Walked {
     Four length = Four::Zero(), turn = length;
+  };
+  /// What the rows are linearised about, and over; see RollFilter::about.
+  struct About {
+    PerError errors;
+    Covariance open;
   };
   /// Lengths and turns as they are without what the roll shares.
   struct Rolled {
     Four per_scale, length, sensed;
-    PerError with_length, with_turn;  // covariances with the shared errors
     Four by_turns(const PerError& errors) const {
       if constexpr (Errors > 3) return errors[1] + sensed * errors[3];
       return errors[1];
     }
     Four by_lengths(const PerError& errors) const { return per_scale * (errors[0] + length * errors[2]); }
+  };
+  /// How uncertain they are for what the roll shares.
+  struct Uncertain {
+    PerError with_length, with_turn;  // covariances with the shared errors
+    Four length, both, turn;
   };
   /// Where the contacts are, the equations' lines there, and their variances.
   struct Lines {
@@ -112,11 +125,13 @@ class SideBySide {
       const auto row = static_cast<Eigen::Index>(k);
       copy(x_[k], filter.x_[row]);
       copy(dx_[k], filter.dx_[row]);
-      for (std::size_t j = k; j < Errors; ++j) copy(p_[k][j], filter.p_(row, static_cast<Eigen::Index>(j)));
+      for (std::size_t j = k; j < Errors; ++j) copy(p_(k, j), filter.p_(row, static_cast<Eigen::Index>(j)));
     }
     copy(walk00_, filter.walk_(0, 0));
     copy(walk01_, filter.walk_(0, 1));
     copy(walk11_, filter.walk_(1, 1));
+    copy(on_the_way_.length, filter.on_the_way_.length);
+    copy(on_the_way_.turn, filter.on_the_way_.turn);
     copy(cost_, filter.cost_);
     copy(log_volume_, filter.log_volume_);
     copy(volume_, filter.volume_);
@@ -134,10 +149,19 @@ class SideBySide {
     first_slope_[at(lane)] = filter.place_.slope;
     most_[2][at(lane)] = filter.most_scale_;
     if constexpr (Errors > 3) most_[3][at(lane)] = filter.most_gyroscope_scale_;
-    const RollFilter::OfTurns guess = filter.guess_.value_or(RollFilter::OfTurns{0, 0});
-    guess_[at(lane)] = guess.offset;
-    guess_of_scale_[at(lane)] = guess.scale;
-    follows_[at(lane)] = filter.guess_ ? 0 : 1;
+    is_first_[at(lane)] = filter.found_ ? 0 : 1;
+    if (filter.found_) load_found(lane, *filter.found_);
+  }
+  void load_found(std::size_t lane, const RollFilter::Found& found) {
+    for (std::size_t k = 0; k < Errors; ++k) {
+      const auto row = static_cast<Eigen::Index>(k);
+      found_.errors[k][at(lane)] = found.errors[row];
+      for (std::size_t j = k; j < Errors; ++j) {
+        found_.open(k, j)[at(lane)] = found.covariance(row, static_cast<Eigen::Index>(j));
+      }
+    }
+    whole_way_.length[at(lane)] = found.gathered.length;
+    whole_way_.turn[at(lane)] = found.gathered.turn;
   }
   void save(std::size_t lane) {
     RollFilter& filter = *errands_[lane].filter;
@@ -147,12 +171,16 @@ class SideBySide {
   }
 
   Rows next_rows();
-  Rolled rolled(const Rows& rows) const;
+  About about() const;
+  static Rolled rolled(const Rows& rows, const PerError& errors);
+  static Uncertain uncertain(const Rolled& rolled, const Covariance& p);
+  /// By what the pass before left open; in a first pass by what the rows so far do.
+  Uncertain open_of(const Rolled& rolled, const About& about, const Uncertain& so_far) const;
   void gather(const Four& length, const Four& turn);
   void look(std::size_t lane, double w, double variance, double spread, Lines& lines) const;
   void take_nodes();
   Four trust(const Lines& lines);
-  void correct(const Lines& lines, const Rolled& rolled);
+  void correct(const Lines& lines, const Rolled& rolled, const Uncertain& uncertain);
 
   const NextErrand& next_;
   const double& limit_;
@@ -162,13 +190,15 @@ class SideBySide {
   double tilt_ = 0;
   // Lanes without an errand go on with these: they only have to stay finite.
   PerError x_ = all(0), dx_ = x_, most_ = all(1);
-  std::array<PerError, Errors> p_ = none();  // its upper half
+  Covariance p_ = Covariance::none();
   Four walk00_ = Four::Zero(), walk01_ = walk00_, walk11_ = walk00_;
-  Later later_;
+  Walked later_;       // what gathers after the rows' mean
+  Walked on_the_way_;  // so far
+  Walked whole_way_;   // in the pass before
+  About found_{all(0), Covariance::none()};
   Four cost_ = walk00_, log_volume_ = walk00_, volume_ = Four::Ones(), log_gathered_ = walk00_,
        gathered_ = Four::Ones(), slope_ = walk00_, information_ = walk00_;
-  Four w_ = walk00_, first_s_ = walk00_, first_slope_ = walk00_, guess_ = walk00_, guess_of_scale_ = walk00_,
-       follows_ = walk00_;
+  Four w_ = walk00_, first_s_ = walk00_, first_slope_ = walk00_, is_first_ = Four::Ones();
 };
 
 template <int Errors>
@@ -200,10 +230,12 @@ typename SideBySide<Errors>::Rows SideBySide<Errors>::next_rows() {
 
 template <int Errors>
 void SideBySide<Errors>::gather(const Four& length, const Four& turn) {
-  p_[0][0] += length;
-  p_[1][1] += turn;
+  p_(0, 0) += length;
+  p_(1, 1) += turn;
   walk00_ += length;
   walk11_ += turn;
+  on_the_way_.length += length;
+  on_the_way_.turn += turn;
 }
 
 template <int Errors>
@@ -216,15 +248,49 @@ void SideBySide<Errors>::look(std::size_t lane, double w, double variance, doubl
 }
 
 template <int Errors>
-typename SideBySide<Errors>::Rolled SideBySide<Errors>::rolled(const Rows& rows) const {
-  const Four per_scale = 1 / (1 + x_[2]);
-  Rolled rolled{per_scale, (rows.length - x_[0]) * per_scale, rows.sensed, {}, {}};
+typename SideBySide<Errors>::About SideBySide<Errors>::about() const {
+  About about = found_;
+  Covariance& open = about.open;
+  open(0, 0) += (whole_way_.length - on_the_way_.length).max(0.0);
+  open(1, 1) += (whole_way_.turn - on_the_way_.turn).max(0.0);
+  const Four from_end = (open(0, 0) <= p_(0, 0)).template cast<double>();
+  const Four is_later = 1 - is_first_;
+  open(0, 0) = open(0, 0).min(p_(0, 0));
+  for (std::size_t k = 1; k < Errors; ++k) open(0, k) *= from_end;
   for (std::size_t k = 0; k < Errors; ++k) {
-    rolled.with_length[k] = per_scale * (p(0, k) + rolled.length * p(2, k));
-    rolled.with_turn[k] = p(1, k);
-    if constexpr (Errors > 3) rolled.with_turn[k] += rows.sensed * p(3, k);
+    about.errors[k] = x_[k] + (k == 0 ? Four(is_later * from_end) : is_later) * (about.errors[k] - x_[k]);
   }
-  return rolled;
+  return about;
+}
+
+template <int Errors>
+typename SideBySide<Errors>::Rolled SideBySide<Errors>::rolled(const Rows& rows, const PerError& errors) {
+  const Four per_scale = 1 / (1 + errors[2]);
+  return {per_scale, (rows.length - errors[0]) * per_scale, rows.sensed};
+}
+
+template <int Errors>
+typename SideBySide<Errors>::Uncertain SideBySide<Errors>::uncertain(const Rolled& rolled, const Covariance& p) {
+  Uncertain uncertain;
+  for (std::size_t k = 0; k < Errors; ++k) {
+    uncertain.with_length[k] = rolled.per_scale * (p(0, k) + rolled.length * p(2, k));
+    uncertain.with_turn[k] = p(1, k);
+    if constexpr (Errors > 3) uncertain.with_turn[k] += rolled.sensed * p(3, k);
+  }
+  uncertain.length = rolled.by_lengths(uncertain.with_length);
+  uncertain.both = rolled.by_turns(uncertain.with_length);
+  uncertain.turn = rolled.by_turns(uncertain.with_turn);
+  return uncertain;
+}
+
+template <int Errors>
+typename SideBySide<Errors>::Uncertain SideBySide<Errors>::open_of(const Rolled& rolled, const About& about,
+                                                                   const Uncertain& so_far) const {
+  Uncertain open = uncertain(rolled, about.open);
+  open.length += is_first_ * (so_far.length - open.length);
+  open.both += is_first_ * (so_far.both - open.both);
+  open.turn += is_first_ * (so_far.turn - open.turn);
+  return open;
 }
 
 // The true L and theta lead from one place to another: e = s(w + theta + c L) - s(w) - L = 0, with ds/dw = m. By the
@@ -233,19 +299,22 @@ typename SideBySide<Errors>::Rolled SideBySide<Errors>::rolled(const Rows& rows)
 template <int Errors>
 void SideBySide<Errors>::take_nodes() {
   const Rows rows = next_rows();
-  const Rolled roll = rolled(rows);
+  const bool is_first = (is_first_ > 0).all();
+  const About about = is_first ? About{x_, p_} : this->about();
+  const Rolled roll = rolled(rows, about.errors);
   const Four& length = roll.length;
-  // Of the turn that is taken, from the likeliest.
-  Four turn_off = (1 - follows_) * (x_[1] - guess_);
-  if constexpr (Errors > 3) turn_off += (1 - follows_) * rows.sensed * (x_[3] - guess_of_scale_);
-  const Four measured = w_ + (rows.turn - (roll.by_turns(x_) - turn_off)) + tilt_ * length;
-  const Four length_variance = roll.by_lengths(roll.with_length);
-  const Four both = roll.by_turns(roll.with_length);
-  const Four turn_variance = roll.by_turns(roll.with_turn);
+  const Four measured = w_ + (rows.turn - roll.by_turns(about.errors)) + tilt_ * length;
+  const Uncertain so_far = uncertain(roll, p_);
+  const Uncertain open = is_first ? so_far : open_of(roll, about, so_far);
   // Of the contact's place in w with the length and with the turn.
-  const Four by_length = tilt_ * (length_variance + rows.own_length) + both + rows.own_both;
-  const Four by_turn = tilt_ * (both + rows.own_both) + turn_variance + rows.own_turn;
+  const Four by_length = tilt_ * (open.length + rows.own_length) + open.both + rows.own_both;
+  const Four by_turn = tilt_ * (open.both + rows.own_both) + open.turn + rows.own_turn;
   const Four variance = (tilt_ * by_length + by_turn).max(0.0);
+  // From what the rows are linearised about to the likeliest.
+  PerError off;
+  for (std::size_t k = 0; k < Errors; ++k) off[k] = x_[k] - about.errors[k];
+  const Four length_off = roll.by_lengths(off);
+  const Four turn_off = roll.by_turns(off);
 
   Lines lines;
   const auto draw = [&](const Four& beyond) {
@@ -258,8 +327,8 @@ void SideBySide<Errors>::take_nodes() {
     lines.of_length = by_offset * walk00_ - m * walk01_;
     lines.of_turn = by_offset * walk01_ - m * walk11_;
     lines.noise = alone + by_offset * lines.of_length - m * lines.of_turn;
-    lines.all = alone + lines.rest * (lines.rest * length_variance - 2 * m * both) + m * m * turn_variance;
-    lines.miss = lines.s + m * (beyond - turn_off) - first_s_ - length;
+    lines.all = alone + lines.rest * (lines.rest * so_far.length - 2 * m * so_far.both) + m * m * so_far.turn;
+    lines.miss = lines.s + m * (beyond - turn_off) - first_s_ - length + lines.rest * length_off;
   };
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     look(lane, measured[at(lane)], variance[at(lane)], rows.spread[at(lane)], lines);
@@ -268,8 +337,13 @@ void SideBySide<Errors>::take_nodes() {
   // Where the contact is likely to be, given the equation as well. A slope taken where the turn was measured would go
   // with that turn's own error, and what many rows say would be taken for more than it is.
   const Four with_place = lines.slope * by_turn - lines.rest * by_length;
-  const Four gain = with_place / lines.all;
+  Four gain = with_place / lines.all;
   Four shift = gain * lines.miss;
+  if (!is_first) {
+    const Four& m = lines.slope;
+    gain = with_place / (lines.own + lines.rest * (lines.rest * open.length - 2 * m * open.both) + m * m * open.turn);
+    shift = gain * (lines.miss + m * turn_off - lines.rest * length_off);
+  }
   if ((shift.abs() > kSameLine).any()) {
     const Four left = (variance - gain * with_place).max(0.0);
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
@@ -281,7 +355,7 @@ void SideBySide<Errors>::take_nodes() {
     }
     draw(shift);
   }
-  correct(lines, roll);
+  correct(lines, roll, so_far);
 }
 
 /// How much each row counts, over its variance.
@@ -320,7 +394,7 @@ Four SideBySide<Errors>::trust(const Lines& lines) {
 }
 
 template <int Errors>
-void SideBySide<Errors>::correct(const Lines& lines, const Rolled& rolled) {
+void SideBySide<Errors>::correct(const Lines& lines, const Rolled& rolled, const Uncertain& uncertain) {
   const Four trusted = trust(lines);
   const Four innovation = -trusted.sqrt() * lines.miss;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
@@ -332,13 +406,13 @@ void SideBySide<Errors>::correct(const Lines& lines, const Rolled& rolled) {
   information_ += trusted * by_w * by_w;
   PerError of_errors;
   for (std::size_t k = 0; k < Errors; ++k) {
-    of_errors[k] = lines.rest * rolled.with_length[k] - lines.slope * rolled.with_turn[k];
+    of_errors[k] = lines.rest * uncertain.with_length[k] - lines.slope * uncertain.with_turn[k];
     const Four gain = trusted * of_errors[k];
     x_[k] -= lines.miss * gain;
     dx_[k] += by_w * gain;
   }
   for (std::size_t k = 0; k < Errors; ++k) {
-    for (std::size_t j = k; j < Errors; ++j) p_[k][j] -= trusted * of_errors[k] * of_errors[j];
+    for (std::size_t j = k; j < Errors; ++j) p_(k, j) -= trusted * of_errors[k] * of_errors[j];
   }
   const Four seen = trusted * lines.all / lines.noise;
   walk00_ -= seen * lines.of_length * lines.of_length;
