@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -25,6 +26,9 @@ constexpr double kLeastScale = 0.9e-3;
 constexpr double kMostScale = 1.1e3;
 constexpr std::array<double, 17> kScalesOfTwo = {0.5,      0.79, 0.86, 0.93, 1.0,   1.08,  1.16, 1.26, 2.0,
                                                  1 / 25.4, 0.1,  10.0, 25.4, 0.001, 1000., 0.01, 100.0};
+// ... with which the longest roll is between these, in perimeters: shorter ones say nothing, longer ones nobody rolls.
+constexpr double kLeastRollOfTwo = 0.01;
+constexpr double kMostRollOfTwo = 8;
 // Beyond what Theta's own range allows, radians: noise.
 constexpr double kTurnBeyond = 0.5;
 constexpr double kTurnSigmas = 6;
@@ -163,7 +167,7 @@ class Diagnostician {
     noisier.noise->contact *= as_said_.excess;
     noisier.noise->angle *= as_said_.excess;
     noisier.noise->position *= as_said_.excess;
-    if (noisier.noise->angle > BeliefOptions::kMostAngle) return;
+    if (!(noisier.noise->angle <= BeliefOptions::kMostAngle)) return;
     // Of two fingers as the answer itself is: what wide noise leaves may be long, and it is the likeliest of all.
     std::optional<Belief> belief = is_of_two() ? believe(noisier, observed_) : by_rows(noisier, observed_);
     Diagnosis diagnosis = of(Cause::noise, belief->fit());
@@ -226,12 +230,25 @@ class Diagnostician {
 
   /// Those to try: two fingers, whose search takes long, about 1 and where units are mistaken.
   std::vector<double> scales() const {
-    if (is_of_two()) return {kScalesOfTwo.begin(), kScalesOfTwo.end()};
     std::vector<double> scales;
+    if (is_of_two()) {
+      std::copy_if(kScalesOfTwo.begin(), kScalesOfTwo.end(), std::back_inserter(scales),
+                   [&](double scale) { return may_be_of_two(scale); });
+      return scales;
+    }
     for (double scale = kLeastScale; scale < kMostScale; scale *= kScaleStep) {
       if (may_be(scale)) scales.push_back(scale);
     }
     return scales;
+  }
+
+  bool may_be_of_two(double scale) const {
+    double longest = 0;
+    for (const Reading& row : observed_rows()) {
+      for (const double length : row.length) longest = std::max(longest, std::abs(length));
+    }
+    const double laps = scale * longest / problem_.part.perimeter();
+    return laps >= kLeastRollOfTwo && laps <= kMostRollOfTwo;
   }
 
   /// Theta's own range and the turn that was felt confine what a length can be.
@@ -270,6 +287,8 @@ class Diagnostician {
       const double by = common_scale(fit.length_scale);
       const double sd = std::max(fit.length_scale_sd[0], 1e-12);
       scale *= by;
+      // What is far off everywhere asks for any scale.
+      if (!(scale >= kLeastScale / kScaleStep && scale <= kMostScale * kScaleStep)) return;
       if (std::abs(by - 1) < kSmallStep * sd) break;
     }
     const double sd = scale * fit.length_scale_sd[0];

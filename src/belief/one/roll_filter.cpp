@@ -45,8 +45,8 @@ RollFilter RollFilter::again(const SharedCovariance& start) const {
 }
 
 // In a first pass as it is estimated so far. The end of a pass knows all rows, but for what gathers until then: where
-// less is open of the length's offset by the rows so far, that.
-RollFilter::About RollFilter::about() const {
+// the rows so far leave less open of this row's length, what they say of lengths.
+RollFilter::About RollFilter::about(double length) const {
   About about{x_, p_};
   if (!found_) return about;
   about.errors.head<kRolling>() = found_->errors;
@@ -55,11 +55,16 @@ RollFilter::About RollFilter::about() const {
   about.open.topLeftCorner<kRolling, kRolling>() = found_->covariance;
   about.open(0, 0) += std::max(0.0, found_->gathered.length - on_the_way_.length);
   about.open(1, 1) += std::max(0.0, found_->gathered.turn - on_the_way_.turn);
-  if (p_(0, 0) < about.open(0, 0)) {
-    about.errors[0] = x_[0];
-    about.open.row(0).setZero();
-    about.open.col(0).setZero();
-    about.open(0, 0) = p_(0, 0);
+  const auto of_length = [&](const SharedCovariance& p) { return p(0, 0) + length * (2 * p(0, 2) + length * p(2, 2)); };
+  if (of_length(p_) >= of_length(about.open)) return about;
+  constexpr std::array<Eigen::Index, 2> kOfLength = {0, 2};
+  for (const Eigen::Index k : kOfLength) {
+    about.errors[k] = x_[k];
+    about.open.row(k).setZero();
+    about.open.col(k).setZero();
+  }
+  for (const Eigen::Index k : kOfLength) {
+    for (const Eigen::Index j : kOfLength) about.open(k, j) = p_(k, j);
   }
   return about;
 }
@@ -168,7 +173,7 @@ RowShare share_of(int equations, double squared, double noise, double all, const
 }
 
 void RollFilter::absorb(const Node& node, const Outliers& outliers) {
-  const About about = this->about();
+  const About about = this->about(node.length);
   const Corrected roll = corrected(node.length, node.turn, node.sensed, about.errors);
   const double measured = w_ + roll.turn + tilt_ * roll.length;
   const double w_variance = variance_of_roll(roll, about, node.own);

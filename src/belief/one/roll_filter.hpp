@@ -114,7 +114,7 @@ class RollFilter {
   Equations equations_at(double w, const About& about, double w_variance, const Node& node) const;
   void add_centre(const SpreadPlace& end, double w, const About& about, const Node& node, Equations& rows) const;
   void absorb(const Node& node, const Outliers& outliers);
-  About about() const;
+  About about(double length) const;
   static Corrected corrected(double length, double turn, double sensed, const Shared& errors) {
     return {(length - errors[0]) / (1 + errors[2]), turn - errors[1] - errors[3] * sensed, sensed};
   }

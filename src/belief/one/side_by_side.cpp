@@ -171,7 +171,9 @@ class SideBySide {
   }
 
   Rows next_rows();
-  About about() const;
+  About about(const Rows& rows) const;
+  /// Offset and scale of lengths; else of turns.
+  static constexpr bool is_of_length(std::size_t error) { return error == 0 || error == 2; }
   static Rolled rolled(const Rows& rows, const PerError& errors);
   static Uncertain uncertain(const Rolled& rolled, const Covariance& p);
   /// By what the pass before left open; in a first pass by what the rows so far do.
@@ -248,17 +250,24 @@ void SideBySide<Errors>::look(std::size_t lane, double w, double variance, doubl
 }
 
 template <int Errors>
-typename SideBySide<Errors>::About SideBySide<Errors>::about() const {
+typename SideBySide<Errors>::About SideBySide<Errors>::about(const Rows& rows) const {
   About about = found_;
   Covariance& open = about.open;
   open(0, 0) += (whole_way_.length - on_the_way_.length).max(0.0);
   open(1, 1) += (whole_way_.turn - on_the_way_.turn).max(0.0);
-  const Four from_end = (open(0, 0) <= p_(0, 0)).template cast<double>();
-  const Four is_later = 1 - is_first_;
-  open(0, 0) = open(0, 0).min(p_(0, 0));
-  for (std::size_t k = 1; k < Errors; ++k) open(0, k) *= from_end;
+  const auto of_length = [&](const Covariance& p) {
+    return p(0, 0) + rows.length * (2 * p(0, 2) + rows.length * p(2, 2));
+  };
+  const Four from_end = (of_length(open) <= of_length(p_)).template cast<double>();
   for (std::size_t k = 0; k < Errors; ++k) {
-    about.errors[k] = x_[k] + (k == 0 ? Four(is_later * from_end) : is_later) * (about.errors[k] - x_[k]);
+    for (std::size_t j = k; j < Errors; ++j) {
+      if (is_of_length(k) && is_of_length(j)) open(k, j) = p_(k, j) + from_end * (open(k, j) - p_(k, j));
+      if (is_of_length(k) != is_of_length(j)) open(k, j) *= from_end;
+    }
+  }
+  const Four is_later = 1 - is_first_;
+  for (std::size_t k = 0; k < Errors; ++k) {
+    about.errors[k] = x_[k] + (is_of_length(k) ? Four(is_later * from_end) : is_later) * (about.errors[k] - x_[k]);
   }
   return about;
 }
@@ -300,7 +309,7 @@ template <int Errors>
 void SideBySide<Errors>::take_nodes() {
   const Rows rows = next_rows();
   const bool is_first = (is_first_ > 0).all();
-  const About about = is_first ? About{x_, p_} : this->about();
+  const About about = is_first ? About{x_, p_} : this->about(rows);
   const Rolled roll = rolled(rows, about.errors);
   const Four& length = roll.length;
   const Four measured = w_ + (rows.turn - roll.by_turns(about.errors)) + tilt_ * length;
