@@ -25,9 +25,10 @@ constexpr double kLongestSquare = 1.0 / 96;
 constexpr int kMostPairHalvings = 8;
 // Hypotheses looked at; what is not resolved by then counts as rest.
 constexpr std::size_t kMostHypotheses = 60000;
-constexpr std::size_t kMostOnTrial = 6000;
+constexpr std::size_t kMostOnTrial = 1500;
 // A region of more whole squares than this has them too small, and is begun again with larger ones, ...
 constexpr std::size_t kManySquares = 2500;
+constexpr std::size_t kManyOnTrial = 400;
 // ... by this factor, so often at most.
 constexpr double kLargerSquares = 3;
 constexpr int kMostBeginnings = 4;
@@ -66,6 +67,7 @@ class Spreading {
         corner_length_(corner_length),
         best_(best),
         most_hypotheses_(model.on_trial ? kMostOnTrial : kMostHypotheses),
+        many_squares_(model.on_trial ? kManyOnTrial : kManySquares),
         density_(density) {}
 
   void from(const PairPeak& peak);
@@ -94,6 +96,7 @@ class Spreading {
   std::array<double, 2> corner_length_;
   double best_;
   std::size_t most_hypotheses_;
+  std::size_t many_squares_;
   PairDensity& density_;
   std::size_t hypotheses_ = 0;
   double total_ = 0;
@@ -245,7 +248,7 @@ void Spreading::from(const PairPeak& peak) {
     }
     const double unresolved = unresolved_;
     const bool is_last = beginning + 1 == kMostBeginnings;
-    if (!spread(region, peak, is_last ? most_hypotheses_ : kManySquares)) {
+    if (!spread(region, peak, is_last ? most_hypotheses_ : many_squares_)) {
       unresolved_ = unresolved;
       continue;
     }

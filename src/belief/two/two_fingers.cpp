@@ -85,9 +85,12 @@ class TwoFingersPosterior : public Posterior {
     const Peaks& found = peaks_;
     pieces_.clear();
     if (found.peaks.empty()) return outcome;
+    // What contradicts the rows may be widened without end, and is worth no more time than a trial.
+    PairModel model = question.model;
+    model.on_trial = model.on_trial || found.fit.is_bad();
     const PairDensity density =
-        pair_density(question.model, found.peaks, question.nodes, found.fit.widened, {corner(0), corner(1)});
-    PairModes modes = modes_of(density, question.model, rows_.empty() ? Reading(0, 0, 0) : rows_.back());
+        pair_density(model, found.peaks, question.nodes, found.fit.widened, {corner(0), corner(1)});
+    PairModes modes = modes_of(density, model, rows_.empty() ? Reading(0, 0, 0) : rows_.back());
     outcome.modes = std::move(modes.modes);
     pieces_ = std::move(modes.pieces);
     const PairScore& best = found.peaks.front().score;
