@@ -2,11 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
 #include "budget.hpp"
 
+// Notation: s is the arc length, u a curve's parameter, theta the tangent's angle. On a piece
+//   s = s_base + l(x), theta = angle_base + a(x), x = u - middle,
+// where l' = ds/du and a' = d(theta)/du are the formula's Taylor series of degree kOrder - 1: the last coefficient is
+// that of all places of the piece, so that both polynomials hold the exact ones (Taylor's theorem).
 namespace rollfix_verify {
 namespace {
 
@@ -26,29 +31,6 @@ constexpr double kNewtonGoal = 1e-15;
 constexpr double kOutward = 1.001;
 constexpr double kLeastReach = 1e-300;
 
-Ball value(const Taylor& polynomial, const Ball& x) {
-  Ball sum = 0.0;
-  for (std::size_t k = polynomial.size(); k-- > 0;) sum = sum * x + polynomial[k];
-  return sum;
-}
-
-Ball slope(const Taylor& polynomial, const Ball& x) {
-  Ball sum = 0.0;
-  for (std::size_t k = polynomial.size(); k-- > 1;) sum = sum * x + static_cast<double>(k) * polynomial[k];
-  return sum;
-}
-
-/// The integral's coefficients: the last one, which bounds the remainder, from the series around all places.
-Taylor with_remainder(const Series& thin, const Series& wide) {
-  const Series polynomial = integral(thin);
-  Taylor result;
-  for (slong k = 0; k < kOrder; ++k) result.push_back(polynomial[k]);
-  result.push_back(integral(wide)[kOrder]);
-  return result;
-}
-
-double radius(const Ball& ball) { return 0.5 * (ball.upper() - ball.lower()); }
-
 Point difference(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y}; }
 Ball size(const Point& a) { return sqrt(a.x * a.x + a.y * a.y); }
 
@@ -66,6 +48,7 @@ Boundary::Boundary(std::vector<Formula> curves, bool closed) : curves_(std::move
     add_pieces(k, curves_[k].lo, curves_[k].hi, 0);
     join(k);
   }
+  if (closed_) laps_ = {-perimeter().middle(), 0, perimeter().middle()};
 }
 
 void Boundary::add_pieces(std::size_t curve, double lo, double hi, int depth) {
@@ -79,18 +62,20 @@ void Boundary::add_pieces(std::size_t curve, double lo, double hi, int depth) {
   Piece piece{lo,
               hi,
               middle,
-              with_remainder(thin.speed, wide.speed),
-              with_remainder(thin.turning, wide.turning),
+              with_remainder(integral(thin.speed), integral(wide.speed), kOrder),
+              with_remainder(integral(thin.turning), integral(wide.turning), kOrder),
               std::max(wide.speed[0].lower(), 0.0),
               {},
               {},
               {}};
   const double power = std::pow(half + margin, static_cast<double>(kOrder));
   const double length = thin.speed[0].middle() * (hi - lo);
-  const bool is_good = piece.length.back().is_finite() && piece.angle.back().is_finite() &&
-                       (piece.least_speed > 0 || depth == kMostHalvings) &&
-                       radius(piece.length.back()) * power <= kPieceError * length &&
-                       radius(piece.angle.back()) * power <= kPieceError;
+  const auto left_out = [&](const Series& polynomial) {
+    const Ball last = polynomial[kOrder];
+    return last.is_finite() ? 0.5 * spread(last) * power : std::numeric_limits<double>::infinity();
+  };
+  const bool is_good = (piece.least_speed > 0 || depth == kMostHalvings) &&
+                       left_out(piece.length) <= kPieceError * length && left_out(piece.angle) <= kPieceError;
   if (!is_good) {
     if (depth == kMostHalvings || !(middle > lo && middle < hi))
       throw std::runtime_error("a curve that is not regular");
@@ -148,8 +133,6 @@ Place Boundary::on_piece(std::size_t curve, const Piece& piece, const Ball& u) c
   return {static_cast<long>(curve), u, piece.s_base + value(piece.length, x), piece.angle_base + value(piece.angle, x)};
 }
 
-Ball Boundary::s_on(const Piece& piece, const Ball& u) { return piece.s_base + value(piece.length, u - piece.middle); }
-
 Place Boundary::at(long curve, double u) const {
   const std::vector<Piece>& pieces = pieces_.at(static_cast<std::size_t>(curve));
   if (!(u >= pieces.front().lo && u <= pieces.back().hi))
@@ -185,11 +168,12 @@ std::optional<Place> Boundary::after(const Ball& s) const {
                      1;
   double u = piece->middle;
   for (int k = 0; k < kNewtonSteps; ++k) {
-    const double missing = (wanted - s_on(*piece, u)).middle();
-    u = std::clamp(u + missing / slope(piece->length, Ball(u) - piece->middle).middle(), piece->lo, piece->hi);
+    const auto [length, speed] = value_and_slope(piece->length, Ball(u) - piece->middle);
+    const double missing = (wanted - piece->s_base - length).middle();
+    u = std::clamp(u + missing / speed.middle(), piece->lo, piece->hi);
     if (std::abs(missing) <= kNewtonGoal * period) break;
   }
-  const Ball missing = wanted - s_on(*piece, u);
+  const Ball missing = wanted - piece->s_base - value(piece->length, Ball(u) - piece->middle);
   const double reach = kOutward * (abs(missing).upper() / piece->least_speed) + kLeastReach;
   if (!(reach < kMargin * (piece->hi - piece->lo))) return std::nullopt;
   const Ball ball = hull(Ball(u) - reach, Ball(u) + reach);
@@ -220,15 +204,17 @@ Ball Boundary::turning(long curve, const Ball& u) const {
   return formula(curve).motion(u).turning[0];
 }
 
-Taylor Boundary::taylor(long curve, const Ball& u) const {
+Series Boundary::curvature_ahead(long curve, const Ball& u) const {
   Budget::spend(formula(curve).work);
   const Motion motion = formula(curve).motion(u);
-  if (!motion.speed[0].is_above(0.0)) return Taylor(static_cast<std::size_t>(kOrder), unknown());
-  const Series place = inverse(integral(motion.speed));
-  const Series angle = composed(integral(motion.turning), place);
-  Taylor result;
-  for (slong k = 1; k <= kOrder; ++k) result.push_back(angle[k]);
-  return result;
+  Series curvature;
+  if (motion.speed[0].is_above(0.0)) {
+    curvature = derivative(composed(integral(motion.turning), inverse(integral(motion.speed))));
+    arb_poly_truncate(curvature.get(), kOrder);
+  } else {
+    for (slong k = 0; k < kOrder; ++k) curvature.set(k, unknown());
+  }
+  return curvature;
 }
 
 }  // namespace rollfix_verify
