@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -31,9 +30,6 @@ constexpr double kNewtonGoal = 1e-15;
 constexpr double kOutward = 1.001;
 constexpr double kLeastReach = 1e-300;
 
-Point difference(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y}; }
-Ball size(const Point& a) { return sqrt(a.x * a.x + a.y * a.y); }
-
 }  // namespace
 
 Boundary::Boundary(std::vector<Formula> curves, bool closed) : curves_(std::move(curves)), closed_(closed) {
@@ -51,48 +47,50 @@ Boundary::Boundary(std::vector<Formula> curves, bool closed) : curves_(std::move
   if (closed_) laps_ = {-perimeter().middle(), 0, perimeter().middle()};
 }
 
+/// By halves, until what each leaves out does not matter.
 void Boundary::add_pieces(std::size_t curve, double lo, double hi, int depth) {
-  const double middle = 0.5 * (lo + hi);
-  const double half = std::max(hi - middle, middle - lo);
-  const Formula& formula = curves_[curve];
+  const Piece piece = piece_between(curves_[curve], lo, hi);
+  const bool is_smallest = depth == kMostHalvings;
+  if (piece.is_good && (piece.least_speed > 0 || is_smallest)) return append(curve, piece);
+  if (is_smallest || !(piece.middle > lo && piece.middle < hi)) throw std::runtime_error("a curve that is not regular");
+  add_pieces(curve, lo, piece.middle, depth + 1);
+  add_pieces(curve, piece.middle, hi, depth + 1);
+}
+
+Boundary::Piece Boundary::piece_between(const Formula& formula, double lo, double hi) {
   Budget::spend(2 * formula.work);
-  const Motion thin = formula.motion(middle);
+  Piece piece;
+  piece.lo = lo;
+  piece.hi = hi;
+  piece.middle = 0.5 * (lo + hi);
   const double margin = kMargin * (hi - lo);
+  const Motion thin = formula.motion(piece.middle);
   const Motion wide = formula.motion(hull(Ball(lo) - margin, Ball(hi) + margin));
-  Piece piece{lo,
-              hi,
-              middle,
-              with_remainder(integral(thin.speed), integral(wide.speed), kOrder),
-              with_remainder(integral(thin.turning), integral(wide.turning), kOrder),
-              std::max(wide.speed[0].lower(), 0.0),
-              {},
-              {},
-              {}};
-  const double power = std::pow(half + margin, static_cast<double>(kOrder));
-  const double length = thin.speed[0].middle() * (hi - lo);
-  const auto left_out = [&](const Series& polynomial) {
+  piece.length = with_remainder(integral(thin.speed), integral(wide.speed), kOrder);
+  piece.angle = with_remainder(integral(thin.turning), integral(wide.turning), kOrder);
+  piece.least_speed = std::max(wide.speed[0].lower(), 0.0);
+  const double reach = std::max(hi - piece.middle, piece.middle - lo) + margin;
+  const auto is_within = [&](const Series& polynomial, double most) {
     const Ball last = polynomial[kOrder];
-    return last.is_finite() ? 0.5 * spread(last) * power : std::numeric_limits<double>::infinity();
+    return last.is_finite() && 0.5 * spread(last) * std::pow(reach, static_cast<double>(kOrder)) <= most;
   };
-  const bool is_good = (piece.least_speed > 0 || depth == kMostHalvings) &&
-                       left_out(piece.length) <= kPieceError * length && left_out(piece.angle) <= kPieceError;
-  if (!is_good) {
-    if (depth == kMostHalvings || !(middle > lo && middle < hi))
-      throw std::runtime_error("a curve that is not regular");
-    add_pieces(curve, lo, middle, depth + 1);
-    add_pieces(curve, middle, hi, depth + 1);
-    return;
-  }
+  piece.is_good =
+      is_within(piece.length, kPieceError * thin.speed[0].middle() * (hi - lo)) && is_within(piece.angle, kPieceError);
+  return piece;
+}
+
+/// Where the pieces before it end.
+void Boundary::append(std::size_t curve, Piece piece) {
   Budget::spend(kPieceWork);
   Place& here = starts_.back();
-  const Ball from = Ball(lo) - middle;
+  const Ball from = Ball(piece.lo) - piece.middle;
   piece.s = here.s;
   piece.s_base = here.s - value(piece.length, from);
   piece.angle_base = here.angle - value(piece.angle, from);
-  pieces_[curve].push_back(piece);
-  const Place end = on_piece(curve, piece, hi);
+  const Place end = on_piece(curve, piece, piece.hi);
   here.s = end.s;
   here.angle = end.angle;
+  pieces_[curve].push_back(std::move(piece));
 }
 
 /// The turn to the next curve, which a closed outline's last one has as well.
@@ -112,7 +110,11 @@ void Boundary::join(std::size_t curve) {
   jumps_.push_back(atan2(v.x * w.y - v.y * w.x, v.x * w.x + v.y * w.y));
   starts_.back().angle = starts_.back().angle + jumps_.back();
   starts_.back().curve = static_cast<long>(curve) + 1;
-  largest_gap_ = std::max(largest_gap_, size(difference(before.position(before.hi), after.position(after.lo))).upper());
+  const Point end = before.position(before.hi);
+  const Point start = after.position(after.lo);
+  const Ball dx = end.x - start.x;
+  const Ball dy = end.y - start.y;
+  largest_gap_ = std::max(largest_gap_, sqrt(dx * dx + dy * dy).upper());
 }
 
 std::size_t Boundary::index(long curve) const {

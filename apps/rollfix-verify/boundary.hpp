@@ -78,14 +78,15 @@ class Boundary {
  private:
   /// A stretch of a curve: length and angle as polynomials in x = parameter - middle.
   struct Piece {
-    double lo;
-    double hi;
-    double middle;
+    double lo = 0;
+    double hi = 0;
+    double middle = 0;
     Series length;
     Series angle;
-    double least_speed;  // everywhere on it, for certain
-    Ball s;              // at lo
-    Ball s_base;         // what the polynomials are added to
+    double least_speed = 0;  // everywhere on it, for certain
+    bool is_good = false;    // what the polynomials leave out does not matter
+    Ball s;                  // at lo
+    Ball s_base;             // what the polynomials are added to
     Ball angle_base;
   };
 
@@ -93,6 +94,8 @@ class Boundary {
   long lap(long curve) const { return (curve - static_cast<long>(index(curve))) / curves(); }
   const Formula& formula(long curve) const { return curves_[index(curve)]; }
   void add_pieces(std::size_t curve, double lo, double hi, int depth);
+  static Piece piece_between(const Formula& formula, double lo, double hi);
+  void append(std::size_t curve, Piece piece);
   void join(std::size_t curve);
   Place on_piece(std::size_t curve, const Piece& piece, const Ball& u) const;
 

@@ -71,7 +71,7 @@ Interval Document::starts(const std::vector<Ball>& lengths) const {
 }
 
 std::string Document::kind_of(const std::string& name, const Json& placement) {
-  const auto kind = placement.at("kind").get<std::string>();
+  auto kind = placement.at("kind").get<std::string>();
   if (kind != "crossing" && kind != "touching" && kind != "corner" && kind != "stretch") {
     refuse(name + " is of a kind that is not known");
   }
@@ -116,7 +116,7 @@ Place Document::contact(const std::string& name, const Json& placement, const Ba
     const Json& all = placement.at(key);
     return finger ? all.at(*finger) : all;
   };
-  const Place start = place_at(stated("at"));
+  Place start = place_at(stated("at"));
   if (!is_as_far(start.s, stated("start").get<double>())) refuse(name + " starts elsewhere");
   if (!is_as_far(start.s + length, stated("end").get<double>())) refuse(name + " ends elsewhere");
   if (!is_at(boundary_.position(start), stated("point"))) refuse(name + " is at another point");
