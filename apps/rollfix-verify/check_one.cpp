@@ -143,7 +143,11 @@ class OneFinger {
         if (!cell.is_of(by)) continue;
         const Row& from = rows_[k][by];
         const Row& to = rows_[k + 1][by];
-        cell.kind == "corner" ? prove_corner(by, from, to) : readings_[by].prove(cell.kind, from, to);
+        if (cell.kind == "corner") {
+          prove_corner(by, from, to);
+        } else {
+          readings_[by].prove(cell.kind, from, to);
+        }
       }
     } catch (const std::domain_error& error) {
       refuse_cell(k, error.what());
