@@ -3,6 +3,9 @@
 #include <arb.h>
 #include <arb_poly.h>
 
+#include <cmath>
+#include <utility>
+
 // Real balls and power series of Arb as values: every result holds the exact one.
 namespace rollfix_verify {
 
@@ -78,8 +81,6 @@ inline Ball abs(const Ball& a) { return made<Ball>(arb_abs, a.get()); }
 inline Ball sqrt(const Ball& a) { return made<Ball>(arb_sqrt, a.get(), kPrecision); }
 inline Ball sin(const Ball& a) { return made<Ball>(arb_sin, a.get(), kPrecision); }
 inline Ball cos(const Ball& a) { return made<Ball>(arb_cos, a.get(), kPrecision); }
-inline Ball exp(const Ball& a) { return made<Ball>(arb_exp, a.get(), kPrecision); }
-inline Ball log(const Ball& a) { return made<Ball>(arb_log, a.get(), kPrecision); }
 inline Ball atan2(const Ball& y, const Ball& x) { return made<Ball>(arb_atan2, y.get(), x.get(), kPrecision); }
 /// The least ball around both.
 inline Ball hull(const Ball& a, const Ball& b) { return made<Ball>(arb_union, a.get(), b.get(), kPrecision); }
@@ -89,7 +90,21 @@ inline Ball unknown() {
   arb_indeterminate(result.get());
   return result;
 }
-inline Ball pi() { return made<Ball>(arb_const_pi, kPrecision); }
+inline Ball full_turn() { return 2.0 * made<Ball>(arb_const_pi, kPrecision); }
+/// The angle that differs from it by whole turns and is nearest to 0.
+inline Ball to_nearest_turn(const Ball& angle) {
+  return angle - std::round((angle / full_turn()).middle()) * full_turn();
+}
+/// [0, length]
+inline Ball up_to(const Ball& length) { return hull(0.0, length); }
+/// [-reach, reach]
+inline Ball around_zero(const Ball& reach) { return hull(-reach, reach); }
+/// 1, -1: for certain; else 0.
+inline int sign_of(const Ball& value) { return value.is_above(0.0) ? 1 : value.is_below(0.0) ? -1 : 0; }
+/// How wide it is.
+inline double spread(const Ball& ball) { return ball.upper() - ball.lower(); }
+/// n over k.
+inline Ball choices(ulong n, ulong k) { return made<Ball>(arb_bin_uiui, n, k, kPrecision); }
 
 /// The first coefficients of a power series.
 class Series {
@@ -125,44 +140,55 @@ class Series {
   arb_poly_t value_;
 };
 
+/// Calls one of Arb's functions for a new series of as many terms as are kept.
+template <class Function, class... Arguments>
+Series cut(Function function, const Arguments&... arguments) {
+  return made<Series>(function, arguments..., FewerTerms::kept(), kPrecision);
+}
+
 inline Series operator+(const Series& a, const Series& b) {
   return made<Series>(arb_poly_add, a.get(), b.get(), kPrecision);
 }
 inline Series operator-(const Series& a, const Series& b) {
   return made<Series>(arb_poly_sub, a.get(), b.get(), kPrecision);
 }
-inline Series operator*(const Series& a, const Series& b) {
-  return made<Series>(arb_poly_mullow, a.get(), b.get(), FewerTerms::kept(), kPrecision);
-}
-inline Series operator/(const Series& a, const Series& b) {
-  return made<Series>(arb_poly_div_series, a.get(), b.get(), FewerTerms::kept(), kPrecision);
-}
-inline Series sqrt(const Series& a) {
-  return made<Series>(arb_poly_sqrt_series, a.get(), FewerTerms::kept(), kPrecision);
-}
-inline Series sin(const Series& a) {
-  return made<Series>(arb_poly_sin_series, a.get(), FewerTerms::kept(), kPrecision);
-}
-inline Series cos(const Series& a) {
-  return made<Series>(arb_poly_cos_series, a.get(), FewerTerms::kept(), kPrecision);
-}
-inline Series exp(const Series& a) {
-  return made<Series>(arb_poly_exp_series, a.get(), FewerTerms::kept(), kPrecision);
-}
+inline Series operator-(const Series& a) { return made<Series>(arb_poly_neg, a.get()); }
+inline Series operator*(const Series& a, const Series& b) { return cut(arb_poly_mullow, a.get(), b.get()); }
+inline Series operator/(const Series& a, const Series& b) { return cut(arb_poly_div_series, a.get(), b.get()); }
+inline Series sqrt(const Series& a) { return cut(arb_poly_sqrt_series, a.get()); }
+inline Series sin(const Series& a) { return cut(arb_poly_sin_series, a.get()); }
+inline Series cos(const Series& a) { return cut(arb_poly_cos_series, a.get()); }
+inline Series exp(const Series& a) { return cut(arb_poly_exp_series, a.get()); }
 inline Series pow(const Series& a, const Ball& exponent) {
-  return made<Series>(arb_poly_pow_arb_series, a.get(), exponent.get(), FewerTerms::kept(), kPrecision);
+  return cut(arb_poly_pow_arb_series, a.get(), exponent.get());
+}
+inline Series whole_power(const Series& a, ulong exponent) {
+  return cut(arb_poly_pow_ui_trunc_binexp, a.get(), exponent);
 }
 /// Its derivative: the last coefficient is lost.
 inline Series derivative(const Series& a) { return made<Series>(arb_poly_derivative, a.get(), kPrecision); }
 /// Its integral from 0.
 inline Series integral(const Series& a) { return made<Series>(arb_poly_integral, a.get(), kPrecision); }
 /// x as a series in y = a(x), where a(0) = 0.
-inline Series inverse(const Series& a) {
-  return made<Series>(arb_poly_revert_series, a.get(), FewerTerms::kept(), kPrecision);
-}
+inline Series inverse(const Series& a) { return cut(arb_poly_revert_series, a.get()); }
 /// a(b(y)), where b(0) = 0.
-inline Series composed(const Series& a, const Series& b) {
-  return made<Series>(arb_poly_compose_series, a.get(), b.get(), FewerTerms::kept(), kPrecision);
+inline Series composed(const Series& a, const Series& b) { return cut(arb_poly_compose_series, a.get(), b.get()); }
+/// Taylor's polynomial of this degree: `thin` around one place, the coefficient that bounds all that is left out from
+/// `wide`, around a ball of places that holds all from there to where it is evaluated.
+inline Series with_remainder(Series thin, const Series& wide, slong degree) {
+  arb_poly_truncate(thin.get(), degree);
+  thin.set(degree, wide[degree]);
+  return thin;
+}
+
+inline Ball value(const Series& a, const Ball& x) {
+  return made<Ball>(arb_poly_evaluate_horner, a.get(), x.get(), kPrecision);
+}
+/// a(x) and a'(x).
+inline std::pair<Ball, Ball> value_and_slope(const Series& a, const Ball& x) {
+  std::pair<Ball, Ball> both;
+  arb_poly_evaluate2_horner(both.first.get(), both.second.get(), a.get(), x.get(), kPrecision);
+  return both;
 }
 
 }  // namespace rollfix_verify

@@ -7,6 +7,10 @@
 
 #include "budget.hpp"
 
+// Notation: s is the arc length, u a curve's parameter, theta the tangent's angle. On a piece
+//   s = s_base + l(x), theta = angle_base + a(x), x = u - middle,
+// where l' = ds/du and a' = d(theta)/du are the formula's Taylor series of degree kOrder - 1: the last coefficient is
+// that of all places of the piece, so that both polynomials hold the exact ones (Taylor's theorem).
 namespace rollfix_verify {
 namespace {
 
@@ -26,32 +30,6 @@ constexpr double kNewtonGoal = 1e-15;
 constexpr double kOutward = 1.001;
 constexpr double kLeastReach = 1e-300;
 
-Ball value(const Taylor& polynomial, const Ball& x) {
-  Ball sum = 0.0;
-  for (std::size_t k = polynomial.size(); k-- > 0;) sum = sum * x + polynomial[k];
-  return sum;
-}
-
-Ball slope(const Taylor& polynomial, const Ball& x) {
-  Ball sum = 0.0;
-  for (std::size_t k = polynomial.size(); k-- > 1;) sum = sum * x + static_cast<double>(k) * polynomial[k];
-  return sum;
-}
-
-/// The integral's coefficients: the last one, which bounds the remainder, from the series around all places.
-Taylor with_remainder(const Series& thin, const Series& wide) {
-  const Series polynomial = integral(thin);
-  Taylor result;
-  for (slong k = 0; k < kOrder; ++k) result.push_back(polynomial[k]);
-  result.push_back(integral(wide)[kOrder]);
-  return result;
-}
-
-double radius(const Ball& ball) { return 0.5 * (ball.upper() - ball.lower()); }
-
-Point difference(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y}; }
-Ball size(const Point& a) { return sqrt(a.x * a.x + a.y * a.y); }
-
 }  // namespace
 
 Boundary::Boundary(std::vector<Formula> curves, bool closed) : curves_(std::move(curves)), closed_(closed) {
@@ -66,48 +44,53 @@ Boundary::Boundary(std::vector<Formula> curves, bool closed) : curves_(std::move
     add_pieces(k, curves_[k].lo, curves_[k].hi, 0);
     join(k);
   }
+  if (closed_) laps_ = {-perimeter().middle(), 0, perimeter().middle()};
 }
 
+/// By halves, until what each leaves out does not matter.
 void Boundary::add_pieces(std::size_t curve, double lo, double hi, int depth) {
-  const double middle = 0.5 * (lo + hi);
-  const double half = std::max(hi - middle, middle - lo);
-  const Formula& formula = curves_[curve];
+  const Piece piece = piece_between(curves_[curve], lo, hi);
+  const bool is_smallest = depth == kMostHalvings;
+  if (piece.is_good && (piece.least_speed > 0 || is_smallest)) return append(curve, piece);
+  if (is_smallest || !(piece.middle > lo && piece.middle < hi)) throw std::runtime_error("a curve that is not regular");
+  add_pieces(curve, lo, piece.middle, depth + 1);
+  add_pieces(curve, piece.middle, hi, depth + 1);
+}
+
+Boundary::Piece Boundary::piece_between(const Formula& formula, double lo, double hi) {
   Budget::spend(2 * formula.work);
-  const Motion thin = formula.motion(middle);
+  Piece piece;
+  piece.lo = lo;
+  piece.hi = hi;
+  piece.middle = 0.5 * (lo + hi);
   const double margin = kMargin * (hi - lo);
+  const Motion thin = formula.motion(piece.middle);
   const Motion wide = formula.motion(hull(Ball(lo) - margin, Ball(hi) + margin));
-  Piece piece{lo,
-              hi,
-              middle,
-              with_remainder(thin.speed, wide.speed),
-              with_remainder(thin.turning, wide.turning),
-              std::max(wide.speed[0].lower(), 0.0),
-              {},
-              {},
-              {}};
-  const double power = std::pow(half + margin, static_cast<double>(kOrder));
-  const double length = thin.speed[0].middle() * (hi - lo);
-  const bool is_good = piece.length.back().is_finite() && piece.angle.back().is_finite() &&
-                       (piece.least_speed > 0 || depth == kMostHalvings) &&
-                       radius(piece.length.back()) * power <= kPieceError * length &&
-                       radius(piece.angle.back()) * power <= kPieceError;
-  if (!is_good) {
-    if (depth == kMostHalvings || !(middle > lo && middle < hi))
-      throw std::runtime_error("a curve that is not regular");
-    add_pieces(curve, lo, middle, depth + 1);
-    add_pieces(curve, middle, hi, depth + 1);
-    return;
-  }
+  piece.length = with_remainder(integral(thin.speed), integral(wide.speed), kOrder);
+  piece.angle = with_remainder(integral(thin.turning), integral(wide.turning), kOrder);
+  piece.least_speed = std::max(wide.speed[0].lower(), 0.0);
+  const double reach = std::max(hi - piece.middle, piece.middle - lo) + margin;
+  const auto is_within = [&](const Series& polynomial, double most) {
+    const Ball last = polynomial[kOrder];
+    return last.is_finite() && 0.5 * spread(last) * std::pow(reach, static_cast<double>(kOrder)) <= most;
+  };
+  piece.is_good =
+      is_within(piece.length, kPieceError * thin.speed[0].middle() * (hi - lo)) && is_within(piece.angle, kPieceError);
+  return piece;
+}
+
+/// Where the pieces before it end.
+void Boundary::append(std::size_t curve, Piece piece) {
   Budget::spend(kPieceWork);
   Place& here = starts_.back();
-  const Ball from = Ball(lo) - middle;
+  const Ball from = Ball(piece.lo) - piece.middle;
   piece.s = here.s;
   piece.s_base = here.s - value(piece.length, from);
   piece.angle_base = here.angle - value(piece.angle, from);
-  pieces_[curve].push_back(piece);
-  const Place end = on_piece(curve, piece, hi);
+  const Place end = on_piece(curve, piece, piece.hi);
   here.s = end.s;
   here.angle = end.angle;
+  pieces_[curve].push_back(std::move(piece));
 }
 
 /// The turn to the next curve, which a closed outline's last one has as well.
@@ -127,7 +110,11 @@ void Boundary::join(std::size_t curve) {
   jumps_.push_back(atan2(v.x * w.y - v.y * w.x, v.x * w.x + v.y * w.y));
   starts_.back().angle = starts_.back().angle + jumps_.back();
   starts_.back().curve = static_cast<long>(curve) + 1;
-  largest_gap_ = std::max(largest_gap_, size(difference(before.position(before.hi), after.position(after.lo))).upper());
+  const Point end = before.position(before.hi);
+  const Point start = after.position(after.lo);
+  const Ball dx = end.x - start.x;
+  const Ball dy = end.y - start.y;
+  largest_gap_ = std::max(largest_gap_, sqrt(dx * dx + dy * dy).upper());
 }
 
 std::size_t Boundary::index(long curve) const {
@@ -147,8 +134,6 @@ Place Boundary::on_piece(std::size_t curve, const Piece& piece, const Ball& u) c
   const Ball x = u - piece.middle;
   return {static_cast<long>(curve), u, piece.s_base + value(piece.length, x), piece.angle_base + value(piece.angle, x)};
 }
-
-Ball Boundary::s_on(const Piece& piece, const Ball& u) { return piece.s_base + value(piece.length, u - piece.middle); }
 
 Place Boundary::at(long curve, double u) const {
   const std::vector<Piece>& pieces = pieces_.at(static_cast<std::size_t>(curve));
@@ -185,11 +170,12 @@ std::optional<Place> Boundary::after(const Ball& s) const {
                      1;
   double u = piece->middle;
   for (int k = 0; k < kNewtonSteps; ++k) {
-    const double missing = (wanted - s_on(*piece, u)).middle();
-    u = std::clamp(u + missing / slope(piece->length, Ball(u) - piece->middle).middle(), piece->lo, piece->hi);
+    const auto [length, speed] = value_and_slope(piece->length, Ball(u) - piece->middle);
+    const double missing = (wanted - piece->s_base - length).middle();
+    u = std::clamp(u + missing / speed.middle(), piece->lo, piece->hi);
     if (std::abs(missing) <= kNewtonGoal * period) break;
   }
-  const Ball missing = wanted - s_on(*piece, u);
+  const Ball missing = wanted - piece->s_base - value(piece->length, Ball(u) - piece->middle);
   const double reach = kOutward * (abs(missing).upper() / piece->least_speed) + kLeastReach;
   if (!(reach < kMargin * (piece->hi - piece->lo))) return std::nullopt;
   const Ball ball = hull(Ball(u) - reach, Ball(u) + reach);
@@ -220,15 +206,17 @@ Ball Boundary::turning(long curve, const Ball& u) const {
   return formula(curve).motion(u).turning[0];
 }
 
-Taylor Boundary::taylor(long curve, const Ball& u) const {
+Series Boundary::curvature_ahead(long curve, const Ball& u) const {
   Budget::spend(formula(curve).work);
   const Motion motion = formula(curve).motion(u);
-  if (!motion.speed[0].is_above(0.0)) return Taylor(static_cast<std::size_t>(kOrder), unknown());
-  const Series place = inverse(integral(motion.speed));
-  const Series angle = composed(integral(motion.turning), place);
-  Taylor result;
-  for (slong k = 1; k <= kOrder; ++k) result.push_back(angle[k]);
-  return result;
+  Series curvature;
+  if (motion.speed[0].is_above(0.0)) {
+    curvature = derivative(composed(integral(motion.turning), inverse(integral(motion.speed))));
+    arb_poly_truncate(curvature.get(), kOrder);
+  } else {
+    for (slong k = 0; k < kOrder; ++k) curvature.set(k, unknown());
+  }
+  return curvature;
 }
 
 }  // namespace rollfix_verify

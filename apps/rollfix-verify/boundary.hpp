@@ -16,8 +16,11 @@ struct Place {
   Ball angle;  // of the tangent, from that at s = 0
 };
 
-/// The tangent's angle from a place on, by the arc length ahead of it: its Taylor coefficients, from the first on.
-using Taylor = std::vector<Ball>;
+/// Up to here a joint is smooth, radians: one crossing is one up to jumps of that size.
+inline constexpr double kSmooth = 1e-12;
+/// A concave joint turns by at least this, radians; at others the finger pivots: the angle takes every value in
+/// between.
+inline constexpr double kConcave = 1e-3;
 
 /// An outline by its own formulas, with arc length and the tangent's angle as Taylor polynomials whose remainders are
 /// bounded.
@@ -41,14 +44,24 @@ class Boundary {
   Point position(const Place& place) const { return formula(place.curve).position(place.u); }
   Point velocity(const Place& place) const { return formula(place.curve).velocity(place.u); }
 
+  /// The same place so many laps on.
+  Place moved(Place place, long laps) const;
   /// Where a counted curve starts and ends.
   Place front(long curve) const;
   Place back(long curve) const;
   /// How far the tangent turns where a curve ends and the next begins, in (-pi, pi).
   Ball jump(long curve) const { return jumps_[index(curve)]; }
 
-  /// Whether a curve has no speed where it ends, or the next one where it begins.
+  /// Whether a curve has no speed where it ends, or the next one where it begins. There angles change as fast as at a
+  /// corner.
   bool is_at_rest(long curve) const { return at_rest_[index(curve)]; }
+  bool turns(long curve) const { return !abs(jump(curve)).is_below(kSmooth); }
+  bool is_corner(long curve) const { return turns(curve) || is_at_rest(curve); }
+  /// Whether a finger may pivot there.
+  bool pivots(long curve) const { return is_at_rest(curve) || (turns(curve) && !jump(curve).is_below(-kConcave)); }
+
+  /// By how much an arc length may be told otherwise: a lap less, as it is, a lap more.
+  const std::vector<double>& laps() const { return laps_; }
 
   /// The curvature and its derivative by arc length; where u is wide, those of all places in it.
   struct Bend {
@@ -59,20 +72,21 @@ class Boundary {
   /// How fast the angle changes by the parameter, which is finite where a curve is at rest as well; where u is wide,
   /// at all places in it.
   Ball turning(long curve, const Ball& u) const;
-  /// Of the angle by arc length; where u is wide, for all places in it.
-  Taylor taylor(long curve, const Ball& u) const;
+  /// The curvature by the arc length ahead, to the power kOrder - 1; where u is wide, from all places in it.
+  Series curvature_ahead(long curve, const Ball& u) const;
 
  private:
-  /// A stretch of a curve: length and angle from its start as polynomials in x = parameter - middle.
+  /// A stretch of a curve: length and angle as polynomials in x = parameter - middle.
   struct Piece {
-    double lo;
-    double hi;
-    double middle;
-    Taylor length;
-    Taylor angle;
-    double least_speed;  // everywhere on it, for certain
-    Ball s;              // at lo
-    Ball s_base;         // what the polynomials are added to
+    double lo = 0;
+    double hi = 0;
+    double middle = 0;
+    Series length;
+    Series angle;
+    double least_speed = 0;  // everywhere on it, for certain
+    bool is_good = false;    // what the polynomials leave out does not matter
+    Ball s;                  // at lo
+    Ball s_base;             // what the polynomials are added to
     Ball angle_base;
   };
 
@@ -80,10 +94,10 @@ class Boundary {
   long lap(long curve) const { return (curve - static_cast<long>(index(curve))) / curves(); }
   const Formula& formula(long curve) const { return curves_[index(curve)]; }
   void add_pieces(std::size_t curve, double lo, double hi, int depth);
+  static Piece piece_between(const Formula& formula, double lo, double hi);
+  void append(std::size_t curve, Piece piece);
   void join(std::size_t curve);
   Place on_piece(std::size_t curve, const Piece& piece, const Ball& u) const;
-  static Ball s_on(const Piece& piece, const Ball& u);
-  Place moved(Place place, long laps) const;
 
   std::vector<Formula> curves_;
   bool closed_;
@@ -92,6 +106,7 @@ class Boundary {
   std::vector<Ball> jumps_;
   std::vector<bool> at_rest_;
   double largest_gap_ = 0;
+  std::vector<double> laps_ = {0};
 };
 
 }  // namespace rollfix_verify

@@ -4,15 +4,18 @@
 #include <cmath>
 #include <stdexcept>
 
+// Notation: Theta(s) is the tangent's angle, kappa = Theta' the curvature; of a reading with length L and turn theta
+//   f(s) = Theta(s + L) - Theta(s) - theta,  f'(s) = kappa(s + L) - kappa(s).
+// A cell is all s from one row to the next. What is claimed of it is proved by bounds on f or f' there, or of both
+// halves.
 namespace rollfix_verify {
-
 namespace {
 
 // |f| on a stretch, radians.
 constexpr double kFlat = 4e-12;
 // On what is excluded f misses the tolerance by at least this share of what it does at the nearer end.
 constexpr double kShare = 0.9;
-constexpr int kMostDepth = 80;
+constexpr int kMostDepth = 90;
 // Where a cell is halved; the next ones where that is at a joint.
 constexpr double kSplits[] = {0.4990234375, 0.5166015625, 0.4697265625, 0.27, 0.73, 0.13, 0.87};
 // What is shorter than this share of the perimeter is halved only where no contact is within the other one of a corner:
@@ -32,20 +35,15 @@ Range by_slope(const Row& from, const Row& to, const Ball& slope, const Ball& ex
   return range;
 }
 
-/// No joint in between: by Taylor polynomials of both ends' angles in the arc length, which each start and its end have
-/// in common.
+/// No joint in between: f' is a Taylor polynomial in the arc length, which each start and its end have in common.
 Range smooth_range(const Boundary& boundary, const Row& from, const Row& to) {
-  const Taylor& start = from.start_ahead;
-  const Taylor& end = from.end_ahead;
-  const Taylor all_starts = taylor_along(boundary, {from.start, to.start});
-  const Taylor all_ends = taylor_along(boundary, {from.end, to.end});
-  const Ball ahead = up_to(to.start.s - from.start.s);
-  const auto last = static_cast<std::size_t>(kOrder) - 1;
-  Ball slope = static_cast<double>(kOrder) * (all_ends[last] - all_starts[last]);
-  for (std::size_t k = last; k-- > 0;) slope = slope * ahead + static_cast<double>(k + 1) * (end[k] - start[k]);
-  const Ball plain = all_ends[0] - all_starts[0];
+  const Series starts = boundary.curvature_ahead(from.start.curve, hull(from.start.u, to.start.u));
+  const Series ends = boundary.curvature_ahead(from.end.curve, hull(from.end.u, to.end.u));
+  const Ball slope = value(with_remainder(from.from_end - from.from_start, ends - starts, kOrder - 1),
+                           up_to(to.start.s - from.start.s));
+  const Ball plain = ends[0] - starts[0];
   Range range = by_slope(from, to, sign_of(slope) == 0 && sign_of(plain) != 0 ? plain : slope, 0.0);
-  range.blur = (kRounding * boundary.perimeter() * (abs(all_starts[0]) + abs(all_ends[0]))).upper();
+  range.blur = (kRounding * boundary.perimeter() * (abs(starts[0]) + abs(ends[0]))).upper();
   return range;
 }
 
@@ -71,18 +69,12 @@ Range range_between(const Boundary& boundary, const Ball& turn, const Row& from,
   return range;
 }
 
-/// Both ends of an interval.
-struct Limits {
-  double lo;
-  double hi;
-};
-
 /// What is in a set and in one of others.
-std::vector<Limits> common(const std::vector<Limits>& some, const std::vector<Limits>& others) {
-  std::vector<Limits> result;
-  for (const Limits& one : some) {
-    for (const Limits& other : others) {
-      const Limits both{std::max(one.lo, other.lo), std::min(one.hi, other.hi)};
+std::vector<Interval> common(const std::vector<Interval>& some, const std::vector<Interval>& others) {
+  std::vector<Interval> result;
+  for (const Interval& one : some) {
+    for (const Interval& other : others) {
+      const Interval both{std::max(one.lo, other.lo), std::min(one.hi, other.hi)};
       if (both.lo <= both.hi) result.push_back(both);
     }
   }
@@ -91,20 +83,20 @@ std::vector<Limits> common(const std::vector<Limits>& some, const std::vector<Li
 
 }  // namespace
 
-bool misses(const Range& range, double bound) {
-  return std::all_of(range.parts.begin(), range.parts.end(),
+bool Range::misses(double bound) const {
+  return std::all_of(parts.begin(), parts.end(),
                      [&](const Ball& part) { return part.is_above(bound) || part.is_below(-bound); });
 }
 
-bool is_below(const Range& range, const Row& from, const Row& to, double bound) {
-  const double most = bound + range.blur;
-  if (range.slope != 0 && !range.corner) return abs(from.f).upper() <= most && abs(to.f).upper() <= most;
-  return std::all_of(range.parts.begin(), range.parts.end(),
+bool Range::is_below(const Row& from, const Row& to, double bound) const {
+  const double most = bound + blur;
+  if (slope != 0 && !corner) return abs(from.f).upper() <= most && abs(to.f).upper() <= most;
+  return std::all_of(parts.begin(), parts.end(),
                      [&](const Ball& part) { return part.upper() <= most && part.lower() >= -most; });
 }
 
 bool spans_corner(const Boundary& boundary, const Row& from, const Row& to) {
-  return !is_smooth(boundary, from.start, to.start) || !is_smooth(boundary, from.end, to.end);
+  return has_corner(boundary, from.start, to.start) || has_corner(boundary, from.end, to.end);
 }
 
 /// What a cell is claimed to be.
@@ -117,12 +109,12 @@ struct OneReading::Claim {
 std::optional<Row> OneReading::row_at(const Place& start) const {
   const std::optional<Place> end = boundary_.after(start.s + length_);
   if (!end) return std::nullopt;
-  return Row{start, *end, end->angle - start.angle - turn_, boundary_.taylor(start.curve, start.u),
-             boundary_.taylor(end->curve, end->u)};
+  return Row{start, *end, end->angle - start.angle - turn_, boundary_.curvature_ahead(start.curve, start.u),
+             boundary_.curvature_ahead(end->curve, end->u)};
 }
 
-std::optional<Row> OneReading::row_beside(const Place& start, double distance) const {
-  const std::optional<Place> place = boundary_.after(start.s + distance);
+std::optional<Row> OneReading::row_at(const Ball& start) const {
+  const std::optional<Place> place = boundary_.after(start);
   return place ? row_at(*place) : std::nullopt;
 }
 
@@ -149,52 +141,46 @@ OneReading::Claim OneReading::claim_of(const std::string& kind, const Row& from,
 /// What the claim says of a part of its cell, as far as this range tells.
 bool OneReading::holds(const Claim& claim, const Range& range, const Row& from, const Row& to) const {
   if (!range.known) return false;
+  const bool is_one_corner = range.corner && (to.start.s - from.start.s).is_below(kSamePlace * period_);
   switch (claim.kind) {
     case Claim::crossing:
       return range.slope == claim.slope;
-    case Claim::flat: {
+    case Claim::flat:
       // Where both ends of the roll come to a corner at once all of it is a jump there and back.
-      const bool is_narrow = (to.start.s - from.start.s).is_below(kSamePlace * period_);
-      if (range.corner && is_narrow && !misses(range, claim.bound)) return true;
-      return is_below(range, from, to, claim.bound);
-    }
+      if (is_one_corner && !range.misses(claim.bound)) return true;
+      return range.is_below(from, to, claim.bound);
     case Claim::apart:
-      if (misses(range, range.corner ? tolerance_ : claim.bound)) return true;
-      if (range.corner && (to.start.s - from.start.s).is_below(kSamePlace * period_)) {
-        refuse("it fits at a corner near s = " + std::to_string(from.start.s.middle()));
-      }
+      if (range.misses(range.corner ? tolerance_ : claim.bound)) return true;
+      if (is_one_corner) refuse("it fits at a corner near s = " + std::to_string(from.start.s.middle()));
       return false;
   }
   return false;
 }
 
 void OneReading::prove(const std::string& kind, const Row& from, const Row& to) const {
-  prove(claim_of(kind, from, to), from, to, 0);
+  const Claim claim = claim_of(kind, from, to);
+  by_halves(boundary_, {this}, {from}, {to},
+            [&](const Rows& lo, const Rows& hi) { return holds(claim, range(lo[0], hi[0]), lo[0], hi[0]); });
 }
 
-void OneReading::prove(const Claim& claim, const Row& from, const Row& to, int depth) const {
-  if (holds(claim, range(from, to), from, to)) return;
-  if (depth == kMostDepth) refuse("it could not be proved near s = " + std::to_string(from.start.s.middle()));
-  const Row middle = rows_between(boundary_, {this}, from.start, to.start).front();
-  prove(claim, from, middle, depth + 1);
-  prove(claim, middle, to, depth + 1);
+std::vector<Ball> contacts(const Readings& readings) {
+  std::vector<Ball> result = {0.0};
+  for (const OneReading* reading : readings) result.push_back(reading->length());
+  return result;
 }
 
-Rows rows_between(const Boundary& boundary, const std::vector<const OneReading*>& readings, const Place& from,
-                  const Place& to) {
+namespace {
+
+/// The rolls from a start between two others.
+Rows rows_between(const Boundary& boundary, const Readings& readings, const Place& from, const Place& to) {
+  const double period = boundary.perimeter().middle();
   const double lo = from.s.middle();
   const double hi = to.s.middle();
-  const bool is_fine = hi - lo < kFine * boundary.perimeter().middle();
-  const auto is_clear = [&](double s) {
-    const double reach = kClear * boundary.perimeter().middle();
-    return !is_at_corner(boundary, s, reach) &&
-           std::none_of(readings.begin(), readings.end(), [&](const OneReading* reading) {
-             return is_at_corner(boundary, s + reading->length(), reach);
-           });
-  };
+  const bool is_fine = hi - lo < kFine * period;
   for (const double share : kSplits) {
     const double s = lo + share * (hi - lo);
-    if (!(Ball(s).is_above(from.s) && to.s.is_above(s)) || (is_fine && !is_clear(s))) continue;
+    if (!(Ball(s).is_above(from.s) && to.s.is_above(s))) continue;
+    if (is_fine && is_at_corner(boundary, s, contacts(readings), kClear * period)) continue;
     const std::optional<Place> start = boundary.after(s);
     if (!start) continue;
     Rows rows;
@@ -207,23 +193,34 @@ Rows rows_between(const Boundary& boundary, const std::vector<const OneReading*>
   refuse("it can't be halved near s = " + std::to_string(lo));
 }
 
+}  // namespace
+
+void by_halves(const Boundary& boundary, const Readings& readings, const Rows& from, const Rows& to,
+               const Settles& settles, int depth) {
+  if (settles(from, to)) return;
+  const Place& start = from[0].start;
+  if (depth == kMostDepth) refuse("it could not be proved near s = " + std::to_string(start.s.middle()));
+  const Rows middle = rows_between(boundary, readings, start, to[0].start);
+  by_halves(boundary, readings, from, middle, settles, depth + 1);
+  by_halves(boundary, readings, middle, to, settles, depth + 1);
+}
+
 /// Angles are taken from that at the first start on, so that doubles hold them.
-bool fit_together(const Boundary& boundary, const std::vector<const OneReading*>& readings, const Segment& starts,
-                  const std::vector<Segment>& ends, double most) {
-  const Ball base = starts.from.angle;
-  std::vector<Limits> tangents;
-  for (const Ball& set : angles(boundary, segments(boundary, starts.from, starts.to))) {
-    tangents.push_back({(set - base).lower(), (set - base).upper()});
-  }
-  for (std::size_t k = 0; k < readings.size(); ++k) {
-    std::vector<Limits> allowed;
-    for (const Ball& set : angles(boundary, segments(boundary, ends[k].from, ends[k].to))) {
-      const Ball tangent = set - base - readings[k]->turn();
-      allowed.push_back({(tangent - most).lower(), (tangent + most).upper()});
+bool fit_together(const Boundary& boundary, const Readings& readings, const std::vector<Segment>& around, double most) {
+  const Ball base = around[0].from.angle;
+  const auto tangents = [&](const Segment& contact, const Ball& turn, double slack) {  // at the start
+    std::vector<Interval> result;
+    for (const Ball& set : angles(boundary, segments(boundary, contact.from, contact.to))) {
+      const Ball tangent = set - base - turn;
+      result.push_back({(tangent - slack).lower(), (tangent + slack).upper()});
     }
-    tangents = common(tangents, allowed);
+    return result;
+  };
+  std::vector<Interval> left = tangents(around[0], 0.0, 0);
+  for (std::size_t k = 0; k < readings.size(); ++k) {
+    left = common(left, tangents(around[k + 1], readings[k]->turn(), most));
   }
-  return !tangents.empty();
+  return !left.empty();
 }
 
 }  // namespace rollfix_verify

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,13 +10,16 @@
 
 namespace rollfix_verify {
 
+/// Rows keep this share of the perimeter from corners.
+inline constexpr double kClear = 1e-12;
+
 /// A roll from a start by the length asked, and how far its turn is off.
 struct Row {
   Place start;
   Place end;
-  Ball f;  // the turn along it less the one asked
-  Taylor start_ahead;
-  Taylor end_ahead;
+  Ball f;             // the turn along it less the one asked
+  Series from_start;  // the curvature ahead of both
+  Series from_end;
 };
 
 /// Whether the start or the end of the roll passes a corner from row to row.
@@ -28,10 +32,10 @@ struct Range {
   bool corner = false;
   std::vector<Ball> parts;  // f is in one of these at each start; several where it jumps at a concave corner
   double blur = 0;          // what f changes by as places are rounded
-};
 
-bool misses(const Range& range, double bound);
-bool is_below(const Range& range, const Row& from, const Row& to, double bound);
+  bool misses(double bound) const;
+  bool is_below(const Row& from, const Row& to, double bound) const;
+};
 
 /// One reading: its f from row to row.
 class OneReading {
@@ -52,8 +56,7 @@ class OneReading {
 
   /// The roll from there; nothing where it ends at a joint.
   std::optional<Row> row_at(const Place& start) const;
-  /// The same from so far beside it.
-  std::optional<Row> row_beside(const Place& start, double distance) const;
+  std::optional<Row> row_at(const Ball& start) const;
 
   Range range(const Row& from, const Row& to) const;
 
@@ -76,7 +79,6 @@ class OneReading {
   struct Claim;
   Claim claim_of(const std::string& kind, const Row& from, const Row& to) const;
   bool holds(const Claim& claim, const Range& range, const Row& from, const Row& to) const;
-  void prove(const Claim& claim, const Row& from, const Row& to, int depth) const;
 
   const Document& document_;
   const Boundary& boundary_;
@@ -86,16 +88,21 @@ class OneReading {
   double period_;
 };
 
-/// Several readings' rolls from one start.
+/// Several readings, and their rolls from one start.
+using Readings = std::vector<const OneReading*>;
 using Rows = std::vector<Row>;
 
-/// The rolls from a start between two others. Throws std::domain_error where they can't be told from joints.
-Rows rows_between(const Boundary& boundary, const std::vector<const OneReading*>& readings, const Place& from,
-                  const Place& to);
+/// How far from a start their contacts are, its own first.
+std::vector<Ball> contacts(const Readings& readings);
+
+/// Halves the starts from row to row, in order, until each part is settled. Throws std::domain_error where that takes
+/// too many halvings, or where a row between can't be told from joints.
+using Settles = std::function<bool(const Rows& from, const Rows& to)>;
+void by_halves(const Boundary& boundary, const Readings& readings, const Rows& from, const Rows& to,
+               const Settles& settles, int depth = 0);
 
 /// Whether all readings can fit at once, by no more than that each, where the contacts are anywhere between two places,
-/// each on its own, and the tangent at the start is the same one for all. `starts`: from, to; `ends`: of each reading.
-bool fit_together(const Boundary& boundary, const std::vector<const OneReading*>& readings, const Segment& starts,
-                  const std::vector<Segment>& ends, double most);
+/// each on its own, and the tangent at the start is the same one for all. `around`: of each contact, the start first.
+bool fit_together(const Boundary& boundary, const Readings& readings, const std::vector<Segment>& around, double most);
 
 }  // namespace rollfix_verify

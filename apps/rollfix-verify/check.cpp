@@ -4,8 +4,7 @@
 #include <stdexcept>
 
 #include "budget.hpp"
-#include "check_one.hpp"
-#include "check_two.hpp"
+#include "document.hpp"
 
 namespace rollfix_verify {
 namespace {

@@ -24,6 +24,11 @@ struct Verdict {
 /// Proves what a certificate claims, or says why not. Throws std::exception: a text that is no certificate.
 Verdict check(const std::string& text);
 
+class Document;
+/// The same of what one finger's certificate claims, and two fingers'. Throw std::domain_error: it is refused.
+Verdict check_one_finger(const Document& document);
+Verdict check_two_fingers(const Document& document);
+
 /// The verdict as it is printed.
 std::string described(const Verdict& verdict);
 

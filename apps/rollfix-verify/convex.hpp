@@ -7,6 +7,20 @@
 
 namespace rollfix_verify {
 
+/// Both ends of an interval.
+struct Interval {
+  double lo = 0;
+  double hi = 0;
+
+  double width() const { return hi - lo; }
+  /// Whether it holds all of the other one, beyond its ends by this at the most.
+  bool holds(const Interval& other, double slack) const { return other.lo >= lo - slack && other.hi <= hi + slack; }
+  bool meets(const Interval& other) const { return lo <= other.hi && other.lo <= hi; }
+};
+
+/// Pairs: first contacts of finger a and of finger b.
+using Box = std::array<Interval, 2>;
+
 /// The corners of a convex set of pairs in order; none: empty.
 using Polygon = std::vector<std::array<double, 2>>;
 

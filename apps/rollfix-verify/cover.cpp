@@ -1,7 +1,9 @@
 #include "cover.hpp"
 
+#include <charconv>
 #include <cmath>
 #include <stdexcept>
+#include <system_error>
 
 #include "budget.hpp"
 
@@ -22,17 +24,15 @@ class Reader {
     if (token == 's' || token == 't') {
       if (depth == kMostSplits) throw std::domain_error("its cells are halved too often");
       const std::size_t finger = token == 's' ? 0 : 1;
-      const double middle = box[finger].lo + 0.5 * (box[finger].hi - box[finger].lo);
-      Box first = box;
-      Box second = box;
-      first[finger].hi = middle;
-      second[finger].lo = middle;
-      read(first, depth + 1);
-      read(second, depth + 1);
+      const double middle = box[finger].lo + 0.5 * box[finger].width();
+      Box half = box;
+      half[finger].hi = middle;
+      read(half, depth + 1);
+      half[finger] = {middle, box[finger].hi};
+      read(half, depth + 1);
       return;
     }
-    Leaf leaf;
-    leaf.box = box;
+    Leaf leaf{Leaf::unproved, box};
     if (token == '[') {
       leaf.kind = Leaf::placement;
       leaf.number = number();
@@ -55,11 +55,12 @@ class Reader {
 
   std::size_t number() {
     std::size_t value = 0;
-    char digit = next();
-    for (int k = 0; k < 9 && digit >= '0' && digit <= '9'; ++k, digit = next()) {
-      value = 10 * value + static_cast<std::size_t>(digit - '0');
+    const char* const end = text_.data() + text_.size();
+    const auto [behind, error] = std::from_chars(text_.data() + at_, end, value);
+    if (error != std::errc() || behind == end || *behind != ']') {
+      throw std::domain_error("its cells name a placement by no number");
     }
-    if (digit != ']') throw std::domain_error("its cells name a placement by no number");
+    at_ = static_cast<std::size_t>(behind - text_.data()) + 1;
     return value;
   }
 

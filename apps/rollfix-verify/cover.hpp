@@ -1,18 +1,12 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <functional>
 #include <string>
 
-namespace rollfix_verify {
+#include "convex.hpp"
 
-struct Interval {
-  double lo = 0;
-  double hi = 0;
-};
-/// First contacts of finger a and of finger b.
-using Box = std::array<Interval, 2>;
+namespace rollfix_verify {
 
 /// One of the boxes that a cover is made of, and what is claimed of it.
 struct Leaf {

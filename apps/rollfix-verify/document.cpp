@@ -1,5 +1,6 @@
 #include "document.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
@@ -59,11 +60,23 @@ Ball Document::turn(const Json& stated) {
   return value;
 }
 
-void Document::check_kind(const std::string& name, const std::string& kind) {
-  for (const char* known : {"crossing", "touching", "corner", "stretch"}) {
-    if (kind == known) return;
+Interval Document::starts(const std::vector<Ball>& lengths) const {
+  Interval all{0, period_};
+  for (const Ball& length : lengths) {
+    if (boundary_.closed()) break;
+    all.lo = std::max(all.lo, -length.middle());
+    all.hi = std::min(all.hi, period_ - length.middle());
   }
-  refuse(name + " is of a kind that is not known");
+  return all;
+}
+
+std::string Document::kind_of(const std::string& name, const Json& placement) {
+  auto kind = placement.at("kind").get<std::string>();
+  if (kind != "crossing" && kind != "touching" && kind != "corner" && kind != "stretch") {
+    refuse(name + " is of a kind that is not known");
+  }
+  if (kind == "corner" && placement.contains("tangent")) refuse(name + " has a tangent, but pivots");
+  return kind;
 }
 
 bool Document::is_at(const Point& point, const Json& stated) const {
@@ -87,7 +100,7 @@ bool Document::is_as_far(const Ball& s, const Ball& stated) const {
 /// Where a curve is at rest its curvature does not tell.
 Ball Document::turn_beside(const Place& place) const {
   const Ball reach = kLengthSlack * period_;
-  const Ball curvature = boundary_.taylor(place.curve, place.u)[0];
+  const Ball curvature = boundary_.bend(place.curve, place.u).curvature;
   if (curvature.is_finite()) return reach * abs(curvature);
   Ball most = 0.0;
   for (const double way : {-1.0, 1.0}) {
@@ -97,19 +110,25 @@ Ball Document::turn_beside(const Place& place) const {
   return most;
 }
 
-void Document::check_contact(const std::string& name, const Place& start, const Ball& length,
-                             const Stated& stated) const {
-  if (!is_as_far(start.s, stated.start.get<double>())) refuse(name + " starts elsewhere");
-  if (!is_as_far(start.s + length, stated.end.get<double>())) refuse(name + " ends elsewhere");
-  if (!is_at(boundary_.position(start), stated.point)) refuse(name + " is at another point");
-  if (!stated.tangent) return;
+Place Document::contact(const std::string& name, const Json& placement, const Ball& length,
+                        std::optional<std::size_t> finger) const {
+  const auto stated = [&](const char* key) -> const Json& {
+    const Json& all = placement.at(key);
+    return finger ? all.at(*finger) : all;
+  };
+  Place start = place_at(stated("at"));
+  if (!is_as_far(start.s, stated("start").get<double>())) refuse(name + " starts elsewhere");
+  if (!is_as_far(start.s + length, stated("end").get<double>())) refuse(name + " ends elsewhere");
+  if (!is_at(boundary_.position(start), stated("point"))) refuse(name + " is at another point");
+  if (placement.at("kind") == "corner") return start;
   const Point v = boundary_.velocity(start);
-  const double tangent = stated.tangent->get<double>();
+  const double tangent = stated("tangent").get<double>();
   const Ball c = cos(Ball(tangent));
   const Ball s = sin(Ball(tangent));
   const Ball apart = atan2(v.y * c - v.x * s, v.x * c + v.y * s);
   const Ball most = kPlaceSlack + turn_beside(start);
   if (!abs(apart).is_below(most) || !(std::abs(tangent) < kHalfTurn)) refuse(name + " has another tangent");
+  return start;
 }
 
 }  // namespace rollfix_verify

@@ -3,8 +3,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "boundary.hpp"
+#include "along.hpp"
 
 namespace rollfix_verify {
 
@@ -46,8 +47,8 @@ class Document {
   Ball length(const Json& stated) const;
   static Ball turn(const Json& stated);
 
-  /// It has one of the names that there are.
-  static void check_kind(const std::string& name, const std::string& kind);
+  /// All starts whose rolls by these lengths stay on an open outline; of a closed one a lap.
+  Interval starts(const std::vector<Ball>& lengths) const;
 
   /// Of [curve, its parameter].
   Place place_at(const Json& stated) const;
@@ -55,15 +56,13 @@ class Document {
   /// Whether that is as far along, but for whole laps.
   bool is_as_far(const Ball& s, const Ball& stated) const;
 
-  /// One finger's numbers of a placement: the start and the end of its roll by so much, the point, and unless a pivot
-  /// leaves it open the tangent.
-  struct Stated {
-    Json start;
-    Json end;
-    Json point;
-    std::optional<Json> tangent;
-  };
-  void check_contact(const std::string& name, const Place& start, const Ball& length, const Stated& stated) const;
+  /// A placement's kind: one that there is; a tangent is told unless the finger pivots.
+  static std::string kind_of(const std::string& name, const Json& placement);
+
+  /// Where a placement's roll by so much starts, by `at`: start, end, point and tangent have to be those that follow.
+  /// `finger`: whose of them, where there are two.
+  Place contact(const std::string& name, const Json& placement, const Ball& length,
+                std::optional<std::size_t> finger = std::nullopt) const;
 
  private:
   /// How far the tangent turns at most over what a place may be off.

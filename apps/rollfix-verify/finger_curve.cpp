@@ -3,10 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
 #include "budget.hpp"
 
+// A sum of angles w . Theta(s), with a weight for each contact, is bounded on a stretch [lo, hi] of first contacts
+//  * by its ranges: the sum of what each angle takes there, and
+//  * by its chord: as far as w . kappa is in a ball K, it leaves the straight way from end to end by no more than
+//    (hi - lo) |K| / 4, |K| the ball's width, and by what joints in between turn.
 namespace rollfix_verify {
 namespace {
 
@@ -22,21 +27,10 @@ constexpr std::size_t kMostKept = 30000;
 // To look whether a joint is in a range, in expansions.
 constexpr double kJointWork = 0.01;
 
-Ball weighted(const std::vector<Ball>& weights, const std::vector<Ball>& values) {
-  Ball result = 0.0;
-  for (std::size_t c = 0; c < weights.size(); ++c) result = result + weights[c] * values[c];
-  return result;
-}
-
-double spread(const Ball& ball) { return ball.upper() - ball.lower(); }
-
 Ball hull_of(const std::vector<Ball>& balls) {
-  Ball result = balls.front();
-  for (const Ball& ball : balls) result = hull(result, ball);
-  return result;
+  return std::accumulate(balls.begin(), balls.end(), balls.front(),
+                         [](const Ball& a, const Ball& b) { return hull(a, b); });
 }
-
-Ball around_zero(const Ball& reach) { return hull(-reach, reach); }
 
 /// By the curvature at the start of each segment and how fast it changes, where that tells more.
 Ball curvatures_by_slope(const Boundary& boundary, const std::vector<Segment>& all) {
@@ -46,19 +40,16 @@ Ball curvatures_by_slope(const Boundary& boundary, const std::vector<Segment>& a
     const Boundary::Bend wide = boundary.bend(curve, hull(all[k].from.u, all[k].to.u));
     const Ball first = boundary.bend(curve, all[k].from.u).curvature;
     Ball here = first + up_to(all[k].to.s - all[k].from.s) * wide.change;
-    if (!here.is_finite() || here.upper() - here.lower() > wide.curvature.upper() - wide.curvature.lower()) {
-      here = wide.curvature;
-    }
+    if (!here.is_finite() || spread(here) > spread(wide.curvature)) here = wide.curvature;
     result = k == 0 ? here : hull(result, here);
   }
   return result;
 }
 
-/// Whether a contact between two places may pivot: at a corner that is not concave, or where a curve is at rest.
+/// Whether a contact between two places may pivot.
 bool pivots_between(const Boundary& boundary, const Place& from, const Place& to) {
   for (long curve = from.curve; curve < to.curve; ++curve) {
-    if (boundary.is_at_rest(curve)) return true;
-    if (!abs(boundary.jump(curve)).is_below(kSmooth) && !boundary.jump(curve).is_below(-kConcave)) return true;
+    if (boundary.pivots(curve)) return true;
   }
   return false;
 }
@@ -114,15 +105,13 @@ Ball Stretch::angle(std::size_t contact) const {
 }
 
 std::size_t Stretch::widest() const {
-  const auto width = [&](std::size_t c) { return spread(from[c]); };
-  std::size_t result = 0;
-  for (std::size_t c = 1; c < from.size(); ++c) result = width(c) > width(result) ? c : result;
-  return result;
+  const auto is_narrower = [](const Ball& a, const Ball& b) { return spread(a) < spread(b); };
+  return static_cast<std::size_t>(std::max_element(from.begin(), from.end(), is_narrower) - from.begin());
 }
 
 double Stretch::turn(std::size_t contact) const {
   if (!pivot) return (to[contact] - from[contact]).middle();
-  return contact == widest() ? from[contact].upper() - from[contact].lower() : 0.0;
+  return contact == widest() ? spread(from[contact]) : 0.0;
 }
 
 double Stretch::change() const {
@@ -160,7 +149,7 @@ std::vector<FingerCurve::Cut> FingerCurve::cuts_between(double lo, double hi, Cu
     for (long laps = lap(lo) - 1; laps <= lap(hi); ++laps) {
       Budget::spend(kJointWork * static_cast<double>(joints));
       for (long k = 0; k < joints; ++k) {
-        const bool is_corner = !abs(boundary_.jump(k)).is_below(kSmooth);
+        const bool is_corner = boundary_.turns(k);
         if (!is_corner && (cuts == Cuts::corners || !bends_at(boundary_, k))) continue;
         const double s = (boundary_.back(k + laps * boundary_.curves()).s - length).middle();
         if (s > lo && s < hi) result.push_back({s, is_corner});
@@ -253,20 +242,19 @@ const std::vector<Stretch>& FingerCurve::over(double lo, double hi, Cuts cuts) {
 
 const std::pair<Stretch, Stretch>& FingerCurve::halved(const Stretch& stretch) {
   if (stretch.halves) return *stretch.halves;
-  kept_ += 2;
-  if (!stretch.pivot) {
+  std::pair<Stretch, Stretch> both;
+  if (stretch.pivot) {
+    both = {stretch, stretch};
+    const std::size_t widest = stretch.widest();
+    both.first.from[widest] = half_of(stretch.from[widest], false);
+    both.second.from[widest] = half_of(stretch.from[widest], true);
+  } else {
     const double middle = stretch.lo + 0.5 * stretch.width();
     if (!(middle > stretch.lo && middle < stretch.hi)) throw std::domain_error("a stretch is too short to be halved");
-    stretch.halves =
-        std::make_shared<const std::pair<Stretch, Stretch>>(smooth(stretch.lo, middle), smooth(middle, stretch.hi));
-    return *stretch.halves;
+    both = {smooth(stretch.lo, middle), smooth(middle, stretch.hi)};
   }
-  const std::size_t widest = stretch.widest();
-  Stretch lower = stretch;
-  Stretch upper = stretch;
-  lower.from[widest] = half_of(stretch.from[widest], false);
-  upper.from[widest] = half_of(stretch.from[widest], true);
-  stretch.halves = std::make_shared<const std::pair<Stretch, Stretch>>(lower, upper);
+  kept_ += 2;
+  stretch.halves = std::make_shared<const std::pair<Stretch, Stretch>>(std::move(both));
   return *stretch.halves;
 }
 

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <memory>
+#include <numeric>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -10,7 +11,13 @@
 
 namespace rollfix_verify {
 
+/// w . v
+inline Ball weighted(const std::vector<Ball>& weights, const std::vector<Ball>& values) {
+  return std::inner_product(weights.begin(), weights.end(), values.begin(), Ball(0.0));
+}
+
 /// The tangent's angles at all contacts of one finger while its first contact moves, or while it pivots.
+/// Notation: contact c is at s + L_c, L_0 = 0, its angle Theta_c(s) = Theta(s + L_c).
 struct Stretch {
   double lo = 0;  // first contacts, s
   double hi = 0;
@@ -48,8 +55,6 @@ class FingerCurve {
  public:
   FingerCurve(const Boundary& boundary, std::vector<Ball> lengths)
       : boundary_(boundary), lengths_(std::move(lengths)), period_(boundary.perimeter().middle()) {}
-
-  std::size_t contacts() const { return lengths_.size(); }
 
   enum class Cuts { corners, bends };  // bends: and where the curvature jumps
 

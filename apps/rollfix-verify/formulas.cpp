@@ -3,9 +3,12 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
+// Notation: u is a curve's parameter, x what is added to it in a series; v = (dx/du, dy/du) its velocity, v' the change
+// of that. Then ds/du = |v|, and the tangent's angle changes by (v cross v') / |v|^2.
 namespace rollfix_verify {
 namespace {
 
@@ -46,20 +49,10 @@ Formula from_path(double lo, double hi, const Path& path) {
 // Two series multiplied, in expansions.
 constexpr double kProductWork = 0.2;
 
-Series whole_power(const Series& base, std::size_t exponent) {
-  Series result(1.0);
-  for (std::size_t k = 0; k < exponent; ++k) result = result * base;
-  return result;
-}
-
 // ---- other ways to run along a curve ----
 
 /// a(-x).
-Series mirrored(const Series& a) {
-  Series result = a;
-  for (slong k = 1; k < kTerms; k += 2) result.set(k, -a[k]);
-  return result;
-}
+Series mirrored(const Series& a) { return composed(a, -Series::variable(0.0)); }
 
 Formula reversed(const Formula& forward) {
   Formula formula = forward;
@@ -71,7 +64,7 @@ Formula reversed(const Formula& forward) {
   };
   formula.motion = [=](const Ball& u) {
     const Motion motion = forward.motion(mirror(u));
-    return Motion{mirrored(motion.speed), Series(0.0) - mirrored(motion.turning)};
+    return Motion{mirrored(motion.speed), -mirrored(motion.turning)};
   };
   return formula;
 }
@@ -90,14 +83,11 @@ Formula scaled(const Formula& original, const Ball& factor) {
 
 // ---- lines, arcs and what drawings are made of ----
 
-Formula line(const Numbers& n) {
+Formula line(const Numbers& n) {  // from, to
   const Ball dx = Ball(n[2]) - n[0];
   const Ball dy = Ball(n[3]) - n[1];
-  Formula formula;
-  const Ball length = sqrt(dx * dx + dy * dy);
-  formula.motion = [length](const Ball&) { return Motion{length, 0.0}; };
-  formula.position = [=](const Ball& u) { return Point{n[0] + u * dx, n[1] + u * dy}; };
-  formula.velocity = [=](const Ball&) { return Point{dx, dy}; };
+  Formula formula = from_path(0, 1, [=](const Series& t) { return Pair<Series>{n[0] + t * dx, n[1] + t * dy}; });
+  formula.motion = [length = sqrt(dx * dx + dy * dy)](const Ball&) { return Motion{length, 0.0}; };
   return formula;
 }
 
@@ -105,23 +95,18 @@ Formula arc(const Numbers& n) {  // centre, radius, direction of the first point
   const double sign = n[4] > 0 ? 1 : -1;
   const double r = n[2];
   if (!(r > 0)) throw std::runtime_error("an arc without a radius");
-  Formula formula;
-  formula.hi = std::abs(n[4]);
+  Formula formula = from_path(0, std::abs(n[4]), [=](const Series& t) {
+    const Series direction = n[3] + sign * t;
+    return Pair<Series>{n[0] + r * cos(direction), n[1] + r * sin(direction)};
+  });
   formula.motion = [=](const Ball&) { return Motion{r, sign}; };
-  const auto direction = [=](const Ball& u) { return Ball(n[3]) + Ball(sign) * u; };
-  formula.position = [=](const Ball& u) {
-    return Point{n[0] + Ball(r) * cos(direction(u)), n[1] + Ball(r) * sin(direction(u))};
-  };
-  formula.velocity = [=](const Ball& u) {
-    return Point{Ball(-sign * r) * sin(direction(u)), Ball(sign * r) * cos(direction(u))};
-  };
   return formula;
 }
 
 Formula elliptic_arc(const Numbers& n) {  // centre, two half axes, where it starts, sweep
   const double sign = n[7] > 0 ? 1 : -1;
   return from_path(0, std::abs(n[7]), [=](const Series& t) {
-    const Series angle = Series(n[6]) + Series(sign) * t;
+    const Series angle = n[6] + sign * t;
     const Series c = cos(angle);
     const Series s = sin(angle);
     return Pair<Series>{n[0] + c * n[2] + s * n[4], n[1] + c * n[3] + s * n[5]};
@@ -155,13 +140,8 @@ Formula turning_span(const Numbers& n) {  // start, the cubic of its tangent's a
       const Ball from = step * k;
       const Series there = angle(Series::variable(from));
       const Series wide = angle(Series::variable(hull(from, from + step)));
-      const auto advance = [&](Series thin, const Series& rest) {
-        thin.set(kOrder, rest[kOrder]);
-        Ball sum = 0.0;
-        Ball power = step;
-        for (slong i = 0; i <= kOrder; ++i, power = power * step)
-          sum = sum + thin[i] * power / static_cast<double>(i + 1);
-        return sum;
+      const auto advance = [&](const Series& thin, const Series& rest) {
+        return value(integral(with_remainder(thin, rest, kOrder)), step);
       };
       at = {at.x + advance(cos(there), cos(wide)), at.y + advance(sin(there), sin(wide))};
     }
@@ -170,6 +150,7 @@ Formula turning_span(const Numbers& n) {  // start, the cubic of its tangent's a
   return formula;
 }
 
+/// De Casteljau's algorithm.
 Formula regular_bezier(const Numbers& n, std::size_t each) {
   const auto points = static_cast<double>(n.size()) / static_cast<double>(each);
   Formula formula = from_path(0, 1, [n, each](const Series& t) {
@@ -189,12 +170,6 @@ Formula regular_bezier(const Numbers& n, std::size_t each) {
   });
   formula.work = 1 + kProductWork * points * points * static_cast<double>(each);
   return formula;
-}
-
-double choices(std::size_t n, std::size_t k) {
-  double result = 1;
-  for (std::size_t i = 0; i < k; ++i) result = result * static_cast<double>(n - i) / static_cast<double>(i + 1);
-  return result;
 }
 
 /// A curve that starts at rest, its first m control points being one, from which it is u^m n/w: its velocity is
@@ -241,19 +216,19 @@ Formula bezier_from_rest(const Numbers& n, std::size_t each, std::size_t m) {
   return formula;
 }
 
-/// de Casteljau's algorithm; control points as so many numbers each: x, y and, of rational ones, the weight. Those next
-/// to one end may be the same as that one.
+/// Control points as so many numbers each: x, y and, of rational ones, the weight. Those next to one end may be the
+/// same as that one.
 Formula bezier(const Numbers& n, std::size_t each) {
   if (n.empty() || n.size() % each != 0) throw std::runtime_error("a Bezier curve with half a control point");
-  const auto at_rest = [&](const Numbers& points) {
+  const auto same = [&](const Numbers& points) {  // as the first, which it is itself
     std::size_t k = each;
     while (k < points.size() && points[k] == points[0] && points[k + 1] == points[1]) k += each;
     return k / each;
   };
   Numbers backwards;
   for (std::size_t k = n.size(); k > 0; k -= each) backwards.insert(backwards.end(), &n[k - each], &n[k - each] + each);
-  const std::size_t first = at_rest(n);
-  const std::size_t last = at_rest(backwards);
+  const std::size_t first = same(n);
+  const std::size_t last = same(backwards);
   if (first * each == n.size() || (first > 1 && last > 1)) {
     throw std::runtime_error("a Bezier curve that is a point, or at rest at both ends");
   }
@@ -264,6 +239,7 @@ Formula bezier(const Numbers& n, std::size_t each) {
 
 // ---- the gallery ----
 
+/// A curve by its distance from the origin, in each direction from 0 on.
 Formula polar(double hi, const std::function<Series(const Series&)>& radius) {
   return from_path(0, hi, [radius](const Series& t) {
     const Series r = radius(t);
@@ -276,10 +252,7 @@ Formula limacon(const Numbers& n) {
 }
 
 Formula cam(const Numbers& n) {
-  return polar(kFullTurn, [=](const Series& t) {
-    const Series q = (Series(1.0) + cos(t)) * 0.5;
-    return n[0] + n[1] * q * q;
-  });
+  return polar(kFullTurn, [=](const Series& t) { return n[0] + n[1] * whole_power((1.0 + cos(t)) * 0.5, 2); });
 }
 
 Formula gear(const Numbers& n) {
@@ -294,31 +267,20 @@ Formula exponential(const Numbers& n) {
   return from_path(n[1], n[2], [=](const Series& t) { return Pair<Series>{n[0] * t, n[0] * exp(t)}; });
 }
 
-/// |x/a|^n + |y/b|^n = 1 by the direction of (x/a, y/b); `quarter`: turned by so many right angles.
-Pair<Series> superellipse_point(const Numbers& n, const Series& t) {
-  const auto power = static_cast<std::size_t>(n[2]);
-  if (static_cast<double>(power) != n[2] || power < 2)
+/// |x/a|^n + |y/b|^n = 1 by the direction of (x/a, y/b), up to `hi`, turned by so many right angles.
+Formula superellipse(const Numbers& n, double hi, double quarters) {
+  const auto power = static_cast<ulong>(n[2]);
+  if (!(static_cast<double>(power) == n[2] && power >= 2))
     throw std::runtime_error("a superellipse whose exponent is not a whole number");
-  const Series c = cos(t);
-  const Series s = sin(t);
-  const Series radius = pow(whole_power(c, power) + whole_power(s, power), Ball(-1.0) / n[2]);
-  return {n[0] * radius * c, n[1] * radius * s};
-}
-
-Formula superellipse(const Numbers& n) {
-  Formula formula = from_path(0, kFullTurn, [=](const Series& t) { return superellipse_point(n, t); });
-  formula.work = 1 + 2 * kProductWork * n[2];
-  return formula;
-}
-
-Formula superellipse_quarter(const Numbers& n) {
-  Formula formula = from_path(0, kFullTurn / 4, [=](const Series& t) {
-    Pair<Series> point = superellipse_point(n, t);
-    if (n[3] == 0) return point;
-    if (n[3] == 1) return Pair<Series>{Series(0.0) - point.y, point.x};
-    if (n[3] == 2) return Pair<Series>{Series(0.0) - point.x, Series(0.0) - point.y};
-    if (n[3] == 3) return Pair<Series>{point.y, Series(0.0) - point.x};
+  if (quarters != 0 && quarters != 1 && quarters != 2 && quarters != 3)
     throw std::runtime_error("a quarter of a superellipse that is not 0, 1, 2 or 3");
+  Formula formula = from_path(0, hi, [=](const Series& t) {
+    const Series c = cos(t);
+    const Series s = sin(t);
+    const Series radius = pow(whole_power(c, power) + whole_power(s, power), Ball(-1.0) / n[2]);
+    Pair<Series> point{n[0] * radius * c, n[1] * radius * s};
+    for (int k = 0; k < quarters; ++k) point = {-point.y, point.x};
+    return point;
   });
   formula.work = 1 + 2 * kProductWork * n[2];
   return formula;
@@ -366,8 +328,8 @@ const std::map<std::string, Kind>& kinds() {
       {"gear", {3, gear}},
       {"log-spiral", {3, log_spiral}},
       {"exponential", {3, exponential}},
-      {"superellipse", {3, superellipse}},
-      {"superellipse-quarter", {4, superellipse_quarter}},
+      {"superellipse", {3, [](const Numbers& n) { return superellipse(n, kFullTurn, 0); }}},
+      {"superellipse-quarter", {4, [](const Numbers& n) { return superellipse(n, kFullTurn / 4, n[3]); }}},
       {"naca-upper", {2, [](const Numbers& n) { return symmetric_naca(n, true); }}},
       {"naca-lower", {2, [](const Numbers& n) { return symmetric_naca(n, false); }}},
       {"naca-upper-fore", {6, [](const Numbers& n) { return naca(n, true, true); }}},
@@ -382,34 +344,33 @@ const std::map<std::string, Kind>& kinds() {
 
 /// The words before a kind, from the outermost one: `reversed` twice is nothing, factors multiply.
 Formula formula_of(const std::string& kind, const Numbers& numbers) {
-  const std::string reversed_prefix = "reversed ";
-  const std::string scaled_prefix = "scaled ";
   std::string plain = kind;
   Numbers own = numbers;
   bool is_reversed = false;
-  Ball factor = 1.0;
-  bool is_scaled = false;
+  std::optional<Ball> factor;
+  const auto take = [&](const std::string& word) {
+    const bool is_there = plain.rfind(word, 0) == 0;
+    if (is_there) plain.erase(0, word.size());
+    return is_there;
+  };
   for (;;) {
-    if (plain.rfind(reversed_prefix, 0) == 0) {
+    if (take("reversed ")) {
       is_reversed = !is_reversed;
-      plain.erase(0, reversed_prefix.size());
-    } else if (plain.rfind(scaled_prefix, 0) == 0) {
+    } else if (take("scaled ")) {
       if (own.empty() || !(own.back() > 0)) throw std::runtime_error("a curve scaled by a factor that is not above 0");
-      factor = factor * own.back();
-      is_scaled = true;
+      factor = factor.value_or(1.0) * own.back();
       own.pop_back();
-      plain.erase(0, scaled_prefix.size());
     } else {
       break;
     }
   }
   const auto found = kinds().find(plain);
   if (found == kinds().end()) throw std::runtime_error("the curve kind '" + plain + "' is not known");
-  if (found->second.numbers != 0 && found->second.numbers != own.size()) {
+  const auto& [count, make] = found->second;
+  if (count != 0 && count != own.size())
     throw std::runtime_error("a curve of kind '" + plain + "' with a wrong number of numbers");
-  }
-  Formula formula = found->second.make(own);
-  if (is_scaled) formula = scaled(formula, factor);
+  Formula formula = make(own);
+  if (factor) formula = scaled(formula, *factor);
   return is_reversed ? reversed(formula) : formula;
 }
 

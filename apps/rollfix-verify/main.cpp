@@ -22,18 +22,15 @@ void print(const std::string& text) {
 }
 
 /// No more than shows that it is too long.
-std::string read(std::istream& stream) {
+std::string read(const std::string& path) {
+  std::ifstream file;
+  if (path != "-") file.open(path, std::ios::binary);
+  if (!file) throw std::runtime_error("can't be read");
+  std::istream& stream = path == "-" ? std::cin : file;
   std::string text(rollfix_verify::kMostBytes + 1, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(stream.gcount()));
   return text;
-}
-
-std::string read(const std::string& path) {
-  if (path == "-") return read(std::cin);
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error("can't be read");
-  return read(file);
 }
 
 }  // namespace

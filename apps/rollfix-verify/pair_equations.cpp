@@ -5,6 +5,8 @@
 
 #include "budget.hpp"
 
+// Notation: w are an equation's weights of the contacts c; off it is by w . Theta_a(s) - w . Theta_b(t) - right,
+// Theta_a and Theta_b the angles of both fingers' contacts. Bounds on w . Theta are those of finger_curve.cpp.
 namespace rollfix_verify {
 namespace {
 
@@ -18,16 +20,45 @@ constexpr int kRateDepth = 7;
 // A plane is looked at in doubles: what their rounding makes of its terms.
 constexpr double kPlaneRounding = 1e-14;
 
-Weights unit(std::size_t count, std::size_t k) {
-  Weights result(count, 0.0);
-  result[k] = 1;
+using Equation = PairEquations::Equation;
+using Linear = PairEquations::Linear;
+
+/// x one + y other.
+Equation sum(double x, const Equation& one, double y, const Equation& other) {
+  Equation result{one.weights, x * one.right + y * other.right};
+  for (std::size_t c = 0; c < one.weights.size(); ++c) result.weights[c] = x * one.weights[c] + y * other.weights[c];
   return result;
 }
 
-double size_of(const Weights& weights) {
+/// How far a sum of angles turns from end to end of a stretch.
+double turn_along(const Equation& equation, const Stretch& stretch) {
   double sum = 0;
-  for (const double weight : weights) sum += std::abs(weight);
+  for (std::size_t c = 0; c < equation.weights.size(); ++c) sum += equation.weights[c].middle() * stretch.turn(c);
   return sum;
+}
+
+/// Each equation by itself; then each two of them as they are seen across one curve's chord or the other's, where that
+/// curve is thin. Where two are off by no more than the bound each, x one + y other is by no more than |x| + |y| times
+/// that.
+bool some_is_off(const std::vector<Equation>& all, const Stretch& a, const Stretch& b, double bound) {
+  const auto is_off = [&](const Equation& equation, const Ball& most) {
+    const Ball off = equation.off(a, b);
+    return off.is_above(most) || off.is_below(-most);
+  };
+  for (const Equation& equation : all) {
+    if (is_off(equation, bound)) return true;
+  }
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    for (std::size_t l = k + 1; l < all.size(); ++l) {
+      for (const Stretch* one : {&a, &b}) {
+        const double x = -turn_along(all[l], *one);
+        const double y = turn_along(all[k], *one);
+        const bool is_thin = x != 0 || y != 0;
+        if (is_thin && is_off(sum(x, all[k], y, all[l]), (abs(Ball(x)) + abs(Ball(y))) * bound)) return true;
+      }
+    }
+  }
+  return false;
 }
 
 /// The curvatures on all of a stretch; of its halves they are known better.
@@ -39,8 +70,6 @@ std::vector<Ball> rates(FingerCurve& curve, const Stretch& stretch, int depth) {
   for (std::size_t c = 0; c < first.size(); ++c) first[c] = hull(first[c], last[c]);
   return first;
 }
-
-using Linear = PairEquations::Linear;
 
 Linear linear(FingerCurve& curve, const Stretch& stretch, int depth) {
   Linear result;
@@ -71,39 +100,27 @@ Linear linear(FingerCurve& curve, const Stretch& stretch, int depth) {
 
 }  // namespace
 
-/// Of finger a's contacts, the first one first.
-std::vector<Ball> PairEquations::contact_weights(const Weights& weights) const {
-  std::vector<Ball> result(turns_.size() + 1, Ball(0.0));
-  for (std::size_t k = 0; k < turns_.size(); ++k) {
-    result[k + 1] = weights[k];
-    result[0] = result[0] - weights[k];
+PairEquations::PairEquations(const std::vector<Ball>& turns, const std::optional<Ball>& facing)
+    : has_facing_(facing.has_value()) {
+  const std::vector<Ball> none(turns.size() + 1, Ball(0.0));
+  for (std::size_t k = 0; k < turns.size(); ++k) {
+    equations_.push_back({none, turns[k]});
+    equations_.back().weights[0] = -1.0;
+    equations_.back().weights[k + 1] = 1.0;
   }
-  if (facing_) result[0] = result[0] + weights.back();
-  return result;
-}
-
-/// `turned`: whole turns that the facing is off by, radians.
-Ball PairEquations::right_side(const Weights& weights, const Ball& turned) const {
-  Ball result = 0.0;
-  for (std::size_t k = 0; k < turns_.size(); ++k) result = result + Ball(weights[k]) * turns_[k];
-  if (facing_) result = result + Ball(weights.back()) * (*facing_ + turned);
-  return result;
-}
-
-Ball PairEquations::combined(const Stretch& a, const Stretch& b, const Weights& weights, const Ball& turned) const {
-  const std::vector<Ball> contacts = contact_weights(weights);
-  return a.sum(contacts) - b.sum(contacts) - right_side(weights, turned);
+  if (!facing) return;
+  equations_.push_back({none, *facing});
+  equations_.back().weights[0] = 1.0;
 }
 
 /// The first and the last number of whole turns by which the facing can fit; nothing: none does.
 std::optional<std::pair<long, long>> PairEquations::whole_turns(const Stretch& a, const Stretch& b,
                                                                 double bound) const {
-  if (!facing_) return std::pair<long, long>{0, 0};
-  const Ball range = combined(a, b, unit(count(), count() - 1), 0.0);
+  if (!has_facing_) return std::pair<long, long>{0, 0};
+  const Ball range = equations_.back().off(a, b);
   if (!range.is_finite()) return std::pair<long, long>{0, kMostTurns};
-  const Ball full = 2.0 * pi();
-  const auto first = static_cast<long>(std::ceil(((Ball(range.lower()) - bound) / full).lower()));
-  const auto last = static_cast<long>(std::floor(((Ball(range.upper()) + bound) / full).upper()));
+  const auto first = static_cast<long>(std::ceil(((Ball(range.lower()) - bound) / full_turn()).lower()));
+  const auto last = static_cast<long>(std::floor(((Ball(range.upper()) + bound) / full_turn()).upper()));
   if (first > last) return std::nullopt;
   return std::pair<long, long>{first, last};
 }
@@ -114,70 +131,34 @@ bool PairEquations::are_apart(const Stretch& a, const Stretch& b, double bound) 
   if (!turns) return true;
   if (turns->second - turns->first >= kMostTurns) return false;
   for (long k = turns->first; k <= turns->second; ++k) {
-    if (!are_apart(a, b, bound, static_cast<double>(k) * (2.0 * pi()))) return false;
+    std::vector<Equation> all = equations_;
+    if (has_facing_) all.back().right = all.back().right + static_cast<double>(k) * full_turn();
+    if (!some_is_off(all, a, b, bound)) return false;
   }
   return true;
 }
 
-/// Each equation by itself; then each two of them as they are seen across one curve's chord or the other's, where that
-/// curve is thin. Where equations are off by no more than the bound each, a sum of them with weights is off by no more
-/// than the bound times the weights' sizes.
-bool PairEquations::are_apart(const Stretch& a, const Stretch& b, double bound, const Ball& turned) const {
-  const auto decides = [&](const Weights& weights) {
-    const Ball most = Ball(bound) * size_of(weights);
-    const Ball range = combined(a, b, weights, turned);
-    return range.is_above(most) || range.is_below(-most);
-  };
-  for (std::size_t k = 0; k < count(); ++k) {
-    if (decides(unit(count(), k))) return true;
-  }
-  for (std::size_t k = 0; k < count(); ++k) {
-    for (std::size_t l = k + 1; l < count(); ++l) {
-      for (const Stretch* one : {&a, &b}) {
-        const auto chord = [&](std::size_t row) {
-          const std::vector<Ball> contacts = contact_weights(unit(count(), row));
-          double sum = 0;
-          for (std::size_t c = 0; c < contacts.size(); ++c) {
-            sum += contacts[c].middle() * one->turn(c);
-          }
-          return sum;
-        };
-        Weights across(count(), 0.0);
-        across[k] = -chord(l);
-        across[l] = chord(k);
-        if (size_of(across) > 0 && decides(across)) return true;
-      }
-    }
-  }
-  return false;
-}
-
 std::vector<Ball> PairEquations::off(const Stretch& a, const Stretch& b) const {
   std::vector<Ball> result;
-  for (std::size_t k = 0; k < count(); ++k) {
-    result.push_back(combined(a, b, unit(count(), k), 0.0));
-    const bool is_facing = k == turns_.size();
-    const Ball full = 2.0 * pi();
-    if (is_facing) result[k] = result[k] - std::round((result[k] / full).middle()) * full;
-  }
+  for (const Equation& equation : equations_) result.push_back(equation.off(a, b));
+  if (has_facing_) result.back() = to_nearest_turn(result.back());
   return result;
 }
 
 std::vector<PairEquations::Plane> PairEquations::planes(const Stretch& a, const Stretch& b) const {
   std::vector<Plane> result;
   for (std::size_t k = 0; k < count(); ++k) {
-    const std::vector<Ball> contacts = contact_weights(unit(count(), k));
-    const Stretch::Chord of_a = a.chord(contacts);
-    const Stretch::Chord of_b = b.chord(contacts);
-    Ball at = of_a.from - of_b.from - right_side(unit(count(), k), 0.0);
+    const Stretch::Chord of_a = a.chord(equations_[k].weights);
+    const Stretch::Chord of_b = b.chord(equations_[k].weights);
+    Ball at = of_a.from - of_b.from - equations_[k].right;
     const Ball by_a = of_a.to - of_a.from;
     const Ball by_b = of_b.from - of_b.to;
-    if (k == turns_.size()) {
-      const Ball full = 2.0 * pi();
-      const Ball middle = at + 0.5 * by_a + 0.5 * by_b;
-      at = at - std::round((middle / full).middle()) * full;
-      const Ball reach = abs(at + 0.5 * by_a + 0.5 * by_b) + 0.5 * (abs(by_a) + abs(by_b)) + of_a.off + of_b.off;
-      if (!reach.is_below(pi())) return {};
+    if (is_facing(k)) {
+      const Ball halfway = 0.5 * by_a + 0.5 * by_b;
+      const Ball middle = to_nearest_turn(at + halfway);
+      at = middle - halfway;
+      const Ball reach = abs(middle) + 0.5 * (abs(by_a) + abs(by_b)) + of_a.off + of_b.off;
+      if (!reach.is_below(0.5 * full_turn())) return {};
     }
     Plane plane{at.middle(), by_a.middle(), by_b.middle(), 0};
     const Ball left = abs(at - plane.at) + abs(by_a - plane.by_a) + abs(by_b - plane.by_b) + of_a.off + of_b.off;
@@ -198,11 +179,14 @@ bool PairEquations::fit_together(const Stretch& a, const Stretch& b, double most
     lo = std::max(lo, (difference - most).lower());
     hi = std::min(hi, (difference + most).upper());
   };
-  for (std::size_t k = 0; k < turns_.size(); ++k) keep(a.angle(k + 1) - b.angle(k + 1) - turns_[k] - base);
-  if (facing_ && lo <= hi) {
-    const Ball full = 2.0 * pi();
-    const Ball off = *facing_ - base;
-    keep(off + std::round(((Ball(0.5 * (lo + hi)) - off) / full).middle()) * full);
+  for (std::size_t k = 0; k < count(); ++k) {
+    const Ball& right = equations_[k].right;
+    if (!is_facing(k)) {
+      keep(a.angle(k + 1) - b.angle(k + 1) - right - base);
+    } else if (lo <= hi) {
+      const double middle = 0.5 * (lo + hi);
+      keep(middle - to_nearest_turn(middle - (right - base)));
+    }
   }
   return lo <= hi;
 }
@@ -228,25 +212,21 @@ bool PairEquations::have_one_root(FingerCurve& curve_a, const Stretch& a, Finger
 bool PairEquations::map_inside(const Linear& of_a, const Linear& of_b, const std::array<std::size_t, 2>& rows,
                                double slack) const {
   Budget::spend(kMapWork);
-  const Ball full = 2.0 * pi();
   const Ball lo[2] = {of_a.lo, of_b.lo};
   const Ball hi[2] = {of_a.hi, of_b.hi};
   Ball j[2][2];
   Ball f[2];
   for (std::size_t k = 0; k < 2; ++k) {
-    const std::vector<Ball> contacts = contact_weights(unit(count(), rows[k]));
-    f[k] = hull(-slack, slack) - right_side(unit(count(), rows[k]), 0.0);
-    for (std::size_t c = 0; c < contacts.size(); ++c) {
-      f[k] = f[k] + contacts[c] * (of_a.middle[c] - of_b.middle[c]);
-      j[k][0] = j[k][0] + contacts[c] * of_a.rate[c];
-      j[k][1] = j[k][1] - contacts[c] * of_b.rate[c];
-    }
+    const auto& [weights, right] = equations_[rows[k]];
+    f[k] = around_zero(slack) + weighted(weights, of_a.middle) - weighted(weights, of_b.middle) - right;
+    j[k][0] = weighted(weights, of_a.rate);
+    j[k][1] = -weighted(weights, of_b.rate);
     if (!(j[k][0].is_finite() && j[k][1].is_finite())) return false;
   }
-  if (facing_ && rows[1] + 1 == count()) {  // no other number of whole turns fits
-    f[1] = f[1] - std::round((f[1] / full).middle()) * full;
+  if (is_facing(rows[1])) {  // no other number of whole turns fits
+    f[1] = to_nearest_turn(f[1]);
     const Ball range = abs(f[1] + hull(lo[0], hi[0]) * j[1][0] + hull(lo[1], hi[1]) * j[1][1]);
-    if (!range.is_below(full)) return false;
+    if (!range.is_below(full_turn())) return false;
   }
   const double determinant = j[0][0].middle() * j[1][1].middle() - j[0][1].middle() * j[1][0].middle();
   if (determinant == 0) return false;

@@ -2,24 +2,22 @@
 
 #include <array>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "finger_curve.hpp"
 
 namespace rollfix_verify {
 
-/// One number for each equation.
-using Weights = std::vector<double>;
-
-/// What two fingers' first contacts s and t have to fulfil, each equation a sum over finger a's angles less the same
-/// over finger b's: of reading k f_k = [Theta(s + La_k) - Theta(s)] - [Theta(t + Lb_k) - Theta(t)] - turn_k, and where
-/// the fingers' facing is known Theta(s) - Theta(t) - facing, but for whole turns.
+/// What two fingers' first contacts s and t have to fulfil, F(s, t) = A(s) - B(t) = 0 with a component for each
+/// equation, a sum over finger a's angles less the same over finger b's: of reading k
+///   f_k = [Theta(s + La_k) - Theta(s)] - [Theta(t + Lb_k) - Theta(t)] - turn_k,
+/// and where the fingers' facing is known Theta(s) - Theta(t) - facing, but for whole turns.
 class PairEquations {
  public:
-  PairEquations(std::vector<Ball> turns, const std::optional<Ball>& facing)
-      : turns_(std::move(turns)), facing_(facing) {}
+  PairEquations(const std::vector<Ball>& turns, const std::optional<Ball>& facing);
 
-  std::size_t count() const { return turns_.size() + (facing_ ? 1 : 0); }
+  std::size_t count() const { return equations_.size(); }
 
   /// Whether some equation is off by more than `bound` at each pair of two stretches.
   bool are_apart(const Stretch& a, const Stretch& b, double bound) const;
@@ -47,6 +45,14 @@ class PairEquations {
   bool have_one_root(FingerCurve& curve_a, const Stretch& a, FingerCurve& curve_b, const Stretch& b,
                      double slack) const;
 
+  /// One equation, or a sum of them: the contacts' weights, the first one first, and what the sum has to be.
+  struct Equation {
+    std::vector<Ball> weights;
+    Ball right;
+
+    Ball off(const Stretch& a, const Stretch& b) const { return a.sum(weights) - b.sum(weights) - right; }
+  };
+
   /// A stretch by a parameter that runs through it in steps of its width: the contacts' angles about in the middle,
   /// where it is 0, with what it leaves open; how fast they change; and the parameter at both ends.
   struct Linear {
@@ -57,15 +63,12 @@ class PairEquations {
   };
 
  private:
-  Ball combined(const Stretch& a, const Stretch& b, const Weights& weights, const Ball& turned) const;
-  bool are_apart(const Stretch& a, const Stretch& b, double bound, const Ball& turned) const;
-  bool map_inside(const Linear& of_a, const Linear& of_b, const std::array<std::size_t, 2>& rows, double slack) const;
-  std::vector<Ball> contact_weights(const Weights& weights) const;
-  Ball right_side(const Weights& weights, const Ball& turned) const;
+  bool is_facing(std::size_t equation) const { return has_facing_ && equation + 1 == count(); }
   std::optional<std::pair<long, long>> whole_turns(const Stretch& a, const Stretch& b, double bound) const;
+  bool map_inside(const Linear& of_a, const Linear& of_b, const std::array<std::size_t, 2>& rows, double slack) const;
 
-  std::vector<Ball> turns_;
-  std::optional<Ball> facing_;
+  std::vector<Equation> equations_;  // of the readings in order, then of the facing
+  bool has_facing_;
 };
 
 }  // namespace rollfix_verify

@@ -42,16 +42,16 @@ std::string tolerance_for(double scatter) { return fmt::format("{:.2g}", kFarthe
 
 constexpr std::array<double, 5> kWeights = {1, -4, 6, -4, 1};
 
-std::vector<Vec2> fourth_differences(const std::vector<Vec2>& points, bool closed) {
-  const std::size_t count = points.size();
-  std::vector<Vec2> differences;
-  const std::size_t last = closed ? count : count - (kWeights.size() - 1);
-  for (std::size_t k = 0; k < last; ++k) {
-    Vec2 sum = Vec2::Zero();
-    for (std::size_t j = 0; j < kWeights.size(); ++j) sum += kWeights[j] * points[(k + j) % count];
-    differences.push_back(sum);
-  }
-  return differences;
+/// How many fourth differences there are.
+std::size_t differences_of(const std::vector<Vec2>& points, bool closed) {
+  return closed ? points.size() : points.size() - (kWeights.size() - 1);
+}
+
+/// The one of the points from k on.
+Vec2 fourth_difference(const std::vector<Vec2>& points, std::size_t k) {
+  Vec2 sum = Vec2::Zero();
+  for (std::size_t j = 0; j < kWeights.size(); ++j) sum += kWeights[j] * points[(k + j) % points.size()];
+  return sum;
 }
 
 /// Whether most of the curve's inflections are made by the digits of its points.
@@ -63,12 +63,15 @@ bool is_bent_by_rounding(const std::vector<Vec2>& points, const Part& part) {
     if (inflections[k] - inflections[k - 1] < limit) ++close;
   }
   if (close < kFewestClose || 2 * close < inflections.size()) return false;
-  const std::vector<Vec2> differences = fourth_differences(points, part.closed());
+  const std::size_t count = differences_of(points, part.closed());
   std::size_t opposite = 0;
-  for (std::size_t k = 1; k < differences.size(); ++k) {
-    if (differences[k].dot(differences[k - 1]) < 0) ++opposite;
+  Vec2 last = fourth_difference(points, 0);
+  for (std::size_t k = 1; k < count; ++k) {
+    const Vec2 next = fourth_difference(points, k);
+    if (next.dot(last) < 0) ++opposite;
+    last = next;
   }
-  return static_cast<double>(opposite) > kOppositeShare * static_cast<double>(differences.size());
+  return static_cast<double>(opposite) > kOppositeShare * static_cast<double>(count);
 }
 
 }  // namespace
@@ -76,8 +79,8 @@ bool is_bent_by_rounding(const std::vector<Vec2>& points, const Part& part) {
 double scatter_of(const std::vector<Vec2>& points, bool closed) {
   constexpr double kVariance = 70;  // the sum of the weights' squares
   if (points.size() < kLeastPoints) return 0;
-  std::vector<double> sizes;
-  for (const Vec2& difference : fourth_differences(points, closed)) sizes.push_back(difference.squaredNorm());
+  std::vector<double> sizes(differences_of(points, closed));
+  for (std::size_t k = 0; k < sizes.size(); ++k) sizes[k] = fourth_difference(points, k).squaredNorm();
   // The median, for corners do not scatter. Of two coordinates the square is exponential: its median is ln 2 of its
   // mean, which is that of both.
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);

@@ -41,32 +41,51 @@ struct Arc {
   }
 };
 
-/// A binary tree over consecutive arcs. A node knows its box, and how far the tangent turns in it; of one arc there is
-/// none, the arc knows that.
+/// A binary tree over consecutive arcs: node k has the halves 2k and 2k + 1. A node knows its box, and how far the
+/// tangent turns in it; those of a few arcs are not kept, but made of the arcs when they are asked for.
 class CrossingSearch {
  public:
   explicit CrossingSearch(const Part& part) : part_(part) {
     collect_arcs();
-    nodes_.reserve(arcs_.size());
-    build(0, arcs_.size());
+    std::size_t kept = 1;
+    while (kept * kFewArcs < arcs()) kept *= 2;
+    nodes_.resize(kept);
+    build(kRoot, 0, arcs());
   }
 
   std::optional<Crossing> run() {
-    within(0, 0, arcs_.size());
+    within(kRoot, 0, arcs());
     return found_;
   }
 
  private:
+  static constexpr std::size_t kRoot = 1;
+  static constexpr std::size_t kFewArcs = 4;
+
   struct Node {
     Box box;
     double turn = 0;  // corners between its arcs included
-    std::size_t right = 0;
   };
+
+  /// Where an arc starts and the one before it ends. That is all that is kept of arcs, of which there may be millions.
+  struct Joint {
+    Vec2 point;
+    double s;
+    double turn;  // of the arc that starts here
+  };
+
+  std::size_t arcs() const { return joints_.size() - 1; }
+  Arc arc(std::size_t k) const {
+    const Joint& from = joints_[k];
+    const Joint& to = joints_[k + 1];
+    return {from.s, to.s, from.point, to.point, from.turn};
+  }
 
   void collect_arcs() {
     const std::vector<Spiral>& spirals = part_.turning().spirals();
     const std::vector<Panel>& panels = part_.turning().panels();
-    arcs_.reserve(panels.size() + spirals.size());
+    joints_.reserve(panels.size() + spirals.size() + 1);
+    joints_.push_back({part_.point(0), 0, 0});
     corners_.reserve(panels.size() + spirals.size());
     auto corner = part_.corners().begin();
     for (const Spiral& spiral : spirals) {
@@ -84,71 +103,69 @@ class CrossingSearch {
   void add_arcs(const Spiral& spiral, double lo, double hi, double jump) {
     beat();
     const TurningFunction& turning = part_.turning();
-    const double turn = std::abs(turning.on_spiral(spiral, hi).angle - turning.on_spiral(spiral, lo).angle);
-    const int count = 1 + static_cast<int>(turn / kCrossingLeafTurn);
+    const double all = std::abs(turning.on_spiral(spiral, hi).angle - turning.on_spiral(spiral, lo).angle);
+    const int count = 1 + static_cast<int>(all / kCrossingLeafTurn);
     for (int k = 0; k < count; ++k) {
-      const double from = lo + (hi - lo) * k / count;
       const double to = k + 1 == count ? hi : lo + (hi - lo) * (k + 1) / count;
-      arcs_.push_back(arc(from, to));
+      joints_.back().turn = turn(joints_.back().s, to);
+      joints_.push_back({part_.point(to), to, 0});
       corners_.push_back(k == 0 ? jump : 0);
     }
   }
 
-  Arc arc(double lo, double hi) const {
-    const bool goes_on = !arcs_.empty() && arcs_.back().hi == lo;
-    return {lo, hi, goes_on ? arcs_.back().end : part_.point(lo), part_.point(hi), turn(lo, hi)};
-  }
-
-  std::size_t build(std::size_t first, std::size_t last) {
-    const std::size_t index = nodes_.size();
-    if (last - first == 1) return index;
-    nodes_.emplace_back();
+  void build(std::size_t node, std::size_t first, std::size_t last) {
+    if (!is_kept(node)) return;
     const std::size_t middle = first + (last - first) / 2;
-    const std::size_t left = build(first, middle);
-    const std::size_t right = build(middle, last);
-    nodes_[index] = {box(left, first, middle).merged(box(right, middle, last)),
-                     turn(left, first, middle) + corners_[middle] + turn(right, middle, last), right};
-    return index;
+    build(2 * node, first, middle);
+    build(2 * node + 1, middle, last);
+    nodes_[node] = joined(node, first, last);
   }
 
-  Box box(std::size_t node, std::size_t first, std::size_t last) const {
-    return last - first == 1 ? arcs_[first].box() : nodes_[node].box;
+  bool is_kept(std::size_t node) const { return node < nodes_.size(); }
+
+  Node joined(std::size_t node, std::size_t first, std::size_t last) const {
+    const std::size_t middle = first + (last - first) / 2;
+    const Node left = node_at(2 * node, first, middle);
+    const Node right = node_at(2 * node + 1, middle, last);
+    return {left.box.merged(right.box), left.turn + corners_[middle] + right.turn};
   }
-  double turn(std::size_t node, std::size_t first, std::size_t last) const {
-    return last - first == 1 ? arcs_[first].turn : nodes_[node].turn;
+
+  Node node_at(std::size_t node, std::size_t first, std::size_t last) const {
+    if (is_kept(node)) return nodes_[node];
+    return last - first == 1 ? Node{arc(first).box(), joints_[first].turn} : joined(node, first, last);
   }
 
   /// Does the stretch of arcs [first, last) meet itself?
   void within(std::size_t node, std::size_t first, std::size_t last) {
-    if (found_ || last - first == 1 || nodes_[node].turn < kSimpleTurn) return;
+    if (found_ || last - first == 1 || node_at(node, first, last).turn < kSimpleTurn) return;
     const std::size_t middle = first + (last - first) / 2;
-    within(node + 1, first, middle);
-    within(nodes_[node].right, middle, last);
-    between(node + 1, first, middle, nodes_[node].right, middle, last);
+    within(2 * node, first, middle);
+    within(2 * node + 1, middle, last);
+    between(2 * node, first, middle, 2 * node + 1, middle, last);
   }
 
   /// Do two stretches, the first before the second, meet elsewhere than where they join?
   void between(std::size_t node1, std::size_t first1, std::size_t last1, std::size_t node2, std::size_t first2,
                std::size_t last2) {
     if (found_) return;
-    const Box box1 = box(node1, first1, last1);
-    const Box box2 = box(node2, first2, last2);
-    if (!box1.intersects(box2)) return;
-    const double turns = turn(node1, first1, last1) + turn(node2, first2, last2);
+    const Node one = node_at(node1, first1, last1);
+    const Node two = node_at(node2, first2, last2);
+    if (!one.box.intersects(two.box)) return;
+    const double turns = one.turn + two.turn;
     if (last1 == first2 && turns + corners_[first2] < kSimpleTurn) return;
-    if (last2 == arcs_.size() && first1 == 0 && part_.closed() && turns + corners_[0] < kSimpleTurn) return;
+    if (last2 == arcs() && first1 == 0 && part_.closed() && turns + corners_[0] < kSimpleTurn) return;
     const bool leaf1 = last1 - first1 == 1;
     const bool leaf2 = last2 - first2 == 1;
     if (leaf1 && leaf2) {
-      meet(arcs_[first1], arcs_[first2], joint_turn(last1, first2, last2, first1));
-    } else if (leaf2 || (!leaf1 && box1.sizes().maxCoeff() >= box2.sizes().maxCoeff())) {
+      meet(arc(first1), arc(first2), joint_turn(last1, first2, last2, first1));
+    } else if (leaf2 || (!leaf1 && one.box.sizes().maxCoeff() >= two.box.sizes().maxCoeff())) {
       const std::size_t middle = first1 + (last1 - first1) / 2;
-      between(node1 + 1, first1, middle, node2, first2, last2);
-      between(nodes_[node1].right, middle, last1, node2, first2, last2);
+      between(2 * node1, first1, middle, node2, first2, last2);
+      between(2 * node1 + 1, middle, last1, node2, first2, last2);
     } else {
       const std::size_t middle = first2 + (last2 - first2) / 2;
-      between(node1, first1, last1, node2 + 1, first2, middle);
-      between(node1, first1, last1, nodes_[node2].right, middle, last2);
+      between(node1, first1, last1, 2 * node2, first2, middle);
+      between(node1, first1, last1, 2 * node2 + 1, middle, last2);
     }
   }
 
@@ -160,7 +177,7 @@ class CrossingSearch {
   JointTurn joint_turn(std::size_t last1, std::size_t first2, std::size_t last2, std::size_t first1) const {
     JointTurn turn;
     if (last1 == first2) turn.after_first = corners_[first2];
-    if (part_.closed() && last2 == arcs_.size() && first1 == 0) turn.after_second = corners_[0];
+    if (part_.closed() && last2 == arcs() && first1 == 0) turn.after_second = corners_[0];
     return turn;
   }
 
@@ -200,9 +217,9 @@ class CrossingSearch {
   }
 
   const Part& part_;
-  std::vector<Arc> arcs_;
+  std::vector<Joint> joints_;    // the last one ends the last arc
   std::vector<double> corners_;  // |turn| of the corner where each arc starts
-  std::vector<Node> nodes_;      // a node's left child is the next one, unless that is an arc
+  std::vector<Node> nodes_;      // of many arcs; the root is the second one
   std::size_t comparisons_ = 0;
   std::optional<Crossing> found_;
 };

@@ -109,11 +109,8 @@ Part::Part(Outline outline, const PartOptions& options) {
     break;
   }
   data->outline = std::move(outline);
-  data->inflections = find_inflections(data->turning);
-  data->vertices = find_vertices(data->turning, data->corners);
   data_ = data;
   const auto crossing = options.allow_crossing ? std::nullopt : find_crossing(*this);
-  data->tree = TurningTree(data->turning);  // now: finding a crossing takes as much memory, and gives it back
   if (crossing) {
     throw InputError(fmt::format(
         "{}: expected an outline that does not cross itself, found that it {} near {}, at arc lengths "
@@ -121,6 +118,10 @@ Part::Part(Outline outline, const PartOptions& options) {
         name(), crossing->is_certain ? "does" : "runs along itself too closely to tell",
         shown_point(crossing->point.x(), crossing->point.y()), crossing->first, crossing->second, perimeter()));
   }
+  // Now: finding a crossing takes as much memory as all this, and gives it back.
+  data->inflections = find_inflections(data->turning);
+  data->vertices = find_vertices(data->turning, data->corners);
+  data->tree = TurningTree(data->turning);
 }
 
 const std::string& Part::name() const { return data_->outline.name; }

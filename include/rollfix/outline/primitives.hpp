@@ -76,7 +76,7 @@ class EllipticArc {
 class CubicSpan {
  public:
   CubicSpan(const Vec2& from, const Vec2& to, const Vec2& square, const Vec2& cube)
-      : from_(from), to_(to), slope_(to - from - square - cube), square_(square), cube_(cube) {}
+      : from_(from), to_(to), square_(square), cube_(cube) {}
 
   /// The cubic with these second derivatives (by u) at its ends.
   static CubicSpan with_second_derivatives(const Vec2& from, const Vec2& to, const Vec2& second_from,
@@ -85,7 +85,10 @@ class CubicSpan {
   }
 
   Interval domain() const { return {0, 1}; }
-  Vec2 velocity(double u) const { return slope_ + u * (2 * square_ + (3 * u) * cube_); }
+  Vec2 velocity(double u) const {
+    const Vec2 slope = to_ - from_ - square_ - cube_;
+    return slope + u * (2 * square_ + (3 * u) * cube_);
+  }
   Jet jet(double u) const {
     const double rest = 1 - u;
     const Vec2 chord_point = rest * from_ + u * to_;
@@ -97,11 +100,11 @@ class CubicSpan {
   }
 
  private:
-  Vec2 from_;
-  Vec2 to_;
-  Vec2 slope_;
-  Vec2 square_;
-  Vec2 cube_;
+  using Stored = Eigen::Matrix<double, 2, 1, Eigen::DontAlign>;  // with no room between: a scan has millions
+  Stored from_;
+  Stored to_;
+  Stored square_;
+  Stored cube_;
 };
 
 /// The highest degree of a Bezier curve or a spline that is taken: far above what drawing programs write.

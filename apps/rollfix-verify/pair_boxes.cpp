@@ -1,0 +1,124 @@
+#include "pair_boxes.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "document.hpp"
+
+// Notation: (s, t) are the first contacts of finger a and of finger b, F(s, t) = A(s) - B(t) the equations. A box is
+// cut where a contact of either finger comes to a corner; each pair of two stretches between cuts is proved by itself,
+// by bounds on F there or on both halves of the one that changes more.
+namespace rollfix_verify {
+namespace {
+
+constexpr int kDeepest = 120;
+constexpr std::size_t kMostPairs = 400000;  // of a box, before it is given up
+constexpr std::size_t kMostParts = 24;      // of a box in which what may fit is looked for
+
+}  // namespace
+
+/// Whether that is so of each pair of two stretches in a box.
+template <class Is>
+bool PairBoxes::all_of(const Box& box, Cuts cuts, const Is& is) {
+  const std::vector<Stretch>& all_b = curves_[1].over(box[1].lo, box[1].hi, cuts);
+  for (const Stretch& a : curves_[0].over(box[0].lo, box[0].hi, cuts)) {
+    for (const Stretch& b : all_b) {
+      if (!is(a, b)) return false;
+    }
+  }
+  return true;
+}
+
+/// Of the one on which the angles change more; nothing: on neither they do.
+std::optional<PairBoxes::Halves> PairBoxes::halves(const Stretch& a, const Stretch& b) {
+  const double by_a = a.change();
+  const double by_b = b.change();
+  if (!(std::max(by_a, by_b) > 0)) return std::nullopt;
+  if (by_a > by_b || (by_a == by_b && a.width() > b.width())) {
+    const auto& [first, second] = curves_[0].halved(a);
+    return Halves{{{&first, &b}, {&second, &b}}};
+  }
+  const auto& [first, second] = curves_[1].halved(b);
+  return Halves{{{&a, &first}, {&a, &second}}};
+}
+
+void PairBoxes::prove_apart(const Box& box, double bound) {
+  std::size_t parts = 0;
+  all_of(box, Cuts::corners, [&](const Stretch& a, const Stretch& b) {
+    prove_apart(a, b, bound, 0, parts);
+    return true;
+  });
+}
+
+void PairBoxes::prove_apart(const Stretch& a, const Stretch& b, double bound, int depth, std::size_t& parts) {
+  if (equations_.are_apart(a, b, bound)) return;
+  const std::optional<Halves> both = depth == kDeepest || ++parts > kMostPairs ? std::nullopt : halves(a, b);
+  if (!both) refuse("it could not be proved near s = " + std::to_string(a.lo) + ", t = " + std::to_string(b.lo));
+  for (const auto& [half_a, half_b] : *both) prove_apart(*half_a, *half_b, bound, depth + 1, parts);
+}
+
+PairBoxes::Roots PairBoxes::roots_in(const Box& box, double tolerance) {
+  Roots result = Roots::unknown;
+  std::size_t parts = 0;
+  const auto is_the_only_one = [&](const Stretch& a, const Stretch& b) {
+    if (!equations_.have_one_root(curves_[0], a, curves_[1], b, tolerance)) {
+      prove_apart(a, b, tolerance, 0, parts);
+      return true;
+    }
+    if (result != Roots::unknown) return false;
+    result = a.pivot || b.pivot ? Roots::one_pivot : Roots::one;
+    return true;
+  };
+  try {
+    return all_of(box, Cuts::corners, is_the_only_one) ? result : Roots::unknown;
+  } catch (const std::domain_error&) {
+    return Roots::unknown;
+  }
+}
+
+bool PairBoxes::may_fit(const Box& box, double most) {
+  return !all_of(box, Cuts::corners,
+                 [&](const Stretch& a, const Stretch& b) { return !equations_.fit_together(a, b, most); });
+}
+
+std::optional<std::vector<Polygon>> PairBoxes::remains(const Box& box, double tolerance) {
+  std::vector<Polygon> result;
+  std::size_t parts = 0;
+  try {
+    const bool is_told = all_of(box, Cuts::bends, [&](const Stretch& a, const Stretch& b) {
+      return add_remains(a, b, tolerance, parts, result);
+    });
+    return is_told ? std::optional(result) : std::nullopt;
+  } catch (const std::domain_error&) {
+    return std::nullopt;
+  }
+}
+
+/// Where equations are planes to some tolerances, a convex set holds all that fits, and what it holds is off by
+/// kNear tolerances at the most.
+bool PairBoxes::add_remains(const Stretch& a, const Stretch& b, double tolerance, std::size_t& parts,
+                            std::vector<Polygon>& remains) {
+  if (equations_.are_apart(a, b, tolerance)) return true;
+  const std::vector<PairEquations::Plane> planes = equations_.planes(a, b);
+  const auto is_flat = [&](const PairEquations::Plane& plane) { return plane.off <= 0.5 * (kNear - 1) * tolerance; };
+  if (!planes.empty() && std::all_of(planes.begin(), planes.end(), is_flat)) {
+    Polygon set{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    for (const PairEquations::Plane& plane : planes) {
+      set = clipped(set, plane.at, {plane.by_a, plane.by_b}, tolerance + plane.off);
+      set = clipped(set, -plane.at, {-plane.by_a, -plane.by_b}, tolerance + plane.off);
+    }
+    for (auto& [s, t] : set) {
+      s = a.lo + s * a.width();
+      t = b.lo + t * b.width();
+    }
+    if (!set.empty()) remains.push_back(set);
+    return true;
+  }
+  const std::optional<Halves> both = ++parts > kMostParts ? std::nullopt : halves(a, b);
+  return both && std::all_of(both->begin(), both->end(), [&](const auto& half) {
+           return add_remains(*half[0], *half[1], tolerance, parts, remains);
+         });
+}
+
+}  // namespace rollfix_verify
