@@ -83,8 +83,8 @@ struct Gathered {
   double turn = 0;
 };
 
-// Of an angle, radians: from about here on what rows share is seen to be out of line.
-inline constexpr double kWideAngle = 0.02;
+// Of an angle, radians: from about here on what rows share is seen to be out of line where the boundary bends.
+inline constexpr double kWideAngle = 0.004;
 
 /// How the noise enters the measured length and turn of one finger's roll. Measured are
 ///   L (1 + scale) + offset of length + the row's own,   theta + gyroscope's scale * what it turned + offset of turn +

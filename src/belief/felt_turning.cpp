@@ -15,6 +15,10 @@ namespace {
 
 // A normal distribution further out than this many standard deviations holds 6e-7 of its mass.
 constexpr double kTail = 5;
+// A corner that a contact is seldomer at is not felt.
+constexpr double kSeldom = 0.01;
+// Within so many standard deviations of a corner a contact that is felt may be at it.
+constexpr double kAtCorner = 4;
 // First knots per perimeter; between them the table is refined.
 constexpr std::size_t kFirstKnots = 64;
 constexpr int kMostKnotHalvings = 14;
@@ -34,6 +38,7 @@ struct Moments {
   double y = 0;
   double yn = 0;
   double yy = 0;
+  double at_corners = 0;  // of the mass
 
   void add(double weight, double place, double angle) {
     mass += weight;
@@ -79,6 +84,9 @@ Felt felt_by(const Moments& moments, double normal_turn) {
   // The mean's derivative: moving s tilts the density by n / sd^2, and n is counted from there.
   felt.slope = both / square(moments.sd) - normal_turn;
   felt.variance = std::max(0.0, spread);
+  // A side and a pivot differ as much as two pivots do.
+  const double share = moments.at_corners / moments.mass;
+  felt.pivot = share > kSeldom ? felt.variance : felt.variance * share / kSeldom;
   return felt;
 }
 
@@ -90,6 +98,12 @@ FeltTurning::FeltTurning(const TurningFunction& turning, double sd, double corne
   const double P = turning.perimeter();
   lo_ = turning.closed() ? 0 : -2 * kTail * sd;
   hi_ = turning.closed() ? P : P + 2 * kTail * sd;
+  const std::vector<Spiral>& spirals = turning.spirals();
+  for (std::size_t k = 0; k < spirals.size(); ++k) {
+    if (k == 0 && !turning.closed()) continue;
+    const double before = k > 0 ? spirals[k - 1].end.angle : spirals.back().end.angle - turning.period_turn();
+    if (spirals[k].start.angle - before > kTurnAccuracy) corners_.push_back(spirals[k].lo);
+  }
   add_knots((hi_ - lo_) / static_cast<double>(kFirstKnots), accuracy);
   std::vector<double> starts;
   for (const Knot& knot : knots_) starts.push_back(knot.s);
@@ -130,6 +144,7 @@ Felt FeltTurning::integrated(double s) const {
         const double weight = corner_length_ * jump * moments.density(at - s);
         const double middle = before + 0.5 * jump - reference;
         moments.add(weight, at - s, middle);
+        moments.at_corners += weight;
         moments.yy += weight * square(jump) / 12;
       }
       // Halves: over all of the tails one rule is not enough.
@@ -215,7 +230,21 @@ Felt FeltTurning::at(double s) const {
   const double x = base - lo.s;
   const Cubic cubic = Cubic::through(h, hi.felt.angle - lo.felt.angle, lo.felt.slope, hi.felt.slope);
   return {lo.felt.angle + cubic.at(x) + lift, cubic.slope(x),
-          lo.felt.variance + (hi.felt.variance - lo.felt.variance) * x / h};
+          lo.felt.variance + (hi.felt.variance - lo.felt.variance) * x / h,
+          lo.felt.pivot + (hi.felt.pivot - lo.felt.pivot) * x / h};
+}
+
+std::optional<double> FeltTurning::corner_at(double s) const {
+  const double P = turning_->perimeter();
+  const Wrapped wrapped = turning_->closed() ? wrap(s, P) : Wrapped{s, 0};
+  const auto above = std::lower_bound(corners_.begin(), corners_.end(), wrapped.base);
+  const double first = corners_.front() + P;
+  const double last = corners_.back() - P;
+  const double next = above != corners_.end() ? *above : first;
+  const double before = above != corners_.begin() ? *(above - 1) : last;
+  const double nearest = next - wrapped.base < wrapped.base - before ? next : before;
+  if (std::abs(nearest - wrapped.base) > kAtCorner * sd_) return std::nullopt;
+  return nearest + wrapped.winding * P;
 }
 
 }  // namespace rollfix::belief

@@ -133,6 +133,11 @@ def cells():
     add("pair, slip .003", "smooth", slip=0.003, here_and_there=True, **pair)
     add("pair, slip .02", "smooth", slip=0.02, here_and_there=True, quick=20, **pair)
     add("pair, drawing", "drawing", slip=0.003, **pair)
+    add("pair, sharp", "sharp", **{**pair, "rows": 200})
+    add("pair, sharp, slip .003", "sharp", slip=0.003, here_and_there=True, **{**pair, "rows": 200})
+    add("pair, sharp, rows 2000", "sharp", **{**pair, "rows": 2000, "logs": 100})
+    add("pair, sharp, rows 20000", "sharp", **{**pair, "rows": 20000, "logs": 40})
+    add("pair, corners", "corners", quick=20, **pair)
     add("pair, rows 20000", "smooth", slip=0.003, **{**pair, "rows": 20000, "logs": 40})
     add("pair, rows 20000, slip .02", "smooth", slip=0.02, here_and_there=True, **{**pair, "rows": 20000, "logs": 40})
     seen = {**pair, "kind": "pair centres", "position": 1e-3}

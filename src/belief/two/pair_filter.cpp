@@ -25,6 +25,9 @@ constexpr double kLeastDistance = 1e-6;
 /// The angle nearest to 0 that is the same: std::remainder, but for rounding, and faster.
 double nearest_to_zero(double angle) { return angle - kTwoPi * std::floor(angle / kTwoPi + 0.5); }
 
+/// By how many nodes each finger's pivot is shared.
+using Alike = std::array<double, 2>;
+
 /// A row as N equations f = 0, linear in the shared errors x and the start w about the point of linearisation: of the
 /// turn, and with the centres of their distance and direction as well.
 template <int N>
@@ -33,7 +36,8 @@ struct PairEquations {
   Eigen::Matrix<double, N, 5> by_errors = Eigen::Matrix<double, N, 5>::Zero();
   Eigen::Matrix<double, N, 2> by_start = Eigen::Matrix<double, N, 2>::Zero();
   Eigen::Matrix<double, N, N> variance = Eigen::Matrix<double, N, N>::Zero();  // of the row on its own
-  double beyond = 0;  // squared distance beyond an open outline's ends, in standard deviations
+  double turn_share = 1;  // of the turn's variance, what it would be were each row of a pivot off on its own
+  double beyond = 0;      // squared distance beyond an open outline's ends, in standard deviations
 };
 
 /// Where the first contacts are.
@@ -151,13 +155,15 @@ PairEquations<N> facing_equations(const PairModel& model, const StartPlaces& at,
 }
 
 template <int N>
-PairEquations<N> row_equations(const PairModel& model, const StartPlaces& at, const PairNode& node,
-                               const PairShared& x) {
+PairEquations<N> row_equations(const PairModel& model, const StartPlaces& at, const PairNode& node, const PairShared& x,
+                               const Alike& alike) {
   const PairErrors& errors = *model.errors;
   PairEquations<N> rows;
   std::array<ContactThen, 2> contacts;
   double& f = rows.f[0];
   double variance = errors.turn_variance() + node.alike * errors.part_variance();
+  double pivots = 0;
+  double pivots_alike = 0;
   f = -node.turn;
   for (const std::size_t finger : {0U, 1U}) {
     const auto i = static_cast<Eigen::Index>(finger);
@@ -173,7 +179,12 @@ PairEquations<N> row_equations(const PairModel& model, const StartPlaces& at, co
     rows.by_errors(0, i) = sign * felt.slope * per_scale;
     rows.by_errors(0, 2 + i) = -rows.by_errors(0, i) * length;
     rows.by_start(0, i) = sign * felt.slope * at.place[finger].slope;
-    variance += felt.variance;
+    // Where a corner is as near as the finger may have slipped, it may have pivoted already, or not yet.
+    const bool may_slip = model.slipping[finger] != nullptr && alike[finger] > 1;
+    const double pivot = may_slip ? std::max(felt.pivot, model.slipping[finger]->at(s).pivot) : felt.pivot;
+    variance += felt.variance - felt.pivot;
+    pivots += pivot;
+    pivots_alike += alike[finger] * pivot;
     if (!model.places.closed) {
       const double off = std::max({0.0, -s, s - errors.perimeter()});
       rows.beyond += off * off / errors.contact_variance();
@@ -190,9 +201,37 @@ PairEquations<N> row_equations(const PairModel& model, const StartPlaces& at, co
     rows.by_start(0, 0) -= at.by_start[0];
     rows.by_start(0, 1) += at.by_start[1];
   }
-  rows.variance(0, 0) = variance / node.rows;
+  rows.variance(0, 0) = variance / node.rows + pivots_alike;
+  rows.turn_share = (variance / node.rows + pivots) / rows.variance(0, 0);
   if constexpr (N == 3) add_centres(model, contacts, node, rows);
   return rows;
+}
+
+/// In how many nodes in a row a finger may pivot at one and the same corner: the pivot's angle is unknown, and they are
+/// off alike. Together they are worth one.
+std::vector<Alike> pivots_of(const PairModel& model, const StartPlaces& at, const std::vector<PairNode>& nodes,
+                             const PairShared& x) {
+  std::vector<Alike> alike(nodes.size(), Alike{1, 1});
+  for (const std::size_t finger : {0U, 1U}) {
+    const FeltTurning& felt = model.slipping[finger] != nullptr ? *model.slipping[finger] : *model.felt[finger];
+    if (!felt.has_corners()) continue;
+    const auto i = static_cast<Eigen::Index>(finger);
+    std::size_t begin = 0;
+    std::optional<double> corner;
+    const auto end_run = [&](std::size_t end) {
+      for (std::size_t k = begin; corner && k < end; ++k) alike[k][finger] = static_cast<double>(end - begin);
+      begin = end;
+    };
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      const double length = (nodes[k].length[finger] + x[i]) / (1 + x[2 + i]);
+      const std::optional<double> here = felt.corner_at(at.place[finger].s + length);
+      const bool goes_on = here && corner && std::abs(*here - *corner) < 0.5 * model.errors->contact_sd();
+      if (!goes_on) end_run(k);
+      corner = here;
+    }
+    end_run(nodes.size());
+  }
+  return alike;
 }
 
 /// Sums logarithms as one of a product, taken now and then.
@@ -224,16 +263,16 @@ class PairPass {
     }
   }
 
-  void take(const PairNode& node) {
+  void take(const PairNode& node, const Alike& alike) {
     if (model_.errors->drifts()) {
       const PairShared gathered = model_.errors->gathered(node.gathered, node.travelled);
       score_.covariance.diagonal() += gathered;
       walk_.diagonal() += gathered;
     }
     if (node.centres && model_.path != nullptr) {
-      absorb<3>(node);
+      absorb<3>(node, alike);
     } else {
-      absorb<1>(node);
+      absorb<1>(node, alike);
     }
   }
 
@@ -249,10 +288,10 @@ class PairPass {
 
  private:
   template <int N>
-  void absorb(const PairNode& node) {
+  void absorb(const PairNode& node, const Alike& alike) {
     const PairShared about = linearised_about();
-    const PairEquations<N> rows =
-        node.is_facing ? facing_equations<N>(model_, at_, node, about) : row_equations<N>(model_, at_, node, about);
+    const PairEquations<N> rows = node.is_facing ? facing_equations<N>(model_, at_, node, about)
+                                                 : row_equations<N>(model_, at_, node, about, alike);
     const Eigen::Matrix<double, 5, N> of_errors = score_.covariance * rows.by_errors.transpose();
     const Eigen::Matrix<double, N, N> own = rows.variance;
     const Eigen::Matrix<double, N, N> inverse = (own + rows.by_errors * of_errors).inverse();
@@ -277,6 +316,7 @@ class PairPass {
       score_.right_cost += weight * squared;
     } else {
       score_.cost += squared;
+      score_.expected += std::min(1.0, node.rows) * (N - 1 + rows.turn_share);
       volume_.add(1 / (density * noise.determinant()));
     }
     add_innovation<N>(inverse, std::sqrt(weight) * innovation, score_.whiteness);
@@ -322,7 +362,8 @@ PairScore pass(const PairModel& model, const StartPlaces& at, const std::vector<
                const PairShared& guess) {
   beat();
   PairPass through(model, at, guess);
-  for (const PairNode& node : nodes) through.take(node);
+  const std::vector<Alike> alike = pivots_of(model, at, nodes, guess);
+  for (std::size_t k = 0; k < nodes.size(); ++k) through.take(nodes[k], alike[k]);
   return through.score();
 }
 

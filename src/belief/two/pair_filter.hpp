@@ -20,6 +20,7 @@ struct Felt {
   double angle = 0;     // its mean, radians, unwrapped
   double slope = 0;     // of that by the place, radians per length
   double variance = 0;  // radians^2
+  double pivot = 0;     // of that, what neighbouring rows are off alike: how far the finger has pivoted at a corner
 };
 
 /// Theta(s + n) + n / r with n ~ N(0, sd): mean and variance, as a table. Where Theta is smooth they are Theta and
@@ -34,6 +35,10 @@ class FeltTurning {
 
   /// Any s on a closed outline; beyond an open one's ends the tangent goes on as it is there.
   Felt at(double s) const;
+
+  bool has_corners() const { return !corners_.empty(); }
+  /// The corner whose pivots are felt at s, by its unwrapped s; nothing where none is.
+  std::optional<double> corner_at(double s) const;
 
  private:
   struct Knot {
@@ -51,6 +56,7 @@ class FeltTurning {
   double normal_turn_;
   double lo_ = 0;
   double hi_ = 0;
+  std::vector<double> corners_;  // s of the convex ones, in order
   std::vector<Knot> knots_;
   Buckets buckets_;
 };
@@ -70,6 +76,7 @@ struct PairScore {
   double log_volume = 0;
   double log_gathered = 0;  // see RollFilter
   std::array<Whiteness, 3> whiteness;
+  double expected = 0;                                    // of the cost, but for the errors that the roll shares
   double right_rows = 0;                                  // robust: that are not stray, ...
   double right_cost = 0;                                  // ... and their part of the cost
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();        // of the log-likelihood by (w_a, w_b), the volume's left out
@@ -86,6 +93,8 @@ struct PairModel {
   const PairErrors* errors = nullptr;
   std::array<const TiltedBoundary*, 2> boundary{};
   std::array<const FeltTurning*, 2> felt{};
+  std::array<const FeltTurning*, 2>
+      slipping{};                      // the same where a place is off by what has slipped as well, or nullptr
   const BoundaryPath* path = nullptr;  // where centres are looked at
   double outlier_share = 0;            // of rows whose turn is anything
   std::optional<Prior> prior;          // of finger a's first contact

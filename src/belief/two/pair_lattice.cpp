@@ -25,10 +25,10 @@ constexpr double kLongestSquare = 1.0 / 96;
 constexpr int kMostPairHalvings = 8;
 // Hypotheses looked at; what is not resolved by then counts as rest.
 constexpr std::size_t kMostHypotheses = 60000;
-constexpr std::size_t kMostOnTrial = 1500;
+constexpr std::size_t kMostOnTrial = 6000;
 // A region of more whole squares than this has them too small, and is begun again with larger ones, ...
 constexpr std::size_t kManySquares = 2500;
-constexpr std::size_t kManyOnTrial = 400;
+constexpr std::size_t kManyOnTrial = 1500;
 // ... by this factor, so often at most.
 constexpr double kLargerSquares = 3;
 constexpr int kMostBeginnings = 4;

@@ -161,10 +161,16 @@ class TwoFingersPosterior : public Posterior {
         if (finger == 1 && alike) break;
         felt[finger].emplace(of.part_.turning(), errors.contact_sd(), of.corner(finger), errors.normal_turn(finger),
                              accuracy);
+        if (errors.drifts() && felt[finger]->has_corners()) {
+          slipping[finger].emplace(of.part_.turning(), std::hypot(errors.contact_sd(), of.most_slipped()),
+                                   of.corner(finger), errors.normal_turn(finger), accuracy);
+        }
       }
       model.errors = &errors;
       model.boundary = {&of.boundary_[0], &of.boundary_[1]};
       model.felt = {&*felt[0], alike ? &*felt[0] : &*felt[1]};
+      const auto at_or_none = [](const std::optional<FeltTurning>& one) { return one ? &*one : nullptr; };
+      model.slipping = {at_or_none(slipping[0]), at_or_none(alike ? slipping[0] : slipping[1])};
       model.outlier_share = of.options_.robust ? kOutlierShare : 0;
       model.prior = of.options_.prior;
       model.part = &of.part_;
@@ -179,8 +185,16 @@ class TwoFingersPosterior : public Posterior {
 
     std::vector<PairNode> nodes;
     std::array<std::optional<FeltTurning>, 2> felt;
+    std::array<std::optional<FeltTurning>, 2> slipping;
     PairModel model;
   };
+
+  /// By the end of the roll, length.
+  double most_slipped() const {
+    if (rows_.empty()) return 0;
+    const double rolled = std::max(std::abs(rows_.back().length[0]), std::abs(rows_.back().length[1]));
+    return std::sqrt(errors_.gathered(0, {rolled, rolled})[0]);
+  }
 
   Peaks peaks_of(const Question& question) const;
   /// How far the fingers roll from one node to the next; 0 where neighbours can't be said to be alike.
@@ -265,7 +279,7 @@ Peaks TwoFingersPosterior::peaks_of(const Question& question) const {
   const auto fit = [&](const PairPeak& peak, const Trend& trend = {}) {
     const PairScore& best = peak.score;
     Fit of_best = options_.robust ? fit_of(best.right_cost, best.right_rows, best.whiteness)
-                                  : fit_of(best.cost, freedom, best.whiteness);
+                                  : fit_of(best.cost, best.expected, best.whiteness);
     add_trend(trend, step_between(question.nodes), of_best);
     of_best.widened *= errors.for_large_slip();
     of_best.stray = options_.robust ? freedom - best.right_rows : 0;
@@ -288,8 +302,9 @@ Peaks TwoFingersPosterior::peaks_of(const Question& question) const {
     }
     return of_best;
   };
-  const double resolution =
-      std::clamp(kSquareSigmas * errors.contact_sd(), 0.0, kLargestSquareShare * part_.perimeter());
+  const double resolution = question.model.on_trial ? kLargestSquareShare * part_.perimeter()
+                                                    : std::clamp(kSquareSigmas * errors.contact_sd(), 0.0,
+                                                                 kLargestSquareShare * part_.perimeter());
   Peaks found;
   std::vector<PairPeak>& peaks = found.peaks;
   double sigmas = kFarthest;
