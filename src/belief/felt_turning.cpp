@@ -39,6 +39,7 @@ struct Moments {
   double yn = 0;
   double yy = 0;
   double at_corners = 0;  // of the mass
+  double jumps = 0;       // of all corners in reach
 
   void add(double weight, double place, double angle) {
     mass += weight;
@@ -84,9 +85,9 @@ Felt felt_by(const Moments& moments, double normal_turn) {
   // The mean's derivative: moving s tilts the density by n / sd^2, and n is counted from there.
   felt.slope = both / square(moments.sd) - normal_turn;
   felt.variance = std::max(0.0, spread);
-  // A side and a pivot differ as much as two pivots do.
-  const double share = moments.at_corners / moments.mass;
-  felt.pivot = share > kSeldom ? felt.variance : felt.variance * share / kSeldom;
+  // A side and a pivot differ as much as two pivots do: an angle that is anywhere in a range varies by a half of it.
+  const double most = std::min(felt.variance, 0.25 * square(moments.jumps));
+  felt.pivot = most * std::min(1.0, moments.at_corners / moments.mass / kSeldom);
   return felt;
 }
 
@@ -145,6 +146,7 @@ Felt FeltTurning::integrated(double s) const {
         const double middle = before + 0.5 * jump - reference;
         moments.add(weight, at - s, middle);
         moments.at_corners += weight;
+        moments.jumps += jump;
         moments.yy += weight * square(jump) / 12;
       }
       // Halves: over all of the tails one rule is not enough.
