@@ -316,7 +316,11 @@ class PairPass {
       score_.right_cost += weight * squared;
     } else {
       score_.cost += squared;
-      score_.expected += std::min(1.0, node.rows) * (N - 1 + rows.turn_share);
+      // Rows of a pivot tell next to nothing. They cost what others do in the mean: else starts would be likelier the
+      // more rows they leave to pivots.
+      const double untold = std::min(1.0, node.rows) * (1 - rows.turn_share);
+      score_.cost += untold;
+      score_.direct_cost += untold;
       volume_.add(1 / (density * noise.determinant()));
     }
     add_innovation<N>(inverse, std::sqrt(weight) * innovation, score_.whiteness);

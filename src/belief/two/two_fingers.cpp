@@ -279,7 +279,7 @@ Peaks TwoFingersPosterior::peaks_of(const Question& question) const {
   const auto fit = [&](const PairPeak& peak, const Trend& trend = {}) {
     const PairScore& best = peak.score;
     Fit of_best = options_.robust ? fit_of(best.right_cost, best.right_rows, best.whiteness)
-                                  : fit_of(best.cost, best.expected, best.whiteness);
+                                  : fit_of(best.cost, freedom, best.whiteness);
     add_trend(trend, step_between(question.nodes), of_best);
     of_best.widened *= errors.for_large_slip();
     of_best.stray = options_.robust ? freedom - best.right_rows : 0;
