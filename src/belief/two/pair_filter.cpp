@@ -302,6 +302,9 @@ class PairPass {
     // As of one finger only what the rows share has a volume, see RollFilter::absorb.
     const Eigen::Matrix<double, 5, N> of_walk = walk_ * rows.by_errors.transpose();
     const Eigen::Matrix<double, N, N> noise = own + rows.by_errors * of_walk;
+    // Rows of a pivot tell next to nothing. They cost what others do in the mean: else starts would be likelier the
+    // more rows they leave to pivots.
+    const double untold = std::min(1.0, node.rows) * (1 - rows.turn_share);
     double weight = 1;
     if (model_.outlier_share > 0) {
       const double range = N == 1 ? kTwoPi : kTwoPi * kTwoPi * model_.perimeter();
@@ -313,16 +316,13 @@ class PairPass {
       const double usual = peak_of(1 / noise.determinant()) / flat;
       score_.log_volume -= 2 * std::log(mixture.density / usual);
       score_.right_rows += N * weight;
-      score_.right_cost += weight * squared;
+      score_.right_cost += weight * (squared + untold);
     } else {
       score_.cost += squared;
-      // Rows of a pivot tell next to nothing. They cost what others do in the mean: else starts would be likelier the
-      // more rows they leave to pivots.
-      const double untold = std::min(1.0, node.rows) * (1 - rows.turn_share);
-      score_.cost += untold;
-      score_.direct_cost += untold;
       volume_.add(1 / (density * noise.determinant()));
     }
+    score_.cost += weight * untold;
+    score_.direct_cost += weight * untold;
     add_innovation<N>(inverse, std::sqrt(weight) * innovation, score_.whiteness);
     score_.cost += rows.beyond;
     score_.direct_cost += rows.f.dot(own.inverse() * rows.f) + rows.beyond;
