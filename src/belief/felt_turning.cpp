@@ -17,8 +17,6 @@ namespace {
 constexpr double kTail = 5;
 // A corner that a contact is seldomer at is not felt.
 constexpr double kSeldom = 0.01;
-// Within so many standard deviations of a corner a contact that is felt may be at it.
-constexpr double kAtCorner = 4;
 // First knots per perimeter; between them the table is refined.
 constexpr std::size_t kFirstKnots = 64;
 constexpr int kMostKnotHalvings = 14;
@@ -245,7 +243,7 @@ std::optional<double> FeltTurning::corner_at(double s) const {
   const double next = above != corners_.end() ? *above : first;
   const double before = above != corners_.begin() ? *(above - 1) : last;
   const double nearest = next - wrapped.base < wrapped.base - before ? next : before;
-  if (std::abs(nearest - wrapped.base) > kAtCorner * sd_) return std::nullopt;
+  if (std::abs(nearest - wrapped.base) > kTail * sd_) return std::nullopt;
   return nearest + wrapped.winding * P;
 }
 
