@@ -26,6 +26,8 @@ namespace {
 // this, and where nearly any direction would do it has nothing to say.
 constexpr std::size_t kBudgetWithNoise = 30000;
 constexpr double kWidestSearch = 0.5;  // radians
+// A million normal numbers are within so many standard deviations.
+constexpr double kFarthestRow = 5;
 
 void require_consistent(const Problem& problem) {
   if (problem.fingers.size() > 2) throw InputError("`fingers`: expected at most two fingers");
@@ -70,15 +72,32 @@ PerFinger<Reach> reaches_of(const Part& part, const std::vector<Finger>& fingers
   return {reach, alike ? reach : reach_of(part, fingers.back())};
 }
 
+/// How far a rolled length may be off: by its digits, and by its noise.
+double length_error(const Problem& problem, const Observation& observed) {
+  const double digits = observed.length_error();
+  if (!problem.noise) return digits;
+  double travelled = 0;
+  for (const Reading& roll : observed.rolls) {
+    for (const double length : roll.length) travelled = std::max(travelled, std::abs(length));
+  }
+  const Noise& noise = *problem.noise;
+  double scale = std::hypot(noise.slip, noise.part.length);
+  for (const Finger& finger : problem.fingers) scale = std::hypot(scale, noise.radius * finger.curvature(0));
+  // Of the first contact and of the row.
+  const double contact = std::hypot(noise.contact, noise.contact);
+  return digits + kFarthestRow * std::hypot(contact, scale * travelled);
+}
+
 /// What the fingers can't do goes, where that is known of all of them.
-void drop_impossible(const Observation& observed, bool may_overlap, Answer& answer) {
+void drop_impossible(const Problem& problem, const Observation& observed, Answer& answer) {
   const Doing doing("looking where the fingers can reach");
   if (answer.fingers.empty() || !std::all_of(answer.fingers.begin(), answer.fingers.end(), has_reach)) return;
   answer.has_reach = true;
   Search kept;
   kept.placements = std::move(answer.placements);
-  answer.impossible = drop_unreachable(answer.part, reaches_of(answer.part, answer.fingers, answer.finger_count()),
-                                       answer.readings, kept, observed.rolls, observed.length_error(), may_overlap);
+  answer.impossible =
+      drop_unreachable(answer.part, reaches_of(answer.part, answer.fingers, answer.finger_count()), answer.readings,
+                       kept, observed.rolls, length_error(problem, observed), problem.may_overlap);
   answer.placements = std::move(kept.placements);
   for (const Impossible& item : answer.impossible) {
     ++(item.reason == Impossible::Reason::reach ? answer.dropped.reach : answer.dropped.overlap);
@@ -126,7 +145,7 @@ Answer solve_roll(const Problem& problem, bool explains) {
   answer.tolerance = tolerance_of(problem, observed, belief);
   search(problem, answer);
   if (belief) weigh(problem, observed, explains, *belief, answer);
-  drop_impossible(observed, problem.may_overlap, answer);
+  drop_impossible(problem, observed, answer);
   if (belief) conclude(*belief, answer);
   add_poses(problem, answer);
   if (!belief && problem.felt.is_log() && !problem.tolerance && problem.at.empty())

@@ -43,7 +43,7 @@ class Sieve {
  public:
   Sieve(const Part& part, const PerFinger<Reach>& reach, const std::vector<Reading>& readings,
         const std::vector<Reading>& more, double length_error, bool may_overlap)
-      : part_(part), reach_(reach), last_(PerFinger<double>::of(reach.size())) {
+      : part_(part), reach_(reach), length_error_(length_error), last_(PerFinger<double>::of(reach.size())) {
     Reading first;
     first.length = last_;
     rolls_.push_back(first);
@@ -130,7 +130,8 @@ class Sieve {
     for (const std::size_t finger : {0U, 1U}) {
       const double radius = 1 / reach_[finger].curvature;
       const double length = rolls_[instant].length[finger];
-      balls[finger] = centre_of(part_, radius, {box[finger].lo + length, box[finger].hi + length});
+      const double error = instant > 0 ? length_error_ : 0;
+      balls[finger] = centre_of(part_, radius, {box[finger].lo + length - error, box[finger].hi + length + error});
       depth += radius - balls[finger].radius;
     }
     return depth - (balls[0].centre - balls[1].centre).norm();
@@ -175,6 +176,7 @@ class Sieve {
   const Part& part_;
   const PerFinger<Reach>& reach_;
   std::vector<Reading> rolls_;  // the first contacts first
+  double length_error_;
   PerFinger<Interval> roll_;    // of each finger, from its first contact to the furthest on both sides
   PerFinger<double> last_;      // to the last reading searched with
   bool must_be_apart_ = false;  // two disks at one height

@@ -25,7 +25,7 @@ constexpr double kLeastDistance = 1e-6;
 /// The angle nearest to 0 that is the same: std::remainder, but for rounding, and faster.
 double nearest_to_zero(double angle) { return angle - kTwoPi * std::floor(angle / kTwoPi + 0.5); }
 
-/// By how many nodes each finger's pivot is shared.
+/// By how many nodes each finger's pivot is shared, see pivots_of.
 using Alike = std::array<double, 2>;
 
 /// A row as N equations f = 0, linear in the shared errors x and the start w about the point of linearisation: of the
@@ -154,6 +154,13 @@ PairEquations<N> facing_equations(const PairModel& model, const StartPlaces& at,
   return rows;
 }
 
+/// Variance of how far a finger has pivoted that may be at a corner. Where one is as near as the finger may have
+/// slipped, it may have pivoted already, or not yet.
+double pivot_at(const PairModel& model, std::size_t finger, double s) {
+  const double felt = model.felt[finger]->at(s).pivot;
+  return model.slipping[finger] != nullptr ? std::max(felt, model.slipping[finger]->at(s).pivot) : felt;
+}
+
 template <int N>
 PairEquations<N> row_equations(const PairModel& model, const StartPlaces& at, const PairNode& node, const PairShared& x,
                                const Alike& alike) {
@@ -179,9 +186,7 @@ PairEquations<N> row_equations(const PairModel& model, const StartPlaces& at, co
     rows.by_errors(0, i) = sign * felt.slope * per_scale;
     rows.by_errors(0, 2 + i) = -rows.by_errors(0, i) * length;
     rows.by_start(0, i) = sign * felt.slope * at.place[finger].slope;
-    // Where a corner is as near as the finger may have slipped, it may have pivoted already, or not yet.
-    const bool may_slip = model.slipping[finger] != nullptr && alike[finger] > 1;
-    const double pivot = may_slip ? std::max(felt.pivot, model.slipping[finger]->at(s).pivot) : felt.pivot;
+    const double pivot = alike[finger] > 1 ? pivot_at(model, finger, s) : felt.pivot;
     variance += felt.variance - felt.pivot;
     pivots += pivot;
     pivots_alike += alike[finger] * pivot;
@@ -207,27 +212,35 @@ PairEquations<N> row_equations(const PairModel& model, const StartPlaces& at, co
   return rows;
 }
 
-/// In how many nodes in a row a finger may pivot at one and the same corner: the pivot's angle is unknown, and they are
-/// off alike. Together they are worth one.
+/// A finger that may be at one corner in several nodes in a row has pivoted there by one unknown angle, and they are
+/// off alike, by their c_k times it. For each of them: what the others' c come to beside its own, S / c_k with S = sum
+/// c_k. As (sum c_k e_k)^2 <= S sum c_k e_k^2, rows that are off on their own by c_k S are off by no less than that.
 std::vector<Alike> pivots_of(const PairModel& model, const StartPlaces& at, const std::vector<PairNode>& nodes,
                              const PairShared& x) {
   std::vector<Alike> alike(nodes.size(), Alike{1, 1});
+  std::vector<double> off(nodes.size());
   for (const std::size_t finger : {0U, 1U}) {
     const FeltTurning& felt = model.slipping[finger] != nullptr ? *model.slipping[finger] : *model.felt[finger];
     if (!felt.has_corners()) continue;
     const auto i = static_cast<Eigen::Index>(finger);
     std::size_t begin = 0;
+    double sum = 0;
     std::optional<double> corner;
     const auto end_run = [&](std::size_t end) {
-      for (std::size_t k = begin; corner && k < end; ++k) alike[k][finger] = static_cast<double>(end - begin);
+      for (std::size_t k = begin; corner && k < end; ++k) {
+        if (off[k] > 0) alike[k][finger] = sum / off[k];
+      }
       begin = end;
+      sum = 0;
     };
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       const double length = (nodes[k].length[finger] + x[i]) / (1 + x[2 + i]);
-      const std::optional<double> here = felt.corner_at(at.place[finger].s + length);
+      const double s = at.place[finger].s + length;
+      const std::optional<double> here = felt.corner_at(s);
       const bool goes_on = here && corner && std::abs(*here - *corner) < 0.5 * model.errors->contact_sd();
       if (!goes_on) end_run(k);
       corner = here;
+      if (here) sum += off[k] = std::sqrt(pivot_at(model, finger, s));
     }
     end_run(nodes.size());
   }
