@@ -21,6 +21,7 @@ namespace {
 using cli::run;
 namespace fs = std::filesystem;
 using testing::AllOf;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
@@ -157,6 +158,15 @@ TEST(Cures, of_exchanged_fingers_are_both_with_their_radii) {
   const std::string cure = "--finger disk,r=0.3 --finger disk,r=0.1";
   EXPECT_THAT(run(locate + "--finger disk,r=0.1 --finger disk,r=0.3").out, HasSubstr("\n  " + cure + "; then unique"));
   EXPECT_THAT(run(locate + cure).out, StartsWith("unique"));
+}
+
+TEST(Cures, of_one_finger_that_serves_for_both_give_both_where_one_is_off) {
+  const cli::Folder folder;
+  const std::string simulate = "simulate gallery:limacon --finger disk,r=0.16 --finger disk,r=0.2 --start 1 --start 6 ";
+  const std::string noise = "--noise contact=0.005,angle=0.3deg ";
+  ASSERT_EQ(run(simulate + noise + "--seed 3 --length 4 --length 3 --samples 150 -o roll.csv").code, 0);
+  EXPECT_THAT(run("locate gallery:limacon --log roll.csv --finger disk,r=0.2 " + noise).out,
+              ContainsRegex("\n  --finger disk,r=0.1[0-9]* --finger disk,r=0.2; then unique"));
 }
 
 TEST(Cures, of_a_stray_row_say_the_noise_that_robust_needs) {

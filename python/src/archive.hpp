@@ -226,10 +226,10 @@ void visit(A& a, ColumnSource& v) {
 }
 template <class A>
 void visit(A& a, Diagnosis& v) {
-  auto& [cause, excess, log_odds, length_scale, length_scale_sd, turn_scale, turn_scale_sd, noise_scale, noise, stray,
-         slip, gyro, columns, verdict, modes] = v;
-  all(a, cause, excess, log_odds, length_scale, length_scale_sd, turn_scale, turn_scale_sd, noise_scale, noise, stray,
-      slip, gyro, columns, verdict, modes);
+  auto& [cause, excess, log_odds, length_scale, length_scale_sd, finger, turn_scale, turn_scale_sd, noise_scale, noise,
+         stray, slip, gyro, columns, verdict, modes] = v;
+  all(a, cause, excess, log_odds, length_scale, length_scale_sd, finger, turn_scale, turn_scale_sd, noise_scale, noise,
+      stray, slip, gyro, columns, verdict, modes);
 }
 /// Without the part and the fingers, which Python pickles itself.
 template <class A>

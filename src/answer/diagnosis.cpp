@@ -24,6 +24,7 @@ constexpr double kOpenScale = 0.04;
 // From a thousandth of what was measured, a unit that is taken for another, to where the turn forbids it.
 constexpr double kLeastScale = 0.9e-3;
 constexpr double kMostScale = 1.1e3;
+constexpr std::size_t kRadiiOfTwo = 9;  // the first of these
 constexpr std::array<double, 17> kScalesOfTwo = {0.5,      0.79, 0.86, 0.93, 1.0,   1.08,  1.16, 1.26, 2.0,
                                                  1 / 25.4, 0.1,  10.0, 25.4, 0.001, 1000., 0.01, 100.0};
 // ... with which the longest roll is between these, in perimeters: shorter ones say nothing, longer ones nobody rolls.
@@ -61,7 +62,8 @@ constexpr double kMostLeftOpen = 0.5;
 // Rows that are this much less noisy than said are exact.
 constexpr double kLeastNoise = 1e-3;
 // Slip of so much per length all along, and five times as much here and there, is what nobody says beforehand; the
-// larger the rarer: the logarithm of the odds against it. It explains nearly anything.
+// larger the rarer: the logarithm of the odds against it. The largest explains nearly anything, and takes long: it is tried
+// where nothing else explains the rows.
 struct RareSlip {
   double slip;
   double log_odds;
@@ -84,20 +86,29 @@ struct Trial {
   double log_evidence = 0;
 };
 
-/// All lengths this many times as long: of a disk with a radius that is.
-Problem with_lengths(const Problem& problem, double scale) {
+/// The fingers whose lengths are scaled: all, or one of two.
+using Whose = std::optional<std::size_t>;
+
+bool is_of(const Whose& whose, std::size_t finger) { return !whose || *whose == finger; }
+
+/// Lengths this many times as long: of a disk with a radius that is.
+Problem with_lengths(const Problem& problem, const Whose& whose, double scale) {
   Problem scaled = problem;
-  for (Finger& finger : scaled.fingers) {
-    if (finger.is_disk()) finger = disk(scale * finger.disk()->radius);
+  if (whose && scaled.fingers.size() == 1) scaled.fingers.push_back(scaled.fingers.front());
+  for (std::size_t k = 0; k < scaled.fingers.size(); ++k) {
+    Finger& finger = scaled.fingers[k];
+    if (is_of(whose, k) && finger.is_disk()) finger = disk(scale * finger.disk()->radius);
   }
   return scaled;
 }
 
-Observation with_lengths(const Observation& observed, double scale) {
+Observation with_lengths(const Observation& observed, const Whose& whose, double scale) {
   Observation scaled = observed;
   for (std::vector<Reading>* readings : {&scaled.readings, &scaled.rolls}) {
     for (Reading& reading : *readings) {
-      for (double& length : reading.length) length *= scale;
+      for (std::size_t k = 0; k < reading.length.size(); ++k) {
+        if (is_of(whose, k)) reading.length[k] *= scale;
+      }
     }
   }
   return scaled;
@@ -121,6 +132,9 @@ class Diagnostician {
     try_slips_of_the_pen();
     try_swapped_fingers();
     try_scale();
+    if (is_of_two()) {
+      for (const std::size_t finger : {0U, 1U}) try_scale(finger);
+    }
     try_gyroscope();
     if (!problem_.robust) try_robust();
     try_slip();
@@ -207,11 +221,11 @@ class Diagnostician {
     take(Cause::fingers_swapped, swapped);
   }
 
-  /// Lengths by one factor, of any size.
-  void try_scale() {
+  /// Lengths by one factor, of any size; or of one of two fingers.
+  void try_scale(const Whose& whose = std::nullopt) {
     std::vector<std::pair<double, double>> by_cost;
-    for (const double scale : scales()) {
-      const std::optional<Fit> fit = fit_with(scale, kRowsToCompare);
+    for (const double scale : scales(whose)) {
+      const std::optional<Fit> fit = fit_with(whose, scale, kRowsToCompare);
       if (fit && std::isfinite(fit->chi_square)) by_cost.emplace_back(fit->chi_square, scale);
     }
     std::sort(by_cost.begin(), by_cost.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
@@ -224,15 +238,17 @@ class Diagnostician {
     std::sort(valleys.begin(), valleys.end());
     if (valleys.size() > kScalesToCompare) valleys.resize(kScalesToCompare);
     for (const auto& [cost, scale] : valleys) {
-      if (cost <= kCloseCost * (valleys.front().first + kRowsToCompare)) settle_scale(scale);
+      if (cost <= kCloseCost * (valleys.front().first + kRowsToCompare)) settle_scale(whose, scale);
     }
   }
 
   /// Those to try: two fingers, whose search takes long, about 1 and where units are mistaken.
-  std::vector<double> scales() const {
+  std::vector<double> scales(const Whose& whose) const {
     std::vector<double> scales;
     if (is_of_two()) {
-      std::copy_if(kScalesOfTwo.begin(), kScalesOfTwo.end(), std::back_inserter(scales),
+      // One finger's unit is the other's as well.
+      const auto end = whose ? kScalesOfTwo.begin() + kRadiiOfTwo : kScalesOfTwo.end();
+      std::copy_if(kScalesOfTwo.begin(), end, std::back_inserter(scales),
                    [&](double scale) { return may_be_of_two(scale); });
       return scales;
     }
@@ -277,30 +293,33 @@ class Diagnostician {
     });
   }
 
-  void settle_scale(double scale) {
+  void settle_scale(const Whose& whose, double scale) {
     std::optional<Belief> belief;
     Fit fit;
     for (int step = 0; step < kMostSteps; ++step) {
-      belief = belief_with(scale, observed_rows().size());
+      belief = belief_with(whose, scale, observed_rows().size());
       if (!belief) return;
       fit = belief->fit();
-      const double by = common_scale(fit.length_scale);
-      const double sd = std::max(fit.length_scale_sd[0], 1e-12);
+      const double by = whose ? fit.length_scale[*whose] : common_scale(fit.length_scale);
+      const double sd = std::max(fit.length_scale_sd[whose.value_or(0)], 1e-12);
       scale *= by;
       // What is far off everywhere asks for any scale.
       if (!(scale >= kLeastScale / kScaleStep && scale <= kMostScale * kScaleStep)) return;
       if (std::abs(by - 1) < kSmallStep * sd) break;
     }
-    const double sd = scale * fit.length_scale_sd[0];
+    const double sd = scale * fit.length_scale_sd[whose.value_or(0)];
     if (std::abs(scale - 1) < kOtherScale * sd) return;
     for (const Trial& trial : trials_) {
       const Diagnosis& known = trial.diagnosis;
-      if (known.cause == Cause::radius && std::abs(known.length_scale - scale) < kSameScale * sd) return;
+      if (known.cause == Cause::radius && known.finger == whose &&
+          std::abs(known.length_scale - scale) < kSameScale * sd)
+        return;
     }
     Diagnosis diagnosis = of(Cause::radius, fit);
     diagnosis.length_scale = scale;
     diagnosis.length_scale_sd = sd;
-    add(std::move(diagnosis), *belief, std::log(scale));
+    diagnosis.finger = whose;
+    add(std::move(diagnosis), *belief, (whose ? 0.5 : 1) * std::log(scale));
   }
 
   static Diagnosis of(Cause cause, const Fit& fit) {
@@ -343,9 +362,16 @@ class Diagnostician {
     add(std::move(diagnosis), *belief, 0, is_of_psi ? kOddsAgainstGyroOfPsi : kOddsAgainstGyro);
   }
 
+  /// By more than that the rows are noisier.
+  bool is_explained() const {
+    return std::any_of(trials_.begin(), trials_.end(),
+                       [](const Trial& trial) { return trial.is_right && trial.diagnosis.cause != Cause::noise; });
+  }
+
   void try_slip() {
     for (const auto& [slip, log_odds] : kUnsaidSlips) {
       if (slip <= problem_.noise->slip) continue;
+      if (slip == kUnsaidSlips.back().slip && is_explained()) return;
       Problem slipping = problem_;
       slipping.noise->slip = slip;
       std::optional<Belief> belief = by_rows(slipping, observed_);
@@ -405,15 +431,16 @@ class Diagnostician {
     return problem_.felt.is_log() ? observed_.rolls : observed_.readings;
   }
 
-  std::optional<Belief> belief_with(double scale, std::size_t rows) const {
+  std::optional<Belief> belief_with(const Whose& whose, double scale, std::size_t rows) const {
     try {
-      return believe(with_lengths(problem_, scale), with_lengths(observed_, scale), {kOpenScale, rows, true, {}, true});
+      return believe(with_lengths(problem_, whose, scale), with_lengths(observed_, whose, scale),
+                     {kOpenScale, rows, true, {}, true, {}, whose});
     } catch (const InputError&) {
       return std::nullopt;
     }
   }
-  std::optional<Fit> fit_with(double scale, std::size_t rows) const {
-    std::optional<Belief> belief = belief_with(scale, rows);
+  std::optional<Fit> fit_with(const Whose& whose, double scale, std::size_t rows) const {
+    std::optional<Belief> belief = belief_with(whose, scale, rows);
     return belief ? std::optional<Fit>(belief->fit()) : std::nullopt;
   }
 

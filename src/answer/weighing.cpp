@@ -127,6 +127,7 @@ std::optional<Belief> believe(const Problem& problem, const Observation& observe
   options.pose = problem.pose;
   options.robust = problem.robust;
   options.scale_sd = supposed.scale_sd;
+  options.scale_of = supposed.scale_of;
   options.glance = supposed.glance;
   options.nodes = supposed.nodes;
   options.by_rows = supposed.by_rows;

@@ -17,12 +17,13 @@ double finger_curvature(const Problem& problem, std::size_t which, std::size_t r
 
 /// What a problem is tried with that it does not say.
 struct Supposed {
-  double scale_sd = 0;                                         // of all lengths by one factor
+  double scale_sd = 0;                                         // see BeliefOptions
   std::size_t rows = std::numeric_limits<std::size_t>::max();  // no more than about so many are looked at
   bool glance = false;                                         // see BeliefOptions
   std::optional<std::size_t> nodes{};                          // likewise
   bool by_rows = false;                                        // likewise
   std::vector<Interval> within{};                              // likewise
+  std::optional<std::size_t> scale_of{};                       // likewise
 };
 /// Nothing without noise.
 std::optional<Belief> believe(const Problem& problem, const Observation& observed, const Supposed& supposed = {});

@@ -47,8 +47,9 @@ SensorErrors::SensorErrors(const BeliefOptions& options, LogKind log_kind, doubl
       perimeter(the_perimeter),
       slip_here_and_there(std::min(kSlipHereAndThere * options.noise.slip, kMostSlipHereAndThere)) {}
 
-double SensorErrors::scale_variance(double finger_curvature) const {
-  return square(noise.slip) + square(noise.radius * finger_curvature) + square(scale_sd) + square(noise.part.length);
+double SensorErrors::scale_variance(double finger_curvature, bool is_open) const {
+  const double open = is_open ? square(scale_sd) : 0;
+  return square(noise.slip) + square(noise.radius * finger_curvature) + open + square(noise.part.length);
 }
 
 double SensorErrors::for_large_slip() const { return 1 + kTooNarrow * square(slip_here_and_there); }
@@ -141,9 +142,10 @@ PairErrors::PairErrors(const BeliefOptions& options, LogKind kind, const std::ar
     const auto i = static_cast<Eigen::Index>(finger);
     if (kind == LogKind::contact) normal_turn_[finger] = finger_curvature[finger];
     if (has_offsets) start_(i, i) = contact_variance_;
-    start_(2 + i, 2 + i) = sensor_.scale_variance(finger_curvature[finger]);
+    start_(2 + i, 2 + i) =
+        sensor_.scale_variance(finger_curvature[finger], options.scale_of.value_or(finger) == finger);
   }
-  start_(2, 3) = start_(3, 2) = sensor_.scale_sd * sensor_.scale_sd;  // one factor for both
+  if (!options.scale_of) start_(2, 3) = start_(3, 2) = square(sensor_.scale_sd);  // one factor for both
   if (!absolute_) start_(4, 4) = (has_offsets ? turn_variance_ : 0) + part_variance();
 }
 

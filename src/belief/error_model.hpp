@@ -29,7 +29,7 @@ struct SensorErrors {
   SensorErrors(const BeliefOptions& options, LogKind kind, double perimeter);
 
   /// Of the scale of lengths: slip all along, and a radius that is off by a share has every length off by it.
-  double scale_variance(double finger_curvature) const;
+  double scale_variance(double finger_curvature, bool is_open = true) const;  // is_open: see BeliefOptions::scale_sd
   /// The noise is to be taken this many times as large: filters take slip to be small, and its errors to be normal.
   double for_large_slip() const;
   /// What slips among rows that are joined over this length leaves of their mean open, besides what gathers.

@@ -37,11 +37,12 @@ struct BeliefOptions {
   static constexpr double kMostAngle = 0.5;
 
   Noise noise;
-  std::optional<Prior> prior{};     // none: every place alike
-  bool robust = false;              // a stray sample counts no more than its share
-  bool bare = false;                // readings whose first contact is exact and that do not drift
-  double scale_sd = 0;              // of all lengths by one factor, besides what slip and radius make of them
-  bool glance = false;              // of two fingers: where nothing fits there are no modes, and Fit says no more
+  std::optional<Prior> prior{};  // none: every place alike
+  bool robust = false;           // a stray sample counts no more than its share
+  bool bare = false;             // readings whose first contact is exact and that do not drift
+  double scale_sd = 0;           // of all lengths by one factor, besides what slip and radius make of them, ...
+  std::optional<std::size_t> scale_of{};  // ... or of this one's of two fingers
+  bool glance = false;                    // of two fingers: where nothing fits there are no modes, and Fit says no more
   std::optional<PosePrior> pose{};  // for logs of u and psi and known fingers; places take x and y in the log as well
   /// Of one finger: its samples are joined to so many at most; none: as few as lose nothing.
   std::optional<std::size_t> nodes{};
@@ -174,14 +175,15 @@ struct Diagnosis {
   double excess = 1;           // of the rows without that mistake, see Fit
   double log_odds = 0;         // of it against a log that is as noisy as its rows make it seem, but without mistake
   double length_scale = 1;     // radius: lengths are this many times what was measured, ...
-  double length_scale_sd = 0;  // ... give or take
-  double turn_scale = 1;       // gyroscope: turns are this many times what was measured, ...
-  double turn_scale_sd = 0;    // ... give or take
-  double noise_scale = 1;      // noise: it is this many times what was said
-  Noise noise{};               // where none was said: what they seem to have, and are to be read with
-  std::size_t stray = 0;       // rows
-  double slip = 0;             // slip: so much per length would allow it
-  double gyro = 0;             // gyroscope: so much per turn would allow it
+  double length_scale_sd = 0;  // ... give or take, ...
+  std::optional<std::size_t> finger{};  // ... of all fingers, or of this one alone
+  double turn_scale = 1;                // gyroscope: turns are this many times what was measured, ...
+  double turn_scale_sd = 0;             // ... give or take
+  double noise_scale = 1;               // noise: it is this many times what was said
+  Noise noise{};                        // where none was said: what they seem to have, and are to be read with
+  std::size_t stray = 0;                // rows
+  double slip = 0;                      // slip: so much per length would allow it
+  double gyro = 0;                      // gyroscope: so much per turn would allow it
   /// Angles in degrees or radians, u and psi swapped: how the log's columns are to be read. Empty: no file's header is
   /// known.
   std::vector<ColumnSource> columns{};

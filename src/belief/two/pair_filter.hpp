@@ -87,6 +87,13 @@ struct PairScore {
   double log_likelihood() const { return -0.5 * (cost + log_volume); }
 };
 
+/// How much time an answer is worth.
+enum class Effort {
+  whole,
+  trial,    // of one of many explanations, or where rows fit badly: what they say may be widened without end
+  hopeless  // nothing fits, and no place is listed
+};
+
 /// What all hypotheses have in common.
 struct PairModel {
   const PairErrors* errors = nullptr;
@@ -101,7 +108,7 @@ struct PairModel {
   std::array<FeltContact, 2> first{};  // ... as they were felt
   const Part* part = nullptr;
   Boundary places;
-  bool on_trial = false;        // one of many explanations, each of which may take only so long
+  Effort effort = Effort::whole;
   Innovations* kept = nullptr;  // where the last pass's go, if they are asked for
 
   double perimeter() const { return places.perimeter; }

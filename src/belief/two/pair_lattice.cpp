@@ -1,6 +1,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
 #include <limits>
@@ -23,12 +24,10 @@ constexpr double kPairRateSafety = 1.3;
 constexpr double kLongestSquare = 1.0 / 96;
 // ... and not halved more often than this.
 constexpr int kMostPairHalvings = 8;
-// Hypotheses looked at; what is not resolved by then counts as rest.
-constexpr std::size_t kMostHypotheses = 60000;
-constexpr std::size_t kMostOnTrial = 6000;
+// By Effort. Hypotheses looked at; what is not resolved by then counts as rest.
+constexpr std::array<std::size_t, 3> kMostHypotheses = {60000, 6000, 600};
 // A region of more whole squares than this has them too small, and is begun again with larger ones, ...
-constexpr std::size_t kManySquares = 2500;
-constexpr std::size_t kManyOnTrial = 1500;
+constexpr std::array<std::size_t, 3> kManySquares = {2500, 1500, 150};
 // ... by this factor, so often at most.
 constexpr double kLargerSquares = 3;
 constexpr int kMostBeginnings = 4;
@@ -66,8 +65,8 @@ class Spreading {
         heat_(excess * excess),
         corner_length_(corner_length),
         best_(best),
-        most_hypotheses_(model.on_trial ? kMostOnTrial : kMostHypotheses),
-        many_squares_(model.on_trial ? kManyOnTrial : kManySquares),
+        most_hypotheses_(kMostHypotheses[static_cast<std::size_t>(model.effort)]),
+        many_squares_(kManySquares[static_cast<std::size_t>(model.effort)]),
         density_(density) {}
 
   void from(const PairPeak& peak);

@@ -227,14 +227,15 @@ std::vector<PairPeak> pair_peaks(const PairModel& model, const PairCandidates& c
   const std::vector<PairNode> few = without_centres(some_of(nodes, kFewRows));
   std::vector<PairPeak> chosen = best_of_neighbours(model, candidates, without_centres(some_of(nodes, kVeryFewRows)));
   std::sort(chosen.begin(), chosen.end(), by_deviance);
-  chosen.resize(std::min(chosen.size(), model.on_trial ? kMostStartsOnTrial : kMostStarts));
+  const bool on_trial = model.effort != Effort::whole;
+  chosen.resize(std::min(chosen.size(), on_trial ? kMostStartsOnTrial : kMostStarts));
   for (PairPeak& peak : chosen) {
     peak.score = score_of(model, peak.start, few, PairShared::Zero(), 1);
     peak = climb(model, peak, few, kCoarseSteps);
   }
   std::sort(chosen.begin(), chosen.end(), by_deviance);
   std::vector<PairPeak> found =
-      distinct(chosen, static_cast<double>(few.size()), model.on_trial ? kMostPeaksOnTrial : kMostPeaks);
+      distinct(chosen, static_cast<double>(few.size()), on_trial ? kMostPeaksOnTrial : kMostPeaks);
   if (few.size() < nodes.size() || nodes.back().centres) {
     for (PairPeak& peak : found) {
       peak.score = score_of(model, peak.start, nodes, peak.score.errors, 3);
@@ -242,7 +243,7 @@ std::vector<PairPeak> pair_peaks(const PairModel& model, const PairCandidates& c
     }
     std::sort(found.begin(), found.end(), by_deviance);
   }
-  const std::size_t searched = model.on_trial ? kMostSearchedOnTrial : found.size();
+  const std::size_t searched = on_trial ? kMostSearchedOnTrial : found.size();
   for (std::size_t k = 0; k < std::min(searched, found.size()); ++k) {
     PairPeak& peak = found[k];
     const double scale = std::max(1.0, found.front().score.cost / static_cast<double>(nodes.size()));

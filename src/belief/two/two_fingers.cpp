@@ -85,9 +85,10 @@ class TwoFingersPosterior : public Posterior {
     const Peaks& found = peaks_;
     pieces_.clear();
     if (found.peaks.empty()) return outcome;
-    // What contradicts the rows may be widened without end, and is worth no more time than a trial.
     PairModel model = question.model;
-    model.on_trial = model.on_trial || found.fit.is_bad();
+    const bool is_hopeless = found.fit.excess > kMostExcess;
+    model.effort =
+        is_hopeless ? Effort::hopeless : std::max(model.effort, found.fit.is_bad() ? Effort::trial : Effort::whole);
     const PairDensity density =
         pair_density(model, found.peaks, question.nodes, found.fit.widened, {corner(0), corner(1)});
     PairModes modes = modes_of(density, model, rows_.empty() ? Reading(0, 0, 0) : rows_.back());
@@ -95,7 +96,7 @@ class TwoFingersPosterior : public Posterior {
     pieces_ = std::move(modes.pieces);
     const PairScore& best = found.peaks.front().score;
     outcome.evidence = {best.log_likelihood(), std::log(density.total), -0.5 * best.log_gathered};
-    outcome.unresolved = density.rest + found.missed;
+    outcome.unresolved = (is_hopeless ? 0 : density.rest) + found.missed;
     return outcome;
   }
 
@@ -178,7 +179,7 @@ class TwoFingersPosterior : public Posterior {
       model.first = of.first_;
       model.path = of.path_ && errors.absolute() ? &*of.path_ : nullptr;
       model.places = of.part_.boundary();
-      model.on_trial = of.options_.by_rows;
+      if (of.options_.by_rows) model.effort = Effort::trial;
     }
     Question(const Question&) = delete;
     Question& operator=(const Question&) = delete;
@@ -302,9 +303,10 @@ Peaks TwoFingersPosterior::peaks_of(const Question& question) const {
     }
     return of_best;
   };
-  const double resolution = question.model.on_trial ? kLargestSquareShare * part_.perimeter()
-                                                    : std::clamp(kSquareSigmas * errors.contact_sd(), 0.0,
-                                                                 kLargestSquareShare * part_.perimeter());
+  const double resolution =
+      question.model.effort != Effort::whole
+          ? kLargestSquareShare * part_.perimeter()
+          : std::clamp(kSquareSigmas * errors.contact_sd(), 0.0, kLargestSquareShare * part_.perimeter());
   Peaks found;
   std::vector<PairPeak>& peaks = found.peaks;
   double sigmas = kFarthest;

@@ -142,6 +142,7 @@ Json diagnosis_json(const Diagnosis& diagnosis) {
           {"what", about(diagnosis)},
           {"length_scale", json_number(diagnosis.length_scale)},
           {"length_scale_sd", json_number(diagnosis.length_scale_sd)},
+          {"finger", diagnosis.finger ? Json(*diagnosis.finger) : Json(nullptr)},
           {"turn_scale", json_number(diagnosis.turn_scale)},
           {"turn_scale_sd", json_number(diagnosis.turn_scale_sd)},
           {"noise_scale", json_number(diagnosis.noise_scale)},

@@ -147,8 +147,13 @@ std::string cure_alone(const Diagnosis& diagnosis, const std::vector<Finger>& fi
                                                           [](const Finger& finger) { return finger.is_disk(); });
     if (!of_disks) return fmt::format("lengths that are {:.5g} times as long", diagnosis.length_scale);
     std::vector<std::string> options;
-    for (const Finger& finger : fingers)
-      options.push_back(fmt::format("--finger disk,r={:.5g}", diagnosis.length_scale * finger.disk()->radius));
+    const std::size_t count = diagnosis.finger ? 2 : fingers.size();  // one may serve for both
+    for (std::size_t k = 0; k < count; ++k) {
+      const Finger& finger = *finger_of(fingers, k);
+      const bool is_off = diagnosis.finger.value_or(k) == k;
+      options.push_back(is_off ? fmt::format("--finger disk,r={:.5g}", diagnosis.length_scale * finger.disk()->radius)
+                               : finger_option(finger));
+    }
     return fmt::format("{}", fmt::join(options, " "));
   }
   return text_of(diagnosis.cause).cure;
@@ -167,10 +172,14 @@ std::string about(const Diagnosis& diagnosis) {
     case Cause::radius: {
       const std::string known = known_scale(diagnosis);
       constexpr double kExact = 5e-6;  // of the scale: what its digits don't show
-      std::string scale = fmt::format("all lengths are {:.5g} times what was measured", diagnosis.length_scale);
+      const std::string whose =
+          diagnosis.finger ? fmt::format(" of finger {}", *diagnosis.finger == 0 ? 'a' : 'b') : "";
+      std::string scale =
+          fmt::format("all lengths{} are {:.5g} times what was measured", whose, diagnosis.length_scale);
       if (diagnosis.length_scale_sd > kExact * diagnosis.length_scale) {
         scale += fmt::format(", give or take {:.2g}", diagnosis.length_scale_sd);
       }
+      if (diagnosis.finger) return scale + ": a wrong radius of that finger";
       return scale + (known.empty() ? ": a wrong radius of the finger, or a wrong unit" : ": " + known);
     }
     case Cause::gyroscope:
