@@ -238,35 +238,6 @@ TEST_F(Identify, says_that_rows_fit_badly_rather_than_none) {
   EXPECT_THAT(found["verdict"].get<std::string>(), HasSubstr("but the rows fit badly"));
 }
 
-TEST_F(Identify, is_the_same_in_any_number_of_shards) {
-  for (const std::string& roll :
-       {std::string(" --reading 0.3,0.2"), typed_roll(2, 0.8, " --noise contact=0.01,angle=0.05"),
-        typed_roll(0, 1.3, " --noise contact=0.0003,angle=0.0001")}) {
-    const std::string whole = run("identify parts.db --json" + roll).out;
-    for (const int shards : {1, 2, 7}) {
-      std::string merge = "identify parts.db --json";
-      for (int k = shards; k >= 1; --k) {
-        const std::string name = std::to_string(k) + ".jsonl";
-        std::ofstream(name)
-            << run("identify parts.db --shard " + std::to_string(k) + "/" + std::to_string(shards) + roll).out;
-        merge += " --merge " + name;
-      }
-      EXPECT_EQ(run(merge).out, whole) << shards << roll;
-    }
-  }
-}
-
-TEST_F(Identify, misses_no_shard_in_silence) {
-  const std::string roll = " --reading 0.3,0.2";
-  std::ofstream("1.jsonl") << run("identify parts.db --shard 1/2" + roll).out;
-  std::ofstream("2.jsonl") << run("identify parts.db --shard 2/2 --reading 0.3,0.21").out;
-  EXPECT_THAT(run("identify parts.db --merge 1.jsonl").err, HasSubstr("shard 2 of 2 is missing"));
-  EXPECT_THAT(run("identify parts.db --merge 1.jsonl --merge 1.jsonl").err, HasSubstr("is there twice"));
-  EXPECT_THAT(run("identify parts.db --merge 1.jsonl --merge 2.jsonl").err, HasSubstr("is of another roll"));
-  std::ofstream("cut.jsonl") << cli::read("1.jsonl").substr(0, cli::read("1.jsonl").size() / 2);
-  EXPECT_EQ(run("identify parts.db --merge cut.jsonl").code, 2);
-}
-
 TEST_F(Identify, refuses_noise_in_which_a_row_says_nothing) {
   EXPECT_THAT(run("identify parts.db --noise contact=1e9,angle=1e-12" + typed_roll(0, 1)).err,
               HasSubstr("more than the perimeter of the largest part"));
@@ -279,7 +250,6 @@ TEST_F(Identify, refuses_noise_in_which_a_row_says_nothing) {
 TEST_F(Identify, refuses_what_is_not_meant) {
   EXPECT_THAT(run("identify parts.db").err, HasSubstr("expected --reading"));
   EXPECT_THAT(run("identify parts.db --reading 1,1 --noise angle=0.1 --prior 1,0.1").err, HasSubstr("--prior"));
-  EXPECT_THAT(run("identify parts.db --reading 1,1 --shard 3/2").err, HasSubstr("--shard 3/2"));
   EXPECT_THAT(run("identify nowhere.db --reading 1,1").err, HasSubstr("there is no such file"));
 }
 

@@ -15,7 +15,6 @@ from ._core import InputError, InternalError, __version__
 from ._documents import Advice, Inspection
 from ._fingers import Disk, Finger, Jaw, OutlineFinger
 from ._identified import Identified, PartFound
-from ._identify import identify
 from ._log_answers import LogAnswers
 from ._logs import Log, Roll, read_log
 from ._making import gallery_shapes
@@ -59,7 +58,6 @@ __all__ = [
     "Watch",
     "__version__",
     "gallery_shapes",
-    "identify",
     "read_log",
     "resample",
     "teach",

@@ -236,6 +236,7 @@ class Asked(Shape):
         rounding: Optional[Tuple[float, float]] = None,
         budget: Optional[int] = None,
         threads: int = 0,
+        client: Any = None,
         progress: Optional[bool] = None,
     ) -> ManyAnswers:
         """The answers to many problems, on all cores, as arrays. Ctrl-C stops it; an error stays with its problem.
@@ -250,6 +251,8 @@ class Asked(Shape):
             Of two fingers.
         threads : int
             0: as many as there are processors. The answers have the same bits with any number.
+        client : distributed.Client, optional
+            Of a Dask cluster, whose workers share the problems; what a worker had that is lost is done again by another.
         progress : bool, optional
             A bar, by tqdm. Default: where tqdm is installed, in a notebook or on a terminal, after half a second.
 
@@ -269,7 +272,7 @@ class Asked(Shape):
             rounding=rounding,
             budget=budget,
         )
-        return locate_many(question, readings, facing, threads, progress)
+        return locate_many(question, readings, facing, threads, client, progress)
 
     def locate_logs(
         self,
@@ -293,6 +296,7 @@ class Asked(Shape):
         roll: Optional[int] = None,
         budget: Optional[int] = None,
         threads: int = 0,
+        client: Any = None,
         progress: Optional[bool] = None,
         errors: str = "collect",
     ) -> LogAnswers:
@@ -303,7 +307,7 @@ class Asked(Shape):
         logs : iterable of logs
         finger, noise, ...
             As of `locate`, for all of them; what can't be meant raises InputError at once.
-        threads, progress
+        threads, client, progress
             As of `locate_many`; reading the logs counts.
         errors : 'collect' or 'raise'
             Of a log that can't be worked with: keep its InputError in its place, or raise the first one. Where all fail
@@ -333,4 +337,4 @@ class Asked(Shape):
             roll=roll,
             budget=budget,
         )
-        return locate_logs(question, logs, threads, progress, errors)
+        return locate_logs(question, logs, threads, client, progress, errors)

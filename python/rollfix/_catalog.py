@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import json
 import os
 from dataclasses import dataclass
-from typing import Any, Callable, Dict, Iterable, Iterator, List, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, Iterable, Iterator, List, Optional, Sequence, Tuple, Union
 
-from . import _core
+from . import _cluster, _core
 from ._answer import Answer
 from ._catalog_sources import sources_from
 from ._checks import flag, path as path_given, travel as travel_given, unit_of_length, whole
@@ -205,7 +204,6 @@ class Catalog(Made):
         roll: Optional[int] = None,
         rounding: Optional[Tuple[float, float]] = None,
         budget: Optional[int] = None,
-        shard: Optional[Tuple[int, int]] = None,
         threads: int = 0,
     ) -> Identified:
         """Every part on which the roll can have been, and every place on it. Ctrl-C stops it.
@@ -214,8 +212,6 @@ class Catalog(Made):
         ----------
         readings, turn, log, ...
             The roll, as of `Part.locate`, in the catalog's unit.
-        shard : (k, n), optional
-            Search every n-th part only, from the k-th on, counted from 1; `merge` joins what all n found.
         threads : int
             0: as many as there are processors. Any number gives the same bits.
 
@@ -234,10 +230,9 @@ class Catalog(Made):
             wrapped=wrapped,
             roll=roll, rounding=rounding, budget=budget,
         )  # fmt: skip
-        which = None if shard is None else _shard(shard)
         count = whole(threads, "threads")
         problem, read = self._asked(readings, turn, log, options)
-        return self._search(problem, read, which, count)
+        return self._search(problem, read, count)
 
     def identify_many(
         self,
@@ -245,6 +240,7 @@ class Catalog(Made):
         *,
         logs: Any = None,
         threads: int = 0,
+        client: Any = None,
         progress: Optional[bool] = None,
         errors: str = "collect",
         **options: Any,
@@ -259,6 +255,9 @@ class Catalog(Made):
             as of `identify`.
         threads, **options
             As of `identify`, for all of them.
+        client : distributed.Client, optional
+            Of a Dask cluster, whose workers share the rolls; the catalog's file has to be there under the same path for
+            every worker. What a worker had that is lost is done again by another.
         progress, errors
             As of `Part.locate_logs`.
 
@@ -270,12 +269,18 @@ class Catalog(Made):
         if (readings is None) == (logs is None):
             raise InputError(f"readings: expected readings or `logs`, found {'neither' if logs is None else 'both'}")
         then = errors_given(errors)
-        rolls = [dict(log=one) for one in several(logs)] if readings is None else [dict(readings=one) for one in readings]
+        rolls = [(None, one) for one in several(logs)] if readings is None else [(one, None) for one in readings]
+        count = whole(threads, "threads")
+        if client is not None:
+            _cluster.require_client(client)
         found: List[Union[Identified, InputError]] = []
         with Progress(len(rolls), progress, "rolls") as bar:
-            for roll in rolls:
+            if client is not None:
+                found = self._by_cluster(client, [self._asked_or_error(roll, options) for roll in rolls], bar)
+            for roll in rolls[len(found) :]:
+                asked = self._asked_or_error(roll, options)
                 try:
-                    found.append(self.identify(threads=threads, **roll, **options))
+                    found.append(asked if isinstance(asked, InputError) else self._search(*asked, count))
                 except InputError as error:
                     found.append(error)
                 bar.report(len(found))
@@ -306,22 +311,6 @@ class Catalog(Made):
             raise InputError(f"{self.path}: the catalog has no parts")
         return Watch(self.part(0), noise=noise, catalog=self, **options)
 
-    def merge(self, shards: Iterable[Identified]) -> Identified:
-        """What one search would have found, to the bit, from what was found in all shards, in any order."""
-        found = list(shards)
-        for one in found:
-            if not isinstance(one, Identified) or not one._lines:
-                raise InputError(f"shards: expected what identify(..., shard=(k, n)) found, found {shown(one)}")
-        if not found:
-            raise InputError("shards: expected what was found in each of them, found none")
-        answers = {part: answer for one in found for part, answer in one._answers.items()}
-        return self._merged([one._lines for one in found], lambda entry: answers[entry.id])
-
-    def _merged(self, lines: Sequence[str], answer: Callable[[CatalogEntry], Answer]) -> Identified:
-        text = self._core.merge(lines, [f"shards: number {k}" for k in range(len(lines))])
-        listed = [self._entries[self._places[one["name"]]] for one in json.loads(text)["parts"]]
-        return Identified(text, "", {entry.id: answer(entry) for entry in listed})
-
     def _asked(self, readings: Any, turn: Any, log: Any, options: Dict[str, Any]) -> Tuple[_core.Problem, Optional[Log]]:
         if (readings is None) == (log is None):
             found = "neither" if log is None else "both: they can't be of the same roll"
@@ -336,15 +325,35 @@ class Catalog(Made):
         except InputError as error:
             raise InputError(str(error).replace("make the part with unit=", "build the catalog with unit=")) from None
 
-    def _search(
-        self, problem: _core.Problem, log: Optional[Log], shard: Optional[Tuple[int, int]], threads: int
-    ) -> Identified:
-        k, of = shard or (None, 1)
+    def _asked_or_error(
+        self, roll: Tuple[Any, Any], options: Dict[str, Any]
+    ) -> Union[Tuple[_core.Problem, Optional[Log]], InputError]:
         try:
-            text, lines, found, _ = self._core.identify(problem, k, of, threads, False, None)
+            return self._asked(roll[0], None, roll[1], options)
+        except InputError as error:
+            return error
+
+    def _search(self, problem: _core.Problem, log: Optional[Log], threads: int) -> Identified:
+        try:
+            text, found = self._core.identify(problem, threads)
         except InputError as error:
             raise refused(error, log) from None
-        return Identified(text, lines, answers_of(found, log))
+        return Identified(text, answers_of(found, log))
+
+    def _by_cluster(
+        self, client: Any, asked: Sequence[Union[Tuple[_core.Problem, Optional[Log]], InputError]], bar: Progress
+    ) -> List[Union[Identified, InputError]]:
+        problems = [one[0] for one in asked if not isinstance(one, InputError)]
+        said = iter(_cluster.identify_many(client, self.path, problems, bar.report))
+        return [one if isinstance(one, InputError) else self._identified(next(said), one[1]) for one in asked]
+
+    def _identified(self, said: "_cluster.Identified", log: Optional[Log]) -> Union[Identified, InputError]:
+        if isinstance(said, str):
+            return refused(InputError(said), log)
+        text, states = said
+        parts = {entry.id: entry.name for entry in self._entries if entry.id in states}
+        answers = {part: _core.answer_from_state(self.part(parts[part])._core, *state) for part, state in states.items()}
+        return Identified(text, answers_of(list(answers.items()), log))
 
     def __len__(self) -> int:
         return len(self._entries)
@@ -361,15 +370,6 @@ class Catalog(Made):
 
     def __reduce__(self) -> Any:
         return (Catalog, (self.path,))
-
-
-def _shard(given: Any) -> Tuple[int, int]:
-    try:
-        k, of = given
-    except (TypeError, ValueError):
-        raise InputError(f"shard: expected which of how many, as in (1, 4), found {shown(given)}") from None
-    count = whole(of, "shard", 1)
-    return whole(k, "shard", 1, count), count
 
 
 class ManyIdentified(Results[Identified]):

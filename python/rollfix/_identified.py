@@ -38,15 +38,13 @@ class Identified(Made, SequenceABC):  # type: ignore[type-arg]
     same. `to_dict` gives the whole JSON document.
     """
 
-    __slots__ = ("_text", "_lines", "_answers", "_fields", "_parts")
+    __slots__ = ("_text", "_answers", "_fields", "_parts")
 
     _text: str
-    _lines: str  # of a shard
     _answers: Dict[int, Answer]  # by their parts' ids
 
-    def __init__(self, text: str, lines: str, answers: Dict[int, Answer]) -> None:
+    def __init__(self, text: str, answers: Dict[int, Answer]) -> None:
         self._text = text
-        self._lines = lines
         self._fields = self.to_dict()
         self._parts = tuple(
             PartFound(
@@ -151,7 +149,7 @@ class Identified(Made, SequenceABC):  # type: ignore[type-arg]
         return f"<Identified: {self.verdict}{'; ' if shown else ''}{', '.join(shown)}{more}>"
 
     def __reduce__(self) -> Any:
-        return (Identified, (self._text, self._lines, self._answers))
+        return (Identified, (self._text, self._answers))
 
 
 def answers_of(found: Sequence[Tuple[int, _core.Answer]], log: Optional[Log]) -> Dict[int, Answer]:

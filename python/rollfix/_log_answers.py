@@ -9,7 +9,7 @@ from typing import Any, Dict, Generic, Iterable, Iterator, List, Optional, Seque
 
 import numpy as np
 
-from . import _core
+from . import _cluster, _core
 from ._answer import Answer
 from ._checks import whole
 from ._core import InputError
@@ -113,8 +113,12 @@ def _kind(message: str) -> str:
     return re.sub(r"[-+]?[\d.]+(e[-+]?\d+)?", "N", message.partition(": ")[2] or message)
 
 
-def locate_logs(question: Question, logs: Any, threads: int, progress: Optional[bool], errors: str) -> LogAnswers:
+def locate_logs(
+    question: Question, logs: Any, threads: int, client: Any, progress: Optional[bool], errors: str
+) -> LogAnswers:
     count, then = whole(threads, "threads"), errors_given(errors)
+    if client is not None:
+        _cluster.require_client(client)
     given = several(logs)
     asked: List[Union[Tuple[_core.Problem, Log], InputError]] = []
     with Progress(len(given), progress, "logs read") as bar:
@@ -123,7 +127,10 @@ def locate_logs(question: Question, logs: Any, threads: int, progress: Optional[
             bar.report(len(asked))
     problems = [one[0] for one in asked if not isinstance(one, InputError)]
     with Progress(len(problems), progress, "logs") as bar:
-        found = iter(_core.solve_problems(problems, count, bar.report))
+        if client is None:
+            found = iter(_core.solve_problems(problems, count, bar.report))
+        else:
+            found = iter(_cluster.solve_problems(client, question.part, problems, bar.report))
     all_found = [one if isinstance(one, InputError) else _of_log(next(found), one[1]) for one in asked]
     return LogAnswers(checked(all_found, then, "logs"))
 

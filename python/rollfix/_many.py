@@ -7,7 +7,7 @@ from typing import Any, Dict, Iterator, List, Optional, Union, overload
 
 import numpy as np
 
-from . import _core
+from . import _cluster, _core
 from ._answer import Answer
 from ._checks import READINGS, array, by_name, finite, whole
 from ._core import InputError
@@ -218,7 +218,11 @@ def _many(columns: Dict[str, Any], *rest: Any) -> ManyAnswers:
     return ManyAnswers(columns, *rest)
 
 
-def locate_many(question: Question, readings: Any, facing: Any, threads: int, progress: Optional[bool]) -> ManyAnswers:
+def locate_many(
+    question: Question, readings: Any, facing: Any, threads: int, client: Any, progress: Optional[bool]
+) -> ManyAnswers:
+    if client is not None:
+        _cluster.require_client(client)
     rows = array(by_name(readings, "readings", *READINGS), "readings", masked_is_nan=True)  # as NaN: an error stays with its problem
     if rows.ndim == 2:
         rows = rows[:, np.newaxis, :]
@@ -237,5 +241,8 @@ def locate_many(question: Question, readings: Any, facing: Any, threads: int, pr
         facings = np.ascontiguousarray(np.broadcast_to(given, (len(rows),)))
     with Progress(len(rows), progress) as bar:
         like, along = question.like_rows(rows.shape[1]), np.ascontiguousarray(question.along_outline(rows))
-        columns = _core.solve_many(like, along, facings, whole(threads, "threads"), bar.report)
+        if client is None:
+            columns = _core.solve_many(like, along, facings, whole(threads, "threads"), bar.report)
+        else:
+            columns = _cluster.solve_many(client, like, question.part, along, facings, bar.report)
     return ManyAnswers(columns, question, rows, facings)

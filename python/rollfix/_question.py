@@ -83,6 +83,10 @@ class Question:
         about_logs = {"at": at, "columns": columns, "units": units, "roll": roll}
         self._of_logs = [name for name, value in about_logs.items() if value is not None]
 
+    @property
+    def part(self) -> _core.Part:
+        return self._part
+
     def _require_noise(self, of_prior: str) -> None:
         if self._noise is not None:
             return

@@ -2,15 +2,11 @@
 
 import os
 import pickle
-import signal
-import threading
 import time
-import types
 
 import pytest
 
 import rollfix
-from rollfix import _identify
 
 SHAPES = ["cam", "limacon", "gear", "naca", "ellipse,a=2,b=1", *(f"spline,n=9,seed={k},wobble=0.2" for k in range(12))]
 NOISE = rollfix.Noise(contact=0.005, angle=0.01)
@@ -76,22 +72,6 @@ def test_parts_that_can_t_be_told_apart_are_said_to_be(tmp_path, ellipse):
     assert [one.probability for one in found] == pytest.approx([0.75, 0.25]) and two.entries[0].count == 3
 
 
-@pytest.mark.parametrize("shards", [1, 2, 7, 40])
-def test_shares_make_the_whole(catalog, reading, noisy, shards):
-    for asked in (dict(readings=reading), noisy):
-        shares = [catalog.identify(**asked, shard=(k + 1, shards), threads=1) for k in range(shards)]
-        assert catalog.merge(reversed(pickle.loads(pickle.dumps(shares)))) == catalog.identify(**asked)
-
-
-def test_shares_that_do_not_make_a_whole_are_refused(catalog, reading):
-    one, two = (catalog.identify(reading, shard=(k, 2)) for k in (1, 2))
-    for wrong, why in (([one], "shard 2 of 2 is missing"), ([one, one], "twice"), ([catalog.identify(reading)], "shards:"),
-                       ([one, catalog.identify(1.0, 0.6, shard=(2, 2))], "shards: number 1: is of another roll"), ([], "none")):
-        with pytest.raises(rollfix.InputError, match=why):
-            catalog.merge(wrong)
-    assert catalog.merge([two, one]).names == ("gallery:cam",)
-
-
 def test_answers_of_other_fingers_are_others(catalog, reading):
     small, large = (catalog.identify(reading, finger=rollfix.Disk(radius)) for radius in (0.01, 0.02))
     assert small.to_dict() == large.to_dict()  # which does not tell what the finger was
@@ -108,7 +88,7 @@ def test_it_can_be_pickled(catalog, noisy):
 
 
 def test_any_number_of_threads_gives_the_same_bits(catalog, noisy):
-    assert catalog.identify(**noisy, threads=1) == catalog.identify(**noisy, threads=5) == rollfix.identify(catalog, **noisy)
+    assert catalog.identify(**noisy, threads=1) == catalog.identify(**noisy, threads=5)
 
 
 def test_a_table_has_a_row_for_each_place(catalog, noisy):
@@ -150,8 +130,6 @@ def test_all_is_in_the_catalog_s_unit(tmp_path):
     (dict(readings=[1, 0.5], noise=3), "noise:"),
     (dict(readings=[1, 0.5], finger=-1), "finger:"),
     (dict(readings=[1, 0.5], direction="up"), "direction:"),
-    (dict(readings=[1, 0.5], shard=3), "shard:"),
-    (dict(readings=[1, 0.5], shard=(5, 4)), "shard:"),
     (dict(readings=[1, 0.5], threads=-1), "threads:"),
     (dict(log="nowhere.csv"), "nowhere.csv"),
 ])  # fmt: skip
@@ -169,94 +147,7 @@ def test_catalogs_and_parts_that_are_not_there(catalog, tmp_path):
                      (lambda: rollfix.Catalog.build(tmp_path / "a.db", [("gallery:cam", 0)]), "sources:"),
                      (lambda: rollfix.Catalog.build(tmp_path / "a.db", [tmp_path / "none.csv"]), "none.csv"),
                      (lambda: rollfix.Catalog.build(tmp_path / "a.db", ["gallery:cam"], unit="miles"), "unit:"),
-                     (lambda: rollfix.identify(3, 1.0, 0.5), "catalog:"),
-                     (lambda: rollfix.identify(catalog, 1.0, 0.5, shards=3), "shards:")):
+                     (lambda: catalog.identify_many([[1.0, 0.5]], client=3), "client:")):
         with pytest.raises(rollfix.InputError, match=why):
             ask()
     assert not (tmp_path / "a.db").exists() and len(catalog) == len(SHAPES)
-
-
-@pytest.fixture(scope="module")
-def client():
-    distributed = pytest.importorskip("distributed")
-    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None) as cluster:
-        with distributed.Client(cluster) as found:
-            yield found
-
-
-def test_a_cluster_says_the_same(catalog, reading, noisy, client):
-    assert rollfix.identify(catalog.path, reading, client=client).to_dict() == catalog.identify(reading).to_dict()
-    found, expected = rollfix.identify(catalog, **noisy, client=client, shards=5), catalog.identify(**noisy)
-    assert found == expected and found[0].answer.log is not None
-    for wrong, why in ((dict(readings=[1.0, float("nan")]), "readings:"), (dict(readings=[[1, 0.5]], shards=0), "shards:")):
-        with pytest.raises(rollfix.InputError, match=why):
-            rollfix.identify(catalog, **wrong, client=client)
-    with pytest.raises(rollfix.InputError, match="client:"):
-        rollfix.identify(catalog, 1.0, 0.5, client=3)
-
-
-class HereAlone:
-    """A client with one worker, this process, which keeps account of what it was asked."""
-
-    def __init__(self, monkeypatch):
-        monkeypatch.setattr(_identify, "_distributed", lambda client: types.SimpleNamespace(as_completed=iter))
-        self.asked = []
-
-    def nthreads(self):
-        return {"here": 1}
-
-    def submit(self, work, file, state, shard, shards, threads, *how, pure):
-        self.asked.append((work, shard, shards, how))
-        found = work(file, state, shard, shards, threads, *how)
-        return types.SimpleNamespace(result=lambda: found)
-
-    def cancel(self, tasks):
-        pass
-
-
-def test_of_few_parts_each_is_a_share(monkeypatch, tmp_path):
-    client = HereAlone(monkeypatch)
-    two = rollfix.Catalog.build(tmp_path / "two.db", ["gallery:cam", "gallery:gear"])
-    assert rollfix.identify(two, 0.3, 0.2, client=client) == two.identify(0.3, 0.2)
-    assert [(shard, shards) for _, shard, shards, _ in client.asked] == [(1, 2), (2, 2)]
-
-
-def test_no_share_looks_again_where_one_has_what_fits_well(monkeypatch, catalog, noisy):
-    client = HereAlone(monkeypatch)
-    assert rollfix.identify(catalog, **noisy, client=client, shards=5) == catalog.identify(**noisy)
-    narrowly = [how[-1] for work, _, _, how in client.asked if work is _identify._search]
-    assert narrowly == [True] * 5
-
-
-def test_what_no_part_can_take_is_an_error_of_a_cluster_as_well(catalog, client):
-    asked = dict(readings=[1.0, 0.5], noise=NOISE, heading=(0, 1))
-    told = []
-    for given in (None, client):
-        with pytest.raises(rollfix.InputError, match="expected a log of them") as error:
-            rollfix.identify(catalog, **asked, client=given)
-        told.append(str(error.value))
-    assert told[0] == told[1]
-
-
-def test_a_cluster_says_the_same_where_nothing_fits_well(catalog, noisy, client):
-    tight = dict(noisy, noise=rollfix.Noise(contact=0.0025, angle=0.005))
-    expected = catalog.identify(**tight)
-    assert "fit badly" in expected.verdict
-    assert rollfix.identify(catalog, **tight, client=client) == expected
-
-
-def test_a_worker_that_is_killed_loses_nothing(catalog, client):
-    long = catalog.part("gallery:gear").simulate(FINGER, start=1, length=2, samples=400, noise=NOISE, seed=1)
-    noisy = dict(log=long, finger=FINGER, noise=NOISE)
-    found = []
-    asking = threading.Thread(target=lambda: found.append(rollfix.identify(catalog, **noisy, client=client, shards=17)))
-    pids = client.run(os.getpid)
-    asking.start()
-    busy = []
-    while not busy and asking.is_alive():
-        busy = [worker for worker, tasks in client.processing().items() if tasks and worker in pids]
-    os.kill(pids[busy[0]], signal.SIGKILL)
-    assert asking.is_alive()
-    asking.join(300)
-    assert found == [catalog.identify(**noisy)]
-    assert found[0].to_dict()["catalog"]["parts"] == len(catalog) and len(set(found[0].names)) == len(found[0])

@@ -26,11 +26,11 @@ def whole_session(path: str) -> None:
     some_answers: List[Union[rollfix.Answer, rollfix.InputError]] = [*many[:2], *many]
     reach: rollfix.Reach = part.reach(rollfix.Disk(1.0))
     catalog: rollfix.Catalog = rollfix.Catalog.build("parts.db", ["gallery:cam", ("wing.csv", 3)], unit="mm")
-    found: rollfix.Identified = catalog.identify(log="roll.csv", finger=rollfix.Disk(10), noise=noise, shard=(1, 2))
-    whole: rollfix.Identified = rollfix.identify("parts.db", [1.0, 0.5], client=None)
+    found: rollfix.Identified = catalog.identify(log="roll.csv", finger=rollfix.Disk(10), noise=noise, threads=2)
+    several: rollfix.ManyIdentified = catalog.identify_many([[1.0, 0.5]], client=None)
     likeliest: rollfix.PartFound = found[0]
     its_answer: rollfix.Answer = likeliest.answer
-    print(catalog.merge([found]), whole.verdict, its_answer, likeliest.congruent_with, [entry.count for entry in catalog.entries])
+    print(several.answers, its_answer, likeliest.congruent_with, [entry.count for entry in catalog.entries])
     print(some_answers, some, start, probability, verdict, density, rows, logs, name, reach.share, part.advise(1.0, 0.5).length)
 
 

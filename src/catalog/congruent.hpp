@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "rollfix/catalog/identify.hpp"
 #include "rollfix/part/part.hpp"
+#include "weights.hpp"
 
 namespace rollfix {
 

@@ -112,14 +112,6 @@ bool can_glance(const Problem& like) {
   return like.noise && !like.robust && fingers == 1;
 }
 
-std::optional<PartWeight> likeliest_of(const Catalog& catalog, const Problem& like, const std::vector<PartLeft>& parts,
-                                       const IdentifyOptions& options) {
-  std::vector<PartWeight> weights;
-  glances_at(catalog, like, parts, weights, options);
-  if (weights.empty()) return std::nullopt;
-  return best_of(weights);
-}
-
 std::vector<std::size_t> worth_a_look(const Catalog& catalog, const Problem& like, const std::vector<PartLeft>& parts,
                                       std::vector<PartWeight> known, const IdentifyOptions& options) {
   std::vector<PartWeight> weights = std::move(known);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 #include "bounds/bounds.hpp"
@@ -14,10 +13,6 @@ namespace rollfix {
 /// a roll start. No part is left out that has more than exp(-20) of its weight.
 std::vector<std::size_t> worth_a_look(const Catalog& catalog, const Problem& like, const std::vector<PartLeft>& parts,
                                       std::vector<PartWeight> known, const IdentifyOptions& options);
-
-/// What the likeliest of these parts weighs at a glance; nothing where none fits.
-std::optional<PartWeight> likeliest_of(const Catalog& catalog, const Problem& like, const std::vector<PartLeft>& parts,
-                                       const IdentifyOptions& options);
 
 /// Whether a glance tells anything: not without noise, of two fingers, or with stray rows among them.
 bool can_glance(const Problem& like);

@@ -64,9 +64,7 @@ void Survey::look(const std::vector<std::size_t>& parts, double excess, Identifi
     return;
   }
   if (options_.use_index && can_glance(like_)) {
-    std::vector<PartWeight> known = found.weights;
-    if (options_.rival) known.push_back(*options_.rival);
-    left = worth_a_look(catalog_, like_, bounded, std::move(known), options_);
+    left = worth_a_look(catalog_, like_, bounded, found.weights, options_);
   }
   std::vector<Outcome> outcomes(left.size());
   Crew crew(left.size(), 1);
@@ -75,7 +73,7 @@ void Survey::look(const std::vector<std::size_t>& parts, double excess, Identifi
   });
   crew.require_done();
   for (std::size_t k = 0; k < left.size(); ++k) {
-    if (!outcomes[k].refused.empty()) found.refused.push_back({left[k], outcomes[k].refused, widely});
+    if (!outcomes[k].refused.empty()) found.refused.push_back({left[k], outcomes[k].refused});
     if (!outcomes[k].answer) continue;
     found.weights.push_back(weight_of(left[k], *outcomes[k].answer));
     found.weights.back().widely = widely;

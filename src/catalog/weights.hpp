@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cstddef>
+#include <string>
+#include <vector>
+
 #include "rollfix/answer/answer.hpp"
 #include "rollfix/catalog/identify.hpp"
 
@@ -14,5 +18,35 @@ PartWeight weight_of(std::size_t part, const Answer& answer);
 
 /// The logarithm of a part's probability, up to what is the same for all.
 double log_weight(const Catalog& catalog, const PartWeight& weight, double widened);
+
+/// Whether some part explains the rows with the noise that was said.
+bool fits_well(const std::vector<PartWeight>& weights);
+
+/// The part that the rows fit best, with the noise that they seem to have there: all are weighed as with that. REQUIRES
+/// that there is one.
+const PartWeight& best_of(const std::vector<PartWeight>& weights);
+
+/// What parts come to that were weighed.
+struct Conclusion {
+  std::vector<std::size_t> order;   // of the weights that are listed: the likeliest first, else as in the catalog
+  std::vector<double> probability;  // of all weights; NaN without noise
+  std::vector<std::vector<std::size_t>> congruent;  // of all: those of the listed that can't be told from it
+  std::string verdict;
+  Status status = Status::complete;
+  double rest = 0;  // with noise: probability of all that is not listed
+};
+
+/// How far two parts may be apart that can't be told from each other by a roll.
+struct Likeness {
+  double length = 0;  // of places, besides what parts are as large as
+  double turn = 0;    // of tangents, radians
+  double roll = 0;    // the roll's length
+  bool noisy = false;
+};
+Likeness likeness_of(const Problem& like);
+
+/// Weights of parts of this catalog as one verdict; so many parts were searched.
+Conclusion conclude(const Catalog& catalog, const std::vector<PartWeight>& weights, std::size_t searched,
+                    const Likeness& likeness);
 
 }  // namespace rollfix

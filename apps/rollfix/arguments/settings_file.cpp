@@ -178,7 +178,6 @@ const std::map<std::string, std::set<std::string>>& replaced_by() {
       {"reading", {"log", "batch", "roll", "at", "columns", "wrapped", "skip-bad", "heading", "pose", "map"}},
       {"log", {"reading", "batch"}},
       {"batch", {"reading", "log", "roll", "at", "map"}},
-      {"merge", {"reading", "log", "shard"}},
       {"march", {"noise", "prior", "robust", "heading", "pose", "facing", "budget", "mirror", "map", "explain"}},
       {"heading", {"pose"}},
       {"pose", {"heading"}},

@@ -12,7 +12,7 @@
 
 namespace rollfix {
 
-/// What counts when parts are weighed against each other: all of it fits in a line of a file.
+/// What counts when parts are weighed against each other.
 struct PartWeight {
   std::size_t part = 0;  // its place in the catalog
   std::string verdict;   // of locate
@@ -31,54 +31,14 @@ struct PartWeight {
 
 /// Which of the parts, and how to work.
 struct IdentifyOptions {
-  std::size_t shard = 1;  // of so many shards this one: every so-manieth part of the catalog
-  std::size_t shards = 1;
   bool use_index = true;             // false: every part is searched
   std::vector<std::size_t> among{};  // only these parts, by their places in the catalog, in order; none: all of it
   /// Where bounds leave more parts than this they are counted, and not searched: to see early how many remain.
   std::size_t most_searched = std::numeric_limits<std::size_t>::max();
-  /// With noise: not with 2.5 times of it where nothing fits well. That is enough of all shards where something fits
-  /// well in one; where nothing does, `merge_shards` refuses them.
-  bool narrowly = false;
-  /// With noise: what the likeliest part of all shards weighs, as far as is known. Parts of this one that are nothing
-  /// next to it are not looked at closely: the same answer, sooner.
-  std::optional<PartWeight> rival{};
   unsigned threads = 0;  // 0: as many as the machine has processors
   /// Called now and then by the thread that waits, with the number of parts that are done: false stops the work.
   std::function<bool(std::size_t done)> go_on{};
 };
-
-/// Whether some part explains the rows with the noise that was said: then those that were looked at widely don't count,
-/// which were only because a shard had no other.
-bool fits_well(const std::vector<PartWeight>& weights);
-
-/// The part that the rows fit best, with the noise that they seem to have there: all are weighed as with that. REQUIRES
-/// that there is one.
-const PartWeight& best_of(const std::vector<PartWeight>& weights);
-
-/// What parts come to that were weighed, in whatever shards.
-struct Conclusion {
-  std::vector<std::size_t> order;   // of the weights that are listed: the likeliest first, else as in the catalog
-  std::vector<double> probability;  // of all weights; NaN without noise
-  std::vector<std::vector<std::size_t>> congruent;  // of all: those of the listed that can't be told from it
-  std::string verdict;
-  Status status = Status::complete;
-  double rest = 0;  // with noise: probability of all that is not listed
-};
-
-/// How far two parts may be apart that can't be told from each other by a roll.
-struct Likeness {
-  double length = 0;  // of places, besides what parts are as large as
-  double turn = 0;    // of tangents, radians
-  double roll = 0;    // the roll's length
-  bool noisy = false;
-};
-Likeness likeness_of(const Problem& like);
-
-/// Weights of parts of this catalog as one verdict; so many parts were searched. REQUIRES none that were looked at
-/// widely where some fits well.
-Conclusion conclude(const Catalog& catalog, const std::vector<PartWeight>& weights, std::size_t searched,
-                    const Likeness& likeness);
 
 /// A part that the roll may have been on.
 struct PartFound {
@@ -92,7 +52,6 @@ struct PartFound {
 struct PartRefused {
   std::size_t part = 0;
   std::string why;
-  bool widely = false;  // as of a weight
 };
 
 /// Every part of a catalog that a roll fits.
@@ -101,19 +60,16 @@ struct Identified {
   std::string verdict;           // "unique part, 2 places", "3 parts", "none", ...
   Status status = Status::complete;
   double rest = 0;                    // with noise: probability of all that is not listed
-  std::size_t asked = 0;              // parts, of the catalog or of the shard
+  std::size_t asked = 0;              // parts
   std::size_t searched = 0;           // of them, that bounds did not rule out, ...
   std::size_t searched_widely = 0;    // ... and so many more with 2.5 times the noise
   std::vector<std::size_t> left{};    // parts that remain, as far as it was looked at: no other can be it
   bool counted = false;               // there are more than most_searched of them: nothing else is known
   std::vector<PartWeight> weights{};  // of all parts that something fits on, in the catalog's order
   std::vector<PartRefused> refused{};
-  Likeness likeness{};
   std::optional<Noise> noise{};  // as in the problem
   bool mirrored = false;
-  bool narrowly = false;    // nothing fits well, and it was not looked at widely, as it was asked
   std::size_t samples = 0;  // rows of the log, or readings
-  std::string roll{};       // a fingerprint of the problem: shards of one search have the same
 };
 
 /// Every part of a catalog on which a roll can have been, and every place on it: what `solve` says of each part by
@@ -123,10 +79,5 @@ struct Identified {
 /// that occur once in a million rolls; where nothing fits well, with 2.5 times the noise. See docs/identify.md.
 /// Throws InputError: a prior place, which is of one part; what `solve` throws where it throws it of all parts.
 Identified identify(const Catalog& catalog, const Problem& like, const IdentifyOptions& options = {});
-
-/// Of the parts that `options` ask for, the likeliest one's weight, much sooner than `identify` finds it: the
-/// best of what all shards say is their rival. Nothing where none fits, without noise, of two fingers or with stray
-/// rows.
-std::optional<PartWeight> likeliest(const Catalog& catalog, const Problem& like, const IdentifyOptions& options = {});
 
 }  // namespace rollfix

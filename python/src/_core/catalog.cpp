@@ -41,68 +41,20 @@ py::list pairs_of(const std::vector<LeftOut>& left_out) {
   return result;
 }
 
-/// Of a part's weight what others are held against; as a tuple, for another process.
-using RivalTuple = std::tuple<std::size_t, double, double, double, double>;
-
-std::optional<RivalTuple> rival_tuple(const std::optional<PartWeight>& weight) {
-  if (!weight) return std::nullopt;
-  return RivalTuple{weight->part, weight->peak, weight->volume, weight->widened, weight->excess};
-}
-
-std::optional<PartWeight> rival_from(const std::optional<RivalTuple>& tuple) {
-  if (!tuple) return std::nullopt;
-  PartWeight weight;
-  std::tie(weight.part, weight.peak, weight.volume, weight.widened, weight.excess) = *tuple;
-  return weight;
-}
-
-/// Of what shards say.
-std::optional<RivalTuple> best_rival(const std::vector<RivalTuple>& rivals) {
-  std::vector<PartWeight> weights;
-  for (const RivalTuple& one : rivals) weights.push_back(*rival_from(one));
-  if (weights.empty()) return std::nullopt;
-  return rival_tuple(best_of(weights));
-}
-
-/// Of a shard: the likeliest part at a glance.
-std::optional<RivalTuple> likeliest_part(const CatalogHandle& handle, const Problem& like, std::size_t shard,
-                                         std::size_t shards, unsigned threads) {
-  const std::shared_ptr<const Catalog> catalog = handle.catalog;
-  const Problem own = like;
-  const py::object nobody = py::none();
-  IdentifyOptions options;
-  options.shard = shard;
-  options.shards = shards;
-  options.threads = threads;
-  options.go_on = [&nobody](std::size_t done) { return goes_on(nobody, done); };
-  const Unlocked others_may_run;
-  return rival_tuple(likeliest(*catalog, own, options));
-}
-
-/// The document, of a shard its lines, the answers by the ids of their parts, and whether it was asked narrowly and
-/// nothing fits well.
-py::tuple identify_roll(const CatalogHandle& handle, const Problem& like, std::optional<std::size_t> shard,
-                        std::size_t shards, unsigned threads, bool narrowly, const std::optional<RivalTuple>& rival) {
+/// The document, and the answers by the ids of their parts.
+py::tuple identify_roll(const CatalogHandle& handle, const Problem& like, unsigned threads) {
   const std::shared_ptr<const Catalog> catalog = handle.catalog;
   const Problem own = like;  // another thread may change the original meanwhile
   const py::object nobody = py::none();
   IdentifyOptions options;
-  options.shard = shard.value_or(1);
-  options.shards = shards;
   options.threads = threads;
-  options.narrowly = narrowly;
-  options.rival = rival_from(rival);
   options.go_on = [&nobody](std::size_t done) { return goes_on(nobody, done); };
   std::string document;
-  std::string lines;
   std::vector<std::pair<std::int64_t, AnswerHandle>> answers;
-  bool is_narrow = false;
   {
     const Unlocked others_may_run;
     Identified found = identify(*catalog, own, options);
-    is_narrow = found.narrowly;
     document = format_identified(*catalog, found, Layout::line);
-    if (shard) lines = format_shard(*catalog, found, options);
     for (PartFound& part : found.parts) {
       part.answer.part = in_catalogs_unit(*catalog, part.answer.part);
       answers.emplace_back(catalog->entry(part.weight.part).id,
@@ -111,7 +63,7 @@ py::tuple identify_roll(const CatalogHandle& handle, const Problem& like, std::o
   }
   py::list list;
   for (auto& [id, answer] : answers) list.append(py::make_tuple(id, std::move(answer)));
-  return py::make_tuple(document, lines, list, is_narrow);
+  return py::make_tuple(document, list);
 }
 
 /// The document of what tells apart the parts that remain.
@@ -124,13 +76,6 @@ std::string advise_on(const CatalogHandle& handle, const Problem& like,
   const std::optional<Interval> range =
       travel ? std::optional<Interval>(Interval{travel->first, travel->second}) : std::nullopt;
   return format_next_roll(*catalog, found, next_roll(found, range), Layout::line);
-}
-
-std::string merge(const CatalogHandle& handle, const std::vector<std::string>& texts,
-                  const std::vector<std::string>& names) {
-  const std::shared_ptr<const Catalog> catalog = handle.catalog;
-  const Unlocked others_may_run;
-  return merge_shards(*catalog, texts, names, Layout::line);
 }
 
 // Argument, name, count, and what is there already.
@@ -181,10 +126,7 @@ void bind_catalog(py::module_& module) {
       .def("left_out", [](const CatalogHandle& handle) { return pairs_of(handle.catalog->left_out()); })
       .def("part", &part_of)
       .def("identify", &identify_roll)
-      .def("likeliest", &likeliest_part)
-      .def("advise", &advise_on)
-      .def("merge", &merge);
-  module.def("best_rival", &best_rival);
+      .def("advise", &advise_on);
   module.def("catalog_sources", &sources_of);
   module.def("build_catalog", &build);
   module.def("remove_from_catalog", &take_out);
