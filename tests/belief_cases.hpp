@@ -97,7 +97,7 @@ class Robot {
     plan.start = part_.boundary().on_first_lap(start_ + length_);
     plan.distance = length;
     plan.rows = 120;
-    const rollfix::Roll roll = rollfix::roll_in_closed_form(part_, DiskFinger{radius_}, plan);
+    const rollfix::Roll roll = rollfix::roll(part_, DiskFinger{radius_}, plan);
     for (std::size_t row = 0; row < roll.s[0].size(); ++row) {
       tell_row(length_ + roll.s[0][row] - roll.s[0][0], turn_ + roll.angle[0][row] - roll.angle[0][0], belief);
     }

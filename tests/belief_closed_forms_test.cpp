@@ -28,7 +28,7 @@ Problem roll_on(const Part& part, const Finger& finger, double distance, std::si
   plan.distance = distance;
   plan.rows = rows;
   if (finger.outline() != nullptr) plan.u = 0.25 * finger.outline()->perimeter();
-  return {part, rollfix::roll_in_closed_form(part, finger, plan).log, {finger}, noise};
+  return {part, rollfix::roll(part, finger, plan).log, {finger}, noise};
 }
 
 Noise noise_of(double contact, double angle, double position = 0) {

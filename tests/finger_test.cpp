@@ -1,5 +1,6 @@
 // Fingers of any convex shape: rolling without slip, seen from outside; both ways of computing it; what can't be.
 #include "rollfix/contact/finger.hpp"
+#include "integrated_rolls.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -22,6 +23,7 @@
 namespace rollfix::finger_test {
 namespace {
 
+using integrated_rolls::integrated_roll;
 using shapes::kPi;
 using testing::AllOf;
 using testing::HasSubstr;
@@ -128,10 +130,10 @@ TEST(Finger, a_circle_as_an_outline_rolls_like_a_disk) {
   const Part part(gallery("spline,seed=3"));
   const Finger outline = circle_finger(0.1);
   RollPlan plan = plan_over(0.7, 3);
-  const Roll expected = roll_in_closed_form(part, outline, plan);
+  const Roll expected = roll(part, outline, plan);
   plan.psi = expected.log.fingers[0].psi[0];
   plan.u.reset();
-  const Roll found = roll_in_closed_form(part, 0.1, plan);
+  const Roll found = roll(part, 0.1, plan);
   for (std::size_t row = 0; row < found.s[0].size(); ++row) {
     EXPECT_NEAR(found.s[0][row], expected.s[0][row], 1e-9);
     EXPECT_NEAR(found.log.fingers[0].psi[row], expected.log.fingers[0].psi[row], 1e-9);
@@ -194,13 +196,13 @@ TEST(Finger, both_ways_of_rolling_agree_on_random_shapes) {
     const Pairing pairing = random_pairing(generator);
     Roll exact;
     try {
-      exact = roll_in_closed_form(pairing.part, pairing.finger, pairing.plan);
+      exact = roll(pairing.part, pairing.finger, pairing.plan);
     } catch (const InputError& error) {  // then the other way refuses it as well
-      EXPECT_EQ(refusal_of([&] { roll(pairing.part, pairing.finger, pairing.plan); }), error.what());
+      EXPECT_EQ(refusal_of([&] { integrated_roll(pairing.part, pairing.finger, pairing.plan); }), error.what());
       continue;
     }
     ++rolled;
-    const Roll integrated = roll(pairing.part, pairing.finger, pairing.plan);
+    const Roll integrated = integrated_roll(pairing.part, pairing.finger, pairing.plan);
     EXPECT_LT(difference(exact, integrated), 3e-8) << pairing.part.name() << " " << pairing.finger.name();
     EXPECT_NEAR(exact.s[0].back() - exact.s[0].front(), *pairing.plan.distance, 1e-9);
     const Reading last = readings(exact.log, pairing.part, {pairing.finger}).back();
@@ -226,25 +228,25 @@ TEST(Finger, nothing_slips_and_everything_touches) {
 TEST(Finger, at_a_corner_of_the_part_it_pivots) {
   const Part square = shapes::unit_square();
   const Finger finger = finger_from("ellipse,a=0.3,b=0.2");
-  const Roll found = roll_in_closed_form(square, finger, plan_over(0.5, 1, 2001));
+  const Roll found = roll(square, finger, plan_over(0.5, 1, 2001));
   EXPECT_NEAR(found.angle[0].back() - found.angle[0].front(), kPi / 2, 1e-12);
   const auto on_corner = std::count(found.s[0].begin(), found.s[0].end(), 1.0);
   EXPECT_GT(on_corner, 100) << "rows in the pivot";
-  EXPECT_LT(difference(found, roll(square, finger, plan_over(0.5, 1, 2001))), 1e-8);
+  EXPECT_LT(difference(found, integrated_roll(square, finger, plan_over(0.5, 1, 2001))), 1e-8);
 }
 
 TEST(Finger, a_stadium_rolls_over_its_own_joints) {
   const Part part(gallery("ellipse"));
   const Finger finger = finger_from("stadium,r=0.2,length=0.5");
-  const Roll found = roll(part, finger, plan_over(0.3, 9, 500));
-  EXPECT_LT(difference(found, roll_in_closed_form(part, finger, plan_over(0.3, 9, 500))), 1e-8);
+  const Roll found = integrated_roll(part, finger, plan_over(0.3, 9, 500));
+  EXPECT_LT(difference(found, roll(part, finger, plan_over(0.3, 9, 500))), 1e-8);
   expect_touching(part, finger, found);
 }
 
 TEST(Finger, the_part_is_found_where_it_is) {
   const Part part(gallery("cam"));
   for (const Finger& finger : {rollfix::jaw(), finger_from("ellipse,a=0.3,b=0.2")}) {
-    const Roll found = roll_in_closed_form(part, finger, plan_over(2, 1.5, 100, 0.3));
+    const Roll found = roll(part, finger, plan_over(2, 1.5, 100, 0.3));
     const Poses at = *poses(part, {finger}, found.log, 2, {0, 50, 99});
     for (std::size_t k = 0; k < 3; ++k) {
       EXPECT_NEAR(at.pose[k].x, 0, 1e-9) << finger.name();
@@ -299,7 +301,7 @@ TEST(Finger, it_sticks_where_it_does_not_fit_any_more) {
 TEST(Finger, logs_of_a_jaw_and_of_outlines_are_read_back) {
   const Part part(gallery("ellipse"));
   for (const Finger& finger : {rollfix::jaw(), finger_from("ellipse,a=0.3,b=0.2")}) {
-    const Roll found = roll_in_closed_form(part, finger, plan_over(1, 8, 200));
+    const Roll found = roll(part, finger, plan_over(1, 8, 200));
     const Log log = parse_log(format_log(found.log), "run.csv");
     const std::vector<Reading> all = readings_as_given(log, {finger});
     LogStream stream("live", part, {finger});
@@ -318,7 +320,7 @@ TEST(Finger, logs_of_a_jaw_and_of_outlines_are_read_back) {
 TEST(Finger, u_of_a_closed_outline_may_be_wrapped_at_its_length) {
   const Part part(gallery("ellipse"));
   const Finger finger = finger_from("ellipse,a=0.3,b=0.2");
-  Log log = roll_in_closed_form(part, finger, plan_over(1, 8, 200)).log;
+  Log log = roll(part, finger, plan_over(1, 8, 200)).log;
   const double whole = readings(log, part, {finger}).back().length[0];
   for (double& u : log.fingers[0].u) u -= finger.period() * std::floor(u / finger.period());
   EXPECT_NEAR(readings(log, part, {finger}).back().length[0], whole, 1e-9);

@@ -1,4 +1,5 @@
 // Two disks that roll on a part which is free to move: what their sensors say and how everything moves.
+#include "integrated_rolls.hpp"
 #include "rollfix/contact/rolling.hpp"
 
 #include <gmock/gmock.h>
@@ -28,6 +29,7 @@ using free_rolls::centre_at;
 using free_rolls::felt_contact;
 using free_rolls::part_of;
 using free_rolls::rate;
+using integrated_rolls::integrated_roll_free;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -234,9 +236,9 @@ TEST_P(FreePartCases, the_facing_of_the_fingers_is_that_of_the_tangents) {
 }
 
 TEST_P(FreePartCases, integration_and_closed_form_agree) {
-  EXPECT_LT(difference(roll_free(part_, profiles_), roll_free_in_closed_form(part_, profiles_)), 1e-9);
+  EXPECT_LT(difference(integrated_roll_free(part_, profiles_), roll_free(part_, profiles_)), 1e-9);
   const FreePlan plan = by_distances(ra_, 0.15 * P_, 0.4 * P_, rb_, 0.6 * P_, -0.3 * P_, 1.2);
-  EXPECT_LT(difference(roll_free(part_, plan), roll_free_in_closed_form(part_, plan)), 1e-9);
+  EXPECT_LT(difference(integrated_roll_free(part_, plan), roll_free(part_, plan)), 1e-9);
 }
 
 INSTANTIATE_TEST_SUITE_P(Gallery, FreePartCases,
@@ -253,7 +255,7 @@ TEST(FreePart, integration_and_closed_form_agree_on_random_splines_and_rolls) {
         by_distances(0.02 + 0.05 * share(generator), share(generator) * part.perimeter(), 4 * share(generator) - 2,
                      0.02 + 0.05 * share(generator), share(generator) * part.perimeter(), 4 * share(generator) - 2,
                      6 * share(generator) - 3);
-    EXPECT_LT(difference(roll_free(part, plan), roll_free_in_closed_form(part, plan)), 1e-9)
+    EXPECT_LT(difference(integrated_roll_free(part, plan), roll_free(part, plan)), 1e-9)
         << part.name() << " a: r=" << plan.fingers[0].finger.length_per_u() << " s=" << plan.fingers[0].start
         << " L=" << *plan.fingers[0].distance << " b: r=" << plan.fingers[1].finger.length_per_u()
         << " t=" << plan.fingers[1].start << " L=" << *plan.fingers[1].distance;
@@ -265,8 +267,8 @@ TEST(FreePart, integration_and_closed_form_agree_on_random_splines_and_rolls) {
 TEST(FreePart, both_fingers_pivot_at_convex_corners) {
   const Part square = part_of("polygon,n=4,r=1.4142135623730951");  // sides of length 2
   const FreePlan plan = by_distances(0.5, 1, 2, 0.2, 5.5, -2, 0.4);
-  const Roll found = roll_free(square, plan);
-  EXPECT_LT(difference(found, roll_free_in_closed_form(square, plan)), 1e-9);
+  const Roll found = integrated_roll_free(square, plan);
+  EXPECT_LT(difference(found, roll_free(square, plan)), 1e-9);
   EXPECT_NEAR(reading_at(found.log.fingers[0], 0.5, 200).length[0], 2, 1e-9);
   EXPECT_NEAR(reading_at(found.log.fingers[0], 0.5, 200).turn, kPi / 2 + 0.4, 1e-9);
   EXPECT_NEAR(reading_at(found.log.fingers[1], 0.2, 200).turn, -kPi / 2 + 0.4, 1e-9);
@@ -324,9 +326,9 @@ TEST(FreePart, starts_as_the_plan_says) {
 TEST(FreePart, how_things_move_along_changes_no_reading) {
   const Part part = part_of("limacon");
   FreePlan plan = by_distances(0.1, 0.3, 2, 0.2, 4, -1, 0.7);
-  const Roll plain = roll_free_in_closed_form(part, plan);
+  const Roll plain = roll_free(part, plan);
   plan.velocity_part = [](double) { return Vec2(5, -3); };
-  const Roll moved = roll_free_in_closed_form(part, plan);
+  const Roll moved = roll_free(part, plan);
   EXPECT_EQ(plain.log.fingers[0].u, moved.log.fingers[0].u);
   EXPECT_EQ(plain.log.fingers[1].psi, moved.log.fingers[1].psi);
   EXPECT_EQ(plain.s, moved.s);
@@ -347,9 +349,9 @@ TEST(FreePart, distances_may_be_different_and_one_may_be_0) {
 TEST(FreePart, a_duration_stretches_the_times_and_nothing_else) {
   const Part part = part_of("limacon");
   FreePlan plan = by_distances(0.1, 0.3, 2, 0.2, 4, -1, 0.7);
-  const Roll plain = roll_free_in_closed_form(part, plan);
+  const Roll plain = roll_free(part, plan);
   plan.duration = 10;
-  const Roll timed = roll_free_in_closed_form(part, plan);
+  const Roll timed = roll_free(part, plan);
   EXPECT_EQ(timed.log.time.back(), 10);
   EXPECT_NEAR(timed.s[0][100], plain.s[0][100], 1e-12);
   EXPECT_NEAR(timed.pose[100].heading, plain.pose[100].heading, 1e-12);

@@ -40,12 +40,12 @@ std::vector<Finger> fingers_of(const Log& log) {
 
 /// A roll of one finger, or of two on a part that turns meanwhile.
 Log roll_of(std::size_t fingers) {
-  if (fingers == 2) return roll_free_in_closed_form(egg(), by_distances(0.2, 1, 4, 0.3, 6, -3, 1.5)).log;
+  if (fingers == 2) return roll_free(egg(), by_distances(0.2, 1, 4, 0.3, 6, -3, 1.5)).log;
   RollPlan plan;
   plan.start = 1;
   plan.distance = 4;
   plan.rows = 201;
-  return roll_in_closed_form(egg(), kFingers[0], plan).log;
+  return roll(egg(), kFingers[0], plan).log;
 }
 
 /// Line by line, as text.
@@ -126,7 +126,7 @@ TEST(LogChecks, a_contact_that_is_off_turns_a_small_disks_normal_with_it_and_is_
   plan.distance = 0.002;
   plan.rows = 20;
   const double radius = 0.05;
-  Log log = roll_in_closed_form(egg(), disk(radius), plan).log;
+  Log log = roll(egg(), disk(radius), plan).log;
   log.fingers[0].u[15] += 1;
   const auto refusal = [&](double contact) {
     return refusal_of([&] { readings(log, egg(), {disk(radius)}, {}, Noise{contact, 0.001}); });
@@ -287,7 +287,7 @@ TEST(LogChecks, no_honest_log_of_two_fingers_has_a_jump_however_its_rows_lie) {
     FreePlan plan =
         by_distances(0.02, P * share(generator), way(), 0.03, P * share(generator), way(), 8 * share(generator) - 4);
     plan.rows = 4000;
-    const Log whole = roll_free_in_closed_form(part, plan).log;
+    const Log whole = roll_free(part, plan).log;
     // Few rows or many, with gaps, as they are written, and what was turned only by the part.
     Log log = whole;
     log.time.clear();

@@ -190,7 +190,7 @@ TEST(Log, wrapped_or_not_the_readings_are_the_same) {
   RollPlan plan;
   plan.distance = 1.7 * ellipse().perimeter();
   plan.rows = 301;
-  const Log plain = roll_in_closed_form(ellipse(), finger, plan).log;
+  const Log plain = roll(ellipse(), finger, plan).log;
   const std::vector<Reading> expected = readings_as_given(plain, {finger});
   for (const double lowest : {-kPi, 0.0, -1.0}) {
     for (const bool only_u : {true, false}) {
@@ -339,7 +339,7 @@ TEST(Log, rounding_of_a_reading_bounds_what_the_digits_can_do) {
   RollPlan plan;
   plan.distance = 4;
   plan.rows = 101;
-  const Log exact = roll_in_closed_form(ellipse(), finger, plan).log;
+  const Log exact = roll(ellipse(), finger, plan).log;
   const std::vector<Reading> expected = readings_as_given(exact, {finger});
   std::string contacts = "u,psi\n";
   std::string travelled = "length,turn\n";

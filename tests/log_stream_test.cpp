@@ -94,7 +94,7 @@ std::string roll_text(const Part& part, double start, double distance, std::size
   plan.start = start;
   plan.distance = distance;
   plan.rows = rows;
-  return format_log(roll_in_closed_form(part, DiskFinger{0.2}, plan).log);
+  return format_log(roll(part, DiskFinger{0.2}, plan).log);
 }
 
 // --- What it says of clean logs.
@@ -116,7 +116,7 @@ TEST(LogStream, wrapped_angles_have_the_bits_of_the_file) {
   RollPlan plan;
   plan.distance = 20;
   plan.rows = 400;
-  const Log log = roll_in_closed_form(egg(), DiskFinger{0.2}, plan).log;
+  const Log log = roll(egg(), DiskFinger{0.2}, plan).log;
   std::string text = "u,psi\n";
   for (std::size_t k = 0; k < log.rows(); ++k) {
     text += fmt::format("{:.17g},{:.17g}\n", std::remainder(log.fingers[0].u[k], 2 * kPi),
@@ -260,7 +260,7 @@ Streamed with_glitch(double du, double dpsi, std::size_t row, const Part& part =
   RollPlan plan;
   plan.distance = 4;
   plan.rows = 200;
-  Log log = roll_in_closed_form(part, DiskFinger{0.2}, plan).log;
+  Log log = roll(part, DiskFinger{0.2}, plan).log;
   log.fingers[0].u[row] += du;
   log.fingers[0].psi[row] += dpsi;
   return streamed(format_log(log), part);
@@ -297,7 +297,7 @@ TEST(LogStream, a_file_with_a_jump_is_refused_with_its_line) {
   RollPlan plan;
   plan.distance = 4;
   plan.rows = 200;
-  Log log = roll_in_closed_form(egg(), DiskFinger{0.2}, plan).log;
+  Log log = roll(egg(), DiskFinger{0.2}, plan).log;
   log.fingers[0].u[100] += 4;
   const Log read = parse_log(format_log(log), "run.csv");
   EXPECT_THAT(refusal_of([&] { readings(read, egg(), {DiskFinger{0.2}}); }),

@@ -36,7 +36,7 @@ Answer answer(bool is_image, const rollfix::Noise& noise) {
   plan.start = 12.5;
   plan.distance = 30;
   const rollfix::Finger finger = rollfix::disk(1);
-  Problem problem{loop(is_image), rollfix::roll_in_closed_form(loop(true), finger, plan).log, {finger}, noise};
+  Problem problem{loop(is_image), rollfix::roll(loop(true), finger, plan).log, {finger}, noise};
   problem.mirrored = !is_image;
   return rollfix::solve(problem);
 }

@@ -52,7 +52,7 @@ inline Case noisy_case(const Part& part, const std::array<double, 2>& start, dou
   rollfix::FreePlan plan = free_rolls::by_distances(ra, start[0], La, rb, start[1], Lb, 0.4);
   plan.rows = rows;
   Case drawn{start, {{{ra}, {rb}}}, {}};
-  drawn.log = rollfix::roll_free_in_closed_form(part, plan).log;
+  drawn.log = rollfix::roll_free(part, plan).log;
   add_noise(drawn.log.fingers[0], ra, noise, generator);
   add_noise(drawn.log.fingers[1], rb, noise, generator);
   return drawn;

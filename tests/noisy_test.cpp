@@ -88,7 +88,7 @@ TEST(NormalNumbers, are_the_same_everywhere) {
 
 TEST(Noisy, without_noise_it_is_the_roll) {
   const NoisyRoll found = noisy_roll(egg_part(), 0.2, long_roll(), {}, 7);
-  const Roll plain = roll_in_closed_form(egg_part(), 0.2, long_roll());
+  const Roll plain = roll(egg_part(), 0.2, long_roll());
   EXPECT_EQ(found.log.fingers[0].u, plain.log.fingers[0].u);
   EXPECT_EQ(found.log.fingers[0].psi, plain.log.fingers[0].psi);
   EXPECT_EQ(found.truth.s, plain.s);

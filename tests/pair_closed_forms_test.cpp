@@ -33,7 +33,7 @@ rollfix::Problem grip(const Noise& noise) {
   const Part square = shapes::unit_square();
   const rollfix::FreePlan plan = free_rolls::by_distances(kRadius, 0.4, 0.2, kRadius, 2.6, -0.2);
   rollfix::Problem problem{
-      square, rollfix::roll_free_in_closed_form(square, plan).log, {rollfix::disk(kRadius)}, noise};
+      square, rollfix::roll_free(square, plan).log, {rollfix::disk(kRadius)}, noise};
   problem.prior = rollfix::Prior{0.4, 1e-5};
   return problem;
 }

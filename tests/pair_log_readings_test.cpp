@@ -62,7 +62,7 @@ TEST(PairLogReadings, two_files_say_the_same_as_one) {
 TEST(PairLogReadings, angles_as_read_may_be_wrapped_each_in_its_own_way) {
   const Part part = part_of("limacon");
   const FreePlan plan = by_distances(0.1, 0.3, 3, 0.05, 4, -2, 1);
-  const Roll roll = roll_free_in_closed_form(part, plan);
+  const Roll roll = roll_free(part, plan);
   Log wrapped = roll.log;
   for (double& u : wrapped.fingers[0].u) u = std::remainder(u, 2 * kPi);
   for (double& psi : wrapped.fingers[1].psi)
@@ -91,7 +91,7 @@ TEST(PairLogReadings, of_a_roll_are_the_total_curvatures_of_the_part) {
     const double La = 4 * share(generator) - 2;
     const double Lb = 4 * share(generator) - 2;
     const FreePlan plan = by_distances(0.05, s, La, 0.03, t, Lb, share(generator));
-    const Roll roll = roll_free_in_closed_form(part, plan);
+    const Roll roll = roll_free(part, plan);
     const Reading last = readings(roll.log, part, {plan.fingers[0].finger, plan.fingers[1].finger}).back();
     const auto angle = [&](double at) { return part.turning().angle(at); };
     EXPECT_NEAR(last.length[0], La, 1e-11);
@@ -157,7 +157,7 @@ TEST(PairLogReadings, the_middle_row_and_the_last_are_used_by_default) {
 }
 
 TEST(PairLogReadings, other_instants_are_chosen_by_time) {
-  const Roll roll = roll_free_in_closed_form(part_of("ellipse"), by_profiles(0.3, 1, 0.2, 5));
+  const Roll roll = roll_free(part_of("ellipse"), by_profiles(0.3, 1, 0.2, 5));
   EXPECT_THAT(rows_at(roll.log, {0.25, 0.7501, 1}), ElementsAre(50, 150, 200));
 }
 
@@ -201,7 +201,7 @@ TEST(PairLogReadings, are_rounded_like_the_digits_of_both) {
 TEST(PairLogReadings, rounding_bounds_what_written_digits_can_do) {
   const Part part = part_of("limacon");
   const FreePlan plan = by_distances(0.1, 0.3, 3, 0.05, 4, -2, 1);
-  const Roll roll = roll_free_in_closed_form(part, plan);
+  const Roll roll = roll_free(part, plan);
   const std::vector<Finger> fingers{plan.fingers[0].finger, plan.fingers[1].finger};
   Log rounded = roll.log;
   for (FingerRows& rows : rounded.fingers) {

@@ -86,7 +86,7 @@ class PoseCases : public testing::TestWithParam<Case> {
   Part part_ = part_of(GetParam().shape);
   double P_ = part_.perimeter();
   FreePlan plan_ = by_distances(GetParam().ra, 0.15 * P_, 0.6 * P_, GetParam().rb, 0.61 * P_, -0.45 * P_, 2.5);
-  Roll roll_ = roll_free_in_closed_form(part_, plan_);
+  Roll roll_ = roll_free(part_, plan_);
 };
 
 TEST_P(PoseCases, of_two_fingers_is_the_simulated_one_at_every_instant) {
@@ -106,7 +106,7 @@ TEST_P(PoseCases, of_one_finger_on_a_part_at_rest_is_where_it_lies) {
   RollPlan plan;
   plan.start = 0.15 * P_;
   plan.distance = 0.6 * P_;
-  const Roll rolled = roll_in_closed_form(part_, plan_.fingers[0].finger, plan);
+  const Roll rolled = roll(part_, plan_.fingers[0].finger, plan);
   const Pose pose{0.3, -2, 2.75};
   const Log log = moved(rolled.log, pose);
   const Poses found = *poses(part_, {plan_.fingers[0].finger}, log, plan.start, all_rows(log.rows()));
@@ -125,7 +125,7 @@ TEST(Pose, is_right_while_both_fingers_pivot_at_corners) {
   const Part square = part_of("polygon,n=4,r=1.4142135623730951");  // sides of length 2
   // Both come to their corners after the same share of a way that is the same for both, and pivot together.
   FreePlan plan = by_distances(0.5, 1, 2, 0.5, 5, 2, 0.4);
-  const Roll roll = roll_free_in_closed_form(square, plan);
+  const Roll roll = roll_free(square, plan);
   const Poses found = poses_of(square, plan, roll, 1, 5);
   std::size_t pivoting = 0;
   for (std::size_t row = 0; row < roll.s[0].size(); ++row) {
@@ -141,7 +141,7 @@ TEST(Pose, of_a_roll_that_starts_at_a_corner_is_right) {
     RollPlan plan;
     plan.start = 2;
     plan.distance = distance;
-    const Roll rolled = roll_in_closed_form(square, {0.5}, plan);
+    const Roll rolled = roll(square, {0.5}, plan);
     const Poses found = *poses(square, {0.5}, rolled.log, 2, all_rows(rolled.s[0].size()));
     EXPECT_LT(largest_difference(found.pose, std::vector<Pose>(rolled.s[0].size())), 1e-9) << distance;
   }
@@ -153,7 +153,7 @@ TEST(Pose, of_a_part_at_rest_stays_through_laps_over_its_corners) {
     RollPlan plan;
     plan.start = 1;
     plan.distance = distance;
-    const Roll rolled = roll_in_closed_form(square, {0.5}, plan);
+    const Roll rolled = roll(square, {0.5}, plan);
     const Poses found = *poses(square, {0.5}, rolled.log, 1, all_rows(rolled.s[0].size()));
     EXPECT_LT(largest_difference(found.pose, std::vector<Pose>(rolled.s[0].size())), 1e-9) << distance;
   }
@@ -164,7 +164,7 @@ TEST(Pose, of_a_part_on_which_a_finger_only_pivots_keeps_the_corner_in_place) {
   RollPlan plan;
   plan.start = 1;
   plan.rotation = 1 / 0.5 + 1.0;  // 1 rad into the pivot of pi / 2
-  const Roll rolled = roll_in_closed_form(square, {0.5}, plan);
+  const Roll rolled = roll(square, {0.5}, plan);
   Log pivot;
   for (std::size_t row = 70; row < rolled.s[0].size(); ++row) {
     pivot.fingers[0].u.push_back(rolled.log.fingers[0].u[row]);
@@ -185,7 +185,7 @@ TEST(Pose, of_another_turn_of_the_first_contacts_is_the_same) {
     const Part part = part_of(shape);
     const double P = part.perimeter();
     const FreePlan plan = by_distances(0.1, 0.15 * P, 0.6 * P, 0.2, 0.61 * P, -0.45 * P, 2.5);
-    const Roll roll = roll_free_in_closed_form(part, plan);
+    const Roll roll = roll_free(part, plan);
     const Poses once = poses_of(part, plan, roll, 0.15 * P, 0.61 * P);
     const Poses again = poses_of(part, plan, roll, 0.15 * P - P, 0.61 * P + 2 * P);
     EXPECT_LT(largest_difference(once.pose, again.pose), 1e-9 * P) << shape;
@@ -202,7 +202,7 @@ TEST(Pose, of_random_rolls_is_the_simulated_one) {
     const double t = share(generator) * part.perimeter();
     const FreePlan plan =
         by_distances(0.05, s, 4 * share(generator) - 2, 0.03, t, 4 * share(generator) - 2, 4 * share(generator) - 2);
-    const Roll roll = roll_free_in_closed_form(part, plan);
+    const Roll roll = roll_free(part, plan);
     const Poses found = poses_of(part, plan, roll, s, t);
     EXPECT_LT(largest_difference(found.pose, roll.pose), 1e-9 * part.perimeter())
         << part.name() << " s=" << s << " La=" << *plan.fingers[0].distance << " t=" << t
@@ -215,7 +215,7 @@ TEST(Pose, of_random_rolls_is_the_simulated_one) {
 TEST(Pose, of_a_wrong_pair_of_first_contacts_leaves_large_residuals) {
   const Part part = part_of("spline,seed=3");
   const FreePlan plan = by_profiles(0.1, 1, 0.06, 4);
-  const Roll roll = roll_free_in_closed_form(part, plan);
+  const Roll roll = roll_free(part, plan);
   for (const auto& [s, t] : {std::pair(1.3, 4.0), std::pair(1.0, 4.4), std::pair(4.0, 1.0), std::pair(2.0, 5.0)}) {
     const Poses wrong = poses_of(part, plan, roll, s, t);
     EXPECT_GT(most(wrong.residual), 0.02 * part.perimeter()) << s << " " << t;
@@ -227,7 +227,7 @@ TEST(Pose, tells_the_true_one_of_ten_placements_that_fit_the_reading) {
   RollPlan plan;
   plan.start = 5;
   plan.distance = 2;
-  const Roll rolled = roll_in_closed_form(part, {0.1}, plan);
+  const Roll rolled = roll(part, {0.1}, plan);
   const std::size_t last = rolled.s[0].size() - 1;
   const Search search = locate(part, readings(rolled.log, part, {DiskFinger{0.1}}));
   ASSERT_EQ(search.placements.size(), 10U);
@@ -246,7 +246,7 @@ TEST(Pose, tells_the_true_one_of_ten_placements_that_fit_the_reading) {
 TEST(Pose, a_wrong_facing_shows_in_the_turn) {
   const Part part = part_of("ellipse");
   const FreePlan plan = by_distances(0.3, 1, 2, 0.3, 5, 1, 0.5);
-  Roll roll = roll_free_in_closed_form(part, plan);
+  Roll roll = roll_free(part, plan);
   for (double& psi : roll.log.fingers[1].psi) psi += 0.01;
   const Poses found = poses_of(part, plan, roll, 1, 5);
   for (const double gap : found.turn_residual) EXPECT_NEAR(gap, 0.01, 1e-9);
@@ -256,7 +256,7 @@ TEST(Pose, a_wrong_facing_shows_in_the_turn) {
 TEST(Pose, of_fingers_that_disagree_is_in_the_middle) {
   const Part part = part_of("ellipse");
   const FreePlan plan = by_distances(0.3, 1, 2, 0.3, 5, 1, 0.5);
-  Roll roll = roll_free_in_closed_form(part, plan);
+  Roll roll = roll_free(part, plan);
   for (double& x : roll.log.fingers[1].x) x += 0.03;
   for (double& y : roll.log.fingers[1].y) y -= 0.04;
   const Poses found = poses_of(part, plan, roll, 1, 5);
@@ -272,7 +272,7 @@ TEST(Pose, of_fingers_that_disagree_is_in_the_middle) {
 TEST(Pose, is_given_for_the_rows_asked_for) {
   const Part part = part_of("ellipse");
   const FreePlan plan = by_profiles(0.3, 1, 0.2, 5);
-  const Roll roll = roll_free_in_closed_form(part, plan);
+  const Roll roll = roll_free(part, plan);
   const Poses found = *poses(part, {DiskFinger{0.3}, DiskFinger{0.2}}, roll.log, {1, 5}, {200, 0, 77});
   ASSERT_EQ(found.pose.size(), 3U);
   EXPECT_LT(difference(found.pose[0], roll.pose[200]), 1e-9);

@@ -62,7 +62,7 @@ TEST(ReachNoise, fingers_that_passed_each_other_at_a_corner_did_not_overlap) {
     const double Lb = (0.5 + 1.5 * unit(generator)) * side;
     rollfix::FreePlan plan = free_rolls::by_distances(0.2, start[0], La, 0.16, start[1], Lb, 0.4);
     plan.rows = 200;
-    const rollfix::Roll roll = rollfix::roll_free_in_closed_form(part, plan);
+    const rollfix::Roll roll = rollfix::roll_free(part, plan);
     const auto overlap = [&](double a, double b) {
       return rollfix::overlap_of(roll, rollfix::DiskFinger{a}, rollfix::DiskFinger{b}).has_value();
     };

@@ -1,5 +1,6 @@
 // A disk that rolls on a part: what its sensors say, and where it can't go.
 #include "rollfix/contact/rolling.hpp"
+#include "integrated_rolls.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -29,6 +30,7 @@
 namespace rollfix::rolling_test {
 namespace {
 
+using integrated_rolls::integrated_roll;
 using testing::AllOf;
 using testing::HasSubstr;
 constexpr double kPi = std::numbers::pi;
@@ -240,8 +242,8 @@ TEST_P(RollingCases, integration_and_closed_form_agree) {
   const Case& one = GetParam();
   const Part part = part_of(one.shape);
   const RollPlan plan = by_distance(one.start * part.perimeter(), one.laps * part.perimeter(), 301);
-  const Roll integrated = roll(part, {one.radius}, plan);
-  const Roll closed = roll_in_closed_form(part, {one.radius}, plan);
+  const Roll integrated = integrated_roll(part, {one.radius}, plan);
+  const Roll closed = roll(part, {one.radius}, plan);
   EXPECT_LT(difference(integrated, closed, {one.radius}), 1e-9);
   EXPECT_NEAR(closed.s[0].back() - closed.s[0].front(), *plan.distance, 1e-12 * (1 + part.perimeter()));
 }
@@ -282,7 +284,7 @@ TEST(Rolling, integration_and_closed_form_agree_on_random_splines) {
     const Part part = part_of("spline,n=12,wobble=0.1,seed=" + std::to_string(generator() % 100000));
     const DiskFinger finger{0.02 + 0.05 * share(generator)};
     const RollPlan plan = by_distance(share(generator) * part.perimeter(), 4 * (share(generator) - 0.5), 41);
-    EXPECT_LT(difference(roll(part, finger, plan), roll_in_closed_form(part, finger, plan), finger), 1e-9)
+    EXPECT_LT(difference(integrated_roll(part, finger, plan), roll(part, finger, plan), finger), 1e-9)
         << part.name() << " r=" << finger.radius << " start=" << plan.start << " distance=" << *plan.distance;
   }
 }
@@ -292,18 +294,18 @@ TEST(Rolling, integration_and_closed_form_agree_on_random_splines) {
 TEST(Rolling, a_rotation_turns_the_finger_by_just_that) {
   const Part part = part_of("ellipse");
   for (const double rotation : {7.5, -20.0}) {
-    const Roll found = roll(part, {0.1}, by_rotation(1, rotation));
+    const Roll found = integrated_roll(part, {0.1}, by_rotation(1, rotation));
     EXPECT_NEAR(found.log.fingers[0].psi.back() - found.log.fingers[0].psi.front(), rotation, 1e-12);
-    EXPECT_LT(difference(found, roll_in_closed_form(part, {0.1}, by_rotation(1, rotation)), {0.1}), 1e-9);
+    EXPECT_LT(difference(found, roll(part, {0.1}, by_rotation(1, rotation)), {0.1}), 1e-9);
   }
 }
 
 TEST(Rolling, speed_changes_the_times_and_nothing_else) {
   const Part part = part_of("limacon");
   RollPlan plan = by_distance(0.4, 2);
-  const Roll slow = roll_in_closed_form(part, {0.1}, plan);
+  const Roll slow = roll(part, {0.1}, plan);
   plan.speed = 4;
-  const Roll fast = roll_in_closed_form(part, {0.1}, plan);
+  const Roll fast = roll(part, {0.1}, plan);
   EXPECT_EQ(difference(slow, fast, {0.1}), 0);
   EXPECT_NEAR(slow.log.time.back(), 4 * fast.log.time.back(), 1e-12 * slow.log.time.back());
 }
@@ -313,19 +315,19 @@ TEST(Rolling, a_profile_that_swings_forth_and_back_returns_to_the_start) {
   for (const char* shape : {"limacon", "stadium", "polygon", "reuleaux", "spline"}) {
     const Part part = part_of(shape);
     const RollPlan plan = by_profile(0.1, 2 * kPi, omega);
-    const Roll found = roll(part, {0.1}, plan);
+    const Roll found = integrated_roll(part, {0.1}, plan);
     EXPECT_NEAR(found.s[0].back(), found.s[0].front(), 1e-10) << shape;
     EXPECT_NEAR(found.log.fingers[0].psi[100] - found.log.fingers[0].psi[0], 40, 1e-10) << shape;
-    EXPECT_LT(difference(found, roll_in_closed_form(part, {0.1}, plan), {0.1}), 1e-9) << shape;
+    EXPECT_LT(difference(found, roll(part, {0.1}, plan), {0.1}), 1e-9) << shape;
   }
 }
 
 TEST(Rolling, orientation_at_the_start_shifts_psi_and_turns_u_back) {
   const Part part = part_of("ellipse");
   RollPlan plan = by_distance(1, 1);
-  const Roll plain = roll_in_closed_form(part, {0.2}, plan);
+  const Roll plain = roll(part, {0.2}, plan);
   plan.psi = 1.25;
-  const Roll turned = roll_in_closed_form(part, {0.2}, plan);
+  const Roll turned = roll(part, {0.2}, plan);
   EXPECT_NEAR(turned.log.fingers[0].psi[50] - plain.log.fingers[0].psi[50], 1.25, 1e-12);
   EXPECT_NEAR(std::remainder(turned.log.fingers[0].u[50] - plain.log.fingers[0].u[50] + 1.25, 2 * kPi), 0, 1e-12);
   EXPECT_NEAR(turned.log.fingers[0].x[50], plain.log.fingers[0].x[50], 1e-12);
@@ -333,8 +335,8 @@ TEST(Rolling, orientation_at_the_start_shifts_psi_and_turns_u_back) {
 
 TEST(Rolling, the_start_may_be_given_on_any_lap) {
   const Part part = part_of("ellipse");
-  const Roll once = roll_in_closed_form(part, {0.2}, by_distance(1, 1));
-  const Roll again = roll_in_closed_form(part, {0.2}, by_distance(1 - 3 * part.perimeter(), 1));
+  const Roll once = roll(part, {0.2}, by_distance(1, 1));
+  const Roll again = roll(part, {0.2}, by_distance(1 - 3 * part.perimeter(), 1));
   EXPECT_LT(difference(once, again, {0.2}), 1e-12);
 }
 
@@ -373,7 +375,7 @@ TEST(Rolling, around_a_polygon_the_finger_turns_once_more_than_along_its_sides) 
 TEST(Rolling, a_rotation_can_end_in_the_middle_of_a_pivot) {
   const Part square = part_of("polygon,n=4,r=1.4142135623730951");
   const RollPlan plan = by_rotation(1, 1 / 0.5 + 0.3);
-  for (const Roll& found : {roll(square, {0.5}, plan), roll_in_closed_form(square, {0.5}, plan)}) {
+  for (const Roll& found : {integrated_roll(square, {0.5}, plan), roll(square, {0.5}, plan)}) {
     EXPECT_NEAR(found.s[0].back(), 2, 1e-12);
     EXPECT_NEAR(found.angle[0].back() - found.angle[0].front(), 0.3, 1e-9);
   }
@@ -383,7 +385,7 @@ TEST(Rolling, from_corner_to_corner_there_is_no_pivot) {
   const Part square = part_of("polygon,n=4,r=1.4142135623730951");
   for (const double side : {2.0, -2.0}) {
     for (const Roll& found :
-         {roll(square, {0.5}, by_distance(4, side)), roll_in_closed_form(square, {0.5}, by_distance(4, side))}) {
+         {integrated_roll(square, {0.5}, by_distance(4, side)), roll(square, {0.5}, by_distance(4, side))}) {
       EXPECT_NEAR(reading_at(found, {0.5}, found.s[0].size() - 1).turn, 0, 1e-12);
       EXPECT_NEAR(found.s[0].back(), 4 + side, 1e-12);
     }
@@ -409,8 +411,8 @@ TEST(Rolling, closed_form_and_integration_refuse_alike) {
   const Part part = part_of("limacon,a=1.2,b=1");
   for (const RollPlan& plan : {by_distance(0, 5), by_distance(0, -5), by_rotation(0.5, 60), by_rotation(0.5, -60),
                                by_distance(part.perimeter() / 2, 0.1)}) {
-    const std::string integrated = message_of([&] { roll(part, {0.2}, plan); });
-    EXPECT_EQ(integrated, message_of([&] { roll_in_closed_form(part, {0.2}, plan); }));
+    const std::string integrated = message_of([&] { integrated_roll(part, {0.2}, plan); });
+    EXPECT_EQ(integrated, message_of([&] { roll(part, {0.2}, plan); }));
     EXPECT_THAT(integrated, HasSubstr("radius below 0.05;"));
   }
 }
@@ -424,7 +426,7 @@ TEST(Rolling, a_disk_that_almost_fills_a_concavity_still_rolls_through) {
   const Part part = part_of("limacon,a=1.2,b=1");
   const DiskFinger finger{0.05 * (1 - 1e-6)};
   const RollPlan plan = by_distance(0, part.perimeter());
-  EXPECT_LT(difference(roll(part, finger, plan), roll_in_closed_form(part, finger, plan), finger), 1e-6);
+  EXPECT_LT(difference(integrated_roll(part, finger, plan), roll(part, finger, plan), finger), 1e-6);
 }
 
 TEST(Rolling, a_concave_corner_is_refused_and_named) {
@@ -433,24 +435,24 @@ TEST(Rolling, a_concave_corner_is_refused_and_named) {
   const double at_notch = 4 + 3 + std::sqrt(8.0);
   for (const RollPlan& plan : {by_distance(8, 4), by_distance(11, -4), by_rotation(8, 100), by_distance(at_notch, 1),
                                by_distance(8, at_notch - 8)}) {
-    const std::string message = message_of([&] { roll(part, {0.1}, plan); });
+    const std::string message = message_of([&] { integrated_roll(part, {0.1}, plan); });
     EXPECT_THAT(message, AllOf(HasSubstr("notched"), HasSubstr("concave corner at s = 9.8284"), HasSubstr("(2, 1)"),
                                HasSubstr("-90 degrees"), HasSubstr("largest radius that would do is 0")));
-    EXPECT_EQ(message, message_of([&] { roll_in_closed_form(part, {0.1}, plan); }));
+    EXPECT_EQ(message, message_of([&] { roll(part, {0.1}, plan); }));
   }
-  EXPECT_NO_THROW(roll(part, {0.1}, by_distance(8, 1.5)));
+  EXPECT_NO_THROW(integrated_roll(part, {0.1}, by_distance(8, 1.5)));
 }
 
 TEST(Rolling, an_open_part_ends) {
   const Part part = part_of("exponential");
   const double P = part.perimeter();
-  EXPECT_NO_THROW(roll(part, {0.2}, by_distance(0, P)));
-  EXPECT_NO_THROW(roll(part, {0.2}, by_distance(P, -P)));
+  EXPECT_NO_THROW(integrated_roll(part, {0.2}, by_distance(0, P)));
+  EXPECT_NO_THROW(integrated_roll(part, {0.2}, by_distance(P, -P)));
   for (const RollPlan& plan : {by_distance(0, 1.01 * P), by_distance(0.1, -0.2), by_distance(-0.1, 1),
                                by_distance(P, 1), by_rotation(0, 1000), by_rotation(1, -1000)}) {
-    const std::string message = message_of([&] { roll(part, {0.2}, plan); });
+    const std::string message = message_of([&] { integrated_roll(part, {0.2}, plan); });
     EXPECT_THAT(message, HasSubstr("runs off the end"));
-    EXPECT_EQ(message, message_of([&] { roll_in_closed_form(part, {0.2}, plan); }));
+    EXPECT_EQ(message, message_of([&] { roll(part, {0.2}, plan); }));
   }
 }
 

@@ -58,7 +58,7 @@ Log finger_log(const Part& part, double radius, double from, double length, std:
   plan.start = from;
   plan.distance = length;
   plan.rows = rows;
-  return rollfix::roll_in_closed_form(part, {radius}, plan).log;
+  return rollfix::roll(part, {radius}, plan).log;
 }
 
 TeachOptions with_finger(double radius) {

@@ -31,7 +31,7 @@ inline std::vector<std::string> noisy_rows(double start, double length, std::siz
   plan.start = start;
   plan.distance = length;
   plan.rows = count;
-  const rollfix::Log log = rollfix::roll_in_closed_form(cam(), kFinger, plan).log;
+  const rollfix::Log log = rollfix::roll(cam(), kFinger, plan).log;
   std::mt19937_64 random = test_generator(static_cast<std::uint64_t>(1000 * start));
   std::normal_distribution<double> off;
   std::vector<std::string> rows;

@@ -30,14 +30,14 @@ Problem roll_on_ellipse(double radius, const Noise& noise) {
   plan.start = 1;
   plan.distance = 2;
   const rollfix::Finger finger = rollfix::disk(radius);
-  return {ellipse, rollfix::roll_in_closed_form(ellipse, finger, plan).log, {finger}, noise};
+  return {ellipse, rollfix::roll(ellipse, finger, plan).log, {finger}, noise};
 }
 
 /// Two disks on a cam that lies turned by 2.1 at first.
 Problem roll_of_two(const Noise& noise) {
   const Part cam(rollfix::gallery("cam"));
   const rollfix::FreePlan plan = free_rolls::by_distances(0.2, 1, 1.5, 0.2, 4, 1.2, 0.8);
-  Problem problem{cam, rollfix::roll_free_in_closed_form(cam, plan).log, {rollfix::disk(0.2)}, noise};
+  Problem problem{cam, rollfix::roll_free(cam, plan).log, {rollfix::disk(0.2)}, noise};
   problem.diagnose = false;
   return problem;
 }

@@ -37,9 +37,12 @@ struct RollState {
   double angle = 0;  // of the tangent
 };
 
-/// One way to find the roll at these times: eqs. (1) and (2) integrated, or the closed form that they imply.
-using Solve = std::vector<RollState> (*)(const Track&, const Motion&, const std::vector<double>& times);
-std::vector<RollState> integrated(const Track& track, const Motion& motion, const std::vector<double>& times);
-std::vector<RollState> in_closed_form(const Track& track, const Motion& motion, const std::vector<double>& times);
+/// The roll at these times, in closed form.
+std::vector<RollState> states_of(const Track& track, const Motion& motion, const std::vector<double>& times);
+
+/// What the sensors say of a plan whose states are found so.
+using Solve = decltype(&states_of);
+Roll roll_with(Solve solve, const Part& part, const Finger& finger, const RollPlan& plan);
+Roll roll_with(Solve solve, const Part& part, const FreePlan& plan);
 
 }  // namespace rollfix

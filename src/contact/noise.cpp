@@ -164,7 +164,7 @@ NoisyRoll noisy_roll(const Part& part, const Finger& finger, const RollPlan& pla
   NoisyRoll result;
   result.error[0] = draw_error(finger, noise, normal);
   const Finger real = true_finger(finger, result.error[0]);
-  result.truth = roll_in_closed_form(part, real, plan);
+  result.truth = roll(part, real, plan);
   let_sense(result, {real}, noise, normal);
   return result;
 }
@@ -179,7 +179,7 @@ NoisyRoll noisy_roll_free(const Part& part, const FreePlan& plan, const Noise& n
     result.error[k] = draw_error(plan.fingers[k].finger, noise, normal);
     real.fingers[k].finger = true_finger(plan.fingers[k].finger, result.error[k]);
   }
-  result.truth = roll_free_in_closed_form(part, real);
+  result.truth = roll_free(part, real);
   let_sense(result, {real.fingers[0].finger, real.fingers[1].finger}, noise, normal);
   return result;
 }

@@ -259,6 +259,8 @@ void add_places(Roll& roll, std::size_t finger, const Rolling& rolling) {
   }
 }
 
+}  // namespace
+
 Roll roll_with(Solve solve, const Part& part, const Finger& finger, const RollPlan& plan) {
   Rolling rolling{track_of(part, finger, plan.start, plan.u), {}, {}};
   rolling.motion = plan_motion(rolling.track(), plan);
@@ -299,8 +301,6 @@ Roll roll_with(Solve solve, const Part& part, const FreePlan& plan) {
   }
   return roll;
 }
-
-}  // namespace
 
 Motion plan_motion(const Track& track, const RollPlan& plan) {
   require_consistent(plan);
@@ -355,11 +355,7 @@ std::vector<double> integrals(const std::function<double(double)>& rate, const s
 }
 
 Roll roll(const Part& part, const Finger& finger, const RollPlan& plan) {
-  return roll_with(&integrated, part, finger, plan);
-}
-
-Roll roll_in_closed_form(const Part& part, const Finger& finger, const RollPlan& plan) {
-  return roll_with(&in_closed_form, part, finger, plan);
+  return roll_with(&states_of, part, finger, plan);
 }
 
 std::optional<Overlap> overlap_of(const Roll& roll, const Finger& a, const Finger& b) {
@@ -376,8 +372,6 @@ std::optional<Overlap> overlap_of(const Roll& roll, const Finger& a, const Finge
   return deepest.depth > kRounding * radii ? std::optional<Overlap>(deepest) : std::nullopt;
 }
 
-Roll roll_free(const Part& part, const FreePlan& plan) { return roll_with(&integrated, part, plan); }
-
-Roll roll_free_in_closed_form(const Part& part, const FreePlan& plan) { return roll_with(&in_closed_form, part, plan); }
+Roll roll_free(const Part& part, const FreePlan& plan) { return roll_with(&states_of, part, plan); }
 
 }  // namespace rollfix

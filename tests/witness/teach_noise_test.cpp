@@ -94,7 +94,7 @@ TEST_P(TeachLaps, of_a_square_keep_its_corners) {
   TeachOptions options;
   options.finger = rollfix::disk(0.1);
   const Taught taught =
-      rollfix::teach(rollfix::roll_in_closed_form(shapes::unit_square(), rollfix::DiskFinger{0.1}, plan).log, options);
+      rollfix::teach(rollfix::roll(shapes::unit_square(), rollfix::DiskFinger{0.1}, plan).log, options);
   const Part part(taught.outline);
   EXPECT_NEAR(part.perimeter(), 4, 1e-6);
   ASSERT_EQ(part.corners().size(), 4U);

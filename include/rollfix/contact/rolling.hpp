@@ -69,26 +69,19 @@ struct Roll {
   std::vector<Pose> pose;                // of a part that is free to move; at rest its frame is the world's: empty
 };
 
-/// Rolls a finger along a part: eqs. (1) and (2), with kappa by arc length, integrated by Runge-Kutta 5(4) with step
-/// control, started afresh wherever kappa jumps. At a convex corner the finger pivots: psi grows, u and L stay.
-/// Only the contact's own surroundings are looked at: that the finger does not hit the part elsewhere is not checked.
-/// Throws InputError: an impossible plan; a concave corner or a concavity that the finger does not fit into on the
-/// way (with the place, the curvature, and the radius that would do); a flat side under a jaw; running off an open
-/// part's end or an open finger's; or so few rows that a reader could not tell whether the angles are wrapped.
+/// Rolls a finger along a part, by what eqs. (1) and (2) imply: psi - psi0 = (Theta(s) - Theta(s0)) + N(u0) - N(u),
+/// solved for s, and u = u0 - (s - s0) along the finger; of a disk N(u0) - N(u) = (s - s0) / r. Accurate to rounding.
+/// At a convex corner the finger pivots: psi grows, u and L stay. Only the contact's own surroundings are looked at:
+/// that the finger does not hit the part elsewhere is not checked. Throws InputError: an impossible plan; a concave
+/// corner or a concavity that the finger does not fit into on the way (with the place, the curvature, and the radius
+/// that would do); a flat side under a jaw; running off an open part's end or an open finger's; or so few rows that a
+/// reader could not tell whether the angles are wrapped.
 Roll roll(const Part& part, const Finger& finger, const RollPlan& plan);
 
-/// The same without integration, from what eqs. (1) and (2) imply: psi - psi0 = (Theta(s) - Theta(s0)) + N(u0) - N(u),
-/// solved for s, and u = u0 - (s - s0) along the finger; of a disk N(u0) - N(u) = (s - s0) / r. Accurate to rounding
-/// and faster.
-Roll roll_in_closed_form(const Part& part, const Finger& finger, const RollPlan& plan);
-
-/// Rolls two fingers on a part that moves: eqs. (1) and (2) for each contact, with the finger's angular velocity
-/// against the part, integrated as `roll` does. That a finger hits the part elsewhere is not checked; whether the
-/// fingers hit each other overlap_of tells. Throws InputError as `roll` does, and says which finger it is about.
+/// Rolls two fingers on a part that moves, each contact as `roll` does with the finger's angular velocity against the
+/// part: docs/rolling.md. That a finger hits the part elsewhere is not checked; whether the fingers hit each other
+/// overlap_of tells. Throws InputError as `roll` does, and says which finger it is about.
 Roll roll_free(const Part& part, const FreePlan& plan);
-
-/// The same without integration of the contacts: see docs/rolling.md. Accurate to rounding and faster.
-Roll roll_free_in_closed_form(const Part& part, const FreePlan& plan);
 
 /// The row in which two disks are deepest in one another.
 struct Overlap {
@@ -118,7 +111,7 @@ struct NoisyRoll {
   PerFinger<RollError> error;
 };
 
-/// Throws InputError as roll_in_closed_form does, and: a standard deviation that is not a number of at least 0, that of
+/// Throws InputError as roll does, and: a standard deviation that is not a number of at least 0, that of
 /// the radius of a finger that has none, or one so large that the radius came out below 0 or the slip below -1.
 NoisyRoll noisy_roll(const Part& part, const Finger& finger, const RollPlan& plan, const Noise& noise,
                      std::uint64_t seed);

@@ -1,4 +1,4 @@
-#include "contact/motion.hpp"
+#pragma once
 
 #include <fmt/format.h>
 
@@ -16,12 +16,15 @@
 #include <utility>
 #include <vector>
 
+#include "contact/motion.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
 
-namespace rollfix {
+/// The witness of rolls: eqs. (1) and (2), with kappa by arc length, integrated by Runge-Kutta 5(4) with step control,
+/// started afresh wherever kappa jumps.
+namespace integrated_rolls {
 
-namespace {
+using namespace rollfix;
 
 namespace odeint = boost::numeric::odeint;
 
@@ -30,7 +33,7 @@ constexpr double kStepTolerance = 1e-13;
 // What is left of a roll when it arrives at the end of its way, in radians: less than this is an error of integration.
 constexpr double kLeftOver = 1e-10;
 
-const boost::math::tools::eps_tolerance<double> kFully(std::numeric_limits<double>::digits);
+inline const boost::math::tools::eps_tolerance<double> kFully(std::numeric_limits<double>::digits);
 
 /// What eqs. (1) and (2) are integrated over; s in perimeters, so that one tolerance suits all.
 using State = std::array<double, 3>;
@@ -39,7 +42,7 @@ constexpr std::size_t kS = 1;
 constexpr std::size_t kPsi = 2;
 // Not Fehlberg 7(8): its estimate of the error is 0 wherever a rate depends on time alone, as psi's does.
 using Stepper = odeint::runge_kutta_cash_karp54<State>;
-const Stepper kStepper{};  // static, so that the scratch space in it is zeroed before it is copied
+inline const Stepper kStepper{};  // static, so that the scratch space in it is zeroed before it is copied
 using ControlledStepper = odeint::result_of::make_controlled<Stepper>::type;
 
 class Integration {
@@ -191,77 +194,8 @@ class Integration {
   Interval ends_;
 };
 
-// Rounding of a rotation: the last row of a roll that ends where the way ends is not beyond it.
-constexpr double kRotationRounding = 16 * std::numeric_limits<double>::epsilon();
-
-struct Found {
-  double s = 0;
-  double angle = 0;
-};
-
-/// Goes along the track to where the finger has turned by a given amount: the inverse of Track::rotation.
-class Walk {
- public:
-  Walk(const Track& track, std::int64_t index) : track_(track) { enter(index); }
-
-  Found to(double rotation) {
-    beat();
-    // Turned back at falls, the finger is behind by that much.
-    const double rounding = kRotationRounding * (std::abs(rotation) + std::abs(rotation_.lo) + std::abs(rotation_.hi));
-    while (rotation + fallen_ > rotation_.hi + rounding) go(1);
-    while (rotation + fallen_ < rotation_.lo - rounding) go(-1);
-    return solve(std::min(std::max(rotation + fallen_, rotation_.lo), rotation_.hi));
-  }
-
- private:
-  void enter(std::int64_t index) {
-    index_ = index;
-    stretch_ = track_.stretch(index);
-    rotation_ = {track_.rotation(stretch_, stretch_.s.lo, stretch_.angle.lo),
-                 track_.rotation(stretch_, stretch_.s.hi, stretch_.angle.hi)};
-  }
-
-  void go(int direction) {
-    const auto next = track_.next(index_, direction);
-    if (!next) track_.refuse(index_, direction);
-    fallen_ += track_.fall_between(index_, *next);
-    enter(*next);
-  }
-
-  Found solve(double rotation) const {
-    if (stretch_.is_pivot) return {stretch_.s.lo, stretch_.angle.lo + (rotation - rotation_.lo)};
-    const auto excess = [&](double s) {
-      const Turning turning = track_.turning(stretch_, s);
-      return std::pair(track_.rotation(stretch_, s, turning.angle) - rotation,
-                       track_.finger_curvature(stretch_, s) + turning.curvature);
-    };
-    const double share = (rotation - rotation_.lo) / (rotation_.hi - rotation_.lo);
-    const double guess = stretch_.s.lo + share * stretch_.s.width();
-    constexpr int kDigits = std::numeric_limits<double>::digits;
-    std::uintmax_t iterations = 100;
-    const double s =
-        boost::math::tools::newton_raphson_iterate(excess, guess, stretch_.s.lo, stretch_.s.hi, kDigits, iterations);
-    return {s, track_.turning(stretch_, s).angle};
-  }
-
-  const Track& track_;
-  double fallen_ = 0;
-  std::int64_t index_ = 0;
-  Stretch stretch_;
-  Interval rotation_;
-};
-
-/// How far the finger has turned at each of the times: the integral of omega.
-std::vector<double> rotations_of(const Motion& motion, const std::vector<double>& times) {
-  if (motion.omega) return integrals(motion.omega, times);
-  std::vector<double> rotations(times.size());
-  for (std::size_t k = 0; k < times.size(); ++k) rotations[k] = motion.velocity * times[k];
-  return rotations;
-}
-
-}  // namespace
-
-std::vector<RollState> integrated(const Track& track, const Motion& motion, const std::vector<double>& times) {
+inline std::vector<RollState> states_by_integration(const Track& track, const Motion& motion,
+                                                    const std::vector<double>& times) {
   std::vector<RollState> states;
   states.reserve(times.size());
   Integration integration(track, motion);
@@ -272,18 +206,12 @@ std::vector<RollState> integrated(const Track& track, const Motion& motion, cons
   return states;
 }
 
-std::vector<RollState> in_closed_form(const Track& track, const Motion& motion, const std::vector<double>& times) {
-  const double s0 = motion.start.s;
-  const double rotation0 = track.rotation(track.stretch(motion.start.index), s0, motion.start_angle);
-  std::vector<RollState> states;
-  states.reserve(times.size());
-  Walk walk(track, motion.start.index);
-  for (const double rotation : rotations_of(motion, times)) {
-    const auto [s, angle] = walk.to(rotation0 + rotation);
-    const Reading reading{s - s0, angle - motion.start_angle};  // eqs. (4) and (5)
-    states.push_back({contact_after(track.finger(), motion.first, reading), s, angle});
-  }
-  return states;
+inline Roll integrated_roll(const Part& part, const Finger& finger, const RollPlan& plan) {
+  return roll_with(&states_by_integration, part, finger, plan);
 }
 
-}  // namespace rollfix
+inline Roll integrated_roll_free(const Part& part, const FreePlan& plan) {
+  return roll_with(&states_by_integration, part, plan);
+}
+
+}  // namespace integrated_rolls
