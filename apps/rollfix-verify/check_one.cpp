@@ -154,10 +154,11 @@ class OneFinger {
     }
   }
 
-  /// A reading passes 0 at one corner, and fits nowhere else.
+  /// A reading passes 0 at one corner, and fits nowhere else. What is merely near is looked at closer: all of a corner
+  /// that turns by some tolerances is.
   void prove_corner(std::size_t by, const Row& from, const Row& to) const {
     if (!readings_[by].changes_sign(from, to)) refuse("f does not change its sign from end to end of it");
-    Remains remains(document_, {&readings_[by]});
+    Remains remains(document_, {&readings_[by]}, 0);
     remains.add({from}, {to});
     if (remains.pieces(false) != 1) refuse("f does not pass 0 at one corner");
     if (!remains.are_corners()) refuse("f fits beside the corner as well");
@@ -200,7 +201,7 @@ class OneFinger {
   /// What no reading excludes of a group is one place: one piece of starts near to fitting.
   void find_remains(Group& group) const {
     const std::size_t first = group.cells.front();
-    group.remains.emplace(document_, all_);
+    group.remains.emplace(document_, all_, kNear);
     try {
       for (const std::size_t k : group.cells) group.remains->add(rows_[k], rows_[k + 1]);
     } catch (const std::domain_error& error) {

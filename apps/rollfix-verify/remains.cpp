@@ -26,7 +26,7 @@ Remains::Standing Remains::standing(const Rows& from, const Rows& to) const {
     is_known = is_known && range.known;
     if (!range.known) continue;
     if (range.misses(tolerance)) return Standing::excluded;
-    is_near = is_near && range.is_below(from[k], to[k], kNear * tolerance);
+    is_near = is_near && range.is_below(from[k], to[k], near_ * tolerance);
     is_corner = is_corner || range.corner;
   }
   if (!is_known) return Standing::unknown;

@@ -7,10 +7,11 @@
 namespace rollfix_verify {
 
 /// What some readings leave of a stretch of starts: parts of which none of them excludes all, by rising s. On each all
-/// readings are near (off by no more than kNear tolerances), or it is a corner, as narrow as one place.
+/// readings are near (off by no more than so many tolerances), or it is a corner, as narrow as one place.
 class Remains {
  public:
-  Remains(const Document& document, Readings readings) : document_(document), readings_(std::move(readings)) {}
+  Remains(const Document& document, Readings readings, double near)
+      : document_(document), readings_(std::move(readings)), near_(near) {}
 
   /// Of one more stretch, next to the one before: the starts from row to row, each one of which has the rolls of these
   /// readings. Throws std::domain_error where a part is neither excluded, near, nor a corner.
@@ -34,6 +35,7 @@ class Remains {
 
   const Document& document_;
   Readings readings_;
+  double near_;
   std::vector<Part> parts_;
   std::size_t pieces_ = 0;    // as long as nothing is round
   bool is_first_ = true;      // nothing was added yet
