@@ -71,7 +71,10 @@ Verdict check(const std::string& text) {
 
 std::string described(const Verdict& verdict) {
   if (!verdict.refusal.empty()) return "refused: " + verdict.refusal + "\n";
-  const std::string found = counted(verdict.placements, "placement") + ", " + counted(verdict.cells, "cell");
+  std::string found = counted(verdict.placements, "placement");
+  if (verdict.families == 1) found += ", 1 of them a family";
+  if (verdict.families > 1) found += ", " + std::to_string(verdict.families) + " of them families";
+  found += ", " + counted(verdict.cells, "cell");
   if (verdict.is_complete()) return "proved: " + found + ", nothing else\n" + verdict.question;
   std::string text = "proved but for " + counted(verdict.open, "cell") + " that " +
                      (verdict.open == 1 ? "excludes" : "exclude") + " nothing (" + percent_of(verdict.share) +

@@ -11,6 +11,7 @@ inline constexpr std::size_t kMostBytes = std::size_t{1} << 25U;
 /// What checking a certificate came to.
 struct Verdict {
   std::size_t placements = 0;
+  std::size_t families = 0;  // of them: lines of pairs all of which fit
   std::size_t cells = 0;
   std::size_t open = 0;      // cells that exclude nothing, of which not all is proved to fit either
   double share = 0;          // of all starts (of two fingers: of all pairs) that are in such cells

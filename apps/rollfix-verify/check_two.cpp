@@ -33,9 +33,12 @@ using Roots = PairBoxes::Roots;
 struct Placement {
   std::string name;
   std::string kind;
-  std::string proof;  // one: exactly one root in its box; fits: its start does; none
+  std::string
+      proof;  // one: exactly one root in its box; family: each pair of its line fits; fits: its start does; none
   Places start;
   std::optional<Box> box;
+  std::optional<PairLine> line;  // of a family
+  std::optional<Box> extent;     // that holds all of a family
   bool has_start = false;        // in its box or in a cell of its own
   bool is_single = false;        // no more than one root of some two equations in its box
   std::vector<Polygon> remains;  // of its cells, where it is not single
@@ -77,6 +80,7 @@ class TwoFingers {
     read_placements();
     check_apart();
     for (Placement& placement : placements_) check_roots(placement);
+    for (const Placement& placement : placements_) check_line(placement);
     Verdict verdict;
     verdict.placements = placements_.size();
     const auto check_leaf = [&](const Leaf& leaf) {
@@ -90,6 +94,7 @@ class TwoFingers {
     for (const Placement& placement : placements_) {
       check_placement(placement);
       const bool has_kind = placement.is_single || placement.kind != "crossing";  // check_placement looks at corners
+      verdict.families += placement.line ? 1 : 0;
       verdict.unproved += placement.proof == "none" || !has_kind || !placement.is_one_piece() ? 1 : 0;
     }
     return verdict;
@@ -214,7 +219,8 @@ class TwoFingers {
       refuse(name + " is not within the box of " + placement.name);
     }
     if (placement.is_single) return false;
-    const std::optional<std::vector<Polygon>> remains = boxes_.remains(leaf.box, tolerance_);
+    const std::optional<std::vector<Polygon>> remains =
+        boxes_.remains(leaf.box, tolerance_, placement.line ? &*placement.line : nullptr);
     if (!remains) return true;
     placement.remains.insert(placement.remains.end(), remains->begin(), remains->end());
     return false;
@@ -238,7 +244,9 @@ class TwoFingers {
         placement.start[finger] = document_.contact(placement.name, stated, lengths_[finger].back(), finger);
       }
       placement.proof = stated.at("proof").get<std::string>();
-      if (placement.proof != "one" && placement.proof != "fits" && placement.proof != "none") {
+      if (placement.proof == "family") {
+        read_family(stated, placement);
+      } else if (placement.proof != "one" && placement.proof != "fits" && placement.proof != "none") {
         refuse(placement.name + " has a proof '" + placement.proof + "'");
       }
       if (stated.contains("box")) {
@@ -248,6 +256,18 @@ class TwoFingers {
       if (placement.proof == "one" && !placement.box) refuse(placement.name + " is the only one in no box");
       placements_.push_back(placement);
     }
+  }
+
+  void read_family(const Json& stated, Placement& placement) const {
+    const auto ends = stated.at("family").get<std::array<std::array<double, 2>, 2>>();
+    placement.line.emplace(boundary_, lengths_, ends[0], ends[1]);
+    placement.extent.emplace();
+    for (std::size_t finger = 0; finger < 2; ++finger) {
+      const auto [lo, hi] = stated.at("extent").at(finger).get<std::array<double, 2>>();
+      (*placement.extent)[finger] = {lo, hi};
+    }
+    if (placement.kind != "stretch") refuse(placement.name + " is of another kind than a family");
+    if (stated.contains("box")) refuse(placement.name + " is a family in a box");
   }
 
   /// Boxes hold one placement each.
@@ -274,7 +294,36 @@ class TwoFingers {
     }
   }
 
+  /// Each pair of a family's line fits, its start among them.
+  void check_line(const Placement& placement) const {
+    if (!placement.line) return;
+    const auto& [s, t] = placement.start;
+    if (!placement.line->holds(s.s.middle(), t.s.middle(), kLengthSlack * period_)) {
+      refuse(placement.name + " is not on its line");
+    }
+    if (!placement.line->fits(equations_, tolerance_)) refuse(placement.name + "'s line could not be proved to fit");
+  }
+
+  /// All that fits of a family is in its extent, to what places are told to.
+  void check_extent(const Placement& placement) const {
+    const double slack = kLengthSlack * period_;
+    for (const Polygon& set : placement.remains) {
+      Box box;
+      for (std::size_t finger = 0; finger < 2; ++finger) {
+        const auto [lo, hi] = std::minmax_element(
+            set.begin(), set.end(), [&](const auto& one, const auto& two) { return one[finger] < two[finger]; });
+        box[finger] = {(*lo)[finger], (*hi)[finger]};
+      }
+      const bool is_inside = on_some_lap(box, [&](const Interval& side, std::size_t k) {
+        const Interval& extent = (*placement.extent)[k];
+        return (boundary_.closed() && extent.width() >= period_ - slack) || extent.holds(side, slack);
+      });
+      if (!is_inside) refuse(placement.name + " is larger than its extent");
+    }
+  }
+
   void check_placement(const Placement& placement) {
+    if (placement.extent) check_extent(placement);
     if (placement.kind == "corner" && !is_at_corner(placement, 0) && !is_at_corner(placement, 1)) {
       refuse(placement.name + " is at no corner");
     }

@@ -240,6 +240,12 @@ const std::vector<Stretch>& FingerCurve::over(double lo, double hi, Cuts cuts) {
   return known_[{lo, hi, cuts}] = std::move(result);
 }
 
+std::optional<Stretch> FingerCurve::plain(double lo, double hi) const {
+  const double beside = kSamePlace * period_;
+  if (!cuts_between(lo - beside, hi + beside, Cuts::corners).empty()) return std::nullopt;
+  return smooth(lo, hi);
+}
+
 const std::pair<Stretch, Stretch>& FingerCurve::halved(const Stretch& stretch) {
   if (stretch.halves) return *stretch.halves;
   std::pair<Stretch, Stretch> both;

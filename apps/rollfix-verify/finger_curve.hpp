@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -61,6 +62,9 @@ class FingerCurve {
   /// All first contacts from lo to hi: cut at each that brings a contact to a corner, with what happens there in
   /// between. Throws std::domain_error where that can't be told. What it returns is valid until the next call.
   const std::vector<Stretch>& over(double lo, double hi, Cuts cuts = Cuts::corners);
+
+  /// All first contacts from lo to hi as one; nothing where a contact comes to a corner.
+  std::optional<Stretch> plain(double lo, double hi) const;
 
   /// Both halves, kept for the next one who asks.
   const std::pair<Stretch, Stretch>& halved(const Stretch& stretch);

@@ -15,6 +15,8 @@ namespace {
 constexpr int kDeepest = 120;
 constexpr std::size_t kMostPairs = 400000;  // of a box, before it is given up
 constexpr std::size_t kMostParts = 24;      // of a box in which what may fit is looked for
+constexpr std::size_t kMostBeside = 400;    // the same of a box by a line that fits, ...
+constexpr int kDeepestBeside = 16;          // ... halved so often at the most
 
 }  // namespace
 
@@ -82,12 +84,12 @@ bool PairBoxes::may_fit(const Box& box, double most) {
                  [&](const Stretch& a, const Stretch& b) { return !equations_.fit_together(a, b, most); });
 }
 
-std::optional<std::vector<Polygon>> PairBoxes::remains(const Box& box, double tolerance) {
+std::optional<std::vector<Polygon>> PairBoxes::remains(const Box& box, double tolerance, const PairLine* line) {
   std::vector<Polygon> result;
   std::size_t parts = 0;
   try {
     const bool is_told = all_of(box, Cuts::bends, [&](const Stretch& a, const Stretch& b) {
-      return add_remains(a, b, tolerance, parts, result);
+      return add_remains(a, b, tolerance, line, 0, parts, result);
     });
     return is_told ? std::optional(result) : std::nullopt;
   } catch (const std::domain_error&) {
@@ -95,29 +97,39 @@ std::optional<std::vector<Polygon>> PairBoxes::remains(const Box& box, double to
   }
 }
 
-/// Where equations are planes to some tolerances, a convex set holds all that fits, and what it holds is off by
-/// kNear tolerances at the most.
-bool PairBoxes::add_remains(const Stretch& a, const Stretch& b, double tolerance, std::size_t& parts,
-                            std::vector<Polygon>& remains) {
-  if (equations_.are_apart(a, b, tolerance)) return true;
+/// By the shares of two stretches that are behind. Where equations are planes to some tolerances, a convex set holds
+/// all that fits, and what it holds is off by kNear tolerances at the most; so it is beside a line that fits.
+std::optional<Polygon> PairBoxes::remains(const Stretch& a, const Stretch& b, double tolerance,
+                                          const PairLine* line) const {
   const std::vector<PairEquations::Plane> planes = equations_.planes(a, b);
   const auto is_flat = [&](const PairEquations::Plane& plane) { return plane.off <= 0.5 * (kNear - 1) * tolerance; };
-  if (!planes.empty() && std::all_of(planes.begin(), planes.end(), is_flat)) {
-    Polygon set{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-    for (const PairEquations::Plane& plane : planes) {
-      set = clipped(set, plane.at, {plane.by_a, plane.by_b}, tolerance + plane.off);
-      set = clipped(set, -plane.at, {-plane.by_a, -plane.by_b}, tolerance + plane.off);
-    }
-    for (auto& [s, t] : set) {
+  if (planes.empty() || !std::all_of(planes.begin(), planes.end(), is_flat)) {
+    return line != nullptr ? line->beside(curves_[0], equations_, a, b, tolerance) : std::nullopt;
+  }
+  Polygon set{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  for (const PairEquations::Plane& plane : planes) {
+    set = clipped(set, plane.at, {plane.by_a, plane.by_b}, tolerance + plane.off);
+    set = clipped(set, -plane.at, {-plane.by_a, -plane.by_b}, tolerance + plane.off);
+  }
+  return set;
+}
+
+bool PairBoxes::add_remains(const Stretch& a, const Stretch& b, double tolerance, const PairLine* line, int depth,
+                            std::size_t& parts, std::vector<Polygon>& remains) {
+  if (equations_.are_apart(a, b, tolerance)) return true;
+  if (std::optional<Polygon> set = this->remains(a, b, tolerance, line)) {
+    for (auto& [s, t] : *set) {
       s = a.lo + s * a.width();
       t = b.lo + t * b.width();
     }
-    if (!set.empty()) remains.push_back(set);
+    if (!set->empty()) remains.push_back(*set);
     return true;
   }
-  const std::optional<Halves> both = ++parts > kMostParts ? std::nullopt : halves(a, b);
+  const std::size_t most = line != nullptr ? kMostBeside : kMostParts;
+  const bool is_too_deep = line != nullptr && depth == kDeepestBeside;
+  const std::optional<Halves> both = ++parts > most || is_too_deep ? std::nullopt : halves(a, b);
   return both && std::all_of(both->begin(), both->end(), [&](const auto& half) {
-           return add_remains(*half[0], *half[1], tolerance, parts, remains);
+           return add_remains(*half[0], *half[1], tolerance, line, depth + 1, parts, remains);
          });
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "convex.hpp"
-#include "pair_equations.hpp"
+#include "pair_line.hpp"
 
 namespace rollfix_verify {
 
@@ -30,8 +30,8 @@ class PairBoxes {
   bool may_fit(const Box& box, double most);
 
   /// Convex sets that hold all that is within the tolerance, on which nothing is off by more than kNear tolerances;
-  /// nothing: it can't be told.
-  std::optional<std::vector<Polygon>> remains(const Box& box, double tolerance);
+  /// nothing: it can't be told. `line`: of pairs that fit, if one is known there.
+  std::optional<std::vector<Polygon>> remains(const Box& box, double tolerance, const PairLine* line);
 
  private:
   using Cuts = FingerCurve::Cuts;
@@ -41,8 +41,9 @@ class PairBoxes {
   bool all_of(const Box& box, Cuts cuts, const Is& is);
   std::optional<Halves> halves(const Stretch& a, const Stretch& b);
   void prove_apart(const Stretch& a, const Stretch& b, double bound, int depth, std::size_t& parts);
-  bool add_remains(const Stretch& a, const Stretch& b, double tolerance, std::size_t& parts,
-                   std::vector<Polygon>& remains);
+  std::optional<Polygon> remains(const Stretch& a, const Stretch& b, double tolerance, const PairLine* line) const;
+  bool add_remains(const Stretch& a, const Stretch& b, double tolerance, const PairLine* line, int depth,
+                   std::size_t& parts, std::vector<Polygon>& remains);
 
   std::array<FingerCurve, 2> curves_;
   PairEquations equations_;

@@ -17,7 +17,11 @@ class PairEquations {
  public:
   PairEquations(const std::vector<Ball>& turns, const std::optional<Ball>& facing);
 
+  struct Equation;
   std::size_t count() const { return equations_.size(); }
+  const std::vector<Equation>& all() const { return equations_; }
+  /// Whether it holds but for whole turns.
+  bool is_facing(std::size_t equation) const { return has_facing_ && equation + 1 == count(); }
 
   /// Whether some equation is off by more than `bound` at each pair of two stretches.
   bool are_apart(const Stretch& a, const Stretch& b, double bound) const;
@@ -63,7 +67,6 @@ class PairEquations {
   };
 
  private:
-  bool is_facing(std::size_t equation) const { return has_facing_ && equation + 1 == count(); }
   std::optional<std::pair<long, long>> whole_turns(const Stretch& a, const Stretch& b, double bound) const;
   bool map_inside(const Linear& of_a, const Linear& of_b, const std::array<std::size_t, 2>& rows, double slack) const;
 

@@ -22,6 +22,20 @@ constexpr double kMostAspect = 8;
 constexpr double kWidthsFromRest = 4;
 // A box holds the pairs that fit with this much to spare.
 constexpr double kSpare = 1.5;
+// A continuum's line is straight, and of an exact lap or length, to this share of the perimeter.
+constexpr double kStraight = 1e-9;
+// Of a line that goes round the search leaves out no more than this share of the perimeter, where it begins.
+constexpr double kBeginning = 1e-3;
+// Pairs of a line, which fit to this share of the tolerance, that are looked at.
+constexpr int kLookedAt = 97;
+constexpr double kFittingShare = 0.25;
+// A family that ends on a part leaves the tolerance within so many times what the search found beyond its line, and
+// this share of the perimeter.
+constexpr double kBeyondLine = 5;
+constexpr double kRoomBeyond = 1e-4;
+// To prove of a line on two parts of the outline that all of it fits takes the verifier time with each vertex: so many
+// lines times vertices are some seconds.
+constexpr std::size_t kMostOnLines = 200;
 
 class PairMaker {
  public:
@@ -39,10 +53,11 @@ class PairMaker {
 
   void fill(PairCertificate& certificate) {
     for (const Placement& placement : search_.placements) {
-      pairs_.push_back({&placement, {}, false});
+      pairs_.push_back({&placement, {}, false, line_of(placement)});
       proofs_.push_back(PairProof::fits);
       needed_.push_back({spared(placement, 0), spared(placement, 1)});
     }
+    leave_costly_lines();
     for (std::size_t k = 0; k < pairs_.size(); ++k) find_box(k);
     const PairBox whole = this->whole();
     certificate.from = row(whole[0].lo, whole[1].lo);
@@ -196,12 +211,91 @@ class PairMaker {
     return true;
   }
 
+  // ---- families ----
+
+  /// The line of a continuum along which both fingers' contacts move alike, if all of it fits.
+  std::optional<PairLine> line_of(const Placement& placement) const {
+    if (placement.kind != Kind::stretch || placement.family.size() != 2) return std::nullopt;
+    auto from = placement.family[0];
+    auto to = placement.family[1];
+    if (from[0] > to[0]) std::swap(from, to);
+    const double period = part_.perimeter();
+    PairLine line{from[0], from[1], to[1] < from[1] ? -1 : 1, to[0] - from[0]};
+    if (!(std::abs(std::abs(to[1] - from[1]) - line.length) <= kStraight * period)) return std::nullopt;
+    const bool is_same = is_same_for_both(line);
+    if (!part_.corners().empty() && !is_same) return std::nullopt;
+    if (is_same) line.t = line.s;
+    if (placement.whole_loop[0] && placement.whole_loop[1]) {
+      if (line.length < (1 - kBeginning) * period) return std::nullopt;
+      line.length = period;
+    } else if (!clear_ends(line)) {
+      return std::nullopt;
+    }
+    for (int k = 0; k <= kLookedAt; ++k) {
+      const double way = line.length * k / kLookedAt;
+      for (const double off : bounds_.off(line.s + way, line.t + line.way * way)) {
+        if (!(std::abs(off) <= kFittingShare * tolerance_)) return std::nullopt;
+      }
+    }
+    return line;
+  }
+
+  /// Of those where both fingers are not at the same places nothing is said.
+  void leave_costly_lines() {
+    const auto is_costly = [&](const CoveredPair& pair) { return pair.line && !is_same_for_both(*pair.line); };
+    const auto count = static_cast<std::size_t>(std::count_if(pairs_.begin(), pairs_.end(), is_costly));
+    if (count * (part_.vertices().size() + 1) <= kMostOnLines) return;
+    for (CoveredPair& pair : pairs_) {
+      if (is_costly(pair)) pair.line.reset();
+    }
+  }
+
+  /// At the same places all along.
+  bool is_same_for_both(const PairLine& line) const {
+    const double apart = line.t - line.s;
+    const double lap = part_.closed() ? part_.perimeter() * std::round(apart / part_.perimeter()) : 0;
+    return line.way > 0 && lengths_[0] == lengths_[1] && std::abs(apart - lap) <= kStraight * part_.perimeter();
+  }
+
+  /// Lets a line end where no contact of either finger is at a joint or beyond an end.
+  bool clear_ends(PairLine& line) const {
+    if (line.way < 0) return false;
+    std::vector<double> contacts = {0, line.t - line.s};
+    for (std::size_t finger = 0; finger < 2; ++finger) {
+      for (const double length : lengths_[finger]) contacts.push_back(contacts[finger] + length);
+    }
+    Interval ends{line.s, line.s + line.length};
+    if (!part_.closed()) {
+      const Interval range = clear_starts(part_, contacts);
+      ends = {std::max(ends.lo, range.lo), std::min(ends.hi, range.hi)};
+    }
+    ends = {clear_of_joints(part_, contacts, ends.lo, 1), clear_of_joints(part_, contacts, ends.hi, -1)};
+    line = {ends.lo, line.t + (ends.lo - line.s), 1, ends.width()};
+    return line.length > 8 * least_step(part_);
+  }
+
+  /// What holds all of a family.
+  Interval room_for(const Placement& placement, const PairLine& line, std::size_t finger) const {
+    const double period = part_.perimeter();
+    if (!part_.closed() || line.length >= period) return {0, period};
+    const double from = finger == 0 ? line.s : line.t;
+    const Interval& extent = placement.extent[finger];
+    const double room = kBeyondLine * std::max(0.0, extent.width() - line.length) + kRoomBeyond * period;
+    return {from - room, from + line.length + room};
+  }
+
   CertifiedPair certified(std::size_t k) const {
     const CoveredPair& pair = pairs_[k];
     CertifiedPair result;
     result.placement = *pair.placement;
     result.at = {place_of(part_, pair.placement->start[0]), place_of(part_, pair.placement->start[1])};
     result.proof = pair.box || pair.has_cell ? proofs_[k] : PairProof::none;
+    if (pair.line && pair.has_cell) result.proof = PairProof::family;
+    if (pair.line) {
+      const auto& [s, t, way, length] = *pair.line;
+      result.line = {{{s, t}, {s + length, t + way * length}}};
+      for (std::size_t finger : {0U, 1U}) result.extent[finger] = room_for(*pair.placement, *pair.line, finger);
+    }
     if (pair.box) {
       const PairBox& box = *pair.box;
       result.box = std::array<PairRow, 2>{row(box[0].lo, box[1].lo), row(box[0].hi, box[1].hi)};
@@ -226,6 +320,8 @@ const char* name_of(PairProof proof) {
   switch (proof) {
     case PairProof::one:
       return "one";
+    case PairProof::family:
+      return "family";
     case PairProof::fits:
       return "fits";
     case PairProof::none:

@@ -6,8 +6,6 @@
 #include <limits>
 #include <numbers>
 
-#include "locate/pair/convex.hpp"
-
 namespace rollfix {
 namespace {
 
@@ -24,6 +22,11 @@ constexpr double kPivotFill = 0.499;
 constexpr double kFlat = 2;
 constexpr double kPlainTurn = 3;
 constexpr double kClearly = 1.1;
+// What is beside a line of pairs that fit is off by this many tolerances, fewer than the verifier asks for, whose
+// slopes are wider: by this share to either side, on more than this share of the perimeter by far more.
+constexpr double kBesideLine = 7;
+constexpr double kWiderSlopes = 0.5;
+constexpr double kMostBeside = 0.05;
 // Parts in which what is beside a root, or around a box, is to be told apart.
 constexpr int kParts = 200;
 
@@ -67,7 +70,8 @@ Middle middle_of(const ContactStretch& stretch, const std::vector<double>& angle
 PairBounds::PairBounds(const Part& part, const std::vector<Reading>& readings, const std::optional<double>& facing)
     : curves_{ContactCurve(part, lengths_of(readings, 0)), ContactCurve(part, lengths_of(readings, 1))},
       facing_(facing),
-      period_(part.perimeter()) {
+      period_(part.perimeter()),
+      closed_(part.closed()) {
   for (const Reading& reading : readings) turns_.push_back(reading.turn);
 }
 
@@ -162,40 +166,83 @@ double PairBounds::bound(const ContactStretch& a, const ContactStretch& b, int t
   return most;
 }
 
-std::optional<std::vector<PairBox>> PairBounds::remains(const PairBox& box, double tolerance) {
+std::optional<std::vector<PairBox>> PairBounds::remains(const PairBox& box, double tolerance, const PairLine* line) {
   std::vector<PairBox> result;
   const std::vector<ContactStretch>& all_b = curves_[1].over(box[1].lo, box[1].hi, ContactCurve::Cuts::bends);
   for (const ContactStretch& a : curves_[0].over(box[0].lo, box[0].hi, ContactCurve::Cuts::bends)) {
     for (const ContactStretch& b : all_b) {
-      if (!add_remains(a, b, tolerance, result)) return std::nullopt;
+      if (!add_remains(a, b, tolerance, line, result)) return std::nullopt;
     }
   }
   return result;
 }
 
 /// As the verifier looks at it: a convex set, by the share of each stretch that is behind.
-bool PairBounds::add_remains(const ContactStretch& a, const ContactStretch& b, double tolerance,
-                             std::vector<PairBox>& remains) const {
-  if (bound(a, b) > kClearly * tolerance) return true;
+std::optional<Polygon> PairBounds::flat_part(const ContactStretch& a, const ContactStretch& b, double tolerance) const {
   Polygon set{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   for (std::size_t k = 0; k < count(); ++k) {
     const Weights contacts = contact_weights(unit(k));
     const ContactStretch::Chord of_a = a.chord(contacts);
     const ContactStretch::Chord of_b = b.chord(contacts);
     const double off = of_a.off + of_b.off;
-    if (!(off <= kFlat * tolerance)) return false;
+    if (!(off <= kFlat * tolerance)) return std::nullopt;
     const Vec2 slope(of_a.to - of_a.from, of_b.from - of_b.to);
     double at = of_a.from - of_b.from - right_side(unit(k), 0);
     if (k == turns_.size()) {
       at -= kFullTurn * std::round((at + 0.5 * slope.sum()) / kFullTurn);
-      if (!(std::abs(at + 0.5 * slope.sum()) + 0.5 * slope.lpNorm<1>() < kPlainTurn)) return false;
+      if (!(std::abs(at + 0.5 * slope.sum()) + 0.5 * slope.lpNorm<1>() < kPlainTurn)) return std::nullopt;
     }
     set = within(set, Vec2(0, 0), at, slope, tolerance + off);
   }
-  if (set.empty()) return true;
-  Vec2 lo = set.front();
-  Vec2 hi = set.front();
-  for (const Vec2& corner : set) {
+  return set;
+}
+
+/// The same beside a line: how far first contacts of finger a are at the most from those that it pairs with finger b's.
+std::optional<Polygon> PairBounds::part_beside(const ContactStretch& a, const ContactStretch& b, double tolerance,
+                                               const PairLine& line) {
+  if (a.pivot || b.pivot) return std::nullopt;
+  const auto lap = [&](double way) { return closed_ ? period_ * std::round(way / period_) : 0; };
+  double first = line.s + line.way * (b.lo - line.t);  // of b.lo
+  const double turned = line.way * b.width();
+  const double middle = first + 0.5 * turned;
+  first += lap(line.s + 0.5 * line.length - middle);
+  const bool is_round = closed_ && line.length >= period_;
+  if (!is_round &&
+      !(std::min(first, first + turned) >= line.s && std::max(first, first + turned) <= line.s + line.length))
+    return std::nullopt;
+  first += lap(0.5 * (a.lo + a.hi) - first - 0.5 * turned);
+  const Interval whole{std::min({a.lo, first, first + turned}), std::max({a.hi, first, first + turned})};
+  if (whole.width() > kMostBeside * period_) return std::nullopt;
+  const std::vector<ContactStretch>& all = curves_[0].over(whole.lo, whole.hi);
+  if (all.size() != 1 || all.front().pivot) return std::nullopt;
+  double reach = whole.width();
+  std::vector<Range> slopes;
+  for (std::size_t k = 0; k < count(); ++k) {
+    const Weights contacts = contact_weights(unit(k));
+    slopes.push_back({0, 0});
+    for (std::size_t c = 0; c < contacts.size(); ++c) slopes[k] = slopes[k] + contacts[c] * all.front().rate[c];
+    const double wider = kWiderSlopes * slopes[k].spread();
+    slopes[k] = slopes[k] + Range{-wider, wider};
+    const bool is_plain = k < turns_.size() || slopes[k].size() * whole.width() < 0.5 * kPlainTurn;
+    const double least = std::max(slopes[k].least, -slopes[k].most);
+    if (is_plain && least > 0) reach = std::min(reach, kClearly * 2 * tolerance / least);
+  }
+  for (const Range& slope : slopes) {
+    if (!(slope.size() * reach + tolerance <= kBesideLine * tolerance)) return std::nullopt;
+  }
+  return within({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, Vec2(0, 0), first - a.lo, Vec2(-a.width(), turned), reach);
+}
+
+bool PairBounds::add_remains(const ContactStretch& a, const ContactStretch& b, double tolerance, const PairLine* line,
+                             std::vector<PairBox>& remains) {
+  if (bound(a, b) > kClearly * tolerance) return true;
+  std::optional<Polygon> set = flat_part(a, b, tolerance);
+  if (!set && line != nullptr) set = part_beside(a, b, tolerance, *line);
+  if (!set) return false;
+  if (set->empty()) return true;
+  Vec2 lo = set->front();
+  Vec2 hi = set->front();
+  for (const Vec2& corner : *set) {
     lo = lo.cwiseMin(corner);
     hi = hi.cwiseMax(corner);
   }

@@ -5,12 +5,22 @@
 #include <vector>
 
 #include "contact_curve.hpp"
+#include "locate/pair/convex.hpp"
 #include "rollfix/contact/reading.hpp"
 
 namespace rollfix {
 
 /// First contacts of finger a and of finger b.
 using PairBox = std::array<Interval, 2>;
+
+/// Pairs along which both fingers' contacts move by the same arc length: from (s, t) on by `length`, finger b ahead as
+/// well (`way` 1) or against it (-1).
+struct PairLine {
+  double s = 0;
+  double t = 0;
+  int way = 1;
+  double length = 0;  // of a lap: it goes round
+};
 
 /// How far two fingers' equations are off, in the search's own numbers: f_k of each reading, then the facing's.
 class PairBounds {
@@ -28,8 +38,9 @@ class PairBounds {
   /// The same of the tolerance, as far as some halvings tell.
   bool are_apart(const PairBox& box, double tolerance);
 
-  /// Boxes around all that may fit in a box, where equations are planes to some tolerances. Nothing: it can't be told.
-  std::optional<std::vector<PairBox>> remains(const PairBox& box, double tolerance);
+  /// Boxes around all that may fit in a box, where equations are planes to some tolerances, or where it is beside a
+  /// line of pairs that fit. Nothing: it can't be told.
+  std::optional<std::vector<PairBox>> remains(const PairBox& box, double tolerance, const PairLine* line);
 
   /// How much an equation changes at the most while a finger's first contact moves, or pivots, in a range; of what
   /// pivots change, this share.
@@ -61,13 +72,17 @@ class PairBounds {
                     double tolerance) const;
   bool has_one_root(const PairBox& box, std::array<std::size_t, 2> rows, double tolerance);
   bool is_apart(const PairBox& box, double tolerance, int& budget);
-  bool add_remains(const ContactStretch& a, const ContactStretch& b, double tolerance,
-                   std::vector<PairBox>& remains) const;
+  std::optional<Polygon> flat_part(const ContactStretch& a, const ContactStretch& b, double tolerance) const;
+  std::optional<Polygon> part_beside(const ContactStretch& a, const ContactStretch& b, double tolerance,
+                                     const PairLine& line);
+  bool add_remains(const ContactStretch& a, const ContactStretch& b, double tolerance, const PairLine* line,
+                   std::vector<PairBox>& remains);
 
   std::array<ContactCurve, 2> curves_;
   std::vector<double> turns_;
   std::optional<double> facing_;
   double period_;
+  bool closed_;
 };
 
 }  // namespace rollfix

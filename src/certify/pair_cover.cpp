@@ -86,9 +86,14 @@ std::string PairCover::settled(const PairBox& box) {
 
 /// The placement that all that may fit in a box belongs to, where that can be told.
 std::optional<std::size_t> PairCover::owner(const PairBox& box) {
-  const std::optional<std::vector<PairBox>> sets = bounds_.remains(box, tolerance_);
+  const std::optional<std::vector<PairBox>> sets = bounds_.remains(box, tolerance_, nullptr);
   std::optional<std::size_t> owner;
-  if (!sets) return owner;
+  if (!sets) {
+    for (std::size_t k = 0; k < pairs_.size(); ++k) {
+      if (pairs_[k].line && belongs(box, k)) return k;
+    }
+    return owner;
+  }
   for (const PairBox& set : *sets) {
     for (std::size_t k = 0; k < pairs_.size(); ++k) {
       if (!is_of(set, pairs_[k])) continue;
@@ -97,6 +102,17 @@ std::optional<std::size_t> PairCover::owner(const PairBox& box) {
     }
   }
   return owner;
+}
+
+/// All that may fit in a box is beside a family's line, or flat and this placement's.
+bool PairCover::belongs(const PairBox& box, std::size_t family) {
+  const std::optional<std::vector<PairBox>> sets = bounds_.remains(box, tolerance_, &*pairs_[family].line);
+  return sets && std::all_of(sets->begin(), sets->end(), [&](const PairBox& set) {
+           for (std::size_t k = 0; k < pairs_.size(); ++k) {
+             if (is_of(set, pairs_[k]) != (k == family)) return false;
+           }
+           return true;
+         });
 }
 
 bool PairCover::is_flat(const PairBox& box) {

@@ -14,8 +14,9 @@ namespace rollfix {
 /// A placement as the cover sees it.
 struct CoveredPair {
   const Placement* placement = nullptr;
-  std::optional<PairBox> box;  // holds all that belongs to it; none: the cells that are left near it do
-  bool has_cell = false;       // one that holds its start; of one without a box
+  std::optional<PairBox> box;    // holds all that belongs to it; none: the cells that are left near it do
+  bool has_cell = false;         // one that holds its start; of one without a box
+  std::optional<PairLine> line;  // of a family: all of it fits
 };
 
 /// Halves a box of pairs until some equation is off on each part of it, or the part is in a placement's box. What can't
@@ -37,6 +38,7 @@ class PairCover {
 
   std::string settled(const PairBox& box);
   std::optional<std::size_t> owner(const PairBox& box);
+  bool belongs(const PairBox& box, std::size_t family);
   bool is_of(const PairBox& set, const CoveredPair& pair) const;
   bool meets(const PairBox& one, const PairBox& two, double room) const;
   bool holds_start(const PairBox& box, const Placement& placement) const;

@@ -18,9 +18,10 @@ struct PairRow {
 
 /// What is proved of a placement of two fingers.
 enum class PairProof {
-  one,   // exactly one pair in its box solves the equations, and all that fits there is connected with it
-  fits,  // its start fits
-  none   // nothing
+  one,     // exactly one pair in its box solves the equations, and all that fits there is connected with it
+  family,  // each pair of its line fits, and all of it is in its extent
+  fits,    // its start fits
+  none     // nothing
 };
 const char* name_of(PairProof proof);
 
@@ -29,7 +30,9 @@ struct CertifiedPair {
   Placement placement;
   std::array<CurvePlace, 2> at;  // of its start
   PairProof proof = PairProof::none;
-  std::optional<std::array<PairRow, 2>> box;  // from corner to corner; none: the cells that name it
+  std::optional<std::array<PairRow, 2>> box;    // from corner to corner; none: the cells that name it
+  std::array<std::array<double, 2>, 2> line{};  // of a family: from pair to pair, s and t of each
+  std::array<Interval, 2> extent;               // of a family
 };
 
 /// A question of two fingers, the outline by its formulas, and boxes that together hold every pair of first contacts.

@@ -61,6 +61,10 @@ Json pairs_json(const PairCertificate& certificate) {
       list.back()["tangent"] = of_both([&](std::size_t k) { return json_number(placement.tangent[k]); });
     }
     list.back()["proof"] = name_of(one.proof);
+    if (one.proof == PairProof::family) {
+      list.back()["family"] = one.line;
+      list.back()["extent"] = of_both([&](std::size_t k) { return Json::array({one.extent[k].lo, one.extent[k].hi}); });
+    }
     if (one.box) list.back()["box"] = Json::array({pair_row_json((*one.box)[0]), pair_row_json((*one.box)[1])});
   }
   return list;

@@ -1,0 +1,201 @@
+#include "pair_line.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "document.hpp"
+
+// Notation: F(s, t) = A(s) - B(t) are the equations; on the line t = t0 + w (s - s0), w = 1 or -1. Along it
+//   d/ds (A - B) = sum of weights (kappa(s + La_c) - w kappa(t + Lb_c)),
+// a Taylor polynomial in s whose coefficients cancel where the curves that both fingers roll on are the same. Beside it
+// F(s, t) is F(s', t) less the integral of A' from s to s', where (s', t) is on the line.
+namespace rollfix_verify {
+namespace {
+
+constexpr int kLineDepth = 60;
+// A line that goes round is begun at one of these shares of the perimeter, a stretch of it is halved at one of these
+// shares: the next one where contacts can't be told from joints.
+constexpr double kLineSplits[] = {0.4990234375, 0.5166015625, 0.4697265625, 0.27, 0.73, 0.13, 0.87};
+// A line's places are no further than so many perimeters from the outline's first one.
+constexpr double kFarthest = 4;
+
+Ball jumps_of(const std::vector<Ball>& weights, const std::vector<Ball>& jumps) {
+  Ball sum = 0.0;
+  for (std::size_t c = 0; c < weights.size(); ++c) sum = sum + abs(weights[c]) * abs(jumps[c]);
+  return sum;
+}
+
+}  // namespace
+
+PairLine::PairLine(const Boundary& boundary, const std::array<std::vector<Ball>, 2>& lengths,
+                   std::array<double, 2> from, std::array<double, 2> to)
+    : boundary_(boundary), lengths_(lengths), period_(boundary.perimeter().middle()) {
+  if (from[0] > to[0]) std::swap(from, to);
+  const double slack = kLengthSlack * period_;
+  const double length = to[0] - from[0];
+  const double size = std::max({std::abs(from[0]), std::abs(from[1]), std::abs(to[0]), std::abs(to[1])});
+  way_ = to[1] < from[1] ? -1 : 1;
+  if (!(size <= kFarthest * period_ && length > slack && std::abs(std::abs(to[1] - from[1]) - length) <= slack)) {
+    refuse("a family's line has no slope of 1 or -1");
+  }
+  is_round_ = boundary.closed() && length >= period_ - slack;
+  from_ = from;
+  to_ = to[0];
+}
+
+bool PairLine::holds(double s, double t, double slack) const {
+  const std::optional<Interval> found = partners({t, t}, {s, s}, slack);
+  return found && Interval{s, s}.holds(*found, slack);
+}
+
+/// Finger a's first contacts that the line pairs with those of finger b, on the lap that is nearest to others. `slack`:
+/// by which they may be beyond its ends.
+std::optional<Interval> PairLine::partners(const Interval& of_b, const Interval& near, double slack) const {
+  const double round = kRounding * period_;
+  Interval found{partner(of_b.lo), partner(of_b.hi)};
+  if (way_ < 0) std::swap(found.lo, found.hi);
+  const auto move_to = [&](double middle) {
+    const double lap = boundary_.closed() ? std::round((middle - 0.5 * (found.lo + found.hi)) / period_) : 0;
+    found = {found.lo + lap * period_, found.hi + lap * period_};
+  };
+  move_to(0.5 * (from_[0] + to_));
+  if (!is_round_ && !Interval{from_[0], to_}.holds(found, slack)) return std::nullopt;
+  move_to(0.5 * (near.lo + near.hi));
+  return Interval{found.lo - round, found.hi + round};
+}
+
+/// Both fingers' contacts are at the same places all along, so that what each equation is off by is its right side.
+bool PairLine::is_same_for_both() const {
+  if (way_ < 0 || from_[0] != from_[1]) return false;
+  return std::equal(lengths_[0].begin(), lengths_[0].end(), lengths_[1].begin(),
+                    [](const Ball& a, const Ball& b) { return abs(a - b).upper() == 0; });
+}
+
+std::optional<PairLine::Row> PairLine::row(double s) const {
+  Row result{s, {}};
+  const std::array<Ball, 2> first = {s, Ball(from_[1]) + way_ * (Ball(s) - from_[0])};
+  for (std::size_t finger = 0; finger < 2; ++finger) {
+    for (const Ball& length : lengths_[finger]) {
+      const std::optional<Place> place = boundary_.after(first[finger] + length);
+      if (!place) return std::nullopt;
+      result.contacts[finger].push_back(*place);
+    }
+  }
+  return result;
+}
+
+bool PairLine::fits(const PairEquations& equations, double most) const {
+  if (is_same_for_both()) {
+    for (std::size_t k = 0; k < equations.count(); ++k) {
+      const Ball& right = equations.all()[k].right;
+      if (!(abs(equations.is_facing(k) ? to_nearest_turn(right) : right).upper() <= most)) return false;
+    }
+    return true;
+  }
+  if (!is_round_) {
+    const double round = kRounding * period_;
+    const std::optional<Row> from = row(from_[0] - round);
+    const std::optional<Row> to = row(to_ + round);
+    return from && to && fit(equations, *from, *to, most, 0);
+  }
+  for (const double share : kLineSplits) {
+    const std::optional<Row> from = row(from_[0] + share * period_);
+    const std::optional<Row> to = row(from_[0] + (1 + share) * period_ + kRounding * period_);
+    if (from && to) return fit(equations, *from, *to, most, 0);
+  }
+  return false;
+}
+
+/// By what is ahead; beyond joints only where all of them are.
+Series PairLine::curvature(std::size_t finger, const Place& from, const Place& to) const {
+  const bool is_back = finger == 1 && way_ < 0;
+  if (from.curve != to.curve) {
+    return curvatures(boundary_, is_back ? segments(boundary_, to, from) : segments(boundary_, from, to));
+  }
+  Series result = with_remainder(boundary_.curvature_ahead(from.curve, from.u),
+                                 boundary_.curvature_ahead(from.curve, hull(from.u, to.u)), kOrder - 1);
+  for (slong power = 1; is_back && power < kOrder; power += 2) result.set(power, -result[power]);
+  return result;
+}
+
+/// Each equation at the first row; how much it changes up to the second one at the most.
+std::vector<Ball> PairLine::off(const PairEquations& equations, const Row& from, const Row& to) const {
+  const Ball ahead = up_to(Ball(to.s) - from.s);
+  std::array<Stretch, 2> at;
+  std::array<std::vector<Series>, 2> bends;
+  std::array<std::vector<Ball>, 2> turned;
+  for (std::size_t finger = 0; finger < 2; ++finger) {
+    at[finger].pivot = true;
+    for (std::size_t c = 0; c < lengths_[finger].size(); ++c) {
+      const Place& first = from.contacts[finger][c];
+      const Place& last = to.contacts[finger][c];
+      const bool is_ahead = first.curve <= last.curve;
+      at[finger].from.push_back(first.angle);
+      bends[finger].push_back(curvature(finger, first, last));
+      turned[finger].push_back(jumps(boundary_, segments(boundary_, is_ahead ? first : last, is_ahead ? last : first)));
+    }
+  }
+  std::vector<Ball> result = equations.off(at[0], at[1]);
+  for (std::size_t k = 0; k < equations.count(); ++k) {
+    const std::vector<Ball>& weights = equations.all()[k].weights;
+    Series slope;
+    for (std::size_t c = 0; c < weights.size(); ++c) {
+      slope = slope + Series(weights[c]) * (bends[0][c] - Series(way_) * bends[1][c]);
+    }
+    const Ball jumped = jumps_of(weights, turned[0]) + jumps_of(weights, turned[1]);
+    result[k] = result[k] + ahead * value(slope, ahead) + around_zero(jumped);
+  }
+  return result;
+}
+
+/// From row to row, or in both halves. A corner in between would move a finger's angles on their own.
+bool PairLine::fit(const PairEquations& equations, const Row& from, const Row& to, double most, int depth) const {
+  for (std::size_t finger = 0; finger < 2; ++finger) {
+    for (std::size_t c = 0; c < lengths_[finger].size(); ++c) {
+      const Place& first = from.contacts[finger][c];
+      const Place& last = to.contacts[finger][c];
+      if (has_corner(boundary_, first, last) || has_corner(boundary_, last, first)) return false;
+    }
+  }
+  const std::vector<Ball> off = this->off(equations, from, to);
+  if (std::all_of(off.begin(), off.end(), [&](const Ball& one) { return abs(one).upper() <= most; })) return true;
+  if (depth == kLineDepth) return false;
+  for (const double share : kLineSplits) {
+    const std::optional<Row> middle = row(from.s + share * (to.s - from.s));
+    if (!middle || !(middle->s > from.s && middle->s < to.s)) continue;
+    return fit(equations, from, *middle, most, depth + 1) && fit(equations, *middle, to, most, depth + 1);
+  }
+  return false;
+}
+
+std::optional<Polygon> PairLine::beside(const FingerCurve& curve_a, const PairEquations& equations, const Stretch& a,
+                                        const Stretch& b, double tolerance) const {
+  if (a.pivot || b.pivot) return std::nullopt;
+  const std::optional<Interval> pairs = partners({b.lo, b.hi}, {a.lo, a.hi}, kRounding * period_);
+  if (!pairs) return std::nullopt;
+  const std::optional<Stretch> all = curve_a.plain(std::min(a.lo, pairs->lo), std::max(a.hi, pairs->hi));
+  if (!all) return std::nullopt;
+  const double farthest = std::max({pairs->hi - a.lo, a.hi - pairs->lo, 0.0});
+  double reach = farthest;  // from s to s', where all fits
+  std::vector<Ball> slopes;
+  std::vector<Ball> jumped;
+  for (std::size_t k = 0; k < equations.count(); ++k) {
+    slopes.push_back(weighted(equations.all()[k].weights, all->rate));
+    jumped.push_back(jumps_of(equations.all()[k].weights, all->jump));
+    if (!slopes[k].is_finite()) return std::nullopt;
+    const Ball most = 2 * tolerance + jumped[k];
+    const bool is_plain = !equations.is_facing(k) || (abs(slopes[k]) * farthest + most).is_below(0.5 * full_turn());
+    if (is_plain && sign_of(slopes[k]) != 0) reach = std::min(reach, (most / abs(slopes[k])).upper());
+  }
+  for (std::size_t k = 0; k < equations.count(); ++k) {
+    if (!((abs(slopes[k]) * reach + tolerance + jumped[k]).upper() <= kNear * tolerance)) return std::nullopt;
+  }
+  const double at = (way_ < 0 ? pairs->hi : pairs->lo) - a.lo;
+  const double most = reach + 2 * kRounding * period_;
+  Polygon set{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  set = clipped(set, at, {-a.width(), way_ * b.width()}, most);
+  return clipped(set, -at, {a.width(), -way_ * b.width()}, most);
+}
+
+}  // namespace rollfix_verify
