@@ -226,17 +226,25 @@ class Liar {
     return true;
   }
 
+  /// The row from which a placement's cell goes: the last one for what comes before the first one.
+  std::size_t cell_of(const Json& document, const Json& placement) const {
+    const Json& rows = document["rows"];
+    std::size_t k = rows.size();
+    while (k > 0 && s_of(rows[k - 1]["start"]) > s_of(placement["at"])) --k;
+    return k == 0 ? rows.size() - 1 : k - 1;
+  }
+
   bool change_kind(Json& document, const std::string& from, const std::string& to, const std::string& then) {
     if (readings_.size() > 1) return false;
-    const std::vector<std::size_t> own = cells(document, false);
     Json& all = document["placements"];
-    if (own.size() != all.size()) return false;
+    if (cells(document, false).size() != all.size()) return false;
     for (std::size_t k = 0; k < all.size(); ++k) {
       if (all[k]["kind"] != from) continue;
-      if (from == "crossing" && document["rows"][own[k]]["then"] != "crossing") continue;
+      const std::size_t cell = cell_of(document, all[k]);
+      if (from == "crossing" && document["rows"][cell]["then"] != "crossing") continue;
       if (from == "crossing" && to == "corner" && !misses(s_of(all[k]["at"]) + 1e-5 * part_.perimeter())) continue;
       all[k] = placement(s_of(all[k]["at"]), to);
-      if (!then.empty()) document["rows"][own[k]]["then"] = then;
+      if (!then.empty()) document["rows"][cell]["then"] = then;
       return true;
     }
     return false;
