@@ -92,7 +92,7 @@ const std::vector<Mistake> kParts = {
 };
 
 const std::vector<Mistake> kReadings = {
-    {"no_reading", "locate gallery:cam", {"--reading", "--log", "neither"}},
+    {"no_reading", "locate gallery:cam", {"--reading", "--log", "--touch"}},
     {"one_number", "locate gallery:cam --reading 1", {"LENGTH,TURN", "1 number"}},
     {"one_of_two_fingers", "locate gallery:cam --reading 1,2,3", {"at least two readings", "facing"}},
     {"facing_of_one_finger", "locate gallery:cam --reading 1,2 --facing 3deg", {"--facing", "LA,LB,THETA"}},

@@ -28,3 +28,5 @@
 #include "rollfix/part/part.hpp"                 // IWYU pragma: export
 #include "rollfix/part/reach.hpp"                // IWYU pragma: export
 #include "rollfix/part/samples.hpp"              // IWYU pragma: export
+#include "rollfix/touch/touch.hpp"               // IWYU pragma: export
+#include "rollfix/touch/touch_table.hpp"         // IWYU pragma: export

@@ -25,6 +25,7 @@ from ._part import Part
 from ._reach import Reach
 from ._resample import resample
 from ._teach import Taught, teach
+from ._touches import TouchAnswer
 from ._watch import Watch
 
 InputError.__module__ = InternalError.__module__ = __name__  # as they are imported, for tracebacks and pickles
@@ -55,6 +56,7 @@ __all__ = [
     "Roll",
     "RollfixWarning",
     "Taught",
+    "TouchAnswer",
     "Watch",
     "__version__",
     "gallery_shapes",

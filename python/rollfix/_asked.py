@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from typing import Any, Callable, Iterable, Optional, Sequence, Tuple, TypeVar, cast
+from typing import Any, Callable, Iterable, Optional, Sequence, Tuple, TypeVar, Union, cast, overload
 
 import numpy as np
 
@@ -20,15 +20,16 @@ from ._noise import NoiseLike
 from ._question import Question, solved
 from ._rounding import offer_rounding
 from ._shape import Shape
+from ._touches import TouchAnswer, located
 
-Method = TypeVar("Method", bound=Callable[..., Answer])
+Method = TypeVar("Method", bound=Callable[..., Any])
 
 
 def _quick(locate: Method) -> Method:
     """One reading of one finger and nothing else, the job of tight loops, takes the shortest way to C++."""
 
     @functools.wraps(locate)
-    def quick(self: "Asked", readings: Any = None, turn: Any = None, **options: Any) -> Answer:
+    def quick(self: "Asked", readings: Any = None, turn: Any = None, **options: Any) -> Any:
         if not options and isinstance(readings, float) and isinstance(turn, float):
             answer = Answer._of(_core.locate_one(self._core, readings, turn))
             return answer if len(answer) else offer_rounding(answer, np.array([[readings, turn]]))
@@ -42,7 +43,21 @@ class Asked(Shape):
 
     __slots__ = ()
 
-    @_quick
+    @overload
+    def locate(
+        self,
+        *,
+        touches: Any,
+        finger: Optional[FingerLike] = None,
+        noise: NoiseLike = None,
+        tolerance: Union[float, Tuple[float, float], None] = None,
+        heading: Optional[Tuple[float, float]] = None,
+        pose: Optional[Sequence[float]] = None,
+        mirrored: bool = False,
+        budget: Optional[int] = None,
+    ) -> TouchAnswer: ...
+
+    @overload
     def locate(
         self,
         readings: Any = None,
@@ -68,7 +83,36 @@ class Asked(Shape):
         roll: Optional[int] = None,
         rounding: Optional[Tuple[float, float]] = None,
         budget: Optional[int] = None,
-    ) -> Answer:
+    ) -> Answer: ...
+
+    @_quick
+    def locate(
+        self,
+        readings: Any = None,
+        turn: Any = None,
+        *,
+        log: Any = None,
+        touches: Any = None,
+        finger: Optional[FingerLike] = None,
+        noise: NoiseLike = None,
+        tolerance: Any = None,
+        facing: Optional[float] = None,
+        at: Any = None,
+        prior: Optional[Tuple[float, float]] = None,
+        heading: Optional[Tuple[float, float]] = None,
+        pose: Optional[Sequence[float]] = None,
+        mirrored: bool = False,
+        direction: str = "ccw",
+        robust: bool = False,
+        may_overlap: bool = False,
+        columns: Columns = None,
+        units: Units = None,
+        degrees: bool = False,
+        wrapped: Optional[bool] = None,
+        roll: Optional[int] = None,
+        rounding: Optional[Tuple[float, float]] = None,
+        budget: Optional[int] = None,
+    ) -> Union[Answer, TouchAnswer]:
         """Every place where the roll can have started. There is no other: see `Answer.status`.
 
         `locate(length, turn)`, `locate(readings)`, or `locate(log=..., finger=..., noise=...)`. One finger on a part at
@@ -83,6 +127,11 @@ class Asked(Shape):
             With one length.
         log : path, DataFrame, mapping of arrays, ndarray, Log, Roll, or a pair of them
             Instead of readings: see `rollfix.read_log`, also for `columns`, `units`, `degrees`, `wrapped` and `roll`.
+        touches : array_like, (n, 2) or (n, 3), list of tuples, or DataFrame with columns x and y
+            Instead: touches of a part at rest without rolling, (x, y) or (x, y, normal) of each: the finger's centre in the
+            world, and the direction out of the part, radians or None. The answer is every pose of the part that fits, a
+            `TouchAnswer`; of the other arguments it takes `finger` (a Disk; none: a point), `noise` (position, angle), or
+            `tolerance` as (length, angle), `heading`, `pose`, `mirrored` and `budget`.
         finger : Disk, Jaw, OutlineFinger, or two of them
             For logs of u and psi; and what it can't reach is dropped. One serves both of two.
         noise : Noise or dict, optional
@@ -118,12 +167,34 @@ class Asked(Shape):
         Returns
         -------
         Answer
+            Of touches a `TouchAnswer`.
 
         Raises
         ------
         InputError
             What can't be meant; the message names the argument.
         """
+        if touches is not None:
+            others = {
+                "readings": readings, "turn": turn, "log": log, "facing": facing, "at": at, "prior": prior,
+                "columns": columns, "units": units, "wrapped": wrapped, "roll": roll, "rounding": rounding,
+                "robust": robust or None, "may_overlap": may_overlap or None, "degrees": degrees or None,
+                "direction": None if direction == "ccw" else direction,
+            }  # fmt: skip
+            for name, value in others.items():
+                if value is not None:
+                    raise InputError(f"{name}: touches do not roll and have no use for it: leave it out")
+            return located(
+                self,
+                touches,
+                finger=finger,
+                noise=noise,
+                tolerance=tolerance,
+                heading=heading,
+                pose=pose,
+                mirrored=mirrored,
+                budget=budget,
+            )
         if (readings is None) == (log is None):
             found = "neither" if log is None else "both: they can't be of the same roll"
             raise InputError(f"readings: expected readings or `log`, found {found}")

@@ -19,6 +19,7 @@
 #include "rollfix/error.hpp"
 #include "rollfix/files/load_part.hpp"
 #include "rollfix/part/reach.hpp"
+#include "rollfix/touch/touch.hpp"
 
 // What Python holds of the library's values. All are immutable and shared, so that a thread that works without the
 // interpreter's lock keeps what it works on, whatever Python does meanwhile.
@@ -61,6 +62,10 @@ struct RollHandle {
   std::shared_ptr<const NoisyRoll> roll;
 };
 
+struct TouchAnswerHandle {
+  std::shared_ptr<const TouchAnswer> answer;
+};
+
 struct NextRollHandle {
   std::shared_ptr<const NextRoll> next;
 };
@@ -86,6 +91,8 @@ template <>
 inline constexpr bool kIsPythonClass<RollHandle> = true;
 template <>
 inline constexpr bool kIsPythonClass<NextRollHandle> = true;
+template <>
+inline constexpr bool kIsPythonClass<TouchAnswerHandle> = true;
 template <>
 inline constexpr bool kIsPythonClass<PlacementHandle> = true;
 template <>

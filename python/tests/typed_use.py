@@ -35,8 +35,8 @@ def whole_session(path: str) -> None:
 
 
 def mistakes(part: rollfix.Part) -> None:
-    part.locate(1.0, 0.5, finger=3)  # type: ignore[arg-type]
-    part.locate(1.0, 0.5, fingers=None)  # type: ignore[call-arg]
+    part.locate(1.0, 0.5, finger=3)  # type: ignore[call-overload]
+    part.locate(1.0, 0.5, fingers=None)  # type: ignore[call-overload]
     part.perimeter = 3.0  # type: ignore[misc]
     part.locate(1.0, 0.5).verdict = "unique"  # type: ignore[misc]
     part.watch(nois=rollfix.Noise(angle=0.1))  # type: ignore[call-arg]

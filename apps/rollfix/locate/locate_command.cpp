@@ -19,7 +19,9 @@
 #include "rollfix/locate/batch.hpp"
 #include "rollfix/locate/certificate.hpp"
 #include "rollfix/locate/locate_by_march.hpp"
+#include "rollfix/locate/locate_touches.hpp"
 #include "rollfix/locate/map_points.hpp"
+#include "rollfix/locate/touch_arguments.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/usage.hpp"
 #include "text/text.hpp"
@@ -35,6 +37,9 @@ constexpr const char* kLocateExamples = R"(Examples (wing.csv and wing-roll.csv:
   rollfix locate wing.csv --log wing-roll.csv --finger disk,r=10 --noise contact=0.05,angle=0.2deg,slip=0.002
   rollfix locate wing.csv --batch problems.jsonl > answers.jsonl
   rollfix locate gallery:cam --reading 0.9,40deg --certify proof.json && rollfix-verify proof.json
+Touches without rolling, of a part at rest:
+  rollfix locate gallery:cam --touch 6.486,3.822 --touch 4.355,4.133 --touch 3.824,3.238 --touch 4.507,1.895 --finger disk,r=0.2 --noise position=0.005
+  rollfix locate gallery:cam --touch 5,4.4,97deg --touch 4,3.2,160deg --touch 5.2,2,280deg --noise position=0.05,angle=3deg -o poses.svg
 Two fingers on a part that is free to move:
   rollfix locate gallery:cam --reading 0.7446832,-0.3983439,57.48184deg --reading 1.5,-0.8,110.97000deg
   rollfix locate gallery:cam --reading 1.5,-0.8,110.97000deg --facing -142.40990deg
@@ -44,6 +49,7 @@ Two fingers on a part that is free to move:
 
 struct LocateArguments {
   RollArguments roll;
+  std::vector<std::string> touches;
   bool json = false;
   AnswerDetail detail;
   std::vector<std::string> maps;
@@ -57,7 +63,7 @@ void require_sensible(const LocateArguments& arguments) {
   const RollArguments& roll = arguments.roll;
   require_part(roll.part);
   if (roll.readings.empty() && roll.logs.empty()) {
-    throw InputError("locate: expected --reading LENGTH,TURN or --log FILE, found neither");
+    throw InputError("locate: expected --reading LENGTH,TURN, --log FILE or --touch X,Y, found none");
   }
   if (!roll.readings.empty() && !roll.logs.empty()) {
     throw InputError("locate: expected --reading or --log, found both: they can't be of the same roll");
@@ -102,6 +108,19 @@ Report march_report(const LocateArguments& arguments) {
   return report;
 }
 
+/// What touches have no use for.
+Report touches_report(const LocateArguments& arguments) {
+  const auto refuse = [](bool given, const char* option) {
+    if (given) throw InputError(fmt::format("{}: touches do not roll and have no use for it; leave it out", option));
+  };
+  refuse(!arguments.maps.empty(), "--map");
+  refuse(!arguments.certificate.empty(), "--certify");
+  refuse(arguments.march.march, "--march");
+  refuse(arguments.detail.explain, "--explain");
+  return locate_touches(arguments.touches, arguments.roll,
+                        {arguments.output, arguments.json, arguments.detail.verbose});
+}
+
 /// What a batch has no use for.
 void require_batch(const LocateArguments& arguments) {
   const auto refuse = [](bool given, const char* option) {
@@ -109,6 +128,7 @@ void require_batch(const LocateArguments& arguments) {
   };
   refuse(!arguments.roll.readings.empty(), "--reading");
   refuse(!arguments.roll.logs.empty(), "--log");
+  refuse(!arguments.touches.empty(), "--touch");
   refuse(!arguments.output.file.empty(), "-o");
   refuse(!arguments.maps.empty(), "--map");
   refuse(!arguments.certificate.empty(), "--certify");
@@ -120,6 +140,7 @@ Report locate_report(const LocateArguments& arguments, std::ostream& out) {
     require_batch(arguments);
     return locate_batch(arguments.roll, arguments.batch, arguments.detail.explain, out);
   }
+  if (are_touches(arguments.touches, arguments.roll)) return touches_report(arguments);
   require_sensible(arguments);
   const OutputArgument& output = arguments.output;
   if (arguments.maps.empty()) require_figure_output(output, arguments.json);
@@ -190,6 +211,13 @@ void add_locate_command(CLI::App& program, Command& chosen, std::ostream& out) {
   command->footer(kLocateExamples);
   RollArguments& roll = arguments->roll;
   add_roll_arguments(*command, roll, true);
+  command
+      ->add_option("--touch", arguments->touches,
+                   "a touch without rolling: the finger's centre in the world and, if it was measured, the direction "
+                   "out of the part; repeatable, with --noise position=SD,angle=SD or --tolerance LENGTH,ANGLE; the "
+                   "answer is every pose of the part")
+      ->type_name("X,Y[,NORMAL]")
+      ->allow_extra_args(false);
   command
       ->add_option("--at", roll.instants,
                    "instants of the log to use, seconds; default its last row, of two fingers also the middle one")

@@ -23,6 +23,7 @@ PYBIND11_MODULE(_core, module) {
   bind_rolls(module);
   bind_reach(module);
   bind_watch(module);
+  bind_touch(module);
   bind_catalog(module);
   let_be_pickled(module);
 }

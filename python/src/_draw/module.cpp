@@ -3,6 +3,7 @@
 #include "rollfix/draw/advice_figure.hpp"
 #include "rollfix/draw/answer_figure.hpp"
 #include "rollfix/draw/part_figure.hpp"
+#include "rollfix/draw/touch_figure.hpp"
 
 namespace rollfix::python {
 
@@ -34,6 +35,13 @@ Svg next_roll_figure(const NextRollHandle& handle) {
   return draw_advice({*next.advice, next.answer.part.name(), next.answer.verdict.text()});
 }
 
+Svg touch_figure(const TouchAnswerHandle& handle, const std::string& title, double width) {
+  TouchFigure figure{handle.answer.get()};
+  figure.title = title;
+  if (width > 0) figure.width = width;
+  return draw_touches(figure);
+}
+
 }  // namespace
 }  // namespace rollfix::python
 
@@ -54,5 +62,6 @@ PYBIND11_MODULE(_draw, module) {
   module.def("answer_figure", &answer_figure);
   module.def("part_figure", &part_figure);
   module.def("next_roll_figure", &next_roll_figure);
+  module.def("touch_figure", &touch_figure);
   let_be_pickled(module);
 }

@@ -81,7 +81,8 @@ bool is_in_brackets(std::string_view text) {
          ((text.front() == '[' && text.back() == ']') || (text.front() == '(' && text.back() == ')'));
 }
 
-/// Where blanks separate, a unit behind a name is cut off it: they are put together again.
+}  // namespace
+
 std::vector<HeaderName> names_in(const TableRow& header) {
   std::vector<std::string_view> cells;
   for (const std::string_view cell : header.cells) {
@@ -100,6 +101,8 @@ std::vector<HeaderName> names_in(const TableRow& header) {
   for (const std::string_view cell : cells) names.push_back(header_name(cell));
   return names;
 }
+
+namespace {
 
 /// Reads one header.
 class HeaderReader {

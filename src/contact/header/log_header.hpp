@@ -16,6 +16,10 @@ struct HeaderName {
   std::string_view unit;  // "deg", or whatever stands in the brackets; empty: none
 };
 
+/// What stands over the columns. Where blanks separate, a unit behind a name is cut off it: they are put together
+/// again.
+std::vector<HeaderName> names_in(const TableRow& header);
+
 /// The columns of a log with this header, of one finger or of two. Throws InputError: no known column, half of a pair,
 /// two kinds of log at once, only one of two fingers, the same column twice, a column of the options that is not there,
 /// a unit that is not known or not one of the column's, one of length where the part's is not known. `log`: its name,

@@ -1,0 +1,244 @@
+#include "rollfix/output/touch_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "outline/turn.hpp"
+#include "rollfix/output/answer_output.hpp"
+#include "rollfix/output/table.hpp"
+#include "text/text.hpp"
+
+namespace rollfix::app {
+namespace {
+
+constexpr double kExact = 1e-6;  // of the tolerance
+constexpr double kAlike = 1e-3;
+
+class TouchText {
+ public:
+  explicit TouchText(const TouchAnswer& answer)
+      : answer_(answer), decimals_(decimals_for(answer.part.perimeter())), unit_(answer.part.unit()) {}
+
+  std::string text(bool verbose) const {
+    std::string text = answer_.verdict_text() + "\n" + advice_line() + diagnosis_lines();
+    if (!answer_.poses.empty()) text += "\n" + poses_table() + "\n" + pose_remarks();
+    if (verbose && !answer_.poses.empty()) text += contacts_table() + "\n";
+    return text + unresolved_lines() + asked_lines();
+  }
+
+ private:
+  std::string place(double value) const { return fixed(value, decimals_); }
+  static double sd(const TouchPose& pose, int which) {
+    return std::sqrt(std::max(0.0, pose.spread.covariance(which, which)));
+  }
+  static std::string share(double probability) { return fmt::format("{:.4f}", probability); }
+
+  /// Whether all poses fit equally well: those of a part with a symmetry do.
+  bool all_alike() const {
+    const TouchPose& first = answer_.poses.front();
+    return answer_.noise && std::all_of(answer_.poses.begin(), answer_.poses.end(), [&](const TouchPose& pose) {
+             return std::abs(pose.chi_square - first.chi_square) <= kAlike * (1 + first.chi_square) &&
+                    std::abs(pose.probability - first.probability) <= kAlike;
+           });
+  }
+
+  /// What to do next.
+  std::string advice_line() const {
+    switch (answer_.verdict.name) {
+      case Verdict::unique:
+        return "";
+      case Verdict::ambiguous:
+        if (all_alike()) return "the part looks the same in each of these poses: no touch can identify one\n";
+        return answer_.verdict.stretches > 0
+                   ? "the touches leave the part free to move: touch a side with another direction\n"
+                   : "next: one more touch, on a side with another direction\n";
+      case Verdict::unobservable:
+        return answer_.touches.size() == 1 ? "one touch fits all along the boundary: touch the part elsewhere\n"
+                                           : "the part looks the same in every heading: only its place is known\n";
+      case Verdict::undecided:
+        return "the budget ran out: more touches, or a larger --budget, leave less to look at\n";
+      case Verdict::inconsistent:
+        break;
+    }
+    return "no pose of the part fits all touches\n";
+  }
+
+  std::string diagnosis_line(const TouchDiagnosis& one) const {
+    switch (one.cause) {
+      case TouchCause::unit:
+        return fmt::format("the touches are in {}, the part in {}: multiply x and y by {:.6g}", one.unit, one.into,
+                           one.factor);
+      case TouchCause::outlier:
+        return fmt::format("touch {} is wrong: without it the others fit", one.touch + 1);
+      case TouchCause::radius:
+        if (one.radius == 0) return "x and y are of the contacts, not of the finger's centre: leave --finger out";
+        return fmt::format("the finger's radius is {:.6g}, not {:.6g}", one.radius, answer_.radius);
+      case TouchCause::normals_reversed:
+        return "normals point into the part; expected out of it: add 180deg to each";
+      case TouchCause::normals_clockwise:
+        return "normals are counted clockwise; expected counter-clockwise: change their signs";
+      case TouchCause::mirrored:
+        return answer_.mirrored ? "the part does not lie face down: leave --mirror out"
+                                : "the part lies face down: add --mirror";
+      case TouchCause::noise:
+        break;
+    }
+    return fmt::format("the measurements are {:.2g} times as noisy as stated", one.factor);
+  }
+
+  std::string diagnosis_lines() const {
+    std::string text;
+    for (const TouchDiagnosis& one : answer_.diagnoses) {
+      const std::string fit = one.fit.freedom > 0 && one.cause != TouchCause::noise
+                                  ? fmt::format(" (p = {:.2g}, {})", one.fit.p, counted(one.poses, "pose", "poses"))
+                                  : "";
+      text += "possible cause: " + diagnosis_line(one) + fit + "\n";
+    }
+    const bool is_odd = answer_.verdict.name == Verdict::inconsistent || answer_.verdict.fits_badly;
+    if (text.empty() && is_odd && answer_.touches.size() > 1) {
+      text = "no usual mistake explains it: check the part, its unit, and each touch\n";
+    }
+    return text;
+  }
+
+  std::string poses_table() const {
+    Table table;
+    const bool has_noise = answer_.noise.has_value();
+    table.add_column("", Table::Align::left);
+    if (has_noise) table.add_column("probability");
+    for (const std::string& title : {title_in("x", unit_), title_in("y", unit_), std::string("heading [deg]")}) {
+      table.add_column(title);
+      if (has_noise) table.add_column("±");
+    }
+    table.add_column("worst residual");
+    for (std::size_t k = 0; k < std::min(answer_.poses.size(), kMostRows); ++k) {
+      const TouchPose& pose = answer_.poses[k];
+      std::vector<std::string> cells{fmt::format("p{}", k)};
+      if (has_noise) cells.push_back(share(pose.probability));
+      const std::array<std::string, 3> values = {place(pose.pose.x), place(pose.pose.y),
+                                                 pose.any_heading ? "any" : degrees(pose.pose.heading)};
+      for (int i = 0; i < 3; ++i) {
+        cells.push_back(values[static_cast<std::size_t>(i)]);
+        if (has_noise) cells.push_back(rough(i < 2 ? sd(pose, i) : sd(pose, i) / kDegree));
+      }
+      // An exact fit leaves rounding.
+      const bool is_exact = pose.residual.length < kExact * answer_.tolerance.front().length;
+      cells.push_back(is_exact ? "0" : rough(pose.residual.length));
+      table.add_row(std::move(cells));
+    }
+    const std::size_t more = answer_.poses.size() - std::min(answer_.poses.size(), kMostRows);
+    return table.str() + (more == 0 ? "" : fmt::format("... and {} more; --json lists them all\n", more));
+  }
+
+  std::string span(const Interval& interval) const {
+    return fmt::format("{} to {}", place(interval.lo), place(interval.hi));
+  }
+
+  std::string pose_remarks() const {
+    std::string text;
+    for (std::size_t k = 0; k < std::min(answer_.poses.size(), kMostNotes); ++k) {
+      const TouchPose& pose = answer_.poses[k];
+      const std::array<Interval, 3>& range = answer_.noise ? pose.interval : pose.extent;
+      const std::string heading = pose.any_heading
+                                      ? "any heading"
+                                      : fmt::format("heading {} to {} deg", degrees(range[2].lo), degrees(range[2].hi));
+      text += fmt::format("p{}: {} x {}, y {}{}, {}{}\n", k, answer_.noise ? "95 % within" : "within", span(range[0]),
+                          span(range[1]), behind(unit_), heading,
+                          pose.continuum ? "; a continuum, of which the table shows one" : "");
+    }
+    if (answer_.poses.front().any_heading) text += centre_line(answer_.poses.front().pose);
+    return text + "\n";
+  }
+
+  /// Of a circle, which has no heading: its centre, which is known nevertheless.
+  std::string centre_line(const Pose& pose) const {
+    const std::vector<Spiral>& spirals = answer_.part.turning().spirals();
+    const double curvature = spirals.front().start.curvature;
+    const bool is_circle = curvature != 0 && std::all_of(spirals.begin(), spirals.end(), [&](const Spiral& spiral) {
+                             return std::abs(spiral.start.curvature - curvature) <= 1e-9 * std::abs(curvature) &&
+                                    std::abs(spiral.end.curvature - curvature) <= 1e-9 * std::abs(curvature);
+                           });
+    if (!is_circle) return "";
+    const double tangent = answer_.part.tangent(0);
+    const Vec2 centre = answer_.part.point(0) + Vec2(-std::sin(tangent), std::cos(tangent)) / curvature;
+    const Vec2 world = pose.world({answer_.mirrored ? -centre.x() : centre.x(), centre.y()});
+    return fmt::format("the circle's centre is at x {}, y {}{}\n", place(world.x()), place(world.y()), behind(unit_));
+  }
+
+  /// Of the first pose.
+  std::string contacts_table() const {
+    const TouchPose& pose = answer_.poses.front();
+    Table table;
+    table.add_column("touch");
+    for (const char* title : {"x", "y", "s", "off"}) table.add_column(title_in(title, unit_));
+    table.add_column("normal off [deg]");
+    for (std::size_t k = 0; k < pose.contacts.size(); ++k) {
+      const TouchContact& contact = pose.contacts[k];
+      table.add_row({std::to_string(k + 1), place(answer_.touches[k].at.x()), place(answer_.touches[k].at.y()),
+                     place(contact.s), rough(contact.distance),
+                     contact.turn ? fmt::format("{:.2f}", *contact.turn / kDegree) : "-"});
+    }
+    return "touches on the part in p0:\n" + table.str();
+  }
+
+  std::string unresolved_lines() const {
+    std::string text;
+    for (std::size_t k = 0; k < std::min(answer_.unresolved.size(), kMostNotes); ++k) {
+      text += fmt::format("not decided: touch {} at s from {}{}\n", answer_.unresolved_touch + 1,
+                          span(answer_.unresolved[k]), behind(unit_));
+    }
+    if (answer_.unresolved.size() > kMostNotes) {
+      text += fmt::format("... and {} more arcs\n", answer_.unresolved.size() - kMostNotes);
+    }
+    return text;
+  }
+
+  std::string asked_lines() const {
+    const Part& part = answer_.part;
+    const auto with_normal = std::count_if(answer_.touches.begin(), answer_.touches.end(),
+                                           [](const MeasuredTouch& touch) { return touch.normal.has_value(); });
+    std::string text =
+        fmt::format("part       {}, {}, perimeter {}{}{}\n", plain(part.name()), part.closed() ? "closed" : "open",
+                    place(part.perimeter()), behind(unit_), answer_.mirrored ? ", face down" : "");
+    text += fmt::format("touches    {}, {} with normal; finger {}\n", answer_.touches.size(), with_normal,
+                        answer_.radius > 0 ? fmt::format("disk,r={:.6g}", answer_.radius) : "a point");
+    if (answer_.noise) {
+      text += fmt::format(
+          "noise      position {:.6g}{}{}\n", answer_.noise->position, behind(unit_),
+          answer_.noise->angle > 0 ? fmt::format(", angle {:.6g} deg", answer_.noise->angle / kDegree) : "");
+    } else {
+      text +=
+          fmt::format("tolerance  {:.6g}{}{}\n", answer_.tolerance.front().length, behind(unit_),
+                      with_normal > 0 ? fmt::format(", {:.6g} deg", answer_.tolerance.front().angle / kDegree) : "");
+    }
+    if (answer_.fit && answer_.fit->freedom > 0) {
+      text += fmt::format("fit        chi-square {:.3g} where {} is expected, p = {:.2g}\n", answer_.fit->chi_square,
+                          answer_.fit->freedom, answer_.fit->p);
+    } else if (answer_.fit) {
+      text += "fit        these touches can't contradict each other: one more checks them\n";
+    }
+    if (answer_.improbable > 0) {
+      text += fmt::format("rejected   {} within {:.2g} standard deviations, together {:.2g} % probable\n",
+                          counted(answer_.improbable, "pose", "poses"), kTouchSigmas, 100 * answer_.rest);
+    }
+    return text;
+  }
+
+  const TouchAnswer& answer_;
+  int decimals_;
+  std::string unit_;
+};
+
+}  // namespace
+
+ExitCode exit_code_of(const TouchAnswer& answer) {
+  if (answer.status == Status::incomplete) return ExitCode::incomplete;
+  return answer.verdict.name == Verdict::inconsistent ? ExitCode::nothing_fits : ExitCode::fits;
+}
+
+std::string touches_text(const TouchAnswer& answer, bool verbose) { return TouchText(answer).text(verbose); }
+
+}  // namespace rollfix::app

@@ -1,0 +1,147 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rollfix/belief/belief.hpp"
+#include "rollfix/contact/finger.hpp"
+#include "rollfix/contact/noise.hpp"
+#include "rollfix/contact/reading.hpp"
+#include "rollfix/locate/placement.hpp"
+#include "rollfix/part/part.hpp"
+
+// From touches without rolling to every pose of the part: docs/touch.md.
+namespace rollfix {
+
+/// One contact without rolling, in the world: a probe's ball, or a round finger.
+struct MeasuredTouch {
+  Vec2 at = Vec2::Zero();               // the finger's centre, in the outline's unit; of a point the contact itself
+  std::optional<double> normal{};       // direction out of the part, radians; none: it was not measured
+  std::optional<double> position_sd{};  // of each coordinate of `at`, length; none: TouchProblem::noise has it
+  std::optional<double> normal_sd{};    // radians; likewise
+};
+
+/// How far a measurement may be off, where no noise is stated.
+struct TouchTolerance {
+  double length = 0;  // distance of a finger's centre from where the part allows it, above 0
+  double angle = 0;   // of a normal, radians; above 0 where a touch has one
+};
+
+/// With noise, a pose is a candidate where every measurement is within so many standard deviations. The true pose is
+/// beyond it once in 25,000 touches.
+inline constexpr double kTouchSigmas = 4.5;
+
+/// Touches of one part at rest, with one finger.
+struct TouchProblem {
+  Part part;
+  std::vector<MeasuredTouch> touches;
+  std::optional<Finger> finger{};             // a disk; none: a point
+  std::optional<Noise> noise{};               // `position` and `angle`: standard deviations
+  std::optional<TouchTolerance> tolerance{};  // without noise
+  std::optional<PosePrior> pose{};            // with noise: about how the part lies
+  std::optional<std::size_t> budget{};        // comparisons before giving up; none: kTouchBudget
+  bool mirrored = false;                      // the part lies face down
+  bool diagnose = true;                       // if the touches contradict the noise, the usual mistakes are tried
+};
+
+/// Comparisons of two stretches of the boundary: a second or two.
+inline constexpr std::size_t kTouchBudget = 20000000;
+
+/// Where a touch is on the part, in one pose.
+struct TouchContact {
+  double s = 0;                // of the contact, in [0, P)
+  Vec2 point = Vec2::Zero();   // of it, in the part's frame
+  double tangent = 0;          // its direction there in the part's frame, radians, in (-pi, pi]; at a corner a pivot's
+  double distance = 0;         // residual: from the finger's centre to where this pose has it, length
+  std::optional<double> turn;  // residual: measured normal less that of the part, radians
+};
+
+/// One answer: a connected set of poses, all of which fit.
+struct TouchPose {
+  Pose pose;                           // that fits best
+  std::vector<TouchContact> contacts;  // one for each touch, in that pose
+  PoseResidual residual;               // the largest of theirs
+  double worst = 0;                    // the largest residual as a share of its tolerance, at most 1
+  bool continuum = false;              // the touches leave the part free to slide or to turn: `pose` is one of many
+  bool any_heading = false;            // the heading can be anything, as of a disk
+  std::array<Interval, 3> extent{};    // x, y, heading: no pose of the set is outside; heading unwrapped
+  double chi_square = 0;               // of all residuals, in units of their standard deviations or tolerances
+
+  // With noise.
+  double probability = std::numeric_limits<double>::quiet_NaN();  // of the part's pose being in this set
+  PoseSpread spread{};                                            // mean and covariance, given that it is
+  std::array<Interval, 3> interval{};  // x, y, heading: each holds 95 % of this set's probability
+};
+
+/// How well the best pose fits the stated noise.
+struct TouchFit {
+  double chi_square = 0;
+  int freedom = 0;  // as much is to be expected of it; 0: the touches can't contradict each other
+  double p = 1;     // probability of a chi-square at least as large
+
+  /// Below this p the touches contradict the stated noise.
+  static constexpr double kLeastP = 1e-3;
+  bool is_bad() const { return freedom > 0 && p < kLeastP; }
+};
+
+/// A usual mistake.
+enum class TouchCause {
+  unit,              // the touches are in another unit: `factor`
+  outlier,           // one touch is wrong: `touch`
+  radius,            // the finger has another radius: `radius`
+  normals_reversed,  // normals point into the part
+  normals_clockwise,
+  mirrored,  // the part lies face down
+  noise      // the noise is larger than stated: `factor`
+};
+const char* name_of(TouchCause cause);
+
+/// A mistake that would explain touches that fit nowhere, or contradict the noise.
+struct TouchDiagnosis {
+  TouchCause cause = TouchCause::noise;
+  double factor = 1;      // unit: by which the touches' coordinates are to be multiplied; noise: how many times
+  std::string unit{};     // unit: the one that the touches seem to be in, and ...
+  std::string into{};     // ... that of the part, both as guessed
+  std::size_t touch = 0;  // outlier: its number, from 0
+  double radius = 0;      // radius: the one that fits
+  TouchFit fit{};         // without the mistake
+  std::size_t poses = 0;  // that remain without it
+  Pose pose{};            // the likeliest of them
+};
+
+/// Every pose of the part that fits the touches.
+struct TouchAnswer {
+  Part part;
+  std::vector<MeasuredTouch> touches;
+  double radius = 0;  // of the finger; 0: a point
+  std::optional<Noise> noise{};
+  std::vector<TouchTolerance> tolerance{};  // that was searched with, for each touch
+  bool mirrored = false;                    // poses are of the part face down: x = -x of the outline, then the pose
+  Status status = Status::complete;
+  Verdict verdict{};
+  std::vector<TouchPose> poses{};      // with noise the most probable first, else by heading
+  std::size_t improbable = 0;          // with noise: sets of poses within the tolerance that are not listed, ...
+  double rest = 0;                     // ... and their probability together
+  std::vector<Interval> unresolved{};  // if incomplete: arcs of the boundary on which the first touch of a pose that
+                                       // is not listed may be; lo in [0, P), hi may exceed P
+  std::size_t unresolved_touch = 0;    // which touch they are of
+  std::optional<TouchFit> fit{};       // with noise, if a pose fits
+  std::vector<TouchDiagnosis> diagnoses{};  // what explains touches that do not fit, the likeliest first
+  std::size_t comparisons = 0;
+
+  /// "unique", "ambiguous (2)", "unique, but the touches contradict the stated noise", ...
+  std::string verdict_text() const;
+};
+
+/// Every pose of a part at rest that fits touches of one finger without rolling: complete, by branch and prune over the
+/// places of two touches on the boundary. Places where a disk would enter the part elsewhere are left out. With noise
+/// also the posterior, if contacts are as likely anywhere on the boundary. One touch leaves a continuum: the verdict is
+/// `unobservable` and no pose is listed. Throws InputError: no touches, a number that is not finite, a finger that is
+/// no disk, noise without `position` (or without `angle` where a touch has a normal), neither noise nor tolerance.
+TouchAnswer solve(const TouchProblem& problem);
+
+}  // namespace rollfix

@@ -1,0 +1,135 @@
+"""Touches without rolling: the poses of the part that fit."""
+
+from __future__ import annotations
+
+from typing import Any, List, Optional, Tuple
+
+import numpy as np
+
+from . import _core
+from ._checks import array, flag, least, numbers, path, pose_prior, text, whole
+from ._core import InputError
+from ._documents import Document
+from ._fingers import FingerLike, fingers
+from ._messages import in_a_page, shown
+from ._noise import NoiseLike, noise as noise_given
+from ._tables import is_frame
+
+COLUMNS = ("x", "y", "normal", "position_sd", "normal_sd")
+
+
+class TouchAnswer(Document):
+    """Every pose of the part that fits touches: the fields of `rollfix/locate/1`, see docs/json.md.
+
+    `placements` has one entry for each connected set of poses, with noise the most probable first; `poses` has the best
+    pose of each as an array. `status`, `verdict`, `fit`, `diagnosis`, `touches`, ...
+    """
+
+    __slots__ = ("_answer", "_asked")
+
+    def __init__(self, asked: Tuple[Any, ...]) -> None:
+        part, *rest = asked
+        self._answer = _core.locate_touches(part._core, *rest)
+        self._asked = asked
+        super().__init__(self._answer.document())
+
+    @property
+    def poses(self) -> Any:
+        """ndarray, (n, 3): x, y and heading in radians, of the pose that fits best in each set."""
+        return np.array([one["pose"][0] for one in self.placements], dtype=float).reshape(-1, 3)
+
+    def to_svg(self, *, title: str = "", width: float = 0) -> str:
+        """A figure of the part in each pose, with the touches."""
+        svg: str = self._figure(title, width).svg()
+        return svg
+
+    def save(self, file: Any, *, title: str = "", width: float = 0) -> None:
+        """Writes that figure, by its ending: .svg, .png or .pdf."""
+        self._figure(title, width).save(path(file, "file"))
+
+    def _figure(self, title: str, width: float) -> Any:
+        from . import _draw
+
+        return _draw.touch_figure(self._answer, text(title, "title"), least(width, "width", 0, "a number of pixels"))
+
+    def _repr_svg_(self) -> Optional[str]:
+        return in_a_page(self.to_svg())
+
+    def __len__(self) -> int:
+        return len(self.placements)
+
+    def __repr__(self) -> str:
+        if not len(self):
+            return f"<TouchAnswer: {self.verdict}>"
+        x, y, heading = self.poses[0]
+        return f"<TouchAnswer: {self.verdict}; x {x:.6g}, y {y:.6g}, heading {np.degrees(heading):.6g} deg>"
+
+    def __reduce__(self) -> Any:
+        return (TouchAnswer, (self._asked,))
+
+
+def located(
+    part: Any,
+    touches: Any,
+    *,
+    finger: Optional[FingerLike],
+    noise: NoiseLike,
+    tolerance: Any,
+    heading: Any,
+    pose: Any,
+    mirrored: bool,
+    budget: Optional[int],
+) -> TouchAnswer:
+    """The answer to touches of a part, checked."""
+    if noise is not None and tolerance is not None:
+        raise InputError("tolerance: `noise` already says how far touches are off: leave one out")
+    given = fingers(finger, most=1)
+    return TouchAnswer((
+        part,
+        _rows(touches),
+        given[0] if given else None,
+        noise_given(noise),
+        _tolerance(tolerance),
+        pose_prior(heading, pose),
+        flag(mirrored, "mirrored"),
+        None if budget is None else whole(budget, "budget", 1),
+    ))  # fmt: skip
+
+
+def _tolerance(given: Any) -> Optional[Tuple[float, float]]:
+    if given is None:
+        return None
+    if np.ndim(given) == 0:
+        return least(given, "tolerance", 0, "a length"), 0.0
+    length, angle = numbers(given, 2, "tolerance", "(length, angle)")
+    return length, angle
+
+
+def _rows(touches: Any) -> Any:
+    """(n, 5): x, y, normal and both standard deviations; NaN for what is not there."""
+    if is_frame(touches):
+        return _rows_of_frame(touches)
+    if isinstance(touches, np.ndarray):
+        touches = [tuple(row) for row in np.atleast_2d(touches)]
+    rows: List[List[float]] = []
+    for number, touch in enumerate(list(touches)):
+        values = list(touch)
+        if not 2 <= len(values) <= len(COLUMNS):
+            raise InputError(f"touches: expected (x, y) or (x, y, normal), found {shown(touch)} (touch {number})")
+        plain = [float("nan") if value is None and k >= 2 else value for k, value in enumerate(values)]
+        row = array(plain, "touches")
+        if not np.isfinite(row[:2]).all():
+            raise InputError(f"touches: expected finite x and y, found {shown(touch)} (touch {number})")
+        rows.append([*row, *[float("nan")] * (len(COLUMNS) - len(row))])
+    return np.array(rows, dtype=float).reshape(-1, len(COLUMNS))
+
+
+def _rows_of_frame(frame: Any) -> Any:
+    names = [str(name) for name in frame.columns]
+    if "x" not in names or "y" not in names:
+        raise InputError(f"touches: expected columns x and y, found {', '.join(names)}")
+    columns = [
+        array(np.asarray(frame[name], dtype=float), "touches") if name in names else np.full(len(frame), np.nan)
+        for name in COLUMNS
+    ]
+    return np.ascontiguousarray(np.column_stack(columns))

@@ -1,0 +1,51 @@
+#include "rollfix/touch/touch.hpp"
+
+#include <cmath>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "fingers.hpp"
+#include "rollfix/files/touch_document.hpp"
+#include "signals.hpp"
+
+namespace rollfix::python {
+namespace {
+
+/// NaN: it was not measured, or is not known.
+std::optional<double> known(double value) { return std::isnan(value) ? std::nullopt : std::optional<double>(value); }
+
+/// (n, 5), checked by Python: x, y, normal, and the standard deviations of both.
+std::vector<MeasuredTouch> touches_from(const Numbers& rows) {
+  std::vector<MeasuredTouch> touches;
+  for (py::ssize_t k = 0; k < rows.shape(0); ++k) {
+    touches.push_back(
+        {{rows.at(k, 0), rows.at(k, 1)}, known(rows.at(k, 2)), known(rows.at(k, 3)), known(rows.at(k, 4))});
+  }
+  return touches;
+}
+
+TouchAnswerHandle locate_touches(const PartHandle& part, const Numbers& rows, const py::object& finger,
+                                 const py::object& noise, const std::optional<std::pair<double, double>>& tolerance,
+                                 const std::optional<std::vector<double>>& pose, bool mirrored,
+                                 const std::optional<std::size_t>& budget) {
+  TouchProblem problem{part.part(), touches_from(rows)};
+  if (!finger.is_none()) problem.finger = finger_from(finger);
+  problem.noise = noise_from_optional(noise);
+  if (tolerance) problem.tolerance = TouchTolerance{tolerance->first, tolerance->second};
+  problem.pose = pose_from(pose);
+  problem.mirrored = mirrored;
+  problem.budget = budget;
+  const Unlocked others_may_run;
+  return {std::make_shared<const TouchAnswer>(solve(problem))};
+}
+
+}  // namespace
+
+void bind_touch(py::module_& module) {
+  py::class_<TouchAnswerHandle>(module, "TouchAnswer").def("document", [](const TouchAnswerHandle& handle) {
+    return format_touches(*handle.answer, Layout::line);
+  });
+  module.def("locate_touches", &locate_touches);
+}
+
+}  // namespace rollfix::python

@@ -1,0 +1,87 @@
+"""Touches without rolling, as Python takes them and as the program does."""
+
+import json
+import math
+import pathlib
+import pickle
+import subprocess
+
+import numpy as np
+import pytest
+
+import rollfix
+
+BRACKET = pathlib.Path(__file__).resolve().parents[2] / "examples/bracket.dxf"
+FIVE = [(108.088, 86.821), (124.014, 51.172), (180.292, 54.717), (178.374, 82.953), (134.488, 101.138)]
+NOISE = {"position": 0.02}
+
+
+@pytest.fixture(scope="module")
+def bracket():
+    return rollfix.Part(BRACKET, loop=1)
+
+
+@pytest.fixture(scope="module")
+def found(bracket):
+    return bracket.locate(touches=FIVE, finger=rollfix.Disk(3), noise=NOISE)
+
+
+def test_five_balls_give_the_pose(found):
+    assert found.status == "complete"
+    assert found.verdict == "unique"
+    assert len(found) == 1
+    assert found.poses.shape == (1, 3)
+    lo, hi = np.transpose(found.placements[0]["pose_interval"])
+    truth = np.array([120, 45, math.radians(12)])
+    assert (lo <= truth).all() and (truth <= hi).all()
+
+
+def test_the_program_says_the_same(found, program):
+    touches = [word for x, y in FIVE for word in ("--touch", f"{x},{y}")]
+    command = [program.path, "locate", str(BRACKET), *touches, "--finger", "disk,r=3", "--noise", "position=0.02", "--json"]
+    told = json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+    assert told == found.to_dict()
+
+
+@pytest.mark.parametrize("given", [np.array(FIVE), [list(touch) for touch in FIVE], [(*touch, None) for touch in FIVE]])
+def test_touches_come_in_any_form(bracket, found, given):
+    assert bracket.locate(touches=given, finger=rollfix.Disk(3), noise=NOISE) == found
+
+
+def test_a_data_frame_has_the_columns_of_the_table(bracket, found):
+    pandas = pytest.importorskip("pandas")
+    frame = pandas.DataFrame(FIVE, columns=["x", "y"])
+    frame["position_sd"] = [0.02] * 5
+    answer = bracket.locate(touches=frame, finger=rollfix.Disk(3), noise={"position": 1})
+    assert np.allclose(answer.poses, found.poses)
+
+
+def test_a_normal_and_a_tolerance(bracket):
+    touches = [(108.088, 86.821, math.radians(-167.6)), *FIVE[1:]]
+    answer = bracket.locate(touches=touches, finger=rollfix.Disk(3), tolerance=(0.1, 0.05))
+    assert answer.placements[0]["probability"] is None
+    assert answer.placements[0]["worst"] <= 1
+
+
+def test_an_answer_can_be_pickled_and_drawn(found, tmp_path):
+    assert pickle.loads(pickle.dumps(found)) == found
+    assert "class=\"touch\"" in found.to_svg()
+    found.save(tmp_path / "poses.svg")
+    assert (tmp_path / "poses.svg").read_text() == found.to_svg()
+
+
+@pytest.mark.parametrize(
+    "options, message",
+    [
+        ({"touches": FIVE}, "found neither `noise` nor `tolerance`"),
+        ({"touches": [(1,)], "noise": NOISE}, r"expected \(x, y\) or \(x, y, normal\)"),
+        ({"touches": [], "noise": NOISE}, "expected at least one"),
+        ({"touches": FIVE, "noise": NOISE, "tolerance": 1}, "leave one out"),
+        ({"touches": FIVE, "noise": NOISE, "facing": 1}, "facing: touches do not roll"),
+        ({"touches": FIVE, "noise": NOISE, "finger": rollfix.Jaw()}, "expected a round finger"),
+        ({"touches": [(float("nan"), 1)], "noise": NOISE}, "finite x and y"),
+    ],
+)
+def test_what_cannot_be_meant_is_refused(bracket, options, message):
+    with pytest.raises(rollfix.InputError, match=message):
+        bracket.locate(**options)

@@ -1,0 +1,99 @@
+#include "documents.hpp"
+#include "rollfix/files/touch_document.hpp"
+
+namespace rollfix {
+namespace {
+
+template <class Entries, class ToJson>
+Json each_of(const Entries& entries, const ToJson& to_json) {
+  Json list = Json::array();
+  for (const auto& entry : entries) list.push_back(to_json(entry));
+  return list;
+}
+
+Json number_or_null(const std::optional<double>& value) { return value ? json_number(*value) : Json(nullptr); }
+
+Json triple(const Pose& pose) { return json_numbers(std::array<double, 3>{pose.x, pose.y, pose.heading}); }
+
+Json measured_json(const MeasuredTouch& touch, const TouchTolerance& tolerance) {
+  return {{"at", point_json(touch.at)},
+          {"normal", number_or_null(touch.normal)},
+          {"position_sd", number_or_null(touch.position_sd)},
+          {"normal_sd", number_or_null(touch.normal_sd)},
+          {"tolerance",
+           Json::array({json_number(tolerance.length), touch.normal ? json_number(tolerance.angle) : Json(nullptr)})}};
+}
+
+Json fit_of_touches(const TouchFit& fit) {
+  return {{"chi_square", json_number(fit.chi_square)}, {"freedom", fit.freedom}, {"p", json_number(fit.p)}};
+}
+
+Json pose_set_json(const TouchPose& set, bool has_noise) {
+  const auto numbers = [&](auto value) { return each_of(set.contacts, value); };
+  Json json = {
+      {"kind", set.continuum ? "continuum" : "place"},
+      {"pose", Json::array({triple(set.pose)})},
+      {"any_heading", set.any_heading},
+      {"pose_extent", each_of(set.extent, json_interval)},
+      {"start", numbers([](const TouchContact& contact) { return json_number(contact.s); })},
+      {"point", numbers([](const TouchContact& contact) { return point_json(contact.point); })},
+      {"tangent", numbers([](const TouchContact& contact) { return json_number(contact.tangent); })},
+      {"distance", numbers([](const TouchContact& contact) { return json_number(contact.distance); })},
+      {"turn", numbers([](const TouchContact& contact) { return number_or_null(contact.turn); })},
+      {"pose_residual", {{"length", json_number(set.residual.length)}, {"turn", json_number(set.residual.turn)}}},
+      {"worst", json_number(set.worst)},
+      {"probability", json_number(set.probability)}};
+  if (!has_noise) return json;
+  json["chi_square"] = json_number(set.chi_square);
+  json["pose_mean"] = triple(set.spread.mean);
+  json["pose_covariance"] = Json::array();
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d row = set.spread.covariance.row(i).transpose();
+    json["pose_covariance"].push_back(json_numbers(std::array<double, 3>{row(0), row(1), row(2)}));
+  }
+  json["pose_interval"] = each_of(set.interval, json_interval);
+  return json;
+}
+
+Json mistake_json(const TouchDiagnosis& diagnosis) {
+  Json json = {{"cause", name_of(diagnosis.cause)},
+               {"places", diagnosis.poses},
+               {"pose", triple(diagnosis.pose)},
+               {"fit", fit_of_touches(diagnosis.fit)}};
+  if (diagnosis.cause == TouchCause::unit || diagnosis.cause == TouchCause::noise) json["factor"] = diagnosis.factor;
+  if (diagnosis.cause == TouchCause::unit) json["unit"] = diagnosis.unit;
+  if (diagnosis.cause == TouchCause::outlier) json["touch"] = diagnosis.touch;
+  if (diagnosis.cause == TouchCause::radius) json["radius"] = diagnosis.radius;
+  return json;
+}
+
+}  // namespace
+
+std::string format_touches(const TouchAnswer& answer, Layout layout) {
+  Json document = {{"schema", "rollfix/locate/1"},
+                   {"status", name_of(answer.status)},
+                   {"verdict", answer.verdict_text()},
+                   {"part", part_json(answer.part)},
+                   {"fingers", 1},
+                   {"radius", json_number(answer.radius)},
+                   {"mirrored", answer.mirrored}};
+  document["touches"] = Json::array();
+  document["contacts"] = Json::array();
+  for (std::size_t k = 0; k < answer.touches.size(); ++k) {
+    document["touches"].push_back(measured_json(answer.touches[k], answer.tolerance[k]));
+    document["contacts"].push_back(Json{{"finger", 0}, {"touch", k}});
+  }
+  document["placements"] =
+      each_of(answer.poses, [&](const TouchPose& set) { return pose_set_json(set, answer.noise.has_value()); });
+  document["dropped"] = answer.noise ? Json{{"improbable", answer.improbable}} : Json::object();
+  document["unresolved"] = each_of(answer.unresolved, json_interval);
+  document["unresolved_touch"] = answer.unresolved.empty() ? Json(nullptr) : Json(answer.unresolved_touch);
+  document["counts"] = {{"comparisons", answer.comparisons}};
+  document["noise"] = answer.noise ? noise_json(*answer.noise) : Json(nullptr);
+  if (answer.noise) document["rest"] = json_number(answer.rest);
+  document["fit"] = answer.fit ? fit_of_touches(*answer.fit) : Json(nullptr);
+  document["diagnosis"] = answer.diagnoses.empty() ? Json(nullptr) : each_of(answer.diagnoses, mistake_json);
+  return layout == Layout::lines ? json_text(document) : json_line(document);
+}
+
+}  // namespace rollfix

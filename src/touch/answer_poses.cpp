@@ -1,0 +1,182 @@
+#include "answer_poses.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "outline/turn.hpp"
+
+namespace rollfix::touch {
+namespace {
+
+// Poses are a continuum where the touches hold the part, in some direction, to no less than this many tolerances.
+constexpr double kContinuum = 12;
+// Starts on a set of cells for its best pose, and rounds of weighting up what is worst (Lawson's method).
+constexpr std::size_t kMostWitnesses = 8;
+constexpr int kLawsonRounds = 30;
+
+TouchContact contact_of(const PoseFit& fit, const FittedPose& fitted, std::size_t touch) {
+  const CentrePoint point = fit.path().at(fitted.places[touch]);
+  const InPart at = fit.in_part(fitted.pose, touch);
+  TouchContact contact;
+  contact.s = fit.path().part().boundary().canonical(point.s);
+  contact.point = fit.path().contact(fitted.places[touch]);
+  contact.tangent = nearest_angle(point.angle);
+  contact.distance = (at.at - point.centre).norm();
+  if (at.tangent) contact.turn = nearest_angle(*at.tangent - point.angle);
+  return contact;
+}
+
+/// Whether arcs leave no heading out.
+bool cover_all(const std::vector<Cell>& cells) {
+  std::vector<Interval> arcs;
+  for (const Cell& cell : cells) {
+    if (cell.heading.is_all()) return true;
+    const double middle = nearest_angle(cell.heading.middle);
+    for (const double lap : {-kFullTurn, 0.0, kFullTurn}) {
+      arcs.push_back({middle - cell.heading.half + lap, middle + cell.heading.half + lap});
+    }
+  }
+  std::sort(arcs.begin(), arcs.end(), [](const Interval& a, const Interval& b) { return a.lo < b.lo; });
+  double reached = -std::numbers::pi;
+  for (const Interval& arc : arcs) {
+    if (arc.lo > reached) break;
+    reached = std::max(reached, arc.hi);
+  }
+  return reached >= std::numbers::pi;
+}
+
+void extend(Interval& interval, double lo, double hi) {
+  interval.lo = std::min(interval.lo, lo);
+  interval.hi = std::max(interval.hi, hi);
+}
+
+/// Around all poses that have their first two contacts on one of the cells.
+std::array<Interval, 3> extent_of(const PoseFit& fit, const PathTree& tree, const std::vector<Cell>& cells,
+                                  const TouchPair& pair, const Pose& about) {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  std::array<Interval, 3> extent;
+  extent.fill({kFar, -kFar});
+  const Measured& first = fit.touches()[pair.first];
+  for (const Cell& cell : cells) {
+    const PathTree::Node& node = tree.node(cell.first);
+    const Pose turn{0, 0, cell.heading.middle};
+    const Vec2 place = first.at - turn.turned(node.middle);
+    const double swing = cell.heading.is_all() ? 2 : 2 * std::sin(0.5 * cell.heading.half);
+    const double slack = node.radius + first.place_most + swing * node.middle.norm();
+    extend(extent[0], place.x() - slack, place.x() + slack);
+    extend(extent[1], place.y() - slack, place.y() + slack);
+    const double off = about.heading + nearest_angle(cell.heading.middle - about.heading);
+    extend(extent[2], off - cell.heading.half, off + cell.heading.half);
+  }
+  return extent;
+}
+
+/// Whether the touches leave the part free to move: in some direction they would hardly hold it, if its sides were as
+/// long as they are straight there.
+bool is_continuum(const PoseFit& fit, const FittedPose& fitted) {
+  double least = fit.touches().front().place_most;
+  for (const Measured& touch : fit.touches()) least = std::min(least, touch.place_most);
+  const Eigen::Vector3d scale(1, 1, 2 / fit.path().diagonal());
+  const Eigen::Matrix3d information = scale.asDiagonal() * fitted.information * scale.asDiagonal();
+  const double weakest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(information).eigenvalues()(0);
+  return !(weakest > 1 / (kContinuum * kContinuum * least * least));
+}
+
+}  // namespace
+
+double worst_of(const PoseFit& fit, const FittedPose& fitted) {
+  double worst = 0;
+  for (std::size_t k = 0; k < fitted.places.size(); ++k) {
+    const Measured& touch = fit.touches()[k];
+    const CentrePoint point = fit.path().at(fitted.places[k]);
+    const InPart at = fit.in_part(fitted.pose, k);
+    worst = std::max(worst, (at.at - point.centre).norm() / touch.place_most);
+    if (at.tangent) worst = std::max(worst, std::abs(nearest_angle(*at.tangent - point.angle)) / touch.angle_most);
+  }
+  return worst;
+}
+
+TouchPose described(const PoseFit& fit, const FittedPose& fitted, const PathTree& tree, const std::vector<Cell>& cells,
+                    const TouchPair& pair) {
+  TouchPose result;
+  result.pose = fitted.pose;
+  result.chi_square = fitted.square;
+  for (std::size_t k = 0; k < fitted.places.size(); ++k) {
+    result.contacts.push_back(contact_of(fit, fitted, k));
+    result.residual.length = std::max(result.residual.length, result.contacts.back().distance);
+    result.residual.turn = std::max(result.residual.turn, std::abs(result.contacts.back().turn.value_or(0)));
+  }
+  result.worst = worst_of(fit, fitted);
+  result.any_heading = cover_all(cells);
+  result.extent = extent_of(fit, tree, cells, pair, fitted.pose);
+  if (result.any_heading) {
+    result.extent[2] = {fitted.pose.heading - std::numbers::pi, fitted.pose.heading + std::numbers::pi};
+  }
+  result.continuum = result.any_heading || is_continuum(fit, fitted);
+  return result;
+}
+
+void add_posterior(TouchPose& pose, const PoseMode& mode, const std::vector<PosteriorNode>& nodes) {
+  double most = -std::numeric_limits<double>::infinity();
+  for (const std::size_t k : mode.nodes) most = std::max(most, nodes[k].log_weight);
+  std::array<std::vector<MixtureTerm>, 3> terms;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  double total = 0;
+  const Eigen::Vector3d origin(pose.pose.x, pose.pose.y, pose.pose.heading);
+  for (const std::size_t k : mode.nodes) {
+    const PosteriorNode& node = nodes[k];
+    const double weight = std::exp(node.log_weight - most);
+    if (!(weight > 1e-16)) continue;
+    const Eigen::Vector3d off(node.pose.x - origin(0), node.pose.y - origin(1),
+                              nearest_angle(node.pose.heading - origin(2)));
+    for (int i = 0; i < 3; ++i) {
+      terms[static_cast<std::size_t>(i)].push_back({weight, origin(i) + off(i), std::sqrt(node.covariance(i, i))});
+    }
+    total += weight;
+    mean += weight * off;
+    second += weight * (node.covariance + off * off.transpose());
+  }
+  mean /= total;
+  pose.probability = mode.probability;
+  pose.spread.covariance = second / total - mean * mean.transpose();
+  pose.spread.mean = {origin(0) + mean(0), origin(1) + mean(1), origin(2) + mean(2)};
+  for (std::size_t i = 0; i < 3; ++i) pose.interval[i] = middle_share(terms[i], 0.95);
+}
+
+FittedPose best_within(PoseFit& fit, const PathTree& tree, const std::vector<Cell>& cells, const TouchPair& pair) {
+  FittedPose best;
+  double least = std::numeric_limits<double>::infinity();
+  const std::size_t starts = std::min(cells.size(), kMostWitnesses);
+  for (std::size_t start = 0; start < starts; ++start) {
+    const Cell& cell = cells[(2 * start + 1) * cells.size() / (2 * starts)];
+    const PathTree::Node& node = tree.node(cell.first);
+    const Held held{pair.first, {static_cast<std::size_t>(node.stretch), node.u.middle()}};
+    FittedPose fitted = fit.fit(fit.pose_at(held, cell.heading.middle));
+    std::vector<double> weights(fit.touches().size(), 1.0);
+    for (int round = 0; round <= kLawsonRounds; ++round) {
+      const double worst = worst_of(fit, fitted);
+      if (worst < least) {
+        least = worst;
+        best = fitted;
+      }
+      if (worst <= 1 || fit.touches().size() < 3) break;
+      double sum = 0;
+      for (std::size_t k = 0; k < weights.size(); ++k) {
+        const InPart touch = fit.in_part(fitted.pose, k);
+        weights[k] *= 1e-6 + std::sqrt(distance_at(fit.path().at(fitted.places[k]), touch).square) / worst;
+        sum += weights[k];
+      }
+      for (double& weight : weights) weight *= static_cast<double>(weights.size()) / sum;
+      fitted = fit.fit(fitted.pose, {}, weights);
+    }
+    if (least <= 1) break;
+  }
+  return best;
+}
+
+}  // namespace rollfix::touch

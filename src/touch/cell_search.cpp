@@ -1,0 +1,166 @@
+#include "cell_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rollfix/pulse.hpp"
+
+namespace rollfix::touch {
+namespace {
+
+// A search that keeps more cells than this has met a continuum far wider than its tolerance, and memory ends.
+constexpr std::size_t kMostCells = 600000;
+// Headings are rounded, radians.
+constexpr double kGrain = 1e-12;
+
+}  // namespace
+
+TouchPair choose_pair(const std::vector<Measured>& touches) {
+  TouchPair best;
+  int most_normals = -1;
+  double most_apart = -1;
+  for (std::size_t i = 0; i < touches.size(); ++i) {
+    for (std::size_t j = i + 1; j < touches.size(); ++j) {
+      const int normals = (touches[i].tangent ? 1 : 0) + (touches[j].tangent ? 1 : 0);
+      const double apart = (touches[j].at - touches[i].at).norm();
+      if (normals < most_normals || (normals == most_normals && apart <= most_apart)) continue;
+      most_normals = normals;
+      most_apart = apart;
+      // The places of the first are what the posterior is summed over.
+      best = touches[i].tangent || !touches[j].tangent ? TouchPair{i, j} : TouchPair{j, i};
+    }
+  }
+  return best;
+}
+
+CellSearch::CellSearch(PathTree& tree, const std::vector<Measured>& touches, const TouchPair& pair, std::size_t budget)
+    : tree_(tree), touches_(touches), pair_(pair), budget_(budget) {
+  for (std::size_t k = 0; k < touches.size(); ++k) {
+    if (k != pair.first && k != pair.second) others_.push_back(k);
+  }
+}
+
+Cells CellSearch::search(const std::vector<Cell>& from, double leaf) {
+  leaf_ = leaf;
+  found_ = {};
+  for (const Cell& cell : from) {
+    candidates_.clear();
+    Lists lists;
+    for (std::size_t k = 0; k < others_.size(); ++k) {
+      candidates_.push_back(tree_.root());
+      lists.emplace_back(k, k + 1);
+    }
+    visit(cell, lists);
+  }
+  return std::move(found_);
+}
+
+HeadingArc CellSearch::by_normal(std::size_t touch, std::int32_t node) const {
+  const Measured& one = touches_[touch];
+  if (!one.tangent) return {};
+  const PathTree::Node& at = tree_.node(node);
+  return {nearest_angle(*one.tangent - at.angle), at.half_turn + one.angle_most + kGrain};
+}
+
+HeadingArc CellSearch::headings(const Cell& cell) const {
+  const HeadingArc by_normals = common(by_normal(pair_.first, cell.first), by_normal(pair_.second, cell.second));
+  if (by_normals.is_empty()) return by_normals;
+  const PathTree::Node& first = tree_.node(cell.first);
+  const PathTree::Node& second = tree_.node(cell.second);
+  const Measured& one = touches_[pair_.first];
+  const Measured& other = touches_[pair_.second];
+  const double slack = first.radius + second.radius + one.place_most + other.place_most;
+  return common(by_normals, headings_between(second.middle - first.middle, other.at - one.at, slack));
+}
+
+double CellSearch::size(std::size_t touch, std::int32_t node) const {
+  const Measured& one = touches_[touch];
+  const PathTree::Node& at = tree_.node(node);
+  const double place = at.radius / (leaf_ * one.place_most);
+  if (!at.is_single()) return std::max(place, 1.5);  // only single ones are leaves
+  return one.tangent ? std::max(place, at.half_turn / (leaf_ * one.angle_most)) : place;
+}
+
+/// Whether a touch can be in this node, with the two touches of the cell in theirs.
+bool CellSearch::may_hold(const Cell& cell, std::size_t touch, std::int32_t node) {
+  ++comparisons_;
+  const Measured& one = touches_[touch];
+  const PathTree::Node& at = tree_.node(node);
+  if (one.tangent) {
+    const double off = std::abs(nearest_angle(*one.tangent - at.angle - cell.heading.middle));
+    if (off > at.half_turn + one.angle_most + cell.heading.half + kGrain) return false;
+  }
+  const double swing = cell.heading.is_all() ? 2 : 2 * std::sin(0.5 * cell.heading.half);
+  const auto near = [&](std::size_t from, std::int32_t base) {
+    const PathTree::Node& of = tree_.node(base);
+    const Vec2 vector = one.at - touches_[from].at;
+    const Vec2 in_part(cosine_ * vector.x() + sine_ * vector.y(), cosine_ * vector.y() - sine_ * vector.x());
+    const double slack = of.radius + at.radius + one.place_most + touches_[from].place_most + swing * vector.norm();
+    return (of.middle + in_part - at.middle).squaredNorm() <= slack * slack;
+  };
+  return near(pair_.first, cell.first) && near(pair_.second, cell.second);
+}
+
+/// The nodes of a list that may hold a touch, halved down to the cell's own size, as a new list on top of the stack.
+bool CellSearch::narrow(const Cell& cell, std::size_t touch, std::pair<std::size_t, std::size_t>& list) {
+  const double coarse = std::max({1.0, size(pair_.first, cell.first), size(pair_.second, cell.second)});
+  const std::size_t top = candidates_.size();
+  waiting_.assign(candidates_.begin() + static_cast<std::ptrdiff_t>(list.first),
+                  candidates_.begin() + static_cast<std::ptrdiff_t>(list.second));
+  while (!waiting_.empty()) {
+    const std::int32_t node = waiting_.back();
+    waiting_.pop_back();
+    if (!may_hold(cell, touch, node)) continue;
+    if (size(touch, node) > coarse) {
+      const auto [left, right] = tree_.halves(node);
+      if (left != right) {
+        waiting_.push_back(left);
+        waiting_.push_back(right);
+        continue;
+      }
+    }
+    candidates_.push_back(node);
+  }
+  list = {top, candidates_.size()};
+  return list.first != list.second;
+}
+
+void CellSearch::visit(const Cell& cell, const Lists& lists) {
+  if (comparisons_ >= budget_ || found_.fit.size() >= kMostCells) {
+    found_.undecided.push_back(cell);
+    return;
+  }
+  ++comparisons_;
+  beat();
+  Cell narrowed = cell;
+  narrowed.heading = headings(cell);
+  if (narrowed.heading.is_empty()) return;
+  cosine_ = std::cos(narrowed.heading.middle);
+  sine_ = std::sin(narrowed.heading.middle);
+  const std::size_t top = candidates_.size();
+  Lists own = lists;
+  bool fits = true;
+  for (std::size_t k = 0; k < others_.size() && fits; ++k) fits = narrow(narrowed, others_[k], own[k]);
+  if (fits) split(narrowed, own);
+  candidates_.resize(top);
+}
+
+void CellSearch::split(const Cell& cell, const Lists& lists) {
+  const double first = size(pair_.first, cell.first);
+  const double second = size(pair_.second, cell.second);
+  const bool is_first = first >= second;
+  const std::int32_t node = is_first ? cell.first : cell.second;
+  const std::pair<std::int32_t, std::int32_t> halves =
+      std::max(first, second) <= 1 ? std::make_pair(node, node) : tree_.halves(node);
+  if (halves.first == halves.second) {
+    found_.fit.push_back(cell);
+    return;
+  }
+  for (const std::int32_t half : {halves.first, halves.second}) {
+    Cell child = cell;
+    (is_first ? child.first : child.second) = half;
+    visit(child, lists);
+  }
+}
+
+}  // namespace rollfix::touch

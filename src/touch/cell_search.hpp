@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "heading_arc.hpp"
+#include "measured.hpp"
+#include "path_tree.hpp"
+
+namespace rollfix::touch {
+
+/// Places of two touches, stretches of the path, that may go together, and the part's headings if they do.
+struct Cell {
+  std::int32_t first = -1;  // nodes of the tree
+  std::int32_t second = -1;
+  HeadingArc heading;
+};
+
+/// The two touches that cells are of.
+struct TouchPair {
+  std::size_t first = 0;
+  std::size_t second = 1;
+};
+
+/// Those with normals where there are such, and the two that are furthest apart among them.
+TouchPair choose_pair(const std::vector<Measured>& touches);
+
+/// What a search left.
+struct Cells {
+  std::vector<Cell> fit;        // as small as the leaf asks for; what fits lies in them
+  std::vector<Cell> undecided;  // where the budget ran out
+};
+
+/// Every pair of places that fits all touches, by branch and prune. A cell goes where no pose has its two touches on
+/// it, by chord and normals, or where all of the boundary is out of reach of another touch. What is tested follows from
+/// "there is a pose with every residual within its `most`": no such pose is lost.
+class CellSearch {
+ public:
+  /// Cells end where discs are no larger than this share of the tolerance of length, and tangents turn by no more than
+  /// it of the tolerance of angle.
+  static constexpr double kLeaf = 0.5;
+
+  CellSearch(PathTree& tree, const std::vector<Measured>& touches, const TouchPair& pair, std::size_t budget);
+
+  /// From the whole boundary; from these cells alone, to a finer leaf.
+  Cells search() { return search({{tree_.root(), tree_.root(), {}}}, kLeaf); }
+  Cells search(const std::vector<Cell>& from, double leaf);
+
+  std::size_t comparisons() const { return comparisons_; }
+
+ private:
+  using Lists = std::vector<std::pair<std::size_t, std::size_t>>;  // of each other touch, in candidates_
+
+  void visit(const Cell& cell, const Lists& lists);
+  HeadingArc headings(const Cell& cell) const;
+  HeadingArc by_normal(std::size_t touch, std::int32_t node) const;
+  bool narrow(const Cell& cell, std::size_t touch, std::pair<std::size_t, std::size_t>& list);
+  bool may_hold(const Cell& cell, std::size_t touch, std::int32_t node);
+  double size(std::size_t touch, std::int32_t node) const;  // in leaves: up to 1 it is one
+  void split(const Cell& cell, const Lists& lists);
+
+  PathTree& tree_;
+  const std::vector<Measured>& touches_;
+  TouchPair pair_;
+  std::size_t budget_;
+  double leaf_ = kLeaf;
+  std::size_t comparisons_ = 0;
+  std::vector<std::size_t> others_;
+  std::vector<std::int32_t> candidates_;  // a stack
+  std::vector<std::int32_t> waiting_;
+  // Of the cell that is visited: the vector to each other touch in the part's frame, for the middle heading.
+  double cosine_ = 1;
+  double sine_ = 0;
+  Cells found_;
+};
+
+}  // namespace rollfix::touch

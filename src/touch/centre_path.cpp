@@ -1,0 +1,170 @@
+#include "centre_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "part/cursor.hpp"
+#include "part/part_data.hpp"
+#include "rollfix/part/reach.hpp"
+
+namespace rollfix::touch {
+namespace {
+
+// A jump of Theta that is smaller, radians, is rounding and no corner.
+constexpr double kNoCorner = 1e-11;
+
+/// What an arc of the boundary and a spiral have in common, at most two pieces.
+std::vector<Interval> within(const Interval& arc, const Spiral& spiral, const Boundary& boundary) {
+  std::vector<Interval> pieces;
+  for (const double shift : {0.0, boundary.perimeter}) {
+    if (shift > 0 && !boundary.closed) break;
+    const Interval piece{std::max(spiral.lo, arc.lo - shift), std::min(spiral.hi, arc.hi - shift)};
+    if (piece.lo < piece.hi) pieces.push_back(piece);
+  }
+  std::sort(pieces.begin(), pieces.end(), [](const Interval& a, const Interval& b) { return a.lo < b.lo; });
+  return pieces;
+}
+
+/// The arcs of a spiral that a disk can touch, in order.
+std::vector<Interval> reached(const Reach& reach, const Spiral& spiral) {
+  std::vector<Interval> pieces;
+  for (const Interval& arc : reach.arcs) {
+    for (const Interval& piece : within(arc, spiral, reach.boundary())) pieces.push_back(piece);
+  }
+  std::sort(pieces.begin(), pieces.end(), [](const Interval& a, const Interval& b) { return a.lo < b.lo; });
+  return pieces;
+}
+
+/// The tangent's angles at which a disk can touch the corner where spiral k starts.
+std::vector<Interval> angles_at(const std::optional<Reach>& reach, const Cursor& corner) {
+  const double before = corner.angle_before();
+  const double after = corner.angle_after();
+  const Interval whole{std::min(before, after), std::max(before, after)};
+  if (!reach) return {whole};
+  for (const PivotReach& pivot : reach->pivots) {
+    if (pivot.s == corner.spiral().lo) return pivot.angles;
+  }
+  return reach->contains(corner.spiral().lo) ? std::vector<Interval>{whole} : std::vector<Interval>{};
+}
+
+}  // namespace
+
+CentrePath::CentrePath(const Part& part, double radius) : part_(part), radius_(radius) {
+  add_spirals();
+  connect();
+}
+
+void CentrePath::add_spirals() {
+  const TurningFunction& turning = part_.turning();
+  const std::vector<Spiral>& spirals = turning.spirals();
+  std::optional<Reach> reach;
+  if (radius_ > 0) reach = reach_of_disk(part_, radius_);
+  Vec2 least = part_.point(0), most = least;
+  for (std::size_t k = 0; k < spirals.size(); ++k) {
+    const Cursor start = Cursor::at_spiral(turning, k);
+    const double jump = start.jump();
+    if (jump > kNoCorner || (jump < -kNoCorner && jump > -kJointTurn)) add_corner(k, angles_at(reach, start));
+    const std::vector<Interval> pieces =
+        reach ? reached(*reach, spirals[k]) : std::vector<Interval>{{spirals[k].lo, spirals[k].hi}};
+    for (const Interval& piece : pieces) {
+      CentreStretch stretch;
+      stretch.u = piece;
+      stretch.spiral = k;
+      stretch.angle = {turning.on_spiral(spirals[k], piece.lo).angle, turning.on_spiral(spirals[k], piece.hi).angle};
+      if (stretch.angle.lo > stretch.angle.hi) std::swap(stretch.angle.lo, stretch.angle.hi);
+      add(stretch);
+    }
+    for (const double s : {spirals[k].lo, 0.5 * (spirals[k].lo + spirals[k].hi)}) {
+      least = least.cwiseMin(part_.point(s));
+      most = most.cwiseMax(part_.point(s));
+    }
+  }
+  diagonal_ = (most - least).norm();
+}
+
+void CentrePath::add_corner(std::size_t spiral, const std::vector<Interval>& angles) {
+  for (const Interval& piece : angles) {
+    CentreStretch stretch;
+    stretch.u = stretch.angle = piece;
+    stretch.corner = true;
+    stretch.spiral = spiral;
+    stretch.s = part_.turning().spirals()[spiral].lo;
+    stretch.point = part_.point(stretch.s);
+    add(stretch);
+  }
+}
+
+void CentrePath::add(CentreStretch stretch) { stretches_.push_back(std::move(stretch)); }
+
+/// Neighbours share a place of the boundary, whatever the tangent does there. What is out of reach lies between others.
+void CentrePath::connect() {
+  if (stretches_.empty()) return;
+  const double rounding = kLengthAccuracy * part_.perimeter();
+  const auto lo = [](const CentreStretch& one) { return one.corner ? one.s : one.u.lo; };
+  const auto hi = [](const CentreStretch& one) { return one.corner ? one.s : one.u.hi; };
+  // Pivots at one corner that lie apart do not follow one another.
+  const auto joined = [&](const CentreStretch& one, const CentreStretch& next) {
+    const bool both = one.corner && next.corner && one.spiral == next.spiral;
+    return !both && part_.boundary().distance(hi(one), lo(next)) <= rounding;
+  };
+  double number = 0;
+  for (std::size_t k = 0; k < stretches_.size(); ++k) {
+    if (k > 0 && joined(stretches_[k - 1], stretches_[k])) {
+      stretches_[k].before = k - 1;
+      stretches_[k - 1].after = k;
+    } else if (k > 0) {
+      number += 1;  // a gap: places with neighbouring numbers are neighbours
+    }
+    stretches_[k].number = number;
+    number += 1;
+  }
+  if (!part_.closed() || !joined(stretches_.back(), stretches_.front())) return;
+  stretches_.back().after = 0;
+  stretches_.front().before = stretches_.size() - 1;
+  period_ = number;
+}
+
+CentrePoint CentrePath::at(const PathPlace& place) const {
+  const CentreStretch& stretch = stretches_[place.stretch];
+  const TurningFunction& turning = part_.turning();
+  CentrePoint point;
+  if (stretch.corner) {
+    const Vec2 tangent(std::cos(place.u), std::sin(place.u));
+    point.centre = stretch.point + radius_ * Vec2(tangent.y(), -tangent.x());
+    point.along = radius_ * tangent;
+    point.angle = place.u;
+    point.bend = 1;
+    point.s = stretch.s;
+    return point;
+  }
+  const Spiral& spiral = turning.spirals()[stretch.spiral];
+  const std::uint32_t panel = turning.panel_index(spiral.first_panel, spiral.last_panel, place.u);
+  const Turning at = turning.on_panel(turning.panels()[panel], place.u);
+  const Vec2 tangent(std::cos(at.angle), std::sin(at.angle));
+  point.centre = PartAccess::point(part_, panel, place.u) + radius_ * Vec2(tangent.y(), -tangent.x());
+  point.along = (1 + radius_ * at.curvature) * tangent;
+  point.angle = at.angle;
+  point.bend = at.curvature;
+  point.s = place.u;
+  return point;
+}
+
+Vec2 CentrePath::contact(const PathPlace& place) const {
+  const CentrePoint point = at(place);
+  return point.centre - radius_ * Vec2(std::sin(point.angle), -std::cos(point.angle));
+}
+
+double CentrePath::length(const CentreStretch& stretch, const Interval& u) const {
+  if (stretch.corner) return radius_ * u.width();
+  const TurningFunction& turning = part_.turning();
+  const Spiral& spiral = turning.spirals()[stretch.spiral];
+  const Turning lo = turning.on_spiral(spiral, u.lo);
+  const Turning hi = turning.on_spiral(spiral, u.hi);
+  // The curvature is monotone: its ends bound it, and where 1 + r kappa keeps its sign the length is its integral.
+  const double turn = radius_ * (hi.angle - lo.angle);
+  const bool is_forwards = 1 + radius_ * std::min(lo.curvature, hi.curvature) >= 0;
+  return is_forwards ? u.width() + turn : u.width() + std::abs(turn);
+}
+
+}  // namespace rollfix::touch

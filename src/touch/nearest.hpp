@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "measured.hpp"
+#include "path_tree.hpp"
+
+namespace rollfix::touch {
+
+/// A touch as the part's frame sees it, in some pose.
+struct InPart {
+  Vec2 at = Vec2::Zero();
+  std::optional<double> tangent{};
+  double place_unit = 1;
+  double angle_unit = 1;
+};
+
+/// How far a place is from a touch: the sum of squares of its residuals, and its derivatives by u.
+struct Distance {
+  double square = 0;
+  double slope = 0;   // half the derivative of it, with its sign: above 0 where it falls with u
+  double weight = 0;  // half the second derivative, but for what the path's bends add to it
+};
+Distance distance_at(const CentrePoint& point, const InPart& touch);
+
+/// The nearest place to be found by going downhill from this one, from stretch to stretch.
+PathPlace downhill(const CentrePath& path, const InPart& touch, PathPlace from);
+
+/// The nearest of all places. Branch and bound.
+PathPlace nearest_place(PathTree& tree, const InPart& touch);
+
+}  // namespace rollfix::touch

@@ -1,0 +1,157 @@
+#include "pose_boxes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "outline/turn.hpp"
+
+namespace rollfix::touch {
+namespace {
+
+// Places of a touch are looked at in pieces of this share of its tolerance; a box that is left is no larger than it.
+constexpr double kFinest = 0.01;
+
+// A box is moved only where it turns by no more, radians: what moves it turns with it.
+constexpr double kLittleTurn = 0.3;
+
+/// Poses: a middle, turned by up to so much about the touches' middle, and then moved by up to so much in x and in y.
+struct PoseBox {
+  Pose middle;
+  double place = 0;  // half of its sides
+  double turn = 0;
+};
+
+/// Whether an angle is within so much of another.
+bool is_near(double one, double other, double most) { return std::abs(nearest_angle(one - other)) <= most; }
+
+/// A place within these tolerances of a touch, or one that is not known to be outside them by more than a little.
+std::optional<PathPlace> place_within(PathTree& tree, const InPart& touch, double place, double angle, bool surely) {
+  std::vector<std::int32_t> waiting{tree.root()};
+  while (!waiting.empty()) {
+    const std::int32_t index = waiting.back();
+    waiting.pop_back();
+    const PathTree::Node node = tree.node(index);
+    const double off = (touch.at - node.middle).norm();
+    if (off - node.radius > place) continue;
+    if (touch.tangent && !is_near(*touch.tangent, node.angle, angle + node.half_turn)) continue;
+    if (node.is_single()) {
+      const PathPlace middle{static_cast<std::size_t>(node.stretch), node.u.middle()};
+      const bool is_inside =
+          off <= place && (!touch.tangent || is_near(*touch.tangent, tree.path().at(middle).angle, angle));
+      const bool is_small = node.radius <= kFinest * place && (!touch.tangent || node.half_turn <= kFinest * angle);
+      if (is_inside || (is_small && !surely)) return middle;
+      if (is_small) continue;
+    }
+    const auto [left, right] = tree.halves(index);
+    if (left == right) continue;
+    waiting.push_back(left);
+    waiting.push_back(right);
+  }
+  return std::nullopt;
+}
+
+class BoxSearch {
+ public:
+  BoxSearch(PoseFit& fit, std::size_t budget) : fit_(fit), budget_(budget) {
+    finest_ = fit.touches().front().place_most;
+    for (const Measured& touch : fit.touches()) finest_ = std::min(finest_, touch.place_most);
+    finest_ *= kFinest;
+    for (const Measured& touch : fit.touches()) reach_ = std::max(reach_, (touch.at - fit.about()).norm());
+  }
+
+  BoxesFound search(const PoseBox& all) {
+    std::vector<PoseBox> waiting{all};
+    bool decided = true;
+    for (std::size_t count = 0; !waiting.empty(); ++count) {
+      if (count >= budget_) return {};
+      const PoseBox box = waiting.back();
+      waiting.pop_back();
+      if (!may_fit(box)) continue;
+      if (std::optional<FittedPose> witness = fits(box.middle)) return {std::move(witness), false};
+      if (std::max(box.place, reach_ * box.turn) <= finest_) {
+        decided = false;
+        continue;
+      }
+      split(box, waiting);
+    }
+    return {std::nullopt, decided};
+  }
+
+ private:
+  bool may_fit(const PoseBox& box) {
+    for (std::size_t k = 0; k < fit_.touches().size(); ++k) {
+      const Measured& touch = fit_.touches()[k];
+      const double moved = std::numbers::sqrt2 * box.place;
+      const double slack = moved + box.turn * (moved + (touch.at - fit_.about()).norm());
+      if (!place_within(fit_.tree(), fit_.in_part(box.middle, k), touch.place_most + slack, touch.angle_most + box.turn,
+                        false)) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  std::optional<FittedPose> fits(const Pose& pose) {
+    std::vector<PathPlace> places;
+    for (std::size_t k = 0; k < fit_.touches().size(); ++k) {
+      const Measured& touch = fit_.touches()[k];
+      const auto place = place_within(fit_.tree(), fit_.in_part(pose, k), touch.place_most, touch.angle_most, true);
+      if (!place) return std::nullopt;
+      places.push_back(*place);
+    }
+    return fit_.at(pose, std::move(places));
+  }
+
+  /// In four, or where the turn moves the touches further in two.
+  void split(const PoseBox& box, std::vector<PoseBox>& waiting) const {
+    if (reach_ * box.turn > box.place || box.turn > kLittleTurn) {
+      for (const double side : {-0.5, 0.5}) {
+        waiting.push_back({fit_.moved(box.middle, {0, 0, side * box.turn}), box.place, 0.5 * box.turn});
+      }
+      return;
+    }
+    // The new middle's own move turns with it.
+    const double place = 0.5 * box.place * (1 + std::numbers::sqrt2 * box.turn);
+    for (const double x : {-0.5, 0.5}) {
+      for (const double y : {-0.5, 0.5}) {
+        waiting.push_back({fit_.moved(box.middle, {x * box.place, y * box.place, 0}), place, box.turn});
+      }
+    }
+  }
+
+  PoseFit& fit_;
+  std::size_t budget_;
+  double finest_ = 0;
+  double reach_ = 0;
+};
+
+/// Around all poses of the cells.
+PoseBox box_around(PoseFit& fit, const std::vector<Cell>& cells, const TouchPair& pair) {
+  const Measured& first = fit.touches()[pair.first];
+  const auto pose_of = [&](const Cell& cell) {
+    const PathTree::Node& node = fit.tree().node(cell.first);
+    return fit.pose_at({pair.first, {static_cast<std::size_t>(node.stretch), node.u.middle()}}, cell.heading.middle);
+  };
+  PoseBox box{pose_of(cells.front()), 0, 0};
+  for (const Cell& cell : cells) {
+    const Pose pose = pose_of(cell);
+    const double turn = nearest_angle(pose.heading - box.middle.heading);
+    const Pose turned = fit.moved(box.middle, {0, 0, turn});
+    const double swing = (first.at - fit.about()).norm() * cell.heading.half;
+    const double slack = fit.tree().node(cell.first).radius + first.place_most + swing;
+    box.place = std::max(box.place, std::hypot(pose.x - turned.x, pose.y - turned.y) + slack);
+    box.turn = std::max(box.turn, std::abs(turn) + cell.heading.half);
+  }
+  box.turn = std::min(box.turn, std::numbers::pi);
+  return box;
+}
+
+}  // namespace
+
+BoxesFound search_boxes(PoseFit& fit, const std::vector<Cell>& cells, const TouchPair& pair, std::size_t budget) {
+  return BoxSearch(fit, budget).search(box_around(fit, cells, pair));
+}
+
+}  // namespace rollfix::touch

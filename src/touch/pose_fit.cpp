@@ -1,0 +1,231 @@
+#include "pose_fit.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "outline/turn.hpp"
+#include "rollfix/pulse.hpp"
+
+namespace rollfix::touch {
+namespace {
+
+constexpr int kMostRounds = 60;        // of Levenberg's method
+constexpr double kMostDamping = 1e12;  // beyond, no step helps
+// A step that makes the squares smaller by no more than this share, and this much, is the last.
+constexpr double kSettled = 1e-8;
+// How often a touch may turn out to be nearer elsewhere.
+constexpr int kMostJumps = 4;
+// Where a nearest place is free to move, the slope there is less, in standard deviations.
+constexpr double kNoSlope = 1e-4;
+// A heading is somewhere on the circle, even where no touch tells where: this many radians, as a standard deviation.
+constexpr double kAnyHeading = std::numbers::pi;
+
+Vec2 turned_left(const Vec2& vector) { return {-vector.y(), vector.x()}; }
+
+/// What the residuals of a held place are by the pose and by u: columns of a 3 by 4 matrix.
+struct Rows {
+  Eigen::Matrix3d by_pose = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d by_place = Eigen::Vector3d::Zero();
+  Eigen::Vector3d residual = Eigen::Vector3d::Zero();
+};
+
+}  // namespace
+
+struct PoseFit::State {
+  Pose pose;
+  std::vector<PathPlace> places;
+  double square = 0;
+};
+
+PoseFit::PoseFit(PathTree& tree, const std::vector<Measured>& touches, const std::optional<PosePrior>& prior)
+    : tree_(tree), touches_(touches), prior_(prior) {
+  for (const Measured& touch : touches) about_ += touch.at / static_cast<double>(touches.size());
+}
+
+Pose PoseFit::pose_at(const Held& held, double heading) const {
+  Pose pose{0, 0, heading};
+  const Vec2 place = touches_[held.touch].at - pose.turned(path().at(held.place).centre);
+  return {place.x(), place.y(), heading};
+}
+
+InPart PoseFit::in_part(const Pose& pose, std::size_t touch) const {
+  const Measured& one = touches_[touch];
+  const Pose back{0, 0, -pose.heading};
+  InPart result;
+  result.at = back.turned(one.at - Vec2(pose.x, pose.y));
+  if (one.tangent) result.tangent = *one.tangent - pose.heading;
+  result.place_unit = one.place_unit;
+  result.angle_unit = one.angle_unit;
+  return result;
+}
+
+namespace {
+
+Rows rows_of(const Measured& touch, const Pose& pose, const CentrePoint& point, const Vec2& about) {
+  const Vec2 centre = Vec2(pose.x, pose.y) + pose.turned(point.centre);
+  Rows rows;
+  rows.residual.head<2>() = (touch.at - centre) / touch.place_unit;
+  rows.by_pose.topLeftCorner<2, 2>() = -Eigen::Matrix2d::Identity() / touch.place_unit;
+  rows.by_pose.topRightCorner<2, 1>() = -turned_left(centre - about) / touch.place_unit;
+  rows.by_place.head<2>() = -pose.turned(point.along) / touch.place_unit;
+  if (!touch.tangent) return rows;
+  rows.residual(2) = nearest_angle(*touch.tangent - point.angle - pose.heading) / touch.angle_unit;
+  rows.by_pose(2, 2) = -1 / touch.angle_unit;
+  rows.by_place(2) = -point.bend / touch.angle_unit;
+  return rows;
+}
+
+}  // namespace
+
+bool PoseFit::is_pinned(const Pose& pose, std::size_t touch, const PathPlace& place) const {
+  const CentreStretch& stretch = path().stretches()[place.stretch];
+  const Distance distance = distance_at(path().at(place), in_part(pose, touch));
+  if (distance.weight == 0) return true;
+  const bool is_end = place.u <= stretch.u.lo || place.u >= stretch.u.hi;
+  // Past the end it would go on: a place in the middle of a smooth boundary has no slope.
+  return is_end && std::abs(distance.slope) > kNoSlope * std::sqrt(distance.weight);
+}
+
+Normals PoseFit::normals_at(const Pose& pose, std::size_t touch, const CentrePoint& point) const {
+  const Rows rows = rows_of(touches_[touch], pose, point, about_);
+  Normals normals;
+  normals.matrix = rows.by_pose.transpose() * rows.by_pose;
+  normals.slope = -rows.by_pose.transpose() * rows.residual;
+  return normals;
+}
+
+Normals PoseFit::prior_normals(const Pose& pose) const {
+  Normals normals;
+  normals.matrix(2, 2) = 1 / (kAnyHeading * kAnyHeading);
+  if (!prior_) return normals;
+  const double heading = 1 / (prior_->heading_sd * prior_->heading_sd);
+  normals.matrix(2, 2) += heading;
+  normals.slope(2) = heading * nearest_angle(prior_->mean.heading - pose.heading);
+  if (!std::isfinite(prior_->place_sd)) return normals;
+  Eigen::Matrix<double, 2, 3> by_pose;
+  by_pose << Eigen::Matrix2d::Identity(), turned_left(Vec2(pose.x, pose.y) - about_);
+  const Vec2 off(prior_->mean.x - pose.x, prior_->mean.y - pose.y);
+  const double place = 1 / (prior_->place_sd * prior_->place_sd);
+  normals.matrix += place * by_pose.transpose() * by_pose;
+  normals.slope += place * by_pose.transpose() * off;
+  return normals;
+}
+
+double PoseFit::prior_square(const Pose& pose) const {
+  if (!prior_) return 0;
+  const double heading = nearest_angle(prior_->mean.heading - pose.heading) / prior_->heading_sd;
+  const double place = std::hypot(prior_->mean.x - pose.x, prior_->mean.y - pose.y) / prior_->place_sd;
+  return heading * heading + place * place;
+}
+
+Pose PoseFit::moved(const Pose& pose, const Eigen::Vector3d& step) const {
+  const Pose turn{0, 0, step(2)};
+  const Vec2 place = about_ + turn.turned(Vec2(pose.x, pose.y) - about_) + step.head<2>();
+  return {place.x(), place.y(), pose.heading + step(2)};
+}
+
+double PoseFit::distance(const Pose& one, const Pose& other) const {
+  const double turn = nearest_angle(one.heading - other.heading);
+  const Pose turned = moved(other, {0, 0, turn});
+  return std::hypot(one.x - turned.x, one.y - turned.y) + path().diagonal() * std::abs(turn);
+}
+
+Eigen::Matrix3d PoseFit::at_origin(const Pose& pose, const Eigen::Matrix3d& covariance) const {
+  Eigen::Matrix3d by = Eigen::Matrix3d::Identity();
+  by.topRightCorner<2, 1>() = turned_left(Vec2(pose.x, pose.y) - about_);
+  return by * covariance * by.transpose();
+}
+
+double PoseFit::square_of(State& state, const std::optional<Held>& held, const std::vector<double>& weights) const {
+  double sum = prior_square(state.pose);
+  for (std::size_t k = 0; k < touches_.size(); ++k) {
+    const InPart touch = in_part(state.pose, k);
+    if (!held || held->touch != k) state.places[k] = downhill(path(), touch, state.places[k]);
+    sum += (weights.empty() ? 1 : weights[k]) * distance_at(path().at(state.places[k]), touch).square;
+  }
+  return sum;
+}
+
+Normals PoseFit::normals_of(const State& state, const std::optional<Held>& held,
+                            const std::vector<double>& weights) const {
+  Normals sum = prior_normals(state.pose);
+  for (std::size_t k = 0; k < touches_.size(); ++k) {
+    const CentrePoint point = path().at(state.places[k]);
+    const Rows rows = rows_of(touches_[k], state.pose, point, about_);
+    Eigen::Matrix3d matrix = rows.by_pose.transpose() * rows.by_pose;
+    const Eigen::Vector3d slope = -rows.by_pose.transpose() * rows.residual;
+    const bool is_held = held && held->touch == k;
+    if (!is_held && !is_pinned(state.pose, k, state.places[k])) {
+      const Eigen::Vector3d mixed = rows.by_pose.transpose() * rows.by_place;
+      matrix -= mixed * mixed.transpose() / rows.by_place.squaredNorm();
+    }
+    const double weight = weights.empty() ? 1 : weights[k];
+    sum.matrix += weight * matrix;
+    sum.slope += weight * slope;
+  }
+  return sum;
+}
+
+void PoseFit::descend(State& state, const std::optional<Held>& held, const std::vector<double>& weights) const {
+  state.square = square_of(state, held, weights);
+  double damping = 1e-6;
+  for (int round = 0; round < kMostRounds && damping < kMostDamping; ++round) {
+    const Normals normals = normals_of(state, held, weights);
+    Eigen::Matrix3d matrix = normals.matrix;
+    matrix.diagonal() *= 1 + damping;
+    State next = state;
+    next.pose = moved(state.pose, matrix.ldlt().solve(normals.slope));
+    next.square = square_of(next, held, weights);
+    if (!(next.square <= state.square)) {
+      damping *= 10;
+      continue;
+    }
+    const double gain = state.square - next.square;
+    state = std::move(next);
+    damping = std::max(0.1 * damping, 1e-12);
+    if (gain <= kSettled * (1 + state.square)) break;
+  }
+}
+
+/// Whether another touch is nearer to another place than where going downhill has led it.
+bool PoseFit::jump_nearer(State& state, const std::optional<Held>& held) {
+  bool jumped = false;
+  for (std::size_t k = 0; k < touches_.size(); ++k) {
+    if (held && held->touch == k) continue;
+    const InPart touch = in_part(state.pose, k);
+    const PathPlace place = nearest_place(tree_, touch);
+    const double here = distance_at(path().at(state.places[k]), touch).square;
+    if (distance_at(path().at(place), touch).square >= here - 1e-6 * (1 + here)) continue;
+    state.places[k] = place;
+    jumped = true;
+  }
+  return jumped;
+}
+
+FittedPose PoseFit::at(const Pose& pose, std::vector<PathPlace> places) const {
+  State state{pose, std::move(places), prior_square(pose)};
+  for (std::size_t k = 0; k < touches_.size(); ++k) {
+    state.square += distance_at(path().at(state.places[k]), in_part(pose, k)).square;
+  }
+  state.pose.heading = nearest_angle(pose.heading);
+  return {state.pose, state.places, state.square, normals_of(state, {}, {}).matrix};
+}
+
+FittedPose PoseFit::fit(const Pose& from, const std::optional<Held>& held, const std::vector<double>& weights) {
+  beat();
+  State state{from, std::vector<PathPlace>(touches_.size()), 0};
+  for (std::size_t k = 0; k < touches_.size(); ++k) {
+    const bool is_held = held && held->touch == k;
+    state.places[k] = is_held ? held->place : nearest_place(tree_, in_part(from, k));
+  }
+  for (int jump = 0; jump < kMostJumps; ++jump) {
+    descend(state, held, weights);
+    if (!jump_nearer(state, held)) break;
+  }
+  state.pose.heading = nearest_angle(state.pose.heading);
+  return {state.pose, state.places, state.square, normals_of(state, held, weights).matrix};
+}
+
+}  // namespace rollfix::touch

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "measured.hpp"
+#include "nearest.hpp"
+#include "rollfix/belief/belief.hpp"
+#include "rollfix/contact/reading.hpp"
+
+namespace rollfix::touch {
+
+/// A touch whose place on the part is held.
+struct Held {
+  std::size_t touch = 0;
+  PathPlace place;
+};
+
+/// A pose that fits the touches best, nearby.
+struct FittedPose {
+  Pose pose;
+  std::vector<PathPlace> places;                          // of each touch, the nearest in that pose
+  double square = 0;                                      // sum of the squares of all residuals, in their units
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  // of (x, y, heading) of what lies at `about`
+};
+
+/// A touch's share of the normal equations.
+struct Normals {
+  Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d slope = Eigen::Vector3d::Zero();  // half the derivative of the squares, with its sign
+};
+
+/// Least squares over poses, with each touch at its nearest place: Levenberg's method. Poses are moved about a point of
+/// the world near the touches.
+class PoseFit {
+ public:
+  PoseFit(PathTree& tree, const std::vector<Measured>& touches, const std::optional<PosePrior>& prior);
+
+  /// The pose with this heading that has the finger at the touch when the contact is there.
+  Pose pose_at(const Held& held, double heading) const;
+  FittedPose fit(const Pose& from, const std::optional<Held>& held = {}, const std::vector<double>& weights = {});
+
+  /// A pose with the contacts at these places, as it is.
+  FittedPose at(const Pose& pose, std::vector<PathPlace> places) const;
+
+  /// The point of the world about which poses are turned.
+  const Vec2& about() const { return about_; }
+  PathTree& tree() { return tree_; }
+  const CentrePath& path() const { return tree_.path(); }
+  const std::vector<Measured>& touches() const { return touches_; }
+  InPart in_part(const Pose& pose, std::size_t touch) const;
+  /// The share of a touch whose contact is held there: what it says of the pose.
+  Normals normals_at(const Pose& pose, std::size_t touch, const CentrePoint& point) const;
+  /// What is known beforehand, and that a heading has no more than a turn to be in; and its squares alone.
+  Normals prior_normals(const Pose& pose) const;
+  double prior_square(const Pose& pose) const;
+  Pose moved(const Pose& pose, const Eigen::Vector3d& step) const;
+  /// Whether a nearest place is at a corner, or an end, so that it stays there when the pose moves a little.
+  bool is_pinned(const Pose& pose, std::size_t touch, const PathPlace& place) const;
+  /// How far the part is moved from one pose to another: at the touches, and as it turns at its own size.
+  double distance(const Pose& one, const Pose& other) const;
+  /// The covariance of the pose, of that about the point.
+  Eigen::Matrix3d at_origin(const Pose& pose, const Eigen::Matrix3d& covariance) const;
+
+ private:
+  struct State;
+  double square_of(State& state, const std::optional<Held>& held, const std::vector<double>& weights) const;
+  Normals normals_of(const State& state, const std::optional<Held>& held, const std::vector<double>& weights) const;
+  void descend(State& state, const std::optional<Held>& held, const std::vector<double>& weights) const;
+  bool jump_nearer(State& state, const std::optional<Held>& held);
+
+  PathTree& tree_;
+  const std::vector<Measured>& touches_;
+  std::optional<PosePrior> prior_;
+  Vec2 about_ = Vec2::Zero();
+};
+
+}  // namespace rollfix::touch

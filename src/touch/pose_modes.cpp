@@ -1,0 +1,160 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "posterior.hpp"
+
+namespace rollfix::touch {
+namespace {
+
+// Between two modes the density falls to less than exp(-6) of the lower peak.
+constexpr double kValley = 6;
+constexpr double kNever = -std::numeric_limits<double>::infinity();
+
+using Links = std::vector<std::vector<std::size_t>>;
+
+/// The largest density of each group; kNever where it has no node.
+std::vector<double> densities_of(const Posterior& posterior) {
+  std::vector<double> density(posterior.owner.size(), kNever);
+  for (const PosteriorNode& node : posterior.nodes) {
+    density[node.group] = std::max(density[node.group], node.log_density);
+  }
+  return density;
+}
+
+/// Groups that have no nodes of their own and hang together, and their neighbours that have: for a point, a corner.
+struct Bridge {
+  std::vector<std::size_t> groups;
+  std::vector<std::size_t> ends;
+};
+
+std::vector<Bridge> bridges_of(const CellSets& sets, const Posterior& posterior, const std::vector<double>& density) {
+  const auto is_bridge = [&](std::size_t g) { return density[g] == kNever && posterior.owner[g] == Posterior::kNone; };
+  UnionFind joined(density.size());
+  for (const auto& [one, other] : sets.links) {
+    if (is_bridge(one) && is_bridge(other)) joined.join(one, other);
+  }
+  std::vector<Bridge> bridges(density.size());
+  for (std::size_t g = 0; g < density.size(); ++g) {
+    if (is_bridge(g)) bridges[joined.find(g)].groups.push_back(g);
+  }
+  for (const auto& [one, other] : sets.links) {
+    if (is_bridge(one) && density[other] != kNever) bridges[joined.find(one)].ends.push_back(other);
+    if (is_bridge(other) && density[one] != kNever) bridges[joined.find(other)].ends.push_back(one);
+  }
+  std::erase_if(bridges, [](const Bridge& bridge) { return bridge.groups.empty(); });
+  return bridges;
+}
+
+/// Neighbours of each group; what lies at the ends of a bridge is linked.
+Links linked_groups(const CellSets& sets, const std::vector<Bridge>& bridges) {
+  Links linked(sets.groups.size());
+  const auto link = [&](std::size_t one, std::size_t other) {
+    linked[one].push_back(other);
+    linked[other].push_back(one);
+  };
+  for (const auto& [one, other] : sets.links) link(one, other);
+  for (const Bridge& bridge : bridges) {
+    for (std::size_t k = 1; k < bridge.ends.size(); ++k) link(bridge.ends[k - 1], bridge.ends[k]);
+  }
+  return linked;
+}
+
+/// Groups from the densest on: each joins its neighbours, where the way from one peak to the other is not too low.
+void merge_neighbours(const Links& linked, const std::vector<double>& density, UnionFind& merged) {
+  std::vector<double> peak = density;  // of a set at its root
+  std::vector<std::size_t> order(linked.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return density[a] > density[b]; });
+  const auto denser = [&](std::size_t a, std::size_t b) { return peak[a] > peak[b]; };
+  std::vector<bool> seen(linked.size(), false);
+  for (const std::size_t g : order) {
+    if (density[g] == kNever) break;
+    seen[g] = true;
+    std::vector<std::size_t> roots;
+    for (const std::size_t next : linked[g]) {
+      if (seen[next]) roots.push_back(merged.find(next));
+    }
+    std::sort(roots.begin(), roots.end(), denser);
+    for (const std::size_t root : roots) {
+      const std::size_t own = merged.find(g);
+      const std::size_t other = merged.find(root);
+      if (own == other || !(std::min(peak[own], peak[other]) - density[g] < kValley)) continue;
+      merged.join(denser(own, other) ? own : other, denser(own, other) ? other : own);
+    }
+  }
+}
+
+std::vector<std::vector<std::size_t>> merged_groups(const CellSets& sets, const Posterior& posterior) {
+  const std::vector<double> density = densities_of(posterior);
+  const std::vector<Bridge> bridges = bridges_of(sets, posterior, density);
+  UnionFind merged(density.size());
+  merge_neighbours(linked_groups(sets, bridges), density, merged);
+  for (std::size_t g = 0; g < density.size(); ++g) {
+    if (density[g] == kNever && posterior.owner[g] != Posterior::kNone) merged.join(posterior.owner[g], g);
+  }
+  for (const Bridge& bridge : bridges) {
+    if (bridge.ends.empty()) continue;
+    const std::size_t densest = *std::max_element(
+        bridge.ends.begin(), bridge.ends.end(), [&](std::size_t a, std::size_t b) { return density[a] < density[b]; });
+    for (const std::size_t g : bridge.groups) merged.join(densest, g);
+  }
+  return merged.sets();
+}
+
+}  // namespace
+
+std::vector<PoseMode> modes_of(const CellSets& sets, const Posterior& posterior) {
+  const std::vector<PosteriorNode>& nodes = posterior.nodes;
+  std::vector<PoseMode> modes;
+  std::vector<std::size_t> mode_of(sets.groups.size());
+  for (std::vector<std::size_t>& groups : merged_groups(sets, posterior)) {
+    for (const std::size_t g : groups) mode_of[g] = modes.size();
+    modes.push_back({std::move(groups), {}, 0});
+  }
+  double most = kNever;
+  for (const PosteriorNode& node : nodes) most = std::max(most, node.log_weight);
+  double total = 0;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    PoseMode& mode = modes[mode_of[nodes[k].group]];
+    const double weight = std::exp(nodes[k].log_weight - most);
+    mode.nodes.push_back(k);
+    mode.probability += weight;
+    total += weight;
+  }
+  std::erase_if(modes, [](const PoseMode& mode) { return mode.nodes.empty(); });
+  for (PoseMode& mode : modes) mode.probability /= total;
+  std::stable_sort(modes.begin(), modes.end(),
+                   [](const PoseMode& a, const PoseMode& b) { return a.probability > b.probability; });
+  return modes;
+}
+
+Interval middle_share(const std::vector<MixtureTerm>& terms, double share) {
+  double total = 0, least = std::numeric_limits<double>::infinity(), most = -least;
+  for (const MixtureTerm& term : terms) {
+    total += term.weight;
+    least = std::min(least, term.mean - 9 * term.sd);
+    most = std::max(most, term.mean + 9 * term.sd);
+  }
+  const auto below = [&](double value) {
+    double sum = 0;
+    for (const MixtureTerm& term : terms) {
+      sum += term.weight * 0.5 * std::erfc((term.mean - value) / (term.sd * std::numbers::sqrt2));
+    }
+    return sum / total;
+  };
+  const auto quantile = [&](double wanted) {
+    double lo = least, hi = most;
+    for (int k = 0; k < 60 && lo < hi; ++k) {
+      const double middle = 0.5 * (lo + hi);
+      (below(middle) < wanted ? lo : hi) = middle;
+    }
+    return 0.5 * (lo + hi);
+  };
+  return {quantile(0.5 - 0.5 * share), quantile(0.5 + 0.5 * share)};
+}
+
+}  // namespace rollfix::touch

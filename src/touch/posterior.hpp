@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "cell_sets.hpp"
+#include "pose_fit.hpp"
+
+namespace rollfix::touch {
+
+/// The posterior at one place of the first touch: of the pose a normal distribution.
+struct PosteriorNode {
+  std::size_t group = 0;                                 // of the cells
+  Pose pose;                                             // mean
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // of x, y, heading
+  double log_density = 0;                                // by the first touch's place; ...
+  double log_weight = 0;                                 // ... times the length of boundary that the node stands for
+  double square = 0;                                     // least sum of squares with that place, and ...
+  Pose best;                                             // ... the pose that has it
+};
+
+/// Groups of cells, and the nodes on them, that are one mode: between modes the density falls far below both.
+struct PoseMode {
+  std::vector<std::size_t> groups;
+  std::vector<std::size_t> nodes;  // never empty
+  double probability = 0;
+};
+
+/// The posterior over cells.
+struct Posterior {
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+  std::vector<PosteriorNode> nodes;
+  /// Of a group whose best poses all are another's already, that group: the touches have other places on the part, but
+  /// from there least squares lead to the same poses. kNone of all others.
+  std::vector<std::size_t> owner;
+  /// Components whose best pose fits so much worse than that of another that they were not looked at.
+  std::size_t hopeless = 0;
+};
+
+/// p(pose, place of the first touch), with all other places summed over: a grid over the places of the first touch, and
+/// the normal distribution of the pose about the best one in each (Laplace's method). See docs/touch.md.
+Posterior posterior_of(PoseFit& fit, const CellSets& sets, std::size_t first_touch);
+
+/// So many places of the first touch would be looked at, each with its groups.
+std::size_t count_places(PoseFit& fit, const CellSets& sets, std::size_t first_touch);
+
+/// The modes, the most probable first.
+std::vector<PoseMode> modes_of(const CellSets& sets, const Posterior& posterior);
+
+/// Of one number, a mixture of normal distributions.
+struct MixtureTerm {
+  double weight = 0;
+  double mean = 0;
+  double sd = 0;
+};
+
+/// The middle interval that holds this share of a mixture's weight.
+Interval middle_share(const std::vector<MixtureTerm>& terms, double share);
+
+}  // namespace rollfix::touch

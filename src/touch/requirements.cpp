@@ -1,0 +1,106 @@
+#include "requirements.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "rollfix/error.hpp"
+
+namespace rollfix::touch {
+namespace {
+
+// A touch further from the origin than this many perimeters is lost in the rounding of its own coordinates.
+constexpr double kMostFar = 1e6;
+// Without a unit, a normal beyond this many radians was hardly meant as radians.
+constexpr double kMostNormal = 4 * std::numbers::pi;
+// A normal that is noisier, radians, says next to nothing, and was most likely meant in degrees.
+constexpr double kMostNormalSd = BeliefOptions::kMostAngle;
+constexpr double kMostNormalTolerance = 0.5 * std::numbers::pi;
+
+[[noreturn]] void refuse(const std::string& what) { throw InputError("touches: " + what); }
+
+/// `most`: beyond it the measurement says nothing.
+void require_sd(double sd, double most, const std::string& where, const char* what, const char* cure) {
+  if (!(std::isfinite(sd) && sd > 0)) {
+    refuse(fmt::format("{}: expected a standard deviation above 0 of {}, found {}; {}", where, what, sd, cure));
+  }
+  if (sd > most) {
+    refuse(
+        fmt::format("{}: expected a standard deviation of at most {:.6g} of {}, beyond which it says nothing, found {}",
+                    where, most, what, sd));
+  }
+}
+
+void require_touch(const TouchProblem& problem, std::size_t number) {
+  const MeasuredTouch& touch = problem.touches[number];
+  const std::string where = fmt::format("touch {}", number + 1);
+  const double far = kMostFar * problem.part.perimeter();
+  if (!(std::abs(touch.at.x()) <= far && std::abs(touch.at.y()) <= far)) {
+    refuse(fmt::format("{}: expected a place within {:.3g} of the origin, found ({}, {})", where, far, touch.at.x(),
+                       touch.at.y()));
+  }
+  if (touch.normal && !(std::abs(*touch.normal) <= kMostNormal)) {
+    refuse(fmt::format("{}: expected a normal in radians, found {}; degrees are written {}deg", where, *touch.normal,
+                       *touch.normal));
+  }
+  if (!problem.noise) return;
+  require_sd(touch.position_sd.value_or(problem.noise->position), problem.part.perimeter(), where, "its place",
+             "give `noise` with position=SD");
+  if (!touch.normal) return;
+  require_sd(touch.normal_sd.value_or(problem.noise->angle), kMostNormalSd, where, "its normal",
+             "give `noise` with angle=SD, or leave the normals out");
+}
+
+/// Kinds of noise that only a roll has.
+void require_noise_of_touches(const Noise& noise) {
+  rollfix::require_valid(noise);
+  for (const NoiseKind& kind : kNoiseKinds) {
+    if (kind.sd == &Noise::position || kind.sd == &Noise::angle || noise.*kind.sd == 0) continue;
+    refuse(
+        fmt::format("`noise` of touches is position and angle, found {}={}; leave it out", kind.name, noise.*kind.sd));
+  }
+}
+
+void require_tolerance(const TouchProblem& problem) {
+  if (!problem.tolerance) {
+    refuse("expected how exact they are, found neither `noise` nor `tolerance`; give noise with position=SD,angle=SD");
+  }
+  const TouchTolerance& tolerance = *problem.tolerance;
+  const double most = problem.part.perimeter();
+  if (!(tolerance.length > 0 && tolerance.length <= most)) {
+    refuse(fmt::format("expected a `tolerance` of length above 0 and at most the perimeter, {:.6g}, found {}", most,
+                       tolerance.length));
+  }
+  for (const MeasuredTouch& touch : problem.touches) {
+    if (!touch.normal || (tolerance.angle > 0 && tolerance.angle <= kMostNormalTolerance)) continue;
+    refuse(
+        fmt::format("expected a `tolerance` of the normals above 0 and at most {:.3g} rad, found {}; degrees are "
+                    "written 2deg",
+                    kMostNormalTolerance, tolerance.angle));
+  }
+  if (problem.pose) refuse("`pose` is weighed against noise: give `noise` as well");
+}
+
+}  // namespace
+
+void require_valid(const TouchProblem& problem) {
+  if (problem.touches.empty()) refuse("expected at least one, found none");
+  if (problem.finger) {
+    if (!problem.finger->is_disk()) {
+      refuse(fmt::format("expected a round finger, disk,r=R, or none for a point, found {}", problem.finger->name()));
+    }
+    rollfix::require_valid(*problem.finger);
+  }
+  if (problem.noise) {
+    require_noise_of_touches(*problem.noise);
+  } else {
+    require_tolerance(problem);
+  }
+  for (std::size_t k = 0; k < problem.touches.size(); ++k) require_touch(problem, k);
+}
+
+double radius_of(const TouchProblem& problem) { return problem.finger ? problem.finger->disk()->radius : 0; }
+
+}  // namespace rollfix::touch

@@ -1,0 +1,332 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/special_functions/gamma.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "answer_poses.hpp"
+#include "contact/mirrored.hpp"
+#include "mistakes.hpp"
+#include "outline/turn.hpp"
+#include "pose_boxes.hpp"
+#include "requirements.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/pulse.hpp"
+#include "rollfix/touch/touch.hpp"
+
+namespace rollfix {
+namespace touch {
+namespace {
+
+// Sets of poses that are less probable are counted, not listed.
+constexpr double kLeastProbability = 1e-4;
+// Weighing poses with the first touch at one place takes as long as this many comparisons.
+constexpr std::size_t kPlaceCost = 1000;
+constexpr double kNegligible = 1e-8;
+// Poses are one where they differ by less than this share of the least standard deviation, or tolerance, of a place.
+constexpr double kSame = 0.2;
+// One pose is the answer where it is at least so probable.
+constexpr double kSure = 0.95;
+// How often sets without a pose that is known to fit are looked at again, each time with a leaf so many times as fine.
+constexpr int kRefinements = 2;
+constexpr double kFiner = 0.25;
+// Boxes of poses that are looked at for each such set.
+constexpr std::size_t kBoxBudget = 20000;
+
+std::vector<Measured> measured(const TouchProblem& problem) {
+  std::vector<Measured> touches;
+  for (const MeasuredTouch& touch : problem.touches) {
+    Measured one;
+    one.at = touch.at;
+    if (touch.normal) one.tangent = *touch.normal + 0.5 * std::numbers::pi;
+    const Noise none;
+    const Noise& noise = problem.noise ? *problem.noise : none;
+    one.place_unit = problem.noise ? touch.position_sd.value_or(noise.position) : problem.tolerance->length;
+    one.angle_unit = problem.noise ? touch.normal_sd.value_or(noise.angle) : problem.tolerance->angle;
+    const double most = problem.noise ? kTouchSigmas : 1;
+    one.place_most = most * one.place_unit;
+    one.angle_most = std::min(most * one.angle_unit, std::numbers::pi);
+    touches.push_back(one);
+  }
+  return touches;
+}
+
+std::vector<Cell> cells_of(const CellSets& sets, const std::vector<std::size_t>& groups) {
+  std::vector<Cell> cells;
+  for (const std::size_t g : groups) {
+    for (const std::size_t k : sets.groups[g]) cells.push_back(sets.cells[k]);
+  }
+  return cells;
+}
+
+/// Arcs of the boundary that the first touch's nodes of cells cover.
+std::vector<Interval> places_of(const PathTree& tree, const std::vector<Cell>& cells) {
+  std::vector<Interval> arcs;
+  for (const Cell& cell : cells) {
+    std::vector<std::int32_t> waiting{cell.first};
+    while (!waiting.empty()) {
+      const PathTree::Node& node = tree.node(waiting.back());
+      waiting.pop_back();
+      if (!node.is_single()) {
+        waiting.push_back(node.left);
+        waiting.push_back(node.right);
+        continue;
+      }
+      const CentreStretch& stretch = tree.path().stretches()[static_cast<std::size_t>(node.stretch)];
+      arcs.push_back(stretch.corner ? Interval{stretch.s, stretch.s} : node.u);
+    }
+  }
+  std::sort(arcs.begin(), arcs.end(), [](const Interval& a, const Interval& b) { return a.lo < b.lo; });
+  std::vector<Interval> merged;
+  for (const Interval& arc : arcs) {
+    if (!merged.empty() && arc.lo <= merged.back().hi) {
+      merged.back().hi = std::max(merged.back().hi, arc.hi);
+    } else {
+      merged.push_back(arc);
+    }
+  }
+  return merged;
+}
+
+/// Cells that hang together, with the pose that fits best.
+struct PoseSet {
+  FittedPose fitted;
+  std::vector<Cell> cells;
+  PoseMode mode;  // with noise
+};
+
+/// The steps of a search for all poses, and what they leave behind.
+class Solver {
+ public:
+  Solver(const TouchProblem& problem, TouchAnswer& answer)
+      : problem_(problem), answer_(answer), touches_(measured(problem)), path_(problem.part, answer.radius) {}
+
+  void run() {
+    for (const Measured& touch : touches_) answer_.tolerance.push_back({touch.place_most, touch.angle_most});
+    if (touches_.size() == 1) {
+      answer_.verdict.name = Verdict::unobservable;
+      return;
+    }
+    answer_.verdict.name = Verdict::inconsistent;
+    if (path_.stretches().empty()) return;  // the disk can touch the part nowhere
+    PathTree tree(path_);
+    const TouchPair pair = choose_pair(touches_);
+    CellSearch search(tree, touches_, pair, problem_.budget.value_or(kTouchBudget));
+    Cells cells = search.search();
+    PoseFit fit(tree, touches_, problem_.pose);
+    if (problem_.noise) {
+      weigh(fit, pair, sets_of(tree, std::move(cells.fit)), cells.undecided);
+    } else {
+      look_for_witnesses(fit, pair, search, std::move(cells.fit), cells.undecided);
+    }
+    answer_.unresolved_touch = pair.first;
+    answer_.unresolved = places_of(tree, cells.undecided);
+    answer_.comparisons = search.comparisons();
+    conclude();
+  }
+
+ private:
+  /// With noise: what is less probable than kNegligible is not looked at, and modes that end in one pose are one.
+  void weigh(PoseFit& fit, const TouchPair& pair, const CellSets& sets, std::vector<Cell>& undecided) {
+    const std::size_t most = problem_.budget.value_or(kTouchBudget) / kPlaceCost;
+    if (count_places(fit, sets, pair.first) > most) {
+      undecided.insert(undecided.end(), sets.cells.begin(), sets.cells.end());
+      return;
+    }
+    const Posterior posterior = posterior_of(fit, sets, pair.first);
+    const std::vector<PosteriorNode>& nodes = posterior.nodes;
+    answer_.improbable += posterior.hopeless;
+    std::vector<PoseSet> found;
+    for (PoseMode& mode : modes_of(sets, posterior)) {
+      const auto by_square = [&](std::size_t a, std::size_t b) { return nodes[a].square < nodes[b].square; };
+      const std::size_t best = *std::min_element(mode.nodes.begin(), mode.nodes.end(), by_square);
+      if (mode.probability >= kNegligible) {
+        add_set(fit, {fit.fit(nodes[best].best), cells_of(sets, mode.groups), std::move(mode)}, found);
+      } else {
+        leave_out(mode);
+      }
+    }
+    for (const PoseSet& set : found) {
+      TouchPose pose = described(fit, set.fitted, fit.tree(), set.cells, pair);
+      if (set.mode.probability < kLeastProbability || pose.worst > 1) {
+        leave_out(set.mode);
+        continue;
+      }
+      add_posterior(pose, set.mode, nodes);
+      const TouchFit one = fit_of(fit, set.fitted, pose.continuum);
+      if (!answer_.fit || one.p > answer_.fit->p || (one.p == answer_.fit->p && one.freedom > answer_.fit->freedom)) {
+        answer_.fit = one;
+      }
+      answer_.poses.push_back(std::move(pose));
+    }
+    std::stable_sort(answer_.poses.begin(), answer_.poses.end(),
+                     [](const TouchPose& a, const TouchPose& b) { return a.probability > b.probability; });
+  }
+
+  void leave_out(const PoseMode& mode) {
+    ++answer_.improbable;
+    answer_.rest += mode.probability;
+  }
+
+  /// Adds a set to those with another pose. One pose can have several: of touches near a bump more than one place fits.
+  void add_set(const PoseFit& fit, PoseSet set, std::vector<PoseSet>& to) const {
+    double least = touches_.front().place_unit;
+    for (const Measured& touch : touches_) least = std::min(least, touch.place_unit);
+    for (PoseSet& known : to) {
+      if (fit.distance(known.fitted.pose, set.fitted.pose) > kSame * least) continue;
+      if (set.fitted.square < known.fitted.square) known.fitted = std::move(set.fitted);
+      known.cells.insert(known.cells.end(), set.cells.begin(), set.cells.end());
+      known.mode.nodes.insert(known.mode.nodes.end(), set.mode.nodes.begin(), set.mode.nodes.end());
+      known.mode.probability += set.mode.probability;
+      return;
+    }
+    to.push_back(std::move(set));
+  }
+
+  /// How well a pose fits. Each touch has a place on the boundary that is unknown, unless a corner pins it; where the
+  /// part is free to slide the pose has one unknown less.
+  TouchFit fit_of(const PoseFit& fit, const FittedPose& fitted, bool is_continuum) const {
+    TouchFit result;
+    result.chi_square = fitted.square;
+    result.freedom = is_continuum ? -2 : -3;
+    for (std::size_t k = 0; k < touches_.size(); ++k) {
+      result.freedom += touches_[k].tangent ? 2 : 1;
+      result.freedom += fit.is_pinned(fitted.pose, k, fitted.places[k]) ? 1 : 0;
+    }
+    if (problem_.pose) result.freedom += std::isfinite(problem_.pose->place_sd) ? 3 : 1;
+    result.freedom = std::max(result.freedom, 0);
+    if (result.freedom > 0) result.p = boost::math::gamma_q(0.5 * result.freedom, 0.5 * result.chi_square);
+    return result;
+  }
+
+  /// Without noise: in every set a pose that fits; sets without one are cut smaller, until they are gone or are told.
+  void look_for_witnesses(PoseFit& fit, const TouchPair& pair, CellSearch& search, std::vector<Cell> cells,
+                          std::vector<Cell>& undecided) {
+    double leaf = CellSearch::kLeaf;
+    std::vector<PoseSet> found;
+    for (int round = 0; round <= kRefinements && !cells.empty(); ++round) {
+      const CellSets sets = sets_of(fit.tree(), std::move(cells));
+      cells.clear();
+      for (const std::vector<std::size_t>& component : sets.components) {
+        std::vector<Cell> own = cells_of(sets, component);
+        FittedPose fitted = best_within(fit, fit.tree(), own, pair);
+        BoxesFound boxes;
+        if (worst_of(fit, fitted) > 1) boxes = search_boxes(fit, own, pair, kBoxBudget);
+        if (boxes.refuted) continue;  // proved: no pose of the set fits
+        if (boxes.witness) fitted = std::move(*boxes.witness);
+        if (worst_of(fit, fitted) <= 1) {
+          add_set(fit, {std::move(fitted), std::move(own), {}}, found);
+        } else {
+          cells.insert(cells.end(), own.begin(), own.end());
+        }
+      }
+      if (round == kRefinements) break;
+      leaf *= kFiner;
+      Cells finer = search.search(cells, leaf);
+      cells = std::move(finer.fit);
+      undecided.insert(undecided.end(), finer.undecided.begin(), finer.undecided.end());
+    }
+    undecided.insert(undecided.end(), cells.begin(), cells.end());
+    for (const PoseSet& set : found) answer_.poses.push_back(described(fit, set.fitted, fit.tree(), set.cells, pair));
+    std::sort(answer_.poses.begin(), answer_.poses.end(),
+              [](const TouchPose& a, const TouchPose& b) { return a.pose.heading < b.pose.heading; });
+  }
+
+  void conclude() {
+    Verdict& verdict = answer_.verdict;
+    const std::vector<TouchPose>& poses = answer_.poses;
+    verdict.fits_badly = answer_.fit && answer_.fit->is_bad();
+    if (!answer_.unresolved.empty()) {
+      answer_.status = Status::incomplete;
+      verdict.name = Verdict::undecided;
+      return;
+    }
+    if (poses.empty()) return;
+    const bool is_sure = poses.size() == 1 || poses.front().probability >= kSure;
+    const std::size_t places = is_sure ? 1 : poses.size();
+    const auto stretches =
+        static_cast<std::size_t>(std::count_if(poses.begin(), poses.begin() + static_cast<std::ptrdiff_t>(places),
+                                               [](const TouchPose& pose) { return pose.continuum; }));
+    if (is_sure && poses.front().any_heading) {
+      verdict.name = Verdict::unobservable;
+    } else if (is_sure && stretches == 0) {
+      verdict.name = Verdict::unique;
+    } else {
+      verdict.name = Verdict::ambiguous;
+      verdict.places = places;
+      verdict.stretches = stretches;
+    }
+  }
+
+  const TouchProblem& problem_;
+  TouchAnswer& answer_;
+  std::vector<Measured> touches_;
+  CentrePath path_;
+};
+
+/// The same seen in the mirror x = -x.
+TouchProblem mirrored_problem(const TouchProblem& problem) {
+  TouchProblem result = problem;
+  for (MeasuredTouch& touch : result.touches) {
+    touch.at.x() = -touch.at.x();
+    if (touch.normal) touch.normal = std::numbers::pi - *touch.normal;
+  }
+  if (result.pose) result.pose->mean = {-problem.pose->mean.x, problem.pose->mean.y, -problem.pose->mean.heading};
+  return result;
+}
+
+Interval negative(const Interval& interval) { return {-interval.hi, -interval.lo}; }
+
+void mirror(TouchPose& pose) {
+  pose.pose = {-pose.pose.x, pose.pose.y, -pose.pose.heading};
+  for (std::array<Interval, 3>* one : {&pose.extent, &pose.interval}) {
+    (*one)[0] = negative((*one)[0]);
+    (*one)[2] = negative((*one)[2]);
+  }
+  Pose& mean = pose.spread.mean;
+  mean = {-mean.x, mean.y, -mean.heading};
+  const Eigen::Vector3d signs(-1, 1, -1);
+  pose.spread.covariance = Eigen::Matrix3d(signs.asDiagonal() * pose.spread.covariance * signs.asDiagonal());
+  for (TouchContact& contact : pose.contacts) {
+    if (contact.turn) contact.turn = -*contact.turn;
+  }
+}
+
+}  // namespace
+
+TouchAnswer solve_plain(const TouchProblem& problem) {
+  TouchAnswer answer{problem.part, problem.touches};
+  answer.radius = radius_of(problem);
+  answer.noise = problem.noise;
+  answer.mirrored = problem.mirrored;
+  const TouchProblem seen = problem.mirrored ? mirrored_problem(problem) : problem;
+  Solver(seen, answer).run();
+  if (problem.mirrored) {
+    for (TouchPose& pose : answer.poses) mirror(pose);
+  }
+  return answer;
+}
+
+}  // namespace touch
+
+TouchAnswer solve(const TouchProblem& problem) {
+  touch::require_valid(problem);
+  const Doing doing("looking for poses that fit the touches");
+  TouchAnswer answer = touch::solve_plain(problem);
+  const bool is_odd = answer.verdict.fits_badly || answer.verdict.name == Verdict::inconsistent;
+  if (problem.diagnose && is_odd && answer.status == Status::complete)
+    answer.diagnoses = touch::mistakes(problem, answer);
+  return answer;
+}
+
+std::string TouchAnswer::verdict_text() const {
+  Verdict plain = verdict;
+  plain.fits_badly = false;
+  const bool is_said = verdict.fits_badly && verdict.name != Verdict::inconsistent;
+  return plain.text() + (is_said ? ", but the touches contradict the stated noise" : "");
+}
+
+}  // namespace rollfix

@@ -1,0 +1,105 @@
+#include "tilted_touch.hpp"
+
+#include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+#include <optional>
+
+namespace rollfix::touch {
+namespace {
+
+using Rule = boost::math::quadrature::gauss<double, 5>;
+
+// A panel of the rule is no longer than this many standard deviations of a contact.
+constexpr double kPanel = 3;
+// Squares that exceed the least by more add next to nothing: of a normal distribution 6e-7.
+constexpr double kNothing = 25;
+constexpr int kMostPanels = 60;  // in either direction
+
+class Integral {
+ public:
+  Integral(const PoseFit& fit, const Pose& pose, std::size_t touch, const PathPlace& nearest)
+      : fit_(fit), path_(fit.path()), pose_(pose), number_(touch), touch_(fit.in_part(pose, touch)) {
+    least_ = distance_at(path_.at(nearest), touch_).square;
+    go(nearest, true);
+    go(nearest, false);
+  }
+
+  TiltedTouch result() const {
+    TiltedTouch result;
+    if (!(sum_ > 0)) {  // a corner that has no length, and nothing near it has
+      result.log_likelihood = -kNothing - 0.5 * least_;
+      return result;
+    }
+    result.log_likelihood = std::log(sum_) - 0.5 * least_;
+    result.normals.slope = slope_ / sum_;
+    result.normals.matrix = matrix_ / sum_ - (spread_ / sum_ - result.normals.slope * result.normals.slope.transpose());
+    return result;
+  }
+
+ private:
+  void go(PathPlace from, bool forwards) {
+    const double half_lap = 0.5 * path_.part().perimeter();
+    double gone = 0;
+    for (int panels = 0; panels < kMostPanels && gone <= half_lap; ++panels) {
+      const CentreStretch& stretch = path_.stretches()[from.stretch];
+      const double end = forwards ? stretch.u.hi : stretch.u.lo;
+      if (from.u == end || (stretch.corner && path_.radius() == 0)) {
+        const std::optional<std::size_t> next = forwards ? stretch.after : stretch.before;
+        if (!next) return;
+        const Interval& u = path_.stretches()[*next].u;
+        from = {*next, forwards ? u.lo : u.hi};
+        continue;
+      }
+      const Distance here = distance_at(path_.at(from), touch_);
+      const double rising = forwards ? -here.slope : here.slope;
+      if (here.square > least_ + kNothing && rising >= 0) return;
+      const double most = here.weight > 0 ? kPanel / std::sqrt(here.weight) : stretch.u.width();
+      const double to = forwards ? std::min(end, from.u + most) : std::max(end, from.u - most);
+      const double length = length_per_u(path_, from.stretch);
+      add_panel(from.stretch, std::min(from.u, to), std::max(from.u, to), length);
+      gone += std::abs(to - from.u) * length;
+      from.u = to;
+    }
+  }
+
+  void add_panel(std::size_t stretch, double lo, double hi, double length_per_u) {
+    const double middle = 0.5 * (lo + hi);
+    const double half = 0.5 * (hi - lo);
+    for (std::size_t k = 0; k < Rule::abscissa().size(); ++k) {
+      const double offset = half * Rule::abscissa()[k];
+      const double weight = half * Rule::weights()[k] * length_per_u;
+      add({stretch, middle + offset}, weight);
+      if (offset != 0) add({stretch, middle - offset}, weight);
+    }
+  }
+
+  void add(const PathPlace& place, double length) {
+    const CentrePoint point = path_.at(place);
+    const double weight = length * std::exp(-0.5 * (distance_at(point, touch_).square - least_));
+    const Normals normals = fit_.normals_at(pose_, number_, point);
+    sum_ += weight;
+    slope_ += weight * normals.slope;
+    matrix_ += weight * normals.matrix;
+    spread_ += weight * normals.slope * normals.slope.transpose();
+  }
+
+  const PoseFit& fit_;
+  const CentrePath& path_;
+  Pose pose_;
+  std::size_t number_;
+  InPart touch_;
+  double least_ = 0;
+  double sum_ = 0;
+  Eigen::Vector3d slope_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d matrix_ = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d spread_ = Eigen::Matrix3d::Zero();
+};
+
+}  // namespace
+
+TiltedTouch tilted_touch(const PoseFit& fit, const Pose& pose, std::size_t touch, const PathPlace& nearest) {
+  return Integral(fit, pose, touch, nearest).result();
+}
+
+}  // namespace rollfix::touch
