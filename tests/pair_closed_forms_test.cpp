@@ -32,8 +32,7 @@ double by_angles(double angle) { return 0.5 * angle * angle; }
 rollfix::Problem grip(const Noise& noise) {
   const Part square = shapes::unit_square();
   const rollfix::FreePlan plan = free_rolls::by_distances(kRadius, 0.4, 0.2, kRadius, 2.6, -0.2);
-  rollfix::Problem problem{
-      square, rollfix::roll_free(square, plan).log, {rollfix::disk(kRadius)}, noise};
+  rollfix::Problem problem{square, rollfix::roll_free(square, plan).log, {rollfix::disk(kRadius)}, noise};
   problem.prior = rollfix::Prior{0.4, 1e-5};
   return problem;
 }

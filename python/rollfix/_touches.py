@@ -109,11 +109,13 @@ def _rows(touches: Any) -> Any:
     """(n, 5): x, y, normal and both standard deviations; NaN for what is not there."""
     if is_frame(touches):
         return _rows_of_frame(touches)
-    if isinstance(touches, np.ndarray):
+    if isinstance(touches, np.ndarray) and touches.ndim <= 2:
         touches = [tuple(row) for row in np.atleast_2d(touches)]
+    if not hasattr(touches, "__iter__") or isinstance(touches, (str, bytes)):
+        raise InputError(f"touches: expected a list of (x, y) or (x, y, normal), found {shown(touches)}")
     rows: List[List[float]] = []
-    for number, touch in enumerate(list(touches)):
-        values = list(touch)
+    for number, touch in enumerate(touches, 1):
+        values = list(touch) if hasattr(touch, "__iter__") and not isinstance(touch, (str, bytes)) else []
         if not 2 <= len(values) <= len(COLUMNS):
             raise InputError(f"touches: expected (x, y) or (x, y, normal), found {shown(touch)} (touch {number})")
         plain = [float("nan") if value is None and k >= 2 else value for k, value in enumerate(values)]

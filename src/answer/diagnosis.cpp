@@ -62,8 +62,8 @@ constexpr double kMostLeftOpen = 0.5;
 // Rows that are this much less noisy than said are exact.
 constexpr double kLeastNoise = 1e-3;
 // Slip of so much per length all along, and five times as much here and there, is what nobody says beforehand; the
-// larger the rarer: the logarithm of the odds against it. The largest explains nearly anything, and takes long: it is tried
-// where nothing else explains the rows.
+// larger the rarer: the logarithm of the odds against it. The largest explains nearly anything, and takes long: it is
+// tried where nothing else explains the rows.
 struct RareSlip {
   double slip;
   double log_odds;

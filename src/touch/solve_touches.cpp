@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <limits>
@@ -24,7 +25,7 @@ namespace {
 // Sets of poses that are less probable are counted, not listed.
 constexpr double kLeastProbability = 1e-4;
 // Weighing poses with the first touch at one place takes as long as this many comparisons.
-constexpr std::size_t kPlaceCost = 1000;
+constexpr std::size_t kPlaceCost = 2000;
 constexpr double kNegligible = 1e-8;
 // Poses are one where they differ by less than this share of the least standard deviation, or tolerance, of a place.
 constexpr double kSame = 0.2;
@@ -156,6 +157,12 @@ class Solver {
         continue;
       }
       add_posterior(pose, set.mode, nodes);
+      if (pose.continuum && !is_within(pose)) {
+        const FittedPose middle = fit.fit(nodes[middle_of(pose, set.mode, nodes)].best);
+        TouchPose moved = described(fit, middle, fit.tree(), set.cells, pair);
+        add_posterior(moved, set.mode, nodes);
+        if (moved.worst <= 1) pose = std::move(moved);
+      }
       const TouchFit one = fit_of(fit, set.fitted, pose.continuum);
       if (!answer_.fit || one.p > answer_.fit->p || (one.p == answer_.fit->p && one.freedom > answer_.fit->freedom)) {
         answer_.fit = one;
@@ -164,6 +171,32 @@ class Solver {
     }
     std::stable_sort(answer_.poses.begin(), answer_.poses.end(),
                      [](const TouchPose& a, const TouchPose& b) { return a.probability > b.probability; });
+  }
+
+  static std::array<double, 3> numbers_of(const Pose& pose) { return {pose.x, pose.y, pose.heading}; }
+
+  static bool is_within(const TouchPose& pose) {
+    const std::array<double, 3> at = numbers_of(pose.pose);
+    for (std::size_t i = 0; i < (pose.any_heading ? 2 : 3); ++i) {
+      if (at[i] < pose.interval[i].lo || at[i] > pose.interval[i].hi) return false;
+    }
+    return true;
+  }
+
+  /// The node nearest to the middle of a continuum, in the sizes of its intervals: all along it poses fit about alike.
+  static std::size_t middle_of(const TouchPose& pose, const PoseMode& mode, const std::vector<PosteriorNode>& nodes) {
+    const auto off = [&](std::size_t k) {
+      const std::array<double, 3> at = numbers_of(nodes[k].best);
+      double square = 0;
+      for (std::size_t i = 0; i < (pose.any_heading ? 2 : 3); ++i) {
+        const Interval& interval = pose.interval[i];
+        const double away = at[i] - interval.middle();
+        square += std::pow((i == 2 ? nearest_angle(away) : away) / std::max(interval.width(), 1e-12), 2);
+      }
+      return square;
+    };
+    return *std::min_element(mode.nodes.begin(), mode.nodes.end(),
+                             [&](std::size_t a, std::size_t b) { return off(a) < off(b); });
   }
 
   void leave_out(const PoseMode& mode) {

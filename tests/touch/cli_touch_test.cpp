@@ -13,6 +13,7 @@ using cli::Json;
 using cli::Ran;
 using cli::run;
 using testing::HasSubstr;
+using testing::Not;
 
 const std::string kBracket = std::string(ROLLFIX_SOURCE_DIR) + "/examples/bracket.dxf";
 
@@ -104,6 +105,21 @@ TEST(CliTouch, TouchesThatFitNowhereExitWithOneAndSayWhatMayBeWrong) {
   EXPECT_EQ(ran.code, 1);
   EXPECT_THAT(ran.out, HasSubstr("inconsistent\n"));
   EXPECT_THAT(ran.out, HasSubstr("possible cause: the finger's radius is 3, not 6"));
+}
+
+TEST(CliTouch, PosesThatAreNoCopiesOfOneAnotherAreNotSaidToLookTheSame) {
+  const std::string circles =
+      run("locate gallery:circle --finger disk,r=0.1 --noise position=0.002 --touch 1.1,0 --touch 0,1.1").out;
+  EXPECT_THAT(circles, Not(HasSubstr("looks the same")));
+  const std::string ellipse = "locate gallery:ellipse --finger disk,r=0.1 --noise position=0.002 --touch 2.1,0 ";
+  EXPECT_THAT(run(ellipse + "--touch 1.1112,0.9367 --touch=-1.6579,0.6816 --touch 0,-1.1").out,
+              HasSubstr("looks the same in each of these poses"));
+}
+
+TEST(CliTouch, TouchesThatCoincideAreNotTakenForASymmetry) {
+  const Ran ran = run("locate gallery:cam --finger disk,r=0.2 --noise position=0.02 --touch 1,2 --touch 1,2");
+  EXPECT_THAT(ran.out, HasSubstr("too close together"));
+  EXPECT_THAT(ran.out, Not(HasSubstr("looks the same")));
 }
 
 TEST(CliTouch, ABudgetThatRunsOutExitsWithThree) {

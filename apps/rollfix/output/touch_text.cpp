@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "outline/turn.hpp"
+#include "rollfix/answer/part_facts.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/table.hpp"
 #include "text/text.hpp"
@@ -36,13 +38,20 @@ class TouchText {
   }
   static std::string share(double probability) { return fmt::format("{:.4f}", probability); }
 
-  /// Whether all poses fit equally well: those of a part with a symmetry do.
+  /// Whether a part with a symmetry lies the same in all poses: turned by a share of a turn about its middle.
   bool all_alike() const {
+    const int folds = answer_.part.closed() ? symmetry(answer_.part) : 1;
+    if (folds < 2) return false;
+    Vec2 middle(0, 0);
+    for (int k = 0; k < folds; ++k) middle += answer_.part.point(k * answer_.part.perimeter() / folds) / folds;
+    if (answer_.mirrored) middle.x() = -middle.x();
     const TouchPose& first = answer_.poses.front();
-    return answer_.noise && std::all_of(answer_.poses.begin(), answer_.poses.end(), [&](const TouchPose& pose) {
-             return std::abs(pose.chi_square - first.chi_square) <= kAlike * (1 + first.chi_square) &&
-                    std::abs(pose.probability - first.probability) <= kAlike;
-           });
+    const double share = 2 * std::numbers::pi / folds;
+    return std::all_of(answer_.poses.begin(), answer_.poses.end(), [&](const TouchPose& pose) {
+      const double off = std::abs(std::remainder(pose.pose.heading - first.pose.heading, share));
+      return !pose.continuum && off <= kAlike &&
+             (pose.pose.world(middle) - first.pose.world(middle)).norm() <= kAlike * answer_.part.perimeter();
+    });
   }
 
   /// What to do next.
@@ -56,8 +65,10 @@ class TouchText {
                    ? "the touches leave the part free to move: touch a side with another direction\n"
                    : "next: one more touch, on a side with another direction\n";
       case Verdict::unobservable:
-        return answer_.touches.size() == 1 ? "one touch fits all along the boundary: touch the part elsewhere\n"
-                                           : "the part looks the same in every heading: only its place is known\n";
+        if (answer_.touches.size() == 1) return "one touch fits all along the boundary: touch the part elsewhere\n";
+        return symmetry(answer_.part) == 0
+                   ? "the part looks the same in every heading: only its place is known\n"
+                   : "any heading fits: the touches are too close together, or the noise is too large for this part\n";
       case Verdict::undecided:
         return "the budget ran out: more touches, or a larger --budget, leave less to look at\n";
       case Verdict::inconsistent:
@@ -220,9 +231,13 @@ class TouchText {
     } else if (answer_.fit) {
       text += "fit        these touches can't contradict each other: one more checks them\n";
     }
-    if (answer_.improbable > 0) {
-      text += fmt::format("rejected   {} within {:.2g} standard deviations, together {:.2g} % probable\n",
-                          counted(answer_.improbable, "pose", "poses"), kTouchSigmas, 100 * answer_.rest);
+    const std::string rejected = counted(answer_.improbable, "pose", "poses");
+    if (answer_.improbable > 0 && answer_.poses.empty()) {
+      text += fmt::format("rejected   {} in which a touch is off by more than {:.2g} standard deviations\n", rejected,
+                          kTouchSigmas);
+    } else if (answer_.improbable > 0) {
+      text += fmt::format("rejected   {} that fit far worse, together less than {:.1g} % probable\n", rejected,
+                          std::max(1e-4, 110 * answer_.rest));
     }
     return text;
   }

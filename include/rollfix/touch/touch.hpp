@@ -49,7 +49,7 @@ struct TouchProblem {
 };
 
 /// Comparisons of two stretches of the boundary: a second or two.
-inline constexpr std::size_t kTouchBudget = 20000000;
+inline constexpr std::size_t kTouchBudget = 200000000;
 
 /// Where a touch is on the part, in one pose.
 struct TouchContact {
