@@ -25,7 +25,7 @@ rollfix::Part plate() {
 
 /// It rolls over half of the corner's turn.
 certificates::Json certificate_of(double tolerance) {
-  return certificates::certificate(plate(), {{{0.5}, 0.5 * kTurn}}, tolerance);
+  return certificates::certificate(plate(), {{0.5, 0.5 * kTurn}}, tolerance);
 }
 
 TEST(CertificateSmallCorners, of_some_tolerances_are_proved_to_be_passed_once) {

@@ -47,11 +47,11 @@ constexpr std::array<Kind, 9> kKinds = {{{2, 2, 0, 0.001, 1},
 /// Calls `check` with cases of each kind on each part.
 template <class Check>
 void each_case(int count, const Check& check) {
-  for (std::size_t k = 0; k < kKinds.size(); ++k) {
+  for (std::uint64_t k = 0; k < kKinds.size(); ++k) {
     const Kind& kind = kKinds[k];
     for (int number = 0; number < kParts; ++number) {
       for (int c = 0; c < count; ++c) {
-        std::mt19937_64 generator = test_generator(static_cast<std::uint64_t>(1000 * number + c + 10000 * k));
+        std::mt19937_64 generator = test_generator(10000 * k + static_cast<std::uint64_t>(1000 * number + c));
         const Part part = part_number(number, c + 1, generator);
         const double size = diagonal(part);
         const Making making{kind.count, kind.normals, kind.radius * size, kind.place * size,
