@@ -11,6 +11,7 @@
 #include "plot.hpp"
 #include "rollfix/error.hpp"
 #include "scene.hpp"
+#include "text/text.hpp"
 #include "trace.hpp"
 
 namespace rollfix {
@@ -24,10 +25,11 @@ constexpr double kTouchAbove = 22;
 constexpr double kTouchBelow = 34;
 constexpr double kTouchLeastHeight = 160;
 constexpr double kTouchMostHeight = 720;
-constexpr double kTouchMargin = 0.06;  // of what is shown
-constexpr double kTouchGhost = 0.55;   // opacity of poses but the first
-constexpr double kTouchDot = 2.6;      // pixels
-constexpr double kTouchNormal = 26;    // length of a normal, pixels
+constexpr double kTouchMargin = 0.06;    // of what is shown
+constexpr double kTouchGhost = 0.55;     // opacity of poses but the first
+constexpr double kTouchDot = 2.6;        // pixels
+constexpr double kTouchRounding = 1e-9;  // of the perimeter: a place's rounding
+constexpr double kTouchNormal = 26;      // length of a normal, pixels
 
 class TouchPicture {
  public:
@@ -44,7 +46,7 @@ class TouchPicture {
     Svg svg(figure_.width, axes_.corner.y() + axes_.size.y() + kTouchBelow + legend.height());
     svg.describe("The part in each pose that the touches leave");
     draw_header(svg, figure_.title.empty() ? answer_.part.name() : figure_.title, answer_.verdict_text(),
-                {{fmt::format("{} touches", answer_.touches.size())}});
+                {{counted(answer_.touches.size(), "touch", "touches")}});
     svg.open_group("world");
     draw_axes(svg, axes_, round_ticks(axes_.x, 5), round_ticks(axes_.y, 5), {{"in the world"}}, "");
     svg.open_clip(axes_.corner.x(), axes_.corner.y(), axes_.size.x(), axes_.size.y());
@@ -121,9 +123,13 @@ class TouchPicture {
     std::vector<LegendEntry> result;
     for (std::size_t k = 0; k < poses_.size(); ++k) {
       const TouchPose& pose = answer_.poses[k];
-      std::string text = fmt::format("p{}: x {}, y {}, heading {}", k, pretty(pose.pose.x), pretty(pose.pose.y),
+      const auto place = [&](double value) {  // without what is rounding
+        return pretty(std::abs(value) <= kTouchRounding * answer_.part.perimeter() ? 0 : value);
+      };
+      std::string text = fmt::format("p{}: x {}, y {}, heading {}", k, place(pose.pose.x), place(pose.pose.y),
                                      pose.any_heading ? "any" : pretty_degrees(pose.pose.heading));
       if (std::isfinite(pose.probability)) text += ", " + percent(pose.probability);
+      if (pose.continuum) text += ", one of a continuum";
       result.push_back({Sign::line, colour(k), {{text}}, ""});
     }
     const std::size_t more = answer_.poses.size() - poses_.size();

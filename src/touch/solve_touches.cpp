@@ -157,7 +157,7 @@ class Solver {
         continue;
       }
       add_posterior(pose, set.mode, nodes);
-      if (pose.continuum && !is_within(pose)) {
+      if (pose.continuum) {
         const FittedPose middle = fit.fit(nodes[middle_of(pose, set.mode, nodes)].best);
         TouchPose moved = described(fit, middle, fit.tree(), set.cells, pair);
         add_posterior(moved, set.mode, nodes);
@@ -174,14 +174,6 @@ class Solver {
   }
 
   static std::array<double, 3> numbers_of(const Pose& pose) { return {pose.x, pose.y, pose.heading}; }
-
-  static bool is_within(const TouchPose& pose) {
-    const std::array<double, 3> at = numbers_of(pose.pose);
-    for (std::size_t i = 0; i < (pose.any_heading ? 2 : 3); ++i) {
-      if (at[i] < pose.interval[i].lo || at[i] > pose.interval[i].hi) return false;
-    }
-    return true;
-  }
 
   /// The node nearest to the middle of a continuum, in the sizes of its intervals: all along it poses fit about alike.
   static std::size_t middle_of(const TouchPose& pose, const PoseMode& mode, const std::vector<PosteriorNode>& nodes) {
