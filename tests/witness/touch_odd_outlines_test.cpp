@@ -5,7 +5,7 @@
 
 #include "random.hpp"
 #include "random_outlines.hpp"
-#include "touch_cases.hpp"
+#include "touch/touch_cases.hpp"
 
 // Lines and arcs with corners both ways, symmetric or open, far away, hardly noisy or very: the truth stays listed.
 namespace touch_odd_outlines_test {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "random.hpp"
-#include "touch_cases.hpp"
+#include "touch/touch_cases.hpp"
 
 namespace touch_coverage_test {
 

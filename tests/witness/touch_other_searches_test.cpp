@@ -6,7 +6,7 @@
 #include <string>
 
 #include "random.hpp"
-#include "touch_cases.hpp"
+#include "touch/touch_cases.hpp"
 
 // Poses that are found by other means are among those of the search.
 namespace touch_other_searches_test {

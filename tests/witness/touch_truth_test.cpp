@@ -4,7 +4,7 @@
 #include <string>
 
 #include "random.hpp"
-#include "touch_cases.hpp"
+#include "touch/touch_cases.hpp"
 
 namespace touch_truth_test {
 
