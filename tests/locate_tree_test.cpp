@@ -103,10 +103,7 @@ TEST(SearchTree, passes_over_no_place_that_fits) {
       if (part.closed()) break;
       range = {std::max(range.lo, -reading.length[0]), std::min(range.hi, part.perimeter() - reading.length[0])};
     }
-    SearchCounts counts;
-    Workspace work;
-    find_candidates(question, range, tolerance, work, counts);
-    const Stretches& stretches = work.stretches;
+    const Stretches stretches = find_candidates(question, range, tolerance).stretches;
     for (const Interval& stretch : stretches) left += stretch.width() / part.perimeter() / count;
     for (const double s : places_to_try(generator, part, readings.back())) {
       if (!range.contains(s) || residual_at(question, s) > tolerance) continue;

@@ -18,7 +18,6 @@
 #include "rollfix/contact/teach.hpp"             // IWYU pragma: export
 #include "rollfix/error.hpp"                     // IWYU pragma: export
 #include "rollfix/locate/locate.hpp"             // IWYU pragma: export
-#include "rollfix/locate/locator.hpp"            // IWYU pragma: export
 #include "rollfix/locate/reachable.hpp"          // IWYU pragma: export
 #include "rollfix/outline/gallery.hpp"           // IWYU pragma: export
 #include "rollfix/outline/load.hpp"              // IWYU pragma: export

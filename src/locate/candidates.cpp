@@ -1,6 +1,7 @@
 #include "candidates.hpp"
 
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -19,13 +20,14 @@ constexpr std::size_t kFewBlocks = 8;
 // An arc length is rounded to this share of the lengths that it is made of: times the curvature, an angle.
 constexpr double kLengthRounding = 4e-15;
 
+/// Numbers of blocks of the part's tree.
+using Blocks = boost::container::small_vector<std::size_t, 16>;
+
 /// Pairs of blocks on which a roll starts and ends, for one reading, from all spirals down to a few.
 class Descent {
  public:
-  Descent(const Part& part, const Reading& reading, const Interval& range, double tolerance, SearchCounts& counts,
-          Blocks& left)
-      : turning_(part.turning()), tree_(PartAccess::data(part).tree), range_(range), counts_(counts), left_(left) {
-    left_.clear();
+  Descent(const Part& part, const Reading& reading, const Interval& range, double tolerance)
+      : turning_(part.turning()), tree_(PartAccess::data(part).tree), range_(range) {
     const double period = part.perimeter();
     const double length = reading.length[0];
     same_place_ = kSamePlaces * kLengthAccuracy * period + kLengthRounding * std::abs(length);
@@ -38,8 +40,8 @@ class Descent {
     turn_ -= laps.winding * turning_.period_turn();
   }
 
-  /// Leaves the blocks of the leaves' level on which a roll that fits can start, in order: of all, or of these.
-  void run(const Blocks* among) {
+  /// The blocks of the leaves' level on which a roll that fits can start, in order: of all, or of these.
+  Blocks run(const Blocks* among, SearchCounts& counts) {
     among_ = among;
     const Stretch all{0, 0, turning_.perimeter()};
     visit(tree_.top(), all, all);
@@ -53,6 +55,8 @@ class Descent {
     }
     std::sort(left_.begin(), left_.end());
     left_.erase(std::unique(left_.begin(), left_.end()), left_.end());
+    counts.intervals += intervals_;
+    return std::move(left_);
   }
 
  private:
@@ -99,7 +103,7 @@ class Descent {
 
   /// Can f be within the tolerance for some s, the pivots at the joints where the two blocks end included?
   bool may_fit(std::size_t level, const Stretch& start, const Stretch& end, const Interval& s) {
-    ++counts_.intervals;
+    ++intervals_;
     const TurningTree::Block& at_start = tree_.block(level, start.index);
     const TurningTree::Block& at_end = tree_.block(level, end.index);
     const double first = at_end.chord(s.lo + offset_) - at_start.chord(s.lo) - turn_;
@@ -116,42 +120,37 @@ class Descent {
   const TurningFunction& turning_;
   const TurningTree& tree_;
   Interval range_;
-  SearchCounts& counts_;
+  std::size_t intervals_ = 0;  // looked at
   double same_place_ = 0;
   double tolerance_ = 0;  // what angles are accurate to included
   double offset_ = 0;     // from the start's s to the end's on its lap
   double turn_ = 0;       // theta, the laps' turn taken off
   const Blocks* among_ = nullptr;
-  Blocks& left_;
+  Blocks left_;
 };
 
 }  // namespace
 
-void find_candidates(const Question& question, const Interval& range, double tolerance, Workspace& work,
-                     SearchCounts& counts) {
+Candidates find_candidates(const Question& question, const Interval& range, double tolerance) {
   const Part& part = question.part;
   const double same_place = kLengthAccuracy * part.perimeter();
-  work.stretches.clear();
-  if (PartAccess::data(part).tree.is_empty() || range.width() <= same_place) {
-    work.stretches.push_back(range);
-    return;
-  }
-  Blocks& left = work.blocks;
-  const Blocks* among = nullptr;
+  if (PartAccess::data(part).tree.is_empty() || range.width() <= same_place) return {{range}, {}};
+  Candidates found;
+  Blocks left;
+  bool is_first = true;
   for (const Reading& reading : question.readings) {
-    Descent(part, reading, range, tolerance, counts, work.fewer).run(among);
-    left.swap(work.fewer);
+    left = Descent(part, reading, range, tolerance).run(is_first ? nullptr : &left, found.counts);
+    is_first = false;
     if (left.size() <= kFewBlocks) break;
-    among = &left;
   }
   const std::vector<Spiral>& spirals = part.turning().spirals();
   for (std::size_t k = 0; k < left.size(); ++k) {
     const std::size_t first = left[k] << kLeafLevel;
     while (k + 1 < left.size() && left[k + 1] == left[k] + 1) ++k;
     const std::size_t last = std::min((left[k] + 1) << kLeafLevel, spirals.size()) - 1;
-    const Interval stretch{std::max(range.lo, spirals[first].lo), std::min(range.hi, spirals[last].hi)};
-    work.stretches.push_back(stretch);
+    found.stretches.push_back({std::max(range.lo, spirals[first].lo), std::min(range.hi, spirals[last].hi)});
   }
+  return found;
 }
 
 }  // namespace rollfix

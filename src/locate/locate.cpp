@@ -9,7 +9,6 @@
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"
 #include "searches.hpp"
-#include "workspace.hpp"
 
 namespace rollfix {
 namespace {
@@ -130,35 +129,29 @@ Interval first_contacts(const Question& question, std::size_t finger) {
   return range;
 }
 
-void search(const Part& part, std::span<const Reading> readings, const LocateOptions& options, Workspace& work,
-            Search& search) {
+namespace {
+
+Search search(const Part& part, std::span<const Reading> readings, const LocateOptions& options) {
   require_enough(readings, options);
   require_tolerance(options);
   LocateOptions clamped = options;
   clamped.tolerance = std::max(options.tolerance, kLeastTolerance);
   Question question{part, readings};
   if (options.facing) question.facing = without_laps(*options.facing);
-  if (question.fingers() == 1) {
-    search_one(question, clamped, work, search);
-  } else {
-    search = search_two(question, clamped);
-  }
+  Search search = question.fingers() == 1 ? search_one(question, clamped) : search_two(question, clamped);
   search.status = search.unresolved.empty() ? Status::complete : Status::incomplete;
   if (search.status == Status::complete) check_parity(question, search);
+  return search;
 }
 
+}  // namespace
+
 Search locate(const Part& part, const std::vector<Reading>& readings, const LocateOptions& options) {
-  Workspace work;
-  Search found;
-  search(part, readings, options, work, found);
-  return found;
+  return search(part, readings, options);
 }
 
 Search locate(const Part& part, const Reading& reading, const LocateOptions& options) {
-  Workspace work;
-  Search found;
-  search(part, {&reading, 1}, options, work, found);
-  return found;
+  return search(part, {&reading, 1}, options);
 }
 
 }  // namespace rollfix

@@ -88,21 +88,11 @@ double first_inside(double lo, double hi, const std::array<double, 4>& places) {
 
 }  // namespace
 
-void Findings::clear() {
-  pieces.clear();
-  roots.clear();
-  unresolved.clear();
-  counts = {};
-}
-
-RootSearch::RootSearch(const LocateOptions& options, double perimeter, Findings& found)
-    : findings(found),
-      tolerance_(options.tolerance),
-      budget_(options.budget),
+RootSearch::RootSearch(double tolerance, double perimeter, Findings before)
+    : findings(std::move(before)),
+      tolerance_(tolerance),
       perimeter_(perimeter),
-      same_place_(kLengthAccuracy * perimeter) {
-  findings.clear();
-}
+      same_place_(kLengthAccuracy * perimeter) {}
 
 void RootSearch::look_at(const SpiralPair& pair, const ResidualSample& lo, const ResidualSample& hi) {
   beat();
@@ -136,11 +126,11 @@ bool RootSearch::is_stretch(const SpiralPair& pair, const ResidualSample& lo, co
 void RootSearch::decide(const SpiralPair& pair, const SampledRange& range) {
   beat();
   ++findings.counts.intervals;
-  if (budget_ == 0) {
+  if (findings.budget == 0) {
     findings.unresolved.push_back({range.lo.s, range.hi.s});
     return;
   }
-  --budget_;
+  --findings.budget;
   if (!is_far(range.lo, range.hi)) decide_near(pair, range);
 }
 

@@ -64,9 +64,7 @@ struct Findings {
   FoundRoots roots;
   std::vector<Interval> unresolved;
   SearchCounts counts;
-
-  /// Keeps the memory.
-  void clear();
+  std::size_t budget = 0;  // intervals that may still be looked at, beyond the part's own
 };
 
 /// An interval that is still to be decided.
@@ -82,13 +80,10 @@ struct QuinticRoot;
 /// Branch and prune for one reading on one pair of spirals: every s with |f(s)| <= tolerance, proved complete.
 class RootSearch {
  public:
-  /// The options' tolerance is at least kTurnAccuracy.
-  RootSearch(const LocateOptions& options, double perimeter, Findings& found);
+  /// Adds to what was found before. The tolerance is at least kTurnAccuracy.
+  RootSearch(double tolerance, double perimeter, Findings before);
 
-  /// What all runs found together.
-  Findings& findings;
-  /// Intervals that may still be looked at, beyond the part's own.
-  std::size_t budget() const { return budget_; }
+  Findings findings;
 
   /// The ends are samples of this pair. The interval between them comes with the part, however many points that has: it
   /// costs nothing of the budget.
@@ -138,7 +133,6 @@ class RootSearch {
   void add_piece(double lo, double hi, bool exact = false);
 
   double tolerance_;
-  std::size_t budget_;
   double perimeter_;
   double same_place_;  // lengths below this are rounding errors
   const Panel* start_panel_ = nullptr;

@@ -8,24 +8,23 @@
 #include "root_search.hpp"
 #include "searches.hpp"
 #include "sets_of_one.hpp"
-#include "workspace.hpp"
 
 namespace rollfix {
 namespace {
 
 class Sweep {
  public:
-  Sweep(const Part& part, const Reading& reading, const LocateOptions& options, Findings& found)
+  /// Adds to what was found before.
+  Sweep(const Part& part, const Reading& reading, double tolerance, Findings before)
       : part_(part),
         turning_(part.turning()),
         reading_(reading),
         length_(reading.length[0]),
         same_place_(kLengthAccuracy * part.perimeter()),
-        tolerance_(options.tolerance),
-        findings_(found),
-        search_(options, part.perimeter(), found) {}
+        tolerance_(tolerance),
+        search_(tolerance, part.perimeter(), std::move(before)) {}
 
-  std::size_t budget() const { return search_.budget(); }
+  Findings& found() { return search_.findings; }
 
   /// Walks the first contact s along [lo, hi] of the boundary: cuts it where s or its end s + L passes from one spiral
   /// to the next, searches each piece, and looks at the pivot wherever the end passes a convex corner. Stops where it
@@ -39,7 +38,7 @@ class Sweep {
     Cursor end = Cursor::ahead(turning_, range.lo + length_);
     auto [from_start, from_end] = enter(start, end, range.lo);
     double here = range.lo;
-    while (here < range.hi && findings_.unresolved.empty()) {
+    while (here < range.hi && search_.findings.unresolved.empty()) {
       const SpiralPair pair = pair_of(start, end);
       const double start_passes = pair.start.hi;
       const double end_passes = pair.end.hi - pair.offset;
@@ -51,11 +50,11 @@ class Sweep {
       const Turning at_start = start_moves ? end_of(pair.start, next) : turning_.on_spiral(pair.start, next);
       const Turning at_end =
           end_moves ? end_of(pair.end, next + pair.offset) : turning_.on_spiral(pair.end, next + pair.offset);
-      findings_.counts.evaluations += (start_moves ? 0 : 1) + (end_moves ? 0 : 1);
+      search_.findings.counts.evaluations += (start_moves ? 0 : 1) + (end_moves ? 0 : 1);
       if (next - here > same_place_) {
         search_.run(pair, pair.sample(here, from_start, from_end), pair.sample(next, at_start, at_end));
       }
-      if (!findings_.unresolved.empty()) findings_.unresolved.back().hi = range.hi;
+      if (!search_.findings.unresolved.empty()) search_.findings.unresolved.back().hi = range.hi;
 
       if (next >= range.hi && !end_moves) break;
       if (end_moves) {
@@ -84,8 +83,8 @@ class Sweep {
     const double residual = residual_at({part_, {&reading_, 1}}, s);
     const double slope = std::abs(turning_.curvature(s)) + std::abs(turning_.curvature(s + length_));
     if (residual > tolerance_ + 0.5 * place.width() * slope) return;
-    findings_.pieces.push_back({place.lo, place.hi});
-    findings_.roots.push_back({s, residual <= kTurnAccuracy});
+    search_.findings.pieces.push_back({place.lo, place.hi});
+    search_.findings.roots.push_back({s, residual <= kTurnAccuracy});
   }
 
   SpiralPair pair_of(const Cursor& start, const Cursor& end) const {
@@ -113,7 +112,7 @@ class Sweep {
     const SpiralPair pair = pair_of(start, end);
     const double s = std::max(lo, pair.start.lo);
     const Turning at_start = turning_.on_spiral(pair.start, s);
-    findings_.counts.evaluations += 2;
+    search_.findings.counts.evaluations += 2;
     if (std::abs(lo + pair.offset - pair.end.lo) <= same_place_ && !end.is_first()) {
       pass_corner(lo, at_start.angle, end.angle_before(), end.angle_after());
     }
@@ -129,8 +128,8 @@ class Sweep {
     const double most = std::max(before, after) - start_angle - reading_.turn;
     const double distance = std::max({least, -most, 0.0});
     if (distance > tolerance_) return;
-    findings_.pieces.push_back({s, s, false, true});
-    findings_.roots.push_back({s, distance <= kTurnAccuracy, true});
+    search_.findings.pieces.push_back({s, s, false, true});
+    search_.findings.roots.push_back({s, distance <= kTurnAccuracy, true});
   }
 
   const Part& part_;
@@ -139,22 +138,24 @@ class Sweep {
   double length_;  // L
   double same_place_;
   double tolerance_;
-  Findings& findings_;
   RootSearch search_;
 };
 
 /// What the first reading allows on the stretches of the range.
-void search_stretches(const Question& question, const Interval& range, LocateOptions& options, Workspace& work) {
+Findings search_stretches(const Question& question, const Interval& range, const Stretches& stretches,
+                          const LocateOptions& options) {
   const double same_place = kLengthAccuracy * question.part.perimeter();
-  Findings& found = work.found;
-  Sweep sweep(question.part, question.readings.front(), options, found);
-  for (const Interval& stretch : work.stretches) {
+  Findings none;
+  none.budget = options.budget;
+  Sweep sweep(question.part, question.readings.front(), options.tolerance, std::move(none));
+  Findings& found = sweep.found();
+  for (const Interval& stretch : stretches) {
     // A single place beside what is passed over is there for its corner.
     if (stretch.width() > same_place || range.width() <= same_place) sweep.run(stretch);
     if (!found.unresolved.empty()) break;
   }
-  options.budget = sweep.budget();
   if (!found.unresolved.empty()) found.unresolved.back().hi = range.hi;
+  return std::move(found);
 }
 
 /// Pieces that touch are one: else what a reading cuts into pieces, though it allows all of it, as a finger at rest
@@ -173,31 +174,25 @@ void join_touching(Pieces& pieces) {
 }
 
 /// Keeps of each piece what a further reading allows as well; at a corner's pivot what all of them allow together.
-void narrow(const Question& question, std::size_t further, LocateOptions& options, Workspace& work) {
-  const Reading& reading = question.readings[further];
-  const Question its_own{question.part, {&reading, 1}};
-  Findings& before = work.found;
-  Findings& kept = work.narrowed;
-  join_touching(before.pieces);
-  Sweep sweep(question.part, reading, options, kept);
-  for (const Piece& piece : before.pieces) {
-    if (!kept.unresolved.empty() || !before.unresolved.empty()) {
+Findings narrowed(const Question& question, const Reading& further, double tolerance, Findings before) {
+  const Question its_own{question.part, {&further, 1}};
+  Pieces pieces = std::exchange(before.pieces, {});
+  join_touching(pieces);
+  Sweep sweep(question.part, further, tolerance, std::move(before));
+  Findings& kept = sweep.found();
+  for (const Piece& piece : pieces) {
+    if (!kept.unresolved.empty()) {
       kept.unresolved.push_back({piece.lo, piece.hi});
     } else if (piece.lo == piece.hi) {
       const double residual = residual_at(piece.corner ? question : its_own, piece.lo);
-      if (residual <= options.tolerance) kept.pieces.push_back(piece);
+      if (residual <= tolerance) kept.pieces.push_back(piece);
     } else {
       const std::size_t first = kept.pieces.size();
       sweep.run({piece.lo, piece.hi});
       for (std::size_t k = first; k < kept.pieces.size(); ++k) kept.pieces[k].exact &= piece.exact;
     }
   }
-  options.budget = sweep.budget();
-  before.pieces.swap(kept.pieces);
-  before.roots.insert(before.roots.end(), kept.roots.begin(), kept.roots.end());
-  before.unresolved.insert(before.unresolved.end(), kept.unresolved.begin(), kept.unresolved.end());
-  before.counts.intervals += kept.counts.intervals;
-  before.counts.evaluations += kept.counts.evaluations;
+  return std::move(kept);
 }
 
 /// A first contact at a convex corner: the finger may have pivoted there by any amount, the same for all readings.
@@ -227,10 +222,10 @@ void add_start_corners(const Question& question, const Stretches& stretches, dou
 }
 
 /// The same intervals, those that touch made one.
-void join_intervals(std::vector<Interval>& intervals, std::vector<PerFinger<Interval>>& result) {
+std::vector<PerFinger<Interval>> joined(std::vector<Interval> intervals) {
   std::sort(intervals.begin(), intervals.end(),
             [](const Interval& one, const Interval& two) { return one.lo < two.lo; });
-  result.clear();
+  std::vector<PerFinger<Interval>> result;
   for (const Interval& interval : intervals) {
     if (!result.empty() && interval.lo <= result.back()[0].hi) {
       result.back()[0].hi = std::max(result.back()[0].hi, interval.hi);
@@ -238,23 +233,25 @@ void join_intervals(std::vector<Interval>& intervals, std::vector<PerFinger<Inte
       result.emplace_back(interval);
     }
   }
+  return result;
 }
 
 }  // namespace
 
-void search_one(const Question& question, const LocateOptions& options, Workspace& work, Search& search) {
+Search search_one(const Question& question, const LocateOptions& options) {
   const Interval range = first_contacts(question, 0);
-  SearchCounts counts;
-  find_candidates(question, range, options.tolerance, work, counts);
-  LocateOptions left = options;
-  search_stretches(question, range, left, work);
-  for (std::size_t k = 1; k < question.readings.size(); ++k) narrow(question, k, left, work);
-  Findings& found = work.found;
-  add_start_corners(question, work.stretches, options.tolerance, found);
-
-  make_placements(question, work, search.placements);
-  join_intervals(found.unresolved, search.unresolved);
-  search.counts = {found.counts.intervals + counts.intervals, found.counts.evaluations + counts.evaluations};
+  const Candidates candidates = find_candidates(question, range, options.tolerance);
+  Findings found = search_stretches(question, range, candidates.stretches, options);
+  for (const Reading& further : question.readings.subspan(1)) {
+    found = narrowed(question, further, options.tolerance, std::move(found));
+  }
+  add_start_corners(question, candidates.stretches, options.tolerance, found);
+  Search search;
+  search.unresolved = joined(std::move(found.unresolved));
+  search.counts = {found.counts.intervals + candidates.counts.intervals,
+                   found.counts.evaluations + candidates.counts.evaluations};
+  search.placements = make_placements(question, std::move(found));
+  return search;
 }
 
 }  // namespace rollfix

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <span>
-
 #include "corner_sets.hpp"
 #include "rollfix/locate/locate.hpp"
 
@@ -11,14 +9,8 @@ namespace rollfix {
 /// every reading. Throws InputError: a roll longer than the open curve.
 Interval first_contacts(const Question& question, std::size_t finger);
 
-struct Workspace;
-
-/// What locate() says, into `search`, whatever was in it.
-void search(const Part& part, std::span<const Reading> readings, const LocateOptions& options, Workspace& work,
-            Search& search);
-
 /// One finger: eqs. (4) and (5). The options' tolerance is at least kTurnAccuracy. Gives all but the status.
-void search_one(const Question& question, const LocateOptions& options, Workspace& work, Search& search);
+Search search_one(const Question& question, const LocateOptions& options);
 
 /// Two: eqs. (8) and (9), and the facing equation.
 Search search_two(const Question& question, const LocateOptions& options);

@@ -20,13 +20,24 @@ constexpr double kManyRoundings = 1000;
 
 using Roots = boost::container::small_vector<Root, 4>;
 
-using Clusters = decltype(Workspace::clusters);
+/// Pieces that touch, and the roots in them. lo <= hi, hi beyond P where it reaches across s = 0.
+struct Cluster {
+  double lo = 0;
+  double hi = 0;
+  bool exact = false;
+  bool corner = false;  // all of its pieces are
+  bool whole_loop = false;
+  bool is_joined = false;      // of several pieces
+  std::size_t first_root = 0;  // of those handed out
+  std::size_t root_count = 0;
+};
+using Clusters = boost::container::small_vector<Cluster, kFewAnswers>;
 
-void join(const Part& part, Pieces& pieces, Clusters& clusters) {
+Clusters clusters_of(const Part& part, Pieces& pieces) {
+  Clusters clusters;
   const double same_place = kLengthAccuracy * part.perimeter();
   const auto earlier = [](const Piece& one, const Piece& two) { return one.lo < two.lo; };
   if (!std::is_sorted(pieces.begin(), pieces.end(), earlier)) std::sort(pieces.begin(), pieces.end(), earlier);
-  clusters.clear();
   for (const Piece& piece : pieces) {
     if (clusters.empty() || piece.lo > clusters.back().hi + same_place) {
       clusters.push_back({piece.lo, piece.hi, piece.exact, piece.corner});
@@ -37,7 +48,7 @@ void join(const Part& part, Pieces& pieces, Clusters& clusters) {
       clusters.back().is_joined = true;
     }
   }
-  if (clusters.empty() || !part.closed()) return;
+  if (clusters.empty() || !part.closed()) return clusters;
   const double period = part.perimeter();
   const bool joined = clusters.front().lo <= same_place && clusters.back().hi >= period - same_place;
   if (joined && clusters.size() == 1) {
@@ -51,18 +62,14 @@ void join(const Part& part, Pieces& pieces, Clusters& clusters) {
     clusters.back().is_joined = true;
     clusters.erase(clusters.begin());
   }
+  return clusters;
 }
 
 /// Each root to the first cluster that holds it, if there is one: those of one cluster next to each other, in rising
 /// order. Clusters are in rising order and apart.
-void hand_out(const Part& part, Workspace& work) {
-  FoundRoots& roots = work.found.roots;
-  Clusters& clusters = work.clusters;
-  FoundRoots& handed = work.handed_out;
-  FoundRoots& left = work.left_over;
-  handed.clear();
-  left.clear();
-  if (clusters.empty()) return;
+FoundRoots handed_out(const Part& part, FoundRoots& roots, Clusters& clusters) {
+  FoundRoots handed;
+  if (clusters.empty()) return handed;
   const auto earlier = [](const Root& one, const Root& two) { return one.s < two.s; };
   if (!std::is_sorted(roots.begin(), roots.end(), earlier)) std::sort(roots.begin(), roots.end(), earlier);
   const double same_place = kLengthAccuracy * part.perimeter();
@@ -72,16 +79,18 @@ void hand_out(const Part& part, Workspace& work) {
     handed.push_back(root);
     return true;
   };
+  FoundRoots left;  // that no cluster holds before s = 0 is crossed
   auto next = clusters.begin();
   for (const Root& root : roots) {
     while (next != clusters.end() && next->hi + same_place < root.s) ++next;
     if (next == clusters.end() || !take(*next, root)) left.push_back(root);
   }
-  if (!part.closed()) return;
+  if (!part.closed()) return handed;
   for (Root& root : left) {  // into the last one, across s = 0
     root.s += part.perimeter();
     take(clusters.back(), root);
   }
+  return handed;
 }
 
 class SetsOfOne {
@@ -273,18 +282,17 @@ class SetsOfOne {
 
 }  // namespace
 
-void make_placements(const Question& question, Workspace& work, std::vector<Placement>& placements) {
-  Clusters& clusters = work.clusters;
-  join(question.part, work.found.pieces, clusters);
-  hand_out(question.part, work);
-  const SetsOfOne sets(question, work.handed_out);
-  placements.clear();
-  placements.resize(clusters.size());
+std::vector<Placement> make_placements(const Question& question, Findings found) {
+  Clusters clusters = clusters_of(question.part, found.pieces);
+  const FoundRoots roots = handed_out(question.part, found.roots, clusters);
+  const SetsOfOne sets(question, roots);
+  std::vector<Placement> placements(clusters.size());
   for (std::size_t k = 0; k < clusters.size(); ++k) sets.make(clusters[k], placements[k]);
   const auto earlier = [](const Placement& one, const Placement& two) { return one.start[0] < two.start[0]; };
   if (!std::is_sorted(placements.begin(), placements.end(), earlier)) {
     std::sort(placements.begin(), placements.end(), earlier);
   }
+  return placements;
 }
 
 }  // namespace rollfix

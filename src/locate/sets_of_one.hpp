@@ -3,12 +3,12 @@
 #include <vector>
 
 #include "placements.hpp"
-#include "workspace.hpp"
+#include "root_search.hpp"
 
 namespace rollfix {
 
 /// Joins pieces that touch into connected sets (across s = 0 on a closed outline), one placement each, and says
-/// what kind of answer each is. What the workspace has found may be in any order, of all readings together: sorts it.
-void make_placements(const Question& question, Workspace& work, std::vector<Placement>& placements);
+/// what kind of answer each is. What was found may be in any order, of all readings together.
+std::vector<Placement> make_placements(const Question& question, Findings found);
 
 }  // namespace rollfix
