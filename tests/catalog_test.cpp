@@ -11,7 +11,6 @@
 #include <functional>
 #include <thread>
 
-#include "catalog/sums.hpp"
 #include "catalogs.hpp"
 #include "refusal.hpp"
 
@@ -125,42 +124,9 @@ TEST_F(CatalogFile, gives_each_part_back_with_the_same_bits) {
   }
 }
 
-TEST_F(CatalogFile, lean_computes_the_same_parts_when_they_are_asked_for) {
-  const std::vector<CatalogSource> sources = {{"gallery:cam", "cam"}, {"gallery:spline,n=9,seed=7,wobble=0.2", "s"}};
-  build_catalog("whole.db", sources);
-  BuildOptions lean;
-  lean.lean = true;
-  build_catalog("lean.db", sources, lean);
-  for (std::size_t k = 0; k < 2; ++k) {
-    const Part one = Catalog("whole.db").part(k);
-    const Part other = Catalog("lean.db").part(k);
-    EXPECT_EQ(one.perimeter(), other.perimeter());
-    EXPECT_EQ(one.turning().angle(1.234), other.turning().angle(1.234));
-  }
-  EXPECT_LT(cli::fs::file_size("lean.db"), cli::fs::file_size("whole.db"));
-}
-
-TEST_F(CatalogFile, computes_anew_what_another_version_computed) {
-  of({"cam"});
-  // As that version would have written it, its checksum and all.
-  std::uint64_t part = 0;
-  ask("SELECT checksum FROM parts",
-      [&](sqlite3_stmt* row) { part = static_cast<std::uint64_t>(sqlite3_column_int64(row, 0)); });
-  std::uint64_t sum = 0;
-  ask("SELECT outline, numbers, format - 1, computed FROM shapes", [&](sqlite3_stmt* row) {
-    const auto bytes = [&](int column) {
-      const auto* data = static_cast<const char*>(sqlite3_column_blob(row, column));
-      return std::string_view(data, static_cast<std::size_t>(sqlite3_column_bytes(row, column)));
-    };
-    sum = sum_of(ShapeRow{bytes(0), bytes(1), sqlite3_column_int64(row, 2), bytes(3)}, part);
-  });
-  meddle("UPDATE shapes SET format = format - 1, checksum = " + std::to_string(static_cast<std::int64_t>(sum)));
-  EXPECT_EQ(Catalog("parts.db").part(0).turning().angle(2.5), load_part("gallery:cam").turning().angle(2.5));
-}
-
 TEST_F(CatalogFile, that_was_damaged_says_so) {
   of({"cam"});
-  meddle("UPDATE shapes SET computed = zeroblob(length(computed))");
+  meddle("UPDATE shapes SET numbers = zeroblob(16)");
   EXPECT_THAT(refusal_of([] { Catalog("parts.db").part(0); }), HasSubstr("checksum"));
   write("text.db", "no catalog at all, but some text that is longer than the header of a file that SQLite would have");
   EXPECT_THAT(refusal_of([] { Catalog("text.db"); }), HasSubstr("is not a catalog"));
@@ -191,9 +157,9 @@ TEST_F(CatalogFile, is_refused_with_any_column_of_any_part_changed) {
         "parts SET profile = (SELECT profile FROM parts WHERE id = 2)",
         "shapes SET fine = (SELECT fine FROM shapes WHERE part = 2)",
         "shapes SET (fine, fine_checksum) = (SELECT fine, fine_checksum FROM shapes WHERE part = 2)",
-        "shapes SET outline = outline || ' '", "shapes SET format = 7",
-        "shapes SET (outline, numbers, format, computed, checksum) = "
-        "(SELECT outline, numbers, format, computed, checksum FROM shapes WHERE part = 2)"}) {
+        "shapes SET outline = outline || ' '", "shapes SET numbers = numbers || x'00'",
+        "shapes SET (outline, numbers, checksum) = "
+        "(SELECT outline, numbers, checksum FROM shapes WHERE part = 2)"}) {
     write("parts.db", whole);
     meddle("UPDATE " + change + (change.starts_with("parts") ? " WHERE id = 1" : " WHERE part = 1"));
     EXPECT_NE(all_said(), kNothing) << change;

@@ -92,7 +92,7 @@ TEST(CliHelp, bash_completes_commands_options_and_words) {
   EXPECT_EQ(completed("rollfix lo"), "locate\n");
   EXPECT_EQ(completed("rollfix catalog bu"), "build\n");
   EXPECT_EQ(completed("rollfix locate --corner"), "--corner-angle\n");
-  EXPECT_EQ(completed("rollfix catalog build --le"), "--lean\n");
+  EXPECT_EQ(completed("rollfix catalog build --jo"), "--jobs\n");
   EXPECT_EQ(completed("rollfix locate x.csv --direction \"\""), "ccw cw either\n");
 }
 

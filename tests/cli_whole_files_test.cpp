@@ -20,7 +20,7 @@ using Names = std::vector<std::string>;
 
 TEST(FullDisk, leaves_nothing_behind_and_is_told) {
   const cli::Folder folder;
-  for (const std::string command : {"inspect gallery:cam -o a.svg", "inspect gallery:cam -o a.json"}) {
+  for (const std::string command : {"inspect gallery:cam -o a.svg", "inspect gallery:gear -o a.csv"}) {
     const cli::Ran ran = shell("ulimit -f 2; rollfix " + command);  // blocks of 512 or 1024 bytes
     EXPECT_EQ(ran.code, 2);
     EXPECT_THAT(ran.err, HasSubstr("can't be written: File too large"));

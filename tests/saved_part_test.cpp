@@ -4,9 +4,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstring>
-#include <random>
+#include <fmt/format.h>
 
+#include <cstring>
+#include <fstream>
+#include <random>
+#include <sstream>
+
+#include "files/byte_stream.hpp"
 #include "random.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate/locate.hpp"
@@ -145,9 +150,31 @@ TEST(SavedParts, cut_short_anywhere_are_refused) {
 
 TEST(SavedParts, of_another_version_are_refused_by_name) {
   std::string text = rollfix::format_part(Part(rollfix::gallery("ellipse")));
-  text.replace(text.find("part/1"), 6, "part/9");
+  text.replace(text.find("part/2"), 6, "part/9");
   EXPECT_THAT(message_of(text),
               AllOf(HasSubstr("part.json: is a saved part of version 'rollfix/part/9'"), HasSubstr("make it again")));
+}
+
+/// Of a triangle, as version 1 wrote it.
+std::string of_version_1() {
+  std::ifstream file(ROLLFIX_TESTS_DIR "/saved_part_version_1.json");
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+TEST(SavedParts, of_version_1_are_read_and_computed_anew) {
+  const Part triangle(shapes::polygon({{0, 0}, {3, 0}, {0, 2}}));
+  expect_same_bits(triangle, rollfix::parse_part(of_version_1(), triangle.name()));
+}
+
+TEST(SavedParts, hold_nothing_behind_their_outline) {
+  std::string text = of_version_1();
+  text.replace(text.find("part/1"), 6, "part/2");
+  const std::size_t end = text.find("\",\n\"checksum\"");
+  text =
+      text.substr(0, end) + fmt::format("\",\n\"checksum\": \"{:016x}\"}}\n", rollfix::checksum(text.substr(0, end)));
+  EXPECT_THAT(message_of(text), HasSubstr("contents contradict each other"));
 }
 
 TEST(SavedParts, foreign_json_is_not_taken_for_one) {

@@ -9,7 +9,7 @@ from typing import Any, Dict, Iterable, Iterator, List, Optional, Sequence, Tupl
 from . import _cluster, _core
 from ._answer import Answer
 from ._catalog_sources import sources_from
-from ._checks import flag, path as path_given, travel as travel_given, unit_of_length, whole
+from ._checks import path as path_given, travel as travel_given, unit_of_length, whole
 from ._columns import Columns, Units
 from ._core import InputError
 from ._documents import Document
@@ -75,7 +75,6 @@ class Catalog(Made):
         *,
         unit: str = "",
         threads: int = 0,
-        lean: bool = False,
         progress: Optional[bool] = None,
     ) -> "Catalog":
         """Makes a catalog of outlines, or adds to one. What is there already and has not changed is not read again.
@@ -94,8 +93,6 @@ class Catalog(Made):
             Of all parts, 'mm', 'in', ...; others are converted. Default: that of the first part that states one.
         threads : int
             0: as many as there are processors.
-        lean : bool
-            Keep outlines only and compute parts when they are asked for: a seventh of the size.
         progress : bool, optional
             A bar, by tqdm. Default: where tqdm is installed, in a notebook or on a terminal, after half a second.
 
@@ -104,10 +101,10 @@ class Catalog(Made):
         Catalog
         """
         file, known = path_given(path, "path"), unit_of_length(unit)
-        is_lean, count = flag(lean, "lean"), whole(threads, "threads")
+        count = whole(threads, "threads")
         taken = sources_from(sources)
         with Progress(len(taken), progress, "files") as bar:
-            left_out, _ = _core.build_catalog(file, taken, known, count, is_lean, bar.report)
+            left_out, _ = _core.build_catalog(file, taken, known, count, bar.report)
         if left_out:
             source, why = left_out[0]
             some = "1 source was" if len(left_out) == 1 else f"{len(left_out)} sources were"

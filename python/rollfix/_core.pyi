@@ -296,8 +296,7 @@ def build_catalog(
     arg1: Sequence[Tuple[str, str, float, Optional[Part]]],
     arg2: str,
     arg3: int,
-    arg4: bool,
-    arg5: Optional[Callable[[int], None]],
+    arg4: Optional[Callable[[int], None]],
 ) -> Tuple[List[Tuple[str, str]], List[str]]: ...
 def remove_from_catalog(arg0: str, arg1: Sequence[str]) -> int: ...
 def solve_many(

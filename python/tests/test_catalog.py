@@ -112,7 +112,7 @@ def test_a_folder_and_a_list_are_taken_as_they_stand(tmp_path, wing):
         built = rollfix.Catalog.build(tmp_path / "parts.db", folder)
     assert built.names == ("wing.json",) and [*built.left_out][0].endswith("broken.csv")
     (tmp_path / "list.txt").write_text("outlines/wing.json\t2\ngallery:cam\n")
-    listed = rollfix.Catalog.build(tmp_path / "lean.db", tmp_path / "list.txt", lean=True, threads=1, progress=False)
+    listed = rollfix.Catalog.build(tmp_path / "listed.db", tmp_path / "list.txt", threads=1, progress=False)
     assert len(listed) == 2 and listed.entries[0].count == 2
     assert listed.remove("gallery:cam") == 1 and len(listed) == 1 and len(rollfix.Catalog(listed.path)) == 1
 

@@ -66,9 +66,9 @@ std::string stamp_of(const CatalogSource& source, const BuildOptions& options) {
   };
   const OutlineOptions& points = options.load.points;
   // The unit is the catalog's, which stays.
-  return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}{}", file, source.name, source.count, points.open,
+  return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}{}", file, source.name, source.count, points.open,
                      points.corner_angle.value_or(-1), length(points.smooth), length(options.load.gap),
-                     options.load.layer, options.load.allow_crossing, options.lean,
+                     options.load.layer, options.load.allow_crossing,
                      fmt::format("{}{}",
                                  !points.decimal_comma   ? ""
                                  : *points.decimal_comma ? "|,"
@@ -81,7 +81,7 @@ BuildOptions in_unit(BuildOptions options, const std::string& unit) {
   return options;
 }
 
-ReadyPart ready_part(const Part& part, const std::string& name, double count, bool lean) {
+ReadyPart ready_part(const Part& part, const std::string& name, double count) {
   ReadyPart ready;
   ready.entry = {0, name, part.perimeter(), symmetry(part), part.closed(), part.reversed(), count};
   ready.period_turn = part.turning().period_turn();
@@ -91,7 +91,6 @@ ReadyPart ready_part(const Part& part, const std::string& name, double count, bo
   ready.cells = bytes_of(coarser(fine));
   ready.fine = fine_bytes_of(fine, coarser(fine));
   ready.record = record_of(part);
-  if (lean) ready.record.computed.clear();
   return ready;
 }
 
@@ -108,7 +107,7 @@ ReadySource read_source(const CatalogSource& source, const BuildOptions& options
       if (loop.outline.closed) closed.push_back(&loop);
     }
     if (closed.size() < 2 || options.load.points.open) {
-      ready.parts.push_back(ready_part(loaded.part, source.name, source.count, options.lean));
+      ready.parts.push_back(ready_part(loaded.part, source.name, source.count));
       return ready;
     }
     for (std::size_t k = 0; k < closed.size(); ++k) {
@@ -116,7 +115,7 @@ ReadySource read_source(const CatalogSource& source, const BuildOptions& options
       try {
         const bool is_loaded = k + 1 == loaded.loop;
         const Part part = is_loaded ? loaded.part : Part(closed[k]->outline, {options.load.allow_crossing});
-        ready.parts.push_back(ready_part(part, name, source.count, options.lean));
+        ready.parts.push_back(ready_part(part, name, source.count));
       } catch (const InputError& error) {
         ready.left_out.push_back({name, error.what()});
       }
@@ -368,17 +367,10 @@ class CatalogWriter {
     sum_change_ += sum;
     const PartRecord& record = part.record;
     Statement shape = database_.prepare(
-        "INSERT INTO shapes (part, fine, fine_checksum, outline, numbers, format, computed, checksum) "
-        "VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
+        "INSERT INTO shapes (part, fine, fine_checksum, outline, numbers, checksum) VALUES (?, ?, ?, ?, ?, ?)");
     shape.bind(0, id).bind_bytes(1, part.fine).bind(2, static_cast<std::int64_t>(sum_of_fine(part.fine, sum)));
-    shape.bind_text(3, record.outline).bind_bytes(4, record.numbers).bind(5, std::int64_t{kComputedFormat});
-    if (record.computed.empty()) {
-      shape.bind_nothing(6);
-    } else {
-      shape.bind_bytes(6, record.computed);
-    }
-    const ShapeRow row{record.outline, record.numbers, kComputedFormat, record.computed};
-    shape.bind(7, static_cast<std::int64_t>(sum_of(row, sum))).run();
+    shape.bind_text(3, record.outline).bind_bytes(4, record.numbers);
+    shape.bind(5, static_cast<std::int64_t>(sum_of({record.outline, record.numbers}, sum))).run();
   }
 
   Database database_;

@@ -80,7 +80,6 @@ class FineReader {
 struct Stored {
   std::string outline;
   std::string numbers;
-  std::optional<std::string> computed;  // none: of another format, or not kept
 };
 
 }  // namespace
@@ -149,14 +148,12 @@ void Catalog::State::read_entries() {
 
 Stored Catalog::State::stored(std::size_t which) {
   const std::lock_guard lock(mutex);
-  Statement row = database.prepare("SELECT outline, numbers, format, computed, checksum FROM shapes WHERE part = ?");
+  Statement row = database.prepare("SELECT outline, numbers, checksum FROM shapes WHERE part = ?");
   row.bind(0, entries[which].id);
   if (!row.step()) refuse(which, kTakenOut);
-  Stored stored{std::string(row.bytes(0)), std::string(row.bytes(1)), std::nullopt};
-  const bool is_current = row.whole(2) == kComputedFormat && !row.is_nothing(3);
-  if (is_current) stored.computed = std::string(row.bytes(3));
-  const std::uint64_t sum = sum_of(ShapeRow{stored.outline, stored.numbers, row.whole(2), row.bytes(3)}, sums[which]);
-  if (static_cast<std::int64_t>(sum) != row.whole(4)) refuse(which, kDamaged);
+  Stored stored{std::string(row.bytes(0)), std::string(row.bytes(1))};
+  const std::uint64_t sum = sum_of({stored.outline, stored.numbers}, sums[which]);
+  if (static_cast<std::int64_t>(sum) != row.whole(2)) refuse(which, kDamaged);
   return stored;
 }
 
@@ -223,8 +220,7 @@ Part Catalog::part(std::size_t index) const {
   const Stored stored = state_->stored(index);
   const std::string& name = state_->entries[index].name;
   try {
-    Part part = stored.computed ? part_of(stored.outline, stored.numbers + *stored.computed, name)
-                                : rebuilt_part(stored.outline, stored.numbers, name);
+    Part part = part_of(stored.outline, stored.numbers, name);
     const std::lock_guard lock(state_->mutex);
     if (state_->kept.size() >= kMostKept) state_->kept.clear();
     state_->kept.emplace(index, part);

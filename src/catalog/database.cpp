@@ -59,11 +59,6 @@ Statement& Statement::bind_bytes(int parameter, std::string_view bytes) {
   return *this;
 }
 
-Statement& Statement::bind_nothing(int parameter) {
-  check(sqlite3_bind_null(statement_.get(), parameter + 1));
-  return *this;
-}
-
 bool Statement::step() {
   const int code = sqlite3_step(statement_.get());
   if (code == SQLITE_ROW) return true;
@@ -87,8 +82,6 @@ std::string_view Statement::bytes(int column) const {
   const auto* const data = static_cast<const char*>(sqlite3_column_blob(statement_.get(), column));
   return {data, static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column))};
 }
-
-bool Statement::is_nothing(int column) const { return sqlite3_column_type(statement_.get(), column) == SQLITE_NULL; }
 
 void Database::Close::operator()(sqlite3* database) const { sqlite3_close_v2(database); }
 

@@ -20,7 +20,6 @@ class Statement {
   Statement& bind(int parameter, double value);
   Statement& bind_text(int parameter, std::string_view text);
   Statement& bind_bytes(int parameter, std::string_view bytes);
-  Statement& bind_nothing(int parameter);
 
   /// The next row; false: there is none.
   bool step();
@@ -31,7 +30,6 @@ class Statement {
   std::int64_t whole(int column) const;
   double number(int column) const;
   std::string_view bytes(int column) const;  // of a text as well; until the next step
-  bool is_nothing(int column) const;
 
  private:
   friend class Database;

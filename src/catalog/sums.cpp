@@ -31,8 +31,7 @@ std::uint64_t sum_of(const PartRow& row) {
 std::uint64_t sum_of(const ShapeRow& row, std::uint64_t part) {
   ByteWriter numbers;
   numbers.whole(part);
-  numbers.whole(static_cast<std::uint64_t>(row.format));
-  return sum_of(numbers, {row.outline, row.numbers, row.computed});
+  return sum_of(numbers, {row.outline, row.numbers});
 }
 
 std::uint64_t sum_of_fine(std::string_view fine, std::uint64_t part) {

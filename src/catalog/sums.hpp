@@ -26,8 +26,6 @@ struct PartRow {
 struct ShapeRow {
   std::string_view outline;
   std::string_view numbers;
-  std::int64_t format = 0;
-  std::string_view computed;  // empty: not kept
 };
 
 /// The checksum of all columns.

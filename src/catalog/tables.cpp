@@ -38,8 +38,6 @@ CREATE TABLE shapes (
   fine_checksum INTEGER NOT NULL,
   outline TEXT NOT NULL,
   numbers BLOB NOT NULL,
-  format INTEGER NOT NULL,
-  computed BLOB,
   checksum INTEGER NOT NULL);
 CREATE TABLE left_out (
   source INTEGER NOT NULL REFERENCES sources (id),

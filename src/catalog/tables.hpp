@@ -7,7 +7,7 @@
 
 namespace rollfix {
 
-inline constexpr const char* kCatalogSchema = "rollfix/catalog/3";
+inline constexpr const char* kCatalogSchema = "rollfix/catalog/4";
 
 /// Makes the tables where the file is new. Throws InputError: a file with other tables, or of another version.
 void make_tables(const Database& database);

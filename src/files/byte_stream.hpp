@@ -48,13 +48,6 @@ class ByteReader {
     return value;
   }
   double number() { return std::bit_cast<double>(whole()); }
-  /// A number of things that take at least `each` bytes: never more than there is room for.
-  std::size_t count(std::size_t each) {
-    const std::uint64_t value = whole();
-    if (value <= (bytes_.size() - next_) / each) return static_cast<std::size_t>(value);
-    ok_ = false;
-    return 0;
-  }
   bool ok() const { return ok_; }
   bool at_end() const { return next_ == bytes_.size(); }
 

@@ -19,7 +19,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kSchemaStart = "rollfix/part/";
-constexpr const char* kSchema = "rollfix/part/1";
+constexpr const char* kSchema = "rollfix/part/2";
+constexpr const char* kOlderSchema = "rollfix/part/1";  // it held what was computed, too
 constexpr std::string_view kDataField = ",\n\"data\": \"";
 constexpr std::string_view kChecksumField = "\",\n\"checksum\": \"";
 constexpr std::string_view kEnd = "\"}\n";
@@ -50,7 +51,7 @@ std::string format_part(const Part& part) {
   std::string text = fmt::format("{{\n\"schema\": \"{}\",{}", kSchema, record.outline.substr(1));
   text.resize(text.size() - 2);
   text += kDataField;
-  text += to_base64(record.numbers + record.computed);
+  text += to_base64(record.numbers);
   const std::uint64_t sum = checksum(text);
   return text.append(kChecksumField).append(fmt::format("{:016x}", sum)).append(kEnd);
 }
@@ -61,9 +62,9 @@ Part parse_part(std::string_view text, const std::string& name) {
   const std::size_t end = find_or_refuse(text, kChecksumField, data_at + kDataField.size(), name);
   const std::string expected = fmt::format("{:016x}{}", checksum(text.substr(0, end)), kEnd);
   const Json json = Json::parse(std::string(text.substr(0, data_at)) + "}", nullptr, false);
-  if (json.is_object() && json.contains("schema") && json["schema"].is_string() && json["schema"] != kSchema) {
-    refuse(name,
-           fmt::format("is a saved part of version '{}', expected '{}'", json["schema"].get<std::string>(), kSchema));
+  const std::string schema = json.is_object() ? json.value("schema", kSchema) : kSchema;
+  if (schema != kSchema && schema != kOlderSchema) {
+    refuse(name, fmt::format("is a saved part of version '{}', expected '{}'", schema, kSchema));
   }
   if (text.substr(end + kChecksumField.size()) != expected) {
     refuse(name, "is a saved part that was changed or damaged since it was written (its checksum does not fit)");
@@ -73,7 +74,8 @@ Part parse_part(std::string_view text, const std::string& name) {
       from_base64(text.substr(data_at + kDataField.size(), end - data_at - kDataField.size()), is_base64);
   if (!is_base64) refuse(name, "is a saved part whose contents contradict each other");
   try {
-    return part_of(std::string(text.substr(0, data_at)) + "}", bytes, name);
+    return part_of(std::string(text.substr(0, data_at)) + "}", bytes, name,
+                   schema == kOlderSchema ? Rest::ignored : Rest::refused);
   } catch (const InputError&) {
     throw;
   } catch (const std::invalid_argument&) {

@@ -33,7 +33,6 @@ struct BuildArguments {
   std::string catalog;
   std::string jobs;
   PartArgument part;
-  bool lean = false;
   bool json = false;
 };
 
@@ -89,7 +88,6 @@ std::vector<std::string> gathered(const std::vector<std::string>& notes) {
 BuildOptions read_options(const BuildArguments& arguments) {
   BuildOptions options;
   options.load = read_load_options(arguments.part);
-  options.lean = arguments.lean;
   if (!arguments.jobs.empty()) options.jobs = static_cast<unsigned>(read_count(arguments.jobs, "--jobs", 1));
   return options;
 }
@@ -197,8 +195,6 @@ void add_build(CLI::App& catalog, Command& chosen) {
   command->add_option("-o", arguments->catalog, "the catalog, an SQLite file")->type_name("FILE");
   command->add_option("--jobs", arguments->jobs, "threads; default as many as there are processors")->type_name("N");
   add_load_arguments(*command, arguments->part);
-  add_switch(*command, "--lean", arguments->lean,
-             "keep outlines only and compute parts when they are asked for: a seventh of the size");
   add_switch(*command, "--json", arguments->json, "print JSON (rollfix/catalog/1)");
   command->callback([arguments, &chosen] { chosen = [arguments] { return build_report(*arguments); }; });
 }

@@ -86,7 +86,6 @@ struct BuildProgress {
 struct BuildOptions {
   LoadOptions load{};  // how files are taken; `loop` is not asked: every closed loop of a drawing is a part
   unsigned jobs = 0;   // threads; 0: as many as the machine has processors
-  bool lean = false;   // only outlines are kept, and parts are computed when they are asked for: a seventh of the size
   /// Called now and then by the thread that waits: false stops the build; what was done stays.
   std::function<bool(const BuildProgress&)> go_on{};
 };

@@ -7,9 +7,9 @@
 
 namespace rollfix {
 
-/// A part with all that was computed of it, as the text of a file: JSON whose numbers are kept bit by bit, with a
-/// version and a checksum. Throws InputError when the outline has curves of a type that can't be saved (one of the
-/// user's own, without `record()`).
+/// A part's outline as the text of a file: JSON whose numbers are kept bit by bit, with a version and a checksum.
+/// Throws InputError when the outline has curves of a type that can't be saved (one of the user's own, without
+/// `record()`).
 std::string format_part(const Part& part);
 
 /// The part of such a text: it answers every question with the same bits as the one that was saved. `name` is what

@@ -96,7 +96,6 @@ class TurningFunction {
 
  private:
   friend class TurningFunctionBuilder;
-  friend struct TurningFunctionAccess;  // for saving it
 
   std::uint32_t middle_panel(std::uint32_t first, std::uint32_t last, double base) const;
 

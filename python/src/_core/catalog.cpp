@@ -91,7 +91,7 @@ std::vector<SourceTuple> sources_of(const std::string& argument) {
 
 /// What was left out, and notes.
 py::tuple build(const std::string& path, const std::vector<SourceTuple>& given, const std::string& unit,
-                unsigned threads, bool lean, const py::object& progress) {
+                unsigned threads, const py::object& progress) {
   std::vector<CatalogSource> sources;
   for (const auto& [argument, name, count, part] : given) {
     sources.push_back({argument, name, count, part ? std::optional<Part>(part->part()) : std::nullopt});
@@ -99,7 +99,6 @@ py::tuple build(const std::string& path, const std::vector<SourceTuple>& given, 
   BuildOptions options;
   options.load.points.unit = unit;
   options.jobs = threads;
-  options.lean = lean;
   options.go_on = [&progress](const BuildProgress& far) { return goes_on(progress, far.done); };
   BuildReport report;
   {
