@@ -1,6 +1,7 @@
 #include "pose_boxes.hpp"
 
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -11,7 +12,7 @@ namespace rollfix::touch {
 namespace {
 
 // Places of a touch are looked at in pieces of this share of its tolerance; a box that is left is no larger than it.
-constexpr double kFinest = 0.01;
+constexpr double kFinest = 0.002;
 
 // A box is moved only where it turns by no more, radians: what moves it turns with it.
 constexpr double kLittleTurn = 0.3;
@@ -28,11 +29,11 @@ bool is_near(double one, double other, double most) { return std::abs(nearest_an
 
 /// A place within these tolerances of a touch, or one that is not known to be outside them by more than a little.
 std::optional<PathPlace> place_within(PathTree& tree, const InPart& touch, double place, double angle, bool surely) {
-  std::vector<std::int32_t> waiting{tree.root()};
+  boost::container::small_vector<std::int32_t, 64> waiting{tree.root()};
   while (!waiting.empty()) {
     const std::int32_t index = waiting.back();
     waiting.pop_back();
-    const PathTree::Node node = tree.node(index);
+    const PathTree::Node& node = tree.node(index);
     const double off = (touch.at - node.middle).norm();
     if (off - node.radius > place) continue;
     if (touch.tangent && !is_near(*touch.tangent, node.angle, angle + node.half_turn)) continue;
@@ -80,17 +81,25 @@ class BoxSearch {
   }
 
  private:
+  /// The touch that ruled out the box before is asked first: mostly it does again.
   bool may_fit(const PoseBox& box) {
-    for (std::size_t k = 0; k < fit_.touches().size(); ++k) {
-      const Measured& touch = fit_.touches()[k];
-      const double moved = std::numbers::sqrt2 * box.place;
-      const double slack = moved + box.turn * (moved + (touch.at - fit_.about()).norm());
-      if (!place_within(fit_.tree(), fit_.in_part(box.middle, k), touch.place_most + slack, touch.angle_most + box.turn,
-                        false)) {
-        return false;
-      }
+    const std::size_t count = fit_.touches().size();
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t touch = (last_ + k) % count;
+      if (may_fit(box, touch)) continue;
+      last_ = touch;
+      return false;
     }
     return true;
+  }
+
+  bool may_fit(const PoseBox& box, std::size_t which) {
+    const Measured& touch = fit_.touches()[which];
+    const double moved = std::numbers::sqrt2 * box.place;
+    const double slack = moved + box.turn * (moved + (touch.at - fit_.about()).norm());
+    return place_within(fit_.tree(), fit_.in_part(box.middle, which), touch.place_most + slack,
+                        touch.angle_most + box.turn, false)
+        .has_value();
   }
 
   std::optional<FittedPose> fits(const Pose& pose) {
@@ -125,6 +134,7 @@ class BoxSearch {
   std::size_t budget_;
   double finest_ = 0;
   double reach_ = 0;
+  std::size_t last_ = 0;
 };
 
 /// Around all poses of the cells.

@@ -35,7 +35,7 @@ constexpr double kSure = 0.95;
 constexpr int kRefinements = 2;
 constexpr double kFiner = 0.25;
 // Boxes of poses that are looked at for each such set.
-constexpr std::size_t kBoxBudget = 20000;
+constexpr std::size_t kBoxBudget = 200000;
 
 std::vector<Measured> measured(const TouchProblem& problem) {
   std::vector<Measured> touches;

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "outline/turn.hpp"
 #include "rollfix/outline/primitives.hpp"
 #include "rollfix/part/part.hpp"
 #include "rollfix/touch/touch.hpp"
@@ -23,6 +22,8 @@ using rollfix::TouchAnswer;
 using rollfix::TouchPose;
 using rollfix::TouchProblem;
 using rollfix::Vec2;
+
+constexpr double kFullTurn = 2 * std::numbers::pi;
 
 inline double uniform(std::mt19937_64& generator, double lo, double hi) {
   return std::uniform_real_distribution<double>(lo, hi)(generator);
@@ -131,8 +132,8 @@ inline Case random_case(const Part& part, const Making& making, std::mt19937_64&
 
 /// Whether a value is in an interval of headings, which may be any number of turns off.
 inline bool holds_heading(const rollfix::Interval& interval, double heading, double slack = 0) {
-  return interval.width() >= rollfix::kFullTurn ||
-         std::abs(rollfix::nearest_angle(heading - interval.middle())) <= 0.5 * interval.width() + slack;
+  return interval.width() >= kFullTurn ||
+         std::abs(std::remainder(heading - interval.middle(), kFullTurn)) <= 0.5 * interval.width() + slack;
 }
 
 inline bool in_extent(const TouchPose& pose, const Pose& truth) {
@@ -143,7 +144,7 @@ inline bool in_extent(const TouchPose& pose, const Pose& truth) {
 /// How far a part of this size has to be moved from one pose to another, about.
 inline double apart(const Pose& one, const Pose& other, const Vec2& middle, double size) {
   const Vec2 moved = Vec2(one.x, one.y) + one.turned(middle) - Vec2(other.x, other.y) - other.turned(middle);
-  return moved.norm() + 0.5 * size * std::abs(rollfix::nearest_angle(one.heading - other.heading));
+  return moved.norm() + 0.5 * size * std::abs(std::remainder(one.heading - other.heading, kFullTurn));
 }
 
 }  // namespace touch_cases

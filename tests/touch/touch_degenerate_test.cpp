@@ -4,6 +4,7 @@
 #include <numbers>
 #include <vector>
 
+#include "outline/turn.hpp"
 #include "rollfix/outline/primitives.hpp"
 #include "touch_cases.hpp"
 

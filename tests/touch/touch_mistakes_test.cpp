@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "outline/turn.hpp"
 #include "refusal.hpp"
 #include "touch_cases.hpp"
 

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <string>
 
+#include "outline/turn.hpp"
 #include "random.hpp"
 #include "touch/touch_cases.hpp"
 

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "outline/turn.hpp"
 #include "random.hpp"
 #include "random_outlines.hpp"
 #include "touch/touch_cases.hpp"

@@ -3,6 +3,7 @@
 #include <array>
 #include <string>
 
+#include "outline/turn.hpp"
 #include "random.hpp"
 #include "touch/touch_cases.hpp"
 
