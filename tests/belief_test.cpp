@@ -186,7 +186,7 @@ TEST(Weigh, every_placement_of_the_search_is_listed_or_improbable) {
   rollfix::LocateOptions options;
   options.tolerance = belief.tolerance(readings);
   const rollfix::Search found = rollfix::locate(part, readings, options);
-  const rollfix::Weighed weighed = rollfix::weigh(part, readings, {}, found, belief);
+  const rollfix::Weighed weighed = rollfix::weigh(part, readings, {}, found.placements, belief);
   ASSERT_EQ(weighed.placements.size(), belief.modes().size());
   EXPECT_GE(weighed.placements.size() + weighed.improbable.size(), found.placements.size());
   EXPECT_LT(distance(part, weighed.placements.front().start[0], 2), 5 * weighed.placements.front().sd[0]);

@@ -94,7 +94,7 @@ TEST(DropUnreachable, takes_out_what_lies_in_a_dimple_and_leaves_the_rest) {
     const Reading reading = shapes::reading_from(part, part.perimeter() * unit(generator), length);
     Search search = locate(part, reading, tight());
     const std::vector<Placement> before = search.placements;
-    const std::vector<Impossible> impossible = drop_unreachable(part, reach, {reading}, search);
+    const std::vector<Impossible> impossible = drop_unreachable(part, reach, {reading}, search.placements);
     EXPECT_EQ(search.placements.size() + impossible.size(), before.size());
     dropped += impossible.size();
     // The arc has two ends and goes round the outside: a roll is possible when both its ends are on it, and the gap,
@@ -124,7 +124,7 @@ TEST(DropUnreachable, never_drops_a_roll_that_stays_within_reach) {
     const double length = arc.lo + arc.width() * unit(generator) - s;
     const Reading reading = shapes::reading_from(part, s, length);
     Search search = locate(part, reading, tight());
-    drop_unreachable(part, reach, {reading}, search);
+    drop_unreachable(part, reach, {reading}, search.placements);
     EXPECT_TRUE(shapes::holds(part, search, part.boundary().base(s), 1e-6)) << "seed " << test_seed();
   }
 }
@@ -136,8 +136,8 @@ TEST(DropUnreachable, takes_the_instants_in_between_into_account) {
   Search search = locate(part, {0.1, 0.0}, tight());
   const std::size_t all = search.placements.size();
   Search again = search;
-  EXPECT_EQ(drop_unreachable(part, reach, {{0.1, 0.0}}, search).size(), 0U);
-  drop_unreachable(part, reach, {{0.1, 0.0}}, again, {{1.9, 0.0}});
+  EXPECT_EQ(drop_unreachable(part, reach, {{0.1, 0.0}}, search.placements).size(), 0U);
+  drop_unreachable(part, reach, {{0.1, 0.0}}, again.placements, {{1.9, 0.0}});
   EXPECT_LT(again.placements.size(), all);
 }
 
@@ -150,9 +150,9 @@ TEST(DropUnreachable, allows_for_the_error_of_a_length) {
   const Reading reading = shapes::reading_from(part, s, length);
   Search search = locate(part, reading, tight());
   Search again = search;
-  drop_unreachable(part, reach, {reading}, search);
+  drop_unreachable(part, reach, {reading}, search.placements);
   EXPECT_FALSE(shapes::holds(part, search, part.boundary().base(s), 1e-6));
-  drop_unreachable(part, reach, {reading}, again, {}, 5e-4);
+  drop_unreachable(part, reach, {reading}, again.placements, {}, 5e-4);
   EXPECT_TRUE(shapes::holds(part, again, part.boundary().base(s), 1e-6));
 }
 
@@ -185,7 +185,7 @@ TEST(DropUnreachable, of_a_pivot_looks_at_its_angles) {
   const double edge = part.turning().angle(6.5);  // of the edge before the corner at s = 7
   const auto left = [&](double turn) {
     Search search = locate(part, {0.2, turn}, tight());
-    drop_unreachable(part, reach, {{0.2, turn}}, search);
+    drop_unreachable(part, reach, {{0.2, turn}}, search.placements);
     return std::any_of(search.placements.begin(), search.placements.end(),
                        [](const Placement& placement) { return std::abs(placement.start[0] - 6.8) < 1e-6; });
   };
@@ -201,7 +201,7 @@ TEST(DropUnreachable, a_pivot_that_is_barred_half_way_leads_to_the_side_where_it
   ASSERT_EQ(reach.pivots.at(0).angles.size(), 2U);
   const auto left = [&](double length, double turn) {
     Search search = locate(part, {length, turn}, tight());
-    drop_unreachable(part, reach, {{length, turn}}, search);
+    drop_unreachable(part, reach, {{length, turn}}, search.placements);
     return std::any_of(search.placements.begin(), search.placements.end(),
                        [](const Placement& placement) { return std::abs(placement.start[0]) < 1e-6; });
   };
@@ -216,7 +216,7 @@ TEST(DropUnreachable, a_finger_that_only_pivots_gets_to_the_end_of_the_pivot) {
   const Part part = u_shape();
   for (const double turn : {0.5, -0.5}) {
     Search search = locate(part, {0, turn}, tight());
-    EXPECT_EQ(drop_unreachable(part, reach_of_jaw(part), {{0, turn}}, search).size(), 2U);
+    EXPECT_EQ(drop_unreachable(part, reach_of_jaw(part), {{0, turn}}, search.placements).size(), 2U);
     EXPECT_THAT(shapes::starts(search), testing::Pointwise(testing::DoubleNear(1e-6), {0.0, 3.0, 6.0, 13.0}));
   }
 }
@@ -226,11 +226,11 @@ TEST(DropUnreachable, of_a_jaw_leaves_what_is_on_the_convex_hull) {
   const Reach reach = reach_of_jaw(part);
   const Reading outside = shapes::reading_from(part, 1, 0.5);
   Search search = locate(part, outside, tight());
-  drop_unreachable(part, reach, {outside}, search);
+  drop_unreachable(part, reach, {outside}, search.placements);
   EXPECT_TRUE(shapes::holds(part, search, 1, 1e-6));
   const Reading inside = shapes::reading_from(part, 0.5 * part.perimeter() - 0.1, 0.2);
   search = locate(part, inside, tight());
-  const std::vector<Impossible> dropped = drop_unreachable(part, reach, {inside}, search);
+  const std::vector<Impossible> dropped = drop_unreachable(part, reach, {inside}, search.placements);
   EXPECT_FALSE(shapes::holds(part, search, 0.5 * part.perimeter() - 0.1, 1e-6));
   EXPECT_FALSE(dropped.empty());
 }
@@ -253,7 +253,7 @@ bool remains(const Part& part, double s, double t, const std::vector<std::array<
   std::vector<Reading> readings;
   for (const auto& [length_a, length_b] : lengths) readings.push_back(pair_reading(part, s, t, length_a, length_b));
   Search search = locate(part, readings);
-  drop_unreachable(part, disks(part, a, b), readings, search);
+  drop_unreachable(part, disks(part, a, b), readings, search.placements);
   return std::any_of(search.placements.begin(), search.placements.end(), [&](const Placement& placement) {
     return std::abs(placement.start[0] - s) < 1e-6 && std::abs(placement.start[1] - t) < 1e-6;
   });
@@ -299,7 +299,7 @@ TEST(Overlap, says_when_and_by_how_much) {
   LocateOptions options;
   options.facing = -kPi / 2;
   Search search = locate(part, readings, options);
-  const std::vector<Impossible> dropped = drop_unreachable(part, disks(part, 0.5, 0.5), readings, search);
+  const std::vector<Impossible> dropped = drop_unreachable(part, disks(part, 0.5, 0.5), readings, search.placements);
   ASSERT_EQ(dropped.size(), 1U);
   EXPECT_TRUE(search.placements.empty());
   EXPECT_EQ(dropped[0].reason, Impossible::Reason::overlap);
@@ -313,7 +313,7 @@ TEST(Overlap, of_fingers_at_different_heights_is_none) {
   LocateOptions options;
   options.facing = -kPi / 2;
   Search search = locate(part, readings, options);
-  EXPECT_TRUE(drop_unreachable(part, disks(part, 0.5, 0.5), readings, search, {}, 0, true).empty());
+  EXPECT_TRUE(drop_unreachable(part, disks(part, 0.5, 0.5), readings, search.placements, {}, 0, true).empty());
   EXPECT_EQ(search.placements.size(), 1U);
 }
 
@@ -329,7 +329,7 @@ TEST(Overlap, drops_an_extent_only_where_the_disks_are_in_each_other_from_everyw
     placement.whole_loop = PerFinger<bool>(false, false);
     Search search;
     search.placements.push_back(placement);
-    drop_unreachable(part, disks(part, 0.5, 0.5), readings, search);
+    drop_unreachable(part, disks(part, 0.5, 0.5), readings, search.placements);
     EXPECT_EQ(search.placements.size(), reach > 0.05 ? 1U : 0U) << reach;
   }
 }
@@ -342,7 +342,7 @@ TEST(Overlap, drops_the_continuum_of_two_fingers_at_one_place) {
   options.facing = 0;
   Search search = locate(part, readings, options);
   ASSERT_FALSE(search.placements.empty());
-  drop_unreachable(part, disks(part, 0.2, 0.2), readings, search);
+  drop_unreachable(part, disks(part, 0.2, 0.2), readings, search.placements);
   for (const Placement& placement : search.placements) EXPECT_NE(placement.kind, Kind::stretch);
 }
 
@@ -354,7 +354,7 @@ TEST(DropUnreachable, of_two_fingers_names_the_one_that_leaves_its_reach) {
   LocateOptions options;
   options.facing = part.turning().angle(1) - part.turning().angle(dimple - 0.05);
   Search search = locate(part, readings, options);
-  const std::vector<Impossible> dropped = drop_unreachable(part, disks(part, 0.3, 0.3), readings, search);
+  const std::vector<Impossible> dropped = drop_unreachable(part, disks(part, 0.3, 0.3), readings, search.placements);
   const auto mine = std::find_if(dropped.begin(), dropped.end(),
                                  [&](const Impossible& item) { return std::abs(item.placement.start[0] - 1) < 1e-6; });
   ASSERT_NE(mine, dropped.end());

@@ -76,12 +76,9 @@ Answer either_searched(Answer one, const Answer& other) {
     if (a.is_contradicted != b.is_contradicted) return b.is_contradicted;
     return a.start[0] < b.start[0];
   });
-  Search found;
-  found.status = one.status;
-  for (const Placement& placement : one.placements) {
-    if (!placement.is_contradicted) found.placements.push_back(placement);
+  if (one.status == Status::incomplete || (one_fits && other_fits)) {
+    one.verdict = verdict_of(one.status, one.placements);
   }
-  if (one.status == Status::incomplete || (one_fits && other_fits)) one.verdict = found.verdict();
   return one;
 }
 

@@ -93,18 +93,14 @@ void drop_impossible(const Problem& problem, const Observation& observed, Answer
   const Doing doing("looking where the fingers can reach");
   if (answer.fingers.empty() || !std::all_of(answer.fingers.begin(), answer.fingers.end(), has_reach)) return;
   answer.has_reach = true;
-  Search kept;
-  kept.placements = std::move(answer.placements);
   answer.impossible =
       drop_unreachable(answer.part, reaches_of(answer.part, answer.fingers, answer.finger_count()), answer.readings,
-                       kept, observed.rolls, length_error(problem, observed), problem.may_overlap);
-  answer.placements = std::move(kept.placements);
+                       answer.placements, observed.rolls, length_error(problem, observed), problem.may_overlap);
   for (const Impossible& item : answer.impossible) {
     ++(item.reason == Impossible::Reason::reach ? answer.dropped.reach : answer.dropped.overlap);
   }
   if (!answer.impossible.empty() && answer.status == Status::complete) {
-    kept.placements = answer.placements;
-    answer.verdict = kept.verdict();
+    answer.verdict = verdict_of(Status::complete, answer.placements);
   }
 }
 

@@ -204,18 +204,12 @@ double jitter_of_centres(const Log& log) {
 
 void check_rows(const Problem& problem, const Observation& observed, bool explains, Answer& answer) {
   const RowsCheck check(problem, observed, answer);
-  Search agreeing;
-  agreeing.status = answer.status;
-  for (Placement& placement : answer.placements) {
-    placement.is_contradicted = check.contradicts(placement);
-    if (!placement.is_contradicted) agreeing.placements.push_back(placement);
-  }
-  const bool all_agree = agreeing.placements.size() == answer.placements.size();
-  if (all_agree && !answer.placements.empty()) return;
-  std::stable_partition(answer.placements.begin(), answer.placements.end(),
-                        [](const Placement& placement) { return !placement.is_contradicted; });
-  if (!agreeing.placements.empty()) {
-    if (answer.status == Status::complete) answer.verdict = agreeing.verdict();
+  for (Placement& placement : answer.placements) placement.is_contradicted = check.contradicts(placement);
+  const auto contradicted =
+      std::stable_partition(answer.placements.begin(), answer.placements.end(),
+                            [](const Placement& placement) { return !placement.is_contradicted; });
+  if (contradicted != answer.placements.begin()) {
+    if (answer.status == Status::complete) answer.verdict = verdict_of(answer.status, answer.placements);
     return;
   }
   answer.verdict.fits_badly = true;

@@ -196,9 +196,7 @@ void weigh(const Problem& problem, const Observation& observed, bool explains, B
     answer.diagnoses = diagnoses_by_centres(problem, observed);
     if (!answer.diagnoses.empty()) answer.verdict.fits_badly = true;
   }
-  Search found;
-  found.placements = std::move(answer.placements);
-  Weighed weighed = weigh(answer.part, answer.readings, answer.facing, found, belief);
+  Weighed weighed = weigh(answer.part, answer.readings, answer.facing, answer.placements, belief);
   weighing.improbable = std::move(weighed.improbable);
   add_pose_spreads(problem, belief, weighed.placements);
   if (answer.verdict.name == Verdict::inconsistent) {

@@ -124,21 +124,21 @@ Placement with_mode(Placement placement, const Mode& mode, const Part& part) {
 }  // namespace
 
 Weighed weigh(const Part& part, const std::vector<Reading>& readings, const std::optional<double>& facing,
-              const Search& found, Belief& belief) {
+              const std::vector<Placement>& found, Belief& belief) {
   const Question question{part, readings, facing};
   Weighed weighed;
-  std::vector<bool> has_mode(found.placements.size(), false);
+  std::vector<bool> has_mode(found.size(), false);
   for (const Mode& mode : belief.modes()) {
     const Placement* nearest = nullptr;
     double least = kInfinity;
-    for (std::size_t k = 0; k < found.placements.size(); ++k) {
-      const double off = off_placement(found.placements[k], mode, part);
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      const double off = off_placement(found[k], mode, part);
       if (off < least) {
         least = off;
-        nearest = &found.placements[k];
+        nearest = &found[k];
       }
       // A wide mode can hold several.
-      if (off <= kNear || lies_in(mode.interval, found.placements[k].start, part)) has_mode[k] = true;
+      if (off <= kNear || lies_in(mode.interval, found[k].start, part)) has_mode[k] = true;
     }
     // What the tolerance reaches with a pivot, all samples together may have elsewhere.
     const bool is_elsewhere =
@@ -154,8 +154,8 @@ Weighed weigh(const Part& part, const std::vector<Reading>& readings, const std:
     }
     weighed.placements.push_back(std::move(placement));
   }
-  for (std::size_t k = 0; k < found.placements.size(); ++k) {
-    if (!has_mode[k]) weighed.improbable.push_back(found.placements[k]);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    if (!has_mode[k]) weighed.improbable.push_back(found[k]);
   }
   return weighed;
 }

@@ -216,20 +216,23 @@ bool Placement::contains(const Boundary& boundary, const PerFinger<double>& s) c
   return true;
 }
 
-Verdict Search::verdict() const {
+Verdict verdict_of(Status status, const std::vector<Placement>& placements) {
   if (status == Status::incomplete) return {Verdict::undecided};
-  if (placements.empty()) return {Verdict::inconsistent};
+  std::size_t count = 0;
   std::size_t stretches = 0;
   for (const Placement& placement : placements) {
+    if (placement.is_contradicted) continue;
     for (const bool whole_loop : placement.whole_loop) {
       if (whole_loop) return {Verdict::unobservable};
     }
+    ++count;
     stretches += placement.kind == Kind::stretch ? 1 : 0;
   }
-  if (placements.size() == 1 && stretches == 0) return {Verdict::unique, 1};
+  if (count == 0) return {Verdict::inconsistent};
+  if (count == 1 && stretches == 0) return {Verdict::unique, 1};
   // Several placements of one finger are counted alike, whatever their kinds.
-  if (placements.size() > 1 && placements.front().start.size() == 1) stretches = 0;
-  return {Verdict::ambiguous, placements.size(), stretches};
+  if (count > 1 && placements.front().start.size() == 1) stretches = 0;
+  return {Verdict::ambiguous, count, stretches};
 }
 
 SlopeSample slope_sample(const Part& part, const Reading& reading, const PerFinger<double>& at) {

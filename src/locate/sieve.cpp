@@ -185,19 +185,19 @@ class Sieve {
 }  // namespace
 
 std::vector<Impossible> drop_unreachable(const Part& part, const PerFinger<Reach>& reach,
-                                         const std::vector<Reading>& readings, Search& search,
+                                         const std::vector<Reading>& readings, std::vector<Placement>& placements,
                                          const std::vector<Reading>& more, double length_error, bool may_overlap) {
   const Sieve sieve(part, reach, readings, more, length_error, may_overlap);
   std::vector<Impossible> dropped;
   std::vector<Placement> kept;
-  for (Placement& placement : search.placements) {
+  for (Placement& placement : placements) {
     if (auto impossible = sieve.look_at(placement)) {
       dropped.push_back(std::move(*impossible));
     } else {
       kept.push_back(std::move(placement));
     }
   }
-  search.placements = std::move(kept);
+  placements = std::move(kept);
   return dropped;
 }
 

@@ -266,6 +266,6 @@ struct Weighed {
 /// which exact roots it holds; its placements without a mode are improbable. `readings`, `facing`: what was searched
 /// with. Of two fingers the sensitivity is of the search's own start.
 Weighed weigh(const Part& part, const std::vector<Reading>& readings, const std::optional<double>& facing,
-              const Search& found, Belief& belief);
+              const std::vector<Placement>& found, Belief& belief);
 
 }  // namespace rollfix

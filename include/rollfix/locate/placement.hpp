@@ -124,6 +124,9 @@ struct SearchCounts {
   std::size_t evaluations = 0;  // of the turning function
 };
 
+/// What these placements come to. One that the rows of a log contradict does not count.
+Verdict verdict_of(Status status, const std::vector<Placement>& placements);
+
 /// What a search found.
 struct Search {
   Status status = Status::complete;
@@ -131,7 +134,7 @@ struct Search {
   std::vector<PerFinger<Interval>> unresolved;  // where a placement may be that is not listed
   SearchCounts counts;
 
-  Verdict verdict() const;
+  Verdict verdict() const { return verdict_of(status, placements); }
 };
 
 }  // namespace rollfix

@@ -36,7 +36,7 @@ bool can_roll(const Reach& reach, const Interval& starts, const Interval& roll);
 /// Where a roll from s leaves the reach; nothing when it does not.
 std::optional<Obstruction> obstruction_of(const Part& part, const Reach& reach, double s, const Interval& roll);
 
-/// Takes the placements out of a search that no roll within reach can have: all of their extent is impossible.
+/// Takes the placements out of a list that no roll within reach can have: all of their extent is impossible.
 /// `reach`: of each finger. `readings`: what was searched with; `more`: other instants of the same roll, of a log all
 /// its rows. The contact has been everywhere in between. `length_error`: how far a length may be off, so that a finger
 /// that rolled until it met something is not taken to have gone further, nor one beside a corner to have pivoted. Two
@@ -44,7 +44,7 @@ std::optional<Obstruction> obstruction_of(const Part& part, const Reach& reach, 
 /// both are at the same instant: at the first contacts and at each of the others. Jaws are not compared with each
 /// other, nor are fingers at different heights, which `may_overlap`.
 std::vector<Impossible> drop_unreachable(const Part& part, const PerFinger<Reach>& reach,
-                                         const std::vector<Reading>& readings, Search& search,
+                                         const std::vector<Reading>& readings, std::vector<Placement>& placements,
                                          const std::vector<Reading>& more = {}, double length_error = 0,
                                          bool may_overlap = false);
 
