@@ -10,7 +10,8 @@
 // Notation: s is the arc length, u a curve's parameter, theta the tangent's angle. On a piece
 //   s = s_base + l(x), theta = angle_base + a(x), x = u - middle,
 // where l' = ds/du and a' = d(theta)/du are the formula's Taylor series of degree kOrder - 1: the last coefficient is
-// that of all places of the piece, so that both polynomials hold the exact ones (Taylor's theorem).
+// that of all places of the piece, so that both polynomials hold the exact ones (Taylor's theorem). Follows
+// docs/certificates.md, "How it is checked", step 1; `after` is step 2.
 namespace rollfix_verify {
 namespace {
 

@@ -7,7 +7,7 @@
 // Notation: Theta(s) is the tangent's angle, kappa = Theta' the curvature; of a reading with length L and turn theta
 //   f(s) = Theta(s + L) - Theta(s) - theta,  f'(s) = kappa(s + L) - kappa(s).
 // A cell is all s from one row to the next. What is claimed of it is proved by bounds on f or f' there, or of both
-// halves.
+// halves. Follows eqs. (4) and (5) of the paper (Jia, IROS 2001); docs/certificates.md, "How it is checked", step 3.
 namespace rollfix_verify {
 namespace {
 

@@ -9,9 +9,16 @@
 #include "document.hpp"
 #include "remains.hpp"
 
-// One finger. Rows are rolls from starts that rise and go once round, or from end to end; the starts from one row to
-// the next are a cell. Each start is in a cell: T1 is proved by what the cells exclude and by what remains of each run
-// of others, T2 by fits, T3 by the cells' own proofs and check_kind, T4 in read_row and by Document.
+// Notation, as in docs/certificates.md:
+//   s               a start; a row is a start with the rolls of all readings from it: `rows_[k]`
+//   f(s)            Theta(s + L) - Theta(s) - theta of a reading: Row::f; its bounds are those of cells.cpp
+//   X               the starts at which every |f| is within the tolerance
+//   cell            all starts from one row to the next, with its claim: `kind`, `by`; a group is a run of cells that
+//                   are not apart
+// Follows docs/certificates.md, "What proved means" and "How it is checked". Each start is in a cell, for rows rise and
+// go once round, or from end to end (check_cover). T1, nothing else: check_cell for what is apart, find_remains for the
+// rest of each group. T2, each is there: fits, or check_root. T3, kind and count: check_cell and is_of_kind. T4, the
+// question: read_row, and Document.
 namespace rollfix_verify {
 namespace {
 

@@ -13,9 +13,16 @@
 #include "document.hpp"
 #include "pair_boxes.hpp"
 
-// Two fingers. Boxes hold all pairs (s, t) of first contacts: read_cover walks through them. T1 is proved by what is
-// proved of each box (check_cell) and by what remains of those of each placement (look_at_pieces), T2 by
-// check_placement, T3 by check_roots, T4 in read_row, whole and by Document.
+// Notation, as in docs/certificates.md, "Two fingers":
+//   (s, t)          a pair of first contacts: `start[0]`, `start[1]`
+//   F(s, t)         A(s) - B(t), an equation for each reading, then the facing: `equations_`
+//   X               the pairs at which every equation is off by no more than the tolerance
+//   box, leaf       a stretch of s times one of t; a cell of the tree with its claim, and `whole_` holds all pairs
+//   remains         convex sets that hold all of X in a cell: Placement::remains
+// Follows docs/certificates.md, "What proved means" and "Two fingers". read_cover walks through boxes that hold all
+// pairs. T1, nothing else: check_cell, and look_at_pieces for what remains of the cells of each placement. T2, each is
+// there: check_placement. T3, kind and count: check_roots and check_line. T4, the question: read_row, whole, and
+// Document.
 namespace rollfix_verify {
 namespace {
 

@@ -12,6 +12,7 @@
 //  * by its ranges: the sum of what each angle takes there, and
 //  * by its chord: as far as w . kappa is in a ball K, it leaves the straight way from end to end by no more than
 //    (hi - lo) |K| / 4, |K| the ball's width, and by what joints in between turn.
+// Follows docs/certificates.md, "Two fingers".
 namespace rollfix_verify {
 namespace {
 

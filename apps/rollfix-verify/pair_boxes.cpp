@@ -8,7 +8,7 @@
 
 // Notation: (s, t) are the first contacts of finger a and of finger b, F(s, t) = A(s) - B(t) the equations. A box is
 // cut where a contact of either finger comes to a corner; each pair of two stretches between cuts is proved by itself,
-// by bounds on F there or on both halves of the one that changes more.
+// by bounds on F there or on both halves of the one that changes more. Follows docs/certificates.md, "Two fingers".
 namespace rollfix_verify {
 namespace {
 

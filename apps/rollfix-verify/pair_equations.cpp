@@ -7,6 +7,8 @@
 
 // Notation: w are an equation's weights of the contacts c; off it is by w . Theta_a(s) - w . Theta_b(t) - right,
 // Theta_a and Theta_b the angles of both fingers' contacts. Bounds on w . Theta are those of finger_curve.cpp.
+// Follows eqs. (8) and (9) of the paper (Jia, IROS 2001) and the facing; docs/certificates.md, "Two fingers", with
+// Krawczyk's operator for the one root (`map_inside`).
 namespace rollfix_verify {
 namespace {
 

@@ -9,7 +9,8 @@
 // Notation: F(s, t) = A(s) - B(t) are the equations; on the line t = t0 + w (s - s0), w = 1 or -1. Along it
 //   d/ds (A - B) = sum of weights (kappa(s + La_c) - w kappa(t + Lb_c)),
 // a Taylor polynomial in s whose coefficients cancel where the curves that both fingers roll on are the same. Beside it
-// F(s, t) is F(s', t) less the integral of A' from s to s', where (s', t) is on the line.
+// F(s, t) is F(s', t) less the integral of A' from s to s', where (s', t) is on the line. Follows
+// docs/certificates.md, "Two fingers": the proof `family`.
 namespace rollfix_verify {
 namespace {
 

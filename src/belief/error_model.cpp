@@ -5,6 +5,16 @@
 
 #include "belief/posterior.hpp"
 
+// Notation, as in docs/belief.md, "What the noise is" and "What is known, and what is not":
+//   n, a            a row's own errors of the contact's place and of the angle: `contact_variance`, `angle_variance`
+//   n0, a0          the same of the first row, which all rows share: offsets in `start_`(0, 0), (0, 1), (1, 1)
+//   eps, gamma      scale of lengths and of a gyroscope's turns: variances `start_`(2, 2), (3, 3)
+//   kappa           here the finger's curvature, 1 / r: `finger_curvature`
+//   R, P0, K        `row()`, `start()`, and what gathers from row to row: `gathered()`
+// Two fingers share n0 of each, eps of each and, without the facing, the first turn: `PairErrors`, docs/two_fingers.md,
+// "The errors".
+// Idea: one table of standard deviations (`Noise`) becomes the three covariances that every filter needs. Constants
+// that were measured by simulation instead of derived are marked "calibrated".
 namespace rollfix::belief {
 
 namespace {
@@ -23,11 +33,13 @@ constexpr double kMostSlipHereAndThere = 1;
 constexpr double kSlipPatch = 0.01;
 
 // Where slip here and there has a variance v the filters' intervals are too narrow by about 1 + 3 v: by nothing that
-// can be seen at slip of 0.02, by a fifth at 0.05 (docs/calibration.md).
+// can be seen at slip of 0.02, by a fifth at 0.05 (docs/calibration.md). Calibrated: measured by simulation, not
+// derived (docs/belief.md, "Slip that is not small").
 constexpr double kTooNarrow = 3;
 
 // Slip here and there bends the way on which rows lie that are joined, and their mean is off the straight line that the
 // filters take, most over one stretch of it: by this share of what slips over a stretch, and by slip times this angle.
+// Calibrated likewise.
 constexpr double kBentLength = 0.6;
 constexpr double kBentTurn = 0.06;  // radians
 

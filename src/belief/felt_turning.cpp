@@ -9,6 +9,15 @@
 #include "rollfix/part/boundary.hpp"
 #include "rollfix/pulse.hpp"
 
+// Notation:
+//   s, n            a contact's true place, and by how much it was felt elsewhere: n ~ N(0, `sd_`^2)
+//   Y               Theta(s + n) + n / r, what the measured normal tells of the tangent; 1 / r is `normal_turn_`
+//   E Y, Var Y      `Felt::angle`, `Felt::variance`; d E Y / ds is `Felt::slope`
+//   corner_length   how far a finger's centre goes per radian that it pivots: a disk's r
+//   pivot           the part of Var Y that neighbouring rows of one pivot have in common: `Felt::pivot`
+// Follows docs/two_fingers.md, "The errors", from "Near a corner Theta is no straight line" on. Integrals by Gauss and
+// Legendre's rule of 15 points, kept as a table (`knots_`).
+// Idea: near a corner the straight line Theta + kappa n would be wrong; its mean and its variance over n are not.
 namespace rollfix::belief {
 
 namespace {

@@ -7,12 +7,25 @@
 #include "belief/posterior.hpp"
 #include "rollfix/pulse.hpp"
 
+// Notation, as in docs/belief.md, "How far the finger travelled" and "How many rows are joined":
+//   node            the mean of `rows` neighbouring rows; `group_` blocks of them
+//   R, n            variance of a row's own errors, and number of rows: 1 / R summed in `Walk::length_rows`,
+//                   `turn_rows`
+//   G               what has gathered on the way in all: `Walk::length`, `Walk::turn`
+//   k               sqrt(G n / R) / pi, as many sine modes of the course as G is seen in: `Walk::modes`
+//   spread          variance of w among the rows of a node: a mean over a bend lies beside the boundary
+//   share_in_mean   (n + 1) / (2 n) of what gathers; `share_averaged`, (n + 1)(n - 1) / (6 n^2), is less in the mean
+//                   itself
+// Follows docs/belief.md, the two paragraphs named above.
+// Idea: ten million rows take no more memory than a thousand, and where gathered errors would let chance choose between
+// places (k above half the number of nodes) there are fewer nodes.
 namespace rollfix::belief {
 
 namespace {
 
 // Where what gathers is seen, nodes are this many times as long as slip is one and the same: long enough that what
-// gathers in neighbours is independent. There are at least so many, to tell a roll's course.
+// gathers in neighbours is independent. There are at least so many, to tell a roll's course. Calibrated: chosen by
+// simulation, not derived (docs/belief.md, "How many rows are joined").
 constexpr double kPatches = 2.5;
 constexpr double kFewestNodes = 24;
 

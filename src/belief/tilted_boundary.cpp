@@ -8,6 +8,17 @@
 
 #include "rollfix/part/boundary.hpp"
 
+// Notation:
+//   c               the tilt, above every -kappa; for a disk 1 / r: `tilt_`
+//   w               Theta + c s, which grows along the boundary and through convex corners: `w`
+//   s(w)            place on the boundary, piecewise cubic: `Cell::cubic` from `Cell::s` on
+//   m               ds/dw = 1 / (kappa + c), 0 in a corner: `slope`
+//   kink            a w where m jumps: a corner, a joint of the curvature, an end of an arc
+//   fold            one of m equal parts of a boundary that repeats itself: `folds_`
+// Follows docs/belief.md, "The computation". In `about` a normal distribution of w is taken at its mean and at sqrt(3)
+// standard deviations on both sides, with the weights 2/3, 1/6, 1/6 of the Gauss-Hermite rule of three points.
+// Idea: by w a contact is told by one number everywhere, at corners too; s is a continuous function of it. An arc ends
+// only at concave corners and at the ends of an open boundary, which no finger rolls over.
 namespace rollfix::belief {
 
 namespace {

@@ -9,6 +9,15 @@
 #include "residuals.hpp"
 #include "rollfix/error.hpp"
 
+// Notation, as in docs/certificates.md, "What is in it":
+//   f_k(s)          Theta(s + L_k) - Theta(s) - theta_k of reading k: `f_[k]`, Residual; `off` is f_k / `tolerance_`
+//   row             a start s and where each roll from it ends: Mark, then CertificateRow
+//   cell            all starts from one row to the next, with a claim about them: `then` and `by`
+//   found           what the search says of a stretch of starts, with rows on both sides of it: `from`, `to`
+//   step            the least distance between places: `step_`; rows keep away from corners and joints
+// Follows docs/certificates.md, "What is in it" (the table of cells) and "How it is checked".
+// Idea: nothing is proved here. Rows are put beside every placement, where f is off by some tolerances (`kBeside`), and
+// between placements where f comes nearest to the tolerance. rollfix-verify proves the claims by formulas of its own.
 namespace rollfix {
 namespace {
 

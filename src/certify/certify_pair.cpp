@@ -7,6 +7,16 @@
 #include "rollfix/certify/pair_certificate.hpp"
 #include "rollfix/error.hpp"
 
+// Notation, as in docs/certificates.md, "Two fingers":
+//   (s, t)          first contacts of finger a and of finger b: `start[0]`, `start[1]`
+//   F(s, t)         A(s) - B(t), an equation for each reading, then the facing: PairBounds
+//   box             around a placement, with exactly one root in it where `has_one_root` says so
+//   line            of a family: pairs (s, t) along which both fingers' contacts move by the same arc length
+//   needed          the placement's extent with some room, which its box must hold: `needed_`
+//   row             a pair with the amounts by which the equations are off, in tolerances
+// Follows docs/certificates.md, "Two fingers".
+// Idea: nothing is proved here. A placement gets a box as large as has one root for certain, or else as small as holds
+// it, and a family its line; what is around these is divided into cells by pair_cover.cpp.
 namespace rollfix {
 namespace {
 

@@ -6,6 +6,17 @@
 #include "part/cursor.hpp"
 #include "places.hpp"
 
+// Notation:
+//   s, L_c          first contact, and how far from it contact c is (L_0 = 0): `lengths_`
+//   Theta_c(s)      Theta(s + L_c), from end to end of a stretch `from`, `to`, between them `angle`
+//   kappa_c         its rate: `rate`, bounds on all of the stretch
+//   w               weights of the contacts; w . Theta leaves its chord by no more than width |w . kappa| / 4, |.|
+//                   being the width of the bounds: `chord`, `sum`
+//   pivot           a stretch at one place: each contact at a convex corner takes any angle of its range, on its own
+// Follows docs/certificates.md, "Two fingers", "How it is checked"; rollfix-verify's finger_curve.cpp does the same in
+// balls.
+// Idea: cut the first contacts where any contact comes to a corner; between cuts one chord and one bound serve each
+// sum.
 namespace rollfix {
 namespace {
 

@@ -6,6 +6,19 @@
 #include <limits>
 #include <numbers>
 
+// Notation, as in docs/certificates.md, "Two fingers":
+//   Theta_c(s)      angle of a finger's contact c, at s + L_c, c = 0 the first one: ContactStretch
+//   f_k             A_k(s) - B_k(t) - turn_k with A_k(s) = Theta_k+1(s) - Theta_0(s), B_k of finger b; the facing's is
+//                   Theta_0(s) - Theta_0(t) - C
+//   w               weights of the equations, by contact in `contact_weights`: a sum of them is w . A - w . B -
+//                   `right_side`
+//   turns           whole turns by which the facing's row may be off on a box
+//   X, J, Y         a pair of stretches scaled to [-1/2, 1/2]^2, the Jacobian's bounds `j`, about its inverse `inverse`
+// Follows docs/certificates.md, "Two fingers", from "How it is checked" on; the one root is proved by Krawczyk's
+// operator, Y (f +- tolerance) and (1 - Y J) X together inside X (R. Krawczyk, "Newton-Algorithmen zur Bestimmung von
+// Nullstellen mit Fehlerschranken", 1969).
+// Idea: the bounds of rollfix-verify in the search's own doubles, with some room (`kFill`, `kClearly`, `kBesideLine`),
+// so that what is claimed here can be proved there.
 namespace rollfix {
 namespace {
 

@@ -8,6 +8,15 @@
 
 #include "places.hpp"
 
+// Notation, as in docs/certificates.md, "Two fingers":
+//   box             a stretch of finger a's first contacts times one of finger b's
+//   cell            a node of the tree: `s` or `t` says which side is halved; else a leaf with its claim: `token`
+//   level n         at every pair some equation is off by more than 2^-n rad: one of the characters `kLevels`
+//   [k]             the cell is placement k's
+//   ?               nothing is claimed
+// Follows docs/certificates.md, "Two fingers": the table of cells.
+// Idea: breadth first, the side whose equations change more is halved, until each part is excluded, is in a placement's
+// box, or is too small; what is left goes to a placement without a box that is near, or claims nothing.
 namespace rollfix {
 namespace {
 

@@ -9,6 +9,14 @@
 #include "part/cursor.hpp"
 #include "rollfix/pulse.hpp"
 
+// Notation:
+//   f(s)            Theta(s + `to_`) - Theta(s + `from_`) - `turn_`. Of one reading from = 0, to = L, turn = theta; of
+//                   two the difference of their f, with both lengths and the difference of both turns
+//   f'(s)           kappa(s + `to_`) - kappa(s + `from_`)
+//   cut             a start at which one of the two contacts passes to another spiral, with the jump of f there
+//   blur            by how much |f| near a joint has to be clear of a bound, for rows keep away from joints
+// Follows eqs. (4) and (5) of the paper (Jia, IROS 2001); docs/certificates.md, "What is in it".
+// Idea: between cuts both curvatures are monotone, so that four numbers tell the sign of f', after some halvings.
 namespace rollfix {
 namespace {
 

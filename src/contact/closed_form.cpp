@@ -11,6 +11,17 @@
 
 #include "rollfix/pulse.hpp"
 
+// Notation:
+//   s, Theta        contact on the part, and the tangent's angle there: `s`, `angle`
+//   omega           the finger's angular velocity; its integral from the start on: `rotations_of`
+//   psi             how far the finger has turned: `Track::rotation`, of a disk Theta + s / r
+//   L, theta        s - s0 and Theta - Theta0: the reading, from which u and psi follow (`contact_after`)
+//   fallen          over the tiny concave joints of a drawing the finger turns back: by so much psi is behind,
+//                   `fallen_`
+// Follows eqs. (1) and (2) of the paper (Jia, IROS 2001), integrated once: (1/r + kappa) ds = omega d tau makes Theta +
+// s / r the integral of omega, eq. (3). Measured are L and theta, eqs. (4) and (5).
+// Idea: psi grows along the track, so that the contact at each time is found by solving psi(s) = rotation on one
+// stretch, by Newton's method, instead of by steps of a differential equation.
 namespace rollfix {
 
 namespace {
@@ -75,7 +86,7 @@ class Walk {
   Interval rotation_;
 };
 
-/// How far the finger has turned at each of the times: the integral of omega.
+/// How far the finger has turned at each of the times: the integral of omega in eq. (3).
 std::vector<double> rotations_of(const Motion& motion, const std::vector<double>& times) {
   if (motion.omega) return integrals(motion.omega, times);
   std::vector<double> rotations(times.size());

@@ -10,6 +10,16 @@
 #include "accuracy.hpp"
 #include "part/part_data.hpp"
 
+// Notation:
+//   f(s)            Theta(s + L) - Theta(s) - theta of a reading; whole laps of L and their turn are taken off:
+//                   `offset_`, `turn_`
+//   block           a run of 2^level spirals with a chord of Theta and a strip around it: TurningTree::Block
+//   tolerance       with the rounding of Theta and of theta: `tolerance_`
+//   among, left     blocks that earlier readings left, and those that this one leaves
+// Follows eqs. (4) and (5) of the paper (Jia, IROS 2001); docs/search.md, "Once per reading", step 1.
+// Idea: for a block in which the roll starts and one of the same level in which it ends, f is within the sum of both
+// strips of a difference of two chords. A pair that can't come within the tolerance of 0 goes; of others the halves are
+// looked at.
 namespace rollfix {
 namespace {
 

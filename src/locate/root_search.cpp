@@ -9,6 +9,18 @@
 #include "interpolation.hpp"
 #include "rollfix/pulse.hpp"
 
+// Notation:
+//   s, s + L        start and end of a roll: `s`; the end's place on its spiral is `s + pair.offset`, whole laps taken
+//                   off
+//   theta           the measured turn: `pair.turn`, the turn of the same laps taken off
+//   f(s)            Theta(s + L) - Theta(s) - theta: `ResidualSample::value`
+//   f'(s)           kappa(s + L) - kappa(s): `slope()`, of `end_curvature` and `start_curvature`
+//   f''             its sign, where it is known: `bend`
+//   tolerance       |f| <= `tolerance_` is an answer, |f| <= `kTurnAccuracy` is 0; radians
+// Follows eqs. (4) and (5) of the paper (Jia, IROS 2001); docs/search.md, "Once per reading", steps 3 to 5. An extremum
+// is bracketed by Alefeld, Potra and Shi, "Algorithm 748: enclosing zeros of continuous functions" (1995).
+// Idea: on a spiral kappa is monotone, so that its values at both ends of an interval bound f', and with f at the ends
+// they bound f. Either these exclude 0, or f is monotone, convex or concave there and is solved, or it is halved.
 namespace rollfix {
 namespace {
 

@@ -9,6 +9,17 @@
 #include "searches.hpp"
 #include "sets_of_one.hpp"
 
+// Notation:
+//   s, s + L        start and end of a roll: `here` (up to `next`), and `here + pair.offset` on the end's own spiral
+//   L, theta        the reading: `length_`, `reading_.turn`
+//   f(s)            Theta(s + L) - Theta(s) - theta; where the end is at a convex corner, an interval of values
+//   shift, lift     of a cursor: length and turn of the whole laps that it has gone round
+//   pieces          the starts on which |f| is within the tolerance; `roots`: the places worth listing in them
+// Follows eqs. (4) and (5) of the paper (Jia, IROS 2001); docs/search.md, "Once per reading", steps 2 and 6. Step 1,
+// what is passed over, is candidates.cpp; steps 3 to 5 are root_search.cpp.
+// Idea: s runs along the boundary and s + L runs with it. Where either of them passes to another spiral is a cut;
+// between cuts one pair of spirals is searched. A further reading is searched only on the pieces that those before it
+// left.
 namespace rollfix {
 namespace {
 

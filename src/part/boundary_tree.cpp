@@ -3,6 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+// Notation:
+//   s               arc length: a node holds [`lo`, `hi`]
+//   chord           from `start` to `end`; of a node over many stretches a point, the middle of their box
+//   deviation       no point of the boundary is further from the chord
+//   Theta           tangent's angle at both ends of a single stretch: `at_lo`, `at_hi`
+// Follows docs/reach.md, "How it is decided".
+// Idea: a stretch that turns by little in one direction lies no further from its chord than the isosceles triangle with
+// the same turn. Long runs are bounded by boxes, short stretches are halved when somebody asks for it.
 namespace rollfix {
 namespace {
 

@@ -8,6 +8,18 @@
 #include "cursor.hpp"
 #include "rollfix/pulse.hpp"
 
+// Notation, as in docs/reach.md, "The condition":
+//   p, T, n         contact, the tangent there and the outward normal: `View::point`, `tangent`, `normal`
+//   q, d            another point of the boundary, and d = q - p: `offset`
+//   k               the finger's curvature, 1 / r of a disk and 0 of a jaw: `curvature_`
+//   F               2 n . d - k d . d, above 0 where q is in the finger; depth h has F = h (2 - k h): `deepness`,
+//                   `depth_of`
+//   omega           turn of the finger against the part, d omega = d Theta + k ds; F changes by 2 T . d d omega
+//   stance          contacts on a stretch of one spiral, on several, or pivots at one corner: Stance
+// Follows docs/reach.md, "The condition" and "How it is decided".
+// Idea: for a set of stances and a stretch of the boundary F is bounded from both sides. The stances are decided when
+// all of the boundary is less deep than the slack, or one point is deeper; else whichever of the two matters more is
+// halved.
 namespace rollfix {
 namespace {
 

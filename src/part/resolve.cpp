@@ -12,6 +12,16 @@
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
 
+// Notation:
+//   u               the curve's parameter, alpha(u) the curve; on a panel u = middle + `half_` times x'
+//   |alpha'|        speed by powers of x': `speed_`; its integral, arc length: `length_`
+//   x               arc length on the panel, from -1 to 1: what the result's series are in
+//   x'(x)           parameter at equal arc length, at the Chebyshev points of x: `inner_`; as u: `nodes_`
+//   kappa           (alpha' cross alpha'') / |alpha'|^3: `curvatures` at these points; its integral: `panel.turn`
+//   tail            size of the last three Chebyshev coefficients: what interpolation has not resolved
+// Follows docs/search.md, "Once per part".
+// Idea: halve until speed and curvature are polynomials to rounding. Two checks that share nothing with that decide:
+// the speed between the nodes (`agree`), and the angle between the tangents at both ends against the integral of kappa.
 namespace rollfix {
 namespace {
 
@@ -175,7 +185,7 @@ class Attempt {
     const Values speeds = squares.sqrt();
     speed_agrees_ = agree(speeds, jets);
     if (!speed_agrees_) return false;
-    const Values curvatures = crosses / (squares * speeds);
+    const Values curvatures = crosses / (squares * speeds);  // (alpha' cross alpha'') / |alpha'|^3
     Values series = grid_.coefficients(curvatures);
     const auto noise = [&] { return curvature_noise(jets, curvatures); };
     const double rest = tail(series);

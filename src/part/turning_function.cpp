@@ -12,6 +12,17 @@
 #include "rollfix/pulse.hpp"
 #include "turning_builder.hpp"
 
+// Notation:
+//   s, P            arc length, in `Panel::lo` to `hi` on a panel; perimeter: `perimeter_`
+//   x               arc length on a panel, from -1 to 1: (s - `middle`) `inverse_half`
+//   Theta(s)        tangent's angle, unwrapped; kappa = Theta': powers of x in `coefficients_`, a pair for each power
+//   y               s = middle + half y, from -1 to 1: `difference` gives Theta(s + L) - Theta(s) by powers of y
+//   jump            of Theta at a joint: a corner where it is above `kCornerTurn`
+//   spiral          a stretch on which neither kappa nor kappa' changes sign; `trend` is the sign of kappa'
+// Follows docs/search.md, "Once per part"; Theta is the turning function of Arkin et al., "An efficiently computable
+// metric for comparing polygonal shapes" (1991). Lengths are summed as by Neumaier (1974).
+// Idea: panels resolved by resolve.cpp are put in a row, and cut where kappa or kappa' changes sign. At each panel's
+// start the curve's own tangent corrects the angle that was integrated, so that roundings do not add up.
 namespace rollfix {
 
 std::size_t TurningFunction::spiral_at(double base, Side side) const {

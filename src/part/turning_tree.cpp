@@ -3,6 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+// Notation:
+//   block           a run of 2^level neighbouring spirals: TurningTree::Block
+//   chord           angle + slope (s - lo), straight from Theta just after the block's start to Theta just before its
+//                   end
+//   below, above    how far Theta gets from the chord; `jump` is of Theta at the joint where the block ends
+//   sag             |change of kappa| times width / 4: how far Theta gets from its chord on one spiral, to one side
+// Follows docs/search.md, "Once per part". The strips are those of D. H. Ballard, "Strip trees: a hierarchical
+// representation for curves" (1981).
+// Idea: two neighbours' chords leave the chord of both most at the joint in between, so that a level is made of the one
+// below it in linear time, and two blocks bound Theta(s + L) - Theta(s) without a look at what is in them.
 namespace rollfix {
 namespace {
 

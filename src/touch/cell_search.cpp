@@ -5,6 +5,20 @@
 
 #include "rollfix/pulse.hpp"
 
+// Notation, as in docs/touch.md, "How it works":
+//   q_i, delta_i    a touch's measured centre, and how far it may be off: `Measured::at`, `place_most`
+//   tau_i, eps_i    tangent in the world by a measured normal (normal + 90 degrees): `tangent`, `angle_most`
+//   (c, rho)        disc around a stretch of the path of centres: `Node::middle`, `radius`
+//   theta +- w      the tangents on it: `Node::angle`, `half_turn`
+//   (a, b)          stretches of two touches, a cell: `first`, `second`; phi +- h are the part's headings:
+//                   `Cell::heading`
+//   lists           stretches on which each further touch can be: `candidates_`, from `list.first` to `list.second`
+// Tests: the chord, |R(phi)(c_b - c_a) - (q_2 - q_1)| <= rho_a + rho_b + delta_1 + delta_2, by the law of cosines;
+// normals, |tau - theta - phi| <= w + eps; further touches, from a and from b, |c_a + R(-phi)(q_i - q_1) - c_i| <=
+// radii and deltas and 2 |q_i - q_1| sin(h / 2).
+// Follows docs/touch.md, "How it works".
+// Idea: branch and prune over pairs of stretches. Each test follows from "some pose has every residual within its
+// most", so that no such pose is lost; a touch with an empty list refutes the cell.
 namespace rollfix::touch {
 namespace {
 

@@ -3,6 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+// Notation:
+//   u               place on a stretch of the path: arc length along a spiral, the tangent's angle at a corner
+//   c(u)            the finger's centre there, p + r n: `path_.at`
+//   (c, rho)        the disc that holds a node's centres: `middle`, `radius`
+//   theta +- w      the tangents on it: `angle`, `half_turn`
+//   number          a place's number, growing along the path, by which neighbours are known
+// Follows docs/touch.md, "How it works".
+// Idea: a stretch's disc is about its middle place, with the way to the further end as its radius; on a spiral Theta is
+// monotone, so that its ends bound it. Two nodes have the smallest disc around both.
 namespace rollfix::touch {
 namespace {
 

@@ -8,6 +8,15 @@
 
 #include "outline/turn.hpp"
 
+// Notation:
+//   (X, phi)        a pose: a box is its `middle`, turned by up to `turn` about the touches' middle, then moved by up
+//                   to `place` in x and in y
+//   q_i, c(u)       a touch in the part's frame, and the finger's centre on the path: `in_part`, PathTree
+//   delta, eps      tolerances of place and of angle: `place_most`, `angle_most`
+//   slack           how far a touch moves in the part's frame over the box, at most
+// Follows docs/touch.md, "How it works": the last step, where least squares have found no pose within the tolerance.
+// Idea: in one pose the touches have nothing to do with each other. So a box goes when some touch is further from the
+// path than tolerance and slack, a pose in which all are within the tolerance is a witness, and the rest is halved.
 namespace rollfix::touch {
 namespace {
 

@@ -8,6 +8,18 @@
 #include "outline/turn.hpp"
 #include "rollfix/pulse.hpp"
 
+// Notation:
+//   (X, phi)        the pose of the part: `Pose`, moved by steps about `about_`
+//   q_i, tau_i      a touch's measured centre, and tangent where a normal was measured: `Measured`
+//   c(u), theta(u)  centre and tangent's angle at a contact's place u_i: CentrePoint
+//   r_i             residuals (q - X - R(phi) c(u)) / `place_unit` and (tau - theta(u) - phi) / `angle_unit`
+//   J, v            derivatives of r_i by the pose and by u_i: `by_pose`, `by_place`
+//   M               J^T J - J^T v v^T J / v^T v, a touch's share of the normal matrix with u_i eliminated; at a corner
+//                   or an end, where u_i can't move (`is_pinned`), J^T J alone
+// Follows docs/touch.md, "How it works"; K. Levenberg, "A method for the solution of certain non-linear problems in
+// least squares" (1944).
+// Idea: least squares over three unknowns only, because each contact is kept at its nearest place. Downhill steps of
+// places can stop at a wrong one: after each descent every touch looks whether it is nearer elsewhere (`jump_nearer`).
 namespace rollfix::touch {
 namespace {
 
@@ -157,7 +169,7 @@ Normals PoseFit::normals_of(const State& state, const std::optional<Held>& held,
     Eigen::Matrix3d matrix = rows.by_pose.transpose() * rows.by_pose;
     const Eigen::Vector3d slope = -rows.by_pose.transpose() * rows.residual;
     const bool is_held = held && held->touch == k;
-    if (!is_held && !is_pinned(state.pose, k, state.places[k])) {
+    if (!is_held && !is_pinned(state.pose, k, state.places[k])) {  // u eliminated: the Schur complement
       const Eigen::Vector3d mixed = rows.by_pose.transpose() * rows.by_place;
       matrix -= mixed * mixed.transpose() / rows.by_place.squaredNorm();
     }

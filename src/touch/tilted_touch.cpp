@@ -5,6 +5,17 @@
 #include <cmath>
 #include <optional>
 
+// Notation:
+//   u, ds           place of the contact on the path, and length of boundary: `length_per_u`, 1 or at a corner r
+//   r(u)            the touch's residuals in the given pose; r^T r is `distance_at(...).square`, least at the nearest
+//                   place
+//   l(pose)         the integral of exp(-r^T r / 2) ds: `sum_`, with exp(-least / 2) taken out
+//   g(u), M(u)      a place's share of the normal equations, J^T r with its sign and J^T J: `Normals`
+//   E g, E M        means over u with these weights: d log l = E g, -d^2 log l = E M - Cov g: `result`
+// Follows docs/touch.md, "How it works": the last paragraph. Gauss and Legendre's rule of 5 points on panels of
+// `kPanel` standard deviations.
+// Idea: where a contact is on the boundary is summed over, not maximised, so that a side ends where it ends and a
+// corner counts with its own length.
 namespace rollfix::touch {
 namespace {
 

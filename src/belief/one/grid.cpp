@@ -7,6 +7,17 @@
 #include "belief/posterior.hpp"
 #include "rollfix/part/boundary.hpp"
 
+// Notation:
+//   w               tilted turning of the first contact, Theta + c s: the grid's coordinate; h is a cell's width
+//   d^2, log V      `Score::cost`, the rows' squared distance, and `log_volume`: -2 log L(w) = d^2 + log V
+//   F               `information`: the square of the rate at which d can change with w
+//   heat            `fit_.widened`^2: log-likelihoods are divided by it where the rows fit badly
+//   prior           ds along the boundary, at a corner r dTheta (`corner_length_`): `log_prior`, by w
+//   fold            one of the m-th parts of a boundary that looks the same m times
+// Follows docs/belief.md, "The computation", from "The filters stand on a grid over w" on.
+// Idea: between two points d can't fall faster than sqrt(F) allows (times `kSlopeSafety`: a safety factor, not a
+// proof). A cell that can't hold a share of exp(-`kNegligible`) of the mass is left; the others are halved until d
+// changes by less than `kFineStep`, and are integrated by Simpson's rule with the slopes at both ends (`weigh`).
 namespace rollfix::belief {
 
 namespace {

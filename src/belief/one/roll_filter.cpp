@@ -6,6 +6,19 @@
 #include "belief/one/roll_filter.hpp"
 #include "belief/posterior.hpp"
 
+// Notation, as in docs/belief.md, "The computation" and "What is known, and what is not":
+//   w, c            tilted turning w = Theta + c s of the first contact: `w_`; c is `tilt_`
+//   s(w), m         place on the boundary, m = ds/dw = 1 / (kappa + c): `TiltedPlace::s`, `slope`
+//   L, theta        a row's length and turn less the shared errors: `Corrected`
+//   x, P            errors that the roll shares (offset of length, offset of turn, scale of lengths, a gyroscope's
+//                   scale, the first centre's x and y) and their covariance: `x_`, `p_`; dx/dw is `dx_`
+//   e, H            a row's equations and their derivative by x: `Equations::miss`, `by_errors`
+//   R, K            variance of the row on its own: `own`; what has gathered on the way: `walk_`, by x
+//   cost, volume    e^T S^-1 e and det S / det S_w of all rows, S = S_w + H P0 H^T, S_w = R + K: -2 log likelihood is
+//                   their sum, with the logarithm of the second
+// Follows docs/belief.md, as named above; the centre's two equations are its "Centres as evidence".
+// Idea: for one w the rows measure x, so that an extended Kalman filter of x gives their likelihood and its slope by w.
+// Later passes (`again`) take the rows' lines about what all rows together have found.
 namespace rollfix::belief {
 
 namespace {
@@ -211,6 +224,7 @@ void RollFilter::absorb(const Node& node, const Outliers& outliers) {
   // slowly: only what the rows share has a volume.
   const Eigen::Matrix<double, 2, 3> of_walk = walk_ * rows.by_errors.leftCols<2>().transpose();
   const Eigen::Matrix3d noise = own + rows.by_errors.leftCols<2>() * of_walk;
+  // e^T S^-1 e, and det S / det S_w.
   const RowShare share = share_of(3, squared, noise.determinant(), 1 / inverse.determinant(), outliers);
   const double weight = share.weight;
   cost_ += share.cost;

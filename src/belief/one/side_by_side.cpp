@@ -7,6 +7,16 @@
 #include "belief/posterior.hpp"
 #include "rollfix/pulse.hpp"
 
+// Notation, the same as in roll_filter.cpp, four filters one in each number of a `Four`:
+//   w, c, m         `w_`, `tilt_`, `Lines::slope`; 1 - c m is `Lines::rest`
+//   x, dx/dw, P     `x_`, `dx_`, `p_`, the first `Errors` of the shared errors
+//   e               `Lines::miss`, the one equation of a row without centre: s(w + theta + c L) - s(w) - L
+//   de/dx           (1 - c m) g - m h, see `take_nodes`: g in `Rolled::by_lengths`, h in `Rolled::by_turns`
+//   R, K            `Lines::own`; `walk00_`, `walk01_`, `walk11_` of length and turn
+//   S, S_w          their sums for one row: `Lines::all`, `Lines::noise`
+// Follows docs/belief.md, "The computation".
+// Idea: one filter is a long chain of operations, each of which waits for the one before. Four of them side by side
+// keep the processor busy; each has the same result as it would have alone.
 namespace rollfix::belief {
 
 namespace {

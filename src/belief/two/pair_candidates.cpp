@@ -7,6 +7,16 @@
 #include "outline/turn.hpp"
 #include "rollfix/pulse.hpp"
 
+// Notation:
+//   (s, t)          a pair of first contacts; a square around it is `half` to either side
+//   Theta over I    least and largest angle on an interval of the boundary: `range_.over`
+//   f               Theta(s + La) - Theta(t + Lb) - C of a row, or its change since the first contacts: [`lo`, `hi`]
+//   margin          how far a contact may be from where it was felt, `sigmas` standard deviations: `RangeRow::margin`
+//   precision       1 / (variance of f times sigmas^2), so that `sum` counts squares in units of sigmas^2
+// Follows docs/two_fingers.md, "The search", step 1.
+// Idea: a square is refused when the least squared distance that any pair in it can have from some of the rows is
+// larger than noise makes it; the rest is quartered. It refuses the true pair with a small chance, `missed`, which is
+// bounded.
 namespace rollfix::belief {
 
 namespace {

@@ -8,6 +8,19 @@
 #include "belief/posterior.hpp"
 #include "rollfix/pulse.hpp"
 
+// Notation, as in docs/two_fingers.md, "The errors":
+//   s, t            first contacts, by the tilted turnings `PairStart::w` of finger a [0] and finger b [1]
+//   La, Lb, C       a row's lengths and the facing that it measures: `node.length`, `node.turn`
+//   x               errors that the roll shares (n_a0, n_b0, eps_a, eps_b, first turn): `score_.errors`, P:
+//                   `covariance`
+//   f               Theta(s + (La + n_a0) / (1 + eps_a)) - Theta(t + (Lb + n_b0) / (1 + eps_b)) - C: `PairEquations::f`
+//   H, df/dw        `by_errors`, `by_start`
+//   R, K            `variance` of the row on its own; `walk_`, of x, what has gathered
+//   Y               what a felt normal tells of Theta near a corner, with its mean and variance: FeltTurning
+// Follows docs/two_fingers.md, "The errors", and eqs. (7) to (9) of the paper (Jia, IROS 2001), with the facing where
+// it is known. -2 log L = f^T S^-1 f + log(det S / det S_w) as for one finger: docs/belief.md.
+// Idea: a Kalman filter over the rows gives the likelihood of one pair (s, t). It is run again about the errors that
+// came out until they settle (Gauss-Newton); errors that walk are linearised as it goes.
 namespace rollfix::belief {
 
 namespace {
@@ -182,7 +195,7 @@ PairEquations<N> row_equations(const PairModel& model, const StartPlaces& at, co
     contacts[finger] = {
         s,         felt.angle,         felt.slope, felt.slope * at.place[finger].slope, at.place[finger].slope,
         per_scale, -per_scale * length};
-    f += sign * felt.angle;
+    f += sign * felt.angle;  // f_k of docs/two_fingers.md; its differences are eqs. (8), (9)
     rows.by_errors(0, i) = sign * felt.slope * per_scale;
     rows.by_errors(0, 2 + i) = -rows.by_errors(0, i) * length;
     rows.by_start(0, i) = sign * felt.slope * at.place[finger].slope;

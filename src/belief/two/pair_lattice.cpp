@@ -8,6 +8,18 @@
 
 #include "belief/two/pair_density.hpp"
 
+// Notation:
+//   w, y            (w_a, w_b), and the region's own coordinates: w = origin + `frame` y, so that a unit square of y is
+//                   about a standard deviation wide
+//   d^2, log V      `score.cost`, `score.log_volume`: -2 log L = d^2 + log V
+//   g, F            slope and information of log L at a square's centre: `score.slope`, `score.information`
+//   heat            `heat_`: log-likelihoods are divided by it where the rows fit badly
+//   prior           ds dt, at a corner r dTheta: `log_prior`
+// Follows docs/two_fingers.md, "The search", step 3.
+// Idea: from a peak squares spread to wherever the density is not negligible (exp(-`kNegligiblePair`) of the best), and
+// are quartered where d changes by more than `kFinePairStep`. A square's mass is summed over `kGrainsAcross`^2 points
+// of the quadratic with g and F at its centre. The rate of d is taken `kPairRateSafety` times as large: a safety
+// factor, no proof.
 namespace rollfix::belief {
 
 namespace {

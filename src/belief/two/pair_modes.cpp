@@ -8,6 +8,14 @@
 #include "belief/two/pair_density.hpp"
 #include "rollfix/part/boundary.hpp"
 
+// Notation:
+//   leaf            a square of a region's grid with its density and its share of the mass: PairLeaf
+//   grain           a point within a leaf, with a share of its mass: PairGrain
+//   hill            the leaves that lead up to one maximum: `hills` gives each leaf the leaf at its top
+//   valley          log density falls by `kValley` below the lower of two peaks: then they are two modes
+// Follows docs/two_fingers.md, "The search", step 4.
+// Idea: leaves are taken from the highest down, as if a tide fell. Each joins the hill that it touches, and two hills
+// that meet are one unless both stand out by `kValley` where they meet (a union-find over leaves).
 namespace rollfix::belief {
 
 namespace {

@@ -7,6 +7,16 @@
 #include "belief/two/pair_density.hpp"
 #include "rollfix/part/boundary.hpp"
 
+// Notation:
+//   w               tilted turnings (w_a, w_b) of two first contacts: `PairStart::w`
+//   deviance        -2 log L(w): `cost + log_volume`
+//   g, F            slope and expected information of log L by w: `PairScore::slope`, `information`
+//   lambda          Levenberg's damping: `damping`
+//   step            (F + lambda diag F)^-1 g
+// Follows docs/two_fingers.md, "The search", step 2; K. Levenberg, "A method for the solution of certain non-linear
+// problems in least squares" (1944).
+// Idea: from every candidate that no neighbour surpasses climb to a maximum, with few rows first and then with all.
+// Near corners the slope misleads: there steps along the axes of F are tried as well (`search_around`).
 namespace rollfix::belief {
 
 namespace {

@@ -8,6 +8,14 @@
 #include "answer/crew.hpp"
 #include "halving.hpp"
 
+// Notation, as in docs/identify.md, "How parts are ruled out":
+//   cells           16, 64 and 256 equal stretches of a part's boundary: `kCoarseCells`, `kCells`, `kFineCells`
+//   profile         the least and the largest Theta on each cell
+//   way             one of the ways in which the roll may have gone (either direction): RollClues
+//   few, many       a dozen readings for cells, some more for stretches of the part
+// Follows docs/identify.md, "How parts are ruled out".
+// Idea: a part is ruled out when no cell is left in which the roll can have started: by 16 cells, then by 64 in memory,
+// by 256 from the file, then by stretches of the part itself. Each step only looks at what the one before has left.
 namespace rollfix {
 namespace {
 

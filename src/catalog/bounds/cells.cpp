@@ -13,6 +13,16 @@
 #include "least_cost.hpp"
 #include "rounding.hpp"
 
+// Notation, as in docs/identify.md, "How parts are ruled out":
+//   N, i            cells of equal length, and the one that the roll starts in; four at a time: `Four`
+//   [least, most]   Theta on a cell, or over all cells in which a roll may end: Profile, Laps::angles
+//   L, theta, eps   a reading and its slack: `clue.length`, `Row::turn`, `Row::slack`
+//   tau             the tangent at the start: in [least - theta - eps, most - theta + eps] of each reading: Tangents
+//   sd              errors that only one reading has and one that all share: `turn_sd`, `shared_sd`; their squares may
+//                   come to `most_cost` together
+// Follows eqs. (4), (5), and of two fingers (8), (9) of the paper (Jia, IROS 2001); docs/identify.md as above.
+// Idea: a cell is left where the intervals of tau of all readings meet. Bounds are covers and roundings go outwards, so
+// that no start that fits is lost. Of two fingers pairs of cells are compared, and what both turn must differ by theta.
 namespace rollfix {
 namespace {
 
@@ -198,6 +208,7 @@ Cells<N> cells_of_one(const Profile<N>& profile, const Course& course, const Clu
       Four least;
       Four most;
       laps.angles(row->ends, 4 * one.larger, least, most);
+      // tau is in [least - theta - eps, most - theta + eps]: eq. (5) over cells.
       one.least = one.least.max(least - row->turn - row->reach);
       one.most = one.most.min(most - row->turn + row->reach);
       tangents[left] = one;

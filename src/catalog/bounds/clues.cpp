@@ -15,6 +15,15 @@
 #include "rollfix/error.hpp"
 #include "rollfix/locate/locate.hpp"
 
+// Notation, as in docs/identify.md, the table of what may be off:
+//   L, theta        a row's length and turn: `Clue::length`, `Clue::turn`
+//   slack           how far these may be off, with `kFarthest` standard deviations: `length_slack`, `turn_slack`
+//   own, shared, gathered  variances of a row's turn: its own, the first contact's, and what gathers on the way
+//   most_cost       m + 5 sqrt(2 m) + 25: a sum of squares of m rows, exceeded once in a million rolls
+//   excess          so many times the noise that was said
+// Follows docs/identify.md, "How parts are ruled out"; the noise is docs/belief.md, "What the noise is".
+// Idea: what is known of a roll before a part is known: its rows, far apart ones first, with slacks that hold on every
+// part of the catalog, whatever its perimeter.
 namespace rollfix {
 namespace {
 

@@ -8,6 +8,15 @@
 #include "part/turning_range.hpp"
 #include "rounding.hpp"
 
+// Notation:
+//   s, L            starts on a stretch of one part; a reading's length with its slack gives the interval of ends
+//   tau             the tangent at the start: what Theta on the stretch and every reading leave of it: `tangent`
+//   slack, box      how far a reading's turn may be off as if it had no error of its own, and with the most that it can
+//                   have
+//   cost            least sum of squares of all errors, in standard deviations: `least_cost`
+// Follows docs/identify.md, "How parts are ruled out": the last step, with exact bounds on Theta (turning_range.hpp).
+// Idea: the same as cells.cpp, on stretches that are halved down to `kShortest` of the perimeter: there the search
+// takes over.
 namespace rollfix {
 namespace {
 

@@ -9,6 +9,14 @@
 #include "part/turning_range.hpp"
 #include "rounding.hpp"
 
+// Notation:
+//   Theta           the tangent's angle; P the perimeter, cell k is [k P / N, (k + 1) P / N]
+//   least, most     of Theta on each cell, in single precision, rounded outwards
+//   step            a 255th of the range of a cell of 64: a bound of a cell of 256 is a number of these, rounded
+//                   outwards
+// Follows docs/identify.md, "How parts are ruled out" and the table of the file's columns.
+// Idea: covers, not samples. Joints beside a cell's end are in both cells (`kBeyondCell`), so that rounding of places
+// loses nothing, and four cells of a finer profile make one of the coarser.
 namespace rollfix {
 namespace {
 

@@ -13,6 +13,18 @@
 #include "outline/turn.hpp"
 #include "rollfix/pulse.hpp"
 
+// Notation:
+//   s, t            first contacts of finger a and of finger b; in a box the coordinates x of two nodes (at a corner x
+//                   is the angle that the finger has pivoted by)
+//   A(s), B(t)      the two fingers' curves, with a component (`row`) for each equation: `a_`, `b_`
+//   f_k(s, t)       A_k(s) - B_k(t), in the facing's row less whole turns (`lap`): `residual`
+//   p, q            two rows that a box is decided by; J = ((A_p', -B_p'), (A_q', -B_q')) is their Jacobian
+//   Y               inverse of J with the middles of all slopes: `Regular::inverse`
+//   |1 - Y J|       bounded entry by entry in `Regular::off`; `radius` is its spectral radius, `slack` (1 - off)^-1
+// Follows eqs. (8) and (9) of the paper (Jia, IROS 2001); docs/search.md, "Two fingers", steps 2 and 3. Uniqueness is
+// Hadamard's global inverse theorem, for f continued beyond the box by its tangents.
+// Idea: a box goes when the two sides can't meet. Where `radius` is below 1 it has one root at the most, and Newton's
+// method says whether. What is neither is followed as a line (line_search.cpp) or halved.
 namespace rollfix {
 namespace {
 

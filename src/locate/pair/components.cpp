@@ -12,6 +12,15 @@
 
 #include "family_line.hpp"
 
+// Notation:
+//   piece           a connected set of pairs (s, t) within the tolerance: a box, a convex `hull`, or a `line`, off by
+//                   `error` at the most
+//   shift           whole laps by which a piece is moved in s and in t: (s, t) and (s + P, t) are one pair
+//   slack           pieces that come as near as this are one: `same_place_`, or `kJointWidth` P where both are exact
+//   slant           s + `kSlant` t, the direction that pieces are sorted along
+//   clump           pieces too small and too near together to be told apart, joined beforehand
+// Follows docs/search.md, "Two fingers", step 7. Convex sets are compared by separating axes.
+// Idea: sweep along the slant, link the pieces that touch, and take connected components: each is one placement.
 namespace rollfix {
 namespace {
 

@@ -5,6 +5,15 @@
 #include <cmath>
 #include <utility>
 
+// Notation:
+//   (s, t)          a pair of first contacts: PairPoint; unwrapped by `shift`, whole laps in s and in t
+//   piece, link     nodes and edges of the graph of pieces that touch: `pieces_`, `links_`
+//   exact           f = 0 on all of the piece; others are only passed through on the way to one
+//   error           how far the line may be off the set on which f = 0: `error_` + `detail_`
+// Follows docs/search.md, "Two fingers", step 5: the `family` of a stretch. Points are dropped as in D. H. Douglas and
+// T. K. Peucker, "Algorithms for the reduction of the number of points required to represent a digitized line" (1973).
+// Idea: depth-first through the exact pieces; where a branch ends the line goes back the way it came, so that it stays
+// one line through all of them.
 namespace rollfix {
 namespace {
 

@@ -9,6 +9,19 @@
 #include "../accuracy.hpp"
 #include "rollfix/pulse.hpp"
 
+// Notation:
+//   x, y            the free contact and the bound one: `Place::free.x`, `Place::bound.x`; `free_is_a_` says which is
+//                   a's
+//   g               the guide, the equation that is solved for y: `guide_`; A_g(x) - B_g(y) = 0 makes y a function of x
+//   dy/dx           A_g' / B_g': `direction`
+//   r_k(x)          the other equations along that line: `residual`; dr_k/dx = A_k' - B_k' dy/dx: `residual_slope`
+//   margin          tolerance / least |B_g'|: how far y may be off the line while the guide is within the tolerance
+//   within_k        tolerance (1 + |B_k' / B_g'|): what r_k may be, for the guide may be off as well
+// (A is the free finger's curve here, whichever finger that is.)
+// Follows eqs. (8) and (9) of the paper (Jia, IROS 2001); docs/search.md, "Two fingers", steps 4 and 5. Overlaps are
+// found in line_overlaps.cpp.
+// Idea: where both curves run alongside each other J is singular, but one equation is steep. It leaves one variable,
+// and the others are searched along x by branch and prune, with bounds on their slopes, as root_search.cpp does.
 namespace rollfix {
 namespace {
 

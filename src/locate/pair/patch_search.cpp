@@ -9,6 +9,16 @@
 #include "outline/turn.hpp"
 #include "rollfix/pulse.hpp"
 
+// Notation:
+//   tau             the tangent's angle at the patched finger's first contact: anything in `tangents.front()`
+//   phi_k           the same at its contact after reading k, with the shift: anything in `tangents[k + 1]`, on its own
+//   b_k             the other finger's component k, on a node an interval: `values[k]`
+// Equations: phi_k - tau = b_k for each reading, and tau = b + `lap` for the facing, `lap` being whole turns less the
+// facing. Each of them confines tau to an interval (`wanted`).
+// Follows eqs. (8) and (9) of the paper (Jia, IROS 2001) with Theta set-valued at convex corners; docs/search.md, "Two
+// fingers", step 6.
+// Idea: intervals on a line have a common point when each two of them have (Helly's theorem in one dimension), so that
+// tau exists when the worst gap between two intervals is 0. That is bounded over nodes of the other finger's tree.
 namespace rollfix {
 namespace {
 

@@ -5,6 +5,18 @@
 
 #include "../accuracy.hpp"
 
+// Notation:
+//   s, L_k          first contact, length of reading k: `equations_.lengths`. Contact 0 is at s, contact k + 1 at s +
+//                   L_k
+//   A_k(s)          Theta(s + L_k) - Theta(s) + shift_k, and with the facing Theta(s) + facing: component `row`
+//   kappa           `rate` of each contact's tangent; the component's slope is kappa(s + L_k) - kappa(s)
+//   x               coordinate on a piece: s, or at a convex corner the angle by which the finger has pivoted
+//   node            an interval of x on one piece, or of s over many, with bounds on every A_k and its slope
+// Follows one side of eqs. (8) and (9) of the paper (Jia, IROS 2001); docs/search.md, "Two fingers", steps 1 and 2.
+// Idea: the boundary is cut where any contact passes to another spiral. Between cuts all rates are monotone, so that
+// rates at both ends bound slopes, and each tangent's angle leaves its chord by a quarter of the rate's change times
+// the width at the most: `Combination::value` adds these up before it bounds, so that x A_p + y A_q sees its first
+// contact once.
 namespace rollfix {
 
 namespace {

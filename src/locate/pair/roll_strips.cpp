@@ -8,6 +8,15 @@
 #include "part/cursor.hpp"
 #include "part/part_data.hpp"
 
+// Notation:
+//   s, s + L_c      first contact and contact c; place on the boundary = s + `offset_[c]`, laps (`winding_`) taken off
+//   Theta           on a block: `chord` + [`below`, `above`]; `lift_` is the turn of the laps that were taken off
+//   span            the spirals that a contact passes while the first one is in the range
+// Follows one side of eqs. (8) and (9) of the paper (Jia, IROS 2001); docs/search.md, "Once per part" and "Two
+// fingers", step 1. The strips are those of D. H. Ballard, "Strip trees: a hierarchical representation for curves"
+// (1981).
+// Idea: while both contacts are on one block each, Theta(s + L_c) - Theta(s) is a difference of chords, which is
+// straight, plus a difference of strips. So outlines with very many spirals are bounded without being cut.
 namespace rollfix {
 namespace {
 
