@@ -173,7 +173,8 @@ int main(int count, char** values) {
   int honest = 0;
   int told_of_honest = 0;
   fmt::print(
-      "| log | rows | roll | slip | prior | mistake | logs | reported | chi-square | neighbours | trend | row | prior |\n"
+      "| log | rows | roll | slip | prior | mistake | logs | reported | "
+      "chi-square | neighbours | trend | row | prior |\n"
       "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
   for (const Line& line : kLines) {
     if (count <= 1 && line.rows >= kManyRows) continue;
