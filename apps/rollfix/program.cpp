@@ -98,7 +98,7 @@ void set_up(CLI::App& program, Common& common) {
   for (CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
     command->allow_extras();
     command->group("Commands");
-    add_switch(*command, "--quiet", common.quiet, "no notes on stderr; errors are told all the same");
+    add_switch(*command, "--quiet", common.quiet, "no notes on stderr; errors are still shown");
     const bool is_of_robots = std::find(kOfRobots.begin(), kOfRobots.end(), command->get_name()) != kOfRobots.end();
     if (is_of_robots) add_settings_argument(*command, common.settings);
     group_options(*command);

@@ -103,13 +103,13 @@ void add_teach_command(CLI::App& program, Command& chosen) {
   add_unit_argument(*command, arguments->unit);
   add_finger_argument(*command, arguments->fingers);
   add_noise_argument(*command, arguments->noise);
-  add_switch(*command, "--bridge", arguments->bridge, "close the gap by a piece, whatever drift explains of it");
+  add_switch(*command, "--bridge", arguments->bridge, "close the gap by a piece, even if drift does not explain it");
   add_switch(*command, "--open", arguments->open, "the roll runs along an open curve: close nothing");
   command
       ->add_option("--corner-angle", arguments->corner_angle,
-                   "where neighbouring rows turn by at least this there is a corner; default 59deg")
+                   "there is a corner where neighbouring rows turn by at least this angle; default 59deg")
       ->type_name("ANGLE");
-  add_switch(*command, "--allow-crossing", arguments->allow_crossing, "take a course that crosses itself");
+  add_switch(*command, "--allow-crossing", arguments->allow_crossing, "accept a course that crosses itself");
   add_output_argument(*command, arguments->output,
                       "the part, .json, which every command takes as PART; or a figure: .svg, .png, .pdf");
   add_switch(*command, "--json", arguments->json, "print JSON (rollfix/teach/1)");

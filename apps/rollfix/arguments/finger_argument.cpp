@@ -78,10 +78,10 @@ bool names_outline(const std::string& text) {
 
 void add_finger_argument(CLI::App& command, std::vector<std::string>& fingers) {
   command
-      .add_option("--finger", fingers,
-                  "the finger: disk,r=RADIUS, in the part's unit or with its own as in r=8mm, or jaw, a flat one, or "
-                  "the file of a convex outline, with "
-                  ",open behind it where it is open; for two fingers once or, where they differ, twice")
+      .add_option(
+          "--finger", fingers,
+          "the finger: disk,r=RADIUS, in the part's unit or with a unit as in r=8mm; jaw, a flat one; or the file of "
+          "a convex outline, with ,open behind it if it is open; for two fingers once, or twice if they differ")
       ->type_name("FINGER")
       ->allow_extra_args(false);
 }

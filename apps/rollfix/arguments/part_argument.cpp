@@ -27,9 +27,10 @@ LoadOptions read_load_options(const PartArgument& argument) {
 
 void add_unit_argument(CLI::App& command, std::string& unit) {
   command
-      .add_option("--unit", unit,
-                  "the unit of all lengths, typed and printed: mm, cm, m, in, ...; a part whose file states another is "
-                  "converted to it, one whose file states none is in it")
+      .add_option(
+          "--unit", unit,
+          "the unit of all lengths, typed and printed: mm, cm, m, in, ...; if the part's file states another unit, "
+          "the part is converted; if it states none, its numbers are in this unit")
       ->type_name("UNIT");
 }
 
@@ -38,8 +39,8 @@ void add_decimal_argument(CLI::App& command, std::string& decimal) {
   command
       .add_option(
           "--decimal", decimal,
-          "the decimal mark of numbers in files: a comma or a point; a comma is seen between semicolons, and has "
-          "to be said where blanks or tabs separate")
+          "the decimal mark of numbers in files: a comma or a point; give it for commas if blanks or tabs separate the "
+          "columns; between semicolons commas are recognised")
       ->type_name("MARK");
 }
 
@@ -62,8 +63,9 @@ void add_part_argument(CLI::App& command, PartArgument& argument) {
 
 void add_load_arguments(CLI::App& command, PartArgument& argument) {
   command
-      .add_option("--gap", argument.gap,
-                  "ends of a drawing's curves this close together meet; default a millionth of its diagonal")
+      .add_option(
+          "--gap", argument.gap,
+          "ends of a drawing's curves meet if they are this close together; default a millionth of its diagonal")
       ->type_name("LENGTH");
   add_switch(command, "--outer", argument.outer,
              "where more than two ends of a drawing's curves meet, take those around the outside");
@@ -71,7 +73,7 @@ void add_load_arguments(CLI::App& command, PartArgument& argument) {
   add_switch(command, "--open", argument.open, "the points or curves have two ends and are not a loop");
   command
       .add_option("--corner-angle", argument.corner_angle,
-                  "where the points' chords turn by at least this there is a corner; default 59deg")
+                  "there is a corner where the points' chords turn by at least this angle; default 59deg")
       ->type_name("ANGLE");
   command
       .add_option("--smooth", argument.smooth,
@@ -79,7 +81,7 @@ void add_load_arguments(CLI::App& command, PartArgument& argument) {
       ->type_name("TOL");
   add_unit_argument(command, argument.unit);
   add_decimal_argument(command, argument.decimal);
-  add_switch(command, "--allow-crossing", argument.allow_crossing, "take an outline that crosses itself");
+  add_switch(command, "--allow-crossing", argument.allow_crossing, "accept an outline that crosses itself");
 }
 
 void require_part(const PartArgument& argument) {

@@ -147,14 +147,13 @@ void require_sensible(const RollArguments& arguments) {
 void add_reading_arguments(CLI::App& command, LogArguments& reading) {
   command
       .add_option("--columns", reading.columns,
-                  "what the log's header calls its columns, and in what they are, where it does not say that itself: "
+                  "names and units of the log's columns, where its header does not say them: "
                   "u=contact_deg:deg,psi=yaw_deg:deg,time=stamp:ms; behind u or psi also :unwrapped or :wrapped")
       ->type_name("COLUMN=NAME:UNIT,...");
   command
-      .add_option(
-          "--wrapped", reading.wrapped,
-          "whether the log's u and psi jump back after a full turn, where its rows are too far apart to show it: "
-          "yes or no")
+      .add_option("--wrapped", reading.wrapped,
+                  "whether the log's u and psi jump back after a full turn, if its rows are too far apart to show it: "
+                  "yes or no")
       ->type_name("yes|no");
   add_decimal_argument(command, reading.decimal);
 }
@@ -172,12 +171,11 @@ void add_log_notes(const Log& log, std::vector<std::string>& notes) {
 }
 
 void add_log_arguments(CLI::App& command, std::vector<std::string>& logs, std::string& roll, LogArguments& reading) {
-  command.add_option("--log", logs, "a tactile log, - for stdin; of two fingers one file or two")
+  command.add_option("--log", logs, "a tactile log, - for stdin; for two fingers one file or two")
       ->type_name("FILE")
       ->allow_extra_args(false);
   command
-      .add_option("--roll", roll,
-                  "which roll of a log in which contact is lost and found again, from 1; default the last")
+      .add_option("--roll", roll, "which roll of the log, from 1, if contact is lost and found again; default the last")
       ->type_name("N");
   add_reading_arguments(command, reading);
   add_skip_argument(command, reading);
@@ -187,29 +185,31 @@ void add_noise_argument(CLI::App& command, std::string& noise) {
   command
       .add_option(
           "--noise", noise,
-          "how far the sensors are off, as standard deviations, any of them with commas between: " + noise_form(", "))
+          "errors of the sensors, as standard deviations, any of these, separated by commas: " + noise_form(", "))
       ->type_name("NOISE");
 }
 
 void add_noise_arguments(CLI::App& command, std::string& noise, std::string& prior, bool& robust) {
   add_noise_argument(command, noise);
   command
-      .add_option("--prior", prior,
-                  "with --noise: about where the finger started, along the stored outline, and how sure that is")
+      .add_option(
+          "--prior", prior,
+          "with --noise: what is known of the finger's start, along the stored outline, and its standard deviation")
       ->type_name("S,SD");
-  add_switch(command, "--robust", robust, "with --noise: stray rows don't count");
+  add_switch(command, "--robust", robust, "with --noise: outliers don't count");
 }
 
 void add_side_arguments(CLI::App& command, bool& mirror, std::string& direction, bool takes_either) {
   add_switch(command, "--mirror", mirror,
-             "the part lies face down: what is felt is the outline's mirror image; places are told along the outline "
-             "as it was drawn");
+             "the part lies face down: the finger rolls on the mirror image of the outline; places in the answer are "
+             "along the outline as it was drawn");
   command
       .add_option(
           "--direction", direction,
-          std::string("which way round the part, as the robot sees it, lengths and distances count as positive: "
-                      "ccw, the default, ") +
-              (takes_either ? "cw, or either, where that is not known" : "or cw") + "; u and psi say that themselves")
+          std::string(
+              "the direction around the part, as the robot sees it, in which lengths and distances are positive: "
+              "ccw, the default, ") +
+              (takes_either ? "cw, or either, if it is not known" : "or cw") + "; logs of u and psi contain it")
       ->type_name(takes_either ? "ccw|cw|either" : "ccw|cw");
 }
 
@@ -231,7 +231,7 @@ void add_felt_arguments(CLI::App& command, RollArguments& arguments, bool takes_
   command
       .add_option("--reading", arguments.readings,
                   "from the first contact: arc length travelled, along the stored outline, and turn of the tangent; "
-                  "of two fingers both lengths and finger a's turn less finger b's: LA,LB,THETA")
+                  "for two fingers both lengths, and finger a's turn minus finger b's: LA,LB,THETA")
       ->type_name("L,THETA")
       ->allow_extra_args(false);
   add_log_arguments(command, arguments.logs, arguments.roll, arguments.reading);

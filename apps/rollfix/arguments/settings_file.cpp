@@ -278,9 +278,9 @@ void add_settings_argument(CLI::App& command, SettingsArgument& argument) {
   command
       .add_option("--config", argument.file,
                   "options of a robot, KEY = VALUE in each line: part, finger, noise, columns, unit and all others by "
-                  "their names; what is typed counts; default rollfix.toml, where there is one")
+                  "their names; the command line overrides it; default rollfix.toml, if it exists")
       ->type_name("FILE");
-  add_switch(command, "--no-config", argument.none, "heed no rollfix.toml");
+  add_switch(command, "--no-config", argument.none, "ignore rollfix.toml");
 }
 
 Settings read_settings(const CLI::App& command, const SettingsArgument& argument,

@@ -67,9 +67,8 @@ void add_inspect_command(CLI::App& program, Command& chosen) {
   add_part_argument(*command, arguments->part);
   add_finger_argument(*command, arguments->fingers);
   add_output_argument(*command, arguments->output,
-                      "a figure of the part: .svg, .png or .pdf, - for SVG on stdout; .json: the part with all that "
-                      "was computed; .csv: "
-                      "the outline as numbers, s,x,y,tangent,curvature");
+                      "a figure of the part: .svg, .png or .pdf, - for SVG on stdout; .json: its outline, which every "
+                      "command takes as PART; .csv: the outline as numbers, s,x,y,tangent,curvature");
   add_switch(*command, "--json", arguments->json, "print JSON (rollfix/inspect/1)");
   command->callback([arguments, &chosen] { chosen = [arguments] { return inspect_report(*arguments); }; });
 }

@@ -220,17 +220,17 @@ void add_locate_command(CLI::App& program, Command& chosen, std::ostream& out) {
       ->allow_extra_args(false);
   command
       ->add_option("--at", roll.instants,
-                   "instants of the log to use, seconds; default its last row, of two fingers also the middle one")
+                   "instants of the log to use, seconds; default its last row, for two fingers also the middle one")
       ->type_name("T1,T2,...");
   command
       ->add_option(
           "--facing", roll.facing,
-          "how far finger a's contact normal is turned from finger b's at the first contacts; then one reading "
-          "of two fingers suffices")
+          "the angle from finger b's contact normal to finger a's at the first contacts; with it one reading of two "
+          "fingers is enough")
       ->type_name("ANGLE");
   command
       ->add_option("--budget", roll.budget,
-                   "intervals to look at, beyond the part's own, before giving up; default 1000000")
+                   "intervals to examine, beyond the part's own, before giving up; default 1000000")
       ->type_name("N");
   command
       ->add_option(

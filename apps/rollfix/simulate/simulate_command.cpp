@@ -59,16 +59,16 @@ void add_simulate_command(CLI::App& program, Command& chosen) {
                "where on the finger the first contact is; default 0; once for both fingers or for each");
   command
       ->add_option("--contact", arguments->contact,
-                   "where on a jaw or an outline the first contact is, arc length; default 0, of an open outline its "
+                   "where on a jaw or an outline the first contact is, arc length; default 0, for an open outline its "
                    "middle")
       ->type_name("U");
   add_noise_argument(*command, arguments->noise);
-  command->add_option("--seed", arguments->seed, "what is drawn for --noise; default 0")->type_name("N");
+  command->add_option("--seed", arguments->seed, "seed of the random errors of --noise; default 0")->type_name("N");
   command->add_option("--samples", arguments->samples, "rows of the log, at equal times; default 101")->type_name("N");
   add_repeated(*command, "-o", arguments->files, "FILE",
                "the log, - for stdout, which is the default; twice: a log for each of two fingers");
   add_switch(*command, "--mirror", arguments->mirror,
-             "the part lies face down; --start and --length are along the outline as it was drawn all the same");
+             "the part lies face down; --start and --length are still along the outline as it was drawn");
   add_switch(*command, "--force", arguments->force, "replace files that exist");
   command->callback([arguments, &chosen] {
     chosen = [arguments] { return is_of_two(*arguments) ? simulate_two(*arguments) : simulate_one(*arguments); };
