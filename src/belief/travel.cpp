@@ -6,6 +6,13 @@
 
 #include "belief/posterior.hpp"
 
+// Notation, as in docs/belief.md, "How far the finger travelled":
+//   mark            a measured length with its variance, of the rows that were joined for it: Travel::Mark
+//   sd              of the difference of two lengths: with `per_row_` for each row between them where errors add up
+//   apart           two lengths that differ by `kFarthest` sd or more: `certain`
+// Follows docs/belief.md, the paragraph named above.
+// Idea: steps between noisy lengths add up to far more than was travelled. So each length is compared with the last one
+// that is apart from it for certain, and the way between them is spread evenly over the rows in between, once.
 namespace rollfix::belief {
 
 namespace {

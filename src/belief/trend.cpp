@@ -4,6 +4,15 @@
 
 #include "belief/posterior.hpp"
 
+// Notation:
+//   e_i             innovations of one equation, in standard deviations, i = 0, ..., n - 1: `each`
+//   c_k             sqrt(2 / n) sum of e_i cos(pi k (i + 1/2) / n), for k = 0 by sqrt(1 / n): `component`
+//   m               `kComponents`, of few innovations a quarter as many: `most`
+//   slow            c_0^2 + ... + c_(m-1)^2, less what all innovations are larger by: a chi-square of m degrees
+// Follows docs/belief.md, "When the rows fit badly": J. Neyman, "Smooth test for goodness of fit" (1937), with the
+// orthonormal cosine transform (DCT-II).
+// Idea: white innovations have slow components as large as any other. A gyroscope's drift, an eccentric finger or a
+// part that turns a little are in the slow ones alone.
 namespace rollfix::belief {
 
 namespace {

@@ -4,6 +4,14 @@
 #include <cmath>
 #include <numeric>
 
+// Notation:
+//   f_k(s)          Theta(s + L_k) - Theta(s) - theta_k of reading k: `f_[k]`
+//   f_j - f_k       does not know the tangent at s; where both fit it is within twice the tolerance: `exclusion_by_two`
+//   excluded        the bound that |f| has to be outside of: `excluded()`
+//   step            the least distance between places: `step_`
+// Follows docs/certificates.md, "What is in it": the cell `apart`, by one reading or by two.
+// Idea: of all readings the one that is furthest off at the nearer end is tried first. At a convex corner where the
+// roll starts all readings share one pivot, which each of them alone may fit, and two together can exclude.
 namespace rollfix {
 namespace {
 

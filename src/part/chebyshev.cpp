@@ -6,6 +6,17 @@
 #include <cstdint>
 #include <numbers>
 
+// Notation:
+//   x               in [-1, 1]; the points x_j = cos(pi j / Degree), from -1 to 1: `points_`
+//   T_k             Chebyshev polynomials; `coefficients` are a polynomial's over these, `powers` those over x^k
+//   y               in [-1, 1] on either half, x = (y - 1) / 2 and x = (y + 1) / 2: `halves`
+//   even, odd       terms of even and odd order, kept apart in all tables: each entry serves one of either
+//   reach           how far a polynomial gets from its value in the middle of an interval: the sum of |c_k| half^k
+// Follows docs/search.md, "Once per part". Signs change where Alefeld, Potra and Shi, "Algorithm 748" (1995) closes a
+// bracket.
+// Idea: values at Chebyshev points give a polynomial that is nearly the best one of its degree. An interval is left
+// without a sign change only when `reach` says so, else its slope has one sign there, or it is halved down to
+// `kNarrow`.
 namespace rollfix::chebyshev {
 
 template <int Degree>

@@ -6,6 +6,15 @@
 
 #include "cursor.hpp"
 
+// Notation:
+//   Theta(s)        the tangent's angle, one-sided limits at corners included
+//   [least, most]   of Theta over an arc of the boundary: `angles_over` exactly, TurningRange by a table
+//   step            length of a cell of the table: `step_`; cells reach `kBeyondCell` farther, bounds are rounded
+//                   outwards
+//   least_[j][k], most_[j][k]  over the 2^j cells from k on
+// Follows docs/two_fingers.md, "The search", step 1, and docs/identify.md, "How parts are ruled out".
+// Idea: on a spiral kappa keeps its sign, so that Theta is monotone and its values at the ends bound it. A sparse table
+// then answers for any arc with two look-ups: two runs of 2^j cells that overlap cover it.
 namespace rollfix {
 namespace {
 

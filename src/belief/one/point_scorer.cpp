@@ -9,6 +9,15 @@
 #include "belief/posterior.hpp"
 #include "outline/turn.hpp"
 
+// Notation:
+//   w               tilted turning of the first contact on trial: GridPoint::filter
+//   -2 log L        `cost + log_volume` of its filter, with what the priors add: Score
+//   dL/dw, F        `slope` of log L and `information`
+//   d               the root of the deviance: a point beyond `kBeyondMatter` of what can matter takes no more rows
+// Follows docs/belief.md, "The computation": the prior of s, of the pose, and the order in which first points are
+// looked at.
+// Idea: deviances only grow with rows, so that a point beyond the limit need not take the rest. Likely points go first,
+// for then the limit is low early; several filters run side by side (side_by_side.cpp).
 namespace rollfix::belief {
 
 namespace {

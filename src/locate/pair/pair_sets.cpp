@@ -12,6 +12,15 @@
 #include "../placements.hpp"
 #include "outline/turn.hpp"
 
+// Notation:
+//   (s, t)          a pair of first contacts: PairPoint; in a set `extent` is the box around it
+//   f_k(s, t)       the equations of all readings, then the facing: `f`, with their Jacobian: `linearize`
+//   sign            of det J at a root: on which side the one curve passes the other
+//   cluster         a connected set of pairs within the tolerance: components.cpp
+// Follows eqs. (8) and (9) of the paper (Jia, IROS 2001); docs/search.md, "Two fingers", step 7, and the kinds of
+// "MULTIPLE SOLUTIONS". Least squares by Levenberg (1944) and Marquardt (1963).
+// Idea: a set is a stretch where f = 0 on a line, a crossing where the signs of its roots do not add up to 0, else it
+// touches. Without a root its start is where the largest |f_k| is least.
 namespace rollfix {
 namespace {
 
