@@ -97,11 +97,11 @@ class AskedText : AnswerWords {
     text += scale_lines();
     text += fmt::format("samples    {}", weighing.samples);
     if (weighing.fit.excess > 1)
-      text += fmt::format("; off by {:.2f} times the noise, widened by that", weighing.fit.excess);
+      text += fmt::format("; residuals {:.2f} times the noise, the answer is widened by that", weighing.fit.excess);
     text += '\n' + caution_lines(weighing.fit);
     if (answer_.dropped.improbable > 0) {
-      text += fmt::format("dropped    {} that the readings alone allow, but not all samples together\n",
-                          answer_.dropped.improbable);
+      text += fmt::format("dropped    {} the readings above, but not all samples\n",
+                          counted(answer_.dropped.improbable, "candidate that fits", "candidates that fit"));
     }
     return text;
   }
@@ -111,17 +111,17 @@ class AskedText : AnswerWords {
     std::string text;
     if (fit.turn_gathered > Fit::kMostGathered) {
       text = fmt::format(
-          "caution    what turns are off by adds up to {:.3g} deg on the way, more than they can tell of the part;\n"
-          "           of increments `angle` is what each row is off by, `drift` and `walk` gather with time\n",
+          "caution    the errors of the turns add up to {:.3g} deg on the way, more than turns can say of the part;\n"
+          "           in a log of increments `angle` is the error of each row; `drift` and `walk` gather with time\n",
           fit.turn_gathered / kDegree);
     }
     if (!fit.is_too_good()) return text;
-    text += fmt::format("caution    the rows are off by {:.2g} times the noise only: it is said too large, ",
+    text += fmt::format("caution    the residuals are only {:.2g} times the stated noise: it is too large, ",
                         std::sqrt(fit.chi_square / fit.freedom));
-    text += "and the answer is wider than it need be";
+    text += "and the answer is wider than necessary";
     if (fit.alike_over > 0) {
       text += fmt::format(
-          ";\n           or neighbours are off alike, and the answer is too sure: then --noise correlation={:.2g}",
+          ";\n           or neighbouring errors are alike, and the answer is too sure: then --noise correlation={:.2g}",
           fit.alike_over);
     }
     return text + '\n';
@@ -162,9 +162,9 @@ class AskedText : AnswerWords {
     if (weighing.noise.radius <= 0 && !answer_.fingers.empty() && answer_.fingers.front().is_disk()) {
       exact.emplace_back("the finger's radius");
     }
-    if (!exact.empty()) text += fmt::format("exact      {}: taken to be as said\n", fmt::join(exact, ", "));
+    if (!exact.empty()) text += fmt::format("exact      assumed: {}\n", fmt::join(exact, ", "));
     if (weighing.noise.position <= 0 && !answer_.placements.empty() && answer_.placements.front().pose_spread) {
-      text += "centres    x and y only tell where the part is; --noise position=SD makes them evidence\n";
+      text += "centres    x, y: used for the pose only; --noise position=SD uses them as measurements\n";
     }
     return text;
   }
