@@ -22,13 +22,13 @@ struct CauseText {
 constexpr std::array<CauseText, 24> kCauses = {{
     {Cause::none, "none", "", ""},
     {Cause::unsaid_noise, "unsaid_noise",
-     "the rows jitter by more than their digits say, and were taken as exact; slip and the radius may be off besides",
+     "the rows jitter by more than their digits say, but no noise was stated; slip and a wrong radius may add to it",
      ""},
     {Cause::noise, "noise", "", ""},
     {Cause::correlation, "correlation",
-     "rows are not off independently: neighbours are off alike, as of a sensor that drifts, wobbles or "
-     "repeats its digits, or of a part that moved a little",
-     "say as well over how long a roll neighbours are off alike: the noise's correlation, a length"},
+     "the errors of rows are not independent: neighbours are alike, as with a sensor that drifts, wobbles or "
+     "repeats its digits, or with a part that moved a little",
+     "state over what length of roll neighbouring errors are alike: the noise's correlation, a length"},
     {Cause::prior, "prior", "what --prior, --heading or --pose says contradicts the rows", "leave it out"},
     {Cause::radius, "radius", "", ""},
     {Cause::u_degrees, "u_degrees", "u is in degrees", "--columns u=u:deg"},
@@ -52,11 +52,11 @@ constexpr std::array<CauseText, 24> kCauses = {{
     {Cause::turn_clockwise, "turn_clockwise", "turns are counted clockwise",
      "counter-clockwise angles: change the sign of the turn"},
     {Cause::stray, "stray", "", "--robust"},
-    {Cause::slip, "slip", "lengths are off here and there: likeliest is that the finger slipped", ""},
+    {Cause::slip, "slip", "lengths are wrong here and there: probably the finger slipped", ""},
 }};
 constexpr CauseText kAnotherPart = {Cause::part, "part",
-                                    "neither other lengths, other signs or units, nor slip explain the rows: likeliest "
-                                    "is another part, another finger, or another side of it",
+                                    "neither other lengths, signs or units nor slip explain the rows: probably it is "
+                                    "another part, another finger, or another side of the part",
                                     "check the part and the finger"};
 
 const CauseText& text_of(Cause cause) {
