@@ -213,8 +213,9 @@ void add_advise_command(CLI::App& program, Command& chosen) {
           "--travel", arguments->travel,
           "how far the finger can roll on: a length, or one backwards, below 0, and one forwards; default one lap")
       ->type_name("BACK,FORWARD");
-  add_output_argument(*command, arguments->output,
-                      "a figure of what is to be expected by length: .svg, .png or .pdf, - for SVG on stdout");
+  add_output_argument(
+      *command, arguments->output,
+      "a figure of what is expected against the roll's length: .svg, .png or .pdf, - for SVG on stdout");
   add_switch(*command, "--json", arguments->json, "print JSON (rollfix/advise/1)");
   command->callback([arguments, &chosen] { chosen = [arguments] { return advise_report(*arguments); }; });
 }

@@ -240,8 +240,8 @@ void add_felt_arguments(CLI::App& command, RollArguments& arguments, bool takes_
              "two fingers at different heights: keep places where their disks would overlap");
   command
       .add_option("--tolerance", arguments.tolerance,
-                  "how far the turn may be off; default 1e-9, or the rounding of the digits given, "
-                  "or what --noise makes of it")
+                  "the largest error of the turn; default 1e-9, or from the rounding of the digits given, "
+                  "or from --noise")
       ->type_name("ANGLE");
   add_noise_arguments(command, arguments.noise, arguments.prior, arguments.robust);
   add_pose_arguments(command, arguments.pose);

@@ -98,7 +98,7 @@ void add_identify_command(CLI::App& program, Command& chosen) {
   add_felt_arguments(*command, arguments->roll, true);
   command
       ->add_option("--at", arguments->roll.instants,
-                   "instants of the log to use, seconds; default all rows, as far as their digits or the noise tell")
+                   "instants of the log to use, seconds; default all rows, as exact as their digits or the noise say")
       ->type_name("T1,T2,...");
   command
       ->add_option(
@@ -106,11 +106,11 @@ void add_identify_command(CLI::App& program, Command& chosen) {
           "how far finger a's contact normal is turned from finger b's at the first contacts; then one reading "
           "of two fingers suffices")
       ->type_name("ANGLE");
-  command->add_option("--budget", arguments->roll.budget, "intervals to look at on a part before giving up")
+  command->add_option("--budget", arguments->roll.budget, "intervals to examine on a part before giving up")
       ->type_name("N");
   command->add_option("--jobs", arguments->jobs, "threads; default as many as there are processors")->type_name("N");
   add_switch(*command, "--without-index", arguments->without_index,
-             "search every part: slow, and for whoever doubts that the bounds lose nothing");
+             "search every part, without bounds: slow, to check that the bounds lose nothing");
   add_output_argument(*command, arguments->output,
                       "a figure of the parts that remain: .svg, .png or .pdf, - for SVG on stdout");
   add_switch(*command, "--json", arguments->json, "print JSON (rollfix/identify/1)");

@@ -245,9 +245,9 @@ void add_locate_command(CLI::App& program, Command& chosen, std::ostream& out) {
   add_output_argument(*command, arguments->output,
                       "a figure of the placements: .svg, .png or .pdf, - for SVG on stdout");
   add_switch(*command, "--explain", arguments->detail.explain,
-             "list what fits and was dropped all the same, because the finger can't get there, and why");
+             "list placements that fit but were dropped because the finger can't reach them, and why");
   add_switch(*command, "--verbose", arguments->detail.verbose,
-             "how wide placements are, how they move with the reading, and what was taken as exact as well");
+             "also show how wide placements are, how they move with the reading, and what was assumed exact");
   add_map_argument(*command, arguments->maps);
   add_march_arguments(*command, arguments->march);
   add_switch(*command, "--json", arguments->json, "print JSON (rollfix/locate/1)");
