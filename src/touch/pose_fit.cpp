@@ -14,8 +14,8 @@
 //   c(u), theta(u)  centre and tangent's angle at a contact's place u_i: CentrePoint
 //   r_i             residuals (q - X - R(phi) c(u)) / `place_unit` and (tau - theta(u) - phi) / `angle_unit`
 //   J, v            derivatives of r_i by the pose and by u_i: `by_pose`, `by_place`
-//   M               J^T J - J^T v v^T J / v^T v, a touch's share of the normal matrix with u_i eliminated; at a corner
-//                   or an end, where u_i can't move (`is_pinned`), J^T J alone
+//   M               J^T J - J^T v v^T J / v^T v, a touch's share of the normal matrix with u_i eliminated; where u_i
+//                   can't move, held or at a corner or an end (`is_pinned`), J^T J alone
 // Follows docs/touch.md, "How it works"; K. Levenberg, "A method for the solution of certain non-linear problems in
 // least squares" (1944).
 // Idea: least squares over three unknowns only, because each contact is kept at its nearest place. Downhill steps of
