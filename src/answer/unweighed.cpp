@@ -68,18 +68,6 @@ double jitter(std::vector<double> values) {
   return median(std::move(values)) / kMedianSize / std::sqrt(weights);
 }
 
-/// Half a unit of the last decimal that any of the numbers shows.
-double rounding_of_column(const std::vector<double>& values) {
-  double unit = 1;
-  for (int decimals = 0; decimals < kMostDecimals; ++decimals, unit /= 10) {
-    const bool is_whole = std::all_of(values.begin(), values.end(), [&](double value) {
-      return std::abs(value / unit - std::round(value / unit)) <= 1e-6;
-    });
-    if (is_whole) return 0.5 * unit;
-  }
-  return 0;
-}
-
 double beyond_digits(double sd, double half_unit) { return sd > kOverDigits * half_unit ? sd : 0; }
 
 /// How far a placement may be off its true place.
@@ -192,6 +180,17 @@ std::optional<Noise> noise_that_shows(const Log& log, const std::vector<Finger>&
   }
   if (noise.contact <= 0 && noise.angle <= 0) return std::nullopt;
   return noise;
+}
+
+double rounding_of_column(const std::vector<double>& values) {
+  double unit = 1;
+  for (int decimals = 0; decimals < kMostDecimals; ++decimals, unit /= 10) {
+    const bool is_whole = std::all_of(values.begin(), values.end(), [&](double value) {
+      return std::abs(value / unit - std::round(value / unit)) <= 1e-6;
+    });
+    if (is_whole) return 0.5 * unit;
+  }
+  return 0;
 }
 
 double jitter_of_centres(const Log& log) {

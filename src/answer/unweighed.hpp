@@ -16,6 +16,9 @@ std::optional<Noise> noise_that_shows(const Log& log, const std::vector<Finger>&
 /// deviation of a coordinate; 0 where they don't, or where there are too few rows to tell.
 double jitter_of_centres(const Log& log);
 
+/// Half a unit of the last decimal that any of the numbers shows; 0: they show more than can be told.
+double rounding_of_column(const std::vector<double>& values);
+
 /// Marks placements that other rows of the log contradict, or the contacts in the world, and puts them last; the
 /// verdict is of the others. Where none is left it says that the rows fit badly, and why, if it `explains`. REQUIRES a
 /// log, and poses where it has them.

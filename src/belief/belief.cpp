@@ -213,4 +213,14 @@ PoseSpread Belief::pose_spread(std::size_t mode, const PerFinger<FeltContact>& f
   return pose_spread_of(state_->part, pieces, felt, state_->options.noise);
 }
 
+std::vector<PosePiece> Belief::pose_pieces() {
+  state_->settle();
+  if (!state_->posterior->has_begun()) return {};
+  std::vector<PosePiece> pieces = state_->posterior->pose_pieces();
+  for (PosePiece& piece : pieces) {
+    for (PosePiece::End* end : {&piece.lo, &piece.hi}) end->pose.covariance *= square(fit().widened);
+  }
+  return pieces;
+}
+
 }  // namespace rollfix

@@ -235,6 +235,8 @@ class Posterior {
   virtual double variance_of_miss(const std::vector<Reading>& readings, const std::vector<Mode>& modes) const = 0;
   /// Of a mode. The first is the one that poses are compared with; its share may be 0.
   virtual std::vector<Piece> pieces(std::size_t index, const Mode& mode) const = 0;
+  /// See Belief, but for Fit::widened.
+  virtual std::vector<PosePiece> pose_pieces() const { return {}; }
   /// See Belief::density. `modes`: of settle().
   virtual PerFinger<Density> density(const std::vector<Mode>& modes) const = 0;
 };

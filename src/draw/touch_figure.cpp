@@ -46,11 +46,12 @@ class TouchPicture {
     Svg svg(figure_.width, axes_.corner.y() + axes_.size.y() + kTouchBelow + legend.height());
     svg.describe("The part in each pose that the touches leave");
     draw_header(svg, figure_.title.empty() ? answer_.part.name() : figure_.title, answer_.verdict_text(),
-                {{counted(answer_.touches.size(), "touch", "touches")}});
+                {{contacts_text()}});
     svg.open_group("world");
     draw_axes(svg, axes_, round_ticks(axes_.x, 5), round_ticks(axes_.y, 5), {{"in the world"}}, "");
     svg.open_clip(axes_.corner.x(), axes_.corner.y(), axes_.size.x(), axes_.size.y());
     for (std::size_t k = poses_.size(); k-- > 0;) pose(svg, k);
+    for (const RollFacts& roll : answer_.rolls) rolled(svg, roll);
     for (const MeasuredTouch& touch : answer_.touches) touched(svg, touch);
     svg.close_group();
     svg.close_group();
@@ -61,8 +62,9 @@ class TouchPicture {
  private:
   std::vector<Vec2> placed(const std::vector<Vec2>& points, const Pose& pose) const {
     std::vector<Vec2> world;
+    const Pose shown = answer_.place == PlaceKnown::unknown ? Pose{0, 0, pose.heading} : pose;
     for (const Vec2& point : points)
-      world.push_back(pose.world({answer_.mirrored ? -point.x() : point.x(), point.y()}));
+      world.push_back(shown.world({answer_.mirrored ? -point.x() : point.x(), point.y()}));
     return world;
   }
 
@@ -73,6 +75,9 @@ class TouchPicture {
     for (const MeasuredTouch& touch : answer_.touches) {
       seen.extend(Vec2(touch.at + Vec2::Constant(answer_.radius)));
       seen.extend(Vec2(touch.at - Vec2::Constant(answer_.radius)));
+    }
+    for (const RollFacts& roll : answer_.rolls) {
+      for (const Vec2& centre : roll.track) seen.extend(centre);
     }
     const double margin = std::max(kTouchMargin * seen.sizes().maxCoeff(), 1e-9 * answer_.part.perimeter());
     const Box wide(seen.min() - Vec2::Constant(margin), seen.max() + Vec2::Constant(margin));
@@ -106,6 +111,24 @@ class TouchPicture {
     svg.close_group();
   }
 
+  std::string contacts_text() const {
+    const std::string touches = counted(answer_.touches.size(), "touch", "touches");
+    if (answer_.rolls.empty()) return touches;
+    const std::string rolls = counted(answer_.rolls.size(), "roll", "rolls");
+    return answer_.touches.empty() ? rolls : rolls + ", " + touches;
+  }
+
+  /// The way of the finger's centre, with the finger where it first touched.
+  void rolled(Svg& svg, const RollFacts& roll) const {
+    if (roll.track.empty()) return;
+    svg.open_group("roll");
+    const std::vector<Vec2> path = on_page(roll.track);
+    if (answer_.radius > 0) svg.circle(path.front(), answer_.radius * scale_, stroke(kSoftInk, 0.8));
+    svg.polyline(path, stroke(kInk, 1.4));
+    svg.circle(path.front(), kTouchDot, draw::filled(kInk));
+    svg.close_group();
+  }
+
   void touched(Svg& svg, const MeasuredTouch& touch) const {
     const Vec2 at = axes_(touch.at.x(), touch.at.y());
     svg.open_group("touch");
@@ -126,8 +149,11 @@ class TouchPicture {
       const auto place = [&](double value) {  // without what is rounding
         return pretty(std::abs(value) <= kTouchRounding * answer_.part.perimeter() ? 0 : value);
       };
-      std::string text = fmt::format("p{}: x {}, y {}, heading {}", k, place(pose.pose.x), place(pose.pose.y),
-                                     pose.any_heading ? "any" : pretty_degrees(pose.pose.heading));
+      const std::string where = answer_.place == PlaceKnown::unknown
+                                    ? "its place is not known"
+                                    : fmt::format("x {}, y {}", place(pose.pose.x), place(pose.pose.y));
+      std::string text =
+          fmt::format("p{}: {}, heading {}", k, where, pose.any_heading ? "any" : pretty_degrees(pose.pose.heading));
       if (std::isfinite(pose.probability)) text += ", " + percent(pose.probability);
       if (pose.continuum) text += ", one of a continuum";
       result.push_back({Sign::line, colour(k), {{text}}, ""});

@@ -7,7 +7,9 @@
 #include <limits>
 #include <numbers>
 
+#include "heading_sets.hpp"
 #include "outline/turn.hpp"
+#include "roll_belief.hpp"
 
 namespace rollfix::touch {
 namespace {
@@ -19,13 +21,19 @@ constexpr std::size_t kMostWitnesses = 8;
 constexpr int kLawsonRounds = 30;
 
 TouchContact contact_of(const PoseFit& fit, const FittedPose& fitted, std::size_t touch) {
-  const CentrePoint point = fit.path().at(fitted.places[touch]);
+  const CentrePoint point = fit.path(touch).at(fitted.places[touch]);
   const InPart at = fit.in_part(fitted.pose, touch);
   TouchContact contact;
-  contact.s = fit.path().part().boundary().canonical(point.s);
-  contact.point = fit.path().contact(fitted.places[touch]);
+  contact.s = fit.path(touch).part().boundary().canonical(point.s);
+  contact.point = fit.path(touch).contact(fitted.places[touch]);
   contact.tangent = nearest_angle(point.angle);
-  contact.distance = (at.at - point.centre).norm();
+  if (const RollBelief* roll = fit.touches()[touch].roll) {
+    const Eigen::Vector3d off = roll->residual(fitted.pose, roll->at(fitted.places[touch]));
+    if (at.has_place) contact.distance = off.head<2>().norm();
+    contact.turn = off.z();
+    return contact;
+  }
+  if (at.has_place) contact.distance = (at.at - point.centre).norm();
   if (at.tangent) contact.turn = nearest_angle(*at.tangent - point.angle);
   return contact;
 }
@@ -55,18 +63,18 @@ void extend(Interval& interval, double lo, double hi) {
 }
 
 /// Around all poses that have their first two contacts on one of the cells.
-std::array<Interval, 3> extent_of(const PoseFit& fit, const PathTree& tree, const std::vector<Cell>& cells,
-                                  const TouchPair& pair, const Pose& about) {
+std::array<Interval, 3> extent_of(const PoseFit& fit, const std::vector<Cell>& cells, const TouchPair& pair,
+                                  const Pose& about) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   std::array<Interval, 3> extent;
   extent.fill({kFar, -kFar});
   const Measured& first = fit.touches()[pair.first];
   for (const Cell& cell : cells) {
-    const PathTree::Node& node = tree.node(cell.first);
+    const PathTree::Node& node = fit.tree(pair.first).node(cell.first);
     const Pose turn{0, 0, cell.heading.middle};
     const Vec2 place = first.at - turn.turned(node.middle);
     const double swing = cell.heading.is_all() ? 2 : 2 * std::sin(0.5 * cell.heading.half);
-    const double slack = node.radius + first.place_most + swing * node.middle.norm();
+    const double slack = node.radius + (is_reference(first) ? 0 : first.place_most) + swing * node.middle.norm();
     extend(extent[0], place.x() - slack, place.x() + slack);
     extend(extent[1], place.y() - slack, place.y() + slack);
     const double off = about.heading + nearest_angle(cell.heading.middle - about.heading);
@@ -78,12 +86,31 @@ std::array<Interval, 3> extent_of(const PoseFit& fit, const PathTree& tree, cons
 /// Whether the touches leave the part free to move: in some direction they would hardly hold it, if its sides were as
 /// long as they are straight there.
 bool is_continuum(const PoseFit& fit, const FittedPose& fitted) {
-  double least = fit.touches().front().place_most;
-  for (const Measured& touch : fit.touches()) least = std::min(least, touch.place_most);
-  const Eigen::Vector3d scale(1, 1, 2 / fit.path().diagonal());
+  double least = std::numeric_limits<double>::infinity();
+  for (const Measured& touch : fit.touches()) {
+    if (touch.has_place) least = std::min(least, touch.place_most);
+  }
+  const Eigen::Vector3d scale(1, 1, 2 / fit.path(0).diagonal());
   const Eigen::Matrix3d information = scale.asDiagonal() * fitted.information * scale.asDiagonal();
   const double weakest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(information).eigenvalues()(0);
   return !(weakest > 1 / (kContinuum * kContinuum * least * least));
+}
+
+/// Whether a set is a continuum. Of rolls without noise its extent says that: they are confined to arcs. Of a reference
+/// with noise the posterior says how well the heading is known.
+bool is_free(const PoseFit& fit, const FittedPose& fitted, const TouchPair& pair,
+             const std::array<Interval, 3>& extent) {
+  const std::vector<Measured>& contacts = fit.touches();
+  const Measured& first = contacts[pair.first];
+  if (is_reference(first)) return false;
+  const bool any_rolls =
+      std::any_of(contacts.begin(), contacts.end(), [](const Measured& contact) { return contact.is_roll; });
+  const bool has_noise =
+      std::any_of(contacts.begin(), contacts.end(), [](const Measured& contact) { return contact.roll != nullptr; });
+  if (!any_rolls || has_noise) return is_continuum(fit, fitted);
+  const double place = kFreePlace * fit.path(0).part().perimeter() + kFreeTolerances * first.place_most;
+  const double heading = kFreeHeading + kFreeTolerances * (first.tangent ? first.angle_most : 0);
+  return std::max(extent[0].width(), extent[1].width()) > place || extent[2].width() > heading;
 }
 
 }  // namespace
@@ -92,15 +119,19 @@ double worst_of(const PoseFit& fit, const FittedPose& fitted) {
   double worst = 0;
   for (std::size_t k = 0; k < fitted.places.size(); ++k) {
     const Measured& touch = fit.touches()[k];
-    const CentrePoint point = fit.path().at(fitted.places[k]);
+    if (touch.roll != nullptr) {
+      worst = std::max(worst, touch.roll->worst(fitted.pose, touch.roll->at(fitted.places[k])));
+      continue;
+    }
+    const CentrePoint point = fit.path(k).at(fitted.places[k]);
     const InPart at = fit.in_part(fitted.pose, k);
-    worst = std::max(worst, (at.at - point.centre).norm() / touch.place_most);
+    if (at.has_place) worst = std::max(worst, (at.at - point.centre).norm() / touch.place_most);
     if (at.tangent) worst = std::max(worst, std::abs(nearest_angle(*at.tangent - point.angle)) / touch.angle_most);
   }
   return worst;
 }
 
-TouchPose described(const PoseFit& fit, const FittedPose& fitted, const PathTree& tree, const std::vector<Cell>& cells,
+TouchPose described(const PoseFit& fit, const FittedPose& fitted, const std::vector<Cell>& cells,
                     const TouchPair& pair) {
   TouchPose result;
   result.pose = fitted.pose;
@@ -112,11 +143,11 @@ TouchPose described(const PoseFit& fit, const FittedPose& fitted, const PathTree
   }
   result.worst = worst_of(fit, fitted);
   result.any_heading = cover_all(cells);
-  result.extent = extent_of(fit, tree, cells, pair, fitted.pose);
+  result.extent = extent_of(fit, cells, pair, fitted.pose);
   if (result.any_heading) {
     result.extent[2] = {fitted.pose.heading - std::numbers::pi, fitted.pose.heading + std::numbers::pi};
   }
-  result.continuum = result.any_heading || is_continuum(fit, fitted);
+  result.continuum = result.any_heading || is_free(fit, fitted, pair, result.extent);
   return result;
 }
 
@@ -148,13 +179,13 @@ void add_posterior(TouchPose& pose, const PoseMode& mode, const std::vector<Post
   for (std::size_t i = 0; i < 3; ++i) pose.interval[i] = middle_share(terms[i], 0.95);
 }
 
-FittedPose best_within(PoseFit& fit, const PathTree& tree, const std::vector<Cell>& cells, const TouchPair& pair) {
+FittedPose best_within(PoseFit& fit, const std::vector<Cell>& cells, const TouchPair& pair) {
   FittedPose best;
   double least = std::numeric_limits<double>::infinity();
   const std::size_t starts = std::min(cells.size(), kMostWitnesses);
   for (std::size_t start = 0; start < starts; ++start) {
     const Cell& cell = cells[(2 * start + 1) * cells.size() / (2 * starts)];
-    const PathTree::Node& node = tree.node(cell.first);
+    const PathTree::Node& node = fit.tree(pair.first).node(cell.first);
     const Held held{pair.first, {static_cast<std::size_t>(node.stretch), node.u.middle()}};
     FittedPose fitted = fit.fit(fit.pose_at(held, cell.heading.middle));
     std::vector<double> weights(fit.touches().size(), 1.0);
@@ -167,8 +198,7 @@ FittedPose best_within(PoseFit& fit, const PathTree& tree, const std::vector<Cel
       if (worst <= 1 || fit.touches().size() < 3) break;
       double sum = 0;
       for (std::size_t k = 0; k < weights.size(); ++k) {
-        const InPart touch = fit.in_part(fitted.pose, k);
-        weights[k] *= 1e-6 + std::sqrt(distance_at(fit.path().at(fitted.places[k]), touch).square) / worst;
+        weights[k] *= 1e-6 + std::sqrt(fit.square_at(fitted.pose, k, fitted.places[k], false)) / worst;
         sum += weights[k];
       }
       for (double& weight : weights) weight *= static_cast<double>(weights.size()) / sum;

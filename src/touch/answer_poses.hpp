@@ -15,13 +15,13 @@ namespace rollfix::touch {
 double worst_of(const PoseFit& fit, const FittedPose& fitted);
 
 /// A fitted pose as the answer has it, with all that cells say of its set: extent, and whether it is a continuum.
-TouchPose described(const PoseFit& fit, const FittedPose& fitted, const PathTree& tree, const std::vector<Cell>& cells,
+TouchPose described(const PoseFit& fit, const FittedPose& fitted, const std::vector<Cell>& cells,
                     const TouchPair& pair);
 
 /// Adds what the posterior knows of a mode.
 void add_posterior(TouchPose& pose, const PoseMode& mode, const std::vector<PosteriorNode>& nodes);
 
 /// The fitted pose with the least largest residual, as a share of its tolerance: from a few of the set's cells.
-FittedPose best_within(PoseFit& fit, const PathTree& tree, const std::vector<Cell>& cells, const TouchPair& pair);
+FittedPose best_within(PoseFit& fit, const std::vector<Cell>& cells, const TouchPair& pair);
 
 }  // namespace rollfix::touch

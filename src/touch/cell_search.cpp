@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "rollfix/pulse.hpp"
 
@@ -31,24 +32,27 @@ constexpr double kGrain = 1e-12;
 
 TouchPair choose_pair(const std::vector<Measured>& touches) {
   TouchPair best;
-  int most_normals = -1;
-  double most_apart = -1;
+  std::tuple<int, int, double> most{-1, -1, -1};
   for (std::size_t i = 0; i < touches.size(); ++i) {
     for (std::size_t j = i + 1; j < touches.size(); ++j) {
-      const int normals = (touches[i].tangent ? 1 : 0) + (touches[j].tangent ? 1 : 0);
-      const double apart = (touches[j].at - touches[i].at).norm();
-      if (normals < most_normals || (normals == most_normals && apart <= most_apart)) continue;
-      most_normals = normals;
-      most_apart = apart;
-      // The places of the first are what the posterior is summed over.
-      best = touches[i].tangent || !touches[j].tangent ? TouchPair{i, j} : TouchPair{j, i};
+      const Measured& one = touches[i];
+      const Measured& other = touches[j];
+      const int places = (one.has_place ? 1 : 0) + (other.has_place ? 1 : 0);
+      const int normals = (one.tangent ? 1 : 0) + (other.tangent ? 1 : 0);
+      const double apart = places == 2 ? (other.at - one.at).norm() : 0;
+      const std::tuple<int, int, double> worth{places, normals, apart};
+      if (worth <= most) continue;
+      most = worth;
+      // The places of the first are what the posterior is summed over: there are few where it has a normal.
+      const bool in_order = one.has_place == other.has_place ? one.tangent || !other.tangent : one.has_place;
+      best = in_order ? TouchPair{i, j} : TouchPair{j, i};
     }
   }
   return best;
 }
 
-CellSearch::CellSearch(PathTree& tree, const std::vector<Measured>& touches, const TouchPair& pair, std::size_t budget)
-    : tree_(tree), touches_(touches), pair_(pair), budget_(budget) {
+CellSearch::CellSearch(const std::vector<Measured>& touches, const TouchPair& pair, std::size_t budget)
+    : touches_(touches), pair_(pair), budget_(budget) {
   for (std::size_t k = 0; k < touches.size(); ++k) {
     if (k != pair.first && k != pair.second) others_.push_back(k);
   }
@@ -61,7 +65,7 @@ Cells CellSearch::search(const std::vector<Cell>& from, double leaf) {
     candidates_.clear();
     Lists lists;
     for (std::size_t k = 0; k < others_.size(); ++k) {
-      candidates_.push_back(tree_.root());
+      candidates_.push_back(tree(others_[k]).root());
       lists.emplace_back(k, k + 1);
     }
     visit(cell, lists);
@@ -72,25 +76,25 @@ Cells CellSearch::search(const std::vector<Cell>& from, double leaf) {
 HeadingArc CellSearch::by_normal(std::size_t touch, std::int32_t node) const {
   const Measured& one = touches_[touch];
   if (!one.tangent) return {};
-  const PathTree::Node& at = tree_.node(node);
+  const PathTree::Node& at = tree(touch).node(node);
   return {nearest_angle(*one.tangent - at.angle), at.half_turn + one.angle_most + kGrain};
 }
 
 HeadingArc CellSearch::headings(const Cell& cell) const {
   const HeadingArc by_normals = common(by_normal(pair_.first, cell.first), by_normal(pair_.second, cell.second));
-  if (by_normals.is_empty()) return by_normals;
-  const PathTree::Node& first = tree_.node(cell.first);
-  const PathTree::Node& second = tree_.node(cell.second);
   const Measured& one = touches_[pair_.first];
   const Measured& other = touches_[pair_.second];
+  if (by_normals.is_empty() || !one.has_place || !other.has_place) return by_normals;
+  const PathTree::Node& first = tree(pair_.first).node(cell.first);
+  const PathTree::Node& second = tree(pair_.second).node(cell.second);
   const double slack = first.radius + second.radius + one.place_most + other.place_most;
   return common(by_normals, headings_between(second.middle - first.middle, other.at - one.at, slack));
 }
 
 double CellSearch::size(std::size_t touch, std::int32_t node) const {
   const Measured& one = touches_[touch];
-  const PathTree::Node& at = tree_.node(node);
-  const double place = at.radius / (leaf_ * one.place_most);
+  const PathTree::Node& at = tree(touch).node(node);
+  const double place = one.has_place ? at.radius / (leaf_ * one.place_most) : 0;
   if (!at.is_single()) return std::max(place, 1.5);  // only single ones are leaves
   return one.tangent ? std::max(place, at.half_turn / (leaf_ * one.angle_most)) : place;
 }
@@ -99,14 +103,16 @@ double CellSearch::size(std::size_t touch, std::int32_t node) const {
 bool CellSearch::may_hold(const Cell& cell, std::size_t touch, std::int32_t node) {
   ++comparisons_;
   const Measured& one = touches_[touch];
-  const PathTree::Node& at = tree_.node(node);
+  const PathTree::Node& at = tree(touch).node(node);
   if (one.tangent) {
     const double off = std::abs(nearest_angle(*one.tangent - at.angle - cell.heading.middle));
     if (off > at.half_turn + one.angle_most + cell.heading.half + kGrain) return false;
   }
+  if (!one.has_place) return true;
   const double swing = cell.heading.is_all() ? 2 : 2 * std::sin(0.5 * cell.heading.half);
   const auto near = [&](std::size_t from, std::int32_t base) {
-    const PathTree::Node& of = tree_.node(base);
+    if (!touches_[from].has_place) return true;
+    const PathTree::Node& of = tree(from).node(base);
     const Vec2 vector = one.at - touches_[from].at;
     const Vec2 in_part(cosine_ * vector.x() + sine_ * vector.y(), cosine_ * vector.y() - sine_ * vector.x());
     const double slack = of.radius + at.radius + one.place_most + touches_[from].place_most + swing * vector.norm();
@@ -126,7 +132,7 @@ bool CellSearch::narrow(const Cell& cell, std::size_t touch, std::pair<std::size
     waiting_.pop_back();
     if (!may_hold(cell, touch, node)) continue;
     if (size(touch, node) > coarse) {
-      const auto [left, right] = tree_.halves(node);
+      const auto [left, right] = tree(touch).halves(node);
       if (left != right) {
         waiting_.push_back(left);
         waiting_.push_back(right);
@@ -164,8 +170,9 @@ void CellSearch::split(const Cell& cell, const Lists& lists) {
   const double second = size(pair_.second, cell.second);
   const bool is_first = first >= second;
   const std::int32_t node = is_first ? cell.first : cell.second;
-  const std::pair<std::int32_t, std::int32_t> halves =
-      std::max(first, second) <= 1 ? std::make_pair(node, node) : tree_.halves(node);
+  const std::pair<std::int32_t, std::int32_t> halves = std::max(first, second) <= 1
+                                                           ? std::make_pair(node, node)
+                                                           : tree(is_first ? pair_.first : pair_.second).halves(node);
   if (halves.first == halves.second) {
     found_.fit.push_back(cell);
     return;

@@ -24,7 +24,8 @@ struct TouchPair {
   std::size_t second = 1;
 };
 
-/// Those with normals where there are such, and the two that are furthest apart among them.
+/// The two whose places are known, where there are such, then those with normals, then those furthest apart. The first
+/// has a place.
 TouchPair choose_pair(const std::vector<Measured>& touches);
 
 /// What a search left.
@@ -42,10 +43,12 @@ class CellSearch {
   /// it of the tolerance of angle.
   static constexpr double kLeaf = 0.5;
 
-  CellSearch(PathTree& tree, const std::vector<Measured>& touches, const TouchPair& pair, std::size_t budget);
+  CellSearch(const std::vector<Measured>& touches, const TouchPair& pair, std::size_t budget);
 
-  /// From the whole boundary; from these cells alone, to a finer leaf.
-  Cells search() { return search({{tree_.root(), tree_.root(), {}}}, kLeaf); }
+  /// From all places; from these cells alone, to another leaf.
+  Cells search(double leaf = kLeaf) {
+    return search({{tree(pair_.first).root(), tree(pair_.second).root(), {}}}, leaf);
+  }
   Cells search(const std::vector<Cell>& from, double leaf);
 
   std::size_t comparisons() const { return comparisons_; }
@@ -61,7 +64,8 @@ class CellSearch {
   double size(std::size_t touch, std::int32_t node) const;  // in leaves: up to 1 it is one
   void split(const Cell& cell, const Lists& lists);
 
-  PathTree& tree_;
+  PathTree& tree(std::size_t touch) const { return *touches_[touch].tree; }
+
   const std::vector<Measured>& touches_;
   TouchPair pair_;
   std::size_t budget_;

@@ -8,7 +8,8 @@ namespace {
 /// Cells in order, and which of them are neighbours.
 class Neighbours {
  public:
-  Neighbours(const PathTree& tree, const std::vector<Cell>& cells) : tree_(tree), cells_(cells) {
+  Neighbours(const PathTree& first, const PathTree& second, const std::vector<Cell>& cells)
+      : first_(first), second_(second), cells_(cells) {
     for (std::size_t k = 0; k < cells.size(); ++k) {
       if (k == 0 || cells[k].first != cells[k - 1].first) columns_.push_back({k, k});
       columns_.back().second = k + 1;
@@ -28,7 +29,7 @@ class Neighbours {
   void between(const Found& found) const {
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       const std::size_t next = c + 1 < columns_.size() ? c + 1 : 0;
-      if (next == c || !touch(first(columns_[c].first), first(columns_[next].first))) continue;
+      if (next == c || !touch(first_, first(columns_[c].first), first(columns_[next].first))) continue;
       for (std::size_t k = columns_[c].first; k < columns_[c].second; ++k) each_in(columns_[next], k, found);
     }
   }
@@ -36,13 +37,13 @@ class Neighbours {
  private:
   using Column = std::pair<std::size_t, std::size_t>;
 
-  const Interval& first(std::size_t k) const { return tree_.node(cells_[k].first).number; }
-  const Interval& second(std::size_t k) const { return tree_.node(cells_[k].second).number; }
+  const Interval& first(std::size_t k) const { return first_.node(cells_[k].first).number; }
+  const Interval& second(std::size_t k) const { return second_.node(cells_[k].second).number; }
 
   /// Whether the numbers of places meet, also across the start of a closed path.
-  bool touch(const Interval& one, const Interval& other) const {
+  static bool touch(const PathTree& tree, const Interval& one, const Interval& other) {
     if (one.lo <= other.hi && other.lo <= one.hi) return true;
-    const double period = tree_.path().period();
+    const double period = tree.path().period();
     return period > 0 && ((one.hi >= period && other.lo <= 0) || (other.hi >= period && one.lo <= 0));
   }
 
@@ -50,7 +51,7 @@ class Neighbours {
   void each_in(const Column& column, std::size_t k, const Found& found) const {
     const Interval& at = second(k);
     const auto try_one = [&](std::size_t j) {
-      if (j != k && touch(at, second(j)) && meet(cells_[k].heading, cells_[j].heading)) found(k, j);
+      if (j != k && touch(second_, at, second(j)) && meet(cells_[k].heading, cells_[j].heading)) found(k, j);
     };
     std::size_t lo = column.first;
     std::size_t hi = column.second;
@@ -63,7 +64,8 @@ class Neighbours {
     try_one(column.second - 1);
   }
 
-  const PathTree& tree_;
+  const PathTree& first_;
+  const PathTree& second_;
   const std::vector<Cell>& cells_;
   std::vector<Column> columns_;
 };
@@ -84,15 +86,15 @@ std::vector<std::vector<std::size_t>> UnionFind::sets() {
   return result;
 }
 
-CellSets sets_of(const PathTree& tree, std::vector<Cell> cells) {
+CellSets sets_of(const PathTree& first, const PathTree& second, std::vector<Cell> cells) {
   std::sort(cells.begin(), cells.end(), [&](const Cell& one, const Cell& other) {
-    const double a = tree.node(one.first).number.lo;
-    const double b = tree.node(other.first).number.lo;
-    return a != b ? a < b : tree.node(one.second).number.lo < tree.node(other.second).number.lo;
+    const double a = first.node(one.first).number.lo;
+    const double b = first.node(other.first).number.lo;
+    return a != b ? a < b : second.node(one.second).number.lo < second.node(other.second).number.lo;
   });
   CellSets result;
   result.cells = std::move(cells);
-  const Neighbours neighbours(tree, result.cells);
+  const Neighbours neighbours(first, second, result.cells);
   UnionFind columns(result.cells.size());
   neighbours.within([&](std::size_t i, std::size_t j) { columns.join(i, j); });
   result.groups = columns.sets();

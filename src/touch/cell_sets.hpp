@@ -16,7 +16,8 @@ struct CellSets {
   std::vector<std::vector<std::size_t>> components;        // groups that hang together
 };
 
-CellSets sets_of(const PathTree& tree, std::vector<Cell> cells);
+/// `first`, `second`: the trees that the cells' nodes are of.
+CellSets sets_of(const PathTree& first, const PathTree& second, std::vector<Cell> cells);
 
 /// Sets that are joined one by one.
 class UnionFind {

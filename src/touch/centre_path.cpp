@@ -15,7 +15,7 @@ namespace {
 constexpr double kNoCorner = 1e-11;
 
 /// What an arc of the boundary and a spiral have in common, at most two pieces.
-std::vector<Interval> within(const Interval& arc, const Spiral& spiral, const Boundary& boundary) {
+std::vector<Interval> within(const Interval& arc, const Interval& spiral, const Boundary& boundary) {
   std::vector<Interval> pieces;
   for (const double shift : {0.0, boundary.perimeter}) {
     if (shift > 0 && !boundary.closed) break;
@@ -26,11 +26,11 @@ std::vector<Interval> within(const Interval& arc, const Spiral& spiral, const Bo
   return pieces;
 }
 
-/// The arcs of a spiral that a disk can touch, in order.
-std::vector<Interval> reached(const Reach& reach, const Spiral& spiral) {
+/// What some arcs of the boundary and a spiral have in common, in order.
+std::vector<Interval> on_arcs(const std::vector<Interval>& arcs, const Interval& spiral, const Boundary& boundary) {
   std::vector<Interval> pieces;
-  for (const Interval& arc : reach.arcs) {
-    for (const Interval& piece : within(arc, spiral, reach.boundary())) pieces.push_back(piece);
+  for (const Interval& arc : arcs) {
+    for (const Interval& piece : within(arc, spiral, boundary)) pieces.push_back(piece);
   }
   std::sort(pieces.begin(), pieces.end(), [](const Interval& a, const Interval& b) { return a.lo < b.lo; });
   return pieces;
@@ -48,14 +48,29 @@ std::vector<Interval> angles_at(const std::optional<Reach>& reach, const Cursor&
   return reach->contains(corner.spiral().lo) ? std::vector<Interval>{whole} : std::vector<Interval>{};
 }
 
+/// Of these angles at a corner those that a contact is confined to.
+std::vector<Interval> pivots_of(const std::vector<Interval>& angles, const Confined* confined, const Boundary& boundary,
+                                double s) {
+  if (confined == nullptr) return angles;
+  const double rounding = kLengthAccuracy * boundary.perimeter;
+  const bool is_on = std::any_of(confined->arcs.begin(), confined->arcs.end(),
+                                 [&](const Interval& arc) { return boundary.contains(arc, s, rounding); });
+  std::vector<Interval> kept;
+  for (const Interval& piece : angles) {
+    const Interval within = is_on && confined->angles ? confined->angles(s, piece) : piece;
+    if (is_on && within.lo <= within.hi) kept.push_back(within);
+  }
+  return kept;
+}
+
 }  // namespace
 
-CentrePath::CentrePath(const Part& part, double radius) : part_(part), radius_(radius) {
-  add_spirals();
+CentrePath::CentrePath(const Part& part, double radius, const Confined* confined) : part_(part), radius_(radius) {
+  add_spirals(confined);
   connect();
 }
 
-void CentrePath::add_spirals() {
+void CentrePath::add_spirals(const Confined* confined) {
   const TurningFunction& turning = part_.turning();
   const std::vector<Spiral>& spirals = turning.spirals();
   std::optional<Reach> reach;
@@ -64,9 +79,18 @@ void CentrePath::add_spirals() {
   for (std::size_t k = 0; k < spirals.size(); ++k) {
     const Cursor start = Cursor::at_spiral(turning, k);
     const double jump = start.jump();
-    if (jump > kNoCorner || (jump < -kNoCorner && jump > -kJointTurn)) add_corner(k, angles_at(reach, start));
-    const std::vector<Interval> pieces =
-        reach ? reached(*reach, spirals[k]) : std::vector<Interval>{{spirals[k].lo, spirals[k].hi}};
+    const bool is_corner = jump > kNoCorner || (jump < -kNoCorner && jump > -kJointTurn);
+    if (is_corner) add_corner(k, pivots_of(angles_at(reach, start), confined, part_.boundary(), spirals[k].lo));
+    std::vector<Interval> pieces{{spirals[k].lo, spirals[k].hi}};
+    if (reach) pieces = on_arcs(reach->arcs, pieces.front(), part_.boundary());
+    if (confined != nullptr) {
+      std::vector<Interval> kept;
+      for (const Interval& piece : pieces) {
+        const std::vector<Interval> more = on_arcs(confined->arcs, piece, part_.boundary());
+        kept.insert(kept.end(), more.begin(), more.end());
+      }
+      pieces = std::move(kept);
+    }
     for (const Interval& piece : pieces) {
       CentreStretch stretch;
       stretch.u = piece;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -35,12 +36,18 @@ struct PathPlace {
   double u = 0;
 };
 
+/// What a contact is confined to: some arcs of the boundary, and at a corner on them some of the tangent's angles.
+struct Confined {
+  std::vector<Interval> arcs;
+  std::function<Interval(double, const Interval&)> angles{};  // at the corner s, of its own: empty where hi < lo
+};
+
 /// Where the centre of a round finger can be while it touches a part: the boundary's offset p + r n, with an arc around
 /// each convex corner, as far as the finger can be there (see Reach). Radius 0: the boundary itself.
 class CentrePath {
  public:
-  /// Throws InputError as reach_of_disk does.
-  CentrePath(const Part& part, double radius);
+  /// `confined`: nullptr: to nothing. Throws InputError as reach_of_disk does.
+  CentrePath(const Part& part, double radius, const Confined* confined = nullptr);
 
   const Part& part() const { return part_; }
   double radius() const { return radius_; }
@@ -54,7 +61,7 @@ class CentrePath {
   double length(const CentreStretch& stretch, const Interval& u) const;
 
  private:
-  void add_spirals();
+  void add_spirals(const Confined* confined);
   void add_corner(std::size_t spiral, const std::vector<Interval>& angles);
   void add(CentreStretch stretch);
   void connect();

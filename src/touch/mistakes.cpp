@@ -21,6 +21,8 @@ const char* name_of(TouchCause cause) {
       return "normals clockwise";
     case TouchCause::mirrored:
       return "mirrored";
+    case TouchCause::moved:
+      return "moved";
     case TouchCause::noise:
       break;
   }

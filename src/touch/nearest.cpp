@@ -38,7 +38,8 @@ std::optional<PathPlace> beyond(const CentrePath& path, const InPart& touch, std
 }
 
 double least_distance(const PathTree::Node& node, const InPart& touch) {
-  const double place = std::max(0.0, (touch.at - node.middle).norm() - node.radius) / touch.place_unit;
+  const double off_disc = touch.has_place ? (touch.at - node.middle).norm() - node.radius : 0;
+  const double place = std::max(0.0, off_disc) / touch.place_unit;
   if (!touch.tangent) return place * place;
   const double off = std::abs(nearest_angle(*touch.tangent - node.angle)) - node.half_turn;
   const double angle = std::max(0.0, off) / touch.angle_unit;
@@ -48,9 +49,12 @@ double least_distance(const PathTree::Node& node, const InPart& touch) {
 }  // namespace
 
 Distance distance_at(const CentrePoint& point, const InPart& touch) {
-  const Vec2 off = (touch.at - point.centre) / touch.place_unit;
-  const Vec2 along = point.along / touch.place_unit;
-  Distance distance{off.squaredNorm(), off.dot(along), along.squaredNorm()};
+  Distance distance;
+  if (touch.has_place) {
+    const Vec2 off = (touch.at - point.centre) / touch.place_unit;
+    const Vec2 along = point.along / touch.place_unit;
+    distance = {off.squaredNorm(), off.dot(along), along.squaredNorm()};
+  }
   if (touch.tangent) {
     const double angle = nearest_angle(*touch.tangent - point.angle) / touch.angle_unit;
     const double bend = point.bend / touch.angle_unit;

@@ -12,6 +12,7 @@ namespace rollfix::touch {
 /// A touch as the part's frame sees it, in some pose.
 struct InPart {
   Vec2 at = Vec2::Zero();
+  bool has_place = true;
   std::optional<double> tangent{};
   double place_unit = 1;
   double angle_unit = 1;

@@ -43,14 +43,15 @@ std::optional<PathPlace> place_within(PathTree& tree, const InPart& touch, doubl
     const std::int32_t index = waiting.back();
     waiting.pop_back();
     const PathTree::Node& node = tree.node(index);
-    const double off = (touch.at - node.middle).norm();
-    if (off - node.radius > place) continue;
+    const double off = touch.has_place ? (touch.at - node.middle).norm() : 0;
+    if (touch.has_place && off - node.radius > place) continue;
     if (touch.tangent && !is_near(*touch.tangent, node.angle, angle + node.half_turn)) continue;
     if (node.is_single()) {
       const PathPlace middle{static_cast<std::size_t>(node.stretch), node.u.middle()};
       const bool is_inside =
           off <= place && (!touch.tangent || is_near(*touch.tangent, tree.path().at(middle).angle, angle));
-      const bool is_small = node.radius <= kFinest * place && (!touch.tangent || node.half_turn <= kFinest * angle);
+      const bool is_small =
+          (!touch.has_place || node.radius <= kFinest * place) && (!touch.tangent || node.half_turn <= kFinest * angle);
       if (is_inside || (is_small && !surely)) return middle;
       if (is_small) continue;
     }
@@ -106,7 +107,7 @@ class BoxSearch {
     const Measured& touch = fit_.touches()[which];
     const double moved = std::numbers::sqrt2 * box.place;
     const double slack = moved + box.turn * (moved + (touch.at - fit_.about()).norm());
-    return place_within(fit_.tree(), fit_.in_part(box.middle, which), touch.place_most + slack,
+    return place_within(fit_.tree(which), fit_.in_part(box.middle, which), touch.place_most + slack,
                         touch.angle_most + box.turn, false)
         .has_value();
   }
@@ -115,7 +116,7 @@ class BoxSearch {
     std::vector<PathPlace> places;
     for (std::size_t k = 0; k < fit_.touches().size(); ++k) {
       const Measured& touch = fit_.touches()[k];
-      const auto place = place_within(fit_.tree(), fit_.in_part(pose, k), touch.place_most, touch.angle_most, true);
+      const auto place = place_within(fit_.tree(k), fit_.in_part(pose, k), touch.place_most, touch.angle_most, true);
       if (!place) return std::nullopt;
       places.push_back(*place);
     }
@@ -150,7 +151,7 @@ class BoxSearch {
 PoseBox box_around(PoseFit& fit, const std::vector<Cell>& cells, const TouchPair& pair) {
   const Measured& first = fit.touches()[pair.first];
   const auto pose_of = [&](const Cell& cell) {
-    const PathTree::Node& node = fit.tree().node(cell.first);
+    const PathTree::Node& node = fit.tree(pair.first).node(cell.first);
     return fit.pose_at({pair.first, {static_cast<std::size_t>(node.stretch), node.u.middle()}}, cell.heading.middle);
   };
   PoseBox box{pose_of(cells.front()), 0, 0};
@@ -159,7 +160,7 @@ PoseBox box_around(PoseFit& fit, const std::vector<Cell>& cells, const TouchPair
     const double turn = nearest_angle(pose.heading - box.middle.heading);
     const Pose turned = fit.moved(box.middle, {0, 0, turn});
     const double swing = (first.at - fit.about()).norm() * cell.heading.half;
-    const double slack = fit.tree().node(cell.first).radius + first.place_most + swing;
+    const double slack = fit.tree(pair.first).node(cell.first).radius + first.place_most + swing;
     box.place = std::max(box.place, std::hypot(pose.x - turned.x, pose.y - turned.y) + slack);
     box.turn = std::max(box.turn, std::abs(turn) + cell.heading.half);
   }

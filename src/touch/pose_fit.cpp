@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "outline/turn.hpp"
+#include "roll_belief.hpp"
 #include "rollfix/pulse.hpp"
 
 // Notation:
@@ -34,8 +35,6 @@ constexpr double kNoSlope = 1e-4;
 // A heading is somewhere on the circle, even where no touch tells where: this many radians, as a standard deviation.
 constexpr double kAnyHeading = std::numbers::pi;
 
-Vec2 turned_left(const Vec2& vector) { return {-vector.y(), vector.x()}; }
-
 /// What the residuals of a held place are by the pose and by u: columns of a 3 by 4 matrix.
 struct Rows {
   Eigen::Matrix3d by_pose = Eigen::Matrix3d::Zero();
@@ -51,14 +50,19 @@ struct PoseFit::State {
   double square = 0;
 };
 
-PoseFit::PoseFit(PathTree& tree, const std::vector<Measured>& touches, const std::optional<PosePrior>& prior)
-    : tree_(tree), touches_(touches), prior_(prior) {
-  for (const Measured& touch : touches) about_ += touch.at / static_cast<double>(touches.size());
+PoseFit::PoseFit(const std::vector<Measured>& touches, const std::optional<PosePrior>& prior)
+    : touches_(touches), prior_(prior) {
+  double places = 0;
+  for (const Measured& touch : touches) places += touch.has_place ? 1 : 0;
+  for (const Measured& touch : touches) {
+    if (touch.has_place) about_ += touch.at / places;
+  }
 }
 
 Pose PoseFit::pose_at(const Held& held, double heading) const {
+  if (const RollBelief* roll = touches_[held.touch].roll) return roll->pose_at(roll->at(held.place));
   Pose pose{0, 0, heading};
-  const Vec2 place = touches_[held.touch].at - pose.turned(path().at(held.place).centre);
+  const Vec2 place = touches_[held.touch].at - pose.turned(path(held.touch).at(held.place).centre);
   return {place.x(), place.y(), heading};
 }
 
@@ -68,6 +72,7 @@ InPart PoseFit::in_part(const Pose& pose, std::size_t touch) const {
   InPart result;
   result.at = back.turned(one.at - Vec2(pose.x, pose.y));
   if (one.tangent) result.tangent = *one.tangent - pose.heading;
+  result.has_place = one.has_place;
   result.place_unit = one.place_unit;
   result.angle_unit = one.angle_unit;
   return result;
@@ -78,10 +83,12 @@ namespace {
 Rows rows_of(const Measured& touch, const Pose& pose, const CentrePoint& point, const Vec2& about) {
   const Vec2 centre = Vec2(pose.x, pose.y) + pose.turned(point.centre);
   Rows rows;
-  rows.residual.head<2>() = (touch.at - centre) / touch.place_unit;
-  rows.by_pose.topLeftCorner<2, 2>() = -Eigen::Matrix2d::Identity() / touch.place_unit;
-  rows.by_pose.topRightCorner<2, 1>() = -turned_left(centre - about) / touch.place_unit;
-  rows.by_place.head<2>() = -pose.turned(point.along) / touch.place_unit;
+  if (touch.has_place) {
+    rows.residual.head<2>() = (touch.at - centre) / touch.place_unit;
+    rows.by_pose.topLeftCorner<2, 2>() = -Eigen::Matrix2d::Identity() / touch.place_unit;
+    rows.by_pose.topRightCorner<2, 1>() = -turned_left(centre - about) / touch.place_unit;
+    rows.by_place.head<2>() = -pose.turned(point.along) / touch.place_unit;
+  }
   if (!touch.tangent) return rows;
   rows.residual(2) = nearest_angle(*touch.tangent - point.angle - pose.heading) / touch.angle_unit;
   rows.by_pose(2, 2) = -1 / touch.angle_unit;
@@ -92,8 +99,9 @@ Rows rows_of(const Measured& touch, const Pose& pose, const CentrePoint& point, 
 }  // namespace
 
 bool PoseFit::is_pinned(const Pose& pose, std::size_t touch, const PathPlace& place) const {
-  const CentreStretch& stretch = path().stretches()[place.stretch];
-  const Distance distance = distance_at(path().at(place), in_part(pose, touch));
+  if (touches_[touch].roll != nullptr) return false;
+  const CentreStretch& stretch = path(touch).stretches()[place.stretch];
+  const Distance distance = distance_at(path(touch).at(place), in_part(pose, touch));
   if (distance.weight == 0) return true;
   const bool is_end = place.u <= stretch.u.lo || place.u >= stretch.u.hi;
   // Past the end it would go on: a place in the middle of a smooth boundary has no slope.
@@ -104,6 +112,38 @@ Normals PoseFit::normals_at(const Pose& pose, std::size_t touch, const CentrePoi
   const Rows rows = rows_of(touches_[touch], pose, point, about_);
   Normals normals;
   normals.matrix = rows.by_pose.transpose() * rows.by_pose;
+  normals.slope = -rows.by_pose.transpose() * rows.residual;
+  return normals;
+}
+
+PathPlace PoseFit::nearest_to(const Pose& pose, std::size_t touch) const {
+  const RollBelief* roll = touches_[touch].roll;
+  return roll != nullptr ? roll->nearest(pose).place : nearest_place(tree(touch), in_part(pose, touch));
+}
+
+PathPlace PoseFit::downhill_from(const PathPlace& place, const Pose& pose, std::size_t touch) const {
+  const RollBelief* roll = touches_[touch].roll;
+  return roll != nullptr ? roll->downhill(pose, roll->at(place)).place
+                         : downhill(path(touch), in_part(pose, touch), place);
+}
+
+double PoseFit::square_at(const Pose& pose, std::size_t touch, const PathPlace& place, bool is_held) const {
+  if (const RollBelief* roll = touches_[touch].roll) return roll->square(pose, roll->at(place), !is_held);
+  return distance_at(path(touch).at(place), in_part(pose, touch)).square;
+}
+
+Normals PoseFit::held_normals(const Pose& pose, std::size_t touch, const PathPlace& place) const {
+  if (const RollBelief* roll = touches_[touch].roll) return roll->normals(pose, roll->at(place), about_, false);
+  return normals_at(pose, touch, path(touch).at(place));
+}
+
+Normals PoseFit::free_normals(const Pose& pose, std::size_t touch, const PathPlace& place) const {
+  if (const RollBelief* roll = touches_[touch].roll) return roll->normals(pose, roll->at(place), about_, true);
+  if (is_pinned(pose, touch, place)) return held_normals(pose, touch, place);
+  const Rows rows = rows_of(touches_[touch], pose, path(touch).at(place), about_);
+  Normals normals;
+  const Eigen::Vector3d mixed = rows.by_pose.transpose() * rows.by_place;
+  normals.matrix = rows.by_pose.transpose() * rows.by_pose - mixed * mixed.transpose() / rows.by_place.squaredNorm();
   normals.slope = -rows.by_pose.transpose() * rows.residual;
   return normals;
 }
@@ -141,7 +181,7 @@ Pose PoseFit::moved(const Pose& pose, const Eigen::Vector3d& step) const {
 double PoseFit::distance(const Pose& one, const Pose& other) const {
   const double turn = nearest_angle(one.heading - other.heading);
   const Pose turned = moved(other, {0, 0, turn});
-  return std::hypot(one.x - turned.x, one.y - turned.y) + path().diagonal() * std::abs(turn);
+  return std::hypot(one.x - turned.x, one.y - turned.y) + path(0).diagonal() * std::abs(turn);
 }
 
 Eigen::Matrix3d PoseFit::at_origin(const Pose& pose, const Eigen::Matrix3d& covariance) const {
@@ -153,9 +193,9 @@ Eigen::Matrix3d PoseFit::at_origin(const Pose& pose, const Eigen::Matrix3d& cova
 double PoseFit::square_of(State& state, const std::optional<Held>& held, const std::vector<double>& weights) const {
   double sum = prior_square(state.pose);
   for (std::size_t k = 0; k < touches_.size(); ++k) {
-    const InPart touch = in_part(state.pose, k);
-    if (!held || held->touch != k) state.places[k] = downhill(path(), touch, state.places[k]);
-    sum += (weights.empty() ? 1 : weights[k]) * distance_at(path().at(state.places[k]), touch).square;
+    const bool is_held = held && held->touch == k;
+    if (!is_held) state.places[k] = downhill_from(state.places[k], state.pose, k);
+    sum += (weights.empty() ? 1 : weights[k]) * square_at(state.pose, k, state.places[k], is_held);
   }
   return sum;
 }
@@ -164,18 +204,12 @@ Normals PoseFit::normals_of(const State& state, const std::optional<Held>& held,
                             const std::vector<double>& weights) const {
   Normals sum = prior_normals(state.pose);
   for (std::size_t k = 0; k < touches_.size(); ++k) {
-    const CentrePoint point = path().at(state.places[k]);
-    const Rows rows = rows_of(touches_[k], state.pose, point, about_);
-    Eigen::Matrix3d matrix = rows.by_pose.transpose() * rows.by_pose;
-    const Eigen::Vector3d slope = -rows.by_pose.transpose() * rows.residual;
     const bool is_held = held && held->touch == k;
-    if (!is_held && !is_pinned(state.pose, k, state.places[k])) {  // u eliminated: the Schur complement
-      const Eigen::Vector3d mixed = rows.by_pose.transpose() * rows.by_place;
-      matrix -= mixed * mixed.transpose() / rows.by_place.squaredNorm();
-    }
+    const Normals one =
+        is_held ? held_normals(state.pose, k, state.places[k]) : free_normals(state.pose, k, state.places[k]);
     const double weight = weights.empty() ? 1 : weights[k];
-    sum.matrix += weight * matrix;
-    sum.slope += weight * slope;
+    sum.matrix += weight * one.matrix;
+    sum.slope += weight * one.slope;
   }
   return sum;
 }
@@ -206,10 +240,9 @@ bool PoseFit::jump_nearer(State& state, const std::optional<Held>& held) {
   bool jumped = false;
   for (std::size_t k = 0; k < touches_.size(); ++k) {
     if (held && held->touch == k) continue;
-    const InPart touch = in_part(state.pose, k);
-    const PathPlace place = nearest_place(tree_, touch);
-    const double here = distance_at(path().at(state.places[k]), touch).square;
-    if (distance_at(path().at(place), touch).square >= here - 1e-6 * (1 + here)) continue;
+    const PathPlace place = nearest_to(state.pose, k);
+    const double here = square_at(state.pose, k, state.places[k], false);
+    if (square_at(state.pose, k, place, false) >= here - 1e-6 * (1 + here)) continue;
     state.places[k] = place;
     jumped = true;
   }
@@ -219,7 +252,7 @@ bool PoseFit::jump_nearer(State& state, const std::optional<Held>& held) {
 FittedPose PoseFit::at(const Pose& pose, std::vector<PathPlace> places) const {
   State state{pose, std::move(places), prior_square(pose)};
   for (std::size_t k = 0; k < touches_.size(); ++k) {
-    state.square += distance_at(path().at(state.places[k]), in_part(pose, k)).square;
+    state.square += square_at(pose, k, state.places[k], false);
   }
   state.pose.heading = nearest_angle(pose.heading);
   return {state.pose, state.places, state.square, normals_of(state, {}, {}).matrix};
@@ -230,7 +263,7 @@ FittedPose PoseFit::fit(const Pose& from, const std::optional<Held>& held, const
   State state{from, std::vector<PathPlace>(touches_.size()), 0};
   for (std::size_t k = 0; k < touches_.size(); ++k) {
     const bool is_held = held && held->touch == k;
-    state.places[k] = is_held ? held->place : nearest_place(tree_, in_part(from, k));
+    state.places[k] = is_held ? held->place : nearest_to(from, k);
   }
   for (int jump = 0; jump < kMostJumps; ++jump) {
     descend(state, held, weights);

@@ -12,6 +12,8 @@
 
 namespace rollfix::touch {
 
+inline Vec2 turned_left(const Vec2& vector) { return {-vector.y(), vector.x()}; }
+
 /// A touch whose place on the part is held.
 struct Held {
   std::size_t touch = 0;
@@ -36,7 +38,7 @@ struct Normals {
 /// the world near the touches.
 class PoseFit {
  public:
-  PoseFit(PathTree& tree, const std::vector<Measured>& touches, const std::optional<PosePrior>& prior);
+  PoseFit(const std::vector<Measured>& touches, const std::optional<PosePrior>& prior);
 
   /// The pose with this heading that has the finger at the touch when the contact is there.
   Pose pose_at(const Held& held, double heading) const;
@@ -47,10 +49,18 @@ class PoseFit {
 
   /// The point of the world about which poses are turned.
   const Vec2& about() const { return about_; }
-  PathTree& tree() { return tree_; }
-  const CentrePath& path() const { return tree_.path(); }
+  PathTree& tree(std::size_t touch) const { return *touches_[touch].tree; }
+  const CentrePath& path(std::size_t touch) const { return tree(touch).path(); }
   const std::vector<Measured>& touches() const { return touches_; }
   InPart in_part(const Pose& pose, std::size_t touch) const;
+  /// The place of a contact that fits a pose best; the same by going downhill from another.
+  PathPlace nearest_to(const Pose& pose, std::size_t touch) const;
+  PathPlace downhill_from(const PathPlace& place, const Pose& pose, std::size_t touch) const;
+  /// What a contact there adds to the sum of squares.
+  double square_at(const Pose& pose, std::size_t touch, const PathPlace& place, bool is_held) const;
+  /// Its share of the normal equations, held there, and free to move.
+  Normals held_normals(const Pose& pose, std::size_t touch, const PathPlace& place) const;
+  Normals free_normals(const Pose& pose, std::size_t touch, const PathPlace& place) const;
   /// The share of a touch whose contact is held there: what it says of the pose.
   Normals normals_at(const Pose& pose, std::size_t touch, const CentrePoint& point) const;
   /// What is known beforehand, and that a heading has no more than a turn to be in; and its squares alone.
@@ -71,7 +81,6 @@ class PoseFit {
   void descend(State& state, const std::optional<Held>& held, const std::vector<double>& weights) const;
   bool jump_nearer(State& state, const std::optional<Held>& held);
 
-  PathTree& tree_;
   const std::vector<Measured>& touches_;
   std::optional<PosePrior> prior_;
   Vec2 about_ = Vec2::Zero();

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "outline/turn.hpp"
+#include "roll_belief.hpp"
 #include "tilted_touch.hpp"
 
 namespace rollfix::touch {
@@ -49,9 +50,14 @@ class NodeMaker {
     node.pose = best.pose;
     node.covariance = fit_.at_origin(best.pose, best.information.inverse());
     node.log_density = -0.5 * best.square;
-    for (const PathPlace& place : best.places) {  // each about as wide as its own sd
-      const auto touch = static_cast<std::size_t>(&place - best.places.data());
-      if (touch != first_) node.log_density += std::log(fit_.touches()[touch].place_unit);
+    for (std::size_t k = 0; k < best.places.size(); ++k) {  // each about as wide as its own sd
+      const Measured& touch = fit_.touches()[k];
+      if (touch.roll != nullptr) {
+        const RollNode& at = touch.roll->at(best.places[k]);
+        node.log_density += k == first_ ? at.log_peak - at.log_density : at.log_peak + at.log_weight - at.log_density;
+      } else if (k != first_) {
+        node.log_density += std::log(touch.place_unit);
+      }
     }
     node.log_density -= 0.5 * std::log(best.information.determinant());
     return node;
@@ -81,21 +87,26 @@ class NodeMaker {
       if (gain > kLargeTilt) step *= std::sqrt(kLargeTilt / gain);
       pose = fit_.moved(pose, step);
       for (std::size_t k = 0; k < places.size(); ++k) {
-        if (k != first_) places[k] = downhill(fit_.path(), fit_.in_part(pose, k), places[k]);
+        if (k != first_) places[k] = fit_.downhill_from(places[k], pose, k);
       }
     }
   }
 
   Normals summed(const Held& held, const Pose& pose, const std::vector<PathPlace>& places, double& log_likelihood) {
     Normals sum = fit_.prior_normals(pose);
-    const CentrePoint point = fit_.path().at(held.place);
-    const Normals of_first = fit_.normals_at(pose, first_, point);
+    const Normals of_first = fit_.held_normals(pose, first_, held.place);
     sum.matrix += of_first.matrix;
     sum.slope += of_first.slope;
-    log_likelihood = -0.5 * fit_.prior_square(pose) - 0.5 * distance_at(point, fit_.in_part(pose, first_)).square;
+    log_likelihood = -0.5 * fit_.prior_square(pose) - 0.5 * fit_.square_at(pose, first_, held.place, true);
+    if (const RollBelief* roll = fit_.touches()[first_].roll) {  // how dense it is there the node's weight says
+      const RollNode& at = roll->at(held.place);
+      log_likelihood += at.log_peak - at.log_density;
+    }
     for (std::size_t k = 0; k < places.size(); ++k) {
       if (k == first_) continue;
-      const TiltedTouch tilted = tilted_touch(fit_, pose, k, places[k]);
+      const RollBelief* roll = fit_.touches()[k].roll;
+      const TiltedTouch tilted =
+          roll != nullptr ? roll->tilted(pose, fit_.about()) : tilted_touch(fit_, pose, k, places[k]);
       sum.matrix += tilted.normals.matrix;
       sum.slope += tilted.normals.slope;
       log_likelihood += tilted.log_likelihood;
@@ -144,21 +155,40 @@ std::vector<double> start_headings(const CellSets& sets, const std::vector<std::
 struct Column {
   std::int32_t node = -1;
   std::vector<double> places;
-  double step = 0;
+  std::vector<double> log_weights;  // of each: of the length that it stands for, and of a roll of its probability
   std::vector<std::vector<KnownPose>> known;
 };
 
-Column column_of(PoseFit& fit, std::int32_t node, std::size_t touch) {
-  const PathTree::Node& at = fit.tree().node(node);
-  const PathPlace middle{static_cast<std::size_t>(at.stretch), at.u.middle()};
-  const Measured& one = fit.touches()[touch];
-  InPart alike{Vec2::Zero(), one.tangent, one.place_unit, one.angle_unit};
-  const double weight = distance_at(fit.path().at(middle), alike).weight;
-  const int count = std::max(1, static_cast<int>(std::ceil(at.u.width() * std::sqrt(weight) / kStep)));
+/// The roll's own nodes on the stretch.
+Column column_of_roll(const RollBelief& roll, const PathTree::Node& at, std::int32_t node) {
   Column column;
   column.node = node;
-  column.step = at.u.width() / count;
-  for (int k = 0; k < count; ++k) column.places.push_back(at.u.lo + (k + 0.5) * column.step);
+  const auto [begin, end] = roll.nodes_in(static_cast<std::size_t>(at.stretch), at.u);
+  for (std::size_t k = begin; k < end; ++k) {
+    column.places.push_back(roll.nodes()[k].place.u);
+    column.log_weights.push_back(roll.nodes()[k].log_weight);
+  }
+  column.known.resize(column.places.size());
+  return column;
+}
+
+Column column_of(PoseFit& fit, std::int32_t node, std::size_t touch) {
+  const PathTree::Node& at = fit.tree(touch).node(node);
+  if (const RollBelief* roll = fit.touches()[touch].roll) return column_of_roll(*roll, at, node);
+  const PathPlace middle{static_cast<std::size_t>(at.stretch), at.u.middle()};
+  const Measured& one = fit.touches()[touch];
+  InPart alike{Vec2::Zero(), true, one.tangent, one.place_unit, one.angle_unit};
+  const double weight = distance_at(fit.path(touch).at(middle), alike).weight;
+  const int count = std::max(1, static_cast<int>(std::ceil(at.u.width() * std::sqrt(weight) / kStep)));
+  const double step = at.u.width() / count;
+  const double length = step * length_per_u(fit.path(touch), static_cast<std::size_t>(at.stretch));
+  Column column;
+  column.node = node;
+  if (!(length > 0)) return column;
+  for (int k = 0; k < count; ++k) {
+    column.places.push_back(at.u.lo + (k + 0.5) * step);
+    column.log_weights.push_back(std::log(length));
+  }
   column.known.resize(column.places.size());
   return column;
 }
@@ -167,6 +197,16 @@ Column column_of(PoseFit& fit, std::int32_t node, std::size_t touch) {
 constexpr std::size_t kCellsPerLook = 6;
 constexpr std::size_t kLeastLooks = 4;
 constexpr std::size_t kMostLooks = 40;
+
+/// A pose to start from with the first touch on this stretch; none where a roll's belief has nothing there.
+std::optional<Pose> start_in(const PoseFit& fit, const PathTree::Node& node, double heading, std::size_t touch) {
+  const auto stretch = static_cast<std::size_t>(node.stretch);
+  const RollBelief* roll = fit.touches()[touch].roll;
+  if (roll == nullptr) return fit.pose_at({touch, {stretch, node.u.middle()}}, heading);
+  const auto [begin, end] = roll->nodes_in(stretch, node.u);
+  if (begin == end) return std::nullopt;
+  return roll->pose_at(roll->nodes()[begin + (end - begin) / 2]);
+}
 
 /// The least sum of squares that is found from a few of a component's cells.
 double least_square(PoseFit& fit, const CellSets& sets, const std::vector<std::size_t>& component,
@@ -177,9 +217,9 @@ double least_square(PoseFit& fit, const CellSets& sets, const std::vector<std::s
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t look = 0; look < looks; ++look) {
     const Cell& cell = sets.cells[cells[(2 * look + 1) * cells.size() / (2 * looks)]];
-    const PathTree::Node& node = fit.tree().node(cell.first);
-    const Held held{first_touch, {static_cast<std::size_t>(node.stretch), node.u.middle()}};
-    least = std::min(least, fit.fit(fit.pose_at(held, cell.heading.middle)).square);
+    const PathTree::Node& node = fit.tree(first_touch).node(cell.first);
+    const std::optional<Pose> start = start_in(fit, node, cell.heading.middle, first_touch);
+    if (start) least = std::min(least, fit.fit(*start).square);
   }
   return least;
 }
@@ -222,9 +262,8 @@ Posterior posterior_of(PoseFit& fit, const CellSets& sets, std::size_t first_tou
   for (std::size_t g = 0; g < sets.groups.size(); ++g) {
     const std::vector<std::size_t>& group = sets.groups[g];
     const std::int32_t first = sets.cells[group.front()].first;
-    const auto stretch = static_cast<std::size_t>(fit.tree().node(first).stretch);
-    const double length = length_per_u(fit.path(), stretch);
-    if (hopeless[g] || !(length > 0)) continue;
+    const auto stretch = static_cast<std::size_t>(fit.tree(first_touch).node(first).stretch);
+    if (hopeless[g]) continue;
     if (column.node != first) column = column_of(fit, first, first_touch);
     const std::vector<double> headings = start_headings(sets, group);
     for (std::size_t k = 0; k < column.places.size(); ++k) {
@@ -239,7 +278,7 @@ Posterior posterior_of(PoseFit& fit, const CellSets& sets, std::size_t first_tou
         column.known[k].push_back({best, g});
         PosteriorNode node = maker.node_at(held, best);
         node.group = g;
-        node.log_weight = node.log_density + std::log(column.step * length);
+        node.log_weight = node.log_density + column.log_weights[k];
         if (std::isfinite(node.log_weight)) result.nodes.push_back(node);
       }
     }

@@ -63,12 +63,34 @@ void require_noise_of_touches(const Noise& noise) {
   }
 }
 
+/// Rolls tell the part's heading, which they share, by u and psi.
+void require_roll(const TouchProblem& problem, std::size_t number) {
+  const Log& log = problem.rolls[number];
+  const std::string where = fmt::format("roll {}", number + 1);
+  if (log.fingers.size() != 1) {
+    refuse(fmt::format("{}: expected the log of one finger on a part at rest, found one of two; solve each by itself",
+                       where));
+  }
+  if (log.kind != LogKind::contact) {
+    refuse(
+        fmt::format("{}: expected columns u and psi, which tell the heading that rolls share, found lengths and turns; "
+                    "solve each roll by itself",
+                    where));
+  }
+  if (!problem.finger) refuse(fmt::format("{}: expected the finger, as in disk,r=R, found none", where));
+}
+
 void require_tolerance(const TouchProblem& problem) {
+  if (!problem.tolerance && problem.touches.empty() && !problem.pose) return;  // the rolls' digits tell it
   if (!problem.tolerance) {
     refuse("expected how exact they are, found neither `noise` nor `tolerance`; give noise with position=SD,angle=SD");
   }
   const TouchTolerance& tolerance = *problem.tolerance;
   const double most = problem.part.perimeter();
+  if (!problem.rolls.empty() && !(tolerance.angle >= 0)) {
+    refuse(fmt::format("expected a `tolerance` of angles of at least 0, found {}", tolerance.angle));
+  }
+  if (problem.touches.empty() && tolerance.length == 0) return;  // of rolls alone the digits tell it
   if (!(tolerance.length > 0 && tolerance.length <= most)) {
     refuse(fmt::format("expected a `tolerance` of length above 0 and at most the perimeter, {:.6g}, found {}", most,
                        tolerance.length));
@@ -86,21 +108,27 @@ void require_tolerance(const TouchProblem& problem) {
 }  // namespace
 
 void require_valid(const TouchProblem& problem) {
-  if (problem.touches.empty()) refuse("expected at least one, found none");
+  if (problem.touches.empty() && problem.rolls.empty()) refuse("expected at least one, found none");
   if (problem.finger) {
-    if (!problem.finger->is_disk()) {
+    if (!problem.finger->is_disk() && !problem.touches.empty()) {
       refuse(fmt::format("expected a round finger, disk,r=R, or none for a point, found {}", problem.finger->name()));
     }
     rollfix::require_valid(*problem.finger);
   }
   if (problem.noise) {
-    require_noise_of_touches(*problem.noise);
+    if (problem.rolls.empty()) require_noise_of_touches(*problem.noise);
+    if (!problem.rolls.empty()) rollfix::require_valid(*problem.noise);
   } else {
     require_tolerance(problem);
   }
+  if (problem.robust && problem.rolls.empty()) refuse("`robust` is about the rows of rolls, found none: leave it out");
+  if (problem.robust && !problem.noise) refuse("`robust` is about noise: give `noise` as well");
+  for (std::size_t k = 0; k < problem.rolls.size(); ++k) require_roll(problem, k);
   for (std::size_t k = 0; k < problem.touches.size(); ++k) require_touch(problem, k);
 }
 
-double radius_of(const TouchProblem& problem) { return problem.finger ? problem.finger->disk()->radius : 0; }
+double radius_of(const TouchProblem& problem) {
+  return problem.finger && problem.finger->is_disk() ? problem.finger->disk()->radius : 0;
+}
 
 }  // namespace rollfix::touch

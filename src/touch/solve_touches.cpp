@@ -10,10 +10,14 @@
 
 #include "answer_poses.hpp"
 #include "contact/mirrored.hpp"
+#include "heading_sets.hpp"
 #include "mistakes.hpp"
+#include "moved.hpp"
 #include "outline/turn.hpp"
 #include "pose_boxes.hpp"
 #include "requirements.hpp"
+#include "roll_contacts.hpp"
+#include "roll_poses.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
 #include "rollfix/touch/touch.hpp"
@@ -37,8 +41,10 @@ constexpr double kFiner = 0.25;
 // Boxes of poses that are looked at for each such set.
 constexpr std::size_t kBoxBudget = 200000;
 
-std::vector<Measured> measured(const TouchProblem& problem) {
+/// The problem's contacts: its rolls, then its touches.
+std::vector<Measured> measured(const TouchProblem& problem, const std::vector<RollContact>& rolls) {
   std::vector<Measured> touches;
+  for (const RollContact& roll : rolls) touches.push_back(roll.measured);
   for (const MeasuredTouch& touch : problem.touches) {
     Measured one;
     one.at = touch.at;
@@ -103,33 +109,76 @@ struct PoseSet {
 class Solver {
  public:
   Solver(const TouchProblem& problem, TouchAnswer& answer)
-      : problem_(problem), answer_(answer), touches_(measured(problem)), path_(problem.part, answer.radius) {}
+      : problem_(problem), answer_(answer), rolls_(roll_contacts(problem)), touches_(measured(problem, rolls_)) {}
 
   void run() {
     for (const Measured& touch : touches_) answer_.tolerance.push_back({touch.place_most, touch.angle_most});
+    add_rolls();
     if (touches_.size() == 1) {
-      answer_.verdict.name = Verdict::unobservable;
+      if (rolls_.empty()) answer_.verdict.name = Verdict::unobservable;
+      if (!rolls_.empty()) take_from(rolls_.front(), answer_);
       return;
     }
     answer_.verdict.name = Verdict::inconsistent;
-    if (path_.stretches().empty()) return;  // the disk can touch the part nowhere
-    PathTree tree(path_);
-    const TouchPair pair = choose_pair(touches_);
-    CellSearch search(tree, touches_, pair, problem_.budget.value_or(kTouchBudget));
-    Cells cells = search.search();
-    PoseFit fit(tree, touches_, problem_.pose);
-    if (problem_.noise) {
-      weigh(fit, pair, sets_of(tree, std::move(cells.fit)), cells.undecided);
+    if (std::any_of(rolls_.begin(), rolls_.end(), [](const RollContact& roll) { return roll.fits_nowhere(); })) return;
+    std::optional<CentrePath> path;
+    if (!problem_.touches.empty()) path.emplace(problem_.part, answer_.radius);
+    if (path && path->stretches().empty()) return;  // the disk can touch the part nowhere
+    std::optional<PathTree> tree;
+    if (path) tree.emplace(*path);
+    for (std::size_t k = rolls_.size(); k < touches_.size(); ++k) touches_[k].tree = &*tree;
+    if (!problem_.noise && answer_.place != PlaceKnown::measured) {
+      search_headings();
     } else {
-      look_for_witnesses(fit, pair, search, std::move(cells.fit), cells.undecided);
+      search_poses();
     }
-    answer_.unresolved_touch = pair.first;
-    answer_.unresolved = places_of(tree, cells.undecided);
-    answer_.comparisons = search.comparisons();
-    conclude();
   }
 
  private:
+  void add_rolls() {
+    for (std::size_t k = 0; k < rolls_.size(); ++k) answer_.rolls.push_back(facts_of(rolls_[k], problem_.rolls[k]));
+    if (rolls_.empty() || !problem_.touches.empty()) return;
+    const bool is_measured = std::any_of(rolls_.begin(), rolls_.end(), [&](const RollContact& roll) {
+      return roll.measured.has_place && !is_reference(roll.measured);
+    });
+    if (is_measured) return;
+    answer_.place = answer_.rolls.front().has_centre ? PlaceKnown::reference : PlaceKnown::unknown;
+  }
+
+  /// Without noise, and with nothing that tells the place.
+  void search_headings() {
+    HeadingSets found = heading_sets(touches_, problem_.budget.value_or(kTouchBudget));
+    answer_.poses = std::move(found.poses);
+    answer_.comparisons = found.comparisons;
+    if (!found.complete) {
+      for (const CentreStretch& stretch : touches_.front().tree->path().stretches()) {
+        answer_.unresolved.push_back(stretch.corner ? Interval{stretch.s, stretch.s} : stretch.u);
+      }
+    }
+    add_roll_ends(rolls_, touches_, answer_);
+    conclude();
+    take_over_doubts(rolls_, answer_);
+  }
+
+  void search_poses() {
+    const TouchPair pair = choose_pair(touches_);
+    CellSearch search(touches_, pair, problem_.budget.value_or(kTouchBudget));
+    double leaf = CellSearch::kLeaf;
+    Cells cells = rolls_.empty() ? search.search() : search_by_levels(search, touches_, pair, leaf);
+    PoseFit fit(touches_, problem_.pose);
+    if (problem_.noise) {
+      weigh(fit, pair, sets_of(fit.tree(pair.first), fit.tree(pair.second), std::move(cells.fit)), cells.undecided);
+    } else {
+      look_for_witnesses(fit, pair, search, leaf, std::move(cells.fit), cells.undecided);
+    }
+    answer_.unresolved_touch = pair.first;
+    answer_.unresolved = places_of(fit.tree(pair.first), cells.undecided);
+    answer_.comparisons = search.comparisons();
+    if (!rolls_.empty()) add_roll_ends(rolls_, touches_, answer_);
+    conclude();
+    take_over_doubts(rolls_, answer_);
+  }
+
   /// With noise: what is less probable than kNegligible is not looked at, and modes that end in one pose are one.
   void weigh(PoseFit& fit, const TouchPair& pair, const CellSets& sets, std::vector<Cell>& undecided) {
     const std::size_t most = problem_.budget.value_or(kTouchBudget) / kPlaceCost;
@@ -151,7 +200,7 @@ class Solver {
       }
     }
     for (const PoseSet& set : found) {
-      TouchPose pose = described(fit, set.fitted, fit.tree(), set.cells, pair);
+      TouchPose pose = described(fit, set.fitted, set.cells, pair);
       if (set.mode.probability < kLeastProbability || pose.worst > 1) {
         leave_out(set.mode);
         continue;
@@ -159,7 +208,7 @@ class Solver {
       add_posterior(pose, set.mode, nodes);
       if (pose.continuum) {
         const FittedPose middle = fit.fit(nodes[middle_of(pose, set.mode, nodes)].best);
-        TouchPose moved = described(fit, middle, fit.tree(), set.cells, pair);
+        TouchPose moved = described(fit, middle, set.cells, pair);
         add_posterior(moved, set.mode, nodes);
         if (moved.worst <= 1) pose = std::move(moved);
       }
@@ -198,9 +247,13 @@ class Solver {
 
   /// Adds a set to those with another pose. One pose can have several: of touches near a bump more than one place fits.
   void add_set(const PoseFit& fit, PoseSet set, std::vector<PoseSet>& to) const {
-    double least = touches_.front().place_unit;
-    for (const Measured& touch : touches_) least = std::min(least, touch.place_unit);
+    double least = std::numeric_limits<double>::infinity();
+    for (const Measured& touch : touches_) {
+      if (touch.has_place) least = std::min(least, touch.place_unit);
+    }
     for (PoseSet& known : to) {
+      // Where nothing tells the place, answers are of where the contacts are.
+      if (answer_.place != PlaceKnown::measured) break;
       if (fit.distance(known.fitted.pose, set.fitted.pose) > kSame * least) continue;
       if (set.fitted.square < known.fitted.square) known.fitted = std::move(set.fitted);
       known.cells.insert(known.cells.end(), set.cells.begin(), set.cells.end());
@@ -218,6 +271,9 @@ class Solver {
     result.chi_square = fitted.square;
     result.freedom = is_continuum ? -2 : -3;
     for (std::size_t k = 0; k < touches_.size(); ++k) {
+      // How dense a roll's belief is counts as a measurement of its place.
+      if (touches_[k].roll != nullptr) result.freedom += touches_[k].has_place ? 3 : 1;
+      if (touches_[k].roll != nullptr) continue;
       result.freedom += touches_[k].tangent ? 2 : 1;
       result.freedom += fit.is_pinned(fitted.pose, k, fitted.places[k]) ? 1 : 0;
     }
@@ -228,16 +284,15 @@ class Solver {
   }
 
   /// Without noise: in every set a pose that fits; sets without one are cut smaller, until they are gone or are told.
-  void look_for_witnesses(PoseFit& fit, const TouchPair& pair, CellSearch& search, std::vector<Cell> cells,
+  void look_for_witnesses(PoseFit& fit, const TouchPair& pair, CellSearch& search, double leaf, std::vector<Cell> cells,
                           std::vector<Cell>& undecided) {
-    double leaf = CellSearch::kLeaf;
     std::vector<PoseSet> found;
     for (int round = 0; round <= kRefinements && !cells.empty(); ++round) {
-      const CellSets sets = sets_of(fit.tree(), std::move(cells));
+      const CellSets sets = sets_of(fit.tree(pair.first), fit.tree(pair.second), std::move(cells));
       cells.clear();
       for (const std::vector<std::size_t>& component : sets.components) {
         std::vector<Cell> own = cells_of(sets, component);
-        FittedPose fitted = best_within(fit, fit.tree(), own, pair);
+        FittedPose fitted = best_within(fit, own, pair);
         BoxesFound boxes;
         if (worst_of(fit, fitted) > 1) boxes = search_boxes(fit, own, pair, kBoxBudget);
         if (boxes.refuted) continue;  // proved: no pose of the set fits
@@ -255,7 +310,7 @@ class Solver {
       undecided.insert(undecided.end(), finer.undecided.begin(), finer.undecided.end());
     }
     undecided.insert(undecided.end(), cells.begin(), cells.end());
-    for (const PoseSet& set : found) answer_.poses.push_back(described(fit, set.fitted, fit.tree(), set.cells, pair));
+    for (const PoseSet& set : found) answer_.poses.push_back(described(fit, set.fitted, set.cells, pair));
     std::sort(answer_.poses.begin(), answer_.poses.end(),
               [](const TouchPose& a, const TouchPose& b) { return a.pose.heading < b.pose.heading; });
   }
@@ -288,8 +343,8 @@ class Solver {
 
   const TouchProblem& problem_;
   TouchAnswer& answer_;
+  std::vector<RollContact> rolls_;
   std::vector<Measured> touches_;
-  CentrePath path_;
 };
 
 /// The same seen in the mirror x = -x.
@@ -299,11 +354,19 @@ TouchProblem mirrored_problem(const TouchProblem& problem) {
     touch.at.x() = -touch.at.x();
     if (touch.normal) touch.normal = std::numbers::pi - *touch.normal;
   }
+  for (Log& roll : result.rolls) mirror(roll.fingers.front(), problem.finger ? &*problem.finger : nullptr);
+  if (result.finger && !result.rolls.empty()) result.finger = rollfix::mirrored(*problem.finger);
   if (result.pose) result.pose->mean = {-problem.pose->mean.x, problem.pose->mean.y, -problem.pose->mean.heading};
   return result;
 }
 
 Interval negative(const Interval& interval) { return {-interval.hi, -interval.lo}; }
+
+void mirror(RollFacts& roll) {
+  for (Vec2& centre : roll.track) centre.x() = -centre.x();
+  for (double& length : roll.reading.length) length = -length;
+  roll.reading.turn = -roll.reading.turn;
+}
 
 void mirror(TouchPose& pose) {
   pose.pose = {-pose.pose.x, pose.pose.y, -pose.pose.heading};
@@ -325,12 +388,14 @@ void mirror(TouchPose& pose) {
 TouchAnswer solve_plain(const TouchProblem& problem) {
   TouchAnswer answer{problem.part, problem.touches};
   answer.radius = radius_of(problem);
+  answer.robust = problem.robust;
   answer.noise = problem.noise;
   answer.mirrored = problem.mirrored;
   const TouchProblem seen = problem.mirrored ? mirrored_problem(problem) : problem;
   Solver(seen, answer).run();
   if (problem.mirrored) {
     for (TouchPose& pose : answer.poses) mirror(pose);
+    for (RollFacts& roll : answer.rolls) mirror(roll);
   }
   return answer;
 }
@@ -339,11 +404,13 @@ TouchAnswer solve_plain(const TouchProblem& problem) {
 
 TouchAnswer solve(const TouchProblem& problem) {
   touch::require_valid(problem);
-  const Doing doing("looking for poses that fit the touches");
+  const Doing doing(problem.rolls.empty() ? "looking for poses that fit the touches"
+                                          : "looking for poses that fit all contacts");
   TouchAnswer answer = touch::solve_plain(problem);
   const bool is_odd = answer.verdict.fits_badly || answer.verdict.name == Verdict::inconsistent;
-  if (problem.diagnose && is_odd && answer.status == Status::complete)
-    answer.diagnoses = touch::mistakes(problem, answer);
+  if (problem.diagnose && is_odd && answer.status == Status::complete) {
+    answer.diagnoses = problem.rolls.empty() ? touch::mistakes(problem, answer) : touch::moved(problem, answer);
+  }
   return answer;
 }
 
@@ -351,7 +418,9 @@ std::string TouchAnswer::verdict_text() const {
   Verdict plain = verdict;
   plain.fits_badly = false;
   const bool is_said = verdict.fits_badly && verdict.name != Verdict::inconsistent;
-  return plain.text() + (is_said ? ", but the touches contradict the stated noise" : "");
+  const std::string contradiction = rolls.empty() ? ", but the touches contradict the stated noise"
+                                                  : ", but the measurements contradict the stated noise";
+  return plain.text() + (is_said ? contradiction : "");
 }
 
 }  // namespace rollfix

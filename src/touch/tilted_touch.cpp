@@ -30,7 +30,7 @@ constexpr int kMostPanels = 60;  // in either direction
 class Integral {
  public:
   Integral(const PoseFit& fit, const Pose& pose, std::size_t touch, const PathPlace& nearest)
-      : fit_(fit), path_(fit.path()), pose_(pose), number_(touch), touch_(fit.in_part(pose, touch)) {
+      : fit_(fit), path_(fit.path(touch)), pose_(pose), number_(touch), touch_(fit.in_part(pose, touch)) {
     least_ = distance_at(path_.at(nearest), touch_).square;
     go(nearest, true);
     go(nearest, false);

@@ -175,8 +175,10 @@ void add_log_arguments(CLI::App& command, std::vector<std::string>& logs, std::s
       ->type_name("FILE")
       ->allow_extra_args(false);
   command
-      .add_option("--roll", roll, "which roll of the log, from 1, if contact is lost and found again; default the last")
-      ->type_name("N");
+      .add_option("--roll", roll,
+                  "which roll of the log, from 1, if contact is lost and found again; default the last. `locate` takes "
+                  "`all`: the part does not move in between; the rolls of all logs, with --touch, share its pose")
+      ->type_name("N|all");
   add_reading_arguments(command, reading);
   add_skip_argument(command, reading);
 }
@@ -307,6 +309,7 @@ LogOptions read_log_options(const LogArguments& reading, const std::string& unit
 
 Log read_roll(const std::vector<std::string>& paths, const std::string& roll, const LogOptions& options,
               std::vector<std::string>& notes) {
+  if (roll == "all") throw InputError("--roll all is of `rollfix locate` alone; choose one roll with --roll N");
   const std::size_t number = roll.empty() ? 0 : read_count(roll, "--roll", 1);
   if (paths.size() != 1) {
     if (number > 0) throw InputError("--roll chooses from one log, and --log is given more than once; split the logs");

@@ -19,6 +19,7 @@
 #include "rollfix/locate/batch.hpp"
 #include "rollfix/locate/certificate.hpp"
 #include "rollfix/locate/locate_by_march.hpp"
+#include "rollfix/locate/locate_rolls.hpp"
 #include "rollfix/locate/locate_touches.hpp"
 #include "rollfix/locate/map_points.hpp"
 #include "rollfix/locate/touch_arguments.hpp"
@@ -108,17 +109,21 @@ Report march_report(const LocateArguments& arguments) {
   return report;
 }
 
-/// What touches have no use for.
-Report touches_report(const LocateArguments& arguments) {
-  const auto refuse = [](bool given, const char* option) {
-    if (given) throw InputError(fmt::format("{}: touches do not roll and have no use for it; leave it out", option));
+/// What touches, and several rolls, have no use for.
+Report poses_report(const LocateArguments& arguments, bool has_rolls) {
+  const auto refuse = [&](bool given, const char* option) {
+    if (!given) return;
+    throw InputError(fmt::format("{}: {}", option,
+                                 has_rolls ? "is of one roll; leave it out, or choose one with --roll N"
+                                           : "touches do not roll and have no use for it; leave it out"));
   };
   refuse(!arguments.maps.empty(), "--map");
   refuse(!arguments.certificate.empty(), "--certify");
   refuse(arguments.march.march, "--march");
   refuse(arguments.detail.explain, "--explain");
-  return locate_touches(arguments.touches, arguments.roll,
-                        {arguments.output, arguments.json, arguments.detail.verbose});
+  const TouchOutput output{arguments.output, arguments.json, arguments.detail.verbose};
+  return has_rolls ? locate_rolls(arguments.touches, arguments.roll, output)
+                   : locate_touches(arguments.touches, arguments.roll, output);
 }
 
 /// What a batch has no use for.
@@ -136,11 +141,17 @@ void require_batch(const LocateArguments& arguments) {
 }
 
 Report locate_report(const LocateArguments& arguments, std::ostream& out) {
+  if (arguments.roll.roll == "all" && arguments.batch.empty()) {
+    if (are_contacts(arguments.touches, arguments.roll)) return poses_report(arguments, true);
+    LocateArguments only = arguments;
+    only.roll.roll = "1";
+    return locate_report(only, out);
+  }
   if (!arguments.batch.empty()) {
     require_batch(arguments);
     return locate_batch(arguments.roll, arguments.batch, arguments.detail.explain, out);
   }
-  if (are_touches(arguments.touches, arguments.roll)) return touches_report(arguments);
+  if (are_touches(arguments.touches, arguments.roll)) return poses_report(arguments, false);
   require_sensible(arguments);
   const OutputArgument& output = arguments.output;
   if (arguments.maps.empty()) require_figure_output(output, arguments.json);

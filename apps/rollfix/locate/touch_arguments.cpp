@@ -35,33 +35,6 @@ std::string beginning_of(const std::string& path) {
   return text.substr(0, text.rfind('\n') + 1);
 }
 
-/// X,Y or X,Y,NORMAL.
-MeasuredTouch read_touch(const std::string& text, const std::string& unit) {
-  const std::string what = "--touch " + text;
-  const std::vector<std::string_view> fields = split(text, ',');
-  if (fields.size() != 2 && fields.size() != 3) {
-    throw InputError(fmt::format(
-        "{}: expected X,Y or X,Y,NORMAL, as in 12.5,3.1,73deg: where the finger's centre was, and the direction out of "
-        "the part, found {}",
-        what, counted(fields.size(), "number", "numbers")));
-  }
-  MeasuredTouch touch;
-  touch.at = {read_length(fields[0], what, unit), read_length(fields[1], what, unit)};
-  if (fields.size() == 3) touch.normal = read_angle(fields[2], what);
-  return touch;
-}
-
-/// --tolerance LENGTH or LENGTH,ANGLE.
-TouchTolerance read_touch_tolerance(const std::string& text, const std::string& unit) {
-  const std::string what = "--tolerance " + text;
-  const std::vector<std::string_view> fields = split(text, ',');
-  if (fields.size() > 2) {
-    throw InputError(
-        fmt::format("{}: expected LENGTH or LENGTH,ANGLE, as in 0.1,2deg, found {} numbers", what, fields.size()));
-  }
-  return {read_length(fields[0], what, unit), fields.size() == 2 ? read_angle(fields[1], what) : 0};
-}
-
 void require_touch_options(const RollArguments& arguments) {
   const auto refuse = [](bool given, const char* option) {
     if (given) throw InputError(fmt::format("{}: touches do not roll and have no use for it; leave it out", option));
@@ -85,6 +58,31 @@ void require_touch_options(const RollArguments& arguments) {
 
 }  // namespace
 
+MeasuredTouch read_touch(const std::string& text, const std::string& unit) {
+  const std::string what = "--touch " + text;
+  const std::vector<std::string_view> fields = split(text, ',');
+  if (fields.size() != 2 && fields.size() != 3) {
+    throw InputError(fmt::format(
+        "{}: expected X,Y or X,Y,NORMAL, as in 12.5,3.1,73deg: where the finger's centre was, and the direction out of "
+        "the part, found {}",
+        what, counted(fields.size(), "number", "numbers")));
+  }
+  MeasuredTouch touch;
+  touch.at = {read_length(fields[0], what, unit), read_length(fields[1], what, unit)};
+  if (fields.size() == 3) touch.normal = read_angle(fields[2], what);
+  return touch;
+}
+
+TouchTolerance read_touch_tolerance(const std::string& text, const std::string& unit) {
+  const std::string what = "--tolerance " + text;
+  const std::vector<std::string_view> fields = split(text, ',');
+  if (fields.size() > 2) {
+    throw InputError(
+        fmt::format("{}: expected LENGTH or LENGTH,ANGLE, as in 0.1,2deg, found {} numbers", what, fields.size()));
+  }
+  return {read_length(fields[0], what, unit), fields.size() == 2 ? read_angle(fields[1], what) : 0};
+}
+
 bool are_touches(const std::vector<std::string>& touches, const RollArguments& arguments) {
   if (!touches.empty()) return true;
   if (!arguments.reading.columns.empty()) return false;  // they are of a roll
@@ -96,7 +94,9 @@ TouchProblem read_touch_problem(const std::vector<std::string>& touches, const R
                                 std::vector<std::string>& notes, std::vector<Outline>* others) {
   require_touch_options(arguments);
   if (!touches.empty() && !arguments.logs.empty()) {
-    throw InputError("--touch and --log both give touches: leave one of them out");
+    const bool is_table = is_touch_table(beginning_of(arguments.logs.front()), table_options(arguments, ""));
+    throw InputError(is_table ? "--touch and --log both give touches: leave one of them out"
+                              : "--touch and a --log of rolls share a pose with --roll all: add it");
   }
   TouchProblem problem{load_part(arguments.part, notes, others), {}};
   const std::string unit = problem.part.unit();

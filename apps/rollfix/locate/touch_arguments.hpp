@@ -16,4 +16,11 @@ bool are_touches(const std::vector<std::string>& touches, const RollArguments& a
 TouchProblem read_touch_problem(const std::vector<std::string>& touches, const RollArguments& arguments,
                                 std::vector<std::string>& notes, std::vector<Outline>* others);
 
+// `unit`: the part's, empty where it is not known.
+
+/// X,Y or X,Y,NORMAL. Throws InputError.
+MeasuredTouch read_touch(const std::string& text, const std::string& unit);
+/// --tolerance LENGTH or LENGTH,ANGLE. Throws InputError.
+TouchTolerance read_touch_tolerance(const std::string& text, const std::string& unit);
+
 }  // namespace rollfix::app

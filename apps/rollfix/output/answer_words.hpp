@@ -10,6 +10,9 @@
 
 namespace rollfix::app {
 
+/// "contact 0.1 mm, angle 0.300 deg": each kind of noise that there is. `unit`: behind a length.
+std::string noise_words(const Noise& noise, const std::string& unit);
+
 /// What all parts of an answer's text have in common: names, places and units. What is of a finger is said of each.
 class AnswerWords {
  protected:

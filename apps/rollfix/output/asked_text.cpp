@@ -74,22 +74,8 @@ class AskedText : AnswerWords {
   /// "noise      contact 0.1, ..." and what the samples are like.
   std::string weighing_lines() const {
     const Weighing& weighing = *answer_.weighing;
-    std::vector<std::string> noise;
-    for (const NoiseKind& kind : kNoiseKinds) {
-      const double sd = weighing.noise.*kind.sd;
-      if (sd == 0) continue;
-      const bool is_of_gyroscope = kind.unit == NoiseKind::Unit::rate || kind.unit == NoiseKind::Unit::walk;
-      if (is_of_gyroscope) {
-        const bool is_rate = kind.unit == NoiseKind::Unit::rate;
-        noise.push_back(fmt::format("{} {:.4g} {}", kind.name, sd / kDegree * (is_rate ? 3600 : 60),
-                                    is_rate ? "deg/h" : "deg/sqrt(h)"));
-        continue;
-      }
-      const std::string& unit = kind.unit == NoiseKind::Unit::length ? unit_ : "";
-      noise.push_back(kind.unit == NoiseKind::Unit::angle ? fmt::format("{} {} deg", kind.name, degrees(sd))
-                                                          : fmt::format("{} {:.4g}{}", kind.name, sd, unit));
-    }
-    std::string text = fmt::format("noise      {}{}\n", fmt::join(noise, ", "), weighing.robust ? "; robust" : "");
+    std::string text =
+        fmt::format("noise      {}{}\n", noise_words(weighing.noise, unit_), weighing.robust ? "; robust" : "");
     if (weighing.prior) {
       text += fmt::format("prior      s = {:.6g}, sd {:.4g}{}\n", weighing.prior->s, weighing.prior->sd, unit_);
     }
@@ -173,6 +159,25 @@ class AskedText : AnswerWords {
 };
 
 }  // namespace
+
+std::string noise_words(const Noise& noise, const std::string& unit) {
+  std::vector<std::string> words;
+  for (const NoiseKind& kind : kNoiseKinds) {
+    const double sd = noise.*kind.sd;
+    if (sd == 0) continue;
+    const bool is_of_gyroscope = kind.unit == NoiseKind::Unit::rate || kind.unit == NoiseKind::Unit::walk;
+    if (is_of_gyroscope) {
+      const bool is_rate = kind.unit == NoiseKind::Unit::rate;
+      words.push_back(fmt::format("{} {:.4g} {}", kind.name, sd / kDegree * (is_rate ? 3600 : 60),
+                                  is_rate ? "deg/h" : "deg/sqrt(h)"));
+      continue;
+    }
+    const std::string& suffix = kind.unit == NoiseKind::Unit::length ? unit : "";
+    words.push_back(kind.unit == NoiseKind::Unit::angle ? fmt::format("{} {} deg", kind.name, degrees(sd))
+                                                        : fmt::format("{} {:.4g}{}", kind.name, sd, suffix));
+  }
+  return fmt::format("{}", fmt::join(words, ", "));
+}
 
 std::string asked_lines(const Answer& answer, bool verbose) { return AskedText(answer, verbose).text(); }
 

@@ -10,6 +10,7 @@
 #include "outline/turn.hpp"
 #include "rollfix/answer/part_facts.hpp"
 #include "rollfix/output/answer_output.hpp"
+#include "rollfix/output/answer_words.hpp"
 #include "rollfix/output/table.hpp"
 #include "text/text.hpp"
 
@@ -27,7 +28,8 @@ class TouchText {
   std::string text(bool verbose) const {
     std::string text = answer_.verdict_text() + "\n" + advice_line() + diagnosis_lines();
     if (!answer_.poses.empty()) text += "\n" + poses_table() + "\n" + pose_remarks();
-    if (verbose && !answer_.poses.empty()) text += contacts_table() + "\n";
+    if (!answer_.rolls.empty()) text += rolls_table() + "\n";
+    if (verbose && !answer_.poses.empty() && !answer_.touches.empty()) text += contacts_table() + "\n";
     return text + unresolved_lines() + asked_lines();
   }
 
@@ -56,6 +58,7 @@ class TouchText {
 
   /// What to do next.
   std::string advice_line() const {
+    if (!answer_.rolls.empty()) return advice_of_rolls();
     switch (answer_.verdict.name) {
       case Verdict::unique:
         return "";
@@ -77,6 +80,56 @@ class TouchText {
     return "no pose of the part fits all touches\n";
   }
 
+  std::string advice_of_rolls() const {
+    switch (answer_.verdict.name) {
+      case Verdict::unique:
+        return "";
+      case Verdict::ambiguous:
+        if (all_alike()) return "the part looks the same in each of these poses: no roll can identify one\n";
+        return answer_.verdict.stretches > 0
+                   ? "the contacts leave the part free to move: roll over a side with another direction\n"
+                   : "next: one more roll or touch elsewhere on the part\n";
+      case Verdict::unobservable:
+        return "any heading fits: roll over a stretch of the part that is bent otherwise\n";
+      case Verdict::undecided:
+        return "not decided: longer rolls, or a larger --budget, leave less to look at\n";
+      case Verdict::inconsistent:
+        break;
+    }
+    for (std::size_t k = 0; k < answer_.rolls.size(); ++k) {
+      if (answer_.rolls[k].alone.name != Verdict::inconsistent) continue;
+      return fmt::format("roll {} fits nowhere on the part by itself: --roll {} says more\n", k + 1, k + 1);
+    }
+    return "each roll fits the part by itself, and no pose fits all contacts\n";
+  }
+
+  /// What each roll said, and where it is in the first pose.
+  std::string rolls_table() const {
+    Table table;
+    table.add_column("", Table::Align::left);
+    table.add_column("lines");
+    for (const std::string& title : {title_in("length", unit_), std::string("turn [deg]")}) table.add_column(title);
+    table.add_column("by itself", Table::Align::left);
+    const bool has_pose = !answer_.poses.empty();
+    if (has_pose) {
+      for (const char* title : {"start in p0", "end in p0"}) table.add_column(title_in(title, unit_));
+    }
+    for (std::size_t k = 0; k < answer_.rolls.size(); ++k) {
+      const RollFacts& roll = answer_.rolls[k];
+      std::vector<std::string> cells{
+          fmt::format("roll {}", k + 1),
+          roll.lines.empty() ? "-" : fmt::format("{} to {}", roll.lines.front(), roll.lines.back()),
+          place(roll.reading.length[0]), degrees(roll.reading.turn), roll.alone.text()};
+      if (has_pose) {
+        const TouchContact& contact = answer_.poses.front().contacts[k];
+        cells.push_back(place(contact.s));
+        cells.push_back(contact.end ? place(*contact.end) : "-");
+      }
+      table.add_row(std::move(cells));
+    }
+    return table.str();
+  }
+
   std::string diagnosis_line(const TouchDiagnosis& one) const {
     switch (one.cause) {
       case TouchCause::unit:
@@ -94,6 +147,9 @@ class TouchText {
       case TouchCause::mirrored:
         return answer_.mirrored ? "the part does not lie face down: leave --mirror out"
                                 : "the part lies face down: add --mirror";
+      case TouchCause::moved:
+        return fmt::format("the part was moved between roll {} and roll {}: before and after it each fits by itself",
+                           one.roll + 1, one.roll + 2);
       case TouchCause::noise:
         break;
     }
@@ -109,6 +165,12 @@ class TouchText {
       text += "possible cause: " + diagnosis_line(one) + fit + "\n";
     }
     const bool is_odd = answer_.verdict.name == Verdict::inconsistent || answer_.verdict.fits_badly;
+    if (text.empty() && is_odd && !answer_.rolls.empty()) {
+      const bool fits_alone = std::all_of(answer_.rolls.begin(), answer_.rolls.end(), [](const RollFacts& roll) {
+        return roll.alone.name != Verdict::inconsistent && !roll.alone.fits_badly;
+      });
+      return fits_alone ? "" : "a roll does not fit by itself: --roll N says what may be wrong with it\n";
+    }
     if (text.empty() && is_odd && answer_.touches.size() > 1) {
       text = "no usual mistake explains it: check the part, its unit, and each touch\n";
     }
@@ -120,24 +182,29 @@ class TouchText {
     const bool has_noise = answer_.noise.has_value();
     table.add_column("", Table::Align::left);
     if (has_noise) table.add_column("probability");
-    for (const std::string& title : {title_in("x", unit_), title_in("y", unit_), std::string("heading [deg]")}) {
-      table.add_column(title);
+    const int first = answer_.place == PlaceKnown::unknown ? 2 : 0;
+    const std::array<std::string, 3> titles = {title_in("x", unit_), title_in("y", unit_), "heading [deg]"};
+    for (int i = first; i < 3; ++i) {
+      table.add_column(titles[static_cast<std::size_t>(i)]);
       if (has_noise) table.add_column("±");
     }
-    table.add_column("worst residual");
+    table.add_column(answer_.place == PlaceKnown::measured ? "worst residual" : "worst residual [deg]");
     for (std::size_t k = 0; k < std::min(answer_.poses.size(), kMostRows); ++k) {
       const TouchPose& pose = answer_.poses[k];
       std::vector<std::string> cells{fmt::format("p{}", k)};
       if (has_noise) cells.push_back(share(pose.probability));
       const std::array<std::string, 3> values = {place(pose.pose.x), place(pose.pose.y),
                                                  pose.any_heading ? "any" : degrees(pose.pose.heading)};
-      for (int i = 0; i < 3; ++i) {
+      for (int i = first; i < 3; ++i) {
         cells.push_back(values[static_cast<std::size_t>(i)]);
         if (has_noise) cells.push_back(rough(i < 2 ? sd(pose, i) : sd(pose, i) / kDegree));
       }
       // An exact fit leaves rounding.
-      const bool is_exact = pose.residual.length < kExact * answer_.tolerance.front().length;
-      cells.push_back(is_exact ? "0" : rough(pose.residual.length));
+      const bool by_place = answer_.place == PlaceKnown::measured;
+      const double residual = by_place ? pose.residual.length : pose.residual.turn;
+      const TouchTolerance& tolerance = answer_.tolerance.front();
+      const bool is_exact = residual < kExact * (by_place ? tolerance.length : tolerance.angle);
+      cells.push_back(is_exact ? "0" : rough(by_place ? residual : residual / kDegree));
       table.add_row(std::move(cells));
     }
     const std::size_t more = answer_.poses.size() - std::min(answer_.poses.size(), kMostRows);
@@ -156,9 +223,16 @@ class TouchText {
       const std::string heading = pose.any_heading
                                       ? "any heading"
                                       : fmt::format("heading {} to {} deg", degrees(range[2].lo), degrees(range[2].hi));
-      text += fmt::format("p{}: {} x {}, y {}{}, {}{}\n", k, answer_.noise ? "95 % within" : "within", span(range[0]),
-                          span(range[1]), behind(unit_), heading,
+      const std::string places = answer_.place == PlaceKnown::unknown
+                                     ? ""
+                                     : fmt::format("x {}, y {}{}, ", span(range[0]), span(range[1]), behind(unit_));
+      text += fmt::format("p{}: {} {}{}{}\n", k, answer_.noise ? "95 % within" : "within", places, heading,
                           pose.continuum ? "; a continuum, of which the table shows one" : "");
+    }
+    if (answer_.place == PlaceKnown::unknown) {
+      text += "where the part is is not known: the log has no columns x and y\n";
+    } else if (answer_.place == PlaceKnown::reference) {
+      text += "x and y are from roll 1 alone; with --noise position=SD all rolls tell where the part is\n";
     }
     if (answer_.poses.front().any_heading) text += centre_line(answer_.poses.front().pose);
     return text + "\n";
@@ -214,9 +288,25 @@ class TouchText {
     std::string text =
         fmt::format("part       {}, {}, perimeter {}{}{}\n", plain(part.name()), part.closed() ? "closed" : "open",
                     place(part.perimeter()), behind(unit_), answer_.mirrored ? ", face down" : "");
-    text += fmt::format("touches    {}, {} with normal; finger {}\n", answer_.touches.size(), with_normal,
-                        answer_.radius > 0 ? fmt::format("disk,r={:.6g}", answer_.radius) : "a point");
-    if (answer_.noise) {
+    const std::string finger = answer_.radius > 0 ? fmt::format("disk,r={:.6g}", answer_.radius) : "a point";
+    if (!answer_.rolls.empty()) {
+      text += fmt::format("contacts   {}{}{}\n", counted(answer_.rolls.size(), "roll", "rolls"),
+                          answer_.touches.empty() ? "" : ", " + counted(answer_.touches.size(), "touch", "touches"),
+                          answer_.radius > 0 ? "; finger " + finger : "");
+    } else {
+      text += fmt::format("touches    {}, {} with normal; finger {}\n", answer_.touches.size(), with_normal, finger);
+    }
+    if (answer_.noise && !answer_.rolls.empty()) {
+      text += fmt::format("noise      {}{}\n", noise_words(*answer_.noise, behind(unit_)),
+                          answer_.robust ? "; robust" : "");
+    } else if (!answer_.rolls.empty()) {
+      const TouchTolerance& tolerance = answer_.tolerance.front();
+      text += fmt::format("tolerance  {}headings within {:.3g} deg of one another\n",
+                          answer_.place == PlaceKnown::measured
+                              ? fmt::format("centres {:.3g}{}, ", tolerance.length, behind(unit_))
+                              : "",
+                          2 * tolerance.angle / kDegree);
+    } else if (answer_.noise) {
       text += fmt::format(
           "noise      position {:.6g}{}{}\n", answer_.noise->position, behind(unit_),
           answer_.noise->angle > 0 ? fmt::format(", angle {:.6g} deg", answer_.noise->angle / kDegree) : "");
@@ -229,7 +319,8 @@ class TouchText {
       text += fmt::format("fit        chi-square {:.3g} where {} is expected, p = {:.2g}\n", answer_.fit->chi_square,
                           answer_.fit->freedom, answer_.fit->p);
     } else if (answer_.fit) {
-      text += "fit        these touches can't contradict each other: one more checks them\n";
+      text += answer_.rolls.empty() ? "fit        these touches can't contradict each other: one more checks them\n"
+                                    : "fit        these contacts can't contradict each other: one more checks them\n";
     }
     const std::string rejected = counted(answer_.improbable, "pose", "poses");
     if (answer_.improbable > 0 && answer_.poses.empty()) {

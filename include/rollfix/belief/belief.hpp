@@ -199,6 +199,19 @@ struct FeltContact {
   double finger_curvature = 0;
 };
 
+/// A little of one finger's posterior, with what all rows say of the part's pose there.
+struct PosePiece {
+  struct End {
+    double s = 0;        // of the first contact, unwrapped
+    double tangent = 0;  // of the part there, radians, unwrapped: in a corner of the pivot
+    PoseSpread pose;     // of the part, if the first contact is here; x and y mean something where the log has centres
+  };
+  End lo;  // s and tangent grow to `hi` along the boundary, or one of them stays
+  End hi;
+  double probability = 0;
+  double rise = 0;  // by so much the logarithm of the density is larger at `hi`
+};
+
 /// Where the first contacts can have been on the part's boundary, given all the samples of a roll and how noisy they
 /// are: the posterior density, of one finger over the whole boundary, of two over all pairs of places, on a grid that
 /// adapts to it. No particles, no random numbers. See docs/belief.md and docs/two_fingers.md.
@@ -249,6 +262,10 @@ class Belief {
   /// The part's pose at the first contacts, given that they are one of a mode's: number `mode` of modes(). The errors
   /// with which those contacts were felt add theirs; of two fingers, as far as the samples don't tell them.
   PoseSpread pose_spread(std::size_t mode, const PerFinger<FeltContact>& felt);
+
+  /// The posterior of one finger in pieces that hold its mass, in no order. Empty before the first sample, of two
+  /// fingers, and where the finger or its orientation is not known.
+  std::vector<PosePiece> pose_pieces();
 
  private:
   struct State;

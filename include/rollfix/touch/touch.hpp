@@ -9,12 +9,13 @@
 
 #include "rollfix/belief/belief.hpp"
 #include "rollfix/contact/finger.hpp"
+#include "rollfix/contact/log.hpp"
 #include "rollfix/contact/noise.hpp"
 #include "rollfix/contact/reading.hpp"
 #include "rollfix/locate/placement.hpp"
 #include "rollfix/part/part.hpp"
 
-// From touches without rolling to every pose of the part: docs/touch.md.
+// From contacts that share a pose, touches without rolling and rolls, to every pose of the part: docs/touch.md.
 namespace rollfix {
 
 /// One contact without rolling, in the world: a probe's ball, or a round finger.
@@ -28,42 +29,49 @@ struct MeasuredTouch {
 /// How far a measurement may be off, where no noise is stated.
 struct TouchTolerance {
   double length = 0;  // distance of a finger's centre from where the part allows it, above 0
-  double angle = 0;   // of a normal, radians; above 0 where a touch has one
+  double angle = 0;   // of a normal, radians; above 0 where a touch has one. Of rolls: of their readings, as of one
+                     // roll, and of the headings of two rolls from one another
 };
 
 /// With noise, a pose is a candidate where every measurement is within so many standard deviations. The true pose is
 /// beyond it once in 25,000 touches.
 inline constexpr double kTouchSigmas = 4.5;
 
-/// Touches of one part at rest, with one finger.
+/// Touches and rolls on one part at rest, with one finger that is lifted in between.
 struct TouchProblem {
   Part part;
   std::vector<MeasuredTouch> touches;
-  std::optional<Finger> finger{};             // a disk; none: a point
-  std::optional<Noise> noise{};               // `position` and `angle`: standard deviations
-  std::optional<TouchTolerance> tolerance{};  // without noise
+  std::optional<Finger> finger{};             // of touches a disk; none: a point, which does not roll
+  std::optional<Noise> noise{};               // of touches `position` and `angle`: standard deviations
+  std::optional<TouchTolerance> tolerance{};  // without noise; of rolls alone none: from the digits of their logs
   std::optional<PosePrior> pose{};            // with noise: about how the part lies
   std::optional<std::size_t> budget{};        // comparisons before giving up; none: kTouchBudget
   bool mirrored = false;                      // the part lies face down
   bool diagnose = true;                       // if the touches contradict the noise, the usual mistakes are tried
+  std::vector<Log> rolls{};                   // each of u and psi; with x and y they tell where the part is as well:
+                                              // with noise where `position` is stated
+  bool robust = false;                        // with noise: outliers among the rows of rolls don't count
 };
 
 /// Comparisons of two stretches of the boundary: a second or two.
 inline constexpr std::size_t kTouchBudget = 200000000;
 
-/// Where a touch is on the part, in one pose.
+/// Where a contact is on the part, in one pose; of a roll its first contact.
 struct TouchContact {
-  double s = 0;                // of the contact, in [0, P)
-  Vec2 point = Vec2::Zero();   // of it, in the part's frame
-  double tangent = 0;          // its direction there in the part's frame, radians, in (-pi, pi]; at a corner a pivot's
-  double distance = 0;         // residual: from the finger's centre to where this pose has it, length
-  std::optional<double> turn;  // residual: measured normal less that of the part, radians
+  double s = 0;                 // of the contact, in [0, P)
+  Vec2 point = Vec2::Zero();    // of it, in the part's frame
+  double tangent = 0;           // its direction there in the part's frame, radians, in (-pi, pi]; at a corner a pivot's
+  double distance = 0;          // residual: from the finger's centre to where this pose has it, length
+  std::optional<double> turn;   // residual: measured normal less that of the part, radians
+  std::optional<double> end{};  // of a roll: s of its last contact, in [0, P)
+  std::optional<Interval> extent{};  // of a roll: the arc around s where it can have started by itself; lo in [0, P),
+                                     // hi may exceed P
 };
 
 /// One answer: a connected set of poses, all of which fit.
 struct TouchPose {
   Pose pose;                           // that fits best
-  std::vector<TouchContact> contacts;  // one for each touch, in that pose
+  std::vector<TouchContact> contacts;  // in that pose: one for each roll, then one for each touch
   PoseResidual residual;               // the largest of theirs
   double worst = 0;                    // the largest residual as a share of its tolerance, at most 1
   bool continuum = false;              // the touches leave the part free to slide or to turn: `pose` is one of many
@@ -96,6 +104,7 @@ enum class TouchCause {
   normals_reversed,  // normals point into the part
   normals_clockwise,
   mirrored,  // the part lies face down
+  moved,     // the part was moved after a roll: `roll`
   noise      // the noise is larger than stated: `factor`
 };
 const char* name_of(TouchCause cause);
@@ -108,18 +117,38 @@ struct TouchDiagnosis {
   std::string into{};     // ... that of the part, both as guessed
   std::size_t touch = 0;  // outlier: its number, from 0
   double radius = 0;      // radius: the one that fits
+  std::size_t roll = 0;   // moved: the last roll before it, from 0
   TouchFit fit{};         // without the mistake
   std::size_t poses = 0;  // that remain without it
   Pose pose{};            // the likeliest of them
 };
 
-/// Every pose of the part that fits the touches.
+/// What tells where the part is.
+enum class PlaceKnown {
+  measured,   // the finger's centre, where it is evidence
+  reference,  // the centre at the first contact of the first roll alone: with noise that has no `position`
+  unknown     // nothing: the rolls have no x and y, and only the heading of a pose means anything
+};
+
+/// A roll by itself.
+struct RollFacts {
+  std::string name{};                // of its log
+  std::vector<std::size_t> lines{};  // of the file: its first and its last row; of simulated rows none
+  std::size_t rows = 0;
+  Reading reading{};           // of its last row, in the direction in which the part is stored
+  bool has_centre = false;     // its log has x and y
+  std::vector<Vec2> track{};   // then: the finger's centres, in the world
+  Verdict alone{};             // without the other contacts
+  std::size_t placements = 0;  // likewise: where it can have started
+};
+
+/// Every pose of the part that fits the touches and the rolls.
 struct TouchAnswer {
   Part part;
   std::vector<MeasuredTouch> touches;
   double radius = 0;  // of the finger; 0: a point
   std::optional<Noise> noise{};
-  std::vector<TouchTolerance> tolerance{};  // that was searched with, for each touch
+  std::vector<TouchTolerance> tolerance{};  // that was searched with, for each contact
   bool mirrored = false;                    // poses are of the part face down: x = -x of the outline, then the pose
   Status status = Status::complete;
   Verdict verdict{};
@@ -128,20 +157,27 @@ struct TouchAnswer {
   double rest = 0;                     // ... and their probability together
   std::vector<Interval> unresolved{};  // if incomplete: arcs of the boundary on which the first touch of a pose that
                                        // is not listed may be; lo in [0, P), hi may exceed P
-  std::size_t unresolved_touch = 0;    // which touch they are of
+  std::size_t unresolved_touch = 0;    // which contact they are of: rolls are the first ones
   std::optional<TouchFit> fit{};       // with noise, if a pose fits
   std::vector<TouchDiagnosis> diagnoses{};  // what explains touches that do not fit, the likeliest first
   std::size_t comparisons = 0;
+  std::vector<RollFacts> rolls{};
+  PlaceKnown place = PlaceKnown::measured;
+  bool robust = false;  // as in the problem
 
+  std::size_t contact_count() const { return rolls.size() + touches.size(); }
   /// "unique", "ambiguous (2)", "unique, but the touches contradict the stated noise", ...
   std::string verdict_text() const;
 };
 
-/// Every pose of a part at rest that fits touches of one finger without rolling: complete, by branch and prune over the
-/// places of two touches on the boundary. Places where a disk would enter the part elsewhere are left out. With noise
-/// also the posterior, if contacts are as likely anywhere on the boundary. One touch leaves a continuum: the verdict is
-/// `unobservable` and no pose is listed. Throws InputError: no touches, a number that is not finite, a finger that is
-/// no disk, noise without `position` (or without `angle` where a touch has a normal), neither noise nor tolerance.
+/// Every pose of a part at rest that fits touches of one finger, and its rolls: complete, by branch and prune over the
+/// places of two contacts on the boundary, of a roll over those that its readings leave. Places where a disk would
+/// enter the part elsewhere are left out. With noise also the posterior, if contacts are as likely anywhere on the
+/// boundary. One touch leaves a continuum: the verdict is `unobservable` and no pose is listed. One roll is what
+/// `solve` of a Problem makes of it. Throws InputError: no contact, a number that is not finite, a finger that is no
+/// disk for a touch, noise without `position` for a touch (or without `angle` where it has a normal), neither noise nor
+/// tolerance for a touch, a roll without u and psi or without a finger, and what `solve` of a Problem throws of each
+/// roll.
 TouchAnswer solve(const TouchProblem& problem);
 
 }  // namespace rollfix

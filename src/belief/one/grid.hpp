@@ -153,6 +153,9 @@ std::vector<Mode> modes_of(const Grid& grid, const ModeQuestion& question);
 /// The cells that hold the mass, in order, with the part's pose where the rows tell it.
 std::vector<Piece> pieces_of(const Grid& grid, const TiltedBoundary& boundary);
 
+/// The same with the poses at their ends. REQUIRES that the finger's first contact is known.
+std::vector<PosePiece> pose_pieces_of(const Grid& grid, const TiltedBoundary& boundary);
+
 /// The same as intervals, in order of s.
 Density density_of(const Grid& grid, const Boundary& places);
 

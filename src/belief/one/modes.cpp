@@ -272,6 +272,20 @@ std::vector<Piece> pieces_of(const Grid& grid, const TiltedBoundary& boundary) {
   return pieces;
 }
 
+std::vector<PosePiece> pose_pieces_of(const Grid& grid, const TiltedBoundary& boundary) {
+  std::vector<PosePiece> pieces;
+  for (const GridCell& cell : grid.cells()) {
+    if (!(cell.share > kLeastShare)) continue;
+    PosePiece piece;
+    piece.lo = {cell.s.lo, cell.lo - boundary.tilt() * cell.s.lo, grid.filter(cell, 0).pose()};
+    piece.hi = {cell.s.hi, cell.hi - boundary.tilt() * cell.s.hi, grid.filter(cell, 1).pose()};
+    piece.probability = cell.share;
+    piece.rise = cell.rise;
+    pieces.push_back(piece);
+  }
+  return pieces;
+}
+
 namespace {
 
 /// Evenly spread mass.

@@ -141,6 +141,10 @@ class OneFingersPosterior : public Posterior {
     return pieces;
   }
 
+  std::vector<PosePiece> pose_pieces() const override {
+    return state_->has_first ? pose_pieces_of(state_->grid, state_->boundary) : std::vector<PosePiece>{};
+  }
+
   PerFinger<Density> density(const std::vector<Mode>& /*modes*/) const override {
     return has_begun() ? density_of(state_->grid, part_.boundary()) : Density{};
   }

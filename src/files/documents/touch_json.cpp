@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <array>
+
 #include "documents.hpp"
 #include "rollfix/files/touch_document.hpp"
 
@@ -43,6 +46,11 @@ Json pose_set_json(const TouchPose& set, bool has_noise) {
       {"pose_residual", {{"length", json_number(set.residual.length)}, {"turn", json_number(set.residual.turn)}}},
       {"worst", json_number(set.worst)},
       {"probability", json_number(set.probability)}};
+  if (std::any_of(set.contacts.begin(), set.contacts.end(), [](const auto& contact) { return contact.end; })) {
+    json["end"] = numbers([](const TouchContact& contact) { return number_or_null(contact.end); });
+    json["extent"] = numbers(
+        [](const TouchContact& contact) { return contact.extent ? json_interval(*contact.extent) : Json(nullptr); });
+  }
   if (!has_noise) return json;
   json["chi_square"] = json_number(set.chi_square);
   json["pose_mean"] = triple(set.spread.mean);
@@ -64,7 +72,38 @@ Json mistake_json(const TouchDiagnosis& diagnosis) {
   if (diagnosis.cause == TouchCause::unit) json["unit"] = diagnosis.unit;
   if (diagnosis.cause == TouchCause::outlier) json["touch"] = diagnosis.touch;
   if (diagnosis.cause == TouchCause::radius) json["radius"] = diagnosis.radius;
+  if (diagnosis.cause == TouchCause::moved) json["after_roll"] = diagnosis.roll + 1;
   return json;
+}
+
+Json roll_json(const RollFacts& roll, const TouchTolerance& tolerance, bool place_counts) {
+  return {{"name", roll.name},
+          {"rows", roll.rows},
+          {"length", json_number(roll.reading.length[0])},
+          {"turn", json_number(roll.reading.turn)},
+          {"centres", roll.has_centre},
+          {"verdict", roll.alone.text()},
+          {"placements", roll.placements},
+          {"tolerance",
+           Json::array({place_counts ? json_number(tolerance.length) : Json(nullptr), json_number(tolerance.angle)})}};
+}
+
+const char* name_of(PlaceKnown place) {
+  constexpr std::array<const char*, 3> kNames = {"measured", "reference", "unknown"};
+  return kNames[static_cast<std::size_t>(place)];
+}
+
+void add_rolls(const TouchAnswer& answer, Json& document) {
+  if (answer.rolls.empty()) return;
+  document["place"] = name_of(answer.place);
+  document["rolls"] = Json::array();
+  for (std::size_t k = 0; k < answer.rolls.size(); ++k) {
+    const RollFacts& roll = answer.rolls[k];
+    const bool place_counts = roll.has_centre && answer.place == PlaceKnown::measured;
+    document["rolls"].push_back(roll_json(roll, answer.tolerance[k], place_counts));
+    document["contacts"].push_back(
+        Json{{"finger", 0}, {"roll", k + 1}, {"lines", roll.lines.empty() ? Json(nullptr) : Json(roll.lines)}});
+  }
 }
 
 }  // namespace
@@ -79,8 +118,9 @@ std::string format_touches(const TouchAnswer& answer, Layout layout) {
                    {"mirrored", answer.mirrored}};
   document["touches"] = Json::array();
   document["contacts"] = Json::array();
+  add_rolls(answer, document);
   for (std::size_t k = 0; k < answer.touches.size(); ++k) {
-    document["touches"].push_back(measured_json(answer.touches[k], answer.tolerance[k]));
+    document["touches"].push_back(measured_json(answer.touches[k], answer.tolerance[answer.rolls.size() + k]));
     document["contacts"].push_back(Json{{"finger", 0}, {"touch", k}});
   }
   document["placements"] =

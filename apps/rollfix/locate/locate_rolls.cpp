@@ -1,0 +1,102 @@
+#include "rollfix/locate/locate_rolls.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "rollfix/arguments/finger_argument.hpp"
+#include "rollfix/arguments/part_argument.hpp"
+#include "rollfix/arguments/typed_number.hpp"
+#include "rollfix/draw/touch_figure.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/files/touch_document.hpp"
+#include "rollfix/locate/touch_arguments.hpp"
+#include "rollfix/output/touch_text.hpp"
+#include "text/text.hpp"
+
+namespace rollfix::app {
+namespace {
+
+void require_options_of_rolls(const RollArguments& arguments) {
+  const auto refuse = [](bool given, const char* option, const char* why) {
+    if (given) throw InputError(fmt::format("{}: {}; leave it out, or choose one roll with --roll N", option, why));
+  };
+  refuse(!arguments.readings.empty(), "--reading", "--roll all takes the rolls of a log");
+  refuse(!arguments.facing.empty(), "--facing", "rolls with u and psi have it themselves");
+  refuse(!arguments.instants.empty(), "--at", "--roll all takes rows all along every roll");
+  refuse(!arguments.prior.empty(), "--prior", "it is of the start of one roll");
+  refuse(!arguments.direction.empty(), "--direction", "rolls with u and psi say the direction themselves");
+  refuse(arguments.may_overlap, "--may-overlap", "it is of two fingers");
+}
+
+/// The rolls of all logs, one after another.
+std::vector<Log> read_all_rolls(const RollArguments& arguments, const LogOptions& options,
+                                std::vector<std::string>& notes) {
+  std::vector<Log> rolls;
+  for (const std::string& path : arguments.logs) {
+    for (Log& roll : read_rolls(path, options)) {
+      add_log_notes(roll, notes);
+      rolls.push_back(std::move(roll));
+    }
+  }
+  return rolls;
+}
+
+/// --tolerance of rolls alone: an angle, as of one roll, or LENGTH,ANGLE; of touches too: as these have it.
+TouchTolerance read_tolerance(const std::string& text, bool has_touches, const std::string& unit) {
+  const bool is_angle = text.find(',') == std::string::npos && !has_touches;
+  return is_angle ? TouchTolerance{0, read_angle(text, "--tolerance")} : read_touch_tolerance(text, unit);
+}
+
+TouchProblem read_rolls_problem(const std::vector<std::string>& touches, const RollArguments& arguments,
+                                std::vector<std::string>& notes, std::vector<Outline>* others) {
+  require_options_of_rolls(arguments);
+  TouchProblem problem{load_part(arguments.part, notes, others), {}};
+  const std::string unit = problem.part.unit();
+  LogOptions options = read_log_options(arguments.reading, unit);
+  if (!options.decimal_comma) options.decimal_comma = has_decimal_comma(arguments.part.decimal);
+  problem.rolls = read_all_rolls(arguments, options, notes);
+  for (const std::string& text : touches) problem.touches.push_back(read_touch(text, unit));
+  const std::vector<Finger> fingers = read_fingers(arguments.fingers, 1, unit);
+  if (!touches.empty()) require_disks(fingers, "--touch");
+  if (!fingers.empty()) problem.finger = fingers.front();
+  problem.noise = read_noise(arguments.noise, unit);
+  if (!arguments.tolerance.empty()) {
+    if (problem.noise) throw InputError("--tolerance: --noise already says how far rows are off; leave one out");
+    problem.tolerance = read_tolerance(arguments.tolerance, !touches.empty(), unit);
+  }
+  problem.pose = read_pose(arguments.pose, unit);
+  problem.mirrored = arguments.mirror;
+  problem.robust = arguments.robust;
+  if (!arguments.budget.empty()) problem.budget = read_count(arguments.budget, "--budget", 1);
+  return problem;
+}
+
+}  // namespace
+
+bool are_contacts(const std::vector<std::string>& touches, const RollArguments& arguments) {
+  if (arguments.roll != "all") return false;
+  if (arguments.logs.empty()) throw InputError("--roll all takes the rolls of a log: give a --log as well");
+  if (!touches.empty() || arguments.logs.size() > 1) return true;
+  LogOptions options = read_log_options(arguments.reading, "");
+  if (!options.decimal_comma) options.decimal_comma = has_decimal_comma(arguments.part.decimal);
+  return arguments.logs.front() == "-" || read_rolls(arguments.logs.front(), options).size() > 1;
+}
+
+Report locate_rolls(const std::vector<std::string>& touches, const RollArguments& arguments,
+                    const TouchOutput& output) {
+  require_figure_output(output.figure, output.json);
+  Report report;
+  std::vector<Outline> others;
+  const TouchProblem problem = read_rolls_problem(touches, arguments, report.notes, &others);
+  const TouchAnswer answer = solve(problem);
+  report.exit_code = exit_code_of(answer);
+  report.data = output.json ? format_touches(answer) : touches_text(answer, output.verbose);
+  if (output.figure.file.empty()) return report;
+  TouchFigure figure{&answer};
+  figure.others = std::move(others);
+  add_figure(output.figure, draw_touches(figure), report);
+  return report;
+}
+
+}  // namespace rollfix::app

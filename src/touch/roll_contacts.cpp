@@ -1,0 +1,270 @@
+#include "roll_contacts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "answer/observation.hpp"
+#include "answer/unweighed.hpp"
+#include "answer/weighing.hpp"
+#include "outline/turn.hpp"
+#include "requirements.hpp"
+#include "rollfix/answer/solve.hpp"
+#include "rollfix/error.hpp"
+
+namespace rollfix::touch {
+namespace {
+
+// Without noise centres are known to this share of the perimeter at best: an outline's own accuracy.
+constexpr double kLeastPlace = 1e-6;
+// Rows of a roll that are searched with at most.
+constexpr std::size_t kInstants = 8;
+// Arcs are rounded, a share of the perimeter.
+constexpr double kArcRounding = 1e-12;
+// A place of the boundary where the belief is less than exp(-this) of its largest has next to nothing of it.
+constexpr double kLeastDensity = 25;
+
+bool has_centres(const Log& log) { return !log.fingers.front().x.empty(); }
+
+/// Whether the contact's place is evidence, by the problem.
+bool places_count(const TouchProblem& problem, const Log& log) {
+  return has_centres(log) && (!problem.noise || problem.noise->position > 0);
+}
+
+std::vector<Interval> merged(std::vector<Interval> arcs, const Boundary& boundary) {
+  const double slack = kArcRounding * boundary.perimeter;
+  std::sort(arcs.begin(), arcs.end(), [](const Interval& a, const Interval& b) { return a.lo < b.lo; });
+  std::vector<Interval> result;
+  for (const Interval& arc : arcs) {
+    if (!result.empty() && arc.lo <= result.back().hi + slack) {
+      result.back().hi = std::max(result.back().hi, arc.hi);
+    } else {
+      result.push_back(arc);
+    }
+  }
+  // Across the start of a closed boundary.
+  while (boundary.closed && result.size() > 1 && result.back().hi + slack >= boundary.perimeter + result.front().lo) {
+    result.back().hi = std::max(result.back().hi, boundary.perimeter + result.front().hi);
+    result.erase(result.begin());
+  }
+  return result;
+}
+
+/// Where the roll can have started, by itself: what all of its rows agree with, where there is any.
+std::vector<Interval> arcs_alone(const Answer& alone) {
+  const double slack = kArcRounding * alone.part.perimeter();
+  const std::vector<Corner>& corners = alone.part.corners();
+  const bool any_agrees = std::any_of(alone.placements.begin(), alone.placements.end(),
+                                      [](const Placement& placement) { return !placement.is_contradicted; });
+  std::vector<Interval> arcs;
+  for (const Placement& placement : alone.placements) {
+    if (any_agrees && placement.is_contradicted) continue;
+    Interval arc = placement.extent[0];
+    // A root is more than a point, but of a start at a corner the sides next to it are no part.
+    const bool is_corner = std::any_of(corners.begin(), corners.end(), [&](const Corner& corner) {
+      return alone.part.boundary().distance(corner.s, arc.lo) <= slack;
+    });
+    if (!is_corner && arc.width() < 2 * slack) arc = {arc.lo - slack, arc.hi + slack};
+    arcs.push_back(arc);
+  }
+  for (const PerFinger<Interval>& open : alone.unresolved) arcs.push_back(open[0]);
+  return arcs;
+}
+
+/// The tangent's angles at a corner with which a roll that starts there has turned as all of its readings say.
+Interval pivots_alone(const Answer& alone, double s, const Interval& angles) {
+  const TurningFunction& turning = alone.part.turning();
+  const double slack = kArcRounding * alone.part.perimeter();
+  Interval within = angles;
+  for (const Reading& reading : alone.readings) {
+    const double end = s + reading.length[0];
+    const double before = turning.angle(end - slack) - reading.turn;
+    const double behind = turning.angle(end + slack) - reading.turn;
+    within.lo = std::max(within.lo, std::min(before, behind) - alone.tolerance.value);
+    within.hi = std::min(within.hi, std::max(before, behind) + alone.tolerance.value);
+  }
+  return within;
+}
+
+/// The belief's pieces but for those from where the finger can't roll so.
+std::vector<PosePiece> possible_pieces(Belief& belief, const Answer& alone) {
+  const Boundary boundary = alone.part.boundary();
+  std::vector<Interval> barred;
+  for (const Impossible& item : alone.impossible) {
+    for (const Mode& mode : belief.modes()) {
+      if (boundary.contains(mode.region[0], item.placement.start[0])) barred.push_back(mode.region[0]);
+    }
+  }
+  std::vector<PosePiece> pieces = belief.pose_pieces();
+  std::erase_if(pieces, [&](const PosePiece& piece) {
+    const double middle = 0.5 * (piece.lo.s + piece.hi.s);
+    return std::any_of(barred.begin(), barred.end(),
+                       [&](const Interval& arc) { return boundary.contains(arc, middle); });
+  });
+  return pieces;
+}
+
+std::vector<Interval> arcs_of(const std::vector<PosePiece>& pieces, const Boundary& boundary) {
+  std::vector<Interval> arcs;
+  for (const PosePiece& piece : pieces) {
+    const double lo = boundary.on_first_lap(piece.lo.s);
+    arcs.push_back({lo, lo + (piece.hi.s - piece.lo.s)});
+  }
+  return arcs;
+}
+
+/// The direction of the part's tangent in the world at the first contact, and where the finger's centre was (of a disk)
+/// or the contact.
+void measure_first(const Log& log, const Finger& finger, double radius, Measured& measured) {
+  const FingerRows& rows = log.fingers.front();
+  const Contact first = contacts_of(rows, finger).front();
+  measured.tangent = facing(finger, first) - 0.5 * std::numbers::pi;
+  if (!has_centres(log)) return;
+  measured.at = Vec2(rows.x.front(), rows.y.front());
+  if (radius == 0) measured.at -= centre_of(finger, Vec2::Zero(), first);
+}
+
+/// With noise: an arc of each that holds what the nodes say, and the tolerance of the search beyond.
+void measure_belief(const RollBelief& belief, Measured& measured) {
+  Vec2 least(1e300, 1e300), most(-1e300, -1e300);
+  double before = 0, behind = 0, place_sd = 0, angle_sd = 0;
+  const double about = belief.nodes().front().tangent;
+  for (const RollNode& node : belief.nodes()) {
+    if (node.log_density < -kLeastDensity) continue;
+    least = least.cwiseMin(node.at);
+    most = most.cwiseMax(node.at);
+    const double off = nearest_angle(node.tangent - about);
+    before = std::min(before, off);
+    behind = std::max(behind, off);
+    if (!belief.has_place()) {
+      angle_sd = std::max(angle_sd, 1 / std::sqrt(node.information(2, 2)));
+      continue;
+    }
+    const Eigen::Matrix3d covariance = node.information.inverse();
+    angle_sd = std::max(angle_sd, std::sqrt(covariance(2, 2)));
+    place_sd = std::max(place_sd, std::sqrt(covariance.topLeftCorner<2, 2>().trace()));
+  }
+  measured.tangent = about + 0.5 * (before + behind);
+  measured.angle_unit = angle_sd;
+  measured.angle_most = std::min(kTouchSigmas * angle_sd + 0.5 * (behind - before), std::numbers::pi);
+  if (!belief.has_place()) return;
+  measured.at = 0.5 * (least + most);
+  measured.place_unit = place_sd;
+  measured.place_most = kTouchSigmas * place_sd + 0.5 * (most - least).norm();
+}
+
+/// How far centres may be off, as far as their digits show.
+double place_tolerance(const TouchProblem& problem, const Log& log, const Finger& finger) {
+  if (problem.tolerance && problem.tolerance->length > 0) return problem.tolerance->length;
+  const FingerRows& rows = log.fingers.front();
+  const double digits = std::hypot(rounding_of_column(rows.x), rounding_of_column(rows.y));
+  return digits + rounding_of(log, {finger}).length + kLeastPlace * problem.part.perimeter();
+}
+
+void measure_exactly(const TouchProblem& problem, const Log& log, RollContact& contact) {
+  Measured& measured = contact.measured;
+  // Two headings differ by no more than the facing of two rolls may be off.
+  measured.angle_unit = measured.angle_most = 0.5 * contact.alone.tolerance.value;
+  measured.place_unit = measured.place_most =
+      measured.has_place ? place_tolerance(problem, log, *problem.finger) : problem.part.perimeter();
+}
+
+RollContact contact_of(const TouchProblem& problem, const Log& log, RollCentre centre) {
+  const Problem single = alone(problem, log);
+  RollContact contact{solve(single), {}, {}, {}, {}, {}};
+  const bool is_disk = problem.finger->is_disk();
+  const double radius = is_disk ? problem.finger->disk()->radius : 0;
+  const Boundary boundary = problem.part.boundary();
+  const Log& used = *single.felt.log;
+  contact.travelled = observe(single).rolls.back().length[0];
+  contact.measured.has_place = centre == RollCentre::evidence;
+  measure_first(used, *problem.finger, radius, contact.measured);
+  std::vector<PosePiece> pieces;
+  if (problem.noise) {
+    std::optional<Belief> belief = believe(single, observe(single));
+    pieces = possible_pieces(*belief, contact.alone);
+    contact.confined.arcs = arcs_of(pieces, boundary);
+  } else {
+    contact.confined.arcs = arcs_alone(contact.alone);
+    contact.confined.angles = [&](double s, const Interval& angles) { return pivots_alone(contact.alone, s, angles); };
+  }
+  contact.confined.arcs = merged(std::move(contact.confined.arcs), boundary);
+  contact.path = std::make_unique<CentrePath>(problem.part, radius, &contact.confined);
+  contact.confined.angles = {};  // it has served
+  if (!contact.path->stretches().empty()) contact.tree = std::make_unique<PathTree>(*contact.path);
+  if (!problem.noise) {
+    measure_exactly(problem, used, contact);
+  } else if (contact.tree) {
+    contact.belief = std::make_unique<RollBelief>(*contact.path, pieces, centre);
+    if (!contact.belief->nodes().empty()) measure_belief(*contact.belief, contact.measured);
+  }
+  if (centre == RollCentre::reference) {
+    contact.measured.has_place = true;
+    contact.measured.place_unit = contact.measured.place_most = problem.part.perimeter();
+  }
+  contact.measured.is_roll = true;
+  contact.measured.tree = contact.tree.get();
+  contact.measured.roll = contact.belief.get();
+  return contact;
+}
+
+/// Without noise rows all along the roll are searched with, so that what one of them contradicts is gone.
+void add_instants(Problem& single) {
+  Log& log = *single.felt.log;
+  if (log.time.empty()) {
+    for (std::size_t k = 0; k < log.rows(); ++k) log.time.push_back(static_cast<double>(k));
+  }
+  const std::size_t last = log.rows() - 1;
+  const std::size_t count = std::min(last, kInstants);
+  for (std::size_t k = 1; k <= count; ++k) single.at.push_back(log.time[k * last / count]);
+}
+
+}  // namespace
+
+Problem alone(const TouchProblem& problem, const Log& log) {
+  Problem single{problem.part, log, {*problem.finger}, problem.noise};
+  if (problem.noise && !has_centres(log)) single.noise->position = 0;
+  if (problem.tolerance) single.tolerance = problem.tolerance->angle;
+  single.robust = problem.robust;
+  single.diagnose = false;
+  if (single.robust) single.felt.log = without_strays(log, problem.part, single.fingers, *problem.noise);
+  if (!problem.noise && problem.rolls.size() + problem.touches.size() > 1) add_instants(single);
+  return single;
+}
+
+std::vector<RollContact> roll_contacts(const TouchProblem& problem) {
+  const bool any_place =
+      !problem.touches.empty() || std::any_of(problem.rolls.begin(), problem.rolls.end(),
+                                              [&](const Log& log) { return places_count(problem, log); });
+  std::vector<RollContact> contacts;
+  for (const Log& log : problem.rolls) {
+    const bool is_reference = !any_place && contacts.empty();
+    const bool counts = places_count(problem, log);
+    contacts.push_back(contact_of(problem, log,
+                                  is_reference ? RollCentre::reference
+                                  : counts     ? RollCentre::evidence
+                                               : RollCentre::unused));
+  }
+  return contacts;
+}
+
+RollFacts facts_of(const RollContact& contact, const Log& log) {
+  const std::vector<std::size_t>& line = log.fingers.front().line;
+  RollFacts facts;
+  facts.name = log.name;
+  if (!line.empty()) facts.lines = {line.front(), line.back()};
+  facts.rows = log.rows();
+  facts.reading = contact.alone.readings.back();
+  facts.has_centre = has_centres(log);
+  const FingerRows& rows = log.fingers.front();
+  for (std::size_t k = 0; k < rows.x.size(); ++k) facts.track.emplace_back(rows.x[k], rows.y[k]);
+  facts.alone = contact.alone.verdict;
+  facts.placements = contact.alone.placements.size();
+  return facts;
+}
+
+}  // namespace rollfix::touch
