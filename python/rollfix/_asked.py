@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import functools
-from typing import Any, Callable, Iterable, Optional, Sequence, Tuple, TypeVar, Union, cast, overload
+from typing import Any, Callable, Iterable, Literal, Optional, Sequence, Tuple, TypeVar, Union, cast, overload
 
 import numpy as np
 
 from . import _core
 from ._answer import Answer
 from ._checks import clockwise, travel as travel_given
-from ._columns import Columns, Units
+from ._columns import Columns, Naming, Units
 from ._core import InputError
 from ._documents import Advice
 from ._fingers import FingerLike
 from ._log_answers import LogAnswers, locate_logs
+from ._logs import rolls_of
 from ._many import ManyAnswers, locate_many
 from ._noise import NoiseLike
 from ._question import Question, solved
@@ -56,6 +57,27 @@ class Asked(Shape):
         mirrored: bool = False,
         budget: Optional[int] = None,
     ) -> TouchAnswer: ...
+
+    @overload
+    def locate(
+        self,
+        *,
+        log: Any,
+        roll: Literal["all"],
+        touches: Any = None,
+        finger: Optional[FingerLike] = None,
+        noise: NoiseLike = None,
+        tolerance: Union[float, Tuple[float, float], None] = None,
+        heading: Optional[Tuple[float, float]] = None,
+        pose: Optional[Sequence[float]] = None,
+        mirrored: bool = False,
+        robust: bool = False,
+        columns: Columns = None,
+        units: Units = None,
+        degrees: bool = False,
+        wrapped: Optional[bool] = None,
+        budget: Optional[int] = None,
+    ) -> Union[Answer, TouchAnswer]: ...
 
     @overload
     def locate(
@@ -109,7 +131,7 @@ class Asked(Shape):
         units: Units = None,
         degrees: bool = False,
         wrapped: Optional[bool] = None,
-        roll: Optional[int] = None,
+        roll: Union[int, str, None] = None,
         rounding: Optional[Tuple[float, float]] = None,
         budget: Optional[int] = None,
     ) -> Union[Answer, TouchAnswer]:
@@ -127,11 +149,14 @@ class Asked(Shape):
             With one length.
         log : path, DataFrame, mapping of arrays, ndarray, Log, Roll, or a pair of them
             Instead of readings: see `rollfix.read_log`, also for `columns`, `units`, `degrees`, `wrapped` and `roll`.
+        roll : int or 'all', optional
+            Which roll of a log with several, from 1. 'all': the rolls of the log, or of a list of logs, and `touches`
+            share the pose of a part at rest: a `TouchAnswer`, with several contacts. docs/touch.md.
         touches : array_like, (n, 2) or (n, 3), list of tuples, or DataFrame with columns x and y
             Instead: touches of a part at rest without rolling, (x, y) or (x, y, normal) of each: the finger's centre in the
             world, and the direction out of the part, radians or None. The answer is every pose of the part that fits, a
             `TouchAnswer`; of the other arguments it takes `finger` (a Disk; none: a point), `noise` (position, angle), or
-            `tolerance` as (length, angle), `heading`, `pose`, `mirrored` and `budget`.
+            `tolerance` as (length, angle), `heading`, `pose`, `mirrored` and `budget`. With `log` and roll='all' both.
         finger : Disk, Jaw, OutlineFinger, or two of them
             For logs of u and psi; and what it can't reach is dropped. One serves both of two.
         noise : Noise or dict, optional
@@ -167,13 +192,41 @@ class Asked(Shape):
         Returns
         -------
         Answer
-            Of touches a `TouchAnswer`.
+            Of touches, and of several rolls, a `TouchAnswer`.
 
         Raises
         ------
         InputError
             What can't be meant; the message names the argument.
         """
+        if roll == "all":
+            others = {
+                "readings": readings, "turn": turn, "facing": facing, "at": at, "prior": prior, "rounding": rounding,
+                "may_overlap": may_overlap or None, "direction": None if direction == "ccw" else direction,
+            }  # fmt: skip
+            for name, value in others.items():
+                if value is not None:
+                    raise InputError(f"{name}: is of one roll, found roll='all': leave it out")
+            if log is None:
+                raise InputError("roll: 'all' takes the rolls of a log, expected `log` as well")
+            rolls = rolls_of(log, Naming(columns, units, degrees, wrapped), self.unit)
+            if touches is not None or len(rolls) > 1:
+                return located(
+                    self,
+                    touches,
+                    finger=finger,
+                    noise=noise,
+                    tolerance=tolerance,
+                    heading=heading,
+                    pose=pose,
+                    mirrored=mirrored,
+                    budget=budget,
+                    rolls=rolls,
+                    robust=robust,
+                )
+            log, roll, columns, units, degrees, wrapped = rolls[0], None, None, None, False, None
+        if isinstance(roll, str):
+            raise InputError(f"roll: expected a number from 1, or 'all', found '{roll}'")
         if touches is not None:
             others = {
                 "readings": readings, "turn": turn, "log": log, "facing": facing, "at": at, "prior": prior,
@@ -182,6 +235,8 @@ class Asked(Shape):
                 "direction": None if direction == "ccw" else direction,
             }  # fmt: skip
             for name, value in others.items():
+                if name == "log" and value is not None:
+                    raise InputError("log: shares a pose with `touches` where roll='all': add it")
                 if value is not None:
                     raise InputError(f"{name}: touches do not roll and have no use for it: leave it out")
             return located(

@@ -296,6 +296,23 @@ def log_of(
     return _told(_one(log, naming, options, roll))
 
 
+def rolls_of(log: Any, naming: Naming, unit: str) -> List[Log]:
+    """Every roll of a log in which contact is lost and found again, or of a list of logs, one after another."""
+    if isinstance(log, (tuple, list)) and log and all(_is_log(one) for one in log):
+        return [roll for one in log for roll in rolls_of(one, naming, unit)]
+    if isinstance(log, (Log, Roll)):
+        return [log_of(log, naming, unit, False, None)]
+    options: Dict[str, Any] = {"unit": unit, "angles": naming.angles, "wrapped": naming.wrapped, "clockwise": False}
+    options["skip_bad"] = False
+    options["decimal_comma"] = decimal_comma(".")
+    file = path_of(log, "log")
+    if file is not None:
+        rolls = _of_files([file], naming, options)
+    else:
+        rolls = _of_table(Table(log, naming, "log", options["decimal_comma"]), options, Clock())
+    return [_told(roll) for roll in rolls]
+
+
 def _told(log: Log) -> Log:
     for note in log.notes:
         warn(note)

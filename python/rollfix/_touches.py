@@ -1,8 +1,8 @@
-"""Touches without rolling: the poses of the part that fit."""
+"""Contacts that share the pose of a part at rest, touches and rolls: the poses that fit."""
 
 from __future__ import annotations
 
-from typing import Any, List, Optional, Tuple
+from typing import Any, List, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from ._checks import array, flag, least, numbers, path, pose_prior, text, whole
 from ._core import InputError
 from ._documents import Document
 from ._fingers import FingerLike, fingers
+from ._logs import Log
 from ._messages import in_a_page, shown
 from ._noise import NoiseLike, noise as noise_given
 from ._tables import is_frame
@@ -19,7 +20,7 @@ COLUMNS = ("x", "y", "normal", "position_sd", "normal_sd")
 
 
 class TouchAnswer(Document):
-    """Every pose of the part that fits touches: the fields of `rollfix/locate/1`, see docs/json.md.
+    """Every pose of the part that fits touches, rolls, or both: the fields of `rollfix/locate/1`, see docs/json.md.
 
     `placements` has one entry for each connected set of poses, with noise the most probable first; `poses` has the best
     pose of each as an array. `status`, `verdict`, `fit`, `diagnosis`, `touches`, ...
@@ -28,14 +29,15 @@ class TouchAnswer(Document):
     __slots__ = ("_answer", "_asked")
 
     def __init__(self, asked: Tuple[Any, ...]) -> None:
-        part, *rest = asked
-        self._answer = _core.locate_touches(part._core, *rest)
+        part, *rest, rolls, robust = asked
+        self._answer = _core.locate_touches(part._core, *rest, [one._core for one in rolls], robust)
         self._asked = asked
         super().__init__(self._answer.document())
 
     @property
     def poses(self) -> Any:
-        """ndarray, (n, 3): x, y and heading in radians, of the pose that fits best in each set."""
+        """ndarray, (n, 3): x, y and heading in radians, of the pose that fits best in each set. Of rolls without x and
+        y these are NaN."""
         return np.array([one["pose"][0] for one in self.placements], dtype=float).reshape(-1, 3)
 
     def to_svg(self, *, title: str = "", width: float = 0) -> str:
@@ -62,6 +64,8 @@ class TouchAnswer(Document):
         if not len(self):
             return f"<TouchAnswer: {self.verdict}>"
         x, y, heading = self.poses[0]
+        if np.isnan(x):
+            return f"<TouchAnswer: {self.verdict}; heading {np.degrees(heading):.6g} deg>"
         return f"<TouchAnswer: {self.verdict}; x {x:.6g}, y {y:.6g}, heading {np.degrees(heading):.6g} deg>"
 
     def __reduce__(self) -> Any:
@@ -79,27 +83,34 @@ def located(
     pose: Any,
     mirrored: bool,
     budget: Optional[int],
+    rolls: Sequence[Log] = (),
+    robust: bool = False,
 ) -> TouchAnswer:
-    """The answer to touches of a part, checked."""
+    """The answer to touches of a part, and to rolls, checked."""
     if noise is not None and tolerance is not None:
         raise InputError("tolerance: `noise` already says how far touches are off: leave one out")
     given = fingers(finger, most=1)
     return TouchAnswer((
         part,
-        _rows(touches),
+        _rows([] if touches is None else touches),
         given[0] if given else None,
         noise_given(noise),
-        _tolerance(tolerance),
+        _tolerance(tolerance, touches is None),
         pose_prior(heading, pose),
         flag(mirrored, "mirrored"),
         None if budget is None else whole(budget, "budget", 1),
+        tuple(one._in_unit(part.unit, given) for one in rolls),
+        flag(robust, "robust"),
     ))  # fmt: skip
 
 
-def _tolerance(given: Any) -> Optional[Tuple[float, float]]:
+def _tolerance(given: Any, of_rolls_alone: bool) -> Optional[Tuple[float, float]]:
+    """A single number is a length, but of rolls alone the angle that it is of one roll."""
     if given is None:
         return None
     if np.ndim(given) == 0:
+        if of_rolls_alone:
+            return 0.0, least(given, "tolerance", 0, "an angle")
         return least(given, "tolerance", 0, "a length"), 0.0
     length, angle = numbers(given, 2, "tolerance", "(length, angle)")
     return length, angle

@@ -27,7 +27,8 @@ std::vector<MeasuredTouch> touches_from(const Numbers& rows) {
 TouchAnswerHandle locate_touches(const PartHandle& part, const Numbers& rows, const py::object& finger,
                                  const py::object& noise, const std::optional<std::pair<double, double>>& tolerance,
                                  const std::optional<std::vector<double>>& pose, bool mirrored,
-                                 const std::optional<std::size_t>& budget) {
+                                 const std::optional<std::size_t>& budget, const std::vector<LogHandle>& rolls,
+                                 bool robust) {
   TouchProblem problem{part.part(), touches_from(rows)};
   if (!finger.is_none()) problem.finger = finger_from(finger);
   problem.noise = noise_from_optional(noise);
@@ -35,6 +36,8 @@ TouchAnswerHandle locate_touches(const PartHandle& part, const Numbers& rows, co
   problem.pose = pose_from(pose);
   problem.mirrored = mirrored;
   problem.budget = budget;
+  for (const LogHandle& roll : rolls) problem.rolls.push_back(*roll.log);
+  problem.robust = robust;
   const Unlocked others_may_run;
   return {std::make_shared<const TouchAnswer>(solve(problem))};
 }
