@@ -30,7 +30,8 @@ class TouchAnswer(Document):
 
     def __init__(self, asked: Tuple[Any, ...]) -> None:
         part, *rest, rolls, robust = asked
-        self._answer = _core.locate_touches(part._core, *rest, [one._core for one in rolls], robust)
+        rest += [[one._core for one in rolls], robust]
+        self._answer = _core.locate_touches(part._core, *rest)
         self._asked = asked
         super().__init__(self._answer.document())
 

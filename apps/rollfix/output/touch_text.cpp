@@ -103,6 +103,15 @@ class TouchText {
     return "each roll fits the part by itself, and no pose fits all contacts\n";
   }
 
+  /// Of several files with the file's name.
+  std::string lines_of(const RollFacts& roll) const {
+    if (roll.lines.empty()) return "-";
+    const auto file_of = [](const RollFacts& one) { return one.name.substr(0, one.name.rfind(", lines ")); };
+    const bool is_one_file = std::all_of(answer_.rolls.begin(), answer_.rolls.end(),
+                                         [&](const RollFacts& other) { return file_of(other) == file_of(roll); });
+    return fmt::format("{}{} to {}", is_one_file ? "" : file_of(roll) + ", ", roll.lines.front(), roll.lines.back());
+  }
+
   /// What each roll said, and where it is in the first pose.
   std::string rolls_table() const {
     Table table;
@@ -116,10 +125,8 @@ class TouchText {
     }
     for (std::size_t k = 0; k < answer_.rolls.size(); ++k) {
       const RollFacts& roll = answer_.rolls[k];
-      std::vector<std::string> cells{
-          fmt::format("roll {}", k + 1),
-          roll.lines.empty() ? "-" : fmt::format("{} to {}", roll.lines.front(), roll.lines.back()),
-          place(roll.reading.length[0]), degrees(roll.reading.turn), roll.alone.text()};
+      std::vector<std::string> cells{fmt::format("roll {}", k + 1), lines_of(roll), place(roll.reading.length[0]),
+                                     degrees(roll.reading.turn), roll.alone.text()};
       if (has_pose) {
         const TouchContact& contact = answer_.poses.front().contacts[k];
         cells.push_back(place(contact.s));
