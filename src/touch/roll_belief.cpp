@@ -101,6 +101,28 @@ RollBelief::RollBelief(const CentrePath& path, const std::vector<PosePiece>& pie
   for (const RollNode& node : nodes_) most = std::max(most, node.log_density);
   for (RollNode& node : nodes_) node.log_density -= most;
   logs_.resize(nodes_.size());
+  add_slopes();
+}
+
+/// How the density changes from node to node.
+void RollBelief::add_slopes() {
+  const auto joined = [&](std::size_t k) {  // with the next one
+    if (k + 1 >= nodes_.size() || nodes_[k].place.stretch != nodes_[k + 1].place.stretch) return false;
+    const double apart = nodes_[k + 1].place.u - nodes_[k].place.u;
+    return apart > 0 && apart <= nodes_[k].width + nodes_[k + 1].width;
+  };
+  for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    RollNode& node = nodes_[k];
+    node.ends_before = k == 0 || !joined(k - 1);
+    node.ends_behind = !joined(k);
+    if (node.ends_before || node.ends_behind) continue;
+    const RollNode& last = nodes_[k - 1];
+    const RollNode& next = nodes_[k + 1];
+    const double before = (node.log_density - last.log_density) / (node.place.u - last.place.u);
+    const double behind = (next.log_density - node.log_density) / (next.place.u - node.place.u);
+    node.density_slope = -0.5 * (before + behind);
+    node.density_bend = std::max(0.0, -(behind - before) / (0.5 * (next.place.u - last.place.u)));
+  }
 }
 
 void RollBelief::add(const PosePiece& piece) {
@@ -124,8 +146,11 @@ void RollBelief::add_node(const PosePiece& piece, const PosePiece::End& lo, cons
   const double share = 0.5 * (from + to);
   const double s = lo.s + share * (hi.s - lo.s);
   const double tangent = lo.tangent + share * (hi.tangent - lo.tangent);
-  const bool is_corner = !(hi.s - lo.s > kSamePlace * kSamePlace * path_.part().perimeter());
-  const std::optional<PathPlace> place = find_place(path_, s, tangent, is_corner);
+  // Cells of the belief in a corner are as short as its table of places is accurate.
+  const bool is_point = !(hi.s - lo.s > kSamePlace * path_.part().perimeter());
+  std::optional<PathPlace> place = is_point ? find_place(path_, s, tangent, true) : std::nullopt;
+  const bool is_corner = place.has_value();
+  if (!place) place = find_place(path_, s, tangent, false);
   if (!place) return;  // out of the finger's reach
   RollNode node;
   node.place = *place;
@@ -148,9 +173,12 @@ void RollBelief::add_node(const PosePiece& piece, const PosePiece::End& lo, cons
   const double rise = piece.rise;
   const double part =
       std::abs(rise) < 1e-9 ? to - from : std::exp(rise * from) * std::expm1(rise * (to - from)) / std::expm1(rise);
-  const double length = is_corner ? std::max(path_.radius(), kSamePlace) * (hi.tangent - lo.tangent) : hi.s - lo.s;
+  const double pivot = path_.radius() > 0 ? path_.radius() : path_.part().perimeter() / kFullTurn;
+  const double length = is_corner ? pivot * std::abs(hi.tangent - lo.tangent) : hi.s - lo.s;
+  node.width = (is_corner ? std::abs(hi.tangent - lo.tangent) : hi.s - lo.s) * (to - from);
   node.log_weight = std::log(piece.probability * part);
-  node.log_density = node.log_weight - std::log(std::max(std::abs(length), 1e-300) * (to - from));
+  node.log_density =
+      node.log_weight - std::log(std::max(length, kLeastCentre * path_.part().perimeter()) * (to - from));
   if (std::isfinite(node.log_weight) && std::isfinite(node.log_peak)) nodes_.push_back(node);
 }
 
@@ -208,37 +236,49 @@ const RollNode& RollBelief::downhill(const Pose& pose, const RollNode& from) con
 Eigen::Vector3d RollBelief::residual(const Pose& pose, const RollNode& node) const { return miss_of(node, pose); }
 
 double RollBelief::worst(const Pose& pose, const RollNode& node) const {
-  const double density = -2 * node.log_density;
-  const double miss = std::max(0.0, square(pose, node, true) - density);
+  const double miss = std::max(0.0, square(pose, node, true) + 2 * node.log_density);
   return std::sqrt(miss) / (centre_ == RollCentre::unused ? kTouchSigmas : kPoseSigmas);
 }
 
-double RollBelief::square(const Pose& pose, const RollNode& node, bool slides) const {
+RollBelief::Slide RollBelief::slide(const Pose& pose, const RollNode& node) const {
   const Eigen::Vector3d off = miss_of(node, pose);
-  const double square = off.dot(node.information * off);
-  const double density = -2 * node.log_density;
-  if (!slides) return square + density;
   const Eigen::Vector3d by = by_place(node, pose);
-  const double weight = by.dot(node.information * by);
-  const double slope = by.dot(node.information * off);
-  if (!(weight > 0)) return square + density;
-  // The next node is about a standard deviation away.
-  const double step = std::clamp(slope / std::sqrt(weight), -0.5, 0.5);
-  return std::max(0.0, square - 2 * step * slope / std::sqrt(weight) + step * step) + density;
+  const double weight = by.dot(node.information * by) + node.density_bend;
+  // Half the derivative of the squares, with its sign.
+  const double slope = -by.dot(node.information * off) - node.density_slope;
+  Slide slide;
+  if (weight > 0) {
+    const double wanted = slope / weight;
+    slide.by = std::clamp(wanted, -0.5 * node.width, 0.5 * node.width);
+    slide.is_free = slide.by == wanted || (wanted < 0 ? !node.ends_before : !node.ends_behind);
+  }
+  // Between nodes the density is about what a parabola makes of it.
+  const double square = off.dot(node.information * off) - 2 * node.log_density;
+  slide.square = std::max(0.0, square - 2 * slide.by * slope + slide.by * slide.by * weight);
+  return slide;
+}
+
+double RollBelief::square(const Pose& pose, const RollNode& node, bool slides) const {
+  if (slides) return slide(pose, node).square;
+  const Eigen::Vector3d off = miss_of(node, pose);
+  return off.dot(node.information * off) - 2 * node.log_density;
 }
 
 Normals RollBelief::normals(const Pose& pose, const RollNode& node, const Vec2& about, bool slides) const {
   Eigen::Matrix3d by_step = Eigen::Matrix3d::Identity();
   by_step.topRightCorner<2, 1>() = turned_left(pose.world(node.point.centre) - about);
+  const Eigen::Vector3d off = miss_of(node, pose);
   Eigen::Matrix3d information = node.information;
-  if (slides) {
+  Eigen::Vector3d slope = information * off;
+  if (slides && slide(pose, node).is_free) {
     const Eigen::Vector3d by = information * by_place(node, pose);
-    const double weight = by_place(node, pose).dot(by);
-    if (weight > 0) information -= by * by.transpose() / weight;
+    const double weight = by_place(node, pose).dot(by) + node.density_bend;
+    information -= by * by.transpose() / weight;
+    slope += by * ((-by.dot(off) - node.density_slope) / weight);
   }
   Normals normals;
   normals.matrix = by_step.transpose() * information * by_step;
-  normals.slope = by_step.transpose() * information * miss_of(node, pose);
+  normals.slope = by_step.transpose() * slope;
   return normals;
 }
 

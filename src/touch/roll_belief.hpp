@@ -30,6 +30,11 @@ struct RollNode {
   double log_peak = 0;                                    // of that distribution's density at its mean
   double log_weight = 0;                                  // of the probability that the first contact is here
   double log_density = 0;                                 // of it by length, as a share of the largest
+  double width = 0;                                       // of the stretch of boundary that it stands for, in u
+  double density_slope = 0;                               // minus the first derivative of the log density by u, and ...
+  double density_bend = 0;                                // ... minus the second one, no less than 0
+  bool ends_before = false;                               // no node is before it on the boundary, ...
+  bool ends_behind = false;                               // ... or behind it
 };
 
 /// A roll's likelihood by the part's pose: the belief of its first contact's place, on nodes no further apart than a
@@ -65,6 +70,14 @@ class RollBelief {
   TiltedTouch tilted(const Pose& pose, const Vec2& about) const;
 
  private:
+  /// From a node to the place next to it that fits a pose best.
+  struct Slide {
+    double by = 0;         // in u
+    double square = 0;     // there, of miss and density
+    bool is_free = false;  // it is a minimum, and no end
+  };
+  Slide slide(const Pose& pose, const RollNode& node) const;
+  void add_slopes();
   void add(const PosePiece& piece);
   void add_node(const PosePiece& piece, const PosePiece::End& lo, const PosePiece::End& hi, double from, double to);
 
