@@ -160,8 +160,13 @@ void measure_belief(const RollBelief& belief, Measured& measured) {
 /// How far centres may be off, as far as their digits show.
 double place_tolerance(const TouchProblem& problem, const Log& log, const Finger& finger) {
   if (problem.tolerance && problem.tolerance->length > 0) return problem.tolerance->length;
-  const FingerRows& rows = log.fingers.front();
-  const double digits = std::hypot(rounding_of_column(rows.x), rounding_of_column(rows.y));
+  std::vector<double> coordinates;  // a single column may be whole numbers by chance: along a side that is an axis
+  for (const Log& roll : problem.rolls) {
+    for (const std::vector<double>* column : {&roll.fingers.front().x, &roll.fingers.front().y}) {
+      coordinates.insert(coordinates.end(), column->begin(), column->end());
+    }
+  }
+  const double digits = std::numbers::sqrt2 * rounding_of_column(coordinates);
   return digits + rounding_of(log, {finger}).length + kLeastPlace * problem.part.perimeter();
 }
 

@@ -73,6 +73,13 @@ TEST(RollsOnSpecialParts, OnTwoSidesOfAPolygonWithCentresThePoseIsKnown) {
   for (const TouchPose& pose : answer.poses) EXPECT_FALSE(pose.continuum);
 }
 
+TEST(RollsOnSpecialParts, CentresThatAreWholeNumbersInOneColumnAreNoLessExact) {
+  RollCase one = case_on(bracket(), {10, 65}, 8);
+  rollfix::FingerRows& rows = one.problem.rolls.front().fingers.front();
+  for (double& y : rows.y) y = 3;
+  EXPECT_LE(rollfix::solve(one.problem).tolerance.front().length, 0.01);
+}
+
 TEST(RollsOnSpecialParts, ARollMayStartAtACornerAndEndPastAnother) {
   const RollCase one = case_on(bracket(), {0, 60}, 18.5);
   const TouchAnswer answer = rollfix::solve(one.problem);

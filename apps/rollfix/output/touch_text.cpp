@@ -98,7 +98,8 @@ class TouchText {
     }
     for (std::size_t k = 0; k < answer_.rolls.size(); ++k) {
       if (answer_.rolls[k].alone.name != Verdict::inconsistent) continue;
-      return fmt::format("roll {} fits nowhere on the part by itself: --roll {} says more\n", k + 1, k + 1);
+      return fmt::format("roll {} fits nowhere on the part by itself: locate it alone to see what may be wrong\n",
+                         k + 1);
     }
     return "each roll fits the part by itself, and no pose fits all contacts\n";
   }
@@ -172,11 +173,13 @@ class TouchText {
       text += "possible cause: " + diagnosis_line(one) + fit + "\n";
     }
     const bool is_odd = answer_.verdict.name == Verdict::inconsistent || answer_.verdict.fits_badly;
-    if (text.empty() && is_odd && !answer_.rolls.empty()) {
-      const bool fits_alone = std::all_of(answer_.rolls.begin(), answer_.rolls.end(), [](const RollFacts& roll) {
-        return roll.alone.name != Verdict::inconsistent && !roll.alone.fits_badly;
-      });
-      return fits_alone ? "" : "a roll does not fit by itself: --roll N says what may be wrong with it\n";
+    if (!answer_.rolls.empty()) {
+      for (std::size_t k = 0; k < answer_.rolls.size(); ++k) {
+        const RollFacts& roll = answer_.rolls[k];
+        if (roll.alone.name == Verdict::inconsistent || !roll.alone.fits_badly) continue;
+        text += fmt::format("roll {} fits badly by itself: locate it alone to see what may be wrong\n", k + 1);
+      }
+      return text;
     }
     if (text.empty() && is_odd && answer_.touches.size() > 1) {
       text = "no usual mistake explains it: check the part, its unit, and each touch\n";

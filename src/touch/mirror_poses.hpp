@@ -1,0 +1,13 @@
+#pragma once
+
+#include "rollfix/touch/touch.hpp"
+
+// A part that lies face down: seen in the mirror x = -x it does not.
+namespace rollfix::touch {
+
+TouchProblem in_mirror(const TouchProblem& problem);
+
+/// Back into the world: poses, and what rolls say.
+void out_of_mirror(TouchAnswer& answer);
+
+}  // namespace rollfix::touch
