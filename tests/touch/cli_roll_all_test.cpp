@@ -149,6 +149,15 @@ TEST(CliRollAll, APartThatWasMovedIsInconsistentAndSaidToBe) {
   EXPECT_EQ(document["diagnosis"][0]["after_roll"], 1);
 }
 
+TEST(CliRollAll, ABudgetThatRunsOutNamesTheRollThatIsOpen) {
+  const Folder folder;
+  folder.write("run.csv", log_of_two());
+  const std::string noise = " --noise contact=0.002,angle=0.1deg,position=0.002 --budget 3";
+  const Ran ran = run("locate gallery:limacon --log run.csv" + kRest + noise);
+  EXPECT_EQ(ran.code, 3) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("not decided: roll 1 at s from"));
+}
+
 TEST(CliRollAll, WhatOnlyOneRollHasIsRefused) {
   const Folder folder;
   folder.write("run.csv", log_of_two());

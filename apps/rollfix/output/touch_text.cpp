@@ -279,10 +279,15 @@ class TouchText {
     return "touches on the part in p0:\n" + table.str();
   }
 
+  std::string contact_name(std::size_t contact) const {
+    const std::size_t rolls = answer_.rolls.size();
+    return contact < rolls ? fmt::format("roll {}", contact + 1) : fmt::format("touch {}", contact - rolls + 1);
+  }
+
   std::string unresolved_lines() const {
     std::string text;
     for (std::size_t k = 0; k < std::min(answer_.unresolved.size(), kMostNotes); ++k) {
-      text += fmt::format("not decided: touch {} at s from {}{}\n", answer_.unresolved_touch + 1,
+      text += fmt::format("not decided: {} at s from {}{}\n", contact_name(answer_.unresolved_touch),
                           span(answer_.unresolved[k]), behind(unit_));
     }
     if (answer_.unresolved.size() > kMostNotes) {
