@@ -69,6 +69,12 @@ class Placed {
             node.at.y() - pose_.y - sine_ * centre.x() - cosine_ * centre.y(),
             turn - kFullTurn * std::rint(turn / kFullTurn)};
   }
+  /// A bound on square_of, by the heading alone.
+  double least_square_of(const RollNode& node) const {
+    const double turn = node.tangent - node.point.angle - pose_.heading;
+    const double off = turn - kFullTurn * std::rint(turn / kFullTurn);
+    return off * off * node.heading_information - 2 * node.log_density;
+  }
   /// In standard deviations, squared, and by how dense the belief is.
   double square_of(const RollNode& node) const {
     const Eigen::Vector3d off = miss_of(node);
@@ -170,6 +176,7 @@ void RollBelief::add_node(const PosePiece& piece, const PosePiece::End& lo, cons
     node.information = solver.solve(Eigen::Matrix3d::Identity());
     node.log_peak = -0.5 * solver.vectorD().array().log().sum();
   }
+  node.heading_information = 1 / covariance(2, 2);
   const double rise = piece.rise;
   const double part =
       std::abs(rise) < 1e-9 ? to - from : std::exp(rise * from) * std::expm1(rise * (to - from)) / std::expm1(rise);
@@ -209,6 +216,7 @@ const RollNode& RollBelief::nearest(const Pose& pose) const {
   std::size_t best = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    if (placed.least_square_of(nodes_[k]) >= least) continue;
     const double square = placed.square_of(nodes_[k]);
     if (square >= least) continue;
     least = square;

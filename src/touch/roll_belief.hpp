@@ -27,6 +27,7 @@ struct RollNode {
   Vec2 at = Vec2::Zero();
   double tangent = 0;                                     // radians, in the world
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  // of x and y of the centre, and of the tangent
+  double heading_information = 0;                         // of the tangent, whatever the centre is
   double log_peak = 0;                                    // of that distribution's density at its mean
   double log_weight = 0;                                  // of the probability that the first contact is here
   double log_density = 0;                                 // of it by length, as a share of the largest
