@@ -5,6 +5,7 @@
 #include <random>
 #include <vector>
 
+#include "outline/turn.hpp"
 #include "rollfix/contact/log.hpp"
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
