@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "files/documents/documents.hpp"
+#include "rollfix/advise/advise_touches.hpp"
 #include "rollfix/answer/next_roll.hpp"
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/arguments/catalog_argument.hpp"
@@ -18,6 +19,7 @@
 #include "rollfix/commands.hpp"
 #include "rollfix/draw/advice_figure.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/locate/touch_arguments.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/table.hpp"
 #include "rollfix/usage.hpp"
@@ -30,6 +32,9 @@ constexpr const char* kAdviseExamples = R"(Examples (wing.csv and wing-roll.csv:
   rollfix advise gallery:cam --reading 0.4,20.1deg
   rollfix advise gallery:limacon --reading 0.9,30.15deg --finger disk,r=0.1 --travel -1,1.5 -o next.svg
   rollfix advise wing.csv --log wing-roll.csv --finger disk,r=10 --noise contact=0.05,angle=0.2deg --json
+Touches without rolling: where to touch next, of all ways or of two:
+  rollfix advise gallery:cam --touch 6.486,3.822 --touch 4.355,4.133 --touch 3.824,3.238 --finger disk,r=0.2 --noise position=0.005
+  rollfix advise gallery:cam --touch 6.486,3.822 --touch 4.355,4.133 --touch 3.824,3.238 --finger disk,r=0.2 --noise position=0.005 --approach 3,1,1,1 --approach 9,3,-1,0
 Which part is it? Of a catalog, what tells apart the parts that remain:
   rollfix advise --catalog parts.db --log roll.csv --finger disk,r=10 --noise contact=0.05,angle=0.2deg
 )";
@@ -39,6 +44,8 @@ constexpr std::size_t kMostContenders = 20;
 
 struct AdviseArguments {
   RollArguments roll;
+  std::vector<std::string> touches;
+  std::vector<std::string> approaches;
   std::string catalog;
   std::string travel;
   bool json = false;
@@ -176,9 +183,17 @@ Report advise_on_catalog(const AdviseArguments& arguments) {
 
 Report advise_report(const AdviseArguments& arguments) {
   const RollArguments& roll = arguments.roll;
+  if (arguments.catalog.empty() && are_touches(arguments.touches, roll)) {
+    if (!arguments.travel.empty())
+      throw InputError("--travel: touches do not roll and have no use for it; leave it out");
+    return advise_touches(arguments.touches, roll, arguments.approaches, arguments.output, arguments.json);
+  }
+  if (!arguments.touches.empty() || !arguments.approaches.empty() || !roll.clear.empty()) {
+    throw InputError("advise: --touch, --approach and --clear are about touches of one part: give PART and --touch");
+  }
   require_part_or_catalog("advise", roll.part, arguments.catalog);
   if (roll.readings.empty() == roll.logs.empty()) {
-    throw InputError("advise: expected --reading LENGTH,TURN or --log FILE of the roll so far");
+    throw InputError("advise: expected --reading LENGTH,TURN or --log FILE of the roll so far, or --touch X,Y");
   }
   counts_clockwise(roll.direction);  // one way or the other, not either
   require_figure_output(arguments.output, arguments.json);
@@ -204,9 +219,16 @@ Report advise_report(const AdviseArguments& arguments) {
 void add_advise_command(CLI::App& program, Command& chosen) {
   const auto arguments = std::make_shared<AdviseArguments>();
   CLI::App* command =
-      program.add_subcommand("advise", "The next roll: which one tells the remaining placements apart.");
+      program.add_subcommand("advise", "The next roll, or touch: which one tells the remaining placements apart.");
   command->footer(kAdviseExamples);
   add_roll_arguments(*command, arguments->roll);
+  add_touch_arguments(*command, arguments->touches, arguments->roll);
+  command
+      ->add_option("--approach", arguments->approaches,
+                   "of touches: a way on which the next one can be tried, from X,Y towards DX,DY; repeatable; default "
+                   "many all around the part")
+      ->type_name("X,Y,DX,DY")
+      ->allow_extra_args(false);
   add_catalog_argument(*command, arguments->catalog);
   command
       ->add_option(

@@ -27,5 +27,6 @@
 #include "rollfix/part/part.hpp"                 // IWYU pragma: export
 #include "rollfix/part/reach.hpp"                // IWYU pragma: export
 #include "rollfix/part/samples.hpp"              // IWYU pragma: export
+#include "rollfix/touch/next_touch.hpp"          // IWYU pragma: export
 #include "rollfix/touch/touch.hpp"               // IWYU pragma: export
 #include "rollfix/touch/touch_table.hpp"         // IWYU pragma: export

@@ -56,6 +56,7 @@ class Asked(Shape):
         pose: Optional[Sequence[float]] = None,
         mirrored: bool = False,
         budget: Optional[int] = None,
+        clear: Any = None,
     ) -> TouchAnswer: ...
 
     @overload
@@ -115,6 +116,7 @@ class Asked(Shape):
         *,
         log: Any = None,
         touches: Any = None,
+        clear: Any = None,
         finger: Optional[FingerLike] = None,
         noise: NoiseLike = None,
         tolerance: Any = None,
@@ -154,9 +156,13 @@ class Asked(Shape):
             share the pose of a part at rest: a `TouchAnswer`, with several contacts. docs/touch.md.
         touches : array_like, (n, 2) or (n, 3), list of tuples, or DataFrame with columns x and y
             Instead: touches of a part at rest without rolling, (x, y) or (x, y, normal) of each: the finger's centre in the
-            world, and the direction out of the part, radians or None. The answer is every pose of the part that fits, a
-            `TouchAnswer`; of the other arguments it takes `finger` (a Disk; none: a point), `noise` (position, angle), or
-            `tolerance` as (length, angle), `heading`, `pose`, `mirrored` and `budget`. With `log` and roll='all' both.
+            world, and the direction out of the part, radians, "162deg" or None. The answer is every pose of the part that
+            fits, a `TouchAnswer`; of the other arguments it takes `finger` (a Disk; none: a point), `noise` (position,
+            angle), or `tolerance` as (length, angle), `heading`, `pose`, `mirrored`, `budget` and `clear`. With `log` and
+            roll='all' both.
+        clear : array_like, (n, 4), optional
+            With touches: (x, y, x, y), from where to where the finger's centre went straight and felt nothing. Poses in
+            which the part is in the way are left out.
         finger : Disk, Jaw, OutlineFinger, or two of them
             For logs of u and psi; and what it can't reach is dropped. One serves both of two.
         noise : Noise or dict, optional
@@ -249,7 +255,10 @@ class Asked(Shape):
                 pose=pose,
                 mirrored=mirrored,
                 budget=budget,
+                clear=clear,
             )
+        if clear is not None:
+            raise InputError("clear: is about touches: give them as `touches`, or leave it out")
         if (readings is None) == (log is None):
             found = "neither" if log is None else "both: they can't be of the same roll"
             raise InputError(f"readings: expected readings or `log`, found {found}")

@@ -89,14 +89,25 @@ class Noise:
         return f"Noise({', '.join(f'{name}={sd!r}' for name, sd in self._sds.items() if sd != 0)})"
 
 
+def angle_from(text: str) -> Optional[float]:
+    """Radians of "0.5deg" or "0.2rad"; None of anything else."""
+    found = _ANGLE.fullmatch(text)
+    if not found:
+        return None
+    try:
+        value = float(found[1])
+    except ValueError:  # such as 1.2.3
+        return None
+    return value if found[2].lower() == "rad" else math.radians(value)
+
+
 def _angle(given: Any) -> float:
     """Radians."""
     if isinstance(given, str):
-        found = _ANGLE.fullmatch(given)
-        if not found:
+        angle = angle_from(given)
+        if angle is None:
             raise InputError(f"noise: angle: expected radians as a number, or a text such as '0.5deg', found {given!r}")
-        value = number(float(found[1]), "noise: angle")
-        return value if found[2].lower() == "rad" else math.radians(value)
+        return number(angle, "noise: angle")
     value = number(given, "noise: angle")
     if UNUSUAL_ANGLE <= value <= MOST_ANGLE:
         warn(

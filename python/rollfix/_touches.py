@@ -13,7 +13,7 @@ from ._documents import Document
 from ._fingers import FingerLike, fingers
 from ._logs import Log
 from ._messages import in_a_page, shown
-from ._noise import NoiseLike, noise as noise_given
+from ._noise import NoiseLike, angle_from, noise as noise_given
 from ._tables import is_frame
 
 COLUMNS = ("x", "y", "normal", "position_sd", "normal_sd")
@@ -40,6 +40,22 @@ class TouchAnswer(Document):
         """ndarray, (n, 3): x, y and heading in radians, of the pose that fits best in each set. Of rolls without x and
         y these are NaN."""
         return np.array([one["pose"][0] for one in self.placements], dtype=float).reshape(-1, 3)
+
+    def advise(self, approaches: Any = None) -> Document:
+        """The next touch: which approach tells the remaining poses apart. The fields of `rollfix/advise/1`.
+
+        Parameters
+        ----------
+        approaches : array_like, (n, 4), optional
+            (x, y, dx, dy): where the finger's centre can start, and which way it goes. Default: many, all around.
+        """
+        rows = [] if approaches is None else approaches
+        if not hasattr(rows, "__iter__") or isinstance(rows, (str, bytes)):
+            raise InputError(f"approaches: expected a list of (x, y, dx, dy), found {shown(approaches)}")
+        ways = [numbers(way, 4, "approaches", "(x, y, dx, dy)") for way in rows]
+        if any(way[2:] == [0, 0] for way in ways):
+            raise InputError("approaches: expected directions (dx, dy) that are not (0, 0)")
+        return Document(self._answer.next_touch(np.array(ways, dtype=float).reshape(-1, 4)))
 
     def to_svg(self, *, title: str = "", width: float = 0) -> str:
         """A figure of the part in each pose, with the touches."""
@@ -86,6 +102,7 @@ def located(
     budget: Optional[int],
     rolls: Sequence[Log] = (),
     robust: bool = False,
+    clear: Any = None,
 ) -> TouchAnswer:
     """The answer to touches of a part, and to rolls, checked."""
     if noise is not None and tolerance is not None:
@@ -102,7 +119,17 @@ def located(
         None if budget is None else whole(budget, "budget", 1),
         tuple(one._in_unit(part.unit, given) for one in rolls),
         flag(robust, "robust"),
+        _paths(clear),
     ))  # fmt: skip
+
+
+def _paths(clear: Any) -> Any:
+    """(n, 4): from x, y to x, y."""
+    paths = [] if clear is None else clear
+    if not hasattr(paths, "__iter__") or isinstance(paths, (str, bytes)):
+        raise InputError(f"clear: expected a list of (x, y, x, y), found {shown(clear)}")
+    rows = [numbers(path, 4, "clear", "(x, y, x, y), from where to where nothing was felt") for path in paths]
+    return np.array(rows, dtype=float).reshape(-1, 4)
 
 
 def _tolerance(given: Any, of_rolls_alone: bool) -> Optional[Tuple[float, float]]:
@@ -130,7 +157,7 @@ def _rows(touches: Any) -> Any:
         values = list(touch) if hasattr(touch, "__iter__") and not isinstance(touch, (str, bytes)) else []
         if not 2 <= len(values) <= len(COLUMNS):
             raise InputError(f"touches: expected (x, y) or (x, y, normal), found {shown(touch)} (touch {number})")
-        plain = [float("nan") if value is None and k >= 2 else value for k, value in enumerate(values)]
+        plain = [_number(value, COLUMNS[k], number) for k, value in enumerate(values)]
         row = array(plain, "touches")
         if not np.isfinite(row[:2]).all():
             raise InputError(f"touches: expected finite x and y, found {shown(touch)} (touch {number})")
@@ -138,12 +165,30 @@ def _rows(touches: Any) -> Any:
     return np.array(rows, dtype=float).reshape(-1, len(COLUMNS))
 
 
+def _number(value: Any, column: str, number: int) -> Any:
+    """NaN for None, of a place aside; of an angle also a text such as "162deg"."""
+    if value is None and column not in ("x", "y"):
+        return float("nan")
+    if not (isinstance(value, str) and column in ("normal", "normal_sd")):
+        return value
+    angle = angle_from(value)
+    if angle is None:
+        raise InputError(
+            f"touches: {column}: expected radians as a number, or a text such as '162deg', "
+            f"found {value!r} (touch {number})"
+        )
+    return angle
+
+
 def _rows_of_frame(frame: Any) -> Any:
-    names = [str(name) for name in frame.columns]
+    names = {str(name).strip().lower(): name for name in frame.columns}
     if "x" not in names or "y" not in names:
-        raise InputError(f"touches: expected columns x and y, found {', '.join(names)}")
-    columns = [
-        array(np.asarray(frame[name], dtype=float), "touches") if name in names else np.full(len(frame), np.nan)
-        for name in COLUMNS
-    ]
+        raise InputError(f"touches: expected columns x and y, found {', '.join(str(name) for name in frame.columns)}")
+    columns = []
+    for column in COLUMNS:
+        if column not in names:
+            columns.append(np.full(len(frame), np.nan))
+            continue
+        values = [_number(value, column, k) for k, value in enumerate(np.asarray(frame[names[column]]).tolist(), 1)]
+        columns.append(array(values, "touches"))
     return np.ascontiguousarray(np.column_stack(columns))

@@ -63,6 +63,45 @@ def test_a_normal_and_a_tolerance(bracket):
     assert answer.placements[0]["worst"] <= 1
 
 
+def test_degrees_are_a_text(bracket):
+    texts = [(108.088, 86.821, "-167.6deg"), *FIVE[1:]]
+    numbers = [(108.088, 86.821, math.radians(-167.6)), *FIVE[1:]]
+    noise = {"position": 0.02, "angle": "1deg"}
+    assert bracket.locate(touches=texts, noise=noise, finger=rollfix.Disk(3)) == bracket.locate(touches=numbers, noise=noise, finger=rollfix.Disk(3))
+    with pytest.raises(rollfix.InputError, match=r"normal: expected radians as a number, or a text such as '162deg'"):
+        bracket.locate(touches=[(1, 2, "left")], noise=noise)
+
+
+def test_a_data_frame_with_its_own_noise_needs_no_other(bracket, found):
+    pandas = pytest.importorskip("pandas")
+    frame = pandas.DataFrame(FIVE, columns=["X", "Y"])
+    frame["position_sd"] = 0.02
+    assert np.allclose(bracket.locate(touches=frame, finger=rollfix.Disk(3)).poses, found.poses)
+
+
+def test_clear_paths_leave_fewer_poses(bracket):
+    three = FIVE[:1] + FIVE[2:4]
+    given = {"finger": rollfix.Disk(3), "noise": NOISE}
+    without = bracket.locate(touches=three, **given)
+    towards = [(60, 86.8, *three[0]), (180, 20, *three[1]), (220, 110, *three[2])]
+    with_paths = bracket.locate(touches=three, clear=towards, **given)
+    assert 0 < len(with_paths) <= len(without)
+    assert with_paths.clear == [list(path) for path in towards]
+
+
+def test_the_next_touch_is_advised(bracket):
+    three = [(106.476, 94.401), (158.015, 50.015), (192.873, 57.557)]
+    answer = bracket.locate(touches=three, finger=rollfix.Disk(3), noise=NOISE)
+    assert len(answer) == 2
+    advice = answer.advise()
+    assert advice.helps
+    assert advice.bits == pytest.approx(advice.bits_wanted, abs=0.05)
+    chosen = answer.advise([(0, 0, -1, 0), (100, 60, 1, 0)])
+    assert chosen.approach["from"] == [100, 60]
+    with pytest.raises(rollfix.InputError, match="not \\(0, 0\\)"):
+        answer.advise([(0, 0, 0, 0)])
+
+
 def test_an_answer_can_be_pickled_and_drawn(found, tmp_path):
     assert pickle.loads(pickle.dumps(found)) == found
     assert "class=\"touch\"" in found.to_svg()
@@ -80,6 +119,8 @@ def test_an_answer_can_be_pickled_and_drawn(found, tmp_path):
         ({"touches": FIVE, "noise": NOISE, "facing": 1}, "facing: touches do not roll"),
         ({"touches": FIVE, "noise": NOISE, "finger": rollfix.Jaw()}, "expected a round finger"),
         ({"touches": [(float("nan"), 1)], "noise": NOISE}, "finite x and y"),
+        ({"touches": FIVE, "noise": NOISE, "clear": [(1, 2, 3)]}, r"clear: expected \(x, y, x, y\)"),
+        ({"readings": (1, 2), "clear": [(1, 2, 3, 4)]}, "clear: is about touches"),
     ],
 )
 def test_what_cannot_be_meant_is_refused(bracket, options, message):

@@ -251,7 +251,8 @@ std::vector<Log> rolls_of_text(std::string_view text, const std::string& name, S
 
 std::vector<Log> rolls_of_file(const std::string& path, Splitting splitting, const LogOptions& options) {
   const OpenFile file = open_text(path);
-  LogLines lines(file.get(), path == "-" ? "standard input" : path);
+  const bool is_input = path == "-";
+  LogLines lines(file.get(), is_input ? "standard input" : path, is_input ? take_looked_at() : "");
   return rolls_in(lines, splitting, options);
 }
 

@@ -57,9 +57,12 @@ LogLines::LogLines(std::string_view text, std::string name) : name_(std::move(na
   end_ = text.data() + text.size();
 }
 
-LogLines::LogLines(std::FILE* file, std::string name) : name_(std::move(name)), file_(file), buffer_(kLogBuffer, '\0') {
-  cursor_ = end_ = buffer_.data();
-  refill();
+LogLines::LogLines(std::FILE* file, std::string name, const std::string& first)
+    : name_(std::move(name)), file_(file), buffer_(first) {
+  buffer_.resize(std::max(kLogBuffer, first.size()));
+  cursor_ = buffer_.data();
+  end_ = cursor_ + first.size();
+  if (first.empty()) refill();
   const auto size = static_cast<std::size_t>(end_ - cursor_);
   cursor_ = plain_beginning({cursor_, size}, name_).data();
 }

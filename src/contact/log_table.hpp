@@ -17,9 +17,10 @@ namespace rollfix {
 /// Goes through the lines of a text, or of a file through a buffer that does not grow with the file.
 class LogLines {
  public:
-  /// `name` is what messages call it. The text, or the file, must stay. Throws InputError when it is not plain text.
+  /// `name` is what messages call it. The text, or the file, must stay. `first`: what was read of the file already.
+  /// Throws InputError when it is not plain text.
   LogLines(std::string_view text, std::string name);
-  LogLines(std::FILE* file, std::string name);
+  LogLines(std::FILE* file, std::string name, const std::string& first = "");
   LogLines(const LogLines&) = delete;
   LogLines& operator=(const LogLines&) = delete;
 

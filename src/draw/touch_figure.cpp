@@ -52,7 +52,9 @@ class TouchPicture {
     svg.open_clip(axes_.corner.x(), axes_.corner.y(), axes_.size.x(), axes_.size.y());
     for (std::size_t k = poses_.size(); k-- > 0;) pose(svg, k);
     for (const RollFacts& roll : answer_.rolls) rolled(svg, roll);
+    for (const Clear& path : answer_.clear) passed(svg, path);
     for (const MeasuredTouch& touch : answer_.touches) touched(svg, touch);
+    if (figure_.next != nullptr) advised(svg, *figure_.next);
     svg.close_group();
     svg.close_group();
     legend.draw(svg, axes_.corner.y() + axes_.size.y() + kTouchBelow);
@@ -79,6 +81,7 @@ class TouchPicture {
     for (const RollFacts& roll : answer_.rolls) {
       for (const Vec2& centre : roll.track) seen.extend(centre);
     }
+    if (figure_.next != nullptr) seen.extend(figure_.next->advised().approach.from);
     const double margin = std::max(kTouchMargin * seen.sizes().maxCoeff(), 1e-9 * answer_.part.perimeter());
     const Box wide(seen.min() - Vec2::Constant(margin), seen.max() + Vec2::Constant(margin));
     const double width = figure_.width - kTouchLeft - kTouchRight;
@@ -126,6 +129,31 @@ class TouchPicture {
     if (answer_.radius > 0) svg.circle(path.front(), answer_.radius * scale_, stroke(kSoftInk, 0.8));
     svg.polyline(path, stroke(kInk, 1.4));
     svg.circle(path.front(), kTouchDot, draw::filled(kInk));
+    svg.close_group();
+  }
+
+  /// Dotted: nothing was felt there.
+  void passed(Svg& svg, const Clear& path) const {
+    svg.open_group("clear");
+    svg.polyline(on_page({path.from, path.to}), stroke(kSoftInk, 1, "1.5 3"));
+    svg.close_group();
+  }
+
+  /// The way to go, and where it ends in each pose.
+  void advised(Svg& svg, const NextTouch& next) const {
+    const Approach& way = next.advised().approach;
+    double farthest = 0;
+    for (const ExpectedTouch& one : next.expected) farthest = std::max(farthest, one.travel);
+    const Vec2 end = way.from + farthest * Vec2(std::cos(way.direction), std::sin(way.direction));
+    const std::vector<Vec2> path = on_page({way.from, end});
+    svg.open_group("approach");
+    svg.polyline(without_tip(path, 4), stroke(kInk, 1.2, "6 3"));
+    draw_arrowhead(svg, path, 7, kInk);
+    for (const ExpectedTouch& one : next.expected) {
+      if (!one.hits || one.placement >= poses_.size()) continue;
+      svg.circle(axes_(one.at.x(), one.at.y()), std::max(answer_.radius * scale_, kTouchDot),
+                 stroke(colour(one.placement), 1.2));
+    }
     svg.close_group();
   }
 

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
 #include "rollfix/error.hpp"
 #include "text/control.hpp"
@@ -236,9 +237,29 @@ OpenFile open_text(const std::string& path) {
   return file;
 }
 
+namespace {
+
+/// Of standard input.
+std::string& looked_at() {
+  static std::string text;
+  return text;
+}
+
+}  // namespace
+
+std::string beginning_of_text(const std::string& path, std::size_t most) {
+  if (path == "-" && !looked_at().empty()) return looked_at();
+  std::string text(most, '\0');
+  text.resize(std::fread(text.data(), 1, text.size(), open_text(path).get()));
+  if (path == "-") looked_at() = text;
+  return text;
+}
+
+std::string take_looked_at() { return std::exchange(looked_at(), ""); }
+
 std::string read_text(const std::string& path) {
   const OpenFile file = open_text(path);
-  if (path == "-") return read_all(file.get(), 0, "standard input");
+  if (path == "-") return take_looked_at() + read_all(file.get(), 0, "standard input");
   std::error_code error;
   std::size_t expected = 0;
   if (std::filesystem::is_regular_file(path, error)) {

@@ -61,6 +61,12 @@ using OpenFile = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 /// A file that can be read, "-" for standard input. Throws InputError: missing, a directory, or not readable.
 OpenFile open_text(const std::string& path);
 
+/// The first bytes of a text, at most so many. Those of standard input can be read once only: they are kept for
+/// read_text, or for whoever asks for them.
+std::string beginning_of_text(const std::string& path, std::size_t most);
+/// What was looked at of standard input and was not read since.
+std::string take_looked_at();
+
 /// The whole of a file, "-" for standard input. Throws InputError: missing, a directory, not readable, or a pipe or a
 /// device without an end.
 std::string read_text(const std::string& path);

@@ -39,6 +39,10 @@ TouchProblem in_mirror(const TouchProblem& problem) {
     touch.at.x() = -touch.at.x();
     if (touch.normal) touch.normal = std::numbers::pi - *touch.normal;
   }
+  for (Clear& path : result.clear) {
+    path.from.x() = -path.from.x();
+    path.to.x() = -path.to.x();
+  }
   for (Log& roll : result.rolls) mirror(roll.fingers.front(), problem.finger ? &*problem.finger : nullptr);
   if (result.finger && !result.rolls.empty()) result.finger = rollfix::mirrored(*problem.finger);
   if (result.pose) result.pose->mean = {-problem.pose->mean.x, problem.pose->mean.y, -problem.pose->mean.heading};

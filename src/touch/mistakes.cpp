@@ -4,6 +4,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
+
+#include "other_radius.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace rollfix {
 
@@ -23,6 +27,14 @@ const char* name_of(TouchCause cause) {
       return "mirrored";
     case TouchCause::moved:
       return "moved";
+    case TouchCause::swapped:
+      return "x and y swapped";
+    case TouchCause::other_side:
+      return "other side";
+    case TouchCause::pose:
+      return "pose";
+    case TouchCause::clear:
+      return "clear";
     case TouchCause::noise:
       break;
   }
@@ -34,12 +46,16 @@ namespace {
 
 // Of each mistake that is tried.
 constexpr std::size_t kMistakeBudget = kTouchBudget / 10;
+// Of touches with more noise, which leaves more poses to weigh.
+constexpr std::size_t kNoiseBudget = kTouchBudget / 40;
+// A fitted radius is off by about so many standard deviations of a place.
+constexpr double kAboutTheRadius = 3;
 // Explanations that are told.
 constexpr std::size_t kMostTold = 4;
 // Touches in another unit are spread over this share of the perimeter at least.
 constexpr double kLeastSpread = 0.05;
-// An explanation fits where chi-square is no less likely than this.
-constexpr double kExplains = 0.01;
+// Noise is looked at up to this many times the stated one, doubled each time: beyond, touches tell nothing.
+constexpr double kMostNoise = 32;
 
 struct Mistake {
   TouchDiagnosis what;
@@ -55,18 +71,47 @@ class Mistakes {
   }
 
   std::vector<Mistake> all() {
+    add_prior();
+    add_clear();
     add_normals();
     add_radius();
     add_units();
-    TouchProblem turned_over = problem_;
-    turned_over.mirrored = !problem_.mirrored;
-    add({TouchCause::mirrored}, turned_over);
+    add_sides();
     add_outliers();
     return std::move(mistakes_);
   }
 
  private:
   void add(TouchDiagnosis what, const TouchProblem& without) { mistakes_.push_back({std::move(what), without}); }
+
+  void add_prior() {
+    if (!problem_.pose) return;
+    TouchProblem without = problem_;
+    without.pose.reset();
+    add({TouchCause::pose}, without);
+  }
+
+  void add_clear() {
+    if (problem_.clear.empty()) return;
+    TouchProblem without = problem_;
+    without.clear.clear();
+    add({TouchCause::clear}, without);
+  }
+
+  /// The part's mirror image, or the other side of an outline that has two.
+  void add_sides() {
+    TouchProblem turned_over = problem_;
+    turned_over.mirrored = !problem_.mirrored;
+    add({TouchCause::mirrored}, turned_over);
+    TouchProblem swapped = problem_;
+    for (MeasuredTouch& touch : swapped.touches) std::swap(touch.at.x(), touch.at.y());
+    for (Clear& path : swapped.clear) path = {{path.from.y(), path.from.x()}, {path.to.y(), path.to.x()}};
+    if (any_normal_) add({TouchCause::swapped}, swapped);  // else it can't be told from the mirror image
+    if (problem_.part.closed()) return;
+    TouchProblem behind = problem_;
+    behind.part = Part(reversed(problem_.part.outline()));
+    add({TouchCause::other_side}, behind);
+  }
 
   void add_normals() {
     if (!any_normal_) return;
@@ -81,7 +126,7 @@ class Mistakes {
     with(TouchCause::normals_clockwise, [](double normal) { return -normal; });
   }
 
-  /// The diameter for the radius, the radius for the diameter, contacts for centres.
+  /// The diameter for the radius, the radius for the diameter, contacts for centres. With noise any other is tried.
   void add_radius() {
     if (!problem_.finger) return;
     const double radius = problem_.finger->disk()->radius;
@@ -116,6 +161,7 @@ class Mistakes {
       if (scale.factor * spread < kLeastSpread * problem_.part.perimeter()) continue;
       TouchProblem without = problem_;
       for (MeasuredTouch& touch : without.touches) touch.at *= scale.factor;
+      for (Clear& path : without.clear) path = {scale.factor * path.from, scale.factor * path.to};
       TouchDiagnosis what{TouchCause::unit};
       what.factor = scale.factor;
       what.unit = scale.from;
@@ -148,22 +194,45 @@ bool is_telling(const TouchProblem& problem) {
   return freedom > 0;
 }
 
-void add_noise_factor(const TouchAnswer& answer, std::vector<TouchDiagnosis>& told) {
-  if (!answer.fit || answer.fit->freedom == 0) return;
-  TouchDiagnosis what;
-  what.factor = std::sqrt(answer.fit->chi_square / answer.fit->freedom);
-  what.fit = *answer.fit;
-  what.poses = answer.poses.size();
-  what.pose = answer.poses.front().pose;
-  told.push_back(what);
+/// The same touches with this many times the noise. What is known of the pose beforehand stays.
+TouchProblem noisier(const TouchProblem& problem, double factor) {
+  TouchProblem result = problem;
+  for (double* sd : {&result.noise->position, &result.noise->angle}) *sd *= factor;
+  result.noise->angle = std::min(result.noise->angle, BeliefOptions::kMostAngle);
+  for (MeasuredTouch& touch : result.touches) {
+    if (touch.position_sd) *touch.position_sd *= factor;
+    if (touch.normal_sd) touch.normal_sd = std::min(factor * *touch.normal_sd, BeliefOptions::kMostAngle);
+  }
+  return result;
+}
+
+/// How much larger the noise has to be.
+void add_noise_factor(const TouchProblem& problem, std::vector<TouchDiagnosis>& told) {
+  if (!problem.noise || !is_telling(problem)) return;
+  for (double factor = 2; factor <= kMostNoise; factor *= 2) {
+    const TouchProblem without = noisier(problem, factor);
+    const TouchAnswer found = solve_plain(without);
+    if (found.status != Status::complete || !found.fit || found.fit->freedom == 0) continue;
+    if (found.fit->p < kExplains) continue;
+    TouchDiagnosis what{TouchCause::noise};
+    what.factor = std::max(1.0, factor * std::sqrt(found.fit->chi_square / found.fit->freedom));
+    what.fit = *found.fit;
+    what.poses = found.poses.size();
+    what.pose = found.poses.front().pose;
+    told.push_back(what);
+    return;
+  }
 }
 
 }  // namespace
 
-std::vector<TouchDiagnosis> mistakes(const TouchProblem& problem, const TouchAnswer& answer) {
+std::vector<TouchDiagnosis> mistakes(const TouchProblem& problem) {
+  TouchProblem cheaper = problem;
+  cheaper.budget = std::min(problem.budget.value_or(kNoiseBudget), kNoiseBudget);
   std::vector<TouchDiagnosis> told;
   for (const Mistake& mistake : Mistakes(problem).all()) {
-    if (!is_telling(mistake.without)) continue;
+    const bool is_of_more = mistake.what.cause == TouchCause::clear || mistake.what.cause == TouchCause::pose;
+    if (!is_of_more && !is_telling(mistake.without)) continue;  // what is left contradicts nothing
     const TouchAnswer found = solve_plain(mistake.without);
     if (found.status != Status::complete || found.poses.empty()) continue;
     if (found.fit && found.fit->p < kExplains) continue;
@@ -173,10 +242,19 @@ std::vector<TouchDiagnosis> mistakes(const TouchProblem& problem, const TouchAns
     what.pose = found.poses.front().pose;
     told.push_back(what);
   }
+  if (problem.noise) {
+    for (TouchDiagnosis& what : other_radii(cheaper)) {
+      const auto is_about_it = [&](const TouchDiagnosis& one) {  // half or double the radius, more likely meant
+        return one.cause == TouchCause::radius &&
+               std::abs(one.radius - what.radius) <= kAboutTheRadius * problem.noise->position;
+      };
+      if (std::none_of(told.begin(), told.end(), is_about_it)) told.push_back(std::move(what));
+    }
+  }
   std::stable_sort(told.begin(), told.end(),
                    [](const TouchDiagnosis& a, const TouchDiagnosis& b) { return a.fit.p > b.fit.p; });
-  if (told.size() > kMostTold) told.resize(kMostTold);
-  if (told.empty()) add_noise_factor(answer, told);
+  if (told.size() >= kMostTold) told.resize(kMostTold - 1);
+  add_noise_factor(cheaper, told);
   return told;
 }
 

@@ -2,14 +2,20 @@
 
 #include <vector>
 
+#include "measured.hpp"
 #include "rollfix/touch/touch.hpp"
 
 namespace rollfix::touch {
 
+/// An explanation fits where chi-square is no less likely than this.
+inline constexpr double kExplains = 0.01;
+
+/// The touches as the search takes them.
+std::vector<Measured> measured(const TouchProblem& problem);
 /// `solve` of a valid problem, without looking for mistakes.
 TouchAnswer solve_plain(const TouchProblem& problem);
 
 /// The usual mistakes, each tried: those without which the touches fit, the likeliest first.
-std::vector<TouchDiagnosis> mistakes(const TouchProblem& problem, const TouchAnswer& answer);
+std::vector<TouchDiagnosis> mistakes(const TouchProblem& problem);
 
 }  // namespace rollfix::touch

@@ -2,13 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
 
 #include "rollfix/error.hpp"
 
-namespace rollfix::touch {
+namespace rollfix {
+namespace touch {
 namespace {
 
 // A touch further from the origin than this many perimeters is lost in the rounding of its own coordinates.
@@ -51,6 +53,16 @@ void require_touch(const TouchProblem& problem, std::size_t number) {
   if (!touch.normal) return;
   require_sd(touch.normal_sd.value_or(problem.noise->angle), kMostNormalSd, where, "its normal",
              "give `noise` with angle=SD, or leave the normals out");
+}
+
+void require_clear(const TouchProblem& problem) {
+  const double far = kMostFar * problem.part.perimeter();
+  for (const Clear& path : problem.clear) {
+    for (const double number : {path.from.x(), path.from.y(), path.to.x(), path.to.y()}) {
+      if (std::abs(number) <= far) continue;
+      refuse(fmt::format("`clear`: expected places within {:.3g} of the origin, found {}", far, number));
+    }
+  }
 }
 
 /// Kinds of noise that only a roll has.
@@ -125,10 +137,22 @@ void require_valid(const TouchProblem& problem) {
   if (problem.robust && !problem.noise) refuse("`robust` is about noise: give `noise` as well");
   for (std::size_t k = 0; k < problem.rolls.size(); ++k) require_roll(problem, k);
   for (std::size_t k = 0; k < problem.touches.size(); ++k) require_touch(problem, k);
+  if (!problem.clear.empty() && !problem.rolls.empty()) {
+    refuse("`clear`: paths on which nothing was felt are taken with touches alone, found rolls: leave one of them out");
+  }
+  require_clear(problem);
 }
 
 double radius_of(const TouchProblem& problem) {
   return problem.finger && problem.finger->is_disk() ? problem.finger->disk()->radius : 0;
 }
 
-}  // namespace rollfix::touch
+}  // namespace touch
+
+bool have_own_noise(const std::vector<MeasuredTouch>& touches) {
+  return !touches.empty() && std::all_of(touches.begin(), touches.end(), [](const MeasuredTouch& touch) {
+    return touch.position_sd && (!touch.normal || touch.normal_sd);
+  });
+}
+
+}  // namespace rollfix

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "answer_poses.hpp"
+#include "free_space.hpp"
 #include "heading_sets.hpp"
 #include "mirror_poses.hpp"
 #include "mistakes.hpp"
@@ -40,11 +41,13 @@ constexpr int kRefinements = 2;
 constexpr double kFiner = 0.25;
 // Boxes of poses that are looked at for each such set.
 constexpr std::size_t kBoxBudget = 200000;
+// Cells of a set that are looked at for a pose that leaves the clear paths free.
+constexpr std::size_t kFreeLooks = 64;
 
-/// The problem's contacts: its rolls, then its touches.
-std::vector<Measured> measured(const TouchProblem& problem, const std::vector<RollContact>& rolls) {
+}  // namespace
+
+std::vector<Measured> measured(const TouchProblem& problem) {
   std::vector<Measured> touches;
-  for (const RollContact& roll : rolls) touches.push_back(roll.measured);
   for (const MeasuredTouch& touch : problem.touches) {
     Measured one;
     one.at = touch.at;
@@ -59,6 +62,17 @@ std::vector<Measured> measured(const TouchProblem& problem, const std::vector<Ro
     touches.push_back(one);
   }
   return touches;
+}
+
+namespace {
+
+/// The problem's rolls, then its touches.
+std::vector<Measured> contacts_of(const TouchProblem& problem, const std::vector<RollContact>& rolls) {
+  std::vector<Measured> contacts;
+  for (const RollContact& roll : rolls) contacts.push_back(roll.measured);
+  const std::vector<Measured> touches = measured(problem);
+  contacts.insert(contacts.end(), touches.begin(), touches.end());
+  return contacts;
 }
 
 std::vector<Cell> cells_of(const CellSets& sets, const std::vector<std::size_t>& groups) {
@@ -109,7 +123,11 @@ struct PoseSet {
 class Solver {
  public:
   Solver(const TouchProblem& problem, TouchAnswer& answer)
-      : problem_(problem), answer_(answer), rolls_(roll_contacts(problem)), touches_(measured(problem, rolls_)) {}
+      : problem_(problem),
+        answer_(answer),
+        rolls_(roll_contacts(problem)),
+        touches_(contacts_of(problem, rolls_)),
+        free_(problem) {}
 
   void run() {
     for (const Measured& touch : touches_) answer_.tolerance.push_back({touch.place_most, touch.angle_most});
@@ -166,6 +184,7 @@ class Solver {
     double leaf = CellSearch::kLeaf;
     Cells cells = rolls_.empty() ? search.search() : search_by_levels(search, touches_, pair, leaf);
     PoseFit fit(touches_, problem_.pose);
+    free_.drop_blocked(cells.fit, fit.tree(pair.first), touches_[pair.first]);
     if (problem_.noise) {
       weigh(fit, pair, sets_of(fit.tree(pair.first), fit.tree(pair.second), std::move(cells.fit)), cells.undecided);
     } else {
@@ -186,7 +205,8 @@ class Solver {
       undecided.insert(undecided.end(), sets.cells.begin(), sets.cells.end());
       return;
     }
-    const Posterior posterior = posterior_of(fit, sets, pair.first);
+    Posterior posterior = posterior_of(fit, sets, pair.first);
+    free_.weigh(posterior.nodes);
     const std::vector<PosteriorNode>& nodes = posterior.nodes;
     answer_.improbable += posterior.hopeless;
     std::vector<PoseSet> found;
@@ -297,7 +317,8 @@ class Solver {
         if (worst_of(fit, fitted) > 1) boxes = search_boxes(fit, own, pair, kBoxBudget);
         if (boxes.refuted) continue;  // proved: no pose of the set fits
         if (boxes.witness) fitted = std::move(*boxes.witness);
-        if (worst_of(fit, fitted) <= 1) {
+        if (free_.is_blocked(fitted.pose)) fitted = best_free(fit, own, pair, std::move(fitted));
+        if (worst_of(fit, fitted) <= 1 && !free_.is_blocked(fitted.pose)) {
           add_set(fit, {std::move(fitted), std::move(own), {}}, found);
         } else {
           cells.insert(cells.end(), own.begin(), own.end());
@@ -307,12 +328,28 @@ class Solver {
       leaf *= kFiner;
       Cells finer = search.search(cells, leaf);
       cells = std::move(finer.fit);
+      free_.drop_blocked(cells, fit.tree(pair.first), touches_[pair.first]);
       undecided.insert(undecided.end(), finer.undecided.begin(), finer.undecided.end());
     }
     undecided.insert(undecided.end(), cells.begin(), cells.end());
     for (const PoseSet& set : found) answer_.poses.push_back(described(fit, set.fitted, set.cells, pair));
     std::sort(answer_.poses.begin(), answer_.poses.end(),
               [](const TouchPose& a, const TouchPose& b) { return a.pose.heading < b.pose.heading; });
+  }
+
+  /// A pose from some cell that leaves the paths free and fits best, or else the one given.
+  FittedPose best_free(PoseFit& fit, const std::vector<Cell>& cells, const TouchPair& pair, FittedPose given) {
+    std::optional<FittedPose> best;
+    const std::size_t looks = std::min(cells.size(), kFreeLooks);
+    for (std::size_t look = 0; look < looks; ++look) {
+      const Cell& cell = cells[(2 * look + 1) * cells.size() / (2 * looks)];
+      const PathTree::Node& node = fit.tree(pair.first).node(cell.first);
+      const Held held{pair.first, {static_cast<std::size_t>(node.stretch), node.u.middle()}};
+      FittedPose fitted = fit.fit(fit.pose_at(held, cell.heading.middle), held);
+      if (free_.is_blocked(fitted.pose) || (best && worst_of(fit, *best) <= worst_of(fit, fitted))) continue;
+      best = std::move(fitted);
+    }
+    return best ? std::move(*best) : std::move(given);
   }
 
   void conclude() {
@@ -345,6 +382,7 @@ class Solver {
   TouchAnswer& answer_;
   std::vector<RollContact> rolls_;
   std::vector<Measured> touches_;
+  FreeSpace free_;
 };
 
 }  // namespace
@@ -354,6 +392,8 @@ TouchAnswer solve_plain(const TouchProblem& problem) {
   answer.radius = radius_of(problem);
   answer.robust = problem.robust;
   answer.noise = problem.noise;
+  answer.pose = problem.pose;
+  answer.clear = problem.clear;
   answer.mirrored = problem.mirrored;
   const TouchProblem seen = problem.mirrored ? in_mirror(problem) : problem;
   Solver(seen, answer).run();
@@ -363,14 +403,16 @@ TouchAnswer solve_plain(const TouchProblem& problem) {
 
 }  // namespace touch
 
-TouchAnswer solve(const TouchProblem& problem) {
+TouchAnswer solve(const TouchProblem& given) {
+  TouchProblem problem = given;
+  if (!problem.noise && !problem.tolerance && have_own_noise(problem.touches)) problem.noise.emplace();
   touch::require_valid(problem);
   const Doing doing(problem.rolls.empty() ? "looking for poses that fit the touches"
                                           : "looking for poses that fit all contacts");
   TouchAnswer answer = touch::solve_plain(problem);
   const bool is_odd = answer.verdict.fits_badly || answer.verdict.name == Verdict::inconsistent;
   if (problem.diagnose && is_odd && answer.status == Status::complete) {
-    answer.diagnoses = problem.rolls.empty() ? touch::mistakes(problem, answer) : touch::moved(problem, answer);
+    answer.diagnoses = problem.rolls.empty() ? touch::mistakes(problem) : touch::moved(problem, answer);
   }
   return answer;
 }

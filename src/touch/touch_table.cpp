@@ -3,24 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "contact/header/log_header.hpp"
 #include "contact/log_table.hpp"
+#include "probe_report.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/units.hpp"
 #include "text/number.hpp"
 #include "text/text.hpp"
+#include "touch_header.hpp"
 
 namespace rollfix {
 namespace touch {
 namespace {
-
-// Their places in the list below.
-constexpr std::size_t kX = 0, kY = 1, kNormal = 2, kPositionSd = 3, kNormalSd = 4;
-constexpr std::array<const char*, 5> kTouchColumns = {"x", "y", "normal", "position_sd", "normal_sd"};
-constexpr std::size_t kNoCell = static_cast<std::size_t>(-1);
 
 /// Calls `row` with each row of the table.
 template <class Row>
@@ -34,78 +29,56 @@ void each_row(std::string_view text, const std::string& name, std::optional<bool
   }
 }
 
+/// Reads rows below a header.
 class TouchReader {
  public:
-  TouchReader(const std::string& name, const TouchTableOptions& options) : name_(name), options_(options) {
-    cell_.fill(kNoCell);
-  }
+  TouchReader(const TableRow& row, const std::string& name, const TouchTableOptions& options)
+      : header_(row, name, options), name_(name) {}
 
-  void read_header(const TableRow& row) {
-    for (const HeaderName& header : names_in(row)) {
-      const std::string name = lower_case(header.name);
-      const auto known = std::find(kTouchColumns.begin(), kTouchColumns.end(), name);
-      if (known != kTouchColumns.end()) {
-        const auto column = static_cast<std::size_t>(known - kTouchColumns.begin());
-        if (cell_[column] != kNoCell) {
-          throw InputError(fmt::format("{}: expected one column {}, found two", where(name_, row.line), name));
-        }
-        cell_[column] = count_;
-        if (!header.unit.empty()) conversion_[column] = conversion_of(column, header, row.line);
-      }
-      ++count_;
-    }
-    if (cell_[kX] != kNoCell && cell_[kY] != kNoCell) return;
-    throw InputError(fmt::format("{}: expected a header with x and y, as in x,y,normal, found '{}'",
-                                 where(name_, row.line), shown(row.text)));
+  const TouchHeader& header() const { return header_; }
+
+  /// Throws InputError where the row has not as many cells as the header.
+  void require_whole(const TableRow& row) const {
+    if (row.cells.size() == header_.count()) return;
+    throw InputError(fmt::format("{}: expected {} as in the header, found {}", where(name_, row.line),
+                                 counted(header_.count(), "cell", "cells"), row.cells.size()));
   }
 
   MeasuredTouch read(const TableRow& row) const {
-    if (row.cells.size() != count_) {
-      throw InputError(fmt::format("{}: expected {} as in the header, found {}", where(name_, row.line),
-                                   counted(count_, "cell", "cells"), row.cells.size()));
-    }
     MeasuredTouch touch;
-    touch.at = {number(row, kX).value(), number(row, kY).value()};
-    touch.normal = number(row, kNormal);
-    touch.position_sd = number(row, kPositionSd);
-    touch.normal_sd = number(row, kNormalSd);
+    touch.at = {number(row, TouchColumn::x).value(), number(row, TouchColumn::y).value()};
+    touch.normal = number(row, TouchColumn::normal);
+    touch.position_sd = number(row, TouchColumn::position_sd);
+    touch.normal_sd = number(row, TouchColumn::normal_sd);
     return touch;
   }
 
- private:
-  static bool is_of_angle(std::size_t column) { return column == kNormal || column == kNormalSd; }
-
-  Conversion conversion_of(std::size_t column, const HeaderName& header, std::size_t line) const {
-    const Dimension wanted = is_of_angle(column) ? Dimension::angle : Dimension::length;
-    const std::optional<Unit> unit = unit_named(header.unit);
-    if (!unit || unit->dimension != wanted) {
-      throw InputError(fmt::format("{}: column {}: expected {}, one of {}, found '{}'", where(name_, line),
-                                   kTouchColumns[column], name_of(wanted), unit_names(wanted), shown(header.unit)));
-    }
-    if (is_of_angle(column)) return conversion_to_plain(*unit);
-    return length_conversion(unit->name, options_.unit,
-                             fmt::format("{}: {}", where(name_, line), kTouchColumns[column]));
+  bool has_contact(const TableRow& row) const {
+    if (!header_.has(TouchColumn::contact)) return true;
+    const std::string_view cell = row.cells[header_.cell(TouchColumn::contact)];
+    const std::optional<double> value = parse_number(cell);
+    if (value == 0.0 || value == 1.0) return value == 1.0;
+    throw InputError(
+        fmt::format("{}: column contact: expected 0 or 1, found '{}'", where(name_, row.line), shown(cell)));
   }
 
+ private:
   /// Nothing of an empty cell, unless it is a coordinate.
-  std::optional<double> number(const TableRow& row, std::size_t column) const {
-    if (cell_[column] == kNoCell) return std::nullopt;
-    const std::string_view cell = row.cells[cell_[column]];
-    if (cell.empty() && column > kY) return std::nullopt;
+  std::optional<double> number(const TableRow& row, TouchColumn column) const {
+    if (!header_.has(column)) return std::nullopt;
+    const std::string_view cell = row.cells[header_.cell(column)];
+    if (cell.empty() && column != TouchColumn::x && column != TouchColumn::y) return std::nullopt;
     const std::optional<double> plain = parse_number(cell);
     const std::optional<double> value = plain || !is_of_angle(column) ? plain : parse_angle(cell);
     if (!value || !std::isfinite(*value)) {
       throw InputError(fmt::format("{}: column {}: expected a number, found '{}'{}", where(name_, row.line),
-                                   kTouchColumns[column], shown(cell), decimal_comma_hint(cell)));
+                                   touch::name_of(column), shown(cell), decimal_comma_hint(cell)));
     }
-    return plain ? conversion_[column](*value) : *value;
+    return plain ? header_.conversion(column)(*value) : *value;
   }
 
+  TouchHeader header_;
   const std::string& name_;
-  const TouchTableOptions& options_;
-  std::array<std::size_t, kTouchColumns.size()> cell_{};
-  std::array<Conversion, kTouchColumns.size()> conversion_{};
-  std::size_t count_ = 0;
 };
 
 /// Whether a name stands for what only a roll has; of two fingers with _a or _b behind it.
@@ -113,52 +86,95 @@ bool is_of_roll(std::string name) {
   for (const char* suffix : kFingerSuffixes) {
     if (name.size() > 2 && name.ends_with(suffix)) name.resize(name.size() - 2);
   }
-  const auto same = [&](const ColumnPair& pair) { return name == name_of(pair.place) || name == name_of(pair.angle); };
+  const auto same = [&](const ColumnPair& pair) {
+    return name == rollfix::name_of(pair.place) || name == rollfix::name_of(pair.angle);
+  };
   return std::any_of(kColumnPairs.begin(), kColumnPairs.end(), same);
+}
+
+/// Whether a header is one of touches; `columns`: what the options say of it.
+bool is_touch_header(const TableRow& row, const std::vector<ColumnSource>& columns) {
+  const auto is_said = [&](const char* name) {
+    return std::any_of(columns.begin(), columns.end(), [&](const ColumnSource& one) { return one.column == name; });
+  };
+  bool has_x = is_said("x"), has_y = is_said("y"), has_roll = false, has_more = !columns.empty();
+  std::vector<HeaderName> unknown;
+  for (const HeaderName& header : names_in(row)) {
+    const std::optional<KnownColumn> known = touch_column(header);
+    has_x = has_x || (known && known->column == TouchColumn::x);
+    has_y = has_y || (known && known->column == TouchColumn::y);
+    has_roll = has_roll || is_of_roll(lower_case(header.name));
+    has_more = has_more || (known && known->column >= TouchColumn::normal && known->column != TouchColumn::contact);
+    if (!known && lower_case(header.name) != rollfix::name_of(rollfix::Column::time)) unknown.push_back(header);
+  }
+  const bool may_be_of_roll = holds_columns_of(unknown, 0) || holds_columns_of(unknown, 1);
+  return has_x && has_y && !has_roll && (has_more || !may_be_of_roll);
+}
+
+void add_notes(TouchTable& table, const TouchHeader& header, std::size_t free_rows, const std::string& name) {
+  const std::vector<std::string> ignored = header.ignored();
+  if (!ignored.empty()) {
+    table.notes.push_back(fmt::format("{}: {} not used: {}; known are {}", name,
+                                      ignored.size() == 1 ? "this column is" : "these columns are",
+                                      fmt::join(ignored, ", "), fmt::join(kTouchColumns, ", ")));
+  }
+  if (free_rows == 0) return;
+  table.notes.push_back(fmt::format("{}: {} with contact 0 left out: no {}; `clear` rows takes {} as free space", name,
+                                    counted(free_rows, "row", "rows"), free_rows == 1 ? "touch" : "touches",
+                                    free_rows == 1 ? "it" : "them"));
 }
 
 }  // namespace
 }  // namespace touch
 
 bool is_touch_table(std::string_view text, const TouchTableOptions& options) {
-  bool has_x = false, has_y = false, has_roll = false, has_more = false, has_unknown = false;
-  const auto look = [&](const TableRow& row) {
-    for (const HeaderName& header : names_in(row)) {
-      const std::string name = lower_case(header.name);
-      has_x = has_x || name == "x";
-      has_y = has_y || name == "y";
-      has_roll = has_roll || touch::is_of_roll(name);
-      const bool is_known =
-          std::find(touch::kTouchColumns.begin(), touch::kTouchColumns.end(), name) != touch::kTouchColumns.end();
-      has_more = has_more || (is_known && name != "x" && name != "y");
-      has_unknown = has_unknown || (!is_known && name != name_of(Column::time) && name != name_of(Column::contact));
-    }
-    return false;  // the header is enough
-  };
+  bool is_one = false;
   try {
-    touch::each_row(text, "", options.decimal_comma, look);
+    if (touch::probe_report(text)) return true;
+    touch::each_row(text, "", options.decimal_comma, [&](const TableRow& row) {
+      is_one = touch::is_touch_header(row, options.columns);
+      return false;  // the header is enough
+    });
   } catch (const InputError&) {
     return false;  // it is no table at all: whoever reads it says so
   }
-  // Columns by other names, beside x and y, may be those of a roll.
-  return has_x && has_y && !has_roll && (has_more || !has_unknown);
+  return is_one;
 }
 
 TouchTable parse_touches(std::string_view text, const std::string& name, const TouchTableOptions& options) {
+  if (const auto report = touch::probe_report(text)) {
+    return touch::parse_probe_report(*report, text, name, options);
+  }
   TouchTable table;
-  touch::TouchReader reader(name, options);
-  bool has_header = false;
+  std::optional<std::string> header_text;
+  std::optional<touch::TouchReader> reader;
+  std::size_t free_rows = 0;
+  std::optional<Vec2> last;
+  bool last_has_contact = false;
   touch::each_row(text, name, options.decimal_comma, [&](const TableRow& row) {
-    if (!has_header) {
-      reader.read_header(row);
-      has_header = true;
-    } else {
-      table.touches.push_back(reader.read(row));
-      table.lines.push_back(row.line);
+    if (!reader) {
+      reader.emplace(row, name, options);
+      return true;
     }
+    reader->require_whole(row);
+    const MeasuredTouch touch = reader->read(row);
+    const bool has_contact = reader->has_contact(row);
+    if (last && !(has_contact && last_has_contact)) table.clear.push_back({*last, touch.at});
+    last = touch.at;
+    last_has_contact = has_contact;
+    if (!has_contact) {
+      ++free_rows;
+      return true;
+    }
+    table.touches.push_back(touch);
+    table.lines.push_back(row.line);
     return true;
   });
-  if (table.touches.empty()) throw InputError(fmt::format("{}: expected a touch in each row, found no row", name));
+  if (table.touches.empty()) {
+    throw InputError(
+        fmt::format("{}: expected a touch in each row, found no row{}", name, free_rows > 0 ? " with contact 1" : ""));
+  }
+  touch::add_notes(table, reader->header(), free_rows, name);
   return table;
 }
 

@@ -79,11 +79,64 @@ TEST(TouchMistakes, AFaceDownPartIsFound) {
   EXPECT_NE(diagnosis_of(rollfix::solve(problem), TouchCause::mirrored), nullptr);
 }
 
+TEST(TouchMistakes, ARadiusThatIsTenPercentOffIsFound) {
+  TouchProblem problem = honest();
+  problem.finger = rollfix::disk(3.3);
+  const TouchAnswer answer = rollfix::solve(problem);
+  const TouchDiagnosis* const found = diagnosis_of(answer, TouchCause::radius);
+  ASSERT_NE(found, nullptr);
+  EXPECT_NEAR(found->radius, 3, 0.1);
+  EXPECT_EQ(found->fit.freedom, 8);  // one less: the radius was fitted
+}
+
+TEST(TouchMistakes, AFingerThatWasForgottenIsFound) {
+  TouchProblem problem = honest();
+  problem.finger.reset();
+  const TouchDiagnosis* const found = diagnosis_of(rollfix::solve(problem), TouchCause::radius);
+  ASSERT_NE(found, nullptr);
+  EXPECT_NEAR(found->radius, 3, 0.15);
+}
+
+TEST(TouchMistakes, SwappedCoordinatesAreFound) {
+  TouchProblem problem = honest();
+  for (MeasuredTouch& touch : problem.touches) std::swap(touch.at.x(), touch.at.y());
+  EXPECT_NE(diagnosis_of(rollfix::solve(problem), TouchCause::swapped), nullptr);
+  TouchProblem places = honest(3, 0);
+  for (MeasuredTouch& touch : places.touches) std::swap(touch.at.x(), touch.at.y());
+  EXPECT_NE(diagnosis_of(rollfix::solve(places), TouchCause::mirrored), nullptr);
+}
+
+TEST(TouchMistakes, AHeadingThatTheTouchesContradictIsTold) {
+  TouchProblem problem = honest();
+  const TouchAnswer right = rollfix::solve(problem);
+  problem.pose.emplace();
+  problem.pose->mean.heading = right.poses.front().pose.heading + 1;
+  problem.pose->heading_sd = rollfix::kDegree;
+  const TouchAnswer answer = rollfix::solve(problem);
+  const TouchDiagnosis* const found = diagnosis_of(answer, TouchCause::pose);
+  ASSERT_NE(found, nullptr);
+  EXPECT_NEAR(found->pose.heading, right.poses.front().pose.heading, 1e-6);
+}
+
+TEST(TouchMistakes, TheLeftSideOfAnOpenOutlineIsFound) {
+  std::mt19937_64 generator(5);
+  const Part part = rollfix::load_part("gallery:log-spiral");
+  TouchProblem problem =
+      random_case(part, {5, 5, 0.02 * diagonal(part), 0.001 * diagonal(part), rollfix::kDegree}, generator).problem;
+  EXPECT_TRUE(rollfix::solve(problem).diagnoses.empty());
+  problem.part = Part(rollfix::reversed(part.outline()));
+  EXPECT_NE(diagnosis_of(rollfix::solve(problem), TouchCause::other_side), nullptr);
+}
+
 TEST(TouchMistakes, NoiseThatIsLargerThanSaidIsTold) {
   TouchProblem problem = honest(3, 0);
   problem.noise->position = 0.05 / 2.5;
   const TouchAnswer answer = rollfix::solve(problem);
   EXPECT_TRUE(answer.verdict.fits_badly || answer.poses.empty());
+  const TouchDiagnosis* const found = diagnosis_of(answer, TouchCause::noise);
+  ASSERT_NE(found, nullptr);
+  EXPECT_GT(found->factor, 1.2);
+  EXPECT_LT(found->factor, 6);
 }
 
 TEST(TouchRefusals, SayWhatIsWrongAndWhatToGive) {

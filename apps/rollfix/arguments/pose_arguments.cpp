@@ -32,15 +32,15 @@ void require_no_bare_degrees(const std::string& what, std::string_view typed, do
 
 void add_pose_arguments(CLI::App& command, PoseArguments& arguments) {
   command
-      .add_option("--heading", arguments.heading,
-                  "with --noise and a log of u and psi: what is known of the part's heading in the world at the first "
-                  "contact, and its standard deviation")
+      .add_option(
+          "--heading", arguments.heading,
+          "with --noise, and touches or a log of u and psi: what is known of the part's heading in the world at "
+          "the first contact, and its standard deviation")
       ->type_name("ANGLE,SD");
   command
-      .add_option(
-          "--pose", arguments.pose,
-          "the same with the part's position, for a log with x and y: X,Y,HEADING, and the standard deviations of "
-          "x and y and of the heading")
+      .add_option("--pose", arguments.pose,
+                  "the same with the part's position, for touches or a log with x and y: X,Y,HEADING, and the standard "
+                  "deviations of x and y and of the heading")
       ->type_name("X,Y,HEADING,SD,SD_HEADING");
 }
 

@@ -148,7 +148,8 @@ void add_reading_arguments(CLI::App& command, LogArguments& reading) {
   command
       .add_option("--columns", reading.columns,
                   "names and units of the log's columns, where its header does not say them: "
-                  "u=contact_deg:deg,psi=yaw_deg:deg,time=stamp:ms; behind u or psi also :unwrapped or :wrapped")
+                  "u=contact_deg:deg,psi=yaw_deg:deg,time=stamp:ms; behind u or psi also :unwrapped or :wrapped; of a "
+                  "table of touches x=px:mm,y=py:mm,normal=n:deg")
       ->type_name("COLUMN=NAME:UNIT,...");
   command
       .add_option("--wrapped", reading.wrapped,
@@ -185,9 +186,9 @@ void add_log_arguments(CLI::App& command, std::vector<std::string>& logs, std::s
 
 void add_noise_argument(CLI::App& command, std::string& noise) {
   command
-      .add_option(
-          "--noise", noise,
-          "errors of the sensors, as standard deviations, any of these, separated by commas: " + noise_form(", "))
+      .add_option("--noise", noise,
+                  "errors of the sensors, as standard deviations, any of these, separated by commas: " +
+                      noise_form(", ") + "; of touches position, of each coordinate of a centre, and angle, of normals")
       ->type_name("NOISE");
 }
 
@@ -243,7 +244,7 @@ void add_felt_arguments(CLI::App& command, RollArguments& arguments, bool takes_
   command
       .add_option("--tolerance", arguments.tolerance,
                   "the largest error of the turn; default 1e-9, or from the rounding of the digits given, "
-                  "or from --noise")
+                  "or from --noise; of touches LENGTH,ANGLE: the largest errors of centres and of normals")
       ->type_name("ANGLE");
   add_noise_arguments(command, arguments.noise, arguments.prior, arguments.robust);
   add_pose_arguments(command, arguments.pose);

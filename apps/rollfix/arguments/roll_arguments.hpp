@@ -25,6 +25,7 @@ struct RollArguments {
   PartArgument part;
   std::vector<std::string> readings;
   std::vector<std::string> logs;
+  std::vector<std::string> clear;
   std::vector<std::string> fingers;
   std::string roll;
   LogArguments reading;

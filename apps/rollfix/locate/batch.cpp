@@ -11,12 +11,16 @@
 #include <utility>
 #include <vector>
 
+#include "answer/crew.hpp"
 #include "files/documents/documents.hpp"
 #include "files/json/fields.hpp"
 #include "rollfix/answer/many.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/files/touch_document.hpp"
+#include "rollfix/locate/touch_arguments.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/option_names.hpp"
+#include "rollfix/output/touch_text.hpp"
 #include "rollfix/usage.hpp"
 #include "text/text.hpp"
 
@@ -77,6 +81,43 @@ std::string typed_noise(const Json& value) {
   return text;
 }
 
+/// [x, y], [x, y, normal], {"at": [x, y], "normal": ...} as in the answer, or "X,Y,NORMAL" as typed; null: not
+/// measured.
+std::string typed_touch(const Json& value) {
+  const auto field = [](const Json& one) { return one.is_null() ? "" : typed(one, "touches"); };
+  if (value.is_string()) return value.get<std::string>();
+  std::string text;
+  if (value.is_array()) {
+    for (const Json& one : value) text += (text.empty() ? "" : ",") + field(one);
+    return text;
+  }
+  if (!value.is_object() || !value.contains("at")) {
+    throw InputError(fmt::format("\"touches\": expected [x, y] or [x, y, normal] of each, found {}", value.dump()));
+  }
+  text = typed_list(value["at"], "touches");
+  for (const char* name : {"normal", "position_sd", "normal_sd"}) {
+    text += "," + (value.contains(name) ? field(value[name]) : "");
+  }
+  return text;
+}
+
+/// [[x, y, x, y], ...], or "rows".
+std::vector<std::string> typed_clear(const Json& value) {
+  if (value.is_string()) return {value.get<std::string>()};
+  if (!value.is_array()) throw InputError("\"clear\": expected a list of [x, y, x, y], found " + value.dump());
+  std::vector<std::string> texts;
+  for (const Json& path : value) texts.push_back(typed_list(path, "clear"));
+  return texts;
+}
+
+/// [[x, y], ...].
+std::vector<std::string> typed_touches(const Json& value) {
+  if (!value.is_array()) throw InputError("\"touches\": expected a list of them, found " + value.dump());
+  std::vector<std::string> texts;
+  for (const Json& touch : value) texts.push_back(typed_touch(touch));
+  return texts;
+}
+
 bool typed_switch(const Json& value, const std::string& field) {
   if (value.is_boolean()) return value.get<bool>();
   throw InputError(fmt::format("\"{}\": expected true or false, found {}", field, value.dump()));
@@ -87,9 +128,10 @@ struct Field {
   const char* name;
   void (*set)(const Json& value, RollArguments& arguments);
 };
-constexpr std::array<Field, 19> kFields = {{
+constexpr std::array<Field, 20> kFields = {{
     {"readings", [](const Json& value, RollArguments& to) { to.readings = typed_readings(value); }},
     {"log", [](const Json& value, RollArguments& to) { to.logs = typed_each(value, "log"); }},
+    {"clear", [](const Json& value, RollArguments& to) { to.clear = typed_clear(value); }},
     {"fingers", [](const Json& value, RollArguments& to) { to.fingers = typed_each(value, "fingers"); }},
     {"roll", [](const Json& value, RollArguments& to) { to.roll = typed(value, "roll"); }},
     {"columns", [](const Json& value, RollArguments& to) { to.reading.columns = typed(value, "columns"); }},
@@ -116,7 +158,7 @@ void set_field(const std::string& name, const Json& value, RollArguments& argume
     field.set(value, arguments);
     return;
   }
-  std::vector<std::string> names = {"part", "id"};
+  std::vector<std::string> names = {"part", "id", "touches"};
   for (const Field& field : kFields) names.emplace_back(field.name);
   throw InputError(fmt::format("there is no field \"{}\"; {}", name, known_names(name, names)));
 }
@@ -143,6 +185,7 @@ class Parts {
 struct BatchLine {
   Json id;  // null: it has none
   std::optional<Problem> problem{};
+  std::optional<TouchProblem> touches{};  // instead
   std::vector<std::string> notes{};
   std::string error{};
 };
@@ -158,16 +201,23 @@ BatchLine read_line(const std::string& text, const std::string& where, const Rol
     if (!object.is_object()) throw InputError("expected a problem, a JSON object, found " + shown(text));
     if (object.contains("id")) line.id = object["id"];
     RollArguments arguments = like;
+    std::vector<std::string> touches;
     for (const auto& [name, value] : object.items()) {
       if (name == "id") continue;
       if (name == "part") {
         arguments.part.part = typed(value, name);
+      } else if (name == "touches") {
+        if (!value.is_null()) touches = typed_touches(value);
       } else {
         set_field(name, value, arguments);
       }
     }
-    if (arguments.readings.empty() == arguments.logs.empty()) {
-      throw InputError("expected either \"readings\" or \"log\"");
+    if (arguments.readings.empty() && are_touches(touches, arguments)) {
+      line.touches = read_touch_problem(touches, arguments, parts.of(arguments.part.part), line.notes);
+      return line;
+    }
+    if (arguments.readings.empty() == arguments.logs.empty() || !touches.empty()) {
+      throw InputError("expected one of \"readings\", \"log\" and \"touches\"");
     }
     line.problem = read_problem(arguments, parts.of(arguments.part.part), line.notes);
   } catch (const Json::parse_error& error) {
@@ -188,32 +238,67 @@ ExitCode worse_of(ExitCode one, ExitCode other) {
   return weight(one) >= weight(other) ? one : other;
 }
 
-/// Writes the answers; the exit code of the worst.
-ExitCode answer_lines(const std::vector<BatchLine>& lines, const std::string& name, std::size_t first, bool explain,
-                      std::ostream& out) {
+/// An answer to a line, or why there is none.
+struct LineAnswer {
+  Json document{};
+  ExitCode code = ExitCode::bad_input;
+  std::string error{};
+};
+
+/// All at once, on all cores.
+std::vector<LineAnswer> answers_to_touches(const std::vector<BatchLine>& lines) {
+  std::vector<const TouchProblem*> problems;
+  for (const BatchLine& line : lines) {
+    if (line.touches) problems.push_back(&*line.touches);
+  }
+  std::vector<LineAnswer> answers(problems.size());
+  Crew crew(problems.size(), 1);
+  crew.run(0, {}, [&](std::size_t lo, std::size_t hi) {
+    for (std::size_t k = lo; k < hi; ++k) {
+      try {
+        const TouchAnswer answer = solve(*problems[k]);
+        answers[k] = {Json::parse(format_touches(answer, Layout::line)), exit_code_of(answer)};
+      } catch (const InputError& error) {
+        answers[k].error = error.what();
+      }
+    }
+  });
+  crew.require_done();
+  return answers;
+}
+
+std::vector<LineAnswer> answers_to_rolls(const std::vector<BatchLine>& lines, bool explain) {
   std::vector<Problem> problems;
   for (const BatchLine& line : lines) {
     if (line.problem) problems.push_back(*line.problem);
   }
-  const std::vector<Solved> solved = solve(std::span<const Problem>(problems));
+  std::vector<LineAnswer> answers;
+  for (const Solved& solved : solve(std::span<const Problem>(problems))) {
+    answers.push_back({{}, ExitCode::bad_input, solved.error});
+    if (solved.answer) answers.back() = {answer_json(*solved.answer, explain), exit_code_of(*solved.answer)};
+  }
+  return answers;
+}
+
+/// Writes the answers; the exit code of the worst.
+ExitCode answer_lines(const std::vector<BatchLine>& lines, const std::string& name, std::size_t first, bool explain,
+                      std::ostream& out) {
+  std::vector<LineAnswer> of_rolls = answers_to_rolls(lines, explain);
+  std::vector<LineAnswer> of_touches = answers_to_touches(lines);
   ExitCode worst = ExitCode::fits;
-  std::size_t next = 0;
+  std::size_t next_roll = 0, next_touches = 0;
   for (std::size_t k = 0; k < lines.size(); ++k) {
     const BatchLine& line = lines[k];
-    const Solved* const found = line.problem ? &solved[next++] : nullptr;
-    std::string error = line.error;
-    if (found != nullptr && !found->answer)
-      error = fmt::format("{}:{}: {}", name, first + k, with_options(found->error));
-    Json document;
-    if (error.empty()) {
-      document = answer_json(*found->answer, explain);
-    } else {
-      document = {{"schema", "rollfix/locate/1"}, {"error", error}};
-    }
-    if (!line.id.is_null()) document["id"] = line.id;
-    for (const std::string& note : line.notes) document["notes"].push_back(with_options(note));
-    out << json_line(document);
-    worst = worse_of(worst, error.empty() ? exit_code_of(*found->answer) : ExitCode::bad_input);
+    LineAnswer answer;
+    if (line.problem) answer = std::move(of_rolls[next_roll++]);
+    if (line.touches) answer = std::move(of_touches[next_touches++]);
+    if (!answer.error.empty()) answer.error = fmt::format("{}:{}: {}", name, first + k, with_options(answer.error));
+    if (!line.error.empty()) answer.error = line.error;
+    if (!answer.error.empty()) answer.document = {{"schema", "rollfix/locate/1"}, {"error", answer.error}};
+    if (!line.id.is_null()) answer.document["id"] = line.id;
+    for (const std::string& note : line.notes) answer.document["notes"].push_back(with_options(note));
+    out << json_line(answer.document);
+    worst = worse_of(worst, answer.code);
   }
   out << std::flush;
   if (!out) throw InputError("standard output can't be written to");

@@ -63,6 +63,7 @@ struct LocateArguments {
 void require_sensible(const LocateArguments& arguments) {
   const RollArguments& roll = arguments.roll;
   require_part(roll.part);
+  if (!roll.clear.empty()) throw InputError("--clear is about touches: give them with --touch, or leave --clear out");
   if (roll.readings.empty() && roll.logs.empty()) {
     throw InputError("locate: expected --reading LENGTH,TURN, --log FILE or --touch X,Y, found none");
   }
@@ -222,13 +223,7 @@ void add_locate_command(CLI::App& program, Command& chosen, std::ostream& out) {
   command->footer(kLocateExamples);
   RollArguments& roll = arguments->roll;
   add_roll_arguments(*command, roll, true);
-  command
-      ->add_option("--touch", arguments->touches,
-                   "a touch without rolling: the finger's centre in the world and, if it was measured, the direction "
-                   "out of the part; repeatable, with --noise position=SD,angle=SD or --tolerance LENGTH,ANGLE; the "
-                   "answer is every pose of the part")
-      ->type_name("X,Y[,NORMAL]")
-      ->allow_extra_args(false);
+  add_touch_arguments(*command, arguments->touches, roll);
   command
       ->add_option("--at", roll.instants,
                    "instants of the log to use, seconds; default its last row, for two fingers also the middle one")
@@ -246,8 +241,8 @@ void add_locate_command(CLI::App& program, Command& chosen, std::ostream& out) {
   command
       ->add_option(
           "--batch", arguments->batch,
-          "many problems, a JSON object in each line, - for stdin: \"readings\" or \"log\", and the options by "
-          "their names in place of those given here; an answer in each line, in order, on all cores")
+          "many problems, a JSON object in each line, - for stdin: \"readings\", \"log\" or \"touches\", and the "
+          "options by their names in place of those given here; an answer in each line, in order, on all cores")
       ->type_name("FILE");
   command
       ->add_option("--certify", arguments->certificate,

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
+#include <array>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
@@ -19,29 +19,72 @@ namespace {
 
 TouchTableOptions table_options(const RollArguments& arguments, const std::string& unit) {
   TouchTableOptions options;
+  if (!arguments.reading.columns.empty()) options.columns = parse_touch_columns(arguments.reading.columns);
   options.unit = unit;
   options.decimal_comma = has_decimal_comma(arguments.reading.decimal);
   if (!options.decimal_comma) options.decimal_comma = has_decimal_comma(arguments.part.decimal);
   return options;
 }
 
-/// The first rows of a file; nothing of a pipe, which can be read once only, or of what can't be read.
-std::string beginning_of(const std::string& path) {
+/// The first rows of a file or of standard input; nothing of another pipe, which can be read once only, or of what
+/// can't be read.
+std::string first_rows_of(const std::string& path) {
   constexpr std::size_t kEnoughForHeader = 65536;
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) return "";
-  std::string text(kEnoughForHeader, '\0');
-  text.resize(std::fread(text.data(), 1, text.size(), open_text(path).get()));
-  return text.substr(0, text.rfind('\n') + 1);
+  if (path != "-" && !std::filesystem::is_regular_file(path, ignored)) return "";
+  const std::string text = beginning_of_text(path, kEnoughForHeader);
+  return text.size() < kEnoughForHeader ? text : text.substr(0, text.rfind('\n') + 1);
 }
 
-void require_touch_options(const RollArguments& arguments) {
+/// Whether --columns is of a roll: it names no column of touches alone, and one that only a roll has.
+bool are_columns_of_roll(const std::string& columns) {
+  if (columns.empty() || names_touch_columns(columns)) return false;
+  try {
+    parse_touch_columns(columns);
+  } catch (const InputError&) {
+    return true;  // or of nothing: whoever reads rolls says so
+  }
+  return false;
+}
+
+/// X,Y,X,Y.
+Clear read_clear(const std::string& text, const std::string& unit) {
+  const std::string what = "--clear " + text;
+  const std::vector<std::string_view> fields = split(text, ',');
+  if (fields.size() != 4) {
+    throw InputError(fmt::format(
+        "{}: expected X,Y,X,Y, as in 0,0,12.5,3.1: from where to where the finger's centre went straight and felt "
+        "nothing, or rows, where --log has rows with contact 0; found {}",
+        what, counted(fields.size(), "number", "numbers")));
+  }
+  std::array<double, 4> numbers{};
+  for (std::size_t k = 0; k < 4; ++k) numbers[k] = read_length(fields[k], what, unit);
+  return {{numbers[0], numbers[1]}, {numbers[2], numbers[3]}};
+}
+
+void add_clear(const std::vector<std::string>& given, std::vector<Clear> of_rows, TouchProblem& problem) {
+  for (const std::string& text : given) {
+    if (text != "rows") {
+      problem.clear.push_back(read_clear(text, problem.part.unit()));
+      continue;
+    }
+    if (of_rows.empty()) throw InputError("--clear rows: expected rows with contact 0 in the --log, found none");
+    problem.clear.insert(problem.clear.end(), of_rows.begin(), of_rows.end());
+    of_rows.clear();
+  }
+}
+
+void require_touch_options(const std::vector<std::string>& touches, const RollArguments& arguments) {
+  if (!touches.empty() && !arguments.logs.empty()) {
+    const bool is_table = is_touch_table(first_rows_of(arguments.logs.front()), table_options(arguments, ""));
+    throw InputError(is_table ? "--touch and --log both give touches: leave one of them out"
+                              : "--touch and a --log of rolls share a pose with --roll all: add it");
+  }
   const auto refuse = [](bool given, const char* option) {
     if (given) throw InputError(fmt::format("{}: touches do not roll and have no use for it; leave it out", option));
   };
   refuse(!arguments.readings.empty(), "--reading");
   refuse(!arguments.roll.empty(), "--roll");
-  refuse(!arguments.reading.columns.empty(), "--columns");
   refuse(!arguments.reading.wrapped.empty(), "--wrapped");
   refuse(arguments.reading.skip_bad, "--skip-bad");
   refuse(!arguments.facing.empty(), "--facing");
@@ -50,7 +93,19 @@ void require_touch_options(const RollArguments& arguments) {
   refuse(!arguments.direction.empty(), "--direction");
   refuse(arguments.robust, "--robust");
   refuse(arguments.may_overlap, "--may-overlap");
-  if (!arguments.noise.empty() || !arguments.tolerance.empty()) return;
+  const bool from_log = !arguments.logs.empty();
+  if (!arguments.reading.columns.empty() && !from_log) {
+    throw InputError("--columns is about a table: give it with --log, or leave --columns out");
+  }
+  if (from_log && arguments.logs.front() == "-" && arguments.part.part == "-") {
+    throw InputError("the part and the touches can't both come from standard input: give one of them as a file");
+  }
+}
+
+/// Throws InputError unless something says how exact the touches are.
+void require_exactness(const RollArguments& arguments, const TouchProblem& problem) {
+  const bool is_said = !arguments.noise.empty() || !arguments.tolerance.empty();
+  if (is_said || have_own_noise(problem.touches)) return;
   throw InputError(
       "touches: expected how exact they are, found neither --noise nor --tolerance; standard deviations are given "
       "with --noise position=0.05,angle=1deg");
@@ -61,15 +116,18 @@ void require_touch_options(const RollArguments& arguments) {
 MeasuredTouch read_touch(const std::string& text, const std::string& unit) {
   const std::string what = "--touch " + text;
   const std::vector<std::string_view> fields = split(text, ',');
-  if (fields.size() != 2 && fields.size() != 3) {
+  if (fields.size() < 2 || fields.size() > 5) {
     throw InputError(fmt::format(
         "{}: expected X,Y or X,Y,NORMAL, as in 12.5,3.1,73deg: where the finger's centre was, and the direction out of "
         "the part, found {}",
         what, counted(fields.size(), "number", "numbers")));
   }
+  const auto is_given = [&](std::size_t k) { return k < fields.size() && !fields[k].empty(); };
   MeasuredTouch touch;
   touch.at = {read_length(fields[0], what, unit), read_length(fields[1], what, unit)};
-  if (fields.size() == 3) touch.normal = read_angle(fields[2], what);
+  if (is_given(2)) touch.normal = read_angle(fields[2], what);
+  if (is_given(3)) touch.position_sd = read_length(fields[3], what, unit);
+  if (is_given(4)) touch.normal_sd = read_angle(fields[4], what);
   return touch;
 }
 
@@ -83,28 +141,52 @@ TouchTolerance read_touch_tolerance(const std::string& text, const std::string& 
   return {read_length(fields[0], what, unit), fields.size() == 2 ? read_angle(fields[1], what) : 0};
 }
 
+void add_touch_arguments(CLI::App& command, std::vector<std::string>& touches, RollArguments& arguments) {
+  command
+      .add_option("--touch", touches,
+                  "a touch without rolling: the finger's centre in the world and, if it was measured, the direction "
+                  "out of the part; repeatable, with --noise position=SD,angle=SD or --tolerance LENGTH,ANGLE; the "
+                  "answer is every pose of the part")
+      ->type_name("X,Y[,NORMAL]")
+      ->allow_extra_args(false);
+  command
+      .add_option("--clear", arguments.clear,
+                  "of touches: where the finger's centre went straight from one place to another and felt nothing; "
+                  "repeatable; rows: between the rows of the log with contact 0, and from them to the next touch")
+      ->type_name("X,Y,X,Y|rows")
+      ->allow_extra_args(false);
+}
+
 bool are_touches(const std::vector<std::string>& touches, const RollArguments& arguments) {
   if (!touches.empty()) return true;
-  if (!arguments.reading.columns.empty()) return false;  // they are of a roll
-  return arguments.logs.size() == 1 &&
-         is_touch_table(beginning_of(arguments.logs.front()), table_options(arguments, ""));
+  if (arguments.logs.size() != 1 || are_columns_of_roll(arguments.reading.columns)) return false;
+  if (names_touch_columns(arguments.reading.columns)) return true;
+  return is_touch_table(first_rows_of(arguments.logs.front()), table_options(arguments, ""));
 }
 
 TouchProblem read_touch_problem(const std::vector<std::string>& touches, const RollArguments& arguments,
                                 std::vector<std::string>& notes, std::vector<Outline>* others) {
-  require_touch_options(arguments);
-  if (!touches.empty() && !arguments.logs.empty()) {
-    const bool is_table = is_touch_table(beginning_of(arguments.logs.front()), table_options(arguments, ""));
-    throw InputError(is_table ? "--touch and --log both give touches: leave one of them out"
-                              : "--touch and a --log of rolls share a pose with --roll all: add it");
-  }
-  TouchProblem problem{load_part(arguments.part, notes, others), {}};
+  require_touch_options(touches, arguments);
+  return read_touch_problem(touches, arguments, load_part(arguments.part, notes, others), notes);
+}
+
+TouchProblem read_touch_problem(const std::vector<std::string>& touches, const RollArguments& arguments, Part part,
+                                std::vector<std::string>& notes) {
+  require_touch_options(touches, arguments);
+  TouchProblem problem{std::move(part), {}};
   const std::string unit = problem.part.unit();
   for (const std::string& text : touches) problem.touches.push_back(read_touch(text, unit));
+  std::vector<Clear> of_rows;
   if (touches.empty()) {
     const std::string& file = arguments.logs.front();
-    problem.touches = parse_touches(read_text(file), file, table_options(arguments, unit)).touches;
+    TouchTable table =
+        parse_touches(read_text(file), file == "-" ? "standard input" : file, table_options(arguments, unit));
+    problem.touches = std::move(table.touches);
+    of_rows = std::move(table.clear);
+    notes.insert(notes.end(), table.notes.begin(), table.notes.end());
   }
+  add_clear(arguments.clear, std::move(of_rows), problem);
+  require_exactness(arguments, problem);
   const std::vector<Finger> fingers = read_fingers(arguments.fingers, 1, unit);
   require_disks(fingers, "--touch");
   if (!fingers.empty()) problem.finger = fingers.front();

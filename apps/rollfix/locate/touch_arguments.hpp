@@ -8,6 +8,9 @@
 
 namespace rollfix::app {
 
+/// Adds --touch and --clear.
+void add_touch_arguments(CLI::App& command, std::vector<std::string>& touches, RollArguments& arguments);
+
 /// Whether touches are meant: --touch, or one --log whose columns are x and y without those of a roll.
 bool are_touches(const std::vector<std::string>& touches, const RollArguments& arguments);
 
@@ -15,6 +18,9 @@ bool are_touches(const std::vector<std::string>& touches, const RollArguments& a
 /// has a use for.
 TouchProblem read_touch_problem(const std::vector<std::string>& touches, const RollArguments& arguments,
                                 std::vector<std::string>& notes, std::vector<Outline>* others);
+/// The same on a part that is there already.
+TouchProblem read_touch_problem(const std::vector<std::string>& touches, const RollArguments& arguments, Part part,
+                                std::vector<std::string>& notes);
 
 // `unit`: the part's, empty where it is not known.
 

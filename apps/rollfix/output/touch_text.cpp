@@ -19,6 +19,8 @@ namespace {
 
 constexpr double kExact = 1e-6;  // of the tolerance
 constexpr double kAlike = 1e-3;
+// With no more measurements beyond the unknowns than this, one mistake in ten or more goes unnoticed.
+constexpr int kFewChecks = 3;
 
 class TouchText {
  public:
@@ -138,6 +140,16 @@ class TouchText {
     return table.str();
   }
 
+  /// Without normals a mirror image does not say how it came about.
+  std::string mirror_line() const {
+    const bool any_normal = std::any_of(answer_.touches.begin(), answer_.touches.end(),
+                                        [](const MeasuredTouch& touch) { return touch.normal.has_value(); });
+    const char* const also = any_normal ? "" : "; or x and y are swapped, or one of them has the wrong sign";
+    return std::string(answer_.mirrored ? "the part does not lie face down: leave --mirror out"
+                                        : "the part lies face down: add --mirror") +
+           also;
+  }
+
   std::string diagnosis_line(const TouchDiagnosis& one) const {
     switch (one.cause) {
       case TouchCause::unit:
@@ -147,14 +159,26 @@ class TouchText {
         return fmt::format("touch {} is wrong: without it the others fit", one.touch + 1);
       case TouchCause::radius:
         if (one.radius == 0) return "x and y are of the contacts, not of the finger's centre: leave --finger out";
-        return fmt::format("the finger's radius is {:.6g}, not {:.6g}", one.radius, answer_.radius);
+        if (answer_.radius == 0) {
+          return fmt::format("the touches are a finger's centres: add --finger disk,r={:.4g}", one.radius);
+        }
+        return fmt::format("the finger's radius is {:.4g}, not {:.6g}", one.radius, answer_.radius);
       case TouchCause::normals_reversed:
         return "normals point into the part; expected out of it: add 180deg to each";
       case TouchCause::normals_clockwise:
         return "normals are counted clockwise; expected counter-clockwise: change their signs";
       case TouchCause::mirrored:
-        return answer_.mirrored ? "the part does not lie face down: leave --mirror out"
-                                : "the part lies face down: add --mirror";
+        return mirror_line();
+      case TouchCause::swapped:
+        return "x and y are swapped; expected x first";
+      case TouchCause::other_side:
+        return "the outline is touched on its left side; expected on its right: reverse its points";
+      case TouchCause::clear:
+        return "the part is in the way of a path that is said to be clear: check --clear";
+      case TouchCause::pose:
+        return fmt::format("the touches contradict {}: without it the heading is {} deg",
+                           answer_.pose && std::isfinite(answer_.pose->place_sd) ? "--pose" : "--heading",
+                           degrees(one.pose.heading));
       case TouchCause::moved:
         return fmt::format("the part was moved between roll {} and roll {}: before and after it each fits by itself",
                            one.roll + 1, one.roll + 2);
@@ -296,6 +320,12 @@ class TouchText {
     return text;
   }
 
+  /// Few measurements beyond the unknowns may agree with a wrong radius or side: docs/touch.md counts how often.
+  std::string few_checks() const {
+    if (answer_.fit->freedom > kFewChecks || answer_.verdict.name != Verdict::unique) return "";
+    return "; few checks: touch once more to be sure of radius, side and units";
+  }
+
   std::string asked_lines() const {
     const Part& part = answer_.part;
     const auto with_normal = std::count_if(answer_.touches.begin(), answer_.touches.end(),
@@ -311,6 +341,7 @@ class TouchText {
     } else {
       text += fmt::format("touches    {}, {} with normal; finger {}\n", answer_.touches.size(), with_normal, finger);
     }
+    if (!answer_.clear.empty()) text += fmt::format("clear      {}\n", counted(answer_.clear.size(), "path", "paths"));
     if (answer_.noise && !answer_.rolls.empty()) {
       text += fmt::format("noise      {}{}\n", noise_words(*answer_.noise, behind(unit_)),
                           answer_.robust ? "; robust" : "");
@@ -321,6 +352,8 @@ class TouchText {
                               ? fmt::format("centres {:.3g}{}, ", tolerance.length, behind(unit_))
                               : "",
                           2 * tolerance.angle / kDegree);
+    } else if (answer_.noise && answer_.noise->position == 0) {
+      text += "noise      of each touch its own\n";
     } else if (answer_.noise) {
       text += fmt::format(
           "noise      position {:.6g}{}{}\n", answer_.noise->position, behind(unit_),
@@ -331,8 +364,8 @@ class TouchText {
                       with_normal > 0 ? fmt::format(", {:.6g} deg", answer_.tolerance.front().angle / kDegree) : "");
     }
     if (answer_.fit && answer_.fit->freedom > 0) {
-      text += fmt::format("fit        chi-square {:.3g} where {} is expected, p = {:.2g}\n", answer_.fit->chi_square,
-                          answer_.fit->freedom, answer_.fit->p);
+      text += fmt::format("fit        chi-square {:.3g} where {} is expected, p = {:.2g}{}\n", answer_.fit->chi_square,
+                          answer_.fit->freedom, answer_.fit->p, few_checks());
     } else if (answer_.fit) {
       text += answer_.rolls.empty() ? "fit        these touches can't contradict each other: one more checks them\n"
                                     : "fit        these contacts can't contradict each other: one more checks them\n";

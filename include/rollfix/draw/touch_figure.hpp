@@ -5,6 +5,7 @@
 
 #include "rollfix/draw/svg.hpp"
 #include "rollfix/outline/outline.hpp"
+#include "rollfix/touch/next_touch.hpp"
 #include "rollfix/touch/touch.hpp"
 
 namespace rollfix {
@@ -16,6 +17,7 @@ struct TouchFigure {
   std::string title{};                  // empty: the part's name
   double width = 640;                   // pixels
   std::vector<Outline> others{};        // of a drawing: its other loops, drawn thin in the likeliest pose
+  const NextTouch* next = nullptr;      // the advised approach is drawn as well; not owned
 };
 
 /// Throws InputError: no answer.

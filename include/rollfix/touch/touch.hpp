@@ -26,11 +26,17 @@ struct MeasuredTouch {
   std::optional<double> normal_sd{};    // radians; likewise
 };
 
+/// Where the finger's centre went straight through the world and felt nothing. It may be off as a touch's place may.
+struct Clear {
+  Vec2 from = Vec2::Zero();
+  Vec2 to = Vec2::Zero();
+};
+
 /// How far a measurement may be off, where no noise is stated.
 struct TouchTolerance {
   double length = 0;  // distance of a finger's centre from where the part allows it, above 0
   double angle = 0;   // of a normal, radians; above 0 where a touch has one. Of rolls: of their readings, as of one
-                     // roll, and of the headings of two rolls from one another
+                      // roll, and of the headings of two rolls from one another
 };
 
 /// With noise, a pose is a candidate where every measurement is within so many standard deviations. The true pose is
@@ -42,7 +48,8 @@ struct TouchProblem {
   Part part;
   std::vector<MeasuredTouch> touches;
   std::optional<Finger> finger{};             // of touches a disk; none: a point, which does not roll
-  std::optional<Noise> noise{};               // of touches `position` and `angle`: standard deviations
+  std::optional<Noise> noise{};               // of touches `position` and `angle`: standard deviations; none needed
+                                              // where touches have theirs
   std::optional<TouchTolerance> tolerance{};  // without noise; of rolls alone none: from the digits of their logs
   std::optional<PosePrior> pose{};            // with noise: about how the part lies
   std::optional<std::size_t> budget{};        // comparisons before giving up; none: kTouchBudget
@@ -51,7 +58,11 @@ struct TouchProblem {
   std::vector<Log> rolls{};                   // each of u and psi; with x and y they tell where the part is as well:
                                               // with noise where `position` is stated
   bool robust = false;                        // with noise: outliers among the rows of rolls don't count
+  std::vector<Clear> clear{};                 // where nothing was felt: poses in which the part is in the way go
 };
+
+/// Whether each touch has its own standard deviations, so that they need no others.
+bool have_own_noise(const std::vector<MeasuredTouch>& touches);
 
 /// Comparisons of two stretches of the boundary: a second or two.
 inline constexpr std::size_t kTouchBudget = 200000000;
@@ -103,9 +114,13 @@ enum class TouchCause {
   radius,            // the finger has another radius: `radius`
   normals_reversed,  // normals point into the part
   normals_clockwise,
-  mirrored,  // the part lies face down
-  moved,     // the part was moved after a roll: `roll`
-  noise      // the noise is larger than stated: `factor`
+  mirrored,    // the part lies face down, or its image was measured
+  swapped,     // x and y are swapped, normals are not
+  other_side,  // an open outline is touched on its left side
+  pose,        // what is known of the pose beforehand is wrong
+  clear,       // the part is in the way of a path on which nothing was said to be felt
+  moved,       // the part was moved after a roll: `roll`
+  noise        // the noise is larger than stated: `factor`
 };
 const char* name_of(TouchCause cause);
 
@@ -146,8 +161,10 @@ struct RollFacts {
 struct TouchAnswer {
   Part part;
   std::vector<MeasuredTouch> touches;
+  std::vector<Clear> clear{};
   double radius = 0;  // of the finger; 0: a point
   std::optional<Noise> noise{};
+  std::optional<PosePrior> pose{};          // that was given
   std::vector<TouchTolerance> tolerance{};  // that was searched with, for each contact
   bool mirrored = false;                    // poses are of the part face down: x = -x of the outline, then the pose
   Status status = Status::complete;

@@ -28,7 +28,7 @@ TouchAnswerHandle locate_touches(const PartHandle& part, const Numbers& rows, co
                                  const py::object& noise, const std::optional<std::pair<double, double>>& tolerance,
                                  const std::optional<std::vector<double>>& pose, bool mirrored,
                                  const std::optional<std::size_t>& budget, const std::vector<LogHandle>& rolls,
-                                 bool robust) {
+                                 bool robust, const Numbers& clear) {
   TouchProblem problem{part.part(), touches_from(rows)};
   if (!finger.is_none()) problem.finger = finger_from(finger);
   problem.noise = noise_from_optional(noise);
@@ -38,16 +38,29 @@ TouchAnswerHandle locate_touches(const PartHandle& part, const Numbers& rows, co
   problem.budget = budget;
   for (const LogHandle& roll : rolls) problem.rolls.push_back(*roll.log);
   problem.robust = robust;
+  for (py::ssize_t k = 0; k < clear.shape(0); ++k) {
+    problem.clear.push_back({{clear.at(k, 0), clear.at(k, 1)}, {clear.at(k, 2), clear.at(k, 3)}});
+  }
   const Unlocked others_may_run;
   return {std::make_shared<const TouchAnswer>(solve(problem))};
+}
+
+/// `approaches`, (n, 4): x, y and the direction's two components; none: all around.
+std::string next_touch_document(const TouchAnswerHandle& handle, const Numbers& approaches) {
+  std::vector<Approach> ways;
+  for (py::ssize_t k = 0; k < approaches.shape(0); ++k) {
+    ways.push_back({{approaches.at(k, 0), approaches.at(k, 1)}, std::atan2(approaches.at(k, 3), approaches.at(k, 2))});
+  }
+  const Unlocked others_may_run;
+  return format_next_touch(*handle.answer, next_touch(*handle.answer, ways), Layout::line);
 }
 
 }  // namespace
 
 void bind_touch(py::module_& module) {
-  py::class_<TouchAnswerHandle>(module, "TouchAnswer").def("document", [](const TouchAnswerHandle& handle) {
-    return format_touches(*handle.answer, Layout::line);
-  });
+  py::class_<TouchAnswerHandle>(module, "TouchAnswer")
+      .def("document", [](const TouchAnswerHandle& handle) { return format_touches(*handle.answer, Layout::line); })
+      .def("next_touch", &next_touch_document);
   module.def("locate_touches", &locate_touches);
 }
 

@@ -2,6 +2,7 @@
 #include <array>
 
 #include "documents.hpp"
+#include "outline/turn.hpp"
 #include "rollfix/files/touch_document.hpp"
 
 namespace rollfix {
@@ -123,6 +124,9 @@ std::string format_touches(const TouchAnswer& answer, Layout layout) {
     document["touches"].push_back(measured_json(answer.touches[k], answer.tolerance[answer.rolls.size() + k]));
     document["contacts"].push_back(Json{{"finger", 0}, {"touch", k}});
   }
+  document["clear"] = each_of(answer.clear, [](const Clear& path) {
+    return Json{path.from.x(), path.from.y(), path.to.x(), path.to.y()};
+  });
   document["placements"] =
       each_of(answer.poses, [&](const TouchPose& set) { return pose_set_json(set, answer.noise.has_value()); });
   document["dropped"] = answer.noise ? Json{{"improbable", answer.improbable}} : Json::object();
@@ -133,6 +137,40 @@ std::string format_touches(const TouchAnswer& answer, Layout layout) {
   if (answer.noise) document["rest"] = json_number(answer.rest);
   document["fit"] = answer.fit ? fit_of_touches(*answer.fit) : Json(nullptr);
   document["diagnosis"] = answer.diagnoses.empty() ? Json(nullptr) : each_of(answer.diagnoses, mistake_json);
+  return layout == Layout::lines ? json_text(document) : json_line(document);
+}
+
+std::string format_next_touch(const TouchAnswer& answer, const NextTouch& next, Layout layout) {
+  Json document = {{"schema", "rollfix/advise/1"},
+                   {"verdict", answer.verdict_text()},
+                   {"part", part_json(answer.part)},
+                   {"helps", next.helps},
+                   {"why", next.why.empty() ? Json(nullptr) : Json(next.why)},
+                   {"approach", nullptr},
+                   {"expected_poses", nullptr},
+                   {"bits", nullptr},
+                   {"bits_wanted", json_number(next.bits_wanted)}};
+  if (!next.prospects.empty()) {
+    const TouchProspect& advised = next.advised();
+    if (next.helps) {
+      document["approach"] = {{"from", {advised.approach.from.x(), advised.approach.from.y()}},
+                              {"direction", json_number(nearest_angle(advised.approach.direction))}};
+    }
+    document["expected_poses"] = json_number(advised.poses);
+    document["bits"] = json_number(advised.bits);
+  }
+  document["contenders"] = each_of(next.expected, [](const ExpectedTouch& one) {
+    return Json{{"placement", one.placement},
+                {"probability", json_number(one.probability)},
+                {"pose", triple(one.pose)},
+                {"at", one.hits ? Json{one.at.x(), one.at.y()} : Json(nullptr)},
+                {"normal", one.hits ? json_number(one.normal) : Json(nullptr)},
+                {"travel", one.hits ? json_number(one.travel) : Json(nullptr)}};
+  });
+  document["prospects"] = each_of(next.prospects, [](const TouchProspect& one) {
+    return Json{one.approach.from.x(), one.approach.from.y(), one.approach.direction, json_number(one.poses),
+                json_number(one.bits)};
+  });
   return layout == Layout::lines ? json_text(document) : json_line(document);
 }
 

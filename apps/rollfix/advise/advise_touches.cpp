@@ -1,0 +1,102 @@
+#include "rollfix/advise/advise_touches.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "outline/turn.hpp"
+#include "rollfix/arguments/typed_number.hpp"
+#include "rollfix/draw/touch_figure.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/files/touch_document.hpp"
+#include "rollfix/locate/touch_arguments.hpp"
+#include "rollfix/output/answer_output.hpp"
+#include "rollfix/output/table.hpp"
+#include "rollfix/output/touch_text.hpp"
+#include "rollfix/touch/next_touch.hpp"
+#include "text/text.hpp"
+
+namespace rollfix::app {
+namespace {
+
+/// X,Y,DX,DY.
+Approach read_approach(const std::string& text, const std::string& unit) {
+  const std::string what = "--approach " + text;
+  const std::vector<std::string_view> fields = split(text, ',');
+  if (fields.size() != 4) {
+    throw InputError(
+        fmt::format("{}: expected X,Y,DX,DY, as in 0,50,1,0: where the finger's centre starts, and which "
+                    "way it goes, found {}",
+                    what, counted(fields.size(), "number", "numbers")));
+  }
+  const Vec2 along(read_number(fields[2], what), read_number(fields[3], what));
+  if (!(along.norm() > 0)) throw InputError(what + ": expected a direction DX,DY that is not 0,0");
+  return {{read_length(fields[0], what, unit), read_length(fields[1], what, unit)}, std::atan2(along.y(), along.x())};
+}
+
+std::string headline(const TouchAnswer& answer, const NextTouch& next) {
+  if (!next.helps) return fmt::format("{}: {}\n", answer.verdict_text(), next.why);
+  const TouchProspect& advised = next.advised();
+  const int decimals = decimals_for(answer.part.perimeter());
+  return fmt::format(
+      "{}: from x {}, y {}{} go in direction {} deg until it touches: {:.2f} poses are expected to remain, {:.2f} of "
+      "{:.2f} bits gained\n",
+      answer.verdict_text(), fixed(advised.approach.from.x(), decimals), fixed(advised.approach.from.y(), decimals),
+      behind(answer.part.unit()), degrees(nearest_angle(advised.approach.direction)), advised.poses, advised.bits,
+      next.bits_wanted);
+}
+
+std::string table_of(const TouchAnswer& answer, const NextTouch& next) {
+  const int decimals = decimals_for(answer.part.perimeter());
+  const std::string unit = answer.part.unit();
+  Table table;
+  table.add_column("pose", Table::Align::left);
+  table.add_column("probability");
+  for (const char* title : {"travel", "x", "y"}) table.add_column(title_in(title, unit));
+  table.add_column("normal [deg]");
+  for (std::size_t k = 0; k < std::min(next.expected.size(), kMostRows); ++k) {
+    const ExpectedTouch& one = next.expected[k];
+    std::vector<std::string> cells{fmt::format("p{}", one.placement), fmt::format("{:.4f}", one.probability)};
+    if (one.hits) {
+      for (const double number : {one.travel, one.at.x(), one.at.y()}) cells.push_back(fixed(number, decimals));
+      cells.push_back(degrees(one.normal));
+    } else {
+      cells.insert(cells.end(), {"misses", "-", "-", "-"});
+    }
+    table.add_row(std::move(cells));
+  }
+  const std::size_t more = next.expected.size() - std::min(next.expected.size(), kMostRows);
+  return "\n" + table.str() + (more > 0 ? fmt::format("... and {} more; --json lists them all\n", more) : "");
+}
+
+}  // namespace
+
+Report advise_touches(const std::vector<std::string>& touches, const RollArguments& arguments,
+                      const std::vector<std::string>& approaches, const OutputArgument& output, bool json) {
+  require_figure_output(output, json);
+  Report report;
+  std::vector<Outline> others;
+  const TouchProblem problem = read_touch_problem(touches, arguments, report.notes, &others);
+  std::vector<Approach> ways;
+  for (const std::string& text : approaches) ways.push_back(read_approach(text, problem.part.unit()));
+  const TouchAnswer answer = solve(problem);
+  report.exit_code = exit_code_of(answer);
+  NextTouch next;
+  if (answer.status == Status::complete) {
+    next = next_touch(answer, ways);
+  } else {
+    next.why = "the budget ran out: touch once more, or raise --budget";
+  }
+  report.data = json ? format_next_touch(answer, next)
+                     : headline(answer, next) + (next.helps ? table_of(answer, next) : std::string());
+  if (output.file.empty()) return report;
+  TouchFigure figure{&answer};
+  figure.others = std::move(others);
+  if (next.helps) figure.next = &next;
+  add_figure(output, draw_touches(figure), report);
+  return report;
+}
+
+}  // namespace rollfix::app

@@ -1,0 +1,138 @@
+#include "free_space.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "requirements.hpp"
+
+namespace rollfix::touch {
+namespace {
+
+// Of the part's diagonal: the rounding of a distance.
+constexpr double kRoundingOfDistance = 1e-9;
+// Steps along a path are no shorter than this share of what it may be off.
+constexpr double kLeastStep = 0.1;
+// Cells with wider headings move a path too far to be blocked by them.
+constexpr double kWideHeading = 0.7;
+// A path ends so many of its tolerances before a touch: there the finger meets the part.
+constexpr double kBeforeTouch = 2;
+// Beyond so many standard deviations from the part a path is free.
+constexpr double kSurelyFree = 6;
+
+double slack_of(const TouchProblem& problem) {
+  if (!problem.noise) return problem.tolerance->length;
+  double sd = problem.noise->position;
+  for (const MeasuredTouch& touch : problem.touches) sd = std::max(sd, touch.position_sd.value_or(0));
+  return kTouchSigmas * sd;
+}
+
+/// Without its last bit before a touch.
+Clear before_touches(Clear path, const TouchProblem& problem, double slack) {
+  const Vec2 along = path.to - path.from;
+  const double length = along.norm();
+  const auto is_touch = [&](const Vec2& end) {
+    return std::any_of(problem.touches.begin(), problem.touches.end(),
+                       [&](const MeasuredTouch& touch) { return (touch.at - end).norm() <= slack; });
+  };
+  const double cut = length > 0 ? std::min(kBeforeTouch * slack / length, 0.5) : 0;
+  const Vec2 from = path.from + (is_touch(path.from) ? cut : 0) * along;
+  const Vec2 to = path.to - (is_touch(path.to) ? cut : 0) * along;
+  return {from, to};
+}
+
+/// Log of the probability that a standard normal number is below x.
+double log_normal(double x) { return std::log(std::max(0.5 * std::erfc(-x / std::sqrt(2.0)), 1e-300)); }
+
+/// Goes along a path: `look` has a place of it, and says how far ahead nothing has to be looked at; below 0: it has
+/// seen enough.
+template <class Look>
+bool walk(const Clear& path, double least_step, const Look& look) {
+  const double length = (path.to - path.from).norm();
+  for (double at = 0;;) {
+    const Vec2 place = length > 0 ? Vec2(path.from + at / length * (path.to - path.from)) : path.from;
+    const double ahead = look(place);
+    if (ahead < 0) return true;
+    if (at >= length) return false;
+    at = std::min(at + std::max(ahead, least_step), length);
+  }
+}
+
+}  // namespace
+
+FreeSpace::FreeSpace(const TouchProblem& problem) : part_(problem.part), radius_(radius_of(problem)) {
+  const double slack = slack_of(problem);
+  sd_ = problem.noise ? slack / kTouchSigmas : 0;
+  bound_ = radius_ - slack - kRoundingOfDistance * part_.diagonal();
+  least_step_ = kLeastStep * slack;
+  if (!problem.part.closed() && bound_ <= 0) return;  // such a path may as well have gone by
+  for (const Clear& path : problem.clear) paths_.push_back(before_touches(path, problem, slack));
+}
+
+bool FreeSpace::is_blocked(const Pose& pose) {
+  const Pose back{0, 0, -pose.heading};
+  return std::any_of(paths_.begin(), paths_.end(), [&](const Clear& path) {
+    return walk(path, least_step_, [&](const Vec2& place) {
+      return part_.nearest(back.turned(place - Vec2(pose.x, pose.y))).distance - bound_;
+    });
+  });
+}
+
+bool FreeSpace::blocks_all(const Cell& cell, const PathTree& tree, const Measured& first) {
+  if (cell.heading.half > kWideHeading) return false;
+  const PathTree::Node& node = tree.node(cell.first);
+  const Pose back{0, 0, -cell.heading.middle};
+  const double swing = 2 * std::sin(0.5 * cell.heading.half);
+  return std::any_of(paths_.begin(), paths_.end(), [&](const Clear& path) {
+    return walk(path, least_step_, [&](const Vec2& place) {
+      const Vec2 arm = place - first.at;
+      const double moved = node.radius + first.place_most + swing * arm.norm();
+      return part_.nearest(node.middle + back.turned(arm)).distance + moved - bound_;
+    });
+  });
+}
+
+void FreeSpace::drop_blocked(std::vector<Cell>& cells, const PathTree& tree, const Measured& first) {
+  if (is_empty()) return;
+  cells.erase(
+      std::remove_if(cells.begin(), cells.end(), [&](const Cell& cell) { return blocks_all(cell, tree, first); }),
+      cells.end());
+}
+
+/// Each path by its place that is nearest to the part, or deepest in it: by how far that is from where it may be, with
+/// what the path and the pose may be off.
+double FreeSpace::log_free(const PosteriorNode& node) {
+  const Pose back{0, 0, -node.pose.heading};
+  double sum = 0;
+  for (const Clear& path : paths_) {
+    double least = std::numeric_limits<double>::infinity();
+    NearestOfPart closest;
+    walk(path, least_step_, [&](const Vec2& place) {
+      const NearestOfPart one = part_.nearest(back.turned(place - Vec2(node.pose.x, node.pose.y)));
+      if (one.distance < least) {
+        least = one.distance;
+        closest = one;
+      }
+      if (least < radius_ - 2 * kSurelyFree * sd_) return -1.0;  // deep enough
+      return one.distance - std::min(least, radius_ + kSurelyFree * sd_);
+    });
+    const Vec2 away = node.pose.turned(closest.away);
+    const Vec2 arm = node.pose.turned(closest.contact);
+    const Eigen::Vector3d by_pose(-away.x(), -away.y(), -(away.y() * arm.x() - away.x() * arm.y()));
+    const double variance = sd_ * sd_ + by_pose.dot(node.covariance * by_pose);
+    sum += log_normal((least - radius_) / std::sqrt(variance));
+  }
+  return sum;
+}
+
+void FreeSpace::weigh(std::vector<PosteriorNode>& nodes) {
+  if (is_empty()) return;
+  for (PosteriorNode& node : nodes) {
+    const double log_share = log_free(node);
+    node.log_density += log_share;
+    node.log_weight += log_share;
+    node.square -= 2 * log_share;
+  }
+}
+
+}  // namespace rollfix::touch

@@ -1,0 +1,385 @@
+#include "rollfix/touch/next_touch.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "centre_path.hpp"
+#include "measured.hpp"
+#include "outline/turn.hpp"
+#include "part_distance.hpp"
+#include "path_tree.hpp"
+#include "pose_fit.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/pulse.hpp"
+
+namespace rollfix {
+namespace touch {
+namespace {
+
+// Poses of one set that are looked at where it is a continuum: along its longest direction, in its standard deviations.
+constexpr double kAlong[] = {-2, -1.5, -1, -0.5, 0, 0.5, 1, 1.5, 2};
+// Poses that are looked at, the most probable ones.
+constexpr std::size_t kMostPoses = 60;
+// Approaches where none are given: directions all around, and parallel ways in each.
+constexpr int kDirections = 36;
+constexpr int kParallel = 7;
+// A finger touches where it is nearer than this share of the diagonal; it creeps along a side no longer than so many
+// steps.
+constexpr double kTouches = 1e-7;
+constexpr int kMostTraceSteps = 400;
+// A way along a side says less by where the finger stops than one straight at it; it is counted no less than this.
+constexpr double kLeastIncidence = 0.1;
+// A normal that may be off by so much, radians, says nothing.
+constexpr double kAnyTurn = std::numbers::pi;
+// An approach helps where it gains so much of a bit.
+constexpr double kLeastBits = 0.05;
+// Approaches gain about as much where it differs by less.
+constexpr double kAboutAsManyBits = 0.02;
+// The most promising approaches are looked at again: whether a touch of one pose also fits another side of another.
+constexpr std::size_t kMostCloseLooks = 32;
+
+struct PoseOf {
+  std::size_t placement = 0;
+  double weight = 0;
+  Pose pose;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+};
+
+/// Moves poses to where they fit the touches of an answer: those along a continuum lie on a curve.
+class Refit {
+ public:
+  explicit Refit(const TouchAnswer& answer)
+      : touches_(measured_of(answer)), path_(answer.part, answer.radius), tree_(path_), fit_(touches_, {}) {
+    for (Measured& touch : touches_) touch.tree = &tree_;
+  }
+  Refit(const Refit&) = delete;
+  Refit& operator=(const Refit&) = delete;
+
+  Pose operator()(const Pose& pose) { return fit_.fit(pose).pose; }
+
+ private:
+  static std::vector<Measured> measured_of(const TouchAnswer& answer) {
+    std::vector<Measured> touches;
+    for (std::size_t k = 0; k < answer.touches.size(); ++k) {
+      const TouchTolerance& most = answer.tolerance[k];
+      Measured one{answer.touches[k].at};
+      if (answer.touches[k].normal) one.tangent = *answer.touches[k].normal + 0.5 * std::numbers::pi;
+      one.place_most = most.length;
+      one.angle_most = most.angle;
+      one.place_unit = most.length / kTouchSigmas;
+      if (most.angle > 0) one.angle_unit = most.angle / kTouchSigmas;
+      touches.push_back(one);
+    }
+    return touches;
+  }
+
+  std::vector<Measured> touches_;
+  CentrePath path_;
+  PathTree tree_;
+  PoseFit fit_;
+};
+
+std::vector<PoseOf> poses_of(const TouchAnswer& answer) {
+  std::optional<Refit> refit;
+  const bool any_continuum =
+      std::any_of(answer.poses.begin(), answer.poses.end(), [](const TouchPose& set) { return set.continuum; });
+  if (answer.noise && any_continuum && !answer.mirrored) refit.emplace(answer);
+  std::vector<PoseOf> poses;
+  for (std::size_t k = 0; k < answer.poses.size(); ++k) {
+    const TouchPose& set = answer.poses[k];
+    const double weight = answer.noise ? set.probability : 1.0;
+    if (!answer.noise || !set.continuum) {
+      poses.push_back({k, weight, set.pose, answer.noise ? set.spread.covariance : Eigen::Matrix3d::Zero().eval()});
+      continue;
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(set.spread.covariance);
+    const Eigen::Vector3d along = solver.eigenvectors().col(2) * std::sqrt(std::max(0.0, solver.eigenvalues()(2)));
+    const Eigen::Matrix3d across = set.spread.covariance - along * along.transpose();
+    for (const double share : kAlong) {
+      const Pose& mean = set.spread.mean;
+      const Pose along_line{mean.x + share * along(0), mean.y + share * along(1), mean.heading + share * along(2)};
+      const Pose pose = refit ? (*refit)(along_line) : along_line;
+      poses.push_back({k, weight / static_cast<double>(std::size(kAlong)), pose, across});
+    }
+  }
+  std::stable_sort(poses.begin(), poses.end(), [](const PoseOf& a, const PoseOf& b) { return a.weight > b.weight; });
+  if (poses.size() > kMostPoses) poses.resize(kMostPoses);
+  double total = 0;
+  for (const PoseOf& one : poses) total += one.weight;
+  for (PoseOf& one : poses) one.weight /= total;
+  return poses;
+}
+
+/// A touch as it would be measured in a pose, and how well it is known beforehand.
+struct Forecast {
+  ExpectedTouch touch;
+  double variance = 0;   // of the part's side across itself, from the pose's
+  double incidence = 1;  // cosine of the way's angle with the normal
+  double turn_variance = 0;
+};
+
+class Advisor {
+ public:
+  Advisor(const TouchAnswer& answer, std::vector<PoseOf> poses)
+      : answer_(answer), poses_(std::move(poses)), part_(answer.part) {
+    has_normals_ = std::any_of(answer.touches.begin(), answer.touches.end(),
+                               [](const MeasuredTouch& touch) { return touch.normal.has_value(); });
+    const double share = answer.noise ? kTouchSigmas : 1;
+    for (const TouchTolerance& tolerance : answer.tolerance) {
+      place_sd_ = std::max(place_sd_, tolerance.length / share);
+      turn_sd_ = std::max(turn_sd_, tolerance.angle / share);
+    }
+    bound();
+  }
+
+  std::vector<Approach> all_around() const {
+    std::vector<Approach> approaches;
+    for (int k = 0; k < kDirections; ++k) {
+      const double direction = kFullTurn * k / kDirections;
+      const Vec2 along(std::cos(direction), std::sin(direction));
+      const Vec2 across(-along.y(), along.x());
+      for (int i = 0; i < kParallel; ++i) {
+        const double off = ((2.0 * i + 1) / kParallel - 1) * reach_;
+        approaches.push_back({middle_ + off * across - (reach_ + answer_.radius) * along, direction});
+      }
+    }
+    return approaches;
+  }
+
+  std::vector<Forecast> forecasts(const Approach& approach) {
+    std::vector<Forecast> result;
+    for (const PoseOf& one : poses_) result.push_back(forecast(approach, one));
+    return result;
+  }
+
+  /// By how far the finger goes in each pose: quick, and right where no other side of the part is near.
+  TouchProspect rough_prospect(const Approach& approach) {
+    return prospect(approach,
+                    [&](const Forecast& one, const Forecast& other, std::size_t) { return square_apart(one, other); });
+  }
+
+  /// By how well the touch that one pose leads to fits the other one, on whatever side of it.
+  TouchProspect prospect(const Approach& approach) {
+    return prospect(approach, [&](const Forecast& one, const Forecast& other, std::size_t j) {
+      const double square = square_apart(one, other);
+      return one.touch.hits && square > 0 ? std::min(square, square_off(one, poses_[j])) : square;
+    });
+  }
+
+  double bits_wanted() const {
+    double bits = 0;
+    for (const PoseOf& one : poses_) bits -= one.weight * std::log2(one.weight);
+    return bits;
+  }
+
+ private:
+  /// A circle around the part in all poses.
+  void bound() {
+    const std::vector<Vec2> outline = answer_.part.polyline(0, answer_.part.perimeter(), 200);
+    Vec2 least = Vec2::Constant(std::numeric_limits<double>::infinity()), most = -least;
+    for (const PoseOf& one : poses_) {
+      for (const Vec2& point : outline) {
+        const Vec2 world = one.pose.world({side() * point.x(), point.y()});
+        least = least.cwiseMin(world);
+        most = most.cwiseMax(world);
+      }
+    }
+    middle_ = 0.5 * (least + most);
+    reach_ = 0.5 * (most - least).norm();
+  }
+
+  double side() const { return answer_.mirrored ? -1 : 1; }
+
+  /// A pose's share of the set that it stands for.
+  double part_of_its_set(std::size_t j) const {
+    double weight = 0;
+    for (const PoseOf& one : poses_) weight += one.placement == poses_[j].placement ? one.weight : 0;
+    return poses_[j].weight / weight;
+  }
+
+  /// `apart(a, b, j)`: how far the touch in pose a is from what pose j would have, b.
+  template <class Apart>
+  TouchProspect prospect(const Approach& approach, const Apart& apart) {
+    const std::vector<Forecast> all = forecasts(approach);
+    TouchProspect result{approach};
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      double weight = 0;  // that the poses have once the touch is made, if i is the true one
+      double remain = 0;
+      for (std::size_t j = 0; j < all.size(); ++j) {
+        const double share = i == j ? 1 : std::exp(-0.5 * apart(all[i], all[j], j));
+        weight += poses_[j].weight * share;
+        remain += share * part_of_its_set(j);
+      }
+      result.bits -= poses_[i].weight * std::log2(std::max(weight, 1e-300));
+      result.poses += poses_[i].weight * remain;
+      result.head_on += poses_[i].weight * (all[i].touch.hits ? all[i].incidence : 0);
+    }
+    return result;
+  }
+
+  /// What is nearest to a place of the world, in a pose; directions and places as the world sees them, about the part.
+  NearestOfPart nearest_in(const PoseOf& one, const Vec2& at) {
+    Vec2 in_part = Pose{0, 0, -one.pose.heading}.turned(at - Vec2(one.pose.x, one.pose.y));
+    in_part.x() *= side();
+    NearestOfPart nearest = part_.nearest(in_part);
+    nearest.away = one.pose.turned({side() * nearest.away.x(), nearest.away.y()});
+    nearest.contact = one.pose.turned({side() * nearest.contact.x(), nearest.contact.y()});
+    return nearest;
+  }
+
+  /// Of the part's side across itself, from the pose's.
+  static double variance_of(const PoseOf& one, const NearestOfPart& nearest) {
+    const Vec2& away = nearest.away;
+    const Vec2& arm = nearest.contact;
+    const Eigen::Vector3d by_pose(away.x(), away.y(), away.y() * arm.x() - away.x() * arm.y());
+    return by_pose.dot(one.covariance * by_pose);
+  }
+
+  /// Of the normal, from the pose's heading, and as a touch may as well have been a little further along the side: by
+  /// how much its normal turns there.
+  double turn_variance_of(const PoseOf& one, const NearestOfPart& nearest) const {
+    const bool is_corner = std::isinf(nearest.curvature);
+    const double radius = answer_.radius;
+    const double bend = is_corner ? 1 / radius : std::abs(nearest.curvature / (1 + nearest.curvature * radius));
+    return one.covariance(2, 2) + std::pow(std::min(bend * place_sd_, kAnyTurn), 2);
+  }
+
+  /// The squares of a touch's residuals in another pose.
+  double square_off(const Forecast& made, const PoseOf& one) {
+    const NearestOfPart nearest = nearest_in(one, made.touch.at);
+    const double gap = nearest.distance - answer_.radius;
+    const double turn = nearest_angle(made.touch.normal - std::atan2(nearest.away.y(), nearest.away.x()));
+    return square_of(gap, made.variance + variance_of(one, nearest), turn,
+                     made.turn_variance + turn_variance_of(one, nearest));
+  }
+
+  double square_of(double place, double variance, double turn, double turn_variance) const {
+    double square = place * place / (place_sd_ * place_sd_ + variance);
+    if (has_normals_ && turn_sd_ > 0) square += turn * turn / (turn_sd_ * turn_sd_ + turn_variance);
+    return square;
+  }
+
+  /// Goes by how far the part is, until it touches or is past.
+  Forecast forecast(const Approach& approach, const PoseOf& one) {
+    Forecast result;
+    result.touch = {one.placement, one.weight, one.pose};
+    const Vec2 along(std::cos(approach.direction), std::sin(approach.direction));
+    const double farthest = (approach.from - middle_).norm() + reach_ + answer_.radius;
+    double travel = 0;
+    for (int step = 0; step < kMostTraceSteps && travel <= farthest; ++step) {
+      const Vec2 at = approach.from + travel * along;
+      const NearestOfPart nearest = nearest_in(one, at);
+      const double gap = nearest.distance - answer_.radius;
+      if (gap > kTouches * part_.diagonal()) {
+        travel += gap;
+        continue;
+      }
+      result.touch.hits = true;
+      result.touch.at = at;
+      result.touch.travel = travel;
+      result.touch.normal = std::atan2(nearest.away.y(), nearest.away.x());
+      result.incidence = std::max(kLeastIncidence, -along.dot(nearest.away));
+      result.variance = variance_of(one, nearest);
+      result.turn_variance = turn_variance_of(one, nearest);
+      break;
+    }
+    return result;
+  }
+
+  double square_apart(const Forecast& a, const Forecast& b) const {
+    if (a.touch.hits != b.touch.hits) return std::numeric_limits<double>::infinity();
+    if (!a.touch.hits) return 0;
+    const double place = (a.touch.travel - b.touch.travel) * std::min(a.incidence, b.incidence);
+    return square_of(place, a.variance + b.variance, nearest_angle(a.touch.normal - b.touch.normal),
+                     a.turn_variance + b.turn_variance);
+  }
+
+  const TouchAnswer& answer_;
+  std::vector<PoseOf> poses_;
+  PartDistance part_;
+  bool has_normals_ = false;
+  double place_sd_ = 0;
+  double turn_sd_ = 0;
+  Vec2 middle_ = Vec2::Zero();
+  double reach_ = 0;
+};
+
+/// Whether one gains more, or about as much and goes at the part head on: along a side a little may make it miss.
+bool is_better(const TouchProspect& one, const TouchProspect& other) {
+  const double more = std::round(one.bits / kAboutAsManyBits) - std::round(other.bits / kAboutAsManyBits);
+  return more > 0 || (more == 0 && one.head_on > other.head_on);
+}
+
+/// Looks closely at the most promising prospects, and says which of them is best.
+std::size_t best_of(Advisor& advisor, std::vector<TouchProspect>& prospects) {
+  std::vector<std::size_t> order(prospects.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return is_better(prospects[a], prospects[b]); });
+  order.resize(std::min(order.size(), kMostCloseLooks));
+  for (const std::size_t k : order) prospects[k] = advisor.prospect(prospects[k].approach);
+  return *std::min_element(order.begin(), order.end(),
+                           [&](std::size_t a, std::size_t b) { return is_better(prospects[a], prospects[b]); });
+}
+
+void require_finite(const std::vector<Approach>& approaches) {
+  for (std::size_t k = 0; k < approaches.size(); ++k) {
+    const Approach& one = approaches[k];
+    if (one.from.allFinite() && std::isfinite(one.direction)) continue;
+    throw InputError(fmt::format("approach {}: expected finite numbers, found ({}, {}), direction {}", k + 1,
+                                 one.from.x(), one.from.y(), one.direction));
+  }
+}
+
+/// Why there is nothing to look at; empty: there is.
+std::string nothing_to_tell(const TouchAnswer& answer) {
+  if (answer.poses.empty()) {
+    return answer.touches.size() < 2 ? "one touch leaves every place of the boundary: touch the part elsewhere first"
+                                     : "no pose fits the touches";
+  }
+  if (answer.poses.size() > 1) return "";
+  if (!answer.poses.front().continuum) return "one pose is left";
+  if (answer.poses.front().any_heading) return "only the heading is not known, and it can't be felt";
+  return answer.noise ? "" : "the poses hang together: with noise stated it is known how they lie";
+}
+
+}  // namespace
+}  // namespace touch
+
+NextTouch next_touch(const TouchAnswer& answer, const std::vector<Approach>& approaches) {
+  touch::require_finite(approaches);
+  if (!answer.rolls.empty()) {
+    throw InputError("next touch: expected an answer to touches alone, found rolls: give their touches by themselves");
+  }
+  if (answer.status != Status::complete) {
+    throw InputError(
+        "next touch: expected a complete answer, found one that is undecided; touch once more, or raise "
+        "`budget`");
+  }
+  NextTouch next;
+  next.why = touch::nothing_to_tell(answer);
+  if (!next.why.empty()) return next;
+  const Doing doing("looking for the touch that tells most");
+  touch::Advisor advisor(answer, touch::poses_of(answer));
+  for (const Approach& approach : approaches.empty() ? advisor.all_around() : approaches) {
+    next.prospects.push_back(advisor.rough_prospect(approach));
+  }
+  next.best = touch::best_of(advisor, next.prospects);
+  for (touch::Forecast& one : advisor.forecasts(next.advised().approach)) next.expected.push_back(one.touch);
+  next.bits_wanted = advisor.bits_wanted();
+  next.helps = next.advised().bits >= touch::kLeastBits;
+  if (next.helps) return next;
+  next.why = approaches.empty() ? "no touch tells these poses apart: the part looks the same in each, within the noise"
+                                : "none of these approaches tells the poses apart";
+  return next;
+}
+
+}  // namespace rollfix
