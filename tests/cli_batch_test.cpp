@@ -78,7 +78,7 @@ TEST_F(Batch, keeps_errors_in_their_places_and_remembers_them) {
   EXPECT_THAT(lines[1]["error"].get<std::string>(), testing::Not(HasSubstr("json.exception")));
   EXPECT_THAT(lines[2]["error"], HasSubstr("did you mean 'readings'"));
   EXPECT_EQ(lines[2]["id"], 7);
-  EXPECT_THAT(lines[3]["error"], HasSubstr("expected either"));
+  EXPECT_THAT(lines[3]["error"], HasSubstr("expected one of"));
   EXPECT_THAT(lines[4]["error"], HasSubstr("nowhere.csv"));
   EXPECT_THAT(lines[5]["error"], HasSubstr("problems.jsonl:6"));
   EXPECT_EQ(lines[6]["verdict"], "ambiguous (4)");

@@ -127,8 +127,8 @@ TEST(CliNoise, turns_whose_errors_add_up_to_more_than_they_tell_are_told) {
   for (int k = 0; k < 600; ++k) increments += "0.01,0.01\n";
   folder.write("steps.csv", increments);
   const std::string locate = "locate gallery:cam --log steps.csv --noise contact=0.001,angle=";
-  EXPECT_THAT(run(locate + "5deg").out, HasSubstr("adds up to 122 deg"));
-  EXPECT_THAT(run(locate + "0.5deg").out, Not(HasSubstr("adds up")));
+  EXPECT_THAT(run(locate + "5deg").out, HasSubstr("add up to 122 deg"));
+  EXPECT_THAT(run(locate + "0.5deg").out, Not(HasSubstr("add up")));
 }
 
 TEST(CliNoise, bare_readings_are_weighed_as_well) {

@@ -29,8 +29,8 @@ class TouchAnswer(Document):
     __slots__ = ("_answer", "_asked")
 
     def __init__(self, asked: Tuple[Any, ...]) -> None:
-        part, *rest, rolls, robust = asked
-        rest += [[one._core for one in rolls], robust]
+        part, *rest, rolls, robust, clear = asked
+        rest += [[one._core for one in rolls], robust, clear]
         self._answer = _core.locate_touches(part._core, *rest)
         self._asked = asked
         super().__init__(self._answer.document())

@@ -322,7 +322,8 @@ class TouchText {
 
   /// Few measurements beyond the unknowns may agree with a wrong radius or side: docs/touch.md counts how often.
   std::string few_checks() const {
-    if (answer_.fit->freedom > kFewChecks || answer_.verdict.name != Verdict::unique) return "";
+    if (!answer_.rolls.empty() || answer_.fit->freedom > kFewChecks) return "";
+    if (answer_.verdict.name != Verdict::unique) return "";
     return "; few checks: touch once more to be sure of radius, side and units";
   }
 
