@@ -99,38 +99,50 @@ double CellSearch::size(std::size_t touch, std::int32_t node) const {
   return one.tangent ? std::max(place, at.half_turn / (leaf_ * one.angle_most)) : place;
 }
 
-/// Whether a touch can be in this node, with the two touches of the cell in theirs.
-bool CellSearch::may_hold(const Cell& cell, std::size_t touch, std::int32_t node) {
-  ++comparisons_;
+/// Where a touch can be, with the two touches of the cell in theirs: a disc for each of them that has a place.
+CellSearch::Expected CellSearch::expected(const Cell& cell, std::size_t touch) const {
   const Measured& one = touches_[touch];
-  const PathTree::Node& at = tree(touch).node(node);
-  if (one.tangent) {
-    const double off = std::abs(nearest_angle(*one.tangent - at.angle - cell.heading.middle));
-    if (off > at.half_turn + one.angle_most + cell.heading.half + kGrain) return false;
-  }
-  if (!one.has_place) return true;
+  Expected result;
+  if (!one.has_place) return result;
   const double swing = cell.heading.is_all() ? 2 : 2 * std::sin(0.5 * cell.heading.half);
-  const auto near = [&](std::size_t from, std::int32_t base) {
-    if (!touches_[from].has_place) return true;
+  const auto add = [&](std::size_t from, std::int32_t base) {
+    if (!touches_[from].has_place) return;
     const PathTree::Node& of = tree(from).node(base);
     const Vec2 vector = one.at - touches_[from].at;
     const Vec2 in_part(cosine_ * vector.x() + sine_ * vector.y(), cosine_ * vector.y() - sine_ * vector.x());
-    const double slack = of.radius + at.radius + one.place_most + touches_[from].place_most + swing * vector.norm();
-    return (of.middle + in_part - at.middle).squaredNorm() <= slack * slack;
+    result.discs[result.count++] = {of.middle + in_part,
+                                    of.radius + one.place_most + touches_[from].place_most + swing * vector.norm()};
   };
-  return near(pair_.first, cell.first) && near(pair_.second, cell.second);
+  add(pair_.first, cell.first);
+  add(pair_.second, cell.second);
+  return result;
+}
+
+/// Whether a touch can be in this node.
+bool CellSearch::may_hold(const Cell& cell, const Expected& expected, std::size_t touch, std::int32_t node) {
+  ++comparisons_;
+  const Measured& one = touches_[touch];
+  const PathTree::Node& at = tree(touch).node(node);
+  for (std::size_t k = 0; k < expected.count; ++k) {
+    const double reach = expected.discs[k].radius + at.radius;
+    if ((expected.discs[k].middle - at.middle).squaredNorm() > reach * reach) return false;
+  }
+  if (!one.tangent) return true;
+  const double off = std::abs(nearest_angle(*one.tangent - at.angle - cell.heading.middle));
+  return off <= at.half_turn + one.angle_most + cell.heading.half + kGrain;
 }
 
 /// The nodes of a list that may hold a touch, halved down to the cell's own size, as a new list on top of the stack.
 bool CellSearch::narrow(const Cell& cell, std::size_t touch, std::pair<std::size_t, std::size_t>& list) {
   const double coarse = std::max({1.0, size(pair_.first, cell.first), size(pair_.second, cell.second)});
+  const Expected places = expected(cell, touch);
   const std::size_t top = candidates_.size();
   waiting_.assign(candidates_.begin() + static_cast<std::ptrdiff_t>(list.first),
                   candidates_.begin() + static_cast<std::ptrdiff_t>(list.second));
   while (!waiting_.empty()) {
     const std::int32_t node = waiting_.back();
     waiting_.pop_back();
-    if (!may_hold(cell, touch, node)) continue;
+    if (!may_hold(cell, places, touch, node)) continue;
     if (size(touch, node) > coarse) {
       const auto [left, right] = tree(touch).halves(node);
       if (left != right) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -60,7 +61,16 @@ class CellSearch {
   HeadingArc headings(const Cell& cell) const;
   HeadingArc by_normal(std::size_t touch, std::int32_t node) const;
   bool narrow(const Cell& cell, std::size_t touch, std::pair<std::size_t, std::size_t>& list);
-  bool may_hold(const Cell& cell, std::size_t touch, std::int32_t node);
+  struct Disc {
+    Vec2 middle = Vec2::Zero();
+    double radius = 0;
+  };
+  struct Expected {
+    std::array<Disc, 2> discs{};
+    std::size_t count = 0;
+  };
+  Expected expected(const Cell& cell, std::size_t touch) const;
+  bool may_hold(const Cell& cell, const Expected& expected, std::size_t touch, std::int32_t node);
   double size(std::size_t touch, std::int32_t node) const;  // in leaves: up to 1 it is one
   void split(const Cell& cell, const Lists& lists);
 
