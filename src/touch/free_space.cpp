@@ -61,6 +61,7 @@ bool walk(const Clear& path, double least_step, const Look& look) {
 }  // namespace
 
 FreeSpace::FreeSpace(const TouchProblem& problem) : part_(problem.part), radius_(radius_of(problem)) {
+  if (problem.clear.empty()) return;
   const double slack = slack_of(problem);
   sd_ = problem.noise ? slack / kTouchSigmas : 0;
   bound_ = radius_ - slack - kRoundingOfDistance * part_.diagonal();

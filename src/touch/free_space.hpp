@@ -34,10 +34,10 @@ class FreeSpace {
   double log_free(const PosteriorNode& node);
 
   PartDistance part_;
-  double radius_;
-  double sd_;          // of a path's place across itself; 0: without noise
-  double bound_;       // the part is no nearer to any place of a path than this
-  double least_step_;  // along a path: what is missed between is shallow, and a pose too many
+  double radius_ = 0;
+  double sd_ = 0;          // of a path's place across itself; 0: without noise
+  double bound_ = 0;       // the part is no nearer to any place of a path than this
+  double least_step_ = 0;  // along a path: what is missed between is shallow, and a pose too many
   std::vector<Clear> paths_;
 };
 

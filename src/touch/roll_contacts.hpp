@@ -23,7 +23,9 @@ struct RollContact {
   double travelled = 0;  // by its last row, along the stored outline
 
   /// It fits no place of the part by itself.
-  bool fits_nowhere() const { return !tree || (belief && belief->nodes().empty()); }
+  bool fits_nowhere() const {
+    return alone.verdict.name == Verdict::inconsistent || !tree || (belief && belief->nodes().empty());
+  }
 };
 
 /// A roll of the problem as one of one finger. Throws InputError: no finger is known, or the log does not have u and

@@ -119,9 +119,9 @@ void add_notes(TouchTable& table, const TouchHeader& header, std::size_t free_ro
                                       fmt::join(ignored, ", "), fmt::join(kTouchColumns, ", ")));
   }
   if (free_rows == 0) return;
-  table.notes.push_back(fmt::format("{}: {} with contact 0 left out: no {}; `clear` rows takes {} as free space", name,
-                                    counted(free_rows, "row", "rows"), free_rows == 1 ? "touch" : "touches",
-                                    free_rows == 1 ? "it" : "them"));
+  table.notes.push_back(fmt::format("{}: {} with contact 0 {}; `clear` rows takes {} as free space", name,
+                                    counted(free_rows, "row", "rows"),
+                                    free_rows == 1 ? "is no touch" : "are no touches", free_rows == 1 ? "it" : "them"));
 }
 
 }  // namespace
@@ -159,7 +159,7 @@ TouchTable parse_touches(std::string_view text, const std::string& name, const T
     reader->require_whole(row);
     const MeasuredTouch touch = reader->read(row);
     const bool has_contact = reader->has_contact(row);
-    if (last && !(has_contact && last_has_contact)) table.clear.push_back({*last, touch.at});
+    if (last && !last_has_contact) table.clear.push_back({*last, touch.at});
     last = touch.at;
     last_has_contact = has_contact;
     if (!has_contact) {

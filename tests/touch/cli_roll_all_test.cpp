@@ -172,4 +172,12 @@ TEST(CliRollAll, WhatOnlyOneRollHasIsRefused) {
   EXPECT_THAT(run("locate gallery:limacon --reading 1,2 --roll all").err, HasSubstr("--log"));
 }
 
+TEST(CliRollAll, PathsAreRefused) {
+  const Folder folder;
+  folder.write("run.csv", log_of_two());
+  const Ran ran = run("locate gallery:limacon --log run.csv" + kRest + " --clear 0,0,1,1");
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_THAT(ran.err, HasSubstr("--clear: paths on which nothing was felt are taken with touches alone"));
+}
+
 }  // namespace cli_roll_all_test

@@ -65,6 +65,39 @@ TEST(RollMoved, APartAtRestIsHardlyEverSaidToBeMoved) {
   EXPECT_LE(told, 1 + count / 50);
 }
 
+std::vector<TouchCause> causes(const TouchAnswer& answer) {
+  std::vector<TouchCause> result;
+  for (const rollfix::TouchDiagnosis& one : answer.diagnoses) result.push_back(one.cause);
+  return result;
+}
+
+TEST(RollMoved, ATouchThatIsWrongIsNotTakenForIt) {
+  RollCase one = moved_case(8, false, 2);
+  const double size = diagonal(one.problem.part);
+  one.problem.touches = {{Vec2(one.truth.x + 3 * size, one.truth.y)}};
+  one.problem.touches.front().position_sd = 0.002;
+  const TouchAnswer answer = rollfix::solve(one.problem);
+  EXPECT_THAT(causes(answer), testing::ElementsAre(TouchCause::outlier));
+}
+
+TEST(RollMoved, AWrongHeadingIsNotTakenForIt) {
+  RollCase one = moved_case(6, false, 2);
+  rollfix::PosePrior prior;
+  prior.mean.heading = one.truth.heading + 1;
+  prior.heading_sd = 0.01;
+  one.problem.pose = prior;
+  EXPECT_THAT(causes(rollfix::solve(one.problem)), testing::ElementsAre(TouchCause::pose));
+}
+
+TEST(RollMoved, ARollThatFitsNowhereByItselfLeavesNoPose) {
+  RollCase one = moved_case(7, false, 2);
+  for (double& psi : one.problem.rolls[1].fingers.front().psi) psi = -psi;
+  const TouchAnswer answer = rollfix::solve(one.problem);
+  ASSERT_EQ(answer.rolls[1].alone.name, rollfix::Verdict::inconsistent);
+  EXPECT_EQ(answer.verdict.name, rollfix::Verdict::inconsistent);
+  EXPECT_TRUE(answer.poses.empty());
+}
+
 TEST(RollMoved, ExactLogsOfAMovedPartFitNowhereTogether) {
   RollCase one = moved_case(3, false, 2);
   std::mt19937_64 generator = test_generator(9501);

@@ -27,6 +27,7 @@ void require_options_of_rolls(const RollArguments& arguments) {
   refuse(!arguments.prior.empty(), "--prior", "it is of the start of one roll");
   refuse(!arguments.direction.empty(), "--direction", "rolls with u and psi say the direction themselves");
   refuse(arguments.may_overlap, "--may-overlap", "it is of two fingers");
+  refuse(!arguments.clear.empty(), "--clear", "paths on which nothing was felt are taken with touches alone");
 }
 
 /// The rolls of all logs, one after another.
