@@ -115,7 +115,7 @@ class TouchPicture {
   }
 
   std::string contacts_text() const {
-    const std::string touches = counted(answer_.touches.size(), "touch", "touches");
+    std::string touches = counted(answer_.touches.size(), "touch", "touches");
     if (answer_.rolls.empty()) return touches;
     const std::string rolls = counted(answer_.rolls.size(), "roll", "rolls");
     return answer_.touches.empty() ? rolls : rolls + ", " + touches;

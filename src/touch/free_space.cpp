@@ -28,7 +28,7 @@ double slack_of(const TouchProblem& problem) {
 }
 
 /// Without its last bit before a touch.
-Clear before_touches(Clear path, const TouchProblem& problem, double slack) {
+Clear before_touches(const Clear& path, const TouchProblem& problem, double slack) {
   const Vec2 along = path.to - path.from;
   const double length = along.norm();
   const auto is_touch = [&](const Vec2& end) {

@@ -403,16 +403,16 @@ TouchAnswer solve_plain(const TouchProblem& problem) {
 
 }  // namespace touch
 
-TouchAnswer solve(const TouchProblem& given) {
-  TouchProblem problem = given;
-  if (!problem.noise && !problem.tolerance && have_own_noise(problem.touches)) problem.noise.emplace();
-  touch::require_valid(problem);
-  const Doing doing(problem.rolls.empty() ? "looking for poses that fit the touches"
-                                          : "looking for poses that fit all contacts");
-  TouchAnswer answer = touch::solve_plain(problem);
+TouchAnswer solve(const TouchProblem& problem) {
+  TouchProblem asked = problem;
+  if (!asked.noise && !asked.tolerance && have_own_noise(asked.touches)) asked.noise.emplace();
+  touch::require_valid(asked);
+  const Doing doing(asked.rolls.empty() ? "looking for poses that fit the touches"
+                                        : "looking for poses that fit all contacts");
+  TouchAnswer answer = touch::solve_plain(asked);
   const bool is_odd = answer.verdict.fits_badly || answer.verdict.name == Verdict::inconsistent;
-  if (problem.diagnose && is_odd && answer.status == Status::complete) {
-    answer.diagnoses = problem.rolls.empty() ? touch::mistakes(problem) : touch::moved(problem, answer);
+  if (asked.diagnose && is_odd && answer.status == Status::complete) {
+    answer.diagnoses = asked.rolls.empty() ? touch::mistakes(asked) : touch::moved(asked, answer);
   }
   return answer;
 }

@@ -112,7 +112,7 @@ bool is_touch_header(const TableRow& row, const std::vector<ColumnSource>& colum
 }
 
 void add_notes(TouchTable& table, const TouchHeader& header, std::size_t free_rows, const std::string& name) {
-  const std::vector<std::string> ignored = header.ignored();
+  const std::vector<std::string>& ignored = header.ignored();
   if (!ignored.empty()) {
     table.notes.push_back(fmt::format("{}: {} not used: {}; known are {}", name,
                                       ignored.size() == 1 ? "this column is" : "these columns are",
