@@ -100,11 +100,10 @@ double first_inside(double lo, double hi, const std::array<double, 4>& places) {
 
 }  // namespace
 
-RootSearch::RootSearch(double tolerance, double perimeter, Findings before)
-    : findings(std::move(before)),
-      tolerance_(tolerance),
-      perimeter_(perimeter),
-      same_place_(kLengthAccuracy * perimeter) {}
+RootSearch::RootSearch(double tolerance, std::size_t budget, double perimeter)
+    : tolerance_(tolerance), perimeter_(perimeter), same_place_(kLengthAccuracy * perimeter) {
+  findings.budget = budget;
+}
 
 void RootSearch::look_at(const SpiralPair& pair, const ResidualSample& lo, const ResidualSample& hi) {
   beat();

@@ -80,10 +80,10 @@ struct QuinticRoot;
 /// Branch and prune for one reading on one pair of spirals: every s with |f(s)| <= tolerance, proved complete.
 class RootSearch {
  public:
-  /// Adds to what was found before. The tolerance is at least kTurnAccuracy.
-  RootSearch(double tolerance, double perimeter, Findings before);
+  /// The tolerance is at least kTurnAccuracy.
+  RootSearch(double tolerance, std::size_t budget, double perimeter);
 
-  Findings findings;
+  Findings findings;  // of all runs together
 
   /// The ends are samples of this pair. The interval between them comes with the part, however many points that has: it
   /// costs nothing of the budget.

@@ -11,7 +11,7 @@
 
 // Notation:
 //   s, s + L        start and end of a roll: `here` (up to `next`), and `here + pair.offset` on the end's own spiral
-//   L, theta        the reading: `length_`, `reading_.turn`
+//   L, theta        the reading: `length_`, `reading_->turn`
 //   f(s)            Theta(s + L) - Theta(s) - theta; where the end is at a convex corner, an interval of values
 //   shift, lift     of a cursor: length and turn of the whole laps that it has gone round
 //   pieces          the starts on which |f| is within the tolerance; `roots`: the places worth listing in them
@@ -25,16 +25,20 @@ namespace {
 
 class Sweep {
  public:
-  /// Adds to what was found before.
-  Sweep(const Part& part, const Reading& reading, double tolerance, Findings before)
-      : part_(part),
-        turning_(part.turning()),
-        reading_(reading),
-        length_(reading.length[0]),
-        same_place_(kLengthAccuracy * part.perimeter()),
-        tolerance_(tolerance),
-        search_(tolerance, part.perimeter(), std::move(before)) {}
+  Sweep(const Question& question, const LocateOptions& options)
+      : part_(question.part),
+        turning_(part_.turning()),
+        same_place_(kLengthAccuracy * part_.perimeter()),
+        tolerance_(options.tolerance),
+        search_(options.tolerance, options.budget, part_.perimeter()) {}
 
+  /// What is run from here on is about this reading.
+  void ask(const Reading& reading) {
+    reading_ = &reading;
+    length_ = reading.length[0];
+  }
+
+  /// What all runs found together.
   Findings& found() { return search_.findings; }
 
   /// Walks the first contact s along [lo, hi] of the boundary: cuts it where s or its end s + L passes from one spiral
@@ -91,7 +95,7 @@ class Sweep {
   /// left. Across it f changes by its slope.
   void look_at(const Interval& place) {
     const double s = place.middle();
-    const double residual = residual_at({part_, {&reading_, 1}}, s);
+    const double residual = residual_at({part_, {reading_, 1}}, s);
     const double slope = std::abs(turning_.curvature(s)) + std::abs(turning_.curvature(s + length_));
     if (residual > tolerance_ + 0.5 * place.width() * slope) return;
     search_.findings.pieces.push_back({place.lo, place.hi});
@@ -99,7 +103,7 @@ class Sweep {
   }
 
   SpiralPair pair_of(const Cursor& start, const Cursor& end) const {
-    return {turning_, start.spiral(), end.spiral(), length_ - end.shift(), reading_.turn - end.lift()};
+    return {turning_, start.spiral(), end.spiral(), length_ - end.shift(), reading_->turn - end.lift()};
   }
 
   /// A spiral's own ends, as seen from a place beside them that is the same up to rounding: where curvature is large
@@ -135,8 +139,8 @@ class Sweep {
   void pass_corner(double s, double start_angle, double before, double after) {
     const Corner corner{s, after - before};
     if (std::abs(corner.turn) <= kTurnAccuracy || corner.is_concave()) return;
-    const double least = std::min(before, after) - start_angle - reading_.turn;
-    const double most = std::max(before, after) - start_angle - reading_.turn;
+    const double least = std::min(before, after) - start_angle - reading_->turn;
+    const double most = std::max(before, after) - start_angle - reading_->turn;
     const double distance = std::max({least, -most, 0.0});
     if (distance > tolerance_) return;
     search_.findings.pieces.push_back({s, s, false, true});
@@ -145,20 +149,17 @@ class Sweep {
 
   const Part& part_;
   const TurningFunction& turning_;
-  const Reading& reading_;
-  double length_;  // L
+  const Reading* reading_ = nullptr;
+  double length_ = 0;  // L
   double same_place_;
   double tolerance_;
   RootSearch search_;
 };
 
 /// What the first reading allows on the stretches of the range.
-Findings search_stretches(const Question& question, const Interval& range, const Stretches& stretches,
-                          const LocateOptions& options) {
+void search_stretches(const Question& question, const Interval& range, const Stretches& stretches, Sweep& sweep) {
   const double same_place = kLengthAccuracy * question.part.perimeter();
-  Findings none;
-  none.budget = options.budget;
-  Sweep sweep(question.part, question.readings.front(), options.tolerance, std::move(none));
+  sweep.ask(question.readings.front());
   Findings& found = sweep.found();
   for (const Interval& stretch : stretches) {
     // A single place beside what is passed over is there for its corner.
@@ -166,7 +167,6 @@ Findings search_stretches(const Question& question, const Interval& range, const
     if (!found.unresolved.empty()) break;
   }
   if (!found.unresolved.empty()) found.unresolved.back().hi = range.hi;
-  return std::move(found);
 }
 
 /// Pieces that touch are one: else what a reading cuts into pieces, though it allows all of it, as a finger at rest
@@ -185,12 +185,12 @@ void join_touching(Pieces& pieces) {
 }
 
 /// Keeps of each piece what a further reading allows as well; at a corner's pivot what all of them allow together.
-Findings narrowed(const Question& question, const Reading& further, double tolerance, Findings before) {
+void narrow(const Question& question, const Reading& further, double tolerance, Sweep& sweep) {
   const Question its_own{question.part, {&further, 1}};
-  Pieces pieces = std::exchange(before.pieces, {});
-  join_touching(pieces);
-  Sweep sweep(question.part, further, tolerance, std::move(before));
   Findings& kept = sweep.found();
+  Pieces pieces = std::exchange(kept.pieces, {});
+  join_touching(pieces);
+  sweep.ask(further);
   for (const Piece& piece : pieces) {
     if (!kept.unresolved.empty()) {
       kept.unresolved.push_back({piece.lo, piece.hi});
@@ -203,7 +203,6 @@ Findings narrowed(const Question& question, const Reading& further, double toler
       for (std::size_t k = first; k < kept.pieces.size(); ++k) kept.pieces[k].exact &= piece.exact;
     }
   }
-  return std::move(kept);
 }
 
 /// A first contact at a convex corner: the finger may have pivoted there by any amount, the same for all readings.
@@ -252,10 +251,10 @@ std::vector<PerFinger<Interval>> joined(std::vector<Interval> intervals) {
 Search search_one(const Question& question, const LocateOptions& options) {
   const Interval range = first_contacts(question, 0);
   const Candidates candidates = find_candidates(question, range, options.tolerance);
-  Findings found = search_stretches(question, range, candidates.stretches, options);
-  for (const Reading& further : question.readings.subspan(1)) {
-    found = narrowed(question, further, options.tolerance, std::move(found));
-  }
+  Sweep sweep(question, options);
+  search_stretches(question, range, candidates.stretches, sweep);
+  for (const Reading& further : question.readings.subspan(1)) narrow(question, further, options.tolerance, sweep);
+  Findings& found = sweep.found();
   add_start_corners(question, candidates.stretches, options.tolerance, found);
   Search search;
   search.unresolved = joined(std::move(found.unresolved));
