@@ -92,7 +92,8 @@ TEST(TouchMistakes, ARadiusThatIsTenPercentOffIsFound) {
 TEST(TouchMistakes, AFingerThatWasForgottenIsFound) {
   TouchProblem problem = honest();
   problem.finger.reset();
-  const TouchDiagnosis* const found = diagnosis_of(rollfix::solve(problem), TouchCause::radius);
+  const TouchAnswer answer = rollfix::solve(problem);
+  const TouchDiagnosis* const found = diagnosis_of(answer, TouchCause::radius);
   ASSERT_NE(found, nullptr);
   EXPECT_NEAR(found->radius, 3, 0.15);
 }

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "random.hpp"
-#include "roll_cases.hpp"
+#include "touch/roll_cases.hpp"
 
 // With noise: whether intervals hold the truth as often as they say, and the likeliest pose is right as often.
 namespace roll_coverage_test {

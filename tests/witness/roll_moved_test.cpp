@@ -5,7 +5,7 @@
 #include <string>
 
 #include "random.hpp"
-#include "roll_cases.hpp"
+#include "touch/roll_cases.hpp"
 
 // The part was moved between two rolls: told where it was, and not where it was not.
 namespace roll_moved_test {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "random.hpp"
-#include "roll_cases.hpp"
 #include "rollfix/contact/finger.hpp"
 #include "rollfix/locate/locate.hpp"
+#include "touch/roll_cases.hpp"
 
 // Several rolls on one part: against the pair search of two fingers, a scan of the heading, and the truth.
 namespace roll_poses_test {

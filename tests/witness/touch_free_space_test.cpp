@@ -9,7 +9,7 @@
 
 #include "random.hpp"
 #include "touch/free_space.hpp"
-#include "touch_cases.hpp"
+#include "touch/touch_cases.hpp"
 
 // Paths on which nothing was felt, against a boundary of many points and paths of many places.
 namespace touch_free_space_test {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "random.hpp"
-#include "touch_cases.hpp"
+#include "touch/touch_cases.hpp"
 
 // One mistake at a time is planted in touches that were right: is it told, and is anything told of right ones?
 namespace touch_planted_mistakes_test {
