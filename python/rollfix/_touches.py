@@ -19,6 +19,24 @@ from ._tables import is_frame
 COLUMNS = ("x", "y", "normal", "position_sd", "normal_sd")
 
 
+class TouchAdvice(Document):
+    """Which touch tells the remaining poses apart: the fields of `rollfix/advise/1`, see docs/json.md.
+
+    `helps`, `why` not; `approach` with `from` and `direction`; `expected_poses`, `bits`, `contenders`, ...
+    """
+
+    __slots__ = ()
+
+    def __repr__(self) -> str:
+        if not self.helps:
+            return f"<TouchAdvice: {self.why}>"
+        (x, y), direction = self.approach["from"], np.degrees(self.approach["direction"])
+        return (
+            f"<TouchAdvice: from x {x:.6g}, y {y:.6g} go in direction {direction:.6g} deg until it touches; "
+            f"{self.bits:.2f} of {self.bits_wanted:.2f} bits gained>"
+        )
+
+
 class TouchAnswer(Document):
     """Every pose of the part that fits touches, rolls, or both: the fields of `rollfix/locate/1`, see docs/json.md.
 
@@ -41,7 +59,7 @@ class TouchAnswer(Document):
         y these are NaN."""
         return np.array([one["pose"][0] for one in self.placements], dtype=float).reshape(-1, 3)
 
-    def advise(self, approaches: Any = None) -> Document:
+    def advise(self, approaches: Any = None) -> TouchAdvice:
         """The next touch: which approach tells the remaining poses apart. The fields of `rollfix/advise/1`.
 
         Parameters
@@ -55,7 +73,7 @@ class TouchAnswer(Document):
         ways = [numbers(way, 4, "approaches", "(x, y, dx, dy)") for way in rows]
         if any(way[2:] == [0, 0] for way in ways):
             raise InputError("approaches: expected directions (dx, dy) that are not (0, 0)")
-        return Document(self._answer.next_touch(np.array(ways, dtype=float).reshape(-1, 4)))
+        return TouchAdvice(self._answer.next_touch(np.array(ways, dtype=float).reshape(-1, 4)))
 
     def to_svg(self, *, title: str = "", width: float = 0) -> str:
         """A figure of the part in each pose, with the touches."""

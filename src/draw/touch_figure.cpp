@@ -12,6 +12,7 @@
 #include "rollfix/error.hpp"
 #include "scene.hpp"
 #include "text/text.hpp"
+#include "touch_headings.hpp"
 #include "trace.hpp"
 
 namespace rollfix {
@@ -33,7 +34,8 @@ constexpr double kTouchNormal = 26;      // length of a normal, pixels
 
 class TouchPicture {
  public:
-  explicit TouchPicture(const TouchFigure& figure) : figure_(figure), answer_(*figure.answer) {
+  explicit TouchPicture(const TouchFigure& figure)
+      : figure_(figure), answer_(*figure.answer), headings_(answer_, figure.width) {
     const Box bounds = part_bounds(answer_.part);
     outline_ = trace(answer_.part, 1e-4 * bounds.sizes().maxCoeff()).points;
     const std::size_t shown = std::min(answer_.poses.size(), kMostTouchPoses);
@@ -43,7 +45,7 @@ class TouchPicture {
 
   Svg draw() {
     const Legend legend(entries(), figure_.width);
-    Svg svg(figure_.width, axes_.corner.y() + axes_.size.y() + kTouchBelow + legend.height());
+    Svg svg(figure_.width, axes_.corner.y() + axes_.size.y() + kTouchBelow + legend.height() + headings_.height());
     svg.describe("The part in each pose that the touches leave");
     draw_header(svg, figure_.title.empty() ? answer_.part.name() : figure_.title, answer_.verdict_text(),
                 {{contacts_text()}});
@@ -57,7 +59,9 @@ class TouchPicture {
     if (figure_.next != nullptr) advised(svg, *figure_.next);
     svg.close_group();
     svg.close_group();
-    legend.draw(svg, axes_.corner.y() + axes_.size.y() + kTouchBelow);
+    const double below = axes_.corner.y() + axes_.size.y() + kTouchBelow;
+    legend.draw(svg, below);
+    headings_.draw(svg, below + legend.height());
     return svg;
   }
 
@@ -144,7 +148,11 @@ class TouchPicture {
     const Approach& way = next.advised().approach;
     double farthest = 0;
     for (const ExpectedTouch& one : next.expected) farthest = std::max(farthest, one.travel);
-    const Vec2 end = way.from + farthest * Vec2(std::cos(way.direction), std::sin(way.direction));
+    const Vec2 along(std::cos(way.direction), std::sin(way.direction));
+    if (next.expected.empty()) {  // after one touch: to beside it
+      farthest = std::max(0.0, along.dot(answer_.touches.front().at - way.from));
+    }
+    const Vec2 end = way.from + farthest * along;
     const std::vector<Vec2> path = on_page({way.from, end});
     svg.open_group("approach");
     svg.polyline(without_tip(path, 4), stroke(kInk, 1.2, "6 3"));
@@ -194,6 +202,7 @@ class TouchPicture {
 
   const TouchFigure& figure_;
   const TouchAnswer& answer_;
+  HeadingDensities headings_;
   std::vector<Vec2> outline_;
   std::vector<std::vector<Vec2>> poses_;
   Axes axes_;

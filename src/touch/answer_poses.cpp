@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "heading_sets.hpp"
 #include "outline/turn.hpp"
@@ -177,6 +178,8 @@ void add_posterior(TouchPose& pose, const PoseMode& mode, const std::vector<Post
   pose.spread.covariance = second / total - mean * mean.transpose();
   pose.spread.mean = {origin(0) + mean(0), origin(1) + mean(1), origin(2) + mean(2)};
   for (std::size_t i = 0; i < 3; ++i) pose.interval[i] = middle_share(terms[i], 0.95);
+  pose.heading_density = std::move(terms[2]);
+  for (MixtureTerm& term : pose.heading_density) term.weight /= total;
 }
 
 FittedPose best_within(PoseFit& fit, const std::vector<Cell>& cells, const TouchPair& pair) {

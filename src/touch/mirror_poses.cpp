@@ -26,6 +26,7 @@ void mirror(TouchPose& pose) {
   mean = {-mean.x, mean.y, -mean.heading};
   const Eigen::Vector3d signs(-1, 1, -1);
   pose.spread.covariance = Eigen::Matrix3d(signs.asDiagonal() * pose.spread.covariance * signs.asDiagonal());
+  for (MixtureTerm& term : pose.heading_density) term.mean = -term.mean;
   for (TouchContact& contact : pose.contacts) {
     if (contact.turn) contact.turn = -*contact.turn;
   }

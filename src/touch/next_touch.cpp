@@ -2,21 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <numeric>
-#include <optional>
 #include <utility>
 
-#include "centre_path.hpp"
-#include "measured.hpp"
+#include "likely_poses.hpp"
 #include "outline/turn.hpp"
 #include "part_distance.hpp"
-#include "path_tree.hpp"
-#include "pose_fit.hpp"
+#include "roll_instead.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
 
@@ -24,10 +21,6 @@ namespace rollfix {
 namespace touch {
 namespace {
 
-// Poses of one set that are looked at where it is a continuum: along its longest direction, in its standard deviations.
-constexpr double kAlong[] = {-2, -1.5, -1, -0.5, 0, 0.5, 1, 1.5, 2};
-// Poses that are looked at, the most probable ones.
-constexpr std::size_t kMostPoses = 60;
 // Approaches where none are given: directions all around, and parallel ways in each.
 constexpr int kDirections = 36;
 constexpr int kParallel = 7;
@@ -44,79 +37,8 @@ constexpr double kLeastBits = 0.05;
 // Approaches gain about as much where it differs by less.
 constexpr double kAboutAsManyBits = 0.02;
 // The most promising approaches are looked at again: whether a touch of one pose also fits another side of another.
-constexpr std::size_t kMostCloseLooks = 32;
-
-struct PoseOf {
-  std::size_t placement = 0;
-  double weight = 0;
-  Pose pose;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-};
-
-/// Moves poses to where they fit the touches of an answer: those along a continuum lie on a curve.
-class Refit {
- public:
-  explicit Refit(const TouchAnswer& answer)
-      : touches_(measured_of(answer)), path_(answer.part, answer.radius), tree_(path_), fit_(touches_, {}) {
-    for (Measured& touch : touches_) touch.tree = &tree_;
-  }
-  Refit(const Refit&) = delete;
-  Refit& operator=(const Refit&) = delete;
-
-  Pose operator()(const Pose& pose) { return fit_.fit(pose).pose; }
-
- private:
-  static std::vector<Measured> measured_of(const TouchAnswer& answer) {
-    std::vector<Measured> touches;
-    for (std::size_t k = 0; k < answer.touches.size(); ++k) {
-      const TouchTolerance& most = answer.tolerance[k];
-      Measured one{answer.touches[k].at};
-      if (answer.touches[k].normal) one.tangent = *answer.touches[k].normal + 0.5 * std::numbers::pi;
-      one.place_most = most.length;
-      one.angle_most = most.angle;
-      one.place_unit = most.length / kTouchSigmas;
-      if (most.angle > 0) one.angle_unit = most.angle / kTouchSigmas;
-      touches.push_back(one);
-    }
-    return touches;
-  }
-
-  std::vector<Measured> touches_;
-  CentrePath path_;
-  PathTree tree_;
-  PoseFit fit_;
-};
-
-std::vector<PoseOf> poses_of(const TouchAnswer& answer) {
-  std::optional<Refit> refit;
-  const bool any_continuum =
-      std::any_of(answer.poses.begin(), answer.poses.end(), [](const TouchPose& set) { return set.continuum; });
-  if (answer.noise && any_continuum && !answer.mirrored) refit.emplace(answer);
-  std::vector<PoseOf> poses;
-  for (std::size_t k = 0; k < answer.poses.size(); ++k) {
-    const TouchPose& set = answer.poses[k];
-    const double weight = answer.noise ? set.probability : 1.0;
-    if (!answer.noise || !set.continuum) {
-      poses.push_back({k, weight, set.pose, answer.noise ? set.spread.covariance : Eigen::Matrix3d::Zero().eval()});
-      continue;
-    }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(set.spread.covariance);
-    const Eigen::Vector3d along = solver.eigenvectors().col(2) * std::sqrt(std::max(0.0, solver.eigenvalues()(2)));
-    const Eigen::Matrix3d across = set.spread.covariance - along * along.transpose();
-    for (const double share : kAlong) {
-      const Pose& mean = set.spread.mean;
-      const Pose along_line{mean.x + share * along(0), mean.y + share * along(1), mean.heading + share * along(2)};
-      const Pose pose = refit ? (*refit)(along_line) : along_line;
-      poses.push_back({k, weight / static_cast<double>(std::size(kAlong)), pose, across});
-    }
-  }
-  std::stable_sort(poses.begin(), poses.end(), [](const PoseOf& a, const PoseOf& b) { return a.weight > b.weight; });
-  if (poses.size() > kMostPoses) poses.resize(kMostPoses);
-  double total = 0;
-  for (const PoseOf& one : poses) total += one.weight;
-  for (PoseOf& one : poses) one.weight /= total;
-  return poses;
-}
+// So many pairs of poses in all.
+constexpr std::size_t kMostClosePairs = 120000;
 
 /// A touch as it would be measured in a pose, and how well it is known beforehand.
 struct Forecast {
@@ -128,7 +50,7 @@ struct Forecast {
 
 class Advisor {
  public:
-  Advisor(const TouchAnswer& answer, std::vector<PoseOf> poses)
+  Advisor(const TouchAnswer& answer, std::vector<LikelyPose> poses)
       : answer_(answer), poses_(std::move(poses)), part_(answer.part) {
     has_normals_ = std::any_of(answer.touches.begin(), answer.touches.end(),
                                [](const MeasuredTouch& touch) { return touch.normal.has_value(); });
@@ -138,6 +60,7 @@ class Advisor {
       turn_sd_ = std::max(turn_sd_, tolerance.angle / share);
     }
     bound();
+    share_out();
   }
 
   std::vector<Approach> all_around() const {
@@ -156,7 +79,7 @@ class Advisor {
 
   std::vector<Forecast> forecasts(const Approach& approach) {
     std::vector<Forecast> result;
-    for (const PoseOf& one : poses_) result.push_back(forecast(approach, one));
+    for (const LikelyPose& one : poses_) result.push_back(forecast(approach, one));
     return result;
   }
 
@@ -174,9 +97,12 @@ class Advisor {
     });
   }
 
+  const std::vector<LikelyPose>& poses() const { return poses_; }
+  PartDistance& part() { return part_; }
+  std::size_t pose_count() const { return poses_.size(); }
   double bits_wanted() const {
     double bits = 0;
-    for (const PoseOf& one : poses_) bits -= one.weight * std::log2(one.weight);
+    for (const LikelyPose& one : poses_) bits -= one.weight * std::log2(one.weight);
     return bits;
   }
 
@@ -185,7 +111,7 @@ class Advisor {
   void bound() {
     const std::vector<Vec2> outline = answer_.part.polyline(0, answer_.part.perimeter(), 200);
     Vec2 least = Vec2::Constant(std::numeric_limits<double>::infinity()), most = -least;
-    for (const PoseOf& one : poses_) {
+    for (const LikelyPose& one : poses_) {
       for (const Vec2& point : outline) {
         const Vec2 world = one.pose.world({side() * point.x(), point.y()});
         least = least.cwiseMin(world);
@@ -198,11 +124,10 @@ class Advisor {
 
   double side() const { return answer_.mirrored ? -1 : 1; }
 
-  /// A pose's share of the set that it stands for.
-  double part_of_its_set(std::size_t j) const {
-    double weight = 0;
-    for (const PoseOf& one : poses_) weight += one.placement == poses_[j].placement ? one.weight : 0;
-    return poses_[j].weight / weight;
+  void share_out() {
+    std::map<std::size_t, double> of_set;
+    for (const LikelyPose& one : poses_) of_set[one.placement] += one.weight;
+    for (const LikelyPose& one : poses_) share_of_set_.push_back(one.weight / of_set[one.placement]);
   }
 
   /// `apart(a, b, j)`: how far the touch in pose a is from what pose j would have, b.
@@ -216,27 +141,31 @@ class Advisor {
       for (std::size_t j = 0; j < all.size(); ++j) {
         const double share = i == j ? 1 : std::exp(-0.5 * apart(all[i], all[j], j));
         weight += poses_[j].weight * share;
-        remain += share * part_of_its_set(j);
+        remain += share * share_of_set_[j];
       }
       result.bits -= poses_[i].weight * std::log2(std::max(weight, 1e-300));
       result.poses += poses_[i].weight * remain;
       result.head_on += poses_[i].weight * (all[i].touch.hits ? all[i].incidence : 0);
     }
+    result.bits = std::max(0.0, result.bits);  // weights add up to 1 but for rounding
     return result;
   }
 
+  Vec2 in_part(const LikelyPose& one, const Vec2& at) const {
+    const Vec2 point = Pose{0, 0, -one.pose.heading}.turned(at - Vec2(one.pose.x, one.pose.y));
+    return {side() * point.x(), point.y()};
+  }
+
   /// What is nearest to a place of the world, in a pose; directions and places as the world sees them, about the part.
-  NearestOfPart nearest_in(const PoseOf& one, const Vec2& at) {
-    Vec2 in_part = Pose{0, 0, -one.pose.heading}.turned(at - Vec2(one.pose.x, one.pose.y));
-    in_part.x() *= side();
-    NearestOfPart nearest = part_.nearest(in_part);
+  NearestOfPart nearest_in(const LikelyPose& one, const Vec2& at) {
+    NearestOfPart nearest = part_.nearest(in_part(one, at));
     nearest.away = one.pose.turned({side() * nearest.away.x(), nearest.away.y()});
     nearest.contact = one.pose.turned({side() * nearest.contact.x(), nearest.contact.y()});
     return nearest;
   }
 
   /// Of the part's side across itself, from the pose's.
-  static double variance_of(const PoseOf& one, const NearestOfPart& nearest) {
+  static double variance_of(const LikelyPose& one, const NearestOfPart& nearest) {
     const Vec2& away = nearest.away;
     const Vec2& arm = nearest.contact;
     const Eigen::Vector3d by_pose(away.x(), away.y(), away.y() * arm.x() - away.x() * arm.y());
@@ -245,7 +174,7 @@ class Advisor {
 
   /// Of the normal, from the pose's heading, and as a touch may as well have been a little further along the side: by
   /// how much its normal turns there.
-  double turn_variance_of(const PoseOf& one, const NearestOfPart& nearest) const {
+  double turn_variance_of(const LikelyPose& one, const NearestOfPart& nearest) const {
     const bool is_corner = std::isinf(nearest.curvature);
     const double radius = answer_.radius;
     const double bend = is_corner ? 1 / radius : std::abs(nearest.curvature / (1 + nearest.curvature * radius));
@@ -253,7 +182,7 @@ class Advisor {
   }
 
   /// The squares of a touch's residuals in another pose.
-  double square_off(const Forecast& made, const PoseOf& one) {
+  double square_off(const Forecast& made, const LikelyPose& one) {
     const NearestOfPart nearest = nearest_in(one, made.touch.at);
     const double gap = nearest.distance - answer_.radius;
     const double turn = nearest_angle(made.touch.normal - std::atan2(nearest.away.y(), nearest.away.x()));
@@ -268,7 +197,7 @@ class Advisor {
   }
 
   /// Goes by how far the part is, until it touches or is past.
-  Forecast forecast(const Approach& approach, const PoseOf& one) {
+  Forecast forecast(const Approach& approach, const LikelyPose& one) {
     Forecast result;
     result.touch = {one.placement, one.weight, one.pose};
     const Vec2 along(std::cos(approach.direction), std::sin(approach.direction));
@@ -276,6 +205,11 @@ class Advisor {
     double travel = 0;
     for (int step = 0; step < kMostTraceSteps && travel <= farthest; ++step) {
       const Vec2 at = approach.from + travel * along;
+      const double most_near = part_.at_least(in_part(one, at)) - answer_.radius;
+      if (most_near > kTouches * part_.diagonal()) {
+        travel += most_near;
+        continue;
+      }
       const NearestOfPart nearest = nearest_in(one, at);
       const double gap = nearest.distance - answer_.radius;
       if (gap > kTouches * part_.diagonal()) {
@@ -303,7 +237,8 @@ class Advisor {
   }
 
   const TouchAnswer& answer_;
-  std::vector<PoseOf> poses_;
+  std::vector<LikelyPose> poses_;
+  std::vector<double> share_of_set_;  // of each pose, in the set that it stands for
   PartDistance part_;
   bool has_normals_ = false;
   double place_sd_ = 0;
@@ -324,7 +259,8 @@ std::size_t best_of(Advisor& advisor, std::vector<TouchProspect>& prospects) {
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return is_better(prospects[a], prospects[b]); });
-  order.resize(std::min(order.size(), kMostCloseLooks));
+  const std::size_t pairs = advisor.pose_count() * advisor.pose_count();
+  order.resize(std::min(order.size(), std::max<std::size_t>(1, kMostClosePairs / pairs)));
   for (const std::size_t k : order) prospects[k] = advisor.prospect(prospects[k].approach);
   return *std::min_element(order.begin(), order.end(),
                            [&](std::size_t a, std::size_t b) { return is_better(prospects[a], prospects[b]); });
@@ -339,10 +275,16 @@ void require_finite(const std::vector<Approach>& approaches) {
   }
 }
 
+/// One touch with a normal fits all along the boundary, in one heading each; its answer lists no pose.
+bool is_after_one(const TouchAnswer& answer) {
+  return answer.touches.size() == 1 && answer.touches.front().normal && answer.verdict.name == Verdict::unobservable;
+}
+
 /// Why there is nothing to look at; empty: there is.
 std::string nothing_to_tell(const TouchAnswer& answer) {
   if (answer.poses.empty()) {
-    return answer.touches.size() < 2 ? "one touch leaves every place of the boundary: touch the part elsewhere first"
+    if (is_after_one(answer)) return "";
+    return answer.touches.size() < 2 ? "one place leaves every pose that touches it: touch the part elsewhere first"
                                      : "no pose fits the touches";
   }
   if (answer.poses.size() > 1) return "";
@@ -368,13 +310,16 @@ NextTouch next_touch(const TouchAnswer& answer, const std::vector<Approach>& app
   next.why = touch::nothing_to_tell(answer);
   if (!next.why.empty()) return next;
   const Doing doing("looking for the touch that tells most");
-  touch::Advisor advisor(answer, touch::poses_of(answer));
+  touch::Advisor advisor(answer, touch::likely_poses(answer));
   for (const Approach& approach : approaches.empty() ? advisor.all_around() : approaches) {
     next.prospects.push_back(advisor.rough_prospect(approach));
   }
   next.best = touch::best_of(advisor, next.prospects);
-  for (touch::Forecast& one : advisor.forecasts(next.advised().approach)) next.expected.push_back(one.touch);
+  if (!answer.poses.empty()) {
+    for (touch::Forecast& one : advisor.forecasts(next.advised().approach)) next.expected.push_back(one.touch);
+  }
   next.bits_wanted = advisor.bits_wanted();
+  next.roll = touch::roll_instead(answer, advisor.poses(), advisor.part());
   next.helps = next.advised().bits >= touch::kLeastBits;
   if (next.helps) return next;
   next.why = approaches.empty() ? "no touch tells these poses apart: the part looks the same in each, within the noise"

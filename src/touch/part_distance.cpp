@@ -1,6 +1,8 @@
 #include "part_distance.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include "nearest.hpp"
@@ -16,7 +18,28 @@ constexpr double kCornerTurn = 1e-4;
 
 }  // namespace
 
-PartDistance::PartDistance(const Part& part) : part_(part), boundary_(part_, 0), tree_(boundary_) {}
+PartDistance::PartDistance(const Part& part)
+    : part_(part),
+      boundary_(part_, 0),
+      tree_(boundary_),
+      of_cell_(kCells * kCells, std::numeric_limits<double>::quiet_NaN()) {
+  const PathTree::Node& all = tree_.node(tree_.root());
+  corner_ = all.middle - Vec2::Constant(all.radius);
+  cell_ = Vec2::Constant(2 * all.radius / kCells);
+}
+
+/// Distance changes by no more than one goes.
+double PartDistance::at_least(const Vec2& point) {
+  const Vec2 far = ((point - corner_).cwiseQuotient(cell_) / kCells - Vec2::Constant(0.5)).cwiseAbs();
+  if (far.maxCoeff() >= 0.5) return (far - Vec2::Constant(0.5)).cwiseMax(0).norm() * cell_.x() * kCells;
+  const Vec2 number = ((point - corner_).cwiseQuotient(cell_)).array().floor();
+  const int column = std::clamp(static_cast<int>(number.x()), 0, kCells - 1);
+  const int row = std::clamp(static_cast<int>(number.y()), 0, kCells - 1);
+  const Vec2 middle = corner_ + cell_.cwiseProduct(Vec2(column + 0.5, row + 0.5));
+  double& distance = of_cell_[static_cast<std::size_t>(row * kCells + column)];
+  if (std::isnan(distance)) distance = nearest(middle).distance;
+  return distance - (point - middle).norm();
+}
 
 /// The side of a corner is that of both normals together.
 NearestOfPart PartDistance::nearest(const Vec2& point) {
@@ -26,6 +49,7 @@ NearestOfPart PartDistance::nearest(const Vec2& point) {
   const Vec2 off = point - place.centre;
   NearestOfPart result;
   result.contact = place.centre;
+  result.s = place.s;
   result.distance = off.norm();
   const double before = part_.tangent(place.s - kBeside * part_.perimeter());
   const double after = part_.tangent(place.s + kBeside * part_.perimeter());

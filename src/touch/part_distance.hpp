@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "centre_path.hpp"
 #include "path_tree.hpp"
 #include "rollfix/part/part.hpp"
@@ -11,6 +13,7 @@ struct NearestOfPart {
   double distance = 0;          // below 0 inside; an open outline has no inside
   Vec2 away = Vec2::Zero();     // direction in which it grows
   Vec2 contact = Vec2::Zero();  // the nearest point of the boundary, and ...
+  double s = 0;                 // where it is, ...
   double curvature = 0;         // ... its curvature; infinite at a corner
 };
 
@@ -23,11 +26,18 @@ class PartDistance {
 
   double diagonal() const { return boundary_.diagonal(); }
   NearestOfPart nearest(const Vec2& point);
+  /// How far a point is from the part, at least: quick, and near it below 0.
+  double at_least(const Vec2& point);
 
  private:
+  static constexpr int kCells = 64;  // of a grid over the part's box, each way
+
   const Part& part_;
   CentrePath boundary_;
   PathTree tree_;
+  Vec2 corner_ = Vec2::Zero();   // of the grid
+  Vec2 cell_ = Vec2::Zero();     // sizes of its cells
+  std::vector<double> of_cell_;  // distance at a cell's middle; NaN: nobody asked yet
 };
 
 }  // namespace rollfix::touch

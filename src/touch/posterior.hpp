@@ -5,6 +5,7 @@
 
 #include "cell_sets.hpp"
 #include "pose_fit.hpp"
+#include "rollfix/touch/touch.hpp"
 
 namespace rollfix::touch {
 
@@ -47,13 +48,6 @@ std::size_t count_places(PoseFit& fit, const CellSets& sets, std::size_t first_t
 
 /// The modes, the most probable first.
 std::vector<PoseMode> modes_of(const CellSets& sets, const Posterior& posterior);
-
-/// Of one number, a mixture of normal distributions.
-struct MixtureTerm {
-  double weight = 0;
-  double mean = 0;
-  double sd = 0;
-};
 
 /// The middle interval that holds this share of a mixture's weight.
 Interval middle_share(const std::vector<MixtureTerm>& terms, double share);

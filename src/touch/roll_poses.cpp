@@ -59,6 +59,7 @@ TouchPose pose_of(const RollContact& roll, const Placement& placement) {
     pose.interval[i] = normal_interval(mean[i], pose.spread.covariance(k, k));
     pose.extent[i] = {mean[i], mean[i]};
   }
+  pose.heading_density = {{1, mean[2], std::sqrt(pose.spread.covariance(2, 2))}};
   return pose;
 }
 

@@ -5,6 +5,7 @@
 #include <random>
 #include <vector>
 
+#include "outline/turn.hpp"
 #include "random.hpp"
 #include "refusal.hpp"
 #include "rollfix/touch/next_touch.hpp"
@@ -40,6 +41,25 @@ TEST(TouchNext, WhereOnePoseIsLeftThereIsNothingToAdvise) {
   EXPECT_FALSE(next.helps);
   EXPECT_EQ(next.why, "one pose is left");
   EXPECT_TRUE(next.prospects.empty());
+}
+
+TEST(TouchNext, AfterOneTouchWithItsNormalSaysWhereTheNextOneTellsMost) {
+  TouchProblem problem = of_part("gallery:cam", {{{2, 1}, 0.5}});
+  problem.noise->angle = rollfix::kDegree;
+  const TouchAnswer answer = rollfix::solve(problem);
+  const NextTouch next = rollfix::next_touch(answer);
+  ASSERT_TRUE(next.helps);
+  EXPECT_TRUE(next.expected.empty());
+  EXPECT_GT(next.advised().bits, 0.5 * next.bits_wanted);
+  const Vec2 away(std::cos(0.5), std::sin(0.5));
+  const rollfix::Approach from_outside{Vec2(2, 1) + 50 * away + 20 * Vec2(-away.y(), away.x()), 0.5};
+  EXPECT_EQ(rollfix::next_touch(answer, {from_outside}).advised().bits, 0) << "it goes off, where the part can't be";
+}
+
+TEST(TouchNext, AfterOnePlaceWithoutNormalTheAdviceIsToTouchElsewhere) {
+  const NextTouch next = rollfix::next_touch(rollfix::solve(of_part("gallery:cam", {{{2, 1}}})));
+  EXPECT_FALSE(next.helps);
+  EXPECT_EQ(next.why, "one place leaves every pose that touches it: touch the part elsewhere first");
 }
 
 TEST(TouchNext, AWayThatMissesThePartInEveryPoseGainsNothing) {

@@ -120,13 +120,13 @@ Count touches_until_unique(int which, bool is_advised, bool with_normals) {
     const std::size_t poses = answer ? answer->poses.size() : 0;
     const Pose& aim = poses == 0 ? truth : answer->poses[generator() % poses].pose;
     Approach approach = random_approach(part, aim, generator);
-    if (is_advised && poses > 0) {
+    if (is_advised && answer) {
       const NextTouch next = rollfix::next_touch(*answer);
       if (next.helps) approach = next.advised().approach;
     }
     try_touch(problem, truth, making, approach, generator);
-    if (problem.touches.size() < 2) continue;
-    if (result.first_two == 0) result.first_two = count;
+    if (problem.touches.empty()) continue;
+    if (problem.touches.size() == 2 && result.first_two == 0) result.first_two = count;
     answer.emplace(rollfix::solve(problem));
     if (answer->verdict.name != rollfix::Verdict::unique) continue;
     result.all = count;
@@ -148,7 +148,7 @@ TEST(TouchAdvice, AdvisedTouchesAreNoMoreThanRandomOnes) {
     }
     std::printf("| %s | %d | %.2f | %.2f | %.2f |\n", with_normals ? "with normals" : "places", cases, first / cases,
                 random / cases, advised / cases);
-    EXPECT_LE(advised, random + 0.25 * cases);
+    EXPECT_LE((with_normals ? 1.1 : 1) * advised, random + 0.25 * cases);
   }
 }
 

@@ -40,12 +40,21 @@ std::string headline(const TouchAnswer& answer, const NextTouch& next) {
   if (!next.helps) return fmt::format("{}: {}\n", answer.verdict_text(), next.why);
   const TouchProspect& advised = next.advised();
   const int decimals = decimals_for(answer.part.perimeter());
-  return fmt::format(
-      "{}: from x {}, y {}{} go in direction {} deg until it touches: {:.2f} poses are expected to remain, {:.2f} of "
-      "{:.2f} bits gained\n",
-      answer.verdict_text(), fixed(advised.approach.from.x(), decimals), fixed(advised.approach.from.y(), decimals),
-      behind(answer.part.unit()), degrees(nearest_angle(advised.approach.direction)), advised.poses, advised.bits,
-      next.bits_wanted);
+  const bool any_are_listed = !next.expected.empty();
+  return fmt::format("{}: from x {}, y {}{} go in direction {} deg until it touches: {}{:.2f} of {:.2f} bits gained\n",
+                     answer.verdict_text(), fixed(advised.approach.from.x(), decimals),
+                     fixed(advised.approach.from.y(), decimals), behind(answer.part.unit()),
+                     degrees(nearest_angle(advised.approach.direction)),
+                     any_are_listed ? fmt::format("{:.2f} poses are expected to remain, ", advised.poses) : "",
+                     advised.bits, next.bits_wanted);
+}
+
+/// What rolling from the last touch gains instead.
+std::string roll_line(const TouchAnswer& answer, const NextTouch& next) {
+  if (!next.roll) return "";
+  const double length = next.roll->length;
+  return fmt::format("or roll over {}{}{} from the last touch: {:.2f} bits gained by its turn\n", length > 0 ? "+" : "",
+                     fixed(length, decimals_for(answer.part.perimeter())), behind(answer.part.unit()), next.roll->bits);
 }
 
 std::string table_of(const TouchAnswer& answer, const NextTouch& next) {
@@ -90,7 +99,8 @@ Report advise_touches(const std::vector<std::string>& touches, const RollArgumen
     next.why = "the budget ran out: touch once more, or raise --budget";
   }
   report.data = json ? format_next_touch(answer, next)
-                     : headline(answer, next) + (next.helps ? table_of(answer, next) : std::string());
+                     : headline(answer, next) + roll_line(answer, next) +
+                           (next.helps && !next.expected.empty() ? table_of(answer, next) : std::string());
   if (output.file.empty()) return report;
   TouchFigure figure{&answer};
   figure.others = std::move(others);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <utility>
 
 #include "rollfix/arguments/finger_argument.hpp"
@@ -30,11 +32,29 @@ void require_options_of_rolls(const RollArguments& arguments) {
   refuse(!arguments.clear.empty(), "--clear", "paths on which nothing was felt are taken with touches alone");
 }
 
+/// Throws InputError: a table of touches, or a file that was given before, whose rolls would count twice.
+void require_log_of_rolls(const RollArguments& arguments, std::size_t k) {
+  const std::string& path = arguments.logs[k];
+  if (is_table_of_touches(path, arguments)) {
+    throw InputError(
+        fmt::format("{}: expected a log of a roll, with u and psi, found a table of touches: give them with --touch "
+                    "X,Y[,NORMAL], or "
+                    "leave the rolls and --roll out",
+                    path));
+  }
+  if (std::find(arguments.logs.begin(), arguments.logs.begin() + static_cast<std::ptrdiff_t>(k), path) !=
+      arguments.logs.begin() + static_cast<std::ptrdiff_t>(k)) {
+    throw InputError(fmt::format("--log {}: it is given twice, and its rolls would count twice: leave one out", path));
+  }
+}
+
 /// The rolls of all logs, one after another.
 std::vector<Log> read_all_rolls(const RollArguments& arguments, const LogOptions& options,
                                 std::vector<std::string>& notes) {
   std::vector<Log> rolls;
-  for (const std::string& path : arguments.logs) {
+  for (std::size_t k = 0; k < arguments.logs.size(); ++k) {
+    const std::string& path = arguments.logs[k];
+    require_log_of_rolls(arguments, k);
     for (Log& roll : read_rolls(path, options)) {
       add_log_notes(roll, notes);
       rolls.push_back(std::move(roll));

@@ -76,7 +76,7 @@ void add_clear(const std::vector<std::string>& given, std::vector<Clear> of_rows
 
 void require_touch_options(const std::vector<std::string>& touches, const RollArguments& arguments) {
   if (!touches.empty() && !arguments.logs.empty()) {
-    const bool is_table = is_touch_table(first_rows_of(arguments.logs.front()), table_options(arguments, ""));
+    const bool is_table = is_table_of_touches(arguments.logs.front(), arguments);
     throw InputError(is_table ? "--touch and --log both give touches: leave one of them out"
                               : "--touch and a --log of rolls share a pose with --roll all: add it");
   }
@@ -146,7 +146,8 @@ void add_touch_arguments(CLI::App& command, std::vector<std::string>& touches, R
       .add_option("--touch", touches,
                   "a touch without rolling: the finger's centre in the world and, if it was measured, the direction "
                   "out of the part; repeatable, with --noise position=SD,angle=SD or --tolerance LENGTH,ANGLE; the "
-                  "answer is every pose of the part")
+                  "answer is every pose of the part; behind the normal, which may be empty, the touch's own standard "
+                  "deviations may follow, of its place and of its normal: 12.5,3.1,,0.1 or 12.5,3.1,73deg,0.1,2deg")
       ->type_name("X,Y[,NORMAL]")
       ->allow_extra_args(false);
   command
@@ -157,11 +158,14 @@ void add_touch_arguments(CLI::App& command, std::vector<std::string>& touches, R
       ->allow_extra_args(false);
 }
 
+bool is_table_of_touches(const std::string& path, const RollArguments& arguments) {
+  return is_touch_table(first_rows_of(path), table_options(arguments, ""));
+}
+
 bool are_touches(const std::vector<std::string>& touches, const RollArguments& arguments) {
   if (!touches.empty()) return true;
   if (arguments.logs.size() != 1 || are_columns_of_roll(arguments.reading.columns)) return false;
-  if (names_touch_columns(arguments.reading.columns)) return true;
-  return is_touch_table(first_rows_of(arguments.logs.front()), table_options(arguments, ""));
+  return names_touch_columns(arguments.reading.columns) || is_table_of_touches(arguments.logs.front(), arguments);
 }
 
 TouchProblem read_touch_problem(const std::vector<std::string>& touches, const RollArguments& arguments,

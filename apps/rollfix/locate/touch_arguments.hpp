@@ -11,6 +11,9 @@ namespace rollfix::app {
 /// Adds --touch and --clear.
 void add_touch_arguments(CLI::App& command, std::vector<std::string>& touches, RollArguments& arguments);
 
+/// Whether a file, or standard input, begins as a table of touches does.
+bool is_table_of_touches(const std::string& path, const RollArguments& arguments);
+
 /// Whether touches are meant: --touch, or one --log whose columns are x and y without those of a roll.
 bool are_touches(const std::vector<std::string>& touches, const RollArguments& arguments);
 

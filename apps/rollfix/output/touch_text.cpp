@@ -70,7 +70,10 @@ class TouchText {
                    ? "the touches leave the part free to move: touch a side with another direction\n"
                    : "next: one more touch, on a side with another direction\n";
       case Verdict::unobservable:
-        if (answer_.touches.size() == 1) return "one touch fits all along the boundary: touch the part elsewhere\n";
+        if (answer_.touches.size() == 1) {
+          return fmt::format("one touch fits all along the boundary: touch the part elsewhere{}\n",
+                             answer_.touches.front().normal ? "; rollfix advise says where" : "");
+        }
         return symmetry(answer_.part) == 0
                    ? "the part looks the same in every heading: only its place is known\n"
                    : "any heading fits: the touches are too close together, or the noise is too large for this part\n";

@@ -35,11 +35,18 @@ struct TouchProspect {
   double head_on = 0;  // cosine of the way's angle with the normal where it touches, 0 where it misses; on average
 };
 
+/// A roll from the last touch, and the information that it gains on average.
+struct RollProspect {
+  double length = 0;  // of the contact's way, positive along the stored outline
+  double bits = 0;
+};
+
 /// Which approach tells the poses apart.
 struct NextTouch {
   std::vector<TouchProspect> prospects;  // as the approaches were given; of the less promising ones an upper bound
   std::size_t best = 0;                  // of them
   std::vector<ExpectedTouch> expected;   // of the best approach, in each pose
+  std::optional<RollProspect> roll{};    // instead: the shortest that gains about most; none: see `next_touch`
   double bits_wanted = 0;                // what it takes to tell all of them apart
   bool helps = false;                    // false: no approach does
   std::string why{};                     // if none helps, in words; else empty
@@ -50,8 +57,10 @@ struct NextTouch {
 /// Looks at each approach in each pose of an answer: two poses are told apart by where the finger would touch, by the
 /// normal there if the answer's touches have normals, and by whether it touches at all; all in standard deviations,
 /// with what the poses themselves are uncertain by. Advised is what gains most information, and of what gains about as
-/// much what goes at the part head on. Without approaches many all around are looked at. Throws InputError: numbers
-/// that are not finite, an answer that is not complete.
+/// much what goes at the part head on. Without approaches many all around are looked at. After a single touch, which
+/// fits all along the boundary, a sample of its poses is looked at; `expected` is empty then. `roll` is told where a
+/// finger rolls, and its direction is measured: its turn counts alone, over at most 24 % of the perimeter. Throws
+/// InputError: numbers that are not finite, an answer that is not complete.
 NextTouch next_touch(const TouchAnswer& answer, const std::vector<Approach>& approaches = {});
 
 }  // namespace rollfix

@@ -79,6 +79,13 @@ struct TouchContact {
                                      // hi may exceed P
 };
 
+/// One of the normal distributions that a number's density is a sum of.
+struct MixtureTerm {
+  double weight = 0;  // of all of a density 1
+  double mean = 0;
+  double sd = 0;
+};
+
 /// One answer: a connected set of poses, all of which fit.
 struct TouchPose {
   Pose pose;                           // that fits best
@@ -93,7 +100,8 @@ struct TouchPose {
   // With noise.
   double probability = std::numeric_limits<double>::quiet_NaN();  // of the part's pose being in this set
   PoseSpread spread{};                                            // mean and covariance, given that it is
-  std::array<Interval, 3> interval{};  // x, y, heading: each holds 95 % of this set's probability
+  std::array<Interval, 3> interval{};          // x, y, heading: each holds 95 % of this set's probability
+  std::vector<MixtureTerm> heading_density{};  // given that it is; radians, unwrapped as `interval`
 };
 
 /// How well the best pose fits the stated noise.

@@ -329,8 +329,9 @@ std::string HeaderReader::cure(const Columns& columns) const {
   const bool any_is_left =
       std::any_of(names_.begin(), names_.end(), [](const HeaderName& one) { return !is_known(one.name); });
   if (!any_is_left) return fmt::format("; the header has {}", all_names());
-  return fmt::format("; say which column is which, as in `columns` {} (the header has {})",
-                     suggested_columns(names_, columns), all_names());
+  return fmt::format("; say which column is which, as in `columns` {} (the header has {}){}",
+                     suggested_columns(names_, columns), all_names(),
+                     columns.suffix.empty() ? "; touches without rolling have x and y alone" : "");
 }
 
 void HeaderReader::refuse(const Columns& columns) const {

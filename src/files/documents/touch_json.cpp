@@ -149,6 +149,7 @@ std::string format_next_touch(const TouchAnswer& answer, const NextTouch& next, 
                    {"approach", nullptr},
                    {"expected_poses", nullptr},
                    {"bits", nullptr},
+                   {"roll", nullptr},
                    {"bits_wanted", json_number(next.bits_wanted)}};
   if (!next.prospects.empty()) {
     const TouchProspect& advised = next.advised();
@@ -158,6 +159,9 @@ std::string format_next_touch(const TouchAnswer& answer, const NextTouch& next, 
     }
     document["expected_poses"] = json_number(advised.poses);
     document["bits"] = json_number(advised.bits);
+  }
+  if (next.roll) {
+    document["roll"] = {{"length", json_number(next.roll->length)}, {"bits", json_number(next.roll->bits)}};
   }
   document["contenders"] = each_of(next.expected, [](const ExpectedTouch& one) {
     return Json{{"placement", one.placement},

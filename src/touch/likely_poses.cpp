@@ -1,0 +1,180 @@
+#include "likely_poses.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "centre_path.hpp"
+#include "measured.hpp"
+#include "outline/turn.hpp"
+#include "path_tree.hpp"
+#include "pose_fit.hpp"
+
+// Notation:
+//   phi, X        heading and place of the part in the world; R = R(phi)
+//   o(u), nu(u)   the finger's centre and the outward normal's direction, in the part's frame, at place u of the path
+//   q, n          the measured centre and normal's direction: phi = n - nu(u), X = q - R o(u)
+namespace rollfix::touch {
+namespace {
+
+// Poses of one set that are looked at where it is a continuum: along its longest direction, in its standard deviations.
+constexpr double kAlong[] = {-2, -1.5, -1, -0.5, 0, 0.5, 1, 1.5, 2};
+// Poses that are looked at, the most probable ones.
+constexpr std::size_t kMostPoses = 60;
+// Poses that stand for all that one touch leaves.
+constexpr std::size_t kOfOneTouch = 150;
+// Their headings, where no normal was measured, go around by this share of a turn: no two places and headings are
+// alike.
+constexpr double kGolden = 0.6180339887498949;
+
+/// Moves poses to where they fit the touches of an answer: those along a continuum lie on a curve.
+class Refit {
+ public:
+  explicit Refit(const TouchAnswer& answer)
+      : touches_(measured_of(answer)), path_(answer.part, answer.radius), tree_(path_), fit_(touches_, {}) {
+    for (Measured& touch : touches_) touch.tree = &tree_;
+  }
+  Refit(const Refit&) = delete;
+  Refit& operator=(const Refit&) = delete;
+
+  Pose operator()(const Pose& pose) { return fit_.fit(pose).pose; }
+
+ private:
+  static std::vector<Measured> measured_of(const TouchAnswer& answer) {
+    std::vector<Measured> touches;
+    for (std::size_t k = 0; k < answer.touches.size(); ++k) {
+      const TouchTolerance& most = answer.tolerance[k];
+      Measured one{answer.touches[k].at};
+      if (answer.touches[k].normal) one.tangent = *answer.touches[k].normal + 0.5 * std::numbers::pi;
+      one.place_most = most.length;
+      one.angle_most = most.angle;
+      one.place_unit = most.length / kTouchSigmas;
+      if (most.angle > 0) one.angle_unit = most.angle / kTouchSigmas;
+      touches.push_back(one);
+    }
+    return touches;
+  }
+
+  std::vector<Measured> touches_;
+  CentrePath path_;
+  PathTree tree_;
+  PoseFit fit_;
+};
+
+std::vector<LikelyPose> poses_of_sets(const TouchAnswer& answer) {
+  std::optional<Refit> refit;
+  const bool any_continuum =
+      std::any_of(answer.poses.begin(), answer.poses.end(), [](const TouchPose& set) { return set.continuum; });
+  if (answer.noise && any_continuum && !answer.mirrored) refit.emplace(answer);
+  std::vector<LikelyPose> poses;
+  for (std::size_t k = 0; k < answer.poses.size(); ++k) {
+    const TouchPose& set = answer.poses[k];
+    const double weight = answer.noise ? set.probability : 1.0;
+    if (!answer.noise || !set.continuum) {
+      poses.push_back({k, weight, set.pose, answer.noise ? set.spread.covariance : Eigen::Matrix3d::Zero().eval()});
+      continue;
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(set.spread.covariance);
+    const Eigen::Vector3d along = solver.eigenvectors().col(2) * std::sqrt(std::max(0.0, solver.eigenvalues()(2)));
+    const Eigen::Matrix3d across = set.spread.covariance - along * along.transpose();
+    for (const double share : kAlong) {
+      const Pose& mean = set.spread.mean;
+      const Pose along_line{mean.x + share * along(0), mean.y + share * along(1), mean.heading + share * along(2)};
+      const Pose pose = refit ? (*refit)(along_line) : along_line;
+      poses.push_back({k, weight / static_cast<double>(std::size(kAlong)), pose, across});
+    }
+  }
+  std::stable_sort(poses.begin(), poses.end(),
+                   [](const LikelyPose& a, const LikelyPose& b) { return a.weight > b.weight; });
+  if (poses.size() > kMostPoses) poses.resize(kMostPoses);
+  return poses;
+}
+
+/// Places all along the path, each with as much of its length.
+std::vector<PathPlace> even_places(const CentrePath& path, std::size_t count, double& apart) {
+  double total = 0;
+  for (const CentreStretch& stretch : path.stretches()) total += path.length(stretch, stretch.u);
+  apart = total / static_cast<double>(count);
+  std::vector<PathPlace> places;
+  double before = 0;
+  for (std::size_t k = 0; k < path.stretches().size(); ++k) {
+    const CentreStretch& stretch = path.stretches()[k];
+    const double length = path.length(stretch, stretch.u);
+    while (places.size() < count && (static_cast<double>(places.size()) + 0.5) * apart < before + length) {
+      const double share = ((static_cast<double>(places.size()) + 0.5) * apart - before) / length;
+      places.push_back({k, stretch.u.lo + share * (stretch.u.hi - stretch.u.lo)});
+    }
+    before += length;
+  }
+  return places;
+}
+
+/// A touch with a normal fits at every place of the path, in one heading each.
+class AfterOneTouch {
+ public:
+  explicit AfterOneTouch(const TouchAnswer& answer) : answer_(answer), path_(answer.part, answer.radius) {
+    const double share = answer.noise ? kTouchSigmas : 1;
+    place_sd_ = answer.tolerance.front().length / share;
+    turn_sd_ = answer.tolerance.front().angle / share;
+  }
+
+  std::vector<LikelyPose> poses() {
+    const std::vector<PathPlace> places = even_places(path_, kOfOneTouch, apart_);
+    std::vector<LikelyPose> result;
+    for (const PathPlace& place : places) result.push_back(pose_at(place));
+    return result;
+  }
+
+ private:
+  double side() const { return answer_.mirrored ? -1 : 1; }
+
+  LikelyPose pose_at(const PathPlace& place) const {
+    const MeasuredTouch& touch = answer_.touches.front();
+    const CentrePoint point = path_.at(place);
+    const Vec2 outward(side() * std::sin(point.angle), -std::cos(point.angle));
+    LikelyPose one;
+    one.weight = 1;
+    one.pose.heading = nearest_angle(*touch.normal - std::atan2(outward.y(), outward.x()));
+    const Vec2 centre = one.pose.turned({side() * point.centre.x(), point.centre.y()});
+    const Vec2 along = one.pose.turned({side() * point.along.x(), point.along.y()});
+    one.pose.x = touch.at.x() - centre.x();
+    one.pose.y = touch.at.y() - centre.y();
+    one.covariance = covariance(centre, along, side() * point.bend);
+    return one;
+  }
+
+  /// Of the pose: from the places and headings that it stands for, and from what was measured.
+  Eigen::Matrix3d covariance(const Vec2& centre, const Vec2& along, double bend) const {
+    const auto moved = [&](double du, double turn) {
+      const Vec2 by = -along * du - turned_left(centre) * turn;
+      return Eigen::Vector3d(by.x(), by.y(), turn);
+    };
+    const double du = along.norm() > 0 ? apart_ / std::sqrt(12) / along.norm() : 0;
+    const Eigen::Vector3d by_place = moved(du, -bend * du);
+    const Eigen::Vector3d by_turn = moved(0, turn_sd_);
+    Eigen::Matrix3d result = by_place * by_place.transpose() + by_turn * by_turn.transpose();
+    result.topLeftCorner<2, 2>() += place_sd_ * place_sd_ * Eigen::Matrix2d::Identity();
+    return result;
+  }
+
+  const TouchAnswer& answer_;
+  CentrePath path_;
+  double apart_ = 0;
+  double place_sd_ = 0;
+  double turn_sd_ = 0;
+};
+
+}  // namespace
+
+std::vector<LikelyPose> likely_poses(const TouchAnswer& answer) {
+  std::vector<LikelyPose> poses =
+      answer.touches.size() == 1 && answer.poses.empty() ? AfterOneTouch(answer).poses() : poses_of_sets(answer);
+  double total = 0;
+  for (const LikelyPose& one : poses) total += one.weight;
+  for (LikelyPose& one : poses) one.weight /= total;
+  return poses;
+}
+
+}  // namespace rollfix::touch
