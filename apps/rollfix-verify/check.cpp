@@ -15,9 +15,42 @@ constexpr double kMostWork = 1e6;
 /// Text or numbers as they stand in the certificate, with nothing that a terminal would obey.
 std::string plain(const Json& value) { return value.dump(-1, ' ', true, Json::error_handler_t::replace); }
 
-std::string question_of(const Json& json, bool is_one) {
-  std::string text = "part " + plain(json.at("part")) + (json.at("closed").get<bool>() ? ", closed" : ", open") +
-                     ", perimeter " + plain(json.at("perimeter")) + "\n";
+constexpr const char* kOneFinger = "rollfix/certificate/1";
+constexpr const char* kTwoFingers = "rollfix/pair-certificate/1";
+constexpr const char* kTouches = "rollfix/touch-certificate/1";
+
+std::string part_of(const Json& json) {
+  return "part " + plain(json.at("part")) + (json.at("closed").get<bool>() ? ", closed" : ", open") + ", perimeter " +
+         plain(json.at("perimeter")) + "\n";
+}
+
+std::string between(const Json& limits) { return plain(limits.at(0)) + " to " + plain(limits.at(1)); }
+
+std::string touches_question(const Json& json) {
+  std::string text = part_of(json);
+  if (json.at("mirrored").get<bool>()) text += "face down\n";
+  text += json.at("radius").get<double>() == 0 ? "finger point\n"
+                                               : "finger disk, radius " + plain(json.at("radius")) + "\n";
+  for (const Json& touch : json.at("touches")) {
+    text += "touch at " + plain(touch.at("at").at(0)) + ", " + plain(touch.at("at").at(1)) + " within " +
+            plain(touch.at("tolerance").at(0));
+    if (touch.contains("normal")) {
+      text += ", normal " + plain(touch.at("normal")) + " within " + plain(touch.at("tolerance").at(1)) + " rad";
+    }
+    text += "\n";
+  }
+  for (const Json& one : json.at("poses")) {
+    text += (one.at("listed").get<bool>() ? "poses" : "left out: poses");
+    text += " with x " + between(one.at("extent").at(0)) + ", y " + between(one.at("extent").at(1)) + ", heading " +
+            between(one.at("extent").at(2)) + " rad\n";
+  }
+  return text;
+}
+
+std::string question_of(const Json& json, const std::string& schema) {
+  if (schema == kTouches) return touches_question(json);
+  const bool is_one = schema == kOneFinger;
+  std::string text = part_of(json);
   for (const Json& reading : json.at("readings")) {
     const Json& length = reading.at("length");
     text += is_one ? "reading length " + plain(length)
@@ -38,6 +71,23 @@ std::string percent_of(double share) {
   return text;
 }
 
+/// Of touches.
+std::string described_poses(const Verdict& verdict) {
+  std::string found = std::to_string(verdict.placements) + (verdict.placements == 1 ? " set" : " sets") + " of poses";
+  if (verdict.left_out > 0) found += " and " + std::to_string(verdict.left_out) + " that the answer leaves out";
+  if (verdict.is_complete()) return "proved: " + found + ", nothing else\n" + verdict.question;
+  std::string but;
+  if (verdict.open > 0) {
+    but = "poses with touch " + std::to_string(verdict.open_touch) + " on " + percent_of(verdict.share) +
+          " % of the boundary";
+  }
+  if (verdict.unproved > 0) {
+    but += std::string(but.empty() ? "" : " and ") + std::to_string(verdict.unproved) +
+           (verdict.unproved == 1 ? " box" : " boxes") + " of poses within rounding of the tolerance";
+  }
+  return "proved but for " + but + ": " + found + "\n" + verdict.question;
+}
+
 }  // namespace
 
 Verdict check(const std::string& text) {
@@ -49,16 +99,18 @@ Verdict check(const std::string& text) {
   const Json json = Json::parse(text, nullptr, false);
   if (json.is_discarded()) throw std::runtime_error("is no JSON document, expected one that locate --certify wrote");
   const Json schema = json.is_object() && json.contains("schema") ? json["schema"] : Json();
-  const bool is_one = schema == "rollfix/certificate/1";
-  if (!is_one && schema != "rollfix/pair-certificate/1") {
-    throw std::runtime_error("it is no certificate of version rollfix/certificate/1 or rollfix/pair-certificate/1");
+  if (schema != kOneFinger && schema != kTwoFingers && schema != kTouches) {
+    throw std::runtime_error(std::string("it is no certificate of version ") + kOneFinger + ", " + kTwoFingers +
+                             " or " + kTouches);
   }
-  const std::string question = question_of(json, is_one);
+  const std::string question = question_of(json, schema);
   try {
     const Budget budget(kMostWork);
     const Document document(json);
-    document.check();
-    Verdict verdict = is_one ? check_one_finger(document) : check_two_fingers(document);
+    if (schema != kTouches) document.check();
+    Verdict verdict = schema == kOneFinger    ? check_one_finger(document)
+                      : schema == kTwoFingers ? check_two_fingers(document)
+                                              : check_touches(document);
     verdict.question = question;
     return verdict;
   } catch (const std::domain_error& error) {
@@ -71,6 +123,7 @@ Verdict check(const std::string& text) {
 
 std::string described(const Verdict& verdict) {
   if (!verdict.refusal.empty()) return "refused: " + verdict.refusal + "\n";
+  if (verdict.of_touches) return described_poses(verdict);
   std::string found = counted(verdict.placements, "placement");
   if (verdict.families == 1) found += ", 1 of them a family";
   if (verdict.families > 1) found += ", " + std::to_string(verdict.families) + " of them families";

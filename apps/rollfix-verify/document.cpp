@@ -32,12 +32,16 @@ Document::Document(const Json& json)
     : json_(json),
       boundary_(formulas(json.at("curves")), json.at("closed").get<bool>()),
       period_(boundary_.perimeter().middle()),
-      tolerance_(json.at("tolerance").get<double>()) {}
+      tolerance_(json.value("tolerance", 0.0)) {}
 
 void Document::check() const {
   if (!(tolerance_ >= kLeastTolerance) || !std::isfinite(tolerance_)) {
     refuse("the tolerance is below what rounding allows");
   }
+  check_outline();
+}
+
+void Document::check_outline() const {
   const double stated = json_.at("perimeter").get<double>();
   if (!abs(boundary_.perimeter() - stated).is_below(kLengthSlack * period_)) refuse("the perimeter is another one");
   if (!(period_ > 0)) refuse("the outline has no length");

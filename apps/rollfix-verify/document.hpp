@@ -42,6 +42,8 @@ class Document {
 
   /// The tolerance is one, and the outline is the one that is stated.
   void check() const;
+  /// The outline alone.
+  void check_outline() const;
 
   /// Of the question: refused where it is too large for its digits.
   Ball length(const Json& stated) const;
@@ -64,10 +66,10 @@ class Document {
   Place contact(const std::string& name, const Json& placement, const Ball& length,
                 std::optional<std::size_t> finger = std::nullopt) const;
 
- private:
   /// How far the tangent turns at most over what a place may be off.
   Ball turn_beside(const Place& place) const;
 
+ private:
   bool is_at(const Point& point, const Json& stated) const;
 
   const Json& json_;

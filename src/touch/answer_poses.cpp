@@ -63,27 +63,6 @@ void extend(Interval& interval, double lo, double hi) {
   interval.hi = std::max(interval.hi, hi);
 }
 
-/// Around all poses that have their first two contacts on one of the cells.
-std::array<Interval, 3> extent_of(const PoseFit& fit, const std::vector<Cell>& cells, const TouchPair& pair,
-                                  const Pose& about) {
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  std::array<Interval, 3> extent;
-  extent.fill({kFar, -kFar});
-  const Measured& first = fit.touches()[pair.first];
-  for (const Cell& cell : cells) {
-    const PathTree::Node& node = fit.tree(pair.first).node(cell.first);
-    const Pose turn{0, 0, cell.heading.middle};
-    const Vec2 place = first.at - turn.turned(node.middle);
-    const double swing = cell.heading.is_all() ? 2 : 2 * std::sin(0.5 * cell.heading.half);
-    const double slack = node.radius + (is_reference(first) ? 0 : first.place_most) + swing * node.middle.norm();
-    extend(extent[0], place.x() - slack, place.x() + slack);
-    extend(extent[1], place.y() - slack, place.y() + slack);
-    const double off = about.heading + nearest_angle(cell.heading.middle - about.heading);
-    extend(extent[2], off - cell.heading.half, off + cell.heading.half);
-  }
-  return extent;
-}
-
 /// Whether the touches leave the part free to move: in some direction they would hardly hold it, if its sides were as
 /// long as they are straight there.
 bool is_continuum(const PoseFit& fit, const FittedPose& fitted) {
@@ -115,6 +94,26 @@ bool is_free(const PoseFit& fit, const FittedPose& fitted, const TouchPair& pair
 }
 
 }  // namespace
+
+std::array<Interval, 3> extent_of(const PoseFit& fit, const std::vector<Cell>& cells, const TouchPair& pair,
+                                  const Pose& about) {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  std::array<Interval, 3> extent;
+  extent.fill({kFar, -kFar});
+  const Measured& first = fit.touches()[pair.first];
+  for (const Cell& cell : cells) {
+    const PathTree::Node& node = fit.tree(pair.first).node(cell.first);
+    const Pose turn{0, 0, cell.heading.middle};
+    const Vec2 place = first.at - turn.turned(node.middle);
+    const double swing = cell.heading.is_all() ? 2 : 2 * std::sin(0.5 * cell.heading.half);
+    const double slack = node.radius + (is_reference(first) ? 0 : first.place_most) + swing * node.middle.norm();
+    extend(extent[0], place.x() - slack, place.x() + slack);
+    extend(extent[1], place.y() - slack, place.y() + slack);
+    const double off = about.heading + nearest_angle(cell.heading.middle - about.heading);
+    extend(extent[2], off - cell.heading.half, off + cell.heading.half);
+  }
+  return extent;
+}
 
 double worst_of(const PoseFit& fit, const FittedPose& fitted) {
   double worst = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -13,6 +14,11 @@ namespace rollfix::touch {
 
 /// The share of its tolerance that the worst residual takes.
 double worst_of(const PoseFit& fit, const FittedPose& fitted);
+
+/// Around all poses that have their first two contacts on one of the cells: x, y and the heading, which is unwrapped
+/// about that of `about`.
+std::array<Interval, 3> extent_of(const PoseFit& fit, const std::vector<Cell>& cells, const TouchPair& pair,
+                                  const Pose& about);
 
 /// A fitted pose as the answer has it, with all that cells say of its set: extent, and whether it is a continuum.
 TouchPose described(const PoseFit& fit, const FittedPose& fitted, const std::vector<Cell>& cells,

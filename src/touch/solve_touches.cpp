@@ -16,6 +16,7 @@
 #include "moved.hpp"
 #include "outline/turn.hpp"
 #include "pose_boxes.hpp"
+#include "poses_beyond.hpp"
 #include "requirements.hpp"
 #include "roll_contacts.hpp"
 #include "roll_poses.hpp"
@@ -41,6 +42,8 @@ constexpr int kRefinements = 2;
 constexpr double kFiner = 0.25;
 // Boxes of poses that are looked at for each such set.
 constexpr std::size_t kBoxBudget = 200000;
+// Headings of extents are rounded, radians.
+constexpr double kHeadingRounding = 1e-12;
 // Cells of a set that are looked at for a pose that leaves the clear paths free.
 constexpr std::size_t kFreeLooks = 64;
 
@@ -119,15 +122,32 @@ struct PoseSet {
   PoseMode mode;  // with noise
 };
 
+/// Whether all of a box of poses is in another one, but for rounding.
+bool is_inside(const std::array<Interval, 3>& box, const std::array<Interval, 3>& other, double rounding) {
+  for (std::size_t k = 0; k < 2; ++k) {
+    if (box[k].lo < other[k].lo - rounding || box[k].hi > other[k].hi + rounding) return false;
+  }
+  const double off = std::abs(nearest_angle(box[2].middle() - other[2].middle()));
+  return other[2].width() >= kFullTurn || off + 0.5 * box[2].width() <= 0.5 * other[2].width() + kHeadingRounding;
+}
+
 /// The steps of a search for all poses, and what they leave behind.
 class Solver {
  public:
-  Solver(const TouchProblem& problem, TouchAnswer& answer)
+  /// `known`: poses whose extents need no more looking at; then all that is within the tolerances counts.
+  Solver(const TouchProblem& problem, TouchAnswer& answer, const std::vector<TouchPose>* known = nullptr)
       : problem_(problem),
         answer_(answer),
+        known_(known),
         rolls_(roll_contacts(problem)),
         touches_(contacts_of(problem, rolls_)),
-        free_(problem) {}
+        free_(problem) {
+    if (known_ == nullptr) return;
+    for (Measured& touch : touches_) {
+      touch.place_unit = touch.place_most;
+      touch.angle_unit = touch.angle_most;
+    }
+  }
 
   void run() {
     for (const Measured& touch : touches_) answer_.tolerance.push_back({touch.place_most, touch.angle_most});
@@ -185,7 +205,8 @@ class Solver {
     Cells cells = rolls_.empty() ? search.search() : search_by_levels(search, touches_, pair, leaf);
     PoseFit fit(touches_, problem_.pose);
     free_.drop_blocked(cells.fit, fit.tree(pair.first), touches_[pair.first]);
-    if (problem_.noise) {
+    if (known_ != nullptr) drop_known(cells.fit, fit, pair);
+    if (problem_.noise && known_ == nullptr) {
       weigh(fit, pair, sets_of(fit.tree(pair.first), fit.tree(pair.second), std::move(cells.fit)), cells.undecided);
     } else {
       look_for_witnesses(fit, pair, search, leaf, std::move(cells.fit), cells.undecided);
@@ -196,6 +217,17 @@ class Solver {
     if (!rolls_.empty()) add_roll_ends(rolls_, touches_, answer_);
     conclude();
     take_over_doubts(rolls_, answer_);
+  }
+
+  /// Cells all of whose poses are in a known extent go.
+  void drop_known(std::vector<Cell>& cells, const PoseFit& fit, const TouchPair& pair) const {
+    const double rounding = kSame * 1e-6 * touches_[pair.first].place_most;
+    const auto known = [&](const Cell& cell) {
+      const std::array<Interval, 3> box = extent_of(fit, {cell}, pair, {});
+      return std::any_of(known_->begin(), known_->end(),
+                         [&](const TouchPose& pose) { return is_inside(box, pose.extent, rounding); });
+    };
+    cells.erase(std::remove_if(cells.begin(), cells.end(), known), cells.end());
   }
 
   /// With noise: what is less probable than kNegligible is not looked at, and modes that end in one pose are one.
@@ -380,6 +412,7 @@ class Solver {
 
   const TouchProblem& problem_;
   TouchAnswer& answer_;
+  const std::vector<TouchPose>* known_;
   std::vector<RollContact> rolls_;
   std::vector<Measured> touches_;
   FreeSpace free_;
@@ -397,6 +430,20 @@ TouchAnswer solve_plain(const TouchProblem& problem) {
   answer.mirrored = problem.mirrored;
   const TouchProblem seen = problem.mirrored ? in_mirror(problem) : problem;
   Solver(seen, answer).run();
+  if (problem.mirrored) out_of_mirror(answer);
+  return answer;
+}
+
+TouchAnswer poses_beyond(const TouchProblem& problem, const std::vector<TouchPose>& known) {
+  TouchAnswer answer{problem.part, problem.touches};
+  answer.radius = radius_of(problem);
+  answer.noise = problem.noise;
+  answer.mirrored = problem.mirrored;
+  answer.poses = known;
+  if (problem.mirrored) out_of_mirror(answer);  // into it: once more leads back
+  const std::vector<TouchPose> seen_known = std::exchange(answer.poses, {});
+  const TouchProblem seen = problem.mirrored ? in_mirror(problem) : problem;
+  Solver(seen, answer, &seen_known).run();
   if (problem.mirrored) out_of_mirror(answer);
   return answer;
 }

@@ -6,6 +6,7 @@
 
 #include "rollfix/certify/certify.hpp"
 #include "rollfix/certify/pair_certificate.hpp"
+#include "rollfix/certify/touch_certificate.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/files/documents.hpp"
 #include "rollfix/output/files.hpp"
@@ -43,6 +44,19 @@ Written written(const Problem& problem, const Answer& answer) {
   return {format_certificate(certificate), certificate.is_complete()};
 }
 
+void add_written(const std::string& file, bool force, Written certificate, Report& report) {
+  if (file == "-") {
+    report.notes.push_back(report.data.substr(0, report.data.find('\n')));
+    report.data = std::move(certificate.text);
+  } else {
+    report.files.push_back({file, std::move(certificate.text), force});
+    report.notes.push_back(fmt::format("wrote {}", file));
+  }
+  if (certificate.is_complete) return;
+  report.notes.emplace_back("the certificate leaves something unproved: its cells say where");
+  report.exit_code = ExitCode::incomplete;
+}
+
 }  // namespace
 
 void require_certificate(const std::string& file, bool force, bool json, const std::string& output) {
@@ -57,17 +71,13 @@ void require_certificate(const std::string& file, bool force, bool json, const s
 void add_certificate(const std::string& file, bool force, const Problem& problem, const Answer& answer,
                      Report& report) {
   require_plain(problem);
-  Written certificate = written(problem, answer);
-  if (file == "-") {
-    report.notes.push_back(report.data.substr(0, report.data.find('\n')));
-    report.data = std::move(certificate.text);
-  } else {
-    report.files.push_back({file, std::move(certificate.text), force});
-    report.notes.push_back(fmt::format("wrote {}", file));
-  }
-  if (certificate.is_complete) return;
-  report.notes.emplace_back("the certificate leaves something unproved: its cells say where");
-  report.exit_code = ExitCode::incomplete;
+  add_written(file, force, written(problem, answer), report);
+}
+
+void add_certificate(const std::string& file, bool force, const TouchProblem& problem, const TouchAnswer& answer,
+                     Report& report) {
+  const TouchCertificate certificate = certify_touches(answer, problem.budget);
+  add_written(file, force, {format_certificate(certificate), certificate.is_complete()}, report);
 }
 
 }  // namespace rollfix::app

@@ -119,10 +119,12 @@ Report poses_report(const LocateArguments& arguments, bool has_rolls) {
                                            : "touches do not roll and have no use for it; leave it out"));
   };
   refuse(!arguments.maps.empty(), "--map");
-  refuse(!arguments.certificate.empty(), "--certify");
   refuse(arguments.march.march, "--march");
   refuse(arguments.detail.explain, "--explain");
-  const TouchOutput output{arguments.output, arguments.json, arguments.detail.verbose};
+  if (has_rolls && !arguments.certificate.empty()) {
+    throw InputError("--certify: a certificate is of one roll, or of touches alone; choose a roll with --roll N");
+  }
+  const TouchOutput output{arguments.output, arguments.json, arguments.detail.verbose, arguments.certificate};
   return has_rolls ? locate_rolls(arguments.touches, arguments.roll, output)
                    : locate_touches(arguments.touches, arguments.roll, output);
 }

@@ -14,6 +14,7 @@ struct TouchOutput {
   OutputArgument figure;
   bool json = false;
   bool verbose = false;
+  std::string certificate{};  // the name of its file; empty: none
 };
 
 /// `locate` of touches without rolling: the poses that fit. Throws InputError.

@@ -6,6 +6,7 @@
 #include "rollfix/answer/next_roll.hpp"
 #include "rollfix/certify/certify.hpp"
 #include "rollfix/certify/pair_certificate.hpp"
+#include "rollfix/certify/touch_certificate.hpp"
 #include "rollfix/contact/teach.hpp"
 #include "rollfix/files/inspection.hpp"
 
@@ -23,6 +24,9 @@ std::string format_certificate(const Certificate& certificate);
 
 /// "rollfix/pair-certificate/1".
 std::string format_certificate(const PairCertificate& certificate);
+
+/// "rollfix/touch-certificate/1".
+std::string format_certificate(const TouchCertificate& certificate);
 
 /// "rollfix/inspect/1".
 std::string format_inspection(const Inspection& inspection, Layout layout = Layout::lines);

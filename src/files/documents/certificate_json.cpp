@@ -1,3 +1,5 @@
+#include <array>
+
 #include "documents.hpp"
 #include "rollfix/files/documents.hpp"
 
@@ -91,6 +93,53 @@ Json outline_json(const char* schema, const CertifiedOutline& outline) {
           {"curves", curves_json(outline.curves)}};
 }
 
+Json intervals_json(const std::vector<Interval>& intervals) {
+  Json list = Json::array();
+  for (const Interval& one : intervals) list.push_back(json_numbers(std::array{one.lo, one.hi}));
+  return list;
+}
+
+Json touches_json(const TouchCertificate& certificate) {
+  Json list = Json::array();
+  for (std::size_t k = 0; k < certificate.touches.size(); ++k) {
+    const MeasuredTouch& touch = certificate.touches[k];
+    const TouchTolerance& tolerance = certificate.tolerance[k];
+    list.push_back(
+        {{"at", point_json(touch.at)}, {"tolerance", json_numbers(std::array{tolerance.length, tolerance.angle})}});
+    if (touch.normal) list.back()["normal"] = json_number(*touch.normal);
+  }
+  return list;
+}
+
+/// Corners at which the finger can take every angle, or that are on no arc, say nothing.
+Json reach_json(const std::optional<Reach>& reach) {
+  if (!reach) return {};
+  Json corners = Json::array();
+  for (const PivotReach& pivot : reach->pivots) {
+    if (pivot.is_whole()) continue;
+    corners.push_back({{"s", json_number(pivot.s)}, {"angles", intervals_json(pivot.angles)}});
+  }
+  return {{"arcs", intervals_json(reach->arcs)}, {"corners", corners}};
+}
+
+Json pose_json(const CertifiedPose& one, const std::vector<TouchTolerance>& tolerance) {
+  const Pose& pose = one.pose.pose;
+  Json contacts = Json::array();
+  for (std::size_t k = 0; k < one.at.size(); ++k) {
+    const TouchContact& contact = one.pose.contacts[k];
+    const std::array off{contact.distance / tolerance[k].length,
+                         contact.turn ? *contact.turn / tolerance[k].angle : 0.0};
+    contacts.push_back({{"at", place_json(one.at[k])},
+                        {"s", json_number(contact.s)},
+                        {"tangent", json_number(contact.tangent)},
+                        {"off", json_numbers(off)}});
+  }
+  return {{"listed", one.listed},
+          {"pose", json_numbers(std::array{pose.x, pose.y, pose.heading})},
+          {"extent", intervals_json({one.pose.extent.begin(), one.pose.extent.end()})},
+          {"contacts", contacts}};
+}
+
 }  // namespace
 
 std::string format_certificate(const Certificate& certificate) {
@@ -111,6 +160,20 @@ std::string format_certificate(const PairCertificate& certificate) {
   if (certificate.to) json["to"] = pair_row_json(*certificate.to);
   json["cells"] = certificate.cells;
   json["placements"] = pairs_json(certificate);
+  return json_text(json);
+}
+
+std::string format_certificate(const TouchCertificate& certificate) {
+  Json json = outline_json("rollfix/touch-certificate/1", certificate);
+  json["mirrored"] = certificate.mirrored;
+  json["radius"] = json_number(certificate.radius);
+  json["touches"] = touches_json(certificate);
+  json["reach"] = reach_json(certificate.reach);
+  json["poses"] = Json::array();
+  for (const CertifiedPose& one : certificate.poses) json["poses"].push_back(pose_json(one, certificate.tolerance));
+  if (!certificate.is_complete()) {
+    json["unresolved"] = {{"touch", certificate.unresolved_touch}, {"arcs", intervals_json(certificate.unresolved)}};
+  }
   return json_text(json);
 }
 

@@ -1,0 +1,258 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "centre_tree.hpp"
+#include "check.hpp"
+#include "document.hpp"
+#include "pose_search.hpp"
+
+// Notation: a pose X, phi has the part's point c at X + R(phi) c; q_i is a touch's measured centre, tau_i the tangent
+// by its normal; p + r n the finger's centre where it touches at p.
+// What a certificate of touches claims, docs/certificates.md: each stated pose fits (`check_pose`), and every pose that
+// fits is in a stated set (`PoseSearch`). A part that lies face down is looked at in the mirror x = -x.
+namespace rollfix_verify {
+namespace {
+
+// Tolerances are at least this share of the largest coordinate, and so many radians: below it doubles decide.
+constexpr double kLeastLength = 1e-9;
+constexpr double kLeastAngle = 1e-9;
+// How far a residual may be beyond its tolerance, as a share of it: a search takes what is on the edge.
+constexpr double kEdge = 1e-9;
+constexpr double kMostAngle = 1e6;
+
+double number(const Json& stated) {
+  const double value = stated.get<double>();
+  if (!std::isfinite(value)) refuse("a number that is not finite");
+  return value;
+}
+
+Interval interval(const Json& stated) { return {number(stated.at(0)), number(stated.at(1))}; }
+
+std::vector<Interval> intervals(const Json& stated) {
+  std::vector<Interval> result;
+  for (const Json& one : stated) result.push_back(interval(one));
+  return result;
+}
+
+/// Of a closed outline arcs begin on the first lap and are no longer than one.
+std::vector<Interval> arcs(const Json& stated, double period) {
+  std::vector<Interval> result = intervals(stated);
+  for (const Interval& arc : result) {
+    if (!(arc.lo >= -kLengthSlack * period && arc.lo <= period && arc.hi >= arc.lo &&
+          arc.hi <= arc.lo + (1 + kLengthSlack) * period)) {
+      refuse("an arc that is none of the boundary");
+    }
+  }
+  return result;
+}
+
+std::optional<Considered> considered(const Json& stated, double period) {
+  if (stated.is_null()) return std::nullopt;
+  Considered result;
+  result.arcs = arcs(stated.at("arcs"), period);
+  for (const Json& corner : stated.at("corners")) {
+    result.corners.push_back({number(corner.at("s")), intervals(corner.at("angles"))});
+  }
+  return result;
+}
+
+/// A stated set of poses.
+struct Set {
+  std::array<double, 3> pose{};
+  PoseBox extent;
+  const Json* contacts = nullptr;
+};
+
+class Touches {
+ public:
+  explicit Touches(const Document& document)
+      : document_(document),
+        boundary_(document.boundary()),
+        period_(document.period()),
+        is_mirrored_(document.json().at("mirrored").get<bool>()),
+        radius_(number(document.json().at("radius"))) {
+    if (!(radius_ >= 0)) refuse("a finger whose radius is below 0");
+    considered_ = considered(document.json().at("reach"), period_);
+    for (const Json& stated : document.json().at("touches")) read_touch(stated);
+    if (touches_.empty()) refuse("there is no touch");
+    for (const Json& stated : document.json().at("poses")) sets_.push_back(read_set(stated));
+  }
+
+  Verdict check() {
+    document_.check_outline();
+    require_tolerances();
+    CentreTree tree(boundary_, radius_, considered_);
+    Verdict verdict;
+    verdict.of_touches = true;
+    for (std::size_t k = 0; k < sets_.size(); ++k) check_set(tree, k);
+    for (const Json& stated : document_.json().at("poses")) {
+      ++(stated.at("listed").get<bool>() ? verdict.placements : verdict.left_out);
+    }
+    if (tree.root() >= 0) cover(tree, verdict);
+    return verdict;
+  }
+
+ private:
+  double mirrored(double value) const { return is_mirrored_ ? -value : value; }
+  Interval mirrored(const Interval& one) const { return is_mirrored_ ? Interval{-one.hi, -one.lo} : one; }
+
+  void read_touch(const Json& stated) {
+    SoughtTouch touch;
+    touch.x = mirrored(number(stated.at("at").at(0)));
+    touch.y = number(stated.at("at").at(1));
+    touch.length = number(stated.at("tolerance").at(0));
+    touch.angle = number(stated.at("tolerance").at(1));
+    if (stated.contains("normal")) {
+      const double normal = number(stated.at("normal"));
+      if (!(std::abs(normal) <= kMostAngle)) refuse("an angle of too many turns");
+      const Ball quarter = 0.25 * full_turn();
+      const Ball tangent = is_mirrored_ ? 3.0 * quarter - normal : Ball(normal) + quarter;
+      touch.tangent = to_nearest_turn(tangent).middle();
+    }
+    touches_.push_back(touch);
+  }
+
+  Set read_set(const Json& stated) const {
+    Set set;
+    const Json& pose = stated.at("pose");
+    set.pose = {mirrored(number(pose.at(0))), number(pose.at(1)), mirrored(number(pose.at(2)))};
+    const Json& extent = stated.at("extent");
+    set.extent = {mirrored(interval(extent.at(0))), interval(extent.at(1)), mirrored(interval(extent.at(2)))};
+    set.contacts = &stated.at("contacts");
+    return set;
+  }
+
+  void require_tolerances() {
+    for (const SoughtTouch& touch : touches_) size_ = std::max({size_, std::abs(touch.x), std::abs(touch.y)});
+    const CentreTree all(boundary_, radius_, std::nullopt);
+    const CentreTree::Node& root = all.node(all.root());
+    size_ = std::max({size_, std::abs(root.x) + root.radius, std::abs(root.y) + root.radius});
+    for (const SoughtTouch& touch : touches_) {
+      if (!(touch.length >= kLeastLength * size_)) refuse("a tolerance of length below what rounding allows");
+      if (touch.tangent && !(touch.angle >= kLeastAngle)) refuse("a tolerance of angle below what rounding allows");
+    }
+  }
+
+  // ---- each stated pose fits ----
+
+  void check_set(const CentreTree& tree, std::size_t number) const {
+    const Set& set = sets_[number];
+    const std::string name = "set " + std::to_string(number);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double slack = axis == 2 ? kPlaceSlack : kPlaceSlack * size_;
+      if (!set.extent[axis].holds({set.pose[axis], set.pose[axis]}, slack))
+        refuse(name + ": its pose is outside of it");
+    }
+    if (set.contacts->size() != touches_.size()) refuse(name + " has not one contact for each touch");
+    for (std::size_t k = 0; k < touches_.size(); ++k) {
+      check_contact(tree, set, touches_[k], set.contacts->at(k), name + ", touch " + std::to_string(k));
+    }
+  }
+
+  void check_contact(const CentreTree& tree, const Set& set, const SoughtTouch& touch, const Json& stated,
+                     const std::string& name) const {
+    const Place place = document_.place_at(stated.at("at"));
+    if (!document_.is_as_far(place.s, number(stated.at("s")))) refuse(name + " is elsewhere");
+    const Ball direction = direction_at(tree, place, number(stated.at("tangent")), name);
+    const Point point = boundary_.position(place);
+    const Ball x = point.x + radius_ * sin(direction);
+    const Ball y = point.y - radius_ * cos(direction);
+    const Ball c = cos(Ball(set.pose[2]));
+    const Ball s = sin(Ball(set.pose[2]));
+    const Ball dx = set.pose[0] + c * x - s * y - touch.x;
+    const Ball dy = set.pose[1] + s * x + c * y - touch.y;
+    require_off(sqrt(dx * dx + dy * dy), touch.length, kLengthSlack * size_, stated.at("off").at(0), name);
+    if (!touch.tangent) return;
+    const Ball turn = to_nearest_turn(Ball(*touch.tangent) - direction - set.pose[2]);
+    require_off(turn, touch.angle, kTurnSlack, Ball(mirrored(1)) * number(stated.at("off").at(1)), name);
+  }
+
+  /// A residual is within its tolerance, and as it is stated, in tolerances.
+  static void require_off(const Ball& residual, double tolerance, double slack, const Ball& stated,
+                          const std::string& name) {
+    if (!abs(residual).is_below((1 + kEdge) * tolerance + slack)) refuse(name + " is off by more than its tolerance");
+    if (!abs(residual - stated * tolerance).is_below(kEdge * tolerance + 2 * slack)) {
+      refuse(name + " is off by another share of its tolerance");
+    }
+  }
+  static void require_off(const Ball& residual, double tolerance, double slack, const Json& stated,
+                          const std::string& name) {
+    require_off(residual, tolerance, slack, Ball(number(stated)), name);
+  }
+
+  /// The tangent's angle: at a corner the stated one, if the finger can pivot to it; else the boundary's own.
+  Ball direction_at(const CentreTree& tree, const Place& place, double stated, const std::string& name) const {
+    if (!(std::abs(stated) <= kMostAngle)) refuse(name + " has another tangent");
+    const auto near = [&](const Ball& one, const Ball& slack) {
+      return abs(to_nearest_turn(one - stated)).is_below(slack);
+    };
+    const Ball slack = kPlaceSlack + document_.turn_beside(place);
+    const Ball own = tree.direction(place);
+    if (near(own, slack)) return own;
+    for (const long joint : {place.curve, place.curve - 1}) {
+      const bool is_end = !boundary_.closed() && (joint < 0 || joint + 1 == boundary_.curves());
+      if (is_end) continue;
+      const Ball apart = boundary_.back(joint).s - place.s;
+      if (!abs(apart).is_below(kPlaceSlack * period_)) continue;
+      const Ball before = tree.direction(boundary_.back(joint));
+      const Ball after = before + boundary_.jump(joint);
+      if (near(before, slack)) return before;
+      if (near(after, slack)) return after;
+      if (const std::optional<Ball> pivots = tree.pivots(joint)) {
+        const Ball off = to_nearest_turn(Ball(stated) - pivots->middle());
+        if (abs(off).is_below(0.5 * spread(*pivots))) return stated;
+      }
+    }
+    refuse(name + " has another tangent");
+  }
+
+  // ---- there is no other ----
+
+  void cover(CentreTree& tree, Verdict& verdict) const {
+    std::vector<PoseBox> listed;
+    for (const Set& set : sets_) listed.push_back(set.extent);
+    std::optional<LeftOpen> open;
+    if (document_.json().contains("unresolved")) {
+      const Json& stated = document_.json().at("unresolved");
+      open = LeftOpen{stated.at("touch").get<std::size_t>(), arcs(stated.at("arcs"), period_)};
+      if (open->touch >= touches_.size()) refuse("what is unresolved is of a touch that is not there");
+    }
+    const Covered covered = PoseSearch(tree, touches_, listed, open).run();
+    if (covered.unlisted) refuse(unlisted(*covered.unlisted));
+    if (covered.is_cut_short()) refuse("not decided: many poses are within rounding of the tolerance");
+    verdict.cells = covered.boxes;
+    verdict.unproved = covered.undecided;
+    verdict.open = covered.open;
+    if (!open) return;
+    verdict.open_touch = open->touch;
+    for (const Interval& arc : open->arcs) verdict.share += arc.width() / period_;
+  }
+
+  std::string unlisted(const std::array<double, 3>& pose) const {
+    char text[160];
+    std::snprintf(text, sizeof text, "the pose x %.6g, y %.6g, heading %.6g rad fits and is in no set",
+                  mirrored(pose[0]), pose[1], mirrored(pose[2]));
+    return text;
+  }
+
+  const Document& document_;
+  const Boundary& boundary_;
+  double period_;
+  bool is_mirrored_;
+  double radius_;
+  std::optional<Considered> considered_;
+  std::vector<SoughtTouch> touches_;
+  std::vector<Set> sets_;
+  double size_ = 0;  // of the largest coordinate
+};
+
+}  // namespace
+
+Verdict check_touches(const Document& document) { return Touches(document).check(); }
+
+}  // namespace rollfix_verify

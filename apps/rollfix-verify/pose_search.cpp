@@ -1,0 +1,250 @@
+#include "pose_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "budget.hpp"
+#include "document.hpp"
+
+// Notation, of a pose X, phi that has the part's point c at X + R(phi) c in the world:
+//   q_i, delta_i    a touch's measured centre and how far it may be off; tau_i, eps_i: the tangent, likewise
+//   q_0             the middle of the touches; v_i = q_i - q_0
+//   y, phi          what a box is of: the part's point at q_0, and the heading. Then the part's point at q_i is
+//                   y + R(-phi) v_i, and X = q_0 - R(phi) y
+//   (c, rho)        the disc of a node of centres, theta +- w its tangents
+//   y +- b, phi +- h: the box. A touch may have its contact on a node if
+//                     |y + R(-phi) v_i - c| <= |b| + 2 |v_i| sin(h / 2) + rho + delta_i
+//                     |tau_i - theta - phi| <= w + eps_i + h, modulo turns
+// Follows docs/certificates.md, "Touches": where a touch has no node left, no pose of the box fits.
+// Idea: poses are halved, not places. In one pose touches have nothing to do with each other, so that boxes decide what
+// pairs of places leave open; and a box inside a listed set needs no more looking at, however large the set is.
+// Doubles: all coordinates are at most S, and what is compared is off by less than 40 roundings of S: `rounding_`.
+namespace rollfix_verify {
+namespace {
+
+// Boxes are no smaller than this share of the tolerances.
+constexpr double kLeast = 2e-3;
+// Nodes are halved while they are larger than this share of the box.
+constexpr double kNodeShare = 0.7;
+constexpr double kRoundings = 1e-13;
+constexpr double kAngleRounding = 1e-14;
+// One node beside one box, in expansions; a box.
+constexpr double kComparison = 1e-3;
+constexpr double kBox = 4e-3;
+const double kTurn = 2 * std::acos(-1.0);
+
+double nearest(double angle) { return std::remainder(angle, kTurn); }
+
+/// The values of |p| cos over middle +- half.
+Interval cosines(double middle, double half, double length) {
+  if (half >= 0.5 * kTurn) return {-length, length};
+  const double one = std::cos(middle - half);
+  const double other = std::cos(middle + half);
+  const bool has_most = std::abs(nearest(middle)) <= half;
+  const bool has_least = std::abs(nearest(middle + 0.5 * kTurn)) <= half;
+  return {length * (has_least ? -1 : std::min(one, other)), length * (has_most ? 1 : std::max(one, other))};
+}
+
+}  // namespace
+
+/// A box, with all that tests need of it.
+struct PoseSearch::View {
+  double x, y, heading;  // its middle
+  double bx, by, half;   // half its widths
+  double cosine, sine;   // of the heading
+  double place, swing;   // |b| and 2 sin(h / 2)
+};
+
+PoseSearch::PoseSearch(CentreTree& tree, std::vector<SoughtTouch> touches, std::vector<PoseBox> listed,
+                       std::optional<LeftOpen> open)
+    : tree_(tree), touches_(std::move(touches)), listed_(std::move(listed)), open_(std::move(open)) {
+  double largest = 0;
+  for (const SoughtTouch& touch : touches_) {
+    x_ += touch.x / static_cast<double>(touches_.size());
+    y_ += touch.y / static_cast<double>(touches_.size());
+    largest = std::max({largest, std::abs(touch.x), std::abs(touch.y)});
+  }
+  for (SoughtTouch& touch : touches_) {
+    touch.x -= x_;
+    touch.y -= y_;
+  }
+  const CentreTree::Node& root = tree_.node(tree_.root());
+  const double part = std::hypot(root.x, root.y) + root.radius;
+  rounding_ = kRoundings * (4 * largest + part + touches_.front().length);
+}
+
+Covered PoseSearch::run() {
+  covered_ = {};
+  stack_.assign(touches_.size(), tree_.root());
+  std::vector<List> lists;
+  for (std::size_t k = 0; k < touches_.size(); ++k) lists.emplace_back(k, k + 1);
+  const CentreTree::Node& root = tree_.node(tree_.root());
+  double reach = std::numeric_limits<double>::infinity();
+  for (const SoughtTouch& touch : touches_) {
+    reach = std::min(reach, root.radius + touch.length + std::hypot(touch.x, touch.y));
+  }
+  reach += 2 * rounding_;
+  if (!(reach < std::numeric_limits<double>::infinity())) refuse("an outline without a size");
+  const double half = 0.5 * kTurn * (1 + kAngleRounding);
+  visit({Interval{root.x - reach, root.x + reach}, {root.y - reach, root.y + reach}, {-half, half}}, lists);
+  return covered_;
+}
+
+PoseSearch::View PoseSearch::view(const PoseBox& box) const {
+  View view{};
+  const auto middle = [](const Interval& one) { return 0.5 * (one.lo + one.hi); };
+  const auto half = [&](const Interval& one) { return std::max(one.hi - middle(one), middle(one) - one.lo); };
+  view.x = middle(box[0]);
+  view.y = middle(box[1]);
+  view.heading = middle(box[2]);
+  view.bx = half(box[0]);
+  view.by = half(box[1]);
+  view.half = half(box[2]) + kAngleRounding;
+  view.cosine = std::cos(view.heading);
+  view.sine = std::sin(view.heading);
+  view.place = std::hypot(view.bx, view.by);
+  view.swing = view.half < 0.5 * kTurn ? 2 * std::sin(0.5 * view.half) : 2;
+  return view;
+}
+
+double PoseSearch::node_size(std::size_t touch, const CentreTree::Node& node) const {
+  const SoughtTouch& one = touches_[touch];
+  const double place = node.radius / one.length;
+  return one.tangent ? std::max(place, node.half_turn / one.angle) : place;
+}
+
+bool PoseSearch::may_hold(const View& view, std::size_t touch, const CentreTree::Node& node) const {
+  const SoughtTouch& one = touches_[touch];
+  const double dx = view.x + view.cosine * one.x + view.sine * one.y - node.x;
+  const double dy = view.y + view.cosine * one.y - view.sine * one.x - node.y;
+  const double reach = view.place + view.swing * std::hypot(one.x, one.y) + node.radius + one.length + rounding_;
+  if (dx * dx + dy * dy > reach * reach) return false;
+  if (!one.tangent) return true;
+  const double most = node.half_turn + one.angle + view.half + kAngleRounding * (2 + std::abs(node.angle));
+  return !(std::abs(nearest(*one.tangent - node.angle - view.heading)) > most);
+}
+
+/// The nodes of a list that may hold a touch's contact, halved down to the size of the box, as a new list.
+bool PoseSearch::narrow(const View& view, std::size_t touch, List& list) {
+  const SoughtTouch& one = touches_[touch];
+  const double place = (view.place + view.swing * std::hypot(one.x, one.y)) / one.length;
+  const double size = kNodeShare * (one.tangent ? std::max(place, view.half / one.angle) : place);
+  const std::size_t top = stack_.size();
+  waiting_.assign(stack_.begin() + static_cast<std::ptrdiff_t>(list.first),
+                  stack_.begin() + static_cast<std::ptrdiff_t>(list.second));
+  while (!waiting_.empty()) {
+    Budget::spend(kComparison);
+    const int index = waiting_.back();
+    waiting_.pop_back();
+    if (!may_hold(view, touch, tree_.node(index))) continue;
+    if (!(node_size(touch, tree_.node(index)) <= size)) {
+      const auto [left, right] = tree_.halves(index);
+      if (left != right) {
+        waiting_.push_back(left);
+        waiting_.push_back(right);
+        continue;
+      }
+    }
+    stack_.push_back(index);
+  }
+  list = {top, stack_.size()};
+  return list.first != list.second;
+}
+
+/// X = q_0 - R(phi) y: R(phi) turns the middle of y on an arc, and adds what the rest of y is along each axis.
+bool PoseSearch::is_listed(const View& view) const {
+  Budget::spend(kComparison * static_cast<double>(listed_.size()));
+  const double length = std::hypot(view.x, view.y);
+  const double direction = std::atan2(view.y, view.x) + view.heading;
+  const Interval x = cosines(direction, view.half, length);
+  const Interval y = cosines(direction - 0.25 * kTurn, view.half, length);
+  const double c = std::min(1.0, std::abs(view.cosine) + view.swing);
+  const double s = std::min(1.0, std::abs(view.sine) + view.swing);
+  const double bx = std::min(view.place, c * view.bx + s * view.by) + rounding_;
+  const double by = std::min(view.place, s * view.bx + c * view.by) + rounding_;
+  const Interval at_x{x_ - x.hi - bx, x_ - x.lo + bx};
+  const Interval at_y{y_ - y.hi - by, y_ - y.lo + by};
+  return std::any_of(listed_.begin(), listed_.end(), [&](const PoseBox& box) {
+    if (!box[0].holds(at_x, 2 * rounding_) || !box[1].holds(at_y, 2 * rounding_)) return false;
+    if (box[2].width() >= kTurn) return true;
+    const double off = nearest(view.heading - 0.5 * (box[2].lo + box[2].hi));
+    return std::abs(off) + view.half <= 0.5 * box[2].width() + kTurnSlack;
+  });
+}
+
+bool PoseSearch::is_open(const List& list) const {
+  return std::all_of(stack_.begin() + static_cast<std::ptrdiff_t>(list.first),
+                     stack_.begin() + static_cast<std::ptrdiff_t>(list.second), [&](int index) {
+                       return std::any_of(open_->arcs.begin(), open_->arcs.end(), [&](const Interval& arc) {
+                         return arc.holds(tree_.node(index).s, rounding_);
+                       });
+                     });
+}
+
+/// Whether the pose in the middle of a box fits for certain.
+bool PoseSearch::fits_in_the_middle(const View& view, const std::vector<List>& lists) const {
+  for (std::size_t touch = 0; touch < touches_.size(); ++touch) {
+    const SoughtTouch& one = touches_[touch];
+    const double x = view.x + view.cosine * one.x + view.sine * one.y;
+    const double y = view.y + view.cosine * one.y - view.sine * one.x;
+    const auto fits = [&](int index) {
+      const CentreTree::Node& node = tree_.node(index);
+      if (!(std::hypot(x - node.x, y - node.y) + node.radius + rounding_ <= one.length)) return false;
+      if (!one.tangent) return true;
+      const double off = std::abs(nearest(*one.tangent - node.angle - view.heading));
+      return off + node.half_turn + kAngleRounding * (2 + std::abs(node.angle)) <= one.angle;
+    };
+    const auto from = stack_.begin() + static_cast<std::ptrdiff_t>(lists[touch].first);
+    const auto to = stack_.begin() + static_cast<std::ptrdiff_t>(lists[touch].second);
+    if (std::none_of(from, to, fits)) return false;
+  }
+  return true;
+}
+
+void PoseSearch::visit(const PoseBox& box, const std::vector<List>& lists) {
+  if (covered_.unlisted || covered_.is_cut_short()) return;
+  Budget::spend(kBox);
+  ++covered_.boxes;
+  const View at = view(box);
+  const std::size_t top = stack_.size();
+  std::vector<List> own = lists;
+  bool may_fit = true;
+  for (std::size_t k = 0; k < touches_.size() && may_fit; ++k) may_fit = narrow(at, k, own[k]);
+  if (!may_fit || is_listed(at)) {
+    stack_.resize(top);
+    return;
+  }
+  if (open_ && is_open(own[open_->touch])) {
+    ++covered_.open;
+    stack_.resize(top);
+    return;
+  }
+  double place = 0;
+  double turn = 0;
+  for (const SoughtTouch& touch : touches_) {
+    place = std::max(place, at.place / touch.length);
+    turn = std::max(turn, at.half * std::hypot(touch.x, touch.y) / touch.length);
+    if (touch.tangent) turn = std::max(turn, at.half / touch.angle);
+  }
+  if (std::max(place, turn) <= kLeast) {
+    if (fits_in_the_middle(at, own)) {
+      covered_.unlisted = {x_ - (at.cosine * at.x - at.sine * at.y), y_ - (at.sine * at.x + at.cosine * at.y),
+                           at.heading};
+    } else {
+      ++covered_.undecided;
+    }
+    stack_.resize(top);
+    return;
+  }
+  const std::size_t axis = turn > place ? 2 : at.bx >= at.by ? 0 : 1;
+  const double middle = 0.5 * (box[axis].lo + box[axis].hi);
+  for (const bool is_upper : {false, true}) {
+    PoseBox half = box;
+    (is_upper ? half[axis].lo : half[axis].hi) = middle;
+    visit(half, own);
+  }
+  stack_.resize(top);
+}
+
+}  // namespace rollfix_verify

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "centre_tree.hpp"
+
+namespace rollfix_verify {
+
+/// A touch in the world, and how far it may be off.
+struct SoughtTouch {
+  double x = 0;  // of the finger's centre
+  double y = 0;
+  std::optional<double> tangent{};  // of the part in the world, radians; none: not measured
+  double length = 0;                // tolerances: of the centre, ...
+  double angle = 0;                 // ... and of the tangent, radians
+};
+
+/// Poses: x, y and the heading, in radians.
+using PoseBox = std::array<Interval, 3>;
+
+/// All poses whose contact of one touch is on some arcs.
+struct LeftOpen {
+  std::size_t touch = 0;
+  std::vector<Interval> arcs;
+};
+
+/// What came of a search.
+struct Covered {
+  std::size_t boxes = 0;      // that were looked at
+  std::size_t undecided = 0;  // of the smallest size, of which it is not known whether they hold a pose that fits
+  std::size_t open = 0;       // in what is left open
+  std::optional<std::array<double, 3>> unlisted{};  // a pose that fits and is nowhere listed
+
+  /// So much was undecided that the rest was not looked at.
+  bool is_cut_short() const { return undecided >= kMostUndecided; }
+  static constexpr std::size_t kMostUndecided = 1000;
+};
+
+/// Whether every pose that fits all touches is in one of some boxes: halves boxes of poses until each holds none that
+/// fits, or is inside one of those.
+class PoseSearch {
+ public:
+  /// REQUIRES a tree that is not empty, and a touch.
+  PoseSearch(CentreTree& tree, std::vector<SoughtTouch> touches, std::vector<PoseBox> listed,
+             std::optional<LeftOpen> open);
+
+  Covered run();
+
+ private:
+  // Lists of nodes on a stack, one for each touch, on which its contact can be.
+  using List = std::pair<std::size_t, std::size_t>;
+  struct View;
+
+  void visit(const PoseBox& box, const std::vector<List>& lists);
+  View view(const PoseBox& box) const;
+  bool narrow(const View& view, std::size_t touch, List& list);
+  bool may_hold(const View& view, std::size_t touch, const CentreTree::Node& node) const;
+  double node_size(std::size_t touch, const CentreTree::Node& node) const;
+  bool is_listed(const View& view) const;
+  bool is_open(const List& list) const;
+  bool fits_in_the_middle(const View& view, const std::vector<List>& lists) const;
+
+  CentreTree& tree_;
+  std::vector<SoughtTouch> touches_;
+  std::vector<PoseBox> listed_;
+  std::optional<LeftOpen> open_;
+  double x_ = 0;  // the place in the world by whose place on the part boxes are told
+  double y_ = 0;
+  double rounding_ = 0;
+  std::vector<int> stack_;
+  std::vector<int> waiting_;
+  Covered covered_;
+};
+
+}  // namespace rollfix_verify

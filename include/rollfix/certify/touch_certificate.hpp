@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "rollfix/certify/certify.hpp"
+#include "rollfix/part/reach.hpp"
+#include "rollfix/touch/touch.hpp"
+
+// The same for touches without rolling: docs/certificates.md.
+namespace rollfix {
+
+/// A set of poses, with one that fits, by the outline's own formulas.
+struct CertifiedPose {
+  TouchPose pose;              // `extent` holds all of the set
+  std::vector<CurvePlace> at;  // of its contacts
+  bool listed = true;          // false: the answer leaves it out: it is improbable, or the part would be in the way
+};
+
+/// Touches of a part at rest, the outline by its formulas, and sets that together hold every pose that fits.
+struct TouchCertificate : CertifiedOutline {
+  bool mirrored = false;  // the part lies face down
+  double radius = 0;      // of the finger; 0: a point
+  std::vector<MeasuredTouch> touches;
+  std::vector<TouchTolerance> tolerance;  // of each touch: length, and radians
+  std::optional<Reach> reach{};           // where contacts are looked for; none: everywhere
+  std::vector<CertifiedPose> poses;
+  std::vector<Interval> unresolved{};  // arcs of the boundary on which a touch of other poses may be
+  std::size_t unresolved_touch = 0;    // which one
+
+  /// Nothing is unresolved.
+  bool is_complete() const { return unresolved.empty(); }
+};
+
+/// Writes down what an answer to touches claims: every pose within the tolerances is in one of its sets, and each set
+/// has a pose that fits. With noise, or paths on which nothing was felt, the sets that the answer leaves out are looked
+/// for as well. `budget`: as TouchProblem's. Throws InputError: an answer to fewer than two touches, or to rolls; an
+/// outline with a curve whose formula certificates don't have.
+TouchCertificate certify_touches(const TouchAnswer& answer, std::optional<std::size_t> budget = {});
+
+}  // namespace rollfix
