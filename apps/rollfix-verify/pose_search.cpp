@@ -228,7 +228,8 @@ void PoseSearch::visit(const PoseBox& box, const std::vector<List>& lists) {
     if (touch.tangent) turn = std::max(turn, at.half / touch.angle);
   }
   if (std::max(place, turn) <= kLeast) {
-    if (fits_in_the_middle(at, own)) {
+    const View middle = view({Interval{at.x, at.x}, {at.y, at.y}, {at.heading, at.heading}});
+    if (!is_listed(middle) && fits_in_the_middle(at, own)) {
       covered_.unlisted = {x_ - (at.cosine * at.x - at.sine * at.y), y_ - (at.sine * at.x + at.cosine * at.y),
                            at.heading};
     } else {

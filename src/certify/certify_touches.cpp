@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 
 #include "places.hpp"
@@ -24,8 +25,42 @@ TouchProblem asked(const TouchAnswer& answer, std::optional<std::size_t> budget)
   return problem;
 }
 
-CertifiedPose certified(const Part& part, const TouchPose& pose, bool listed) {
+/// How much wider extents are written down than they are, in shares of the tolerances: where a pose is at their very
+/// edge no box of poses is on one side of it.
+constexpr double kWider = 0.05;
+
+/// By how much a pose may move and turn for that.
+struct Margin {
+  double place = 0;
+  double turn = 0;
+  Vec2 about = Vec2::Zero();
+};
+
+Margin margin_of(const TouchAnswer& answer) {
+  Margin margin;
+  for (const MeasuredTouch& touch : answer.touches) {
+    margin.about += touch.at / static_cast<double>(answer.touches.size());
+  }
+  margin.place = margin.turn = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < answer.touches.size(); ++k) {
+    const TouchTolerance& tolerance = answer.tolerance[k];
+    const double away = (answer.touches[k].at - margin.about).norm();
+    margin.place = std::min(margin.place, kWider * tolerance.length);
+    margin.turn = std::min(margin.turn, kWider * tolerance.length / std::max(away, tolerance.length));
+    if (answer.touches[k].normal) margin.turn = std::min(margin.turn, kWider * tolerance.angle);
+  }
+  return margin;
+}
+
+/// With its extent a little wider.
+CertifiedPose certified(const Part& part, const TouchPose& pose, const Margin& margin, bool listed) {
   CertifiedPose result{pose, {}, listed};
+  const double away = (margin.about - Vec2(pose.pose.x, pose.pose.y)).norm();
+  const std::array<double, 3> by{margin.place + away * margin.turn, margin.place + away * margin.turn, margin.turn};
+  for (std::size_t k = 0; k < 3; ++k) {
+    Interval& extent = result.pose.extent[k];
+    extent = {extent.lo - by[k], extent.hi + by[k]};
+  }
   for (const TouchContact& contact : pose.contacts) result.at.push_back(place_of(part, contact.s));
   return result;
 }
@@ -58,12 +93,16 @@ TouchCertificate certify_touches(const TouchAnswer& answer, std::optional<std::s
     Reach reach = reach_of_disk(answer.part, answer.radius);
     if (!reach.is_whole()) certificate.reach = std::move(reach);
   }
-  for (const TouchPose& pose : answer.poses) certificate.poses.push_back(certified(answer.part, pose, true));
+  const Margin margin = margin_of(answer);
+  const auto add = [&](const TouchPose& pose, bool listed) {
+    certificate.poses.push_back(certified(answer.part, pose, margin, listed));
+  };
+  for (const TouchPose& pose : answer.poses) add(pose, true);
   std::vector<Interval> unresolved = answer.unresolved;
   certificate.unresolved_touch = answer.unresolved_touch;
   if (answer.noise || !answer.clear.empty()) {
     const TouchAnswer beyond = touch::poses_beyond(asked(answer, budget), answer.poses);
-    for (const TouchPose& pose : beyond.poses) certificate.poses.push_back(certified(answer.part, pose, false));
+    for (const TouchPose& pose : beyond.poses) add(pose, false);
     unresolved.insert(unresolved.end(), beyond.unresolved.begin(), beyond.unresolved.end());
     certificate.unresolved_touch = beyond.unresolved_touch;
   }

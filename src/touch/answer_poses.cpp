@@ -17,6 +17,8 @@ namespace {
 
 // Poses are a continuum where the touches hold the part, in some direction, to no less than this many tolerances.
 constexpr double kContinuum = 12;
+// Headings of extents are rounded, radians.
+constexpr double kHeadingRounding = 1e-12;
 // Starts on a set of cells for its best pose, and rounds of weighting up what is worst (Lawson's method).
 constexpr std::size_t kMostWitnesses = 8;
 constexpr int kLawsonRounds = 30;
@@ -113,6 +115,15 @@ std::array<Interval, 3> extent_of(const PoseFit& fit, const std::vector<Cell>& c
     extend(extent[2], off - cell.heading.half, off + cell.heading.half);
   }
   return extent;
+}
+
+bool holds(const PoseExtent& extent, const Pose& pose, double place, double turn) {
+  const auto is_in = [](const Interval& one, double value, double slack) {
+    return value >= one.lo - slack && value <= one.hi + slack;
+  };
+  if (!is_in(extent[0], pose.x, place) || !is_in(extent[1], pose.y, place)) return false;
+  const double off = std::abs(nearest_angle(pose.heading - extent[2].middle()));
+  return off <= 0.5 * extent[2].width() + turn + kHeadingRounding;
 }
 
 double worst_of(const PoseFit& fit, const FittedPose& fitted) {

@@ -15,10 +15,15 @@ namespace rollfix::touch {
 /// The share of its tolerance that the worst residual takes.
 double worst_of(const PoseFit& fit, const FittedPose& fitted);
 
-/// Around all poses that have their first two contacts on one of the cells: x, y and the heading, which is unwrapped
-/// about that of `about`.
-std::array<Interval, 3> extent_of(const PoseFit& fit, const std::vector<Cell>& cells, const TouchPair& pair,
-                                  const Pose& about);
+/// Intervals of x, y and the heading, in radians.
+using PoseExtent = std::array<Interval, 3>;
+
+/// Around all poses that have their first two contacts on one of the cells; the heading is unwrapped about that of
+/// `about`.
+PoseExtent extent_of(const PoseFit& fit, const std::vector<Cell>& cells, const TouchPair& pair, const Pose& about);
+
+/// Whether a pose is in an extent, or no further from it than these; modulo turns.
+bool holds(const PoseExtent& extent, const Pose& pose, double place = 0, double turn = 0);
 
 /// A fitted pose as the answer has it, with all that cells say of its set: extent, and whether it is a continuum.
 TouchPose described(const PoseFit& fit, const FittedPose& fitted, const std::vector<Cell>& cells,

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "answer_poses.hpp"
 #include "outline/turn.hpp"
 
 // Notation:
@@ -65,7 +66,7 @@ std::optional<PathPlace> place_within(PathTree& tree, const InPart& touch, doubl
 
 class BoxSearch {
  public:
-  BoxSearch(PoseFit& fit, std::size_t budget) : fit_(fit), budget_(budget) {
+  BoxSearch(PoseFit& fit, const PoseExtent& extent, std::size_t budget) : fit_(fit), extent_(extent), budget_(budget) {
     finest_ = fit.touches().front().place_most;
     for (const Measured& touch : fit.touches()) finest_ = std::min(finest_, touch.place_most);
     finest_ *= kFinest;
@@ -79,7 +80,7 @@ class BoxSearch {
       if (count >= budget_) return {};
       const PoseBox box = waiting.back();
       waiting.pop_back();
-      if (!may_fit(box)) continue;
+      if (is_outside(box) || !may_fit(box)) continue;
       if (std::optional<FittedPose> witness = fits(box.middle)) return {std::move(witness), false};
       if (std::max(box.place, reach_ * box.turn) <= finest_) {
         decided = false;
@@ -112,7 +113,15 @@ class BoxSearch {
         .has_value();
   }
 
+  /// Whether no pose of the box is in the extent.
+  bool is_outside(const PoseBox& box) const {
+    const double swing = std::hypot(box.middle.x - fit_.about().x(), box.middle.y - fit_.about().y()) * box.turn;
+    const double place = std::numbers::sqrt2 * box.place * (1 + box.turn) + swing;
+    return !holds(extent_, box.middle, place, box.turn);
+  }
+
   std::optional<FittedPose> fits(const Pose& pose) {
+    if (!holds(extent_, pose)) return std::nullopt;
     std::vector<PathPlace> places;
     for (std::size_t k = 0; k < fit_.touches().size(); ++k) {
       const Measured& touch = fit_.touches()[k];
@@ -141,6 +150,7 @@ class BoxSearch {
   }
 
   PoseFit& fit_;
+  PoseExtent extent_;
   std::size_t budget_;
   double finest_ = 0;
   double reach_ = 0;
@@ -171,7 +181,7 @@ PoseBox box_around(PoseFit& fit, const std::vector<Cell>& cells, const TouchPair
 }  // namespace
 
 BoxesFound search_boxes(PoseFit& fit, const std::vector<Cell>& cells, const TouchPair& pair, std::size_t budget) {
-  return BoxSearch(fit, budget).search(box_around(fit, cells, pair));
+  return BoxSearch(fit, extent_of(fit, cells, pair, {}), budget).search(box_around(fit, cells, pair));
 }
 
 }  // namespace rollfix::touch

@@ -42,8 +42,6 @@ constexpr int kRefinements = 2;
 constexpr double kFiner = 0.25;
 // Boxes of poses that are looked at for each such set.
 constexpr std::size_t kBoxBudget = 200000;
-// Headings of extents are rounded, radians.
-constexpr double kHeadingRounding = 1e-12;
 // Cells of a set that are looked at for a pose that leaves the clear paths free.
 constexpr std::size_t kFreeLooks = 64;
 
@@ -121,15 +119,6 @@ struct PoseSet {
   std::vector<Cell> cells;
   PoseMode mode;  // with noise
 };
-
-/// Whether all of a box of poses is in another one, but for rounding.
-bool is_inside(const std::array<Interval, 3>& box, const std::array<Interval, 3>& other, double rounding) {
-  for (std::size_t k = 0; k < 2; ++k) {
-    if (box[k].lo < other[k].lo - rounding || box[k].hi > other[k].hi + rounding) return false;
-  }
-  const double off = std::abs(nearest_angle(box[2].middle() - other[2].middle()));
-  return other[2].width() >= kFullTurn || off + 0.5 * box[2].width() <= 0.5 * other[2].width() + kHeadingRounding;
-}
 
 /// The steps of a search for all poses, and what they leave behind.
 class Solver {
@@ -223,9 +212,17 @@ class Solver {
   void drop_known(std::vector<Cell>& cells, const PoseFit& fit, const TouchPair& pair) const {
     const double rounding = kSame * 1e-6 * touches_[pair.first].place_most;
     const auto known = [&](const Cell& cell) {
-      const std::array<Interval, 3> box = extent_of(fit, {cell}, pair, {});
-      return std::any_of(known_->begin(), known_->end(),
-                         [&](const TouchPose& pose) { return is_inside(box, pose.extent, rounding); });
+      const PoseExtent box = extent_of(fit, {cell}, pair, {});
+      const Pose middle{box[0].middle(), box[1].middle(), box[2].middle()};
+      const auto is_inside = [&](const TouchPose& pose) {
+        PoseExtent inner = pose.extent;
+        for (std::size_t k = 0; k < 3; ++k) {
+          inner[k] = {inner[k].lo + 0.5 * box[k].width(), inner[k].hi - 0.5 * box[k].width()};
+        }
+        if (pose.any_heading) inner[2] = pose.extent[2];
+        return holds(inner, middle, rounding);
+      };
+      return std::any_of(known_->begin(), known_->end(), is_inside);
     };
     cells.erase(std::remove_if(cells.begin(), cells.end(), known), cells.end());
   }
@@ -344,13 +341,18 @@ class Solver {
       cells.clear();
       for (const std::vector<std::size_t>& component : sets.components) {
         std::vector<Cell> own = cells_of(sets, component);
+        const PoseExtent extent = extent_of(fit, own, pair, {});
+        // Least squares may lead to a pose of another set.
+        const auto is_one = [&](const FittedPose& pose) {
+          return worst_of(fit, pose) <= 1 && holds(extent, pose.pose);
+        };
         FittedPose fitted = best_within(fit, own, pair);
         BoxesFound boxes;
-        if (worst_of(fit, fitted) > 1) boxes = search_boxes(fit, own, pair, kBoxBudget);
+        if (!is_one(fitted)) boxes = search_boxes(fit, own, pair, kBoxBudget);
         if (boxes.refuted) continue;  // proved: no pose of the set fits
         if (boxes.witness) fitted = std::move(*boxes.witness);
         if (free_.is_blocked(fitted.pose)) fitted = best_free(fit, own, pair, std::move(fitted));
-        if (worst_of(fit, fitted) <= 1 && !free_.is_blocked(fitted.pose)) {
+        if (is_one(fitted) && !free_.is_blocked(fitted.pose)) {
           add_set(fit, {std::move(fitted), std::move(own), {}}, found);
         } else {
           cells.insert(cells.end(), own.begin(), own.end());
