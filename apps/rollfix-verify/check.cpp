@@ -40,9 +40,15 @@ std::string touches_question(const Json& json) {
     text += "\n";
   }
   for (const Json& one : json.at("poses")) {
-    text += (one.at("listed").get<bool>() ? "poses" : "left out: poses");
-    text += " with x " + between(one.at("extent").at(0)) + ", y " + between(one.at("extent").at(1)) + ", heading " +
-            between(one.at("extent").at(2)) + " rad\n";
+    const Json& pose = one.at("pose");
+    text += (one.at("listed").get<bool>() ? "pose " : "left out: pose ") + plain(pose.at(0)) + ", " +
+            plain(pose.at(1)) + ", heading " + plain(pose.at(2)) + " rad fits";
+    if (one.contains("extent")) {
+      const Json& extent = one.at("extent");
+      text += ", all of its set is in x " + between(extent.at(0)) + ", y " + between(extent.at(1)) + ", heading " +
+              between(extent.at(2)) + " rad";
+    }
+    text += "\n";
   }
   return text;
 }
@@ -75,6 +81,7 @@ std::string percent_of(double share) {
 std::string described_poses(const Verdict& verdict) {
   std::string found = std::to_string(verdict.placements) + (verdict.placements == 1 ? " set" : " sets") + " of poses";
   if (verdict.left_out > 0) found += " and " + std::to_string(verdict.left_out) + " that the answer leaves out";
+  if (verdict.inside > 0) found += ", " + counted(verdict.inside, "more pose") + " in them";
   if (verdict.is_complete()) return "proved: " + found + ", nothing else\n" + verdict.question;
   std::string but;
   if (verdict.open > 0) {

@@ -18,6 +18,7 @@ struct Verdict {
   std::size_t unproved = 0;    // placements of which no more is proved than that their starts fit
   bool of_touches = false;     // then placements are sets of poses, and cells boxes of poses
   std::size_t left_out = 0;    // sets that the answer does not list
+  std::size_t inside = 0;      // poses that the answer lists by themselves, though they are in another one's set
   std::size_t open_touch = 0;  // whose place is known of the poses that are left open
   std::string question;        // which part, readings, facing and tolerance
   std::string refusal;         // why it is refused; empty: all but what is open is proved

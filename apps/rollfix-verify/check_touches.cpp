@@ -64,7 +64,7 @@ std::optional<Considered> considered(const Json& stated, double period) {
 /// A stated set of poses.
 struct Set {
   std::array<double, 3> pose{};
-  PoseBox extent;
+  std::optional<PoseBox> extent;  // none: the pose is in another one's
   const Json* contacts = nullptr;
 };
 
@@ -91,7 +91,9 @@ class Touches {
     verdict.of_touches = true;
     for (std::size_t k = 0; k < sets_.size(); ++k) check_set(tree, k);
     for (const Json& stated : document_.json().at("poses")) {
-      ++(stated.at("listed").get<bool>() ? verdict.placements : verdict.left_out);
+      ++(!stated.contains("extent")        ? verdict.inside
+         : stated.at("listed").get<bool>() ? verdict.placements
+                                           : verdict.left_out);
     }
     if (tree.root() >= 0) cover(tree, verdict);
     return verdict;
@@ -121,8 +123,10 @@ class Touches {
     Set set;
     const Json& pose = stated.at("pose");
     set.pose = {mirrored(number(pose.at(0))), number(pose.at(1)), mirrored(number(pose.at(2)))};
-    const Json& extent = stated.at("extent");
-    set.extent = {mirrored(interval(extent.at(0))), interval(extent.at(1)), mirrored(interval(extent.at(2)))};
+    if (stated.contains("extent")) {
+      const Json& extent = stated.at("extent");
+      set.extent = {mirrored(interval(extent.at(0))), interval(extent.at(1)), mirrored(interval(extent.at(2)))};
+    }
     set.contacts = &stated.at("contacts");
     return set;
   }
@@ -143,9 +147,9 @@ class Touches {
   void check_set(const CentreTree& tree, std::size_t number) const {
     const Set& set = sets_[number];
     const std::string name = "set " + std::to_string(number);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t axis = 0; set.extent && axis < 3; ++axis) {
       const double slack = axis == 2 ? kPlaceSlack : kPlaceSlack * size_;
-      if (!set.extent[axis].holds({set.pose[axis], set.pose[axis]}, slack))
+      if (!(*set.extent)[axis].holds({set.pose[axis], set.pose[axis]}, slack))
         refuse(name + ": its pose is outside of it");
     }
     if (set.contacts->size() != touches_.size()) refuse(name + " has not one contact for each touch");
@@ -215,7 +219,9 @@ class Touches {
 
   void cover(CentreTree& tree, Verdict& verdict) const {
     std::vector<PoseBox> listed;
-    for (const Set& set : sets_) listed.push_back(set.extent);
+    for (const Set& set : sets_) {
+      if (set.extent) listed.push_back(*set.extent);
+    }
     std::optional<LeftOpen> open;
     if (document_.json().contains("unresolved")) {
       const Json& stated = document_.json().at("unresolved");

@@ -54,7 +54,7 @@ Margin margin_of(const TouchAnswer& answer) {
 
 /// With its extent a little wider.
 CertifiedPose certified(const Part& part, const TouchPose& pose, const Margin& margin, bool listed) {
-  CertifiedPose result{pose, {}, listed};
+  CertifiedPose result{pose, {}, listed, touch::is_own(pose)};
   const double away = (margin.about - Vec2(pose.pose.x, pose.pose.y)).norm();
   const std::array<double, 3> by{margin.place + away * margin.turn, margin.place + away * margin.turn, margin.turn};
   for (std::size_t k = 0; k < 3; ++k) {

@@ -6,9 +6,12 @@
 
 namespace rollfix::touch {
 
-/// Every set of poses within the tolerances, with noise those that its search starts from, that is in no extent of
-/// these: nothing is weighed, and nothing is left out as improbable or in the way. REQUIRES a valid problem of two
-/// touches or more, without rolls, prior and clear paths.
+/// Whether the pose of a set is in its extent. With noise it is the one that fits best, which may be another set's.
+bool is_own(const TouchPose& pose);
+
+/// Every set of poses within the tolerances, with noise those that its search starts from, that is in the extent of
+/// none of these (whose own pose is in it): nothing is weighed, and nothing is left out as improbable or in the way.
+/// REQUIRES a valid problem of two touches or more, without rolls, prior and clear paths.
 TouchAnswer poses_beyond(const TouchProblem& problem, const std::vector<TouchPose>& known);
 
 }  // namespace rollfix::touch

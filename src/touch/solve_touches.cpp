@@ -4,6 +4,7 @@
 #include <array>
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -436,12 +437,14 @@ TouchAnswer solve_plain(const TouchProblem& problem) {
   return answer;
 }
 
+bool is_own(const TouchPose& pose) { return holds(pose.extent, pose.pose); }
+
 TouchAnswer poses_beyond(const TouchProblem& problem, const std::vector<TouchPose>& known) {
   TouchAnswer answer{problem.part, problem.touches};
   answer.radius = radius_of(problem);
   answer.noise = problem.noise;
   answer.mirrored = problem.mirrored;
-  answer.poses = known;
+  std::copy_if(known.begin(), known.end(), std::back_inserter(answer.poses), is_own);
   if (problem.mirrored) out_of_mirror(answer);  // into it: once more leads back
   const std::vector<TouchPose> seen_known = std::exchange(answer.poses, {});
   const TouchProblem seen = problem.mirrored ? in_mirror(problem) : problem;

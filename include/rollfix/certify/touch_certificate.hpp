@@ -16,6 +16,8 @@ struct CertifiedPose {
   TouchPose pose;              // `extent` holds all of the set
   std::vector<CurvePlace> at;  // of its contacts
   bool listed = true;          // false: the answer leaves it out: it is improbable, or the part would be in the way
+  bool is_own = true;          // false: with noise the pose that fits best may be one of another set: `extent` is not
+                               // claimed then
 };
 
 /// Touches of a part at rest, the outline by its formulas, and sets that together hold every pose that fits.

@@ -134,10 +134,10 @@ Json pose_json(const CertifiedPose& one, const std::vector<TouchTolerance>& tole
                         {"tangent", json_number(contact.tangent)},
                         {"off", json_numbers(off)}});
   }
-  return {{"listed", one.listed},
-          {"pose", json_numbers(std::array{pose.x, pose.y, pose.heading})},
-          {"extent", intervals_json({one.pose.extent.begin(), one.pose.extent.end()})},
-          {"contacts", contacts}};
+  Json json = {
+      {"listed", one.listed}, {"pose", json_numbers(std::array{pose.x, pose.y, pose.heading})}, {"contacts", contacts}};
+  if (one.is_own) json["extent"] = intervals_json({one.pose.extent.begin(), one.pose.extent.end()});
+  return json;
 }
 
 }  // namespace
