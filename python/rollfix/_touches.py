@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, List, Optional, Sequence, Tuple
+import json
+from typing import Any, Dict, List, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from ._core import InputError
 from ._documents import Document
 from ._fingers import FingerLike, fingers
 from ._logs import Log
-from ._messages import in_a_page, shown
+from ._messages import in_a_page, shown, warn
 from ._noise import NoiseLike, angle_from, noise as noise_given
 from ._tables import is_frame
 
@@ -74,6 +75,29 @@ class TouchAnswer(Document):
         if any(way[2:] == [0, 0] for way in ways):
             raise InputError("approaches: expected directions (dx, dy) that are not (0, 0)")
         return TouchAdvice(self._answer.next_touch(np.array(ways, dtype=float).reshape(-1, 4)))
+
+    def certify(self, file: Any = None, budget: Optional[int] = None) -> Dict[str, Any]:
+        """The proof that there is no other pose: the document that `rollfix-verify` checks with code of its own.
+
+        Of an answer to two touches or more, without rolls. A RollfixWarning says where something is left unproved.
+        docs/certificates.md says what is proved.
+
+        Parameters
+        ----------
+        file : path, optional
+            Also writes it there.
+        budget : int, optional
+            As of `Part.locate`.
+        """
+        most = None if budget is None else whole(budget, "budget", 1)
+        document, is_complete = self._answer.certificate(most)
+        if file is not None:
+            with open(path(file, "file"), "w", encoding="utf-8") as out:
+                out.write(document)
+        if not is_complete:
+            warn("certify: the certificate leaves something unproved: `unresolved` says where")
+        certificate: Dict[str, Any] = json.loads(document)
+        return certificate
 
     def to_svg(self, *, title: str = "", width: float = 0) -> str:
         """A figure of the part in each pose, with the touches."""

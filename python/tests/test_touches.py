@@ -126,3 +126,14 @@ def test_an_answer_can_be_pickled_and_drawn(found, tmp_path):
 def test_what_cannot_be_meant_is_refused(bracket, options, message):
     with pytest.raises(rollfix.InputError, match=message):
         bracket.locate(**options)
+
+
+def test_an_answer_has_a_certificate(found, tmp_path):
+    certificate = found.certify(tmp_path / "proof.json")
+    assert certificate["schema"] == "rollfix/touch-certificate/1" and (tmp_path / "proof.json").exists()
+    assert [one["listed"] for one in certificate["poses"]][0]
+
+
+def test_one_touch_has_no_certificate(bracket):
+    with pytest.raises(rollfix.InputError, match="expected at least two, found 1"):
+        bracket.locate(touches=FIVE[:1], finger=rollfix.Disk(3), noise=NOISE).certify()

@@ -80,9 +80,12 @@ std::vector<Interval> widened(std::vector<Interval> arcs, double by, const Bound
 
 TouchCertificate certify_touches(const TouchAnswer& answer, std::optional<std::size_t> budget) {
   if (!answer.rolls.empty()) {
-    throw InputError("expected touches alone, found rolls: certificates of both together are not written");
+    throw InputError("a certificate of touches: expected touches alone, found rolls as well: leave them out");
   }
-  if (answer.touches.size() < 2) throw InputError("expected at least two touches: one alone leaves no set of poses");
+  if (answer.touches.size() < 2) {
+    throw InputError(
+        "a certificate of touches: expected at least two, found 1, which leaves all poses along the boundary");
+  }
   TouchCertificate certificate;
   static_cast<CertifiedOutline&>(certificate) = certified_outline(answer.part);
   certificate.mirrored = answer.mirrored;

@@ -29,6 +29,7 @@ void require_plain(const Problem& problem) {
 struct Written {
   std::string text;
   bool is_complete = true;
+  const char* where = "its cells say where";
 };
 
 Written written(const Problem& problem, const Answer& answer) {
@@ -53,7 +54,7 @@ void add_written(const std::string& file, bool force, Written certificate, Repor
     report.notes.push_back(fmt::format("wrote {}", file));
   }
   if (certificate.is_complete) return;
-  report.notes.emplace_back("the certificate leaves something unproved: its cells say where");
+  report.notes.push_back(fmt::format("the certificate leaves something unproved: {}", certificate.where));
   report.exit_code = ExitCode::incomplete;
 }
 
@@ -77,7 +78,8 @@ void add_certificate(const std::string& file, bool force, const Problem& problem
 void add_certificate(const std::string& file, bool force, const TouchProblem& problem, const TouchAnswer& answer,
                      Report& report) {
   const TouchCertificate certificate = certify_touches(answer, problem.budget);
-  add_written(file, force, {format_certificate(certificate), certificate.is_complete()}, report);
+  add_written(file, force, {format_certificate(certificate), certificate.is_complete(), "`unresolved` says where"},
+              report);
 }
 
 }  // namespace rollfix::app
