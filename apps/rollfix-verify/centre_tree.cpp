@@ -123,30 +123,33 @@ std::optional<Ball> CentreTree::pivots(long curve) const {
   return hull(before, before + boundary_.jump(curve));
 }
 
-void CentreTree::add_corner(long curve, const std::optional<Considered>& considered) {
-  const std::optional<Ball> all = pivots(curve);
-  if (!all) return;
-  const Interval whole{all->lower(), all->upper()};
+std::vector<Interval> CentreTree::angles_at(long curve, const Ball& pivots, const Considered& considered) const {
+  const Interval whole{pivots.lower(), pivots.upper()};
   const double s = boundary_.back(curve).s.middle();
-  if (!considered) {
-    add(corner(curve, whole));
-    return;
-  }
   const double slack = kLengthSlack * period_;
-  for (const CornerAngles& stated : considered->corners) {
+  for (const CornerAngles& stated : considered.corners) {
     const double apart = std::abs(s - stated.s);
     if (!(apart <= slack || (boundary_.closed() && std::abs(apart - period_) <= slack))) continue;
     const double turn = full_turn().middle();
+    std::vector<Interval> result;
     for (const Interval& angles : stated.angles) {
       const double middle = 0.5 * (angles.lo + angles.hi);
       const double laps = turn * std::round((0.5 * (whole.lo + whole.hi) - middle) / turn);
       const Interval kept{std::max(whole.lo, angles.lo + laps - kTurnSlack),
                           std::min(whole.hi, angles.hi + laps + kTurnSlack)};
-      if (kept.lo <= kept.hi) add(corner(curve, kept));
+      if (kept.lo <= kept.hi) result.push_back(kept);
     }
-    return;
+    return result;
   }
-  if (is_on(s, considered->arcs)) add(corner(curve, whole));
+  return is_on(s, considered.arcs) ? std::vector<Interval>{whole} : std::vector<Interval>{};
+}
+
+void CentreTree::add_corner(long curve, const std::optional<Considered>& considered) {
+  const std::optional<Ball> all = pivots(curve);
+  if (!all) return;
+  std::vector<Interval> pieces{{all->lower(), all->upper()}};
+  if (considered) pieces = angles_at(curve, *all, *considered);
+  for (const Interval& angles : pieces) add(corner(curve, angles));
 }
 
 int CentreTree::add(Node node) {

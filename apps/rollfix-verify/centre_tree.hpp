@@ -54,6 +54,8 @@ class CentreTree {
   Ball direction(const Place& place) const { return place.angle + base_; }
   /// The angles that a finger can have where this curve ends and the next one begins; none: it does not pivot there.
   std::optional<Ball> pivots(long curve) const;
+  /// Those of them that are considered.
+  std::vector<Interval> angles_at(long curve, const Ball& pivots, const Considered& considered) const;
 
  private:
   void add_curve(long curve, const std::optional<Considered>& considered);

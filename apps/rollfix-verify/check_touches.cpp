@@ -9,6 +9,7 @@
 #include "centre_tree.hpp"
 #include "check.hpp"
 #include "document.hpp"
+#include "out_of_reach.hpp"
 #include "pose_search.hpp"
 
 // Notation: a pose X, phi has the part's point c at X + R(phi) c; q_i is a touch's measured centre, tau_i the tangent
@@ -86,6 +87,7 @@ class Touches {
   Verdict check() {
     document_.check_outline();
     require_tolerances();
+    check_reach();
     CentreTree tree(boundary_, radius_, considered_);
     Verdict verdict;
     verdict.of_touches = true;
@@ -142,6 +144,35 @@ class Touches {
     }
   }
 
+  /// Where contacts are not looked for the finger can't be.
+  void check_reach() const {
+    if (!considered_) return;
+    const std::optional<double> place = not_out_of_reach(boundary_, radius_, *considered_);
+    if (!place) return;
+    char text[120];
+    std::snprintf(text, sizeof text, "the reach leaves out s = %.6g, where the finger may touch", *place);
+    refuse(text);
+  }
+
+  bool is_considered(const Place& place, double tangent) const {
+    if (!considered_) return true;
+    const double slack = kPlaceSlack * period_;
+    const double s = place.s.middle();
+    for (const double lap : boundary_.laps()) {
+      for (const Interval& arc : considered_->arcs) {
+        if (s >= arc.lo + lap - slack && s <= arc.hi + lap + slack) return true;
+      }
+      for (const CornerAngles& corner : considered_->corners) {
+        if (std::abs(s - corner.s - lap) > slack) continue;
+        for (const Interval& angles : corner.angles) {
+          const Ball off = to_nearest_turn(Ball(tangent) - 0.5 * (angles.lo + angles.hi));
+          if (abs(off).is_below(0.5 * angles.width() + kPlaceSlack)) return true;
+        }
+      }
+    }
+    return false;
+  }
+
   // ---- each stated pose fits ----
 
   void check_set(const CentreTree& tree, std::size_t number) const {
@@ -163,6 +194,7 @@ class Touches {
     const Place place = document_.place_at(stated.at("at"));
     if (!document_.is_as_far(place.s, number(stated.at("s")))) refuse(name + " is elsewhere");
     const Ball direction = direction_at(tree, place, number(stated.at("tangent")), name);
+    if (!is_considered(place, number(stated.at("tangent")))) refuse(name + " is out of reach");
     const Point point = boundary_.position(place);
     const Ball x = point.x + radius_ * sin(direction);
     const Ball y = point.y - radius_ * cos(direction);

@@ -22,7 +22,7 @@ Ran verified() { return cli::shell("rollfix-verify proof.json"); }
 
 TEST(CliTouchCertify, writes_what_the_verifier_proves_with_noise_and_within_a_tolerance) {
   const Folder folder;
-  for (const std::string& how : {"--noise position=0.02", "--tolerance 0.09"}) {
+  for (const char* how : {"--noise position=0.02", "--tolerance 0.09"}) {
     EXPECT_EQ(run(kThree + how + " --force").code, 0);
     EXPECT_EQ(verified().code, 0);
     EXPECT_THAT(verified().out, testing::StartsWith("proved: 2 sets of poses, nothing else\npart "));

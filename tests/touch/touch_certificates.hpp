@@ -83,7 +83,7 @@ inline TouchProblem random_question(int kind, std::mt19937_64& generator, double
   making.count = std::uniform_int_distribution<std::size_t>(2, 5)(generator);
   making.normals =
       uniform(generator, 0, 1) < 0.5 ? 0 : std::uniform_int_distribution<std::size_t>(0, making.count)(generator);
-  making.radius = uniform(generator, 0, 1) < 0.4 ? 0 : uniform(generator, 0.01, 0.06) * size;
+  making.radius = uniform(generator, 0, 1) < 0.4 ? 0 : uniform(generator, 0.01, 0.15) * size;
   making.place_sd = least * std::pow(1e-2 / least, uniform(generator, 0, 1)) * size;
   making.angle_sd = std::pow(10, uniform(generator, -3, -1.2));
   TouchProblem problem = random_case(part, making, generator).problem;

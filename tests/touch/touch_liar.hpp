@@ -215,6 +215,40 @@ inline std::vector<Lie> about_the_question() {
          d.json["mirrored"] = !d.json["mirrored"].get<bool>();
          return true;
        }},
+      {"a reach of nothing, which leaves no pose",
+       [](Document& d) {
+         d.json["reach"] = {{"arcs", Json::array()}, {"corners", Json::array()}};
+         d.json["poses"] = Json::array();
+         return true;
+       }},
+      {"a reach without the place of a contact",
+       [](Document& d) {
+         const double s = d.any("poses")["contacts"][0]["s"];
+         const double perimeter = d.json["perimeter"];
+         const double from = s + 1e-3 * perimeter;
+         if (!d.json["reach"].is_null() || from > perimeter || s < 1e-3 * perimeter) return false;
+         const double to = s - 1e-3 * perimeter;
+         d.json["reach"] = {{"arcs", {{0.0, to}, {from, perimeter}}}, {"corners", Json::array()}};
+         d.json["poses"] = Json::array();
+         return true;
+       }},
+      {"an arc of the reach cut short",
+       [](Document& d) {
+         if (d.json["reach"].is_null() || d.json["reach"]["arcs"].empty()) return false;
+         Json& arc = d.json["reach"]["arcs"][0];
+         arc[0] = 0.5 * (arc[0].get<double>() + arc[1].get<double>());
+         return true;
+       }},
+      {"a corner of the reach left out",
+       [](Document& d) {
+         if (d.json["reach"].is_null()) return false;
+         bool has_any = false;
+         for (Json& corner : d.json["reach"]["corners"]) {
+           has_any = has_any || !corner["angles"].empty();
+           corner["angles"] = Json::array();
+         }
+         return has_any;
+       }},
       {"no touches",
        [](Document& d) {
          d.json["touches"] = Json::array();

@@ -134,9 +134,9 @@ Json pose_json(const CertifiedPose& one, const std::vector<TouchTolerance>& tole
                         {"tangent", json_number(contact.tangent)},
                         {"off", json_numbers(off)}});
   }
-  Json json = {
-      {"listed", one.listed}, {"pose", json_numbers(std::array{pose.x, pose.y, pose.heading})}, {"contacts", contacts}};
+  Json json = {{"listed", one.listed}, {"pose", json_numbers(std::array{pose.x, pose.y, pose.heading})}};
   if (one.is_own) json["extent"] = intervals_json({one.pose.extent.begin(), one.pose.extent.end()});
+  json["contacts"] = contacts;
   return json;
 }
 
