@@ -181,7 +181,8 @@ PoseBox box_around(PoseFit& fit, const std::vector<Cell>& cells, const TouchPair
 }  // namespace
 
 BoxesFound search_boxes(PoseFit& fit, const std::vector<Cell>& cells, const TouchPair& pair, std::size_t budget) {
-  return BoxSearch(fit, extent_of(fit, cells, pair, {}), budget).search(box_around(fit, cells, pair));
+  return BoxSearch(fit, extent_of(fit, cells, pair, {0, 0, cells.front().heading.middle}), budget)
+      .search(box_around(fit, cells, pair));
 }
 
 }  // namespace rollfix::touch

@@ -342,7 +342,7 @@ class Solver {
       cells.clear();
       for (const std::vector<std::size_t>& component : sets.components) {
         std::vector<Cell> own = cells_of(sets, component);
-        const PoseExtent extent = extent_of(fit, own, pair, {});
+        const PoseExtent extent = extent_of(fit, own, pair, {0, 0, own.front().heading.middle});
         // Least squares may lead to a pose of another set.
         const auto is_one = [&](const FittedPose& pose) {
           return worst_of(fit, pose) <= 1 && holds(extent, pose.pose);
