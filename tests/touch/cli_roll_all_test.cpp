@@ -172,6 +172,16 @@ TEST(CliRollAll, WhatOnlyOneRollHasIsRefused) {
   EXPECT_THAT(run("locate gallery:limacon --reading 1,2 --roll all").err, HasSubstr("--log"));
 }
 
+TEST(CliRollAll, ATableOfTouchesAndTheSameLogTwiceAreRefused) {
+  const Folder folder;
+  folder.write("touches.csv", "x,y\n1,2\n2,3\n");
+  folder.write("run.csv", log_of_two());
+  EXPECT_THAT(run("locate gallery:limacon --log touches.csv" + kRest).err,
+              HasSubstr("touches.csv: expected a log of a roll, with u and psi, found a table of touches"));
+  EXPECT_THAT(run("locate gallery:limacon --log run.csv --log run.csv" + kRest).err,
+              HasSubstr("--log run.csv: it is given twice"));
+}
+
 TEST(CliRollAll, PathsAreRefused) {
   const Folder folder;
   folder.write("run.csv", log_of_two());
