@@ -43,17 +43,18 @@ std::string words_for_one(const PartWeight& weight) {
   return weight.places == 1 ? "unique place" : counted(weight.places, "place", "places");
 }
 
-std::string verdict_of(const Conclusion& conclusion, const std::vector<PartWeight>& weights, bool noisy) {
+std::string verdict_of(const Conclusion& conclusion, const std::vector<PartWeight>& weights, bool noisy,
+                       const Wording& wording) {
   std::vector<std::size_t> that_count;
   for (const std::size_t k : conclusion.order) {
     if (!noisy || conclusion.probability[k] >= belief::kCounts) that_count.push_back(k);
   }
   if (that_count.empty()) return conclusion.status == Status::incomplete ? "undecided" : "none";
   const PartWeight& first = weights[that_count.front()];
-  const std::string badly = first.fits_badly ? ", but the rows fit badly" : "";
+  const std::string badly = first.fits_badly ? wording.badly : "";
   const bool is_one =
       that_count.size() == 1 || (noisy && conclusion.probability[that_count.front()] >= belief::kCertain);
-  if (is_one) return fmt::format("unique part, {}{}", words_for_one(first), badly);
+  if (is_one) return fmt::format("unique part, {}{}", wording.of_one(first), badly);
   const bool alike = conclusion.congruent[that_count.front()].size() + 1 >= that_count.size();
   return fmt::format("{} {}{}", that_count.size(), alike ? "congruent parts" : "parts", badly);
 }
@@ -79,6 +80,8 @@ void compare(const Catalog& catalog, const std::vector<PartWeight>& weights, con
 }
 
 }  // namespace
+
+const Wording kOfRolls{&words_for_one, ", but the rows fit badly"};
 
 PartWeight weight_of(std::size_t part, const Answer& answer) {
   PartWeight weight;
@@ -116,7 +119,7 @@ bool fits_well(const std::vector<PartWeight>& weights) {
 }
 
 Conclusion conclude(const Catalog& catalog, const std::vector<PartWeight>& weights, std::size_t searched,
-                    const Likeness& likeness) {
+                    const Likeness& likeness, const Wording& wording) {
   Conclusion conclusion;
   conclusion.probability.assign(weights.size(), std::numeric_limits<double>::quiet_NaN());
   if (likeness.noisy && !weights.empty()) conclusion.probability = probabilities(catalog, weights);
@@ -143,7 +146,7 @@ Conclusion conclude(const Catalog& catalog, const std::vector<PartWeight>& weigh
     return weights[a].part < weights[b].part;
   });
   compare(catalog, weights, likeness, conclusion);
-  conclusion.verdict = verdict_of(conclusion, weights, likeness.noisy);
+  conclusion.verdict = verdict_of(conclusion, weights, likeness.noisy, wording);
   return conclusion;
 }
 

@@ -17,9 +17,6 @@
 namespace rollfix {
 namespace {
 
-// Without noise tangents of parts that are the same differ by no more, radians.
-constexpr double kSameTurn = 1e-7;
-
 /// Throws InputError: noise that no part's answer could take.
 void require_weighable(const Catalog& catalog, const Noise& noise) {
   belief::require_weighable(noise);

@@ -12,24 +12,43 @@ std::string formatted(const Json& document, Layout layout) {
   return layout == Layout::line ? json_line(document) : json_text(document);
 }
 
+Json catalog_json(const Catalog& catalog, std::size_t asked, std::size_t searched) {
+  return {{"file", catalog.path()}, {"parts", asked}, {"searched", searched}};
+}
 Json catalog_json(const Catalog& catalog, const Identified& found) {
-  return {{"file", catalog.path()}, {"parts", found.asked}, {"searched", found.searched + found.searched_widely}};
+  return catalog_json(catalog, found.asked, found.searched + found.searched_widely);
+}
+
+Json names_json(const Catalog& catalog, const std::vector<std::size_t>& parts) {
+  Json names = Json::array();
+  for (const std::size_t part : parts) names.push_back(catalog.entry(part).name);
+  return names;
+}
+
+Json refused_json(const Catalog& catalog, const std::vector<PartRefused>& refused) {
+  Json list = Json::array();
+  for (const PartRefused& one : refused) list.push_back({{"name", catalog.entry(one.part).name}, {"why", one.why}});
+  return list;
+}
+
+Json part_json(const Catalog& catalog, std::size_t part, double probability, const std::string& verdict,
+               const std::vector<std::size_t>& congruent, Json placements) {
+  const CatalogEntry& entry = catalog.entry(part);
+  return {{"name", entry.name},
+          {"id", entry.id},
+          {"source", catalog.source_of(part)},
+          {"probability", json_number(probability)},
+          {"verdict", verdict},
+          {"congruent_with", names_json(catalog, congruent)},
+          {"placements", std::move(placements)}};
 }
 
 Json part_json(const Catalog& catalog, const PartFound& part) {
-  const CatalogEntry& entry = catalog.entry(part.weight.part);
-  Json congruent = Json::array();
-  for (const std::size_t other : part.congruent) congruent.push_back(catalog.entry(other).name);
   Json placements = Json::array();
   for (const Placement& placement : part.answer.placements)
     placements.push_back(placement_json(placement, part.answer));
-  return {{"name", entry.name},
-          {"id", entry.id},
-          {"source", catalog.source_of(part.weight.part)},
-          {"probability", json_number(part.probability)},
-          {"verdict", part.weight.verdict},
-          {"congruent_with", congruent},
-          {"placements", placements}};
+  return part_json(catalog, part.weight.part, part.probability, part.weight.verdict, part.congruent,
+                   std::move(placements));
 }
 
 }  // namespace
@@ -37,10 +56,6 @@ Json part_json(const Catalog& catalog, const PartFound& part) {
 std::string format_identified(const Catalog& catalog, const Identified& found, Layout layout) {
   Json parts = Json::array();
   for (const PartFound& part : found.parts) parts.push_back(part_json(catalog, part));
-  Json refused = Json::array();
-  for (const PartRefused& one : found.refused) {
-    refused.push_back({{"name", catalog.entry(one.part).name}, {"why", one.why}});
-  }
   const Json document = {{"schema", kSchema},
                          {"status", name_of(found.status)},
                          {"verdict", found.verdict},
@@ -50,7 +65,30 @@ std::string format_identified(const Catalog& catalog, const Identified& found, L
                          {"samples", found.samples},
                          {"parts", parts},
                          {"rest", found.noise ? json_number(found.rest) : Json(nullptr)},
-                         {"refused", refused}};
+                         {"refused", refused_json(catalog, found.refused)}};
+  return formatted(document, layout);
+}
+
+std::string format_identified(const Catalog& catalog, const IdentifiedByTouches& found, Layout layout) {
+  Json parts = Json::array();
+  for (const PartTouched& one : found.parts) {
+    parts.push_back(part_json(catalog, one.part, one.probability, one.answer.verdict_text(), one.congruent,
+                              pose_sets_json(one.answer)));
+  }
+  const Json document = {{"schema", kSchema},
+                         {"status", name_of(found.status)},
+                         {"verdict", found.verdict},
+                         {"catalog", catalog_json(catalog, found.asked, found.searched)},
+                         {"radius", json_number(found.radius)},
+                         {"touches", touches_json(found.touches, found.tolerance)},
+                         {"clear", clear_json(found.clear)},
+                         {"noise", found.noise ? noise_json(*found.noise) : Json(nullptr)},
+                         {"mirrored", found.mirrored},
+                         {"samples", found.touches.size()},
+                         {"parts", parts},
+                         {"rest", found.noise ? json_number(found.rest) : Json(nullptr)},
+                         {"undecided", names_json(catalog, found.undecided)},
+                         {"refused", refused_json(catalog, found.refused)}};
   return formatted(document, layout);
 }
 

@@ -13,6 +13,9 @@ namespace rollfix {
 // A part that has less than exp(-this) of the likeliest one's weight is nothing: far less than is listed.
 inline constexpr double kNothing = 20;
 
+// Without noise tangents of parts that are the same differ by no more, radians.
+inline constexpr double kSameTurn = 1e-7;
+
 /// Of a part that something fits on.
 PartWeight weight_of(std::size_t part, const Answer& answer);
 
@@ -45,8 +48,15 @@ struct Likeness {
 };
 Likeness likeness_of(const Problem& like);
 
+/// How a verdict puts it.
+struct Wording {
+  std::string (*of_one)(const PartWeight&);  // what is known of the one part that is left: "unique place", ...
+  const char* badly;                         // what is added where even the likeliest part fits badly
+};
+extern const Wording kOfRolls;
+
 /// Weights of parts of this catalog as one verdict; so many parts were searched.
 Conclusion conclude(const Catalog& catalog, const std::vector<PartWeight>& weights, std::size_t searched,
-                    const Likeness& likeness);
+                    const Likeness& likeness, const Wording& wording = kOfRolls);
 
 }  // namespace rollfix

@@ -6,6 +6,10 @@
 
 #include "rollfix/outline/curve.hpp"
 
+namespace rollfix {
+struct TouchProblem;
+}
+
 namespace rollfix::touch {
 
 class PathTree;
@@ -25,6 +29,9 @@ struct Measured {
   bool is_roll = false;              // its tree is of what its readings leave
   const RollBelief* roll = nullptr;  // of a roll with noise: what all of its rows say; not owned
 };
+
+/// The touches as the search takes them. REQUIRES noise or a tolerance.
+std::vector<Measured> measured(const TouchProblem& problem);
 
 /// Whether such a centre only says where the part is: it is nowhere off.
 bool is_reference(const Measured& contact);

@@ -10,8 +10,6 @@ namespace rollfix::touch {
 /// An explanation fits where chi-square is no less likely than this.
 inline constexpr double kExplains = 0.01;
 
-/// The touches as the search takes them.
-std::vector<Measured> measured(const TouchProblem& problem);
 /// `solve` of a valid problem, without looking for mistakes.
 TouchAnswer solve_plain(const TouchProblem& problem);
 

@@ -24,6 +24,7 @@
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
 #include "rollfix/touch/touch.hpp"
+#include "tilted_touch.hpp"
 
 namespace rollfix {
 namespace touch {
@@ -114,6 +115,25 @@ std::vector<Interval> places_of(const PathTree& tree, const std::vector<Cell>& c
   return merged;
 }
 
+/// The boundary's length as far as the finger gets to it, of a corner that of the finger's arc around it.
+double length_in_reach(const CentrePath& path) {
+  double length = 0;
+  for (std::size_t k = 0; k < path.stretches().size(); ++k) {
+    length += path.stretches()[k].u.width() * length_per_u(path, k);
+  }
+  return length;
+}
+
+/// log(exp(a) + exp(b) + ...) of the nodes' weights.
+double log_total(const std::vector<PosteriorNode>& nodes) {
+  double most = -std::numeric_limits<double>::infinity();
+  for (const PosteriorNode& node : nodes) most = std::max(most, node.log_weight);
+  if (!std::isfinite(most)) return most;
+  double sum = 0;
+  for (const PosteriorNode& node : nodes) sum += std::exp(node.log_weight - most);
+  return most + std::log(sum);
+}
+
 /// Cells that hang together, with the pose that fits best.
 struct PoseSet {
   FittedPose fitted;
@@ -144,6 +164,7 @@ class Solver {
     add_rolls();
     if (touches_.size() == 1) {
       if (rolls_.empty()) answer_.verdict.name = Verdict::unobservable;
+      if (rolls_.empty() && problem_.noise) answer_.log_evidence = 0;  // the same on any part
       if (!rolls_.empty()) take_from(rolls_.front(), answer_);
       return;
     }
@@ -238,6 +259,10 @@ class Solver {
     Posterior posterior = posterior_of(fit, sets, pair.first);
     free_.weigh(posterior.nodes);
     const std::vector<PosteriorNode>& nodes = posterior.nodes;
+    if (rolls_.empty()) {
+      const double length = length_in_reach(fit.path(pair.first));
+      answer_.log_evidence = log_total(nodes) - static_cast<double>(touches_.size()) * std::log(length);
+    }
     answer_.improbable += posterior.hopeless;
     std::vector<PoseSet> found;
     for (PoseMode& mode : modes_of(sets, posterior)) {

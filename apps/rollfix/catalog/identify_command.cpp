@@ -14,9 +14,11 @@
 #include "rollfix/catalog/documents.hpp"
 #include "rollfix/catalog/identify.hpp"
 #include "rollfix/catalog/identify_text.hpp"
+#include "rollfix/catalog/identify_touches.hpp"
 #include "rollfix/commands.hpp"
 #include "rollfix/draw/parts_figure.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/locate/touch_arguments.hpp"
 #include "rollfix/usage.hpp"
 #include "text/text.hpp"
 
@@ -28,11 +30,15 @@ constexpr const char* kIdentifyExamples = R"(Examples:
   rollfix identify parts.db --log roll.csv --finger disk,r=10 --noise contact=0.05,angle=0.2deg
   rollfix identify parts.db --reading 60.1,5.12deg --reading 120,18.39deg --json
   rollfix identify parts.db --log roll.csv --finger disk,r=10 --noise contact=0.05,angle=0.2deg -o which.svg
+Touches without rolling, of a part at rest:
+  rollfix identify parts.db --touch 106.5,94.4 --touch 158.0,50.0 --touch 192.9,57.6 --finger disk,r=3 --noise position=0.02
+  rollfix identify parts.db --log touches.csv --finger disk,r=3 --noise position=0.02,angle=2deg --json
 )";
 
 struct IdentifyArguments {
   std::string catalog;
   RollArguments roll;
+  std::vector<std::string> touches;
   std::string jobs;
   bool without_index = false;
   bool json = false;
@@ -43,8 +49,9 @@ struct IdentifyArguments {
 Problem read_question(const IdentifyArguments& arguments, const Catalog& catalog, std::vector<std::string>& notes) {
   const RollArguments& roll = arguments.roll;
   if (roll.readings.empty() && roll.logs.empty()) {
-    throw InputError("identify: expected --reading LENGTH,TURN or --log FILE, found neither");
+    throw InputError("identify: expected --reading LENGTH,TURN, --log FILE or --touch X,Y, found none");
   }
+  if (!roll.clear.empty()) throw InputError("--clear is about touches: give them with --touch, or leave --clear out");
   if (!roll.readings.empty() && !roll.logs.empty()) {
     throw InputError("identify: expected --reading or --log, found both: they can't be of the same roll");
   }
@@ -57,6 +64,14 @@ Report of_document(const std::string& text, const IdentifyArguments& arguments, 
   report.exit_code = exit_code_of(document);
   report.data = arguments.json ? text : identify_text(document, catalog.unit());
   return report;
+}
+
+/// What is asked of every part by touches.
+TouchProblem read_touches(const IdentifyArguments& arguments, const Catalog& catalog, std::vector<std::string>& notes) {
+  if (!arguments.touches.empty() && !arguments.roll.logs.empty()) {
+    throw InputError("identify: expected --touch or --log, found both: a part is identified by touches or by one roll");
+  }
+  return read_touch_problem(arguments.touches, arguments.roll, any_part_of(catalog), notes);
 }
 
 Svg figure_of(const Identified& found, const Catalog& catalog) {
@@ -80,6 +95,13 @@ Report identify_report(const IdentifyArguments& arguments) {
   options.use_index = !arguments.without_index;
   if (!arguments.jobs.empty()) options.threads = static_cast<unsigned>(read_count(arguments.jobs, "--jobs", 1));
   Report report;
+  if (are_touches(arguments.touches, arguments.roll)) {
+    if (!arguments.output.file.empty()) {
+      throw InputError("-o: a figure is of rolls; of touches draw the part: rollfix locate PART with the same touches");
+    }
+    const IdentifiedByTouches found = identify(catalog, read_touches(arguments, catalog, report.notes), options);
+    return of_document(format_identified(catalog, found), arguments, catalog, std::move(report));
+  }
   const Problem question = read_question(arguments, catalog, report.notes);
   const Identified found = identify(catalog, question, options);
   report = of_document(format_identified(catalog, found), arguments, catalog, std::move(report));
@@ -91,11 +113,12 @@ Report identify_report(const IdentifyArguments& arguments) {
 
 void add_identify_command(CLI::App& program, Command& chosen) {
   const auto arguments = std::make_shared<IdentifyArguments>();
-  CLI::App* command = program.add_subcommand(
-      "identify", "Which parts of a catalog a roll fits, and where on each it can have started.");
+  CLI::App* command =
+      program.add_subcommand("identify", "Which parts of a catalog a roll or touches fit, and where on each.");
   command->footer(kIdentifyExamples);
   command->add_option("CATALOG", arguments->catalog, "as catalog build makes it");
   add_felt_arguments(*command, arguments->roll, true);
+  add_touch_arguments(*command, arguments->touches, arguments->roll);
   command
       ->add_option("--at", arguments->roll.instants,
                    "instants of the log to use, seconds; default all rows, as exact as their digits or the noise say")

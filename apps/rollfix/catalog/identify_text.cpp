@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
+#include "outline/turn.hpp"
 #include "rollfix/output/table.hpp"
 #include "text/text.hpp"
 
@@ -59,6 +61,61 @@ std::string parts_table(const Json& document, const std::string& unit) {
   return table.str() + more;
 }
 
+/// Of touches: a row for each pose.
+std::string poses_table(const Json& document, const std::string& unit) {
+  const bool has_noise = !document["noise"].is_null();
+  Table table;
+  table.add_column("part", Table::Align::left);
+  if (has_noise) table.add_column("probability");
+  if (has_noise) table.add_column("pose's");
+  for (const std::string& title : {title_in("x", unit), title_in("y", unit), std::string("heading [deg]")}) {
+    table.add_column(title);
+    if (has_noise) table.add_column("±");
+  }
+  table.add_column("", Table::Align::left);
+  std::size_t rows = 0;
+  std::size_t left_out = 0;
+  for (const Json& part : document["parts"]) {
+    const Json nothing = Json::array({nullptr});  // one touch: any pose
+    bool is_first = true;
+    for (const Json& pose : part["placements"].empty() ? nothing : part["placements"]) {
+      if (++rows > kMostRows) {
+        ++left_out;
+        continue;
+      }
+      std::vector<std::string> cells{is_first ? part["name"].get<std::string>() : ""};
+      if (has_noise) cells.push_back(is_first ? probability(part["probability"]) : "");
+      if (has_noise) cells.push_back(pose.is_null() ? "-" : probability(pose["probability"]));
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double factor = i < 2 ? 1 : 1 / kDegree;
+        const bool is_any = pose.is_null() || (i == 2 && pose["any_heading"].get<bool>());
+        const double value = is_any ? 0 : factor * pose["pose"][0][i].get<double>();
+        cells.push_back(is_any ? "any" : i < 2 ? fixed(value, decimals_for(value)) : fmt::format("{:.3f}", value));
+        if (!has_noise) continue;
+        const double variance = pose.is_null() ? 0 : pose["pose_covariance"][i][i].get<double>();
+        cells.push_back(is_any ? "-" : rough(factor * std::sqrt(std::max(0.0, variance))));
+      }
+      cells.emplace_back(pose.is_null() || pose["kind"] != "continuum" ? "" : "continuum");
+      table.add_row(std::move(cells));
+      is_first = false;
+    }
+  }
+  const std::string more =
+      left_out == 0 ? "" : fmt::format("... and {} more; --json lists them all\n", counted(left_out, "pose", "poses"));
+  return table.str() + more;
+}
+
+/// Of touches: what to do next.
+std::string advice_of_touches(const Json& document) {
+  if (document["samples"] == 1) return "one touch fits every part in any pose: touch the part elsewhere as well\n";
+  if (!document["undecided"].empty()) {
+    return fmt::format("the budget ran out on {}: more touches, or a larger --budget, leave less to look at\n",
+                       counted(document["undecided"].size(), "part", "parts"));
+  }
+  if (!document["parts"].empty()) return "";
+  return "no pose of any part fits all touches: check the noise, the unit, the finger's radius, and --mirror\n";
+}
+
 std::string congruent_lines(const Json& document) {
   std::string text;
   std::size_t lines = 0;
@@ -95,7 +152,10 @@ std::string identify_text(const Json& document, const std::string& unit) {
   if (!document["rest"].is_null() && !document["parts"].empty())
     text += fmt::format("; probability of all that is not listed {}", rough(document["rest"].get<double>()));
   text += "\n";
-  if (!document["parts"].empty()) text += "\n" + parts_table(document, unit);
+  const bool of_touches = document.contains("touches");
+  if (of_touches) text += advice_of_touches(document);
+  if (!document["parts"].empty())
+    text += "\n" + (of_touches ? poses_table(document, unit) : parts_table(document, unit));
   const std::string below = congruent_lines(document) + refused_lines(document);
   if (!below.empty()) text += "\n" + below;
   return text;

@@ -4,6 +4,7 @@
 
 #include "rollfix/catalog/catalog.hpp"
 #include "rollfix/catalog/identify.hpp"
+#include "rollfix/catalog/identify_touches.hpp"
 #include "rollfix/catalog/next_roll.hpp"
 #include "rollfix/files/documents.hpp"
 
@@ -12,6 +13,9 @@ namespace rollfix {
 
 /// "rollfix/identify/1".
 std::string format_identified(const Catalog& catalog, const Identified& found, Layout layout = Layout::lines);
+
+/// "rollfix/identify/1" of touches.
+std::string format_identified(const Catalog& catalog, const IdentifiedByTouches& found, Layout layout = Layout::lines);
 
 /// {"schema": "rollfix/advise/1", ...}, as of one part, with each contender's part.
 std::string format_next_roll(const Catalog& catalog, const Identified& found, const NextRollOfParts& next,

@@ -184,6 +184,9 @@ struct TouchAnswer {
                                        // is not listed may be; lo in [0, P), hi may exceed P
   std::size_t unresolved_touch = 0;    // which contact they are of: rolls are the first ones
   std::optional<TouchFit> fit{};       // with noise, if a pose fits
+  /// With noise, of touches alone: logarithm of their likelihood, averaged over all poses and over contacts that are
+  /// anywhere on the boundary alike, up to what does not depend on the part. NaN: not known.
+  double log_evidence = std::numeric_limits<double>::quiet_NaN();
   std::vector<TouchDiagnosis> diagnoses{};  // what explains touches that do not fit, the likeliest first
   std::size_t comparisons = 0;
   std::vector<RollFacts> rolls{};

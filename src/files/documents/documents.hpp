@@ -9,6 +9,7 @@
 #include "rollfix/answer/next_roll.hpp"
 #include "rollfix/contact/teach.hpp"
 #include "rollfix/files/inspection.hpp"
+#include "rollfix/touch/touch.hpp"
 
 // The documents of docs/json.md, and the pieces that several of them share.
 namespace rollfix {
@@ -43,6 +44,10 @@ std::string name_of(const Finger& finger);
 /// One of "placements"; of the answer it takes how many fingers there are, and what is known with them.
 Json placement_json(const Placement& placement, const Answer& answer);
 Json readings_json(const Answer& answer);
+/// "placements", "touches" and "clear" of an answer to touches.
+Json pose_sets_json(const TouchAnswer& answer);
+Json touches_json(const std::vector<MeasuredTouch>& touches, const std::vector<TouchTolerance>& tolerance);
+Json clear_json(const std::vector<Clear>& paths);
 Json point_json(const Vec2& point);
 Json part_json(const Part& part);
 /// Null where the rows fit. `fingers` and `noise` as given, for the cure.

@@ -109,6 +109,20 @@ void add_rolls(const TouchAnswer& answer, Json& document) {
 
 }  // namespace
 
+Json pose_sets_json(const TouchAnswer& answer) {
+  return each_of(answer.poses, [&](const TouchPose& set) { return pose_set_json(set, answer.noise.has_value()); });
+}
+
+Json touches_json(const std::vector<MeasuredTouch>& touches, const std::vector<TouchTolerance>& tolerance) {
+  Json list = Json::array();
+  for (std::size_t k = 0; k < touches.size(); ++k) list.push_back(measured_json(touches[k], tolerance[k]));
+  return list;
+}
+
+Json clear_json(const std::vector<Clear>& paths) {
+  return each_of(paths, [](const Clear& path) { return Json{path.from.x(), path.from.y(), path.to.x(), path.to.y()}; });
+}
+
 std::string format_touches(const TouchAnswer& answer, Layout layout) {
   Json document = {{"schema", "rollfix/locate/1"},
                    {"status", name_of(answer.status)},
@@ -117,18 +131,15 @@ std::string format_touches(const TouchAnswer& answer, Layout layout) {
                    {"fingers", 1},
                    {"radius", json_number(answer.radius)},
                    {"mirrored", answer.mirrored}};
-  document["touches"] = Json::array();
+  const auto rolls = static_cast<std::ptrdiff_t>(answer.rolls.size());
+  document["touches"] = touches_json(answer.touches, {answer.tolerance.begin() + rolls, answer.tolerance.end()});
   document["contacts"] = Json::array();
   add_rolls(answer, document);
   for (std::size_t k = 0; k < answer.touches.size(); ++k) {
-    document["touches"].push_back(measured_json(answer.touches[k], answer.tolerance[answer.rolls.size() + k]));
     document["contacts"].push_back(Json{{"finger", 0}, {"touch", k}});
   }
-  document["clear"] = each_of(answer.clear, [](const Clear& path) {
-    return Json{path.from.x(), path.from.y(), path.to.x(), path.to.y()};
-  });
-  document["placements"] =
-      each_of(answer.poses, [&](const TouchPose& set) { return pose_set_json(set, answer.noise.has_value()); });
+  document["clear"] = clear_json(answer.clear);
+  document["placements"] = pose_sets_json(answer);
   document["dropped"] = answer.noise ? Json{{"improbable", answer.improbable}} : Json::object();
   document["unresolved"] = each_of(answer.unresolved, json_interval);
   document["unresolved_touch"] = answer.unresolved.empty() ? Json(nullptr) : Json(answer.unresolved_touch);

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "centre_cells.hpp"
+#include "index.hpp"
+#include "rollfix/catalog/catalog.hpp"
+#include "rollfix/catalog/identify.hpp"
+#include "rollfix/touch/touch.hpp"
+#include "touch/cell_search.hpp"
+
+namespace rollfix {
+
+/// Rules out parts of a catalog that touches can't be of, from ever finer cells.
+class TouchBounds {
+ public:
+  /// REQUIRES that the problem is valid of some part, which does not matter.
+  TouchBounds(const Catalog& catalog, const TouchProblem& like);
+
+  /// Those of the parts that are left. Throws InputError: it was told to stop, or the file is damaged.
+  std::vector<std::size_t> left_of(const std::vector<std::size_t>& parts, const IdentifyOptions& options) const;
+
+ private:
+  std::vector<CentreCells> cells_in_memory(std::size_t part) const;
+  CentreCells cells_of(std::size_t part, const Profile<kFineCells>& fine) const;
+
+  const Catalog& catalog_;
+  const Catalog::Index& index_;
+  std::vector<touch::Measured> touches_;
+  touch::TouchPair pair_;
+  double radius_ = 0;
+};
+
+}  // namespace rollfix

@@ -1,0 +1,179 @@
+#include "rollfix/catalog/identify_touches.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "answer/crew.hpp"
+#include "bounds/touch_bounds.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/pulse.hpp"
+#include "text/text.hpp"
+#include "touch/measured.hpp"
+#include "touch/requirements.hpp"
+#include "weights.hpp"
+
+namespace rollfix {
+namespace {
+
+/// What one part says; no answer where it refuses.
+struct TouchOutcome {
+  std::optional<TouchAnswer> answer;
+  std::string refused;
+};
+
+TouchOutcome touch_outcome_of(const Catalog& catalog, const TouchProblem& like, std::size_t part) {
+  TouchOutcome outcome;
+  TouchProblem problem = like;
+  problem.part = catalog.part(part);
+  try {
+    outcome.answer = solve(problem);
+  } catch (const InputError& error) {
+    outcome.refused = error.what();
+  }
+  return outcome;
+}
+
+std::string words_for_poses(const PartWeight& weight) {
+  if (weight.places == 0) return "any pose";
+  if (weight.verdict.rfind("unobservable", 0) == 0) return "any heading";
+  if (weight.verdict.rfind("ambiguous (1 stretch)", 0) == 0) return "a continuum of poses";
+  return weight.places == 1 ? "unique pose" : counted(weight.places, "pose", "poses");
+}
+const Wording kOfTouches{&words_for_poses, ", but the touches contradict the stated noise"};
+
+PartWeight weight_of(std::size_t part, const TouchAnswer& answer) {
+  PartWeight weight;
+  weight.part = part;
+  weight.verdict = answer.verdict_text();
+  weight.undecided = answer.status == Status::incomplete;
+  weight.fits = !answer.poses.empty() || answer.verdict.name == Verdict::unobservable;
+  weight.fits_badly = answer.verdict.fits_badly;
+  weight.places = answer.verdict.name == Verdict::unique ? 1 : answer.poses.size();
+  for (const TouchPose& pose : answer.poses) weight.starts.push_back(pose.contacts.front().s);
+  if (weight.starts.empty()) weight.starts = {0};  // one touch: at least an outline under two names is seen
+  if (!std::isnan(answer.log_evidence)) weight.peak = answer.log_evidence;
+  return weight;
+}
+
+/// How far two parts may be apart that no touch tells from each other.
+Likeness likeness_of(const TouchProblem& like, const std::vector<TouchTolerance>& tolerance) {
+  Likeness likeness;
+  likeness.noisy = like.noise.has_value();
+  likeness.turn = kSameTurn;
+  likeness.length = std::numeric_limits<double>::infinity();
+  for (const TouchTolerance& one : tolerance) {
+    likeness.length = std::min(likeness.length, like.noise ? one.length / kTouchSigmas : one.length);
+  }
+  for (const MeasuredTouch& one : like.touches) {
+    for (const MeasuredTouch& other : like.touches) {
+      likeness.roll = std::max(likeness.roll, (other.at - one.at).norm());
+    }
+  }
+  return likeness;
+}
+
+/// Throws InputError: what no part could take.
+void require_valid(const Catalog& catalog, const TouchProblem& like) {
+  if (!like.rolls.empty()) throw InputError("identify: expected touches alone, or one roll, found both");
+  std::size_t largest = 0;
+  for (std::size_t k = 1; k < catalog.size(); ++k) {
+    if (catalog.entry(k).perimeter > catalog.entry(largest).perimeter) largest = k;
+  }
+  TouchProblem on_largest = like;
+  on_largest.part = catalog.part(largest);
+  touch::require_valid(on_largest);
+}
+
+IdentifiedByTouches touches_of(const TouchProblem& like) {
+  IdentifiedByTouches found;
+  found.touches = like.touches;
+  found.clear = like.clear;
+  found.radius = touch::radius_of(like);
+  found.noise = like.noise;
+  found.mirrored = like.mirrored;
+  return found;
+}
+
+/// Solves the parts that are left.
+std::vector<TouchOutcome> touch_outcomes_of(const Catalog& catalog, const TouchProblem& like,
+                                            const IdentifyOptions& options, const std::vector<std::size_t>& left) {
+  std::vector<TouchOutcome> outcomes(left.size());
+  Crew crew(left.size(), 1);
+  crew.run(options.threads, options.go_on, [&](std::size_t lo, std::size_t hi) {
+    for (std::size_t k = lo; k < hi; ++k) outcomes[k] = touch_outcome_of(catalog, like, left[k]);
+  });
+  crew.require_done();
+  return outcomes;
+}
+
+/// The parts that something fits on, as one verdict.
+void take(const Catalog& catalog, const TouchProblem& like, std::vector<TouchOutcome> outcomes,
+          IdentifiedByTouches& found) {
+  std::vector<PartWeight> weights;
+  std::vector<std::size_t> from;  // the outcome of each weight
+  std::vector<std::size_t> remaining;
+  for (std::size_t k = 0; k < outcomes.size(); ++k) {
+    const std::size_t part = found.left[k];
+    if (!outcomes[k].answer) {
+      found.refused.push_back({part, outcomes[k].refused});
+      remaining.push_back(part);
+      continue;
+    }
+    const PartWeight weight = weight_of(part, *outcomes[k].answer);
+    if (!weight.fits && !weight.undecided) continue;
+    if (weight.undecided) found.undecided.push_back(part);
+    weights.push_back(weight);
+    from.push_back(k);
+    remaining.push_back(part);
+  }
+  if (!found.refused.empty() && found.refused.size() == found.searched) throw InputError(found.refused.front().why);
+  found.left = std::move(remaining);
+  const Conclusion conclusion =
+      conclude(catalog, weights, weights.size(), likeness_of(like, found.tolerance), kOfTouches);
+  found.verdict = conclusion.verdict;
+  found.rest = conclusion.rest;
+  for (const std::size_t k : conclusion.order) {
+    found.parts.push_back(
+        {weights[k].part, std::move(*outcomes[from[k]].answer), conclusion.probability[k], conclusion.congruent[k]});
+  }
+  if (found.undecided.empty()) return;
+  found.status = Status::incomplete;
+  found.verdict = "undecided";
+  found.rest = std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+IdentifiedByTouches identify(const Catalog& catalog, const TouchProblem& asked, const IdentifyOptions& options) {
+  TouchProblem like = asked;
+  like.diagnose = false;
+  if (!like.noise && !like.tolerance && have_own_noise(like.touches)) like.noise.emplace();
+  IdentifiedByTouches found = touches_of(like);
+  if (catalog.size() == 0) {
+    found.verdict = "none";
+    return found;
+  }
+  require_valid(catalog, like);
+  for (const touch::Measured& touch : touch::measured(like))
+    found.tolerance.push_back({touch.place_most, touch.angle_most});
+  const Doing doing("searching the catalog's parts");
+  std::vector<std::size_t> parts = options.among;
+  if (parts.empty()) {
+    parts.resize(catalog.size());
+    std::iota(parts.begin(), parts.end(), std::size_t{0});
+  }
+  found.asked = parts.size();
+  found.left = options.use_index ? TouchBounds(catalog, like).left_of(parts, options) : parts;
+  found.searched = found.left.size();
+  if (found.left.size() > options.most_searched) {
+    found.counted = true;
+    found.verdict = counted(found.left.size(), "part", "parts");
+    return found;
+  }
+  take(catalog, like, touch_outcomes_of(catalog, like, options, found.left), found);
+  return found;
+}
+
+}  // namespace rollfix
