@@ -1,4 +1,4 @@
-"""Many parts in one file, and which of them a roll fits."""
+"""Many parts in one file, and which of them a roll fits, or touches."""
 
 from __future__ import annotations
 
@@ -23,6 +23,7 @@ from ._noise import NoiseLike
 from ._part import Part
 from ._progress import Progress
 from ._question import Question, refused
+from ._touches import TouchAnswer, asked_of
 from ._watch import Watch
 from ._words import in_python
 
@@ -183,9 +184,11 @@ class Catalog(Made):
         turn: Any = None,
         *,
         log: Any = None,
+        touches: Any = None,
+        clear: Any = None,
         finger: Optional[FingerLike] = None,
         noise: NoiseLike = None,
-        tolerance: Optional[float] = None,
+        tolerance: Any = None,
         facing: Optional[float] = None,
         at: Any = None,
         heading: Optional[Tuple[float, float]] = None,
@@ -203,12 +206,15 @@ class Catalog(Made):
         budget: Optional[int] = None,
         threads: int = 0,
     ) -> Identified:
-        """Every part on which the roll can have been, and every place on it. Ctrl-C stops it.
+        """Every part on which the roll, or the touches, can have been, and every place on it. Ctrl-C stops it.
 
         Parameters
         ----------
         readings, turn, log, ...
             The roll, as of `Part.locate`, in the catalog's unit.
+        touches, clear
+            Instead: touches without rolling, and where nothing was felt, as of `Part.locate`, with `finger`, `noise` or
+            `tolerance`, `heading`, `pose`, `mirrored` and `budget`. Each part's `answer` is a `TouchAnswer`.
         threads : int
             0: as many as there are processors. Any number gives the same bits.
 
@@ -228,6 +234,10 @@ class Catalog(Made):
             roll=roll, rounding=rounding, budget=budget,
         )  # fmt: skip
         count = whole(threads, "threads")
+        if touches is not None:
+            return self._touched(touches, clear, {"readings": readings, "turn": turn, "log": log, **options}, count)
+        if clear is not None:
+            raise InputError("clear: is about touches: give them as `touches`, or leave it out")
         problem, read = self._asked(readings, turn, log, options)
         return self._search(problem, read, count)
 
@@ -336,6 +346,27 @@ class Catalog(Made):
         except InputError as error:
             raise refused(error, log) from None
         return Identified(text, answers_of(found, log))
+
+    def _touched(self, touches: Any, clear: Any, options: Dict[str, Any], threads: int) -> Identified:
+        taken = ("finger", "noise", "tolerance", "heading", "pose", "mirrored", "budget")
+        given = {name: options.pop(name) for name in taken}
+        if options.pop("direction") != "ccw":
+            raise InputError("direction: touches do not roll and have no use for it: leave it out")
+        for name, value in options.items():
+            if value is not None and value is not False:
+                raise InputError(f"{name}: touches do not roll and have no use for it: leave it out")
+        if len(self) == 0:
+            raise InputError(f"{self.path}: the catalog has no parts")
+        *asked, paths = asked_of(touches, **given, clear=clear)
+        try:
+            text, found = self._core.identify_touches(*asked, paths, threads)
+        except InputError as error:
+            raise InputError(in_python(str(error))) from None
+        names = {entry.id: entry.name for entry in self._entries}
+        answers = {
+            part: TouchAnswer((self.part(names[part]), *asked, (), False, paths, False), answer) for part, answer in found
+        }
+        return Identified(text, answers)
 
     def _by_cluster(
         self, client: Any, asked: Sequence[Union[Tuple[_core.Problem, Optional[Log]], InputError]], bar: Progress

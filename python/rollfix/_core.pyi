@@ -260,6 +260,18 @@ class Catalog:
     def left_out(self) -> List[Tuple[str, str]]: ...
     def part(self, arg0: int) -> Part: ...
     def identify(self, arg0: Problem, arg1: int) -> Tuple[str, List[Tuple[int, Answer]]]: ...
+    def identify_touches(
+        self,
+        arg0: _Array,
+        arg1: Optional[_Given],
+        arg2: Optional[Dict[str, float]],
+        arg3: Optional[Tuple[float, float]],
+        arg4: Optional[Sequence[float]],
+        arg5: bool,
+        arg6: Optional[int],
+        arg7: _Array,
+        arg8: int,
+    ) -> Tuple[str, List[Tuple[int, TouchAnswer]]]: ...
     def advise(self, arg0: Problem, arg1: Optional[Tuple[float, float]]) -> str: ...
 
 class TouchAnswer:
@@ -289,6 +301,7 @@ def locate_touches(
     arg8: Sequence[Log],
     arg9: bool,
     arg10: _Array,
+    arg11: bool,
 ) -> TouchAnswer: ...
 def locate_one(arg0: Part, arg1: float, arg2: float) -> Answer: ...
 def finger_name(arg0: _Given) -> str: ...

@@ -1,22 +1,23 @@
-"""Which parts of a catalog a roll fits."""
+"""Which parts of a catalog a roll fits, or touches."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Sequence as SequenceABC
 from dataclasses import dataclass
-from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple, Union, overload
+from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, Union, overload
 
 from . import _core
 from ._answer import Answer
 from ._logs import Log
 from ._made import Made
+from ._touches import TouchAnswer
 from ._words import in_python
 
 
 @dataclass(frozen=True, repr=False)
 class PartFound(Made):
-    """A part that the roll may have been on."""
+    """A part that the roll, or the touches, may have been on."""
 
     name: str  # in the catalog
     id: int  # in the catalog
@@ -24,7 +25,7 @@ class PartFound(Made):
     probability: Optional[float]  # that it is this part; None without noise
     verdict: str  # as `Part.locate` says of this part alone
     congruent_with: Tuple[str, ...]  # those found that can't be told from it
-    answer: Answer  # its places; their probabilities are given that it is this part
+    answer: Union[Answer, TouchAnswer]  # its places, of touches its poses; their probabilities are given that it is this part
 
     def __repr__(self) -> str:
         probability = "" if self.probability is None else f"probability {self.probability:.4g}; "
@@ -32,7 +33,7 @@ class PartFound(Made):
 
 
 class Identified(Made, SequenceABC):  # type: ignore[type-arg]
-    """Every part of a catalog that a roll fits: a sequence of `PartFound`, the likeliest first.
+    """Every part of a catalog that a roll fits, or touches: a sequence of `PartFound`, the likeliest first.
 
     Without noise they are in the catalog's order. It can't be changed, can be pickled, and equals another that says the
     same. `to_dict` gives the whole JSON document.
@@ -41,9 +42,9 @@ class Identified(Made, SequenceABC):  # type: ignore[type-arg]
     __slots__ = ("_text", "_answers", "_fields", "_parts")
 
     _text: str
-    _answers: Dict[int, Answer]  # by their parts' ids
+    _answers: Dict[int, Union[Answer, TouchAnswer]]  # by their parts' ids
 
-    def __init__(self, text: str, answers: Dict[int, Answer]) -> None:
+    def __init__(self, text: str, answers: Mapping[int, Union[Answer, TouchAnswer]]) -> None:
         self._text = text
         self._fields = self.to_dict()
         self._parts = tuple(
@@ -64,7 +65,8 @@ class Identified(Made, SequenceABC):  # type: ignore[type-arg]
     def verdict(self) -> str:
         """str: 'unique part, unique place', 'unique part, 2 places', '3 parts', '2 congruent parts', 'none', 'undecided'.
 
-        With ', but the rows fit badly' behind it where they do.
+        Of touches 'unique part, unique pose', 'unique part, 2 poses', ... With ', but the rows fit badly', or the
+        like, behind it where they do.
         """
         return str(self._fields["verdict"])
 
@@ -85,7 +87,7 @@ class Identified(Made, SequenceABC):  # type: ignore[type-arg]
 
     @property
     def rest(self) -> Optional[float]:
-        """float or None: with noise, the probability of all parts that are not listed."""
+        """float or None: with noise, the probability of all parts that are not listed; of touches None where undecided."""
         rest: Optional[float] = self._fields["rest"]
         return rest
 
@@ -109,11 +111,11 @@ class Identified(Made, SequenceABC):  # type: ignore[type-arg]
         from ._logs import pandas
 
         columns: Dict[str, List[Any]] = {"part": []}
-        if self.rest is not None:
+        if self._fields["noise"] is not None:
             columns["part_probability"] = []
         for one in self._parts:
             columns["part"] += [one.name] * len(one.answer)
-            if self.rest is not None:
+            if self._fields["noise"] is not None:
                 columns["part_probability"] += [one.probability] * len(one.answer)
             for name, values in one.answer._columns().items():
                 columns.setdefault(name, []).extend(values)

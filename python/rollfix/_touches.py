@@ -47,10 +47,10 @@ class TouchAnswer(Document):
 
     __slots__ = ("_answer", "_asked")
 
-    def __init__(self, asked: Tuple[Any, ...]) -> None:
-        part, *rest, rolls, robust, clear = asked
-        rest += [[one._core for one in rolls], robust, clear]
-        self._answer = _core.locate_touches(part._core, *rest)
+    def __init__(self, asked: Tuple[Any, ...], answer: Optional[_core.TouchAnswer] = None) -> None:
+        part, *rest, rolls, robust, clear, diagnose = asked
+        rest += [[one._core for one in rolls], robust, clear, diagnose]
+        self._answer = _core.locate_touches(part._core, *rest) if answer is None else answer
         self._asked = asked
         super().__init__(self._answer.document())
 
@@ -116,6 +116,13 @@ class TouchAnswer(Document):
     def _repr_svg_(self) -> Optional[str]:
         return in_a_page(self.to_svg())
 
+    def _columns(self) -> Dict[str, List[Any]]:
+        placements = self.placements
+        columns = {name: self.poses[:, k].tolist() for k, name in enumerate(("x", "y", "heading"))}
+        for name in ("kind", "probability"):
+            columns[name] = [one[name] for one in placements]
+        return columns
+
     def __len__(self) -> int:
         return len(self.placements)
 
@@ -147,11 +154,20 @@ def located(
     clear: Any = None,
 ) -> TouchAnswer:
     """The answer to touches of a part, and to rolls, checked."""
+    given = asked_of(touches, finger, noise, tolerance, heading, pose, mirrored, budget, clear)
+    *rest, paths = given
+    cores = tuple(one._in_unit(part.unit, fingers(finger, most=1)) for one in rolls)
+    return TouchAnswer((part, *rest, cores, flag(robust, "robust"), paths, True))
+
+
+def asked_of(
+    touches: Any, finger: Any, noise: Any, tolerance: Any, heading: Any, pose: Any, mirrored: bool, budget: Any, clear: Any
+) -> Tuple[Any, ...]:
+    """What is asked of touches, whichever part it is, checked."""
     if noise is not None and tolerance is not None:
         raise InputError("tolerance: `noise` already says how far touches are off: leave one out")
     given = fingers(finger, most=1)
-    return TouchAnswer((
-        part,
+    return (
         _rows([] if touches is None else touches),
         given[0] if given else None,
         noise_given(noise),
@@ -159,10 +175,8 @@ def located(
         pose_prior(heading, pose),
         flag(mirrored, "mirrored"),
         None if budget is None else whole(budget, "budget", 1),
-        tuple(one._in_unit(part.unit, given) for one in rolls),
-        flag(robust, "robust"),
         _paths(clear),
-    ))  # fmt: skip
+    )
 
 
 def _paths(clear: Any) -> Any:

@@ -22,6 +22,8 @@ namespace {
 constexpr std::size_t kMostKept = 4096;
 // Fine cells are kept once they were read where there are no more parts than these: 2 kB each.
 constexpr std::size_t kMostFineKept = 16384;
+// Places of cells are kept of so many parts: half a kB each.
+constexpr std::size_t kMostPlacesKept = 262144;
 
 constexpr const char* kTakenOut = "was taken out of the catalog meanwhile";
 constexpr const char* kDamaged = "was damaged since it was written: its checksum does not fit; build the catalog again";
@@ -92,6 +94,7 @@ struct Catalog::State {
     read_entries();
     all.commit();
     index.fine = [this](const std::vector<std::size_t>& parts) { return fine_profiles(parts); };
+    index.places = [this](std::size_t which) { return places(which); };
   }
   State(const State&) = delete;
   State& operator=(const State&) = delete;
@@ -99,6 +102,8 @@ struct Catalog::State {
   void read_entries();
   Stored stored(std::size_t which);
   std::vector<Profile<kFineCells>> fine_profiles(const std::vector<std::size_t>& parts);
+  CellPlaces places(std::size_t which);
+  Part part(std::size_t which);
   [[noreturn]] void refuse(std::size_t which, const char* what) const;
 
   Database database;
@@ -110,6 +115,7 @@ struct Catalog::State {
   std::mutex mutex;  // of the file, and of what is kept
   std::unordered_map<std::size_t, Part> kept;
   std::unordered_map<std::size_t, Profile<kFineCells>> fine_kept;
+  std::unordered_map<std::size_t, CellPlaces> places_kept;
 };
 
 void Catalog::State::read_entries() {
@@ -180,6 +186,39 @@ std::vector<Profile<kFineCells>> Catalog::State::fine_profiles(const std::vector
   return profiles;
 }
 
+CellPlaces Catalog::State::places(std::size_t which) {
+  {
+    const std::lock_guard lock(mutex);
+    const auto found = places_kept.find(which);
+    if (found != places_kept.end()) return found->second;
+  }
+  const CellPlaces places = places_of(part(which));
+  const std::lock_guard lock(mutex);
+  if (places_kept.size() < kMostPlacesKept) places_kept.emplace(which, places);
+  return places;
+}
+
+Part Catalog::State::part(std::size_t which) {
+  {
+    const std::lock_guard lock(mutex);
+    const auto found = kept.find(which);
+    if (found != kept.end()) return found->second;
+  }
+  const Stored bytes = stored(which);
+  const std::string& name = entries[which].name;
+  try {
+    Part part = part_of(bytes.outline, bytes.numbers, name);
+    const std::lock_guard lock(mutex);
+    if (kept.size() >= kMostKept) kept.clear();
+    kept.emplace(which, part);
+    return part;
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception&) {  // of a library, in its own words
+    throw InputError(fmt::format("{}: {}: is damaged: build the catalog again", path, name));
+  }
+}
+
 void Catalog::State::refuse(std::size_t which, const char* what) const {
   throw InputError(fmt::format("{}: {}: {}", path, entries[which].name, what));
 }
@@ -211,25 +250,6 @@ std::vector<LeftOut> Catalog::left_out() const {
   return all;
 }
 
-Part Catalog::part(std::size_t index) const {
-  {
-    const std::lock_guard lock(state_->mutex);
-    const auto found = state_->kept.find(index);
-    if (found != state_->kept.end()) return found->second;
-  }
-  const Stored stored = state_->stored(index);
-  const std::string& name = state_->entries[index].name;
-  try {
-    Part part = part_of(stored.outline, stored.numbers, name);
-    const std::lock_guard lock(state_->mutex);
-    if (state_->kept.size() >= kMostKept) state_->kept.clear();
-    state_->kept.emplace(index, part);
-    return part;
-  } catch (const InputError&) {
-    throw;
-  } catch (const std::exception&) {  // of a library, in its own words
-    throw InputError(fmt::format("{}: {}: is damaged: build the catalog again", state_->path, name));
-  }
-}
+Part Catalog::part(std::size_t index) const { return state_->part(index); }
 
 }  // namespace rollfix

@@ -61,9 +61,10 @@ std::string parts_table(const Json& document, const std::string& unit) {
   return table.str() + more;
 }
 
-/// Of touches: a row for each pose.
-std::string poses_table(const Json& document, const std::string& unit) {
-  const bool has_noise = !document["noise"].is_null();
+// Of a part with a symmetry, or of a continuum, no more poses are shown.
+constexpr std::size_t kMostPoses = 4;
+
+Table table_of_poses(bool has_noise, const std::string& unit) {
   Table table;
   table.add_column("part", Table::Align::left);
   if (has_noise) table.add_column("probability");
@@ -73,36 +74,49 @@ std::string poses_table(const Json& document, const std::string& unit) {
     if (has_noise) table.add_column("±");
   }
   table.add_column("", Table::Align::left);
-  std::size_t rows = 0;
-  std::size_t left_out = 0;
+  return table;
+}
+
+/// x, y and heading of a pose, with noise each with its standard deviation; null: of any pose.
+void add_pose_cells(const Json& pose, bool has_noise, std::vector<std::string>& cells) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double factor = i < 2 ? 1 : 1 / kDegree;
+    const bool is_any = pose.is_null() || (i == 2 && pose["any_heading"].get<bool>());
+    const double value = is_any ? 0 : factor * pose["pose"][0][i].get<double>();
+    cells.push_back(is_any ? "any" : fixed(value, i < 2 ? decimals_for(value) : 3));
+    if (!has_noise) continue;
+    const double variance = is_any ? 0 : pose["pose_covariance"][i][i].get<double>();
+    cells.push_back(is_any ? "-" : rough(factor * std::sqrt(std::max(0.0, variance))));
+  }
+}
+
+/// Of touches: a row for each pose.
+std::string poses_table(const Json& document, const std::string& unit) {
+  const bool has_noise = !document["noise"].is_null();
+  Table table = table_of_poses(has_noise, unit);
+  std::size_t parts = 0;
   for (const Json& part : document["parts"]) {
-    const Json nothing = Json::array({nullptr});  // one touch: any pose
-    bool is_first = true;
-    for (const Json& pose : part["placements"].empty() ? nothing : part["placements"]) {
-      if (++rows > kMostRows) {
-        ++left_out;
-        continue;
+    if (++parts > kMostRows) break;
+    const Json any_pose = Json::array({nullptr});  // one touch
+    const Json& poses = part["placements"].empty() ? any_pose : part["placements"];
+    for (std::size_t k = 0; k < std::min(poses.size(), kMostPoses); ++k) {
+      const Json& pose = poses[k];
+      std::string name = k == 0 ? part["name"].get<std::string>() : "";
+      if (k + 1 == kMostPoses && poses.size() > kMostPoses) {
+        name = fmt::format("  and {} more", counted(poses.size() - kMostPoses, "pose", "poses"));
       }
-      std::vector<std::string> cells{is_first ? part["name"].get<std::string>() : ""};
-      if (has_noise) cells.push_back(is_first ? probability(part["probability"]) : "");
+      std::vector<std::string> cells{name};
+      if (has_noise) cells.push_back(k == 0 ? probability(part["probability"]) : "");
       if (has_noise) cells.push_back(pose.is_null() ? "-" : probability(pose["probability"]));
-      for (std::size_t i = 0; i < 3; ++i) {
-        const double factor = i < 2 ? 1 : 1 / kDegree;
-        const bool is_any = pose.is_null() || (i == 2 && pose["any_heading"].get<bool>());
-        const double value = is_any ? 0 : factor * pose["pose"][0][i].get<double>();
-        cells.push_back(is_any ? "any" : i < 2 ? fixed(value, decimals_for(value)) : fmt::format("{:.3f}", value));
-        if (!has_noise) continue;
-        const double variance = pose.is_null() ? 0 : pose["pose_covariance"][i][i].get<double>();
-        cells.push_back(is_any ? "-" : rough(factor * std::sqrt(std::max(0.0, variance))));
-      }
+      add_pose_cells(pose, has_noise, cells);
       cells.emplace_back(pose.is_null() || pose["kind"] != "continuum" ? "" : "continuum");
       table.add_row(std::move(cells));
-      is_first = false;
     }
   }
-  const std::string more =
-      left_out == 0 ? "" : fmt::format("... and {} more; --json lists them all\n", counted(left_out, "pose", "poses"));
-  return table.str() + more;
+  const std::size_t more = document["parts"].size() - std::min(document["parts"].size(), kMostRows);
+  return table.str() +
+         (more == 0 ? ""
+                    : fmt::format("... and {}; --json lists them all\n", counted(more, "more part", "more parts")));
 }
 
 /// Of touches: what to do next.

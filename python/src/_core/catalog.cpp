@@ -3,8 +3,10 @@
 #include "bindings.hpp"
 #include "rollfix/catalog/documents.hpp"
 #include "rollfix/catalog/identify.hpp"
+#include "rollfix/catalog/identify_touches.hpp"
 #include "rollfix/catalog/next_roll.hpp"
 #include "signals.hpp"
+#include "touches.hpp"
 
 namespace rollfix::python {
 namespace {
@@ -59,6 +61,35 @@ py::tuple identify_roll(const CatalogHandle& handle, const Problem& like, unsign
       part.answer.part = in_catalogs_unit(*catalog, part.answer.part);
       answers.emplace_back(catalog->entry(part.weight.part).id,
                            AnswerHandle{std::make_shared<const Answer>(std::move(part.answer))});
+    }
+  }
+  py::list list;
+  for (auto& [id, answer] : answers) list.append(py::make_tuple(id, std::move(answer)));
+  return py::make_tuple(document, list);
+}
+
+/// The document, and the answers by the ids of their parts.
+py::tuple identify_touches(const CatalogHandle& handle, const Numbers& rows, const py::object& finger,
+                           const py::object& noise, const std::optional<std::pair<double, double>>& tolerance,
+                           const std::optional<std::vector<double>>& pose, bool mirrored,
+                           const std::optional<std::size_t>& budget, const Numbers& clear, unsigned threads) {
+  const std::shared_ptr<const Catalog> catalog = handle.catalog;
+  const TouchProblem like =
+      touch_problem_from(catalog->part(0), rows, finger, noise, tolerance, pose, mirrored, budget, clear);
+  const py::object nobody = py::none();
+  IdentifyOptions options;
+  options.threads = threads;
+  options.go_on = [&nobody](std::size_t done) { return goes_on(nobody, done); };
+  std::string document;
+  std::vector<std::pair<std::int64_t, TouchAnswerHandle>> answers;
+  {
+    const Unlocked others_may_run;
+    IdentifiedByTouches found = identify(*catalog, like, options);
+    document = format_identified(*catalog, found, Layout::line);
+    for (PartTouched& part : found.parts) {
+      part.answer.part = in_catalogs_unit(*catalog, part.answer.part);
+      answers.emplace_back(catalog->entry(part.part).id,
+                           TouchAnswerHandle{std::make_shared<const TouchAnswer>(std::move(part.answer))});
     }
   }
   py::list list;
@@ -125,6 +156,7 @@ void bind_catalog(py::module_& module) {
       .def("left_out", [](const CatalogHandle& handle) { return pairs_of(handle.catalog->left_out()); })
       .def("part", &part_of)
       .def("identify", &identify_roll)
+      .def("identify_touches", &identify_touches)
       .def("advise", &advise_on);
   module.def("catalog_sources", &sources_of);
   module.def("build_catalog", &build);

@@ -8,6 +8,7 @@
 #include "rollfix/certify/touch_certificate.hpp"
 #include "rollfix/files/touch_document.hpp"
 #include "signals.hpp"
+#include "touches.hpp"
 
 namespace rollfix::python {
 namespace {
@@ -25,23 +26,36 @@ std::vector<MeasuredTouch> touches_from(const Numbers& rows) {
   return touches;
 }
 
-TouchAnswerHandle locate_touches(const PartHandle& part, const Numbers& rows, const py::object& finger,
-                                 const py::object& noise, const std::optional<std::pair<double, double>>& tolerance,
-                                 const std::optional<std::vector<double>>& pose, bool mirrored,
-                                 const std::optional<std::size_t>& budget, const std::vector<LogHandle>& rolls,
-                                 bool robust, const Numbers& clear) {
-  TouchProblem problem{part.part(), touches_from(rows)};
+}  // namespace
+
+TouchProblem touch_problem_from(const Part& part, const Numbers& rows, const py::object& finger,
+                                const py::object& noise, const std::optional<std::pair<double, double>>& tolerance,
+                                const std::optional<std::vector<double>>& pose, bool mirrored,
+                                const std::optional<std::size_t>& budget, const Numbers& clear) {
+  TouchProblem problem{part, touches_from(rows)};
   if (!finger.is_none()) problem.finger = finger_from(finger);
   problem.noise = noise_from_optional(noise);
   if (tolerance) problem.tolerance = TouchTolerance{tolerance->first, tolerance->second};
   problem.pose = pose_from(pose);
   problem.mirrored = mirrored;
   problem.budget = budget;
-  for (const LogHandle& roll : rolls) problem.rolls.push_back(*roll.log);
-  problem.robust = robust;
   for (py::ssize_t k = 0; k < clear.shape(0); ++k) {
     problem.clear.push_back({{clear.at(k, 0), clear.at(k, 1)}, {clear.at(k, 2), clear.at(k, 3)}});
   }
+  return problem;
+}
+
+namespace {
+
+TouchAnswerHandle locate_touches(const PartHandle& part, const Numbers& rows, const py::object& finger,
+                                 const py::object& noise, const std::optional<std::pair<double, double>>& tolerance,
+                                 const std::optional<std::vector<double>>& pose, bool mirrored,
+                                 const std::optional<std::size_t>& budget, const std::vector<LogHandle>& rolls,
+                                 bool robust, const Numbers& clear, bool diagnose) {
+  TouchProblem problem = touch_problem_from(part.part(), rows, finger, noise, tolerance, pose, mirrored, budget, clear);
+  for (const LogHandle& roll : rolls) problem.rolls.push_back(*roll.log);
+  problem.robust = robust;
+  problem.diagnose = diagnose;
   const Unlocked others_may_run;
   return {std::make_shared<const TouchAnswer>(solve(problem))};
 }

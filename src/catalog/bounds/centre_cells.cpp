@@ -5,81 +5,76 @@
 #include <numbers>
 
 // Notation:
-//   p(s), Theta(s)  the boundary and the tangent's angle: p' = e(Theta) = (cos Theta, sin Theta)
-//   h               length of a cell: `step_`; m +- w the angles in it: `angle_`, `half_turn_`
+//   p(s), Theta(s)  the boundary, with arc length as its parameter, and the tangent's angle
+//   h               length of a cell; q its middle place; m +- w the tangent's angles in it
 //   c = p + r n     the finger's centre, n = (sin Theta, -cos Theta)
-//   (z, rho)        a disc: `middle`, `radius`
 // Follows docs/identify.md, "Touches".
-// Idea: a cell's share of p is a mean of unit vectors e(Theta), times its length: it lies in the disc that holds that
-// arc of the unit circle, (cos w e(m), sin w). A stretch that ends within the cell is shorter: it lies in the disc that
-// holds 0 as well. Discs of successive cells add up; of a closed part both ways round are known, and the smaller
-// counts.
+// Idea: no place of a cell is further than h / 2 from its middle, because p goes at unit speed. Normals that turn by at
+// most w lie in the disc about cos w n(m) of radius sin w. Four cells have the disc around theirs.
 namespace rollfix {
 namespace {
 
-// A closed outline's ends meet within 1e-9 of its size, and places are rounded: this share of the perimeter, next to
-// nothing beside a cell.
-constexpr double kPlaceSlack = 1e-7;
-// Angles are rounded, radians.
-constexpr double kAngleGrain = 1e-12;
+// Places beside a cell's end may be on either side, and middles are rounded to single precision: this share of the
+// perimeter.
+constexpr double kPlaceSlack = 1e-6;
+constexpr std::size_t kTogether = kFineCells / kCells;
 
-Vec2 unit(double angle) { return {std::cos(angle), std::sin(angle)}; }
-
-/// Holds all e(m + x) with |x| <= w, and so every mean of them.
-Disc disc_of_arc(double m, double w) {
-  if (w >= 0.5 * std::numbers::pi) return {Vec2::Zero(), 1};
-  return {std::cos(w) * unit(m), std::sin(w)};
+CentreCell cell_of(const Vec2& place, double reach, double lo, double hi, double radius) {
+  CentreCell cell;
+  cell.angle = 0.5 * (lo + hi);
+  cell.half_turn = 0.5 * (hi - lo);
+  cell.middle = place;
+  cell.radius = reach;
+  if (radius == 0) return cell;
+  const double w = std::min(cell.half_turn, 0.5 * std::numbers::pi);
+  const bool is_all = cell.half_turn > w;
+  cell.middle += radius * (is_all ? 0 : std::cos(w)) * Vec2(std::sin(cell.angle), -std::cos(cell.angle));
+  cell.radius += radius * std::sin(w);
+  return cell;
 }
 
-/// Holds the same times any share from 0 to 1.
-Disc disc_of_sector(double m, double w) {
-  const double corner = std::sqrt(std::max(0.0, 1.25 - std::cos(std::min(w, std::numbers::pi))));
-  if (corner >= 1) return {Vec2::Zero(), 1};
-  return {0.5 * unit(m), std::max(0.5, corner)};
+CentreCell around(const CentreCell* cells) {
+  CentreCell all;
+  double lo = cells[0].angle - cells[0].half_turn, hi = cells[0].angle + cells[0].half_turn;
+  for (std::size_t k = 0; k < kTogether; ++k) {
+    all.middle += cells[k].middle / static_cast<double>(kTogether);
+    lo = std::min(lo, cells[k].angle - cells[k].half_turn);
+    hi = std::max(hi, cells[k].angle + cells[k].half_turn);
+  }
+  for (std::size_t k = 0; k < kTogether; ++k) {
+    all.radius = std::max(all.radius, (cells[k].middle - all.middle).norm() + cells[k].radius);
+  }
+  all.angle = 0.5 * (lo + hi);
+  all.half_turn = 0.5 * (hi - lo);
+  return all;
 }
-
-Disc operator*(double factor, const Disc& disc) { return {factor * disc.middle, std::abs(factor) * disc.radius}; }
-Disc operator+(const Disc& one, const Disc& other) { return {one.middle + other.middle, one.radius + other.radius}; }
-
-/// What discs that were added up from a common start to two places say of the vector between them.
-Disc difference(const Disc& from, const Disc& to) { return {to.middle - from.middle, to.radius - from.radius}; }
 
 }  // namespace
 
-CentreCells::CentreCells(const float* least, const float* most, std::size_t count, double perimeter, bool closed,
-                         double radius)
-    : step_(perimeter / static_cast<double>(count)), slack_(kPlaceSlack * perimeter), closed_(closed) {
-  up_to_.push_back({});
-  for (std::size_t k = 0; k < count; ++k) {
-    const double m = 0.5 * (static_cast<double>(least[k]) + most[k]);
-    const double w = 0.5 * (static_cast<double>(most[k]) - least[k]) + kAngleGrain;
-    angle_.push_back(m);
-    half_turn_.push_back(w);
-    part_of_.push_back(step_ * disc_of_sector(m, w));
-    up_to_.push_back(up_to_.back() + step_ * disc_of_arc(m, w));
-    offset_.push_back(radius * disc_of_arc(m - 0.5 * std::numbers::pi, w));
+CellPlaces places_of(const Part& part) {
+  CellPlaces places{};
+  for (std::size_t k = 0; k < kFineCells; ++k) {
+    const Vec2 middle = part.point((static_cast<double>(k) + 0.5) / kFineCells * part.perimeter());
+    places.x[k] = static_cast<float>(middle.x());
+    places.y[k] = static_cast<float>(middle.y());
   }
+  return places;
 }
 
-/// Along the boundary to a cell that comes later, or again after a lap.
-Disc CentreCells::forwards(std::size_t from, std::size_t to) const {
-  const Disc ends = part_of_[from] + part_of_[to];
-  if (from < to) return ends + difference(up_to_[from + 1], up_to_[to]);
-  return ends + difference(up_to_[from + 1], up_to_.back()) + up_to_[to];
-}
-
-Disc CentreCells::between(std::size_t from, std::size_t to) const {
-  Disc contact{Vec2::Zero(), step_};
-  if (from != to) {
-    const bool is_later = from < to;
-    contact = is_later ? forwards(from, to) : -1 * forwards(to, from);
-    if (closed_) {
-      const Disc other_way = is_later ? -1 * forwards(to, from) : forwards(from, to);
-      if (other_way.radius < contact.radius) contact = other_way;
-    }
+CentreCells centre_cells(const Profile<kFineCells>& profile, const CellPlaces& places, double perimeter,
+                         double radius) {
+  CentreCells levels;
+  levels[2].reserve(kFineCells);
+  for (std::size_t k = 0; k < kFineCells; ++k) {
+    const Vec2 place(places.x[k], places.y[k]);
+    const double reach = 0.5 * perimeter / kFineCells + kPlaceSlack * (perimeter + place.norm());
+    levels[2].push_back(cell_of(place, reach, profile.least[k], profile.most[k], radius));
   }
-  contact.radius += slack_;
-  return contact + offset_[to] + -1 * offset_[from];
+  for (const std::size_t level : {2, 1}) {
+    const std::vector<CentreCell>& fine = levels[level];
+    for (std::size_t k = 0; k < fine.size(); k += kTogether) levels[level - 1].push_back(around(fine.data() + k));
+  }
+  return levels;
 }
 
 }  // namespace rollfix

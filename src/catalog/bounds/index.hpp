@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cells.hpp"
+#include "centre_cells.hpp"
 #include "profile.hpp"
 #include "rollfix/catalog/catalog.hpp"
 
@@ -19,6 +20,8 @@ struct Catalog::Index {
   std::vector<std::uint8_t> measured;  // its outline is not exact: bounds on it say nothing certain
   /// Read from the file.
   std::function<std::vector<Profile<kFineCells>>(const std::vector<std::size_t>& parts)> fine;
+  /// Of touches: of the part itself, when it is first asked for.
+  std::function<CellPlaces(std::size_t part)> places;
 };
 
 }  // namespace rollfix

@@ -2,10 +2,10 @@
 
 #include <array>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "answer/crew.hpp"
+#include "centre_cells.hpp"
 #include "outline/turn.hpp"
 #include "touch/measured.hpp"
 #include "touch/mirror_poses.hpp"
@@ -14,33 +14,38 @@
 // Notation, as in docs/touch.md, "How it works":
 //   q_i, delta_i    a touch's measured centre, and how far it may be off: `Measured::at`, `place_most`
 //   tau_i, eps_i    tangent in the world by a measured normal: `tangent`, `angle_most`
-//   a, b, c         cells of the first two touches, the pair, and of another one
+//   (c, rho), theta +- w   disc of the centres at a cell, and its tangents: CentreCell
+//   a, b, i         cells of the first two touches, the pair, and another touch
 //   phi +- h        the part's headings: HeadingArc
-//   (z, rho)        disc of the vector from the centre at one cell to that at another: CentreCells::between
-// Tests: |R(phi) z - (q_b - q_a)| <= rho + delta_a + delta_b for some phi; |tau - Theta - phi| <= w + eps; and
-// |z_ac - R(-phi)(q_c - q_a)| <= rho + delta_a + delta_c + 2 |q_c - q_a| sin(h / 2), from a and from b.
+// Tests: ||c_b - c_a| - |q_b - q_a|| <= rho_a + rho_b + delta_a + delta_b; |tau - theta - phi| <= w + eps; and
+// |c_i - c_a - R(-phi)(q_i - q_a)| <= rho_a + rho_i + delta_a + delta_i + 2 |q_i - q_a| sin(h / 2), likewise from b.
 // Follows docs/identify.md, "Touches".
-// Idea: the search of src/touch/cell_search.cpp, on what is known of a part without loading it. It stops at the first
-// pair of the finest cells that may hold all touches: then the part is left.
+// Idea: the search of src/touch/cell_search.cpp down to 256 cells, on what is kept of a part. It stops at the first
+// pair of cells that may hold all touches, or when a look at the part itself costs no more: then the part is left.
 namespace rollfix {
 namespace {
 
 using touch::HeadingArc;
 using touch::Measured;
 
-// Parts that a thread looks at in one go: in memory, and with what is read from the file.
-constexpr std::size_t kTouchBlock = 256;
-constexpr std::size_t kTouchReadBlock = 64;
+// Parts that a thread looks at in one go.
+constexpr std::size_t kTouchBlock = 64;
 // A cell has so many of the next finer ones in it.
 constexpr std::size_t kFiner = 4;
 // Headings are rounded, radians.
 constexpr double kHeadingGrain = 1e-9;
+// More comparisons than these take longer than to search the part.
+constexpr std::size_t kMostLooks = 50000;
 
 /// One part: whether there is a pair of cells, and a cell for each other touch, that may go together.
 class CellPairs {
  public:
-  CellPairs(const std::vector<Measured>& touches, const touch::TouchPair& pair, const std::vector<CentreCells>& levels)
-      : touches_(touches), pair_(pair), levels_(levels) {
+  CellPairs(const std::vector<Measured>& touches, const touch::TouchPair& pair, const CentreCells& levels)
+      : touches_(touches),
+        pair_(pair),
+        levels_(levels),
+        chord_(touches[pair.second].at - touches[pair.first].at),
+        apart_(chord_.norm()) {
     for (std::size_t k = 0; k < touches.size(); ++k) {
       if (k != pair.first && k != pair.second) others_.push_back(k);
     }
@@ -64,35 +69,38 @@ class CellPairs {
  private:
   using Lists = std::vector<std::pair<std::size_t, std::size_t>>;  // of each other touch, in candidates_
 
-  const Vec2& at(std::size_t touch) const { return touches_[touch].at; }
   double slack(std::size_t one, std::size_t other) const {
     return touches_[one].place_most + touches_[other].place_most;
   }
 
-  HeadingArc by_normal(const CentreCells& cells, std::size_t touch, std::size_t cell) const {
-    const Measured& one = touches_[touch];
-    if (!one.tangent) return {};
-    return {nearest_angle(*one.tangent - cells.angle(cell)), cells.half_turn(cell) + one.angle_most + kHeadingGrain};
+  static HeadingArc by_normal(const Measured& touch, const CentreCell& cell) {
+    if (!touch.tangent) return {};
+    return {nearest_angle(*touch.tangent - cell.angle), cell.half_turn + touch.angle_most + kHeadingGrain};
   }
 
-  HeadingArc headings(const CentreCells& cells, std::size_t a, std::size_t b) const {
-    const HeadingArc normals = common(by_normal(cells, pair_.first, a), by_normal(cells, pair_.second, b));
-    if (normals.is_empty()) return normals;
-    const Disc chord = cells.between(a, b);
-    return common(normals, touch::headings_between(chord.middle, at(pair_.second) - at(pair_.first),
-                                                   chord.radius + slack(pair_.first, pair_.second)));
+  HeadingArc headings(const CentreCell& a, const CentreCell& b) const {
+    const Vec2 chord = b.middle - a.middle;
+    const double reach = a.radius + b.radius + slack(pair_.first, pair_.second);
+    const double most = apart_ + reach, least = apart_ - reach;
+    const double square = chord.squaredNorm();
+    if (square > most * most || (least > 0 && square < least * least)) return touch::kNoHeading;
+    const HeadingArc normals = common(by_normal(touches_[pair_.first], a), by_normal(touches_[pair_.second], b));
+    return normals.is_empty() ? normals : common(normals, touch::headings_between(chord, chord_, reach));
   }
 
   /// Whether these two, with what they leave to the others, may hold all touches: in one of the finest cells in them.
   bool may_hold(std::size_t level, std::size_t a, std::size_t b, const Lists& lists) {
-    const CentreCells& cells = levels_[level];
-    const HeadingArc arc = headings(cells, a, b);
+    if (++looks_ > kMostLooks) return true;
+    const std::vector<CentreCell>& cells = levels_[level];
+    const HeadingArc arc = headings(cells[a], cells[b]);
     if (arc.is_empty()) return false;
     const std::size_t top = candidates_.size();
     const bool is_finest = level + 1 == levels_.size();
     Lists own = lists;
     bool fits = true;
-    for (std::size_t k = 0; k < others_.size() && fits; ++k) fits = narrow(level, {a, b}, arc, others_[k], own[k]);
+    for (std::size_t k = 0; k < others_.size() && fits; ++k) {
+      fits = narrow(level, {&cells[a], &cells[b]}, arc, others_[k], own[k]);
+    }
     if (fits && !is_finest) {
       fits = false;
       for (std::size_t i = 0; i < kFiner * kFiner && !fits; ++i) {
@@ -103,38 +111,45 @@ class CellPairs {
     return fits;
   }
 
-  /// Of a list of cells those in which another touch can be, as a new one on the stack: of the next finer cells, or of
-  /// the finest at least one.
-  bool narrow(std::size_t level, const std::array<std::size_t, 2>& pair, const HeadingArc& arc, std::size_t touch,
-              std::pair<std::size_t, std::size_t>& list) {
-    const bool is_finest = level + 1 == levels_.size();
-    const std::size_t top = candidates_.size();
-    const std::array<std::size_t, 2> touches = {pair_.first, pair_.second};
-    std::array<Vec2, 2> wanted;
-    std::array<double, 2> reach{};
+  /// Where another touch can be, with the pair in its cells.
+  std::array<CentreCell, 2> expected(const std::array<const CentreCell*, 2>& pair, const HeadingArc& arc,
+                                     std::size_t touch) const {
+    std::array<CentreCell, 2> discs;
     const double swing = arc.is_all() ? 2 : 2 * std::sin(0.5 * arc.half);
     const double cosine = std::cos(arc.middle), sine = std::sin(arc.middle);
     for (std::size_t k = 0; k < 2; ++k) {
-      const Vec2 vector = at(touch) - at(touches[k]);
-      wanted[k] = {cosine * vector.x() + sine * vector.y(), cosine * vector.y() - sine * vector.x()};
-      reach[k] = slack(touch, touches[k]) + swing * vector.norm();
+      const std::size_t from = k == 0 ? pair_.first : pair_.second;
+      const Vec2 vector = touches_[touch].at - touches_[from].at;
+      discs[k].middle =
+          pair[k]->middle + Vec2(cosine * vector.x() + sine * vector.y(), cosine * vector.y() - sine * vector.x());
+      discs[k].radius = pair[k]->radius + slack(touch, from) + swing * vector.norm();
     }
+    return discs;
+  }
+
+  /// Of a list of cells those in which another touch can be, as a new one on the stack: of the next finer cells, or of
+  /// the finest at least one.
+  bool narrow(std::size_t level, const std::array<const CentreCell*, 2>& pair, const HeadingArc& arc, std::size_t touch,
+              std::pair<std::size_t, std::size_t>& list) {
+    const bool is_finest = level + 1 == levels_.size();
+    const std::array<CentreCell, 2> discs = expected(pair, arc, touch);
     const Measured& one = touches_[touch];
-    const CentreCells& cells = levels_[level];
+    const std::size_t top = candidates_.size();
+    looks_ += list.second - list.first;
     for (std::size_t k = list.first; k < list.second; ++k) {
-      const std::size_t cell = candidates_[k];
-      if (one.tangent) {
-        const double off = std::abs(nearest_angle(*one.tangent - cells.angle(cell) - arc.middle));
-        if (off > cells.half_turn(cell) + one.angle_most + arc.half + kHeadingGrain) continue;
-      }
-      const auto is_within = [&](std::size_t i) {
-        const Disc disc = cells.between(pair[i], cell);
-        const double most = reach[i] + disc.radius;
-        return (disc.middle - wanted[i]).squaredNorm() <= most * most;
+      const std::size_t number = candidates_[k];
+      const CentreCell& cell = levels_[level][number];
+      const auto is_beyond = [&](const CentreCell& disc) {
+        const double most = disc.radius + cell.radius;
+        return (disc.middle - cell.middle).squaredNorm() > most * most;
       };
-      if (!is_within(0) || !is_within(1)) continue;
+      if (is_beyond(discs[0]) || is_beyond(discs[1])) continue;
+      if (one.tangent) {
+        const double off = std::abs(nearest_angle(*one.tangent - cell.angle - arc.middle));
+        if (off > cell.half_turn + one.angle_most + arc.half + kHeadingGrain) continue;
+      }
       if (is_finest) return true;
-      for (std::size_t i = 0; i < kFiner; ++i) candidates_.push_back(kFiner * cell + i);
+      for (std::size_t i = 0; i < kFiner; ++i) candidates_.push_back(kFiner * number + i);
     }
     list = {top, candidates_.size()};
     return list.first != list.second;
@@ -142,9 +157,12 @@ class CellPairs {
 
   const std::vector<Measured>& touches_;
   touch::TouchPair pair_;
-  const std::vector<CentreCells>& levels_;
+  const CentreCells& levels_;
+  Vec2 chord_;
+  double apart_;
   std::vector<std::size_t> others_;
   std::vector<std::size_t> candidates_;  // a stack
+  std::size_t looks_ = 0;
 };
 
 }  // namespace
@@ -155,52 +173,26 @@ TouchBounds::TouchBounds(const Catalog& catalog, const TouchProblem& like)
   if (touches_.size() > 1) pair_ = touch::choose_pair(touches_);
 }
 
-std::vector<CentreCells> TouchBounds::cells_in_memory(std::size_t part) const {
-  const CatalogEntry& entry = catalog_.entry(part);
-  return {{index_.coarse[part], entry.perimeter, entry.closed, radius_},
-          {index_.cells[part], entry.perimeter, entry.closed, radius_}};
-}
-
-CentreCells TouchBounds::cells_of(std::size_t part, const Profile<kFineCells>& fine) const {
-  const CatalogEntry& entry = catalog_.entry(part);
-  return {fine, entry.perimeter, entry.closed, radius_};
-}
-
 std::vector<std::size_t> TouchBounds::left_of(const std::vector<std::size_t>& parts,
                                               const IdentifyOptions& options) const {
   if (touches_.size() < 2) return parts;
-  std::vector<char> may_be(parts.size(), 0);
-  const auto ask = [&](std::size_t k, const std::vector<CentreCells>& levels) {
-    may_be[k] = CellPairs(touches_, pair_, levels).may_hold_all() ? 1 : 0;
-  };
-  const auto left = [&] {
-    std::vector<std::size_t> some;
-    for (std::size_t k = 0; k < parts.size(); ++k) {
-      if (may_be[k] != 0) some.push_back(k);
-    }
-    return some;
-  };
-  Crew in_memory(parts.size(), kTouchBlock);
-  in_memory.run(options.threads, {}, [&](std::size_t lo, std::size_t hi) {
-    for (std::size_t k = lo; k < hi; ++k) ask(k, cells_in_memory(parts[k]));
-  });
-  in_memory.require_done();
-  const std::vector<std::size_t> closely = left();
-  Crew crew(closely.size(), kTouchReadBlock);
+  std::vector<char> fits(parts.size(), 0);
+  Crew crew(parts.size(), kTouchBlock);
   crew.run(options.threads, options.go_on, [&](std::size_t lo, std::size_t hi) {
-    std::vector<std::size_t> block;
-    for (std::size_t i = lo; i < hi; ++i) block.push_back(parts[closely[i]]);
-    const std::vector<Profile<kFineCells>> fine = index_.fine(block);
-    for (std::size_t i = lo; i < hi; ++i) {
-      std::vector<CentreCells> levels = cells_in_memory(block[i - lo]);
-      levels.push_back(cells_of(block[i - lo], fine[i - lo]));
-      ask(closely[i], levels);
+    const std::vector<Profile<kFineCells>> fine =
+        index_.fine({parts.begin() + static_cast<std::ptrdiff_t>(lo), parts.begin() + static_cast<std::ptrdiff_t>(hi)});
+    for (std::size_t k = lo; k < hi; ++k) {
+      const double perimeter = catalog_.entry(parts[k]).perimeter;
+      const CentreCells cells = centre_cells(fine[k - lo], index_.places(parts[k]), perimeter, radius_);
+      fits[k] = CellPairs(touches_, pair_, cells).may_hold_all() ? 1 : 0;
     }
   });
   crew.require_done();
-  std::vector<std::size_t> result;
-  for (const std::size_t k : left()) result.push_back(parts[k]);
-  return result;
+  std::vector<std::size_t> left;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (fits[k] != 0) left.push_back(parts[k]);
+  }
+  return left;
 }
 
 }  // namespace rollfix

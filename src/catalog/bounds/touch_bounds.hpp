@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "centre_cells.hpp"
 #include "index.hpp"
 #include "rollfix/catalog/catalog.hpp"
 #include "rollfix/catalog/identify.hpp"
@@ -12,7 +11,7 @@
 
 namespace rollfix {
 
-/// Rules out parts of a catalog that touches can't be of, from ever finer cells.
+/// Rules out parts of a catalog that touches can't be of, by cells of their boundaries.
 class TouchBounds {
  public:
   /// REQUIRES that the problem is valid of some part, which does not matter.
@@ -22,9 +21,6 @@ class TouchBounds {
   std::vector<std::size_t> left_of(const std::vector<std::size_t>& parts, const IdentifyOptions& options) const;
 
  private:
-  std::vector<CentreCells> cells_in_memory(std::size_t part) const;
-  CentreCells cells_of(std::size_t part, const Profile<kFineCells>& fine) const;
-
   const Catalog& catalog_;
   const Catalog::Index& index_;
   std::vector<touch::Measured> touches_;
