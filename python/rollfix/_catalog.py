@@ -352,6 +352,9 @@ class Catalog(Made):
         given = {name: options.pop(name) for name in taken}
         if options.pop("direction") != "ccw":
             raise InputError("direction: touches do not roll and have no use for it: leave it out")
+        for name in ("readings", "log"):
+            if options.pop(name) is not None:
+                raise InputError(f"{name}: a part is identified by `touches` or by one roll: leave one of them out")
         for name, value in options.items():
             if value is not None and value is not False:
                 raise InputError(f"{name}: touches do not roll and have no use for it: leave it out")

@@ -151,3 +151,27 @@ def test_catalogs_and_parts_that_are_not_there(catalog, tmp_path):
         with pytest.raises(rollfix.InputError, match=why):
             ask()
     assert not (tmp_path / "a.db").exists() and len(catalog) == len(SHAPES)
+
+
+TOUCHES = [(12.792, 5.984), (11.486, 5.811), (10.981, 4.883), (12.067, 3.784)]
+
+
+def test_touches_tell_the_part_as_the_program_says_it(catalog, program):
+    asked = dict(touches=TOUCHES, finger=rollfix.Disk(0.1), noise={"position": 0.005})
+    found = catalog.identify(**asked)
+    words = [word for x, y in TOUCHES for word in ("--touch", f"{x},{y}")]
+    told = program("identify", catalog.path, *words, "--finger", "disk,r=0.1", "--noise", "position=0.005", "--json")
+    assert found.to_dict() == told and found.names[0] == "gallery:spline,n=9,seed=7,wobble=0.2"
+    assert found[0].answer == catalog.part(found.names[0]).locate(**asked)
+    assert pickle.loads(pickle.dumps(found)) == found
+    rows = found.to_frame()
+    assert list(rows["part"])[0] == found.names[0] and len(rows) == sum(len(one.answer) for one in found)
+
+
+def test_touches_and_a_roll_are_two_questions(catalog, roll):
+    with pytest.raises(rollfix.InputError, match="by `touches` or by one roll"):
+        catalog.identify(touches=TOUCHES, log=roll, noise={"position": 0.005})
+    with pytest.raises(rollfix.InputError, match="facing: touches do not roll"):
+        catalog.identify(touches=TOUCHES, facing=1.0, noise={"position": 0.005})
+    with pytest.raises(rollfix.InputError, match="clear: is about touches"):
+        catalog.identify(clear=[(0, 0, 1, 1)])

@@ -121,7 +121,7 @@ TouchTable parse_probe_report(ProbeReport report, std::string_view text, const s
     throw InputError(fmt::format("{}: is a probe's report, which has no header; leave `columns` out", name));
   }
   TouchTable table = report == ProbeReport::grbl ? parse_grbl(text, name, options) : parse_linux_cnc(text, name);
-  if (!table.touches.empty()) return table;
+  if (!table.touches.empty() || options.may_be_empty) return table;
   throw InputError(fmt::format("{}: expected a touch, found only reports of a probe that did not touch (:0)", name));
 }
 

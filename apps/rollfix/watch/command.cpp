@@ -20,8 +20,11 @@
 #include "rollfix/arguments/typed_number.hpp"
 #include "rollfix/commands.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/output/touch_text.hpp"
+#include "rollfix/touch/touch_table.hpp"
 #include "rollfix/usage.hpp"
 #include "rollfix/watch/source.hpp"
+#include "rollfix/watch/touch_watcher.hpp"
 #include "rollfix/watch/writer.hpp"
 #include "text/text.hpp"
 
@@ -42,6 +45,8 @@ Examples:
   rollfix watch track.csv --noise angle=0.2deg,slip=0.002 --log tcp:robot.local:7000 --jsonl | ./drive
   robot-log | rollfix watch part.dxf --finger disk,r=5mm --noise angle=0.5deg --columns u=skin:deg,psi=yaw:deg
   rollfix watch gallery:cam --finger disk,r=0.2 --noise contact=0.002,angle=0.2deg --log roll.csv --once
+Touches without rolling, a row each: where the part lies, and where to touch next:
+  probe-log | rollfix watch part.dxf --finger disk,r=3 --noise position=0.02
 Which part is it? Of a catalog the parts that remain, fewer and fewer:
   robot-log | rollfix watch --catalog parts.db --finger disk,r=5 --noise contact=0.1,angle=0.5deg
 )";
@@ -103,7 +108,9 @@ WatchOptions watch_options(const WatchArguments& arguments, const std::string& l
   options.name = log == "-" ? "standard input" : log;
   options.fingers = read_fingers(arguments.fingers, 1, unit);
   options.belief = belief_options(arguments, unit);
-  options.log = read_log_options(arguments.reading, unit);
+  LogArguments reading = arguments.reading;
+  if (names_touch_columns(reading.columns)) reading.columns.clear();  // of a table of touches
+  options.log = read_log_options(reading, unit);
   if (!options.log.decimal_comma) options.log.decimal_comma = has_decimal_comma(arguments.part.decimal);
   options.log.mirrored = arguments.mirror;
   options.log.clockwise = counts_clockwise(arguments.direction);
@@ -126,6 +133,33 @@ WatchOptions watch_options(const WatchArguments& arguments, const std::string& l
   options.midway = may_begin_midway(log);
   options.log.any_part = !arguments.catalog.empty();
   if (!arguments.every.empty()) options.every = read_count(arguments.every, "--every", 1);
+  return options;
+}
+
+/// What a table of touches is read with; none: the log can't be one.
+std::optional<TouchWatchOptions> touch_options(const WatchArguments& arguments, const Part& part,
+                                               const WatchOptions& watch) {
+  if (watch.catalog) return std::nullopt;
+  TouchWatchOptions options{watch.name, {part, {}}};
+  try {
+    if (!arguments.reading.columns.empty()) options.table.columns = parse_touch_columns(arguments.reading.columns);
+  } catch (const InputError&) {
+    return std::nullopt;  // the columns are of a roll
+  }
+  const auto refuse = [&](bool given, const char* option) {
+    if (given) options.no_use_for.emplace_back(option);
+  };
+  refuse(!arguments.prior.empty(), "--prior");
+  refuse(arguments.robust, "--robust");
+  refuse(!arguments.direction.empty(), "--direction");
+  refuse(!arguments.reading.wrapped.empty(), "--wrapped");
+  options.table.unit = part.unit();
+  options.table.decimal_comma = watch.log.decimal_comma;
+  options.every = watch.every;
+  options.problem.noise = watch.belief.noise;
+  options.problem.pose = watch.belief.pose;
+  options.problem.mirrored = arguments.mirror;
+  if (!watch.fingers.empty()) options.problem.finger = watch.fingers.front();
   return options;
 }
 
@@ -180,10 +214,62 @@ class StopSignals {
   asio::signal_set set_;
 };
 
+/// What watches a log: rolls, or once a line says that it is a table of touches, those.
+class Watching {
+ public:
+  /// `touches`: none: the log can't be a table of touches.
+  Watching(const Part& part, const WatchOptions& options, std::optional<TouchWatchOptions> touches, WatchWriter& writer)
+      : writer_(writer), touch_options_(std::move(touches)), rolls_(part, options, writer) {}
+
+  void push(std::string_view line) {
+    if (!touches_ && may_be_touches(line)) {
+      writer_.begin_touches(*touch_options_);
+      touches_.emplace(*touch_options_, writer_);
+    }
+    touches_ ? touches_->push(line) : rolls_.push(line);
+  }
+  void resume() {
+    rolls_.resume();
+    writer_.resumed(counts());
+  }
+  void restart() { touches_ ? touches_->restart() : rolls_.restart(); }
+  void catch_up() {
+    if (!touches_) rolls_.catch_up();
+  }
+  void finish() { touches_ ? touches_->finish() : rolls_.finish(); }
+  void end(WatchEnd why) {
+    touches_ ? writer_.end_touches(why, touches_->last(), counts())
+             : writer_.end(why, rolls_.last_answer(), rolls_.counts());
+  }
+
+  bool has_found() const { return touches_ ? touches_->last().has_value() : rolls_.last_answer().roll > 0; }
+  ExitCode exit_code() const {
+    if (touches_ && touches_->last()) return exit_code_of(touches_->last()->answer);
+    const bool fits = rolls_.last_answer().verdict.name != Verdict::inconsistent;
+    return fits ? ExitCode::fits : ExitCode::nothing_fits;
+  }
+  WatchCounts counts() const {
+    WatchCounts counts = touches_ ? touches_->counts() : rolls_.counts();
+    counts.lines = rolls_.counts().lines + (touches_ ? touches_->counts().lines : 0);
+    counts.reconnects = rolls_.counts().reconnects;
+    return counts;
+  }
+
+ private:
+  bool may_be_touches(std::string_view line) const {
+    return touch_options_ && rolls_.last_answer().roll == 0 && TouchWatcher::begins_with(line, touch_options_->table);
+  }
+
+  WatchWriter& writer_;
+  std::optional<TouchWatchOptions> touch_options_;
+  Watcher rolls_;
+  std::optional<TouchWatcher> touches_;
+};
+
 /// Hears a log and watches it, until it ends, the user stops it, or no line came for too long.
 class Hearing {
  public:
-  Hearing(asio::io_context& io, Watcher& watcher, WatchWriter& writer, std::ostream& err,
+  Hearing(asio::io_context& io, Watching& watcher, WatchWriter& writer, std::ostream& err,
           std::optional<Seconds> patience)
       : io_(io), timer_(io), watcher_(watcher), writer_(writer), err_(err), patience_(patience) {}
 
@@ -196,10 +282,7 @@ class Hearing {
     }
     if (what == Heard::ended) return stop(WatchEnd::stream);
     if (what == Heard::restarted) watcher_.restart();
-    if (what == Heard::resumed) {
-      watcher_.resume();
-      writer_.resumed(watcher_.counts());
-    }
+    if (what == Heard::resumed) watcher_.resume();
     writer_.show();
   }
 
@@ -230,7 +313,7 @@ class Hearing {
 
   asio::io_context& io_;
   asio::steady_timer timer_;
-  Watcher& watcher_;
+  Watching& watcher_;
   WatchWriter& writer_;
   std::ostream& err_;
   std::optional<Seconds> patience_;
@@ -245,8 +328,8 @@ bool standard_output_is_ready() {
 }
 
 /// Throws InputError: the log ended and there was nothing in it.
-void require_rows(WatchEnd why, const Watcher& watcher, const std::string& name) {
-  if (watcher.last_answer().roll > 0 || why == WatchEnd::signal) return;
+void require_rows(WatchEnd why, const Watching& watcher, const std::string& name) {
+  if (watcher.has_found() || why == WatchEnd::signal) return;
   throw InputError(fmt::format("{}: expected rows with contact, found none in {} lines", name, watcher.counts().lines));
 }
 
@@ -267,7 +350,7 @@ Report watch(const WatchArguments& arguments, std::ostream& out, std::ostream& e
   const std::function<bool()> is_ready = &out == &std::cout ? standard_output_is_ready : [] { return true; };
   const std::unique_ptr<WatchWriter> writer =
       arguments.jsonl ? watch_jsonl(part, out, err, is_ready) : watch_text(part, out, err, is_ready);
-  Watcher watcher(part, options, *writer);
+  Watching watcher(part, options, touch_options(arguments, part, options), *writer);
   Hearing hearing(*io, watcher, *writer, err, idle_timeout);
   const std::unique_ptr<Source> source = open_source(
       io, log, source_options(arguments), [&hearing](Heard what, std::string_view text) { hearing.hear(what, text); });
@@ -276,9 +359,9 @@ Report watch(const WatchArguments& arguments, std::ostream& out, std::ostream& e
   const WatchEnd why = hearing.run();
   watcher.finish();
   require_rows(why, watcher, options.name);
-  writer->end(why, watcher.last_answer(), watcher.counts());
+  watcher.end(why);
   Report report;
-  if (watcher.last_answer().verdict.name == Verdict::inconsistent) report.exit_code = ExitCode::nothing_fits;
+  report.exit_code = watcher.exit_code();
   return report;
 }
 

@@ -6,6 +6,7 @@
 
 #include "files/documents/json_output.hpp"
 #include "rollfix/catalog/documents.hpp"
+#include "rollfix/files/touch_document.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/watch/writer.hpp"
 
@@ -67,6 +68,23 @@ Json answer_json(const char* name, const WatchAnswer& answer, const Part& part, 
   return event;
 }
 
+/// The answer as `locate` has it, and which touch comes next.
+Json touches_json(const char* name, const TouchNews& news) {
+  Json event = event_json(name);
+  event["samples"] = news.answer.touches.size();
+  event["line"] = news.line;
+  const Json answer = Json::parse(format_touches(news.answer, Layout::line));
+  for (const char* field : {"status", "verdict", "touches", "placements", "unresolved", "rest", "fit", "diagnosis"}) {
+    event[field] = answer.value(field, Json(nullptr));
+  }
+  event["next"] = nullptr;
+  if (!news.next) return event;
+  Json next = Json::parse(format_next_touch(news.answer, *news.next, Layout::line));
+  for (const char* field : {"schema", "verdict", "part", "prospects"}) next.erase(field);
+  event["next"] = std::move(next);
+  return event;
+}
+
 Json counts_json(const WatchCounts& counts) {
   return {{"lines", counts.lines},
           {"samples", counts.samples},
@@ -114,6 +132,20 @@ class JsonlWriter : public WatchWriter {
     write_event(event);
   }
 
+  void begin_touches(const TouchWatchOptions& /*options*/) override {}  // the first touch says so
+
+  void touched(const TouchNews& news) override { write_event(touches_json("touch", news)); }
+
+  void no_more_touches(const TouchNews& news, RollEnd why) override {
+    Json event = touches_json("over", news);
+    event["why"] = kWhyOver.at(static_cast<std::size_t>(why));
+    write_event(event);
+  }
+
+  void end_touches(WatchEnd why, const std::optional<TouchNews>& last, const WatchCounts& counts) override {
+    write_end(why, last ? Json(last->answer.verdict_text()) : Json(nullptr), counts);
+  }
+
   void resumed(const WatchCounts& counts) override {
     Json event = event_json("resumed");
     event["counts"] = counts_json(counts);
@@ -121,15 +153,19 @@ class JsonlWriter : public WatchWriter {
   }
 
   void end(WatchEnd why, const WatchAnswer& last, const WatchCounts& counts) override {
+    write_end(why, last.roll > 0 ? Json(verdict_of(last)) : Json(nullptr), counts);
+  }
+
+ private:
+  void write_end(WatchEnd why, Json verdict, const WatchCounts& counts) {
     Json event = event_json("end");
     event["why"] = kWhyEnd.at(static_cast<std::size_t>(why));
-    event["verdict"] = last.roll > 0 ? Json(verdict_of(last)) : Json(nullptr);
+    event["verdict"] = std::move(verdict);
     event["counts"] = counts_json(counts);
     event["seconds_per_sample"] = json_number(counts.seconds_per_sample());
     write_event(event);
   }
 
- private:
   void write_event(const Json& event) { write(json_line(event)); }
 
   Part part_;

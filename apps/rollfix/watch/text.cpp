@@ -3,13 +3,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <ostream>
 #include <utility>
+#include <vector>
 
+#include "outline/turn.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/option_names.hpp"
 #include "rollfix/output/table.hpp"
+#include "rollfix/output/touch_text.hpp"
 #include "rollfix/watch/writer.hpp"
 #include "text/text.hpp"
 
@@ -39,11 +43,11 @@ class TextWriter : public WatchWriter {
     noise_ = options.belief.noise;
     catalog_ = options.catalog;
     if (catalog_) return announce_catalog(options);
-    announce(fmt::format("part  {}, {}, perimeter {}{}\nlog   {}\n\n", plain(part.name()),
-                         part.closed() ? "closed" : "open", fixed(part.perimeter(), decimals), unit,
-                         plain(options.name)) +
-             row("line", "time [s]", "length", "turn [deg]", "verdict",
-                 fmt::format("{:>10}  {:>10}  {:>8}  {:>7}", "start", "now", "sd", "p")));
+    about_ =
+        fmt::format("part  {}, {}, perimeter {}{}\nlog   {}\n\n", plain(part.name()), part.closed() ? "closed" : "open",
+                    fixed(part.perimeter(), decimals), unit, plain(options.name));
+    announce(about_ + row("line", "time [s]", "length", "turn [deg]", "verdict",
+                          fmt::format("{:>10}  {:>10}  {:>8}  {:>7}", "start", "now", "sd", "p")));
   }
 
   void announce_catalog(const WatchOptions& options) {
@@ -52,6 +56,44 @@ class TextWriter : public WatchWriter {
                          counted(catalog_->size(), "part", "parts"), unit, plain(options.name)) +
              row("line", "time [s]", "length", "turn [deg]", "verdict",
                  fmt::format("     {:>10}  {:>8}  {}", "start", "p", "part")));
+  }
+
+  void begin_touches(const TouchWatchOptions& /*options*/) override {
+    announce((has_shown() ? "\n" : about_) + touch_row("line", "touches", "verdict", "x", "y", "heading [deg]", "p",
+                                                       "next touch: from x, y, direction [deg]"));
+  }
+
+  void touched(const TouchNews& news) override {
+    const TouchAnswer& answer = news.answer;
+    std::vector<std::string> pose(4);
+    if (!answer.poses.empty()) {
+      const TouchPose& best = answer.poses.front();
+      pose = {fixed(best.pose.x, decimals_), fixed(best.pose.y, decimals_),
+              best.any_heading ? "any" : degrees(best.pose.heading), percent(best.probability)};
+    }
+    std::string next;
+    if (news.next && news.next->helps) {
+      const Approach& approach = news.next->advised().approach;
+      next = fmt::format("{}, {}, {}", fixed(approach.from.x(), decimals_), fixed(approach.from.y(), decimals_),
+                         degrees(std::remainder(approach.direction, kFullTurn)));
+    } else if (news.next) {
+      next = "none helps: " + news.next->why;
+    }
+    write(touch_row(std::to_string(news.line), std::to_string(answer.touches.size()), answer.verdict_text(), pose[0],
+                    pose[1], pose[2], pose[3], next));
+    touch_line_shown_ = news.line;
+  }
+
+  void no_more_touches(const TouchNews& news, RollEnd why) override {
+    if (news.line != touch_line_shown_) touched(news);
+    if (why != RollEnd::ended) write("the table began anew\n");
+  }
+
+  void end_touches(WatchEnd why, const std::optional<TouchNews>& last, const WatchCounts& counts) override {
+    write(fmt::format("\n{}: {}{} in {}, {}\n", kWatchIsOver.at(static_cast<std::size_t>(why)),
+                      last ? touches_text(last->answer, false) : "no touch came\n",
+                      counted(counts.samples, "touch", "touches"), counted(counts.lines, "line", "lines"),
+                      counted(counts.malformed, "malformed line", "malformed lines")));
   }
 
   void found(const WatchAnswer& answer) override {
@@ -82,6 +124,15 @@ class TextWriter : public WatchWriter {
   }
 
  private:
+  static std::string touch_row(const std::string& line, const std::string& touches, const std::string& verdict,
+                               const std::string& x, const std::string& y, const std::string& heading,
+                               const std::string& p, const std::string& next) {
+    std::string all = fmt::format("{:>7}  {:>7}  {:<21}  {:>10}  {:>10}  {:>13}  {:>7}  {}", line, touches, verdict, x,
+                                  y, heading, p, next);
+    all.erase(all.find_last_not_of(' ') + 1);
+    return all + "\n";
+  }
+
   static std::string row(const std::string& line, const std::string& time, const std::string& length,
                          const std::string& turn, const std::string& verdict, const std::string& text) {
     std::string all = fmt::format("{:>7}  {:>9}  {:>10}  {:>10}  {:<21}  {}", line, time, length, turn, verdict, text);
@@ -161,8 +212,10 @@ class TextWriter : public WatchWriter {
   Noise noise_;
   std::string unit_;  // the part's, or the catalog's
   std::shared_ptr<const Catalog> catalog_;
-  std::size_t roll_shown_ = 0;  // the last row was of this roll
-  std::string shown_;           // that row
+  std::string about_;                 // the part and the log
+  std::size_t touch_line_shown_ = 0;  // the last row was of this line's touch
+  std::size_t roll_shown_ = 0;        // the last row was of this roll
+  std::string shown_;                 // that row
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "rollfix/watch/touch_watcher.hpp"
 #include "rollfix/watch/watcher.hpp"
 
 namespace rollfix::app {
@@ -36,22 +37,26 @@ class NoteLimit {
 };
 
 /// Tells what happens, as it happens: data to `out`, a whole line at a time, and notes to `err`.
-class WatchWriter : public WatchListener {
+class WatchWriter : public WatchListener, public TouchListener {
  public:
   /// `is_ready`: whether `out` takes a line without waiting.
   WatchWriter(std::ostream& out, std::ostream& err, std::function<bool()> is_ready);
 
   /// What is watched. It is shown before anything else is, or by show(): a log that can't be read at all shows nothing.
   virtual void begin(const Part& part, const WatchOptions& options) = 0;
+  /// The log turns out to be of touches.
+  virtual void begin_touches(const TouchWatchOptions& options) = 0;
   void show();
   virtual void resumed(const WatchCounts& counts) = 0;  // after a dropped connection
   virtual void end(WatchEnd why, const WatchAnswer& last, const WatchCounts& counts) = 0;
+  virtual void end_touches(WatchEnd why, const std::optional<TouchNews>& last, const WatchCounts& counts) = 0;
 
   void note(const std::string& message) final;  // not all of them when there are many
   bool is_ready() final { return is_ready_(); }
 
  protected:
   void announce(std::string lines) { announced_ = std::move(lines); }
+  bool has_shown() const { return announced_.empty(); }  // what was announced
   /// Throws InputError: can't be written to.
   void write(const std::string& lines);
 

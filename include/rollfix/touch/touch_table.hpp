@@ -17,6 +17,7 @@ struct TouchTableOptions {
   std::vector<ColumnSource> columns{};
   std::string unit{};  // the part's: columns with a unit of length are converted to it; empty: not known
   std::optional<bool> decimal_comma{};  // as of a log
+  bool may_be_empty = false;            // a table that grows: there may be no touch in it yet
 };
 
 /// Touches from a file, with the lines that they stand in.
