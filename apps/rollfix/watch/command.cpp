@@ -24,7 +24,7 @@
 #include "rollfix/touch/touch_table.hpp"
 #include "rollfix/usage.hpp"
 #include "rollfix/watch/source.hpp"
-#include "rollfix/watch/touch_watcher.hpp"
+#include "rollfix/watch/watching.hpp"
 #include "rollfix/watch/writer.hpp"
 #include "text/text.hpp"
 
@@ -212,58 +212,6 @@ class StopSignals {
 
   std::array<struct sigaction, 2> before_ = handlers();
   asio::signal_set set_;
-};
-
-/// What watches a log: rolls, or once a line says that it is a table of touches, those.
-class Watching {
- public:
-  /// `touches`: none: the log can't be a table of touches.
-  Watching(const Part& part, const WatchOptions& options, std::optional<TouchWatchOptions> touches, WatchWriter& writer)
-      : writer_(writer), touch_options_(std::move(touches)), rolls_(part, options, writer) {}
-
-  void push(std::string_view line) {
-    if (!touches_ && may_be_touches(line)) {
-      writer_.begin_touches(*touch_options_);
-      touches_.emplace(*touch_options_, writer_);
-    }
-    touches_ ? touches_->push(line) : rolls_.push(line);
-  }
-  void resume() {
-    rolls_.resume();
-    writer_.resumed(counts());
-  }
-  void restart() { touches_ ? touches_->restart() : rolls_.restart(); }
-  void catch_up() {
-    if (!touches_) rolls_.catch_up();
-  }
-  void finish() { touches_ ? touches_->finish() : rolls_.finish(); }
-  void end(WatchEnd why) {
-    touches_ ? writer_.end_touches(why, touches_->last(), counts())
-             : writer_.end(why, rolls_.last_answer(), rolls_.counts());
-  }
-
-  bool has_found() const { return touches_ ? touches_->last().has_value() : rolls_.last_answer().roll > 0; }
-  ExitCode exit_code() const {
-    if (touches_ && touches_->last()) return exit_code_of(touches_->last()->answer);
-    const bool fits = rolls_.last_answer().verdict.name != Verdict::inconsistent;
-    return fits ? ExitCode::fits : ExitCode::nothing_fits;
-  }
-  WatchCounts counts() const {
-    WatchCounts counts = touches_ ? touches_->counts() : rolls_.counts();
-    counts.lines = rolls_.counts().lines + (touches_ ? touches_->counts().lines : 0);
-    counts.reconnects = rolls_.counts().reconnects;
-    return counts;
-  }
-
- private:
-  bool may_be_touches(std::string_view line) const {
-    return touch_options_ && rolls_.last_answer().roll == 0 && TouchWatcher::begins_with(line, touch_options_->table);
-  }
-
-  WatchWriter& writer_;
-  std::optional<TouchWatchOptions> touch_options_;
-  Watcher rolls_;
-  std::optional<TouchWatcher> touches_;
 };
 
 /// Hears a log and watches it, until it ends, the user stops it, or no line came for too long.

@@ -132,7 +132,7 @@ class JsonlWriter : public WatchWriter {
     write_event(event);
   }
 
-  void begin_touches(const TouchWatchOptions& /*options*/) override {}  // the first touch says so
+  void begin_touches() override {}  // the first touch says so
 
   void touched(const TouchNews& news) override { write_event(touches_json("touch", news)); }
 

@@ -58,7 +58,7 @@ class TextWriter : public WatchWriter {
                  fmt::format("     {:>10}  {:>8}  {}", "start", "p", "part")));
   }
 
-  void begin_touches(const TouchWatchOptions& /*options*/) override {
+  void begin_touches() override {
     announce((has_shown() ? "\n" : about_) + touch_row("line", "touches", "verdict", "x", "y", "heading [deg]", "p",
                                                        "next touch: from x, y, direction [deg]"));
   }
@@ -127,7 +127,7 @@ class TextWriter : public WatchWriter {
   static std::string touch_row(const std::string& line, const std::string& touches, const std::string& verdict,
                                const std::string& x, const std::string& y, const std::string& heading,
                                const std::string& p, const std::string& next) {
-    std::string all = fmt::format("{:>7}  {:>7}  {:<21}  {:>10}  {:>10}  {:>13}  {:>7}  {}", line, touches, verdict, x,
+    std::string all = fmt::format("{:>7}  {:>7}  {:<34}  {:>10}  {:>10}  {:>13}  {:>7}  {}", line, touches, verdict, x,
                                   y, heading, p, next);
     all.erase(all.find_last_not_of(' ') + 1);
     return all + "\n";

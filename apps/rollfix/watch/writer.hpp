@@ -45,7 +45,7 @@ class WatchWriter : public WatchListener, public TouchListener {
   /// What is watched. It is shown before anything else is, or by show(): a log that can't be read at all shows nothing.
   virtual void begin(const Part& part, const WatchOptions& options) = 0;
   /// The log turns out to be of touches.
-  virtual void begin_touches(const TouchWatchOptions& options) = 0;
+  virtual void begin_touches() = 0;
   void show();
   virtual void resumed(const WatchCounts& counts) = 0;  // after a dropped connection
   virtual void end(WatchEnd why, const WatchAnswer& last, const WatchCounts& counts) = 0;
