@@ -1,0 +1,113 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rollfix/contact/finger.hpp"
+#include "rollfix/contact/log.hpp"
+#include "rollfix/contact/noise.hpp"
+#include "rollfix/contact/reading.hpp"
+#include "rollfix/locate/placement.hpp"
+#include "rollfix/part/part.hpp"
+#include "rollfix/touch/touch.hpp"
+
+// Three and more fingers that hold and roll on a part that moves: docs/two_fingers.md, "Three and more fingers".
+namespace rollfix {
+
+/// What several fingers measured while they all touched one part that is free to move.
+struct HoldProblem {
+  Part part;
+  std::vector<Log> logs;         // one of each finger, at least two; of u and psi, row k of all at the same instant
+  std::vector<Finger> fingers;   // one that holds for all, or one for each log
+  std::optional<Noise> noise{};  // contact, angle, slip, radius; with `position` x and y are evidence
+  std::optional<TouchTolerance> tolerance{};  // without noise; none: from the digits of the logs
+  std::vector<double> at{};                   // instants to search with besides the first, seconds; none: kHoldInstants
+  std::optional<std::size_t> budget{};        // comparisons before giving up; none: kHoldBudget
+  bool mirrored = false;                      // the part lies face down
+};
+
+/// Instants to search with where none are chosen, spread evenly over the logs.
+inline constexpr std::size_t kHoldInstants = 9;
+/// Comparisons of places of all fingers at one instant: a few seconds.
+inline constexpr std::size_t kHoldBudget = 20000000;
+
+/// Where one finger is in an answer.
+struct HoldContact {
+  double start = 0;           // s of the first contact, in [0, P)
+  double end = 0;             // s of the last one
+  Interval extent{};          // no first contact of the set is outside; lo in [0, P), hi may exceed P
+  Vec2 point = Vec2::Zero();  // of the first contact, in the part's frame
+  double tangent = 0;         // direction of the tangent there, in the part's frame, radians, in (-pi, pi]
+  double distance = 0;        // residual: how far the contact is from the boundary in these poses, length, at worst
+  double turn = 0;            // residual of the normal, radians, at worst
+
+  // With noise.
+  double mean = 0;      // of the first contact, in [0, P)
+  double sd = 0;        // length
+  Interval interval{};  // holds 95 % of its probability; lo in [0, P), hi may exceed P
+  double end_mean = 0;
+  double end_sd = 0;
+};
+
+/// One answer: a connected set of first contacts, with a pose of the part at each instant.
+struct HoldPlacement {
+  std::vector<HoldContact> contacts;  // of each finger, those that fit best
+  Pose first{};                       // of the part at the first contacts, ...
+  Pose last{};                        // ... and at the last ones; without x and y only the heading is known
+  PoseResidual residual{};            // the largest of the contacts'
+  double worst = 0;                   // the largest residual as a share of its tolerance, at most 1
+  bool continuum = false;             // the measurements leave the first contacts free to slide
+  double chi_square = 0;              // of all rows, with noise
+
+  // With noise.
+  double probability = std::numeric_limits<double>::quiet_NaN();
+  PoseSpread first_spread{};
+  PoseSpread last_spread{};
+};
+
+/// What the log of one finger says.
+struct HoldRoll {
+  std::string name{};
+  std::vector<std::size_t> lines{};  // of the file: its first and its last row; of simulated rows none
+  double length = 0;                 // that the contact travelled by the last row, along the stored outline
+  bool has_centre = false;           // x and y
+  std::vector<Vec2> track{};         // then: of the finger's centre, in the world
+  double radius = 0;                 // of a disk, else 0
+};
+
+/// Every set of first contacts that fits.
+struct HoldAnswer {
+  Part part;
+  std::vector<HoldRoll> rolls;
+  std::size_t rows = 0;
+  std::vector<double> instants{};  // that were searched with, seconds, or of logs without times row numbers from 0
+  std::optional<Noise> noise{};
+  TouchTolerance tolerance{};  // without noise; the largest of all fingers'
+  bool mirrored = false;       // poses are of the part face down: x = -x of the outline, then the pose
+  PlaceKnown place = PlaceKnown::measured;
+  Status status = Status::complete;
+  Verdict verdict{};
+  std::vector<HoldPlacement> placements{};  // with noise the most probable first, else by the first finger's start
+  std::size_t improbable = 0;               // with noise: sets within the tolerance that are not listed, ...
+  double rest = 0;                          // ... and their probability together
+  std::vector<std::vector<Interval>> unresolved{};  // if incomplete: arcs, one of each finger, on which the first
+                                                    // contacts of a placement that is not listed may be
+  std::optional<TouchFit> fit{};                    // with noise, of the best placement
+  std::size_t comparisons = 0;
+
+  /// "unique", "ambiguous (2)", "unique, but the rows contradict the stated noise", ...
+  std::string verdict_text() const;
+};
+
+/// Every set of first contacts from which all fingers can have rolled as their logs say, while the part moved as it
+/// would: complete, by branch and prune over the first contacts of all fingers. Each instant has its own pose of the
+/// part; contacts travel as their logs say. Places where a disk would enter the part are left out. With noise also the
+/// posterior, from all rows, if contacts are as likely anywhere on the boundary. Throws InputError: fewer than two
+/// logs, logs without u and psi or with different instants, fingers that are missing, kinds of noise that it can't
+/// take, and what `read_log` of two files throws.
+HoldAnswer solve(const HoldProblem& problem);
+
+}  // namespace rollfix

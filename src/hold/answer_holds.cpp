@@ -1,0 +1,164 @@
+#include "answer_holds.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <boost/math/special_functions/gamma.hpp>
+#include <cmath>
+#include <limits>
+
+#include "outline/turn.hpp"
+#include "touch/posterior.hpp"
+
+// Notation:
+//   n               error of a contact along the boundary: s = z + L / (1 + e) - n; its row's normal tells of it
+//   u, C            unknowns and their covariance at a node; g: change of a number with u
+namespace rollfix::hold {
+namespace {
+
+constexpr double kShareOfInterval = 0.95;
+
+/// A number at one node: mean and variance.
+struct AtNode {
+  double mean = 0;
+  double variance = 0;
+};
+
+/// Where a contact was at a row.
+AtNode place_at(const HoldFit& fit, const HoldNode& node, std::size_t row, std::size_t finger) {
+  const auto count = static_cast<Eigen::Index>(fit.fingers());
+  const auto k = static_cast<Eigen::Index>(finger);
+  const PoseAtRow pose = fit.pose_at(node.state, row);
+  const HoldFit::ContactError error = fit.contact_error(node.state, row, finger);
+  Unknowns by = Unknowns::Zero(fit.size());
+  by(k) = 1;
+  if (fit.size() > count) by(count + k) = -fit.rows().rows[row].contacts[finger].travelled;
+  const Unknowns turned = pose.by_unknowns.row(2).transpose();
+  const Unknowns all = by + error.by_turn * (error.curvature * by + turned);
+  AtNode at;
+  at.mean = fit.place_of(node.state, row, finger) - error.mean;
+  at.variance = all.dot(node.covariance * all) + error.by_turn * error.by_turn * pose.covariance(2, 2) + error.variance;
+  return at;
+}
+
+/// Weights of a mode's nodes, together 1.
+std::vector<double> weights_of(const HoldMode& mode) {
+  std::vector<double> weights;
+  double sum = 0;
+  for (const HoldNode& node : mode.nodes) {
+    weights.push_back(node.width * std::exp(node.log_density - mode.log_weight));
+    sum += weights.back();
+  }
+  for (double& weight : weights) weight /= sum;
+  return weights;
+}
+
+PoseSpread spread_of(const HoldFit& fit, const HoldMode& mode, const std::vector<double>& weights, std::size_t row,
+                     const Pose& about) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  for (std::size_t k = 0; k < weights.size(); ++k) {
+    const PoseAtRow at = fit.pose_at(mode.nodes[k].state, row);
+    const Eigen::Vector3d off(at.pose.x - about.x, at.pose.y - about.y, nearest_angle(at.pose.heading - about.heading));
+    const Eigen::Matrix3d covariance =
+        at.covariance + at.by_unknowns * mode.nodes[k].covariance * at.by_unknowns.transpose();
+    mean += weights[k] * off;
+    second += weights[k] * (covariance + off * off.transpose());
+  }
+  PoseSpread spread;
+  spread.mean = {about.x + mean(0), about.y + mean(1), about.heading + mean(2)};
+  spread.covariance = second - mean * mean.transpose();
+  return spread;
+}
+
+struct Summary {
+  double mean = 0;
+  double sd = 0;
+  Interval interval;
+};
+
+Summary summary_of(const HoldFit& fit, const HoldMode& mode, const std::vector<double>& weights, std::size_t row,
+                   std::size_t finger, const Boundary& boundary) {
+  const double about = fit.place_of(mode.best, row, finger);
+  std::vector<touch::MixtureTerm> terms;
+  double mean = 0, second = 0;
+  for (std::size_t k = 0; k < weights.size(); ++k) {
+    const AtNode at = place_at(fit, mode.nodes[k], row, finger);
+    const double off = boundary.offset(about, at.mean);
+    terms.push_back({weights[k], about + off, std::sqrt(at.variance)});
+    mean += weights[k] * off;
+    second += weights[k] * (at.variance + off * off);
+  }
+  Summary summary;
+  summary.mean = boundary.canonical(about + mean);
+  summary.sd = std::sqrt(std::max(0.0, second - mean * mean));
+  const Interval range = touch::middle_share(terms, kShareOfInterval);
+  summary.interval = boundary.closed ? boundary.arc(range.lo, range.hi)
+                                     : Interval{std::clamp(range.lo, 0.0, boundary.perimeter),
+                                                std::clamp(range.hi, 0.0, boundary.perimeter)};
+  return summary;
+}
+
+}  // namespace
+
+HoldPlacement described(const HoldFit& fit, const Part& part, const HeldState& state,
+                        const std::vector<Interval>& extent) {
+  HoldPlacement placement;
+  const Boundary boundary = part.boundary();
+  const std::size_t last = fit.rows().rows.size() - 1;
+  for (std::size_t k = 0; k < fit.fingers(); ++k) {
+    HoldContact contact;
+    const double first_error = fit.rows().has_noise ? fit.contact_error(state, 0, k).mean : 0;
+    const double last_error = fit.rows().has_noise ? fit.contact_error(state, last, k).mean : 0;
+    contact.start = boundary.canonical(fit.place_of(state, 0, k) - first_error);
+    contact.end = boundary.canonical(fit.place_of(state, last, k) - last_error);
+    contact.extent = extent[k];
+    contact.point = part.point(contact.start);
+    contact.tangent = part.tangent(contact.start);
+    for (std::size_t row = 0; row <= last; ++row) {
+      const ContactResidual off = fit.residual(state, row, k);
+      if (fit.rows().errors[k].has_place) contact.distance = std::max(contact.distance, off.place.norm());
+      contact.turn = std::max(contact.turn, std::abs(off.turn));
+    }
+    placement.residual.length = std::max(placement.residual.length, contact.distance);
+    placement.residual.turn = std::max(placement.residual.turn, contact.turn);
+    placement.contacts.push_back(contact);
+  }
+  placement.first = fit.pose_at(state, 0).pose;
+  placement.last = fit.pose_at(state, last).pose;
+  placement.first.heading = nearest_angle(placement.first.heading);
+  placement.last.heading = nearest_angle(placement.last.heading);
+  placement.worst = fit.rows().has_noise ? 0 : fit.worst(state);
+  placement.chi_square = state.square;
+  return placement;
+}
+
+void add_posterior(HoldPlacement& placement, const HoldFit& fit, const Part& part, const HoldMode& mode) {
+  const std::vector<double> weights = weights_of(mode);
+  const std::size_t last = fit.rows().rows.size() - 1;
+  const Boundary boundary = part.boundary();
+  for (std::size_t k = 0; k < fit.fingers(); ++k) {
+    const Summary start = summary_of(fit, mode, weights, 0, k, boundary);
+    const Summary end = summary_of(fit, mode, weights, last, k, boundary);
+    HoldContact& contact = placement.contacts[k];
+    contact.mean = start.mean;
+    contact.sd = start.sd;
+    contact.interval = start.interval;
+    contact.end_mean = end.mean;
+    contact.end_sd = end.sd;
+  }
+  placement.first_spread = spread_of(fit, mode, weights, 0, placement.first);
+  placement.last_spread = spread_of(fit, mode, weights, last, placement.last);
+  placement.continuum = mode.continuum;
+}
+
+TouchFit fit_of(const HoldFit& fit, const HeldState& state) {
+  TouchFit result;
+  result.chi_square = state.square;
+  const double freedom = fit.freedom(state);
+  result.freedom = std::max(0, static_cast<int>(std::lround(freedom)));
+  if (result.freedom > 0) result.p = boost::math::gamma_q(0.5 * result.freedom, 0.5 * result.chi_square);
+  return result;
+}
+
+}  // namespace rollfix::hold

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "hold_fit.hpp"
+#include "hold_modes.hpp"
+#include "rollfix/hold/hold.hpp"
+
+namespace rollfix::hold {
+
+/// A state as the answer has it: places at the first and the last instant, poses, residuals. `extent`: of its set.
+HoldPlacement described(const HoldFit& fit, const Part& part, const HeldState& state,
+                        const std::vector<Interval>& extent);
+
+/// Adds what the posterior knows of a mode, but for its probability.
+void add_posterior(HoldPlacement& placement, const HoldFit& fit, const Part& part, const HoldMode& mode);
+
+/// How well a state fits the noise.
+TouchFit fit_of(const HoldFit& fit, const HeldState& state);
+
+}  // namespace rollfix::hold

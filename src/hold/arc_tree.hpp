@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "held_rows.hpp"
+#include "part/turning_range.hpp"
+#include "rollfix/part/reach.hpp"
+
+namespace rollfix::hold {
+
+/// Where a contact is on the part at one instant if its first contact was on some arc: in a disc, and its tangents are
+/// no further than `half_turn` from `angle`.
+struct ArcAt {
+  Vec2 middle = Vec2::Zero();
+  double radius = 0;
+  double angle = 0;  // radians, in the part's frame
+  double half_turn = 0;
+};
+
+/// How far off one finger's measurements can be at one instant, for the search: nothing is further off.
+struct Slack {
+  double travel = 0;  // length along the boundary
+  double angle = 0;   // of the tangent in the world, radians
+  double place = 0;   // of the contact in the world, length
+};
+Slack slack_of(const HeldErrors& errors, const HeldContact& contact, bool has_noise);
+
+/// A part as all trees look at it.
+struct HeldPart {
+  explicit HeldPart(const Part& whole);
+  const Part& part;
+  TurningRange range;
+};
+
+/// A tree of arcs of first contacts of one finger, halved where somebody asks for it. What an arc comes to at an
+/// instant is computed once.
+class ArcTree {
+ public:
+  /// `instants`: rows that are searched with. `reach`: of the finger; nullptr: it can be anywhere.
+  ArcTree(const HeldPart& part, const HeldRows& rows, std::size_t finger, const std::vector<std::size_t>& instants,
+          const Reach* reach);
+
+  const Interval& arc(std::int32_t node) const { return nodes_[static_cast<std::size_t>(node)].s; }
+  /// The finger can have rolled so from somewhere on it: within its reach, and on an open boundary.
+  bool is_possible(std::int32_t node) const { return nodes_[static_cast<std::size_t>(node)].possible; }
+  const ArcAt& at(std::int32_t node, std::size_t instant);
+  const Slack& slack(std::size_t instant) const { return slacks_[instant]; }
+  /// In leaves of this share of the slack: up to 1 it is one.
+  double size(std::int32_t node, double leaf);
+  /// Equal to the node itself where it is too short to have halves.
+  std::pair<std::int32_t, std::int32_t> halves(std::int32_t node);
+  std::int32_t root() const { return 0; }
+
+ private:
+  struct Node {
+    Interval s;
+    bool possible = true;
+    std::int32_t left = -1;
+    std::int32_t right = -1;
+    std::vector<ArcAt> at;
+  };
+  std::int32_t add(const Interval& s);
+  bool can_be(const Interval& s) const;
+  ArcAt look(const Interval& s, std::size_t instant) const;
+  Interval moved(const Interval& s, std::size_t instant) const;
+
+  const HeldPart& part_;
+  std::vector<double> travelled_;  // at each instant
+  std::vector<Slack> slacks_;
+  Interval sweep_;  // least and most of what was travelled, over all rows, less what that may be off
+  std::vector<Interval> reach_;
+  std::vector<Interval> gaps_;
+  bool confined_ = false;
+  bool has_place_ = false;
+  std::deque<Node> nodes_;  // references stay
+};
+
+}  // namespace rollfix::hold

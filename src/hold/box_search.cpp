@@ -1,0 +1,208 @@
+#include "box_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "rollfix/pulse.hpp"
+
+// Notation, as in docs/two_fingers.md, "Three and more fingers":
+//   A_i             an arc of first contacts of finger i: a node of `trees_[i]`; A_1 x ... x A_k: `Box`
+//   (c_i, rho_i), theta_i +- w_i   where contact i is at an instant, and its tangents: ArcAt
+//   tau_i, eps_i    the tangent's direction in the world, and how far that can be off: `tangent`, `Slack::angle`
+//   q_i, delta_i    the contact in the world: `at`, `Slack::place`
+// Tests at each instant, for its heading phi: normals, |tau_i - theta_i - phi| <= w_i + eps_i for all i; chords,
+// |R(phi)(c_j - c_i) - (q_j - q_i)| <= rho_i + rho_j + delta_i + delta_j for all pairs that have places.
+// Follows docs/two_fingers.md, "Three and more fingers".
+// Idea: branch and prune, a generation of boxes after the other. If there is no room for the next generation, this one
+// is what fits: the boxes are coarser, and still hold all that fits.
+namespace rollfix::hold {
+namespace {
+
+// More boxes are not kept: a set that needs them is a continuum, of which coarser boxes say as much.
+constexpr std::size_t kMostBoxes = 20000;
+constexpr double kHeadingGrain = 1e-12;  // headings are rounded, radians
+constexpr double kSameArc = 1e-12;       // arcs that share an end, of the perimeter
+
+using touch::HeadingArc;
+
+std::size_t find(std::vector<std::size_t>& parent, std::size_t k) {
+  while (parent[k] != k) k = parent[k] = parent[parent[k]];
+  return k;
+}
+
+}  // namespace
+
+BoxSearch::BoxSearch(const HeldPart& part, const HeldRows& rows, const std::vector<std::size_t>& instants,
+                     const std::vector<const Reach*>& reach, std::size_t budget)
+    : budget_(budget) {
+  for (std::size_t k = 0; k < rows.fingers(); ++k) {
+    trees_.emplace_back(part, rows, k, instants, reach[k]);
+    has_place_.push_back(rows.errors[k].has_place);
+  }
+  for (const std::size_t row : instants) {
+    Instant instant;
+    for (const HeldContact& contact : rows.rows[row].contacts) {
+      instant.tangent.push_back(contact.tangent);
+      instant.at.push_back(contact.at);
+    }
+    instants_.push_back(std::move(instant));
+  }
+}
+
+bool BoxSearch::may_fit(const Box& box, std::size_t t) {
+  ++comparisons_;
+  const Instant& instant = instants_[t];
+  HeadingArc heading;
+  for (std::size_t k = 0; k < trees_.size(); ++k) {
+    const ArcAt& arc = trees_[k].at(box[k], t);
+    const HeadingArc own{nearest_angle(instant.tangent[k] - arc.angle),
+                         arc.half_turn + trees_[k].slack(t).angle + kHeadingGrain};
+    heading = common(heading, own);
+    if (heading.is_empty()) return false;
+  }
+  for (std::size_t i = 0; i < trees_.size(); ++i) {
+    if (!has_place_[i]) continue;
+    const ArcAt& one = trees_[i].at(box[i], t);
+    for (std::size_t j = i + 1; j < trees_.size(); ++j) {
+      if (!has_place_[j]) continue;
+      const ArcAt& other = trees_[j].at(box[j], t);
+      const double slack = one.radius + other.radius + trees_[i].slack(t).place + trees_[j].slack(t).place;
+      heading =
+          common(heading, touch::headings_between(other.middle - one.middle, instant.at[j] - instant.at[i], slack));
+      if (heading.is_empty()) return false;
+    }
+  }
+  return true;
+}
+
+bool BoxSearch::may_fit(const Box& box) {
+  beat();
+  for (std::size_t k = 0; k < trees_.size(); ++k) {
+    if (!trees_[k].is_possible(box[k])) return false;
+  }
+  for (std::size_t t = 0; t < instants_.size(); ++t) {
+    if (!may_fit(box, t)) return false;
+  }
+  return true;
+}
+
+Boxes BoxSearch::search(double leaf) {
+  Box all{};
+  for (std::size_t k = 0; k < trees_.size(); ++k) all[k] = trees_[k].root();
+  return search({all}, leaf);
+}
+
+Boxes BoxSearch::search(std::vector<Box> from, double leaf) {
+  Boxes found;
+  while (!from.empty()) {
+    std::vector<Box> next;
+    for (std::size_t b = 0; b < from.size(); ++b) {
+      const Box& box = from[b];
+      if (comparisons_ >= budget_) {
+        found.undecided.insert(found.undecided.end(), from.begin() + static_cast<std::ptrdiff_t>(b), from.end());
+        found.undecided.insert(found.undecided.end(), next.begin(), next.end());
+        return found;
+      }
+      std::size_t widest = 0;
+      double most = 0;
+      for (std::size_t k = 0; k < trees_.size(); ++k) {
+        const double size = trees_[k].size(box[k], leaf);
+        if (size > most) {
+          most = size;
+          widest = k;
+        }
+      }
+      const auto [left, right] =
+          most <= 1 ? std::make_pair(box[widest], box[widest]) : trees_[widest].halves(box[widest]);
+      if (left == right) {
+        found.fit.push_back(box);
+        continue;
+      }
+      for (const std::int32_t half : {left, right}) {
+        Box child = box;
+        child[widest] = half;
+        if (may_fit(child)) next.push_back(child);
+      }
+    }
+    if (found.fit.size() + next.size() > kMostBoxes) {
+      found.fit.insert(found.fit.end(), next.begin(), next.end());
+      return found;
+    }
+    from = std::move(next);
+  }
+  return found;
+}
+
+std::vector<std::vector<Box>> sets_of(BoxSearch& search, const std::vector<Box>& boxes, const Boundary& boundary) {
+  const double grain = kSameArc * boundary.perimeter;
+  std::vector<std::pair<double, std::size_t>> order;  // by the first finger's arcs
+  for (std::size_t b = 0; b < boxes.size(); ++b) order.emplace_back(search.tree(0).arc(boxes[b][0]).lo, b);
+  std::sort(order.begin(), order.end());
+  std::vector<std::size_t> parent(boxes.size());
+  for (std::size_t b = 0; b < boxes.size(); ++b) parent[b] = b;
+  const auto touching = [&](const Box& one, const Box& other) {
+    for (std::size_t k = 0; k < search.fingers(); ++k) {
+      const Interval& a = search.tree(k).arc(one[k]);
+      const Interval b = search.tree(k).arc(other[k]);
+      if (!boundary.intersects({a.lo - grain, a.hi + grain}, b)) return false;
+    }
+    return true;
+  };
+  const auto join_with = [&](std::size_t a, std::size_t b) {
+    const std::size_t one = find(parent, a), other = find(parent, b);
+    if (one != other && touching(boxes[a], boxes[b])) parent[std::max(one, other)] = std::min(one, other);
+  };
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    beat();
+    const double hi = search.tree(0).arc(boxes[order[i].second][0]).hi + grain;
+    for (std::size_t j = i + 1; j < order.size() && order[j].first <= hi; ++j) {
+      join_with(order[i].second, order[j].second);
+    }
+    if (!boundary.closed || hi < boundary.perimeter) continue;
+    for (std::size_t j = 0; j < order.size() && order[j].first <= hi - boundary.perimeter; ++j) {
+      join_with(order[i].second, order[j].second);
+    }
+  }
+  std::vector<std::vector<Box>> sets;
+  std::vector<std::size_t> set_of(boxes.size(), boxes.size());
+  for (std::size_t b = 0; b < boxes.size(); ++b) {
+    const std::size_t head = find(parent, b);
+    if (set_of[head] == boxes.size()) {
+      set_of[head] = sets.size();
+      sets.emplace_back();
+    }
+    sets[set_of[head]].push_back(boxes[b]);
+  }
+  return sets;
+}
+
+Interval extent_of(BoxSearch& search, const std::vector<Box>& boxes, std::size_t finger, const Boundary& boundary) {
+  std::vector<Interval> arcs;
+  for (const Box& box : boxes) arcs.push_back(search.tree(finger).arc(box[finger]));
+  std::sort(arcs.begin(), arcs.end(), [](const Interval& a, const Interval& b) { return a.lo < b.lo; });
+  if (!boundary.closed) {
+    double hi = arcs.front().hi;
+    for (const Interval& arc : arcs) hi = std::max(hi, arc.hi);
+    return {arcs.front().lo, hi};
+  }
+  // All but the widest gap.
+  double reached = arcs.front().hi;
+  double widest = 0, start = arcs.front().lo, end = 0;
+  for (const Interval& arc : arcs) {
+    if (arc.lo - reached > widest) {
+      widest = arc.lo - reached;
+      start = arc.lo;
+      end = reached + boundary.perimeter;
+    }
+    reached = std::max(reached, arc.hi);
+  }
+  const double across = arcs.front().lo + boundary.perimeter - reached;
+  if (across >= widest) {
+    start = arcs.front().lo;
+    end = reached;
+  }
+  return boundary.arc(start, end);
+}
+
+}  // namespace rollfix::hold

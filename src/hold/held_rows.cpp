@@ -1,0 +1,188 @@
+#include "held_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "answer/unweighed.hpp"
+#include "contact/mirrored.hpp"
+
+// Notation, as in docs/two_fingers.md, "Three and more fingers":
+//   L_i(t)          what contact i has travelled on the part since the first row: `travelled`
+//   tau_i(t)        direction of the part's tangent at contact i in the world: `tangent`
+//   q_i(t)          the contact in the world: `at`, x and y and from there by the finger's own shape, `lever`
+// Idea: u and psi say where on the finger the contact is and how that points, so that a finger of any shape is its
+// contact. An error n of the contact along the boundary moves q along the tangent by n and L by n: on the part both are
+// the same place, so that n is only seen in the normal.
+namespace rollfix::hold {
+namespace {
+
+// Without noise centres and lengths are known to this share of the perimeter at best: an outline's own accuracy.
+constexpr double kLeastHeldPlace = 1e-6;
+constexpr double kLeastHeldTravel = 1e-9;
+constexpr double kLeastHeldAngle = 1e-9;  // radians
+// A row is at the same corner as another if both contacts are within so many standard deviations of one another.
+constexpr double kAlikeSigmas = 3;
+
+const Finger& finger_for(const HoldProblem& problem, std::size_t k) {
+  return problem.fingers.size() == 1 ? problem.fingers.front() : problem.fingers[k];
+}
+
+double radius_share(const Noise& noise, const Finger& finger) {
+  return finger.is_disk() ? noise.radius / finger.disk()->radius : 0;
+}
+
+HeldErrors errors_with(const Noise& noise, const Finger& finger, bool has_centre, double perimeter) {
+  HeldErrors errors;
+  errors.has_place = has_centre && noise.position > 0;
+  errors.travel = std::max(noise.contact, kLeastHeldTravel * perimeter);
+  errors.stretch = std::hypot(noise.slip, radius_share(noise, finger), noise.part.length);
+  errors.angle = std::hypot(std::max(noise.angle, kLeastHeldAngle), noise.part.turn);
+  errors.place = noise.position;
+  return errors;
+}
+
+HeldErrors errors_by_digits(const HoldProblem& problem, const Log& log, const Finger& finger) {
+  const FingerRows& rows = log.fingers.front();
+  const double perimeter = problem.part.perimeter();
+  const Rounding rounding = rounding_of(log, {finger});
+  HeldErrors errors;
+  errors.has_place = !rows.x.empty();
+  errors.travel = std::max(rounding.length, kLeastHeldTravel * perimeter);
+  errors.angle = std::max(rounding.turn, kLeastHeldAngle);
+  std::vector<double> coordinates = rows.x;
+  coordinates.insert(coordinates.end(), rows.y.begin(), rows.y.end());
+  if (errors.has_place) {
+    errors.place =
+        std::numbers::sqrt2 * rounding_of_column(coordinates) + rounding.length + kLeastHeldPlace * perimeter;
+  }
+  if (!problem.tolerance) return errors;
+  errors.angle = std::max(problem.tolerance->angle, kLeastHeldAngle);
+  if (problem.tolerance->length > 0) errors.place = problem.tolerance->length;
+  return errors;
+}
+
+void add_contacts(const Log& log, const Finger& finger, HeldRows& held) {
+  const FingerRows& rows = log.fingers.front();
+  const std::vector<Contact> contacts = contacts_of(rows, finger);
+  for (std::size_t row = 0; row < contacts.size(); ++row) {
+    HeldContact contact;
+    contact.travelled = reading_between(finger, contacts.front(), contacts[row]).length[0];
+    contact.tangent = facing(finger, contacts[row]) - 0.5 * std::numbers::pi;
+    contact.lever = -centre_of(finger, Vec2::Zero(), contacts[row]);
+    if (!rows.x.empty()) contact.at = Vec2(rows.x[row], rows.y[row]) + contact.lever;
+    contact.finger_curvature = finger.curvature(contacts[row].u);
+    held.rows[row].contacts.push_back(contact);
+  }
+}
+
+/// For each row of a finger: how many rows are as far as it is, as far as noise can tell.
+void count_alike(std::size_t finger, HeldRows& held) {
+  const double reach = kAlikeSigmas * held.errors[finger].travel;
+  std::vector<double> lengths;
+  for (const HeldRow& row : held.rows) lengths.push_back(row.contacts[finger].travelled);
+  std::sort(lengths.begin(), lengths.end());
+  for (HeldRow& row : held.rows) {
+    HeldContact& contact = row.contacts[finger];
+    const auto lo = std::lower_bound(lengths.begin(), lengths.end(), contact.travelled - reach);
+    const auto hi = std::upper_bound(lengths.begin(), lengths.end(), contact.travelled + reach);
+    contact.rows_alike = std::max(1.0, static_cast<double>(hi - lo));
+  }
+}
+
+/// The mean of the rows from one to before another.
+HeldRow mean_of(const std::vector<HeldRow>& rows, std::size_t from, std::size_t to) {
+  HeldRow mean = rows[from];
+  if (to - from == 1) return mean;
+  const auto count = static_cast<double>(to - from);
+  mean.time = 0;
+  for (std::size_t k = from; k < to; ++k) mean.time += rows[k].time / count;
+  for (std::size_t finger = 0; finger < mean.contacts.size(); ++finger) {
+    HeldContact sum{0, 0, Vec2::Zero(), Vec2::Zero(), 0, 0};
+    for (std::size_t k = from; k < to; ++k) {
+      const HeldContact& one = rows[k].contacts[finger];
+      sum.travelled += one.travelled / count;
+      sum.tangent += one.tangent / count;
+      sum.at += one.at / count;
+      sum.lever += one.lever / count;
+      sum.finger_curvature += one.finger_curvature / count;
+      sum.rows_alike += one.rows_alike / count;
+    }
+    mean.contacts[finger] = sum;
+  }
+  mean.weight = count;
+  return mean;
+}
+
+}  // namespace
+
+std::vector<Log> aligned(std::vector<Log> logs) {
+  Log first = std::move(logs.front());
+  for (std::size_t k = 1; k < logs.size(); ++k) first = one_finger(paired(first, logs[k]), 0);
+  std::vector<Log> result{first};
+  for (std::size_t k = 1; k < logs.size(); ++k) result.push_back(one_finger(paired(first, logs[k]), 1));
+  return result;
+}
+
+HeldRows held_rows(const HoldProblem& problem, const std::vector<Log>& logs) {
+  HeldRows held;
+  held.has_noise = problem.noise.has_value();
+  held.rows.resize(logs.front().rows());
+  for (std::size_t row = 0; row < held.rows.size(); ++row) {
+    const std::vector<double>& time = logs.front().time;
+    held.rows[row].time = time.empty() ? static_cast<double>(row) : time[row];
+  }
+  for (std::size_t k = 0; k < logs.size(); ++k) {
+    const Finger& finger = finger_for(problem, k);
+    const bool has_centre = !logs[k].fingers.front().x.empty();
+    held.errors.push_back(problem.noise ? errors_with(noise_on(problem.part, *problem.noise), finger, has_centre,
+                                                      problem.part.perimeter())
+                                        : errors_by_digits(problem, logs[k], finger));
+    held.any_place = held.any_place || held.errors.back().has_place;
+    add_contacts(logs[k], finger, held);
+    count_alike(k, held);
+  }
+  return held;
+}
+
+HeldRows averaged(const HeldRows& rows, std::size_t most) {
+  const std::size_t count = rows.rows.size();
+  if (count <= most) return rows;
+  HeldRows result = rows;
+  result.rows.clear();
+  const std::size_t stride = (count - 2 + most - 1) / most;
+  result.rows.push_back(rows.rows.front());
+  for (std::size_t from = 1; from + 1 < count; from += stride) {
+    result.rows.push_back(mean_of(rows.rows, from, std::min(from + stride, count - 1)));
+  }
+  result.rows.push_back(rows.rows.back());
+  return result;
+}
+
+std::vector<std::size_t> rows_to_search(const HoldProblem& problem, const Log& log) {
+  std::vector<std::size_t> chosen{0};
+  const std::size_t last = log.rows() - 1;
+  std::vector<std::size_t> others;
+  if (!problem.at.empty()) {
+    others = rows_at(log, problem.at);
+  } else {
+    const std::size_t steps = std::min(last, kHoldInstants - 1);
+    for (std::size_t k = 1; k <= steps; ++k) others.push_back(k * last / steps);
+  }
+  // The one furthest from those that are chosen comes next.
+  while (!others.empty()) {
+    const auto away = [&](std::size_t row) {
+      std::size_t least = last + 1;
+      for (const std::size_t one : chosen) least = std::min(least, row > one ? row - one : one - row);
+      return least;
+    };
+    const auto next =
+        std::max_element(others.begin(), others.end(), [&](std::size_t a, std::size_t b) { return away(a) < away(b); });
+    chosen.push_back(*next);
+    others.erase(next);
+  }
+  return chosen;
+}
+
+}  // namespace rollfix::hold

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "rollfix/hold/hold.hpp"
+
+namespace rollfix::hold {
+
+/// One finger at one instant, or on average over neighbouring ones.
+struct HeldContact {
+  double travelled = 0;         // L: from the first contact, along the stored outline
+  double tangent = 0;           // direction of the part's tangent in the world, by u and psi, radians
+  Vec2 at = Vec2::Zero();       // the contact in the world, where the log has x and y
+  Vec2 lever = Vec2::Zero();    // from the finger's centre to it, in the world
+  double finger_curvature = 0;  // 1 / r of a disk
+  double rows_alike = 1;        // rows that may be at one corner together with this one
+};
+
+/// How far one finger's measurements may be off. With noise standard deviations, else tolerances.
+struct HeldErrors {
+  bool has_place = false;  // x and y are evidence
+  double travel = 0;       // of the contact along the boundary, length
+  double stretch = 0;      // of all lengths, per length: slip and the radius
+  double angle = 0;        // of psi, radians; without noise of u + psi
+  double place = 0;        // of x and y each; without noise of the distance
+};
+
+/// All fingers at one instant.
+struct HeldRow {
+  std::vector<HeldContact> contacts;
+  double weight = 1;  // rows of which it is the mean
+  double time = 0;
+};
+
+/// What all logs say.
+struct HeldRows {
+  std::vector<HeldRow> rows;
+  std::vector<HeldErrors> errors;  // of each finger
+  bool has_noise = false;
+  bool any_place = false;
+
+  std::size_t fingers() const { return errors.size(); }
+};
+
+/// The logs cut to the instants that all of them share. Throws InputError as `paired` does.
+std::vector<Log> aligned(std::vector<Log> logs);
+
+/// `logs`: aligned.
+HeldRows held_rows(const HoldProblem& problem, const std::vector<Log>& logs);
+
+/// The same with neighbouring rows averaged, but for the first and the last one, to no more than about so many.
+HeldRows averaged(const HeldRows& rows, std::size_t most);
+
+/// Rows to search with, in the order in which they tell most: the first, the last, the middle one, ...
+std::vector<std::size_t> rows_to_search(const HoldProblem& problem, const Log& log);
+
+}  // namespace rollfix::hold

@@ -1,0 +1,394 @@
+#include "hold_fit.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "contact_look.hpp"
+#include "outline/turn.hpp"
+#include "rollfix/pulse.hpp"
+
+// Notation, as in docs/two_fingers.md, "Three and more fingers":
+//   z_i, e_i        first contact of finger i, and the stretch of its lengths: `unknowns`
+//   s = z + L / (1 + e)   where the contact is at a row: `place_of`
+//   (A, phi)        the part at a row: world(p) = A + R(phi) (p - m): `Placed`; m: `middle_`
+//   d, r            residuals q - world(p(s)) and tau - phi - Theta(s): ContactResidual
+//   C               their covariance: position, the orientation by its lever w, and the contact's error n, which moves
+//                   the normal by (kappa + kappa_finger) n and nothing else
+//   P, B, M         blocks of the normal matrix: of a row's pose, of pose and unknowns, of the unknowns; M - B^T P^-1 B
+//                   is what is left: `Reduced`
+// Follows K. Levenberg (1944), with a pose of its own for each row eliminated (Schur's complement).
+namespace rollfix::hold {
+namespace {
+
+constexpr int kMostFitRounds = 40;
+constexpr double kMostFitDamping = 1e10;
+constexpr double kFitSettled = 1e-9;  // a step that gains no more than this share, and this much, is the last
+constexpr int kPoseRounds = 12;       // of one row's pose alone
+constexpr double kPoseSettled = 1e-11;
+constexpr int kWorstRounds = 25;     // of weighting up what is worst (Lawson's method)
+constexpr double kLeastBlur = 1e-7;  // of the perimeter, where contacts are exact
+constexpr double kRidge = 1e-12;     // keeps what nothing determines where it is
+
+using RowBlock = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 2 * kMostFingers>;
+
+}  // namespace
+
+/// A contact's residuals with their derivatives: of d (two rows) and of r.
+struct HoldFit::Look {
+  Eigen::Vector3d residual = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d by_pose = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d by_place = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  // C^-1, 0 for what is not measured
+  double log_size = 0;                                    // log det C, corners by their share
+  double blur_size = 0;                                   // of it what corners add
+  double angles = 1;                                      // numbers that the angle counts as
+  double curvature = 0;
+  double turn_variance = 0;  // of r without n
+};
+
+struct HoldFit::RowEquations {
+  Eigen::Matrix3d pose = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d slope = Eigen::Vector3d::Zero();
+  RowBlock mixed;
+  UnknownsMatrix own;
+  Unknowns own_slope;
+  double square = 0;
+  double log_size = 0;
+  double blur_size = 0;
+};
+
+HoldFit::HoldFit(const Part& part, const HeldRows& rows) : part_(part), rows_(rows) {
+  const bool any_stretch =
+      std::any_of(rows.errors.begin(), rows.errors.end(), [](const HeldErrors& errors) { return errors.stretch > 0; });
+  const auto count = static_cast<Eigen::Index>(rows.fingers());
+  size_ = rows.has_noise && any_stretch ? 2 * count : count;
+  constexpr int kPoints = 64;
+  for (int k = 0; k < kPoints; ++k) middle_ += part.point(part.perimeter() * (k + 0.5) / kPoints) / kPoints;
+}
+
+double HoldFit::prior_precision(std::size_t finger) const {
+  const double sd = rows_.errors[finger].stretch;
+  return sd > 0 ? 1 / (sd * sd) : 1e12;
+}
+
+double HoldFit::place_of(const HeldState& state, std::size_t row, std::size_t finger) const {
+  const auto k = static_cast<Eigen::Index>(finger);
+  const double stretch =
+      size_ > static_cast<Eigen::Index>(fingers()) ? state.unknowns(static_cast<Eigen::Index>(fingers()) + k) : 0;
+  return state.unknowns(k) + rows_.rows[row].contacts[finger].travelled / (1 + stretch);
+}
+
+HoldFit::Look HoldFit::look(const Placed& placed, double s, std::size_t row, std::size_t finger) const {
+  const HeldContact& contact = rows_.rows[row].contacts[finger];
+  const HeldErrors& errors = rows_.errors[finger];
+  const double blur = std::max(errors.travel, kLeastBlur * part_.perimeter());
+  const BlurredPlace at = rows_.has_noise ? blurred(part_, s, blur) : ranged(part_, s, errors.travel);
+  const Pose turn{0, 0, placed.heading};
+  Look look;
+  look.curvature = at.curvature;
+  const double off = nearest_angle(contact.tangent - placed.heading - at.angle);
+  const double beyond = std::max(0.0, std::abs(off) - at.half_turn);
+  look.residual(2) = std::copysign(beyond, off);
+  if (beyond > 0 || at.half_turn == 0) {
+    look.by_pose(2, 2) = -1;
+    look.by_place(2) = -at.bend;
+  }
+  if (errors.has_place) {
+    const Vec2 arm = turn.turned(at.point - middle_);
+    look.residual.head<2>() = contact.at - placed.middle - arm;
+    look.by_pose.topLeftCorner<2, 2>() = -Eigen::Matrix2d::Identity();
+    look.by_pose.topRightCorner<2, 1>() = Vec2(arm.y(), -arm.x());
+    look.by_place.head<2>() = -turn.turned(at.tangent);
+  }
+  const double times = weight(row, finger) * rows_.rows[row].weight;
+  if (!rows_.has_noise) {
+    if (errors.has_place) look.information(0, 0) = look.information(1, 1) = times / (errors.place * errors.place);
+    look.information(2, 2) = times / (errors.angle * errors.angle);
+    return look;
+  }
+  const double bend = (at.curvature + contact.finger_curvature) * errors.travel;
+  const double angle = errors.angle * errors.angle;
+  const double alike = std::max(1.0, contact.rows_alike / rows_.rows[row].weight);
+  const double plain = (angle + bend * bend) / rows_.rows[row].weight;
+  const double corner = at.variance * alike;
+  look.turn_variance = angle;
+  look.blur_size = std::log1p(corner / plain) / alike;
+  look.angles = (1 + corner / (plain * alike)) / (1 + corner / plain);
+  if (!errors.has_place) {
+    look.information(2, 2) = 1 / (plain + corner);
+    look.log_size = std::log(plain) + look.blur_size;
+    return look;
+  }
+  const Eigen::Vector3d lever(-contact.lever.y(), contact.lever.x(), 1);
+  Eigen::Matrix3d covariance = angle * lever * lever.transpose();
+  covariance(0, 0) += errors.place * errors.place;
+  covariance(1, 1) += errors.place * errors.place;
+  covariance(2, 2) += bend * bend;
+  covariance /= rows_.rows[row].weight;
+  look.log_size = std::log(covariance.determinant()) + look.blur_size;
+  covariance(2, 2) += corner;
+  look.information = covariance.inverse();
+  return look;
+}
+
+HoldFit::RowEquations HoldFit::equations(const HeldState& state, std::size_t row, bool with_unknowns) const {
+  RowEquations sum;
+  const auto count = static_cast<Eigen::Index>(fingers());
+  if (with_unknowns) {
+    sum.mixed = RowBlock::Zero(3, size_);
+    sum.own = UnknownsMatrix::Zero(size_, size_);
+    sum.own_slope = Unknowns::Zero(size_);
+  }
+  for (std::size_t finger = 0; finger < fingers(); ++finger) {
+    const Look one = look(state.placed[row], place_of(state, row, finger), row, finger);
+    const Eigen::Matrix3d weighed = one.by_pose.transpose() * one.information;
+    sum.pose += weighed * one.by_pose;
+    sum.slope -= weighed * one.residual;
+    sum.square += one.residual.dot(one.information * one.residual);
+    sum.log_size += one.log_size;
+    sum.blur_size += one.blur_size;
+    if (!with_unknowns) continue;
+    const auto k = static_cast<Eigen::Index>(finger);
+    const Eigen::Vector3d mixed = weighed * one.by_place;
+    const Eigen::Vector3d places = one.information * one.by_place;
+    const double own = one.by_place.dot(places);
+    const double slope = -places.dot(one.residual);
+    const double by_stretch = -rows_.rows[row].contacts[finger].travelled;
+    sum.mixed.col(k) += mixed;
+    sum.own(k, k) += own;
+    sum.own_slope(k) += slope;
+    if (size_ == count) continue;
+    sum.mixed.col(count + k) += by_stretch * mixed;
+    sum.own(count + k, count + k) += by_stretch * by_stretch * own;
+    sum.own(k, count + k) += by_stretch * own;
+    sum.own(count + k, k) += by_stretch * own;
+    sum.own_slope(count + k) += by_stretch * slope;
+  }
+  // What nothing tells stays: of rows without x and y where the part is.
+  if (!rows_.any_place) sum.pose(0, 0) = sum.pose(1, 1) = 1;
+  sum.pose(2, 2) += kRidge * sum.pose(2, 2) + 1e-30;
+  return sum;
+}
+
+/// A pose that suits the contacts about: by their normals and by what lies between them.
+void HoldFit::guess(HeldState& state, std::size_t row) const {
+  const HeldRow& now = rows_.rows[row];
+  Placed& placed = state.placed[row];
+  Vec2 sum = Vec2::Zero();
+  std::vector<Vec2> points;
+  for (std::size_t k = 0; k < fingers(); ++k) {
+    const BlurredPlace at = blurred(part_, place_of(state, row, k), std::max(rows_.errors[k].travel, 1e-12));
+    points.push_back(at.point);
+    const double heading = now.contacts[k].tangent - at.angle;
+    sum += Vec2(std::cos(heading), std::sin(heading));
+  }
+  placed.heading = std::atan2(sum.y(), sum.x());
+  const Pose turn{0, 0, placed.heading};
+  double count = 0;
+  placed.middle = Vec2::Zero();
+  for (std::size_t k = 0; k < fingers(); ++k) {
+    if (!rows_.errors[k].has_place) continue;
+    placed.middle += now.contacts[k].at - turn.turned(points[k] - middle_);
+    count += 1;
+  }
+  if (count > 0) placed.middle /= count;
+  placed.is_known = true;
+}
+
+/// The best poses for the unknowns, from where they are.
+void HoldFit::settle(HeldState& state) const {
+  state.square = state.cost = 0;
+  for (std::size_t row = 0; row < rows_.rows.size(); ++row) {
+    if (!state.placed[row].is_known) guess(state, row);
+    RowEquations now = equations(state, row, false);
+    for (int round = 0; round < kPoseRounds; ++round) {
+      const Eigen::Vector3d step = now.pose.ldlt().solve(now.slope);
+      if (!step.allFinite()) break;
+      const Placed before = state.placed[row];
+      state.placed[row].middle += step.head<2>();
+      state.placed[row].heading += step(2);
+      const RowEquations next = equations(state, row, false);
+      if (next.square > now.square) {
+        state.placed[row] = before;
+        break;
+      }
+      const bool is_last = now.square - next.square <= kPoseSettled * (1 + next.square);
+      now = next;
+      if (is_last) break;
+    }
+    state.square += now.square;
+    state.cost += now.square + now.blur_size;
+  }
+  if (size_ == static_cast<Eigen::Index>(fingers())) return;
+  for (std::size_t k = 0; k < fingers(); ++k) {
+    const double stretch = state.unknowns(static_cast<Eigen::Index>(fingers() + k));
+    state.square += stretch * stretch * prior_precision(k);
+    state.cost += stretch * stretch * prior_precision(k);
+  }
+}
+
+HeldState HoldFit::at(const std::vector<double>& first_contacts) const {
+  Unknowns unknowns = Unknowns::Zero(size_);
+  for (std::size_t k = 0; k < fingers(); ++k) unknowns(static_cast<Eigen::Index>(k)) = first_contacts[k];
+  return at(unknowns, std::vector<Placed>(rows_.rows.size()));
+}
+
+HeldState HoldFit::at(const Unknowns& unknowns, const std::vector<Placed>& near) const {
+  HeldState state;
+  state.unknowns = unknowns;
+  state.placed = near;
+  settle(state);
+  return state;
+}
+
+Reduced HoldFit::reduced(const HeldState& state) const {
+  Reduced sum;
+  sum.matrix = UnknownsMatrix::Zero(size_, size_);
+  sum.slope = Unknowns::Zero(size_);
+  for (std::size_t row = 0; row < rows_.rows.size(); ++row) {
+    const RowEquations one = equations(state, row, true);
+    const Eigen::LDLT<Eigen::Matrix3d> pose(one.pose);
+    const RowBlock share = pose.solve(one.mixed);
+    sum.matrix += one.own - UnknownsMatrix(one.mixed.transpose() * share);
+    sum.slope += one.own_slope - Unknowns(share.transpose() * one.slope);
+    sum.log_volume -= 0.5 * (one.log_size + pose.vectorD().array().abs().log().sum());
+  }
+  for (Eigen::Index k = static_cast<Eigen::Index>(fingers()); k < size_; ++k) {
+    const double precision = prior_precision(static_cast<std::size_t>(k) - fingers());
+    sum.matrix(k, k) += precision;
+    sum.slope(k) -= precision * state.unknowns(k);
+  }
+  return sum;
+}
+
+HeldState HoldFit::fit(HeldState state, std::optional<Eigen::Index> held) const {
+  double damping = 1e-4;
+  for (int round = 0; round < kMostFitRounds; ++round) {
+    beat();
+    Reduced now = reduced(state);
+    if (held) {
+      now.matrix.row(*held).setZero();
+      now.matrix.col(*held).setZero();
+      now.matrix(*held, *held) = 1;
+      now.slope(*held) = 0;
+    }
+    const double trace = now.matrix.diagonal().maxCoeff();
+    bool is_better = false;
+    double gain = 0;
+    while (damping < kMostFitDamping && !is_better) {
+      UnknownsMatrix damped = now.matrix;
+      damped.diagonal() += damping * now.matrix.diagonal() +
+                           Unknowns::Constant(size_, 1e-14 * trace + std::numeric_limits<double>::min());
+      const Unknowns step = damped.ldlt().solve(now.slope);
+      if (!step.allFinite()) break;
+      HeldState next = at(Unknowns(state.unknowns + step), state.placed);
+      gain = state.cost - next.cost;
+      is_better = gain >= 0;
+      if (is_better) {
+        state = std::move(next);
+        damping = std::max(damping * 0.1, 1e-12);
+      } else {
+        damping *= 10;
+      }
+    }
+    if (!is_better || gain <= kFitSettled * (1 + std::abs(state.cost))) break;
+  }
+  return state;
+}
+
+double HoldFit::worst(const HeldState& state) const {
+  double most = 0;
+  for (std::size_t row = 0; row < rows_.rows.size(); ++row) {
+    for (std::size_t k = 0; k < fingers(); ++k) {
+      const ContactResidual off = residual(state, row, k);
+      if (rows_.errors[k].has_place) most = std::max(most, off.place.norm() / rows_.errors[k].place);
+      most = std::max(most, std::abs(off.turn) / rows_.errors[k].angle);
+    }
+  }
+  return most;
+}
+
+HeldState HoldFit::best_worst(HeldState from) {
+  HeldState best = fit(std::move(from));
+  double least = worst(best);
+  weights_.assign(rows_.rows.size() * fingers(), 1.0);
+  HeldState state = best;
+  for (int round = 0; round < kWorstRounds && least > 1; ++round) {
+    const double most = worst(state);
+    double sum = 0;
+    for (std::size_t row = 0; row < rows_.rows.size(); ++row) {
+      for (std::size_t k = 0; k < fingers(); ++k) {
+        const ContactResidual off = residual(state, row, k);
+        const double place = rows_.errors[k].has_place ? off.place.norm() / rows_.errors[k].place : 0;
+        const double turn = std::abs(off.turn) / rows_.errors[k].angle;
+        double& weight = weights_[row * fingers() + k];
+        weight *= 1e-6 + std::max(place, turn) / most;
+        sum += weight;
+      }
+    }
+    for (double& weight : weights_) weight *= static_cast<double>(weights_.size()) / sum;
+    settle(state);
+    state = fit(std::move(state));
+    if (worst(state) >= least) continue;
+    least = worst(state);
+    best = state;
+  }
+  weights_.clear();
+  settle(best);
+  return best;
+}
+
+ContactResidual HoldFit::residual(const HeldState& state, std::size_t row, std::size_t finger) const {
+  const Look one = look(state.placed[row], place_of(state, row, finger), row, finger);
+  return {one.residual.head<2>(), one.residual(2)};
+}
+
+PoseAtRow HoldFit::pose_at(const HeldState& state, std::size_t row) const {
+  const RowEquations one = equations(state, row, true);
+  const Eigen::Matrix3d covariance = one.pose.inverse();
+  const Placed& placed = state.placed[row];
+  PoseAtRow result;
+  result.pose = {0, 0, placed.heading};
+  const Vec2 arm = result.pose.turned(middle_);
+  result.pose.x = placed.middle.x() - arm.x();
+  result.pose.y = placed.middle.y() - arm.y();
+  // From the middle to the origin of the part's frame.
+  Eigen::Matrix3d to_origin = Eigen::Matrix3d::Identity();
+  to_origin.topRightCorner<2, 1>() = Vec2(arm.y(), -arm.x());
+  result.covariance = to_origin * covariance * to_origin.transpose();
+  result.by_unknowns = -to_origin * covariance * one.mixed;
+  return result;
+}
+
+HoldFit::ContactError HoldFit::contact_error(const HeldState& state, std::size_t row, std::size_t finger) const {
+  const Look one = look(state.placed[row], place_of(state, row, finger), row, finger);
+  const HeldContact& contact = rows_.rows[row].contacts[finger];
+  const double variance = rows_.errors[finger].travel * rows_.errors[finger].travel;
+  const double bend = one.curvature + contact.finger_curvature;
+  // r = a - (kappa + kappa_finger) n.
+  const double total = one.turn_variance + bend * bend * variance;
+  ContactError error;
+  error.by_turn = -bend * variance / total;
+  error.mean = error.by_turn * one.residual(2);
+  error.variance = variance * one.turn_variance / total;
+  error.curvature = one.curvature;
+  return error;
+}
+
+double HoldFit::freedom(const HeldState& state) const {
+  double numbers = 0;
+  for (std::size_t row = 0; row < rows_.rows.size(); ++row) {
+    for (std::size_t k = 0; k < fingers(); ++k) {
+      const Look one = look(state.placed[row], place_of(state, row, k), row, k);
+      numbers += one.angles + (rows_.errors[k].has_place ? 2 : 0);
+    }
+    numbers -= rows_.any_place ? 3 : 1;
+  }
+  return numbers - static_cast<double>(fingers());
+}
+
+}  // namespace rollfix::hold

@@ -1,0 +1,300 @@
+#include "hold_modes.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "rollfix/pulse.hpp"
+
+// Notation:
+//   u               unknowns: first contacts z_i and stretches: HeldState::unknowns
+//   H               their information with all poses eliminated: Reduced::matrix
+//   a               the axis: the first contact that is known worst; the ridge is u(a), the best u with z_a held
+//   log p(a)        -chi^2 / 2 + log volume - log det(H without a) / 2: HoldNode::log_density
+//   D               scale of each unknown: its set's width / sqrt(12), which it has where nothing tells it
+// Follows docs/two_fingers.md, "Three and more fingers".
+// Idea: with three fingers what noise leaves is at most a curve thickened by normal distributions. Directions that
+// nothing tells keep the width of their set.
+namespace rollfix::hold {
+namespace {
+
+constexpr double kRidgeEnd = 12.5;       // below the peak by this much, the ridge ends: five standard deviations
+constexpr double kRidgeStep = 0.5;       // standard deviations
+constexpr double kMostOfSet = 1.0 / 24;  // of its set a step is at most this share
+constexpr double kSteep = 1.2;           // a step over which log p changes more is too long, ...
+constexpr double kFlat = 0.15;           // ... and one over which it changes less may be longer
+constexpr double kRising = 0.4;          // behind a valley log p rises by this much
+constexpr std::size_t kMostNodes = 160;  // to one side
+constexpr double kOneMode = 0.05;        // a valley no deeper than this share of the lower peak
+constexpr double kSameOptimum = 0.05;    // of a standard deviation
+constexpr double kFreeShare = 0.01;      // of the perimeter: a set that is wider can be a continuum
+
+using Scale = Unknowns;
+
+/// The inverse of an information matrix in which no direction is known worse than its scale, log det of what was
+/// inverted, and how many directions were.
+struct Inverse {
+  UnknownsMatrix covariance;
+  double log_determinant = 0;
+  int free = 0;
+};
+
+Inverse inverse_within(const UnknownsMatrix& information, const Scale& scale) {
+  const UnknownsMatrix scaled = scale.asDiagonal() * information * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<UnknownsMatrix> eigen(scaled);
+  Unknowns values = eigen.eigenvalues();
+  Inverse inverse;
+  for (Eigen::Index k = 0; k < values.size(); ++k) {
+    if (!(values(k) > 1)) {
+      values(k) = 1;
+      ++inverse.free;
+    }
+    inverse.log_determinant += std::log(values(k)) - 2 * std::log(scale(k));
+  }
+  const UnknownsMatrix vectors = scale.asDiagonal() * eigen.eigenvectors();
+  inverse.covariance = vectors * values.cwiseInverse().asDiagonal() * vectors.transpose();
+  return inverse;
+}
+
+class RidgeWalk {
+ public:
+  RidgeWalk(const HoldFit& fit, const Part& part, const HeldSet& set, const Optimum& start)
+      : fit_(fit), boundary_(part.boundary()), scale_(Scale::Constant(fit.size(), 1)) {
+    const auto fingers = static_cast<Eigen::Index>(fit.fingers());
+    double widest = 0;
+    for (Eigen::Index k = 0; k < fit.size(); ++k) {
+      const auto finger = static_cast<std::size_t>(k % fingers);
+      const HeldErrors& errors = fit.rows().errors[finger];
+      widest = k < fingers ? std::max(widest, set.extent[finger].width()) : widest;
+      scale_(k) = k < fingers ? std::max(set.extent[finger].width(), errors.travel) / std::sqrt(12.0)
+                              : std::max(errors.stretch, 1e-6);
+    }
+    const Inverse whole = inverse_within(fit.reduced(start.state).matrix, scale_);
+    free_ = whole.free;
+    is_free_ = free_ > 0 && widest > kFreeShare * boundary_.perimeter;
+    whole.covariance.diagonal().head(fingers).maxCoeff(&axis_);
+    sd_ = std::sqrt(whole.covariance(axis_, axis_));
+    most_step_ = std::max(scale_(axis_) * std::sqrt(12.0) * kMostOfSet, 0.1 * sd_);
+    peak_ = node_at(start.state);
+  }
+
+  void run() {
+    const double room = boundary_.closed ? 0.5 * boundary_.perimeter : boundary_.perimeter;
+    std::vector<HoldNode> behind = walk(-1, room);
+    std::reverse(behind.begin(), behind.end());
+    nodes = std::move(behind);
+    nodes.push_back(peak_);
+    for (HoldNode& node : walk(1, room)) nodes.push_back(std::move(node));
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      const double lo = k > 0 ? place(nodes[k]) - place(nodes[k - 1]) : 0;
+      const double hi = k + 1 < nodes.size() ? place(nodes[k + 1]) - place(nodes[k]) : 0;
+      nodes[k].width = nodes.size() == 1 ? sd_ * std::sqrt(2 * 3.14159265358979) : 0.5 * (lo + hi);
+      nodes[k].covariance(axis_, axis_) += nodes[k].width * nodes[k].width / 12;
+    }
+  }
+
+  /// Whether another optimum lies on the ridge.
+  bool passes(const HeldState& other) const {
+    for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
+      const double at = place(nodes[k]) + offset(nodes[k].state, other, axis_);
+      if (at < place(nodes[k]) || at > place(nodes[k + 1])) continue;
+      const double share = (at - place(nodes[k])) / std::max(place(nodes[k + 1]) - place(nodes[k]), 1e-300);
+      bool is_on = true;
+      for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(fit_.fingers()) && is_on; ++i) {
+        if (i == axis_) continue;
+        const double mean = share * (nodes[k + 1].state.unknowns(i) - nodes[k].state.unknowns(i));
+        is_on = std::abs(offset(nodes[k].state, other, i) - mean) <= std::sqrt(nodes[k].covariance(i, i));
+      }
+      if (is_on) return true;
+    }
+    return false;
+  }
+
+  double offset(const HeldState& from, const HeldState& to, Eigen::Index unknown) const {
+    return boundary_.offset(from.unknowns(unknown), to.unknowns(unknown));
+  }
+
+  std::vector<HoldNode> nodes;
+  /// A peak behind a valley, and log p in the valley.
+  struct Beyond {
+    HeldState state;
+    double valley = 0;
+  };
+  std::vector<Beyond> beyond;
+  const HoldNode& peak() const { return peak_; }
+  bool is_free() const { return is_free_; }
+  int free() const { return free_; }
+
+ private:
+  double place(const HoldNode& node) const { return node.state.unknowns(axis_); }
+
+  HoldNode node_at(const HeldState& state) const {
+    HoldNode node;
+    node.state = state;
+    const Reduced now = fit_.reduced(state);
+    const Eigen::Index rest = fit_.size() - 1;
+    UnknownsMatrix without(rest, rest);
+    Scale scale(rest);
+    for (Eigen::Index i = 0; i < rest; ++i) {
+      const Eigen::Index from = i + (i >= axis_ ? 1 : 0);
+      scale(i) = scale_(from);
+      for (Eigen::Index j = 0; j < rest; ++j) without(i, j) = now.matrix(from, j + (j >= axis_ ? 1 : 0));
+    }
+    const Inverse inverse = inverse_within(without, scale);
+    node.log_density = -0.5 * state.square + now.log_volume - 0.5 * inverse.log_determinant;
+    node.covariance = UnknownsMatrix::Zero(fit_.size(), fit_.size());
+    for (Eigen::Index i = 0; i < rest; ++i) {
+      for (Eigen::Index j = 0; j < rest; ++j) {
+        node.covariance(i + (i >= axis_ ? 1 : 0), j + (j >= axis_ ? 1 : 0)) = inverse.covariance(i, j);
+      }
+    }
+    return node;
+  }
+
+  HoldNode next_to(const HoldNode& from, const HoldNode* before, double step) const {
+    Unknowns unknowns = from.state.unknowns;
+    if (before != nullptr && place(from) != place(*before)) {
+      const double share = step / (place(from) - place(*before));
+      unknowns += std::clamp(share, -2.0, 2.0) * (from.state.unknowns - before->state.unknowns);
+    }
+    unknowns(axis_) = place(from) + step;
+    return node_at(fit_.fit(fit_.at(unknowns, from.state.placed), axis_));
+  }
+
+  std::vector<HoldNode> walk(int direction, double room) {
+    std::vector<HoldNode> found;
+    double step = std::min(kRidgeStep * sd_, most_step_);
+    const double least_step = step / 64;
+    double lowest = peak_.log_density;
+    std::size_t lowest_at = 0;  // nodes up to it
+    while (found.size() < kMostNodes) {
+      beat();
+      const HoldNode& from = found.empty() ? peak_ : found.back();
+      const HoldNode* before = found.empty() ? nullptr : found.size() == 1 ? &peak_ : &found[found.size() - 2];
+      const double gone = std::abs(place(from) - place(peak_));
+      if (gone >= room * (1 - 1e-9)) break;
+      double now = std::min(step, room - gone);
+      HoldNode next = next_to(from, before, direction * now);
+      while (std::abs(next.log_density - from.log_density) > kSteep && now > least_step &&
+             from.log_density > peak_.log_density - kRidgeEnd) {
+        now *= 0.5;
+        next = next_to(from, before, direction * now);
+      }
+      step = now;
+      if (std::abs(next.log_density - from.log_density) < kFlat) step = std::min(1.6 * now, most_step_);
+      if (!std::isfinite(next.log_density)) break;
+      found.push_back(std::move(next));
+      const double log_density = found.back().log_density;
+      if (log_density < peak_.log_density - kRidgeEnd) break;
+      if (log_density < lowest) {
+        lowest = log_density;
+        lowest_at = found.size();
+      } else if (log_density > lowest + kRising) {
+        beyond.push_back({fit_.fit(found.back().state), lowest});
+        found.resize(lowest_at);
+        break;
+      }
+    }
+    return found;
+  }
+
+  const HoldFit& fit_;
+  Boundary boundary_;
+  Scale scale_;
+  Eigen::Index axis_ = 0;
+  double sd_ = 0;
+  double most_step_ = 0;
+  int free_ = 0;
+  bool is_free_ = false;
+  HoldNode peak_;
+};
+
+double log_sum(const std::vector<HoldNode>& nodes) {
+  double most = -std::numeric_limits<double>::infinity();
+  for (const HoldNode& node : nodes) most = std::max(most, node.log_density);
+  double sum = 0;
+  for (const HoldNode& node : nodes) sum += node.width * std::exp(node.log_density - most);
+  return most + std::log(sum);
+}
+
+}  // namespace
+
+bool is_within(const HeldSet& set, const HeldState& state, const Boundary& boundary, double slack) {
+  for (std::size_t k = 0; k < set.extent.size(); ++k) {
+    if (!boundary.contains(set.extent[k], state.unknowns(static_cast<Eigen::Index>(k)), slack)) return false;
+  }
+  return true;
+}
+
+std::vector<HoldMode> modes_about(const HoldFit& fit, const Part& part, std::vector<Optimum> optima,
+                                  const std::vector<HeldSet>& sets) {
+  const Boundary boundary = part.boundary();
+  std::vector<RidgeWalk> walks;
+  std::vector<std::size_t> set_of;
+  std::vector<std::size_t> head;  // of the walks that are one mode
+  const auto find = [&](std::size_t k) {
+    while (head[k] != k) k = head[k];
+    return k;
+  };
+  const auto known = [&](const HeldState& state, std::size_t set) {
+    for (std::size_t k = 0; k < walks.size(); ++k) {
+      const bool is_all = set_of[k] == set && walks[k].is_free() && walks[k].free() > 1;
+      if (is_all || walks[k].passes(state)) return std::optional<std::size_t>(k);
+      double off = 0;
+      for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(fit.fingers()); ++i) {
+        const double sd = std::sqrt(walks[k].peak().covariance(i, i)) + 1e-9 * boundary.perimeter;
+        off = std::max(off, std::abs(walks[k].offset(walks[k].peak().state, state, i)) / sd);
+      }
+      if (off <= kSameOptimum) return std::optional<std::size_t>(k);
+    }
+    return std::optional<std::size_t>();
+  };
+  struct Link {
+    std::size_t from = 0;
+    HeldState to;
+    double valley = 0;
+  };
+  std::vector<Link> links;
+  std::stable_sort(optima.begin(), optima.end(),
+                   [](const Optimum& a, const Optimum& b) { return a.state.cost < b.state.cost; });
+  for (std::size_t next = 0; next < optima.size(); ++next) {
+    const Optimum one = optima[next];  // more may be added
+    if (known(one.state, one.set)) continue;
+    walks.emplace_back(fit, part, sets[one.set], one);
+    walks.back().run();
+    set_of.push_back(one.set);
+    head.push_back(head.size());
+    const std::vector<RidgeWalk::Beyond> beyond = walks.back().beyond;
+    for (const RidgeWalk::Beyond& other : beyond) {
+      links.push_back({walks.size() - 1, other.state, other.valley});
+      optima.push_back({other.state, one.set});
+    }
+  }
+  for (const Link& link : links) {
+    const std::optional<std::size_t> to = known(link.to, sets.size());
+    if (!to) continue;
+    const double lower = std::min(walks[link.from].peak().log_density, walks[*to].peak().log_density);
+    if (link.valley >= lower + std::log(kOneMode)) head[find(*to)] = find(link.from);
+  }
+  std::vector<HoldMode> modes;
+  std::vector<std::size_t> mode_of(walks.size(), walks.size());
+  for (std::size_t k = 0; k < walks.size(); ++k) {
+    const std::size_t top = find(k);
+    if (mode_of[top] == walks.size()) {
+      mode_of[top] = modes.size();
+      modes.emplace_back();
+      modes.back().best = walks[k].peak().state;
+      modes.back().set = set_of[k];
+    }
+    HoldMode& mode = modes[mode_of[top]];
+    if (walks[k].peak().state.cost < mode.best.cost) mode.best = walks[k].peak().state;
+    mode.continuum = mode.continuum || walks[k].is_free();
+    mode.nodes.insert(mode.nodes.end(), walks[k].nodes.begin(), walks[k].nodes.end());
+  }
+  for (HoldMode& mode : modes) mode.log_weight = log_sum(mode.nodes);
+  return modes;
+}
+
+}  // namespace rollfix::hold

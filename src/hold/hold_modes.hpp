@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "hold_fit.hpp"
+
+namespace rollfix::hold {
+
+/// First contacts on a ridge of the posterior, and what is normally distributed about them.
+struct HoldNode {
+  HeldState state;
+  double log_density = 0;  // by the length of the axis, everything else summed over
+  double width = 0;        // of the axis, that it stands for
+  UnknownsMatrix covariance;
+};
+
+/// A connected hump of the posterior.
+struct HoldMode {
+  HeldState best;
+  std::vector<HoldNode> nodes;
+  double log_weight = 0;   // logarithm of its probability but for a constant
+  bool continuum = false;  // some direction is free, as far as its set goes
+  std::size_t set = 0;     // of boxes
+};
+
+/// A set of boxes, as the posterior sees it.
+struct HeldSet {
+  std::vector<Interval> extent;  // of each finger's first contact
+};
+
+/// Where the fits ended, and in which sets.
+struct Optimum {
+  HeldState state;
+  std::size_t set = 0;
+};
+
+/// The posterior's modes about these optima: a ridge is followed along the first contact that is known worst, on each
+/// of its places the rest is taken as normally distributed (Laplace's method).
+std::vector<HoldMode> modes_about(const HoldFit& fit, const Part& part, std::vector<Optimum> optima,
+                                  const std::vector<HeldSet>& sets);
+
+/// Whether first contacts are in a set of boxes, by their extents.
+bool is_within(const HeldSet& set, const HeldState& state, const Boundary& boundary, double slack);
+
+}  // namespace rollfix::hold

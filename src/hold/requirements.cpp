@@ -1,0 +1,88 @@
+#include "requirements.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "box_search.hpp"
+#include "rollfix/belief/belief.hpp"
+#include "rollfix/error.hpp"
+
+namespace rollfix::hold {
+namespace {
+
+[[noreturn]] void refuse(const std::string& what) { throw InputError("fingers on a free part: " + what); }
+
+void require_fingers(const HoldProblem& problem) {
+  const std::size_t count = problem.logs.size();
+  if (count < 2 || count > kMostFingers) {
+    refuse(fmt::format("expected logs of 2 to {} fingers, found {}", kMostFingers, count));
+  }
+  if (problem.fingers.empty()) {
+    refuse(
+        "expected the fingers that rolled, found none; give one that holds for all, as in disk,r=R, or one for each");
+  }
+  if (problem.fingers.size() != 1 && problem.fingers.size() != count) {
+    refuse(fmt::format("expected one finger for all logs, or {}, one for each log, found {}", count,
+                       problem.fingers.size()));
+  }
+  for (const Finger& finger : problem.fingers) rollfix::require_valid(finger);
+}
+
+void require_log(const Log& log) {
+  if (log.fingers.size() != 1) {
+    refuse(fmt::format("{}: expected the log of one finger, found one of two; give each finger its own log", log.name));
+  }
+  if (log.kind != LogKind::contact) {
+    refuse(fmt::format(
+        "{}: expected columns u and psi, which say how the contact's normal points, found lengths and turns",
+        log.name));
+  }
+  if (log.rows() < 2) refuse(fmt::format("{}: expected at least 2 rows, found {}", log.name, log.rows()));
+}
+
+void require_noise(const HoldProblem& problem) {
+  const Noise& noise = *problem.noise;
+  rollfix::require_valid(noise);
+  constexpr std::array<double Noise::*, 5> kTaken = {&Noise::contact, &Noise::angle, &Noise::slip, &Noise::radius,
+                                                     &Noise::position};
+  for (const NoiseKind& kind : kNoiseKinds) {
+    bool is_taken = false;
+    for (double Noise::*const sd : kTaken) is_taken = is_taken || kind.sd == sd;
+    if (is_taken || noise.*kind.sd == 0) continue;
+    refuse(
+        fmt::format("noise of three and more fingers is contact, angle, slip, radius and position, found {}={}; "
+                    "leave it out",
+                    kind.name, noise.*kind.sd));
+  }
+  if (noise.contact <= 0 && noise.angle <= 0) {
+    refuse(
+        "expected a standard deviation of the contact or of the angle above 0, found neither; give noise with "
+        "contact=SD,angle=SD");
+  }
+  if (noise.angle > BeliefOptions::kMostAngle) {
+    refuse(fmt::format("expected an angle's standard deviation of at most {} rad, found {}; degrees are written {}deg",
+                       BeliefOptions::kMostAngle, noise.angle, noise.angle));
+  }
+  if (!problem.at.empty()) refuse("with noise all rows are used, found instants to use; leave `at` out");
+  if (problem.tolerance) refuse("`noise` already says how far rows are off, found `tolerance` as well; leave one out");
+}
+
+}  // namespace
+
+void require_valid(const HoldProblem& problem) {
+  require_fingers(problem);
+  for (const Log& log : problem.logs) require_log(log);
+  if (problem.noise) require_noise(problem);
+  if (!problem.tolerance) return;
+  const TouchTolerance& given = *problem.tolerance;
+  const bool is_valid =
+      std::isfinite(given.length) && given.length >= 0 && std::isfinite(given.angle) && given.angle > 0;
+  if (!is_valid) {
+    refuse(fmt::format("expected a tolerance with an angle above 0 and a length of at least 0, found {} and {}",
+                       given.angle, given.length));
+  }
+}
+
+}  // namespace rollfix::hold

@@ -1,0 +1,378 @@
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "answer_holds.hpp"
+#include "arc_tree.hpp"
+#include "box_search.hpp"
+#include "contact/mirrored.hpp"
+#include "held_rows.hpp"
+#include "hold_fit.hpp"
+#include "hold_modes.hpp"
+#include "requirements.hpp"
+#include "rollfix/hold/hold.hpp"
+#include "rollfix/part/reach.hpp"
+#include "rollfix/pulse.hpp"
+
+// Notation:
+//   box, set        arcs of first contacts, one for each finger; boxes that hang together
+//   witness         first contacts and poses with every residual within its tolerance
+// Follows docs/two_fingers.md, "Three and more fingers".
+namespace rollfix {
+namespace hold {
+namespace {
+
+constexpr std::size_t kStarts = 8;        // places in a set from which a fit starts
+constexpr int kHoldRefinements = 4;       // of sets without a witness, ...
+constexpr double kHoldFiner = 0.25;       // ... each this much finer than the one before
+constexpr std::size_t kMostRows = 512;    // of a posterior; more are averaged
+constexpr double kHopeless = 60;          // a set whose chi-square is so much larger than the best has no probability
+constexpr double kLeastHoldShare = 1e-4;  // a set that is less probable is counted, not listed
+constexpr double kSureShare = 0.95;       // so probable the first answer is the only one
+constexpr double kFreeHold = 0.05;        // of the perimeter: without noise what is confined no better is a continuum
+
+HeldRows chosen_rows(const HeldRows& rows, const std::vector<std::size_t>& chosen) {
+  HeldRows result = rows;
+  result.rows.clear();
+  for (const std::size_t row : chosen) result.rows.push_back(rows.rows[row]);
+  return result;
+}
+
+/// Where each finger can touch: of disks; nullptr for others. Fingers of one radius share it.
+class ReachOfFingers {
+ public:
+  explicit ReachOfFingers(const HoldProblem& problem) {
+    for (std::size_t k = 0; k < problem.logs.size(); ++k) {
+      const Finger& finger = problem.fingers[problem.fingers.size() == 1 ? 0 : k];
+      if (!finger.is_disk()) {
+        each.push_back(nullptr);
+        continue;
+      }
+      const double radius = finger.disk()->radius;
+      const auto known = reaches_.find(radius);
+      const auto& reach = known != reaches_.end()
+                              ? known->second
+                              : reaches_[radius] = std::make_unique<Reach>(reach_of_disk(problem.part, radius));
+      each.push_back(reach.get());
+    }
+  }
+  std::vector<const Reach*> each;
+
+ private:
+  std::map<double, std::unique_ptr<Reach>> reaches_;
+};
+
+/// Boxes that hang together, with what was found in them.
+struct FoundSet {
+  std::vector<Box> boxes;
+  HeldSet set;
+};
+
+class HoldSolver {
+ public:
+  HoldSolver(const HoldProblem& problem, const std::vector<Log>& logs, HoldAnswer& answer)
+      : problem_(problem),
+        answer_(answer),
+        boundary_(problem.part.boundary()),
+        rows_(held_rows(problem, logs)),
+        instants_(rows_to_search(problem, logs.front())),
+        searched_(chosen_rows(rows_, sorted(instants_))),
+        part_(problem.part),
+        reach_(problem),
+        search_(part_, rows_, instants_, reach_.each, problem.budget.value_or(kHoldBudget)) {}
+
+  void run() {
+    for (const std::size_t row : sorted(instants_)) answer_.instants.push_back(rows_.rows[row].time);
+    if (!rows_.any_place) answer_.place = PlaceKnown::unknown;
+    Boxes boxes = search_.search();
+    if (rows_.has_noise) {
+      weigh(sets(boxes.fit));
+      add_unresolved(boxes.undecided);
+    } else {
+      look_for_witnesses(std::move(boxes));
+    }
+    answer_.comparisons = search_.comparisons();
+    conclude();
+  }
+
+ private:
+  static std::vector<std::size_t> sorted(std::vector<std::size_t> rows) {
+    std::sort(rows.begin(), rows.end());
+    return rows;
+  }
+
+  std::vector<FoundSet> sets(const std::vector<Box>& boxes) {
+    std::vector<FoundSet> found;
+    for (std::vector<Box>& own : sets_of(search_, boxes, boundary_)) {
+      FoundSet one{std::move(own), {}};
+      for (std::size_t k = 0; k < search_.fingers(); ++k) {
+        one.set.extent.push_back(extent_of(search_, one.boxes, k, boundary_));
+      }
+      found.push_back(std::move(one));
+    }
+    return found;
+  }
+
+  /// The middle of one of a set's boxes, `look` of `looks` through it.
+  std::vector<double> start_in(const FoundSet& found, std::size_t look, std::size_t looks) {
+    const Box& box = found.boxes[(2 * look + 1) * found.boxes.size() / (2 * looks)];
+    std::vector<double> start;
+    for (std::size_t k = 0; k < search_.fingers(); ++k) start.push_back(search_.tree(k).arc(box[k]).middle());
+    return start;
+  }
+
+  // ---- without noise ----
+
+  /// In every set first contacts that fit at all instants; sets without are cut smaller, until they are gone or told.
+  void look_for_witnesses(Boxes boxes) {
+    double leaf = BoxSearch::kLeaf;
+    HoldFit fit(problem_.part, searched_);
+    std::vector<Box> undecided = std::move(boxes.undecided);
+    for (int round = 0; round <= kHoldRefinements && !boxes.fit.empty(); ++round) {
+      std::vector<Box> left;
+      for (const FoundSet& found : sets(boxes.fit)) {
+        if (!add_witness(fit, found)) left.insert(left.end(), found.boxes.begin(), found.boxes.end());
+      }
+      boxes.fit = std::move(left);
+      if (round == kHoldRefinements || boxes.fit.empty()) break;
+      leaf *= kHoldFiner;
+      boxes = search_.search(std::move(boxes.fit), leaf);
+      undecided.insert(undecided.end(), boxes.undecided.begin(), boxes.undecided.end());
+    }
+    undecided.insert(undecided.end(), boxes.fit.begin(), boxes.fit.end());
+    add_unresolved(undecided);
+    std::sort(answer_.placements.begin(), answer_.placements.end(),
+              [](const HoldPlacement& a, const HoldPlacement& b) { return a.contacts[0].start < b.contacts[0].start; });
+  }
+
+  bool add_witness(HoldFit& fit, const FoundSet& found) {
+    const std::size_t looks = std::min(found.boxes.size(), kStarts);
+    for (std::size_t look = 0; look < looks; ++look) {
+      const HeldState state = fit.best_worst(fit.at(start_in(found, look, looks)));
+      if (fit.worst(state) > 1) continue;
+      // A fit may have ended in another set, which has its own.
+      if (!is_within(found.set, state, boundary_, 0)) continue;
+      HoldPlacement placement = described(fit, problem_.part, state, found.set.extent);
+      placement.continuum = is_free(fit, state, found.set);
+      answer_.placements.push_back(std::move(placement));
+      return true;
+    }
+    return false;
+  }
+
+  /// Whether the instants confine the first contacts no better than to a large share of the boundary.
+  bool is_free(const HoldFit& fit, const HeldState& state, const HeldSet& set) const {
+    double widest = 0;
+    for (const Interval& arc : set.extent) widest = std::max(widest, arc.width());
+    const UnknownsMatrix information = fit.reduced(state).matrix;
+    const double weakest = Eigen::SelfAdjointEigenSolver<UnknownsMatrix>(information).eigenvalues()(0);
+    const double confined = kFreeHold * boundary_.perimeter;
+    return widest > 1e-3 * boundary_.perimeter && !(weakest > 1 / (confined * confined));
+  }
+
+  // ---- with noise ----
+
+  void weigh(const std::vector<FoundSet>& found) {
+    const HeldRows all = averaged(rows_, kMostRows);
+    const HoldFit few(problem_.part, searched_);
+    const HoldFit fit(problem_.part, all);
+    std::vector<HeldSet> known;
+    for (const FoundSet& one : found) known.push_back(one.set);
+    const std::vector<Optimum> optima = best_of(found, few, fit);
+    std::vector<HoldMode> modes = modes_about(fit, problem_.part, optima, known);
+    if (modes.empty()) return;
+    double most = modes.front().log_weight;
+    for (const HoldMode& mode : modes) most = std::max(most, mode.log_weight);
+    double sum = 0;
+    for (const HoldMode& mode : modes) sum += std::exp(mode.log_weight - most);
+    answer_.improbable = found.size() - std::min(found.size(), modes.size());
+    for (const HoldMode& mode : modes) {
+      const double probability = std::exp(mode.log_weight - most) / sum;
+      if (probability < kLeastHoldShare) {
+        ++answer_.improbable;
+        answer_.rest += probability;
+        continue;
+      }
+      HoldPlacement placement = described(fit, problem_.part, mode.best, known[mode.set].extent);
+      add_posterior(placement, fit, problem_.part, mode);
+      placement.probability = probability;
+      const TouchFit one = fit_of(fit, mode.best);
+      if (!answer_.fit || one.p > answer_.fit->p) answer_.fit = one;
+      answer_.placements.push_back(std::move(placement));
+    }
+    std::stable_sort(answer_.placements.begin(), answer_.placements.end(),
+                     [](const HoldPlacement& a, const HoldPlacement& b) { return a.probability > b.probability; });
+  }
+
+  /// The best first contacts near some places of each set, by all rows. Few rows come first: all of them fit no better.
+  std::vector<Optimum> best_of(const std::vector<FoundSet>& found, const HoldFit& few, const HoldFit& fit) {
+    std::vector<Optimum> rough;
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      const std::size_t looks = std::min(found[k].boxes.size(), kStarts);
+      for (std::size_t look = 0; look < looks; ++look) {
+        rough.push_back({few.fit(few.at(start_in(found[k], look, looks))), k});
+      }
+    }
+    std::stable_sort(rough.begin(), rough.end(),
+                     [](const Optimum& a, const Optimum& b) { return a.state.cost < b.state.cost; });
+    std::vector<Optimum> optima;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Optimum& one : rough) {
+      if (one.state.cost > least + kHopeless) break;
+      const bool is_new = std::none_of(optima.begin(), optima.end(), [&](const Optimum& other) {
+        return other.set == one.set && are_alike(other.state, one.state, fit);
+      });
+      if (!is_new) continue;
+      HeldState state = fit.fit(fit.at(one.state.unknowns, std::vector<Placed>(fit.rows().rows.size())));
+      const std::size_t set = set_with(found, state, one.set);
+      if (set == found.size()) continue;
+      least = std::min(least, state.cost);
+      optima.push_back({std::move(state), set});
+    }
+    std::erase_if(optima, [&](const Optimum& one) { return one.state.cost > least + kHopeless; });
+    return optima;
+  }
+
+  /// Nearer to each other than contacts are measured.
+  bool are_alike(const HeldState& one, const HeldState& other, const HoldFit& fit) const {
+    for (std::size_t k = 0; k < fit.fingers(); ++k) {
+      const auto i = static_cast<Eigen::Index>(k);
+      const double off = std::abs(boundary_.offset(one.unknowns(i), other.unknowns(i)));
+      if (off > 0.1 * fit.rows().errors[k].travel + 1e-9 * boundary_.perimeter) return false;
+    }
+    return true;
+  }
+
+  /// The set that holds a state, first of all this one; as many as there are: none.
+  std::size_t set_with(const std::vector<FoundSet>& found, const HeldState& state, std::size_t first) const {
+    double slack = 0;
+    for (const HeldErrors& errors : rows_.errors) slack = std::max(slack, errors.travel);
+    if (is_within(found[first].set, state, boundary_, slack)) return first;
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      if (is_within(found[k].set, state, boundary_, slack)) return k;
+    }
+    return found.size();
+  }
+
+  // ---- both ----
+
+  void add_unresolved(const std::vector<Box>& boxes) {
+    if (boxes.empty()) return;
+    for (const FoundSet& one : sets(boxes)) answer_.unresolved.push_back(one.set.extent);
+  }
+
+  void conclude() {
+    Verdict& verdict = answer_.verdict;
+    verdict.name = Verdict::inconsistent;
+    verdict.fits_badly = answer_.fit && answer_.fit->is_bad();
+    const std::vector<HoldPlacement>& placements = answer_.placements;
+    if (!answer_.unresolved.empty()) {
+      answer_.status = Status::incomplete;
+      verdict.name = Verdict::undecided;
+      return;
+    }
+    if (placements.empty()) return;
+    const bool is_sure = placements.size() == 1 || placements.front().probability >= kSureShare;
+    verdict.places = is_sure ? 1 : placements.size();
+    verdict.stretches = 0;
+    for (std::size_t k = 0; k < verdict.places; ++k) verdict.stretches += placements[k].continuum ? 1 : 0;
+    const bool is_anywhere =
+        is_sure && std::any_of(placements.front().contacts.begin(), placements.front().contacts.end(),
+                               [&](const HoldContact& contact) { return boundary_.is_full(contact.extent); });
+    if (is_anywhere && verdict.stretches > 0) {
+      verdict = {Verdict::unobservable, 0, 0, verdict.fits_badly};
+    } else if (is_sure && verdict.stretches == 0) {
+      verdict = {Verdict::unique, 0, 0, verdict.fits_badly};
+    } else {
+      verdict.name = Verdict::ambiguous;
+    }
+  }
+
+  const HoldProblem& problem_;
+  HoldAnswer& answer_;
+  Boundary boundary_;
+  HeldRows rows_;
+  std::vector<std::size_t> instants_;
+  HeldRows searched_;
+  HeldPart part_;
+  ReachOfFingers reach_;
+  BoxSearch search_;
+};
+
+HoldRoll roll_of(const HoldProblem& problem, const Log& log, std::size_t k) {
+  const FingerRows& rows = log.fingers.front();
+  const Finger& finger = problem.fingers[problem.fingers.size() == 1 ? 0 : k];
+  const std::vector<Contact> contacts = contacts_of(rows, finger);
+  HoldRoll roll;
+  roll.name = log.name;
+  if (!rows.line.empty()) roll.lines = {rows.line.front(), rows.line.back()};
+  roll.length = reading_between(finger, contacts.front(), contacts.back()).length[0];
+  roll.has_centre = !rows.x.empty();
+  for (std::size_t row = 0; row < rows.x.size(); ++row) roll.track.emplace_back(rows.x[row], rows.y[row]);
+  if (finger.is_disk()) roll.radius = finger.disk()->radius;
+  return roll;
+}
+
+/// The problem as a mirror shows it: x has the other sign.
+HoldProblem in_mirror(const HoldProblem& problem, std::vector<Log>& logs) {
+  HoldProblem result = problem;
+  for (std::size_t k = 0; k < logs.size(); ++k) {
+    mirror(logs[k].fingers.front(), &problem.fingers[problem.fingers.size() == 1 ? 0 : k]);
+  }
+  for (Finger& finger : result.fingers) finger = rollfix::mirrored(finger);
+  return result;
+}
+
+void out_of_mirror(HoldAnswer& answer) {
+  const Eigen::Vector3d signs(-1, 1, -1);
+  for (HoldPlacement& placement : answer.placements) {
+    for (Pose* pose : {&placement.first, &placement.last, &placement.first_spread.mean, &placement.last_spread.mean}) {
+      *pose = {-pose->x, pose->y, -pose->heading};
+    }
+    for (PoseSpread* spread : {&placement.first_spread, &placement.last_spread}) {
+      spread->covariance = Eigen::Matrix3d(signs.asDiagonal() * spread->covariance * signs.asDiagonal());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hold
+
+HoldAnswer solve(const HoldProblem& problem) {
+  hold::require_valid(problem);
+  const Doing doing("looking for places that fit all fingers");
+  std::vector<Log> logs;
+  for (std::size_t k = 0; k < problem.logs.size(); ++k) {
+    const Finger& finger = problem.fingers[problem.fingers.size() == 1 ? 0 : k];
+    logs.push_back(in_unit(problem.logs[k], problem.part.unit(), {finger}));
+  }
+  logs = hold::aligned(std::move(logs));
+  HoldAnswer answer{problem.part, {}};
+  for (std::size_t k = 0; k < logs.size(); ++k) answer.rolls.push_back(hold::roll_of(problem, logs[k], k));
+  answer.rows = logs.front().rows();
+  answer.noise = problem.noise;
+  answer.mirrored = problem.mirrored;
+  const HoldProblem seen = problem.mirrored ? hold::in_mirror(problem, logs) : problem;
+  if (!problem.noise) {
+    for (const hold::HeldErrors& errors : hold::held_rows(seen, logs).errors) {
+      answer.tolerance.length = std::max(answer.tolerance.length, errors.has_place ? errors.place : 0);
+      answer.tolerance.angle = std::max(answer.tolerance.angle, errors.angle);
+    }
+  }
+  hold::HoldSolver(seen, logs, answer).run();
+  if (problem.mirrored) hold::out_of_mirror(answer);
+  return answer;
+}
+
+std::string HoldAnswer::verdict_text() const {
+  Verdict plain = verdict;
+  plain.fits_badly = false;
+  const bool is_said = verdict.fits_badly && verdict.name != Verdict::inconsistent;
+  return plain.text() + (is_said ? ", but the measurements contradict the stated noise" : "");
+}
+
+}  // namespace rollfix
