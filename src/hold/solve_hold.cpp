@@ -27,6 +27,7 @@ namespace hold {
 namespace {
 
 constexpr std::size_t kStarts = 8;        // places in a set from which a fit starts
+constexpr std::size_t kLooks = 1200;      // at places of all sets, to choose from where to start
 constexpr int kHoldRefinements = 4;       // of sets without a witness, ...
 constexpr double kHoldFiner = 0.25;       // ... each this much finer than the one before
 constexpr std::size_t kMostRows = 512;    // of a posterior; more are averaged
@@ -212,10 +213,7 @@ class HoldSolver {
   std::vector<Optimum> best_of(const std::vector<FoundSet>& found, const HoldFit& few, const HoldFit& fit) {
     std::vector<Optimum> rough;
     for (std::size_t k = 0; k < found.size(); ++k) {
-      const std::size_t looks = std::min(found[k].boxes.size(), kStarts);
-      for (std::size_t look = 0; look < looks; ++look) {
-        rough.push_back({few.fit(few.at(start_in(found[k], look, looks))), k});
-      }
+      for (const HeldState& start : starts_in(found[k], found.size(), few)) rough.push_back({few.fit(start), k});
     }
     std::stable_sort(rough.begin(), rough.end(),
                      [](const Optimum& a, const Optimum& b) { return a.state.cost < b.state.cost; });
@@ -235,6 +233,22 @@ class HoldSolver {
     }
     std::erase_if(optima, [&](const Optimum& one) { return one.state.cost > least + kHopeless; });
     return optima;
+  }
+
+  /// Of many places all over a set those that fit best as they are, and some that are spread evenly.
+  std::vector<HeldState> starts_in(const FoundSet& found, std::size_t sets, const HoldFit& few) {
+    const std::size_t looks = std::min(found.boxes.size(), std::max(kStarts, kLooks / sets));
+    std::vector<HeldState> states;
+    for (std::size_t look = 0; look < looks; ++look) states.push_back(few.at(start_in(found, look, looks)));
+    std::vector<HeldState> starts;
+    for (std::size_t k = 0; k < states.size(); k += std::max<std::size_t>(1, states.size() / kStarts)) {
+      starts.push_back(states[k]);
+    }
+    std::stable_sort(states.begin(), states.end(),
+                     [](const HeldState& a, const HeldState& b) { return a.cost < b.cost; });
+    states.resize(std::min(states.size(), kStarts));
+    starts.insert(starts.end(), states.begin(), states.end());
+    return starts;
   }
 
   /// Nearer to each other than contacts are measured.

@@ -104,6 +104,10 @@ inline bool is_free_way(const Part& part, const Way& way, double length, double 
                         const std::vector<Vec2>& boundary) {
   constexpr int kPlaces = 40;
   constexpr double kLarger = 1.05;
+  const double from = std::min(way.at(0).s, way.at(length).s), to = std::max(way.at(0).s, way.at(length).s);
+  for (const Corner& corner : part.corners()) {
+    if (corner.turn < 0 && part.boundary().contains({from, to}, corner.s, 2 * radius)) return false;
+  }
   for (int k = 0; k <= kPlaces; ++k) {
     const OnWay at = way.at(length * k / kPlaces);
     if (!part.closed() && (at.s < 0 || at.s > part.perimeter())) return false;
