@@ -136,7 +136,7 @@ TEST(CliTwoFingers, fingers_are_as_many_as_are_given_and_two_at_most) {
   EXPECT_THAT(refusal_of([] {
                 read_fingers({"disk,r=1", "disk,r=1", "disk,r=1"}, 2, "");
               }),
-              HasSubstr("at most two fingers"));
+              HasSubstr("expected at most 2, one for each finger"));
 }
 
 TEST(CliTwoFingers, poses_are_lists_in_json) {

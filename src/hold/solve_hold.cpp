@@ -342,6 +342,7 @@ HoldProblem in_mirror(const HoldProblem& problem, std::vector<Log>& logs) {
 }
 
 void out_of_mirror(HoldAnswer& answer) {
+  for (HoldRoll& roll : answer.rolls) roll.length = -roll.length;  // along the outline as it is stored
   const Eigen::Vector3d signs(-1, 1, -1);
   for (HoldPlacement& placement : answer.placements) {
     for (Pose* pose : {&placement.first, &placement.last, &placement.first_spread.mean, &placement.last_spread.mean}) {

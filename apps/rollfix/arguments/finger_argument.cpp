@@ -81,7 +81,8 @@ void add_finger_argument(CLI::App& command, std::vector<std::string>& fingers) {
       .add_option(
           "--finger", fingers,
           "the finger: disk,r=RADIUS, in the part's unit or with a unit as in r=8mm; jaw, a flat one; or the file of "
-          "a convex outline, with ,open behind it if it is open; for two fingers once, or twice if they differ")
+          "a convex outline, with ,open behind it if it is open; for several fingers once, or once for each if they "
+          "differ")
       ->type_name("FINGER")
       ->allow_extra_args(false);
 }
@@ -91,7 +92,8 @@ std::vector<Finger> read_fingers(const std::vector<std::string>& fingers, std::s
     throw InputError("--finger is given twice, which is two fingers, and the rest is about one; leave one out");
   }
   if (fingers.size() > most) {
-    throw InputError(fmt::format("--finger is given {} times, expected at most two fingers", fingers.size()));
+    throw InputError(
+        fmt::format("--finger is given {} times, expected at most {}, one for each finger", fingers.size(), most));
   }
   std::vector<Finger> read;
   for (const std::string& text : fingers) read.push_back(read_any(text, unit));

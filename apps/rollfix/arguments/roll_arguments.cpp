@@ -90,8 +90,10 @@ std::vector<double> read_instants(const std::string& text) {
 
 Log read_both_logs(const std::vector<std::string>& paths, const LogOptions& options) {
   if (paths.size() == 2) return read_log(paths.front(), paths.back(), options);
-  throw InputError(
-      fmt::format("--log is given {} times, expected one log, or one of each of two fingers", paths.size()));
+  throw InputError(fmt::format(
+      "--log is given {} times, expected one log, or one of each of two fingers; three and more fingers are "
+      "taken by `rollfix locate` alone",
+      paths.size()));
 }
 
 double read_sd(std::string_view value, NoiseKind::Unit unit, const std::string& what) {
@@ -172,7 +174,10 @@ void add_log_notes(const Log& log, std::vector<std::string>& notes) {
 }
 
 void add_log_arguments(CLI::App& command, std::vector<std::string>& logs, std::string& roll, LogArguments& reading) {
-  command.add_option("--log", logs, "a tactile log, - for stdin; for two fingers one file or two")
+  command
+      .add_option(
+          "--log", logs,
+          "a tactile log, - for stdin; for two fingers one file or two; `locate` takes one of each of three to eight")
       ->type_name("FILE")
       ->allow_extra_args(false);
   command

@@ -19,6 +19,7 @@
 #include "rollfix/locate/batch.hpp"
 #include "rollfix/locate/certificate.hpp"
 #include "rollfix/locate/locate_by_march.hpp"
+#include "rollfix/locate/locate_hold.hpp"
 #include "rollfix/locate/locate_rolls.hpp"
 #include "rollfix/locate/locate_touches.hpp"
 #include "rollfix/locate/map_points.hpp"
@@ -46,6 +47,8 @@ Two fingers on a part that is free to move:
   rollfix locate gallery:cam --reading 1.5,-0.8,110.97000deg --facing -142.40990deg
   rollfix simulate gallery:cam --finger disk,r=0.2 --start 1 --start 4 --length 1.5 --length -0.8 -o cam-rolls.csv
   rollfix locate gallery:cam --log cam-rolls.csv --finger disk,r=0.2 -o cam-pairs.svg
+Three and more fingers on a part that is free to move, a log of each with the same times:
+  rollfix locate part.dxf --log a.csv --log b.csv --log c.csv --finger disk,r=5mm --noise contact=0.05,angle=0.3deg,position=0.05
 )";
 
 struct LocateArguments {
@@ -129,6 +132,21 @@ Report poses_report(const LocateArguments& arguments, bool has_rolls) {
                    : locate_touches(arguments.touches, arguments.roll, output);
 }
 
+/// What three and more fingers have no use for.
+Report hold_report(const LocateArguments& arguments) {
+  const auto refuse = [&](bool given, const char* option) {
+    if (given) throw InputError(fmt::format("{}: is of one or two fingers; leave it out", option));
+  };
+  refuse(!arguments.maps.empty(), "--map");
+  refuse(!arguments.certificate.empty(), "--certify");
+  refuse(arguments.march.march, "--march");
+  refuse(arguments.detail.explain, "--explain");
+  if (!arguments.touches.empty()) {
+    throw InputError("--touch and --log of rolls share a pose of a part at rest with --roll all: add it");
+  }
+  return locate_hold(arguments.roll, {arguments.output, arguments.json, arguments.detail.verbose});
+}
+
 /// What a batch has no use for.
 void require_batch(const LocateArguments& arguments) {
   const auto refuse = [](bool given, const char* option) {
@@ -154,6 +172,7 @@ Report locate_report(const LocateArguments& arguments, std::ostream& out) {
     require_batch(arguments);
     return locate_batch(arguments.roll, arguments.batch, arguments.detail.explain, out);
   }
+  if (are_many_fingers(arguments.roll)) return hold_report(arguments);
   if (are_touches(arguments.touches, arguments.roll)) return poses_report(arguments, false);
   require_sensible(arguments);
   const OutputArgument& output = arguments.output;

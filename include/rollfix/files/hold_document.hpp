@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "rollfix/files/documents.hpp"
+#include "rollfix/hold/hold.hpp"
+
+namespace rollfix {
+
+/// "rollfix/locate/1" of three and more fingers: docs/json.md lists its fields.
+std::string format_hold(const HoldAnswer& answer, Layout layout = Layout::lines);
+
+}  // namespace rollfix

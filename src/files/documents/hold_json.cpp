@@ -1,0 +1,108 @@
+#include <array>
+#include <cmath>
+
+#include "documents.hpp"
+#include "rollfix/files/hold_document.hpp"
+
+namespace rollfix {
+namespace {
+
+template <class Entries, class ToJson>
+Json held_list(const Entries& entries, const ToJson& to_json) {
+  Json list = Json::array();
+  for (const auto& entry : entries) list.push_back(to_json(entry));
+  return list;
+}
+
+/// x and y are null where nothing tells them.
+Json held_pose(const Pose& pose, PlaceKnown place) {
+  if (place == PlaceKnown::unknown) return Json::array({nullptr, nullptr, json_number(pose.heading)});
+  return json_numbers(std::array<double, 3>{pose.x, pose.y, pose.heading});
+}
+
+Json covariance_json(const Eigen::Matrix3d& covariance, PlaceKnown place) {
+  Json rows = Json::array();
+  for (int i = 0; i < 3; ++i) {
+    Json row = Json::array();
+    for (int j = 0; j < 3; ++j) {
+      const bool is_known = place == PlaceKnown::measured || (i == 2 && j == 2);
+      row.push_back(is_known ? json_number(covariance(i, j)) : Json(nullptr));
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+Json held_json(const HoldPlacement& one, const HoldAnswer& answer) {
+  const auto each = [&](const auto& value) { return held_list(one.contacts, value); };
+  Json json = {
+      {"kind", one.continuum ? "continuum" : "place"},
+      {"start", each([](const HoldContact& contact) { return json_number(contact.start); })},
+      {"end", each([](const HoldContact& contact) { return json_number(contact.end); })},
+      {"extent", each([](const HoldContact& contact) { return json_interval(contact.extent); })},
+      {"point", each([](const HoldContact& contact) { return point_json(contact.point); })},
+      {"tangent", each([](const HoldContact& contact) { return json_number(contact.tangent); })},
+      {"pose", Json::array({held_pose(one.first, answer.place), held_pose(one.last, answer.place)})},
+      {"distance", each([](const HoldContact& contact) { return json_number(contact.distance); })},
+      {"turn", each([](const HoldContact& contact) { return json_number(contact.turn); })},
+      {"pose_residual", {{"length", json_number(one.residual.length)}, {"turn", json_number(one.residual.turn)}}},
+      {"worst", answer.noise ? Json(nullptr) : json_number(one.worst)},
+      {"probability", json_number(one.probability)}};
+  if (!answer.noise) return json;
+  json["chi_square"] = json_number(one.chi_square);
+  json["mean"] = each([](const HoldContact& contact) { return json_number(contact.mean); });
+  json["sd"] = each([](const HoldContact& contact) { return json_number(contact.sd); });
+  json["interval"] = each([](const HoldContact& contact) { return json_interval(contact.interval); });
+  json["end_mean"] = each([](const HoldContact& contact) { return json_number(contact.end_mean); });
+  json["end_sd"] = each([](const HoldContact& contact) { return json_number(contact.end_sd); });
+  json["pose_mean"] = held_pose(one.first_spread.mean, answer.place);
+  json["pose_covariance"] = covariance_json(one.first_spread.covariance, answer.place);
+  json["end_pose_mean"] = held_pose(one.last_spread.mean, answer.place);
+  json["end_pose_covariance"] = covariance_json(one.last_spread.covariance, answer.place);
+  return json;
+}
+
+Json held_roll_json(const HoldRoll& roll) {
+  return {{"name", roll.name},
+          {"lines", roll.lines.empty() ? Json(nullptr) : Json(roll.lines)},
+          {"length", json_number(roll.length)},
+          {"centres", roll.has_centre}};
+}
+
+}  // namespace
+
+std::string format_hold(const HoldAnswer& answer, Layout layout) {
+  const char* const place = answer.place == PlaceKnown::measured    ? "measured"
+                            : answer.place == PlaceKnown::reference ? "reference"
+                                                                    : "unknown";
+  Json document = {{"schema", "rollfix/locate/1"},
+                   {"status", name_of(answer.status)},
+                   {"verdict", answer.verdict_text()},
+                   {"part", part_json(answer.part)},
+                   {"fingers", answer.rolls.size()},
+                   {"mirrored", answer.mirrored},
+                   {"rolls", held_list(answer.rolls, held_roll_json)},
+                   {"rows", answer.rows},
+                   {"instants", json_numbers(answer.instants)},
+                   {"place", place}};
+  document["placements"] =
+      held_list(answer.placements, [&](const HoldPlacement& one) { return held_json(one, answer); });
+  document["dropped"] = answer.noise ? Json{{"improbable", answer.improbable}} : Json::object();
+  document["unresolved"] =
+      held_list(answer.unresolved, [](const auto& arcs) { return held_list(arcs, json_interval); });
+  document["counts"] = {{"comparisons", answer.comparisons}};
+  document["noise"] = answer.noise ? noise_json(*answer.noise) : Json(nullptr);
+  if (answer.noise) document["rest"] = json_number(answer.rest);
+  if (!answer.noise) {
+    document["tolerance"] =
+        Json::array({answer.place == PlaceKnown::measured ? json_number(answer.tolerance.length) : Json(nullptr),
+                     json_number(answer.tolerance.angle)});
+  }
+  document["fit"] = answer.fit ? Json{{"chi_square", json_number(answer.fit->chi_square)},
+                                      {"freedom", answer.fit->freedom},
+                                      {"p", json_number(answer.fit->p)}}
+                               : Json(nullptr);
+  return layout == Layout::lines ? json_text(document) : json_line(document);
+}
+
+}  // namespace rollfix
