@@ -7,10 +7,12 @@
 #include "part/turning_range.hpp"
 
 // Notation:
-//   J, c            a corner's turn and its place
-//   d = (s - c)/sd  how far s is past it, in standard deviations; Phi, phi the normal distribution and its density
-// Idea: over s + n, n ~ N(0, sd), Theta is on average what it is without the corner and J Phi(d) more; the variance is
-// J^2 Phi(d) (1 - Phi(d)). Elsewhere Theta is straight over so short a way.
+//   J, c            a corner's turn and its place; r: `pivot`
+//   d = (s - c)/sd  how far s is past it, in standard deviations: `d`; Phi(d): `behind`, its density phi(d): `bell`
+//   Phi(-d), Phi(d), (r J / sd) phi(d)   how likely a contact that was felt at s is before, behind and at the corner:
+//                   a finger whose centre goes evenly stays at it for r J; `at` is the last
+// Idea: before it Theta is lower by J than behind, and at it anything between alike. Elsewhere Theta is straight over
+// so short a way. docs/two_fingers.md, "The errors".
 namespace rollfix::hold {
 namespace {
 
@@ -31,17 +33,22 @@ BlurredPlace plain(const Part& part, double s) {
 
 }  // namespace
 
-BlurredPlace blurred(const Part& part, double s, double sd) {
+BlurredPlace blurred(const Part& part, double s, double sd, double pivot) {
   BlurredPlace place = plain(part, s);
   const Boundary boundary = part.boundary();
   for (const Corner& corner : part.corners()) {
     const double past = boundary.offset(corner.s, s);
     if (std::abs(past) > kBlurReach * sd) continue;
     const double d = past / sd;
-    const double share = 0.5 * std::erfc(-d / std::numbers::sqrt2);
-    place.angle += corner.turn * (share - (past >= 0 ? 1 : 0));
-    place.bend += corner.turn * std::exp(-0.5 * d * d) / (std::sqrt(2 * std::numbers::pi) * sd);
-    place.variance += corner.turn * corner.turn * share * (1 - share);
+    const double bell = std::exp(-0.5 * d * d) / std::sqrt(2 * std::numbers::pi);
+    const double behind = 0.5 * std::erfc(-d / std::numbers::sqrt2);
+    const double at = std::max(0.0, corner.turn) * pivot / sd * bell;
+    const double all = 1 + at;
+    const double mean = (behind + 0.5 * at) / all;
+    place.angle += corner.turn * (mean - (past >= 0 ? 1 : 0));
+    place.bend += corner.turn * (bell - 0.5 * d * at + mean * d * at) / (all * sd);
+    place.variance += corner.turn * corner.turn * ((behind + at / 3) / all - mean * mean);
+    if (corner.turn > 0) place.pivoting += at / all * (1 - std::sin(corner.turn) / corner.turn);
   }
   return place;
 }

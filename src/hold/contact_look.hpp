@@ -15,11 +15,14 @@ struct BlurredPlace {
   double bend = 0;              // its derivative by s, corners included
   double curvature = 0;         // without corners
   double variance = 0;          // of Theta, by corners
+  double pivoting = 0;          // how probable it is that the finger pivots at a corner there, times how far the ...
+                                // ... finger's own tangent is then off the side's: of a square, per coordinate
   double half_turn = 0;         // without blur: Theta is within this of `angle`
 };
 
-/// Theta on average over a normal distribution about s.
-BlurredPlace blurred(const Part& part, double s, double sd);
+/// Theta on average over a normal distribution about s. `pivot`: the length that a radian of pivoting counts as, of a
+/// disk its radius: its centre goes as far about a corner.
+BlurredPlace blurred(const Part& part, double s, double sd, double pivot);
 
 /// Theta's range within `reach` of s: for measurements that are exact but for their digits.
 BlurredPlace ranged(const Part& part, double s, double reach);

@@ -140,9 +140,11 @@ HeldRows held_rows(const HoldProblem& problem, const std::vector<Log>& logs) {
                                                       problem.part.perimeter())
                                         : errors_by_digits(problem, logs[k], finger));
     held.any_place = held.any_place || held.errors.back().has_place;
+    if (has_centre && !held.reference) held.reference = k;
     add_contacts(logs[k], finger, held);
     count_alike(k, held);
   }
+  if (held.any_place) held.reference.reset();
   return held;
 }
 

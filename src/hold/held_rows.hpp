@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "rollfix/hold/hold.hpp"
@@ -39,6 +40,7 @@ struct HeldRows {
   std::vector<HeldErrors> errors;  // of each finger
   bool has_noise = false;
   bool any_place = false;
+  std::optional<std::size_t> reference{};  // without any: the finger whose x and y only say where the part is
 
   std::size_t fingers() const { return errors.size(); }
 };

@@ -29,9 +29,10 @@ constexpr double kMostFitDamping = 1e10;
 constexpr double kFitSettled = 1e-9;  // a step that gains no more than this share, and this much, is the last
 constexpr int kPoseRounds = 12;       // of one row's pose alone
 constexpr double kPoseSettled = 1e-11;
-constexpr int kWorstRounds = 25;     // of weighting up what is worst (Lawson's method)
-constexpr double kLeastBlur = 1e-7;  // of the perimeter, where contacts are exact
-constexpr double kRidge = 1e-12;     // keeps what nothing determines where it is
+constexpr double kLeastShare = 1e-3;  // of a step of it
+constexpr int kWorstRounds = 25;      // of weighting up what is worst (Lawson's method)
+constexpr double kLeastBlur = 1e-7;   // of the perimeter, where contacts are exact
+constexpr double kRidge = 1e-12;      // keeps what nothing determines where it is
 
 using RowBlock = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 2 * kMostFingers>;
 
@@ -47,7 +48,7 @@ struct HoldFit::Look {
   double blur_size = 0;                                   // of it what corners add
   double angles = 1;                                      // numbers that the angle counts as
   double curvature = 0;
-  double turn_variance = 0;  // of r without n
+  double turn_variance = 0;  // of r without n, with what a corner adds
 };
 
 struct HoldFit::RowEquations {
@@ -82,11 +83,17 @@ double HoldFit::place_of(const HeldState& state, std::size_t row, std::size_t fi
   return state.unknowns(k) + rows_.rows[row].contacts[finger].travelled / (1 + stretch);
 }
 
+/// Of a flat finger, and of one that is larger, as if it were as large as the part.
+double HoldFit::pivot_length(const HeldContact& contact) const {
+  return 1 / std::max(contact.finger_curvature, 2 * std::numbers::pi / part_.perimeter());
+}
+
 HoldFit::Look HoldFit::look(const Placed& placed, double s, std::size_t row, std::size_t finger) const {
   const HeldContact& contact = rows_.rows[row].contacts[finger];
   const HeldErrors& errors = rows_.errors[finger];
   const double blur = std::max(errors.travel, kLeastBlur * part_.perimeter());
-  const BlurredPlace at = rows_.has_noise ? blurred(part_, s, blur) : ranged(part_, s, errors.travel);
+  const BlurredPlace at =
+      rows_.has_noise ? blurred(part_, s, blur, pivot_length(contact)) : ranged(part_, s, errors.travel);
   const Pose turn{0, 0, placed.heading};
   Look look;
   look.curvature = at.curvature;
@@ -115,7 +122,7 @@ HoldFit::Look HoldFit::look(const Placed& placed, double s, std::size_t row, std
   const double alike = std::max(1.0, contact.rows_alike / rows_.rows[row].weight);
   const double plain = (angle + bend * bend) / rows_.rows[row].weight;
   const double corner = at.variance * alike;
-  look.turn_variance = angle;
+  look.turn_variance = angle + at.variance;
   look.blur_size = std::log1p(corner / plain) / alike;
   look.angles = (1 + corner / (plain * alike)) / (1 + corner / plain);
   if (!errors.has_place) {
@@ -125,8 +132,10 @@ HoldFit::Look HoldFit::look(const Placed& placed, double s, std::size_t row, std
   }
   const Eigen::Vector3d lever(-contact.lever.y(), contact.lever.x(), 1);
   Eigen::Matrix3d covariance = angle * lever * lever.transpose();
-  covariance(0, 0) += errors.place * errors.place;
-  covariance(1, 1) += errors.place * errors.place;
+  // At a corner n moves the contact along the finger, which is not along the part.
+  const double place = errors.place * errors.place + at.pivoting * errors.travel * errors.travel;
+  covariance(0, 0) += place;
+  covariance(1, 1) += place;
   covariance(2, 2) += bend * bend;
   covariance /= rows_.rows[row].weight;
   look.log_size = std::log(covariance.determinant()) + look.blur_size;
@@ -174,19 +183,30 @@ HoldFit::RowEquations HoldFit::equations(const HeldState& state, std::size_t row
   return sum;
 }
 
-/// A pose that suits the contacts about: by their normals and by what lies between them.
+/// A pose that suits the contacts about: by the longest chord between them, or else by their normals.
 void HoldFit::guess(HeldState& state, std::size_t row) const {
   const HeldRow& now = rows_.rows[row];
   Placed& placed = state.placed[row];
   Vec2 sum = Vec2::Zero();
   std::vector<Vec2> points;
   for (std::size_t k = 0; k < fingers(); ++k) {
-    const BlurredPlace at = blurred(part_, place_of(state, row, k), std::max(rows_.errors[k].travel, 1e-12));
+    const double blur = std::max(rows_.errors[k].travel, kLeastBlur * part_.perimeter());
+    const BlurredPlace at = blurred(part_, place_of(state, row, k), blur, pivot_length(now.contacts[k]));
     points.push_back(at.point);
     const double heading = now.contacts[k].tangent - at.angle;
-    sum += Vec2(std::cos(heading), std::sin(heading));
+    const double sd = std::hypot(rows_.errors[k].angle, blur * now.contacts[k].finger_curvature);
+    sum += Vec2(std::cos(heading), std::sin(heading)) / (sd * sd + at.variance);
   }
   placed.heading = std::atan2(sum.y(), sum.x());
+  double longest = 0;
+  for (std::size_t i = 0; i < fingers(); ++i) {
+    for (std::size_t j = i + 1; j < fingers(); ++j) {
+      const Vec2 chord = now.contacts[j].at - now.contacts[i].at;
+      if (!rows_.errors[i].has_place || !rows_.errors[j].has_place || chord.norm() <= longest) continue;
+      longest = chord.norm();
+      placed.heading = angle_between(points[j] - points[i], chord);
+    }
+  }
   const Pose turn{0, 0, placed.heading};
   double count = 0;
   placed.middle = Vec2::Zero();
@@ -199,29 +219,49 @@ void HoldFit::guess(HeldState& state, std::size_t row) const {
   placed.is_known = true;
 }
 
+/// Puts the part where a finger's centre is that is no evidence.
+void HoldFit::refer(HeldState& state, std::size_t row) const {
+  const Pose turn{0, 0, state.placed[row].heading};
+  const Boundary boundary = part_.boundary();
+  const double s = place_of(state, row, *rows_.reference);
+  const Vec2 point = part_.point(boundary.closed ? s : std::clamp(s, 0.0, boundary.perimeter));
+  state.placed[row].middle = rows_.rows[row].contacts[*rows_.reference].at - turn.turned(point - middle_);
+}
+
+/// The best pose of one row for the unknowns, from where it is: Newton's steps, shorter where they go too far.
+HoldFit::RowEquations HoldFit::settled(HeldState& state, std::size_t row) const {
+  RowEquations now = equations(state, row, false);
+  double share = 1;
+  for (int round = 0; round < kPoseRounds; ++round) {
+    const Eigen::Vector3d step = share * now.pose.ldlt().solve(now.slope);
+    if (!step.allFinite()) break;
+    const Placed before = state.placed[row];
+    state.placed[row].middle += step.head<2>();
+    state.placed[row].heading += step(2);
+    const RowEquations next = equations(state, row, false);
+    if (next.square > now.square) {
+      state.placed[row] = before;
+      share *= 0.25;
+      if (share < kLeastShare) break;
+      continue;
+    }
+    const bool is_last = now.square - next.square <= kPoseSettled * (1 + next.square);
+    now = next;
+    share = 1;
+    if (is_last) break;
+  }
+  return now;
+}
+
 /// The best poses for the unknowns, from where they are.
 void HoldFit::settle(HeldState& state) const {
   state.square = state.cost = 0;
   for (std::size_t row = 0; row < rows_.rows.size(); ++row) {
     if (!state.placed[row].is_known) guess(state, row);
-    RowEquations now = equations(state, row, false);
-    for (int round = 0; round < kPoseRounds; ++round) {
-      const Eigen::Vector3d step = now.pose.ldlt().solve(now.slope);
-      if (!step.allFinite()) break;
-      const Placed before = state.placed[row];
-      state.placed[row].middle += step.head<2>();
-      state.placed[row].heading += step(2);
-      const RowEquations next = equations(state, row, false);
-      if (next.square > now.square) {
-        state.placed[row] = before;
-        break;
-      }
-      const bool is_last = now.square - next.square <= kPoseSettled * (1 + next.square);
-      now = next;
-      if (is_last) break;
-    }
+    const RowEquations now = settled(state, row);
     state.square += now.square;
     state.cost += now.square + now.blur_size;
+    if (rows_.reference) refer(state, row);
   }
   if (size_ == static_cast<Eigen::Index>(fingers())) return;
   for (std::size_t k = 0; k < fingers(); ++k) {

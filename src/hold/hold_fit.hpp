@@ -93,15 +93,17 @@ class HoldFit {
   double weight(std::size_t row, std::size_t finger) const {
     return weights_.empty() ? 1 : weights_[row * rows_.fingers() + finger];
   }
+  RowEquations settled(HeldState& state, std::size_t row) const;
   void settle(HeldState& state) const;
   void guess(HeldState& state, std::size_t row) const;
+  void refer(HeldState& state, std::size_t row) const;
+  double pivot_length(const HeldContact& contact) const;
   double prior_precision(std::size_t finger) const;
 
   const Part& part_;
   const HeldRows& rows_;
   Eigen::Index size_ = 0;
   Vec2 middle_ = Vec2::Zero();
-  double corner_sd_ = 0;  // length over which a corner is blurred, of each finger
   std::vector<double> weights_;
 };
 

@@ -88,7 +88,7 @@ class HoldSolver {
 
   void run() {
     for (const std::size_t row : sorted(instants_)) answer_.instants.push_back(rows_.rows[row].time);
-    if (!rows_.any_place) answer_.place = PlaceKnown::unknown;
+    if (!rows_.any_place) answer_.place = rows_.reference ? PlaceKnown::reference : PlaceKnown::unknown;
     Boxes boxes = search_.search();
     if (rows_.has_noise) {
       weigh(sets(boxes.fit));

@@ -61,8 +61,9 @@ class HoldText {
       case Verdict::inconsistent:
         break;
     }
-    return "no places on the part fit all fingers: check the order of --log and --finger, and locate two of the logs "
-           "at a time\n";
+    return std::string("no places on the part fit all fingers: ") +
+           (answer_.noise ? "" : "without --noise all digits are taken as exact; if they are not, add it; ") +
+           "check that --log and --finger are in the same order, and locate two of the logs at a time\n";
   }
 
   std::string starts_table() const {
@@ -111,12 +112,12 @@ class HoldText {
     std::string text;
     for (std::size_t i = 0; i < std::min(answer_.placements.size(), kMostNotes); ++i) {
       const HoldPlacement& one = answer_.placements[i];
-      text += fmt::format("{}: the part was at {} at the first contacts, at {} at the last{}\n", i,
+      text += fmt::format("{}: at the first contacts the part was at {}; at the last at {}{}\n", i,
                           about(one.first, one.first_spread), about(one.last, one.last_spread),
                           one.continuum ? "; a continuum, of which the table shows one" : "");
     }
     if (answer_.place == PlaceKnown::unknown) {
-      text += "where the part is is not known: the logs have no columns x and y\n";
+      text += "where the part is is not known: the logs have no columns x and y, which tell it\n";
     } else if (answer_.place == PlaceKnown::reference) {
       text += "x and y only tell where the part is; add --noise position=SD to use them as measurements\n";
     }
