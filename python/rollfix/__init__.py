@@ -14,6 +14,7 @@ from ._catalog import Catalog, CatalogEntry, ManyIdentified, PartsAdvice
 from ._core import InputError, InternalError, __version__
 from ._documents import Advice, Inspection
 from ._fingers import Disk, Finger, Jaw, OutlineFinger
+from ._holds import HoldAnswer
 from ._identified import Identified, PartFound
 from ._log_answers import LogAnswers
 from ._logs import Log, Roll, read_log
@@ -37,6 +38,7 @@ __all__ = [
     "CatalogEntry",
     "Disk",
     "Finger",
+    "HoldAnswer",
     "Identified",
     "InputError",
     "Inspection",

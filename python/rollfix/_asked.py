@@ -14,6 +14,7 @@ from ._columns import Columns, Naming, Units
 from ._core import InputError
 from ._documents import Advice
 from ._fingers import FingerLike
+from ._holds import HoldAnswer, held, is_hold
 from ._log_answers import LogAnswers, locate_logs
 from ._logs import rolls_of
 from ._many import ManyAnswers, locate_many
@@ -106,7 +107,7 @@ class Asked(Shape):
         roll: Optional[int] = None,
         rounding: Optional[Tuple[float, float]] = None,
         budget: Optional[int] = None,
-    ) -> Answer: ...
+    ) -> Union[Answer, HoldAnswer]: ...
 
     @_quick
     def locate(
@@ -136,11 +137,11 @@ class Asked(Shape):
         roll: Union[int, str, None] = None,
         rounding: Optional[Tuple[float, float]] = None,
         budget: Optional[int] = None,
-    ) -> Union[Answer, TouchAnswer]:
+    ) -> Union[Answer, TouchAnswer, HoldAnswer]:
         """Every place where the roll can have started. There is no other: see `Answer.status`.
 
         `locate(length, turn)`, `locate(readings)`, or `locate(log=..., finger=..., noise=...)`. One finger on a part at
-        rest: eqs. (4) and (5). Two on a part that is free to move: eqs. (8) and (9).
+        rest: eqs. (4) and (5). Two on a part that is free to move: eqs. (8) and (9). Three to eight: a list of logs.
 
         Parameters
         ----------
@@ -149,8 +150,11 @@ class Asked(Shape):
             two (La, Lb, theta), theta being finger a's turn less finger b's. Each from the first contact; taken as exact.
         turn : float, optional
             With one length.
-        log : path, DataFrame, mapping of arrays, ndarray, Log, Roll, or a pair of them
+        log : path, DataFrame, mapping of arrays, ndarray, Log, Roll, a pair of them, or a list of three to eight
             Instead of readings: see `rollfix.read_log`, also for `columns`, `units`, `degrees`, `wrapped` and `roll`.
+            A list of three and more: as many fingers on a part that is free to move, a `HoldAnswer`; of the other
+            arguments it takes `finger` (one, or one for each), `noise`, `tolerance` as an angle or (length, angle), `at`,
+            `mirrored`, `columns`, `units`, `degrees`, `wrapped` and `budget`. docs/two_fingers.md.
         roll : int or 'all', optional
             Which roll of a log with several, from 1. 'all': the rolls of the log, or of a list of logs, and `touches`
             share the pose of a part at rest: a `TouchAnswer`, with several contacts. docs/touch.md.
@@ -198,7 +202,7 @@ class Asked(Shape):
         Returns
         -------
         Answer
-            Of touches, and of several rolls, a `TouchAnswer`.
+            Of touches, and of several rolls, a `TouchAnswer`; of three and more fingers a `HoldAnswer`.
 
         Raises
         ------
@@ -233,6 +237,26 @@ class Asked(Shape):
             log, roll, columns, units, degrees, wrapped = rolls[0], None, None, None, False, None
         if isinstance(roll, str):
             raise InputError(f"roll: expected a number from 1, or 'all', found '{roll}'")
+        if is_hold(log):
+            others = {
+                "readings": readings, "turn": turn, "touches": touches, "clear": clear, "facing": facing, "prior": prior,
+                "heading": heading, "pose": pose, "roll": roll, "rounding": rounding, "robust": robust or None,
+                "may_overlap": may_overlap or None, "direction": None if direction == "ccw" else direction,
+            }  # fmt: skip
+            for name, value in others.items():
+                if value is not None:
+                    raise InputError(f"{name}: is not taken with three and more fingers: leave it out")
+            return held(
+                self,
+                log,
+                finger=finger,
+                noise=noise,
+                tolerance=tolerance,
+                at=at,
+                mirrored=mirrored,
+                naming=Naming(columns, units, degrees, wrapped),
+                budget=budget,
+            )
         if touches is not None:
             others = {
                 "readings": readings, "turn": turn, "log": log, "facing": facing, "at": at, "prior": prior,

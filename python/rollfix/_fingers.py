@@ -122,7 +122,8 @@ def fingers(given: Optional[FingerLike], most: int = 2) -> List[Any]:
     if several is None or not all(isinstance(one, Finger) for one in several):
         raise InputError(f"finger: expected Disk(radius), Jaw() or OutlineFinger(part), or two, found {shown(given)}")
     if not 1 <= len(several) <= most:
-        raise InputError(f"finger: expected {'one' if most == 1 else 'one or two'}, found {len(several)}")
+        expected = "one" if most == 1 else "one or two" if most == 2 else f"one, or one of each up to {most}"
+        raise InputError(f"finger: expected {expected}, found {len(several)}")
     return [one._given() for one in several]
 
 

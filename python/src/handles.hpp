@@ -18,6 +18,7 @@
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/files/load_part.hpp"
+#include "rollfix/hold/hold.hpp"
 #include "rollfix/part/reach.hpp"
 #include "rollfix/touch/touch.hpp"
 
@@ -66,6 +67,10 @@ struct TouchAnswerHandle {
   std::shared_ptr<const TouchAnswer> answer;
 };
 
+struct HoldAnswerHandle {
+  std::shared_ptr<const HoldAnswer> answer;
+};
+
 struct NextRollHandle {
   std::shared_ptr<const NextRoll> next;
 };
@@ -93,6 +98,8 @@ template <>
 inline constexpr bool kIsPythonClass<NextRollHandle> = true;
 template <>
 inline constexpr bool kIsPythonClass<TouchAnswerHandle> = true;
+template <>
+inline constexpr bool kIsPythonClass<HoldAnswerHandle> = true;
 template <>
 inline constexpr bool kIsPythonClass<PlacementHandle> = true;
 template <>

@@ -24,6 +24,7 @@ PYBIND11_MODULE(_core, module) {
   bind_reach(module);
   bind_watch(module);
   bind_touch(module);
+  bind_hold(module);
   bind_catalog(module);
   let_be_pickled(module);
 }

@@ -2,6 +2,7 @@
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/draw/advice_figure.hpp"
 #include "rollfix/draw/answer_figure.hpp"
+#include "rollfix/draw/hold_figure.hpp"
 #include "rollfix/draw/part_figure.hpp"
 #include "rollfix/draw/touch_figure.hpp"
 
@@ -42,6 +43,13 @@ Svg touch_figure(const TouchAnswerHandle& handle, const std::string& title, doub
   return draw_touches(figure);
 }
 
+Svg hold_figure(const HoldAnswerHandle& handle, const std::string& title, double width) {
+  HoldFigure figure{handle.answer.get()};
+  figure.title = title;
+  if (width > 0) figure.width = width;
+  return draw_hold(figure);
+}
+
 }  // namespace
 }  // namespace rollfix::python
 
@@ -63,5 +71,6 @@ PYBIND11_MODULE(_draw, module) {
   module.def("part_figure", &part_figure);
   module.def("next_roll_figure", &next_roll_figure);
   module.def("touch_figure", &touch_figure);
+  module.def("hold_figure", &hold_figure);
   let_be_pickled(module);
 }

@@ -1,0 +1,133 @@
+"""Three and more fingers that hold and roll on a part that is free to move."""
+
+from __future__ import annotations
+
+from typing import Any, Optional, Sequence, Tuple
+
+import numpy as np
+
+from . import _core
+from ._checks import flag, least, numbers, path, text, whole
+from ._columns import Naming
+from ._core import InputError
+from ._documents import Document
+from ._fingers import FingerLike, fingers
+from ._logs import Log, _is_log, rolls_of
+from ._messages import in_a_page, shown
+from ._noise import NoiseLike, noise as noise_given
+
+
+class HoldAnswer(Document):
+    """Every set of first contacts of three and more fingers that fits: the fields of `rollfix/locate/1`, see docs/json.md.
+
+    `placements` has one entry for each connected set, with noise the most probable first; `starts` and `ends` have the
+    places of all fingers, `poses` the part's at the first and at the last contacts. `status`, `verdict`, `fit`, ...
+    """
+
+    __slots__ = ("_answer", "_asked")
+
+    def __init__(self, asked: Tuple[Any, ...]) -> None:
+        part, logs, *rest = asked
+        self._answer = _core.locate_hold(part._core, [one._core for one in logs], *rest)
+        self._asked = asked
+        super().__init__(self._answer.document())
+
+    @property
+    def starts(self) -> Any:
+        """ndarray, (n, fingers): s of the first contacts."""
+        return np.array([one["start"] for one in self.placements], dtype=float).reshape(len(self), -1)
+
+    @property
+    def ends(self) -> Any:
+        """ndarray, (n, fingers): s of the last contacts."""
+        return np.array([one["end"] for one in self.placements], dtype=float).reshape(len(self), -1)
+
+    @property
+    def poses(self) -> Any:
+        """ndarray, (n, 2, 3): x, y and heading in radians at the first contacts and at the last. Of logs without x and y
+        these are NaN."""
+        return np.array([one["pose"] for one in self.placements], dtype=float).reshape(-1, 2, 3)
+
+    def to_svg(self, *, title: str = "", width: float = 0) -> str:
+        """A figure of the part in the world at the last contacts, in each placement."""
+        svg: str = self._figure(title, width).svg()
+        return svg
+
+    def save(self, file: Any, *, title: str = "", width: float = 0) -> None:
+        """Writes that figure, by its ending: .svg, .png or .pdf."""
+        self._figure(title, width).save(path(file, "file"))
+
+    def _figure(self, title: str, width: float) -> Any:
+        from . import _draw
+
+        return _draw.hold_figure(self._answer, text(title, "title"), least(width, "width", 0, "a number of pixels"))
+
+    def _repr_svg_(self) -> Optional[str]:
+        return in_a_page(self.to_svg())
+
+    def __len__(self) -> int:
+        return len(self.placements)
+
+    def __repr__(self) -> str:
+        if not len(self):
+            return f"<HoldAnswer: {self.verdict}>"
+        return f"<HoldAnswer: {self.verdict}; starts {', '.join(f'{s:.6g}' for s in self.starts[0])}>"
+
+    def __reduce__(self) -> Any:
+        return (HoldAnswer, (self._asked,))
+
+
+def is_hold(log: Any) -> bool:
+    """Whether logs of three or more fingers are meant."""
+    return isinstance(log, (list, tuple)) and len(log) > 2 and all(_is_log(one) for one in log)
+
+
+def held(
+    part: Any,
+    logs: Sequence[Any],
+    *,
+    finger: Optional[FingerLike],
+    noise: NoiseLike,
+    tolerance: Any,
+    at: Any,
+    mirrored: bool,
+    naming: Naming,
+    budget: Optional[int],
+) -> HoldAnswer:
+    """The answer to logs of three and more fingers, checked."""
+    if noise is not None and tolerance is not None:
+        raise InputError("tolerance: `noise` already says how far rows are off: leave one out")
+    given = fingers(finger, most=len(logs))
+    if len(given) not in (1, len(logs)):
+        raise InputError(f"finger: expected one, or {len(logs)}, one for each log, found {len(given)}")
+    read = [_one_roll(log, number, naming, part.unit) for number, log in enumerate(logs, 1)]
+    of_each = given * len(logs) if len(given) == 1 else given
+    return HoldAnswer((
+        part,
+        tuple(log._in_unit(part.unit, [one]) for log, one in zip(read, of_each)),
+        given,
+        noise_given(noise),
+        _tolerance(tolerance),
+        [] if at is None else [float(one) for one in np.atleast_1d(at)],
+        flag(mirrored, "mirrored"),
+        None if budget is None else whole(budget, "budget", 1),
+    ))  # fmt: skip
+
+
+def _one_roll(log: Any, number: int, naming: Naming, unit: str) -> Log:
+    rolls = rolls_of(log, naming, unit)
+    if len(rolls) != 1:
+        raise InputError(f"log: expected one roll of each finger, found {len(rolls)} in log {number}: contact is lost; cut it")
+    return rolls[0]
+
+
+def _tolerance(given: Any) -> Optional[Tuple[float, float]]:
+    """A single number is an angle, as of one roll."""
+    if given is None:
+        return None
+    if np.ndim(given) == 0:
+        return 0.0, least(given, "tolerance", 0, "an angle")
+    if np.ndim(given) != 1:
+        raise InputError(f"tolerance: expected an angle, or (length, angle), found {shown(given)}")
+    length, angle = numbers(given, 2, "tolerance", "(length, angle)")
+    return length, angle
