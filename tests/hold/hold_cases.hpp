@@ -152,6 +152,29 @@ inline Log finger_log(const Part& part, const Way& way, double length, double ra
   return log;
 }
 
+/// A disk that starts at s and rolls forwards or backwards over a share of the perimeter.
+struct Rolled {
+  double start = 0;
+  double length = 0;  // of its centre's way, below 0 for backwards; in perimeters
+};
+
+/// Fingers that roll so, without noise, at a fixed first pose.
+inline HoldCase hold_of(const Part& part, const std::vector<Rolled>& rolled, const Holding& holding = {}) {
+  std::mt19937_64 generator(5);
+  const double size = diagonal(part);
+  const double radius = holding.radius * size;
+  HoldCase result{HoldProblem{part, {}, {rollfix::disk(radius)}}, {}, {}, {0.3 * size, -0.2 * size, 0.4}, {}};
+  result.last = moved(result.first, 1, size);
+  for (const Rolled& one : rolled) {
+    const Way way(part, radius, one.start, one.length < 0 ? -1 : 1);
+    const double length = std::abs(one.length) * part.perimeter();
+    result.problem.logs.push_back(finger_log(part, way, length, radius, result.first, size, holding, 1, generator));
+    result.starts.push_back(one.start);
+    result.ends.push_back(way.at(length).s);
+  }
+  return result;
+}
+
 inline HoldCase random_hold(const Part& part, const Holding& holding, std::mt19937_64& generator) {
   const double size = diagonal(part);
   const double radius = holding.radius * size;
