@@ -284,7 +284,11 @@ std::string columns_in(const Log& log) {
   return "distance and dturn";
 }
 
-std::string row_in_file(const Log& log, std::size_t row) { return where(log.name, log.fingers[0].line[row]); }
+/// Simulated rows come from no file.
+std::string row_in_file(const Log& log, std::size_t row) {
+  const std::vector<std::size_t>& line = log.fingers[0].line;
+  return line.empty() ? fmt::format("{}, row {}", log.name, row + 1) : where(log.name, line[row]);
+}
 
 double duration_of(const Log& log) { return log.time.back() - log.time.front(); }
 
