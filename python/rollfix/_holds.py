@@ -98,6 +98,8 @@ def held(
     if noise is not None and tolerance is not None:
         raise InputError("tolerance: `noise` already says how far rows are off: leave one out")
     given = fingers(finger, most=len(logs))
+    if not given:
+        raise InputError("finger: expected the fingers that rolled, as in finger=Disk(radius), found none")
     if len(given) not in (1, len(logs)):
         raise InputError(f"finger: expected one, or {len(logs)}, one for each log, found {len(given)}")
     read = [_one_roll(log, number, naming, part.unit) for number, log in enumerate(logs, 1)]

@@ -36,8 +36,12 @@ BlurredPlace plain(const Part& part, double s) {
 BlurredPlace blurred(const Part& part, double s, double sd, double pivot) {
   BlurredPlace place = plain(part, s);
   const Boundary boundary = part.boundary();
+  const double base = boundary.on_first_lap(s);
   for (const Corner& corner : part.corners()) {
-    const double past = boundary.offset(corner.s, s);
+    double past = base - corner.s;
+    if (boundary.closed && std::abs(past) > 0.5 * boundary.perimeter) {
+      past -= std::copysign(boundary.perimeter, past);
+    }
     if (std::abs(past) > kBlurReach * sd) continue;
     const double d = past / sd;
     const double bell = std::exp(-0.5 * d * d) / std::sqrt(2 * std::numbers::pi);

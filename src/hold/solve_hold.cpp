@@ -88,6 +88,9 @@ class HoldSolver {
 
   void run() {
     for (const std::size_t row : sorted(instants_)) answer_.instants.push_back(rows_.rows[row].time);
+    for (std::size_t k = 0; k < answer_.rolls.size(); ++k) {
+      answer_.rolls[k].length = searched_.rows.back().contacts[k].travelled;
+    }
     if (!rows_.any_place) answer_.place = rows_.reference ? PlaceKnown::reference : PlaceKnown::unknown;
     Boxes boxes = search_.search();
     if (rows_.has_noise) {
@@ -320,11 +323,9 @@ class HoldSolver {
 HoldRoll roll_of(const HoldProblem& problem, const Log& log, std::size_t k) {
   const FingerRows& rows = log.fingers.front();
   const Finger& finger = problem.fingers[problem.fingers.size() == 1 ? 0 : k];
-  const std::vector<Contact> contacts = contacts_of(rows, finger);
   HoldRoll roll;
   roll.name = log.name;
   if (!rows.line.empty()) roll.lines = {rows.line.front(), rows.line.back()};
-  roll.length = reading_between(finger, contacts.front(), contacts.back()).length[0];
   roll.has_centre = !rows.x.empty();
   for (std::size_t row = 0; row < rows.x.size(); ++row) roll.track.emplace_back(rows.x[row], rows.y[row]);
   if (finger.is_disk()) roll.radius = finger.disk()->radius;
@@ -342,7 +343,6 @@ HoldProblem in_mirror(const HoldProblem& problem, std::vector<Log>& logs) {
 }
 
 void out_of_mirror(HoldAnswer& answer) {
-  for (HoldRoll& roll : answer.rolls) roll.length = -roll.length;  // along the outline as it is stored
   const Eigen::Vector3d signs(-1, 1, -1);
   for (HoldPlacement& placement : answer.placements) {
     for (Pose* pose : {&placement.first, &placement.last, &placement.first_spread.mean, &placement.last_spread.mean}) {

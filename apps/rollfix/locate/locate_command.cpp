@@ -48,7 +48,9 @@ Two fingers on a part that is free to move:
   rollfix simulate gallery:cam --finger disk,r=0.2 --start 1 --start 4 --length 1.5 --length -0.8 -o cam-rolls.csv
   rollfix locate gallery:cam --log cam-rolls.csv --finger disk,r=0.2 -o cam-pairs.svg
 Three and more fingers on a part that is free to move, a log of each with the same times:
-  rollfix locate part.dxf --log a.csv --log b.csv --log c.csv --finger disk,r=5mm --noise contact=0.05,angle=0.3deg,position=0.05
+  rollfix simulate gallery:cam --finger disk,r=0.2 --start 1 --start 4 --length 1.5 --length -0.8 -o hold-a.csv -o hold-b.csv
+  rollfix simulate gallery:cam --finger disk,r=0.2 --start 1 --start 6 --length 1.5 --length 0.5 -o again.csv -o hold-c.csv
+  rollfix locate gallery:cam --log hold-a.csv --log hold-b.csv --log hold-c.csv --finger disk,r=0.2 -o cam-hold.svg
 )";
 
 struct LocateArguments {

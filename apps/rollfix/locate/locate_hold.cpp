@@ -39,6 +39,12 @@ void require_options_of_hold(const RollArguments& arguments) {
   if (!arguments.noise.empty() && !arguments.tolerance.empty()) {
     throw InputError("--tolerance: --noise already says how far rows are off; leave one out");
   }
+  if (arguments.fingers.empty()) {
+    throw InputError(fmt::format(
+        "--log is given {} times, which is as many fingers on a part that is free to move: expected --finger, "
+        "once for all or once for each; rolls of one finger on a part at rest are --roll all",
+        arguments.logs.size()));
+  }
   const auto from_stdin = std::count(arguments.logs.begin(), arguments.logs.end(), "-");
   if (from_stdin > 1 || (from_stdin == 1 && arguments.part.part == "-")) {
     throw InputError("more than one thing can't come from standard input: give the others as files");

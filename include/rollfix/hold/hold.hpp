@@ -37,7 +37,7 @@ inline constexpr std::size_t kHoldBudget = 20000000;
 /// Where one finger is in an answer.
 struct HoldContact {
   double start = 0;           // s of the first contact, in [0, P)
-  double end = 0;             // s of the last one
+  double end = 0;             // s of the last one: at the last row, with `at` at the last of these instants
   Interval extent{};          // no first contact of the set is outside; lo in [0, P), hi may exceed P
   Vec2 point = Vec2::Zero();  // of the first contact, in the part's frame
   double tangent = 0;         // direction of the tangent there, in the part's frame, radians, in (-pi, pi]
@@ -72,7 +72,7 @@ struct HoldPlacement {
 struct HoldRoll {
   std::string name{};
   std::vector<std::size_t> lines{};  // of the file: its first and its last row; of simulated rows none
-  double length = 0;                 // that the contact travelled by the last row, along the stored outline
+  double length = 0;                 // that the contact travelled by the last instant, along the stored outline
   bool has_centre = false;           // x and y
   std::vector<Vec2> track{};         // then: of the finger's centre, in the world
   double radius = 0;                 // of a disk, else 0

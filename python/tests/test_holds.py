@@ -1,0 +1,78 @@
+"""Three fingers on a part that moves, as Python takes them."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+import rollfix
+
+DISK = rollfix.Disk(0.1)
+NOISE = {"contact": 0.01, "angle": 0.005, "position": 0.01}
+
+
+@pytest.fixture(scope="module")
+def part():
+    return rollfix.Part("gallery:spline,n=9,seed=4,wobble=0.25")
+
+
+@pytest.fixture(scope="module")
+def logs(part):
+    """From s = 1, 3 and 5: the third is simulated with the first one again."""
+    tables = {}
+    for name, start, length in (("b", 3, -0.4), ("c", 5, 0.3)):
+        roll = part.simulate((DISK, DISK), start=(1, start), length=(0.6, length), part_rotation=0.3, samples=30)
+        columns = roll.log.to_dict()
+        for finger, one in (("a", "a"), ("b", name)):
+            tables[one] = {key: columns[f"{key}_{finger}"] for key in ("u", "psi", "x", "y")}
+            tables[one]["time"] = columns["time"]
+    return [tables[name] for name in "abc"]
+
+
+@pytest.fixture(scope="module")
+def found(part, logs):
+    return part.locate(log=logs, finger=DISK)
+
+
+def test_all_fingers_are_found(found):
+    assert found.verdict == "unique"
+    assert found.starts == pytest.approx(np.array([[1, 3, 5]]), abs=1e-6)
+    assert found.ends == pytest.approx(np.array([[1.6, 2.6, 5.3]]), abs=1e-6)
+    assert found.poses.shape == (1, 2, 3)
+    assert found.poses[0, 1, 2] - found.poses[0, 0, 2] == pytest.approx(0.3, abs=1e-6)
+
+
+def test_logs_may_be_files_and_fingers_one_for_each(part, logs, found, tmp_path):
+    files = []
+    for number, table in enumerate(logs):
+        files.append(tmp_path / f"{number}.csv")
+        rows = np.column_stack(list(table.values()))
+        np.savetxt(files[-1], rows, delimiter=",", header=",".join(table), comments="", fmt="%.17g")
+    again = part.locate(log=files, finger=[DISK] * 3)
+    assert again.starts == pytest.approx(found.starts, abs=1e-9)
+
+
+def test_with_noise_there_are_probabilities(part, logs):
+    answer = part.locate(log=logs, finger=DISK, noise=NOISE)
+    assert answer.placements[0]["probability"] > 0.99
+    assert len(answer.placements[0]["sd"]) == 3
+
+
+def test_it_is_pickled_and_drawn(found, tmp_path):
+    assert pickle.loads(pickle.dumps(found)).verdict == "unique"
+    found.save(tmp_path / "hold.svg")
+    assert "3 fingers" in (tmp_path / "hold.svg").read_text()
+
+
+@pytest.mark.parametrize(
+    "options, words",
+    [
+        ({}, "finger: expected"),
+        ({"finger": [DISK] * 2}, "3, one for each log"),
+        ({"finger": DISK, "robust": True}, "robust"),
+        ({"finger": DISK, "noise": NOISE, "tolerance": 0.1}, "tolerance"),
+    ],
+)
+def test_what_is_not_taken_is_refused(part, logs, options, words):
+    with pytest.raises(rollfix.InputError, match=words):
+        part.locate(log=logs, **options)
