@@ -80,7 +80,7 @@ struct Summary {
 Summary summary_of(const HoldFit& fit, const HoldMode& mode, const std::vector<double>& weights, std::size_t row,
                    std::size_t finger, const Boundary& boundary) {
   const double about = fit.place_of(mode.best, row, finger);
-  std::vector<touch::MixtureTerm> terms;
+  std::vector<MixtureTerm> terms;
   double mean = 0, second = 0;
   for (std::size_t k = 0; k < weights.size(); ++k) {
     const AtNode at = place_at(fit, mode.nodes[k], row, finger);

@@ -9,11 +9,8 @@
 #include "rollfix/arguments/finger_argument.hpp"
 #include "rollfix/arguments/part_argument.hpp"
 #include "rollfix/arguments/typed_number.hpp"
-#include "rollfix/draw/touch_figure.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/files/touch_document.hpp"
 #include "rollfix/locate/touch_arguments.hpp"
-#include "rollfix/output/touch_text.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::app {
@@ -106,18 +103,11 @@ bool are_contacts(const std::vector<std::string>& touches, const RollArguments& 
 
 Report locate_rolls(const std::vector<std::string>& touches, const RollArguments& arguments,
                     const TouchOutput& output) {
-  require_figure_output(output.figure, output.json);
+  require_outputs(output);
   Report report;
   std::vector<Outline> others;
   const TouchProblem problem = read_rolls_problem(touches, arguments, report.notes, &others);
-  const TouchAnswer answer = solve(problem);
-  report.exit_code = exit_code_of(answer);
-  report.data = output.json ? format_touches(answer) : touches_text(answer, output.verbose);
-  if (output.figure.file.empty()) return report;
-  TouchFigure figure{&answer};
-  figure.others = std::move(others);
-  add_figure(output.figure, draw_touches(figure), report);
-  return report;
+  return report_of(problem, std::move(others), output, std::move(report));
 }
 
 }  // namespace rollfix::app

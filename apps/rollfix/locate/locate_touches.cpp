@@ -10,13 +10,12 @@
 
 namespace rollfix::app {
 
-Report locate_touches(const std::vector<std::string>& touches, const RollArguments& arguments,
-                      const TouchOutput& output) {
+void require_outputs(const TouchOutput& output) {
   require_figure_output(output.figure, output.json);
   require_certificate(output.certificate, output.figure.force, output.json, output.figure.file);
-  Report report;
-  std::vector<Outline> others;
-  const TouchProblem problem = read_touch_problem(touches, arguments, report.notes, &others);
+}
+
+Report report_of(const TouchProblem& problem, std::vector<Outline> others, const TouchOutput& output, Report report) {
   const TouchAnswer answer = solve(problem);
   report.exit_code = exit_code_of(answer);
   report.data = output.json ? format_touches(answer) : touches_text(answer, output.verbose);
@@ -29,6 +28,15 @@ Report locate_touches(const std::vector<std::string>& touches, const RollArgumen
     add_certificate(output.certificate, output.figure.force, problem, answer, report);
   }
   return report;
+}
+
+Report locate_touches(const std::vector<std::string>& touches, const RollArguments& arguments,
+                      const TouchOutput& output) {
+  require_outputs(output);
+  Report report;
+  std::vector<Outline> others;
+  const TouchProblem problem = read_touch_problem(touches, arguments, report.notes, &others);
+  return report_of(problem, std::move(others), output, std::move(report));
 }
 
 }  // namespace rollfix::app
