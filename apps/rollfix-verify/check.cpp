@@ -40,13 +40,16 @@ std::string touches_question(const Json& json) {
     text += "\n";
   }
   for (const Json& one : json.at("poses")) {
-    const Json& pose = one.at("pose");
-    text += (one.at("listed").get<bool>() ? "pose " : "left out: pose ") + plain(pose.at(0)) + ", " +
-            plain(pose.at(1)) + ", heading " + plain(pose.at(2)) + " rad fits";
+    text += one.at("listed").get<bool>() ? "pose " : "left out: pose ";
+    const bool fits = one.contains("pose");
+    if (fits) {
+      const Json& pose = one.at("pose");
+      text += plain(pose.at(0)) + ", " + plain(pose.at(1)) + ", heading " + plain(pose.at(2)) + " rad fits";
+    }
     if (one.contains("extent")) {
       const Json& extent = one.at("extent");
-      text += ", all of its set is in x " + between(extent.at(0)) + ", y " + between(extent.at(1)) + ", heading " +
-              between(extent.at(2)) + " rad";
+      text += std::string(fits ? ", all of its set is" : "that may fit") + " in x " + between(extent.at(0)) + ", y " +
+              between(extent.at(1)) + ", heading " + between(extent.at(2)) + " rad";
     }
     text += "\n";
   }

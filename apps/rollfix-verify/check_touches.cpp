@@ -65,8 +65,8 @@ std::optional<Considered> considered(const Json& stated, double period) {
 /// A stated set of poses.
 struct Set {
   std::array<double, 3> pose{};
-  std::optional<PoseBox> extent;  // none: the pose is in another one's
-  const Json* contacts = nullptr;
+  std::optional<PoseBox> extent;   // none: the pose is in another one's
+  const Json* contacts = nullptr;  // nullptr: it is not said that a pose of the set fits
 };
 
 class Touches {
@@ -123,12 +123,16 @@ class Touches {
 
   Set read_set(const Json& stated) const {
     Set set;
-    const Json& pose = stated.at("pose");
-    set.pose = {mirrored(number(pose.at(0))), number(pose.at(1)), mirrored(number(pose.at(2)))};
     if (stated.contains("extent")) {
       const Json& extent = stated.at("extent");
       set.extent = {mirrored(interval(extent.at(0))), interval(extent.at(1)), mirrored(interval(extent.at(2)))};
     }
+    if (!stated.contains("pose")) {
+      if (stated.at("listed").get<bool>() || !set.extent) refuse("a set without a pose");
+      return set;
+    }
+    const Json& pose = stated.at("pose");
+    set.pose = {mirrored(number(pose.at(0))), number(pose.at(1)), mirrored(number(pose.at(2)))};
     set.contacts = &stated.at("contacts");
     return set;
   }
@@ -177,6 +181,7 @@ class Touches {
 
   void check_set(const CentreTree& tree, std::size_t number) const {
     const Set& set = sets_[number];
+    if (set.contacts == nullptr) return;
     const std::string name = "set " + std::to_string(number);
     for (std::size_t axis = 0; set.extent && axis < 3; ++axis) {
       const double slack = axis == 2 ? kPlaceSlack : kPlaceSlack * size_;

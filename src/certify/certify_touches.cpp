@@ -54,8 +54,11 @@ Margin margin_of(const TouchAnswer& answer) {
 
 /// With its extent a little wider.
 CertifiedPose certified(const Part& part, const TouchPose& pose, const Margin& margin, bool listed) {
-  CertifiedPose result{pose, {}, listed, touch::is_own(pose)};
-  const double away = (margin.about - Vec2(pose.pose.x, pose.pose.y)).norm();
+  CertifiedPose result{pose, {}, listed, pose.contacts.empty() || touch::is_own(pose)};
+  // The part's origin is no further from the touches than in the extent's corner that is furthest from them.
+  const double away = std::hypot(
+      std::max(std::abs(pose.extent[0].lo - margin.about.x()), std::abs(pose.extent[0].hi - margin.about.x())),
+      std::max(std::abs(pose.extent[1].lo - margin.about.y()), std::abs(pose.extent[1].hi - margin.about.y())));
   const std::array<double, 3> by{margin.place + away * margin.turn, margin.place + away * margin.turn, margin.turn};
   for (std::size_t k = 0; k < 3; ++k) {
     Interval& extent = result.pose.extent[k];

@@ -11,6 +11,7 @@ bool is_own(const TouchPose& pose);
 
 /// Every set of poses within the tolerances, with noise those that its search starts from, that is in the extent of
 /// none of these (whose own pose is in it): nothing is weighed, and nothing is left out as improbable or in the way.
+/// A set of which it is not known whether a pose of its fits has no contacts, and no pose.
 /// REQUIRES a valid problem of two touches or more, without rolls, prior and clear paths.
 TouchAnswer poses_beyond(const TouchProblem& problem, const std::vector<TouchPose>& known);
 

@@ -391,10 +391,22 @@ class Solver {
       free_.drop_blocked(cells, fit.tree(pair.first), touches_[pair.first]);
       undecided.insert(undecided.end(), finer.undecided.begin(), finer.undecided.end());
     }
+    if (known_ != nullptr) add_bare(fit, pair, std::exchange(cells, {}));
     undecided.insert(undecided.end(), cells.begin(), cells.end());
     for (const PoseSet& set : found) answer_.poses.push_back(described(fit, set.fitted, set.cells, pair));
     std::sort(answer_.poses.begin(), answer_.poses.end(),
               [](const TouchPose& a, const TouchPose& b) { return a.pose.heading < b.pose.heading; });
+  }
+
+  /// Sets of which it is not known whether a pose of theirs fits: extents alone.
+  void add_bare(const PoseFit& fit, const TouchPair& pair, std::vector<Cell> cells) {
+    const CellSets sets = sets_of(fit.tree(pair.first), fit.tree(pair.second), std::move(cells));
+    for (const std::vector<std::size_t>& component : sets.components) {
+      const std::vector<Cell> own = cells_of(sets, component);
+      TouchPose bare;
+      bare.extent = extent_of(fit, own, pair, {0, 0, own.front().heading.middle});
+      answer_.poses.push_back(std::move(bare));
+    }
   }
 
   /// A pose from some cell that leaves the paths free and fits best, or else the one given.

@@ -39,7 +39,8 @@ TEST(CliTouchCertify, proves_that_nothing_fits) {
 TEST(CliTouchCertify, is_refused_where_the_answer_is_changed) {
   const Folder folder;
   run(kThree + "--noise position=0.02");
-  const Ran changed = cli::shell("sed -i 's/\"radius\":3.0/\"radius\":3.01/' proof.json && rollfix-verify proof.json");
+  const Ran changed =
+      cli::shell("sed -i 's/\"radius\": 3.0/\"radius\": 3.01/' proof.json && rollfix-verify proof.json");
   EXPECT_EQ(changed.code, 1);
   EXPECT_THAT(changed.out, testing::StartsWith("refused: set 0, touch 0 is off by "));
 }
@@ -49,6 +50,16 @@ TEST(CliTouchCertify, says_what_certificates_are_not_of) {
   const Ran one = run("locate " + kBracket + " --loop 1 --touch 1,2 --tolerance 0.1 --certify proof.json");
   EXPECT_EQ(one.code, 2);
   EXPECT_THAT(one.err, testing::HasSubstr("a certificate of touches: expected at least two, found 1"));
+}
+
+TEST(CliTouchCertify, is_of_touches_alone) {
+  const Folder folder;
+  run("simulate " + kBracket + " --loop 1 --finger disk,r=3 --start 10 --length 30 --samples 20 -o roll.csv");
+  const Ran both = run("locate " + kBracket +
+                       " --loop 1 --log roll.csv --roll all --touch 1,2 --finger disk,r=3 "
+                       "--tolerance 0.1,1deg --certify proof.json");
+  EXPECT_EQ(both.code, 2);
+  EXPECT_THAT(both.err, testing::HasSubstr("--certify: a certificate is of one roll, or of touches alone"));
 }
 
 }  // namespace

@@ -157,7 +157,6 @@ TEST(CliTouch, WhatCannotBeMeantIsRefusedWithTheCure) {
   EXPECT_THAT(refused("--touch 1,2,1 --noise position=0.1"), HasSubstr("angle=SD"));
   EXPECT_THAT(refused("--touch 1,2 --finger jaw --tolerance 0.1"), HasSubstr("takes disks only"));
   EXPECT_THAT(refused("--touch 1,2 --tolerance 0.1 --facing 1"), HasSubstr("--facing: touches do not roll"));
-  EXPECT_THAT(refused("--touch 1,2 --tolerance 0.1 --certify c.json"), HasSubstr("--certify: touches do not roll"));
 }
 
 TEST(CliTouch, ATableThatCannotBeReadIsToldWithItsLine) {

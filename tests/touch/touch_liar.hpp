@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -88,6 +89,12 @@ inline std::vector<Lie> about_poses() {
        [](Document& d) {
          if (d.json["poses"].size() != 1) return false;
          return d.json["poses"][0].erase("extent") > 0;
+       }},
+      {"a set without a pose",
+       [](Document& d) {
+         Json& pose = d.any("poses");
+         if (!pose["listed"].get<bool>()) return false;
+         return pose.erase("pose") > 0;
        }},
       {"half of an extent",
        [](Document& d) {
@@ -317,7 +324,8 @@ std::vector<int> tell(int questions, const std::vector<int>& kinds, std::mt19937
   for (int k = 0; k < questions; ++k) {
     const Json truth = touch_certificates::certificate(
         touch_certificates::random_question(kinds[static_cast<std::size_t>(k) % kinds.size()], generator));
-    if (truth["poses"].empty()) continue;
+    const auto has_pose = [](const Json& one) { return one.contains("pose"); };
+    if (truth["poses"].empty() || !std::all_of(truth["poses"].begin(), truth["poses"].end(), has_pose)) continue;
     for (std::size_t i = 0; i < lies.size(); ++i) {
       Json json = truth;
       Document document{json, generator};

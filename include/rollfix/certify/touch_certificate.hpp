@@ -13,7 +13,7 @@ namespace rollfix {
 
 /// A set of poses, with one that fits, by the outline's own formulas.
 struct CertifiedPose {
-  TouchPose pose;              // `extent` holds all of the set
+  TouchPose pose;              // `extent` holds all of the set; without contacts: it is not known whether one fits
   std::vector<CurvePlace> at;  // of its contacts
   bool listed = true;          // false: the answer leaves it out: it is improbable, or the part would be in the way
   bool is_own = true;          // false: with noise the pose that fits best may be one of another set: `extent` is not

@@ -134,9 +134,10 @@ Json pose_json(const CertifiedPose& one, const std::vector<TouchTolerance>& tole
                         {"tangent", json_number(contact.tangent)},
                         {"off", json_numbers(off)}});
   }
-  Json json = {{"listed", one.listed}, {"pose", json_numbers(std::array{pose.x, pose.y, pose.heading})}};
+  Json json = {{"listed", one.listed}};
+  if (!one.at.empty()) json["pose"] = json_numbers(std::array{pose.x, pose.y, pose.heading});
   if (one.is_own) json["extent"] = intervals_json({one.pose.extent.begin(), one.pose.extent.end()});
-  json["contacts"] = contacts;
+  if (!one.at.empty()) json["contacts"] = contacts;
   return json;
 }
 
