@@ -10,14 +10,13 @@
 //   c = p + r n     the finger's centre, n = (sin Theta, -cos Theta)
 // Follows docs/identify.md, "Touches".
 // Idea: no place of a cell is further than h / 2 from its middle, because p goes at unit speed. Normals that turn by at
-// most w lie in the disc about cos w n(m) of radius sin w. Four cells have the disc around theirs.
+// most w lie in the disc about cos w n(m) of radius sin w.
 namespace rollfix {
 namespace {
 
 // Places beside a cell's end may be on either side, and middles are rounded to single precision: this share of the
 // perimeter.
 constexpr double kPlaceSlack = 1e-6;
-constexpr std::size_t kTogether = kFineCells / kCells;
 
 CentreCell cell_of(const Vec2& place, double reach, double lo, double hi, double radius) {
   CentreCell cell;
@@ -33,48 +32,39 @@ CentreCell cell_of(const Vec2& place, double reach, double lo, double hi, double
   return cell;
 }
 
-CentreCell around(const CentreCell* cells) {
-  CentreCell all;
-  double lo = cells[0].angle - cells[0].half_turn, hi = cells[0].angle + cells[0].half_turn;
-  for (std::size_t k = 0; k < kTogether; ++k) {
-    all.middle += cells[k].middle / static_cast<double>(kTogether);
-    lo = std::min(lo, cells[k].angle - cells[k].half_turn);
-    hi = std::max(hi, cells[k].angle + cells[k].half_turn);
+template <std::size_t N>
+Middles<N> middles_of(const Part& part) {
+  Middles<N> middles;
+  for (std::size_t k = 0; k < N; ++k) {
+    const Vec2 middle = part.point((static_cast<double>(k) + 0.5) / static_cast<double>(N) * part.perimeter());
+    middles.x[k] = static_cast<float>(middle.x());
+    middles.y[k] = static_cast<float>(middle.y());
   }
-  for (std::size_t k = 0; k < kTogether; ++k) {
-    all.radius = std::max(all.radius, (cells[k].middle - all.middle).norm() + cells[k].radius);
-  }
-  all.angle = 0.5 * (lo + hi);
-  all.half_turn = 0.5 * (hi - lo);
-  return all;
+  return middles;
 }
 
 }  // namespace
 
 CellPlaces places_of(const Part& part) {
-  CellPlaces places{};
-  for (std::size_t k = 0; k < kFineCells; ++k) {
-    const Vec2 middle = part.point((static_cast<double>(k) + 0.5) / kFineCells * part.perimeter());
-    places.x[k] = static_cast<float>(middle.x());
-    places.y[k] = static_cast<float>(middle.y());
-  }
-  return places;
+  return {middles_of<kCoarseCells>(part), middles_of<kCells>(part), middles_of<kFineCells>(part)};
 }
 
-CentreCells centre_cells(const Profile<kFineCells>& profile, const CellPlaces& places, double perimeter,
-                         double radius) {
-  CentreCells levels;
-  levels[2].reserve(kFineCells);
-  for (std::size_t k = 0; k < kFineCells; ++k) {
-    const Vec2 place(places.x[k], places.y[k]);
-    const double reach = 0.5 * perimeter / kFineCells + kPlaceSlack * (perimeter + place.norm());
-    levels[2].push_back(cell_of(place, reach, profile.least[k], profile.most[k], radius));
+template <std::size_t N>
+std::vector<CentreCell> centre_cells(const Profile<N>& profile, const Middles<N>& middles, double perimeter,
+                                     double radius) {
+  std::vector<CentreCell> cells;
+  cells.reserve(N);
+  for (std::size_t k = 0; k < N; ++k) {
+    const Vec2 place(middles.x[k], middles.y[k]);
+    const double reach = 0.5 * perimeter / static_cast<double>(N) + kPlaceSlack * (perimeter + place.norm());
+    cells.push_back(cell_of(place, reach, profile.least[k], profile.most[k], radius));
   }
-  for (const std::size_t level : {2, 1}) {
-    const std::vector<CentreCell>& fine = levels[level];
-    for (std::size_t k = 0; k < fine.size(); k += kTogether) levels[level - 1].push_back(around(fine.data() + k));
-  }
-  return levels;
+  return cells;
 }
+
+template std::vector<CentreCell> centre_cells(const Profile<kCoarseCells>&, const Middles<kCoarseCells>&, double,
+                                              double);
+template std::vector<CentreCell> centre_cells(const Profile<kCells>&, const Middles<kCells>&, double, double);
+template std::vector<CentreCell> centre_cells(const Profile<kFineCells>&, const Middles<kFineCells>&, double, double);
 
 }  // namespace rollfix

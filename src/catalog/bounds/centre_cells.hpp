@@ -9,10 +9,16 @@
 
 namespace rollfix {
 
-/// The middle of each of 256 equal cells of a part's boundary, in its frame, in single precision.
+/// The middles of equal cells of a part's boundary, in its frame, in single precision.
+template <std::size_t N>
+struct Middles {
+  std::array<float, N> x;
+  std::array<float, N> y;
+};
 struct CellPlaces {
-  std::array<float, kFineCells> x;
-  std::array<float, kFineCells> y;
+  Middles<kCoarseCells> coarse;
+  Middles<kCells> cells;
+  Middles<kFineCells> fine;
 };
 CellPlaces places_of(const Part& part);
 
@@ -24,9 +30,14 @@ struct CentreCell {
   double half_turn = 0;
 };
 
-/// Of each of 16 cells, of each of 64, and of each of 256, by the tangent's angles and the middles of cells. `radius`:
-/// the finger's; 0: a point.
-using CentreCells = std::array<std::vector<CentreCell>, 3>;
-CentreCells centre_cells(const Profile<kFineCells>& profile, const CellPlaces& places, double perimeter, double radius);
+/// Of each of N cells, by the tangent's angles in it and its middle. `radius`: the finger's; 0: a point.
+template <std::size_t N>
+std::vector<CentreCell> centre_cells(const Profile<N>& profile, const Middles<N>& middles, double perimeter,
+                                     double radius);
+extern template std::vector<CentreCell> centre_cells(const Profile<kCoarseCells>&, const Middles<kCoarseCells>&, double,
+                                                     double);
+extern template std::vector<CentreCell> centre_cells(const Profile<kCells>&, const Middles<kCells>&, double, double);
+extern template std::vector<CentreCell> centre_cells(const Profile<kFineCells>&, const Middles<kFineCells>&, double,
+                                                     double);
 
 }  // namespace rollfix

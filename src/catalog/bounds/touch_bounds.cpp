@@ -35,15 +35,45 @@ constexpr std::size_t kFiner = 4;
 // Headings are rounded, radians.
 constexpr double kHeadingGrain = 1e-9;
 // More comparisons than these take longer than to search the part.
-constexpr std::size_t kMostLooks = 50000;
+constexpr std::size_t kMostLooks = 4000;
+
+/// The cells of one part: the finest are made when they are asked for.
+class PartCells {
+ public:
+  PartCells(const Catalog& catalog, std::size_t part, double radius)
+      : index_(catalog.index()),
+        part_(part),
+        perimeter_(catalog.entry(part).perimeter),
+        radius_(radius),
+        places_(index_.places(part)) {
+    levels_[0] = centre_cells(index_.coarse[part], places_.coarse, perimeter_, radius_);
+    levels_[1] = centre_cells(index_.cells[part], places_.cells, perimeter_, radius_);
+  }
+
+  std::size_t size() const { return levels_.size(); }
+  const std::vector<CentreCell>& level(std::size_t level) {
+    if (levels_[level].empty()) {
+      levels_[level] = centre_cells(index_.fine({part_}).front(), places_.fine, perimeter_, radius_);
+    }
+    return levels_[level];
+  }
+
+ private:
+  const Catalog::Index& index_;
+  std::size_t part_;
+  double perimeter_;
+  double radius_;
+  CellPlaces places_;
+  std::array<std::vector<CentreCell>, 3> levels_;
+};
 
 /// One part: whether there is a pair of cells, and a cell for each other touch, that may go together.
 class CellPairs {
  public:
-  CellPairs(const std::vector<Measured>& touches, const touch::TouchPair& pair, const CentreCells& levels)
+  CellPairs(const std::vector<Measured>& touches, const touch::TouchPair& pair, PartCells& cells)
       : touches_(touches),
         pair_(pair),
-        levels_(levels),
+        cells_(cells),
         chord_(touches[pair.second].at - touches[pair.first].at),
         apart_(chord_.norm()) {
     for (std::size_t k = 0; k < touches.size(); ++k) {
@@ -52,7 +82,7 @@ class CellPairs {
   }
 
   bool may_hold_all() {
-    const std::size_t count = levels_.front().size();
+    const std::size_t count = cells_.level(0).size();
     Lists lists;
     for (std::size_t k = 0; k < others_.size(); ++k) {
       lists.emplace_back(candidates_.size(), candidates_.size() + count);
@@ -91,11 +121,11 @@ class CellPairs {
   /// Whether these two, with what they leave to the others, may hold all touches: in one of the finest cells in them.
   bool may_hold(std::size_t level, std::size_t a, std::size_t b, const Lists& lists) {
     if (++looks_ > kMostLooks) return true;
-    const std::vector<CentreCell>& cells = levels_[level];
+    const std::vector<CentreCell>& cells = cells_.level(level);
     const HeadingArc arc = headings(cells[a], cells[b]);
     if (arc.is_empty()) return false;
     const std::size_t top = candidates_.size();
-    const bool is_finest = level + 1 == levels_.size();
+    const bool is_finest = level + 1 == cells_.size();
     Lists own = lists;
     bool fits = true;
     for (std::size_t k = 0; k < others_.size() && fits; ++k) {
@@ -131,14 +161,15 @@ class CellPairs {
   /// the finest at least one.
   bool narrow(std::size_t level, const std::array<const CentreCell*, 2>& pair, const HeadingArc& arc, std::size_t touch,
               std::pair<std::size_t, std::size_t>& list) {
-    const bool is_finest = level + 1 == levels_.size();
+    const bool is_finest = level + 1 == cells_.size();
+    const std::vector<CentreCell>& cells = cells_.level(level);
     const std::array<CentreCell, 2> discs = expected(pair, arc, touch);
     const Measured& one = touches_[touch];
     const std::size_t top = candidates_.size();
     looks_ += list.second - list.first;
     for (std::size_t k = list.first; k < list.second; ++k) {
       const std::size_t number = candidates_[k];
-      const CentreCell& cell = levels_[level][number];
+      const CentreCell& cell = cells[number];
       const auto is_beyond = [&](const CentreCell& disc) {
         const double most = disc.radius + cell.radius;
         return (disc.middle - cell.middle).squaredNorm() > most * most;
@@ -157,7 +188,7 @@ class CellPairs {
 
   const std::vector<Measured>& touches_;
   touch::TouchPair pair_;
-  const CentreCells& levels_;
+  PartCells& cells_;
   Vec2 chord_;
   double apart_;
   std::vector<std::size_t> others_;
@@ -168,7 +199,7 @@ class CellPairs {
 }  // namespace
 
 TouchBounds::TouchBounds(const Catalog& catalog, const TouchProblem& like)
-    : catalog_(catalog), index_(catalog.index()), radius_(touch::radius_of(like)) {
+    : catalog_(catalog), radius_(touch::radius_of(like)) {
   touches_ = touch::measured(like.mirrored ? touch::in_mirror(like) : like);
   if (touches_.size() > 1) pair_ = touch::choose_pair(touches_);
 }
@@ -179,11 +210,8 @@ std::vector<std::size_t> TouchBounds::left_of(const std::vector<std::size_t>& pa
   std::vector<char> fits(parts.size(), 0);
   Crew crew(parts.size(), kTouchBlock);
   crew.run(options.threads, options.go_on, [&](std::size_t lo, std::size_t hi) {
-    const std::vector<Profile<kFineCells>> fine =
-        index_.fine({parts.begin() + static_cast<std::ptrdiff_t>(lo), parts.begin() + static_cast<std::ptrdiff_t>(hi)});
     for (std::size_t k = lo; k < hi; ++k) {
-      const double perimeter = catalog_.entry(parts[k]).perimeter;
-      const CentreCells cells = centre_cells(fine[k - lo], index_.places(parts[k]), perimeter, radius_);
+      PartCells cells(catalog_, parts[k], radius_);
       fits[k] = CellPairs(touches_, pair_, cells).may_hold_all() ? 1 : 0;
     }
   });

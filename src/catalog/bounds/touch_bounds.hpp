@@ -22,7 +22,6 @@ class TouchBounds {
 
  private:
   const Catalog& catalog_;
-  const Catalog::Index& index_;
   std::vector<touch::Measured> touches_;
   touch::TouchPair pair_;
   double radius_ = 0;
