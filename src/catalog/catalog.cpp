@@ -22,8 +22,8 @@ namespace {
 constexpr std::size_t kMostKept = 4096;
 // Fine cells are kept once they were read where there are no more parts than these: 2 kB each.
 constexpr std::size_t kMostFineKept = 16384;
-// Places of cells are kept of so many parts: half a kB each.
-constexpr std::size_t kMostPlacesKept = 262144;
+// Middles of cells are kept of so many parts: 2.7 kB each.
+constexpr std::size_t kMostPlacesKept = 65536;
 
 constexpr const char* kTakenOut = "was taken out of the catalog meanwhile";
 constexpr const char* kDamaged = "was damaged since it was written: its checksum does not fit; build the catalog again";
