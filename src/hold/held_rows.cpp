@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "answer/unweighed.hpp"
-#include "contact/mirrored.hpp"
+#include "hold_facts.hpp"
 
 // Notation, as in docs/two_fingers.md, "Three and more fingers":
 //   L_i(t)          what contact i has travelled on the part since the first row: `travelled`
@@ -24,10 +24,6 @@ constexpr double kLeastHeldTravel = 1e-9;
 constexpr double kLeastHeldAngle = 1e-9;  // radians
 // A row is at the same corner as another if both contacts are within so many standard deviations of one another.
 constexpr double kAlikeSigmas = 3;
-
-const Finger& finger_for(const HoldProblem& problem, std::size_t k) {
-  return problem.fingers.size() == 1 ? problem.fingers.front() : problem.fingers[k];
-}
 
 double radius_share(const Noise& noise, const Finger& finger) {
   return finger.is_disk() ? noise.radius / finger.disk()->radius : 0;
@@ -134,7 +130,7 @@ HeldRows held_rows(const HoldProblem& problem, const std::vector<Log>& logs) {
     held.rows[row].time = time.empty() ? static_cast<double>(row) : time[row];
   }
   for (std::size_t k = 0; k < logs.size(); ++k) {
-    const Finger& finger = finger_for(problem, k);
+    const Finger& finger = finger_of_log(problem, k);
     const bool has_centre = !logs[k].fingers.front().x.empty();
     held.errors.push_back(problem.noise ? errors_with(noise_on(problem.part, *problem.noise), finger, has_centre,
                                                       problem.part.perimeter())

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "contact_look.hpp"
+#include "hold_equations.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/pulse.hpp"
 
@@ -31,36 +32,8 @@ constexpr int kPoseRounds = 12;       // of one row's pose alone
 constexpr double kPoseSettled = 1e-8;
 constexpr double kLeastShare = 1e-3;  // of a step of it
 constexpr int kWorstRounds = 25;      // of weighting up what is worst (Lawson's method)
-constexpr double kLeastBlur = 1e-7;   // of the perimeter, where contacts are exact
-constexpr double kRidge = 1e-12;      // keeps what nothing determines where it is
-
-using RowBlock = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 2 * kMostFingers>;
 
 }  // namespace
-
-/// A contact's residuals with their derivatives: of d (two rows) and of r.
-struct HoldFit::Look {
-  Eigen::Vector3d residual = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d by_pose = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d by_place = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  // C^-1, 0 for what is not measured
-  double log_size = 0;                                    // log det C, corners by their share
-  double blur_size = 0;                                   // of it what corners add
-  double angles = 1;                                      // numbers that the angle counts as
-  double curvature = 0;
-  double turn_variance = 0;  // of r without n, with what a corner adds
-};
-
-struct HoldFit::RowEquations {
-  Eigen::Matrix3d pose = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d slope = Eigen::Vector3d::Zero();
-  RowBlock mixed;
-  UnknownsMatrix own;
-  Unknowns own_slope;
-  double square = 0;
-  double log_size = 0;
-  double blur_size = 0;
-};
 
 HoldFit::HoldFit(const Part& part, const HeldRows& rows) : part_(part), rows_(rows) {
   const bool any_stretch =
@@ -81,106 +54,6 @@ double HoldFit::place_of(const HeldState& state, std::size_t row, std::size_t fi
   const double stretch =
       size_ > static_cast<Eigen::Index>(fingers()) ? state.unknowns(static_cast<Eigen::Index>(fingers()) + k) : 0;
   return state.unknowns(k) + rows_.rows[row].contacts[finger].travelled / (1 + stretch);
-}
-
-/// Of a flat finger, and of one that is larger, as if it were as large as the part.
-double HoldFit::pivot_length(const HeldContact& contact) const {
-  return 1 / std::max(contact.finger_curvature, 2 * std::numbers::pi / part_.perimeter());
-}
-
-HoldFit::Look HoldFit::look(const Placed& placed, double s, std::size_t row, std::size_t finger) const {
-  const HeldContact& contact = rows_.rows[row].contacts[finger];
-  const HeldErrors& errors = rows_.errors[finger];
-  const double blur = std::max(errors.travel, kLeastBlur * part_.perimeter());
-  const BlurredPlace at =
-      rows_.has_noise ? blurred(part_, s, blur, pivot_length(contact)) : ranged(part_, s, errors.travel);
-  const Pose turn{0, 0, placed.heading};
-  Look look;
-  look.curvature = at.curvature;
-  const double off = nearest_angle(contact.tangent - placed.heading - at.angle);
-  const double beyond = std::max(0.0, std::abs(off) - at.half_turn);
-  look.residual(2) = std::copysign(beyond, off);
-  if (beyond > 0 || at.half_turn == 0) {
-    look.by_pose(2, 2) = -1;
-    look.by_place(2) = -at.bend;
-  }
-  if (errors.has_place) {
-    const Vec2 arm = turn.turned(at.point - middle_);
-    look.residual.head<2>() = contact.at - placed.middle - arm;
-    look.by_pose.topLeftCorner<2, 2>() = -Eigen::Matrix2d::Identity();
-    look.by_pose.topRightCorner<2, 1>() = Vec2(arm.y(), -arm.x());
-    look.by_place.head<2>() = -turn.turned(at.tangent);
-  }
-  const double times = weight(row, finger) * rows_.rows[row].weight;
-  if (!rows_.has_noise) {
-    if (errors.has_place) look.information(0, 0) = look.information(1, 1) = times / (errors.place * errors.place);
-    look.information(2, 2) = times / (errors.angle * errors.angle);
-    return look;
-  }
-  const double bend = (at.curvature + contact.finger_curvature) * errors.travel;
-  const double angle = errors.angle * errors.angle;
-  const double alike = std::max(1.0, contact.rows_alike / rows_.rows[row].weight);
-  const double plain = (angle + bend * bend) / rows_.rows[row].weight;
-  const double corner = at.variance * alike;
-  look.turn_variance = angle + at.variance;
-  look.blur_size = std::log1p(corner / plain) / alike;
-  look.angles = (1 + corner / (plain * alike)) / (1 + corner / plain);
-  if (!errors.has_place) {
-    look.information(2, 2) = 1 / (plain + corner);
-    look.log_size = std::log(plain) + look.blur_size;
-    return look;
-  }
-  const Eigen::Vector3d lever(-contact.lever.y(), contact.lever.x(), 1);
-  Eigen::Matrix3d covariance = angle * lever * lever.transpose();
-  // At a corner n moves the contact along the finger, which is not along the part.
-  const double place = errors.place * errors.place + at.pivoting * errors.travel * errors.travel;
-  covariance(0, 0) += place;
-  covariance(1, 1) += place;
-  covariance(2, 2) += bend * bend;
-  covariance /= rows_.rows[row].weight;
-  look.log_size = std::log(covariance.determinant()) + look.blur_size;
-  covariance(2, 2) += corner;
-  look.information = covariance.inverse();
-  return look;
-}
-
-HoldFit::RowEquations HoldFit::equations(const HeldState& state, std::size_t row, bool with_unknowns) const {
-  RowEquations sum;
-  const auto count = static_cast<Eigen::Index>(fingers());
-  if (with_unknowns) {
-    sum.mixed = RowBlock::Zero(3, size_);
-    sum.own = UnknownsMatrix::Zero(size_, size_);
-    sum.own_slope = Unknowns::Zero(size_);
-  }
-  for (std::size_t finger = 0; finger < fingers(); ++finger) {
-    const Look one = look(state.placed[row], place_of(state, row, finger), row, finger);
-    const Eigen::Matrix3d weighed = one.by_pose.transpose() * one.information;
-    sum.pose += weighed * one.by_pose;
-    sum.slope -= weighed * one.residual;
-    sum.square += one.residual.dot(one.information * one.residual);
-    sum.log_size += one.log_size;
-    sum.blur_size += one.blur_size;
-    if (!with_unknowns) continue;
-    const auto k = static_cast<Eigen::Index>(finger);
-    const Eigen::Vector3d mixed = weighed * one.by_place;
-    const Eigen::Vector3d places = one.information * one.by_place;
-    const double own = one.by_place.dot(places);
-    const double slope = -places.dot(one.residual);
-    const double by_stretch = -rows_.rows[row].contacts[finger].travelled;
-    sum.mixed.col(k) += mixed;
-    sum.own(k, k) += own;
-    sum.own_slope(k) += slope;
-    if (size_ == count) continue;
-    sum.mixed.col(count + k) += by_stretch * mixed;
-    sum.own(count + k, count + k) += by_stretch * by_stretch * own;
-    sum.own(k, count + k) += by_stretch * own;
-    sum.own(count + k, k) += by_stretch * own;
-    sum.own_slope(count + k) += by_stretch * slope;
-  }
-  // What nothing tells stays: of rows without x and y where the part is.
-  if (!rows_.any_place) sum.pose(0, 0) = sum.pose(1, 1) = 1;
-  sum.pose(2, 2) += kRidge * sum.pose(2, 2) + 1e-30;
-  return sum;
 }
 
 /// A pose that suits the contacts about: by the longest chord between them, or else by their normals.
@@ -382,11 +255,6 @@ HeldState HoldFit::best_worst(HeldState from) {
   return best;
 }
 
-ContactResidual HoldFit::residual(const HeldState& state, std::size_t row, std::size_t finger) const {
-  const Look one = look(state.placed[row], place_of(state, row, finger), row, finger);
-  return {one.residual.head<2>(), one.residual(2)};
-}
-
 PoseAtRow HoldFit::pose_at(const HeldState& state, std::size_t row) const {
   const RowEquations one = equations(state, row, true);
   const Eigen::Matrix3d covariance = one.pose.inverse();
@@ -402,33 +270,6 @@ PoseAtRow HoldFit::pose_at(const HeldState& state, std::size_t row) const {
   result.covariance = to_origin * covariance * to_origin.transpose();
   result.by_unknowns = -to_origin * covariance * one.mixed;
   return result;
-}
-
-HoldFit::ContactError HoldFit::contact_error(const HeldState& state, std::size_t row, std::size_t finger) const {
-  const Look one = look(state.placed[row], place_of(state, row, finger), row, finger);
-  const HeldContact& contact = rows_.rows[row].contacts[finger];
-  const double variance = rows_.errors[finger].travel * rows_.errors[finger].travel;
-  const double bend = one.curvature + contact.finger_curvature;
-  // r = a - (kappa + kappa_finger) n.
-  const double total = one.turn_variance + bend * bend * variance;
-  ContactError error;
-  error.by_turn = -bend * variance / total;
-  error.mean = error.by_turn * one.residual(2);
-  error.variance = variance * one.turn_variance / total;
-  error.curvature = one.curvature;
-  return error;
-}
-
-double HoldFit::freedom(const HeldState& state) const {
-  double numbers = 0;
-  for (std::size_t row = 0; row < rows_.rows.size(); ++row) {
-    for (std::size_t k = 0; k < fingers(); ++k) {
-      const Look one = look(state.placed[row], place_of(state, row, k), row, k);
-      numbers += one.angles + (rows_.errors[k].has_place ? 2 : 0);
-    }
-    numbers -= rows_.any_place ? 3 : 1;
-  }
-  return numbers - static_cast<double>(fingers());
 }
 
 }  // namespace rollfix::hold

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
+#include <utility>
 
 #include "rollfix/pulse.hpp"
 
@@ -28,6 +30,7 @@ constexpr double kFlat = 0.15;           // ... and one over which it changes le
 constexpr double kRising = 0.4;          // behind a valley log p rises by this much
 constexpr std::size_t kMostNodes = 160;  // to one side
 constexpr double kOneMode = 0.05;        // a valley no deeper than this share of the lower peak
+constexpr double kSamePlace = 1e-9;      // of the perimeter
 constexpr double kSameOptimum = 0.05;    // of a standard deviation
 constexpr double kFreeShare = 0.01;      // of the perimeter: a set that is wider can be a continuum
 
@@ -90,7 +93,7 @@ class RidgeWalk {
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       const double lo = k > 0 ? place(nodes[k]) - place(nodes[k - 1]) : 0;
       const double hi = k + 1 < nodes.size() ? place(nodes[k + 1]) - place(nodes[k]) : 0;
-      nodes[k].width = nodes.size() == 1 ? sd_ * std::sqrt(2 * 3.14159265358979) : 0.5 * (lo + hi);
+      nodes[k].width = nodes.size() == 1 ? sd_ * std::sqrt(2 * std::numbers::pi) : 0.5 * (lo + hi);
       nodes[k].covariance(axis_, axis_) += nodes[k].width * nodes[k].width / 12;
     }
   }
@@ -112,8 +115,13 @@ class RidgeWalk {
     return false;
   }
 
-  double offset(const HeldState& from, const HeldState& to, Eigen::Index unknown) const {
-    return boundary_.offset(from.unknowns(unknown), to.unknowns(unknown));
+  /// Whether it is the ridge's own peak.
+  bool is_peak(const HeldState& state) const {
+    for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(fit_.fingers()); ++i) {
+      const double sd = std::sqrt(peak_.covariance(i, i)) + kSamePlace * boundary_.perimeter;
+      if (std::abs(offset(peak_.state, state, i)) > kSameOptimum * sd) return false;
+    }
+    return true;
   }
 
   std::vector<HoldNode> nodes;
@@ -128,6 +136,10 @@ class RidgeWalk {
   int free() const { return free_; }
 
  private:
+  double offset(const HeldState& from, const HeldState& to, Eigen::Index unknown) const {
+    return boundary_.offset(from.unknowns(unknown), to.unknowns(unknown));
+  }
+
   double place(const HoldNode& node) const { return node.state.unknowns(axis_); }
 
   HoldNode node_at(const HeldState& state) const {
@@ -219,6 +231,94 @@ double log_sum(const std::vector<HoldNode>& nodes) {
   return most + std::log(sum);
 }
 
+/// Ridges about all optima, and which of them are one mode.
+class Humps {
+ public:
+  Humps(const HoldFit& fit, const Part& part, const std::vector<HeldSet>& sets) : fit_(fit), part_(part), sets_(sets) {}
+
+  std::vector<HoldMode> run(std::vector<Optimum> optima) {
+    std::stable_sort(optima.begin(), optima.end(),
+                     [](const Optimum& a, const Optimum& b) { return a.state.cost < b.state.cost; });
+    for (std::size_t next = 0; next < optima.size(); ++next) {
+      const Optimum one = optima[next];  // more may be added
+      if (known(one.state, one.set)) continue;
+      ridges_.push_back({RidgeWalk(fit_, part_, sets_[one.set], one), one.set, ridges_.size()});
+      ridges_.back().walk.run();
+      for (const RidgeWalk::Beyond& other : ridges_.back().walk.beyond) {
+        links_.push_back({ridges_.size() - 1, other.state, other.valley});
+        optima.push_back({other.state, one.set});
+      }
+    }
+    join();
+    return modes();
+  }
+
+ private:
+  struct Ridge {
+    RidgeWalk walk;
+    std::size_t set = 0;
+    std::size_t head = 0;  // the first of those that are one mode with it
+  };
+  /// From a ridge over a valley to another peak.
+  struct Link {
+    std::size_t from = 0;
+    HeldState to;
+    double valley = 0;  // log density
+  };
+
+  std::size_t head_of(std::size_t k) const {
+    while (ridges_[k].head != k) k = ridges_[k].head;
+    return k;
+  }
+
+  /// The ridge that an optimum lies on.
+  std::optional<std::size_t> known(const HeldState& state, std::size_t set) const {
+    for (std::size_t k = 0; k < ridges_.size(); ++k) {
+      const RidgeWalk& walk = ridges_[k].walk;
+      const bool is_all = ridges_[k].set == set && walk.is_free() && walk.free() > 1;
+      if (is_all || walk.passes(state) || walk.is_peak(state)) return k;
+    }
+    return std::nullopt;
+  }
+
+  void join() {
+    for (const Link& link : links_) {
+      const std::optional<std::size_t> to = known(link.to, sets_.size());
+      if (!to) continue;
+      const double one = ridges_[link.from].walk.peak().log_density;
+      const double other = ridges_[*to].walk.peak().log_density;
+      if (link.valley < std::min(one, other) + std::log(kOneMode)) continue;
+      ridges_[std::max(head_of(*to), head_of(link.from))].head = std::min(head_of(*to), head_of(link.from));
+    }
+  }
+
+  std::vector<HoldMode> modes() const {
+    std::vector<HoldMode> modes;
+    for (std::size_t top = 0; top < ridges_.size(); ++top) {
+      if (head_of(top) != top) continue;
+      HoldMode mode;
+      mode.best = ridges_[top].walk.peak().state;
+      mode.set = ridges_[top].set;
+      for (std::size_t k = top; k < ridges_.size(); ++k) {
+        if (head_of(k) != top) continue;
+        const RidgeWalk& walk = ridges_[k].walk;
+        if (walk.peak().state.cost < mode.best.cost) mode.best = walk.peak().state;
+        mode.continuum = mode.continuum || walk.is_free();
+        mode.nodes.insert(mode.nodes.end(), walk.nodes.begin(), walk.nodes.end());
+      }
+      mode.log_weight = log_sum(mode.nodes);
+      modes.push_back(std::move(mode));
+    }
+    return modes;
+  }
+
+  const HoldFit& fit_;
+  const Part& part_;
+  const std::vector<HeldSet>& sets_;
+  std::vector<Ridge> ridges_;
+  std::vector<Link> links_;
+};
+
 }  // namespace
 
 bool is_within(const HeldSet& set, const HeldState& state, const Boundary& boundary, double slack) {
@@ -230,71 +330,7 @@ bool is_within(const HeldSet& set, const HeldState& state, const Boundary& bound
 
 std::vector<HoldMode> modes_about(const HoldFit& fit, const Part& part, std::vector<Optimum> optima,
                                   const std::vector<HeldSet>& sets) {
-  const Boundary boundary = part.boundary();
-  std::vector<RidgeWalk> walks;
-  std::vector<std::size_t> set_of;
-  std::vector<std::size_t> head;  // of the walks that are one mode
-  const auto find = [&](std::size_t k) {
-    while (head[k] != k) k = head[k];
-    return k;
-  };
-  const auto known = [&](const HeldState& state, std::size_t set) {
-    for (std::size_t k = 0; k < walks.size(); ++k) {
-      const bool is_all = set_of[k] == set && walks[k].is_free() && walks[k].free() > 1;
-      if (is_all || walks[k].passes(state)) return std::optional<std::size_t>(k);
-      double off = 0;
-      for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(fit.fingers()); ++i) {
-        const double sd = std::sqrt(walks[k].peak().covariance(i, i)) + 1e-9 * boundary.perimeter;
-        off = std::max(off, std::abs(walks[k].offset(walks[k].peak().state, state, i)) / sd);
-      }
-      if (off <= kSameOptimum) return std::optional<std::size_t>(k);
-    }
-    return std::optional<std::size_t>();
-  };
-  struct Link {
-    std::size_t from = 0;
-    HeldState to;
-    double valley = 0;
-  };
-  std::vector<Link> links;
-  std::stable_sort(optima.begin(), optima.end(),
-                   [](const Optimum& a, const Optimum& b) { return a.state.cost < b.state.cost; });
-  for (std::size_t next = 0; next < optima.size(); ++next) {
-    const Optimum one = optima[next];  // more may be added
-    if (known(one.state, one.set)) continue;
-    walks.emplace_back(fit, part, sets[one.set], one);
-    walks.back().run();
-    set_of.push_back(one.set);
-    head.push_back(head.size());
-    const std::vector<RidgeWalk::Beyond> beyond = walks.back().beyond;
-    for (const RidgeWalk::Beyond& other : beyond) {
-      links.push_back({walks.size() - 1, other.state, other.valley});
-      optima.push_back({other.state, one.set});
-    }
-  }
-  for (const Link& link : links) {
-    const std::optional<std::size_t> to = known(link.to, sets.size());
-    if (!to) continue;
-    const double lower = std::min(walks[link.from].peak().log_density, walks[*to].peak().log_density);
-    if (link.valley >= lower + std::log(kOneMode)) head[find(*to)] = find(link.from);
-  }
-  std::vector<HoldMode> modes;
-  std::vector<std::size_t> mode_of(walks.size(), walks.size());
-  for (std::size_t k = 0; k < walks.size(); ++k) {
-    const std::size_t top = find(k);
-    if (mode_of[top] == walks.size()) {
-      mode_of[top] = modes.size();
-      modes.emplace_back();
-      modes.back().best = walks[k].peak().state;
-      modes.back().set = set_of[k];
-    }
-    HoldMode& mode = modes[mode_of[top]];
-    if (walks[k].peak().state.cost < mode.best.cost) mode.best = walks[k].peak().state;
-    mode.continuum = mode.continuum || walks[k].is_free();
-    mode.nodes.insert(mode.nodes.end(), walks[k].nodes.begin(), walks[k].nodes.end());
-  }
-  for (HoldMode& mode : modes) mode.log_weight = log_sum(mode.nodes);
-  return modes;
+  return Humps(fit, part, sets).run(std::move(optima));
 }
 
 }  // namespace rollfix::hold

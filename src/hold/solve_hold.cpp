@@ -9,8 +9,8 @@
 #include "answer_holds.hpp"
 #include "arc_tree.hpp"
 #include "box_search.hpp"
-#include "contact/mirrored.hpp"
 #include "held_rows.hpp"
+#include "hold_facts.hpp"
 #include "hold_fit.hpp"
 #include "hold_modes.hpp"
 #include "requirements.hpp"
@@ -48,7 +48,7 @@ class ReachOfFingers {
  public:
   explicit ReachOfFingers(const HoldProblem& problem) {
     for (std::size_t k = 0; k < problem.logs.size(); ++k) {
-      const Finger& finger = problem.fingers[problem.fingers.size() == 1 ? 0 : k];
+      const Finger& finger = finger_of_log(problem, k);
       if (!finger.is_disk()) {
         each.push_back(nullptr);
         continue;
@@ -320,40 +320,6 @@ class HoldSolver {
   BoxSearch search_;
 };
 
-HoldRoll roll_of(const HoldProblem& problem, const Log& log, std::size_t k) {
-  const FingerRows& rows = log.fingers.front();
-  const Finger& finger = problem.fingers[problem.fingers.size() == 1 ? 0 : k];
-  HoldRoll roll;
-  roll.name = log.name;
-  if (!rows.line.empty()) roll.lines = {rows.line.front(), rows.line.back()};
-  roll.has_centre = !rows.x.empty();
-  for (std::size_t row = 0; row < rows.x.size(); ++row) roll.track.emplace_back(rows.x[row], rows.y[row]);
-  if (finger.is_disk()) roll.radius = finger.disk()->radius;
-  return roll;
-}
-
-/// The problem as a mirror shows it: x has the other sign.
-HoldProblem in_mirror(const HoldProblem& problem, std::vector<Log>& logs) {
-  HoldProblem result = problem;
-  for (std::size_t k = 0; k < logs.size(); ++k) {
-    mirror(logs[k].fingers.front(), &problem.fingers[problem.fingers.size() == 1 ? 0 : k]);
-  }
-  for (Finger& finger : result.fingers) finger = rollfix::mirrored(finger);
-  return result;
-}
-
-void out_of_mirror(HoldAnswer& answer) {
-  const Eigen::Vector3d signs(-1, 1, -1);
-  for (HoldPlacement& placement : answer.placements) {
-    for (Pose* pose : {&placement.first, &placement.last, &placement.first_spread.mean, &placement.last_spread.mean}) {
-      *pose = {-pose->x, pose->y, -pose->heading};
-    }
-    for (PoseSpread* spread : {&placement.first_spread, &placement.last_spread}) {
-      spread->covariance = Eigen::Matrix3d(signs.asDiagonal() * spread->covariance * signs.asDiagonal());
-    }
-  }
-}
-
 }  // namespace
 }  // namespace hold
 
@@ -362,8 +328,7 @@ HoldAnswer solve(const HoldProblem& problem) {
   const Doing doing("looking for places that fit all fingers");
   std::vector<Log> logs;
   for (std::size_t k = 0; k < problem.logs.size(); ++k) {
-    const Finger& finger = problem.fingers[problem.fingers.size() == 1 ? 0 : k];
-    logs.push_back(in_unit(problem.logs[k], problem.part.unit(), {finger}));
+    logs.push_back(in_unit(problem.logs[k], problem.part.unit(), {hold::finger_of_log(problem, k)}));
   }
   logs = hold::aligned(std::move(logs));
   HoldAnswer answer{problem.part, {}};

@@ -25,7 +25,8 @@ void simulate(const std::string& noise = "") {
   const std::string same =
       "simulate " + kPart + "--finger disk,r=0.1 --part-rotation 20deg --samples 30 --start 1 --length 0.6 " + noise;
   ASSERT_EQ(run(same + " --start 3 --length -0.4 -o a.csv -o b.csv").code, 0);
-  ASSERT_EQ(run(same + "" + (noise.empty() ? "" : " --seed 7") + " --start 5 --length 0.3 -o again.csv -o c.csv").code, 0);
+  ASSERT_EQ(run(same + "" + (noise.empty() ? "" : " --seed 7") + " --start 5 --length 0.3 -o again.csv -o c.csv").code,
+            0);
 }
 
 TEST(CliHold, ThreeLogsAreThreeFingersOnAPartThatMoves) {

@@ -1,0 +1,155 @@
+#include "hold_equations.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "contact_look.hpp"
+#include "outline/turn.hpp"
+
+// Notation as in hold_fit.cpp:
+//   d, r            residuals of the contact's place in the world and of its tangent: `Look::residual`
+//   C               their covariance: position, the orientation by its lever w, and the contact's error n, which turns
+//                   the normal by (kappa + kappa_finger) n and nothing else; at a corner n moves the contact as well
+//   P, B, M         blocks of a row's normal equations: of its pose, mixed, of the unknowns: RowEquations
+namespace rollfix::hold {
+namespace {
+
+constexpr double kRidge = 1e-12;  // keeps what nothing determines where it is
+
+}  // namespace
+
+/// Of a flat finger, and of one that is larger, as if it were as large as the part.
+double HoldFit::pivot_length(const HeldContact& contact) const {
+  return 1 / std::max(contact.finger_curvature, 2 * std::numbers::pi / part_.perimeter());
+}
+
+HoldFit::Look HoldFit::look(const Placed& placed, double s, std::size_t row, std::size_t finger) const {
+  const HeldContact& contact = rows_.rows[row].contacts[finger];
+  const HeldErrors& errors = rows_.errors[finger];
+  const double blur = std::max(errors.travel, kLeastBlur * part_.perimeter());
+  const BlurredPlace at =
+      rows_.has_noise ? blurred(part_, s, blur, pivot_length(contact)) : ranged(part_, s, errors.travel);
+  const Pose turn{0, 0, placed.heading};
+  Look look;
+  look.curvature = at.curvature;
+  const double off = nearest_angle(contact.tangent - placed.heading - at.angle);
+  const double beyond = std::max(0.0, std::abs(off) - at.half_turn);
+  look.residual(2) = std::copysign(beyond, off);
+  if (beyond > 0 || at.half_turn == 0) {
+    look.by_pose(2, 2) = -1;
+    look.by_place(2) = -at.bend;
+  }
+  if (errors.has_place) {
+    const Vec2 arm = turn.turned(at.point - middle_);
+    look.residual.head<2>() = contact.at - placed.middle - arm;
+    look.by_pose.topLeftCorner<2, 2>() = -Eigen::Matrix2d::Identity();
+    look.by_pose.topRightCorner<2, 1>() = Vec2(arm.y(), -arm.x());
+    look.by_place.head<2>() = -turn.turned(at.tangent);
+  }
+  const double times = weight(row, finger) * rows_.rows[row].weight;
+  if (!rows_.has_noise) {
+    if (errors.has_place) look.information(0, 0) = look.information(1, 1) = times / (errors.place * errors.place);
+    look.information(2, 2) = times / (errors.angle * errors.angle);
+    return look;
+  }
+  const double bend = (at.curvature + contact.finger_curvature) * errors.travel;
+  const double angle = errors.angle * errors.angle;
+  const double alike = std::max(1.0, contact.rows_alike / rows_.rows[row].weight);
+  const double plain = (angle + bend * bend) / rows_.rows[row].weight;
+  const double corner = at.variance * alike;
+  look.turn_variance = angle + at.variance;
+  look.blur_size = std::log1p(corner / plain) / alike;
+  look.angles = (1 + corner / (plain * alike)) / (1 + corner / plain);
+  if (!errors.has_place) {
+    look.information(2, 2) = 1 / (plain + corner);
+    look.log_size = std::log(plain) + look.blur_size;
+    return look;
+  }
+  const Eigen::Vector3d lever(-contact.lever.y(), contact.lever.x(), 1);
+  Eigen::Matrix3d covariance = angle * lever * lever.transpose();
+  // At a corner n moves the contact along the finger, which is not along the part.
+  const double place = errors.place * errors.place + at.pivoting * errors.travel * errors.travel;
+  covariance(0, 0) += place;
+  covariance(1, 1) += place;
+  covariance(2, 2) += bend * bend;
+  covariance /= rows_.rows[row].weight;
+  look.log_size = std::log(covariance.determinant()) + look.blur_size;
+  covariance(2, 2) += corner;
+  look.information = covariance.inverse();
+  return look;
+}
+
+HoldFit::RowEquations HoldFit::equations(const HeldState& state, std::size_t row, bool with_unknowns) const {
+  RowEquations sum;
+  const auto count = static_cast<Eigen::Index>(fingers());
+  if (with_unknowns) {
+    sum.mixed = RowBlock::Zero(3, size_);
+    sum.own = UnknownsMatrix::Zero(size_, size_);
+    sum.own_slope = Unknowns::Zero(size_);
+  }
+  for (std::size_t finger = 0; finger < fingers(); ++finger) {
+    const Look one = look(state.placed[row], place_of(state, row, finger), row, finger);
+    const Eigen::Matrix3d weighed = one.by_pose.transpose() * one.information;
+    sum.pose += weighed * one.by_pose;
+    sum.slope -= weighed * one.residual;
+    sum.square += one.residual.dot(one.information * one.residual);
+    sum.log_size += one.log_size;
+    sum.blur_size += one.blur_size;
+    if (!with_unknowns) continue;
+    const auto k = static_cast<Eigen::Index>(finger);
+    const Eigen::Vector3d mixed = weighed * one.by_place;
+    const Eigen::Vector3d places = one.information * one.by_place;
+    const double own = one.by_place.dot(places);
+    const double slope = -places.dot(one.residual);
+    const double by_stretch = -rows_.rows[row].contacts[finger].travelled;
+    sum.mixed.col(k) += mixed;
+    sum.own(k, k) += own;
+    sum.own_slope(k) += slope;
+    if (size_ == count) continue;
+    sum.mixed.col(count + k) += by_stretch * mixed;
+    sum.own(count + k, count + k) += by_stretch * by_stretch * own;
+    sum.own(k, count + k) += by_stretch * own;
+    sum.own(count + k, k) += by_stretch * own;
+    sum.own_slope(count + k) += by_stretch * slope;
+  }
+  // What nothing tells stays: of rows without x and y where the part is.
+  if (!rows_.any_place) sum.pose(0, 0) = sum.pose(1, 1) = 1;
+  sum.pose(2, 2) += kRidge * sum.pose(2, 2) + 1e-30;
+  return sum;
+}
+
+ContactResidual HoldFit::residual(const HeldState& state, std::size_t row, std::size_t finger) const {
+  const Look one = look(state.placed[row], place_of(state, row, finger), row, finger);
+  return {one.residual.head<2>(), one.residual(2)};
+}
+
+HoldFit::ContactError HoldFit::contact_error(const HeldState& state, std::size_t row, std::size_t finger) const {
+  const Look one = look(state.placed[row], place_of(state, row, finger), row, finger);
+  const HeldContact& contact = rows_.rows[row].contacts[finger];
+  const double variance = rows_.errors[finger].travel * rows_.errors[finger].travel;
+  const double bend = one.curvature + contact.finger_curvature;
+  // r = a - (kappa + kappa_finger) n.
+  const double total = one.turn_variance + bend * bend * variance;
+  ContactError error;
+  error.by_turn = -bend * variance / total;
+  error.mean = error.by_turn * one.residual(2);
+  error.variance = variance * one.turn_variance / total;
+  error.curvature = one.curvature;
+  return error;
+}
+
+double HoldFit::freedom(const HeldState& state) const {
+  double numbers = 0;
+  for (std::size_t row = 0; row < rows_.rows.size(); ++row) {
+    for (std::size_t k = 0; k < fingers(); ++k) {
+      const Look one = look(state.placed[row], place_of(state, row, k), row, k);
+      numbers += one.angles + (rows_.errors[k].has_place ? 2 : 0);
+    }
+    numbers -= rows_.any_place ? 3 : 1;
+  }
+  return numbers - static_cast<double>(fingers());
+}
+
+}  // namespace rollfix::hold

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "hold_fit.hpp"
+
+namespace rollfix::hold {
+
+/// Where contacts are exact they are still blurred by this share of the perimeter, so that corners have a slope.
+inline constexpr double kLeastBlur = 1e-7;
+
+using RowBlock = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 2 * kMostFingers>;
+
+/// A contact's residuals with their derivatives: of d (two rows) and of r.
+struct HoldFit::Look {
+  Eigen::Vector3d residual = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d by_pose = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d by_place = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  // C^-1, 0 for what is not measured
+  double log_size = 0;                                    // log det C, corners by their share
+  double blur_size = 0;                                   // of it what corners add
+  double angles = 1;                                      // numbers that the angle counts as
+  double curvature = 0;
+  double turn_variance = 0;  // of r without n, with what a corner adds
+};
+
+struct HoldFit::RowEquations {
+  Eigen::Matrix3d pose = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d slope = Eigen::Vector3d::Zero();
+  RowBlock mixed;
+  UnknownsMatrix own;
+  Unknowns own_slope;
+  double square = 0;
+  double log_size = 0;
+  double blur_size = 0;
+};
+
+}  // namespace rollfix::hold

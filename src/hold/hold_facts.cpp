@@ -1,0 +1,44 @@
+#include "hold_facts.hpp"
+
+#include "contact/mirrored.hpp"
+
+namespace rollfix::hold {
+
+const Finger& finger_of_log(const HoldProblem& problem, std::size_t log) {
+  return problem.fingers[problem.fingers.size() == 1 ? 0 : log];
+}
+
+HoldRoll roll_of(const HoldProblem& problem, const Log& log, std::size_t number) {
+  const FingerRows& rows = log.fingers.front();
+  const Finger& finger = finger_of_log(problem, number);
+  HoldRoll roll;
+  roll.name = log.name;
+  if (!rows.line.empty()) roll.lines = {rows.line.front(), rows.line.back()};
+  roll.has_centre = !rows.x.empty();
+  for (std::size_t row = 0; row < rows.x.size(); ++row) roll.track.emplace_back(rows.x[row], rows.y[row]);
+  if (finger.is_disk()) roll.radius = finger.disk()->radius;
+  return roll;
+}
+
+HoldProblem in_mirror(const HoldProblem& problem, std::vector<Log>& logs) {
+  HoldProblem result = problem;
+  for (std::size_t k = 0; k < logs.size(); ++k) {
+    mirror(logs[k].fingers.front(), &finger_of_log(problem, k));
+  }
+  for (Finger& finger : result.fingers) finger = rollfix::mirrored(finger);
+  return result;
+}
+
+void out_of_mirror(HoldAnswer& answer) {
+  const Eigen::Vector3d signs(-1, 1, -1);
+  for (HoldPlacement& placement : answer.placements) {
+    for (Pose* pose : {&placement.first, &placement.last, &placement.first_spread.mean, &placement.last_spread.mean}) {
+      *pose = {-pose->x, pose->y, -pose->heading};
+    }
+    for (PoseSpread* spread : {&placement.first_spread, &placement.last_spread}) {
+      spread->covariance = Eigen::Matrix3d(signs.asDiagonal() * spread->covariance * signs.asDiagonal());
+    }
+  }
+}
+
+}  // namespace rollfix::hold

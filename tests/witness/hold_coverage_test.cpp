@@ -1,0 +1,113 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "hold/hold_cases.hpp"
+#include "random.hpp"
+
+// Three and four fingers with noise: whether intervals hold the truth as often as they say, and the likeliest placement
+// is right as often.
+namespace hold_coverage_test {
+
+using namespace hold_cases;
+
+struct Tally {
+  int cases = 0;
+  int listed = 0;
+  int contacts = 0;
+  int starts = 0;
+  int heading = 0;
+  int first = 0;
+  double claimed = 0;
+  int bad = 0;  // that are said to contradict their noise, or fit nowhere
+
+  /// The placement whose first contacts are all within six standard deviations of the true ones.
+  static const HoldPlacement* true_one(const HoldAnswer& answer, const HoldCase& one) {
+    for (const HoldPlacement& placement : answer.placements) {
+      bool all = true;
+      for (std::size_t k = 0; k < one.starts.size(); ++k) {
+        const rollfix::HoldContact& contact = placement.contacts[k];
+        const bool is_inside = one.problem.part.boundary().contains(contact.interval, one.starts[k]);
+        all = all && (is_inside || one.problem.part.distance(contact.mean, one.starts[k]) <= 6 * contact.sd);
+      }
+      if (all) return &placement;
+    }
+    return nullptr;
+  }
+
+  void add(const HoldAnswer& answer, const HoldCase& one) {
+    ++cases;
+    bad += answer.verdict.fits_badly || answer.placements.empty() ? 1 : 0;
+    if (!answer.placements.empty()) claimed += answer.placements.front().probability;
+    const HoldPlacement* found = true_one(answer, one);
+    if (found == nullptr) return;
+    ++listed;
+    first += found == answer.placements.data() ? 1 : 0;
+    for (std::size_t k = 0; k < one.starts.size(); ++k) {
+      ++contacts;
+      starts += one.problem.part.boundary().contains(found->contacts[k].interval, one.starts[k]) ? 1 : 0;
+    }
+    const double sd = std::sqrt(found->last_spread.covariance(2, 2));
+    heading += std::abs(rollfix::nearest_angle(found->last_spread.mean.heading - one.last.heading)) < 1.96 * sd ? 1 : 0;
+  }
+
+  /// Within four standard deviations of a count, and two or three in a hundred. Starts of one case are alike.
+  void expect_calibrated(const char* what) const {
+    const double count = listed;
+    const double share = claimed / cases;
+    std::printf(
+        "%s: %d of %d listed; within 95 %%: starts %.1f, last heading %.1f %%; first %.1f %%, claimed %.1f %%; "
+        "contradictions %d\n",
+        what, listed, cases, 100.0 * starts / contacts, 100 * heading / count, 100 * first / count, 100 * share, bad);
+    EXPECT_GE(listed, cases - cases / 50) << "of " << cases;
+    EXPECT_LE(bad, 1 + cases / 75) << "of " << cases;
+    const double spread = 4 * std::sqrt(0.05 * 0.95 / count) + 0.02;
+    EXPECT_NEAR(static_cast<double>(starts) / contacts, 0.95, spread);
+    EXPECT_NEAR(heading / count, 0.95, spread);
+    EXPECT_NEAR(first / count, share, 4 * std::sqrt(share * (1 - share) / count) + 0.03);
+  }
+};
+
+Part smooth(int number, std::mt19937_64& /*generator*/) {
+  return rollfix::load_part("gallery:spline,n=" + std::to_string(number % 2 == 0 ? 9 : 15) +
+                            ",wobble=0.2,seed=" + std::to_string(number + 1));
+}
+Part flat(int number, std::mt19937_64& generator) { return number % 2 == 0 ? random_polygon(generator) : bracket(); }
+
+template <class PartOf>
+void expect_calibrated(const char* what, const Holding& holding, const PartOf& part_of) {
+  Tally tally;
+  const int count = test_count(6);
+  for (int number = 0; number < count; ++number) {
+    std::mt19937_64 generator = test_generator(static_cast<std::uint64_t>(number) + 400);
+    const HoldCase one = random_hold(part_of(number, generator), holding, generator);
+    tally.add(rollfix::solve(one.problem), one);
+  }
+  tally.expect_calibrated(what);
+}
+
+/// Rolls of 8 % of the perimeter with 41 rows.
+Holding noisy(std::size_t fingers, bool centres, double slip = 0) {
+  Holding holding;
+  holding.fingers = fingers;
+  holding.centres = centres;
+  holding.contact_sd = holding.place_sd = 0.002;
+  holding.angle_sd = 0.005;
+  holding.slip_sd = slip;
+  return holding;
+}
+
+TEST(HoldCoverage, ThreeFingersWithCentresOnSmoothParts) { expect_calibrated("3, x y", noisy(3, true), smooth); }
+TEST(HoldCoverage, ThreeFingersWithoutCentresOnSmoothParts) { expect_calibrated("3", noisy(3, false), smooth); }
+TEST(HoldCoverage, FourFingersWithCentresOnSmoothParts) { expect_calibrated("4, x y", noisy(4, true), smooth); }
+TEST(HoldCoverage, FourFingersWithoutCentresOnSmoothParts) { expect_calibrated("4", noisy(4, false), smooth); }
+TEST(HoldCoverage, ThreeFingersThatSlipOnSmoothParts) {
+  expect_calibrated("3, x y, slip", noisy(3, true, 0.02), smooth);
+}
+TEST(HoldCoverage, ThreeFingersWithCentresOnFlats) { expect_calibrated("3, x y, flats", noisy(3, true), flat); }
+TEST(HoldCoverage, FourFingersWithCentresOnFlats) { expect_calibrated("4, x y, flats", noisy(4, true), flat); }
+
+}  // namespace hold_coverage_test
