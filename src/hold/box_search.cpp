@@ -19,8 +19,10 @@
 namespace rollfix::hold {
 namespace {
 
-// More boxes are not kept: a set that needs them is a continuum, of which coarser boxes say as much.
+// More boxes are not kept: a set that needs them is a continuum, of which coarser boxes say as much. With noise they
+// only say where to start.
 constexpr std::size_t kMostBoxes = 20000;
+constexpr std::size_t kMostNoisyBoxes = 8000;
 constexpr double kHeadingGrain = 1e-12;  // headings are rounded, radians
 constexpr double kSameArc = 1e-12;       // arcs that share an end, of the perimeter
 
@@ -35,7 +37,7 @@ std::size_t find(std::vector<std::size_t>& parent, std::size_t k) {
 
 BoxSearch::BoxSearch(const HeldPart& part, const HeldRows& rows, const std::vector<std::size_t>& instants,
                      const std::vector<const Reach*>& reach, std::size_t budget)
-    : budget_(budget) {
+    : most_boxes_(rows.has_noise ? kMostNoisyBoxes : kMostBoxes), budget_(budget) {
   for (std::size_t k = 0; k < rows.fingers(); ++k) {
     trees_.emplace_back(part, rows, k, instants, reach[k]);
     has_place_.push_back(rows.errors[k].has_place);
@@ -125,7 +127,7 @@ Boxes BoxSearch::search(std::vector<Box> from, double leaf) {
         if (may_fit(child)) next.push_back(child);
       }
     }
-    if (found.fit.size() + next.size() > kMostBoxes) {
+    if (found.fit.size() + next.size() > most_boxes_) {
       found.fit.insert(found.fit.end(), next.begin(), next.end());
       return found;
     }

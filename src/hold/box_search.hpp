@@ -51,6 +51,7 @@ class BoxSearch {
   std::vector<ArcTree> trees_;
   std::vector<Instant> instants_;
   std::vector<bool> has_place_;
+  std::size_t most_boxes_;
   std::size_t budget_;
   std::size_t comparisons_ = 0;
 };
