@@ -137,6 +137,16 @@ TEST(WatchedTouches, have_no_use_for_what_is_of_rolls) {
   }
 }
 
+TEST(WatchedTouches, are_of_one_part) {
+  const cli::Folder folder;
+  folder.write("touches.csv", kTable);
+  folder.write("list.txt", "gallery:cam\n");
+  run("catalog build list.txt -o parts.db");
+  const cli::Ran ran = run("watch --catalog parts.db --noise contact=0.1,angle=1deg --once --log touches.csv");
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_THAT(ran.err, HasSubstr("ask rollfix identify"));
+}
+
 TEST(WatchedTouches, are_told_to_the_last_when_a_signal_stops_the_watch) {
   watching::Child child(watching::words_of("watch " + kOptions + "--jsonl"));
   child.send("x,y,normal\n5,4.4,97deg\n");

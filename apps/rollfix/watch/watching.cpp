@@ -1,5 +1,7 @@
 #include "rollfix/watch/watching.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "rollfix/error.hpp"
@@ -10,7 +12,10 @@ namespace rollfix::app {
 
 Watching::Watching(const Part& part, const WatchOptions& options, std::optional<TouchWatchOptions> touches,
                    WatchWriter& writer)
-    : writer_(writer), touch_options_(std::move(touches)) {
+    : writer_(writer),
+      touch_options_(std::move(touches)),
+      is_of_catalog_(options.catalog != nullptr),
+      name_(options.name) {
   try {
     rolls_.emplace(part, options, writer);
   } catch (const InputError& error) {
@@ -25,6 +30,12 @@ void Watching::push(std::string_view line) {
     touches_.emplace(*touch_options_, writer_);
   }
   if (touches_) return touches_->push(line);
+  const bool has_roll = rolls_ && rolls_->last_answer().roll > 0;
+  if (is_of_catalog_ && !has_roll && TouchWatcher::begins_with(line, {})) {
+    throw InputError(fmt::format(
+        "--catalog: {} is a table of touches, which watch takes of one part: give PART, or ask rollfix identify",
+        name_));
+  }
   if (rolls_) return rolls_->push(line);
   const std::string_view text = trimmed(line);
   if (!text.empty() && text.front() != '#') throw InputError(refused_);

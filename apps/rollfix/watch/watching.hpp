@@ -38,6 +38,8 @@ class Watching {
   WatchWriter& writer_;
   std::optional<TouchWatchOptions> touch_options_;
   std::optional<Watcher> rolls_;
+  bool is_of_catalog_;
+  std::string name_;
   std::string refused_{};  // where there can't be rolls: why
   std::optional<TouchWatcher> touches_;
 };
