@@ -360,14 +360,15 @@ class Catalog(Made):
                 raise InputError(f"{name}: touches do not roll and have no use for it: leave it out")
         if len(self) == 0:
             raise InputError(f"{self.path}: the catalog has no parts")
-        *asked, paths = asked_of(touches, **given, clear=clear)
+        asked = asked_of(touches, **given, clear=clear)
         try:
-            text, found = self._core.identify_touches(*asked, paths, threads)
+            text, found = self._core.identify_touches(*[*asked, threads])
         except InputError as error:
             raise InputError(in_python(str(error))) from None
+        *most, paths = asked
         names = {entry.id: entry.name for entry in self._entries}
         answers = {
-            part: TouchAnswer((self.part(names[part]), *asked, (), False, paths, False), answer) for part, answer in found
+            part: TouchAnswer((self.part(names[part]), *most, (), False, paths, False), answer) for part, answer in found
         }
         return Identified(text, answers)
 

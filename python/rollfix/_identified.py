@@ -25,7 +25,7 @@ class PartFound(Made):
     probability: Optional[float]  # that it is this part; None without noise
     verdict: str  # as `Part.locate` says of this part alone
     congruent_with: Tuple[str, ...]  # those found that can't be told from it
-    answer: Union[Answer, TouchAnswer]  # its places, of touches its poses; their probabilities are given that it is this part
+    answer: Any  # an Answer, of touches a TouchAnswer; its probabilities are given that it is this part
 
     def __repr__(self) -> str:
         probability = "" if self.probability is None else f"probability {self.probability:.4g}; "
