@@ -273,7 +273,7 @@ class Touches {
     verdict.open = covered.open;
     if (!open) return;
     verdict.open_touch = open->touch;
-    for (const Interval& arc : open->arcs) verdict.share += arc.width() / period_;
+    for (const Interval& arc : open->arcs) verdict.share = std::min(verdict.share + arc.width() / period_, 1.0);
   }
 
   std::string unlisted(const std::array<double, 3>& pose) const {

@@ -109,7 +109,7 @@ TouchCertificate certify_touches(const TouchAnswer& answer, std::optional<std::s
   if (answer.noise || !answer.clear.empty()) {
     const TouchAnswer beyond = touch::poses_beyond(asked(answer, budget), answer.poses);
     for (const TouchPose& pose : beyond.poses) add(pose, false);
-    unresolved.insert(unresolved.end(), beyond.unresolved.begin(), beyond.unresolved.end());
+    unresolved = beyond.unresolved;  // what could not be weighed is among its sets
     certificate.unresolved_touch = beyond.unresolved_touch;
   }
   const double by = certificate.tolerance[certificate.unresolved_touch].length;
