@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Optional, Sequence, Tuple
+from typing import Any, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -79,7 +79,16 @@ class HoldAnswer(Document):
 
 def is_hold(log: Any) -> bool:
     """Whether logs of three or more fingers are meant."""
-    return isinstance(log, (list, tuple)) and len(log) > 2 and all(_is_log(one) for one in log)
+    return isinstance(log, (list, tuple)) and len(log) > 2 and all(_is_log(one) and not _is_row(one) for one in log)
+
+
+def _is_row(one: Any) -> bool:
+    """Of a table that is given row by row."""
+    if isinstance(one, Log):
+        return False
+    if isinstance(one, Mapping):
+        return all(np.ndim(value) == 0 for value in one.values())
+    return isinstance(one, np.ndarray) and one.ndim == 1
 
 
 def held(

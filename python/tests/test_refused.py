@@ -83,7 +83,7 @@ def test_degrees_for_radians_are_seen(ellipse, call, message):
     (lambda p: p.locate({"u": [0, 1], "psi": [0, 1]}), "^readings: .*found a dict: .*log="),
     (lambda p: p.locate((LOG, LOG)), "^readings: .*log="),
     (lambda p: p.locate(log=LOG), r"^finger: log has u and psi, .*finger=Disk\(10\)"),
-    (lambda p: p.locate(log=[LOG] * 3, finger=Disk(1)), "^log: expected one, or a pair .*found a list of 3$"),
+    (lambda p: p.locate(log=[LOG] * 9, finger=Disk(1)), "^fingers on a free part: expected logs of 2 to 8 fingers, found 9$"),
     (lambda p: p.locate(log=LOG.to_dict("records") * 2, finger=Disk(1)), r"^log: .*pandas.DataFrame\(rows\)"),
     (lambda p: p.locate(log="u,psi\n0,0\n1,1\n", finger=Disk(1)), "^log: expected the path of a file, found 3 lines"),
     (lambda p: rollfix.teach(LOG), "^finger"),
