@@ -34,6 +34,7 @@ constexpr std::size_t kMostRows = 512;    // of a posterior; more are averaged
 constexpr double kHopeless = 60;          // a set whose chi-square is so much larger than the best has no probability
 constexpr double kLeastHoldShare = 1e-4;  // a set that is less probable is counted, not listed
 constexpr double kSureShare = 0.95;       // so probable the first answer is the only one
+constexpr double kWideHold = 0.1;         // of the perimeter: no place is known no better, as of one finger
 constexpr double kFreeHold = 0.05;        // of the perimeter: without noise what is confined no better is a continuum
 
 HeldRows chosen_rows(const HeldRows& rows, const std::vector<std::size_t>& chosen) {
@@ -201,8 +202,9 @@ class HoldSolver {
         answer_.rest += probability;
         continue;
       }
-      HoldPlacement placement = described(fit, problem_.part, mode.best, known[mode.set].extent);
-      add_posterior(placement, fit, problem_.part, mode);
+      HoldPlacement placement = posterior_of(mode, mode.best, fit, known[mode.set]);
+      // On a ridge that is flat the best place is anywhere.
+      if (!are_within(placement)) placement = posterior_of(mode, middle_of(mode, placement), fit, known[mode.set]);
       placement.probability = probability;
       const TouchFit one = fit_of(fit, mode.best);
       if (!answer_.fit || one.p > answer_.fit->p) answer_.fit = one;
@@ -210,6 +212,38 @@ class HoldSolver {
     }
     std::stable_sort(answer_.placements.begin(), answer_.placements.end(),
                      [](const HoldPlacement& a, const HoldPlacement& b) { return a.probability > b.probability; });
+  }
+
+  HoldPlacement posterior_of(const HoldMode& mode, const HeldState& shown, const HoldFit& fit,
+                             const HeldSet& set) const {
+    HoldPlacement placement = described(fit, problem_.part, shown, set.extent);
+    add_posterior(placement, fit, problem_.part, mode);
+    for (const HoldContact& contact : placement.contacts) {
+      placement.continuum = placement.continuum || contact.interval.width() > kWideHold * boundary_.perimeter;
+    }
+    return placement;
+  }
+
+  /// Each first contact in its own interval.
+  bool are_within(const HoldPlacement& placement) const {
+    return std::all_of(placement.contacts.begin(), placement.contacts.end(),
+                       [&](const HoldContact& contact) { return boundary_.contains(contact.interval, contact.start); });
+  }
+
+  /// The node that is nearest to all means.
+  const HeldState& middle_of(const HoldMode& mode, const HoldPlacement& placement) const {
+    const auto off = [&](const HoldNode& node) {
+      double square = 0;
+      for (std::size_t k = 0; k < placement.contacts.size(); ++k) {
+        const HoldContact& contact = placement.contacts[k];
+        const double away = boundary_.offset(contact.mean, node.state.unknowns(static_cast<Eigen::Index>(k)));
+        square += std::pow(away / std::max(contact.sd, 1e-12 * boundary_.perimeter), 2);
+      }
+      return square;
+    };
+    return std::min_element(mode.nodes.begin(), mode.nodes.end(),
+                            [&](const HoldNode& a, const HoldNode& b) { return off(a) < off(b); })
+        ->state;
   }
 
   /// The best first contacts near some places of each set, by all rows. Few rows come first: all of them fit no better.
