@@ -17,6 +17,7 @@
 #include "rollfix/hold/hold.hpp"
 #include "rollfix/part/reach.hpp"
 #include "rollfix/pulse.hpp"
+#include "weigh_holds.hpp"
 
 // Notation:
 //   box, set        arcs of first contacts, one for each finger; boxes that hang together
@@ -26,16 +27,10 @@ namespace rollfix {
 namespace hold {
 namespace {
 
-constexpr std::size_t kStarts = 8;        // places in a set from which a fit starts
-constexpr std::size_t kLooks = 1200;      // at places of all sets, to choose from where to start
-constexpr int kHoldRefinements = 4;       // of sets without a witness, ...
-constexpr double kHoldFiner = 0.25;       // ... each this much finer than the one before
-constexpr std::size_t kMostRows = 512;    // of a posterior; more are averaged
-constexpr double kHopeless = 60;          // a set whose chi-square is so much larger than the best has no probability
-constexpr double kLeastHoldShare = 1e-4;  // a set that is less probable is counted, not listed
-constexpr double kSureShare = 0.95;       // so probable the first answer is the only one
-constexpr double kWideHold = 0.1;         // of the perimeter: no place is known no better, as of one finger
-constexpr double kFreeHold = 0.05;        // of the perimeter: without noise what is confined no better is a continuum
+constexpr int kHoldRefinements = 4;  // of sets without a witness, ...
+constexpr double kHoldFiner = 0.25;  // ... each this much finer than the one before
+constexpr double kSureShare = 0.95;  // so probable the first answer is the only one
+constexpr double kFreeHold = 0.05;   // of the perimeter: without noise what is confined no better is a continuum
 
 HeldRows chosen_rows(const HeldRows& rows, const std::vector<std::size_t>& chosen) {
   HeldRows result = rows;
@@ -68,12 +63,6 @@ class ReachOfFingers {
   std::map<double, std::unique_ptr<Reach>> reaches_;
 };
 
-/// Boxes that hang together, with what was found in them.
-struct FoundSet {
-  std::vector<Box> boxes;
-  HeldSet set;
-};
-
 class HoldSolver {
  public:
   HoldSolver(const HoldProblem& problem, const std::vector<Log>& logs, HoldAnswer& answer)
@@ -95,7 +84,7 @@ class HoldSolver {
     if (!rows_.any_place) answer_.place = rows_.reference ? PlaceKnown::reference : PlaceKnown::unknown;
     Boxes boxes = search_.search();
     if (rows_.has_noise) {
-      weigh(sets(boxes.fit));
+      weigh(problem_, rows_, searched_, sets(boxes.fit), search_, answer_);
       add_unresolved(boxes.undecided);
     } else {
       look_for_witnesses(std::move(boxes));
@@ -122,16 +111,6 @@ class HoldSolver {
     return found;
   }
 
-  /// The middle of one of a set's boxes, `look` of `looks` through it.
-  std::vector<double> start_in(const FoundSet& found, std::size_t look, std::size_t looks) {
-    const Box& box = found.boxes[(2 * look + 1) * found.boxes.size() / (2 * looks)];
-    std::vector<double> start;
-    for (std::size_t k = 0; k < search_.fingers(); ++k) start.push_back(search_.tree(k).arc(box[k]).middle());
-    return start;
-  }
-
-  // ---- without noise ----
-
   /// In every set first contacts that fit at all instants; sets without are cut smaller, until they are gone or told.
   void look_for_witnesses(Boxes boxes) {
     double leaf = BoxSearch::kLeaf;
@@ -157,7 +136,7 @@ class HoldSolver {
   bool add_witness(HoldFit& fit, const FoundSet& found) {
     const std::size_t looks = std::min(found.boxes.size(), kStarts);
     for (std::size_t look = 0; look < looks; ++look) {
-      const HeldState state = fit.best_worst(fit.at(start_in(found, look, looks)));
+      const HeldState state = fit.best_worst(fit.at(middle_of_box(search_, found, look, looks)));
       if (fit.worst(state) > 1) continue;
       // A fit may have ended in another set, which has its own.
       if (!is_within(found.set, state, boundary_, 0)) continue;
@@ -178,138 +157,6 @@ class HoldSolver {
     const double confined = kFreeHold * boundary_.perimeter;
     return widest > 1e-3 * boundary_.perimeter && !(weakest > 1 / (confined * confined));
   }
-
-  // ---- with noise ----
-
-  void weigh(const std::vector<FoundSet>& found) {
-    const HeldRows all = averaged(rows_, kMostRows);
-    const HoldFit few(problem_.part, searched_);
-    const HoldFit fit(problem_.part, all);
-    std::vector<HeldSet> known;
-    for (const FoundSet& one : found) known.push_back(one.set);
-    const std::vector<Optimum> optima = best_of(found, few, fit);
-    std::vector<HoldMode> modes = modes_about(fit, problem_.part, optima, known);
-    if (modes.empty()) return;
-    double most = modes.front().log_weight;
-    for (const HoldMode& mode : modes) most = std::max(most, mode.log_weight);
-    double sum = 0;
-    for (const HoldMode& mode : modes) sum += std::exp(mode.log_weight - most);
-    answer_.improbable = found.size() - std::min(found.size(), modes.size());
-    for (const HoldMode& mode : modes) {
-      const double probability = std::exp(mode.log_weight - most) / sum;
-      if (probability < kLeastHoldShare) {
-        ++answer_.improbable;
-        answer_.rest += probability;
-        continue;
-      }
-      HoldPlacement placement = posterior_of(mode, mode.best, fit, known[mode.set]);
-      // On a ridge that is flat the best place is anywhere.
-      if (!are_within(placement)) placement = posterior_of(mode, middle_of(mode, placement), fit, known[mode.set]);
-      placement.probability = probability;
-      const TouchFit one = fit_of(fit, mode.best);
-      if (!answer_.fit || one.p > answer_.fit->p) answer_.fit = one;
-      answer_.placements.push_back(std::move(placement));
-    }
-    std::stable_sort(answer_.placements.begin(), answer_.placements.end(),
-                     [](const HoldPlacement& a, const HoldPlacement& b) { return a.probability > b.probability; });
-  }
-
-  HoldPlacement posterior_of(const HoldMode& mode, const HeldState& shown, const HoldFit& fit,
-                             const HeldSet& set) const {
-    HoldPlacement placement = described(fit, problem_.part, shown, set.extent);
-    add_posterior(placement, fit, problem_.part, mode);
-    for (const HoldContact& contact : placement.contacts) {
-      placement.continuum = placement.continuum || contact.interval.width() > kWideHold * boundary_.perimeter;
-    }
-    return placement;
-  }
-
-  /// Each first contact in its own interval.
-  bool are_within(const HoldPlacement& placement) const {
-    return std::all_of(placement.contacts.begin(), placement.contacts.end(),
-                       [&](const HoldContact& contact) { return boundary_.contains(contact.interval, contact.start); });
-  }
-
-  /// The node that is nearest to all means.
-  const HeldState& middle_of(const HoldMode& mode, const HoldPlacement& placement) const {
-    const auto off = [&](const HoldNode& node) {
-      double square = 0;
-      for (std::size_t k = 0; k < placement.contacts.size(); ++k) {
-        const HoldContact& contact = placement.contacts[k];
-        const double away = boundary_.offset(contact.mean, node.state.unknowns(static_cast<Eigen::Index>(k)));
-        square += std::pow(away / std::max(contact.sd, 1e-12 * boundary_.perimeter), 2);
-      }
-      return square;
-    };
-    return std::min_element(mode.nodes.begin(), mode.nodes.end(),
-                            [&](const HoldNode& a, const HoldNode& b) { return off(a) < off(b); })
-        ->state;
-  }
-
-  /// The best first contacts near some places of each set, by all rows. Few rows come first: all of them fit no better.
-  std::vector<Optimum> best_of(const std::vector<FoundSet>& found, const HoldFit& few, const HoldFit& fit) {
-    std::vector<Optimum> rough;
-    for (std::size_t k = 0; k < found.size(); ++k) {
-      for (const HeldState& start : starts_in(found[k], found.size(), few)) rough.push_back({few.fit(start), k});
-    }
-    std::stable_sort(rough.begin(), rough.end(),
-                     [](const Optimum& a, const Optimum& b) { return a.state.cost < b.state.cost; });
-    std::vector<Optimum> optima;
-    double least = std::numeric_limits<double>::infinity();
-    for (const Optimum& one : rough) {
-      if (one.state.cost > least + kHopeless) break;
-      const bool is_new = std::none_of(optima.begin(), optima.end(), [&](const Optimum& other) {
-        return other.set == one.set && are_alike(other.state, one.state, fit);
-      });
-      if (!is_new) continue;
-      HeldState state = fit.fit(fit.at(one.state.unknowns, std::vector<Placed>(fit.rows().rows.size())));
-      const std::size_t set = set_with(found, state, one.set);
-      if (set == found.size()) continue;
-      least = std::min(least, state.cost);
-      optima.push_back({std::move(state), set});
-    }
-    std::erase_if(optima, [&](const Optimum& one) { return one.state.cost > least + kHopeless; });
-    return optima;
-  }
-
-  /// Of many places all over a set those that fit best as they are, and some that are spread evenly.
-  std::vector<HeldState> starts_in(const FoundSet& found, std::size_t sets, const HoldFit& few) {
-    const std::size_t looks = std::min(found.boxes.size(), std::max(kStarts, kLooks / sets));
-    std::vector<HeldState> states;
-    for (std::size_t look = 0; look < looks; ++look) states.push_back(few.at(start_in(found, look, looks)));
-    std::vector<HeldState> starts;
-    for (std::size_t k = 0; k < states.size(); k += std::max<std::size_t>(1, states.size() / kStarts)) {
-      starts.push_back(states[k]);
-    }
-    std::stable_sort(states.begin(), states.end(),
-                     [](const HeldState& a, const HeldState& b) { return a.cost < b.cost; });
-    states.resize(std::min(states.size(), kStarts));
-    starts.insert(starts.end(), states.begin(), states.end());
-    return starts;
-  }
-
-  /// Nearer to each other than contacts are measured.
-  bool are_alike(const HeldState& one, const HeldState& other, const HoldFit& fit) const {
-    for (std::size_t k = 0; k < fit.fingers(); ++k) {
-      const auto i = static_cast<Eigen::Index>(k);
-      const double off = std::abs(boundary_.offset(one.unknowns(i), other.unknowns(i)));
-      if (off > 0.1 * fit.rows().errors[k].travel + 1e-9 * boundary_.perimeter) return false;
-    }
-    return true;
-  }
-
-  /// The set that holds a state, first of all this one; as many as there are: none.
-  std::size_t set_with(const std::vector<FoundSet>& found, const HeldState& state, std::size_t first) const {
-    double slack = 0;
-    for (const HeldErrors& errors : rows_.errors) slack = std::max(slack, errors.travel);
-    if (is_within(found[first].set, state, boundary_, slack)) return first;
-    for (std::size_t k = 0; k < found.size(); ++k) {
-      if (is_within(found[k].set, state, boundary_, slack)) return k;
-    }
-    return found.size();
-  }
-
-  // ---- both ----
 
   void add_unresolved(const std::vector<Box>& boxes) {
     if (boxes.empty()) return;
