@@ -49,9 +49,7 @@ void require_log_of_rolls(const RollArguments& arguments, std::size_t k) {
 std::vector<Log> read_all_rolls(const RollArguments& arguments, const LogOptions& options,
                                 std::vector<std::string>& notes) {
   std::vector<Log> rolls;
-  for (std::size_t k = 0; k < arguments.logs.size(); ++k) {
-    const std::string& path = arguments.logs[k];
-    require_log_of_rolls(arguments, k);
+  for (const std::string& path : arguments.logs) {
     for (Log& roll : read_rolls(path, options)) {
       add_log_notes(roll, notes);
       rolls.push_back(std::move(roll));
@@ -95,6 +93,7 @@ TouchProblem read_rolls_problem(const std::vector<std::string>& touches, const R
 bool are_contacts(const std::vector<std::string>& touches, const RollArguments& arguments) {
   if (arguments.roll != "all") return false;
   if (arguments.logs.empty()) throw InputError("--roll all takes the rolls of a log: give a --log as well");
+  for (std::size_t k = 0; k < arguments.logs.size(); ++k) require_log_of_rolls(arguments, k);
   if (!touches.empty() || arguments.logs.size() > 1) return true;
   LogOptions options = read_log_options(arguments.reading, "");
   if (!options.decimal_comma) options.decimal_comma = has_decimal_comma(arguments.part.decimal);
