@@ -15,6 +15,10 @@
 namespace rollfix_verify {
 namespace {
 
+// Stated angles that end so near to the end of a corner's cone, radians, reach it: its ends are enclosed no better, and
+// to look at more places is no harm.
+constexpr double kConeSlack = 1e-7;
+
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // What doubles make of a sum of bounds.
 constexpr double kRoundUp = 1 + 1e-12;
@@ -135,8 +139,10 @@ std::vector<Interval> CentreTree::angles_at(long curve, const Ball& pivots, cons
     for (const Interval& angles : stated.angles) {
       const double middle = 0.5 * (angles.lo + angles.hi);
       const double laps = turn * std::round((0.5 * (whole.lo + whole.hi) - middle) / turn);
-      const Interval kept{std::max(whole.lo, angles.lo + laps - kTurnSlack),
-                          std::min(whole.hi, angles.hi + laps + kTurnSlack)};
+      Interval kept{std::max(whole.lo, angles.lo + laps - kTurnSlack),
+                    std::min(whole.hi, angles.hi + laps + kTurnSlack)};
+      if (kept.lo - whole.lo <= kConeSlack) kept.lo = whole.lo;
+      if (whole.hi - kept.hi <= kConeSlack) kept.hi = whole.hi;
       if (kept.lo <= kept.hi) result.push_back(kept);
     }
     return result;

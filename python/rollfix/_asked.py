@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from typing import Any, Callable, Iterable, Literal, Optional, Sequence, Tuple, TypeVar, Union, cast, overload
+from typing import Any, Callable, Iterable, List, Literal, Optional, Sequence, Tuple, TypeVar, Union, cast, overload
 
 import numpy as np
 
@@ -84,6 +84,32 @@ class Asked(Shape):
     @overload
     def locate(
         self,
+        *,
+        log: List[Any],
+        finger: Optional[FingerLike] = None,
+        noise: NoiseLike = None,
+        tolerance: Optional[float] = None,
+        facing: Optional[float] = None,
+        at: Any = None,
+        prior: Optional[Tuple[float, float]] = None,
+        heading: Optional[Tuple[float, float]] = None,
+        pose: Optional[Sequence[float]] = None,
+        mirrored: bool = False,
+        direction: str = "ccw",
+        robust: bool = False,
+        may_overlap: bool = False,
+        columns: Columns = None,
+        units: Units = None,
+        degrees: bool = False,
+        wrapped: Optional[bool] = None,
+        roll: Optional[int] = None,
+        rounding: Optional[Tuple[float, float]] = None,
+        budget: Optional[int] = None,
+    ) -> Any: ...  # three and more: a HoldAnswer
+
+    @overload
+    def locate(
+        self,
         readings: Any = None,
         turn: Any = None,
         *,
@@ -107,7 +133,7 @@ class Asked(Shape):
         roll: Optional[int] = None,
         rounding: Optional[Tuple[float, float]] = None,
         budget: Optional[int] = None,
-    ) -> Union[Answer, HoldAnswer]: ...
+    ) -> Answer: ...
 
     @_quick
     def locate(

@@ -24,6 +24,7 @@ constexpr double kHeadingGap = 52;
 constexpr double kHeadingMargin = 0.8;    // beyond what holds 95 %, as a share of it
 constexpr double kHeadingHeadroom = 0.1;  // above the highest
 constexpr double kLeastDegrees = 1e-9;
+constexpr double kRoomyHeading = 220;  // pixels: there is room to say what is shaded
 
 /// Per degree.
 double heading_density_at(const std::vector<MixtureTerm>& terms, double degrees) {
@@ -88,7 +89,7 @@ void HeadingDensities::draw_one(Svg& svg, std::size_t pose, const Vec2& corner, 
     svg.polygon(area, filled(colour(pose), 0.45));
   }
   svg.polyline(line, stroke(kInk, 1));
-  draw_x_name(svg, axes, {{"heading, degrees; shaded: 95 %"}});
+  draw_x_name(svg, axes, {{width > kRoomyHeading ? "heading, degrees; shaded: 95 %" : "heading, degrees"}});
   svg.close_group();
 }
 

@@ -14,6 +14,8 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& what) { throw InputError("fingers on a free part: " + what); }
 
+char finger_letter(std::size_t finger) { return static_cast<char>('a' + finger); }
+
 void require_fingers(const HoldProblem& problem) {
   const std::size_t count = problem.logs.size();
   if (count < 2 || count > kMostFingers) {
@@ -40,6 +42,18 @@ void require_log(const Log& log) {
         log.name));
   }
   if (log.rows() < 2) refuse(fmt::format("{}: expected at least 2 rows, found {}", log.name, log.rows()));
+}
+
+/// Two fingers are not at one place.
+void require_different(const std::vector<Log>& logs) {
+  for (std::size_t k = 1; k < logs.size(); ++k) {
+    for (std::size_t i = 0; i < k; ++i) {
+      const FingerRows &one = logs[i].fingers.front(), &other = logs[k].fingers.front();
+      if (one.u != other.u || one.psi != other.psi || one.x != other.x || one.y != other.y) continue;
+      refuse(fmt::format("the logs of fingers {} and {} have the same rows, {} and {}; expected one log of each finger",
+                         finger_letter(i), finger_letter(k), logs[i].name, logs[k].name));
+    }
+  }
 }
 
 void require_noise(const HoldProblem& problem) {
@@ -74,6 +88,7 @@ void require_noise(const HoldProblem& problem) {
 void require_valid(const HoldProblem& problem) {
   require_fingers(problem);
   for (const Log& log : problem.logs) require_log(log);
+  require_different(problem.logs);
   if (problem.noise) require_noise(problem);
   if (!problem.tolerance) return;
   const TouchTolerance& given = *problem.tolerance;

@@ -23,6 +23,8 @@ namespace {
 constexpr double kAlong[] = {-2, -1.5, -1, -0.5, 0, 0.5, 1, 1.5, 2};
 // Poses that are looked at, the most probable ones.
 constexpr std::size_t kMostPoses = 60;
+// A pose was led back along a continuum if by more of its standard deviations.
+constexpr double kLedBack = 0.25;
 // Poses that stand for all that one touch leaves.
 constexpr std::size_t kOfOneTouch = 150;
 // Their headings, where no normal was measured, go around by this share of a turn: no two places and headings are
@@ -63,6 +65,14 @@ class Refit {
   PoseFit fit_;
 };
 
+/// A pose that fits near one of a line: the line's own where least squares led back along it, to the best of all.
+Pose beside(const Pose& of_line, const Pose& fitted, const Eigen::Vector3d& along) {
+  const Eigen::Vector3d off(fitted.x - of_line.x, fitted.y - of_line.y,
+                            nearest_angle(fitted.heading - of_line.heading));
+  const double back = off.dot(along) / along.squaredNorm();
+  return std::abs(back) <= kLedBack ? fitted : of_line;
+}
+
 std::vector<LikelyPose> poses_of_sets(const TouchAnswer& answer) {
   std::optional<Refit> refit;
   const bool any_continuum =
@@ -82,7 +92,7 @@ std::vector<LikelyPose> poses_of_sets(const TouchAnswer& answer) {
     for (const double share : kAlong) {
       const Pose& mean = set.spread.mean;
       const Pose along_line{mean.x + share * along(0), mean.y + share * along(1), mean.heading + share * along(2)};
-      const Pose pose = refit ? (*refit)(along_line) : along_line;
+      const Pose pose = refit ? beside(along_line, (*refit)(along_line), along) : along_line;
       poses.push_back({k, weight / static_cast<double>(std::size(kAlong)), pose, across});
     }
   }

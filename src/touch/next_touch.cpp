@@ -144,7 +144,7 @@ class Advisor {
         remain += share * share_of_set_[j];
       }
       result.bits -= poses_[i].weight * std::log2(std::max(weight, 1e-300));
-      result.poses += poses_[i].weight * remain;
+      result.poses += poses_[i].weight * std::max(1.0, remain);  // of a continuum a part of it
       result.head_on += poses_[i].weight * (all[i].touch.hits ? all[i].incidence : 0);
     }
     result.bits = std::max(0.0, result.bits);  // weights add up to 1 but for rounding
@@ -284,8 +284,9 @@ bool is_after_one(const TouchAnswer& answer) {
 std::string nothing_to_tell(const TouchAnswer& answer) {
   if (answer.poses.empty()) {
     if (is_after_one(answer)) return "";
-    return answer.touches.size() < 2 ? "one place leaves every pose that touches it: touch the part elsewhere first"
-                                     : "no pose fits the touches";
+    return answer.verdict.name == Verdict::unobservable
+               ? "one place leaves every pose that touches it: touch the part elsewhere first"
+               : "no pose fits the touches";
   }
   if (answer.poses.size() > 1) return "";
   if (!answer.poses.front().continuum) return "one pose is left";

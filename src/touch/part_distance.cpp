@@ -15,6 +15,9 @@ namespace {
 constexpr double kBeside = 1e-8;
 // There is a corner where they differ by more, radians.
 constexpr double kCornerTurn = 1e-4;
+// So near to the boundary, in shares of its diagonal, the direction of a smooth side is that of its normal: the nearest
+// point is known no better.
+constexpr double kAtBoundary = 1e-5;
 
 }  // namespace
 
@@ -58,6 +61,14 @@ NearestOfPart PartDistance::nearest(const Vec2& point) {
   result.curvature = is_corner ? std::numeric_limits<double>::infinity() : place.bend;
   const bool is_inside = part_.closed() && off.dot(outward) < 0;
   result.away = result.distance > 0 ? Vec2(off / result.distance) : outward.normalized();
+  if (!is_corner && result.distance <= kAtBoundary * diagonal()) {
+    result.away = outward.normalized();
+    result.distance = off.dot(result.away);
+    if (part_.closed() || result.distance >= 0) return result;
+    result.distance = -result.distance;
+    result.away = -result.away;
+    return result;
+  }
   if (!is_inside) return result;
   result.distance = -result.distance;
   result.away = -result.away;

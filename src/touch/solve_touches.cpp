@@ -162,7 +162,7 @@ class Solver {
   void run() {
     for (const Measured& touch : touches_) answer_.tolerance.push_back({touch.place_most, touch.angle_most});
     add_rolls();
-    if (touches_.size() == 1) {
+    if (touches_.size() == 1 || are_at_one_place()) {
       if (rolls_.empty()) answer_.verdict.name = Verdict::unobservable;
       if (rolls_.empty() && problem_.noise) answer_.log_evidence = 0;  // the same on any part
       if (!rolls_.empty()) take_from(rolls_.front(), answer_);
@@ -184,6 +184,15 @@ class Solver {
   }
 
  private:
+  /// Places without normals, within their tolerances of each other: they say what one says, any place and any heading.
+  bool are_at_one_place() const {
+    const Measured& first = touches_.front();
+    return rolls_.empty() && known_ == nullptr &&
+           std::all_of(touches_.begin(), touches_.end(), [&](const Measured& one) {
+             return !one.tangent && (one.at - first.at).norm() <= std::min(one.place_most, first.place_most);
+           });
+  }
+
   void add_rolls() {
     for (std::size_t k = 0; k < rolls_.size(); ++k) answer_.rolls.push_back(facts_of(rolls_[k], problem_.rolls[k]));
     if (rolls_.empty() || !problem_.touches.empty()) return;

@@ -39,6 +39,13 @@ TEST(TouchCertificate, of_touches_of_all_kinds_is_proved) {
   }
 }
 
+TEST(TouchCertificate, of_a_ball_that_bridges_a_notch_is_proved) {
+  const Part plate = polygon({{0, 0}, {40, 0}, {41, 5}, {44, 5}, {44, 0.5}, {100, 0.5}, {100, 60}, {0, 60}});
+  TouchProblem problem = within(plate, touches_of(plate, {20, 130, 200, 300}, 30), 0.05);
+  problem.finger = rollfix::disk(30);
+  EXPECT_TRUE(is_proved(certificate(problem)));
+}
+
 TEST(TouchCertificate, says_how_many_sets_of_poses_there_are) {
   const Json proof = certificate(within(bracket(), touches_of(bracket(), {10, 70, 100, 150}), 0.05));
   EXPECT_EQ(words(proof), "proved: 1 set of poses, nothing else");

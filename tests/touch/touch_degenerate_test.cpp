@@ -92,6 +92,15 @@ TEST(TouchDegenerate, OneTouchWithANormalLeavesTheWholeBoundary) {
   EXPECT_TRUE(answer.poses.empty());
 }
 
+TEST(TouchDegenerate, ManyTouchesAtOnePlaceSayWhatOneSays) {
+  TouchProblem problem{bracket(), std::vector<MeasuredTouch>(40, {{10, 3}}), rollfix::disk(3)};
+  problem.noise.emplace();
+  problem.noise->position = 0.02;
+  const TouchAnswer answer = rollfix::solve(problem);
+  EXPECT_EQ(answer.verdict.name, rollfix::Verdict::unobservable);
+  EXPECT_TRUE(answer.poses.empty());
+}
+
 TEST(TouchDegenerate, TwoPlacesLeaveACurveOfPoses) {
   const TouchAnswer answer = exact_answer(bracket(), {0, 0, 0}, {10, 90}, 0);
   EXPECT_EQ(answer.verdict.name, Verdict::ambiguous);

@@ -56,6 +56,13 @@ TEST(TouchNext, AfterOneTouchWithItsNormalSaysWhereTheNextOneTellsMost) {
   EXPECT_EQ(rollfix::next_touch(answer, {from_outside}).advised().bits, 0) << "it goes off, where the part can't be";
 }
 
+TEST(TouchNext, AfterOneTouchOfAPointNothingTellsPlacesOfACircleApart) {
+  TouchProblem problem = of_part("gallery:circle", {{{3, 2}, -1.7}});
+  problem.finger.reset();
+  problem.noise->angle = 0.1 * rollfix::kDegree;
+  EXPECT_FALSE(rollfix::next_touch(rollfix::solve(problem)).helps);
+}
+
 TEST(TouchNext, AfterOnePlaceWithoutNormalTheAdviceIsToTouchElsewhere) {
   const NextTouch next = rollfix::next_touch(rollfix::solve(of_part("gallery:cam", {{{2, 1}}})));
   EXPECT_FALSE(next.helps);

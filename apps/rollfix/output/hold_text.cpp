@@ -63,7 +63,8 @@ class HoldText {
     }
     return std::string("no places on the part fit all fingers: ") +
            (answer_.noise ? "" : "without --noise all digits are taken as exact; if they are not, add it; ") +
-           "check that --log and --finger are in the same order, and locate two of the logs at a time\n";
+           "check the units and signs of u and psi, that --log and --finger are in the same order, and locate two of "
+           "the logs at a time\n";
   }
 
   std::string starts_table() const {

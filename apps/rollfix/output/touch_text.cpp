@@ -74,6 +74,9 @@ class TouchText {
           return fmt::format("one touch fits all along the boundary: touch the part elsewhere{}\n",
                              answer_.touches.front().normal ? "; rollfix advise says where" : "");
         }
+        if (answer_.poses.empty()) {
+          return "all touches are at one place, and fit all along the boundary: touch the part elsewhere\n";
+        }
         return symmetry(answer_.part) == 0
                    ? "the part looks the same in every heading: only its place is known\n"
                    : "any heading fits: the touches are too close together, or the noise is too large for this part\n";
