@@ -233,15 +233,15 @@ class Touches {
       return abs(to_nearest_turn(one - stated)).is_below(slack);
     };
     const Ball slack = kPlaceSlack + document_.turn_beside(place);
-    const Ball own = tree.direction(place);
+    Ball own = tree.direction(place);
     if (near(own, slack)) return own;
     for (const long joint : {place.curve, place.curve - 1}) {
       const bool is_end = !boundary_.closed() && (joint < 0 || joint + 1 == boundary_.curves());
       if (is_end) continue;
       const Ball apart = boundary_.back(joint).s - place.s;
       if (!abs(apart).is_below(kPlaceSlack * period_)) continue;
-      const Ball before = tree.direction(boundary_.back(joint));
-      const Ball after = before + boundary_.jump(joint);
+      Ball before = tree.direction(boundary_.back(joint));
+      Ball after = before + boundary_.jump(joint);
       if (near(before, slack)) return before;
       if (near(after, slack)) return after;
       if (const std::optional<Ball> pivots = tree.pivots(joint)) {

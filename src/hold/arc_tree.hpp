@@ -48,12 +48,12 @@ class ArcTree {
   const Interval& arc(std::int32_t node) const { return nodes_[static_cast<std::size_t>(node)].s; }
   /// The finger can have rolled so from somewhere on it: within its reach, and on an open boundary.
   bool is_possible(std::int32_t node) const { return nodes_[static_cast<std::size_t>(node)].possible; }
-  const ArcAt& at(std::int32_t node, std::size_t instant);
+  const ArcAt& at(std::int32_t index, std::size_t instant);
   const Slack& slack(std::size_t instant) const { return slacks_[instant]; }
   /// In leaves of this share of the slack: up to 1 it is one.
   double size(std::int32_t node, double leaf);
   /// Equal to the node itself where it is too short to have halves.
-  std::pair<std::int32_t, std::int32_t> halves(std::int32_t node);
+  std::pair<std::int32_t, std::int32_t> halves(std::int32_t index);
   std::int32_t root() const { return 0; }
 
  private:

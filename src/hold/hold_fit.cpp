@@ -170,7 +170,7 @@ Reduced HoldFit::reduced(const HeldState& state) const {
     sum.slope += one.own_slope - Unknowns(share.transpose() * one.slope);
     sum.log_volume -= 0.5 * (one.log_size + pose.vectorD().array().abs().log().sum());
   }
-  for (Eigen::Index k = static_cast<Eigen::Index>(fingers()); k < size_; ++k) {
+  for (auto k = static_cast<Eigen::Index>(fingers()); k < size_; ++k) {
     const double precision = prior_precision(static_cast<std::size_t>(k) - fingers());
     sum.matrix(k, k) += precision;
     sum.slope(k) -= precision * state.unknowns(k);

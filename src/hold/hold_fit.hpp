@@ -63,7 +63,7 @@ class HoldFit {
   HeldState at(const std::vector<double>& first_contacts) const;
   HeldState at(const Unknowns& unknowns, const std::vector<Placed>& near) const;
   /// Downhill. `held`: this unknown stays. `weights`: of each contact of each row, see `best_worst`.
-  HeldState fit(HeldState from, std::optional<Eigen::Index> held = {}) const;
+  HeldState fit(HeldState state, std::optional<Eigen::Index> held = {}) const;
   /// Without noise: downhill to where the largest residual is as small as can be.
   HeldState best_worst(HeldState from);
 

@@ -103,7 +103,7 @@ class HoldText {
       if (!answer_.noise || (k < 2 && answer_.place == PlaceKnown::reference)) return value;
       return fmt::format("{} ± {}", value, rough(std::sqrt(std::max(0.0, spread.covariance(k, k))) / unit));
     };
-    const std::string heading = "heading " + with_sd(degrees(pose.heading), 2, kDegree) + " deg";
+    std::string heading = "heading " + with_sd(degrees(pose.heading), 2, kDegree) + " deg";
     if (answer_.place == PlaceKnown::unknown) return heading;
     return fmt::format("x = {}, y = {}{}, {}", with_sd(place(pose.x), 0, 1), with_sd(place(pose.y), 1, 1),
                        behind(unit_), heading);

@@ -43,11 +43,11 @@ struct IdentifiedByTouches {
 };
 
 /// Every part of a catalog that the touches can have been on, and every pose of it: what `solve` says of each part by
-/// itself, to the bit, but that bounds rule out most parts at once, which loses none. `like`: the problem; its part
+/// itself, to the bit, but that bounds rule out most parts at once, which loses none. `asked`: the problem; its part
 /// does not matter, and lengths are in the catalog's unit. With noise parts are weighed by the likelihood of all
 /// touches, averaged over the poses and over contacts that are anywhere on the boundary alike, times their count. One
 /// touch fits every part. See docs/identify.md.
 /// Throws InputError: rolls, and what `solve` throws where it throws it of all parts.
-IdentifiedByTouches identify(const Catalog& catalog, const TouchProblem& like, const IdentifyOptions& options = {});
+IdentifiedByTouches identify(const Catalog& catalog, const TouchProblem& asked, const IdentifyOptions& options = {});
 
 }  // namespace rollfix
