@@ -180,6 +180,13 @@ TEST(Hold, TheOrderOfTheFingersDoesNotMatter) {
   expect_found(one);
 }
 
+TEST(Hold, TheSameLogOfTwoFingersIsRefused) {
+  HoldProblem problem = hold_of(bracket(), {{60, 0.05}, {30, -0.03}, {145, 0.03}}).problem;
+  problem.logs[1] = problem.logs[0];
+  EXPECT_THAT(refusal_of([&] { rollfix::solve(problem); }),
+              HasSubstr("the logs of fingers a and b have the same rows"));
+}
+
 TEST(Hold, APartFaceDownIsFoundWithMirror) {
   HoldCase one = on_wavy();
   for (Log& log : one.problem.logs) {
