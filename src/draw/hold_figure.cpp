@@ -53,7 +53,10 @@ class HoldPicture {
     draw_header(svg, figure_.title.empty() ? answer_.part.name() : figure_.title, answer_.verdict_text(),
                 {{counted(answer_.rolls.size(), "finger", "fingers")}});
     svg.open_group("world");
-    draw_axes(svg, axes_, round_ticks(axes_.x, 5), round_ticks(axes_.y, 5), {{"in the world"}}, "");
+    draw_axes(
+        svg, axes_, round_ticks(axes_.x, 5), round_ticks(axes_.y, 5),
+        {{answer_.place == PlaceKnown::unknown ? "turned as in the world; its place is not known" : "in the world"}},
+        "");
     svg.open_clip(axes_.corner.x(), axes_.corner.y(), axes_.size.x(), axes_.size.y());
     if (is_known()) svg.polyline(on_page(first_), stroke(kSoftInk, 1, "4 3"));
     for (std::size_t k = last_.size(); k-- > 0;) placement(svg, k);

@@ -50,7 +50,10 @@ class TouchPicture {
     draw_header(svg, figure_.title.empty() ? answer_.part.name() : figure_.title, answer_.verdict_text(),
                 {{contacts_text()}});
     svg.open_group("world");
-    draw_axes(svg, axes_, round_ticks(axes_.x, 5), round_ticks(axes_.y, 5), {{"in the world"}}, "");
+    draw_axes(
+        svg, axes_, round_ticks(axes_.x, 5), round_ticks(axes_.y, 5),
+        {{answer_.place == PlaceKnown::unknown ? "turned as in the world; its place is not known" : "in the world"}},
+        "");
     svg.open_clip(axes_.corner.x(), axes_.corner.y(), axes_.size.x(), axes_.size.y());
     for (std::size_t k = poses_.size(); k-- > 0;) pose(svg, k);
     for (const RollFacts& roll : answer_.rolls) rolled(svg, roll);
