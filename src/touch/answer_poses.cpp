@@ -142,6 +142,34 @@ double worst_of(const PoseFit& fit, const FittedPose& fitted) {
   return worst;
 }
 
+std::vector<Interval> places_of(const PathTree& tree, const std::vector<Cell>& cells) {
+  std::vector<Interval> arcs;
+  for (const Cell& cell : cells) {
+    std::vector<std::int32_t> waiting{cell.first};
+    while (!waiting.empty()) {
+      const PathTree::Node& node = tree.node(waiting.back());
+      waiting.pop_back();
+      if (!node.is_single()) {
+        waiting.push_back(node.left);
+        waiting.push_back(node.right);
+        continue;
+      }
+      const CentreStretch& stretch = tree.path().stretches()[static_cast<std::size_t>(node.stretch)];
+      arcs.push_back(stretch.corner ? Interval{stretch.s, stretch.s} : node.u);
+    }
+  }
+  std::sort(arcs.begin(), arcs.end(), [](const Interval& a, const Interval& b) { return a.lo < b.lo; });
+  std::vector<Interval> merged;
+  for (const Interval& arc : arcs) {
+    if (!merged.empty() && arc.lo <= merged.back().hi) {
+      merged.back().hi = std::max(merged.back().hi, arc.hi);
+    } else {
+      merged.push_back(arc);
+    }
+  }
+  return merged;
+}
+
 TouchPose described(const PoseFit& fit, const FittedPose& fitted, const std::vector<Cell>& cells,
                     const TouchPair& pair) {
   TouchPose result;

@@ -25,6 +25,9 @@ PoseExtent extent_of(const PoseFit& fit, const std::vector<Cell>& cells, const T
 /// Whether a pose is in an extent, or no further from it than these; modulo turns.
 bool holds(const PoseExtent& extent, const Pose& pose, double place = 0, double turn = 0);
 
+/// Arcs of the boundary that the first touch's nodes of cells cover. `tree`: its own.
+std::vector<Interval> places_of(const PathTree& tree, const std::vector<Cell>& cells);
+
 /// A fitted pose as the answer has it, with all that cells say of its set: extent, and whether it is a continuum.
 TouchPose described(const PoseFit& fit, const FittedPose& fitted, const std::vector<Cell>& cells,
                     const TouchPair& pair);

@@ -1,0 +1,43 @@
+#include "all_contacts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace rollfix::touch {
+
+std::vector<Measured> measured(const TouchProblem& problem) {
+  std::vector<Measured> touches;
+  for (const MeasuredTouch& touch : problem.touches) {
+    Measured one;
+    one.at = touch.at;
+    if (touch.normal) one.tangent = *touch.normal + 0.5 * std::numbers::pi;
+    const Noise none;
+    const Noise& noise = problem.noise ? *problem.noise : none;
+    one.place_unit = problem.noise ? touch.position_sd.value_or(noise.position) : problem.tolerance->length;
+    one.angle_unit = problem.noise ? touch.normal_sd.value_or(noise.angle) : problem.tolerance->angle;
+    const double most = problem.noise ? kTouchSigmas : 1;
+    one.place_most = most * one.place_unit;
+    one.angle_most = std::min(most * one.angle_unit, std::numbers::pi);
+    touches.push_back(one);
+  }
+  return touches;
+}
+
+AllContacts::AllContacts(const TouchProblem& problem, double radius) : rolls(roll_contacts(problem)) {
+  for (const RollContact& roll : rolls) each.push_back(roll.measured);
+  if (problem.touches.empty()) return;
+  path.emplace(problem.part, radius);
+  if (!path->stretches().empty()) tree.emplace(*path);
+  for (Measured touch : measured(problem)) {
+    if (tree) touch.tree = &*tree;
+    each.push_back(touch);
+  }
+}
+
+bool AllContacts::one_fits_nowhere() const {
+  return (path && path->stretches().empty()) ||
+         std::any_of(rolls.begin(), rolls.end(), [](const RollContact& roll) { return roll.fits_nowhere(); });
+}
+
+}  // namespace rollfix::touch

@@ -1,0 +1,148 @@
+#include "weighed_poses.hpp"
+
+#include <algorithm>
+#include <array>
+#include <boost/math/special_functions/gamma.hpp>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "answer_poses.hpp"
+#include "outline/turn.hpp"
+
+namespace rollfix::touch {
+namespace {
+
+// Sets of poses that are less probable are counted, not listed; ...
+constexpr double kLeastProbability = 1e-4;
+// ... and if they are as improbable as this, not even looked at.
+constexpr double kNegligible = 1e-8;
+// Weighing poses with the first touch at one place takes as long as this many comparisons.
+constexpr std::size_t kPlaceCost = 2000;
+
+/// The boundary's length as far as the finger gets to it, of a corner that of the finger's arc around it.
+double length_in_reach(const CentrePath& path) {
+  double length = 0;
+  for (std::size_t k = 0; k < path.stretches().size(); ++k) {
+    length += path.stretches()[k].u.width() * length_per_u(path, k);
+  }
+  return length;
+}
+
+/// log(exp(a) + exp(b) + ...) of the nodes' weights.
+double log_total(const std::vector<PosteriorNode>& nodes) {
+  double most = -std::numeric_limits<double>::infinity();
+  for (const PosteriorNode& node : nodes) most = std::max(most, node.log_weight);
+  if (!std::isfinite(most)) return most;
+  double sum = 0;
+  for (const PosteriorNode& node : nodes) sum += std::exp(node.log_weight - most);
+  return most + std::log(sum);
+}
+
+/// The node nearest to the middle of a continuum, in the sizes of its intervals: all along it poses fit about alike.
+std::size_t middle_of(const TouchPose& pose, const PoseMode& mode, const std::vector<PosteriorNode>& nodes) {
+  const auto off = [&](std::size_t k) {
+    const std::array<double, 3> at{nodes[k].best.x, nodes[k].best.y, nodes[k].best.heading};
+    double square = 0;
+    for (std::size_t i = 0; i < (pose.any_heading ? 2 : 3); ++i) {
+      const Interval& interval = pose.interval[i];
+      const double away = at[i] - interval.middle();
+      square += std::pow((i == 2 ? nearest_angle(away) : away) / std::max(interval.width(), 1e-12), 2);
+    }
+    return square;
+  };
+  return *std::min_element(mode.nodes.begin(), mode.nodes.end(),
+                           [&](std::size_t a, std::size_t b) { return off(a) < off(b); });
+}
+
+/// How well a pose fits. Each touch has a place on the boundary that is unknown, unless a corner pins it; where the
+/// part is free to slide the pose has one unknown less.
+TouchFit fit_of(const Asked& asked, const FittedPose& fitted, bool is_continuum) {
+  TouchFit result;
+  result.chi_square = fitted.square;
+  result.freedom = is_continuum ? -2 : -3;
+  const std::vector<Measured>& contacts = asked.fit.touches();
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    // How dense a roll's belief is counts as a measurement of its place.
+    if (contacts[k].roll != nullptr) result.freedom += contacts[k].has_place ? 3 : 1;
+    if (contacts[k].roll != nullptr) continue;
+    result.freedom += contacts[k].tangent ? 2 : 1;
+    result.freedom += asked.fit.is_pinned(fitted.pose, k, fitted.places[k]) ? 1 : 0;
+  }
+  if (asked.problem.pose) result.freedom += std::isfinite(asked.problem.pose->place_sd) ? 3 : 1;
+  result.freedom = std::max(result.freedom, 0);
+  if (result.freedom > 0) result.p = boost::math::gamma_q(0.5 * result.freedom, 0.5 * result.chi_square);
+  return result;
+}
+
+bool fits_better(const TouchFit& one, const TouchFit& other) {
+  return one.p > other.p || (one.p == other.p && one.freedom > other.freedom);
+}
+
+/// A set as a pose of the answer; of a continuum the one in its middle.
+TouchPose weighed_pose(const Asked& asked, const PoseSet& set, const std::vector<PosteriorNode>& nodes) {
+  const auto with = [&](const FittedPose& fitted) {
+    TouchPose pose = described(asked.fit, fitted, set.cells, asked.pair);
+    add_posterior(pose, set.mode, nodes);
+    return pose;
+  };
+  TouchPose pose = with(set.fitted);
+  if (!pose.continuum) return pose;
+  TouchPose middle = with(asked.fit.fit(nodes[middle_of(pose, set.mode, nodes)].best));
+  return middle.worst <= 1 ? middle : pose;
+}
+
+void leave_out(const PoseMode& mode, WeighedPoses& result) {
+  ++result.improbable;
+  result.rest += mode.probability;
+}
+
+/// Modes, each with the pose that fits best.
+std::vector<PoseSet> sets_to_list(const Asked& asked, const CellSets& sets, const Posterior& posterior,
+                                  WeighedPoses& result) {
+  const std::vector<PosteriorNode>& nodes = posterior.nodes;
+  const auto by_square = [&](std::size_t a, std::size_t b) { return nodes[a].square < nodes[b].square; };
+  std::vector<PoseSet> found;
+  for (PoseMode& mode : modes_of(sets, posterior)) {
+    if (mode.probability < kNegligible) {
+      leave_out(mode, result);
+      continue;
+    }
+    const std::size_t best = *std::min_element(mode.nodes.begin(), mode.nodes.end(), by_square);
+    add_set(asked, {asked.fit.fit(nodes[best].best), cells_of(sets, mode.groups), std::move(mode)}, found);
+  }
+  return found;
+}
+
+}  // namespace
+
+WeighedPoses weighed_poses(const Asked& asked, const CellSets& sets, std::size_t budget) {
+  WeighedPoses result;
+  const std::size_t first = asked.pair.first;
+  result.is_too_long = count_places(asked.fit, sets, first) > budget / kPlaceCost;
+  if (result.is_too_long) return result;
+  Posterior posterior = posterior_of(asked.fit, sets, first);
+  asked.free.weigh(posterior.nodes);
+  if (asked.problem.rolls.empty()) {
+    const double length = length_in_reach(asked.fit.path(first));
+    const auto touches = static_cast<double>(asked.problem.touches.size());
+    result.log_evidence = log_total(posterior.nodes) - touches * std::log(length);
+  }
+  result.improbable = posterior.hopeless;
+  for (const PoseSet& set : sets_to_list(asked, sets, posterior, result)) {
+    const bool is_listed = set.mode.probability >= kLeastProbability && worst_of(asked.fit, set.fitted) <= 1;
+    if (!is_listed) {
+      leave_out(set.mode, result);
+      continue;
+    }
+    TouchPose pose = weighed_pose(asked, set, posterior.nodes);
+    const TouchFit one = fit_of(asked, set.fitted, pose.continuum);
+    if (!result.fit || fits_better(one, *result.fit)) result.fit = one;
+    result.poses.push_back(std::move(pose));
+  }
+  std::stable_sort(result.poses.begin(), result.poses.end(),
+                   [](const TouchPose& a, const TouchPose& b) { return a.probability > b.probability; });
+  return result;
+}
+
+}  // namespace rollfix::touch

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "pose_sets.hpp"
+
+namespace rollfix::touch {
+
+/// The posterior as a list of poses.
+struct WeighedPoses {
+  std::vector<TouchPose> poses;        // the most probable first
+  std::optional<TouchFit> fit;         // of the one that fits best
+  std::size_t improbable = 0;          // sets that are not listed, ...
+  double rest = 0;                     // ... and their probability
+  std::optional<double> log_evidence;  // of touches alone
+  bool is_too_long = false;            // so many places that they were not weighed
+};
+
+/// With noise: what is less probable than a bound is not looked at, and modes that end in one pose are one.
+WeighedPoses weighed_poses(const Asked& asked, const CellSets& sets, std::size_t budget);
+
+}  // namespace rollfix::touch
