@@ -88,7 +88,9 @@ bool FreeSpace::blocks_all(const Cell& cell, const PathTree& tree, const Measure
     return walk(path, least_step_, [&](const Vec2& place) {
       const Vec2 arm = place - first.at;
       const double moved = node.radius + first.place_most + swing * arm.norm();
-      return part_.nearest(node.middle + back.turned(arm)).distance + moved - bound_;
+      const Vec2 in_part = node.middle + back.turned(arm);
+      const double free = part_.at_least(in_part) + moved - bound_;
+      return free > least_step_ ? free : part_.nearest(in_part).distance + moved - bound_;
     });
   });
 }

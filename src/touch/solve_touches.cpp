@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include "all_contacts.hpp"
@@ -74,9 +75,14 @@ void take_over(WeighedPoses weighed, TouchAnswer& answer) {
 void search_poses(const TouchProblem& problem, AllContacts& contacts, TouchAnswer& answer) {
   const TouchPair pair = choose_pair(contacts.each);
   const std::size_t budget = problem.budget.value_or(kTouchBudget);
-  CellSearch search(contacts.each, pair, budget);
+  std::optional<CellSearch> search(std::in_place, contacts.each, pair, budget);
   double leaf = CellSearch::kLeaf;
-  Cells cells = contacts.rolls.empty() ? search.search() : search_by_levels(search, contacts.each, pair, leaf);
+  Cells cells = contacts.rolls.empty() ? search->search() : search_by_levels(*search, contacts.each, pair, leaf);
+  if (contacts.rolls.empty() && contacts.each.size() == 2 && !cells.undecided.empty()) {  // a continuum
+    answer.comparisons = search->comparisons();
+    search.emplace(contacts.each, pair, budget);
+    cells = search_by_levels(*search, contacts.each, pair, leaf);
+  }
   PoseFit fit(contacts.each, problem.pose);
   FreeSpace free(problem);
   free.drop_blocked(cells.fit, fit.tree(pair.first), contacts.each[pair.first]);
@@ -91,14 +97,14 @@ void search_poses(const TouchProblem& problem, AllContacts& contacts, TouchAnswe
     if (weighed.is_too_long) leave(sets.cells);
     take_over(std::move(weighed), answer);
   } else {
-    WitnessedPoses witnessed = witnessed_poses(asked, search, leaf, std::move(cells.fit));
+    WitnessedPoses witnessed = witnessed_poses(asked, *search, leaf, std::move(cells.fit));
     leave(witnessed.undecided);
     leave(witnessed.without);
     answer.poses = std::move(witnessed.poses);
   }
   answer.unresolved_touch = pair.first;
   answer.unresolved = places_of(fit.tree(pair.first), undecided);
-  answer.comparisons = search.comparisons();
+  answer.comparisons += search->comparisons();
 }
 
 void conclude(TouchAnswer& answer) {

@@ -109,6 +109,24 @@ TEST(TouchDegenerate, TwoPlacesLeaveACurveOfPoses) {
   EXPECT_TRUE(std::any_of(answer.poses.begin(), answer.poses.end(), holds));
 }
 
+TEST(TouchDegenerate, TwoTouchesOfACircleThatAreNearlyExactLeaveTwoCentresWithinTheBudget) {
+  const Part circle = rollfix::load_part("gallery:circle,r=10");
+  TouchProblem problem = exact_problem(circle, {50, 20, 0.7}, {3, 21}, 0);
+  problem.noise.reset();
+  problem.tolerance = rollfix::TouchTolerance{2e-4, 0.1};
+  problem.budget = 300000;  // finer cells would take more
+  const TouchAnswer answer = rollfix::solve(problem);
+  EXPECT_EQ(answer.status, rollfix::Status::complete);
+  ASSERT_EQ(answer.poses.size(), 2U);
+  EXPECT_TRUE(answer.poses[0].any_heading && answer.poses[1].any_heading);
+  const Vec2 chord = problem.touches[1].at - problem.touches[0].at;
+  const Vec2 other = Vec2(50, 20) + 2 * (problem.touches[0].at - Vec2(50, 20)) + chord;  // across the chord
+  EXPECT_TRUE(is_listed(answer, {50, 20, answer.poses[0].pose.heading}, 1e-3) ||
+              is_listed(answer, {50, 20, answer.poses[1].pose.heading}, 1e-3));
+  EXPECT_TRUE(is_listed(answer, {other.x(), other.y(), answer.poses[0].pose.heading}, 1e-3) ||
+              is_listed(answer, {other.x(), other.y(), answer.poses[1].pose.heading}, 1e-3));
+}
+
 TEST(TouchDegenerate, ABallOnACornerIsFoundOnItsArc) {
   const Part part = bracket();
   const Pose truth{5, 6, 1.2};
