@@ -23,7 +23,10 @@ namespace {
 
 // Approaches where none are given: directions all around, and parallel ways in each.
 constexpr int kDirections = 36;
-constexpr int kParallel = 7;
+constexpr std::size_t kParallel = 7;
+// In a hole they start at places that are so far apart, a share of its diagonal, and are looked for among so many.
+constexpr double kApart = 0.02;
+constexpr std::size_t kMostPlaces = 40;
 // A finger touches where it is nearer than this share of the diagonal; it creeps along a side no longer than so many
 // steps.
 constexpr double kTouches = 1e-7;
@@ -63,14 +66,21 @@ class Advisor {
     share_out();
   }
 
-  std::vector<Approach> all_around() const {
+  /// From outside, in all directions; of a hole from within.
+  std::vector<Approach> all_around() {
     std::vector<Approach> approaches;
+    if (part_.is_hole()) {
+      for (const Vec2& from : places_within()) {
+        for (int k = 0; k < kDirections; ++k) approaches.push_back({from, kFullTurn * k / kDirections});
+      }
+      return approaches;
+    }
     for (int k = 0; k < kDirections; ++k) {
       const double direction = kFullTurn * k / kDirections;
       const Vec2 along(std::cos(direction), std::sin(direction));
       const Vec2 across(-along.y(), along.x());
-      for (int i = 0; i < kParallel; ++i) {
-        const double off = ((2.0 * i + 1) / kParallel - 1) * reach_;
+      for (std::size_t i = 0; i < kParallel; ++i) {
+        const double off = ((2.0 * static_cast<double>(i) + 1) / kParallel - 1) * reach_;
         approaches.push_back({middle_ + off * across - (reach_ + answer_.radius) * along, direction});
       }
     }
@@ -120,6 +130,34 @@ class Advisor {
     }
     middle_ = 0.5 * (least + most);
     reach_ = 0.5 * (most - least).norm();
+  }
+
+  /// Where the hole's middle is in the likeliest poses, if it is free in all of them; else where it is in most.
+  std::vector<Vec2> places_within() {
+    const Vec2 middle = part_.middle_of_hole();
+    std::vector<std::pair<double, Vec2>> places;
+    for (const LikelyPose& one : poses_) {
+      const Vec2 place = one.pose.world({side() * middle.x(), middle.y()});
+      const bool is_known = std::any_of(places.begin(), places.end(), [&](const auto& known) {
+        return (known.second - place).norm() < kApart * part_.diagonal();
+      });
+      if (!is_known && places.size() < kMostPlaces) places.emplace_back(share_free(place), place);
+    }
+    std::stable_sort(places.begin(), places.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::vector<Vec2> result;
+    for (const auto& [share, place] : places) {
+      if (share >= places.front().first && result.size() < kParallel) result.push_back(place);
+    }
+    return result;
+  }
+
+  /// Probability of the poses in which the finger touches nothing there.
+  double share_free(const Vec2& at) {
+    double share = 0;
+    for (const LikelyPose& one : poses_) {
+      if (part_.nearest(in_part(one, at)).distance > answer_.radius) share += one.weight;
+    }
+    return share;
   }
 
   double side() const { return answer_.mirrored ? -1 : 1; }

@@ -18,6 +18,8 @@ constexpr double kCornerTurn = 1e-4;
 // So near to the boundary, in shares of its diagonal, the direction of a smooth side is that of its normal: the nearest
 // point is known no better.
 constexpr double kAtBoundary = 1e-5;
+// Places of a hole's box, each way, among which its middle is looked for.
+constexpr int kLooks = 16;
 
 }  // namespace
 
@@ -29,12 +31,31 @@ PartDistance::PartDistance(const Part& part)
   const PathTree::Node& all = tree_.node(tree_.root());
   corner_ = all.middle - Vec2::Constant(all.radius);
   cell_ = Vec2::Constant(2 * all.radius / kCells);
+  is_hole_ = part_.closed() && nearest(corner_).distance < 0;
+}
+
+Vec2 PartDistance::middle_of_hole() {
+  Vec2 best = corner_;
+  double most = -std::numeric_limits<double>::infinity();
+  for (int row = 0; row < kLooks; ++row) {
+    for (int column = 0; column < kLooks; ++column) {
+      const Vec2 place = corner_ + cell_.x() * kCells / kLooks * Vec2(column + 0.5, row + 0.5);
+      const double distance = nearest(place).distance;
+      if (distance <= most) continue;
+      most = distance;
+      best = place;
+    }
+  }
+  return best;
 }
 
 /// Distance changes by no more than one goes.
 double PartDistance::at_least(const Vec2& point) {
   const Vec2 far = ((point - corner_).cwiseQuotient(cell_) / kCells - Vec2::Constant(0.5)).cwiseAbs();
-  if (far.maxCoeff() >= 0.5) return (far - Vec2::Constant(0.5)).cwiseMax(0).norm() * cell_.x() * kCells;
+  if (far.maxCoeff() >= 0.5) {
+    const double out = (far - Vec2::Constant(0.5)).cwiseMax(0).norm() * cell_.x() * kCells;
+    return is_hole_ ? -out - 2 * diagonal() : out;
+  }
   const Vec2 number = ((point - corner_).cwiseQuotient(cell_)).array().floor();
   const int column = std::clamp(static_cast<int>(number.x()), 0, kCells - 1);
   const int row = std::clamp(static_cast<int>(number.y()), 0, kCells - 1);

@@ -25,6 +25,9 @@ class PartDistance {
   PartDistance& operator=(const PartDistance&) = delete;
 
   double diagonal() const { return boundary_.diagonal(); }
+  bool is_hole() const { return is_hole_; }  // the material is outside
+  /// A place about as far from the boundary as a hole allows. REQUIRES a hole.
+  Vec2 middle_of_hole();
   NearestOfPart nearest(const Vec2& point);
   /// How far a point is from the part, at least: quick, and near it below 0.
   double at_least(const Vec2& point);
@@ -35,8 +38,9 @@ class PartDistance {
   const Part& part_;
   CentrePath boundary_;
   PathTree tree_;
-  Vec2 corner_ = Vec2::Zero();   // of the grid
-  Vec2 cell_ = Vec2::Zero();     // sizes of its cells
+  Vec2 corner_ = Vec2::Zero();  // of the grid
+  Vec2 cell_ = Vec2::Zero();    // sizes of its cells
+  bool is_hole_ = false;
   std::vector<double> of_cell_;  // distance at a cell's middle; NaN: nobody asked yet
 };
 

@@ -133,7 +133,18 @@ def compare(old, new, tolerance):
         comparison.words(("stdout",), old["out"], new["out"])
     if old["code"] == new["code"]:
         comparison.words(("stderr",), old["err"], new["err"])
+    for name in sorted({**old.get("files", {}), **new.get("files", {})}):
+        compare_files(comparison, name, old.get("files", {}).get(name, ""), new.get("files", {}).get(name, ""))
     return comparison
+
+
+def compare_files(comparison, name, old, new):
+    """Documents field by field, figures by their words."""
+    a, b = documents(old), documents(new)
+    if isinstance(a, dict) and isinstance(b, dict):
+        comparison.walk((name,), a, b)
+    else:
+        comparison.words((name,), old, new)
 
 
 def pattern(path):
@@ -207,7 +218,7 @@ def main():
         if not a or not b or a["digest"] != b["digest"]:
             tally["not comparable: asked in one record only, or asked otherwise"] += 1
             continue
-        if all(a[name] == b[name] for name in ("code", "out", "err")):
+        if all(a.get(name) == b.get(name) for name in ("code", "out", "err", "files")):
             tally["identical to the bit"] += 1
             continue
         comparison = compare(a, b, options.tolerance)

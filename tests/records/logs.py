@@ -181,6 +181,13 @@ def noise_words(part, dice, radius=False):
     return ["--noise", ",".join(fields)], contact, angle, slip
 
 
+def noisy_words_for(part, dice, rolled, finger):
+    """Disturbs a roll, and says by how much."""
+    noise, contact, angle, slip = noise_words(part, dice)
+    rolled.disturb(dice, contact, angle, slip, per_length(finger))
+    return noise
+
+
 def belief_options(part, dice, start):
     words = []
     if dice.chance(0.3):

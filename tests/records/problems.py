@@ -1,10 +1,14 @@
-"""The 3,000 problems: deterministic, made from closed formulas, independent of the program that answers them.
+"""The 3,400 problems: deterministic, made from closed formulas, independent of the program that answers them.
 
 Each problem has dice of its own, so a new group leaves the others as they are."""
 
+import in_python
+from contacts import next_touch, rolls_together, three_fingers, touch_table, touches
 from courses import TAU, Dice, Disk, Rolled
 from logs import (columns_of, course_part, finger_for, many_rolls, noisy_log, noisy_pair_log, noisy_pair_readings,
                   noisy_readings, one_log, pair_log, pair_rolled, pair_tables, table)
+from made_files import (catalog_lists, certificate, figure, identify_log, identify_readings, identify_touches,
+                        part_figure, saved_part, touch_figure)
 from mistakes import BAD_FILES, ONE_FINGER, TWO_FINGERS
 from parts import any_part, gallery_part
 from readings import (Problem, locate, one_finger_readings, pair_facing, pair_free, pair_readings, place,
@@ -124,12 +128,21 @@ def mistakes(listed):
 
 # ---- all of them
 
-GROUPS = [  # name, how many, fingers; the mistakes are as many as are listed
+GROUPS = [  # name, how many, fingers (or what else it is about); the mistakes are as many as are listed
     (readings_gallery, 380, 1), (readings_points, 220, 1), (readings_drawings, 240, 1), (one_log, 260, 1),
     (many_rolls, 40, 1), (noisy_log, 220, 1), (noisy_readings, 60, 1), (reach, 110, 1), (reach_log, 40, 1),
     (inspect, 50, 1), (advise, 40, 1), (watch, 30, 1), (teach, 15, 1), (simulate, 15, 1), (text, 30, 1),
     (pair_free, 327, 2), (pair_facing, 240, 2), (pair_log, 250, 2), (noisy_pair_log, 120, 2),
     (noisy_pair_readings, 50, 2), (overlap, 80, 2), (overlap_log, 40, 2),
+    (touches, 60, "contacts"), (touch_table, 20, "contacts"), (rolls_together, 20, "contacts"),
+    (three_fingers, 15, "contacts"), (next_touch, 10, "contacts"),
+    (identify_readings, 20, "catalog"), (identify_log, 20, "catalog"), (identify_touches, 10, "catalog"),
+    (catalog_lists, 6, "catalog"),
+    (certificate, 45, "written"), (figure, 30, "written"), (touch_figure, 10, "written"), (saved_part, 20, "written"),
+    (part_figure, 10, "written"),
+    (in_python.readings, 20, "python"), (in_python.many, 8, "python"), (in_python.log, 15, "python"),
+    (in_python.simulated, 6, "python"), (in_python.touches, 8, "python"), (in_python.advice, 6, "python"),
+    (in_python.mistake, 20, "python"),
 ]
 
 

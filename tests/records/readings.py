@@ -8,14 +8,19 @@ from parts import any_part, drawn_part, gallery_part, points_part
 
 
 class Problem:
-    def __init__(self, words, files=None, stdin=None):
+    """A command and the files that it needs. `before`: commands that are run first; `writes`: files that are recorded;
+    `python`: the words are a script's, not the program's."""
+
+    def __init__(self, words, files=None, stdin=None, before=(), writes=(), python=False):
         self.id = None
         self.words, self.stdin = [str(word) for word in words], stdin
+        self.before, self.writes, self.python = list(before), list(writes), python
         self.files = {name: text if isinstance(text, bytes) else text.encode() for name, text in (files or {}).items()}
 
     def digest(self):
         """What was asked: two records are comparable where these agree."""
-        asked = repr((self.words, sorted(self.files.items()), self.stdin))
+        more = (self.before,) if self.before else ()
+        asked = repr((self.words, sorted(self.files.items()), self.stdin) + more)
         return hashlib.sha256(asked.encode()).hexdigest()[:16]
 
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Records what a program answers to the 3,000 problems: command line, exit code, output and narration.
+r"""Records what a program answers to the 3,400 problems: command line, exit code, output and narration.
 
-    tests/records/record.py build/release/rollfix -o old.json.gz [--only '2/*'] [--keep FOLDER] [--jobs 2]
+    tests/records/record.py build/release/rollfix -o old.json.gz [--only '2/*'] [--keep FOLDER] [--jobs 2] \\
+        [--python build/release/python]
 """
 
 import argparse
@@ -25,21 +26,26 @@ CLOCK = re.compile(r'"seconds_per_sample": ?[^,}]*')  # the only field that tell
 
 
 def answer(program, folder, problem):
-    """Each problem has a folder of its own, so that messages hold no path."""
+    """Each problem has a folder of its own, so that messages hold no path. `program`: words."""
     place = folder / problem.id
     place.mkdir(parents=True)
     for name, data in problem.files.items():
         (place / name).write_bytes(data)
     began = time.monotonic()
     stdin = (problem.stdin or "").encode()
+    run = lambda words: subprocess.run([*program, *words], cwd=place, input=stdin, capture_output=True, timeout=SECONDS)
     try:
-        ran = subprocess.run([program, *problem.words], cwd=place, input=stdin, capture_output=True, timeout=SECONDS)
+        for words in problem.before:
+            run(words)
+        ran = run(problem.words)
         code, out, err = ran.returncode, ran.stdout.decode(), ran.stderr.decode()
     except subprocess.TimeoutExpired:
         code, out, err = "timeout", "", ""
     out = CLOCK.sub('"seconds_per_sample":0', out)
     asked = {"id": problem.id, "command": problem.words, "digest": problem.digest()}
-    return {**asked, "code": code, "out": out, "err": err}, time.monotonic() - began
+    files = {name: (place / name).read_text() for name in problem.writes if (place / name).exists()}
+    written = {"files": files} if problem.writes else {}
+    return {**asked, "code": code, "out": out, "err": err, **written}, time.monotonic() - began
 
 
 def summary(rows):
@@ -64,13 +70,19 @@ def main():
     parser.add_argument("--only", default="*", help="problems whose name fits this pattern")
     parser.add_argument("--keep", help="a new folder for the problems' files, to try one by hand")
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--python", help="the folder of the package, for problems that Python asks; else left out")
     options = parser.parse_args()
-    program = os.path.abspath(options.program)
+    program = [os.path.abspath(options.program)]
     chosen = [problem for problem in all_problems() if fnmatch.fnmatch(problem.id, options.only)]
+    if options.python:
+        os.environ["PYTHONPATH"] = os.path.abspath(options.python)
+    else:
+        chosen = [problem for problem in chosen if not problem.python]
     began = time.monotonic()
     with tempfile.TemporaryDirectory() as scratch, concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         folder = Path(options.keep or scratch).resolve()
-        rows = list(pool.map(lambda problem: answer(program, folder, problem), chosen))
+        asks = lambda problem: [sys.executable] if problem.python else program
+        rows = list(pool.map(lambda problem: answer(asks(problem), folder, problem), chosen))
     summary(rows)
     print(f"{len(rows)} problems in {time.monotonic() - began:.0f} s")
     Path(options.output).parent.mkdir(parents=True, exist_ok=True)

@@ -93,6 +93,24 @@ TEST(TouchNext, APartFreeToSlideIsTouchedAcross) {
   EXPECT_GT(std::abs(std::cos(next.advised().approach.direction)), 0.3);
 }
 
+TEST(TouchNext, InAPocketTheWayBeginsInside) {
+  rollfix::Outline pocket = polygon({{0, 0}, {60, 0}, {60, 20}, {40, 20}, {40, 30}, {0, 30}}).outline();
+  pocket.hole = true;
+  TouchProblem problem{Part(pocket), {{{2, 10}, 0}, {{30, 2}, 0.5 * std::numbers::pi}}, rollfix::disk(2)};
+  problem.noise.emplace();
+  problem.noise->position = 0.02;
+  problem.noise->angle = rollfix::kDegree;
+  const TouchAnswer answer = rollfix::solve(problem);
+  ASSERT_GT(answer.poses.size(), 1U);
+  const NextTouch next = rollfix::next_touch(answer);
+  ASSERT_TRUE(next.helps);
+  double touched = 0;
+  for (const rollfix::ExpectedTouch& one : next.expected) {
+    if (one.hits && one.travel > 0) touched += one.probability;
+  }
+  EXPECT_GT(touched, 0.5) << "the finger is free where it starts, and there are sides all around";
+}
+
 TEST(TouchNext, RefusesWhatItCannotMean) {
   std::mt19937_64 generator(3);
   Case one = random_case(bracket(), {3, 0, 3, 0.05, rollfix::kDegree}, generator);
