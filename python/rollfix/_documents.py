@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any, Dict, Optional, Tuple
+from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple
 
 from ._made import no_value
 from ._messages import in_a_page
@@ -45,6 +45,24 @@ class Document:
 
     def __reduce__(self) -> Any:
         return (type(self), (self._text,))
+
+
+class Listing(Document):
+    """A document whose placements are rows of a table."""
+
+    __slots__ = ()
+
+    def _columns(self) -> Dict[str, List[Any]]:
+        raise NotImplementedError
+
+    def to_frame(self) -> Any:
+        """A pandas.DataFrame with a row for each placement."""
+        from ._logs import pandas
+
+        return pandas().DataFrame(self._columns())
+
+    def __len__(self) -> int:
+        return len(self.placements)
 
 
 class Inspection(Document):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Mapping, Optional, Sequence, Tuple
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -10,14 +10,14 @@ from . import _core
 from ._checks import flag, least, numbers, path, text, whole
 from ._columns import Naming
 from ._core import InputError
-from ._documents import Document
+from ._documents import Listing
 from ._fingers import FingerLike, fingers
 from ._logs import Log, _is_log, rolls_of
 from ._messages import in_a_page, shown
 from ._noise import NoiseLike, noise as noise_given
 
 
-class HoldAnswer(Document):
+class HoldAnswer(Listing):
     """Every set of first contacts of three and more fingers that fits: the fields of `rollfix/locate/1`, see docs/json.md.
 
     `placements` has one entry for each connected set, with noise the most probable first; `starts` and `ends` have the
@@ -65,8 +65,20 @@ class HoldAnswer(Document):
     def _repr_svg_(self) -> Optional[str]:
         return in_a_page(self.to_svg())
 
-    def __len__(self) -> int:
-        return len(self.placements)
+    def _columns(self) -> Dict[str, List[Any]]:
+        """Fingers are a, b, c, ...; with noise there are more."""
+        placements = self.placements
+        columns: Dict[str, List[Any]] = {}
+        if self.noise is not None:
+            columns["probability"] = [one["probability"] for one in placements]
+        for finger in range(self.fingers):
+            for name in ("start", "end", "sd", "end_sd"):
+                if all(name in one for one in placements):
+                    columns[f"{name}_{chr(ord('a') + finger)}"] = [one[name][finger] for one in placements]
+        for name, number in (("first", 0), ("last", 1)):
+            for k, coordinate in enumerate(("x", "y", "heading")):
+                columns[f"{name}_{coordinate}"] = self.poses[:, number, k].tolist()
+        return columns
 
     def __repr__(self) -> str:
         if not len(self):

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import json
-from typing import Any, Dict, List, Optional, Sequence, Tuple
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 
 from . import _core
 from ._checks import array, flag, least, numbers, path, pose_prior, text, whole
 from ._core import InputError
-from ._documents import Document
+from ._documents import Document, Listing
 from ._fingers import FingerLike, fingers
 from ._logs import Log
 from ._messages import in_a_page, shown, warn
@@ -38,7 +38,7 @@ class TouchAdvice(Document):
         )
 
 
-class TouchAnswer(Document):
+class TouchAnswer(Listing):
     """Every pose of the part that fits touches, rolls, or both: the fields of `rollfix/locate/1`, see docs/json.md.
 
     `placements` has one entry for each connected set of poses, with noise the most probable first; `poses` has the best
@@ -123,9 +123,6 @@ class TouchAnswer(Document):
             columns[name] = [one[name] for one in placements]
         return columns
 
-    def __len__(self) -> int:
-        return len(self.placements)
-
     def __repr__(self) -> str:
         if not len(self):
             return f"<TouchAnswer: {self.verdict}>"
@@ -203,7 +200,9 @@ def _tolerance(given: Any, of_rolls_alone: bool) -> Optional[Tuple[float, float]
 def _rows(touches: Any) -> Any:
     """(n, 5): x, y, normal and both standard deviations; NaN for what is not there."""
     if is_frame(touches):
-        return _rows_of_frame(touches)
+        return _rows_of_columns({name: touches[name] for name in touches.columns})
+    if isinstance(touches, Mapping):
+        return _rows_of_columns(touches)
     if isinstance(touches, np.ndarray) and touches.ndim <= 2:
         touches = [tuple(row) for row in np.atleast_2d(touches)]
     if not hasattr(touches, "__iter__") or isinstance(touches, (str, bytes)):
@@ -236,15 +235,18 @@ def _number(value: Any, column: str, number: int) -> Any:
     return angle
 
 
-def _rows_of_frame(frame: Any) -> Any:
-    names = {str(name).strip().lower(): name for name in frame.columns}
-    if "x" not in names or "y" not in names:
-        raise InputError(f"touches: expected columns x and y, found {', '.join(str(name) for name in frame.columns)}")
-    columns = []
+def _rows_of_columns(given: Mapping[Any, Any]) -> Any:
+    named = {str(name).strip().lower(): values for name, values in given.items()}
+    if "x" not in named or "y" not in named:
+        raise InputError(f"touches: expected columns x and y, found {', '.join(map(str, given)) or 'none'}")
+    columns = {}
     for column in COLUMNS:
-        if column not in names:
-            columns.append(np.full(len(frame), np.nan))
-            continue
-        values = [_number(value, column, k) for k, value in enumerate(np.asarray(frame[names[column]]).tolist(), 1)]
-        columns.append(array(values, "touches"))
-    return np.ascontiguousarray(np.column_stack(columns))
+        if column in named:
+            values = np.atleast_1d(np.asarray(named[column], dtype=object)).tolist()
+            columns[column] = array([_number(value, column, k) for k, value in enumerate(values, 1)], "touches")
+    counts = {name: np.size(values) for name, values in columns.items()}
+    if len(set(counts.values())) > 1:
+        told = ", ".join(f"{name} {count}" for name, count in counts.items())
+        raise InputError(f"touches: expected columns of one length, found {told}")
+    empty = np.full(counts["x"], np.nan)
+    return np.ascontiguousarray(np.column_stack([columns.get(column, empty) for column in COLUMNS]))

@@ -58,6 +58,15 @@ def test_with_noise_there_are_probabilities(part, logs):
     assert len(answer.placements[0]["sd"]) == 3
 
 
+def test_placements_are_a_table(part, logs, found):
+    pytest.importorskip("pandas")
+    frame = found.to_frame()
+    assert np.allclose(frame[["start_a", "start_b", "start_c"]], found.starts)
+    assert np.allclose(frame[["last_x", "last_y", "last_heading"]], found.poses[:, 1])
+    noisy = part.locate(log=logs, finger=DISK, noise=NOISE).to_frame()
+    assert {"probability", "sd_a", "end_sd_c"} <= set(noisy.columns)
+
+
 def test_it_is_pickled_and_drawn(found, tmp_path):
     assert pickle.loads(pickle.dumps(found)).verdict == "unique"
     found.save(tmp_path / "hold.svg")

@@ -56,6 +56,22 @@ def test_a_data_frame_has_the_columns_of_the_table(bracket, found):
     assert np.allclose(answer.poses, found.poses)
 
 
+def test_columns_may_stand_in_a_dict(bracket, found):
+    x, y = np.transpose(FIVE)
+    assert bracket.locate(touches={"x": x, "y": y}, finger=rollfix.Disk(3), noise=NOISE) == found
+    with pytest.raises(rollfix.InputError, match="expected columns of one length, found x 5, y 4"):
+        bracket.locate(touches={"x": x, "y": y[:4]}, finger=rollfix.Disk(3), noise=NOISE)
+    with pytest.raises(rollfix.InputError, match="expected columns x and y, found x"):
+        bracket.locate(touches={"x": x}, finger=rollfix.Disk(3), noise=NOISE)
+
+
+def test_poses_are_a_table(found):
+    pytest.importorskip("pandas")
+    frame = found.to_frame()
+    assert np.allclose(frame[["x", "y", "heading"]], found.poses)
+    assert list(frame.columns) == ["x", "y", "heading", "kind", "probability"]
+
+
 def test_a_normal_and_a_tolerance(bracket):
     touches = [(108.088, 86.821, math.radians(-167.6)), *FIVE[1:]]
     answer = bracket.locate(touches=touches, finger=rollfix.Disk(3), tolerance=(0.1, 0.05))

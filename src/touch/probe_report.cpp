@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <vector>
 
@@ -18,6 +19,13 @@ namespace {
 constexpr std::string_view kGrblStart = "[PRB:";
 // x y z a b c u v w.
 constexpr std::size_t kLinuxCncNumbers = 9;
+
+/// Where a report of GRBL begins, in capitals or not, as senders that log in small letters write it.
+std::size_t grbl_start(std::string_view text) {
+  const auto alike = [](char one, char other) { return std::toupper(static_cast<unsigned char>(one)) == other; };
+  const auto at = std::search(text.begin(), text.end(), kGrblStart.begin(), kGrblStart.end(), alike);
+  return at == text.end() ? std::string_view::npos : static_cast<std::size_t>(at - text.begin());
+}
 
 /// Whether it is a row of that many plain numbers, with blanks between.
 bool is_linux_cnc_row(std::string_view line) {
@@ -38,7 +46,7 @@ double finite_number(std::string_view text, const char* column, const std::strin
 
 /// The place in "[PRB:x,y,z:1]"; none where the probe did not touch.
 std::optional<Vec2> grbl_place(std::string_view line, const std::string& place) {
-  const std::string_view report = line.substr(line.find(kGrblStart));
+  const std::string_view report = line.substr(grbl_start(line));
   const std::size_t end = report.find(']');
   const std::size_t colon = report.find(':', kGrblStart.size());
   const std::string_view flag = colon < end ? trimmed(report.substr(colon + 1, end - colon - 1)) : std::string_view();
@@ -62,7 +70,7 @@ TouchTable parse_grbl(std::string_view text, const std::string& name, const Touc
   LogLines lines(text, name);
   std::string_view line;
   for (std::size_t number = 1; lines.next(line); ++number) {
-    if (line.find(kGrblStart) == std::string_view::npos) continue;
+    if (grbl_start(line) == std::string_view::npos) continue;
     const std::optional<Vec2> at = grbl_place(line, where(name, number));
     if (!at) {
       ++missed;
@@ -105,7 +113,7 @@ TouchTable parse_linux_cnc(std::string_view text, const std::string& name) {
 }  // namespace
 
 std::optional<ProbeReport> probe_report(std::string_view text) {
-  if (text.find(kGrblStart) != std::string_view::npos) return ProbeReport::grbl;
+  if (grbl_start(text) != std::string_view::npos) return ProbeReport::grbl;
   LogLines lines(text, "");
   std::string_view line;
   while (lines.next(line)) {

@@ -87,7 +87,7 @@ TEST(CliTouchReading, ColumnsSayWhatAHeaderCallsThem) {
 TEST(CliTouchReading, AGrblConsoleLogHasItsProbesAmongOtherLines) {
   const Ran ran = located("console.log",
                           "Grbl 1.1h ['$' for help]\n>G38.2 X0 F100\n[PRB:108.088,86.821,-1.000:1]\nok\n"
-                          "<Idle|MPos:1.000,2.000,0.000|FS:0,0>\n[PRB:124.014,51.172,-1.000:1]\n"
+                          "<Idle|MPos:1.000,2.000,0.000|FS:0,0>\n[prb:124.014,51.172,-1.000:1]\n"
                           "[PRB:0.000,51.172,-1.000:0]\nALARM:5\n[PRB:180.292,54.717,-1.000:1]\n"
                           "[PRB:178.374,82.953,-1.000,0.000:1]\n");
   expect_read(ran);
