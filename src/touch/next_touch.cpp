@@ -29,8 +29,12 @@ constexpr double kApart = 0.02;
 constexpr std::size_t kMostPlaces = 40;
 // A finger touches where it is nearer than this share of the diagonal; it creeps along a side no longer than so many
 // steps.
-constexpr double kTouches = 1e-7;
+constexpr double kTouches = 1e-6;
 constexpr int kMostTraceSteps = 400;
+// Near the part, in shares of its diagonal, the side is taken for straight, and what that leads to is looked at.
+constexpr double kNear = 1e-2;
+// A touch whose squares are at least this much says the pose is another.
+constexpr double kFarOff = 100;
 // A way along a side says less by where the finger stops than one straight at it; it is counted no less than this.
 constexpr double kLeastIncidence = 0.1;
 // A normal that may be off by so much, radians, says nothing.
@@ -128,6 +132,7 @@ class Advisor {
         most = most.cwiseMax(world);
       }
     }
+    for (const Vec2& point : outline) farthest_ = std::max(farthest_, point.norm());
     middle_ = 0.5 * (least + most);
     reach_ = 0.5 * (most - least).norm();
   }
@@ -210,6 +215,13 @@ class Advisor {
     return by_pose.dot(one.covariance * by_pose);
   }
 
+  /// No side's is larger.
+  double most_variance_of(const LikelyPose& one) const {
+    const double by_place = std::sqrt(one.covariance.topLeftCorner<2, 2>().trace());
+    const double by_turn = std::sqrt(one.covariance(2, 2)) * farthest_;
+    return (by_place + by_turn) * (by_place + by_turn);
+  }
+
   /// Of the normal, from the pose's heading, and as a touch may as well have been a little further along the side: by
   /// how much its normal turns there.
   double turn_variance_of(const LikelyPose& one, const NearestOfPart& nearest) const {
@@ -221,6 +233,10 @@ class Advisor {
 
   /// The squares of a touch's residuals in another pose.
   double square_off(const Forecast& made, const LikelyPose& one) {
+    const Interval distance = part_.between(in_part(one, made.touch.at));
+    const double least = std::max({distance.lo - answer_.radius, answer_.radius - distance.hi, 0.0});
+    const double quick = least * least / (place_sd_ * place_sd_ + made.variance + most_variance_of(one));
+    if (quick > kFarOff) return quick;
     const NearestOfPart nearest = nearest_in(one, made.touch.at);
     const double gap = nearest.distance - answer_.radius;
     const double turn = nearest_angle(made.touch.normal - std::atan2(nearest.away.y(), nearest.away.x()));
@@ -241,29 +257,40 @@ class Advisor {
     const Vec2 along(std::cos(approach.direction), std::sin(approach.direction));
     const double farthest = (approach.from - middle_).norm() + reach_ + answer_.radius;
     double travel = 0;
-    for (int step = 0; step < kMostTraceSteps && travel <= farthest; ++step) {
+    for (int look = 0; look < kMostTraceSteps && travel <= farthest; ++look) {
       const Vec2 at = approach.from + travel * along;
       const double most_near = part_.at_least(in_part(one, at)) - answer_.radius;
       if (most_near > kTouches * part_.diagonal()) {
         travel += most_near;
         continue;
       }
-      const NearestOfPart nearest = nearest_in(one, at);
+      NearestOfPart nearest = nearest_in(one, at);
       const double gap = nearest.distance - answer_.radius;
-      if (gap > kTouches * part_.diagonal()) {
-        travel += gap;
-        continue;
+      double step = gap > 0 ? gap : 0;
+      bool is_there = gap <= kTouches * part_.diagonal();
+      const double incidence = -along.dot(nearest.away);
+      if (!is_there && gap <= kNear * part_.diagonal() && incidence > kLeastIncidence) {
+        const NearestOfPart ahead = nearest_in(one, at + gap / incidence * along);
+        is_there = std::abs(ahead.distance - answer_.radius) <= kTouches * part_.diagonal();
+        if (is_there) nearest = ahead;
+        if (is_there) step = gap / incidence;
       }
-      result.touch.hits = true;
-      result.touch.at = at;
+      travel += step;
+      if (!is_there) continue;
+      touches(one, along, nearest, result);
+      result.touch.at = approach.from + travel * along;
       result.touch.travel = travel;
-      result.touch.normal = std::atan2(nearest.away.y(), nearest.away.x());
-      result.incidence = std::max(kLeastIncidence, -along.dot(nearest.away));
-      result.variance = variance_of(one, nearest);
-      result.turn_variance = turn_variance_of(one, nearest);
       break;
     }
     return result;
+  }
+
+  void touches(const LikelyPose& one, const Vec2& along, const NearestOfPart& nearest, Forecast& result) const {
+    result.touch.hits = true;
+    result.touch.normal = std::atan2(nearest.away.y(), nearest.away.x());
+    result.incidence = std::max(kLeastIncidence, -along.dot(nearest.away));
+    result.variance = variance_of(one, nearest);
+    result.turn_variance = turn_variance_of(one, nearest);
   }
 
   double square_apart(const Forecast& a, const Forecast& b) const {
@@ -283,6 +310,7 @@ class Advisor {
   double turn_sd_ = 0;
   Vec2 middle_ = Vec2::Zero();
   double reach_ = 0;
+  double farthest_ = 0;  // of the part from its frame's origin
 };
 
 /// Whether one gains more, or about as much and goes at the part head on: along a side a little may make it miss.

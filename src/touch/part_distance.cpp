@@ -50,11 +50,12 @@ Vec2 PartDistance::middle_of_hole() {
 }
 
 /// Distance changes by no more than one goes.
-double PartDistance::at_least(const Vec2& point) {
+Interval PartDistance::between(const Vec2& point) {
   const Vec2 far = ((point - corner_).cwiseQuotient(cell_) / kCells - Vec2::Constant(0.5)).cwiseAbs();
   if (far.maxCoeff() >= 0.5) {
     const double out = (far - Vec2::Constant(0.5)).cwiseMax(0).norm() * cell_.x() * kCells;
-    return is_hole_ ? -out - 2 * diagonal() : out;
+    const Interval beyond{out, out + 2 * diagonal()};
+    return is_hole_ ? Interval{-beyond.hi, -beyond.lo} : beyond;
   }
   const Vec2 number = ((point - corner_).cwiseQuotient(cell_)).array().floor();
   const int column = std::clamp(static_cast<int>(number.x()), 0, kCells - 1);
@@ -62,7 +63,8 @@ double PartDistance::at_least(const Vec2& point) {
   const Vec2 middle = corner_ + cell_.cwiseProduct(Vec2(column + 0.5, row + 0.5));
   double& distance = of_cell_[static_cast<std::size_t>(row * kCells + column)];
   if (std::isnan(distance)) distance = nearest(middle).distance;
-  return distance - (point - middle).norm();
+  const double off = (point - middle).norm();
+  return {distance - off, distance + off};
 }
 
 /// The side of a corner is that of both normals together.

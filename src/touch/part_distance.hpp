@@ -29,8 +29,9 @@ class PartDistance {
   /// A place about as far from the boundary as a hole allows. REQUIRES a hole.
   Vec2 middle_of_hole();
   NearestOfPart nearest(const Vec2& point);
-  /// How far a point is from the part, at least: quick, and near it below 0.
-  double at_least(const Vec2& point);
+  /// Between which distances a point is from the part: quick, and close only where it is far.
+  Interval between(const Vec2& point);
+  double at_least(const Vec2& point) { return between(point).lo; }
 
  private:
   static constexpr int kCells = 64;  // of a grid over the part's box, each way
