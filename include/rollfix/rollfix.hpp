@@ -15,6 +15,7 @@
 #include "rollfix/contact/finger.hpp"             // IWYU pragma: export
 #include "rollfix/contact/log.hpp"                // IWYU pragma: export
 #include "rollfix/contact/pose.hpp"               // IWYU pragma: export
+#include "rollfix/contact/rig.hpp"                // IWYU pragma: export
 #include "rollfix/contact/rolling.hpp"            // IWYU pragma: export
 #include "rollfix/contact/teach.hpp"              // IWYU pragma: export
 #include "rollfix/error.hpp"                      // IWYU pragma: export

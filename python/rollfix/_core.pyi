@@ -359,6 +359,20 @@ def simulate_two(
     arg7: Optional[Dict[str, float]],
     arg8: int,
 ) -> Roll: ...
+def simulate_rig(
+    arg0: Part,
+    arg1: float,
+    arg2: Sequence[float],
+    arg3: Sequence[float],
+    arg4: bool,
+    arg5: float,
+    arg6: int,
+    arg7: Sequence[float],
+    arg8: str,
+    arg9: Optional[Dict[str, float]],
+    arg10: int,
+) -> Roll: ...
+def squeezed_places(arg0: Part, arg1: float, arg2: float) -> List[float]: ...
 def simulate_drive(
     arg0: Part, arg1: float, arg2: float, arg3: int, arg4: Optional[Dict[str, float]], arg5: int
 ) -> Roll: ...

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import rollfix
-from rollfix import Disk, Noise
+from rollfix import Disk, Jaw, Noise
 
 
 def lines_of(program, words):
@@ -33,6 +33,51 @@ def test_two_simulated_fingers_are_those_of_the_program(program, tmp_path):
     roll.log.save(tmp_path / "roll.csv")
     assert (tmp_path / "roll.csv").read_text() == text
     assert roll.pose.shape == (101, 3)
+
+
+def test_a_jaw_and_a_disk_are_those_of_the_program_and_found_again(program, tmp_path):
+    cam = rollfix.Part.gallery("cam")
+    roll = cam.simulate((Jaw(), Disk(0.3)), start=(1, 4), length=(1, 2), contact=(0.2, 0.3))
+    text = lines_of(program, ["simulate", "gallery:cam", "--finger", "jaw", "--finger", "disk,r=0.3", "--start", 1, "--start", 4,
+                              "--length", 1, "--length", 2, "--contact", 0.2, "--contact-angle", 0.3])
+    roll.log.save(tmp_path / "roll.csv")
+    assert (tmp_path / "roll.csv").read_text() == text
+    np.testing.assert_allclose(cam.locate(log=roll, finger=(Jaw(), Disk(0.3))).starts, [[1, 4]], atol=1e-8)
+
+
+@pytest.mark.parametrize("wheel", ["skin", "encoder", "pin"])
+def test_a_jaw_and_a_wheel_on_a_pin_are_those_of_the_program(ellipse, program, wheel, tmp_path):
+    noise = Noise(contact=0.001, angle=0.002, slip=0.01, radius=0.01, position=0.01)
+    roll = ellipse.simulate((Jaw(), Disk(0.4)), start=(2.4, 6.3), pin=(-0.4, -0.15), jaw_rotation=0.3, wheel=wheel,
+                            noise=noise, seed=5)
+    text = lines_of(program, ["simulate", ellipse.name, "--finger", "jaw", "--finger", "wheel,r=0.4", "--start", 2.4, "--start",
+                              6.3, "--pin", "-0.4,-0.15", "--jaw-rotation", 0.3, "--wheel", wheel, "--seed", 5, "--noise",
+                              "contact=0.001,angle=0.002,slip=0.01,radius=0.01,position=0.01"])
+    roll.log.save(tmp_path / "roll.csv")
+    assert (tmp_path / "roll.csv").read_text() == text
+
+
+def test_a_squeezed_wheel_starts_where_it_can_be_squeezed(ellipse):
+    roll = ellipse.simulate((Jaw(), Disk(0.4)), start=2.4, pin=0.2, squeeze=True)
+    assert roll.s[1][0] == pytest.approx(7.310565, abs=1e-6)
+    assert ellipse.simulate((Jaw(), Disk(0.4)), start=(2.4, 7.3), pin=0.2, squeeze=True) == roll
+    with pytest.raises(rollfix.InputError, match="can't be squeezed at 5.8, expected a place near s = 7.31"):
+        ellipse.simulate((Jaw(), Disk(0.4)), start=(2.4, 5.8), pin=0.2, squeeze=True)
+
+
+@pytest.mark.parametrize(
+    "given, why",
+    [
+        ({"start": (2.4, 6.3), "pin": (1, 2), "length": (1, 2)}, "leave length, rotation and part_rotation out"),
+        ({"start": (2.4, 6.3), "pin": 1}, r"expected \(dx, dy\) in the jaw's frame"),
+        ({"start": (2.4, 6.3), "pin": (0.1, 0), "wheel": "rim"}, "expected 'skin', 'encoder' or 'pin'"),
+        ({"start": (2.4, 6.3), "squeeze": True}, "pin: expected how far"),
+        ({"start": (2.4, 5.8), "pin": (0.4, -0.1)}, "the wheel's normal passes through the jaw's contact"),
+    ],
+)
+def test_what_is_no_rig_is_refused(ellipse, given, why):
+    with pytest.raises(rollfix.InputError, match=why):
+        ellipse.simulate((Jaw(), Disk(0.4)), **given)
 
 
 def test_a_simulated_roll_is_found_again(ellipse):

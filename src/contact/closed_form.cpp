@@ -1,15 +1,9 @@
 #include "contact/motion.hpp"
 
-#include <algorithm>
-#include <boost/math/tools/roots.hpp>
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <limits>
-#include <utility>
 #include <vector>
 
-#include "rollfix/pulse.hpp"
+#include "contact/walk.hpp"
 
 // Notation:
 //   s, Theta        contact on the part, and the tangent's angle there: `s`, `angle`
@@ -17,7 +11,7 @@
 //   psi             how far the finger has turned: `Track::rotation`, of a disk Theta + s / r
 //   L, theta        s - s0 and Theta - Theta0: the reading, from which u and psi follow (`contact_after`)
 //   fallen          over the tiny concave joints of a drawing the finger turns back: by so much psi is behind,
-//                   `fallen_`
+//                   `Walk::fallen_`
 // Follows eqs. (1) and (2) of the paper (Jia, IROS 2001), integrated once: (1/r + kappa) ds = omega d tau makes Theta +
 // s / r the integral of omega, eq. (3). Measured are L and theta, eqs. (4) and (5).
 // Idea: psi grows along the track, so that the contact at each time is found by solving psi(s) = rotation on one
@@ -25,66 +19,6 @@
 namespace rollfix {
 
 namespace {
-
-// Rounding of a rotation: the last row of a roll that ends where the way ends is not beyond it.
-constexpr double kRotationRounding = 16 * std::numeric_limits<double>::epsilon();
-
-struct Found {
-  double s = 0;
-  double angle = 0;
-};
-
-/// Goes along the track to where the finger has turned by a given amount: the inverse of Track::rotation.
-class Walk {
- public:
-  Walk(const Track& track, std::int64_t index) : track_(track) { enter(index); }
-
-  Found to(double rotation) {
-    beat();
-    // Turned back at falls, the finger is behind by that much.
-    const double rounding = kRotationRounding * (std::abs(rotation) + std::abs(rotation_.lo) + std::abs(rotation_.hi));
-    while (rotation + fallen_ > rotation_.hi + rounding) go(1);
-    while (rotation + fallen_ < rotation_.lo - rounding) go(-1);
-    return solve(std::min(std::max(rotation + fallen_, rotation_.lo), rotation_.hi));
-  }
-
- private:
-  void enter(std::int64_t index) {
-    index_ = index;
-    stretch_ = track_.stretch(index);
-    rotation_ = {track_.rotation(stretch_, stretch_.s.lo, stretch_.angle.lo),
-                 track_.rotation(stretch_, stretch_.s.hi, stretch_.angle.hi)};
-  }
-
-  void go(int direction) {
-    const auto next = track_.next(index_, direction);
-    if (!next) track_.refuse(index_, direction);
-    fallen_ += track_.fall_between(index_, *next);
-    enter(*next);
-  }
-
-  Found solve(double rotation) const {
-    if (stretch_.is_pivot) return {stretch_.s.lo, stretch_.angle.lo + (rotation - rotation_.lo)};
-    const auto excess = [&](double s) {
-      const Turning turning = track_.turning(stretch_, s);
-      return std::pair(track_.rotation(stretch_, s, turning.angle) - rotation,
-                       track_.finger_curvature(stretch_, s) + turning.curvature);
-    };
-    const double share = (rotation - rotation_.lo) / (rotation_.hi - rotation_.lo);
-    const double guess = stretch_.s.lo + share * stretch_.s.width();
-    constexpr int kDigits = std::numeric_limits<double>::digits;
-    std::uintmax_t iterations = 100;
-    const double s =
-        boost::math::tools::newton_raphson_iterate(excess, guess, stretch_.s.lo, stretch_.s.hi, kDigits, iterations);
-    return {s, track_.turning(stretch_, s).angle};
-  }
-
-  const Track& track_;
-  double fallen_ = 0;
-  std::int64_t index_ = 0;
-  Stretch stretch_;
-  Interval rotation_;
-};
 
 /// How far the finger has turned at each of the times: the integral of omega in eq. (3).
 std::vector<double> rotations_of(const Motion& motion, const std::vector<double>& times) {
@@ -103,9 +37,9 @@ std::vector<RollState> states_of(const Track& track, const Motion& motion, const
   states.reserve(times.size());
   Walk walk(track, motion.start.index);
   for (const double rotation : rotations_of(motion, times)) {
-    const auto [s, angle] = walk.to(rotation0 + rotation);
-    const Reading reading{s - s0, angle - motion.start_angle};  // eqs. (4) and (5)
-    states.push_back({contact_after(track.finger(), motion.first, reading), s, angle});
+    const Walked at = walk.to(rotation0 + rotation);
+    const Reading reading{at.s - s0, at.angle - motion.start_angle};  // eqs. (4) and (5)
+    states.push_back({contact_after(track.finger(), motion.first, reading), at.s, at.angle});
   }
   return states;
 }

@@ -22,14 +22,17 @@ namespace {
 /// A column of a table that is to be written.
 using NamedColumn = std::pair<std::string, std::vector<double>>;
 
+/// Of the log of a wheel without skin, which has no u, there are as many as times.
+std::size_t rows_in(const Log& log) { return log.rows() > 0 ? log.rows() : log.time.size(); }
+
 /// The columns that a log has. Throws InputError when one is shorter or longer than the others.
 std::vector<NamedColumn> columns_of(const Log& log) {
   std::vector<NamedColumn> present;
   const auto add = [&](const std::string& name, std::vector<double> column) {
     if (column.empty()) return;
-    if (column.size() != log.rows()) {
+    if (column.size() != rows_in(log)) {
       throw InputError(
-          fmt::format("{}: expected {} values in column '{}', found {}", log.name, log.rows(), name, column.size()));
+          fmt::format("{}: expected {} values in column '{}', found {}", log.name, rows_in(log), name, column.size()));
     }
     present.emplace_back(name, std::move(column));
   };
@@ -86,7 +89,7 @@ void write_text(const std::string& path, const std::string& text) {
 std::string format_log(const Log& log) {
   const std::vector<NamedColumn> columns = columns_of(log);
   for (const FingerRows& rows : log.fingers) require_readable(rows, log.name);
-  return format_table(columns, log.rows());
+  return format_table(columns, rows_in(log));
 }
 
 void write_log(const std::string& path, const Log& log) { write_text(path, format_log(log)); }

@@ -7,6 +7,7 @@
 #include "contact/log_rows.hpp"
 #include "contact/normal_numbers.hpp"
 #include "part/not_lost.hpp"
+#include "rollfix/contact/rig.hpp"
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
 
@@ -157,6 +158,17 @@ void require_times(const Noise& noise, bool has_times, const std::string& what) 
       noise.drift > 0 ? "drift" : "walk", noise.drift > 0 && noise.walk > 0 ? "drift and walk" : "it"));
 }
 
+namespace {
+
+/// What there is of it for one of two fingers: that of the radius is of the disks among them.
+Noise noise_of(const Finger& finger, const Finger& other, const Noise& noise) {
+  Noise own = noise;
+  if (!finger.is_disk() && other.is_disk()) own.radius = 0;
+  return own;
+}
+
+}  // namespace
+
 NoisyRoll noisy_roll(const Part& part, const Finger& finger, const RollPlan& plan, const Noise& noise,
                      std::uint64_t seed) {
   require_valid(noise);
@@ -176,11 +188,30 @@ NoisyRoll noisy_roll_free(const Part& part, const FreePlan& plan, const Noise& n
   result.error = PerFinger<RollError>::of(2);
   FreePlan real = plan;
   for (std::size_t k = 0; k < 2; ++k) {
-    result.error[k] = draw_error(plan.fingers[k].finger, noise, normal);
-    real.fingers[k].finger = true_finger(plan.fingers[k].finger, result.error[k]);
+    const Finger& finger = plan.fingers[k].finger;
+    result.error[k] = draw_error(finger, noise_of(finger, plan.fingers[1 - k].finger, noise), normal);
+    real.fingers[k].finger = true_finger(finger, result.error[k]);
   }
   result.truth = roll_free(part, real);
   let_sense(result, {real.fingers[0].finger, real.fingers[1].finger}, noise, normal);
+  return result;
+}
+
+NoisyRoll noisy_roll_rig(const Part& part, const RigPlan& plan, const Noise& noise, std::uint64_t seed) {
+  require_valid(noise);
+  NormalNumbers normal(seed);
+  NoisyRoll result;
+  const Finger wheel = disk(plan.radius);
+  result.error = {draw_error(jaw(), noise_of(jaw(), wheel, noise), normal), draw_error(wheel, noise, normal)};
+  RigPlan real = plan;
+  real.radius += result.error[1].radius;
+  result.truth = roll_rig(part, real);
+  let_sense(result, {jaw(), disk(real.radius)}, noise, normal);
+  FingerRows& pin = result.log.fingers[1];
+  for (std::size_t row = 0; row < pin.x.size(); ++row) {
+    pin.x[row] += normal.next(noise.position);
+    pin.y[row] += normal.next(noise.position);
+  }
   return result;
 }
 

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <algorithm>
-#include <array>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
 #include <cstddef>
@@ -12,6 +11,7 @@
 
 #include "contact/log_rows.hpp"
 #include "contact/motion.hpp"
+#include "contact/naming.hpp"
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
 
@@ -77,18 +77,6 @@ double rotation_of(const Track& track, const RollPlan& plan, const TrackPlace& s
 }
 
 using Rate = std::function<double(double)>;
-
-constexpr std::array<const char*, 2> kNames = {"finger a", "finger b"};
-
-/// Says which finger an error is about.
-template <class Action>
-void naming(const char* finger, const Action& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", finger, error.what()));
-  }
-}
 
 bool is_by_distances(const FreePlan& plan) { return plan.fingers[0].distance.has_value(); }
 
@@ -279,7 +267,7 @@ Roll roll_with(Solve solve, const Part& part, const FreePlan& plan) {
   std::vector<Rolling> both(2);
   for (std::size_t k = 0; k < 2; ++k) {
     const FreeFinger& finger = plan.fingers[k];
-    naming(kNames[k], [&] {
+    naming(kFingerNames[k], [&] {
       both[k].way = track_of(part, finger.finger, finger.start, finger.u);
       both[k].motion = motion_against_part(both[k].track(), finger, plan);
     });
@@ -290,13 +278,13 @@ Roll roll_with(Solve solve, const Part& part, const FreePlan& plan) {
   roll.log.unit = part.unit();
   roll.log.time = times_of(both[0].motion, plan.rows);
   for (std::size_t k = 0; k < 2; ++k) {
-    naming(kNames[k], [&] { both[k].states = solve(both[k].track(), both[k].motion, roll.log.time); });
+    naming(kFingerNames[k], [&] { both[k].states = solve(both[k].track(), both[k].motion, roll.log.time); });
   }
   roll.pose = poses_of(plan, both[0], roll.log.time);
   roll.log.fingers.resize(2);
   roll.s = roll.angle = PerFinger<std::vector<double>>::of(2);
   for (std::size_t k = 0; k < 2; ++k) {
-    naming(kNames[k], [&] { roll.log.fingers[k] = rows_of(both[k], plan.fingers[k], roll.pose); });
+    naming(kFingerNames[k], [&] { roll.log.fingers[k] = rows_of(both[k], plan.fingers[k], roll.pose); });
     add_places(roll, k, both[k]);
   }
   return roll;
@@ -356,20 +344,6 @@ std::vector<double> integrals(const std::function<double(double)>& rate, const s
 
 Roll roll(const Part& part, const Finger& finger, const RollPlan& plan) {
   return roll_with(&states_of, part, finger, plan);
-}
-
-std::optional<Overlap> overlap_of(const Roll& roll, const Finger& a, const Finger& b) {
-  constexpr double kRounding = 1e-9;  // of the radii: disks that touch are apart
-  if (!a.is_disk() || !b.is_disk() || roll.log.fingers.size() != 2) return std::nullopt;
-  const FingerRows& of_a = roll.log.fingers[0];
-  const FingerRows& of_b = roll.log.fingers[1];
-  const double radii = a.disk()->radius + b.disk()->radius;
-  Overlap deepest;
-  for (std::size_t k = 0; k < of_a.x.size(); ++k) {
-    const double depth = radii - std::hypot(of_a.x[k] - of_b.x[k], of_a.y[k] - of_b.y[k]);
-    if (depth > deepest.depth) deepest = {k, depth};
-  }
-  return deepest.depth > kRounding * radii ? std::optional<Overlap>(deepest) : std::nullopt;
 }
 
 Roll roll_free(const Part& part, const FreePlan& plan) { return roll_with(&states_of, part, plan); }

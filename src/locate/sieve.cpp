@@ -38,6 +38,16 @@ Ball centre_of(const Part& part, double radius, const Interval& contacts) {
   return {part.point(contacts.middle()) + radius * normal, 0.5 * contacts.width() + 0.5 * radius * angles.width()};
 }
 
+/// How far a place in a ball is behind the line of a jaw that touches in an interval of s, at least: along the part's
+/// outward normal there.
+double least_depth(const Part& part, const Interval& contacts, const Ball& ball) {
+  const Interval angles = tangents(part, contacts);
+  const Vec2 normal(std::sin(angles.middle()), -std::cos(angles.middle()));
+  const Vec2 from_contact = ball.centre - part.point(contacts.middle());
+  const double moved = 0.5 * contacts.width() + ball.radius;
+  return from_contact.dot(normal) - moved - 0.5 * angles.width() * (from_contact.norm() + moved);
+}
+
 /// Takes out what the fingers can't do.
 class Sieve {
  public:
@@ -58,7 +68,7 @@ class Sieve {
       roll = {std::min(0.0, roll.lo + length_error), std::max(0.0, roll.hi - length_error)};
       if (!readings.empty()) last_[finger] = readings.back().length[finger];
     }
-    must_be_apart_ = !may_overlap && reach.size() == 2 && reach[0].curvature > 0 && reach[1].curvature > 0;
+    must_be_apart_ = !may_overlap && reach.size() == 2 && (reach[0].curvature > 0 || reach[1].curvature > 0);
   }
 
   /// Why a placement is impossible; nothing when it may be possible.
@@ -125,16 +135,30 @@ class Sieve {
 
   /// By how much the fingers overlap at an instant, at least, from wherever in the box they started.
   double overlap(const PerFinger<Interval>& box, std::size_t instant) const {
+    if (reach_[0].curvature == 0) return depth_under_jaw(box, instant, 0);
+    if (reach_[1].curvature == 0) return depth_under_jaw(box, instant, 1);
     double depth = 0;
     std::array<Ball, 2> balls;
     for (const std::size_t finger : {0U, 1U}) {
       const double radius = 1 / reach_[finger].curvature;
-      const double length = rolls_[instant].length[finger];
-      const double error = instant > 0 ? length_error_ : 0;
-      balls[finger] = centre_of(part_, radius, {box[finger].lo + length - error, box[finger].hi + length + error});
+      balls[finger] = centre_of(part_, radius, contacts(box, instant, finger));
       depth += radius - balls[finger].radius;
     }
     return depth - (balls[0].centre - balls[1].centre).norm();
+  }
+
+  /// The same of a jaw, which has no ends, and a disk.
+  double depth_under_jaw(const PerFinger<Interval>& box, std::size_t instant, std::size_t jaw) const {
+    const double radius = 1 / reach_[1 - jaw].curvature;
+    const Ball centre = centre_of(part_, radius, contacts(box, instant, 1 - jaw));
+    return radius + least_depth(part_, contacts(box, instant, jaw), centre);
+  }
+
+  /// Where a finger touches at an instant that has started in the box.
+  Interval contacts(const PerFinger<Interval>& box, std::size_t instant, std::size_t finger) const {
+    const double length = rolls_[instant].length[finger];
+    const double error = instant > 0 ? length_error_ : 0;
+    return {box[finger].lo + length - error, box[finger].hi + length + error};
   }
 
   /// What a placement consists of: its extent, or of a continuum small boxes along its line.
@@ -179,7 +203,7 @@ class Sieve {
   double length_error_;
   PerFinger<Interval> roll_;    // of each finger, from its first contact to the furthest on both sides
   PerFinger<double> last_;      // to the last reading searched with
-  bool must_be_apart_ = false;  // two disks at one height
+  bool must_be_apart_ = false;  // at one height, and not two jaws, which without ends would always meet
 };
 
 }  // namespace

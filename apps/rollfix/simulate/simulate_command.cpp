@@ -19,13 +19,17 @@ Two fingers on a part that is free to move, in one log or in two:
   rollfix simulate gallery:cam --finger disk,r=0.2 --start 1 --start 4 --length 1.5 --length -0.8 -o both.csv
   rollfix simulate gallery:cam --finger disk,r=0.2 --start 1 --start 4 --length 1 --length 2 -o a.csv -o b.csv
   rollfix simulate gallery:cam --finger disk,r=0.2 --start 1 --start 4 --length 1 --length 0 --part-rotation 20deg
-  rollfix simulate gallery:cam --finger disk,r=0.2 --finger disk,r=0.3 --start 1 --start 4 --length 1 --length 2
+  rollfix simulate gallery:cam --finger jaw --finger disk,r=0.3 --start 1 --start 4 --length 1 --length 2
+A jaw and a wheel on a pin, which the robot moves; the part turns as it must:
+  rollfix simulate gallery:ellipse --finger jaw --finger wheel,r=0.4 --start 2.4 --start 6.3 --pin -0.4,-0.15
+  rollfix simulate gallery:ellipse --finger jaw --finger wheel,r=0.4 --start 2.4 --pin 0.2 --squeeze --wheel pin
 )";
 
 /// Whatever speaks of a second finger, or of a part that moves.
 bool is_of_two(const SimulateArguments& arguments) {
-  const std::size_t most = std::max({arguments.fingers.size(), arguments.starts.size(), arguments.lengths.size(),
-                                     arguments.contact_angles.size(), arguments.files.size()});
+  const std::size_t most =
+      std::max({arguments.fingers.size(), arguments.starts.size(), arguments.lengths.size(),
+                arguments.contact_angles.size(), arguments.contacts.size(), arguments.files.size()});
   return most > 1 || !arguments.part_rotation.empty();
 }
 
@@ -33,6 +37,26 @@ bool is_of_two(const SimulateArguments& arguments) {
 void add_repeated(CLI::App& command, const std::string& name, std::vector<std::string>& values, const char* type,
                   const std::string& meaning) {
   command.add_option(name, values, meaning)->type_name(type)->allow_extra_args(false);
+}
+
+void add_rig_arguments(CLI::App& command, SimulateArguments& arguments) {
+  command
+      .add_option("--pin", arguments.pin,
+                  "of a jaw and a wheel (--finger jaw --finger wheel,r=R): how far the wheel's pin moves in the jaw's "
+                  "frame, DX along the jaw and DY towards its body; with --squeeze DX alone")
+      ->type_name("DX,DY");
+  command
+      .add_option("--jaw-rotation", arguments.jaw_rotation,
+                  "of a jaw and a wheel: how far the jaw turns meanwhile, and the pin with it; default 0")
+      ->type_name("ANGLE");
+  add_switch(command, "--squeeze", arguments.squeeze,
+             "of a jaw and a wheel: a spring presses the pin on the part, across the jaw, so that the wheel's normal "
+             "passes through the jaw's contact; the second --start may be left out");
+  command
+      .add_option("--wheel", arguments.wheel,
+                  "of a jaw and a wheel: what the wheel's log has: skin (u, psi, x, y), encoder (psi, x, y) or pin "
+                  "(x, y); default skin")
+      ->type_name("SENSORS");
 }
 
 }  // namespace
@@ -57,11 +81,10 @@ void add_simulate_command(CLI::App& program, Command& chosen) {
       ->type_name("ANGLE");
   add_repeated(*command, "--contact-angle", arguments->contact_angles, "ANGLE",
                "where on the finger the first contact is; default 0; once for both fingers or for each");
-  command
-      ->add_option("--contact", arguments->contact,
-                   "where on a jaw or an outline the first contact is, arc length; default 0, for an open outline its "
-                   "middle")
-      ->type_name("U");
+  add_repeated(*command, "--contact", arguments->contacts, "U",
+               "where on a jaw or an outline the first contact is, arc length; default 0, for an open outline its "
+               "middle; once for both fingers or for each");
+  add_rig_arguments(*command, *arguments);
   add_noise_argument(*command, arguments->noise);
   command->add_option("--seed", arguments->seed, "seed of the random errors of --noise; default 0")->type_name("N");
   command->add_option("--samples", arguments->samples, "rows of the log, at equal times; default 101")->type_name("N");
@@ -71,7 +94,10 @@ void add_simulate_command(CLI::App& program, Command& chosen) {
              "the part lies face down; --start and --length are still along the outline as it was drawn");
   add_switch(*command, "--force", arguments->force, "replace files that exist");
   command->callback([arguments, &chosen] {
-    chosen = [arguments] { return is_of_two(*arguments) ? simulate_two(*arguments) : simulate_one(*arguments); };
+    chosen = [arguments] {
+      if (is_of_rig(*arguments)) return simulate_rig(*arguments);
+      return is_of_two(*arguments) ? simulate_two(*arguments) : simulate_one(*arguments);
+    };
   });
 }
 

@@ -28,14 +28,15 @@ void require_one_finger(const SimulateArguments& arguments) {
 /// Where on the finger the first contact is: an angle of a disk, which turns it, or an arc length of any other.
 void place_contact(const SimulateArguments& arguments, const Part& part, const Finger& finger, RollPlan& plan) {
   if (finger.is_disk()) {
-    if (!arguments.contact.empty()) throw InputError("--contact is of a jaw or an outline; a disk has --contact-angle");
+    if (!arguments.contacts.empty())
+      throw InputError("--contact is of a jaw or an outline; a disk has --contact-angle");
     plan.psi = orientation_at(part, plan.start, arguments, 0);
     return;
   }
   if (!arguments.contact_angles.empty()) {
     throw InputError("--contact-angle is of a disk; a jaw or an outline has --contact, an arc length");
   }
-  if (!arguments.contact.empty()) plan.u = read_length(arguments.contact, "--contact", part.unit());
+  if (!arguments.contacts.empty()) plan.u = read_length(arguments.contacts.front(), "--contact", part.unit());
 }
 
 /// Lengths are along the stored outline, as everywhere.
@@ -78,7 +79,7 @@ Report simulate_one(const SimulateArguments& arguments) {
   report.notes.push_back(roll_text(part, roll.s[0], roll.angle[0]));
   add_reach_note(report, beyond_reach_note(part, finger, roll.s[0], "a real finger "));
   if (noise) report.notes.push_back(roll_error_text(finger, noisy.error[0]));
-  add_log(report, file, format_log(arguments.mirror ? in_mirror(noisy.log, seen) : noisy.log), arguments.force);
+  add_log(report, file, format_log(arguments.mirror ? in_mirror(noisy.log, {seen}) : noisy.log), arguments.force);
   return report;
 }
 

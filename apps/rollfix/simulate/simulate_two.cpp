@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <optional>
 
+#include "contact/mirrored.hpp"
+#include "rollfix/answer/solve.hpp"
 #include "rollfix/arguments/finger_argument.hpp"
 #include "rollfix/arguments/typed_number.hpp"
 #include "rollfix/contact/rolling.hpp"
@@ -32,26 +34,41 @@ void require_two_fingers(const SimulateArguments& arguments) {
   }
   require_at_most_two(arguments.fingers, "--finger");
   require_at_most_two(arguments.contact_angles, "--contact-angle");
-  require_at_most_two(arguments.files, "-o");
+  require_at_most_two(arguments.contacts, "--contact");
   require_two(arguments.starts, "--start");
   if (!arguments.rotation.empty()) {
     throw InputError("simulate: --rotation is of one finger; two fingers take --length twice, and --part-rotation");
   }
   require_two(arguments.lengths, "--length");
-  const std::vector<std::string>& files = arguments.files;
-  if (files.size() == 2 && (files[0] == files[1] || files[0] == "-" || files[1] == "-")) {
-    throw InputError(
-        fmt::format("-o {} -o {}: expected the names of two files, one for each finger, or one -o for both fingers",
-                    files[0], files[1]));
-  }
 }
 
-FreeFinger plan_of(const SimulateArguments& arguments, const Part& part, const Finger& disk, std::size_t which) {
+/// What is typed once is of every finger that can have it, what is typed twice of one each. Throws InputError where
+/// there are too few of those: disks, or else others.
+void require_owners(const std::vector<std::string>& typed, const std::vector<Finger>& fingers, bool of_disks) {
+  const bool of_a = finger_of(fingers, 0)->is_disk() == of_disks;
+  const bool of_b = finger_of(fingers, 1)->is_disk() == of_disks;
+  if (typed.empty() || (of_a && of_b) || (typed.size() == 1 && (of_a || of_b))) return;
+  const char* const option = of_disks ? "--contact-angle" : "--contact";
+  const char* const kind = of_disks ? "a disk" : "a jaw or an outline";
+  if (!of_a && !of_b) {
+    throw InputError(of_disks ? "--contact-angle is of a disk; a jaw or an outline has --contact, an arc length"
+                              : "--contact is of a jaw or an outline; a disk has --contact-angle");
+  }
+  throw InputError(fmt::format("{} is given twice, and only finger {} is {}; give it once, and {} for the other one",
+                               option, of_a ? "a" : "b", kind, of_disks ? "--contact" : "--contact-angle"));
+}
+
+FreeFinger plan_of(const SimulateArguments& arguments, const Part& part, const Finger& seen, std::size_t which) {
   FreeFinger finger;
-  finger.finger = disk;
+  finger.finger = arguments.mirror ? mirrored(seen) : seen;
   finger.start = read_length(arguments.starts[which], "--start", part.unit());
   finger.distance = read_length(arguments.lengths[which], "--length", part.unit());
-  finger.psi = orientation_at(part, finger.start, arguments, which);
+  if (seen.is_disk()) {
+    finger.psi = orientation_at(part, finger.start, arguments, which);
+  } else if (const std::vector<std::string>& typed = arguments.contacts; !typed.empty()) {
+    const double u = read_length(typed[std::min(which, typed.size() - 1)], "--contact", part.unit());
+    finger.u = arguments.mirror ? mirrored_u(seen, u) : u;
+  }
   return finger;
 }
 
@@ -74,6 +91,18 @@ std::string part_text(const Part& part, const Roll& roll) {
                      fixed(last.y - first.y, decimals));
 }
 
+void add_overlap_note(const Part& part, const std::vector<Finger>& fingers, const Roll& roll, Report& report) {
+  const auto overlap = overlap_of(roll, *finger_of(fingers, 0), *finger_of(fingers, 1));
+  if (!overlap) return;
+  const bool is_left_out = has_reach(*finger_of(fingers, 0)) && has_reach(*finger_of(fingers, 1));
+  report.notes.push_back(
+      fmt::format("the fingers overlap, by {} in row {} of the log: {}", rough(overlap->depth) + behind(part.unit()),
+                  overlap->row + 1,
+                  is_left_out ? "locate leaves out such a roll, unless --may-overlap says that they are at different "
+                                "heights"
+                              : "real ones must be at different heights"));
+}
+
 void add_logs(Report& report, const std::vector<std::string>& files, const Log& log, bool force) {
   if (files.size() == 2) {
     for (const std::size_t which : {0U, 1U}) add_log(report, files[which], format_log(one_finger(log, which)), force);
@@ -84,16 +113,44 @@ void add_logs(Report& report, const std::vector<std::string>& files, const Log& 
 
 }  // namespace
 
+void require_logs_of_two(const std::vector<std::string>& files, bool force) {
+  require_at_most_two(files, "-o");
+  if (files.size() == 2 && (files[0] == files[1] || files[0] == "-" || files[1] == "-")) {
+    throw InputError(
+        fmt::format("-o {} -o {}: expected the names of two files, one for each finger, or one -o for both fingers",
+                    files[0], files[1]));
+  }
+  for (const std::string& file : files) require_writable_log(file, force);
+}
+
+void report_two(const SimulateArguments& arguments, const Part& part, const std::vector<Finger>& fingers,
+                const PerFinger<std::string>& names, const NoisyRoll& noisy, const Log& log, Report& report) {
+  const Roll& roll = noisy.truth;
+  if (part.reversed()) report.notes.push_back(reversed_note(part));
+  for (const std::size_t which : {0U, 1U}) {
+    report.notes.push_back(names[which] + " " + roll_text(part, roll.s[which], roll.angle[which]));
+  }
+  for (const std::size_t which : {0U, 1U}) {
+    add_reach_note(report,
+                   beyond_reach_note(part, *finger_of(fingers, which), roll.s[which], "a real " + names[which] + " "));
+  }
+  add_overlap_note(part, fingers, roll, report);
+  report.notes.push_back(part_text(part, roll));
+  for (std::size_t which = 0; which < 2 && !arguments.noise.empty(); ++which) {
+    report.notes.push_back(names[which] + ": " + roll_error_text(*finger_of(fingers, which), noisy.error[which]));
+  }
+  add_logs(report, arguments.files, log, arguments.force);
+}
+
 Report simulate_two(const SimulateArguments& arguments) {
   require_two_fingers(arguments);
-  for (const std::string& file : arguments.files) require_writable_log(file, arguments.force);
-  if (!arguments.contact.empty())
-    throw InputError("--contact is of one finger with an outline; disks have --contact-angle");
+  require_logs_of_two(arguments.files, arguments.force);
   Report report;
   const Part part = load_part(arguments.part, report.notes);
   const std::optional<SimulatedNoise> noise = read_simulated_noise(arguments, part.unit());
   const std::vector<Finger> fingers = read_fingers(arguments.fingers, 2, part.unit());
-  require_disks(fingers, "simulate with two fingers");
+  require_owners(arguments.contact_angles, fingers, true);
+  require_owners(arguments.contacts, fingers, false);
   const FreePlan plan = plan_of(arguments, part, fingers);
   NoisyRoll noisy;
   if (noise) {
@@ -102,30 +159,10 @@ Report simulate_two(const SimulateArguments& arguments) {
     noisy.truth = roll_free(part, plan);
     noisy.log = noisy.truth.log;
   }
-  const Roll& roll = noisy.truth;
-
-  if (part.reversed()) report.notes.push_back(reversed_note(part));
-  const std::array<std::string, 2> names = {"finger a", "finger b"};
-  for (const std::size_t which : {0U, 1U}) {
-    report.notes.push_back(names[which] + " " + roll_text(part, roll.s[which], roll.angle[which]));
-  }
-  for (const std::size_t which : {0U, 1U}) {
-    const Finger& finger = *finger_of(fingers, which);
-    add_reach_note(report, beyond_reach_note(part, finger, roll.s[which], "a real " + names[which] + " "));
-  }
-  if (const auto overlap = overlap_of(roll, *finger_of(fingers, 0), *finger_of(fingers, 1))) {
-    report.notes.push_back(
-        fmt::format("the fingers overlap, by {} in row {} of the log: locate leaves out such a roll, unless "
-                    "--may-overlap says that "
-                    "they are at different heights",
-                    rough(overlap->depth) + behind(part.unit()), overlap->row + 1));
-  }
-  report.notes.push_back(part_text(part, roll));
-  for (std::size_t which = 0; which < 2 && noise; ++which) {
-    report.notes.push_back(names[which] + ": " + roll_error_text(*finger_of(fingers, which), noisy.error[which]));
-  }
-  add_logs(report, arguments.files, arguments.mirror ? in_mirror(noisy.log, fingers.front()) : noisy.log,
-           arguments.force);
+  // What rolls on the drawn outline is what a mirror shows of the fingers.
+  const std::vector<Finger> seen{plan.fingers[0].finger, plan.fingers[1].finger};
+  report_two(arguments, part, seen, {"finger a", "finger b"}, noisy,
+             arguments.mirror ? in_mirror(noisy.log, seen) : noisy.log, report);
   return report;
 }
 

@@ -68,11 +68,13 @@ void add_reach_note(Report& report, const std::string& note) {
   if (!note.empty()) report.notes.push_back(note);
 }
 
-Log in_mirror(Log log, const Finger& seen) {
-  for (FingerRows& rows : log.fingers) {
-    for (double& u : rows.u) u = mirrored_u(seen, u);
+Log in_mirror(Log log, const std::vector<Finger>& seen) {
+  for (std::size_t k = 0; k < log.fingers.size(); ++k) {
+    FingerRows& rows = log.fingers[k];
+    const Finger& finger = *finger_of(seen, k);
+    for (double& u : rows.u) u = mirrored_u(finger, u);
     for (double& x : rows.x) x = 0.0 - x;  // no -0
-    for (double& psi : rows.psi) psi = mirrored_psi(&seen, psi);
+    for (double& psi : rows.psi) psi = mirrored_psi(&finger, psi);
   }
   return log;
 }

@@ -11,6 +11,7 @@
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/output/report.hpp"
 #include "rollfix/part/part.hpp"
+#include "rollfix/per_finger.hpp"
 
 namespace rollfix::app {
 
@@ -21,13 +22,17 @@ struct SimulateArguments {
   std::vector<std::string> starts;
   std::vector<std::string> lengths;
   std::vector<std::string> contact_angles;
-  std::string contact;
+  std::vector<std::string> contacts;
   std::string noise;
   std::string seed;
   std::vector<std::string> files;
   std::string rotation;
   std::string part_rotation;
+  std::string pin;
+  std::string jaw_rotation;
+  std::string wheel;
   std::string samples;
+  bool squeeze = false;
   bool mirror = false;
   bool force = false;
 };
@@ -37,6 +42,10 @@ Report simulate_one(const SimulateArguments& arguments);
 
 /// Two fingers on a part that is free to move.
 Report simulate_two(const SimulateArguments& arguments);
+
+/// A jaw and a wheel on a pin, which the robot moves: whatever speaks of a wheel or its pin.
+bool is_of_rig(const SimulateArguments& arguments);
+Report simulate_rig(const SimulateArguments& arguments);
 
 /// psi of a finger whose first contact is at s, by --contact-angle; the part is not turned.
 double orientation_at(const Part& part, double s, const SimulateArguments& arguments, std::size_t finger);
@@ -62,9 +71,17 @@ std::string beyond_reach_note(const Part& part, const Finger& finger, const std:
 /// Adds it, unless it is empty.
 void add_reach_note(Report& report, const std::string& note);
 
-/// The log of the same roll on the part face down. `seen`: what rolled on the drawn outline, the mirror's image of the
+/// The log of the same roll on the part face down. `seen`: what rolled on the drawn outline, the mirror's image of each
 /// finger, or of both.
-Log in_mirror(Log log, const Finger& seen);
+Log in_mirror(Log log, const std::vector<Finger>& seen);
+
+/// Throws InputError unless these are at most two, and the names of two files, one for each finger, or of one for both.
+void require_logs_of_two(const std::vector<std::string>& files, bool force);
+
+/// Tells of a roll of two fingers what it was, what real fingers could not do, and the errors that were drawn, each
+/// finger by its name; and adds its log, in one file or two.
+void report_two(const SimulateArguments& arguments, const Part& part, const std::vector<Finger>& fingers,
+                const PerFinger<std::string>& names, const NoisyRoll& noisy, const Log& log, Report& report);
 
 /// Throws InputError when a log can't be written to this -o; stdout always can.
 void require_writable_log(const std::string& file, bool force);

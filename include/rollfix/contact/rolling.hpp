@@ -83,13 +83,15 @@ Roll roll(const Part& part, const Finger& finger, const RollPlan& plan);
 /// overlap_of tells. Throws InputError as `roll` does, and says which finger it is about.
 Roll roll_free(const Part& part, const FreePlan& plan);
 
-/// The row in which two disks are deepest in one another.
+/// The row in which two fingers are deepest in one another.
 struct Overlap {
   std::size_t row = 0;
-  double depth = 0;  // length
+  double depth = 0;  // length: how far one has to be moved, at least, until they are apart
 };
 
-/// Nothing where they are apart in every row, or are not both disks. `roll`: of two fingers.
+/// Nothing where they are apart in every row. Exact for disks, outlines (of an open one its convex hull) and a jaw,
+/// which has no ends; two jaws are not compared, because without ends they would always meet somewhere. `roll`: of two
+/// fingers.
 std::optional<Overlap> overlap_of(const Roll& roll, const Finger& a, const Finger& b);
 
 /// What was drawn once for a whole roll of one finger.

@@ -40,9 +40,10 @@ std::optional<Obstruction> obstruction_of(const Part& part, const Reach& reach, 
 /// `reach`: of each finger. `readings`: what was searched with; `more`: other instants of the same roll, of a log all
 /// its rows. The contact has been everywhere in between. `length_error`: how far a length may be off, so that a finger
 /// that rolled until it met something is not taken to have gone further, nor one beside a corner to have pivoted. Two
-/// disks overlap where their centres are closer together than their radii (less the smaller slack), looked at where
-/// both are at the same instant: at the first contacts and at each of the others. Jaws are not compared with each
-/// other, nor are fingers at different heights, which `may_overlap`.
+/// disks overlap where their centres are closer together than their radii (less the larger slack), a disk and a jaw
+/// where the disk is beyond the jaw's line, which has no ends; looked at where both are at the same instant: at the
+/// first contacts and at each of the others. Jaws are not compared with each other, nor are fingers at different
+/// heights, which `may_overlap`.
 std::vector<Impossible> drop_unreachable(const Part& part, const PerFinger<Reach>& reach,
                                          const std::vector<Reading>& readings, std::vector<Placement>& placements,
                                          const std::vector<Reading>& more = {}, double length_error = 0,

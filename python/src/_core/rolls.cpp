@@ -6,6 +6,7 @@
 #include "bindings.hpp"
 #include "fingers.hpp"
 #include "rollfix/answer/next_roll.hpp"
+#include "rollfix/contact/rig.hpp"
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/contact/teach.hpp"
 #include "rollfix/files/documents.hpp"
@@ -58,6 +59,7 @@ RollHandle simulate_two(const PartHandle& handle, const py::iterable& fingers_gi
     const Finger& finger = *finger_of(fingers, which);
     plan.fingers[which] = {finger, starts[which], orientation_at(part, finger, starts[which], contacts[which]),
                            lengths[which]};
+    if (!finger.is_disk()) plan.fingers[which].u = contacts[which];
   }
   plan.part_rotation = part_rotation;
   plan.rows = rows;
@@ -68,6 +70,38 @@ RollHandle simulate_two(const PartHandle& handle, const py::iterable& fingers_gi
   exact.log = exact.truth.log;
   exact.error = {RollError{}, RollError{}};
   return handle_of(std::move(exact));
+}
+
+/// A jaw and a wheel on a pin.
+RollHandle simulate_rig(const PartHandle& handle, double radius, const std::array<double, 2>& starts,
+                        const std::array<double, 2>& pin, bool squeezed, double jaw_rotation, std::size_t rows,
+                        const std::array<double, 2>& contacts, const std::string& sensors,
+                        const py::object& noise_given, std::uint64_t seed) {
+  const Part part = handle.part();
+  const std::optional<Noise> noise = noise_from_optional(noise_given);
+  RigPlan plan;
+  plan.radius = radius;
+  plan.start = starts;
+  plan.u = contacts[0];
+  plan.psi = orientation_at(part, disk(radius), starts[1], contacts[1]);
+  plan.pin = [=](double time) { return Vec2(time * pin[0], time * pin[1]); };
+  plan.jaw = [=](double time) { return Pose{0, 0, time * jaw_rotation}; };
+  plan.squeezed = squeezed;
+  plan.rows = rows;
+  const Unlocked others_may_run;
+  NoisyRoll roll;
+  if (noise) {
+    roll = noisy_roll_rig(part, plan, *noise, seed);
+  } else {
+    roll.truth = roll_rig(part, plan);
+    roll.log = roll.truth.log;
+    roll.error = {RollError{}, RollError{}};
+  }
+  roll.log = sensed_by(sensors == "pin"       ? WheelSensors::pin
+                       : sensors == "encoder" ? WheelSensors::encoder
+                                              : WheelSensors::skin,
+                       std::move(roll.log));
+  return handle_of(std::move(roll));
 }
 
 RollHandle simulate_drive(const PartHandle& handle, double start, double length, std::size_t rows,
@@ -83,7 +117,7 @@ RollHandle simulate_drive(const PartHandle& handle, double start, double length,
   return handle_of(std::move(result));
 }
 
-/// Of two disks: the row in which they are deepest in one another, and how deep.
+/// Of two fingers: the row in which they are deepest in one another, and how deep.
 std::optional<std::pair<std::size_t, double>> overlap_in(const RollHandle& handle, const py::iterable& given) {
   const std::vector<Finger> fingers = fingers_from(given);
   const auto overlap = overlap_of(handle.roll->truth, *finger_of(fingers, 0), *finger_of(fingers, 1));
@@ -176,6 +210,10 @@ void bind_rolls(py::module_& module) {
   });
   module.def("simulate_one", &simulate_one);
   module.def("simulate_two", &simulate_two);
+  module.def("simulate_rig", &simulate_rig);
+  module.def("squeezed_places", [](const PartHandle& handle, double radius, double s) {
+    return squeezed_places(handle.part(), radius, s);
+  });
   module.def("simulate_drive", &simulate_drive);
   module.def("teach", &teach_part);
   module.def("next_roll", &next_roll_of);

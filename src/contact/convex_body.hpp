@@ -1,0 +1,31 @@
+#pragma once
+
+#include "rollfix/contact/finger.hpp"
+#include "rollfix/contact/reading.hpp"
+
+namespace rollfix {
+
+/// The body of a finger that is no jaw, as it lies in the world: a disk, what a closed outline encloses, or the convex
+/// hull of an open one.
+class ConvexBody {
+ public:
+  ConvexBody(const Finger& finger, const Pose& pose) : finger_(finger), pose_(pose) {}
+
+  /// The point that is farthest in this direction, radians; of several any.
+  Vec2 farthest(double direction) const;
+
+ private:
+  Vec2 farthest_in_frame(double direction) const;
+
+  const Finger& finger_;
+  Pose pose_;  // of the finger's frame
+};
+
+/// By how much two of them have to be moved, at least, until they are apart; below 0 where they are: then less it is
+/// enough that something separates them. `enough`: a depth of no more than this needs not be exact.
+double depth_of_overlap(const ConvexBody& one, const ConvexBody& other, double enough);
+
+/// The same of a jaw in this pose, which has no ends, and a body.
+double depth_of_overlap(const Pose& jaw, const ConvexBody& other);
+
+}  // namespace rollfix
