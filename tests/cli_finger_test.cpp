@@ -39,12 +39,16 @@ std::string scanned_pad() {
   return text;
 }
 
+/// A square fingertip, from the middle of its lower side.
+constexpr const char* kSquareTip = "0 0\n0.2 0\n0.2 0.4\n-0.2 0.4\n-0.2 0\n";
+
 class CliFinger : public testing::TestWithParam<std::string> {};
 
 TEST_P(CliFinger, there_and_back) {
   const cli::Folder folder;
   folder.write("pad.csv", scanned_pad());
   folder.write("bow.csv", "-1 0\n-0.7 -0.4\n0 -0.6\n0.7 -0.4\n1 0\n");
+  folder.write("tip.csv", kSquareTip);
   const std::string common = "gallery:cam --finger " + GetParam();
   const cli::Ran rolled = run("simulate " + common + " --start 2.5 --length 0.8 -o roll.csv");
   ASSERT_EQ(rolled.code, 0) << rolled.err;
@@ -62,13 +66,35 @@ TEST_P(CliFinger, there_and_back) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Fingers, CliFinger,
-                         testing::Values("jaw", "pad.csv", "bow.csv,open", "gallery:ellipse,a=0.3,b=0.2",
-                                         "gallery:stadium,r=0.1,length=0.2"),
+                         testing::Values("jaw", "pad.csv", "bow.csv,open", "tip.csv,polygon",
+                                         "gallery:ellipse,a=0.3,b=0.2", "gallery:stadium,r=0.1,length=0.2"),
                          shapes::as_identifier);
 
 TEST(CliFingers, what_is_not_looked_at_is_said) {
   const cli::Ran ran = run("locate gallery:cam --reading 1,0.7 --finger gallery:ellipse,a=0.3,b=0.2");
   EXPECT_THAT(ran.err, HasSubstr("whether the finger gallery:ellipse,a=0.3,b=0.2 would hit the part elsewhere"));
+}
+
+TEST(CliFingers, rows_on_a_corner_of_the_finger_are_told_and_their_readings_have_a_pivot) {
+  const cli::Folder folder;
+  folder.write("tip.csv", kSquareTip);
+  const cli::Ran rolled = run("simulate gallery:cam --finger tip.csv --start 2 --length 0.2 --samples 9 -o roll.csv");
+  ASSERT_EQ(rolled.code, 0) << rolled.err;
+  const cli::Ran ran = run("locate gallery:cam --finger tip.csv --log roll.csv --json");
+  EXPECT_THAT(ran.err, HasSubstr("1 row is on a corner of the finger"));
+  EXPECT_EQ(ran.json()["corner_rows"]["last"], true);
+  EXPECT_LT(miss(ran.json(), 2), 1e-6);
+  const Json pivot = ran.json()["readings"].back()["pivot"];
+  EXPECT_NEAR(pivot[1].get<double>() - pivot[0].get<double>(), shapes::kPi / 2, 1e-9);
+}
+
+TEST(CliFingers, a_polygon_with_blunt_corners_is_no_spline) {
+  const cli::Folder folder;
+  folder.write("jaw.csv", "-1 0.5\n-0.5 0\n0.5 0\n1 0.5\n");
+  const cli::Ran ran =
+      run("simulate gallery:circle,r=2 --finger jaw.csv,open,polygon --start 1 --rotation 60deg --samples 5");
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(run("simulate gallery:circle,r=2 --finger jaw.csv,polygon --start 1 --rotation 1").out, HasSubstr("psi"));
 }
 
 TEST(CliFingers, a_jaw_drops_what_it_can_not_reach) {

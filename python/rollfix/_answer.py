@@ -104,6 +104,12 @@ class Answer(Made, SequenceABC):  # type: ignore[type-arg]
         return self._core.readings
 
     @property
+    def pivots(self) -> np.ndarray:
+        """ndarray: by how much each reading's turn is open to both sides, radians: of a contact on a corner of the finger,
+        else 0."""
+        return self._core.pivots[:, 0]
+
+    @property
     def tolerance(self) -> float:
         """float: the largest deviation of the turn with which a place fits, radians."""
         return self._core.tolerance
@@ -162,6 +168,11 @@ class Answer(Made, SequenceABC):  # type: ignore[type-arg]
             notes.append("the outline was given clockwise and is stored counter-clockwise (a hole the other way round)")
         if self._core.other_way:
             notes.append(f"the other way round no such roll can be: {self._core.other_way}")
+        if self._core.corner_rows:
+            notes.append(
+                f"{self._core.corner_rows} rows are on a corner of the finger, where u does not tell how its normal is "
+                "turned"
+            )
         if self._core.lengths_reversed:
             notes.append("the log's lengths changed their signs to match")
         if self._core.strays:

@@ -78,7 +78,7 @@ class Jaw(Finger):
 
 
 class OutlineFinger(Finger):
-    """A finger with a smooth convex outline.
+    """A finger with a convex outline. On its corners it pivots.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ class OutlineFinger(Finger):
     __slots__ = ("_outline",)
 
     def __init__(self, outline: "Part") -> None:
-        _core.finger_name(outline._core)  # concave, or with corners: now, not at the first log
+        _core.finger_name(outline._core)  # concave: now, not at the first log
         self._outline = outline
 
     @property

@@ -120,8 +120,8 @@ void visit(A& a, PoseResidual& v) {
 }
 template <class A>
 void visit(A& a, Reading& v) {
-  auto& [length, turn] = v;
-  all(a, length, turn);
+  auto& [length, turn, pivot] = v;
+  all(a, length, turn, pivot);
 }
 template <class A>
 void visit(A& a, Accuracy& v) {
@@ -231,14 +231,19 @@ void visit(A& a, Diagnosis& v) {
   all(a, cause, excess, log_odds, length_scale, length_scale_sd, finger, turn_scale, turn_scale_sd, noise_scale, noise,
       stray, slip, gyro, columns, verdict, modes);
 }
+template <class A>
+void visit(A& a, CornerRows& v) {
+  auto& [count, first, last] = v;
+  all(a, count, first, last);
+}
 /// Without the part and the fingers, which Python pickles itself.
 template <class A>
 void visit(A& a, Answer& v) {
   auto& [part, fingers, readings, times, facing, tolerance, status, verdict, placements, pose_time, has_reach, dropped,
-         impossible, unresolved, counts, weighing, diagnoses, strays, mirrored, either_way, other_way,
-         lengths_reversed] = v;
+         impossible, unresolved, counts, weighing, diagnoses, strays, mirrored, either_way, other_way, lengths_reversed,
+         corner_rows] = v;
   all(a, readings, times, facing, tolerance, status, verdict, placements, pose_time, has_reach, dropped, impossible,
-      unresolved, counts, weighing, diagnoses, strays, mirrored, either_way, other_way, lengths_reversed);
+      unresolved, counts, weighing, diagnoses, strays, mirrored, either_way, other_way, lengths_reversed, corner_rows);
 }
 template <class A>
 void visit(A& a, Rounding& v) {

@@ -1,6 +1,7 @@
 """Simulated, watched and taught rolls, and the next one: what the program says."""
 
 import io
+import pickle
 import subprocess
 
 import numpy as np
@@ -205,3 +206,14 @@ def test_lengths_may_count_either_way_round(ellipse):
     assert ways["ccw"][0].direction is None
     with pytest.raises(rollfix.InputError, match="^direction"):
         ellipse.locate(log=ellipse.simulate(Disk(0.2), start=1, length=1), finger=Disk(0.2), direction="either")
+
+
+def test_a_square_fingertip_pivots_on_its_corners(tmp_path):
+    cam = rollfix.Part.gallery("cam")
+    tip = rollfix.OutlineFinger(rollfix.Part([(0, 0), (0.2, 0), (0.2, 0.4), (-0.2, 0.4), (-0.2, 0)]))
+    roll = cam.simulate(tip, start=2, length=1, samples=101)
+    answer = cam.locate(log=roll, finger=tip)
+    assert min(abs(place.start[0] - 2) for place in answer) < 1e-6
+    assert any("on a corner of the finger" in note for note in answer.notes)
+    assert answer.pivots.tolist() == [0]
+    assert np.array_equal(pickle.loads(pickle.dumps(answer)).pivots, answer.pivots)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "finger_corners.hpp"
 #include "rollfix/error.hpp"
 
 namespace rollfix {
@@ -27,11 +28,18 @@ Observation observe_log(const Problem& problem) {
   Observation observed;
   const Log& log = *problem.felt.log;
   observed.lengths_reversed = problem.part.reversed() && log.kind != LogKind::contact;
-  observed.readings = readings(log, problem.part, problem.fingers, problem.at, problem.noise.value_or(Noise{}));
+  const Noise noise = problem.noise.value_or(Noise{});
+  observed.readings = readings(log, problem.part, problem.fingers, problem.at, noise);
   observed.roundings = {rounding_of(log, problem.fingers)};
   observed.facing = facing(log, problem.fingers);
-  observed.rolls = readings_as_given(log, problem.fingers);
-  observed.times = times_of(log, rows_at(log, problem.at));
+  observed.rolls = readings_as_given(log, problem.fingers, noise);
+  observed.on_corners = rows_on_corners(log, problem.fingers, noise);
+  const std::vector<std::size_t> rows = rows_to_search(problem, observed.on_corners);
+  observed.times = times_of(log, rows);
+  if (!observed.on_corners.empty()) {
+    observed.readings.clear();
+    for (const std::size_t row : rows) observed.readings.push_back(observed.rolls[row]);
+  }
   if (observed.lengths_reversed) {
     for (Reading& reading : observed.rolls) reading = in_stored_direction(reading, problem.part);
   }

@@ -17,6 +17,7 @@ struct Observation {
   std::optional<PerFinger<std::vector<Contact>>> contacts;  // of a log of u and psi: each row's, unwrapped
   std::optional<double> facing;  // of two fingers at the first contacts; not more rounded than a turn
   std::vector<Rounding> roundings;
+  std::vector<bool> on_corners;   // of a log of fingers with corners: the rows in which one is on a corner of its own
   bool lengths_reversed = false;  // a log's lengths were along a clockwise outline
 
   /// How far the digits that were written can have moved any of the lengths.

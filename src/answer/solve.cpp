@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "either_way.hpp"
+#include "finger_corners.hpp"
 #include "mirror.hpp"
 #include "observation.hpp"
 #include "rollfix/contact/pose.hpp"
@@ -48,7 +49,7 @@ Tolerance tolerance_of(const Problem& problem, const Observation& observed, std:
 }
 
 /// Everything that fits the readings.
-void search(const Problem& problem, Answer& answer) {
+void search(const Problem& problem, const LeadingRows& leading, Answer& answer) {
   const Doing doing("searching for all places that fit");
   LocateOptions options;
   options.tolerance = answer.tolerance.value;
@@ -57,7 +58,13 @@ void search(const Problem& problem, Answer& answer) {
   if (of_two_with_noise) options.budget = kBudgetWithNoise;
   if (problem.budget) options.budget = *problem.budget;
   if (of_two_with_noise && options.tolerance > kWidestSearch) return;
-  Search found = locate(answer.part, answer.readings, options);
+  std::vector<Reading> readings = answer.readings;
+  readings.insert(readings.end(), leading.readings.begin(), leading.readings.end());
+  Search found = locate(answer.part, readings, options);
+  const double last = answer.readings.back().length[0];
+  for (Placement& placement : found.placements) {
+    if (!leading.readings.empty()) placement.end = answer.part.boundary().canonical(placement.start[0] + last);
+  }
   answer.status = found.status;
   answer.verdict = found.verdict();
   answer.placements = std::move(found.placements);
@@ -110,8 +117,8 @@ void add_poses(const Problem& problem, Answer& answer) {
   std::vector<std::size_t> rows(problem.felt.log->rows());
   std::iota(rows.begin(), rows.end(), std::size_t{0});
   for (Placement& placement : answer.placements) {
-    std::optional<Poses> poses =
-        rollfix::poses(problem.part, problem.fingers, *problem.felt.log, placement.start, rows);
+    std::optional<Poses> poses = rollfix::poses(problem.part, problem.fingers, *problem.felt.log, placement.start, rows,
+                                                problem.noise.value_or(Noise{}));
     if (!poses) continue;
     const auto largest = [](const std::vector<double>& values) {
       return values.empty() ? std::nan("") : *std::max_element(values.begin(), values.end());
@@ -128,7 +135,8 @@ Problem without_jumps(const Problem& problem, std::vector<std::size_t>& strays) 
   return result;
 }
 
-Answer solve_roll(const Problem& problem, bool explains) {
+/// `leading`: rows before the log's first one, what they say of it.
+Answer solve_from_row(const Problem& problem, const LeadingRows& leading, bool explains) {
   const Doing doing("weighing the rows against every place");
   const Observation observed = observe(problem);
   std::optional<Belief> belief = believe(problem, observed);
@@ -138,14 +146,32 @@ Answer solve_roll(const Problem& problem, bool explains) {
   answer.facing = observed.facing;
   answer.pose_time = observed.pose_time;
   answer.lengths_reversed = observed.lengths_reversed;
+  const std::vector<bool>& on_corners = observed.on_corners;
+  answer.corner_rows.count =
+      leading.count + static_cast<std::size_t>(std::count(on_corners.begin(), on_corners.end(), true));
+  answer.corner_rows.first = leading.count > 0 || (!on_corners.empty() && on_corners.front());
+  answer.corner_rows.last = !on_corners.empty() && on_corners.back();
   answer.tolerance = tolerance_of(problem, observed, belief);
-  search(problem, answer);
+  search(problem, leading, answer);
   if (belief) weigh(problem, observed, explains, *belief, answer);
   drop_impossible(problem, observed, answer);
-  if (belief) conclude(*belief, answer);
+  if (belief) {
+    conclude(*belief, answer);
+    to_last_contacts(observed, *problem.noise, answer);
+  }
   add_poses(problem, answer);
   if (!belief && problem.felt.is_log() && !problem.tolerance && problem.at.empty())
     check_rows(problem, observed, explains, answer);
+  return answer;
+}
+
+Answer solve_roll(const Problem& problem, bool explains) {
+  const std::optional<LeadingRows> leading = leading_rows(problem);
+  if (!leading) return solve_from_row(problem, {}, explains);
+  Answer answer = solve_from_row(without(*leading, problem), *leading, explains);
+  to_first_contacts(*leading, problem, answer);
+  answer.pose_time = problem.felt.log->time;
+  add_poses(problem, answer);
   return answer;
 }
 

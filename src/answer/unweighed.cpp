@@ -84,9 +84,11 @@ class RowsCheck {
     for (const FingerRows& rows : problem.felt.log->fingers) {
       centre_rounding_ += rounding_of_column(rows.x) + rounding_of_column(rows.y);
     }
+    is_open_ = Question{part_, answer.readings}.is_open();
   }
 
   bool contradicts(const Placement& placement) const {
+    if (is_open_) return false;
     const double tolerance = kOverTolerance * answer_.tolerance.value;
     const double width = width_of(placement);
     const double bend = 2 * part_.turning().most_curvature() * width;
@@ -112,6 +114,7 @@ class RowsCheck {
   const Observation& observed_;
   const Answer& answer_;
   double centre_rounding_ = 0;
+  bool is_open_ = false;  // in every row a finger with corners was on one: placements are as wide as that leaves them
 };
 
 /// Whether rows that are exact fit exactly where that mistake is mended: the cure says no number that was estimated.

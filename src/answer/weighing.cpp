@@ -147,6 +147,8 @@ std::optional<Belief> believe(const Problem& problem, const Observation& observe
   const std::vector<Reading>& readings = problem.felt.is_log() ? observed.rolls : observed.readings;
   const std::size_t stride = std::max<std::size_t>(1, readings.size() / std::max<std::size_t>(1, supposed.rows));
   for (std::size_t k = 0; k < readings.size(); k += stride) {
+    // On a corner of a finger a row leaves open how its normal is turned.
+    if (!observed.on_corners.empty() && observed.on_corners[k]) continue;
     Sample sample;
     sample.reading = readings[k];
     if (has_times) sample.time = problem.felt.log->time[k];

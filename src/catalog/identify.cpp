@@ -57,6 +57,7 @@ Likeness likeness_of(const Problem& like) {
 Identified identify(const Catalog& catalog, const Problem& like, const IdentifyOptions& options) {
   if (like.prior)
     throw InputError("`prior`: is about a place on one part; which part it is has `count` in the catalog");
+  require_no_corners(like.fingers, "identify");
   Identified found;
   if (catalog.size() == 0) {
     found.verdict = "none";

@@ -328,6 +328,11 @@ bool Certificate::is_complete() const {
 Certificate certify(const Part& part, const std::vector<Reading>& readings, const LocateOptions& options) {
   for (const Reading& reading : readings) {
     if (reading.fingers() != 1) throw InputError("expected readings of one finger, found one of two fingers");
+    if (!reading.is_exact()) {
+      throw InputError(
+          "certificates are of readings whose turn is known, found one on a corner of the finger; choose instants off "
+          "the corners (`at`), of a log whose first row is off them too");
+    }
   }
   const Search search = locate(part, readings, options);
   Certificate certificate;

@@ -14,6 +14,7 @@
 //                   `Walk::fallen_`
 // Follows eqs. (1) and (2) of the paper (Jia, IROS 2001), integrated once: (1/r + kappa) ds = omega d tau makes Theta +
 // s / r the integral of omega, eq. (3). Measured are L and theta, eqs. (4) and (5).
+// At corners psi grows where s stays: at the part's Theta turns, at the finger's own N does.
 // Idea: psi grows along the track, so that the contact at each time is found by solving psi(s) = rotation on one
 // stretch, by Newton's method, instead of by steps of a differential equation.
 namespace rollfix {
@@ -38,6 +39,10 @@ std::vector<RollState> states_of(const Track& track, const Motion& motion, const
   Walk walk(track, motion.start.index);
   for (const double rotation : rotations_of(motion, times)) {
     const Walked at = walk.to(rotation0 + rotation);
+    if (track.finger().has_corners()) {  // on them u does not tell psi
+      states.push_back({{motion.first.u - (at.s - s0), motion.first.psi + rotation}, at.s, at.angle});
+      continue;
+    }
     const Reading reading{at.s - s0, at.angle - motion.start_angle};  // eqs. (4) and (5)
     states.push_back({contact_after(track.finger(), motion.first, reading), at.s, at.angle});
   }

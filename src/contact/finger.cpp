@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"
@@ -16,19 +17,21 @@ namespace {
 constexpr double kQuarterTurn = std::numbers::pi / 2;
 // Of a full turn over the perimeter: a curvature this far below 0 is rounding.
 constexpr double kFlat = 1e-9;
+// Of the length of its outline: a contact so near to a corner may be on it by rounding.
+constexpr double kAtCorner = 1e-9;
 
 [[noreturn]] void refuse_finger(const Part& part, double u, const std::string& found) {
   const Vec2 point = part.point(u);
   throw InputError(
-      fmt::format("{}: expected the outline of a finger, convex and without corners, found {} at {:.6g} of "
-                  "its length, ({:.6g}, {:.6g}); round it",
+      fmt::format("{}: expected the outline of a finger, convex all around, found {} at {:.6g} of "
+                  "its length, ({:.6g}, {:.6g}); give its convex hull",
                   part.name(), found, u, point.x(), point.y()));
 }
 
 void require_convex(const Part& part) {
   for (const Corner& corner : part.corners()) {
-    if (std::abs(corner.turn) > kJointTurn) {
-      refuse_finger(part, corner.s, fmt::format("a corner of {:.6g} deg", corner.turn / kDegree));
+    if (corner.turn < -kJointTurn) {
+      refuse_finger(part, corner.s, fmt::format("a concave corner of {:.6g} deg", corner.turn / kDegree));
     }
   }
   const double least = -kFlat * 2 * std::numbers::pi / part.perimeter();
@@ -36,10 +39,14 @@ void require_convex(const Part& part) {
     const bool at_start = spiral.start.curvature < spiral.end.curvature;
     const double curvature = at_start ? spiral.start.curvature : spiral.end.curvature;
     if (curvature < least) {
-      refuse_finger(part, at_start ? spiral.lo : spiral.hi, fmt::format("a curvature of {:.6g}", curvature));
+      refuse_finger(part, at_start ? spiral.lo : spiral.hi,
+                    fmt::format("a concave place with a curvature of {:.6g}", curvature));
     }
   }
 }
+
+/// The finger pivots there: not a smooth joint of a drawing whose digits were rounded.
+bool pivots(const Corner& corner) { return corner.turn > kJointTurn; }
 
 Vec2 unit_vector(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
@@ -51,6 +58,8 @@ Finger Finger::outlined(const Part& outline) {
   Finger finger(Kind::outline, outline.name());
   finger.outline_ = std::make_shared<const Part>(outline);
   require_convex(*finger.outline_);
+  const std::vector<Corner>& corners = finger.outline_->corners();
+  finger.has_corners_ = std::any_of(corners.begin(), corners.end(), pivots);
   return finger;
 }
 
@@ -62,6 +71,24 @@ double Finger::normal(double u) const {
   if (is_disk()) return u;
   return is_jaw() ? -kQuarterTurn : outline_->turning().angle(u) - kQuarterTurn;
 }
+
+Interval Finger::normals(double u, double within) const {
+  Interval all{normal(u), normal(u)};
+  if (!has_corners()) return all;
+  const TurningFunction& turning = outline_->turning();
+  const double P = outline_->perimeter();
+  for (const Corner& corner : outline_->corners()) {
+    if (!pivots(corner)) continue;
+    const double laps = outline_->closed() ? std::round((u - corner.s) / P) : 0;
+    if (std::abs(u - corner.s - laps * P) > within + kAtCorner * P) continue;
+    const double lap_turn = laps * turning.period_turn() - kQuarterTurn;
+    all.lo = std::min(all.lo, turning.angle(corner.s, Side::before) + lap_turn);
+    all.hi = std::max(all.hi, turning.angle(corner.s, Side::after) + lap_turn);
+  }
+  return all;
+}
+
+bool Finger::is_on_corner(double u, double within) const { return normals(u, within).width() > 0; }
 
 double Finger::curvature(double u) const {
   if (is_disk()) return 1 / radius_;
@@ -114,9 +141,26 @@ void require_fingers(const std::vector<Finger>& fingers, std::size_t rolled, boo
   for (const Finger& finger : fingers) require_valid(finger);
 }
 
+void require_no_corners(const std::vector<Finger>& fingers, const std::string& what) {
+  for (const Finger& finger : fingers) {
+    if (!finger.has_corners()) continue;
+    throw InputError(fmt::format(
+        "{}: expected a finger without corners, found {}: on a corner u does not tell how the finger's normal is "
+        "turned; round its corners, or ask `locate` about a log of one finger or two",
+        what, finger.name()));
+  }
+}
+
 double facing(const Finger& finger, const Contact& contact) { return finger.normal(contact.u) + contact.psi; }
 
-Reading reading_between(const Finger& finger, const Contact& first, const Contact& last) {
+Reading reading_between(const Finger& finger, const Contact& first, const Contact& last, double within) {
+  if (finger.has_corners()) {
+    const Interval from = finger.normals(first.u, within);
+    const Interval to = finger.normals(last.u, within);
+    Reading reading{first.u - last.u, (to.middle() - from.middle()) + (last.psi - first.psi)};
+    reading.pivot = 0.5 * (from.width() + to.width());
+    return reading;
+  }
   const double rolled = last.u - first.u;
   const double turned = finger.is_disk() ? rolled : finger.normal(last.u) - finger.normal(first.u);
   return {-finger.length_per_u() * rolled, turned + (last.psi - first.psi)};  // eq. (3)
@@ -155,7 +199,9 @@ Arm arm_of(const Finger& finger, double u) {
 
 Reading together(const PerFinger<Reading>& each) {
   if (each.size() == 1) return each[0];
-  return {each[0].length[0], each[1].length[0], each[0].turn - each[1].turn};  // eqs. (7)-(9)
+  Reading both{each[0].length[0], each[1].length[0], each[0].turn - each[1].turn};  // eqs. (7)-(9)
+  both.pivot = each[0].pivot + each[1].pivot;
+  return both;
 }
 
 Reading in_stored_direction(const Reading& as_given, const Part& part) {

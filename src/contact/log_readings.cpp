@@ -47,8 +47,11 @@ void require_clear(const Log& log, std::size_t which, const Finger& finger) {
 /// One finger's rows as readings from its own first contact.
 class FingerCourse {
  public:
-  FingerCourse(const Log& log, const std::vector<Finger>& fingers, std::size_t which)
-      : kind_(log.kind), rows_(log.fingers[which]), finger_(finger_of(fingers, which)) {
+  FingerCourse(const Log& log, const std::vector<Finger>& fingers, std::size_t which, const Noise& noise)
+      : kind_(log.kind),
+        rows_(log.fingers[which]),
+        finger_(finger_of(fingers, which)),
+        within_(reach_of_corners(rows_, noise)) {
     if (kind_ != LogKind::contact) return;
     u_ = unwrapped_as_said(rows_.u, rows_.place_rounding, finger_->period(), rows_.u_wrapped);
     psi_ = unwrapped_as_said(rows_.psi, rows_.angle_rounding, kTurn, rows_.psi_wrapped);
@@ -57,13 +60,14 @@ class FingerCourse {
   /// Lengths along the outline as the user gave it.
   Reading at(std::size_t row) const {
     if (kind_ != LogKind::contact) return {rows_.length[row], rows_.turn[row]};
-    return reading_between(*finger_, {u_.front(), psi_.front()}, {u_[row], psi_[row]});
+    return reading_between(*finger_, {u_.front(), psi_.front()}, {u_[row], psi_[row]}, within_);
   }
 
  private:
   LogKind kind_;
   const FingerRows& rows_;
   const Finger* finger_;
+  double within_;
   std::vector<double> u_;  // unwrapped
   std::vector<double> psi_;
 };
@@ -71,12 +75,12 @@ class FingerCourse {
 /// Every finger's, which are readings together. Throws InputError: u and psi without a finger.
 class Courses {
  public:
-  Courses(const Log& log, const std::vector<Finger>& fingers) {
+  Courses(const Log& log, const std::vector<Finger>& fingers, const Noise& noise) {
     require_fingers(fingers, log.fingers.size(), log.kind == LogKind::contact, log.name);
     for (std::size_t k = 0; k < log.fingers.size(); ++k) {
       require_unit_of_u(log.fingers[k].u_dimension, finger_of(fingers, k), log.name);
       if (log.kind == LogKind::contact) require_clear(log, k, *finger_of(fingers, k));
-      courses_.emplace_back(log, fingers, k);
+      courses_.emplace_back(log, fingers, k, noise);
     }
   }
 
@@ -261,8 +265,8 @@ std::vector<std::size_t> rows_at(const Log& log, const std::vector<double>& time
   return rows;
 }
 
-std::vector<Reading> readings_as_given(const Log& log, const std::vector<Finger>& fingers) {
-  const Courses courses(log, fingers);
+std::vector<Reading> readings_as_given(const Log& log, const std::vector<Finger>& fingers, const Noise& noise) {
+  const Courses courses(log, fingers, noise);
   std::vector<Reading> result(log.rows());
   for (std::size_t row = 0; row < result.size(); ++row) result[row] = courses.at(row);
   return result;
@@ -270,7 +274,7 @@ std::vector<Reading> readings_as_given(const Log& log, const std::vector<Finger>
 
 std::vector<Reading> readings(const Log& log, const Part& part, const std::vector<Finger>& fingers,
                               const std::vector<double>& times, const Noise& noise) {
-  const Courses courses(log, fingers);
+  const Courses courses(log, fingers, noise);
   require_physical(log, courses, part, fingers, noise);
   std::vector<Reading> result;
   for (const std::size_t row : rows_at(log, times)) {
@@ -281,12 +285,46 @@ std::vector<Reading> readings(const Log& log, const Part& part, const std::vecto
   return result;
 }
 
+double reach_of_corners(const FingerRows& rows, const Noise& noise) {
+  constexpr double kSurelyOff = 5;  // standard deviations: one row in two million is on the other side
+  return std::max(2 * rows.place_rounding, kSurelyOff * noise.contact);
+}
+
 std::vector<Contact> contacts_of(const FingerRows& rows, const Finger& finger) {
   const std::vector<double> u = unwrapped_as_said(rows.u, rows.place_rounding, finger.period(), rows.u_wrapped);
   const std::vector<double> psi = unwrapped_as_said(rows.psi, rows.angle_rounding, kTurn, rows.psi_wrapped);
   std::vector<Contact> contacts;
   for (std::size_t row = 0; row < u.size(); ++row) contacts.push_back({u[row], psi[row]});
   return contacts;
+}
+
+std::vector<bool> rows_on_corners(const Log& log, const std::vector<Finger>& fingers, const Noise& noise) {
+  std::vector<bool> on_corners;
+  for (std::size_t which = 0; which < log.fingers.size() && log.kind == LogKind::contact; ++which) {
+    const Finger* const finger = finger_of(fingers, which);
+    if (finger == nullptr || !finger->has_corners()) continue;
+    on_corners.resize(log.rows());
+    const std::vector<double>& u = log.fingers[which].u;  // wrapped or not
+    const double within = reach_of_corners(log.fingers[which], noise);
+    for (std::size_t row = 0; row < u.size(); ++row) {
+      on_corners[row] = on_corners[row] || finger->is_on_corner(u[row], within);
+    }
+  }
+  return on_corners;
+}
+
+Log from_row(Log log, std::size_t row) {
+  const auto cut = [&](auto& column) {
+    column.erase(column.begin(), column.begin() + static_cast<std::ptrdiff_t>(std::min(row, column.size())));
+  };
+  cut(log.time);
+  for (FingerRows& rows : log.fingers) {
+    for (auto* column : {&rows.u, &rows.psi, &rows.length, &rows.turn, &rows.x, &rows.y, &rows.distance, &rows.dturn}) {
+      cut(*column);
+    }
+    cut(rows.line);
+  }
+  return log;
 }
 
 std::optional<double> facing(const Log& log, const std::vector<Finger>& fingers) {

@@ -174,6 +174,9 @@ void require_unit_of_u(const std::optional<Dimension>& dimension, const Finger* 
 std::vector<double> unwrapped_as_said(const std::vector<double>& angles, double rounding, double period,
                                       const std::optional<bool>& is_wrapped);
 
+/// How near to a corner of its finger the contact of such a row may be on it, length: by its digits, or by the noise.
+double reach_of_corners(const FingerRows& rows, const Noise& noise);
+
 /// The first row that is so far from the one before that the column may be wrapped there or may not; nothing where the
 /// rows around show which it is, or where it was said.
 std::optional<std::size_t> unclear_step(const std::vector<double>& angles, double rounding, double period,

@@ -53,6 +53,7 @@ struct LogStream::State {
         noise(noise_of),
         robust(is_robust) {
     require_fingers(fingers, 2, false, reader.name());
+    require_no_corners(fingers, reader.name() + ", as a stream");
   }
 
   /// What the reader makes of a row, judged and measured.

@@ -38,6 +38,43 @@ Finger true_finger(const Finger& finger, const RollError& error) {
   return finger.is_disk() ? Finger(DiskFinger{finger.length_per_u() + error.radius}) : finger;
 }
 
+struct Enlarged {
+  Interval domain() const { return curve.domain(); }
+  Jet jet(double u) const {
+    Jet jet = curve.jet(u);
+    for (Vec2* vector : {&jet.position, &jet.first, &jet.second, &jet.third}) *vector *= factor;
+    return jet;
+  }
+  Curve curve;
+  double factor;
+};
+
+/// A finger that slips rolls like one that is so much larger and does not.
+Finger enlarged(const Finger& finger, double factor) {
+  Outline outline = finger.outline()->outline();
+  for (Curve& curve : outline.curves) curve = Enlarged{curve, factor};
+  outline.gallery.clear();
+  return Finger::outlined(outline);
+}
+
+/// The roll of a finger with corners: what slips before a corner leaves the part elsewhere when the finger pivots.
+Roll slipping_roll(const Part& part, const Finger& finger, RollPlan plan, double slip) {
+  if (slip == 0) return roll(part, finger, plan);
+  const double factor = 1 + slip;
+  const Interval ends = finger.ends();
+  plan.u = factor * plan.u.value_or(std::isfinite(ends.hi) ? ends.middle() : 0);
+  Roll result = roll(part, enlarged(finger, factor), plan);
+  FingerRows& rows = result.log.fingers[0];
+  for (std::size_t row = 0; row < rows.u.size(); ++row) {
+    rows.u[row] /= factor;
+    const Vec2 centre = centre_of(finger, part.point(result.s[0][row]), {rows.u[row], rows.psi[row]});
+    rows.x[row] = centre.x();
+    rows.y[row] = centre.y();
+  }
+  rows.u_period = finger.period();
+  return result;
+}
+
 /// What slips leaves the part where it is, and how the normals lie: the finger is rolled off by less, and turned.
 void let_slip(FingerRows& rows, const Finger& finger, double slip) {
   for (std::size_t row = 0; row < rows.u.size(); ++row) {
@@ -81,7 +118,7 @@ void let_sense(NoisyRoll& roll, const std::vector<Finger>& fingers, const Noise&
   roll.log = roll.truth.log;
   for (std::size_t k = 0; k < fingers.size(); ++k) {
     FingerRows& rows = roll.log.fingers[k];
-    if (roll.error[k].slip != 0) let_slip(rows, fingers[k], roll.error[k].slip);
+    if (roll.error[k].slip != 0 && !fingers[k].has_corners()) let_slip(rows, fingers[k], roll.error[k].slip);
     add_noise(rows, fingers[k], noise, normal);
     require_times(noise, !roll.log.time.empty(), roll.log.name);
     if (noise.gyro > 0) let_scale(rows, normal.next(noise.gyro));
@@ -176,7 +213,7 @@ NoisyRoll noisy_roll(const Part& part, const Finger& finger, const RollPlan& pla
   NoisyRoll result;
   result.error[0] = draw_error(finger, noise, normal);
   const Finger real = true_finger(finger, result.error[0]);
-  result.truth = roll(part, real, plan);
+  result.truth = real.has_corners() ? slipping_roll(part, real, plan, result.error[0].slip) : roll(part, real, plan);
   let_sense(result, {real}, noise, normal);
   return result;
 }
@@ -190,6 +227,12 @@ NoisyRoll noisy_roll_free(const Part& part, const FreePlan& plan, const Noise& n
   for (std::size_t k = 0; k < 2; ++k) {
     const Finger& finger = plan.fingers[k].finger;
     result.error[k] = draw_error(finger, noise_of(finger, plan.fingers[1 - k].finger, noise), normal);
+    if (finger.has_corners() && result.error[k].slip != 0) {
+      throw InputError(
+          fmt::format("the finger {} has corners: two fingers' slip is not simulated with them; leave slip "
+                      "out, or take a finger with rounded corners",
+                      finger.name()));
+    }
     real.fingers[k].finger = true_finger(finger, result.error[k]);
   }
   result.truth = roll_free(part, real);

@@ -38,7 +38,7 @@ class OutlineTrack : public Track {
   void require_way(double from, double to) const override;
   double rotation(const Stretch& stretch, double s, double angle) const override;
   double finger_curvature(const Stretch& stretch, double s) const override;
-  Contact first_contact(double tangent, double psi) const override;
+  Contact first_contact(const TrackPlace& place, double tangent, double psi) const override;
 
  private:
   struct Piece {
@@ -58,12 +58,15 @@ class OutlineTrack : public Track {
   std::optional<double> first_tight(const Stretch& stretch, double from, double to) const;
   void cut(Piece& piece, double from, int direction) const;
   std::optional<Piece> follow(const Piece& piece, int direction) const;
+  Piece finger_pivot(Piece piece, std::int64_t cell, double s) const;
   bool finger_ends(std::int64_t cell) const;
+  double corner_turn(std::int64_t cell) const;
 
   EvenTrack point_;  // the way of a finger without any size
   double sum_;       // s + u, which stays
   double u_;
   double near_;                        // lengths closer together than this are one place
+  std::vector<double> corner_turns_;   // of the finger, at the start of each of its spirals; 0: it does not pivot there
   mutable std::vector<Piece> ahead_;   // 0, 1, 2 ...
   mutable std::vector<Piece> behind_;  // -1, -2 ...
 };
@@ -77,6 +80,12 @@ OutlineTrack::OutlineTrack(const Part& part, const Finger& finger, double start,
       u_(u),
       near_(kLengthAccuracy * std::max(part.perimeter(), finger.outline()->perimeter())) {
   const TurningFunction& on_finger = turning_of(finger);
+  for (const Spiral& spiral : on_finger.spirals()) {
+    corner_turns_.push_back(0);
+    for (const Corner& corner : finger.outline()->corners()) {
+      if (corner.turn > kJointTurn && std::abs(corner.s - spiral.lo) <= near_) corner_turns_.back() = corner.turn;
+    }
+  }
   const int direction = !part.closed() && start >= part.perimeter() - near_ ? -1 : 1;
   const TrackPlace first = point_.place(start, direction);
   const Cursor on_cell(on_finger, u);
@@ -116,6 +125,12 @@ bool OutlineTrack::finger_ends(std::int64_t cell) const {
   return !on_finger.closed() && (cell < 0 || cell >= count_of(on_finger));
 }
 
+/// By how much the finger pivots where one of its spirals starts.
+double OutlineTrack::corner_turn(std::int64_t cell) const {
+  const std::int64_t count = count_of(turning_of(finger()));
+  return corner_turns_[static_cast<std::size_t>((cell % count + count) % count)];
+}
+
 /// The places of the part that the finger's spiral can roll over.
 Interval OutlineTrack::cell_range(const Piece& piece) const {
   const Spiral& spiral = *piece.stretch.finger_spiral;
@@ -139,7 +154,11 @@ double OutlineTrack::finger_curvature(const Stretch& stretch, double s) const {
   return on_finger(stretch, s).curvature;
 }
 
-Contact OutlineTrack::first_contact(double tangent, double /*psi*/) const { return contact_at(finger(), tangent, u_); }
+/// On a corner of the finger: of its two sides the one that the roll starts on.
+Contact OutlineTrack::first_contact(const TrackPlace& place, double tangent, double /*psi*/) const {
+  if (!finger().has_corners()) return contact_at(finger(), tangent, u_);
+  return {u_, tangent + std::numbers::pi - on_finger(stretch(place.index), place.s).angle};  // N = angle - pi / 2
+}
 
 /// Whether the finger surely fits all along: both curvatures are monotone.
 bool OutlineTrack::has_room(const Stretch& stretch, const Interval& s) const {
@@ -170,6 +189,17 @@ void OutlineTrack::cut(Piece& piece, double from, int direction) const {
   }
 }
 
+/// What follows a piece where the finger's spirals below and above a corner of it meet; `cell`: the one above.
+OutlineTrack::Piece OutlineTrack::finger_pivot(Piece piece, std::int64_t cell, double s) const {
+  set_cell(piece, cell);
+  Stretch& stretch = piece.stretch;
+  const double angle = turning(stretch, s).angle;
+  stretch.is_pivot = stretch.is_finger_pivot = true;
+  stretch.s = stretch.whole = {s, s};
+  stretch.angle = {angle, angle + corner_turn(cell)};
+  return piece;
+}
+
 /// The piece behind this one's end; nothing where there is none.
 std::optional<OutlineTrack::Piece> OutlineTrack::follow(const Piece& piece, int direction) const {
   if (direction > 0 ? piece.is_tight_hi : piece.is_tight_lo) return std::nullopt;
@@ -188,12 +218,18 @@ std::optional<OutlineTrack::Piece> OutlineTrack::follow(const Piece& piece, int 
     found.base = *next_base;
   }
   found.stretch = point_.stretch(found.base);
-  const bool takes_new_cell = cell_is_over && !found.stretch.is_pivot;
+  // Of a pivot on the finger's own corner the cell is the upper one, which a roll forwards leaves.
+  const bool is_pivoted = piece.stretch.is_finger_pivot;
+  const bool takes_new_cell = is_pivoted ? direction > 0 : cell_is_over && !found.stretch.is_pivot;
   const std::int64_t cell = takes_new_cell ? piece.cell - direction : piece.cell;
   if (finger_ends(cell)) return std::nullopt;
+  const std::int64_t upper = std::max(cell, piece.cell);
+  const bool is_at_corner = is_pivoted || (takes_new_cell && corner_turn(upper) > 0);
+  if (is_at_corner && !is_pivoted) return finger_pivot(found, upper, edge);
   set_cell(found, cell);
   if (found.stretch.is_pivot) return found;
-  if (takes_new_cell) found.jump += on_finger(piece.stretch, edge).angle - on_finger(found.stretch, edge).angle;
+  if (takes_new_cell && !is_at_corner)
+    found.jump += on_finger(piece.stretch, edge).angle - on_finger(found.stretch, edge).angle;
   const Interval on = cell_range(found);
   if (direction > 0) {
     found.stretch.s = {std::max(edge, found.stretch.s.lo), std::min(found.stretch.s.hi, on.hi)};
@@ -276,12 +312,18 @@ void OutlineTrack::refuse(std::int64_t index, int direction) const {
         "a contact that stays in 0 <= u <= {:.9g}; start elsewhere on it or roll less far",
         part().name(), finger().name(), named, point.x(), point.y(), sum_ - edge, finger().outline()->perimeter()));
   }
+  Piece ahead = here;  // on a corner of the finger the side that it would roll on
+  if (here.stretch.is_finger_pivot && direction > 0) set_cell(ahead, here.cell - 1);
+  const double of_part = turning(ahead.stretch, edge).curvature;
+  const double of_finger = finger_curvature(ahead.stretch, edge);
   throw InputError(fmt::format(
-      "{}: the finger {} can't roll where the part is curved inwards as much as the finger outwards, as at "
-      "s = {:.9g}, ({:.6g}, {:.6g}), u = {:.9g}, where the curvatures are {:.9g} and {:.9g}: expected their "
-      "sum above 0; choose a smaller finger or another roll",
-      part().name(), finger().name(), named, point.x(), point.y(), sum_ - edge, turning(here.stretch, edge).curvature,
-      finger_curvature(here.stretch, edge)));
+      "{}: the finger {} {}, as at s = {:.9g}, ({:.6g}, {:.6g}), u = {:.9g}, where the curvatures are {:.9g} and "
+      "{:.9g}: expected their sum above 0; choose {} or another roll",
+      part().name(), finger().name(),
+      of_part > -kLeastClearance && of_finger < kLeastClearance
+          ? "would lie flat where it and the part are straight"
+          : "can't roll where the part is curved inwards as much as the finger outwards",
+      named, point.x(), point.y(), sum_ - edge, of_part, of_finger, of_part < 0 ? "a smaller finger" : "a round one"));
 }
 
 std::unique_ptr<Track> track_of(const Part& part, const Finger& finger, double start, std::optional<double> u) {

@@ -20,16 +20,18 @@ constexpr double kOnCorner = 1e-8;
 class FeltPart {
  public:
   /// All have to stay. The rows have u, psi, x and y.
-  FeltPart(const Part& part, const Finger& finger, const FingerRows& rows, double start)
+  FeltPart(const Part& part, const Finger& finger, const FingerRows& rows, double start, const Noise& noise)
       : part_(part),
         finger_(finger),
         rows_(rows),
         start_(start),
+        within_(reach_of_corners(rows, noise)),
         u_(unwrapped_as_said(rows.u, rows.place_rounding, finger.period(), rows.u_wrapped)),
         psi_(unwrapped_as_said(rows.psi, rows.angle_rounding, 2 * std::numbers::pi, rows.psi_wrapped)) {}
 
   /// The part's heading that the contact's normal asks for: u + psi = heading + Theta(s) + pi / 2. At a convex corner
-  /// the tangent may have any direction of the pivot, so that this is an interval; unwrapped over the rows.
+  /// the tangent may have any direction of the pivot, and at a corner of the finger N may, so that this is an interval;
+  /// unwrapped over the rows.
   Interval heading(std::size_t row) const;
 
   /// The contact, in the part's frame and in the world's.
@@ -47,6 +49,7 @@ class FeltPart {
   Finger finger_;
   const FingerRows& rows_;
   double start_;
+  double within_;
   std::vector<double> u_;
   std::vector<double> psi_;
 };
@@ -70,8 +73,9 @@ Interval FeltPart::tangents(double s) const {
 
 Interval FeltPart::heading(std::size_t row) const {
   const Interval tangent = tangents(place(row));
-  const double normal = facing(finger_, contact(row)) - std::numbers::pi / 2;
-  return {normal - tangent.hi, normal - tangent.lo};
+  const Interval normals = finger_.normals(u_[row], within_);
+  const double psi = psi_[row] - std::numbers::pi / 2;
+  return {normals.lo + psi - tangent.hi, normals.hi + psi - tangent.lo};
 }
 
 Vec2 FeltPart::in_world(std::size_t row) const {
@@ -161,15 +165,15 @@ Poses moving_poses(const FeltPart& a, const FeltPart& b, const std::vector<std::
 }  // namespace
 
 std::optional<Poses> poses(const Part& part, const std::vector<Finger>& fingers, const Log& log,
-                           const PerFinger<double>& start, const std::vector<std::size_t>& rows) {
+                           const PerFinger<double>& start, const std::vector<std::size_t>& rows, const Noise& noise) {
   const bool tells =
       !fingers.empty() && log.kind == LogKind::contact &&
       std::none_of(log.fingers.begin(), log.fingers.end(), [](const FingerRows& finger) { return finger.x.empty(); });
   if (!tells) return std::nullopt;
   require_fingers(fingers, log.fingers.size(), true, log.name);
-  const FeltPart a(part, *finger_of(fingers, 0), log.fingers[0], start[0]);
+  const FeltPart a(part, *finger_of(fingers, 0), log.fingers[0], start[0], noise);
   if (log.fingers.size() == 1) return resting_poses(a, rows);
-  return moving_poses(a, FeltPart(part, *finger_of(fingers, 1), log.fingers[1], start[1]), rows);
+  return moving_poses(a, FeltPart(part, *finger_of(fingers, 1), log.fingers[1], start[1], noise), rows);
 }
 
 }  // namespace rollfix

@@ -91,7 +91,11 @@ std::optional<RollCheck::Jump> RollCheck::jump(const PerFinger<std::size_t>& lin
   const std::size_t count = error_.size();
   PerFinger<Step> steps = PerFinger<Step>::of(count);
   for (std::size_t k = 0; k < count; ++k) {
-    steps[k] = {now[k].length[0] - before[k].length[0], now[k].turn - before[k].turn, line_[k]};
+    // On a finger's corner: the least turn that it leaves possible.
+    const double turn = now[k].turn - before[k].turn;
+    const double open = now[k].pivot + before[k].pivot;
+    const double least = open > 0 ? std::copysign(std::max(0.0, std::abs(turn) - open), turn) : turn;
+    steps[k] = {now[k].length[0] - before[k].length[0], least, line_[k]};
   }
   const double duration = time && time_ ? *time - *time_ : 1;
   const bool is_first = !has_row_;

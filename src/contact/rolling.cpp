@@ -302,7 +302,7 @@ Motion plan_motion(const Track& track, const RollPlan& plan) {
   if (plan.distance) track.require_way(start, start + *plan.distance);
   motion.start = track.place(start, direction_of(plan));
   motion.start_angle = track.turning(track.stretch(motion.start.index), motion.start.s).angle;
-  motion.first = track.first_contact(motion.start_angle, plan.psi);
+  motion.first = track.first_contact(motion.start, motion.start_angle, plan.psi);
   if (plan.omega) {
     motion.duration = *plan.duration;
     motion.omega = plan.omega;

@@ -17,11 +17,12 @@ namespace {
 /// the angles behind it are unwrapped.
 class RowByRow {
  public:
-  RowByRow(const Log& log, const Part& part, const Finger* finger, std::size_t which)
+  RowByRow(const Log& log, const Part& part, const Finger* finger, std::size_t which, const Noise& noise)
       : log_(log),
         part_(part),
         rows_(log.fingers[which]),
         finger_(finger),
+        within_(reach_of_corners(rows_, noise)),
         u_(finger != nullptr ? finger->period() : 2 * std::numbers::pi, rows_.u_wrapped),
         psi_(2 * std::numbers::pi, rows_.psi_wrapped) {}
 
@@ -35,7 +36,8 @@ class RowByRow {
     }
     const Contact now{u_.add(rows_.u[row], rows_.place_rounding), psi_.add(rows_.psi[row], rows_.angle_rounding)};
     if (!first_) first_ = now;
-    return {reading_between(*finger_, *first_, {u_.before(), psi_.before()}), reading_between(*finger_, *first_, now)};
+    return {reading_between(*finger_, *first_, {u_.before(), psi_.before()}, within_),
+            reading_between(*finger_, *first_, now, within_)};
   }
 
  private:
@@ -43,6 +45,7 @@ class RowByRow {
   const Part& part_;
   const FingerRows& rows_;
   const Finger* finger_;
+  double within_;
   GrowingAngle u_;
   GrowingAngle psi_;
   std::optional<Contact> first_;
@@ -53,7 +56,9 @@ class StraySearch {
  public:
   StraySearch(const Log& log, const Part& part, const std::vector<Finger>& fingers, const Noise& noise)
       : log_(log), check_(part, log.kind, fingers, log.fingers.size(), noise) {
-    for (std::size_t k = 0; k < log.fingers.size(); ++k) fingers_.emplace_back(log, part, finger_of(fingers, k), k);
+    for (std::size_t k = 0; k < log.fingers.size(); ++k) {
+      fingers_.emplace_back(log, part, finger_of(fingers, k), k, noise);
+    }
   }
 
   /// Rows from which the roll comes back, in order.

@@ -65,7 +65,7 @@ double EvenTrack::clearance(double curvature) const {
   return room - kLeastClearance;
 }
 
-Contact EvenTrack::first_contact(double tangent, double psi) const {
+Contact EvenTrack::first_contact(const TrackPlace& /*place*/, double tangent, double psi) const {
   return finger().is_disk() ? contact_on(tangent, psi) : contact_at(finger(), tangent, u_);
 }
 

@@ -16,8 +16,8 @@ namespace rollfix {
 /// times its usual speed, and eqs. (1) and (2) lose all their digits.
 inline constexpr double kLeastClearance = 1e-8;
 
-/// A piece of a finger's way: it rolls along a spiral, or pivots in place at a convex corner. Arc lengths and angles
-/// are unwrapped: on the second lap s > P.
+/// A piece of a finger's way: it rolls along a spiral, or pivots in place at a convex corner, the part's or its own.
+/// Arc lengths and angles are unwrapped: on the second lap s > P.
 struct Stretch {
   bool is_pivot = false;
   const Spiral* spiral = nullptr;  // that it rolls along, or that starts at the corner
@@ -31,6 +31,8 @@ struct Stretch {
   const Spiral* finger_spiral = nullptr;  // of a finger's outline: that is rolled off meanwhile
   double finger_u_shift = 0;              // from the spiral's own arc length and angle to this lap's
   double finger_angle_shift = 0;
+  bool is_finger_pivot = false;  // of a pivot: on a corner of the finger, whose upper spiral `finger_spiral` is; the
+                                 // tangent stays, and `angle` is what it would be if the finger's normal stayed
 };
 
 /// A place of the way: which stretch, and where on it.
@@ -75,8 +77,8 @@ class Track {
   /// Of the finger where it touches at s on this stretch: 1 / r of a disk.
   virtual double finger_curvature(const Stretch& stretch, double s) const = 0;
 
-  /// The first contact, at s with this direction of the tangent.
-  virtual Contact first_contact(double tangent, double psi) const = 0;
+  /// The first contact, at this place with this direction of the tangent.
+  virtual Contact first_contact(const TrackPlace& place, double tangent, double psi) const = 0;
 
  private:
   const Part& part_;
@@ -101,7 +103,7 @@ class EvenTrack : public Track {
   void require_way(double from, double to) const override;
   double rotation(const Stretch& /*stretch*/, double s, double angle) const override { return s / radius_ + angle; }
   double finger_curvature(const Stretch& /*stretch*/, double /*s*/) const override { return 1 / radius_; }
-  Contact first_contact(double tangent, double psi) const override;
+  Contact first_contact(const TrackPlace& place, double tangent, double psi) const override;
 
  private:
   /// The sharpest concavity that was met: one of the two ends of a spiral.

@@ -41,6 +41,7 @@ void Walk::go(int direction) {
 }
 
 Walked Walk::solve(double rotation) const {
+  if (stretch_.is_finger_pivot) return {stretch_.s.lo, stretch_.angle.lo, 0};
   if (stretch_.is_pivot) return {stretch_.s.lo, stretch_.angle.lo + (rotation - rotation_.lo), 0};
   const auto excess = [&](double s) {
     const Turning turning = track_.turning(stretch_, s);

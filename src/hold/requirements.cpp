@@ -30,6 +30,7 @@ void require_fingers(const HoldProblem& problem) {
                        problem.fingers.size()));
   }
   for (const Finger& finger : problem.fingers) rollfix::require_valid(finger);
+  require_no_corners(problem.fingers, "three and more fingers");
 }
 
 void require_log(const Log& log) {

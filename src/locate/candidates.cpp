@@ -149,7 +149,7 @@ Candidates find_candidates(const Question& question, const Interval& range, doub
   Blocks left;
   bool is_first = true;
   for (const Reading& reading : question.readings) {
-    left = Descent(part, reading, range, tolerance).run(is_first ? nullptr : &left, found.counts);
+    left = Descent(part, reading, range, tolerance + reading.pivot).run(is_first ? nullptr : &left, found.counts);
     is_first = false;
     if (left.size() <= kFewBlocks) break;
   }

@@ -81,7 +81,7 @@ Fit best_fit(const Question& question, const PerFinger<double>& at) {
   for (const Reading& reading : question.readings) {
     const Intervals ends = tangents_at(question.part, ends_of(at, reading));
     const auto add = [&](Intervals& wanted, const Interval& end) {
-      wanted.push_back({end.lo - reading.turn, end.hi - reading.turn});
+      wanted.push_back({end.lo - (reading.turn + reading.pivot), end.hi - (reading.turn - reading.pivot)});
     };
     if (ends.size() == 1) {
       for (Intervals& wanted : combinations) add(wanted, ends.front());
@@ -140,7 +140,8 @@ double smooth_residual(const Question& question, double at) {
   const Tangents tangents = tangents_of(question, 0, at);
   double largest = 0;
   for (std::size_t k = 0; k < question.readings.size(); ++k) {  // eqs. (4), (5)
-    largest = std::max(largest, std::abs(tangents[k + 1] - question.readings[k].turn - tangents[0]));
+    const Reading& reading = question.readings[k];
+    largest = std::max(largest, std::abs(tangents[k + 1] - reading.turn - tangents[0]) - reading.pivot);
   }
   return largest;
 }
@@ -179,7 +180,8 @@ double residual_of(const Question& question, const Tangents& of_a, const Tangent
   double largest = question.facing ? std::abs(std::remainder(start - *question.facing, kFullTurn)) : 0;
   for (std::size_t k = 0; k < question.readings.size(); ++k) {  // eqs. (8), (9)
     const double end = of_a[k + 1] - of_b[k + 1];
-    largest = std::max(largest, std::abs(end - start - question.readings[k].turn));
+    const Reading& reading = question.readings[k];
+    largest = std::max(largest, std::abs(end - start - reading.turn) - reading.pivot);
   }
   return largest;
 }
@@ -196,7 +198,7 @@ PerFinger<Pivot> pivots_at(const Question& question, const PerFinger<double>& at
   const Interval start = best_fit(question, at).start;
   const Interval end = pivots[0].end;
   const auto inside = [&](double angle) { return std::clamp(angle, end.lo, end.hi); };
-  return Pivot{start, {inside(start.lo + last.turn), inside(start.hi + last.turn)}};
+  return Pivot{start, {inside(start.lo + (last.turn - last.pivot)), inside(start.hi + (last.turn + last.pivot))}};
 }
 
 }  // namespace rollfix

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <boost/container/small_vector.hpp>
 #include <cstddef>
 #include <optional>
@@ -31,6 +32,10 @@ struct Question {
   std::size_t fingers() const { return readings.front().fingers(); }
   std::size_t rows() const { return readings.size() + (facing ? 1 : 0); }
   bool is_overdetermined() const { return rows() > fingers(); }
+  /// No reading says more than an interval: every contact was on a corner of the finger.
+  bool is_open() const {
+    return std::none_of(readings.begin(), readings.end(), [](const Reading& reading) { return reading.is_exact(); });
+  }
 };
 
 /// The largest |f_k| at these first contacts, the facing equation's included, corners taken as sets: for the best

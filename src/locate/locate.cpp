@@ -53,6 +53,12 @@ void require_enough(std::span<const Reading> readings, const LocateOptions& opti
       throw InputError("expected readings of one finger or of two, found both");
     }
   }
+  if (readings.front().fingers() == 2 &&
+      !std::all_of(readings.begin(), readings.end(), [](const Reading& reading) { return reading.is_exact(); })) {
+    throw InputError(
+        "expected readings of two fingers off the corners of both, found one on a corner, where its turn is not known; "
+        "choose other instants of the log (`at`)");
+  }
   if (readings.front().fingers() == 1) {
     if (options.facing) throw InputError("`facing`: compares two fingers, found readings of one");
     return;

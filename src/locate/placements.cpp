@@ -38,7 +38,10 @@ double curvature_scale(const Question& question, const SlopeSample* samples) {
 void describe_slopes_of_one(const Question& question, const SlopeSample* samples, Placement& placement) {
   double square = 0;
   double scale = 0;  // the curvatures whose differences the slopes are
-  const auto slope = [&](std::size_t k) { return samples[k].end_curvature[0] - samples[k].start_curvature[0]; };
+  // Where a reading says no more than an interval, nothing moves with it.
+  const auto slope = [&](std::size_t k) {
+    return question.readings[k].is_exact() ? samples[k].end_curvature[0] - samples[k].start_curvature[0] : 0;
+  };
   for (std::size_t k = 0; k < question.readings.size(); ++k) {
     square += slope(k) * slope(k);
     scale = std::max(scale, std::abs(samples[k].start_curvature[0]) + std::abs(samples[k].end_curvature[0]));

@@ -298,7 +298,7 @@ void RootSearch::take_monotone(const SpiralPair& pair, const ResidualSample& lo,
     const auto panel = static_cast<std::uint32_t>(start_panel_ - pair.turning.panels().data());
     root = {found.s, true, false, true, panel, found};
     reach = tolerance_ / std::abs(found.slope());
-    near_root = is_straight(pair, found, reach, lo, hi);
+    near_root = takes_ends_as_straight_ && is_straight(pair, found, reach, lo, hi);
   } else {
     root.exact = false;
   }

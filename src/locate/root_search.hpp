@@ -85,6 +85,12 @@ class RootSearch {
 
   Findings findings;  // of all runs together
 
+  /// For the runs that follow. `pivot`: of the reading, by which |f| may be off beyond the tolerance.
+  void allow(double tolerance, double pivot) {
+    tolerance_ = tolerance + pivot;
+    takes_ends_as_straight_ = pivot == 0;
+  }
+
   /// The ends are samples of this pair. The interval between them comes with the part, however many points that has: it
   /// costs nothing of the budget.
   void run(const SpiralPair& pair, const ResidualSample& lo, const ResidualSample& hi) {
@@ -133,6 +139,7 @@ class RootSearch {
   void add_piece(double lo, double hi, bool exact = false);
 
   double tolerance_;
+  bool takes_ends_as_straight_ = true;  // where extents are as wide as a tolerance; else their ends are what is asked
   double perimeter_;
   double same_place_;  // lengths below this are rounding errors
   const Panel* start_panel_ = nullptr;

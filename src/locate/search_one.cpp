@@ -29,6 +29,7 @@ class Sweep {
       : part_(question.part),
         turning_(part_.turning()),
         same_place_(kLengthAccuracy * part_.perimeter()),
+        allowed_(options.tolerance),
         tolerance_(options.tolerance),
         search_(options.tolerance, options.budget, part_.perimeter()) {}
 
@@ -36,6 +37,8 @@ class Sweep {
   void ask(const Reading& reading) {
     reading_ = &reading;
     length_ = reading.length[0];
+    tolerance_ = allowed_ + reading.pivot;
+    search_.allow(allowed_, reading.pivot);
   }
 
   /// What all runs found together.
@@ -97,7 +100,7 @@ class Sweep {
     const double s = place.middle();
     const double residual = residual_at({part_, {reading_, 1}}, s);
     const double slope = std::abs(turning_.curvature(s)) + std::abs(turning_.curvature(s + length_));
-    if (residual > tolerance_ + 0.5 * place.width() * slope) return;
+    if (residual > allowed_ + 0.5 * place.width() * slope) return;
     search_.findings.pieces.push_back({place.lo, place.hi});
     search_.findings.roots.push_back({s, residual <= kTurnAccuracy});
   }
@@ -152,7 +155,8 @@ class Sweep {
   const Reading* reading_ = nullptr;
   double length_ = 0;  // L
   double same_place_;
-  double tolerance_;
+  double allowed_;    // of |f|
+  double tolerance_;  // with what the reading leaves open
   RootSearch search_;
 };
 

@@ -106,7 +106,8 @@ class SetsOfOne {
   void make(const Cluster& cluster, Placement& placement) const {
     const Interval extent{cluster.lo, cluster.hi};
     // By far the most frequent answer: one reading, one simple root.
-    if (readings_.size() == 1 && cluster.root_count == 1 && roots_of(cluster)->crossing && !cluster.is_joined) {
+    if (readings_.size() == 1 && readings_[0].is_exact() && cluster.root_count == 1 && roots_of(cluster)->crossing &&
+        !cluster.is_joined) {
       const Root& root = *roots_of(cluster);
       const SlopeSample sample{root.sample.value, root.sample.start_curvature, root.sample.end_curvature};
       maker_.make_crossing(root.s, root.panel, extent, sample, placement);
@@ -140,7 +141,7 @@ class SetsOfOne {
       if (readings_.size() == 1) {
         if (!root.exact) continue;
       } else {
-        if (root.crossing) {
+        if (root.crossing && !question_.is_open()) {
           // Readings find a root that they share again: once is enough.
           if (root.s - looked_at <= kLengthAccuracy * period_ || !may_be_shared(root)) continue;
           looked_at = root.s;
@@ -154,7 +155,7 @@ class SetsOfOne {
         continue;
       }
       found.push_back(candidate);
-      if (cluster.exact) break;  // the rest is its continuum
+      if (cluster.exact || question_.is_open()) break;  // the rest is its continuum
     }
     return found;
   }
@@ -164,6 +165,7 @@ class SetsOfOne {
   bool may_be_shared(const Root& root) const {
     const double own = std::abs(root.sample.slope());
     return std::all_of(readings_.begin(), readings_.end(), [&](const Reading& reading) {
+      if (!reading.is_exact()) return true;
       const ResidualSample at = sample(reading, root.s);
       return !(own * std::abs(at.value) > kManyRoundings * kRootTurn * (own + std::abs(at.slope())));
     });
@@ -175,6 +177,7 @@ class SetsOfOne {
       double normal = 0;
       double right = 0;
       for (const Reading& reading : readings_) {
+        if (!reading.is_exact()) continue;
         const ResidualSample at = sample(reading, s);
         normal += at.slope() * at.slope();
         right -= at.slope() * at.value;
@@ -244,12 +247,13 @@ class SetsOfOne {
   // ---- what kind ----
 
   Kind kind_of(const Cluster& cluster, const Roots& roots, const Root& start) const {
-    if (cluster.exact) return Kind::stretch;
+    const bool is_wide = cluster.hi - cluster.lo > kLengthAccuracy * period_;
+    if (cluster.exact || (is_wide && question_.is_open())) return Kind::stretch;
     if (start.corner) return Kind::corner;
     if (roots.size() == 1 && roots.front().crossing && !cluster.is_joined) return Kind::crossing;
     if (cluster.whole_loop) return roots.empty() ? Kind::touching : Kind::crossing;
     for (const Reading& reading : readings_) {
-      if (changes_sign(reading, cluster)) return Kind::crossing;
+      if (reading.is_exact() && changes_sign(reading, cluster)) return Kind::crossing;
     }
     return Kind::touching;
   }

@@ -126,6 +126,7 @@ void require_valid(const TouchProblem& problem) {
       refuse(fmt::format("expected a round finger, disk,r=R, or none for a point, found {}", problem.finger->name()));
     }
     rollfix::require_valid(*problem.finger);
+    require_no_corners({*problem.finger}, "several rolls and touches");
   }
   if (problem.noise) {
     if (problem.rolls.empty()) require_noise_of_touches(*problem.noise);

@@ -17,6 +17,14 @@ namespace {
 
 constexpr const char* kJaw = "jaw";
 constexpr std::string_view kOpen = ",open";
+constexpr std::string_view kPolygon = ",polygon";
+
+/// Whether that stands at the end of a name, which loses it.
+bool take_suffix(std::string& name, std::string_view suffix) {
+  if (name.size() <= suffix.size() || name.substr(name.size() - suffix.size()) != suffix) return false;
+  name.resize(name.size() - suffix.size());
+  return true;
+}
 
 /// "did you mean disk,r=10? ", of what looks like a disk: "disc,r=10", "circle,r=10", "disk,10", "r=10".
 std::string question_about(const std::vector<std::string_view>& fields) {
@@ -46,14 +54,17 @@ DiskFinger read_disk(const std::string& text, const std::string& unit) {
   return finger;
 }
 
-/// "pad.csv", "pad.csv,open", "gallery:stadium".
+/// "pad.csv", "pad.csv,open", "tip.csv,polygon", "gallery:stadium".
 Finger read_outlined(const std::string& text, const std::string& unit) {
   LoadOptions options;
   if (unit_named(unit)) options.points.unit = unit;  // of a part in pixels, which are no length, as it is
   std::string name = text;
-  if (text.size() > kOpen.size() && text.substr(text.size() - kOpen.size()) == kOpen) {
-    options.points.open = true;
-    name.resize(text.size() - kOpen.size());
+  for (bool is_word = true; is_word;) {
+    const bool is_open = take_suffix(name, kOpen);
+    const bool is_polygon = take_suffix(name, kPolygon);
+    if (is_open) options.points.open = true;
+    if (is_polygon) options.points.corner_angle = 0;
+    is_word = is_open || is_polygon;
   }
   try {
     return Finger::outlined(rollfix::load_part(name, options).part);
@@ -81,7 +92,8 @@ void add_finger_argument(CLI::App& command, std::vector<std::string>& fingers) {
       .add_option(
           "--finger", fingers,
           "the finger: disk,r=RADIUS, in the part's unit or with a unit as in r=8mm; jaw, a flat one; or the file of "
-          "a convex outline, with ,open behind it if it is open; for several fingers once, or once for each if they "
+          "a convex outline, with ,open behind it if it is open, and ,polygon if its points are the corners of a "
+          "polygon; for several fingers once, or once for each if they "
           "differ")
       ->type_name("FINGER")
       ->allow_extra_args(false);

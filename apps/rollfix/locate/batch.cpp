@@ -59,6 +59,11 @@ std::string typed_reading(const Json& value) {
   if (!value.contains("length") || !value.contains("turn")) {
     throw InputError(fmt::format("\"readings\": expected \"length\" and \"turn\", found {}", value.dump()));
   }
+  if (value.contains("pivot")) {
+    throw InputError(fmt::format(
+        "\"readings\": expected a reading whose turn is known, found one on a corner of the finger, {}: give the log",
+        value.dump()));
+  }
   return typed_list(value["length"], "readings") + "," + typed(value["turn"], "readings");
 }
 

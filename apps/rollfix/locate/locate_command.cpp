@@ -108,6 +108,11 @@ Report march_report(const LocateArguments& arguments) {
                                   : tolerance_from_digits(problem.part, observed.roundings, observed.readings);
   MarchQuestion question{{}, tolerance.value, read_step(arguments.march), arguments.json};
   for (const Reading& reading : observed.readings) {
+    if (!reading.is_exact()) {
+      throw InputError(
+          "--march: expected rows off the corners of the finger, found one on a corner; choose others with --at, of a "
+          "log whose first row is off them too, or leave --march out");
+    }
     question.readings.push_back({{reading.length.begin(), reading.length.end()}, reading.turn});
   }
   Report report = locate_by_march(problem.part, question);
@@ -228,12 +233,22 @@ ExitCode exit_code_of(const Answer& answer) {
   return answer.placements.empty() ? ExitCode::nothing_fits : ExitCode::fits;
 }
 
+/// On a corner of the finger only where the contact is is known.
+std::string corner_rows_note(const Answer& answer) {
+  const std::size_t count = answer.corner_rows.count;
+  return fmt::format(
+      "{} on a corner of the finger, where u does not tell how its normal is turned: {}",
+      count == 1 ? "1 row is" : fmt::format("{} rows are", count),
+      answer.weighing ? "they are not weighed" : "there the turn is open, between the others it is exact");
+}
+
 void add_notes(const Answer& answer, Report& report) {
   for (const Finger& finger : answer.fingers) {
     if (has_reach(finger)) continue;
     report.notes.push_back(no_reach_note(finger));
     break;
   }
+  if (answer.corner_rows.count > 0) report.notes.push_back(corner_rows_note(answer));
   if (answer.part.reversed()) report.notes.push_back(reversed_note(answer.part));
   if (!answer.strays.empty()) report.notes.push_back(strays_note(answer.strays));
   if (!answer.other_way.empty()) report.notes.push_back("the other way round no such roll can be: " + answer.other_way);

@@ -38,7 +38,11 @@ class AskedText : AnswerWords {
           fingers_ == 1 ? "length " + at(reading.length[0])
                         : fmt::format("lengths {} and {}", place(reading.length[0]), at(reading.length[1]));
       const std::string when = answer_.times.empty() ? "" : fmt::format(" at {:.6g} s", answer_.times[i]);
-      text += fmt::format("reading    {}, turn {} deg{}\n", lengths, degrees(reading.turn), when);
+      const std::string turn = reading.is_exact() ? degrees(reading.turn) + " deg"
+                                                  : fmt::format("anywhere from {} to {} deg, on a corner of the finger",
+                                                                degrees(reading.turn - reading.pivot),
+                                                                degrees(reading.turn + reading.pivot));
+      text += fmt::format("reading    {}, turn {}{}\n", lengths, turn, when);
     }
     if (answer_.facing) text += fmt::format("facing     {} deg\n", degrees(*answer_.facing));
     return text;

@@ -60,6 +60,14 @@ struct Tolerance {
   Source source = Source::smallest;
 };
 
+/// Rows of a log in which a finger with corners may be on one of them: there u does not tell how its normal is turned.
+/// They say where the contact is and leave open how the tangent points.
+struct CornerRows {
+  std::size_t count = 0;
+  bool first = false;  // the first row is one
+  bool last = false;   // the last row is one
+};
+
 /// How many placements were taken out, and why.
 struct DroppedCounts {
   std::size_t reach = 0;       // a finger can't get there
@@ -105,6 +113,7 @@ struct Answer {
   bool either_way = false;             // as in the problem: each placement says which; readings are as given
   std::string other_way{};             // of that: why the rows can't have gone one of the ways at all; empty: they can
   bool lengths_reversed = false;       // a log's lengths changed their signs, as the part is stored the other way round
+  CornerRows corner_rows{};            // of a log
 
   std::size_t finger_count() const { return readings.front().fingers(); }
 };

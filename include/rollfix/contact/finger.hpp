@@ -34,8 +34,8 @@ class Finger {
   Finger(double disk_radius) : radius_(disk_radius) {}      // NOLINT(google-explicit-constructor): {0.2}
 
   /// A convex outline, closed or open, in its frame; u is arc length from its first point, of a closed one
-  /// counter-clockwise whichever way it was given. Throws InputError: it is concave somewhere, has a corner (there the
-  /// skin can't tell how the normal is turned), or is no outline.
+  /// counter-clockwise whichever way it was given. It may have corners: there the finger pivots on the part, and u
+  /// alone does not tell how the normal is turned. Throws InputError: it is concave somewhere, or is no outline.
   static Finger outlined(const Outline& outline) { return outlined(Part(outline)); }
   static Finger outlined(const Part& outline);
 
@@ -46,15 +46,23 @@ class Finger {
   /// The outline, as a part; nullptr of a disk and a jaw.
   const Part* outline() const { return outline_.get(); }
 
-  /// N: direction of the outward normal in the finger's frame, radians, unwrapped; it grows with u.
+  /// N: direction of the outward normal in the finger's frame, radians, unwrapped; it grows with u. At a corner, where
+  /// it jumps: just after it.
   double normal(double u) const;
+  /// Whether its outline has corners.
+  bool has_corners() const { return outline_ && has_corners_; }
+  /// Between which N is at a place that may be off by `within`, length: of one that is on a corner then all that N
+  /// jumps over, else N(u) alone.
+  Interval normals(double u, double within = 0) const;
+  /// Whether that place may be on a corner.
+  bool is_on_corner(double u, double within = 0) const;
   /// dN per arc length: 1 / r of a disk, 0 of a jaw.
   double curvature(double u) const;
   /// The place in the finger's frame.
   Vec2 point(double u) const;
   /// What u has to be multiplied by for arc length: r of a disk, else 1.
   double length_per_u() const { return is_disk() ? radius_ : 1; }
-  /// The largest change of N per u: 1 of a disk, 0 of a jaw.
+  /// The largest change of N per u, off corners: 1 of a disk, 0 of a jaw.
   double turn_per_u() const;
   /// What once around adds to u: 2 pi of a disk; of a jaw and an open outline there is no around, it is infinite.
   double period() const;
@@ -70,6 +78,7 @@ class Finger {
   double radius_ = std::numeric_limits<double>::infinity();
   std::string name_ = "disk";
   std::shared_ptr<const Part> outline_;
+  bool has_corners_ = false;
 };
 
 /// A disk with this radius, r > 0, in the outline's unit; what it is used for looks at the radius (require_valid), not
@@ -90,12 +99,16 @@ const Finger* finger_of(const std::vector<Finger>& fingers, std::size_t which);
 void require_fingers(const std::vector<Finger>& fingers, std::size_t rolled, bool must_be_known,
                      const std::string& log);
 
+/// Throws InputError: one of them has corners, which `what` does not take.
+void require_no_corners(const std::vector<Finger>& fingers, const std::string& what);
+
 /// N(u) + psi: the direction of the contact's normal in the world, out of the finger and into the part.
 double facing(const Finger& finger, const Contact& contact);
 
 /// Eqs. (1)-(3) integrated: L = -(arc length on the finger), theta = (N(u1) - N(u0)) + (psi1 - psi0). Angles unwrapped,
-/// and so is u of a closed outline. Of a disk N = u, of a jaw N stays.
-Reading reading_between(const Finger& finger, const Contact& first, const Contact& last);
+/// and so is u of a closed outline. Of a disk N = u, of a jaw N stays. `within`: how far u may be off, length. A
+/// contact that may be on a corner of the finger leaves theta open: Reading::pivot.
+Reading reading_between(const Finger& finger, const Contact& first, const Contact& last, double within = 0);
 
 /// The inverse: the contact after a roll with this reading.
 Contact contact_after(const Finger& finger, const Contact& first, const Reading& reading);

@@ -122,8 +122,17 @@ std::vector<std::size_t> rows_at(const Log& log, const std::vector<double>& time
 // In what follows `fingers` are those that rolled: none where they are not known, one that holds for both, or a and b.
 
 /// Every row as a reading from the first contact, lengths along the outline as the user gave it; of two fingers eqs.
-/// (7)-(9). Throws InputError: u and psi without a finger, two fingers for the log of one.
-std::vector<Reading> readings_as_given(const Log& log, const std::vector<Finger>& fingers);
+/// (7)-(9). Throws InputError: u and psi without a finger, two fingers for the log of one. `noise`: how far u may be
+/// off for a contact on a corner of the finger, whose reading has a `pivot`; that of the first contact is in all of
+/// them.
+std::vector<Reading> readings_as_given(const Log& log, const std::vector<Finger>& fingers, const Noise& noise = {});
+
+/// Which rows have a contact that may be on a corner of its finger, by the digits of u or by five standard deviations
+/// of its noise: there theta is not known. Empty where no finger has corners.
+std::vector<bool> rows_on_corners(const Log& log, const std::vector<Finger>& fingers, const Noise& noise = {});
+
+/// The log without its rows before this one, which becomes the first contact.
+Log from_row(Log log, std::size_t row);
 
 /// The readings at these instants (see rows_at) in the direction in which the part is stored: what `locate` takes.
 /// Throws InputError as those do, and, naming the line, where u is beyond the ends of an open finger, and where one row

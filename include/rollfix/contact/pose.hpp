@@ -28,8 +28,10 @@ struct Poses {
 ///  contact
 ///    a to contact b with the part's, which is also how far apart the fingers would have the part; `turn_residual` is
 ///    the facing equation's.
-/// Nothing where the log does not have each finger's orientation and its centre x, y, or no finger is known.
+/// Nothing where the log does not have each finger's orientation and its centre x, y, or no finger is known. `noise`:
+/// by which a contact may be on a corner of its finger, where the heading is between bounds.
 std::optional<Poses> poses(const Part& part, const std::vector<Finger>& fingers, const Log& log,
-                           const PerFinger<double>& start, const std::vector<std::size_t>& rows);
+                           const PerFinger<double>& start, const std::vector<std::size_t>& rows,
+                           const Noise& noise = {});
 
 }  // namespace rollfix

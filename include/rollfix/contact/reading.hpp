@@ -19,8 +19,10 @@ struct Reading {
   PerFinger<double> length;  // arc length travelled on the part, positive along the stored outline; may exceed P
   double turn = 0;           // theta: total curvature along it, Phi(s0, s0 + L), of two fingers
                              // Phi(s0, s0 + La) - Phi(t0, t0 + Lb); radians, unwrapped, may exceed pi in size
+  double pivot = 0;          // of a contact on a corner of the finger: theta is anywhere in turn -+ pivot, radians
 
   std::size_t fingers() const { return length.size(); }
+  bool is_exact() const { return pivot == 0; }  // but for noise and digits
 };
 
 /// How far the rounding of written numbers can have moved something.

@@ -68,6 +68,10 @@ py::array_t<double> readings_of(const AnswerHandle& handle) {
   });
 }
 
+py::array_t<double> pivots_of(const AnswerHandle& handle) {
+  return rows_of(handle.answer->readings, 1, [](const Reading& reading, double* out) { *out = reading.pivot; });
+}
+
 std::string whole_document(const AnswerHandle& handle, bool explain) {
   return format_answer(*handle.answer, Layout::line, explain);
 }
@@ -136,6 +140,8 @@ void bind_answer(py::module_& module) {
                              })
       .def_property_readonly("pose_time", [](const AnswerHandle& handle) { return array_of(handle.answer->pose_time); })
       .def_property_readonly("other_way", [](const AnswerHandle& handle) { return handle.answer->other_way; })
+      .def_property_readonly("pivots", &pivots_of)
+      .def_property_readonly("corner_rows", [](const AnswerHandle& handle) { return handle.answer->corner_rows.count; })
       .def_property_readonly("lengths_reversed",
                              [](const AnswerHandle& handle) { return handle.answer->lengths_reversed; })
       .def("density_pieces", &density_of)

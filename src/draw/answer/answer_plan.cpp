@@ -84,7 +84,9 @@ std::vector<PairLine> lines_of(const Answer& answer) {
     lines.push_back({reading, kLineColours[lines.size()], dash, symbol("f", index)});
   };
   if (answer.facing) add({}, "0");
-  for (std::size_t k = 0; k < answer.readings.size(); ++k) add(k, std::to_string(k + 1));
+  for (std::size_t k = 0; k < answer.readings.size(); ++k) {
+    if (answer.readings[k].is_exact()) add(k, std::to_string(k + 1));
+  }
   return lines;
 }
 

@@ -20,7 +20,12 @@ Text reading_text(const Reading& reading, const std::string& index) {
   Text text = symbol("L", index);
   text.push_back({equals(reading.length[0]) + ", "});
   append(text, symbol("\u03b8", index));
-  text.push_back({" = " + pretty_degrees(reading.turn)});
+  if (reading.is_exact()) {
+    text.push_back({" = " + pretty_degrees(reading.turn)});
+  } else {  // on a corner of the finger
+    text.push_back({" = " + pretty_degrees(reading.turn - reading.pivot) + " ... " +
+                    pretty_degrees(reading.turn + reading.pivot)});
+  }
   return text;
 }
 

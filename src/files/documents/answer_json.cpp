@@ -157,6 +157,9 @@ Json readings_json(const Answer& answer) {
   for (std::size_t i = 0; i < answer.readings.size(); ++i) {
     const Reading& reading = answer.readings[i];
     Json entry = {{"length", json_numbers(reading.length)}, {"turn", json_number(reading.turn)}};
+    if (!reading.is_exact()) {
+      entry["pivot"] = {json_number(reading.turn - reading.pivot), json_number(reading.turn + reading.pivot)};
+    }
     if (!answer.times.empty()) entry["time"] = json_number(answer.times[i]);
     list.push_back(entry);
   }
@@ -265,6 +268,10 @@ Json answer_json(const Answer& answer, bool explain) {
                    {"fingers", fingers},
                    {"readings", readings_json(answer)},
                    {"mirrored", answer.mirrored}};
+  if (answer.corner_rows.count > 0) {
+    document["corner_rows"] = {
+        {"count", answer.corner_rows.count}, {"first", answer.corner_rows.first}, {"last", answer.corner_rows.last}};
+  }
   if (fingers == 2) document["facing"] = answer.facing ? json_number(*answer.facing) : Json(nullptr);
   document["tolerance"] = json_number(answer.tolerance.value);
   document["placements"] =

@@ -1,0 +1,208 @@
+#include "finger_corners.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "locate/corner_sets.hpp"
+#include "outline/turn.hpp"
+#include "rollfix/error.hpp"
+
+// Notation:
+//   N, u, psi       normal of the finger in its frame, contact on it, orientation; at a corner N is in [N-, N+]
+//   leading         the rows at the beginning that are on a corner; `leading.way`: from the first contact to the first
+//                   row behind them, the base
+//   s_base          the contact of the base: the first contact is at s_base - L
+// Follows docs/rolling.md, "Fingers with corners".
+// Idea: theta between two rows off the corners is exact whatever lay between them. So everything is measured from the
+// first such row, and the rows before it say only that the first contact was L before it.
+namespace rollfix {
+namespace {
+
+// 95 % of a normal distribution are within so many standard deviations.
+constexpr double kWithin = 1.96;
+
+class WayBack {
+ public:
+  WayBack(const LeadingRows& leading, const Problem& problem)
+      : part_(problem.part),
+        length_(leading.way.length),
+        variance_(problem.noise ? 2 * problem.noise->contact * problem.noise->contact : 0) {}
+
+  PerFinger<double> place(PerFinger<double> at) const {
+    for (std::size_t k = 0; k < at.size(); ++k) at[k] = part_.boundary().canonical(at[k] - length_[k]);
+    return at;
+  }
+
+  Interval arc(const Interval& there, std::size_t finger) const {
+    const Boundary boundary = part_.boundary();
+    return boundary.is_full(there) ? there : boundary.arc(there.lo - length_[finger], there.hi - length_[finger]);
+  }
+
+  void move(Placement& placement) const {
+    placement.start = place(placement.start);
+    for (PerFinger<double>& root : placement.roots) root = place(root);
+    for (PerFinger<double>& pair : placement.family) pair = place(pair);
+    placement.pivot.reset();
+    for (std::size_t k = 0; k < placement.start.size(); ++k) {
+      placement.extent[k] = arc(placement.extent[k], k);
+      placement.point[k] = part_.point(placement.start[k]);
+      placement.tangent[k] = part_.tangent(placement.start[k]);
+    }
+    if (!std::isnan(placement.probability)) move_belief(placement);
+  }
+
+ private:
+  /// The way back is as uncertain as both rows' contacts.
+  void move_belief(Placement& placement) const {
+    placement.mean = place(placement.mean);
+    for (std::size_t k = 0; k < placement.start.size(); ++k) {
+      const auto i = static_cast<Eigen::Index>(k);
+      placement.sd[k] = std::hypot(placement.sd[k], std::sqrt(variance_));
+      if (placement.start.size() == 2) placement.covariance(i, i) += variance_;
+      const Interval there = placement.interval[k];
+      if (part_.boundary().is_full(there)) continue;
+      const double beyond = std::hypot(0.5 * there.width(), kWithin * std::sqrt(variance_)) - 0.5 * there.width();
+      placement.interval[k] = arc({there.lo - beyond, there.hi + beyond}, k);
+    }
+  }
+
+  const Part& part_;
+  PerFinger<double> length_;
+  double variance_;
+};
+
+/// Without what belongs to the last entries, which the answer does not list.
+template <class Entry>
+void drop_last(std::size_t count, ShortList<Entry>& list) {
+  ShortList<Entry> kept;
+  for (std::size_t k = 0; k + count < list.size(); ++k) kept.push_back(list[k]);
+  list = kept;
+}
+
+void drop_last(std::size_t count, Sensitivity& sensitivity) {
+  for (auto& readings : sensitivity.per_turn) drop_last(count, readings);
+  for (auto& readings : sensitivity.per_length) drop_last(count, readings);
+}
+
+[[noreturn]] void refuse_all(const Log& log, bool has_noise) {
+  throw InputError(fmt::format(
+      "{}: in every row a finger may be on a corner of its own, where u does not tell how its normal is turned{}: "
+      "expected rows beside the corners; roll on",
+      log.name, has_noise ? " (within five standard deviations of the contact's noise)" : ""));
+}
+
+/// The last row before this one, or itself, that is off all corners; 0: there is none behind the first.
+std::size_t last_exact(const std::vector<bool>& on_corners, std::size_t row) {
+  while (row > 0 && on_corners[row]) --row;
+  return row;
+}
+
+}  // namespace
+
+std::optional<LeadingRows> leading_rows(const Problem& problem) {
+  if (!problem.felt.is_log() || problem.fingers.empty()) return std::nullopt;
+  const Log& log = *problem.felt.log;
+  const Noise noise = problem.noise.value_or(Noise{});
+  const std::vector<bool> on_corners = rows_on_corners(log, problem.fingers, noise);
+  if (on_corners.empty() || !on_corners.front()) return std::nullopt;
+  LeadingRows leading;
+  const auto first = std::find(on_corners.begin(), on_corners.end(), false);
+  leading.count = static_cast<std::size_t>(first - on_corners.begin());
+  // A log ends with a reading: at least one more row.
+  if (leading.count + 1 >= log.rows()) {
+    if (problem.noise || log.fingers.size() > 1) refuse_all(log, problem.noise.has_value());
+    return std::nullopt;
+  }
+  const std::vector<Reading> rolls = readings_as_given(log, problem.fingers, noise);
+  leading.way = rolls[leading.count];
+  for (const double instant : problem.at) {
+    if (log.time.empty() || instant >= log.time[leading.count]) continue;
+    throw InputError(fmt::format(
+        "{}: the instant {} lies before the first row off the finger's corner, at {}, from which turns are measured: "
+        "expected a later one (`at`)",
+        log.name, instant, log.time[leading.count]));
+  }
+  if (log.fingers.size() == 1) {
+    Reading back{-leading.way.length[0], -leading.way.turn};
+    back.pivot = leading.way.pivot;
+    leading.readings.push_back(back);
+  }
+  return leading;
+}
+
+Problem without(const LeadingRows& leading, const Problem& problem) {
+  Problem result = problem;
+  result.felt.log = from_row(*problem.felt.log, leading.count);
+  if (result.prior) result.prior->s += leading.way.length[0];
+  return result;
+}
+
+void to_first_contacts(const LeadingRows& leading, const Problem& problem, Answer& answer) {
+  const WayBack way(leading, problem);
+  const auto move_all = [&](std::vector<Placement>& placements) {
+    for (Placement& placement : placements) {
+      way.move(placement);
+      drop_last(leading.readings.size(), placement.sensitivity);
+    }
+  };
+  move_all(answer.placements);
+  for (Impossible& item : answer.impossible) way.move(item.placement);
+  for (PerFinger<Interval>& box : answer.unresolved) {
+    for (std::size_t k = 0; k < box.size(); ++k) box[k] = way.arc(box[k], k);
+  }
+  answer.facing.reset();  // it was the base's
+  for (Reading& reading : answer.readings) {
+    for (std::size_t k = 0; k < reading.length.size(); ++k) reading.length[k] += leading.way.length[k];
+    reading.turn += leading.way.turn;
+    reading.pivot += leading.way.pivot;
+  }
+  if (!answer.weighing) {
+    const auto earlier = [](const Placement& one, const Placement& two) { return one.start[0] < two.start[0]; };
+    std::sort(answer.placements.begin(), answer.placements.end(), earlier);
+    return;
+  }
+  answer.weighing->prior = problem.prior;
+  move_all(answer.weighing->improbable);
+  for (std::size_t k = 0; k < answer.weighing->density.size(); ++k) {
+    for (DensityPiece& piece : answer.weighing->density[k]) piece.s = way.arc(piece.s, k);
+  }
+}
+
+std::vector<std::size_t> rows_to_search(const Problem& problem, const std::vector<bool>& on_corners) {
+  const Log& log = *problem.felt.log;
+  std::vector<std::size_t> rows = rows_at(log, problem.at);
+  if (!problem.at.empty() || on_corners.empty()) return rows;
+  if (log.fingers.size() == 1) {
+    const std::size_t exact = last_exact(on_corners, rows.back());
+    if (exact > 0 && exact < rows.back()) rows.insert(rows.end() - 1, exact);
+    return rows;
+  }
+  for (std::size_t& row : rows) row = last_exact(on_corners, row);
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  rows.erase(std::remove(rows.begin(), rows.end(), std::size_t{0}), rows.end());
+  if (rows.empty()) refuse_all(log, problem.noise.has_value());
+  return rows;
+}
+
+void to_last_contacts(const Observation& observed, const Noise& noise, Answer& answer) {
+  if (observed.on_corners.empty() || !observed.on_corners.back()) return;
+  const Reading& last = observed.rolls.back();
+  const Reading& weighed = observed.rolls[last_exact(observed.on_corners, observed.rolls.size() - 1)];
+  const auto move = [&](std::vector<Placement>& placements) {
+    for (Placement& placement : placements) {
+      for (std::size_t k = 0; k < placement.end.size(); ++k) {
+        const double further = last.length[k] - weighed.length[k];
+        placement.end[k] = answer.part.boundary().canonical(placement.end[k] + further);
+        placement.end_mean[k] = answer.part.boundary().canonical(placement.end_mean[k] + further);
+        placement.end_sd[k] = std::hypot(placement.end_sd[k], noise.contact, noise.contact);  // both rows'
+      }
+    }
+  };
+  move(answer.placements);
+  move(answer.weighing->improbable);
+}
+
+}  // namespace rollfix
