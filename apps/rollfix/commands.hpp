@@ -14,6 +14,7 @@ void add_advise_command(CLI::App& program, Command& chosen);
 void add_catalog_command(CLI::App& program, Command& chosen);
 void add_identify_command(CLI::App& program, Command& chosen);
 void add_simulate_command(CLI::App& program, Command& chosen);
+void add_plan_command(CLI::App& program, Command& chosen);
 void add_teach_command(CLI::App& program, Command& chosen);
 void add_demo_command(CLI::App& program, Command& chosen);
 void add_paper_command(CLI::App& program, Command& chosen);

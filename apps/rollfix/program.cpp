@@ -93,8 +93,8 @@ struct Common {
 
 /// Adds that to the commands, and to the commands of commands.
 void set_up(CLI::App& program, Common& common) {
-  constexpr std::array<std::string_view, 7> kOfRobots = {"inspect",  "locate", "advise", "identify",
-                                                         "simulate", "teach",  "watch"};
+  constexpr std::array<std::string_view, 8> kOfRobots = {"inspect",  "locate", "advise", "identify",
+                                                         "simulate", "plan",   "teach",  "watch"};
   for (CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
     command->allow_extras();
     command->group("Commands");
@@ -112,13 +112,14 @@ void describe(CLI::App& program);
 /// Where the arguments begin with a command's name, that one alone: to describe the options of all takes longer than to
 /// locate.
 void add_commands(CLI::App& program, Command& chosen, const std::string& first, std::ostream& out, std::ostream& err) {
-  const std::array<std::pair<const char*, std::function<void()>>, 12> commands = {{
+  const std::array<std::pair<const char*, std::function<void()>>, 13> commands = {{
       {"inspect", [&] { add_inspect_command(program, chosen); }},
       {"locate", [&] { add_locate_command(program, chosen, out); }},
       {"advise", [&] { add_advise_command(program, chosen); }},
       {"catalog", [&] { add_catalog_command(program, chosen); }},
       {"identify", [&] { add_identify_command(program, chosen); }},
       {"simulate", [&] { add_simulate_command(program, chosen); }},
+      {"plan", [&] { add_plan_command(program, chosen); }},
       {"teach", [&] { add_teach_command(program, chosen); }},
       {"watch", [&] { add_watch_command(program, chosen, out, err); }},
       {"demo", [&] { add_demo_command(program, chosen); }},

@@ -30,6 +30,7 @@
 #include "rollfix/part/part.hpp"                  // IWYU pragma: export
 #include "rollfix/part/reach.hpp"                 // IWYU pragma: export
 #include "rollfix/part/samples.hpp"               // IWYU pragma: export
+#include "rollfix/plan/plan.hpp"                  // IWYU pragma: export
 #include "rollfix/touch/next_touch.hpp"           // IWYU pragma: export
 #include "rollfix/touch/touch.hpp"                // IWYU pragma: export
 #include "rollfix/touch/touch_table.hpp"          // IWYU pragma: export

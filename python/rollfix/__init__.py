@@ -23,6 +23,7 @@ from ._many import ManyAnswers
 from ._messages import RollfixWarning
 from ._noise import Noise
 from ._part import Part
+from ._plans import Plan
 from ._reach import Reach
 from ._resample import resample
 from ._teach import Taught, teach
@@ -54,6 +55,7 @@ __all__ = [
     "PartFound",
     "PartsAdvice",
     "Placement",
+    "Plan",
     "Reach",
     "Roll",
     "RollfixWarning",

@@ -286,6 +286,29 @@ class TouchAnswer:
 class HoldAnswer:
     def document(self) -> str: ...
 
+class Plan:
+    @property
+    def log(self) -> Log: ...
+    def document(self) -> str: ...
+    def table(self, arg0: Optional[int]) -> str: ...
+
+def plan_roll(
+    arg0: Part,
+    arg1: Iterable[_Given],
+    arg2: bool,
+    arg3: Sequence[Optional[float]],
+    arg4: Sequence[Optional[float]],
+    arg5: Sequence[Optional[float]],
+    arg6: Sequence[Optional[float]],
+    arg7: Sequence[float],
+    arg8: Optional[float],
+    arg9: str,
+    arg10: Optional[float],
+    arg11: Dict[str, float],
+    arg12: float,
+    arg13: float,
+    arg14: int,
+) -> Plan: ...
 def load_part(arg0: str, arg1: Dict[str, Any]) -> Part: ...
 def part_from_points(arg0: _Array, arg1: str, arg2: Dict[str, Any]) -> Part: ...
 def part_from_pieces(

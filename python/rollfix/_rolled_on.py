@@ -1,4 +1,4 @@
-"""Rolls that are still to come: watched, simulated."""
+"""Rolls that are still to come: watched, simulated, planned."""
 
 from __future__ import annotations
 
@@ -9,13 +9,14 @@ from ._columns import Columns, Units
 from ._fingers import Finger, FingerLike
 from ._logs import Roll
 from ._noise import Noise, NoiseLike
+from ._plans import Plan, planned
 from ._rig import simulated_rig
 from ._simulate import simulated, tell_of_dropped
 from ._watch import Watch
 
 
 class RolledOn(Asked):
-    """A part on which rolls are watched and simulated."""
+    """A part on which rolls are watched, simulated and planned."""
 
     __slots__ = ()
 
@@ -124,3 +125,76 @@ class RolledOn(Asked):
             )
         tell_of_dropped(self._core, roll, finger)
         return Roll(roll)
+
+    def plan(
+        self,
+        finger: FingerLike,
+        *,
+        start: Any,
+        length: Any,
+        friction: Any = None,
+        wheel: bool = False,
+        pose: Optional[Sequence[float]] = None,
+        part_rotation: Optional[float] = None,
+        stays: str = "middle",
+        duration: Optional[float] = None,
+        limits: Optional[Mapping[str, float]] = None,
+        margin: float = 0.0,
+        clearance: float = 0.0,
+        samples: int = 101,
+        contact: Any = None,
+    ) -> Plan:
+        """What the fingers have to do so that they roll as far as is asked, or which condition fails.
+
+        Parameters
+        ----------
+        finger : Disk, Jaw, OutlineFinger; two of them, for a part that is free to move
+        start : float, of two fingers (s, t)
+            The first contacts; the second one of a wheel may be None.
+        length : float, of two fingers (La, Lb) or La alone
+            How far each contact is to travel; below 0: backwards. Of La alone the best Lb is found.
+        friction : float, of two fingers also a pair, optional
+            Coefficients between fingers and part. Default: what the roll needs is in `friction_needed`.
+        wheel : bool
+            The second finger is a disk on a free pin: nothing turns it, and its length follows.
+        pose : (x, y, heading)
+            Where the part lies in the world at the start.
+        part_rotation : float, optional
+            By how much the part turns meanwhile, radians. Default: so that the fingers turn least, beside a wheel so that
+            the first finger does not.
+        stays : 'middle', 'a', 'b' or 'part'
+            What stays in place.
+        duration : float, optional
+            Seconds. Default: the shortest within the limits.
+        limits : mapping
+            Any of speed and turn (radians), both per second, travel and rotation (radians) from the start.
+        margin : float
+            How far the force must stay inside the friction cones, radians.
+        clearance : float
+            How far the fingers must stay apart.
+        samples : int
+            Rows of the plan.
+        contact : float, of two fingers also a pair, optional
+            Of a disk its angle u at the first contact, radians; of another finger the place on it.
+
+        Returns
+        -------
+        Plan
+        """
+        return planned(
+            self,
+            finger,
+            start,
+            length,
+            friction,
+            wheel,
+            pose,
+            part_rotation,
+            stays,
+            duration,
+            limits,
+            margin,
+            clearance,
+            samples,
+            contact,
+        )

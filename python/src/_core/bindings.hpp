@@ -16,6 +16,7 @@ void bind_reach(pybind11::module_& module);
 void bind_watch(pybind11::module_& module);
 void bind_touch(pybind11::module_& module);
 void bind_hold(pybind11::module_& module);
+void bind_plan(pybind11::module_& module);
 void bind_catalog(pybind11::module_& module);
 
 }  // namespace rollfix::python

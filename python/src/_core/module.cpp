@@ -25,6 +25,7 @@ PYBIND11_MODULE(_core, module) {
   bind_watch(module);
   bind_touch(module);
   bind_hold(module);
+  bind_plan(module);
   bind_catalog(module);
   let_be_pickled(module);
 }

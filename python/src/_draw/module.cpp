@@ -1,9 +1,11 @@
 #include "handles.hpp"
+#include "plan_handle.hpp"
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/draw/advice_figure.hpp"
 #include "rollfix/draw/answer_figure.hpp"
 #include "rollfix/draw/hold_figure.hpp"
 #include "rollfix/draw/part_figure.hpp"
+#include "rollfix/draw/plan_figure.hpp"
 #include "rollfix/draw/touch_figure.hpp"
 
 namespace rollfix::python {
@@ -50,6 +52,13 @@ Svg hold_figure(const HoldAnswerHandle& handle, const std::string& title, double
   return draw_hold(figure);
 }
 
+Svg plan_figure(const PlanHandle& handle, const std::string& title, double width) {
+  PlanFigure figure{handle.plan.get(), handle.problem.get()};
+  figure.title = title;
+  if (width > 0) figure.width = width;
+  return draw_plan(figure);
+}
+
 }  // namespace
 }  // namespace rollfix::python
 
@@ -72,5 +81,6 @@ PYBIND11_MODULE(_draw, module) {
   module.def("next_roll_figure", &next_roll_figure);
   module.def("touch_figure", &touch_figure);
   module.def("hold_figure", &hold_figure);
+  module.def("plan_figure", &plan_figure);
   let_be_pickled(module);
 }

@@ -1,0 +1,227 @@
+#include "rollfix/plan/plan_arguments.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+#include <string_view>
+
+#include "rollfix/arguments/finger_argument.hpp"
+#include "rollfix/arguments/typed_number.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/usage.hpp"
+#include "text/text.hpp"
+
+namespace rollfix::app {
+namespace {
+
+constexpr std::string_view kWheel = "wheel,";
+
+void add_repeated_option(CLI::App& command, const std::string& name, std::vector<std::string>& values, const char* type,
+                         const std::string& meaning) {
+  command.add_option(name, values, meaning)->type_name(type)->allow_extra_args(false);
+}
+
+/// "wheel,r=0.4" is a disk on a free pin.
+bool names_wheel(const std::string& text) { return text.compare(0, kWheel.size(), kWheel) == 0; }
+
+std::vector<std::string> as_disks(std::vector<std::string> fingers) {
+  for (std::string& finger : fingers) {
+    if (names_wheel(finger)) finger = "disk," + finger.substr(kWheel.size());
+  }
+  return fingers;
+}
+
+std::size_t count_of_fingers(const PlanArguments& arguments) {
+  const std::size_t most = std::max({arguments.fingers.size(), arguments.starts.size(), arguments.lengths.size(),
+                                     arguments.contact_angles.size(), files_of(arguments).tables.size()});
+  if (most > 2) {
+    throw InputError("plan: expected one finger on a part at rest, or two that hold it; found an option three times");
+  }
+  return std::max<std::size_t>(1, most);
+}
+
+/// "20mm" or "20mm/s".
+std::string_view per_second(std::string_view text) {
+  const std::size_t mark = text.rfind("/s");
+  return mark != std::string_view::npos && mark + 2 == text.size() ? text.substr(0, mark) : text;
+}
+
+PlanLimits read_limits(const std::string& text, const std::string& unit) {
+  PlanLimits limits;
+  if (text.empty()) return limits;
+  const std::string what = "--limit " + text;
+  for (const std::string_view field : split(text, ',')) {
+    const std::size_t mark = field.find('=');
+    const std::string_view name = field.substr(0, mark);
+    const std::string_view value = mark == std::string_view::npos ? "" : field.substr(mark + 1);
+    std::optional<double>* const limit = name == "speed"      ? &limits.speed
+                                         : name == "turn"     ? &limits.turn
+                                         : name == "travel"   ? &limits.travel
+                                         : name == "rotation" ? &limits.rotation
+                                                              : nullptr;
+    if (limit == nullptr || value.empty()) {
+      throw InputError(fmt::format(
+          "{}: '{}' is none of speed=LENGTH, turn=ANGLE (both per second), travel=LENGTH and rotation=ANGLE, "
+          "as in speed=20mm,turn=30deg",
+          what, field));
+    }
+    if (*limit) throw InputError(fmt::format("{}: {} is given twice", what, name));
+    const bool is_length = name == "speed" || name == "travel";
+    *limit = is_length ? read_length(per_second(value), what, unit) : read_angle(per_second(value), what);
+    if (!(**limit > 0)) throw InputError(fmt::format("{}: expected a {} above 0, found {}", what, name, value));
+  }
+  return limits;
+}
+
+Pose read_start_pose(const std::string& text, const std::string& unit) {
+  if (text.empty()) return {};
+  const std::string what = "--pose " + text;
+  const std::vector<std::string_view> fields = split(text, ',');
+  if (fields.size() != 3) {
+    throw InputError(what + ": expected X,Y,HEADING as in 100,40,12deg: where the part lies in the world at the start");
+  }
+  return {read_length(fields[0], what, unit), read_length(fields[1], what, unit), read_angle(fields[2], what)};
+}
+
+Staying read_staying(const std::string& text) {
+  if (text.empty()) return Staying::middle;
+  if (text == "a") return Staying::a;
+  if (text == "b") return Staying::b;
+  if (text == "part") return Staying::part;
+  throw InputError(fmt::format("--stays {}: expected a, b or part: what stays in place while two fingers roll", text));
+}
+
+void read_friction(const std::string& text, PlanProblem& problem) {
+  if (text.empty()) return;
+  const std::string what = "--friction " + text;
+  const std::vector<std::string_view> fields = split(text, ',');
+  if (fields.size() > problem.fingers.size()) {
+    throw InputError(fmt::format("{}: expected a coefficient for all fingers, or one for each of {}, found {}", what,
+                                 problem.fingers.size(), fields.size()));
+  }
+  for (std::size_t which = 0; which < problem.fingers.size(); ++which) {
+    const double friction = read_number(fields[std::min(which, fields.size() - 1)], what);
+    if (friction < 0) throw InputError(fmt::format("{}: expected a coefficient of at least 0", what));
+    problem.fingers[which].friction = friction;
+  }
+}
+
+PlanFinger read_plan_finger(const PlanArguments& arguments, const Part& part, const Finger& shape, std::size_t which,
+                            double heading) {
+  PlanFinger finger;
+  finger.finger = shape;
+  const std::vector<std::string>& typed = arguments.fingers;
+  finger.wheel = !typed.empty() && names_wheel(typed[std::min(which, typed.size() - 1)]);
+  if (which < arguments.starts.size()) finger.start = read_length(arguments.starts[which], "--start", part.unit());
+  if (which < arguments.lengths.size()) finger.length = read_length(arguments.lengths[which], "--length", part.unit());
+  if (!shape.is_disk()) {
+    if (!arguments.contact.empty()) finger.u = read_length(arguments.contact, "--contact", part.unit());
+    return finger;
+  }
+  const std::vector<std::string>& angles = arguments.contact_angles;
+  const double angle = angles.empty() ? 0 : read_angle(angles[std::min(which, angles.size() - 1)], "--contact-angle");
+  const double s = finger.start.value_or(0);
+  if (part.closed() || (s >= 0 && s <= part.perimeter())) {
+    finger.psi = part.tangent(s) + heading + std::numbers::pi / 2 - angle;
+  }
+  return finger;
+}
+
+void require_given(const PlanArguments& arguments, std::size_t fingers) {
+  if (arguments.fingers.empty()) throw InputError("plan: expected --finger, as in --finger disk,r=0.1, found none");
+  if (arguments.lengths.empty()) {
+    throw InputError("plan: expected --length, how far the finger, of two finger a, is to roll, found none");
+  }
+  const bool has_wheel = std::any_of(arguments.fingers.begin(), arguments.fingers.end(), names_wheel);
+  const std::size_t least = has_wheel ? 1 : fingers;
+  if (arguments.starts.size() < least) {
+    throw InputError(fmt::format("plan: expected --start {}, the arc length of each first contact, found it {}",
+                                 fingers == 2 ? "twice" : "once", arguments.starts.empty() ? "nowhere" : "once"));
+  }
+}
+
+}  // namespace
+
+PlanFiles files_of(const PlanArguments& arguments) {
+  PlanFiles files;
+  for (const std::string& file : arguments.files) {
+    const std::string ending = ending_of(file);
+    const bool is_figure = ending == ".svg" || ending == ".png" || ending == ".pdf";
+    (is_figure ? files.figures : files.tables).push_back(file);
+  }
+  return files;
+}
+
+void add_plan_arguments(CLI::App& command, PlanArguments& arguments) {
+  add_part_argument(command, arguments.part);
+  command
+      .add_option("--finger", arguments.fingers,
+                  "disk,r=RADIUS, jaw, or the file of a convex outline; once for both fingers or for each; the second "
+                  "may be wheel,r=RADIUS, a disk on a free pin that nothing turns")
+      ->type_name("FINGER")
+      ->allow_extra_args(false);
+  add_repeated_option(command, "--start", arguments.starts, "S",
+                      "where the first contact is: arc length along the stored outline; twice for two fingers; a "
+                      "wheel's may be left out");
+  add_repeated_option(command, "--length", arguments.lengths, "L",
+                      "how far to roll, negative for backwards; of two fingers the second one's may be left out: then "
+                      "the best is found");
+  command.add_option("--friction", arguments.friction, "friction of the fingers on the part: one coefficient, or two")
+      ->type_name("MU[,MU]");
+  command.add_option("--margin", arguments.margin, "how far the force must stay inside the friction cones; default 0")
+      ->type_name("ANGLE");
+  command.add_option("--clearance", arguments.clearance, "how far the fingers must stay apart; default 0")
+      ->type_name("LENGTH");
+  command
+      .add_option("--limit", arguments.limits,
+                  "what the robot can do: speed=LENGTH and turn=ANGLE, both per second, travel=LENGTH and "
+                  "rotation=ANGLE from the start; any of them")
+      ->type_name("NAME=VALUE,...");
+  command.add_option("--duration", arguments.duration, "seconds; default: the shortest within the limits")
+      ->type_name("T");
+  command.add_option("--pose", arguments.pose, "where the part lies in the world at the start; default 0,0,0")
+      ->type_name("X,Y,HEADING");
+  command
+      .add_option("--part-rotation", arguments.part_rotation,
+                  "how far the part turns meanwhile; two fingers only; default: as the fingers turn least, beside a "
+                  "wheel as finger a does not")
+      ->type_name("ANGLE");
+  command
+      .add_option("--stays", arguments.stays,
+                  "what stays in place: finger a, finger b, or the origin of the part; default: the middle between "
+                  "both fingers")
+      ->type_name("a|b|part");
+  add_repeated_option(command, "--contact-angle", arguments.contact_angles, "ANGLE",
+                      "where on a disk the first contact is; default 0; once for both fingers or for each");
+  command.add_option("--contact", arguments.contact, "where on a jaw or an outline the first contact is, arc length")
+      ->type_name("U");
+  command.add_option("--samples", arguments.samples, "rows of the plan, at equal times; default 101")->type_name("N");
+  add_switch(command, "--json", arguments.json, "print JSON");
+  add_repeated_option(command, "-o", arguments.files, "FILE",
+                      "the plan as a table that locate reads, - for stdout; twice: a table for each of two fingers; "
+                      "with .svg, .png or .pdf a figure");
+  add_switch(command, "--force", arguments.force, "replace files that exist");
+}
+
+PlanProblem read_plan_problem(const PlanArguments& arguments, const Part& part) {
+  const std::size_t count = count_of_fingers(arguments);
+  require_given(arguments, count);
+  const std::vector<Finger> shapes = read_fingers(as_disks(arguments.fingers), count, part.unit());
+  PlanProblem problem{part, PerFinger<PlanFinger>::of(count)};
+  problem.pose = read_start_pose(arguments.pose, part.unit());
+  for (std::size_t which = 0; which < count; ++which) {
+    problem.fingers[which] = read_plan_finger(arguments, part, *finger_of(shapes, which), which, problem.pose.heading);
+  }
+  read_friction(arguments.friction, problem);
+  if (!arguments.part_rotation.empty()) problem.part_rotation = read_angle(arguments.part_rotation, "--part-rotation");
+  problem.staying = read_staying(arguments.stays);
+  problem.limits = read_limits(arguments.limits, part.unit());
+  if (!arguments.duration.empty()) problem.duration = read_number(arguments.duration, "--duration");
+  if (!arguments.margin.empty()) problem.margin = read_angle(arguments.margin, "--margin");
+  if (!arguments.clearance.empty()) problem.clearance = read_length(arguments.clearance, "--clearance", part.unit());
+  if (!arguments.samples.empty()) problem.rows = read_count(arguments.samples, "--samples", 2);
+  return problem;
+}
+
+}  // namespace rollfix::app

@@ -1,0 +1,210 @@
+#include "rollfix/draw/plan_figure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "legend.hpp"
+#include "outline/box.hpp"
+#include "plot.hpp"
+#include "rollfix/error.hpp"
+#include "scene.hpp"
+#include "text/text.hpp"
+#include "trace.hpp"
+
+namespace rollfix {
+namespace draw {
+namespace {
+
+constexpr double kPlanLeft = 58;  // around the frame, pixels
+constexpr double kPlanRight = 16;
+constexpr double kPlanAbove = 22;
+constexpr double kPlanBelow = 34;
+constexpr double kPlanLeastHeight = 160;
+constexpr double kPlanMostHeight = 720;
+constexpr double kPlanMargin = 0.06;  // of what is shown
+constexpr double kPlanDot = 2.6;      // pixels
+constexpr double kPlanCone = 0.14;    // of the part's size: how long a cone is drawn
+constexpr double kPlanJaw = 0.35;     // of the part's size: how much of a jaw is drawn to each side
+
+class PlanPicture {
+ public:
+  explicit PlanPicture(const PlanFigure& figure)
+      : figure_(figure), plan_(*figure.plan), problem_(*figure.problem), rows_(plan_.roll.log.time.size()) {
+    const Box bounds = part_bounds(problem_.part);
+    size_ = bounds.sizes().maxCoeff();
+    outline_ = trace(problem_.part, 1e-4 * size_).points;
+    shown_ = plan_.failure ? std::min(plan_.margins[*plan_.failure].row, rows_ - 1) : rows_ - 1;
+    frame_all();
+  }
+
+  Svg draw() {
+    const Legend legend(entries(), figure_.width);
+    Svg svg(figure_.width, axes_.corner.y() + axes_.size.y() + kPlanBelow + legend.height());
+    svg.describe("The part and the fingers at the start and the end of the planned roll");
+    draw_header(svg, figure_.title.empty() ? problem_.part.name() : figure_.title,
+                plan_.feasible() ? "a plan"
+                : plan_.failure  ? "no plan"
+                                 : "undecided",
+                {{counted(fingers(), "finger", "fingers")}});
+    svg.open_group("world");
+    draw_axes(svg, axes_, round_ticks(axes_.x, 5), round_ticks(axes_.y, 5), {{"in the world"}}, "");
+    svg.open_clip(axes_.corner.x(), axes_.corner.y(), axes_.size.x(), axes_.size.y());
+    part(svg);
+    for (std::size_t which = 0; which < fingers(); ++which) finger(svg, which);
+    if (fingers() == 2) force(svg);
+    svg.close_group();
+    svg.close_group();
+    legend.draw(svg, axes_.corner.y() + axes_.size.y() + kPlanBelow);
+    return svg;
+  }
+
+ private:
+  std::size_t fingers() const { return plan_.length.size(); }
+  Pose pose(std::size_t row) const { return plan_.roll.pose.empty() ? problem_.pose : plan_.roll.pose[row]; }
+  Pose frame_of(std::size_t which, std::size_t row) const {
+    const FingerRows& rows = plan_.roll.log.fingers[which];
+    return {rows.x[row], rows.y[row], rows.psi[row]};
+  }
+  Vec2 contact(std::size_t which, std::size_t row) const {
+    return pose(row).world(problem_.part.point(plan_.roll.s[which][row]));
+  }
+
+  std::vector<Vec2> part_at(std::size_t row) const {
+    std::vector<Vec2> world;
+    for (const Vec2& point : outline_) world.push_back(pose(row).world(point));
+    return world;
+  }
+
+  /// A disk around its centre, of a jaw what is near its contact, an outline.
+  std::vector<Vec2> finger_at(std::size_t which, std::size_t row) const {
+    const Finger& shape = problem_.fingers[which].finger;
+    const Pose frame = frame_of(which, row);
+    std::vector<Vec2> world;
+    if (shape.is_jaw()) {
+      const double u = plan_.roll.log.fingers[which].u[row];
+      return {frame.world({u - kPlanJaw * size_, 0}), frame.world({u + kPlanJaw * size_, 0})};
+    }
+    constexpr int kSides = 96;
+    const Interval ends = shape.ends();
+    const double length = std::isfinite(shape.period()) ? shape.period() : ends.width();
+    const double first = std::isfinite(shape.period()) ? 0 : ends.lo;
+    for (int k = 0; k <= kSides; ++k) world.push_back(frame.world(shape.point(first + length * k / kSides)));
+    return world;
+  }
+
+  std::vector<Vec2> way(std::size_t which) const {
+    const FingerRows& rows = plan_.roll.log.fingers[which];
+    std::vector<Vec2> points;
+    for (std::size_t row = 0; row <= shown_; ++row) points.emplace_back(rows.x[row], rows.y[row]);
+    return points;
+  }
+
+  /// One scale both ways, and all of it inside.
+  void frame_all() {
+    Box seen = box_around(part_at(0));
+    seen.extend(box_around(part_at(shown_)));
+    for (std::size_t which = 0; which < fingers(); ++which) {
+      for (const std::size_t row : {std::size_t{0}, shown_}) seen.extend(box_around(finger_at(which, row)));
+    }
+    const double margin = kPlanMargin * seen.sizes().maxCoeff();
+    const Box wide(seen.min() - Vec2::Constant(margin), seen.max() + Vec2::Constant(margin));
+    const double width = figure_.width - kPlanLeft - kPlanRight;
+    const double height = std::clamp(width * wide.sizes().y() / wide.sizes().x(), kPlanLeastHeight, kPlanMostHeight);
+    const double scale = std::min(width / wide.sizes().x(), height / wide.sizes().y());
+    const Vec2 half = 0.5 * Vec2(width, height) / scale;
+    axes_.corner = {kPlanLeft, kHeaderHeight + kPlanAbove};
+    axes_.size = {width, height};
+    axes_.x = {wide.center().x() - half.x(), wide.center().x() + half.x()};
+    axes_.y = {wide.center().y() - half.y(), wide.center().y() + half.y()};
+  }
+
+  std::vector<Vec2> on_page(const std::vector<Vec2>& points) const {
+    std::vector<Vec2> page;
+    for (const Vec2& point : points) page.push_back(axes_(point.x(), point.y()));
+    return page;
+  }
+
+  void part(Svg& svg) const {
+    const std::vector<Vec2> points = on_page(part_at(shown_));
+    svg.open_group("part");
+    if (problem_.part.closed() && !problem_.part.outline().hole) svg.polygon(points, draw::filled(kMaterial));
+    if (fingers() == 2) svg.polyline(on_page(part_at(0)), stroke(kSoftInk, 1, "4 3"));
+    svg.polyline(points, stroke(kInk, 1.6));
+    svg.close_group();
+  }
+
+  void finger(Svg& svg, std::size_t which) const {
+    svg.open_group("finger");
+    svg.polyline(on_page(finger_at(which, 0)), stroke(colour(which), 0.9, "4 3"));
+    svg.polyline(on_page(finger_at(which, shown_)), stroke(colour(which), 1.8));
+    // A jaw's frame may be far from where it touches: its way would mislead.
+    if (!problem_.fingers[which].finger.is_jaw()) svg.polyline(on_page(way(which)), stroke(colour(which), 1.2));
+    svg.circle(on_page({contact(which, shown_)}).front(), kPlanDot, draw::filled(colour(which)));
+    svg.close_group();
+  }
+
+  /// The line of the force, and the cones that it must lie in.
+  void force(Svg& svg) const {
+    svg.open_group("force");
+    svg.polyline(on_page({contact(0, shown_), contact(1, shown_)}), stroke(kInk, 1, "1 3"));
+    for (std::size_t which = 0; which < 2; ++which) {
+      const PlanFinger& finger = problem_.fingers[which];
+      if (!finger.friction && !finger.wheel) continue;
+      const double half = finger.wheel ? 0 : std::atan(*finger.friction);
+      const double inward = plan_.roll.angle[which][shown_] + pose(shown_).heading + 0.5 * std::numbers::pi;
+      const Vec2 tip = contact(which, shown_);
+      const auto edge = [&](double angle) {
+        return Vec2(tip + kPlanCone * size_ * Vec2(std::cos(angle), std::sin(angle)));
+      };
+      svg.polyline(on_page({edge(inward - half), tip, edge(inward + half)}), stroke(colour(which), 1));
+    }
+    svg.close_group();
+  }
+
+  std::vector<LegendEntry> entries() const {
+    std::vector<LegendEntry> result;
+    for (std::size_t which = 0; which < fingers(); ++which) {
+      const std::string name = fingers() == 1                  ? "the finger"
+                               : problem_.fingers[which].wheel ? "the wheel"
+                               : which == 0                    ? "finger a"
+                                                               : "finger b";
+      result.push_back({Sign::line,
+                        colour(which),
+                        {{fmt::format("{}: s from {} to {}", name, pretty(plan_.roll.s[which].front()),
+                                      pretty(plan_.roll.s[which][shown_]))}},
+                        ""});
+    }
+    const std::string when = plan_.failure ? "where it fails" : "at the end";
+    result.push_back(
+        {Sign::line,
+         kSoftInk,
+         {{fmt::format("dashed: at the start; else {}, at {} s", when, pretty(plan_.roll.log.time[shown_]))}},
+         ""});
+    return result;
+  }
+
+  const PlanFigure& figure_;
+  const Plan& plan_;
+  const PlanProblem& problem_;
+  std::size_t rows_;
+  std::size_t shown_ = 0;
+  double size_ = 1;
+  std::vector<Vec2> outline_;
+  Axes axes_;
+};
+
+}  // namespace
+}  // namespace draw
+
+Svg draw_plan(const PlanFigure& figure) {
+  if (figure.plan == nullptr || figure.problem == nullptr) {
+    throw InputError("a figure of a plan needs the plan and its problem, found none");
+  }
+  return draw::PlanPicture(figure).draw();
+}
+
+}  // namespace rollfix

@@ -1,0 +1,216 @@
+#include "plan/conditions.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+
+#include "plan/squeeze.hpp"
+#include "plan/stability.hpp"
+#include "rollfix/locate/reachable.hpp"
+
+// Notation:
+//   A, B, D, p, q     squeeze.hpp
+//   v                 the most that something can change between two instants: `change_between`
+// Between two instants x, y, s and t are monotone. So p moves by ds at most, q by dt, and the line through both turns
+// by asin((ds + dt) / D) at most. Theta = x - N with N, the turn of the finger's normal, monotone as well: it changes
+// by dx or dN at most. A disk's centre moves by r dx. What is left at an instant, less v, is left all the way to the
+// next; where that is not enough, the interval is halved.
+namespace rollfix {
+namespace {
+
+constexpr std::size_t kConditions = 4;  // friction of a, of b, apart, and stable
+constexpr std::size_t kStable = 3;
+using Values = std::array<double, kConditions>;
+constexpr std::size_t kMostInstants = 200000;  // before it is left undecided
+constexpr int kWorstRounds = 12;               // of halving about the worst instant
+constexpr double kNone = std::numeric_limits<double>::infinity();
+
+struct Instant {
+  PairPlace place;
+  Squeeze squeeze;
+  Values left{kNone, kNone, kNone, kNone};  // above what is asked for
+};
+
+/// Looks at a path, closer and closer.
+class Looker {
+ public:
+  Looker(const PlanProblem& problem, const RollPath& path, bool expanding)
+      : problem_(problem), path_(path), expanding_(expanding) {
+    add(path.knots());
+  }
+
+  /// Proves that something is left everywhere, or finds where it is not. Whether it could.
+  bool prove() {
+    while (true) {
+      std::vector<double> halves;
+      for (std::size_t k = 1; k < instants_.size(); ++k) {
+        if (fails(instants_[k - 1]) || fails(instants_[k])) break;  // before it all is proved: that is the first
+        if (!is_proved(k)) halves.push_back(0.5 * (instants_[k - 1].place.at + instants_[k].place.at));
+      }
+      if (halves.empty()) return true;
+      if (instants_.size() + halves.size() > kMostInstants) return false;
+      add(halves);
+    }
+  }
+
+  /// Closer instants about the worst of each condition.
+  void sharpen() {
+    for (std::size_t c = 0; c < kConditions; ++c) {
+      for (int round = 0; round < kWorstRounds; ++round) {
+        const std::size_t k = worst(c);
+        std::vector<double> halves;
+        if (k > 0) halves.push_back(0.5 * (instants_[k - 1].place.at + instants_[k].place.at));
+        if (k + 1 < instants_.size()) halves.push_back(0.5 * (instants_[k].place.at + instants_[k + 1].place.at));
+        add(halves);
+      }
+    }
+  }
+
+  std::size_t worst(std::size_t condition) const {
+    const auto least = std::min_element(
+        instants_.begin(), instants_.end(),
+        [&](const Instant& one, const Instant& two) { return one.left[condition] < two.left[condition]; });
+    return static_cast<std::size_t>(least - instants_.begin());
+  }
+
+  /// The first instant at which this condition fails, or the worst.
+  const Instant& telling(std::size_t condition) const {
+    const auto first =
+        std::find_if(instants_.begin(), instants_.end(), [&](const Instant& one) { return one.left[condition] < 0; });
+    return first != instants_.end() ? *first : instants_[worst(condition)];
+  }
+  const std::vector<Instant>& instants() const { return instants_; }
+
+ private:
+  static bool fails(const Instant& instant) {
+    return std::any_of(instant.left.begin(), instant.left.end(), [](double left) { return left < 0; });
+  }
+
+  void add(const std::vector<double>& at) {
+    for (const PairPlace& place : path_.places(at)) instants_.push_back(seen(place));
+    std::sort(instants_.begin(), instants_.end(),
+              [](const Instant& one, const Instant& two) { return one.place.at < two.place.at; });
+    const auto is_same = [](const Instant& one, const Instant& two) { return one.place.at == two.place.at; };
+    instants_.erase(std::unique(instants_.begin(), instants_.end(), is_same), instants_.end());
+  }
+
+  Instant seen(const PairPlace& place) const {
+    Instant instant{place, squeeze_of(place.a, place.b, expanding_), {kNone, kNone, kNone, kNone}};
+    instant.left[0] = cone_of(problem_.fingers[0]) - std::abs(instant.squeeze.at_a) - problem_.margin;
+    if (!path_.squeezed()) {
+      instant.left[1] = cone_of(problem_.fingers[1]) - std::abs(instant.squeeze.at_b) - problem_.margin;
+    }
+    if (path_.squeezed()) instant.left[kStable] = stability_of(path_.way_a(), *path_.way_b(), place);
+    const auto gap = gap_between(path_.way_a().finger(), place.a, path_.way_b()->finger(), place.b);
+    if (gap) instant.left[2] = *gap - problem_.clearance;
+    return instant;
+  }
+
+  bool is_proved(std::size_t k) const {
+    const Instant& one = instants_[k - 1];
+    const Instant& two = instants_[k];
+    const Values change = change_between(one, two);
+    for (std::size_t c = 0; c < kStable; ++c) {
+      if (!(std::max(one.left[c], two.left[c]) - change[c] >= 0)) return false;
+    }
+    return !path_.squeezed() || stability_between(path_.way_a(), *path_.way_b(), one.place, two.place) > 0;
+  }
+
+  Values change_between(const Instant& one, const Instant& two) const {
+    const ContactPlace& a = one.place.a;
+    const ContactPlace& b = one.place.b;
+    const double ds = std::abs(two.place.a.s - a.s);
+    const double dt = std::abs(two.place.b.s - b.s);
+    const double dx = std::abs(two.place.a.turned - a.turned);
+    const double dy = std::abs(two.place.b.turned - b.turned);
+    const double share = (ds + dt) / std::min(one.squeeze.distance, two.squeeze.distance);
+    const double line = share < 1 ? std::asin(share) : std::numbers::pi;
+    return {line + turn_between(a, two.place.a), line + turn_between(b, two.place.b), gap_change(a, ds, dx, b, dt, dy),
+            0};
+  }
+
+  double gap_change(const ContactPlace& a, double ds, double dx, const ContactPlace& b, double dt, double dy) const {
+    const Finger& of_a = path_.way_a().finger();
+    const Finger& of_b = path_.way_b()->finger();
+    const auto of_jaw = [](const ContactPlace& jaw, double along, double turn, const ContactPlace& disk, double moved) {
+      return (disk.centre - jaw.point).norm() * turn + (along + moved) * turn + along * std::min(1.0, turn) + moved;
+    };
+    if (of_a.is_disk() && of_b.is_disk()) return of_a.disk()->radius * dx + of_b.disk()->radius * dy;
+    if (of_a.is_jaw() && of_b.is_disk()) return of_jaw(a, ds, dx, b, of_b.disk()->radius * dy);
+    if (of_a.is_disk() && of_b.is_jaw()) return of_jaw(b, dt, dy, a, of_a.disk()->radius * dx);
+    return 0;
+  }
+
+  const PlanProblem& problem_;
+  const RollPath& path_;
+  bool expanding_;
+  std::vector<Instant> instants_;
+};
+
+Looked looked_at(Condition condition, std::size_t finger, double value, double allowed, const PairPlace& place,
+                 bool fails) {
+  Looked looked;
+  looked.margin = {condition, finger, value, allowed, 0, 0, {place.a.s, place.b.s}, fails, false};
+  looked.at = place.at;
+  return looked;
+}
+
+const ContactPlace& of(const PairPlace& place, std::size_t which) { return which == 0 ? place.a : place.b; }
+
+}  // namespace
+
+double cone_of(const PlanFinger& finger) {
+  if (finger.wheel) return 0;
+  return finger.friction ? std::atan(*finger.friction) : 0.5 * std::numbers::pi;
+}
+
+SqueezeLook look_at_squeeze(const PlanProblem& problem, const RollPath& path, bool expanding) {
+  Looker looker(problem, path, expanding);
+  SqueezeLook look;
+  look.decided = looker.prove();
+  looker.sharpen();
+  look.tilt = PerFinger<double>::of(2);
+  for (const Instant& instant : looker.instants()) {
+    look.tilt[0] = std::max(look.tilt[0], std::abs(instant.squeeze.at_a));
+    if (!path.squeezed()) look.tilt[1] = std::max(look.tilt[1], std::abs(instant.squeeze.at_b));
+  }
+  const std::array<Condition, kConditions> conditions{Condition::friction, Condition::friction, Condition::apart,
+                                                      Condition::stable};
+  for (std::size_t c = 0; c < kConditions; ++c) {
+    const Instant& worst = looker.instants()[looker.worst(c)];
+    if (std::isinf(worst.left[c])) continue;
+    const bool fails = worst.left[c] < 0;
+    const std::size_t finger = c == 1 || c == kStable ? 1 : 0;
+    const bool is_friction = conditions[c] == Condition::friction;
+    const double asked = is_friction ? problem.margin : c == kStable ? 0 : problem.clearance;
+    const Instant& told = fails ? looker.telling(c) : worst;
+    look.looked.push_back(looked_at(conditions[c], finger, worst.left[c] + asked,
+                                    is_friction ? cone_of(problem.fingers[finger]) : 0, told.place, fails));
+    look.looked.back().margin.proved = look.decided && !fails;
+  }
+  return look;
+}
+
+std::optional<Looked> look_at_reach(const Reach& reach, const RollPath& path, std::size_t which) {
+  const Part& part = path.way_a().part();
+  const std::vector<PairPlace> places = path.places(path.knots());
+  const double start = of(places.front(), which).s;
+  Interval roll;
+  for (const PairPlace& place : places) {
+    roll.lo = std::min(roll.lo, of(place, which).s - start);
+    roll.hi = std::max(roll.hi, of(place, which).s - start);
+  }
+  const auto obstruction = obstruction_of(part, reach, start, roll);
+  if (!obstruction) return std::nullopt;
+  const auto met = std::min_element(places.begin(), places.end(), [&](const PairPlace& one, const PairPlace& two) {
+    return part.distance(of(one, which).s, obstruction->s) < part.distance(of(two, which).s, obstruction->s);
+  });
+  Looked looked = looked_at(Condition::reach, which, -obstruction->hit.depth, 0, *met, true);
+  looked.margin.proved = true;
+  return looked;
+}
+
+}  // namespace rollfix

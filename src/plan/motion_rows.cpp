@@ -1,0 +1,235 @@
+#include "plan/motion_rows.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <numbers>
+
+#include "contact/log_rows.hpp"
+
+// Notation:
+//   x, y               turns of the fingers against the part, with rates x', y'; c, p as in contact_way.hpp
+//   phi, X             the part's heading and where its frame's origin is
+//   w                  velocity of a finger's origin if X rested: J is a turn by a right angle,
+//                      w = phi' J R(phi) c + x' J R(phi) (c - p), since the finger turns about its contact
+// Idea: rolling fixes all but how the three bodies move and turn together. phi is shared out so that both fingers turn
+// as little as can be, X so that the middle between them stays: then each moves by half of what one would.
+namespace rollfix {
+namespace {
+
+// Minimum jerk (Flash and Hogan 1985): velocity and acceleration vanish at both ends.
+constexpr double kUsualTurn = 1;  // rad/s against the part, as in a simulated roll
+
+Vec2 crosswise(const Vec2& vector) { return {-vector.y(), vector.x()}; }
+
+std::vector<double> along(const std::vector<double>& times, double (*law)(double)) {
+  std::vector<double> values;
+  for (const double time : times) values.push_back(law(time));
+  return values;
+}
+
+bool is_turned(const PlanProblem& problem, std::size_t which) { return !problem.fingers[which].wheel; }
+
+/// How the part turns, and how fast by lambda.
+struct Heading {
+  double turned = 0;
+  double rate = 0;
+};
+Heading heading_of(const PlanProblem& problem, const RollPath& path, const PairPlace& place, const Turned& rate) {
+  if (path.way_b() == nullptr) return {};
+  if (problem.part_rotation) return {*problem.part_rotation * place.at, *problem.part_rotation};
+  if (path.squeezed()) return {-place.a.turned, -rate.a};
+  return {-0.5 * (place.a.turned + place.b.turned), -0.5 * (rate.a + rate.b)};
+}
+
+/// A finger as if the part's origin rested at 0.
+BodyState carried(const ContactPlace& place, double rate, const Pose& turned, double heading_rate) {
+  const Vec2 at = turned.turned(place.centre);
+  const Vec2 velocity =
+      heading_rate * crosswise(at) + rate * crosswise(turned.turned(Vec2(place.centre - place.point)));
+  return {{at.x(), at.y(), place.contact.psi + turned.heading}, velocity.x(), velocity.y(), rate + heading_rate};
+}
+
+void shift(BodyState& body, const Vec2& by, const Vec2& velocity) {
+  body.pose.x += by.x();
+  body.pose.y += by.y();
+  body.vx += velocity.x();
+  body.vy += velocity.y();
+}
+
+/// Of the point that stays, where it is and how fast it moves.
+BodyState staying(const PlanProblem& problem, const MotionState& state) {
+  if (problem.staying == Staying::part || state.finger.size() == 1) return state.part;
+  if (problem.staying == Staying::a) return state.finger[0];
+  if (problem.staying == Staying::b) return state.finger[1];
+  const BodyState& a = state.finger[0];
+  const BodyState& b = state.finger[1];
+  return {{0.5 * (a.pose.x + b.pose.x), 0.5 * (a.pose.y + b.pose.y), 0}, 0.5 * (a.vx + b.vx), 0.5 * (a.vy + b.vy), 0};
+}
+
+/// One instant; `anchor`: where what stays is.
+MotionState state_at(const PlanProblem& problem, const RollPath& path, const PairPlace& place, const Turned& rate,
+                     double speed) {
+  const Heading heading = heading_of(problem, path, place, rate);
+  MotionState state;
+  state.place = place;
+  state.part.pose.heading = problem.pose.heading + heading.turned;
+  state.part.omega = speed * heading.rate;
+  state.finger = PerFinger<BodyState>::of(path.way_b() != nullptr ? 2 : 1);
+  state.finger[0] = carried(place.a, speed * rate.a, state.part.pose, state.part.omega);
+  if (state.finger.size() == 2) state.finger[1] = carried(place.b, speed * rate.b, state.part.pose, state.part.omega);
+  const BodyState still = staying(problem, state);
+  const Vec2 by(-still.pose.x, -still.pose.y);
+  const Vec2 velocity(-still.vx, -still.vy);
+  shift(state.part, by, velocity);
+  for (BodyState& finger : state.finger) shift(finger, by, velocity);
+  return state;
+}
+
+using Measure = std::function<double(const MotionState&, const MotionState& first)>;
+
+double speed_of(const BodyState& body) { return std::hypot(body.vx, body.vy); }
+
+std::size_t largest(const std::vector<MotionState>& states, const Measure& measure) {
+  std::size_t most = 0;
+  for (std::size_t k = 1; k < states.size(); ++k) {
+    if (measure(states[k], states[0]) > measure(states[most], states[0])) most = k;
+  }
+  return most;
+}
+
+}  // namespace
+
+double eased(double time) { return time * time * time * (10 + time * (6 * time - 15)); }
+
+double eased_rate(double time) { return 30 * time * time * (1 - time) * (1 - time); }
+
+double time_of(double along) {
+  if (along <= 0 || along >= 1) return along <= 0 ? 0 : 1;
+  std::uintmax_t rounds = 100;
+  const auto [lo, hi] = boost::math::tools::toms748_solve([&](double time) { return eased(time) - along; }, 0.0, 1.0,
+                                                          boost::math::tools::eps_tolerance<double>(50), rounds);
+  return 0.5 * (lo + hi);
+}
+
+std::vector<MotionState> motion_at(const PlanProblem& problem, const RollPath& path, const std::vector<double>& times,
+                                   bool expanding) {
+  const std::vector<double> lambda = along(times, &eased);
+  const std::vector<PairPlace> places = path.places(lambda);
+  const std::vector<Turned> rates = path.rates(lambda);
+  // What stays is where the part's pose at the start has it.
+  MotionState first = state_at(problem, path, path.places({0}).front(), {}, 0);
+  const Vec2 anchor(problem.pose.x - first.part.pose.x, problem.pose.y - first.part.pose.y);
+  std::vector<MotionState> states;
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    MotionState state = state_at(problem, path, places[k], rates[k], eased_rate(times[k]));
+    shift(state.part, anchor, Vec2::Zero());
+    for (BodyState& finger : state.finger) shift(finger, anchor, Vec2::Zero());
+    if (state.finger.size() == 2) {
+      const Vec2 to_b = state.part.pose.turned(Vec2(places[k].b.point - places[k].a.point)) * (expanding ? -1 : 1);
+      state.force = std::atan2(to_b.y(), to_b.x());
+    }
+    states.push_back(state);
+  }
+  return states;
+}
+
+double duration_of(const PlanProblem& problem, const std::vector<MotionState>& states) {
+  if (problem.duration) return *problem.duration;
+  double duration = 0;
+  for (std::size_t which = 0; which < states.front().finger.size(); ++which) {
+    for (const MotionState& state : states) {
+      const BodyState& body = state.finger[which];
+      if (problem.limits.speed) duration = std::max(duration, speed_of(body) / *problem.limits.speed);
+      if (problem.limits.turn && is_turned(problem, which)) {
+        duration = std::max(duration, std::abs(body.omega) / *problem.limits.turn);
+      }
+      const bool is_free = !problem.limits.speed && !problem.limits.turn;
+      if (is_free) duration = std::max(duration, std::abs(body.omega - state.part.omega) / kUsualTurn);
+    }
+  }
+  return duration > 0 ? duration : 1;
+}
+
+std::vector<Looked> look_at_limits(const PlanProblem& problem, const std::vector<MotionState>& states,
+                                   const std::vector<double>& times, double duration) {
+  std::vector<Looked> found;
+  for (std::size_t which = 0; which < states.front().finger.size(); ++which) {
+    const auto look = [&](Condition condition, const std::optional<double>& limit, double rounding,
+                          const Measure& measure) {
+      if (!limit) return;
+      std::size_t most = largest(states, measure);
+      const double value = *limit - measure(states[most], states[0]);
+      const bool fails = value < -rounding * *limit;
+      for (std::size_t k = 0; fails && k < most; ++k) {
+        if (measure(states[k], states[0]) > *limit) most = k;
+      }
+      const PairPlace& place = states[most].place;
+      Looked looked;
+      looked.margin = {condition, which, value, *limit, 0, 0, {place.a.s, place.b.s}, fails, false};
+      looked.at = eased(times[most]);
+      found.push_back(looked);
+    };
+    constexpr double kRounding = 1e-9;  // the shortest duration is just at a limit
+    look(Condition::speed, problem.limits.speed, kRounding,
+         [&](const MotionState& state, const MotionState&) { return speed_of(state.finger[which]) / duration; });
+    look(Condition::travel, problem.limits.travel, 0, [&](const MotionState& state, const MotionState& first) {
+      return std::hypot(state.finger[which].pose.x - first.finger[which].pose.x,
+                        state.finger[which].pose.y - first.finger[which].pose.y);
+    });
+    if (!is_turned(problem, which)) continue;
+    look(Condition::turn, problem.limits.turn, kRounding,
+         [&](const MotionState& state, const MotionState&) { return std::abs(state.finger[which].omega) / duration; });
+    look(Condition::rotation, problem.limits.rotation, 0, [&](const MotionState& state, const MotionState& first) {
+      return std::abs(state.finger[which].pose.heading - first.finger[which].pose.heading);
+    });
+  }
+  return found;
+}
+
+void write_rows(const PlanProblem& problem, const RollPath& path, bool expanding, Plan& plan) {
+  std::vector<double> times;
+  const auto last = static_cast<double>(problem.rows - 1);
+  for (std::size_t k = 0; k < problem.rows; ++k) times.push_back(static_cast<double>(k) / last);
+  const std::vector<MotionState> states = motion_at(problem, path, times, expanding);
+  const std::size_t fingers = states.front().finger.size();
+  Roll& roll = plan.roll;
+  roll.log.name = "the plan on " + problem.part.name();
+  roll.log.unit = problem.part.unit();
+  roll.log.fingers.resize(fingers);
+  roll.s = roll.angle = PerFinger<std::vector<double>>::of(fingers);
+  plan.rates = PerFinger<PlanRates>::of(fingers);
+  const auto add_rates = [&](PlanRates& rates, const BodyState& body) {
+    rates.vx.push_back(body.vx / plan.duration);
+    rates.vy.push_back(body.vy / plan.duration);
+    rates.omega.push_back(body.omega / plan.duration);
+  };
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    const MotionState& state = states[k];
+    roll.log.time.push_back(times[k] * plan.duration);
+    for (std::size_t which = 0; which < fingers; ++which) {
+      const ContactPlace& place = which == 0 ? state.place.a : state.place.b;
+      FingerRows& rows = roll.log.fingers[which];
+      rows.u_period = problem.fingers[which].finger.period();
+      rows.u.push_back(place.contact.u);
+      rows.psi.push_back(state.finger[which].pose.heading);
+      rows.x.push_back(state.finger[which].pose.x);
+      rows.y.push_back(state.finger[which].pose.y);
+      roll.s[which].push_back(place.s);
+      roll.angle[which].push_back(place.angle);
+      add_rates(plan.rates[which], state.finger[which]);
+    }
+    if (fingers == 1) continue;
+    roll.pose.push_back(state.part.pose);
+    add_rates(plan.part_rates, state.part);
+    plan.force.push_back(state.force);
+  }
+  for (const FingerRows& rows : roll.log.fingers) require_readable(rows, roll.log.name);
+}
+
+}  // namespace rollfix

@@ -1,0 +1,179 @@
+#include "plan/roll_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "plan/squeeze.hpp"
+
+namespace rollfix {
+namespace {
+
+// B is known to no more than this, radians.
+constexpr double kBalance = 4 * std::numeric_limits<double>::epsilon();
+constexpr int kMostRounds = 100;
+// Rates of a balanced wheel are differences over this share of the path: rounding and curvature are alike small.
+constexpr double kDifference = 1e-5;
+
+/// Fritsch and Butland's slope between two secants: 0 at a turn, else their weighted harmonic mean.
+double slope_between(double before, double after, double width_before, double width_after) {
+  if (before * after <= 0) return 0;
+  const double weight = (1 + width_after / (width_before + width_after)) / 3;
+  return before * after / (weight * after + (1 - weight) * before);
+}
+
+std::vector<double> slopes_of(const std::vector<double>& knots, const std::vector<double>& values) {
+  const std::size_t n = knots.size();
+  std::vector<double> secants;
+  for (std::size_t k = 1; k < n; ++k) secants.push_back((values[k] - values[k - 1]) / (knots[k] - knots[k - 1]));
+  std::vector<double> slopes{secants.front()};
+  for (std::size_t k = 1; k + 1 < n; ++k) {
+    slopes.push_back(slope_between(secants[k - 1], secants[k], knots[k] - knots[k - 1], knots[k + 1] - knots[k]));
+  }
+  slopes.push_back(secants.back());
+  return slopes;
+}
+
+struct Cubic {
+  double from = 0;
+  double to = 0;
+  double slope_from = 0;
+  double slope_to = 0;
+  double width = 0;
+
+  double value(double share) const {
+    const double rest = 1 - share;
+    return rest * rest * ((1 + 2 * share) * from + share * width * slope_from) +
+           share * share * ((1 + 2 * rest) * to - rest * width * slope_to);
+  }
+  double slope(double share) const {
+    const double rest = 1 - share;
+    return 6 * share * rest * (to - from) / width + rest * (1 - 3 * share) * slope_from +
+           share * (3 * share - 2) * slope_to;
+  }
+};
+
+std::vector<double> tilts(const ContactWay& b, const std::vector<ContactPlace>& at_a, const std::vector<double>& y) {
+  const std::vector<ContactPlace> at_b = b.places(y);
+  std::vector<double> tilts(y.size());
+  for (std::size_t k = 0; k < y.size(); ++k) tilts[k] = squeeze_of(at_a[k], at_b[k], false).at_b;
+  return tilts;
+}
+
+}  // namespace
+
+std::vector<double> balanced(const ContactWay& a, const ContactWay& b, const std::vector<double>& x,
+                             std::vector<double> lo, std::vector<double> hi) {
+  const std::vector<ContactPlace> at_a = a.places(x);
+  std::vector<double> f_lo = tilts(b, at_a, lo);
+  std::vector<double> f_hi = tilts(b, at_a, hi);
+  std::vector<double> y(x.size());
+  for (int round = 0; round < kMostRounds; ++round) {
+    bool is_done = true;
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      const double width = hi[k] - lo[k];
+      const double share = f_lo[k] == f_hi[k] ? 0.5 : std::clamp(f_lo[k] / (f_lo[k] - f_hi[k]), 0.0, 1.0);
+      // Every third step halves: of a kink, where the secant creeps, it does not take long either.
+      y[k] = f_lo[k] == 0 ? lo[k] : f_hi[k] == 0 ? hi[k] : lo[k] + (round % 3 == 2 ? 0.5 : share) * width;
+      is_done = is_done && (f_lo[k] == 0 || f_hi[k] == 0 || std::abs(width) <= kBalance * (1 + std::abs(lo[k])));
+    }
+    if (is_done) break;
+    const std::vector<double> f = tilts(b, at_a, y);
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      if (f_lo[k] == 0 || f_hi[k] == 0) continue;
+      if (std::abs(f[k]) <= kBalance) {
+        lo[k] = hi[k] = y[k];
+        f_lo[k] = f_hi[k] = 0;
+      } else if (std::signbit(f[k]) == std::signbit(f_lo[k])) {
+        lo[k] = y[k];
+        f_lo[k] = f[k];
+        f_hi[k] *= 0.5;
+      } else {
+        hi[k] = y[k];
+        f_hi[k] = f[k];
+        f_lo[k] *= 0.5;
+      }
+    }
+  }
+  return y;
+}
+
+RollPath::RollPath(const ContactWay& a, const ContactWay* b, std::vector<double> knots, std::vector<Turned> turned,
+                   bool squeezed)
+    : a_(&a), b_(b), knots_(std::move(knots)), turned_(std::move(turned)), squeezed_(squeezed) {
+  std::vector<double> of_a;
+  std::vector<double> of_b;
+  for (const Turned& one : turned_) {
+    of_a.push_back(one.a);
+    of_b.push_back(one.b);
+  }
+  const std::vector<double> slopes_a = slopes_of(knots_, of_a);
+  const std::vector<double> slopes_b = slopes_of(knots_, of_b);
+  for (std::size_t k = 0; k < knots_.size(); ++k) slopes_.push_back({slopes_a[k], slopes_b[k]});
+}
+
+std::size_t RollPath::piece(double at) const {
+  const auto next = std::upper_bound(knots_.begin() + 1, knots_.end() - 1, at);
+  return static_cast<std::size_t>(next - knots_.begin()) - 1;
+}
+
+std::vector<Turned> RollPath::turned(const std::vector<double>& at) const {
+  std::vector<Turned> turned;
+  std::vector<double> x;
+  std::vector<double> lo;
+  std::vector<double> hi;
+  for (const double lambda : at) {
+    const std::size_t k = piece(lambda);
+    const double width = knots_[k + 1] - knots_[k];
+    const double share = (lambda - knots_[k]) / width;
+    const Cubic of_a{turned_[k].a, turned_[k + 1].a, slopes_[k].a, slopes_[k + 1].a, width};
+    const Cubic of_b{turned_[k].b, turned_[k + 1].b, slopes_[k].b, slopes_[k + 1].b, width};
+    turned.push_back({of_a.value(share), of_b.value(share)});
+    x.push_back(turned.back().a);
+    lo.push_back(turned_[k].b);
+    hi.push_back(turned_[k + 1].b);
+  }
+  if (!squeezed_) return turned;
+  const std::vector<double> y = balanced(*a_, *b_, x, lo, hi);
+  for (std::size_t k = 0; k < y.size(); ++k) turned[k].b = y[k];
+  return turned;
+}
+
+std::vector<PairPlace> RollPath::places(const std::vector<double>& at) const {
+  const std::vector<Turned> there = turned(at);
+  std::vector<double> x;
+  std::vector<double> y;
+  for (const Turned& one : there) {
+    x.push_back(one.a);
+    y.push_back(one.b);
+  }
+  const std::vector<ContactPlace> of_a = a_->places(x);
+  const std::vector<ContactPlace> of_b = b_ != nullptr ? b_->places(y) : std::vector<ContactPlace>(at.size());
+  std::vector<PairPlace> places;
+  for (std::size_t k = 0; k < at.size(); ++k) places.push_back({at[k], of_a[k], of_b[k]});
+  return places;
+}
+
+std::vector<Turned> RollPath::rates(const std::vector<double>& at) const {
+  std::vector<Turned> rates;
+  std::vector<double> before;
+  std::vector<double> after;
+  for (const double lambda : at) {
+    const std::size_t k = piece(lambda);
+    const double width = knots_[k + 1] - knots_[k];
+    const double share = (lambda - knots_[k]) / width;
+    rates.push_back({Cubic{turned_[k].a, turned_[k + 1].a, slopes_[k].a, slopes_[k + 1].a, width}.slope(share),
+                     Cubic{turned_[k].b, turned_[k + 1].b, slopes_[k].b, slopes_[k + 1].b, width}.slope(share)});
+    before.push_back(std::max(0.0, lambda - kDifference));
+    after.push_back(std::min(1.0, lambda + kDifference));
+  }
+  if (!squeezed_) return rates;
+  const std::vector<Turned> first = turned(before);
+  const std::vector<Turned> last = turned(after);
+  for (std::size_t k = 0; k < at.size(); ++k) rates[k].b = (last[k].b - first[k].b) / (after[k] - before[k]);
+  return rates;
+}
+
+}  // namespace rollfix
