@@ -13,7 +13,7 @@ from ._answer import Answer, Placement
 from ._catalog import Catalog, CatalogEntry, ManyIdentified, PartsAdvice
 from ._core import InputError, InternalError, __version__
 from ._documents import Advice, Inspection
-from ._fingers import Disk, Finger, Jaw, OutlineFinger
+from ._fingers import Disk, Finger, Jaw, OutlineFinger, Wheel
 from ._holds import HoldAnswer
 from ._identified import Identified, PartFound
 from ._log_answers import LogAnswers
@@ -67,4 +67,5 @@ __all__ = [
     "read_log",
     "resample",
     "teach",
+    "Wheel",
 ]

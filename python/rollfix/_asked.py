@@ -96,7 +96,8 @@ class Asked(Shape):
         degrees: bool = False,
         wrapped: Optional[bool] = None,
         budget: Optional[int] = None,
-    ) -> Any: ...  # three and more: a HoldAnswer
+        squeezed: Optional[float] = None,
+    ) -> Any: ...  # three and more, or wheels: a HoldAnswer
 
     @overload
     def locate(
@@ -154,6 +155,7 @@ class Asked(Shape):
         roll: Union[int, str, None] = None,
         rounding: Optional[Tuple[float, float]] = None,
         budget: Optional[int] = None,
+        squeezed: Optional[float] = None,
     ) -> Union[Answer, TouchAnswer, HoldAnswer]:
         """Every place where the roll can have started. There is no other: see `Answer.status`.
 
@@ -215,11 +217,15 @@ class Asked(Shape):
             asks for.
         budget : int, optional
             Intervals, of two fingers boxes, to look at before giving up; default 1000000.
+        squeezed : float, optional
+            A finger with skin and a `Wheel` squeeze the part, and the floor's and the pin's friction are small: the wheel's
+            normal points through the finger's contact, to this standard deviation, radians.
 
         Returns
         -------
         Answer
-            Of touches, and of several rolls, a `TouchAnswer`; of three and more fingers a `HoldAnswer`.
+            Of touches, and of several rolls, a `TouchAnswer`; of three and more fingers, and beside wheels, a
+            `HoldAnswer`.
 
         Raises
         ------
@@ -254,7 +260,7 @@ class Asked(Shape):
             log, roll, columns, units, degrees, wrapped = rolls[0], None, None, None, False, None
         if isinstance(roll, str):
             raise InputError(f"roll: expected a number from 1, or 'all', found '{roll}'")
-        if is_hold(log):
+        if is_hold(log, finger):
             others = {
                 "readings": readings, "turn": turn, "touches": touches, "clear": clear, "facing": facing, "prior": prior,
                 "heading": heading, "pose": pose, "roll": roll, "rounding": rounding, "robust": robust or None,
@@ -262,7 +268,7 @@ class Asked(Shape):
             }  # fmt: skip
             for name, value in others.items():
                 if value is not None:
-                    raise InputError(f"{name}: is not taken with three and more fingers: leave it out")
+                    raise InputError(f"{name}: is not taken with three and more fingers or a wheel: leave it out")
             return held(
                 self,
                 log,
@@ -273,7 +279,10 @@ class Asked(Shape):
                 mirrored=mirrored,
                 naming=Naming(columns, units, degrees, wrapped),
                 budget=budget,
+                squeezed=squeezed,
             )
+        if squeezed is not None:
+            raise InputError("squeezed: is about a finger with skin and a Wheel without that squeeze a part: leave it out")
         if touches is not None:
             others = {
                 "readings": readings, "turn": turn, "log": log, "facing": facing, "at": at, "prior": prior,

@@ -1,4 +1,4 @@
-"""What rolls on a part: `Disk`, `Jaw`, `OutlineFinger`."""
+"""What rolls on a part: `Disk`, `Jaw`, `OutlineFinger`, and `Wheel` beside them."""
 
 from __future__ import annotations
 
@@ -109,6 +109,43 @@ class OutlineFinger(Finger):
 
     def __repr__(self) -> str:
         return f"OutlineFinger({self._outline!r})"
+
+
+class Wheel(Finger):
+    """A wheel without skin that turns freely on its pin, beside fingers with skin: docs/rig.md.
+
+    Parameters
+    ----------
+    radius : float
+        Above 0, in the part's unit. Its log has `x` and `y` of the pin, and `psi` where it has an encoder.
+    """
+
+    __slots__ = ("_radius",)
+
+    def __init__(self, radius: float) -> None:
+        value = number(radius, "radius")
+        if not value > 0:
+            raise InputError(f"radius: expected a wheel's radius above 0, found {value!r}")
+        self._radius = value
+
+    @property
+    def radius(self) -> float:
+        """float: in the part's unit."""
+        return self._radius
+
+    def _given(self) -> Any:
+        raise InputError(
+            "finger: a Wheel has no skin: `Part.locate` takes it beside a finger with skin, as in finger=[Jaw(), Wheel(0.4)]"
+        )
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Wheel) and other._radius == self._radius
+
+    def __hash__(self) -> int:
+        return hash(("Wheel", self._radius))
+
+    def __repr__(self) -> str:
+        return f"Wheel({self._radius!r})"
 
 
 FingerLike = Union[Finger, Sequence[Finger]]

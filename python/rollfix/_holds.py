@@ -1,4 +1,4 @@
-"""Three and more fingers that hold and roll on a part that is free to move."""
+"""Three and more fingers, or fingers beside wheels, that hold and roll on a part that is free to move."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from ._checks import flag, least, numbers, path, text, whole
 from ._columns import Naming
 from ._core import InputError
 from ._documents import Listing
-from ._fingers import FingerLike, fingers
-from ._logs import Log, _is_log, rolls_of
+from ._fingers import FingerLike, Wheel, fingers
+from ._logs import Log, _is_log, pin_of, rolls_of
 from ._messages import in_a_page, shown
 from ._noise import NoiseLike, noise as noise_given
 
 
 class HoldAnswer(Listing):
-    """Every set of first contacts of three and more fingers that fits: the fields of `rollfix/locate/1`, see docs/json.md.
+    """Every set of first contacts of several fingers that fits: the fields of `rollfix/locate/1`, see docs/json.md.
 
     `placements` has one entry for each connected set, with noise the most probable first; `starts` and `ends` have the
     places of all fingers, `poses` the part's at the first and at the last contacts. `status`, `verdict`, `fit`, ...
@@ -27,8 +27,9 @@ class HoldAnswer(Listing):
     __slots__ = ("_answer", "_asked")
 
     def __init__(self, asked: Tuple[Any, ...]) -> None:
-        part, logs, *rest = asked
-        self._answer = _core.locate_hold(part._core, [one._core for one in logs], *rest)
+        part, logs, *rest, wheels, squeezed = asked
+        pins = [(one._core, radius) for one, radius in wheels]
+        self._answer = _core.locate_hold(part._core, [one._core for one in logs], *rest, pins, squeezed)
         self._asked = asked
         super().__init__(self._answer.document())
 
@@ -89,8 +90,10 @@ class HoldAnswer(Listing):
         return (HoldAnswer, (self._asked,))
 
 
-def is_hold(log: Any) -> bool:
-    """Whether logs of three or more fingers are meant."""
+def is_hold(log: Any, finger: Any) -> bool:
+    """Whether logs of three or more fingers are meant, or a wheel is among them."""
+    if any(isinstance(one, Wheel) for one in (finger if isinstance(finger, (list, tuple)) else [finger])):
+        return log is not None
     return isinstance(log, (list, tuple)) and len(log) > 2 and all(_is_log(one) and not _is_row(one) for one in log)
 
 
@@ -114,10 +117,16 @@ def held(
     mirrored: bool,
     naming: Naming,
     budget: Optional[int],
+    squeezed: Optional[float],
 ) -> HoldAnswer:
-    """The answer to logs of three and more fingers, checked."""
+    """The answer to logs of three and more fingers, or of fingers beside wheels, checked."""
     if noise is not None and tolerance is not None:
         raise InputError("tolerance: `noise` already says how far rows are off: leave one out")
+    wheels: Sequence[Wheel] = []
+    if is_hold([], finger):
+        finger, wheels = _apart(finger, logs)
+    pins = [(pin_of(log, naming, part.unit), one.radius) for log, one in zip(logs[len(logs) - len(wheels):], wheels)]
+    logs = logs[: len(logs) - len(wheels)]
     given = fingers(finger, most=len(logs))
     if not given:
         raise InputError("finger: expected the fingers that rolled, as in finger=Disk(radius), found none")
@@ -134,7 +143,25 @@ def held(
         [] if at is None else [float(one) for one in np.atleast_1d(at)],
         flag(mirrored, "mirrored"),
         None if budget is None else whole(budget, "budget", 1),
+        tuple((pin._in_unit(part.unit, [radius]), radius) for pin, radius in pins),
+        None if squeezed is None else least(squeezed, "squeezed", 0, "an angle"),
     ))  # fmt: skip
+
+
+def _apart(finger: Any, logs: Any) -> Tuple[Any, Sequence[Wheel]]:
+    """Fingers with skin, which come first, and wheels."""
+    given = list(finger) if isinstance(finger, (list, tuple)) else [finger]
+    count = sum(not isinstance(one, Wheel) for one in given)
+    if count == 0 or any(isinstance(one, Wheel) for one in given[:count]):
+        raise InputError(
+            "finger: expected fingers with skin first, then wheels, and logs in the same order, as in "
+            f"log=[jaw, pin], finger=[Jaw(), Wheel(0.4)], found {shown(finger)}"
+        )
+    if not isinstance(logs, (list, tuple)) or len(logs) != len(given):
+        raise InputError(
+            f"log: expected a list of {len(given)}, one of each finger, of a wheel x and y of its pin, found {shown(logs)}"
+        )
+    return given[:count], given[count:]
 
 
 def _one_roll(log: Any, number: int, naming: Naming, unit: str) -> Log:

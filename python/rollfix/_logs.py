@@ -313,6 +313,29 @@ def rolls_of(log: Any, naming: Naming, unit: str) -> List[Log]:
     return [_told(roll) for roll in rolls]
 
 
+def pin_of(log: Any, naming: Naming, unit: str) -> Any:
+    """The log of a wheel without skin, as C++ holds it: x and y of its pin, and psi where it has an encoder."""
+    options: Dict[str, Any] = {"unit": unit, "angles": naming.angles, "wrapped": naming.wrapped, "clockwise": False}
+    options["skip_bad"] = False
+    options["decimal_comma"] = decimal_comma(".")
+    if isinstance(log, (Log, Roll)):
+        log = log_of(log, naming, unit, False, None).to_dict()
+    file = path_of(log, "log")
+    numbering = Numbering()
+    try:
+        if file is not None:
+            naming.require_table("a file")
+            core = _core.read_pin(file, None, dict(options, columns=naming.sources()))
+        else:
+            table = Table(log, naming, "log", options["decimal_comma"])
+            numbering = Numbering({table.name: [1]})
+            text = text_of(table.numbers(Clock()))
+            core = _core.read_pin(text, table.name, dict(options, columns=table.safe_sources()))
+    except InputError as error:
+        raise InputError(in_python(numbering.said(str(error)))) from None
+    return _told(Log(core, numbering))
+
+
 def _told(log: Log) -> Log:
     for note in log.notes:
         warn(note)

@@ -85,3 +85,41 @@ def test_it_is_pickled_and_drawn(found, tmp_path):
 def test_what_is_not_taken_is_refused(part, logs, options, words):
     with pytest.raises(rollfix.InputError, match=words):
         part.locate(log=logs, **options)
+
+
+@pytest.fixture(scope="module")
+def rig(part):
+    """A jaw and a wheel at three instants, on a cam: where they touch, and the part's pose, are as told."""
+    cam = rollfix.Part.gallery("cam")
+    jaw = {"u": [], "psi": [], "x": [], "y": []}
+    pin = {"x": [], "y": []}
+    for s, t, x, y, heading in ((1.0, 5.0, 0.2, 0.1, 0.4), (1.4, 5.5, 0.3, 0.1, 0.2), (1.7, 5.6, 0.4, 0.2, 0.1)):
+        turn = np.array([[np.cos(heading), -np.sin(heading)], [np.sin(heading), np.cos(heading)]])
+        tangents = [float(cam.tangent(place)) for place in (s, t)]
+        psi = heading + tangents[0] + np.pi
+        origin = turn @ np.asarray(cam.point(s)) + (x, y) - (1 - s) * np.array([np.cos(psi), np.sin(psi)])
+        normal = np.array([np.sin(tangents[1]), -np.cos(tangents[1])])
+        centre = turn @ (np.asarray(cam.point(t)) + 0.3 * normal) + (x, y)
+        for key, value in zip(jaw, (1 - s, psi, *origin)):
+            jaw[key].append(value)
+        for key, value in zip(pin, centre):
+            pin[key].append(value)
+    return cam, jaw, pin
+
+
+def test_a_wheel_without_skin_has_its_pins_place(rig):
+    cam, jaw, pin = rig
+    found = cam.locate(log=[jaw, pin], finger=[rollfix.Jaw(), rollfix.Wheel(0.3)])
+    assert found.starts == pytest.approx(np.array([[1, 5]]), abs=1e-5)
+    assert pickle.loads(pickle.dumps(found)).starts == pytest.approx(found.starts)
+
+
+def test_a_wheel_alone_or_first_is_refused(rig):
+    cam, jaw, pin = rig
+    for finger in (rollfix.Wheel(0.3), [rollfix.Wheel(0.3), rollfix.Jaw()]):
+        with pytest.raises(rollfix.InputError, match="fingers with skin first"):
+            cam.locate(log=[pin, jaw], finger=finger)
+    with pytest.raises(rollfix.InputError, match="a wheel has no skin"):
+        cam.locate(log=[jaw, jaw], finger=[rollfix.Jaw(), rollfix.Wheel(0.3)])
+    with pytest.raises(rollfix.InputError, match="squeezed"):
+        cam.locate(0.5, 0.1, squeezed=0.1)

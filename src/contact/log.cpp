@@ -13,6 +13,7 @@
 
 #include "contact/log_rows.hpp"
 #include "contact/log_table.hpp"
+#include "rollfix/contact/pin_log.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/units.hpp"
 #include "text/text.hpp"
@@ -103,7 +104,7 @@ class LogMaker {
       finger.angle_rounding = roundings_[k].angle.value();
       if (roll_.kind == LogKind::contact) {
         finger.u.push_back(cells.place.value);
-        finger.psi.push_back(cells.angle.value);
+        if (reader_.columns()[k].has(Column::psi)) finger.psi.push_back(cells.angle.value);
       } else {
         const Reading reading = odometers_[k].add(cells);
         finger.length.push_back(reading.length[0]);
@@ -179,8 +180,8 @@ bool any_row_can_be_read(RowReader& reader, LogLines& lines) {
 /// Reads rows one after the other, and leaves out what can't be read where that was asked for.
 class RowsInLines {
  public:
-  RowsInLines(LogLines& lines, const LogOptions& options)
-      : lines_(lines), skips_(options.skip_bad), reader_(lines.name(), options) {}
+  RowsInLines(LogLines& lines, const LogOptions& options, bool of_pin)
+      : lines_(lines), skips_(options.skip_bad), reader_(lines.name(), options, of_pin) {}
 
   const RowReader& reader() const { return reader_; }
   const std::vector<std::string>& skipped() const { return skipped_; }
@@ -229,8 +230,8 @@ class RowsInLines {
 };
 
 /// Runs a stream of lines to its end.
-std::vector<Log> rolls_in(LogLines& lines, Splitting splitting, const LogOptions& options) {
-  RowsInLines rows(lines, options);
+std::vector<Log> rolls_in(LogLines& lines, Splitting splitting, const LogOptions& options, bool of_pin = false) {
+  RowsInLines rows(lines, options, of_pin);
   LogMaker maker(rows.reader(), splitting);
   RowKind kind = RowKind::none;
   LogRow row;
@@ -371,6 +372,18 @@ void require_same_rows(const Log& a, const Log& b) {
 }
 
 }  // namespace
+
+PinLog parse_pin_log(std::string_view text, const std::string& name, const LogOptions& options) {
+  LogLines lines(text, name);
+  return {std::move(rolls_in(lines, Splitting::refused, options, true).front())};
+}
+
+PinLog read_pin_log(const std::string& path, const LogOptions& options) {
+  const OpenFile file = open_text(path);
+  const bool is_input = path == "-";
+  LogLines lines(file.get(), is_input ? "standard input" : path, is_input ? take_looked_at() : "");
+  return {std::move(rolls_in(lines, Splitting::refused, options, true).front())};
+}
 
 Log parse_log(std::string_view text, const std::string& name, const LogOptions& options) {
   return std::move(rolls_of_text(text, name, Splitting::refused, options).front());

@@ -118,6 +118,10 @@ RowKind RowReader::read(std::string_view line, LogRow& row) {
 bool RowReader::take_header() {
   const bool may_come = columns_.empty() || header_may_come_;
   if (!may_come) return false;
+  if (of_pin_) {
+    columns_ = {pin_columns_of(table_row_, name_, options_)};
+    return true;
+  }
   if (is_data(table_row_)) {
     if (columns_.empty()) columns_ = {bare_columns(table_row_, name_, options_)};
     return false;
@@ -238,8 +242,8 @@ void RowReader::require_later(double time, std::string_view written, std::size_t
 FingerCells RowReader::cells(const Columns& columns) const {
   const auto [place, angle] = kColumnPairs[static_cast<std::size_t>(columns.kind)];
   FingerCells result;
-  result.place = written(columns, place);
-  result.angle = written(columns, angle);
+  if (!columns.of_pin) result.place = written(columns, place);
+  if (columns.has(angle)) result.angle = written(columns, angle);
   if (columns.has(Column::x)) {
     result.x = number(columns, Column::x);
     result.y = number(columns, Column::y);

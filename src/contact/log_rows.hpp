@@ -76,8 +76,9 @@ class NotLater : public InputError {
 class RowReader {
  public:
   /// `name`: of the log, for messages.
-  explicit RowReader(std::string name, LogOptions options = {})
-      : name_(std::move(name)), options_(std::move(options)), cutter_(options_.decimal_comma) {}
+  /// `of_pin`: the log of a wheel without skin.
+  explicit RowReader(std::string name, LogOptions options = {}, bool of_pin = false)
+      : name_(std::move(name)), options_(std::move(options)), of_pin_(of_pin), cutter_(options_.decimal_comma) {}
 
   /// The next line. Throws InputError: before the columns are known because they can't be, later because of this line
   /// only. A row leaves no trace before it is accepted.
@@ -120,6 +121,7 @@ class RowReader {
 
   std::string name_;
   LogOptions options_;
+  bool of_pin_ = false;
   Source source_ = Source::unknown;
   TableCutter cutter_;
   TableRow table_row_;

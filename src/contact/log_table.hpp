@@ -104,6 +104,7 @@ struct Columns {
   std::array<ColumnSource, kColumnCount> source{};  // as the header has it; without a header names are empty
   std::size_t count = 0;                            // cells of a row
   LogKind kind = LogKind::contact;
+  bool of_pin = false;                     // of a wheel without skin: x and y, and psi where it has an encoder
   std::string suffix;                      // of the finger's columns
   bool contact_is_shared = false;          // one column `contact` for both fingers
   std::optional<Dimension> u_dimension{};  // where the log says what u is in

@@ -28,6 +28,7 @@ constexpr double kHoldMostHeight = 720;
 constexpr double kHoldMargin = 0.06;  // of what is shown
 constexpr double kHoldGhost = 0.55;   // opacity of placements but the first
 constexpr double kHoldDot = 2.6;      // pixels
+constexpr double kHoldJaw = 0.45;     // half of a jaw as it is drawn, of the part's size
 
 class HoldPicture {
  public:
@@ -51,7 +52,7 @@ class HoldPicture {
     Svg svg(figure_.width, axes_.corner.y() + axes_.size.y() + kHoldBelow + legend.height());
     svg.describe("The part at the last instant in each placement that the fingers leave");
     draw_header(svg, figure_.title.empty() ? answer_.part.name() : figure_.title, answer_.verdict_text(),
-                {{counted(answer_.rolls.size(), "finger", "fingers")}});
+                {{fingers_words()}});
     svg.open_group("world");
     draw_axes(
         svg, axes_, round_ticks(axes_.x, 5), round_ticks(axes_.y, 5),
@@ -60,7 +61,10 @@ class HoldPicture {
     svg.open_clip(axes_.corner.x(), axes_.corner.y(), axes_.size.x(), axes_.size.y());
     if (is_known()) svg.polyline(on_page(first_), stroke(kSoftInk, 1, "4 3"));
     for (std::size_t k = last_.size(); k-- > 0;) placement(svg, k);
-    for (const HoldRoll& roll : answer_.rolls) finger(svg, roll);
+    for (const HoldRoll& roll : answer_.rolls) {
+      finger(svg, roll);
+      if (roll.is_jaw && !roll.track.empty()) jaw(svg, roll);
+    }
     svg.close_group();
     svg.close_group();
     legend.draw(svg, axes_.corner.y() + axes_.size.y() + kHoldBelow);
@@ -68,6 +72,13 @@ class HoldPicture {
   }
 
  private:
+  std::string fingers_words() const {
+    const auto wheels = static_cast<std::size_t>(
+        std::count_if(answer_.rolls.begin(), answer_.rolls.end(), [](const HoldRoll& roll) { return roll.is_wheel; }));
+    const std::string fingers = counted(answer_.rolls.size() - wheels, "finger", "fingers");
+    return wheels == 0 ? fingers : fmt::format("{} and {}", fingers, counted(wheels, "wheel", "wheels"));
+  }
+
   bool is_known() const { return !first_.empty() && answer_.place != PlaceKnown::unknown; }
 
   std::vector<Vec2> in_world(const std::vector<Vec2>& points, const Pose& pose) const {
@@ -89,6 +100,7 @@ class HoldPicture {
         seen.extend(Vec2(centre + Vec2::Constant(roll.radius)));
         seen.extend(Vec2(centre - Vec2::Constant(roll.radius)));
       }
+      for (std::size_t end = 0; end < 2 && roll.is_jaw && !roll.track.empty(); ++end) seen.extend(on_jaw(roll, end, 0));
     }
     if (seen.isEmpty()) seen = box_around(outline_);
     const double margin = std::max(kHoldMargin * seen.sizes().maxCoeff(), 1e-9 * answer_.part.perimeter());
@@ -123,11 +135,30 @@ class HoldPicture {
     svg.close_group();
   }
 
-  /// The way of its centre, with the finger where it is at the end.
+  /// A place of a jaw in the world at the first (0) or the last (1) instant, so far from its contact.
+  static Vec2 on_jaw(const HoldRoll& roll, std::size_t end, double beside) {
+    const Vec2& origin = end == 0 ? roll.track.front() : roll.track.back();
+    return Pose{origin.x(), origin.y(), roll.psi[end]}.world({roll.u[end] + beside, 0});
+  }
+
+  /// Its surface, dashed where it was at first.
+  void jaw(Svg& svg, const HoldRoll& roll) const {
+    const Box bounds = box_around(outline_);
+    const double half = kHoldJaw * bounds.sizes().maxCoeff();
+    svg.open_group("jaw");
+    for (std::size_t end = 0; end < 2; ++end) {
+      const std::vector<Vec2> line{on_jaw(roll, end, -half), on_jaw(roll, end, half)};
+      svg.polyline(on_page(line), end == 0 ? stroke(kSoftInk, 1, "4 3") : stroke(kInk, 1.6));
+    }
+    svg.close_group();
+  }
+
+  /// The way of its centre, with the finger where it is at the end; of a wheel where it was at first as well.
   void finger(Svg& svg, const HoldRoll& roll) const {
     if (roll.track.empty()) return;
     svg.open_group("finger");
     const std::vector<Vec2> path = on_page(roll.track);
+    if (roll.is_wheel) svg.circle(path.front(), roll.radius * scale_, stroke(kSoftInk, 1, "4 3"));
     if (roll.radius > 0) svg.circle(path.back(), roll.radius * scale_, stroke(kSoftInk, 0.8));
     svg.polyline(path, stroke(kInk, 1.4));
     svg.circle(path.back(), kHoldDot, draw::filled(kInk));
@@ -154,6 +185,9 @@ class HoldPicture {
       result.push_back({Sign::line, kPaper, {{fmt::format("{} more placements are not drawn", more)}}, ""});
     }
     if (is_known()) result.push_back({Sign::line, kSoftInk, {{"dashed: at the first contacts, in 0"}}, ""});
+    const bool any_wheel =
+        std::any_of(answer_.rolls.begin(), answer_.rolls.end(), [](const HoldRoll& roll) { return roll.is_wheel; });
+    if (any_wheel) result.push_back({Sign::line, kInk, {{"the fingers, and the ways of their origins and pins"}}, ""});
     return result;
   }
 

@@ -32,13 +32,22 @@ AtNode place_at(const HoldFit& fit, const HoldNode& node, std::size_t row, std::
   const HoldFit::ContactError error = fit.contact_error(node.state, row, finger);
   Unknowns by = Unknowns::Zero(fit.size());
   by(k) = 1;
-  if (fit.size() > count) by(count + k) = -fit.rows().rows[row].contacts[finger].travelled;
+  if (fit.has_stretches()) by(count + k) = -fit.rows().rows[row].contacts[finger].travelled;
   const Unknowns turned = pose.by_unknowns.row(2).transpose();
   const Unknowns all = by + error.by_turn * (error.curvature * by + turned);
   AtNode at;
   at.mean = fit.place_of(node.state, row, finger) - error.mean;
   at.variance = all.dot(node.covariance * all) + error.by_turn * error.by_turn * pose.covariance(2, 2) + error.variance;
   return at;
+}
+
+/// Where a wheel touched at a row.
+AtNode wheel_place_at(const HoldFit& fit, const HoldNode& node, std::size_t row, std::size_t wheel) {
+  const PoseAtRow pose = fit.pose_at(node.state, row);
+  const HoldFit::WheelAt there = fit.wheel_at(node.state, row, wheel);
+  const Eigen::Matrix3d covariance =
+      pose.covariance + pose.by_unknowns * node.covariance * pose.by_unknowns.transpose();
+  return {there.s, there.variance + there.by_pose.dot(covariance * there.by_pose.transpose())};
 }
 
 /// Weights of a mode's nodes, together 1.
@@ -77,13 +86,17 @@ struct Summary {
   Interval interval;
 };
 
+/// Of a finger, or behind all of them of a wheel.
 Summary summary_of(const HoldFit& fit, const HoldMode& mode, const std::vector<double>& weights, std::size_t row,
-                   std::size_t finger, const Boundary& boundary) {
-  const double about = fit.place_of(mode.best, row, finger);
+                   std::size_t contact, const Boundary& boundary) {
+  const bool is_wheel = contact >= fit.fingers();
+  const double about =
+      is_wheel ? fit.wheel_at(mode.best, row, contact - fit.fingers()).s : fit.place_of(mode.best, row, contact);
   std::vector<MixtureTerm> terms;
   double mean = 0, second = 0;
   for (std::size_t k = 0; k < weights.size(); ++k) {
-    const AtNode at = place_at(fit, mode.nodes[k], row, finger);
+    const AtNode at = is_wheel ? wheel_place_at(fit, mode.nodes[k], row, contact - fit.fingers())
+                               : place_at(fit, mode.nodes[k], row, contact);
     const double off = boundary.offset(about, at.mean);
     terms.push_back({weights[k], about + off, std::sqrt(at.variance)});
     mean += weights[k] * off;
@@ -99,10 +112,28 @@ Summary summary_of(const HoldFit& fit, const HoldMode& mode, const std::vector<d
   return summary;
 }
 
+/// Where a wheel touches in a state.
+HoldContact described_wheel(const HoldFit& fit, const Part& part, const HeldState& state, std::size_t wheel,
+                            const Interval& extent) {
+  const std::size_t last = fit.rows().rows.size() - 1;
+  const Boundary boundary = part.boundary();
+  HoldContact contact;
+  contact.start = boundary.canonical(fit.wheel_at(state, 0, wheel).s);
+  contact.end = boundary.canonical(fit.wheel_at(state, last, wheel).s);
+  contact.extent = extent;
+  contact.point = part.point(contact.start);
+  contact.tangent = part.tangent(contact.start);
+  for (std::size_t row = 0; row <= last; ++row) {
+    const ContactResidual off = fit.wheel_residual(state, row, wheel);
+    contact.distance = std::max(contact.distance, off.place.norm());
+    contact.turn = std::max(contact.turn, std::abs(off.turn));
+  }
+  return contact;
+}
+
 }  // namespace
 
-HoldPlacement described(const HoldFit& fit, const Part& part, const HeldState& state,
-                        const std::vector<Interval>& extent) {
+HoldPlacement described(const HoldFit& fit, const Part& part, const HeldState& state, const HeldSet& set) {
   HoldPlacement placement;
   const Boundary boundary = part.boundary();
   const std::size_t last = fit.rows().rows.size() - 1;
@@ -112,7 +143,7 @@ HoldPlacement described(const HoldFit& fit, const Part& part, const HeldState& s
     const double last_error = fit.rows().has_noise ? fit.contact_error(state, last, k).mean : 0;
     contact.start = boundary.canonical(fit.place_of(state, 0, k) - first_error);
     contact.end = boundary.canonical(fit.place_of(state, last, k) - last_error);
-    contact.extent = extent[k];
+    contact.extent = set.extent[k];
     contact.point = part.point(contact.start);
     contact.tangent = part.tangent(contact.start);
     for (std::size_t row = 0; row <= last; ++row) {
@@ -123,6 +154,11 @@ HoldPlacement described(const HoldFit& fit, const Part& part, const HeldState& s
     placement.residual.length = std::max(placement.residual.length, contact.distance);
     placement.residual.turn = std::max(placement.residual.turn, contact.turn);
     placement.contacts.push_back(contact);
+  }
+  for (std::size_t k = 0; k < fit.wheels(); ++k) {
+    placement.contacts.push_back(described_wheel(fit, part, state, k, set.wheels[k]));
+    placement.residual.length = std::max(placement.residual.length, placement.contacts.back().distance);
+    placement.residual.turn = std::max(placement.residual.turn, placement.contacts.back().turn);
   }
   placement.first = fit.pose_at(state, 0).pose;
   placement.last = fit.pose_at(state, last).pose;
@@ -137,7 +173,7 @@ void add_posterior(HoldPlacement& placement, const HoldFit& fit, const Part& par
   const std::vector<double> weights = weights_of(mode);
   const std::size_t last = fit.rows().rows.size() - 1;
   const Boundary boundary = part.boundary();
-  for (std::size_t k = 0; k < fit.fingers(); ++k) {
+  for (std::size_t k = 0; k < fit.fingers() + fit.wheels(); ++k) {
     const Summary start = summary_of(fit, mode, weights, 0, k, boundary);
     const Summary end = summary_of(fit, mode, weights, last, k, boundary);
     HoldContact& contact = placement.contacts[k];

@@ -6,9 +6,8 @@
 
 namespace rollfix::hold {
 
-/// A state as the answer has it: places at the first and the last instant, poses, residuals. `extent`: of its set.
-HoldPlacement described(const HoldFit& fit, const Part& part, const HeldState& state,
-                        const std::vector<Interval>& extent);
+/// A state as the answer has it: places at the first and the last instant, poses, residuals; extents of its set.
+HoldPlacement described(const HoldFit& fit, const Part& part, const HeldState& state, const HeldSet& set);
 
 /// Adds what the posterior knows of a mode, but for its probability.
 void add_posterior(HoldPlacement& placement, const HoldFit& fit, const Part& part, const HoldMode& mode);

@@ -115,7 +115,24 @@ const ArcAt& ArcTree::at(std::int32_t index, std::size_t instant) {
   return node.at[instant];
 }
 
+/// What moves the pin on the part, over what it is off by. At a corner arcs only have to be short.
+double ArcTree::size_by_levers(std::int32_t node, double leaf) {
+  const double width = arc(node).width();
+  double size = 0;
+  for (std::size_t t = 0; t < travelled_.size(); ++t) {
+    const ArcAt& here = at(node, t);
+    const Slack& slack = slacks_[t];
+    for (const Lever& lever : levers_[t]) {
+      const double off = slack.place + lever.slack + lever.arm * slack.angle;
+      const double turned = std::min(lever.arm * here.half_turn / (leaf * off), width / (leaf * slack.travel));
+      size = std::max({size, turned, 0.5 * width / (leaf * off)});
+    }
+  }
+  return size;
+}
+
 double ArcTree::size(std::int32_t node, double leaf) {
+  if (!levers_.empty()) return size_by_levers(node, leaf);
   const double width = arc(node).width();
   double size = 0;
   for (std::size_t t = 0; t < travelled_.size(); ++t) {

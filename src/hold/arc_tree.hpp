@@ -30,6 +30,12 @@ struct Slack {
 };
 Slack slack_of(const HeldErrors& errors, const HeldContact& contact, bool has_noise);
 
+/// A wheel's pin, as far as it is from the contact of the only finger: an angle moves it by that arm.
+struct Lever {
+  double arm = 0;
+  double slack = 0;  // how far off the pin can be
+};
+
 /// A part as all trees look at it.
 struct HeldPart {
   explicit HeldPart(const Part& whole);
@@ -50,6 +56,8 @@ class ArcTree {
   bool is_possible(std::int32_t node) const { return nodes_[static_cast<std::size_t>(node)].possible; }
   const ArcAt& at(std::int32_t index, std::size_t instant);
   const Slack& slack(std::size_t instant) const { return slacks_[instant]; }
+  /// Of the only finger beside wheels: at each instant the shortest arms tell how long leaves can be.
+  void set_levers(std::vector<std::vector<Lever>> levers) { levers_ = std::move(levers); }
   /// In leaves of this share of the slack: up to 1 it is one.
   double size(std::int32_t node, double leaf);
   /// Equal to the node itself where it is too short to have halves.
@@ -67,6 +75,7 @@ class ArcTree {
   std::int32_t add(const Interval& s);
   bool can_be(const Interval& s) const;
   ArcAt look(const Interval& s, std::size_t instant) const;
+  double size_by_levers(std::int32_t node, double leaf);
   Interval moved(const Interval& s, std::size_t instant) const;
 
   const HeldPart& part_;
@@ -77,7 +86,8 @@ class ArcTree {
   std::vector<Interval> gaps_;
   bool confined_ = false;
   bool has_place_ = false;
-  std::deque<Node> nodes_;  // references stay
+  std::vector<std::vector<Lever>> levers_;  // of each instant, of each wheel
+  std::deque<Node> nodes_;                  // references stay
 };
 
 }  // namespace rollfix::hold

@@ -12,7 +12,8 @@
 //   tau_i, eps_i    the tangent's direction in the world, and how far that can be off: `tangent`, `Slack::angle`
 //   q_i, delta_i    the contact in the world: `at`, `Slack::place`
 // Tests at each instant, for its heading phi: normals, |tau_i - theta_i - phi| <= w_i + eps_i for all i; chords,
-// |R(phi)(c_j - c_i) - (q_j - q_i)| <= rho_i + rho_j + delta_i + delta_j for all pairs that have places.
+// |R(phi)(c_j - c_i) - (q_j - q_i)| <= rho_i + rho_j + delta_i + delta_j for all pairs that have places; of wheels
+// pin_search.cpp.
 // Follows docs/two_fingers.md, "Three and more fingers".
 // Idea: branch and prune, a generation of boxes after the other. If there is no room for the next generation, this one
 // is what fits: the boxes are coarser, and still hold all that fits.
@@ -36,8 +37,8 @@ std::size_t find(std::vector<std::size_t>& parent, std::size_t k) {
 }  // namespace
 
 BoxSearch::BoxSearch(const HeldPart& part, const HeldRows& rows, const std::vector<std::size_t>& instants,
-                     const std::vector<const Reach*>& reach, std::size_t budget)
-    : most_boxes_(rows.has_noise ? kMostNoisyBoxes : kMostBoxes), budget_(budget) {
+                     const std::vector<const Reach*>& reach, const WheelPaths& wheels, std::size_t budget)
+    : pins_(rows, instants, wheels), most_boxes_(rows.has_noise ? kMostNoisyBoxes : kMostBoxes), budget_(budget) {
   for (std::size_t k = 0; k < rows.fingers(); ++k) {
     trees_.emplace_back(part, rows, k, instants, reach[k]);
     has_place_.push_back(rows.errors[k].has_place);
@@ -50,10 +51,21 @@ BoxSearch::BoxSearch(const HeldPart& part, const HeldRows& rows, const std::vect
     }
     instants_.push_back(std::move(instant));
   }
+  if (fingers() == 1 && pins_.wheels() > 0) add_levers(instants.size());
 }
 
-bool BoxSearch::may_fit(const Box& box, std::size_t t) {
-  ++comparisons_;
+void BoxSearch::add_levers(std::size_t instants) {
+  std::vector<std::vector<Lever>> levers(instants);
+  for (std::size_t t = 0; t < instants; ++t) {
+    for (std::size_t k = 0; k < pins_.wheels(); ++k) {
+      levers[t].push_back({(pins_.pin(k, t) - instants_[t].at[0]).norm(), pins_.slack(k)});
+    }
+  }
+  trees_[0].set_levers(std::move(levers));
+}
+
+/// Those that suit all normals and all chords between contacts.
+HeadingArc BoxSearch::headings(const Box& box, std::size_t t) {
   const Instant& instant = instants_[t];
   HeadingArc heading;
   for (std::size_t k = 0; k < trees_.size(); ++k) {
@@ -61,7 +73,7 @@ bool BoxSearch::may_fit(const Box& box, std::size_t t) {
     const HeadingArc own{nearest_angle(instant.tangent[k] - arc.angle),
                          arc.half_turn + trees_[k].slack(t).angle + kHeadingGrain};
     heading = common(heading, own);
-    if (heading.is_empty()) return false;
+    if (heading.is_empty()) return heading;
   }
   for (std::size_t i = 0; i < trees_.size(); ++i) {
     if (!has_place_[i]) continue;
@@ -72,10 +84,52 @@ bool BoxSearch::may_fit(const Box& box, std::size_t t) {
       const double slack = one.radius + other.radius + trees_[i].slack(t).place + trees_[j].slack(t).place;
       heading =
           common(heading, touch::headings_between(other.middle - one.middle, instant.at[j] - instant.at[i], slack));
-      if (heading.is_empty()) return false;
+      if (heading.is_empty()) return heading;
+    }
+  }
+  return heading;
+}
+
+HeldFrom BoxSearch::from(const Box& box, std::size_t finger, std::size_t t) {
+  const ArcAt& arc = trees_[finger].at(box[finger], t);
+  const double place = trees_[finger].slack(t).place;
+  return {arc.middle, instants_[t].at[finger], arc.radius + place, place, instants_[t].tangent[finger] - arc.angle};
+}
+
+/// Seen from each finger that has a place; from the first one encoders are looked at as well.
+bool BoxSearch::may_touch(const Box& box, std::size_t t, const HeadingArc& heading, std::vector<SpinSet>& spins) {
+  for (std::size_t wheel = 0; wheel < pins_.wheels(); ++wheel) {
+    bool is_first = true;
+    for (std::size_t finger = 0; finger < trees_.size(); ++finger) {
+      if (!has_place_[finger]) continue;
+      PinFound found;
+      const bool asks_spin = is_first && pins_.has_spin(wheel);
+      if (!pins_.may_touch(wheel, t, from(box, finger, t), heading, asks_spin ? &found : nullptr)) return false;
+      if (asks_spin && !found.any_spin) spins[wheel].keep(found.spins);
+      if (spins[wheel].is_empty()) return false;
+      is_first = false;
     }
   }
   return true;
+}
+
+std::vector<Interval> BoxSearch::wheel_arcs(const Box& box, std::size_t wheel) {
+  const HeadingArc heading = headings(box, 0);
+  std::vector<Interval> arcs;
+  if (heading.is_empty()) return arcs;
+  for (std::size_t finger = 0; finger < trees_.size() && arcs.empty(); ++finger) {
+    if (!has_place_[finger]) continue;
+    PinFound found;
+    pins_.may_touch(wheel, 0, from(box, finger, 0), heading, &found);
+    for (const PinStretch& one : found.touching) arcs.push_back(one.s);
+  }
+  return arcs;
+}
+
+bool BoxSearch::may_fit(const Box& box, std::size_t t, std::vector<SpinSet>& spins) {
+  ++comparisons_;
+  const HeadingArc heading = headings(box, t);
+  return !heading.is_empty() && may_touch(box, t, heading, spins);
 }
 
 bool BoxSearch::may_fit(const Box& box) {
@@ -83,8 +137,10 @@ bool BoxSearch::may_fit(const Box& box) {
   for (std::size_t k = 0; k < trees_.size(); ++k) {
     if (!trees_[k].is_possible(box[k])) return false;
   }
+  std::vector<SpinSet> spins;
+  for (std::size_t k = 0; k < pins_.wheels(); ++k) spins.push_back(pins_.any_spin(k));
   for (std::size_t t = 0; t < instants_.size(); ++t) {
-    if (!may_fit(box, t)) return false;
+    if (!may_fit(box, t, spins)) return false;
   }
   return true;
 }
@@ -101,7 +157,7 @@ Boxes BoxSearch::search(std::vector<Box> from, double leaf) {
     std::vector<Box> next;
     for (std::size_t b = 0; b < from.size(); ++b) {
       const Box& box = from[b];
-      if (comparisons_ >= budget_) {
+      if (comparisons() >= budget_) {
         found.undecided.insert(found.undecided.end(), from.begin() + static_cast<std::ptrdiff_t>(b), from.end());
         found.undecided.insert(found.undecided.end(), next.begin(), next.end());
         return found;
@@ -179,9 +235,11 @@ std::vector<std::vector<Box>> sets_of(BoxSearch& search, const std::vector<Box>&
   return sets;
 }
 
-Interval extent_of(BoxSearch& search, const std::vector<Box>& boxes, std::size_t finger, const Boundary& boundary) {
-  std::vector<Interval> arcs;
-  for (const Box& box : boxes) arcs.push_back(search.tree(finger).arc(box[finger]));
+namespace {
+
+/// The shortest arc that holds all of these.
+Interval hull_of(std::vector<Interval> arcs, const Boundary& boundary) {
+  if (arcs.empty()) return boundary.full_arc();
   std::sort(arcs.begin(), arcs.end(), [](const Interval& a, const Interval& b) { return a.lo < b.lo; });
   if (!boundary.closed) {
     double hi = arcs.front().hi;
@@ -205,6 +263,23 @@ Interval extent_of(BoxSearch& search, const std::vector<Box>& boxes, std::size_t
     end = reached;
   }
   return boundary.arc(start, end);
+}
+
+}  // namespace
+
+Interval extent_of(BoxSearch& search, const std::vector<Box>& boxes, std::size_t finger, const Boundary& boundary) {
+  std::vector<Interval> arcs;
+  for (const Box& box : boxes) arcs.push_back(search.tree(finger).arc(box[finger]));
+  return hull_of(std::move(arcs), boundary);
+}
+
+Interval wheel_extent(BoxSearch& search, const std::vector<Box>& boxes, std::size_t wheel, const Boundary& boundary) {
+  std::vector<Interval> arcs;
+  for (const Box& box : boxes) {
+    const std::vector<Interval> own = search.wheel_arcs(box, wheel);
+    arcs.insert(arcs.end(), own.begin(), own.end());
+  }
+  return hull_of(std::move(arcs), boundary);
 }
 
 }  // namespace rollfix::hold

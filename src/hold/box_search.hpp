@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "arc_tree.hpp"
+#include "pin_search.hpp"
 #include "touch/heading_arc.hpp"
 
 namespace rollfix::hold {
@@ -22,15 +23,16 @@ struct Boxes {
 };
 
 /// Every box of first contacts that fits at all instants, by branch and prune. A box goes where at some instant no
-/// heading of the part suits all normals and all chords between contacts. What is tested follows from "there are first
-/// contacts, and a pose at each instant, with every residual within its slack": nothing that fits is lost.
+/// heading of the part suits all normals, all chords between contacts and all wheels. What is tested follows from
+/// "there are first contacts, and a pose at each instant, with every residual within its slack": nothing that fits is
+/// lost.
 class BoxSearch {
  public:
   /// Boxes end where discs are no larger than this share of the slack, and tangents turn by no more than that.
   static constexpr double kLeaf = 0.5;
 
   BoxSearch(const HeldPart& part, const HeldRows& rows, const std::vector<std::size_t>& instants,
-            const std::vector<const Reach*>& reach, std::size_t budget);
+            const std::vector<const Reach*>& reach, const WheelPaths& wheels, std::size_t budget);
 
   Boxes search(double leaf = kLeaf);
   /// From these boxes alone.
@@ -38,11 +40,17 @@ class BoxSearch {
 
   ArcTree& tree(std::size_t finger) { return trees_[finger]; }
   std::size_t fingers() const { return trees_.size(); }
-  std::size_t comparisons() const { return comparisons_; }
+  std::size_t comparisons() const { return comparisons_ + pins_.looks(); }
+  /// Where a wheel can touch at the first instant if the first contacts are in this box.
+  std::vector<Interval> wheel_arcs(const Box& box, std::size_t wheel);
 
  private:
   bool may_fit(const Box& box);
-  bool may_fit(const Box& box, std::size_t instant);
+  bool may_fit(const Box& box, std::size_t instant, std::vector<SpinSet>& spins);
+  touch::HeadingArc headings(const Box& box, std::size_t instant);
+  HeldFrom from(const Box& box, std::size_t finger, std::size_t instant);
+  bool may_touch(const Box& box, std::size_t instant, const touch::HeadingArc& heading, std::vector<SpinSet>& spins);
+  void add_levers(std::size_t instants);
 
   struct Instant {
     std::vector<double> tangent;  // of each finger, in the world
@@ -51,6 +59,7 @@ class BoxSearch {
   std::vector<ArcTree> trees_;
   std::vector<Instant> instants_;
   std::vector<bool> has_place_;
+  PinSearch pins_;
   std::size_t most_boxes_;
   std::size_t budget_;
   std::size_t comparisons_ = 0;
@@ -61,5 +70,7 @@ std::vector<std::vector<Box>> sets_of(BoxSearch& search, const std::vector<Box>&
 
 /// The shortest arc of one finger that holds all of its arcs in some boxes; lo in [0, P), hi may exceed P.
 Interval extent_of(BoxSearch& search, const std::vector<Box>& boxes, std::size_t finger, const Boundary& boundary);
+/// The same of where a wheel touches at the first instant.
+Interval wheel_extent(BoxSearch& search, const std::vector<Box>& boxes, std::size_t wheel, const Boundary& boundary);
 
 }  // namespace rollfix::hold

@@ -73,6 +73,40 @@ void add_contacts(const Log& log, const Finger& finger, HeldRows& held) {
   }
 }
 
+HeldWheel wheel_of(const HoldProblem& problem, std::size_t number, const Log& log) {
+  const PassiveWheel& given = problem.wheels[number];
+  const FingerRows& rows = log.fingers.front();
+  HeldWheel wheel;
+  wheel.wheel_radius = given.radius;
+  wheel.line = problem.squeezed;
+  if (problem.noise) {
+    wheel.place = problem.noise->position;
+    wheel.radius = problem.noise->radius;
+    if (given.log.has_encoder()) wheel.spin = std::max(problem.noise->angle, kLeastHeldAngle);
+    return wheel;
+  }
+  std::vector<double> coordinates = rows.x;
+  coordinates.insert(coordinates.end(), rows.y.begin(), rows.y.end());
+  wheel.place = std::numbers::sqrt2 * rounding_of_column(coordinates) + kLeastHeldPlace * problem.part.perimeter();
+  double angle = rows.angle_rounding;
+  if (problem.tolerance) {
+    angle = std::max(angle, problem.tolerance->angle);
+    if (problem.tolerance->length > 0) wheel.place = problem.tolerance->length;
+  }
+  // The wheel's contact is as uncertain as the pin.
+  if (given.log.has_encoder()) wheel.spin = angle + kLeastHeldAngle + wheel.place / given.radius;
+  return wheel;
+}
+
+void add_pins(const Log& log, const HeldWheel& wheel, HeldRows& held) {
+  const FingerRows& rows = log.fingers.front();
+  std::vector<Contact> turned;
+  if (wheel.spin) turned = contacts_of(rows, disk(wheel.wheel_radius));
+  for (std::size_t row = 0; row < held.rows.size(); ++row) {
+    held.rows[row].pins.push_back({{rows.x[row], rows.y[row]}, wheel.spin ? turned[row].psi : 0});
+  }
+}
+
 /// For each row of a finger: how many rows are as far as it is, as far as noise can tell.
 void count_alike(std::size_t finger, HeldRows& held) {
   const double reach = kAlikeSigmas * held.errors[finger].travel;
@@ -107,6 +141,14 @@ HeldRow mean_of(const std::vector<HeldRow>& rows, std::size_t from, std::size_t 
     }
     mean.contacts[finger] = sum;
   }
+  for (std::size_t pin = 0; pin < mean.pins.size(); ++pin) {
+    HeldPin sum;
+    for (std::size_t k = from; k < to; ++k) {
+      sum.at += rows[k].pins[pin].at / count;
+      sum.spin += rows[k].pins[pin].spin / count;
+    }
+    mean.pins[pin] = sum;
+  }
   mean.weight = count;
   return mean;
 }
@@ -129,7 +171,7 @@ HeldRows held_rows(const HoldProblem& problem, const std::vector<Log>& logs) {
     const std::vector<double>& time = logs.front().time;
     held.rows[row].time = time.empty() ? static_cast<double>(row) : time[row];
   }
-  for (std::size_t k = 0; k < logs.size(); ++k) {
+  for (std::size_t k = 0; k < problem.logs.size(); ++k) {
     const Finger& finger = finger_of_log(problem, k);
     const bool has_centre = !logs[k].fingers.front().x.empty();
     held.errors.push_back(problem.noise ? errors_with(noise_on(problem.part, *problem.noise), finger, has_centre,
@@ -139,6 +181,10 @@ HeldRows held_rows(const HoldProblem& problem, const std::vector<Log>& logs) {
     if (has_centre && !held.reference) held.reference = k;
     add_contacts(logs[k], finger, held);
     count_alike(k, held);
+  }
+  for (std::size_t k = 0; k < problem.wheels.size(); ++k) {
+    held.wheels.push_back(wheel_of(problem, k, logs[problem.logs.size() + k]));
+    add_pins(logs[problem.logs.size() + k], held.wheels.back(), held);
   }
   if (held.any_place) held.reference.reset();
   return held;

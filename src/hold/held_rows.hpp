@@ -18,6 +18,21 @@ struct HeldContact {
   double rows_alike = 1;        // rows that may be at one corner together with this one
 };
 
+/// A wheel's pin at one instant.
+struct HeldPin {
+  Vec2 at = Vec2::Zero();  // in the world
+  double spin = 0;         // the wheel's orientation, radians, unwrapped; without an encoder 0
+};
+
+/// What a wheel is, and how far its measurements may be off. With noise standard deviations, else tolerances.
+struct HeldWheel {
+  double wheel_radius = 0;
+  double place = 0;              // of x and y each; without noise of the distance from the part
+  double radius = 0;             // of the wheel's radius
+  std::optional<double> spin{};  // of the orientation, radians; none: it has no encoder
+  std::optional<double> line{};  // of the angle between its normal and the way to the finger's contact; none: not known
+};
+
 /// How far one finger's measurements may be off. With noise standard deviations, else tolerances.
 struct HeldErrors {
   bool has_place = false;  // x and y are evidence
@@ -30,6 +45,7 @@ struct HeldErrors {
 /// All fingers at one instant.
 struct HeldRow {
   std::vector<HeldContact> contacts;
+  std::vector<HeldPin> pins{};
   double weight = 1;  // rows of which it is the mean
   double time = 0;
 };
@@ -38,6 +54,7 @@ struct HeldRow {
 struct HeldRows {
   std::vector<HeldRow> rows;
   std::vector<HeldErrors> errors;  // of each finger
+  std::vector<HeldWheel> wheels{};
   bool has_noise = false;
   bool any_place = false;
   std::optional<std::size_t> reference{};  // without any: the finger whose x and y only say where the part is
@@ -48,7 +65,7 @@ struct HeldRows {
 /// The logs cut to the instants that all of them share. Throws InputError as `paired` does.
 std::vector<Log> aligned(std::vector<Log> logs);
 
-/// `logs`: aligned.
+/// `logs`: aligned; of the fingers, then of the wheels.
 HeldRows held_rows(const HoldProblem& problem, const std::vector<Log>& logs);
 
 /// The same with neighbouring rows averaged, but for the first and the last one, to no more than about so many.

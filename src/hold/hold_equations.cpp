@@ -51,7 +51,9 @@ HoldFit::Look HoldFit::look(const Placed& placed, double s, std::size_t row, std
   const double times = weight(row, finger) * rows_.rows[row].weight;
   if (!rows_.has_noise) {
     if (errors.has_place) look.information(0, 0) = look.information(1, 1) = times / (errors.place * errors.place);
-    look.information(2, 2) = times / (errors.angle * errors.angle);
+    // An angle that is exact beside places that are not would only cost digits.
+    const double angle = std::max(errors.angle, wheels() == 0 ? 0 : errors.place / part_.perimeter());
+    look.information(2, 2) = times / (angle * angle);
     return look;
   }
   const double bend = (at.curvature + contact.finger_curvature) * errors.travel;
@@ -107,13 +109,14 @@ HoldFit::RowEquations HoldFit::equations(const HeldState& state, std::size_t row
     sum.mixed.col(k) += mixed;
     sum.own(k, k) += own;
     sum.own_slope(k) += slope;
-    if (size_ == count) continue;
+    if (!has_stretches_) continue;
     sum.mixed.col(count + k) += by_stretch * mixed;
     sum.own(count + k, count + k) += by_stretch * by_stretch * own;
     sum.own(k, count + k) += by_stretch * own;
     sum.own(count + k, k) += by_stretch * own;
     sum.own_slope(count + k) += by_stretch * slope;
   }
+  for (std::size_t wheel = 0; wheel < wheels(); ++wheel) add_pin(state, row, wheel, with_unknowns, sum);
   // What nothing tells stays: of rows without x and y where the part is.
   if (!rows_.any_place) sum.pose(0, 0) = sum.pose(1, 1) = 1;
   sum.pose(2, 2) += kRidge * sum.pose(2, 2) + 1e-30;
@@ -147,8 +150,10 @@ double HoldFit::freedom(const HeldState& state) const {
       const Look one = look(state.placed[row], place_of(state, row, k), row, k);
       numbers += one.angles + (rows_.errors[k].has_place ? 2 : 0);
     }
+    for (const HeldWheel& wheel : rows_.wheels) numbers += 1 + (wheel.spin ? 1 : 0) + (wheel.line ? 1 : 0);
     numbers -= rows_.any_place ? 3 : 1;
   }
+  for (const HeldWheel& wheel : rows_.wheels) numbers -= wheel.spin ? 1 : 0;
   return numbers - static_cast<double>(fingers());
 }
 

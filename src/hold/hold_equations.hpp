@@ -22,6 +22,17 @@ struct HoldFit::Look {
   double turn_variance = 0;  // of r without n, with what a corner adds
 };
 
+/// A wheel's residuals, of closure, encoder and line of force, with their derivatives; what is not measured is 0.
+struct HoldFit::PinLook {
+  NearPin near;
+  Eigen::Vector3d residual = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d by_pose = Eigen::Matrix3d::Zero();  // a row of each residual
+  Eigen::Vector3d information = Eigen::Vector3d::Zero();
+  double by_radius = 0;  // of the first by the radius, of the second by the encoder's zero
+  double by_spin = 0;
+  double log_size = 0;
+};
+
 struct HoldFit::RowEquations {
   Eigen::Matrix3d pose = Eigen::Matrix3d::Zero();
   Eigen::Vector3d slope = Eigen::Vector3d::Zero();

@@ -8,10 +8,27 @@ const Finger& finger_of_log(const HoldProblem& problem, std::size_t log) {
   return problem.fingers[problem.fingers.size() == 1 ? 0 : log];
 }
 
+namespace {
+
+/// What a wheel's log is mirrored and measured as: a disk.
+Finger shape_of(const HoldProblem& problem, std::size_t number) {
+  const std::size_t fingers = problem.logs.size();
+  return number < fingers ? finger_of_log(problem, number) : disk(problem.wheels[number - fingers].radius);
+}
+
+}  // namespace
+
 HoldRoll roll_of(const HoldProblem& problem, const Log& log, std::size_t number) {
   const FingerRows& rows = log.fingers.front();
-  const Finger& finger = finger_of_log(problem, number);
+  const Finger finger = shape_of(problem, number);
   HoldRoll roll;
+  roll.is_jaw = finger.is_jaw();
+  roll.is_wheel = number >= problem.logs.size();
+  roll.has_encoder = roll.is_wheel && !rows.psi.empty();
+  if (!rows.psi.empty()) {
+    roll.psi = {rows.psi.front(), rows.psi.back()};
+    roll.u = {rows.u.front(), rows.u.back()};
+  }
   roll.name = log.name;
   if (!rows.line.empty()) roll.lines = {rows.line.front(), rows.line.back()};
   roll.has_centre = !rows.x.empty();
@@ -23,7 +40,8 @@ HoldRoll roll_of(const HoldProblem& problem, const Log& log, std::size_t number)
 HoldProblem in_mirror(const HoldProblem& problem, std::vector<Log>& logs) {
   HoldProblem result = problem;
   for (std::size_t k = 0; k < logs.size(); ++k) {
-    mirror(logs[k].fingers.front(), &finger_of_log(problem, k));
+    const Finger finger = shape_of(problem, k);
+    mirror(logs[k].fingers.front(), &finger);
   }
   for (Finger& finger : result.fingers) finger = rollfix::mirrored(finger);
   return result;

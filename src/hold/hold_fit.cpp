@@ -17,6 +17,7 @@
 //   s = z + L / (1 + e)   where the contact is at a row: `place_of`
 //   (A, phi)        the part at a row: world(p) = A + R(phi) (p - m): `Placed`; m: `middle_`
 //   d, r            residuals q - world(p(s)) and tau - phi - Theta(s): ContactResidual
+//                   wheels add theirs, see hold_pins.cpp
 //   C               their covariance: position, the orientation by its lever w, and the contact's error n, which moves
 //                   the normal by (kappa + kappa_finger) n and nothing else
 //   P, B, M         blocks of the normal matrix: of a row's pose, of pose and unknowns, of the unknowns; M - B^T P^-1 B
@@ -27,32 +28,67 @@ namespace {
 
 constexpr int kMostFitRounds = 40;
 constexpr double kMostFitDamping = 1e10;
-constexpr double kFitSettled = 1e-9;  // a step that gains no more than this share, and this much, is the last
-constexpr int kPoseRounds = 12;       // of one row's pose alone
-constexpr double kPoseSettled = 1e-8;
-constexpr double kLeastShare = 1e-3;  // of a step of it
-constexpr int kWorstRounds = 25;      // of weighting up what is worst (Lawson's method)
+constexpr double kFitSettled = 1e-9;     // of first contacts
+constexpr double kExactSettled = 1e-16;  // without noise, beside wheels: their tolerance is far above what is exact
+constexpr int kPoseRounds = 12;          // of one row's pose alone
+constexpr double kPoseSettled = 10;      // as much more is the last of one row's pose
+constexpr double kLeastShare = 1e-3;     // of a step of it
+constexpr int kWorstRounds = 25;         // of weighting up what is worst (Lawson's method)
 
 }  // namespace
 
-HoldFit::HoldFit(const Part& part, const HeldRows& rows) : part_(part), rows_(rows) {
+HoldFit::HoldFit(const Part& part, const HeldRows& rows, const WheelPaths& wheels)
+    : part_(part), rows_(rows), wheels_(wheels), feet_(rows.rows.size() * rows.wheels.size()) {
   const bool any_stretch =
       std::any_of(rows.errors.begin(), rows.errors.end(), [](const HeldErrors& errors) { return errors.stretch > 0; });
   const auto count = static_cast<Eigen::Index>(rows.fingers());
-  size_ = rows.has_noise && any_stretch ? 2 * count : count;
+  settled_ = rows.has_noise || rows.wheels.empty() ? kFitSettled : kExactSettled;
+  has_stretches_ = rows.has_noise && any_stretch;
+  size_ = has_stretches_ ? 2 * count : count;
+  for (std::size_t k = 0; k < rows.wheels.size(); ++k) {
+    size_ += (rows.wheels[k].radius > 0 ? 1 : 0) + (rows.wheels[k].spin ? 1 : 0);
+  }
   constexpr int kPoints = 64;
   for (int k = 0; k < kPoints; ++k) middle_ += part.point(part.perimeter() * (k + 0.5) / kPoints) / kPoints;
 }
 
-double HoldFit::prior_precision(std::size_t finger) const {
-  const double sd = rows_.errors[finger].stretch;
-  return sd > 0 ? 1 / (sd * sd) : 1e12;
+/// Behind first contacts and stretches come the wheels', each with its radius and its encoder's zero where it has them.
+std::optional<Eigen::Index> HoldFit::radius_unknown(std::size_t wheel) const {
+  if (!(rows_.wheels[wheel].radius > 0)) return std::nullopt;
+  auto at = static_cast<Eigen::Index>(has_stretches_ ? 2 * fingers() : fingers());
+  for (std::size_t k = 0; k < wheel; ++k) at += 1 + (rows_.wheels[k].spin ? 1 : 0);
+  return at;
+}
+
+std::optional<Eigen::Index> HoldFit::spin_unknown(std::size_t wheel) const {
+  if (!rows_.wheels[wheel].spin) return std::nullopt;
+  if (const auto radius = radius_unknown(wheel)) return *radius + 1;
+  return static_cast<Eigen::Index>((has_stretches_ ? 2 * fingers() : fingers()) + wheel) -
+         std::count_if(rows_.wheels.begin(), rows_.wheels.begin() + static_cast<std::ptrdiff_t>(wheel),
+                       [](const HeldWheel& one) { return !one.spin; });
+}
+
+double HoldFit::scale_of(Eigen::Index unknown) const {
+  const double precision = prior_precision(unknown);
+  return precision > 0 ? std::max(1 / std::sqrt(precision), 1e-6) : std::numbers::pi;
+}
+
+/// Of what is no first contact; 0: nothing is known of it beforehand.
+double HoldFit::prior_precision(Eigen::Index unknown) const {
+  const auto count = static_cast<Eigen::Index>(fingers());
+  if (has_stretches_ && unknown < 2 * count) {
+    const double sd = rows_.errors[static_cast<std::size_t>(unknown - count)].stretch;
+    return sd > 0 ? 1 / (sd * sd) : 1e12;
+  }
+  for (std::size_t wheel = 0; wheel < wheels(); ++wheel) {
+    if (radius_unknown(wheel) == unknown) return 1 / (rows_.wheels[wheel].radius * rows_.wheels[wheel].radius);
+  }
+  return 0;
 }
 
 double HoldFit::place_of(const HeldState& state, std::size_t row, std::size_t finger) const {
   const auto k = static_cast<Eigen::Index>(finger);
-  const double stretch =
-      size_ > static_cast<Eigen::Index>(fingers()) ? state.unknowns(static_cast<Eigen::Index>(fingers()) + k) : 0;
+  const double stretch = has_stretches_ ? state.unknowns(static_cast<Eigen::Index>(fingers()) + k) : 0;
   return state.unknowns(k) + rows_.rows[row].contacts[finger].travelled / (1 + stretch);
 }
 
@@ -90,6 +126,7 @@ void HoldFit::guess(HeldState& state, std::size_t row) const {
   }
   if (count > 0) placed.middle /= count;
   placed.is_known = true;
+  if (fingers() == 1 && wheels() > 0) face_wheels(state, row);
 }
 
 /// Puts the part where a finger's centre is that is no evidence.
@@ -118,7 +155,7 @@ HoldFit::RowEquations HoldFit::settled(HeldState& state, std::size_t row) const 
       if (share < kLeastShare) break;
       continue;
     }
-    const bool is_last = now.square - next.square <= kPoseSettled * (1 + next.square);
+    const bool is_last = now.square - next.square <= kPoseSettled * settled_ * (1 + next.square);
     now = next;
     share = 1;
     if (is_last) break;
@@ -136,18 +173,25 @@ void HoldFit::settle(HeldState& state) const {
     state.cost += now.square + now.blur_size;
     if (rows_.reference) refer(state, row);
   }
-  if (size_ == static_cast<Eigen::Index>(fingers())) return;
-  for (std::size_t k = 0; k < fingers(); ++k) {
-    const double stretch = state.unknowns(static_cast<Eigen::Index>(fingers() + k));
-    state.square += stretch * stretch * prior_precision(k);
-    state.cost += stretch * stretch * prior_precision(k);
+  for (auto k = static_cast<Eigen::Index>(fingers()); k < size_; ++k) {
+    const double square = state.unknowns(k) * state.unknowns(k) * prior_precision(k);
+    state.square += square;
+    state.cost += square;
   }
 }
 
 HeldState HoldFit::at(const std::vector<double>& first_contacts) const {
   Unknowns unknowns = Unknowns::Zero(size_);
   for (std::size_t k = 0; k < fingers(); ++k) unknowns(static_cast<Eigen::Index>(k)) = first_contacts[k];
-  return at(unknowns, std::vector<Placed>(rows_.rows.size()));
+  HeldState state;
+  state.unknowns = unknowns;
+  state.placed = std::vector<Placed>(rows_.rows.size());
+  if (wheels() > 0) {
+    for (std::size_t row = 0; row < rows_.rows.size(); ++row) guess(state, row);
+    zero_spins(state);
+  }
+  settle(state);
+  return state;
 }
 
 HeldState HoldFit::at(const Unknowns& unknowns, const std::vector<Placed>& near) const {
@@ -168,10 +212,13 @@ Reduced HoldFit::reduced(const HeldState& state) const {
     const RowBlock share = pose.solve(one.mixed);
     sum.matrix += one.own - UnknownsMatrix(one.mixed.transpose() * share);
     sum.slope += one.own_slope - Unknowns(share.transpose() * one.slope);
-    sum.log_volume -= 0.5 * (one.log_size + pose.vectorD().array().abs().log().sum());
+    // Where a wheel is at a row, the robot made: there is no density of it that a narrow row could be likelier by, and
+    // rows are weighed by how well they fit alone.
+    const double volume = one.log_size + pose.vectorD().array().abs().log().sum();
+    sum.log_volume -= 0.5 * (wheels() > 0 ? one.blur_size : volume);
   }
   for (auto k = static_cast<Eigen::Index>(fingers()); k < size_; ++k) {
-    const double precision = prior_precision(static_cast<std::size_t>(k) - fingers());
+    const double precision = prior_precision(k);
     sum.matrix(k, k) += precision;
     sum.slope(k) -= precision * state.unknowns(k);
   }
@@ -208,19 +255,24 @@ HeldState HoldFit::fit(HeldState state, std::optional<Eigen::Index> held) const 
         damping *= 10;
       }
     }
-    if (!is_better || gain <= kFitSettled * (1 + std::abs(state.cost))) break;
+    if (!is_better || gain <= settled_ * (1 + std::abs(state.cost))) break;
   }
   return state;
+}
+
+/// Of one finger, or behind all of them of a wheel.
+double HoldFit::worst_of(const HeldState& state, std::size_t row, std::size_t contact) const {
+  if (contact >= fingers()) return worst_of_wheel(state, row, contact - fingers());
+  const ContactResidual off = residual(state, row, contact);
+  const HeldErrors& errors = rows_.errors[contact];
+  const double place = errors.has_place ? off.place.norm() / errors.place : 0;
+  return std::max(place, std::abs(off.turn) / errors.angle);
 }
 
 double HoldFit::worst(const HeldState& state) const {
   double most = 0;
   for (std::size_t row = 0; row < rows_.rows.size(); ++row) {
-    for (std::size_t k = 0; k < fingers(); ++k) {
-      const ContactResidual off = residual(state, row, k);
-      if (rows_.errors[k].has_place) most = std::max(most, off.place.norm() / rows_.errors[k].place);
-      most = std::max(most, std::abs(off.turn) / rows_.errors[k].angle);
-    }
+    for (std::size_t k = 0; k < fingers() + wheels(); ++k) most = std::max(most, worst_of(state, row, k));
   }
   return most;
 }
@@ -228,18 +280,15 @@ double HoldFit::worst(const HeldState& state) const {
 HeldState HoldFit::best_worst(HeldState from) {
   HeldState best = fit(std::move(from));
   double least = worst(best);
-  weights_.assign(rows_.rows.size() * fingers(), 1.0);
+  weights_.assign(rows_.rows.size() * (fingers() + wheels()), 1.0);
   HeldState state = best;
   for (int round = 0; round < kWorstRounds && least > 1; ++round) {
     const double most = worst(state);
     double sum = 0;
     for (std::size_t row = 0; row < rows_.rows.size(); ++row) {
-      for (std::size_t k = 0; k < fingers(); ++k) {
-        const ContactResidual off = residual(state, row, k);
-        const double place = rows_.errors[k].has_place ? off.place.norm() / rows_.errors[k].place : 0;
-        const double turn = std::abs(off.turn) / rows_.errors[k].angle;
-        double& weight = weights_[row * fingers() + k];
-        weight *= 1e-6 + std::max(place, turn) / most;
+      for (std::size_t k = 0; k < fingers() + wheels(); ++k) {
+        double& weight = weights_[row * (fingers() + wheels()) + k];
+        weight *= 1e-6 + worst_of(state, row, k) / most;
         sum += weight;
       }
     }

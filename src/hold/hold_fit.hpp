@@ -7,10 +7,12 @@
 
 #include "box_search.hpp"
 #include "held_rows.hpp"
+#include "wheel_path.hpp"
 
 namespace rollfix::hold {
 
-/// First contacts of all fingers, and with noise how much longer each finger's lengths are than measured.
+/// First contacts of all fingers; with noise how much longer each finger's lengths are than measured, and how much
+/// larger each wheel's radius; the zero of each wheel's encoder.
 using Unknowns = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kMostFingers, 1>;
 using UnknownsMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2 * kMostFingers, 2 * kMostFingers>;
 
@@ -53,11 +55,15 @@ struct ContactResidual {
 /// poses are eliminated.
 class HoldFit {
  public:
-  HoldFit(const Part& part, const HeldRows& rows);
+  HoldFit(const Part& part, const HeldRows& rows, const WheelPaths& wheels);
 
   const HeldRows& rows() const { return rows_; }
   std::size_t fingers() const { return rows_.fingers(); }
+  std::size_t wheels() const { return rows_.wheels.size(); }
   Eigen::Index size() const { return size_; }
+  bool has_stretches() const { return has_stretches_; }
+  /// What an unknown that is no first contact can be at most, about.
+  double scale_of(Eigen::Index unknown) const;
 
   /// The state with these first contacts, and the best poses for them.
   HeldState at(const std::vector<double>& first_contacts) const;
@@ -82,6 +88,15 @@ class HoldFit {
     double curvature = 0;  // of the part there
   };
   ContactError contact_error(const HeldState& state, std::size_t row, std::size_t finger) const;
+  /// Where a wheel touches at a row, how that changes with the pose, and its variance with the pose given.
+  struct WheelAt {
+    double s = 0;
+    Eigen::RowVector3d by_pose = Eigen::RowVector3d::Zero();
+    double variance = 0;
+  };
+  WheelAt wheel_at(const HeldState& state, std::size_t row, std::size_t wheel) const;
+  /// How far off the wheel is in length, first coordinate, and its encoder in angle.
+  ContactResidual wheel_residual(const HeldState& state, std::size_t row, std::size_t wheel) const;
   /// Numbers that the rows say, less those that each row's pose takes; angles of pivots count as one for each corner.
   double freedom(const HeldState& state) const;
 
@@ -90,18 +105,35 @@ class HoldFit {
   Look look(const Placed& placed, double s, std::size_t row, std::size_t finger) const;
   struct RowEquations;
   RowEquations equations(const HeldState& state, std::size_t row, bool with_unknowns) const;
-  double weight(std::size_t row, std::size_t finger) const {
-    return weights_.empty() ? 1 : weights_[row * rows_.fingers() + finger];
+  struct PinLook;
+  PinLook pin_look(const HeldState& state, std::size_t row, std::size_t wheel) const;
+  void add_pin(const HeldState& state, std::size_t row, std::size_t wheel, bool with_unknowns, RowEquations& sum) const;
+  NearPin near_pin(const HeldState& state, std::size_t row, std::size_t wheel) const;
+  double unwrapped_heading(const HeldState& state, std::size_t row) const;
+  double spin_of(const HeldState& state, std::size_t row, std::size_t wheel, const NearPin& near) const;
+  void face_wheels(HeldState& state, std::size_t row) const;
+  void zero_spins(HeldState& state) const;
+  double worst_of_wheel(const HeldState& state, std::size_t row, std::size_t wheel) const;
+  double worst_of(const HeldState& state, std::size_t row, std::size_t contact) const;
+  std::optional<Eigen::Index> radius_unknown(std::size_t wheel) const;
+  std::optional<Eigen::Index> spin_unknown(std::size_t wheel) const;
+  /// `contact`: of a finger, or behind all of them of a wheel.
+  double weight(std::size_t row, std::size_t contact) const {
+    return weights_.empty() ? 1 : weights_[row * (fingers() + wheels()) + contact];
   }
   RowEquations settled(HeldState& state, std::size_t row) const;
   void settle(HeldState& state) const;
   void guess(HeldState& state, std::size_t row) const;
   void refer(HeldState& state, std::size_t row) const;
   double pivot_length(const HeldContact& contact) const;
-  double prior_precision(std::size_t finger) const;
+  double prior_precision(Eigen::Index unknown) const;
 
   const Part& part_;
   const HeldRows& rows_;
+  const WheelPaths& wheels_;
+  mutable std::vector<std::optional<touch::PathPlace>> feet_;  // of each row, of each wheel: where it was found last
+  bool has_stretches_ = false;
+  double settled_ = 0;  // a step that gains no more than this share of all squares and 1 is the last
   Eigen::Index size_ = 0;
   Vec2 middle_ = Vec2::Zero();
   std::vector<double> weights_;

@@ -45,10 +45,12 @@ struct Inverse {
 };
 
 Inverse inverse_within(const UnknownsMatrix& information, const Scale& scale) {
+  Inverse inverse;
+  inverse.covariance = UnknownsMatrix::Zero(scale.size(), scale.size());
+  if (scale.size() == 0) return inverse;
   const UnknownsMatrix scaled = scale.asDiagonal() * information * scale.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<UnknownsMatrix> eigen(scaled);
   Unknowns values = eigen.eigenvalues();
-  Inverse inverse;
   for (Eigen::Index k = 0; k < values.size(); ++k) {
     if (!(values(k) > 1)) {
       values(k) = 1;
@@ -68,11 +70,11 @@ class RidgeWalk {
     const auto fingers = static_cast<Eigen::Index>(fit.fingers());
     double widest = 0;
     for (Eigen::Index k = 0; k < fit.size(); ++k) {
-      const auto finger = static_cast<std::size_t>(k % fingers);
-      const HeldErrors& errors = fit.rows().errors[finger];
-      widest = k < fingers ? std::max(widest, set.extent[finger].width()) : widest;
-      scale_(k) = k < fingers ? std::max(set.extent[finger].width(), errors.travel) / std::sqrt(12.0)
-                              : std::max(errors.stretch, 1e-6);
+      scale_(k) = fit.scale_of(k);
+      if (k >= fingers) continue;
+      const double width = set.extent[static_cast<std::size_t>(k)].width();
+      widest = std::max(widest, width);
+      scale_(k) = std::max(width, fit.rows().errors[static_cast<std::size_t>(k)].travel) / std::sqrt(12.0);
     }
     const Inverse whole = inverse_within(fit.reduced(start.state).matrix, scale_);
     free_ = whole.free;

@@ -26,7 +26,8 @@ struct HoldMode {
 
 /// A set of boxes, as the posterior sees it.
 struct HeldSet {
-  std::vector<Interval> extent;  // of each finger's first contact
+  std::vector<Interval> extent;    // of each finger's first contact
+  std::vector<Interval> wheels{};  // of each wheel's
 };
 
 /// Where the fits ended, and in which sets.

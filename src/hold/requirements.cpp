@@ -18,8 +18,15 @@ char finger_letter(std::size_t finger) { return static_cast<char>('a' + finger);
 
 void require_fingers(const HoldProblem& problem) {
   const std::size_t count = problem.logs.size();
-  if (count < 2 || count > kMostFingers) {
-    refuse(fmt::format("expected logs of 2 to {} fingers, found {}", kMostFingers, count));
+  const std::size_t all = count + problem.wheels.size();
+  if (all < 2 || all > kMostFingers) {
+    refuse(fmt::format("expected logs of 2 to {} fingers, found {}", kMostFingers, all));
+  }
+  if (count == 0) {
+    refuse(
+        "expected a finger with skin, found wheels alone: where pins were says nothing of a part that may lie "
+        "anywhere; "
+        "add the log of a finger with u and psi, as of a jaw");
   }
   if (problem.fingers.empty()) {
     refuse(
@@ -43,6 +50,42 @@ void require_log(const Log& log) {
         log.name));
   }
   if (log.rows() < 2) refuse(fmt::format("{}: expected at least 2 rows, found {}", log.name, log.rows()));
+}
+
+/// A wheel says where it was. What that comes to is known if a finger with skin was somewhere in the same frame.
+void require_wheels(const HoldProblem& problem) {
+  for (const PassiveWheel& wheel : problem.wheels) {
+    rollfix::require_valid(Finger(disk(wheel.radius)));
+    const FingerRows& rows = wheel.log.rows.fingers.front();
+    if (rows.x.size() != rows.u.size() || rows.y.size() != rows.u.size() || rows.u.size() < 2) {
+      refuse(fmt::format("{}: expected at least 2 rows with x and y of the wheel's pin", wheel.log.rows.name));
+    }
+  }
+  if (problem.squeezed) {
+    if (!(std::isfinite(*problem.squeezed) && *problem.squeezed > 0)) {
+      refuse(fmt::format("squeezed: expected a standard deviation above 0, an angle, found {}", *problem.squeezed));
+    }
+    if (problem.logs.size() != 1 || problem.wheels.size() != 1) {
+      refuse(
+          fmt::format("squeezed: expected one finger with skin and one wheel, found {} and {}: with others the forces "
+                      "do not lie on "
+                      "one line; leave it out",
+                      problem.logs.size(), problem.wheels.size()));
+    }
+  }
+  if (problem.wheels.empty()) return;
+  bool any_place = false;
+  for (const Log& log : problem.logs) any_place = any_place || !log.fingers.front().x.empty();
+  if (!any_place) {
+    refuse(
+        fmt::format("{}: expected columns x and y, where the origin of the finger's frame was, found none: a wheel "
+                    "says something by "
+                    "where its pin was as seen from the finger; without both any place on the part fits",
+                    problem.logs.front().name));
+  }
+  if (problem.noise && !(problem.noise->position > 0)) {
+    refuse("expected noise with position=SD beside a wheel, found none: all that a wheel says is where its pin was");
+  }
 }
 
 /// Two fingers are not at one place.
@@ -89,6 +132,7 @@ void require_noise(const HoldProblem& problem) {
 void require_valid(const HoldProblem& problem) {
   require_fingers(problem);
   for (const Log& log : problem.logs) require_log(log);
+  require_wheels(problem);
   require_different(problem.logs);
   if (problem.noise) require_noise(problem);
   if (!problem.tolerance) return;

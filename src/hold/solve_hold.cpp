@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -14,6 +16,7 @@
 #include "hold_fit.hpp"
 #include "hold_modes.hpp"
 #include "requirements.hpp"
+#include "rollfix/error.hpp"
 #include "rollfix/hold/hold.hpp"
 #include "rollfix/part/reach.hpp"
 #include "rollfix/pulse.hpp"
@@ -39,21 +42,24 @@ HeldRows chosen_rows(const HeldRows& rows, const std::vector<std::size_t>& chose
   return result;
 }
 
-/// Where each finger can touch: of disks; nullptr for others. Fingers of one radius share it.
+/// Where each finger can touch: of disks, and of jaws beside wheels; nullptr for others. Fingers of one radius share
+/// it.
 class ReachOfFingers {
  public:
   explicit ReachOfFingers(const HoldProblem& problem) {
     for (std::size_t k = 0; k < problem.logs.size(); ++k) {
       const Finger& finger = finger_of_log(problem, k);
-      if (!finger.is_disk()) {
+      const bool is_known = finger.is_disk() || (finger.is_jaw() && !problem.wheels.empty());
+      if (!is_known) {
         each.push_back(nullptr);
         continue;
       }
-      const double radius = finger.disk()->radius;
+      const double radius = finger.is_jaw() ? 0 : finger.disk()->radius;  // 0: a jaw
       const auto known = reaches_.find(radius);
       const auto& reach = known != reaches_.end()
                               ? known->second
-                              : reaches_[radius] = std::make_unique<Reach>(reach_of_disk(problem.part, radius));
+                              : reaches_[radius] = std::make_unique<Reach>(
+                                    radius > 0 ? reach_of_disk(problem.part, radius) : reach_of_jaw(problem.part));
       each.push_back(reach.get());
     }
   }
@@ -65,7 +71,7 @@ class ReachOfFingers {
 
 class HoldSolver {
  public:
-  HoldSolver(const HoldProblem& problem, const std::vector<Log>& logs, HoldAnswer& answer)
+  HoldSolver(const HoldProblem& problem, const std::vector<Log>& logs, const WheelPaths& wheels, HoldAnswer& answer)
       : problem_(problem),
         answer_(answer),
         boundary_(problem.part.boundary()),
@@ -74,17 +80,18 @@ class HoldSolver {
         searched_(chosen_rows(rows_, sorted(instants_))),
         part_(problem.part),
         reach_(problem),
-        search_(part_, rows_, instants_, reach_.each, problem.budget.value_or(kHoldBudget)) {}
+        wheels_(wheels),
+        search_(part_, rows_, instants_, reach_.each, wheels, problem.budget.value_or(kHoldBudget)) {}
 
   void run() {
     for (const std::size_t row : sorted(instants_)) answer_.instants.push_back(rows_.rows[row].time);
-    for (std::size_t k = 0; k < answer_.rolls.size(); ++k) {
+    for (std::size_t k = 0; k < rows_.fingers(); ++k) {
       answer_.rolls[k].length = searched_.rows.back().contacts[k].travelled;
     }
     if (!rows_.any_place) answer_.place = rows_.reference ? PlaceKnown::reference : PlaceKnown::unknown;
     Boxes boxes = search_.search();
     if (rows_.has_noise) {
-      weigh(problem_, rows_, searched_, sets(boxes.fit), search_, answer_);
+      weigh(problem_, rows_, searched_, sets(boxes.fit), search_, wheels_, answer_);
       add_unresolved(boxes.undecided);
     } else {
       look_for_witnesses(std::move(boxes));
@@ -106,6 +113,9 @@ class HoldSolver {
       for (std::size_t k = 0; k < search_.fingers(); ++k) {
         one.set.extent.push_back(extent_of(search_, one.boxes, k, boundary_));
       }
+      for (std::size_t k = 0; k < wheels_.size(); ++k) {
+        one.set.wheels.push_back(wheel_extent(search_, one.boxes, k, boundary_));
+      }
       found.push_back(std::move(one));
     }
     return found;
@@ -114,7 +124,7 @@ class HoldSolver {
   /// In every set first contacts that fit at all instants; sets without are cut smaller, until they are gone or told.
   void look_for_witnesses(Boxes boxes) {
     double leaf = BoxSearch::kLeaf;
-    HoldFit fit(problem_.part, searched_);
+    HoldFit fit(problem_.part, searched_, wheels_);
     std::vector<Box> undecided = std::move(boxes.undecided);
     for (int round = 0; round <= kHoldRefinements && !boxes.fit.empty(); ++round) {
       std::vector<Box> left;
@@ -140,7 +150,7 @@ class HoldSolver {
       if (fit.worst(state) > 1) continue;
       // A fit may have ended in another set, which has its own.
       if (!is_within(found.set, state, boundary_, 0)) continue;
-      HoldPlacement placement = described(fit, problem_.part, state, found.set.extent);
+      HoldPlacement placement = described(fit, problem_.part, state, found.set);
       placement.continuum = is_free(fit, state, found.set);
       answer_.placements.push_back(std::move(placement));
       return true;
@@ -153,14 +163,19 @@ class HoldSolver {
     double widest = 0;
     for (const Interval& arc : set.extent) widest = std::max(widest, arc.width());
     const UnknownsMatrix information = fit.reduced(state).matrix;
-    const double weakest = Eigen::SelfAdjointEigenSolver<UnknownsMatrix>(information).eigenvalues()(0);
+    const auto fingers = static_cast<Eigen::Index>(fit.fingers());  // an encoder's zero is no place
+    const UnknownsMatrix places = information.topLeftCorner(fingers, fingers);
+    const double weakest = Eigen::SelfAdjointEigenSolver<UnknownsMatrix>(places).eigenvalues()(0);
     const double confined = kFreeHold * boundary_.perimeter;
     return widest > 1e-3 * boundary_.perimeter && !(weakest > 1 / (confined * confined));
   }
 
   void add_unresolved(const std::vector<Box>& boxes) {
     if (boxes.empty()) return;
-    for (const FoundSet& one : sets(boxes)) answer_.unresolved.push_back(one.set.extent);
+    for (const FoundSet& one : sets(boxes)) {
+      answer_.unresolved.push_back(one.set.extent);
+      answer_.unresolved.back().insert(answer_.unresolved.back().end(), one.set.wheels.begin(), one.set.wheels.end());
+    }
   }
 
   void conclude() {
@@ -198,8 +213,45 @@ class HoldSolver {
   HeldRows searched_;
   HeldPart part_;
   ReachOfFingers reach_;
+  const WheelPaths& wheels_;
   BoxSearch search_;
 };
+
+/// Throws InputError: a wheel that fits nowhere.
+WheelPaths paths_of(const HoldProblem& problem) {
+  WheelPaths paths;
+  for (const PassiveWheel& wheel : problem.wheels) {
+    paths.push_back(std::make_unique<WheelPath>(problem.part, wheel.radius));
+    if (!paths.back()->is_empty()) continue;
+    throw InputError(fmt::format(
+        "fingers on a free part: a wheel with radius {} can touch {} nowhere without entering it; check the radius and "
+        "the part's unit",
+        wheel.radius, problem.part.name()));
+  }
+  return paths;
+}
+
+/// Those of the fingers, then those of the wheels, in the part's unit.
+std::vector<Log> logs_of(const HoldProblem& problem) {
+  std::vector<Log> logs;
+  for (std::size_t k = 0; k < problem.logs.size(); ++k) {
+    logs.push_back(in_unit(problem.logs[k], problem.part.unit(), {finger_of_log(problem, k)}));
+  }
+  for (const PassiveWheel& wheel : problem.wheels) {
+    logs.push_back(in_unit(wheel.log.rows, problem.part.unit(), {disk(wheel.radius)}));
+  }
+  return aligned(std::move(logs));
+}
+
+TouchTolerance largest_tolerance(const HeldRows& rows) {
+  TouchTolerance most;
+  for (const HeldErrors& errors : rows.errors) {
+    most.length = std::max(most.length, errors.has_place ? errors.place : 0);
+    most.angle = std::max(most.angle, errors.angle);
+  }
+  for (const HeldWheel& wheel : rows.wheels) most.length = std::max(most.length, wheel.place);
+  return most;
+}
 
 }  // namespace
 }  // namespace hold
@@ -207,24 +259,17 @@ class HoldSolver {
 HoldAnswer solve(const HoldProblem& problem) {
   hold::require_valid(problem);
   const Doing doing("looking for places that fit all fingers");
-  std::vector<Log> logs;
-  for (std::size_t k = 0; k < problem.logs.size(); ++k) {
-    logs.push_back(in_unit(problem.logs[k], problem.part.unit(), {hold::finger_of_log(problem, k)}));
-  }
-  logs = hold::aligned(std::move(logs));
+  const hold::WheelPaths wheels = hold::paths_of(problem);
+  std::vector<Log> logs = hold::logs_of(problem);
   HoldAnswer answer{problem.part, {}};
   for (std::size_t k = 0; k < logs.size(); ++k) answer.rolls.push_back(hold::roll_of(problem, logs[k], k));
   answer.rows = logs.front().rows();
   answer.noise = problem.noise;
+  answer.squeezed = problem.squeezed;
   answer.mirrored = problem.mirrored;
   const HoldProblem seen = problem.mirrored ? hold::in_mirror(problem, logs) : problem;
-  if (!problem.noise) {
-    for (const hold::HeldErrors& errors : hold::held_rows(seen, logs).errors) {
-      answer.tolerance.length = std::max(answer.tolerance.length, errors.has_place ? errors.place : 0);
-      answer.tolerance.angle = std::max(answer.tolerance.angle, errors.angle);
-    }
-  }
-  hold::HoldSolver(seen, logs, answer).run();
+  if (!problem.noise) answer.tolerance = hold::largest_tolerance(hold::held_rows(seen, logs));
+  hold::HoldSolver(seen, logs, wheels, answer).run();
   if (problem.mirrored) hold::out_of_mirror(answer);
   return answer;
 }

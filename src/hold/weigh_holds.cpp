@@ -24,18 +24,19 @@ constexpr double kWideHold = 0.1;         // of the perimeter: no place is known
 class HoldWeighing {
  public:
   HoldWeighing(const HoldProblem& problem, const HeldRows& rows, const HeldRows& searched, BoxSearch& search,
-               HoldAnswer& answer)
+               const WheelPaths& wheels, HoldAnswer& answer)
       : problem_(problem),
         boundary_(problem.part.boundary()),
         rows_(rows),
         searched_(searched),
         search_(search),
+        wheels_(wheels),
         answer_(answer) {}
 
   void run(const std::vector<FoundSet>& found) {
     const HeldRows all = averaged(rows_, kMostRows);
-    const HoldFit few(problem_.part, searched_);
-    const HoldFit fit(problem_.part, all);
+    const HoldFit few(problem_.part, searched_, wheels_);
+    const HoldFit fit(problem_.part, all, wheels_);
     std::vector<HeldSet> known;
     for (const FoundSet& one : found) known.push_back(one.set);
     const std::vector<Optimum> optima = best_of(found, few, fit);
@@ -68,7 +69,7 @@ class HoldWeighing {
  private:
   HoldPlacement posterior_of(const HoldMode& mode, const HeldState& shown, const HoldFit& fit,
                              const HeldSet& set) const {
-    HoldPlacement placement = described(fit, problem_.part, shown, set.extent);
+    HoldPlacement placement = described(fit, problem_.part, shown, set);
     add_posterior(placement, fit, problem_.part, mode);
     for (const HoldContact& contact : placement.contacts) {
       placement.continuum = placement.continuum || contact.interval.width() > kWideHold * boundary_.perimeter;
@@ -86,7 +87,7 @@ class HoldWeighing {
   const HeldState& middle_of(const HoldMode& mode, const HoldPlacement& placement) const {
     const auto off = [&](const HoldNode& node) {
       double square = 0;
-      for (std::size_t k = 0; k < placement.contacts.size(); ++k) {
+      for (std::size_t k = 0; k < problem_.logs.size(); ++k) {
         const HoldContact& contact = placement.contacts[k];
         const double away = boundary_.offset(contact.mean, node.state.unknowns(static_cast<Eigen::Index>(k)));
         square += std::pow(away / std::max(contact.sd, 1e-12 * boundary_.perimeter), 2);
@@ -167,6 +168,7 @@ class HoldWeighing {
   const HeldRows& rows_;
   const HeldRows& searched_;
   BoxSearch& search_;
+  const WheelPaths& wheels_;
   HoldAnswer& answer_;
 };
 
@@ -180,8 +182,8 @@ std::vector<double> middle_of_box(BoxSearch& search, const FoundSet& found, std:
 }
 
 void weigh(const HoldProblem& problem, const HeldRows& rows, const HeldRows& searched,
-           const std::vector<FoundSet>& found, BoxSearch& search, HoldAnswer& answer) {
-  HoldWeighing(problem, rows, searched, search, answer).run(found);
+           const std::vector<FoundSet>& found, BoxSearch& search, const WheelPaths& wheels, HoldAnswer& answer) {
+  HoldWeighing(problem, rows, searched, search, wheels, answer).run(found);
 }
 
 }  // namespace rollfix::hold

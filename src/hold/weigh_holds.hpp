@@ -23,6 +23,6 @@ std::vector<double> middle_of_box(BoxSearch& search, const FoundSet& found, std:
 
 /// With noise: the posterior over these sets, into the answer. `searched`: of the rows those that were searched with.
 void weigh(const HoldProblem& problem, const HeldRows& rows, const HeldRows& searched,
-           const std::vector<FoundSet>& found, BoxSearch& search, HoldAnswer& answer);
+           const std::vector<FoundSet>& found, BoxSearch& search, const WheelPaths& wheels, HoldAnswer& answer);
 
 }  // namespace rollfix::hold

@@ -16,6 +16,7 @@ namespace rollfix::app {
 namespace {
 
 constexpr const char* kJaw = "jaw";
+constexpr std::string_view kWheel = "wheel";
 constexpr std::string_view kOpen = ",open";
 constexpr std::string_view kPolygon = ",polygon";
 
@@ -75,10 +76,33 @@ Finger read_outlined(const std::string& text, const std::string& unit) {
 
 Finger read_any(const std::string& text, const std::string& unit) {
   if (text == kJaw) return jaw();
+  if (names_wheel(text)) {
+    throw InputError(fmt::format(
+        "--finger {}: a wheel has no skin: locate takes it beside a finger with skin, with a log of each, as "
+        "in --log jaw.csv --log pin.csv --finger jaw --finger {}",
+        text, text));
+  }
   return names_outline(text) ? read_outlined(text, unit) : Finger(read_disk(text, unit));
 }
 
 }  // namespace
+
+bool names_wheel(const std::string& text) { return split(text, ',')[0] == kWheel; }
+
+double read_wheel(const std::string& text, const std::string& unit) {
+  const std::string what = fmt::format("--finger {}", text);
+  const std::vector<std::string_view> fields = split(text, ',');
+  if (fields.size() != 2 || fields[1].substr(0, 2) != "r=") {
+    throw InputError(fmt::format("{}: expected a wheel with its radius, as in wheel,r=0.4", what));
+  }
+  const double radius = read_length(fields[1].substr(2), what, unit);
+  try {
+    require_valid(Finger(disk(radius)));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", what, error.what()));
+  }
+  return radius;
+}
 
 bool names_outline(const std::string& text) {
   if (text.find("gallery:") == 0) return true;
@@ -93,8 +117,8 @@ void add_finger_argument(CLI::App& command, std::vector<std::string>& fingers) {
           "--finger", fingers,
           "the finger: disk,r=RADIUS, in the part's unit or with a unit as in r=8mm; jaw, a flat one; or the file of "
           "a convex outline, with ,open behind it if it is open, and ,polygon if its points are the corners of a "
-          "polygon; for several fingers once, or once for each if they "
-          "differ")
+          "polygon; for several fingers once, or once for each if they differ; `locate` takes wheel,r=RADIUS beside "
+          "them, a wheel without skin on a pin")
       ->type_name("FINGER")
       ->allow_extra_args(false);
 }

@@ -17,6 +17,12 @@ void add_finger_argument(CLI::App& command, std::vector<std::string>& fingers);
 /// InputError: no such finger, or too many.
 std::vector<Finger> read_fingers(const std::vector<std::string>& fingers, std::size_t most, const std::string& unit);
 
+/// Whether this means a wheel without skin: "wheel,r=0.4".
+bool names_wheel(const std::string& text);
+
+/// Its radius. Throws InputError: not of this form, not above 0.
+double read_wheel(const std::string& text, const std::string& unit);
+
 /// Whether a finger is the outline of a file or of the gallery: "pad.csv", "gallery:stadium", and not "disc,r=0.1".
 bool names_outline(const std::string& text);
 

@@ -35,6 +35,7 @@ struct RollArguments {
   std::string budget;
   std::string noise;
   std::string prior;
+  std::string squeezed;
   PoseArguments pose;
   std::string direction;
   bool mirror = false;

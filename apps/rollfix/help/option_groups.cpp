@@ -23,7 +23,7 @@ const std::vector<Group>& groups() {
         "--skip-bad", "--direction", "--batch", "--once", "--idle-timeout", "--baud", "--samples"}},
       {"Files", {"--decimal"}},
       {"Finger", {"--finger", "--may-overlap"}},
-      {"Noise", {"--noise", "--prior", "--robust", "--heading", "--pose", "--seed"}},
+      {"Noise", {"--noise", "--prior", "--robust", "--heading", "--pose", "--squeezed", "--seed"}},
       {"Roll",
        {"--start", "--length", "--rotation", "--part-rotation", "--stays", "--contact-angle", "--contact", "--pin",
         "--jaw-rotation", "--squeeze", "--wheel", "--friction", "--margin", "--clearance", "--limit", "--duration",

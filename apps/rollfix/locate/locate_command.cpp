@@ -47,6 +47,8 @@ Two fingers on a part that is free to move:
   rollfix locate gallery:cam --reading 1.5,-0.8,110.97000deg --facing -142.40990deg
   rollfix simulate gallery:cam --finger disk,r=0.2 --start 1 --start 4 --length 1.5 --length -0.8 -o cam-rolls.csv
   rollfix locate gallery:cam --log cam-rolls.csv --finger disk,r=0.2 -o cam-pairs.svg
+A jaw with skin, and a wheel without: of the wheel only the pin's place x,y is known, and psi by an encoder:
+  rollfix locate gallery:cam --log jaw.csv --log pin.csv --finger jaw --finger wheel,r=0.4 --noise contact=0.01,angle=0.3deg,position=0.01 -o rig.svg
 Three and more fingers on a part that is free to move, a log of each with the same times:
   rollfix simulate gallery:cam --finger disk,r=0.2 --start 1 --start 4 --length 1.5 --length -0.8 -o hold-a.csv -o hold-b.csv
   rollfix simulate gallery:cam --finger disk,r=0.2 --start 1 --start 6 --length 1.5 --length 0.5 -o again.csv -o hold-c.csv
@@ -142,7 +144,7 @@ Report poses_report(const LocateArguments& arguments, bool has_rolls) {
 /// What three and more fingers have no use for.
 Report hold_report(const LocateArguments& arguments) {
   const auto refuse = [&](bool given, const char* option) {
-    if (given) throw InputError(fmt::format("{}: is of one or two fingers; leave it out", option));
+    if (given) throw InputError(fmt::format("{}: is of one or two fingers with skin; leave it out", option));
   };
   refuse(!arguments.maps.empty(), "--map");
   refuse(!arguments.certificate.empty(), "--certify");
@@ -182,6 +184,12 @@ Report locate_report(const LocateArguments& arguments, std::ostream& out) {
   if (are_many_fingers(arguments.roll)) return hold_report(arguments);
   if (are_touches(arguments.touches, arguments.roll)) return poses_report(arguments, false);
   require_sensible(arguments);
+  if (!arguments.roll.squeezed.empty()) {
+    throw InputError(
+        "--squeezed: it is about a finger with skin and a wheel without that squeeze a part, as in --finger jaw "
+        "--finger "
+        "wheel,r=0.4; leave it out");
+  }
   const OutputArgument& output = arguments.output;
   if (arguments.maps.empty()) require_figure_output(output, arguments.json);
   require_map_output(arguments.maps, output.file, output.force, arguments.json, !arguments.roll.logs.empty(),
@@ -272,6 +280,13 @@ void add_locate_command(CLI::App& program, Command& chosen, std::ostream& out) {
           "the angle from finger b's contact normal to finger a's at the first contacts; with it one reading of two "
           "fingers is enough")
       ->type_name("ANGLE");
+  command
+      ->add_option("--squeezed", roll.squeezed,
+                   "a finger with skin and a wheel squeeze the part, and the floor's and the pin's friction are small: "
+                   "the wheel's normal points through the finger's contact, to this standard deviation; default 5deg")
+      ->type_name("SD")
+      ->expected(0, 1)
+      ->default_str("5deg");
   command
       ->add_option("--budget", roll.budget,
                    "intervals to examine, beyond the part's own, before giving up; default 1000000")

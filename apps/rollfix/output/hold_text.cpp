@@ -33,13 +33,23 @@ class HoldText {
  private:
   std::string place(double value) const { return fixed(value, decimals_); }
 
+  /// "finger a", "wheel b".
+  std::string name(std::size_t k) const {
+    return fmt::format("{} {}", answer_.rolls[k].is_wheel ? "wheel" : "finger", letter(k));
+  }
+
+  std::size_t wheels() const {
+    return static_cast<std::size_t>(
+        std::count_if(answer_.rolls.begin(), answer_.rolls.end(), [](const HoldRoll& roll) { return roll.is_wheel; }));
+  }
+
   /// ": finger a started at s = 1, finger b at 2, finger c at 3".
   std::string first_line() const {
     if (answer_.verdict.name != Verdict::unique) return "";
     std::string text;
     const std::vector<HoldContact>& contacts = answer_.placements.front().contacts;
     for (std::size_t k = 0; k < contacts.size(); ++k) {
-      text += fmt::format("{}finger {} {}{:.6g}{}", k == 0 ? ": " : ", ", letter(k), k == 0 ? "started at s = " : "at ",
+      text += fmt::format("{}{} {}{:.6g}{}", k == 0 ? ": " : ", ", name(k), k == 0 ? "started at s = " : "at ",
                           contacts[k].start, answer_.noise ? fmt::format(", sd {:.2g}", contacts[k].sd) : "");
     }
     return text + behind(unit_);
@@ -63,8 +73,11 @@ class HoldText {
     }
     return std::string("no places on the part fit all fingers: ") +
            (answer_.noise ? "" : "without --noise all digits are taken as exact; if they are not, add it; ") +
-           "check the units and signs of u and psi, that --log and --finger are in the same order, and locate two of "
-           "the logs at a time\n";
+           "check the units and signs of u and psi, that --log and --finger are in the same order, and " +
+           (wheels() > 0
+                ? "that x and y of all logs are in one frame, of a wheel its pin, of a jaw its frame's origin, where "
+                  "u is 0\n"
+                : "locate two of the logs at a time\n");
   }
 
   std::string starts_table() const {
@@ -142,7 +155,7 @@ class HoldText {
       const HoldRoll& roll = answer_.rolls[k];
       const std::string lines =
           roll.lines.empty() ? "" : fmt::format(", lines {} to {}", roll.lines.front(), roll.lines.back());
-      std::vector<std::string> cells{fmt::format("finger {}", letter(k)), plain(roll.name) + lines, place(roll.length)};
+      std::vector<std::string> cells{name(k), plain(roll.name) + lines, roll.is_wheel ? "" : place(roll.length)};
       if (has_any) {
         const HoldContact& contact = answer_.placements.front().contacts[k];
         const Interval range = answer_.noise ? contact.interval : contact.extent;
@@ -164,8 +177,7 @@ class HoldText {
       text += "not decided:";
       for (std::size_t k = 0; k < answer_.unresolved[i].size(); ++k) {
         const Interval& arc = answer_.unresolved[i][k];
-        text +=
-            fmt::format("{} finger {} at s from {} to {}", k == 0 ? "" : ",", letter(k), place(arc.lo), place(arc.hi));
+        text += fmt::format("{} {} at s from {} to {}", k == 0 ? "" : ",", name(k), place(arc.lo), place(arc.hi));
       }
       text += behind(unit_) + "\n";
     }
@@ -180,7 +192,7 @@ class HoldText {
     std::string text =
         fmt::format("part       {}, {}, perimeter {}{}{}\n", plain(part.name()), part.closed() ? "closed" : "open",
                     place(part.perimeter()), behind(unit_), answer_.mirrored ? ", face down" : "");
-    text += fmt::format("fingers    {}, on a part that is free to move\n", answer_.rolls.size());
+    text += fmt::format("fingers    {}{}, on a part that is free to move\n", answer_.rolls.size() - wheels(), beside());
     text += fmt::format("samples    {}{}\n", answer_.rows, answer_.noise ? "" : used_rows());
     if (answer_.noise) {
       text += fmt::format("noise      {}\n", noise_words(*answer_.noise, behind(unit_)));
@@ -200,6 +212,21 @@ class HoldText {
                           std::max(1e-4, 110 * answer_.rest));
     }
     return text;
+  }
+
+  /// " and a wheel without skin, with an encoder".
+  std::string beside() const {
+    if (wheels() == 0) return "";
+    const auto encoders = static_cast<std::size_t>(std::count_if(
+        answer_.rolls.begin(), answer_.rolls.end(), [](const HoldRoll& roll) { return roll.has_encoder; }));
+    return fmt::format(" with skin and {} without{}{}", counted(wheels(), "wheel", "wheels"),
+                       encoders == 0   ? ""
+                       : encoders == 1 ? ", with an encoder"
+                                       : ", with encoders",
+                       answer_.squeezed
+                           ? fmt::format(", squeezed: its normal points through the finger's contact, ± {:.3g} deg",
+                                         *answer_.squeezed / kDegree)
+                           : "");
   }
 
   std::string used_rows() const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -9,24 +10,39 @@
 #include "rollfix/contact/finger.hpp"
 #include "rollfix/contact/log.hpp"
 #include "rollfix/contact/noise.hpp"
+#include "rollfix/contact/pin_log.hpp"
 #include "rollfix/contact/reading.hpp"
 #include "rollfix/locate/placement.hpp"
 #include "rollfix/part/part.hpp"
 #include "rollfix/touch/touch.hpp"
 
-// Three and more fingers that hold and roll on a part that moves: docs/two_fingers.md, "Three and more fingers".
+// Several fingers that hold and roll on a part that moves: docs/two_fingers.md, "Three and more fingers"; a finger with
+// skin beside a wheel without: docs/rig.md.
 namespace rollfix {
 
-/// What several fingers measured while they all touched one part that is free to move.
+/// A wheel without skin that turns freely on a pin, and rolls on the part beside fingers with skin. That it touches,
+/// and enters the part nowhere, is what its log says.
+struct PassiveWheel {
+  PinLog log;         // row k at the same instant as row k of the fingers' logs
+  double radius = 0;  // r > 0, in the outline's unit
+};
+
+/// What several fingers measured while they all touched one part that is free to move. At least two of them, wheels
+/// included, and one of them with skin; beside wheels a finger's log needs x and y, and noise `position`.
 struct HoldProblem {
   Part part;
-  std::vector<Log> logs;         // one of each finger, at least two; of u and psi, row k of all at the same instant
+  std::vector<Log> logs;         // one of each finger with skin; of u and psi, row k of all at the same instant
   std::vector<Finger> fingers;   // one that holds for all, or one for each log
   std::optional<Noise> noise{};  // contact, angle, slip, radius; with `position` x and y are evidence
   std::optional<TouchTolerance> tolerance{};  // without noise; none: from the digits of the logs
   std::vector<double> at{};                   // instants to search with besides the first, seconds; none: kHoldInstants
   std::optional<std::size_t> budget{};        // comparisons before giving up; none: kHoldBudget
   bool mirrored = false;                      // the part lies face down
+  std::vector<PassiveWheel> wheels{};         // without skin
+  std::optional<double> squeezed{};  // one finger and one wheel: the part is squeezed between both, and friction
+                                     // of the floor and of the pin are small: the wheel's normal points
+                                     // through the finger's contact, to this standard deviation, radians;
+                                     // without noise to this tolerance
 };
 
 /// Instants to search with where none are chosen, spread evenly over the logs.
@@ -34,7 +50,7 @@ inline constexpr std::size_t kHoldInstants = 9;
 /// Comparisons of places of all fingers at one instant: a few seconds.
 inline constexpr std::size_t kHoldBudget = 20000000;
 
-/// Where one finger is in an answer.
+/// Where one finger, or wheel, is in an answer.
 struct HoldContact {
   double start = 0;           // s of the first contact, in [0, P)
   double end = 0;             // s of the last one: at the last row, with `at` at the last of these instants
@@ -42,7 +58,7 @@ struct HoldContact {
   Vec2 point = Vec2::Zero();  // of the first contact, in the part's frame
   double tangent = 0;         // direction of the tangent there, in the part's frame, radians, in (-pi, pi]
   double distance = 0;        // residual: how far the contact is from the boundary in these poses, length, at worst
-  double turn = 0;            // residual of the normal, radians, at worst
+  double turn = 0;            // residual of the normal, radians, at worst; of a wheel that of its encoder
 
   // With noise.
   double mean = 0;      // of the first contact, in [0, P)
@@ -54,7 +70,7 @@ struct HoldContact {
 
 /// One answer: a connected set of first contacts, with a pose of the part at each instant.
 struct HoldPlacement {
-  std::vector<HoldContact> contacts;  // of each finger, those that fit best
+  std::vector<HoldContact> contacts;  // of each finger, then of each wheel, those that fit best
   Pose first{};                       // of the part at the first contacts, ...
   Pose last{};                        // ... and at the last ones; without x and y only the heading is known
   PoseResidual residual{};            // the largest of the contacts'
@@ -68,25 +84,31 @@ struct HoldPlacement {
   PoseSpread last_spread{};
 };
 
-/// What the log of one finger says.
+/// What the log of one finger, or wheel, says.
 struct HoldRoll {
   std::string name{};
   std::vector<std::size_t> lines{};  // of the file: its first and its last row; of simulated rows none
   double length = 0;                 // that the contact travelled by the last instant, along the stored outline
   bool has_centre = false;           // x and y
   std::vector<Vec2> track{};         // then: of the finger's centre, in the world
-  double radius = 0;                 // of a disk, else 0
+  double radius = 0;                 // of a disk or a wheel, else 0
+  bool is_jaw = false;
+  bool is_wheel = false;        // without skin: `length` is 0, it was not measured
+  bool has_encoder = false;     // of a wheel
+  std::array<double, 2> psi{};  // of a finger with skin: its orientation at the first and at the last row
+  std::array<double, 2> u{};    // likewise where it touched
 };
 
 /// Every set of first contacts that fits.
 struct HoldAnswer {
   Part part;
-  std::vector<HoldRoll> rolls;
+  std::vector<HoldRoll> rolls;  // of the fingers, then of the wheels
   std::size_t rows = 0;
   std::vector<double> instants{};  // that were searched with, seconds, or of logs without times row numbers from 0
   std::optional<Noise> noise{};
   TouchTolerance tolerance{};  // without noise; the largest of all fingers'
-  bool mirrored = false;       // poses are of the part face down: x = -x of the outline, then the pose
+  std::optional<double> squeezed{};
+  bool mirrored = false;  // poses are of the part face down: x = -x of the outline, then the pose
   PlaceKnown place = PlaceKnown::measured;
   Status status = Status::complete;
   Verdict verdict{};
@@ -106,8 +128,8 @@ struct HoldAnswer {
 /// would: complete, by branch and prune over the first contacts of all fingers. Each instant has its own pose of the
 /// part; contacts travel as their logs say. Places where a disk would enter the part are left out. With noise also the
 /// posterior, from all rows, if contacts are as likely anywhere on the boundary. Throws InputError: fewer than two
-/// logs, logs without u and psi or with different instants, fingers that are missing, kinds of noise that it can't
-/// take, and what `read_log` of two files throws.
+/// logs, logs without u and psi or with different instants, fingers that are missing, wheels beside logs without x and
+/// y, a wheel that fits nowhere, kinds of noise that it can't take, and what `read_log` of two files throws.
 HoldAnswer solve(const HoldProblem& problem);
 
 }  // namespace rollfix

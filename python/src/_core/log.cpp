@@ -9,6 +9,7 @@
 #include "contact/log_rows.hpp"
 #include "fingers.hpp"
 #include "rollfix/contact/log.hpp"
+#include "rollfix/contact/pin_log.hpp"
 #include "signals.hpp"
 
 namespace rollfix::python {
@@ -48,6 +49,13 @@ std::vector<LogHandle> read_text(const std::string& text, const std::string& nam
   const LogOptions options = log_options(given);
   const Unlocked others_may_run;
   return handles_of(parse_rolls(text, name, options));
+}
+
+/// Of a wheel without skin: its u says nothing.
+LogHandle read_pin(const std::string& from, const std::optional<std::string>& name, const py::dict& given) {
+  const LogOptions options = log_options(given);
+  const Unlocked others_may_run;
+  return handle_of(std::move((name ? parse_pin_log(from, *name, options) : read_pin_log(from, options)).rows));
 }
 
 constexpr py::ssize_t kRowsAtOnce = 50000;
@@ -136,6 +144,7 @@ void bind_log(py::module_& module) {
                       }));
   module.def("read_log_files", &read_files);
   module.def("read_log_text", &read_text);
+  module.def("read_pin", &read_pin);
   module.def("parse_columns", [](const std::string& text) {
     std::vector<std::tuple<std::string, std::string, std::string>> columns;
     for (const ColumnSource& one : parse_columns(text)) columns.emplace_back(one.column, one.name, one.unit);

@@ -18,6 +18,8 @@ namespace rollfix {
 
 namespace {
 
+// Behind what is missing where x and y are there.
+constexpr const char* kOfWheel = "; a wheel without skin has no more, it is a finger wheel,r=R beside one with skin";
 constexpr const char* kExpected = "'u' and 'psi', or 'length' and 'turn', or 'distance' and 'dturn'";
 
 bool is_known(std::string_view name) {
@@ -110,6 +112,18 @@ class HeaderReader {
   HeaderReader(const TableRow& row, const std::string& log, const LogOptions& options)
       : row_(row), names_(names_in(row)), log_(log), options_(options) {}
 
+  Columns pin_columns() const {
+    Columns columns;
+    columns.count = names_.size();
+    columns.of_pin = true;
+    std::vector<bool> taken(names_.size(), false);
+    add_named(columns, taken);
+    add_known(columns, taken);
+    require_pin(columns);
+    if (!columns.psi_wrapped) columns.psi_wrapped = options_.wrapped;
+    return columns;
+  }
+
   std::vector<Columns> columns() const {
     if (!is_of_two()) {
       Columns one = finger_columns("");
@@ -138,6 +152,7 @@ class HeaderReader {
   }
 
   Columns finger_columns(const std::string& suffix) const;
+  void require_pin(const Columns& columns) const;
   void add_named(Columns& columns, std::vector<bool>& taken) const;
   void add_known(Columns& columns, const std::vector<bool>& taken) const;
   void set(Columns& columns, Column column, std::size_t k) const;
@@ -172,6 +187,24 @@ Columns HeaderReader::finger_columns(const std::string& suffix) const {
                                  columns.called(columns.has(Column::x) ? Column::y : Column::x), cure(columns)));
   }
   return columns;
+}
+
+void HeaderReader::require_pin(const Columns& columns) const {
+  for (const Column column : {Column::u, Column::length, Column::distance}) {
+    if (!columns.has(column)) continue;
+    throw InputError(
+        fmt::format("{} has a column '{}', expected x and y of the pin and at most psi: a wheel has no skin; a round "
+                    "finger with one is disk,r=R in place of wheel,r=R",
+                    start(), name_of(column)));
+  }
+  if (columns.has(Column::x) && columns.has(Column::y)) return;
+  const std::string why = columns.has(Column::psi)
+                              ? ": how the wheel is turned says nothing of the part by itself, any "
+                                "place on it fits; add where the pin was"
+                              : "";
+  throw InputError(
+      fmt::format("{}: expected columns 'x' and 'y', where the wheel's pin was in the world{}; the header has {}",
+                  start(), why, all_names()));
 }
 
 /// Those that the options name.
@@ -290,9 +323,11 @@ LogKind HeaderReader::kind_of(const Columns& columns) const {
   for (const ColumnPair& pair : kColumnPairs) {
     const bool has_place = columns.has(pair.place);
     if (has_place != columns.has(pair.angle)) {
-      throw InputError(fmt::format("{} has a column '{}' but no '{}', expected both{}{}", start(),
+      const bool is_wheels = pair.angle == Column::psi && !has_place && columns.has(Column::x);
+      throw InputError(fmt::format("{} has a column '{}' but no '{}', expected both{}{}{}", start(),
                                    columns.called(has_place ? pair.place : pair.angle),
-                                   columns.called(has_place ? pair.angle : pair.place), hint(columns), cure(columns)));
+                                   columns.called(has_place ? pair.angle : pair.place), hint(columns), cure(columns),
+                                   is_wheels ? kOfWheel : ""));
     }
     if (!has_place) continue;
     if (found != nullptr) {
@@ -346,9 +381,11 @@ void HeaderReader::refuse(const Columns& columns) const {
         start(), is_a ? 'b' : 'a', is_a ? 'a' : 'b', is_of_one ? "" : hint(columns),
         is_of_one ? of_one : cure(columns)));
   }
+  const bool is_wheels = columns.has(Column::x) && columns.has(Column::y);
   throw InputError(fmt::format(
-      "{} does not say what the columns are, expected {}{}{}. Known are: {}; of two fingers with _a and _b behind them",
-      start(), kExpected, hint(columns), cure(columns), fmt::join(kColumnNames, ", ")));
+      "{} does not say what the columns are, expected {}{}{}{}. Known are: {}; of two fingers with _a and _b behind "
+      "them",
+      start(), kExpected, hint(columns), cure(columns), is_wheels ? kOfWheel : "", fmt::join(kColumnNames, ", ")));
 }
 
 /// Throws InputError; `what` begins the message.
@@ -428,6 +465,10 @@ std::vector<ColumnSource> parse_columns(std::string_view text) {
 
 std::vector<Columns> columns_of(const TableRow& header, const std::string& log, const LogOptions& options) {
   return HeaderReader(header, log, options).columns();
+}
+
+Columns pin_columns_of(const TableRow& header, const std::string& log, const LogOptions& options) {
+  return HeaderReader(header, log, options).pin_columns();
 }
 
 Columns bare_columns(const TableRow& row, const std::string& log, const LogOptions& options) {

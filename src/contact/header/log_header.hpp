@@ -26,6 +26,10 @@ std::vector<HeaderName> names_in(const TableRow& header);
 /// for messages.
 std::vector<Columns> columns_of(const TableRow& header, const std::string& log, const LogOptions& options = {});
 
+/// The columns of the log of a wheel without skin. Throws InputError likewise, and where it has a skin's, where it does
+/// not say where the pin is, or is of two fingers.
+Columns pin_columns_of(const TableRow& header, const std::string& log, const LogOptions& options = {});
+
 /// The columns of a log without a header. Throws InputError unless there are two.
 Columns bare_columns(const TableRow& row, const std::string& log, const LogOptions& options = {});
 

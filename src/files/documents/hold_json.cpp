@@ -65,8 +65,10 @@ Json held_json(const HoldPlacement& one, const HoldAnswer& answer) {
 Json held_roll_json(const HoldRoll& roll) {
   return {{"name", roll.name},
           {"lines", roll.lines.empty() ? Json(nullptr) : Json(roll.lines)},
-          {"length", json_number(roll.length)},
-          {"centres", roll.has_centre}};
+          {"length", roll.is_wheel ? Json(nullptr) : json_number(roll.length)},
+          {"centres", roll.has_centre},
+          {"wheel", roll.is_wheel},
+          {"encoder", roll.has_encoder}};
 }
 
 }  // namespace
@@ -98,6 +100,7 @@ std::string format_hold(const HoldAnswer& answer, Layout layout) {
         Json::array({answer.place == PlaceKnown::measured ? json_number(answer.tolerance.length) : Json(nullptr),
                      json_number(answer.tolerance.angle)});
   }
+  document["squeezed"] = answer.squeezed ? json_number(*answer.squeezed) : Json(nullptr);
   document["fit"] = answer.fit ? Json{{"chi_square", json_number(answer.fit->chi_square)},
                                       {"freedom", answer.fit->freedom},
                                       {"p", json_number(answer.fit->p)}}

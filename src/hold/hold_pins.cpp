@@ -1,0 +1,189 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "contact_look.hpp"
+#include "hold_equations.hpp"
+#include "outline/turn.hpp"
+
+// Notation as in hold_fit.cpp and docs/rig.md:
+//   C               a wheel's pin in the world, x on the part: `at`, `point`; c the nearest place of the path of pins
+//   n, T            normal and tangent there; rho: how much larger the wheel is than said, be0: its encoder's zero
+//   f1 = (x - c).n - rho                       closure
+//   f2 = be - phi - (Theta + t / r) - be0      the encoder's, modulo what it grows by around the part
+//   f3 = (direction of C - q) - (phi + Theta - pi / 2)   squeezed: the force goes through both contacts
+// Follows docs/rig.md.
+// Idea: where the wheel touches follows from its pin, so that a wheel adds equations and no unknown contact.
+namespace rollfix::hold {
+namespace {
+
+constexpr int kPivotLooks = 48;  // headings of a pivot to start from
+
+/// value less whole periods, nearest to 0.
+double nearest_in(double value, double period) {
+  return period > 0 ? value - period * std::round(value / period) : value;
+}
+
+}  // namespace
+
+NearPin HoldFit::near_pin(const HeldState& state, std::size_t row, std::size_t wheel) const {
+  const Placed& placed = state.placed[row];
+  const Vec2 point = middle_ + Pose{0, 0, -placed.heading}.turned(rows_.rows[row].pins[wheel].at - placed.middle);
+  if (!rows_.has_noise) return wheels_[wheel]->nearest(point);
+  return wheels_[wheel]->nearest(point, feet_[row * rows_.wheels.size() + wheel]);
+}
+
+/// The part's heading at a row, unwrapped over all rows: the first finger's tangents say how often it went round.
+double HoldFit::unwrapped_heading(const HeldState& state, std::size_t row) const {
+  const double s = place_of(state, row, 0);
+  const Boundary boundary = part_.boundary();
+  const double angle = part_.turning().angle(boundary.closed ? s : std::clamp(s, 0.0, boundary.perimeter));
+  const double about = rows_.rows[row].contacts[0].tangent - angle;
+  return about + nearest_angle(state.placed[row].heading - about);
+}
+
+/// be - phi - Psi: the encoder's zero, as one row has it.
+double HoldFit::spin_of(const HeldState& state, std::size_t row, std::size_t wheel, const NearPin& near) const {
+  return rows_.rows[row].pins[wheel].spin - unwrapped_heading(state, row) - near.angle -
+         near.s / rows_.wheels[wheel].wheel_radius;
+}
+
+HoldFit::PinLook HoldFit::pin_look(const HeldState& state, std::size_t row, std::size_t wheel) const {
+  const HeldWheel& one = rows_.wheels[wheel];
+  const HeldPin& pin = rows_.rows[row].pins[wheel];
+  const Placed& placed = state.placed[row];
+  PinLook look;
+  const NearPin near = look.near = near_pin(state, row, wheel);
+  const Pose turn{0, 0, placed.heading};
+  const Vec2 arm = pin.at - placed.middle;
+  // d x = -R(-phi) dA - J R(-phi) (C - A) dphi, seen along n and T.
+  const auto by_pose = [&](const Vec2& direction) {
+    const Vec2 world = turn.turned(direction);
+    return Eigen::RowVector3d(-world.x(), -world.y(), world.x() * arm.y() - world.y() * arm.x());
+  };
+  const double times = weight(row, fingers() + wheel) * rows_.rows[row].weight;
+  look.residual(0) = near.distance;
+  look.by_pose.row(0) = by_pose(near.away);
+  look.information(0) = times / (one.place * one.place);
+  look.log_size = -std::log(look.information(0));
+  if (const auto at = radius_unknown(wheel)) {
+    look.residual(0) -= state.unknowns(*at);
+    look.by_radius = -1;
+  }
+  if (one.spin) {
+    const double zero = state.unknowns(*spin_unknown(wheel));
+    look.residual(1) = nearest_in(spin_of(state, row, wheel, near) - zero, wheels_[wheel]->spin_period());
+    look.by_pose.row(1) = -by_pose(near.along) / one.wheel_radius - Eigen::RowVector3d(0, 0, 1);
+    look.by_spin = -1;
+    const double turned = one.radius / one.wheel_radius * (pin.spin - rows_.rows.front().pins[wheel].spin);
+    // Where the wheel touches is known as well as the pin.
+    const double beside = rows_.has_noise ? one.place / one.wheel_radius : 0;
+    const double variance = *one.spin * *one.spin + turned * turned + beside * beside;
+    look.information(1) = times / variance;
+    look.log_size -= std::log(look.information(1));
+  }
+  if (one.line) {
+    const Vec2 way = pin.at - rows_.rows[row].contacts[0].at;
+    look.residual(2) =
+        nearest_angle(std::atan2(way.y(), way.x()) - placed.heading - near.angle + 0.5 * std::numbers::pi);
+    look.by_pose.row(2) = -near.turn_per_length * by_pose(near.along) - Eigen::RowVector3d(0, 0, 1);
+    const double beside = rows_.has_noise ? std::numbers::sqrt2 * one.place / way.norm() : 0;
+    look.information(2) = times / (*one.line * *one.line + beside * beside);
+    look.log_size -= std::log(look.information(2));
+  }
+  return look;
+}
+
+void HoldFit::add_pin(const HeldState& state, std::size_t row, std::size_t wheel, bool with_unknowns,
+                      RowEquations& sum) const {
+  const PinLook one = pin_look(state, row, wheel);
+  const Eigen::Matrix3d weighed = one.by_pose.transpose() * one.information.asDiagonal();
+  sum.pose += weighed * one.by_pose;
+  sum.slope -= weighed * one.residual;
+  sum.square += one.residual.dot(one.information.cwiseProduct(one.residual));
+  sum.log_size += one.log_size;
+  if (!with_unknowns) return;
+  const auto add = [&](std::optional<Eigen::Index> at, Eigen::Index residual, double by) {
+    if (!at) return;
+    sum.mixed.col(*at) += by * weighed.col(residual);
+    sum.own(*at, *at) += by * by * one.information(residual);
+    sum.own_slope(*at) -= by * one.information(residual) * one.residual(residual);
+  };
+  add(radius_unknown(wheel), 0, one.by_radius);
+  add(spin_unknown(wheel), 1, one.by_spin);
+}
+
+/// At a corner the finger may have pivoted far: the heading at which all wheels touch best.
+void HoldFit::face_wheels(HeldState& state, std::size_t row) const {
+  Placed& placed = state.placed[row];
+  const HeldErrors& errors = rows_.errors[0];
+  const BlurredPlace range = ranged(part_, place_of(state, row, 0), (rows_.has_noise ? 3 : 1) * errors.travel);
+  if (range.half_turn < 10 * errors.angle) return;
+  const Pose before{0, 0, placed.heading};
+  const Vec2 contact = placed.middle + before.turned(range.point - middle_);
+  const double about = rows_.rows[row].contacts[0].tangent - range.angle;
+  Placed best = placed;
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k <= kPivotLooks; ++k) {
+    placed.heading = about + range.half_turn * (2.0 * k / kPivotLooks - 1);
+    placed.middle = contact - Pose{0, 0, placed.heading}.turned(range.point - middle_);
+    double sum = 0;
+    for (std::size_t wheel = 0; wheel < rows_.wheels.size(); ++wheel) {
+      const Vec2 point = middle_ + Pose{0, 0, -placed.heading}.turned(rows_.rows[row].pins[wheel].at - placed.middle);
+      sum += std::abs(wheels_[wheel]->nearest(point).distance);
+    }
+    if (sum >= least) continue;
+    least = sum;
+    best = placed;
+  }
+  placed = best;
+}
+
+/// The encoders' zeros by all rows.
+void HoldFit::zero_spins(HeldState& state) const {
+  for (std::size_t wheel = 0; wheel < rows_.wheels.size(); ++wheel) {
+    const std::optional<Eigen::Index> at = spin_unknown(wheel);
+    if (!at) continue;
+    const double period = wheels_[wheel]->spin_period();
+    const double first = spin_of(state, 0, wheel, near_pin(state, 0, wheel));
+    double off = 0;
+    for (std::size_t row = 0; row < rows_.rows.size(); ++row) {
+      off += nearest_in(spin_of(state, row, wheel, near_pin(state, row, wheel)) - first, period);
+    }
+    state.unknowns(*at) = first + off / static_cast<double>(rows_.rows.size());
+  }
+}
+
+double HoldFit::worst_of_wheel(const HeldState& state, std::size_t row, std::size_t wheel) const {
+  const PinLook one = pin_look(state, row, wheel);
+  const HeldWheel& errors = rows_.wheels[wheel];
+  double most = std::abs(one.residual(0)) / errors.place;
+  if (errors.spin) most = std::max(most, std::abs(one.residual(1)) / *errors.spin);
+  if (errors.line) most = std::max(most, std::abs(one.residual(2)) / *errors.line);
+  return most;
+}
+
+ContactResidual HoldFit::wheel_residual(const HeldState& state, std::size_t row, std::size_t wheel) const {
+  const PinLook one = pin_look(state, row, wheel);
+  ContactResidual result;
+  result.place = {one.residual(0), 0};
+  result.turn = rows_.wheels[wheel].spin ? one.residual(1) : 0;
+  return result;
+}
+
+HoldFit::WheelAt HoldFit::wheel_at(const HeldState& state, std::size_t row, std::size_t wheel) const {
+  const NearPin near = near_pin(state, row, wheel);
+  const Pose pose = pose_at(state, row).pose;
+  const Vec2 arm = rows_.rows[row].pins[wheel].at - Vec2(pose.x, pose.y);
+  const Vec2 world = Pose{0, 0, pose.heading}.turned(near.along);
+  WheelAt result;
+  result.s = near.s;
+  result.by_pose =
+      near.contact_per_length * Eigen::RowVector3d(-world.x(), -world.y(), world.x() * arm.y() - world.y() * arm.x());
+  result.variance = std::pow(near.contact_per_length * rows_.wheels[wheel].place, 2);
+  return result;
+}
+
+}  // namespace rollfix::hold

@@ -1,0 +1,100 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "cli.hpp"
+#include "hold/rig_cases.hpp"
+#include "rollfix/files/load_part.hpp"
+
+// A jaw with skin and a wheel without, as the program takes them.
+namespace cli_rig_test {
+
+using cli::Folder;
+using cli::Json;
+using cli::Ran;
+using cli::run;
+using testing::HasSubstr;
+
+const std::string kAsked = "locate gallery:cam --log jaw.csv --log pin.csv --finger jaw --finger wheel,r=0.3 ";
+
+void write(const std::string& file, const std::string& text) { std::ofstream(file) << text; }
+
+/// jaw.csv and pin.csv of a simulated rig; with its encoder the latter has psi.
+rig_cases::RigCase simulate(bool encoder = false) {
+  std::mt19937_64 generator(11);
+  const rig_cases::Part cam = rollfix::load_part("gallery:cam");
+  rig_cases::RigCase one = rig_cases::random_rig(cam, 0.3, generator, encoder, 16);
+  rollfix::write_log("jaw.csv", one.problem.logs[0]);
+  const rollfix::FingerRows& pin = one.problem.wheels[0].log.rows.fingers[0];
+  std::string text = encoder ? "time,psi,x,y\n" : "time,x,y\n";
+  for (std::size_t k = 0; k < pin.x.size(); ++k) {
+    text += fmt::format("{:.17g},", one.problem.logs[0].time[k]);
+    if (encoder) text += fmt::format("{:.17g},", pin.psi[k]);
+    text += fmt::format("{:.17g},{:.17g}\n", pin.x[k], pin.y[k]);
+  }
+  write("pin.csv", text);
+  return one;
+}
+
+TEST(CliRig, AJawAndAPinsPlaceSayWhereThePartIs) {
+  const Folder folder;
+  const rig_cases::RigCase one = simulate();
+  const Ran ran = run(kAsked);
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr(fmt::format("unique: finger a started at s = {:.6g}, wheel b at ", one.start)));
+  EXPECT_THAT(ran.out, HasSubstr("1 with skin and 1 wheel without, on a part"));
+}
+
+TEST(CliRig, JsonHasTheWheelsPlacesLikeAFingers) {
+  const Folder folder;
+  const rig_cases::RigCase one = simulate(true);
+  const Json document = run(kAsked + "--json").json();
+  EXPECT_EQ(document["fingers"], 2);
+  EXPECT_EQ(document["rolls"][1]["wheel"], true);
+  EXPECT_EQ(document["rolls"][1]["encoder"], true);
+  EXPECT_EQ(document["rolls"][1]["length"], nullptr);
+  EXPECT_NEAR(document["placements"][0]["start"][1].get<double>(), one.wheel_start, 1e-6);
+}
+
+TEST(CliRig, AFigureShowsJawAndWheel) {
+  const Folder folder;
+  simulate();
+  EXPECT_EQ(run(kAsked + "-o rig.svg").code, 0);
+  EXPECT_THAT(cli::read("rig.svg"), HasSubstr("1 finger and 1 wheel"));
+}
+
+TEST(CliRig, SqueezedTakesItsErrorOrNot) {
+  const Folder folder;
+  simulate();
+  // The simulated part is not squeezed.
+  EXPECT_EQ(run(kAsked + "--squeezed=0.01deg").code, 1);
+  EXPECT_THAT(run(kAsked + "--squeezed --json").json()["squeezed"].dump(), HasSubstr("0.0872"));
+}
+
+TEST(CliRig, WhatSaysNothingIsRefusedWithTheReason) {
+  const Folder folder;
+  simulate();
+  const auto refusal = [](const std::string& asked) {
+    const Ran ran = run("locate gallery:cam " + asked);
+    EXPECT_EQ(ran.code, 2);
+    return ran.err;
+  };
+  write("encoder.csv", "time,psi\n0,1\n1,2\n");
+  EXPECT_THAT(refusal("--log jaw.csv --log encoder.csv --finger jaw --finger wheel,r=0.3"),
+              HasSubstr("says nothing of the part by itself"));
+  EXPECT_THAT(refusal("--log jaw.csv --finger jaw --finger wheel,r=0.3"), HasSubstr("any place on the part fits"));
+  EXPECT_THAT(refusal("--log pin.csv --finger wheel,r=0.3"), HasSubstr("expected fingers with skin first"));
+  EXPECT_THAT(refusal("--log jaw.csv --log pin.csv --finger jaw --finger disk,r=0.3"), HasSubstr("wheel,r=R"));
+  EXPECT_THAT(refusal("--log jaw.csv --log jaw.csv --finger jaw --finger wheel,r=0.3"),
+              HasSubstr("a wheel has no skin"));
+  EXPECT_THAT(refusal("--log jaw.csv --log pin.csv --finger jaw --finger wheel,0.3"), HasSubstr("as in wheel,r=0.4"));
+  EXPECT_THAT(refusal("--log jaw.csv --finger jaw --squeezed"), HasSubstr("--squeezed"));
+  EXPECT_THAT(refusal("--reading 1,2 --finger wheel,r=0.3"), HasSubstr("beside a finger with skin"));
+}
+
+}  // namespace cli_rig_test

@@ -1,0 +1,209 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "hold/rig_cases.hpp"
+#include "hold/rig_scan.hpp"
+#include "refusal.hpp"
+#include "rollfix/files/load_part.hpp"
+
+// A jaw with skin, and a wheel of which only the pin's place is known.
+namespace rig_test {
+
+using namespace rig_cases;
+using rollfix::Status;
+using rollfix::Verdict;
+using testing::HasSubstr;
+
+const Part& ellipse() {
+  static const Part part = rollfix::load_part("gallery:ellipse,a=2,b=1");
+  return part;
+}
+const Part& cam() {
+  static const Part part = rollfix::load_part("gallery:cam");
+  return part;
+}
+
+/// Whether an answer has both true first contacts, exactly.
+bool has_truth(const HoldAnswer& answer, const RigCase& one, double slack = 1e-7) {
+  const Part& part = one.problem.part;
+  return std::any_of(answer.placements.begin(), answer.placements.end(), [&](const HoldPlacement& found) {
+    return part.distance(found.contacts.at(0).start, one.start) < slack &&
+           part.distance(found.contacts.at(1).start, one.wheel_start) < 10 * slack;
+  });
+}
+
+void expect_found(const RigCase& one, std::size_t count) {
+  const HoldAnswer answer = rollfix::solve(one.problem);
+  EXPECT_EQ(answer.status, Status::complete);
+  EXPECT_EQ(answer.placements.size(), count);
+  EXPECT_TRUE(has_truth(answer, one)) << answer.verdict_text();
+}
+
+RigCase random_on(const Part& part, unsigned seed, bool encoder = false) {
+  std::mt19937_64 generator(seed);
+  return random_rig(part, 0.04 * part.perimeter(), generator, encoder, 16);
+}
+
+void expect_scan(const HoldProblem& problem) {
+  const HoldAnswer answer = rollfix::solve(problem);
+  EXPECT_EQ(answer.status, Status::complete);
+  expect_same_places(answer, scanned(problem, 3000));
+}
+
+TEST(Rig, OnAnEllipseOnlyItsHalfTurnRemains) {
+  for (unsigned seed = 0; seed < 3; ++seed) expect_found(random_on(ellipse(), seed), 2);
+}
+
+TEST(Rig, OnACamThePlaceIsUnique) {
+  for (unsigned seed = 0; seed < 3; ++seed) expect_found(random_on(cam(), seed), 1);
+}
+
+TEST(Rig, ThePartsPosesAreThoseOfTheSimulation) {
+  const RigCase one = random_on(cam(), 4);
+  const HoldPlacement found = rollfix::solve(one.problem).placements.at(0);
+  EXPECT_LT(std::hypot(found.first.x - one.first.x, found.first.y - one.first.y), 1e-6);
+  EXPECT_LT(std::hypot(found.last.x - one.last.x, found.last.y - one.last.y), 1e-6);
+  EXPECT_LT(std::abs(rollfix::nearest_angle(found.last.heading - one.last.heading)), 1e-6);
+}
+
+TEST(Rig, AScanOfAllPlacesFindsNoOtherAtOneInstant) {
+  const std::vector<Held> one{{1.3, 5.2, {0.2, 0.1, 0.4}}, {1.3, 5.2, {0.2, 0.1, 0.4}}};
+  expect_scan(held_at(ellipse(), 0.4, one));
+  expect_scan(held_at(cam(), 0.4, one));
+}
+
+TEST(Rig, AScanOfAllPlacesFindsNoOtherAtTwo) {
+  expect_scan(held_at(ellipse(), 0.4, {{1.3, 5.2, {0.2, 0.1, 0.4}}, {1.9, 5.9, {0.3, 0.1, 0.1}}}));
+}
+
+TEST(Rig, TheEncoderOfASimulatedWheelFits) { expect_found(random_on(cam(), 5, true), 1); }
+
+TEST(Rig, AnEncoderThatTurnsOtherwiseIsContradicted) {
+  RigCase one = random_on(cam(), 5, true);
+  for (std::size_t k = 0; k < 17; ++k)
+    one.problem.wheels[0].log.rows.fingers[0].psi[k] += 0.01 * static_cast<double>(k);
+  EXPECT_EQ(rollfix::solve(one.problem).verdict.name, Verdict::inconsistent);
+}
+
+TEST(Rig, AWheelThatIsLargerIsContradicted) {
+  RigCase one = random_on(cam(), 6);
+  one.problem.wheels[0].radius *= 1.05;
+  EXPECT_EQ(rollfix::solve(one.problem).verdict.name, Verdict::inconsistent);
+}
+
+TEST(Rig, SqueezedOneInstantLeavesTheHalfTurn) {
+  // The normal at t goes through the contact at s: across the ellipse from one vertex to the other.
+  const double half = 0.5 * ellipse().perimeter();
+  const double s = 1.1, t = foot_across(ellipse(), s, s + half);
+  const std::vector<Held> one{{s, t, {0.2, 0.1, 0.4}}, {s, t, {0.2, 0.1, 0.4}}};
+  HoldProblem problem = held_at(ellipse(), 0.4, one);
+  problem.squeezed = 1e-6;
+  EXPECT_EQ(rollfix::solve(problem).verdict_text(), "ambiguous (2)");
+}
+
+TEST(Rig, AJawThatPivotsAtACornerStaysThere) {
+  // The corner at s = 60 turns by a quarter.
+  const HoldProblem problem = held_at(
+      touch_cases::bracket(), 3,
+      {{50, 145, {5, 3, 0.3}}, {60, 147, {6, 3, 0.2}, 0.3}, {60, 149, {6, 4, 0.1}, 1.0}, {66, 151, {7, 4, 0.2}}});
+  const HoldAnswer answer = rollfix::solve(problem);
+  ASSERT_EQ(answer.status, Status::complete) << answer.unresolved.size();
+  EXPECT_TRUE(std::any_of(answer.placements.begin(), answer.placements.end(), [](const HoldPlacement& found) {
+    return std::abs(found.contacts[0].start - 50) < 1e-4 && std::abs(found.contacts[1].start - 145) < 1e-3;
+  }));
+}
+
+TEST(Rig, AWheelMayTouchAtACorner) {
+  const HoldProblem problem =
+      held_at(touch_cases::bracket(), 3, {{20, 171, {5, 3, 0.3}, {}}, {24, 172, {6, 3, 0.2}}, {30, 174, {6, 4, 0.1}}});
+  const HoldAnswer answer = rollfix::solve(problem);
+  ASSERT_EQ(answer.status, Status::complete);
+  EXPECT_FALSE(answer.placements.empty());
+}
+
+TEST(Rig, OnACircleAnyPlaceFits) {
+  const Part circle = rollfix::load_part("gallery:circle,r=1");
+  const HoldAnswer answer =
+      rollfix::solve(held_at(circle, 0.3, {{1, 3, {0.2, 0.1, 0.4}}, {1.4, 3.3, {0.2, 0.2, 0.3}}}));
+  EXPECT_EQ(answer.verdict.name, Verdict::unobservable);
+}
+
+TEST(Rig, AnyFingerWithSkinTakesTheJawsPlace) {
+  // A disk that touches where the jaw does.
+  RigCase one = random_on(cam(), 7);
+  const double radius = 0.2;
+  rollfix::FingerRows& rows = one.problem.logs[0].fingers[0];
+  for (std::size_t k = 0; k < rows.u.size(); ++k) {
+    const Vec2 contact = Vec2(rows.x[k], rows.y[k]) + turned({rows.u[k], 0}, rows.psi[k]);
+    const double travelled = 0.13 - rows.u[k];
+    const double normal = rows.psi[k] - 0.5 * std::numbers::pi;  // out of the jaw, into the part
+    const Vec2 centre = contact - radius * Vec2(std::cos(normal), std::sin(normal));
+    rows.x[k] = centre.x();
+    rows.y[k] = centre.y();
+    rows.u[k] = 0.3 - travelled / radius;
+    rows.psi[k] = normal - rows.u[k];
+  }
+  one.problem.fingers = {rollfix::disk(radius)};
+  expect_found(one, 1);
+}
+
+TEST(Rig, FaceDownItIsFoundInTheMirror) {
+  RigCase one = random_on(cam(), 8);
+  rollfix::FingerRows& jaw = one.problem.logs[0].fingers[0];
+  rollfix::FingerRows& pin = one.problem.wheels[0].log.rows.fingers[0];
+  for (auto* column : {&jaw.u, &jaw.psi, &jaw.x, &pin.x}) {
+    for (double& value : *column) value = -value;
+  }
+  one.problem.mirrored = true;
+  expect_found(one, 1);
+}
+
+TEST(Rig, WithNoiseTheTruthIsInTheInterval) {
+  std::mt19937_64 generator(3);
+  const RigCase one = noisy(random_on(cam(), 9), {0.01, 0.005, 0.01, 0}, generator);
+  const HoldAnswer answer = rollfix::solve(one.problem);
+  ASSERT_FALSE(answer.placements.empty());
+  const rollfix::HoldContact& jaw = answer.placements[0].contacts[0];
+  EXPECT_LT(cam().distance(jaw.mean, one.start), 4 * jaw.sd);
+  EXPECT_FALSE(answer.verdict.fits_badly);
+}
+
+TEST(Rig, WhatSaysNothingIsRefusedWithTheReason) {
+  const RigCase one = random_on(cam(), 4);
+  const auto refused = [&](const auto& change) {
+    HoldProblem problem = one.problem;
+    change(problem);
+    return refusal_of([&] { rollfix::solve(problem); });
+  };
+  EXPECT_THAT(refused([](HoldProblem& p) {
+                p.logs.clear();
+                p.wheels.push_back(p.wheels[0]);
+              }),
+              HasSubstr("expected a finger with skin"));
+  EXPECT_THAT(refused([](HoldProblem& p) {
+                p.logs[0].fingers[0].x.clear();
+                p.logs[0].fingers[0].y.clear();
+              }),
+              HasSubstr("without both any place on the part fits"));
+  EXPECT_THAT(refused([](HoldProblem& p) { p.noise = rollfix::Noise{.contact = 0.1}; }), HasSubstr("position=SD"));
+  EXPECT_THAT(refused([](HoldProblem& p) { p.squeezed = -1; }), HasSubstr("above 0"));
+  EXPECT_THAT(refused([](HoldProblem& p) { p.wheels[0].radius = 0; }), HasSubstr("above 0"));
+}
+
+TEST(Rig, APinsLogHasXAndYAndNoSkin) {
+  const auto read = [](const std::string& text) {
+    return refusal_of([&] { rollfix::parse_pin_log(text, "pin.csv"); });
+  };
+  EXPECT_THAT(read("time,u,psi,x,y\n0,1,2,3,4\n1,1,2,3,4\n"), HasSubstr("a wheel has no skin"));
+  EXPECT_THAT(read("time,psi\n0,1\n1,2\n"), HasSubstr("add where the pin was"));
+  EXPECT_THAT(read("time,x\n0,1\n1,2\n"), HasSubstr("expected columns 'x' and 'y'"));
+  const rollfix::PinLog log = rollfix::parse_pin_log("time,x [mm],y\n0,1,2\n1,3,4\n", "pin.csv", {.unit = "mm"});
+  EXPECT_FALSE(log.has_encoder());
+  EXPECT_EQ(log.rows.fingers[0].x, (std::vector<double>{1, 3}));
+}
+
+}  // namespace rig_test
