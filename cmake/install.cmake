@@ -20,7 +20,7 @@ cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX
 list(TRANSFORM CMAKE_DL_LIBS PREPEND -l OUTPUT_VARIABLE dlopen_flags)
 
 rollfix_install_library(rollfix rollfixTargets rollfix.pc)
-foreach(component IN ITEMS march files catalog draw)  # rollfixConfig.cmake finds them by these names
+foreach(component IN ITEMS march files catalog draw c)  # rollfixConfig.cmake finds them by these names
   if(TARGET rollfix_${component})
     rollfix_install_library(rollfix_${component} rollfix_${component}Targets rollfix-${component}.pc)
   endif()

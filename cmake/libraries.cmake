@@ -1,10 +1,11 @@
 # rollfix::rollfix, the core, rollfix::march, the published algorithms, rollfix::files, what users come with,
-# rollfix::catalog, many parts, and rollfix::draw, the figures. A new file in src/ needs no edit here.
+# rollfix::catalog, many parts, rollfix::draw, the figures, and rollfix::c, for other languages. A new file in src/ needs no edit here.
 find_package(Eigen3 3.4 CONFIG REQUIRED)
 find_package(Boost 1.74 CONFIG REQUIRED)
 find_package(fmt 9 CONFIG REQUIRED)
 find_package(FastFloat CONFIG REQUIRED)
 find_package(Threads REQUIRED)
+set(ROLLFIX_C_ABI 1)  # ROLLFIX_ABI of rollfix.h
 set(ROLLFIX_FMT fmt::fmt)
 if(ROLLFIX_FMT_HEADER_ONLY)
   set(ROLLFIX_FMT fmt::fmt-header-only)
@@ -26,13 +27,13 @@ endfunction()
 
 file(GLOB_RECURSE core_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/*.cpp)
 file(GLOB_RECURSE core_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/*.hpp)
-foreach(room IN ITEMS march files catalog draw)
+foreach(room IN ITEMS march files catalog draw capi)
   set(${room}_sources ${core_sources})
   set(${room}_headers ${core_headers})
   list(FILTER ${room}_sources INCLUDE REGEX "/src/${room}/")
   list(FILTER ${room}_headers INCLUDE REGEX "/rollfix/${room}/")
 endforeach()
-list(FILTER core_sources EXCLUDE REGEX "/src/(march|files|catalog|draw)/")
+list(FILTER core_sources EXCLUDE REGEX "/src/(march|files|catalog|draw|capi)/")
 list(FILTER core_headers EXCLUDE REGEX "/rollfix/(march|files|catalog|draw)/")
 
 rollfix_library(rollfix rollfix
@@ -61,6 +62,23 @@ if(ROLLFIX_BUILD_FILES)
     PUBLIC rollfix
     PRIVATE ${ROLLFIX_FMT} pugixml::pugixml $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>
       $<BUILD_INTERFACE:FastFloat::fast_float>)
+endif()
+
+if(ROLLFIX_BUILD_C)
+  # Shared, with the functions of rollfix.h and nothing else to be seen: what other languages load.
+  add_library(rollfix_c SHARED ${capi_sources})
+  add_library(rollfix::c ALIAS rollfix_c)
+  set_target_properties(rollfix_c PROPERTIES
+    EXPORT_NAME c SOVERSION ${ROLLFIX_C_ABI} VERSION ${ROLLFIX_C_ABI}.${PROJECT_VERSION}
+    CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  target_sources(rollfix_c PUBLIC FILE_SET HEADERS
+    BASE_DIRS ${PROJECT_SOURCE_DIR}/include FILES ${PROJECT_SOURCE_DIR}/include/rollfix/rollfix.h)
+  target_include_directories(rollfix_c PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  rollfix_settings(rollfix_c)
+  rollfix_rooms(rollfix_c)
+  check_linker_flag(CXX -Wl,--exclude-libs,ALL ROLLFIX_HAS_EXCLUDE_LIBS)
+  target_link_options(rollfix_c PRIVATE $<$<BOOL:${ROLLFIX_HAS_EXCLUDE_LIBS}>:-Wl,--exclude-libs,ALL>)
+  target_link_libraries(rollfix_c PRIVATE rollfix rollfix_files ${ROLLFIX_FMT})
 endif()
 
 if(ROLLFIX_BUILD_CATALOG)

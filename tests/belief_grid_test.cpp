@@ -50,7 +50,8 @@ std::size_t grid_points_on(const Part& part, std::optional<rollfix::Prior> prior
   const NoisyRoll roll = roll_on(part, kRadius, 0.2 * P, P / 3, 200, options.noise, 7);
   const std::vector<rollfix::Reading> rows = rollfix::readings_as_given(roll.log, {DiskFinger{kRadius}});
   for (std::size_t k = 1; k < rows.size(); ++k) nodes.add({rows[k], kCurvature});
-  Grid grid(boundary, errors, options, part.boundary(), corner_length(kCurvature, part), nullptr);
+  Grid grid(boundary, errors, options, part.boundary(), corner_length(kCurvature, part), nullptr,
+            std::pmr::get_default_resource(), kMostPoints);
   grid.settle(nodes);
   return grid.points();
 }

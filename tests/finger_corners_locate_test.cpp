@@ -101,6 +101,8 @@ TEST(FingerCornersLocate, a_first_row_on_a_corner_costs_nothing_where_exact_rows
   const Answer answer = solve({cam.part, rows_between(cam.log, first, 60), {cam.finger}});
   EXPECT_LT(miss(answer, cam.start_of(first)), 1e-7);
   EXPECT_TRUE(answer.corner_rows.first);
+  EXPECT_LT(cam.part.distance(answer.placements.front().start[0], cam.start_of(first)), 1e-7)
+      << "what contradicts is last";
   for (const Placement& placement : answer.placements) {
     EXPECT_NEAR(cam.part.boundary().distance(placement.end[0], placement.start[0] + answer.readings.back().length[0]),
                 0, 1e-9);
@@ -136,7 +138,8 @@ TEST(FingerCornersLocate, an_open_reading_has_all_starts_that_fit_some_turn_of_i
     const bool is_listed =
         std::any_of(search.placements.begin(), search.placements.end(),
                     [&](const Placement& placement) { return placement.contains(part.boundary(), s); });
-    if (margin > 1e-7) EXPECT_EQ(is_listed, fits) << s;
+    if (margin < 1e-7) continue;
+    EXPECT_EQ(is_listed, fits) << s;
   }
   for (const Placement& placement : search.placements) EXPECT_EQ(placement.kind, Kind::stretch);
 }
@@ -184,6 +187,9 @@ TEST(FingerCornersLocate, random_rolls_are_located_and_nothing_is_invented) {
     const RandomRoll random = random_roll(generator);
     const Answer answer = solve({random.part, random.log, {random.polygon.finger()}});
     EXPECT_LT(miss(answer, random.start), 1e-6) << k << " " << answer.verdict.text();
+    if (answer.verdict.name == Verdict::unique) {
+      EXPECT_LT(random.part.distance(answer.placements.front().start[0], random.start), 1e-6) << k;
+    }
     for (const Placement& placement : answer.placements) {
       if (placement.is_contradicted || placement.kind == Kind::stretch) continue;
       EXPECT_LT(corner_fingers::disagreement(random.part, random.polygon, random.log, placement.start[0]), 1e-4) << k;

@@ -404,7 +404,13 @@ def simulate_rig(
 ) -> Roll: ...
 def squeezed_places(arg0: Part, arg1: float, arg2: float) -> List[float]: ...
 def simulate_drive(
-    arg0: Part, arg1: float, arg2: float, arg3: int, arg4: Optional[Dict[str, float]], arg5: int
+    arg0: Part,
+    arg1: float,
+    arg2: float,
+    arg3: int,
+    arg4: Optional[Dict[str, float]],
+    arg5: int,
+    arg6: float,
 ) -> Roll: ...
 def teach(
     arg0: Log,

@@ -75,6 +75,7 @@ class RolledOn(Asked):
         wheel: str = "skin",
         noise: NoiseLike = None,
         seed: int = 0,
+        seconds: Optional[float] = None,
     ) -> Roll:
         """What the sensors of a roll say, and how it really was.
 
@@ -108,6 +109,8 @@ class RolledOn(Asked):
             `position` is of a wheel's pin; of other fingers x and y have no errors.
         seed : int
             Everything that is drawn follows from it, the same on all platforms.
+        seconds : float, optional
+            Of a wheel: how long it takes, at an even speed. None: its log has no times.
 
         Returns
         -------
@@ -121,7 +124,7 @@ class RolledOn(Asked):
             )
         else:
             roll = simulated(
-                self._core, finger, start, length, rotation, samples, contact, part_rotation, noise, seed
+                self._core, finger, start, length, rotation, samples, contact, part_rotation, noise, seed, seconds
             )
         tell_of_dropped(self._core, roll, finger)
         return Roll(roll)
@@ -160,8 +163,8 @@ class RolledOn(Asked):
         pose : (x, y, heading)
             Where the part lies in the world at the start.
         part_rotation : float, optional
-            By how much the part turns meanwhile, radians. Default: so that the fingers turn least, beside a wheel so that
-            the first finger does not.
+            By how much the part turns meanwhile, radians. Default: so that the force keeps its direction, beside a wheel so
+            that the first finger does not turn.
         stays : 'middle', 'a', 'b' or 'part'
             What stays in place.
         duration : float, optional

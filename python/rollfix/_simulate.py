@@ -57,6 +57,7 @@ def simulated(
     part_rotation: float,
     noise: NoiseLike,
     seed: int,
+    seconds: Optional[float],
 ) -> _core.Roll:
     rows, sds, drawn = whole(samples, "samples", 1), noise_given(noise), whole(seed, "seed", 0, MOST_SEED)
     turned = number(part_rotation, "part_rotation")
@@ -64,10 +65,12 @@ def simulated(
     is_pair = len(given) == 2 or (given and np.ndim(start) > 0)
     if turned != 0 and not is_pair:
         raise InputError("part_rotation: is of two fingers on a part that is free to move, found one on a part at rest")
+    if seconds is not None and finger is not None:
+        raise InputError(f"seconds: is of a wheel, and a finger turns at 1 rad/s, found {shown(seconds)}")
     if is_pair:
         return _of_two(part, given, start, length, rotation, rows, contact, turned, sds, drawn)
     if finger is None:
-        return _of_wheel(part, start, length, rotation, rows, contact, sds, drawn)
+        return _of_wheel(part, start, length, rotation, rows, contact, sds, drawn, seconds)
     if (length is None) == (rotation is None):
         found = "neither" if length is None else "both"
         raise InputError(f"length: expected how far the contact travels, or else `rotation` of the finger, found {found}")
@@ -93,12 +96,16 @@ def _of_wheel(
     contact: Any,
     noise: Optional[Dict[str, float]],
     seed: int,
+    seconds: Optional[float],
 ) -> _core.Roll:
     if length is None or rotation is not None:
         raise InputError("length: expected how far the wheel drives; `rotation` is of a finger")
     if np.ndim(contact) or contact != 0:
         raise InputError(f"contact: is of a finger, and without `finger` it is a wheel that drives, found {shown(contact)}")
-    return _core.simulate_drive(part, number(start, "start"), number(length, "length"), rows, noise, seed)
+    duration = 0.0 if seconds is None else number(seconds, "seconds")
+    if seconds is not None and duration <= 0:
+        raise InputError(f"seconds: expected a time above 0, found {shown(seconds)}")
+    return _core.simulate_drive(part, number(start, "start"), number(length, "length"), rows, noise, seed, duration)
 
 
 def _of_two(

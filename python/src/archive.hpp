@@ -205,9 +205,11 @@ void visit(A& a, DensityPiece& v) {
 template <class A>
 void visit(A& a, Fit& v) {
   auto& [chi_square, freedom, sigmas, correlation, correlation_sigmas, trend_sigmas, row_sigmas, stray, prior_sigmas,
-         excess, widened, alike_over, turn_gathered, length_scale, length_scale_sd, turn_scale, turn_scale_sd] = v;
+         excess, widened, alike_over, turn_gathered, length_scale, length_scale_sd, turn_scale, turn_scale_sd,
+         turn_bias, turn_bias_sd] = v;
   all(a, chi_square, freedom, sigmas, correlation, correlation_sigmas, trend_sigmas, row_sigmas, stray, prior_sigmas,
-      excess, widened, alike_over, turn_gathered, length_scale, length_scale_sd, turn_scale, turn_scale_sd);
+      excess, widened, alike_over, turn_gathered, length_scale, length_scale_sd, turn_scale, turn_scale_sd, turn_bias,
+      turn_bias_sd);
 }
 template <class A>
 void visit(A& a, Weighing& v) {

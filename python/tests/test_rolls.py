@@ -208,10 +208,10 @@ def test_lengths_may_count_either_way_round(ellipse):
         ellipse.locate(log=ellipse.simulate(Disk(0.2), start=1, length=1), finger=Disk(0.2), direction="either")
 
 
-def test_a_square_fingertip_pivots_on_its_corners(tmp_path):
+def test_a_square_fingertip_pivots_on_its_corners():
     cam = rollfix.Part.gallery("cam")
-    tip = rollfix.OutlineFinger(rollfix.Part([(0, 0), (0.2, 0), (0.2, 0.4), (-0.2, 0.4), (-0.2, 0)]))
-    roll = cam.simulate(tip, start=2, length=1, samples=101)
+    tip = rollfix.OutlineFinger(rollfix.Part.from_points([(0, 0), (0.2, 0), (0.2, 0.4), (-0.2, 0.4), (-0.2, 0)]))
+    roll = cam.simulate(tip, start=2, length=1.2, samples=101)
     answer = cam.locate(log=roll, finger=tip)
     assert min(abs(place.start[0] - 2) for place in answer) < 1e-6
     assert any("on a corner of the finger" in note for note in answer.notes)

@@ -27,9 +27,7 @@ constexpr double kWithin = 1.96;
 class WayBack {
  public:
   WayBack(const LeadingRows& leading, const Problem& problem)
-      : part_(problem.part),
-        length_(leading.way.length),
-        variance_(problem.noise ? 2 * problem.noise->contact * problem.noise->contact : 0) {}
+      : part_(problem.part), length_(leading.way.length), noise_(problem.noise.value_or(Noise{})) {}
 
   PerFinger<double> place(PerFinger<double> at) const {
     for (std::size_t k = 0; k < at.size(); ++k) at[k] = part_.boundary().canonical(at[k] - length_[k]);
@@ -44,7 +42,9 @@ class WayBack {
   void move(Placement& placement) const {
     placement.start = place(placement.start);
     for (PerFinger<double>& root : placement.roots) root = place(root);
-    for (PerFinger<double>& pair : placement.family) pair = place(pair);
+    for (PerFinger<double>& pair : placement.family) {  // unwrapped
+      for (std::size_t k = 0; k < pair.size(); ++k) pair[k] -= length_[k];
+    }
     placement.pivot.reset();
     for (std::size_t k = 0; k < placement.start.size(); ++k) {
       placement.extent[k] = arc(placement.extent[k], k);
@@ -55,23 +55,28 @@ class WayBack {
   }
 
  private:
-  /// The way back is as uncertain as both rows' contacts.
   void move_belief(Placement& placement) const {
     placement.mean = place(placement.mean);
     for (std::size_t k = 0; k < placement.start.size(); ++k) {
       const auto i = static_cast<Eigen::Index>(k);
-      placement.sd[k] = std::hypot(placement.sd[k], std::sqrt(variance_));
-      if (placement.start.size() == 2) placement.covariance(i, i) += variance_;
+      const double of_way = sd(k);
+      placement.sd[k] = std::hypot(placement.sd[k], of_way);
+      if (placement.start.size() == 2) placement.covariance(i, i) += of_way * of_way;
       const Interval there = placement.interval[k];
       if (part_.boundary().is_full(there)) continue;
-      const double beyond = std::hypot(0.5 * there.width(), kWithin * std::sqrt(variance_)) - 0.5 * there.width();
+      const double beyond = std::hypot(0.5 * there.width(), kWithin * of_way) - 0.5 * there.width();
       placement.interval[k] = arc({there.lo - beyond, there.hi + beyond}, k);
     }
   }
 
+  /// The way back is as uncertain as both rows' contacts, and slips.
+  double sd(std::size_t finger) const {
+    return std::hypot(noise_.contact, noise_.contact, noise_.slip * length_[finger]);
+  }
+
   const Part& part_;
   PerFinger<double> length_;
-  double variance_;
+  Noise noise_;
 };
 
 /// Without what belongs to the last entries, which the answer does not list.
@@ -88,10 +93,10 @@ void drop_last(std::size_t count, Sensitivity& sensitivity) {
 }
 
 [[noreturn]] void refuse_all(const Log& log, bool has_noise) {
-  throw InputError(fmt::format(
-      "{}: in every row a finger may be on a corner of its own, where u does not tell how its normal is turned{}: "
-      "expected rows beside the corners; roll on",
-      log.name, has_noise ? " (within five standard deviations of the contact's noise)" : ""));
+  throw InputError(
+      fmt::format("{}: in every row, or in all but the first, a finger may be on a corner of its own, where u does not "
+                  "tell how its normal is turned{}: expected rows beside the corners; roll on",
+                  log.name, has_noise ? " (within five standard deviations of the contact's noise)" : ""));
 }
 
 /// The last row before this one, or itself, that is off all corners; 0: there is none behind the first.
@@ -160,7 +165,9 @@ void to_first_contacts(const LeadingRows& leading, const Problem& problem, Answe
     reading.pivot += leading.way.pivot;
   }
   if (!answer.weighing) {
-    const auto earlier = [](const Placement& one, const Placement& two) { return one.start[0] < two.start[0]; };
+    const auto earlier = [](const Placement& one, const Placement& two) {
+      return std::pair(one.is_contradicted, one.start[0]) < std::pair(two.is_contradicted, two.start[0]);
+    };
     std::sort(answer.placements.begin(), answer.placements.end(), earlier);
     return;
   }
@@ -174,6 +181,7 @@ void to_first_contacts(const LeadingRows& leading, const Problem& problem, Answe
 std::vector<std::size_t> rows_to_search(const Problem& problem, const std::vector<bool>& on_corners) {
   const Log& log = *problem.felt.log;
   std::vector<std::size_t> rows = rows_at(log, problem.at);
+  if (problem.noise && !on_corners.empty() && last_exact(on_corners, log.rows() - 1) == 0) refuse_all(log, true);
   if (!problem.at.empty() || on_corners.empty()) return rows;
   if (log.fingers.size() == 1) {
     const std::size_t exact = last_exact(on_corners, rows.back());

@@ -48,6 +48,18 @@ Tolerance tolerance_of(const Problem& problem, const Observation& observed, std:
                 : tolerance_from_digits(problem.part, observed.roundings, observed.readings);
 }
 
+/// Of one finger: with what the rows before the first one say as well.
+Search search_from_row(const LeadingRows& leading, const LocateOptions& options, const Answer& answer) {
+  std::vector<Reading> readings = answer.readings;
+  readings.insert(readings.end(), leading.readings.begin(), leading.readings.end());
+  Search found = locate(answer.part, readings, options);
+  const double last = answer.readings.back().length[0];
+  for (Placement& placement : found.placements) {
+    placement.end = answer.part.boundary().canonical(placement.start[0] + last);
+  }
+  return found;
+}
+
 /// Everything that fits the readings.
 void search(const Problem& problem, const LeadingRows& leading, Answer& answer) {
   const Doing doing("searching for all places that fit");
@@ -58,13 +70,8 @@ void search(const Problem& problem, const LeadingRows& leading, Answer& answer) 
   if (of_two_with_noise) options.budget = kBudgetWithNoise;
   if (problem.budget) options.budget = *problem.budget;
   if (of_two_with_noise && options.tolerance > kWidestSearch) return;
-  std::vector<Reading> readings = answer.readings;
-  readings.insert(readings.end(), leading.readings.begin(), leading.readings.end());
-  Search found = locate(answer.part, readings, options);
-  const double last = answer.readings.back().length[0];
-  for (Placement& placement : found.placements) {
-    if (!leading.readings.empty()) placement.end = answer.part.boundary().canonical(placement.start[0] + last);
-  }
+  Search found = leading.readings.empty() ? locate(answer.part, answer.readings, options)
+                                          : search_from_row(leading, options, answer);
   answer.status = found.status;
   answer.verdict = found.verdict();
   answer.placements = std::move(found.placements);

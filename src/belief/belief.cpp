@@ -58,10 +58,8 @@ struct Belief::State {
   const Fit& fit();
   /// What is said beforehand can only sharpen what the rows allow.
   void hold_against_rows_alone();
-  template <class Remaining>
-  Verdict verdict_on(const std::vector<Remaining>& remaining);
-  template <class Remaining>
-  Verdict places_of(const std::vector<Remaining>& remaining);
+  template <class Place>
+  Verdict verdict_on(const std::vector<Place>& places);
 
   Part part;
   BeliefOptions options;
@@ -104,29 +102,36 @@ void Belief::State::hold_against_rows_alone() {
   outcome.fit.prior_sigmas = degrees > 1 ? normal_deviate(cost, degrees) : std::sqrt(cost);
 }
 
-/// docs/belief.md has the table.
-template <class Remaining>
-Verdict Belief::State::verdict_on(const std::vector<Remaining>& remaining) {
-  settle();
-  if (!posterior->has_begun()) return {Verdict::unobservable};
-  if (outcome.fit.excess > kMostExcess || remaining.empty()) return {Verdict::inconsistent};
-  Verdict verdict = places_of(remaining);
-  verdict.fits_badly = outcome.fit.is_bad();
+namespace {
+
+/// As if the rows fitted.
+Verdict verdict_of_places(const Remaining& remaining, const Boundary& places) {
+  const double length = remaining.credible_length;
+  if (places.closed && length > kAnywhere * kCertain * places.perimeter) return {Verdict::unobservable};
+  if (remaining.that_count > 1 && remaining.most < kCertain) return {Verdict::ambiguous, remaining.that_count};
+  return length > kWide * places.perimeter ? Verdict{Verdict::ambiguous, 1, 1} : Verdict{Verdict::unique, 1};
+}
+
+}  // namespace
+
+Verdict belief::verdict_of(const Fit& fit, const Remaining& remaining, const Boundary& places) {
+  if (fit.excess > kMostExcess) return {Verdict::inconsistent};
+  Verdict verdict = verdict_of_places(remaining, places);
+  verdict.fits_badly = fit.is_bad();
   return verdict;
 }
 
-/// As if they fitted.
-template <class Remaining>
-Verdict Belief::State::places_of(const std::vector<Remaining>& remaining) {
+template <class Place>
+Verdict Belief::State::verdict_on(const std::vector<Place>& places) {
+  settle();
+  if (!posterior->has_begun()) return {Verdict::unobservable};
+  if (places.empty()) return {Verdict::inconsistent};
   std::vector<PerFinger<Interval>> that_count;
-  for (const Remaining& each : remaining) {
+  for (const Place& each : places) {
     if (each.probability >= kCounts) that_count.push_back(each.interval);
   }
-  const double P = part.perimeter();
   const double length = posterior->credible_length(that_count);
-  if (part.closed() && length > kAnywhere * kCertain * P) return {Verdict::unobservable};
-  if (that_count.size() > 1 && remaining.front().probability < kCertain) return {Verdict::ambiguous, that_count.size()};
-  return length > kWide * P ? Verdict{Verdict::ambiguous, 1, 1} : Verdict{Verdict::unique, 1};
+  return verdict_of(outcome.fit, {that_count.size(), places.front().probability, length}, part.boundary());
 }
 
 Belief::Belief(const Part& part, LogKind kind, const BeliefOptions& options, const Contacts& contacts) {

@@ -9,6 +9,7 @@
 //   n, a            a row's own errors of the contact's place and of the angle: `contact_variance`, `angle_variance`
 //   n0, a0          the same of the first row, which all rows share: offsets in `start_`(0, 0), (0, 1), (1, 1)
 //   eps, gamma      scale of lengths and of a gyroscope's turns: variances `start_`(2, 2), (3, 3)
+//   b               a gyroscope's bias: variance `start_`(4, 4)
 //   kappa           here the finger's curvature, 1 / r: `finger_curvature`
 //   R, P0, K        `row()`, `start()`, and what gathers from row to row: `gathered()`
 // Two fingers share n0 of each, eps of each and, without the facing, the first turn: `PairErrors`, docs/two_fingers.md,
@@ -85,15 +86,20 @@ double SensorErrors::worth(double travelled, double rows) const {
 }
 
 // A log's first contact is off as any other. A sum of increments starts from where it is, and wanders.
-Travel SensorErrors::travel() const {
+Travel SensorErrors::travel(std::pmr::memory_resource* memory) const {
   const bool is_exact = bare || gathers_rows();
-  return {{-1, 0, is_exact ? 0 : contact_variance}, gathers_rows() ? contact_variance : 0};
+  return {{-1, 0, is_exact ? 0 : contact_variance}, gathers_rows() ? contact_variance : 0, memory};
 }
 
 // A gyroscope drifts, and so may the part's outline.
 double SensorErrors::drifted(double length, const Interval& seconds) const {
   const double gyroscope = bare ? 0 : drift_variance(noise, kind, std::abs(length) / perimeter, seconds);
   return gyroscope + square(noise.part.walk) * std::abs(length);
+}
+
+double SensorErrors::wandered(double length, const Interval& seconds) const {
+  if (bare || (noise.drift == 0 && noise.walk == 0)) return drifted(length, seconds);
+  return square(noise.walk) * seconds.width() + square(noise.part.walk) * std::abs(length);
 }
 
 double SensorErrors::rows_alike(double rows, double range) const {
@@ -116,7 +122,8 @@ ErrorModel::ErrorModel(const BeliefOptions& options, LogKind kind, double finger
   start_(1, 1) += sensor_.part_variance();  // the tangent of the start, which every turn is measured from
   start_(2, 2) = sensor_.scale_variance(finger_curvature);
   start_(3, 3) = square(sensor_.noise.gyro);
-  start_(4, 4) = start_(5, 5) = centre_variance();
+  start_(4, 4) = sensor_.bare ? 0 : square(sensor_.noise.drift);
+  start_(5, 5) = start_(6, 6) = centre_variance();
 }
 
 double ErrorModel::radius_share(double finger_curvature) const {
@@ -138,7 +145,7 @@ Gathered ErrorModel::gathered(double travelled, double rows, const Interval& sec
     sum.length += rows * sensor_.contact_variance;
     sum.turn += rows * sensor_.angle_variance;
   }
-  sum.turn += sensor_.drifted(travelled, seconds);
+  sum.turn += sensor_.wandered(travelled, seconds);
   return sum;
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <memory_resource>
 
 #include "belief/travel.hpp"
 #include "rollfix/belief/belief.hpp"
@@ -37,11 +38,13 @@ struct SensorErrors {
   /// Of the length, and of the turn, that is gathered on the way over a length, in these seconds from the start.
   double slipped(double length) const;
   double drifted(double length, const Interval& seconds) const;
+  /// The same without what a bias makes, which is one and the same all along.
+  double wandered(double length, const Interval& seconds) const;
   /// As many rows' worth as so many are that a finger travels over this length for: fewer where rows close together are
   /// off alike.
   double worth(double travelled, double rows) const;
   /// Of a log's lengths.
-  Travel travel() const;
+  Travel travel(std::pmr::memory_resource* memory) const;
   /// Of a tangent's direction, as the part's outline has it.
   double part_variance() const { return noise.part.turn * noise.part.turn; }
   /// Among so many rows, spread over so much of the boundary, the number that the part's outline is off for alike: each
@@ -68,13 +71,14 @@ struct SensorErrors {
 };
 
 /// Errors that a whole roll of one finger shares: of a length and of a turn as measured, of the scale of lengths, of a
-/// gyroscope's scale, and of the centre as it is known at the first contact, x and y.
-inline constexpr int kShared = 6;
+/// gyroscope's scale, of its rate (its bias), and of the centre as it is known at the first contact, x and y.
+inline constexpr int kShared = 7;
 using Shared = Eigen::Matrix<double, kShared, 1>;
 using SharedCovariance = Eigen::Matrix<double, kShared, kShared>;
 /// The first of them, which lengths and turns tell of, ...
-inline constexpr int kRolling = 4;
-/// ... and of those the ones that a log has to which no gyroscope belongs.
+inline constexpr int kRolling = 5;
+/// ... and of those the ones that a log has whose gyroscope is not biased, and one to which no gyroscope belongs.
+inline constexpr int kWithoutBias = 4;
 inline constexpr int kWithoutGyroscope = 3;
 
 /// Variances of length and turn that gather on the way.
@@ -87,8 +91,8 @@ struct Gathered {
 inline constexpr double kWideAngle = 0.004;
 
 /// How the noise enters the measured length and turn of one finger's roll. Measured are
-///   L (1 + scale) + offset of length + the row's own,   theta + gyroscope's scale * what it turned + offset of turn +
-///   the row's own.
+///   L (1 + scale) + offset of length + the row's own,   theta + gyroscope's scale * what it turned + bias * seconds +
+///   offset of turn + the row's own.
 class ErrorModel {
  public:
   /// `finger_curvature`: of the finger where it first touched.
@@ -104,12 +108,15 @@ class ErrorModel {
   double worth(double travelled, double rows) const { return sensor_.worth(travelled, rows); }
   RowCovariance bent(double travelled) const { return sensor_.bent(travelled); }
   double for_large_slip() const { return sensor_.for_large_slip(); }
-  Travel travel() const { return sensor_.travel(); }
+  Travel travel(std::pmr::memory_resource* memory = std::pmr::get_default_resource()) const {
+    return sensor_.travel(memory);
+  }
   /// Over less than this length what gathers is one and the same.
   double patch() const { return sensor_.patch(); }
   /// Angles are too noisy for one look at every row to do.
-  bool is_wide() const { return start_(1, 1) > kWideAngle * kWideAngle || has_gyroscope_scale(); }
+  bool is_wide() const { return start_(1, 1) > kWideAngle * kWideAngle || has_gyroscope_scale() || has_bias(); }
   bool has_gyroscope_scale() const { return start_(3, 3) > 0; }
+  bool has_bias() const { return start_(4, 4) > 0; }
   /// Of a row on its own, with the finger's curvature where it touches, and so many rows that the part is off for
   /// alike.
   RowCovariance row(double finger_curvature, double alike = 1) const;
@@ -155,7 +162,9 @@ class PairErrors {
   double normal_turn(std::size_t finger) const { return normal_turn_[finger]; }
   double worth(double travelled, double rows) const { return sensor_.worth(travelled, rows); }
   double for_large_slip() const { return sensor_.for_large_slip(); }
-  Travel travel() const { return sensor_.travel(); }
+  Travel travel(std::pmr::memory_resource* memory = std::pmr::get_default_resource()) const {
+    return sensor_.travel(memory);
+  }
   /// Of a centre's coordinate, each row on its own; 0: centres are not looked at.
   double centre_variance() const { return sensor_.noise.position * sensor_.noise.position; }
   double angle_variance() const { return sensor_.angle_variance; }  // of one finger's orientation, each row on its own

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "belief/posterior.hpp"
 #include "rollfix/pulse.hpp"
@@ -30,14 +31,14 @@ constexpr double kPatches = 2.5;
 constexpr double kFewestNodes = 24;
 
 /// `gather`: what a node takes over of one that is passed over.
-template <class AnyNode, class Gather>
-std::vector<AnyNode> evenly(const std::vector<AnyNode>& nodes, std::size_t most, const Gather& gather) {
-  if (nodes.size() <= most) return nodes;
-  std::vector<AnyNode> some;
+template <class AnyNodes, class Gather>
+AnyNodes evenly(const AnyNodes& nodes, std::size_t most, const Gather& gather) {
+  if (nodes.size() <= most) return AnyNodes(nodes, nodes.get_allocator());
+  AnyNodes some(nodes.get_allocator());
   std::size_t next = 0;
   for (std::size_t k = 0; k < most; ++k) {
     const std::size_t at = k * (nodes.size() - 1) / (most - 1);
-    AnyNode node = nodes[at];
+    typename AnyNodes::value_type node = nodes[at];
     for (; next < at; ++next) gather(node, nodes[next]);
     next = at + 1;
     some.push_back(node);
@@ -71,7 +72,7 @@ bool Nodes::are_too_many() const {
 }
 
 JoinedRows Nodes::group(std::size_t begin) const {
-  const std::vector<JoinedRows>& blocks = blocks_.complete();
+  const std::pmr::vector<JoinedRows>& blocks = blocks_.complete();
   JoinedRows rows = blocks[begin];
   const std::size_t end = std::min(begin + group_, blocks.size());
   for (std::size_t k = begin + 1; k < end; ++k) rows = blocks_.joined(rows, blocks[k]);
@@ -115,6 +116,7 @@ Node Nodes::node_of(const JoinedRows& rows, double travelled) const {
   return {rows.length,
           rows.turn,
           rows.sensed,
+          rows.middle,
           spread_of(rows),
           rows.rows / worth * rows.own + (by_walk_ ? errors_.bent(travelled) : RowCovariance{}),
           errors_.gathered(travelled, rows.rows, {seconds_, rows.seconds}),
@@ -212,7 +214,7 @@ std::vector<PairNode> pair_nodes(const std::vector<Reading>& rows, const std::ve
     for (std::size_t from = begin; from < end; from += block) {
       const auto first = rows.begin() + static_cast<std::ptrdiff_t>(from);
       const auto last_row = rows.begin() + static_cast<std::ptrdiff_t>(std::min(end, from + block));
-      const Reading middle = median_of({first, last_row});
+      const Reading middle = median_of(std::span(first, last_row));
       node.length[0] += middle.length[0];
       node.length[1] += middle.length[1];
       node.turn += middle.turn;
@@ -236,7 +238,7 @@ std::vector<PairNode> pair_nodes(const std::vector<Reading>& rows, const std::ve
   return nodes;
 }
 
-std::vector<Node> some_of(const std::vector<Node>& nodes, std::size_t most) {
+std::pmr::vector<Node> some_of(const std::pmr::vector<Node>& nodes, std::size_t most) {
   return evenly(nodes, most, [](Node& node, const Node& passed) {
     node.gathered.length += passed.gathered.length;
     node.gathered.turn += passed.gathered.turn;

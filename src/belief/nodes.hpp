@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory_resource>
 #include <optional>
 #include <vector>
 
@@ -23,13 +24,14 @@ inline constexpr double kMostFiner = 4;
 struct Node {
   double length = 0;
   double turn = 0;
-  double sensed = 0;  // of the turn, what a gyroscope has measured
-  double spread = 0;  // variance of turn + tilt times length among the rows, of the course without its noise
-  RowCovariance own;  // of the mean
-  Gathered gathered;  // by the offsets, from the last row of the node before to this one's
-  double rows = 1;    // that are joined
-  double worth = 0;   // as many rows on their own; less than there are where they are off alike
-  FeltCentre felt{};  // where centres are looked at: means
+  double sensed = 0;   // of the turn, what a gyroscope has measured
+  double seconds = 0;  // from the roll's start, as a mean
+  double spread = 0;   // variance of turn + tilt times length among the rows, of the course without its noise
+  RowCovariance own;   // of the mean
+  Gathered gathered;   // by the offsets, from the last row of the node before to this one's
+  double rows = 1;     // that are joined
+  double worth = 0;    // as many rows on their own; less than there are where they are off alike
+  FeltCentre felt{};   // where centres are looked at: means
 
   /// What has gathered by the last row goes into the mean with this share: all of the first row's part does, and next
   /// to nothing of the last one's. The sums over rows that are evenly spaced.
@@ -49,18 +51,20 @@ struct Node {
 /// with their number. docs/belief.md derives it.
 class Nodes {
  public:
-  /// `robust`, `most`: see RowBlocks. `by_walk`: fewer where what gathers is seen.
-  Nodes(const ErrorModel& errors, double tilt, bool robust, std::size_t most = kMostNodes, bool by_walk = true)
+  /// `robust`, `most`: see RowBlocks. `by_walk`: fewer where what gathers is seen. `memory`: for all that it keeps.
+  Nodes(const ErrorModel& errors, double tilt, bool robust, std::size_t most = kMostNodes, bool by_walk = true,
+        std::pmr::memory_resource* memory = std::pmr::get_default_resource())
       : errors_(errors),
         tilt_(tilt),
         by_walk_(by_walk),
-        blocks_(errors, tilt, robust, most),
-        travel_(errors.travel()) {}
+        blocks_(errors, tilt, robust, most, memory),
+        nodes_(memory),
+        travel_(errors.travel(memory)) {}
 
   void add(const Row& row);
 
   /// Those that will not change until `generation` does.
-  const std::vector<Node>& complete() const { return nodes_; }
+  const std::pmr::vector<Node>& complete() const { return nodes_; }
   std::size_t generation() const { return generation_; }  // grows when nodes are joined
   /// The rows after them.
   std::optional<Node> pending() const;
@@ -102,14 +106,14 @@ class Nodes {
   std::size_t rows_ = 0;
   RowBlocks blocks_;
   std::size_t group_ = 1;  // blocks of a node
-  std::vector<Node> nodes_;
+  std::pmr::vector<Node> nodes_;
   Travel travel_;       // of them
   Walk walk_;           // likewise
   double seconds_ = 0;  // at the last one's last row
 };
 
 /// Some of the nodes, evenly, the first and the last among them.
-std::vector<Node> some_of(const std::vector<Node>& nodes, std::size_t most);
+std::pmr::vector<Node> some_of(const std::pmr::vector<Node>& nodes, std::size_t most);
 
 /// Where two fingers' centres are as seen from one to the other, however the part has moved meanwhile.
 struct PairCentres {

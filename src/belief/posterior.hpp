@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <memory_resource>
 #include <numbers>
 #include <optional>
 #include <vector>
@@ -57,13 +58,13 @@ inline double normal_deviate(double chi_square, double freedom) {
 }
 
 /// Of a filter's equations, each in its standard deviations, in the order of the rows.
-using Innovations = std::array<std::vector<double>, 3>;
+using Innovations = std::array<std::pmr::vector<double>, 3>;
 
 /// Whether a filter's innovations, each in its standard deviations, are as they should be: independent, none far out.
 class Whiteness {
  public:
   /// All that follow are kept as well, there.
-  void record_to(std::vector<double>* kept) { kept_ = kept; }
+  void record_to(std::pmr::vector<double>* kept) { kept_ = kept; }
 
   void add(double innovation) {
     if (kept_ != nullptr) kept_->push_back(innovation);
@@ -102,7 +103,7 @@ class Whiteness {
   double sums_ = 0;
   double squares_ = 0;
   double count_ = 0;
-  std::vector<double>* kept_ = nullptr;
+  std::pmr::vector<double>* kept_ = nullptr;
 };
 
 /// How innovations run in the long term.
@@ -245,6 +246,16 @@ std::unique_ptr<Posterior> posterior_of_one(const Part& part, LogKind kind, cons
                                             const Contacts& contacts);
 std::unique_ptr<Posterior> posterior_of_two(const Part& part, LogKind kind, const BeliefOptions& options,
                                             const Contacts& contacts);
+
+/// What is left of all places: how many that count, how probable the likeliest is, and as much of the boundary as
+/// holds 95 %, length.
+struct Remaining {
+  std::size_t that_count = 0;
+  double most = 0;
+  double credible_length = 0;
+};
+/// docs/belief.md has the table.
+Verdict verdict_of(const Fit& fit, const Remaining& remaining, const Boundary& places);
 
 /// The pieces of a mode, added up along one finger's boundary.
 void add_density(const std::vector<Piece>& pieces, const Mode& mode, std::size_t finger, const Boundary& places,

@@ -1,15 +1,12 @@
 #include "belief/row_blocks.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <utility>
 
 namespace rollfix::belief {
 
 namespace {
-
-// Rows of which a median is taken: enough that several stray ones don't matter, few enough to lie close together.
-constexpr std::size_t kRowsOfMedian = 16;
 
 void add_share(FeltCentre& sum, double factor, const FeltCentre& felt) {
   sum.centre += factor * felt.centre;
@@ -17,7 +14,7 @@ void add_share(FeltCentre& sum, double factor, const FeltCentre& felt) {
   sum.arm.per_length += factor * felt.arm.per_length;
 }
 
-double median(std::vector<double> values) {
+double median(std::span<double> values) {
   const auto upper = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), upper, values.end());
   if (values.size() % 2 == 1) return *upper;
@@ -26,13 +23,13 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
-Reading median_of(const std::vector<Reading>& rows) {
+Reading median_of(std::span<const Reading> rows) {
   Reading middle = rows.front();
   if (rows.size() == 1) return middle;
   const auto median_by = [&](const auto& number) {
-    std::vector<double> values;
-    for (const Reading& row : rows) values.push_back(number(row));
-    return median(std::move(values));
+    std::array<double, kRowsOfMedian> values{};
+    std::transform(rows.begin(), rows.end(), values.begin(), number);
+    return median(std::span(values).first(rows.size()));
   };
   for (std::size_t finger = 0; finger < middle.fingers(); ++finger) {
     middle.length[finger] = median_by([&](const Reading& row) { return row.length[finger]; });
@@ -58,6 +55,7 @@ JoinedRows RowBlocks::joined(const JoinedRows& a, const JoinedRows& b) const {
   both.length = of_a * a.length + of_b * b.length;
   both.turn = of_a * a.turn + of_b * b.turn;
   both.sensed = of_a * a.sensed + of_b * b.sensed;
+  both.middle = of_a * a.middle + of_b * b.middle;
   both.scatter = of_a * a.scatter + of_b * b.scatter + of_a * of_b * apart * apart;
   both.own = of_a * of_a * a.own + of_b * of_b * b.own;
   add_share(both.felt, of_a, a.felt);
@@ -73,7 +71,7 @@ bool RowBlocks::add(const Row& row) {
   own_ = errors_.row(row.finger_curvature, errors_.rows_alike(rows_, range_.width()));
   if (errors_.gathers_rows()) {
     // Errors that add up are in all rows that follow: the last one tells as much as all.
-    sum_ = {0, 0, 0, 0, {}, {}, sum_.rows, row.seconds};
+    sum_ = {0, 0, 0, 0, {}, {}, sum_.rows, row.seconds, 0};
     medians_ = 0;
     of_median_.clear();
   }
@@ -92,15 +90,17 @@ bool RowBlocks::add(const Row& row) {
 
 void RowBlocks::close_median(JoinedRows& sum, double& medians) const {
   if (of_median_.empty()) return;
-  std::vector<Reading> readings;
-  for (const Row& row : of_median_) {
-    readings.push_back(row.reading);
+  std::array<Reading, kRowsOfMedian> readings;
+  for (std::size_t k = 0; k < of_median_.size(); ++k) {
+    const Row& row = of_median_[k];
+    readings[k] = row.reading;
     const double share = 1 / static_cast<double>(of_median_.size());
     sum.sensed += share * row.sensed;
+    sum.middle += share * row.seconds;
     add_share(sum.felt, share, row.felt);
   }
   // Worth one row: a median of rows on a slope is hardly better.
-  const Reading middle = median_of(readings);
+  const Reading middle = median_of(std::span(readings).first(of_median_.size()));
   // The variance among the medians so far, times their number (West 1979).
   if (medians > 0) {
     const double off = middle.turn + tilt_ * middle.length[0] - sum.tilted(tilt_) / medians;
@@ -119,7 +119,7 @@ JoinedRows RowBlocks::open() const {
   const double share = 1 / medians;
   JoinedRows rows{
       share * sum.length, share * sum.turn, share * sum.sensed, share * sum.scatter, share * share * sum.own, {},
-      sum.rows,           sum.seconds};
+      sum.rows,           sum.seconds,      share * sum.middle};
   add_share(rows.felt, share, sum.felt);
   return rows;
 }

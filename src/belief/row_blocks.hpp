@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <memory_resource>
+#include <span>
 #include <vector>
 
 #include "belief/centres.hpp"
@@ -28,7 +30,8 @@ struct JoinedRows {
   RowCovariance own;   // of the mean, where each row is off on its own
   FeltCentre felt{};   // where centres are looked at
   double rows = 0;
-  double seconds = 0;  // at the last of them
+  double seconds = 0;  // at the last of them, ...
+  double middle = 0;   // ... and as a mean, as of the others
 
   double tilted(double tilt) const { return turn + tilt * length; }
 };
@@ -38,8 +41,8 @@ struct JoinedRows {
 class RowBlocks {
  public:
   /// `robust`: of rows that make a block together medians are taken first, so that a stray one does not move it.
-  RowBlocks(const ErrorModel& errors, double tilt, bool robust, std::size_t most)
-      : errors_(errors), tilt_(tilt), robust_(robust), most_(most) {}
+  RowBlocks(const ErrorModel& errors, double tilt, bool robust, std::size_t most, std::pmr::memory_resource* memory)
+      : errors_(errors), tilt_(tilt), robust_(robust), most_(most), blocks_(memory), of_median_(memory) {}
 
   /// True: a block is complete with it.
   bool add(const Row& row);
@@ -49,7 +52,7 @@ class RowBlocks {
   /// Two neighbours as one: their mean, but of increments the last row.
   JoinedRows joined(const JoinedRows& a, const JoinedRows& b) const;
 
-  const std::vector<JoinedRows>& complete() const { return blocks_; }
+  const std::pmr::vector<JoinedRows>& complete() const { return blocks_; }
   std::size_t rows_of_block() const { return stride_; }
   /// After the complete blocks there are rows, ...
   bool has_open() const { return sum_.rows > 0; }
@@ -66,16 +69,18 @@ class RowBlocks {
   std::size_t stride_ = 1;  // rows of a block
   double rows_ = 0;
   Interval range_;  // of all lengths so far
-  std::vector<JoinedRows> blocks_;
+  std::pmr::vector<JoinedRows> blocks_;
   // Of the block that is being made: sums over medians of rows, and the rows of the median that is being filled.
   JoinedRows sum_;
   double medians_ = 0;
-  std::vector<Row> of_median_;
+  std::pmr::vector<Row> of_median_;
   RowCovariance own_;  // of one of its rows
 };
 
-/// What rows that are taken together come to: each number's median.
-Reading median_of(const std::vector<Reading>& rows);
+// Rows of which a median is taken: enough that several stray ones don't matter, few enough to lie close together.
+inline constexpr std::size_t kRowsOfMedian = 16;
+/// What rows that are taken together come to: each number's median. REQUIRES no more than kRowsOfMedian.
+Reading median_of(std::span<const Reading> rows);
 /// Rows that are taken together before a mean is taken: of robust ones by their median.
 std::size_t rows_of_median(bool robust, std::size_t stride);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory_resource>
 #include <vector>
 
 namespace rollfix::belief {
@@ -19,7 +20,8 @@ class Travel {
 
   /// `first`: the first contact. `per_row`: what the variance of a difference of lengths grows by with every row
   /// between them, as where lengths are sums of increments.
-  Travel(const Mark& first, double per_row) : marks_{first}, per_row_(per_row) {}
+  Travel(const Mark& first, double per_row, std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+      : marks_({first}, memory), so_far_({0.0}, memory), per_row_(per_row) {}
 
   /// From the last mark to this one: length, at least 0.
   double since_last(const Mark& mark) const;
@@ -31,8 +33,8 @@ class Travel {
   void restart();
 
  private:
-  std::vector<Mark> marks_;
-  std::vector<double> so_far_{0};  // from the first contact to each of them
+  std::pmr::vector<Mark> marks_;
+  std::pmr::vector<double> so_far_;  // from the first contact to each of them
   double per_row_;
 };
 

@@ -25,7 +25,7 @@ constexpr double kInnovationsEach = 4;
 constexpr double kFewestComponents = 2;
 
 /// The orthonormal cosine transform (DCT-II), one number of it.
-double component(const std::vector<double>& values, std::size_t k) {
+double component(const std::pmr::vector<double>& values, std::size_t k) {
   const auto count = static_cast<double>(values.size());
   const double step = std::numbers::pi * static_cast<double>(k) / count;
   double sum = 0;
@@ -42,7 +42,7 @@ Trend trend_of(const Innovations& innovations, double freedom) {
   double components = 0;
   double differences = 0;
   double neighbours = 0;
-  for (const std::vector<double>& each : innovations) {
+  for (const std::pmr::vector<double>& each : innovations) {
     if (each.empty()) continue;
     const auto count = static_cast<double>(each.size());
     for (std::size_t i = 1; i < each.size(); ++i) differences += square(each[i] - each[i - 1]);

@@ -259,9 +259,9 @@ NoisyRoll noisy_roll_rig(const Part& part, const RigPlan& plan, const Noise& noi
 }
 
 NoisyIncrements noisy_increments(const Part& part, double start, double length, std::size_t rows, const Noise& noise,
-                                 std::uint64_t seed) {
+                                 std::uint64_t seed, double seconds) {
   require_valid(noise);
-  require_times(noise, false, "the increments on " + part.name());
+  require_times(noise, seconds > 0, "the increments on " + part.name());
   if (rows == 0) throw InputError("expected at least 1 row of a log, found 0");
   if (!std::isfinite(start) || !std::isfinite(length)) {
     throw InputError(fmt::format("expected a finite start and length of a roll, found {} and {}", start, length));
@@ -278,6 +278,10 @@ NoisyIncrements noisy_increments(const Part& part, double start, double length, 
   result.log.unit = part.unit();
   result.log.kind = LogKind::increments;
   const double scale = noise.gyro > 0 ? normal.next(noise.gyro) : 0;
+  const double bias = noise.drift > 0 ? normal.next(noise.drift) : 0;
+  result.turn_scale = 1 / (1 + scale);
+  result.turn_bias = bias;
+  const double interval = seconds > 0 ? seconds / static_cast<double>(rows) : 0;
   Odometer odometer(LogKind::increments, false);  // adds up as a reader does
   FingerRows& felt = result.log.fingers[0];
   double angle = part.turning().angle(start);
@@ -286,7 +290,9 @@ NoisyIncrements noisy_increments(const Part& part, double start, double length, 
     const double next = part.turning().angle(s);
     Reading step;
     step.length[0] = length / static_cast<double>(rows) / (1 + result.error.slip) + normal.next(noise.contact);
-    step.turn = (1 + scale) * (next - angle) + normal.next(noise.angle);
+    step.turn = (1 + scale) * (next - angle) + bias * interval + normal.next(noise.angle);
+    if (noise.walk > 0) step.turn += normal.next(noise.walk * std::sqrt(interval));
+    if (seconds > 0) result.log.time.push_back(interval * static_cast<double>(row));
     angle = next;
     result.s.push_back(s);
     // Along the outline as the user gave it, as everything that is not of u and psi.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -29,12 +30,20 @@ constexpr double kClosed = 1e-15;
 constexpr double kLeastClosed = 1e-12;
 // A solution is the same way to hold the part if it is no further from the prediction than this share of the step.
 constexpr double kNear = 0.25;
+// Both fingers may be over a tiny concave joint, and the one's moves the other.
+constexpr double kFalls = 8;
 // Rotations this small are rounding, radians.
 constexpr double kRigRounding = 1e-11;
 // Steps are halved down to this share of a row.
 constexpr double kShortest = 1e-10;
 // At the start, the margin as a share of the size: below it the pin's motion says nothing about the part's.
 constexpr double kLeastMargin = 1e-6;
+// A finger goes further than this, in sizes per radian, where it hardly fits: a reason to stop.
+constexpr double kHardlyFits = 100;
+// Of a squeezed rig: cosines this small between the wheel's normal and the jaw's are a reason to stop as well.
+constexpr double kAlongJaw = 1e-3;
+// A rig that stops with a larger margin than this, as a share of the size, does not stop because of it.
+constexpr double kMarginGone = 1e-4;
 // Of a squeezed rig's start: how far the wheel's normal may miss the jaw's contact, as a share of the size.
 constexpr double kOnNormal = 1e-9;
 
@@ -65,6 +74,7 @@ class Course {
     start_value_ = now_.value;
     require_start(part);
     sign_ = now_.margin < 0 ? -1 : 1;
+    fall_ = largest_fall();
   }
 
   const RigState& now() const { return now_; }
@@ -78,8 +88,8 @@ class Course {
     while (from < times_[row]) {
       const bool is_last = from + step >= times_[row];
       const double to = is_last ? times_[row] : from + step;
-      refusal_.clear();
       if (const auto next = try_step(to)) {
+        refusal_.clear();
         now_ = *next;
         from = to;
         step *= 2;
@@ -141,11 +151,30 @@ class Course {
                        boundary.base(now_.wheel.s));
   }
 
+  /// How far a row may be from closed. Where a finger hardly fits, a rotation's own rounding is a long way along the
+  /// part, which matters to what is squeezed.
+  double closed_to(const RigState& state) const {
+    constexpr double kEpsilon = 8 * std::numeric_limits<double>::epsilon();
+    const Vec2 rounding = kEpsilon * (Vec2::Ones() + state.rotations.cwiseAbs());
+    const double off = plan_.squeezed ? rounding.dot(state.slope.row(1).cwiseAbs()) : 0;
+    return kLeastClosed * closure_.size() + std::min(off, kOnNormal * closure_.size());
+  }
+
+  /// Over the tiny concave joints of a drawing the contact goes on by as far as the finger would have turned back, as a
+  /// finger does that touches on both sides of one: so far from the prediction a solution may be, radians.
+  double largest_fall() const {
+    double most = 0;
+    for (const Corner& corner : closure_.jaw().part().corners()) {
+      if (corner.turn < 0 && !corner.is_concave()) most = std::max(most, -corner.turn);
+    }
+    return most;
+  }
+
   /// The rig at this time if it can be followed there in one step.
   std::optional<RigState> try_step(double to) {
     const Vec2 wanted = target(to);
     const Vec2 lead = now_.slope.inverse() * (wanted - now_.value);
-    const double reach = kNear * lead.norm() + kRigRounding;
+    const double reach = kNear * lead.norm() + kRigRounding + kFalls * fall_;
     const Vec2 predicted = now_.rotations + lead;
     Vec2 rotations = predicted;
     double best = std::numeric_limits<double>::infinity();
@@ -165,8 +194,20 @@ class Course {
         return std::nullopt;
       }
     }
-    const bool is_closed = best <= kLeastClosed * closure_.size();
-    return is_closed && found->margin * sign_ > 0 ? found : std::nullopt;
+    return found && best <= closed_to(*found) && found->margin * sign_ > 0 ? found : std::nullopt;
+  }
+
+  /// Which finger hardly fits where it is, if one does, or that no jaw could take the force.
+  std::string tightness_text() const {
+    if (plan_.squeezed && std::abs(std::cos(now_.wheel.angle - now_.jaw.angle)) < kAlongJaw) {
+      return ": the wheel's force lies along the jaw, where no friction holds it";
+    }
+    if (now_.jaw.per_rotation > kHardlyFits * closure_.size()) {
+      return fmt::format(": under the jaw the part is nearly flat, its curvature only {:.3g}",
+                         1 / now_.jaw.per_rotation);
+    }
+    if (now_.wheel.per_rotation > kHardlyFits * closure_.size()) return ": the wheel hardly fits into the concavity";
+    return "";
   }
 
   /// Says why the rig can't go on.
@@ -176,7 +217,12 @@ class Course {
                                                 : fmt::format("({:.6g}, {:.6g})", moved.x(), moved.y());
     const std::string head = fmt::format("row {} of the log, at {:.6g} s: ", row + 1, time);
     const std::string cure = fmt::format("the pin can move by {}", possible);
-    if (!refusal_.empty()) throw InputError(head + refusal_ + "; " + cure);
+    const bool is_margin_gone = std::abs(now_.margin) <= kMarginGone * closure_.size();
+    if (!is_margin_gone && !refusal_.empty()) throw InputError(head + refusal_ + "; " + cure);
+    if (!is_margin_gone) {
+      throw InputError(fmt::format("{}the rig can't be followed any further ({}){}; {}", head, places_text(),
+                                   tightness_text(), cure));
+    }
     if (plan_.squeezed) {
       throw InputError(
           fmt::format("{}the grip is not stable any more ({}): the wheel's spring would turn the part out of "
@@ -195,7 +241,8 @@ class Course {
   RigState now_;
   Vec2 start_value_ = Vec2::Zero();
   double sign_ = 1;
-  std::string refusal_;  // why the last step was impossible, where a finger could not go there
+  double fall_ = 0;
+  std::string refusal_;  // where a finger could not go there: why a step from here was impossible
 };
 
 /// Writes down what is in the world, row by row.

@@ -184,6 +184,7 @@ class PlanPicture {
          kSoftInk,
          {{fmt::format("dashed: at the start; else {}, at {} s", when, pretty(plan_.roll.log.time[shown_]))}},
          ""});
+    if (fingers() == 2) result.push_back({Sign::line, kInk, {{"dotted: the force, with the friction cones"}}, ""});
     return result;
   }
 

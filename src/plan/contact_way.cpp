@@ -32,7 +32,7 @@ ContactWay::ContactWay(const Part& part, const PlanFinger& finger, double headin
   const int direction = finger.length.value_or(1) < 0 || (!part.closed() && base >= part.perimeter()) ? -1 : 1;
   from_start_.start = track_->place(base, direction);
   from_start_.start_angle = track_->turning(track_->stretch(from_start_.start.index), from_start_.start.s).angle;
-  from_start_.first = track_->first_contact(from_start_.start_angle, psi_);
+  from_start_.first = track_->first_contact(from_start_.start, from_start_.start_angle, psi_);
   from_start_.velocity = 1;
 }
 

@@ -17,8 +17,9 @@
 //   phi, X             the part's heading and where its frame's origin is
 //   w                  velocity of a finger's origin if X rested: J is a turn by a right angle,
 //                      w = phi' J R(phi) c + x' J R(phi) (c - p), since the finger turns about its contact
-// Idea: rolling fixes all but how the three bodies move and turn together. phi is shared out so that both fingers turn
-// as little as can be, X so that the middle between them stays: then each moves by half of what one would.
+// Idea: rolling fixes all but how the three bodies move and turn together. phi is chosen so that the force keeps its
+// direction in the world, as a gripper's closing does, X so that the middle between both fingers stays: then each moves
+// by half of what one would.
 namespace rollfix {
 namespace {
 
@@ -35,16 +36,77 @@ std::vector<double> along(const std::vector<double>& times, double (*law)(double
 
 bool is_turned(const PlanProblem& problem, std::size_t which) { return !problem.fingers[which].wheel; }
 
-/// How the part turns, and how fast by lambda.
-struct Heading {
+/// How something turns, and how fast by lambda.
+struct LineAngle {
   double turned = 0;
   double rate = 0;
 };
-Heading heading_of(const PlanProblem& problem, const RollPath& path, const PairPlace& place, const Turned& rate) {
-  if (path.way_b() == nullptr) return {};
-  if (problem.part_rotation) return {*problem.part_rotation * place.at, *problem.part_rotation};
-  if (path.squeezed()) return {-place.a.turned, -rate.a};
-  return {-0.5 * (place.a.turned + place.b.turned), -0.5 * (rate.a + rate.b)};
+
+/// The direction of the line through both contacts in the part's frame, since the start; unwrapped from knot to knot,
+/// which are so close together that it turns by little.
+class LineTurn {
+ public:
+  explicit LineTurn(const RollPath& path) : path_(path) {
+    for (const PairPlace& place : path.places(path.knots())) {
+      const double angle = angle_of(place);
+      angles_.push_back(angles_.empty() ? angle : near(angle, angles_.back()));
+    }
+  }
+
+  /// At these lambda, in any order; rates by differences.
+  std::vector<LineAngle> at(const std::vector<double>& lambda) const {
+    constexpr double kStep = 1e-5;  // of lambda: rounding and curvature are alike small
+    std::vector<double> before;
+    std::vector<double> after;
+    for (const double value : lambda) {
+      before.push_back(std::max(0.0, value - kStep));
+      after.push_back(std::min(1.0, value + kStep));
+    }
+    const std::vector<PairPlace> here = path_.places(lambda);
+    const std::vector<PairPlace> first = path_.places(before);
+    const std::vector<PairPlace> last = path_.places(after);
+    std::vector<LineAngle> turns;
+    for (std::size_t k = 0; k < lambda.size(); ++k) {
+      turns.push_back(
+          {turned(here[k]) - angles_.front(), (turned(last[k]) - turned(first[k])) / (after[k] - before[k])});
+    }
+    return turns;
+  }
+
+ private:
+  static double angle_of(const PairPlace& place) {
+    const Vec2 line = place.b.point - place.a.point;
+    return std::atan2(line.y(), line.x());
+  }
+  static double near(double angle, double other) { return other + std::remainder(angle - other, 2 * std::numbers::pi); }
+  double turned(const PairPlace& place) const {
+    const std::vector<double>& knots = path_.knots();
+    const auto next = std::lower_bound(knots.begin(), knots.end() - 1, place.at);
+    return near(angle_of(place), angles_[static_cast<std::size_t>(next - knots.begin())]);
+  }
+
+  const RollPath& path_;
+  std::vector<double> angles_;
+};
+
+/// How the part turns: as is asked; beside a wheel so that finger a does not; else so that the force keeps its
+/// direction.
+std::vector<LineAngle> headings_of(const PlanProblem& problem, const RollPath& path,
+                                   const std::vector<PairPlace>& places, const std::vector<Turned>& rates) {
+  std::vector<LineAngle> headings(places.size());
+  if (path.way_b() == nullptr) return headings;
+  std::vector<double> lambda;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    lambda.push_back(places[k].at);
+    if (problem.part_rotation)
+      headings[k] = {*problem.part_rotation * places[k].at, *problem.part_rotation};
+    else if (path.squeezed())
+      headings[k] = {-places[k].a.turned, -rates[k].a};
+  }
+  if (problem.part_rotation || path.squeezed()) return headings;
+  const std::vector<LineAngle> lines = LineTurn(path).at(lambda);
+  for (std::size_t k = 0; k < places.size(); ++k) headings[k] = {-lines[k].turned, -lines[k].rate};
+  return headings;
 }
 
 /// A finger as if the part's origin rested at 0.
@@ -74,8 +136,7 @@ BodyState staying(const PlanProblem& problem, const MotionState& state) {
 
 /// One instant; `anchor`: where what stays is.
 MotionState state_at(const PlanProblem& problem, const RollPath& path, const PairPlace& place, const Turned& rate,
-                     double speed) {
-  const Heading heading = heading_of(problem, path, place, rate);
+                     const LineAngle& heading, double speed) {
   MotionState state;
   state.place = place;
   state.part.pose.heading = problem.pose.heading + heading.turned;
@@ -123,11 +184,12 @@ std::vector<MotionState> motion_at(const PlanProblem& problem, const RollPath& p
   const std::vector<PairPlace> places = path.places(lambda);
   const std::vector<Turned> rates = path.rates(lambda);
   // What stays is where the part's pose at the start has it.
-  MotionState first = state_at(problem, path, path.places({0}).front(), {}, 0);
+  const MotionState first = state_at(problem, path, path.places({0}).front(), {}, {}, 0);
+  const std::vector<LineAngle> headings = headings_of(problem, path, places, rates);
   const Vec2 anchor(problem.pose.x - first.part.pose.x, problem.pose.y - first.part.pose.y);
   std::vector<MotionState> states;
   for (std::size_t k = 0; k < times.size(); ++k) {
-    MotionState state = state_at(problem, path, places[k], rates[k], eased_rate(times[k]));
+    MotionState state = state_at(problem, path, places[k], rates[k], headings[k], eased_rate(times[k]));
     shift(state.part, anchor, Vec2::Zero());
     for (BodyState& finger : state.finger) shift(finger, anchor, Vec2::Zero());
     if (state.finger.size() == 2) {

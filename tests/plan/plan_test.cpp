@@ -123,13 +123,19 @@ TEST(Plan, presses_apart_in_a_hole) {
   expect_rolls(problem, plan);
 }
 
-TEST(Plan, shares_rotations_and_ways_out_between_both_fingers) {
-  const Plan plan = solve(across());
+TEST(Plan, presses_in_one_direction_and_shares_the_ways_between_both_fingers) {
+  const Plan plan = solve(two(circle(), finger(disk(0.3), 0, 12), finger(disk(0.3), 0.5 * kAround, 12)));
+  for (const double force : plan.force) EXPECT_NEAR(force, plan.force.front(), 1e-9);
   const FingerRows& a = plan.roll.log.fingers[0];
   const FingerRows& b = plan.roll.log.fingers[1];
-  EXPECT_NEAR(a.psi.back() - a.psi.front(), -(b.psi.back() - b.psi.front()), 1e-12);
   EXPECT_NEAR(a.x.back() - a.x.front(), -(b.x.back() - b.x.front()), 1e-12);
   EXPECT_NEAR(a.y.back() - a.y.front(), -(b.y.back() - b.y.front()), 1e-12);
+}
+
+TEST(Plan, turns_a_round_part_between_two_fingers_as_between_rollers) {
+  const Plan plan = solve(two(circle(), finger(disk(0.3), 0, 12), finger(disk(0.3), 0.5 * kAround, 12)));
+  EXPECT_NEAR(plan.roll.pose.back().heading - plan.roll.pose.front().heading, -12 / 2.0, 1e-9);
+  EXPECT_NEAR(plan.roll.log.fingers[0].psi.back() - plan.roll.log.fingers[0].psi.front(), 12 / 0.3, 1e-9);
 }
 
 TEST(Plan, leaves_in_place_what_is_to_stay) {
@@ -167,7 +173,7 @@ TEST(Plan, refuses_what_a_limit_does_not_allow) {
   problem.limits.rotation = 0.2;
   EXPECT_THAT(verdict_text(solve(problem), problem), HasSubstr("turns too far"));
   problem.limits.rotation.reset();
-  problem.limits.travel = 0.1;
+  problem.limits.travel = 0.01;
   EXPECT_THAT(verdict_text(solve(problem), problem), HasSubstr("travels too far"));
   problem.limits.travel.reset();
   problem.limits.speed = 0.01;

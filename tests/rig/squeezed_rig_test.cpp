@@ -101,6 +101,19 @@ TEST(SqueezedRig, stops_where_the_grip_is_not_stable_any_more) {
   EXPECT_THAT(why, HasSubstr("the pin can move by 2.16"));
 }
 
+TEST(SqueezedRig, stops_where_the_part_gets_flat_under_the_jaw_and_says_so) {
+  const Part part = part_of("superellipse");
+  std::string why;
+  for (double s = 0.02; s < part.perimeter() / 4; s += 0.1) {
+    for (const double t : squeezed_places(part, kRadius, s)) {
+      for (const double moved : {-1.0, 1.0}) {
+        why += refusal_of([&] { roll_rig(part, squeezed(kRadius, s, t, moved)); }) + '\n';
+      }
+    }
+  }
+  EXPECT_THAT(why, HasSubstr("under the jaw the part is nearly flat"));
+}
+
 TEST(SqueezedRig, can_not_hold_a_circle) {
   // A ball between a plane and another ball pops out.
   EXPECT_TRUE(squeezed_places(part_of("circle,r=1"), kRadius, 0.3).empty());

@@ -7,6 +7,7 @@
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/answer_sections.hpp"
 #include "rollfix/output/answer_words.hpp"
+#include "rollfix/output/scale_text.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::app {
@@ -84,7 +85,7 @@ class AskedText : AnswerWords {
       text += fmt::format("prior      s = {:.6g}, sd {:.4g}{}\n", weighing.prior->s, weighing.prior->sd, unit_);
     }
     if (weighing.pose) text += "prior      " + prior_text(*weighing.pose) + '\n';
-    text += scale_lines();
+    text += what_rows_say();
     text += fmt::format("samples    {}", weighing.samples);
     if (weighing.fit.excess > 1)
       text += fmt::format("; residuals {:.2f} times the noise, the answer is widened by that", weighing.fit.excess);
@@ -125,27 +126,10 @@ class AskedText : AnswerWords {
                        prior.place_sd, unit_, heading);
   }
 
-  static std::string scale_text(double scale, double sd, const char* more, const char* less) {
-    std::string text = fmt::format("{:.4f} +- {:.2g} times what was measured", scale, sd);
-    const double off = 100 * (scale - 1);
-    if (std::abs(scale - 1) > 2 * sd)
-      text += fmt::format(": they are {:.2g} % {}", std::abs(off), off > 0 ? more : less);
-    return text + '\n';
-  }
-
-  /// What the rows say of the lengths and of a gyroscope's turns, and what was taken as exact.
-  std::string scale_lines() const {
+  /// What the rows say of the lengths and of a gyroscope, and what was taken as exact.
+  std::string what_rows_say() const {
     const Weighing& weighing = *answer_.weighing;
-    std::string text;
-    for (std::size_t finger = 0; finger < fingers_; ++finger) {
-      const double sd = weighing.fit.length_scale_sd[finger];
-      if (!(sd > 0)) continue;
-      const std::string whose = fingers_ == 1 ? "" : finger == 0 ? "of finger a " : "of finger b ";
-      text += "lengths    " + whose + scale_text(weighing.fit.length_scale[finger], sd, "longer", "shorter");
-    }
-    if (const double sd = weighing.fit.turn_scale_sd; sd > 0) {
-      text += "turns      " + scale_text(weighing.fit.turn_scale, sd, "larger", "smaller");
-    }
+    std::string text = scale_lines(weighing.fit, fingers_);
     if (!verbose_) return text;
     std::vector<std::string> exact;
     if (weighing.noise.slip <= 0) exact.emplace_back("slip");

@@ -184,8 +184,8 @@ void add_plan_arguments(CLI::App& command, PlanArguments& arguments) {
       ->type_name("X,Y,HEADING");
   command
       .add_option("--part-rotation", arguments.part_rotation,
-                  "how far the part turns meanwhile; two fingers only; default: as the fingers turn least, beside a "
-                  "wheel as finger a does not")
+                  "how far the part turns meanwhile; two fingers only; default: so that the force keeps its direction, "
+                  "beside a wheel so that finger a does not turn")
       ->type_name("ANGLE");
   command
       .add_option("--stays", arguments.stays,

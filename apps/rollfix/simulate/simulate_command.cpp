@@ -5,6 +5,7 @@
 #include "rollfix/arguments/part_argument.hpp"
 #include "rollfix/arguments/roll_arguments.hpp"
 #include "rollfix/commands.hpp"
+#include "rollfix/error.hpp"
 #include "rollfix/simulate/simulation.hpp"
 #include "rollfix/usage.hpp"
 
@@ -15,6 +16,8 @@ constexpr const char* kSimulateExamples = R"(Examples:
   rollfix simulate gallery:ellipse --finger disk,r=0.3 --start 1 --length 1.5 -o ellipse-roll.csv
   rollfix simulate gallery:spline --finger disk,r=0.1 --start 4 --length -0.8 --samples 11
   rollfix simulate gallery:cam --finger disk,r=0.2 --start 3 --rotation 200deg
+A wheel with a gyroscope on a course: its distances and turns from row to row
+  rollfix simulate gallery:cam --odometer --start 1 --length 12 --samples 400 --seconds 60 --noise angle=0.1deg,drift=60deg/h
 Two fingers on a part that is free to move, in one log or in two:
   rollfix simulate gallery:cam --finger disk,r=0.2 --start 1 --start 4 --length 1.5 --length -0.8 -o both.csv
   rollfix simulate gallery:cam --finger disk,r=0.2 --start 1 --start 4 --length 1 --length 2 -o a.csv -o b.csv
@@ -87,6 +90,10 @@ void add_simulate_command(CLI::App& program, Command& chosen) {
   add_rig_arguments(*command, *arguments);
   add_noise_argument(*command, arguments->noise);
   command->add_option("--seed", arguments->seed, "seed of the random errors of --noise; default 0")->type_name("N");
+  add_switch(*command, "--odometer", arguments->odometer,
+             "in place of --finger: a wheel with a gyroscope, whose log has time, distance and dturn");
+  command->add_option("--seconds", arguments->seconds, "how long a wheel takes; default 1 for each row")
+      ->type_name("T");
   command->add_option("--samples", arguments->samples, "rows of the log, at equal times; default 101")->type_name("N");
   add_repeated(*command, "-o", arguments->files, "FILE",
                "the log, - for stdout, which is the default; twice: a log for each of two fingers");
@@ -96,6 +103,10 @@ void add_simulate_command(CLI::App& program, Command& chosen) {
   command->callback([arguments, &chosen] {
     chosen = [arguments] {
       if (is_of_rig(*arguments)) return simulate_rig(*arguments);
+      if (arguments->odometer) return simulate_wheel(*arguments);
+      if (!arguments->seconds.empty()) {
+        throw InputError("--seconds is of a wheel with a gyroscope: give --odometer, or leave it out");
+      }
       return is_of_two(*arguments) ? simulate_two(*arguments) : simulate_one(*arguments);
     };
   });

@@ -32,6 +32,8 @@ struct SimulateArguments {
   std::string jaw_rotation;
   std::string wheel;
   std::string samples;
+  std::string seconds;
+  bool odometer = false;
   bool squeeze = false;
   bool mirror = false;
   bool force = false;
@@ -39,6 +41,9 @@ struct SimulateArguments {
 
 /// One finger on a part at rest.
 Report simulate_one(const SimulateArguments& arguments);
+
+/// A wheel with a gyroscope, which has no shape.
+Report simulate_wheel(const SimulateArguments& arguments);
 
 /// Two fingers on a part that is free to move.
 Report simulate_two(const SimulateArguments& arguments);

@@ -68,6 +68,7 @@ struct WatchArguments {
   std::string idle_timeout;
   bool on_change = false;
   bool once = false;
+  bool again = false;
   bool jsonl = false;
 };
 
@@ -101,6 +102,12 @@ void require_sensible(const WatchArguments& arguments, const std::string& log) {
   if (arguments.on_change && !arguments.every.empty()) {
     throw InputError("--every tells at fixed intervals, --on-change when something is new: give one of them");
   }
+  if (arguments.again && !arguments.catalog.empty()) {
+    throw InputError("--again is of a known part, --catalog asks which part it is: give one of them");
+  }
+  if (arguments.again && !arguments.prior.empty()) {
+    throw InputError("--prior is of the first start, and --again begins anew anywhere: give one of them");
+  }
 }
 
 WatchOptions watch_options(const WatchArguments& arguments, const std::string& log, const std::string& unit) {
@@ -130,6 +137,7 @@ WatchOptions watch_options(const WatchArguments& arguments, const std::string& l
     finger = mirrored(finger);
   }
   options.live = !arguments.once;
+  options.again = arguments.again;
   options.midway = may_begin_midway(log);
   options.log.any_part = !arguments.catalog.empty();
   if (!arguments.every.empty()) options.every = read_count(arguments.every, "--every", 1);
@@ -151,6 +159,7 @@ std::optional<TouchWatchOptions> touch_options(const WatchArguments& arguments, 
   };
   refuse(!arguments.prior.empty(), "--prior");
   refuse(arguments.robust, "--robust");
+  refuse(arguments.again, "--again");
   refuse(!arguments.direction.empty(), "--direction");
   refuse(!arguments.reading.wrapped.empty(), "--wrapped");
   options.table.unit = part.unit();
@@ -331,6 +340,8 @@ void add_watch_command(CLI::App& program, Command& chosen, std::ostream& out, st
   add_noise_arguments(*command, arguments->noise, arguments->prior, arguments->robust);
   add_pose_arguments(*command, arguments->pose);
   add_side_arguments(*command, arguments->mirror, arguments->direction);
+  add_switch(*command, "--again", arguments->again,
+             "where the rows contradict the roll so far, as when it was carried to another place, begin anew");
   add_switch(*command, "--on-change", arguments->on_change,
              "print when the verdict, the number of places or the most probable one changes: the default");
   command->add_option("--every", arguments->every, "print after every N samples instead")->type_name("N");

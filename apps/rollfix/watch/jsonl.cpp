@@ -16,7 +16,7 @@ namespace {
 constexpr const char* kSchema = "rollfix/watch/1";
 
 // In the order of RollEnd and of WatchEnd.
-constexpr std::array kWhyOver = {"lost", "jump", "restarted", "ended"};
+constexpr std::array kWhyOver = {"lost", "jump", "restarted", "ended", "elsewhere"};
 constexpr std::array kWhyEnd = {"stream", "signal", "idle"};
 
 /// As in locate's JSON: one entry per finger.
@@ -64,7 +64,13 @@ Json answer_json(const char* name, const WatchAnswer& answer, const Part& part, 
   event["placements"] = Json::array();
   for (const Mode& mode : answer.modes) event["placements"].push_back(mode_json(mode, part));
   event["rest"] = json_number(answer.rest);
-  event["excess"] = json_number(answer.excess);
+  event["excess"] = json_number(answer.fit.excess);
+  event["length_scale"] = one_finger(json_number(answer.fit.length_scale[0]));
+  event["length_scale_sd"] = one_finger(json_number(answer.fit.length_scale_sd[0]));
+  event["turn_scale"] = json_number(answer.fit.turn_scale);
+  event["turn_scale_sd"] = json_number(answer.fit.turn_scale_sd);
+  event["turn_bias"] = json_number(answer.fit.turn_bias);
+  event["turn_bias_sd"] = json_number(answer.fit.turn_bias_sd);
   return event;
 }
 

@@ -78,7 +78,7 @@ class OnPart final : public Meaning {
     answer.modes = belief_.modes();
     for (Mode& mode : answer.modes) mode.probability = std::min(1.0, mode.probability);  // a sum, with its rounding
     answer.rest = belief_.rest();
-    answer.excess = belief_.excess();
+    answer.fit = belief_.fit();
   }
 
   /// What `locate` says of the same rows.
@@ -93,7 +93,7 @@ class OnPart final : public Meaning {
       if (kept_.each() > 1 && !is_bad) return look(answer);
       answer.verdict = located.verdict;
       answer.rest = located.weighing->rest;
-      answer.excess = located.weighing->fit.excess;
+      answer.fit = located.weighing->fit;
       answer.modes.clear();
       for (const Placement& placement : located.placements) answer.modes.push_back(mode_of(placement));
     } catch (const InputError&) {  // so few of its samples are no roll any more: what is wrong is not known

@@ -12,6 +12,7 @@
 #include "rollfix/error.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/option_names.hpp"
+#include "rollfix/output/scale_text.hpp"
 #include "rollfix/output/table.hpp"
 #include "rollfix/output/touch_text.hpp"
 #include "rollfix/watch/writer.hpp"
@@ -24,7 +25,8 @@ constexpr double kDoubtful = 0.25;  // a place with less: what is said is not mo
 constexpr std::size_t kMostOthers = 3;  // places behind the most probable one
 
 // In the order of RollEnd and of WatchEnd.
-constexpr std::array kRollIsOver = {"contact lost", "the contact jumped", "the log began anew", "the log ended"};
+constexpr std::array kRollIsOver = {"contact lost", "the contact jumped", "the log began anew", "the log ended",
+                                    "it is elsewhere now"};
 constexpr std::array kWatchIsOver = {"end of input", "stopped", "nothing more came"};
 
 std::string percent(double probability) { return fixed(100 * probability, 1) + " %"; }
@@ -116,9 +118,10 @@ class TextWriter : public WatchWriter {
   void resumed(const WatchCounts& /*counts*/) override {}  // stderr said so
 
   void end(WatchEnd why, const WatchAnswer& last, const WatchCounts& counts) override {
-    write(fmt::format("\n{}: {}\n{} in {}, {}, {}; {} us per sample\n", kWatchIsOver.at(static_cast<std::size_t>(why)),
-                      conclusion(last), counted(counts.samples, "sample", "samples"),
-                      counted(counts.rolls, "roll", "rolls"),
+    write(fmt::format("\n{}: {}\n{}{} in {}, {}, {}; {} us per sample\n",
+                      kWatchIsOver.at(static_cast<std::size_t>(why)), conclusion(last),
+                      last.roll > 0 && last.verdict.name != Verdict::inconsistent ? scale_lines(last.fit, 1) : "",
+                      counted(counts.samples, "sample", "samples"), counted(counts.rolls, "roll", "rolls"),
                       counted(counts.malformed, "malformed line", "malformed lines"),
                       counted(counts.reconnects, "reconnect", "reconnects"), rough(1e6 * counts.seconds_per_sample())));
   }

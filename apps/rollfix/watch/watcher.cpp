@@ -20,6 +20,10 @@ using WorkClock = std::chrono::steady_clock;
 
 // What is known of a roll changes little while it grows by less than this.
 constexpr double kGrowth = 0.25;
+// ... and by less than this share of the boundary, where it may be carried to another place meanwhile. Rows on so much
+// of it are needed to contradict anything.
+constexpr double kFarToLook = 0.01;
+constexpr std::size_t kLeastToContradict = 16;
 
 // To find out why rows fit badly takes as long as to take in so many. Nobody waits for all of a log's many short rolls.
 constexpr std::size_t kSamplesForWhy = 5000;
@@ -162,6 +166,8 @@ void Watcher::take_line(std::string_view line) {
     case LineKind::nothing:
       return;
     case LineKind::first:
+      beginning_ = {};
+      is_elsewhere_ = false;
       begin_roll(row.sample);
       return;
     case LineKind::sample:
@@ -173,6 +179,8 @@ void Watcher::take_line(std::string_view line) {
     case LineKind::jump:
       listener_.note(row.message);
       end_roll(RollEnd::jump);
+      beginning_ = {};
+      is_elsewhere_ = false;
       begin_roll(row.sample);
       return;
     case LineKind::stray:
@@ -265,16 +273,41 @@ void Watcher::begin_roll(const Sample& sample) {
   listener_.found(answer_);
 }
 
-void Watcher::add(const Sample& sample) {
-  take(sample);
+Sample Watcher::from_beginning(Sample sample) const {
+  sample.reading.length[0] -= beginning_.length[0];
+  sample.reading.turn -= beginning_.turn;
+  return sample;
+}
+
+// A log of u and psi is measured from a first contact that is a row; any other from where the row before was.
+void Watcher::begin_elsewhere(const Sample& sample) {
+  is_elsewhere_ = false;
+  const Reading before = {last_.reading.length[0] + beginning_.length[0], last_.reading.turn + beginning_.turn};
+  beginning_ = stream_.kind() == LogKind::contact ? sample.reading : before;
+  begin_roll(from_beginning(sample));
+}
+
+void Watcher::add(const Sample& as_logged) {
+  if (is_elsewhere_) return begin_elsewhere(as_logged);
+  take(from_beginning(as_logged));
   if (options_.every > 0) {
     if (samples_ % options_.every != 0) return;
     look();
     tell();
-    return;
+  } else {
+    if (is_time_to_look()) look();
+    tell_news();
   }
-  if (is_time_to_look()) look();
-  tell_news();
+  if (!is_contradicted()) return;
+  listener_.note(fmt::format("{}:{}: the rows contradict the roll so far: a new roll begins, from anywhere",
+                             options_.name, stream_.lines()));
+  end_roll(RollEnd::elsewhere);
+  is_elsewhere_ = true;
+}
+
+bool Watcher::is_contradicted() const {
+  return options_.again && !answer_.parts && answer_.samples == samples_ && samples_ >= kLeastToContradict &&
+         (answer_.verdict.name == Verdict::inconsistent || answer_.verdict.fits_badly);
 }
 
 void Watcher::take(const Sample& sample) {
@@ -288,6 +321,8 @@ void Watcher::take(const Sample& sample) {
 bool Watcher::is_time_to_look() const {
   const auto grown = static_cast<double>(samples_ - answer_.samples);
   if (grown >= kGrowth * static_cast<double>(answer_.samples)) return true;
+  const double rolled = std::abs(last_.reading.length[0] - answer_.sample.reading.length[0]);
+  if (options_.again && rolled >= kFarToLook * part_.perimeter()) return true;
   return options_.live && WorkClock::now() >= next_look_;
 }
 
@@ -312,8 +347,9 @@ void Watcher::look() {
 
 void Watcher::end_roll(RollEnd why) {
   if (!meaning_) return;
-  const bool explains =
-      options_.live || why == RollEnd::ended || explained_ == 0 || counts_.samples >= explained_ + kSamplesForWhy;
+  const bool is_asked = why != RollEnd::elsewhere;  // else it is known what is wrong
+  const bool explains = is_asked && (options_.live || why == RollEnd::ended || explained_ == 0 ||
+                                     counts_.samples >= explained_ + kSamplesForWhy);
   begin_answer();
   meaning_->conclude(answer_, explains);
   if (!answer_.diagnoses.empty()) explained_ = counts_.samples;

@@ -27,7 +27,7 @@ struct WatchAnswer {
   Verdict verdict;
   std::vector<Mode> modes;           // the most probable first
   double rest = 0;                   // probability outside of them
-  double excess = 1;                 // by how many times the samples are off more than the noise allows
+  Fit fit;                           // how well the samples fit, and what they tell of the scales and of a bias
   std::vector<Diagnosis> diagnoses;  // of a roll that is over, where its rows fit badly: why, see Answer
   /// Of a catalog: the parts that remain. The places are theirs then, and there are no modes.
   std::shared_ptr<const Identified> parts{};
@@ -46,7 +46,8 @@ enum class RollEnd {
   lost,       // contact
   jump,       // the next row is farther away than is physical: another roll
   restarted,  // another log began
-  ended       // there is no more of the log
+  ended,      // there is no more of the log
+  elsewhere   // it contradicts what was measured before: the finger was carried to another place
 };
 
 /// Who is told what happens in a growing log.
@@ -73,6 +74,7 @@ struct WatchOptions {
   LogOptions log;                            // what its columns are called, and the part's unit
   std::shared_ptr<const Catalog> catalog{};  // which of its parts is it? none: the part is known
   bool midway = false;                       // its first line may be the rest of one: a serial line, a connection
+  bool again = false;                        // a roll that is contradicted is over, and another begins
   std::size_t every = 0;                     // tell every so many samples; 0: when there is news
   bool live = false;  // somebody waits: nothing that is new is kept back for longer than kMostDelay
 };
@@ -138,9 +140,14 @@ class Watcher {
   /// Throws InputError: the log does not have what the noise or the pose's prior is about.
   void require_evidence(const Sample& first) const;
   void begin_roll(const Sample& sample);
-  void add(const Sample& sample);
+  void begin_elsewhere(const Sample& sample);
+  void add(const Sample& as_logged);
   void take(const Sample& sample);
   bool is_time_to_look() const;
+  /// The roll goes on elsewhere than where it was: nothing fits all of it, and something did.
+  bool is_contradicted() const;
+  /// The sample as measured from where the roll begins that goes on.
+  Sample from_beginning(Sample sample) const;
   void begin_answer();
   void look();
   void end_roll(RollEnd why);
@@ -160,6 +167,8 @@ class Watcher {
   std::unique_ptr<Meaning> meaning_;  // of the roll that goes on
   std::size_t samples_ = 0;           // of this roll
   Sample last_;                       // of these
+  Reading beginning_;                 // of this roll, as the log measures
+  bool is_elsewhere_ = false;         // the next sample begins another one
   WatchAnswer answer_;                // when it was last worked out
   WatchAnswer said_;                  // what the listener knows
   std::chrono::steady_clock::time_point next_look_{};

@@ -114,6 +114,8 @@ struct Fit {
   PerFinger<double> length_scale_sd = 0.0;  // ... give or take; 0: they were said to be exact
   double turn_scale = 1;                    // turns by a gyroscope are this many times what was measured, ...
   double turn_scale_sd = 0;                 // ... give or take; 0: they were said to be exact
+  double turn_bias = 0;     // of noise with drift: a gyroscope's rate is this much too high, radians per second, ...
+  double turn_bias_sd = 0;  // ... give or take; 0: it was said to have none
 
   bool is_correlated() const { return std::max(correlation_sigmas, trend_sigmas) > kMostSigmas; }
   /// The noise is far less than was said, or neighbours are so much alike that it does not show: then the answer is too

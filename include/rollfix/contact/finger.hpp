@@ -110,7 +110,7 @@ double facing(const Finger& finger, const Contact& contact);
 /// contact that may be on a corner of the finger leaves theta open: Reading::pivot.
 Reading reading_between(const Finger& finger, const Contact& first, const Contact& last, double within = 0);
 
-/// The inverse: the contact after a roll with this reading.
+/// The inverse: the contact after a roll with this reading; on a corner of the finger with N just after it.
 Contact contact_after(const Finger& finger, const Contact& first, const Reading& reading);
 
 /// The contact of a disk that is oriented psi and touches where the part's tangent points in this direction (both in

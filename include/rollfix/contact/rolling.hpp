@@ -71,11 +71,12 @@ struct Roll {
 
 /// Rolls a finger along a part, by what eqs. (1) and (2) imply: psi - psi0 = (Theta(s) - Theta(s0)) + N(u0) - N(u),
 /// solved for s, and u = u0 - (s - s0) along the finger; of a disk N(u0) - N(u) = (s - s0) / r. Accurate to rounding.
-/// At a convex corner the finger pivots: psi grows, u and L stay. Only the contact's own surroundings are looked at:
+/// At a convex corner, the part's or the finger's own, the finger pivots: psi grows, u and L stay; theta grows at the
+/// part's alone. Only the contact's own surroundings are looked at:
 /// that the finger does not hit the part elsewhere is not checked. Throws InputError: an impossible plan; a concave
 /// corner or a concavity that the finger does not fit into on the way (with the place, the curvature, and the radius
-/// that would do); a flat side under a jaw; running off an open part's end or an open finger's; or so few rows that a
-/// reader could not tell whether the angles are wrapped.
+/// that would do); a flat side under a jaw or under a flat side of the finger; running off an open part's end or an
+/// open finger's; or so few rows that a reader could not tell whether the angles are wrapped.
 Roll roll(const Part& part, const Finger& finger, const RollPlan& plan);
 
 /// Rolls two fingers on a part that moves, each contact as `roll` does with the finger's angular velocity against the
@@ -124,12 +125,15 @@ struct NoisyIncrements {
   Log log;                // summed up, as read_log does
   std::vector<double> s;  // where the contact really is, of each row; the first contact is before them
   RollError error;
+  double turn_scale = 1;  // turns are this many times what the gyroscope measures, but for ...
+  double turn_bias = 0;   // ... this much by which its rate is too high, radians per second
 };
 
 /// From s = start over this length along the stored outline, in so many equal steps of the true length. Each distance
-/// is off by N(0, contact), each dturn by N(0, angle); slip as above. Throws InputError likewise, and: no row, a length
-/// that is not finite, a way off the ends of an open part.
+/// is off by N(0, contact), each dturn by N(0, angle); slip as above. `seconds`: that it takes, at an even speed; 0:
+/// the log has no times. Throws InputError likewise, and: no row, a length that is not finite, a way off the ends of an
+/// open part.
 NoisyIncrements noisy_increments(const Part& part, double start, double length, std::size_t rows, const Noise& noise,
-                                 std::uint64_t seed);
+                                 std::uint64_t seed, double seconds = 0);
 
 }  // namespace rollfix

@@ -42,8 +42,8 @@ struct PlanProblem {
   Part part;
   PerFinger<PlanFinger> fingers;
   Pose pose{};                            // the part's at the start
-  std::optional<double> part_rotation{};  // by how much it turns meanwhile, evenly; none: both fingers turn by the
-                                          // same, against each other; beside a wheel: so that finger a does not turn
+  std::optional<double> part_rotation{};  // by how much it turns meanwhile, evenly; none: so that the force keeps
+                                          // its direction, beside a wheel so that finger a does not turn
   Staying staying = Staying::middle;      // middle: both fingers move by the same, against each other
   std::optional<double> duration{};       // seconds; none: the shortest within the limits, else a finger turns against
                                           // the part at 1 rad/s at most

@@ -12,7 +12,7 @@
 namespace rollfix::python {
 namespace {
 
-using Numbers = std::vector<std::optional<double>>;
+using OfFingers = std::vector<std::optional<double>>;
 
 /// psi of a disk whose first contact is at s, with the contact at this angle in its frame; the rest have u.
 void place_contact(const Part& part, double heading, double contact, PlanFinger& finger) {
@@ -34,8 +34,8 @@ PlanLimits limits_from(const py::dict& given) {
   return {limit("speed"), limit("turn"), limit("travel"), limit("rotation")};
 }
 
-PlanHandle plan_roll(const PartHandle& handle, const py::iterable& fingers_given, bool wheel, const Numbers& starts,
-                     const Numbers& lengths, const Numbers& frictions, const Numbers& contacts,
+PlanHandle plan_roll(const PartHandle& handle, const py::iterable& fingers_given, bool wheel, const OfFingers& starts,
+                     const OfFingers& lengths, const OfFingers& frictions, const OfFingers& contacts,
                      const std::array<double, 3>& pose, const std::optional<double>& part_rotation,
                      const std::string& stays, const std::optional<double>& duration, const py::dict& limits,
                      double margin, double clearance, std::size_t rows) {

@@ -105,11 +105,11 @@ RollHandle simulate_rig(const PartHandle& handle, double radius, const std::arra
 }
 
 RollHandle simulate_drive(const PartHandle& handle, double start, double length, std::size_t rows,
-                          const py::object& noise_given, std::uint64_t seed) {
+                          const py::object& noise_given, std::uint64_t seed, double seconds) {
   const Part part = handle.part();
   const Noise noise = noise_from_optional(noise_given).value_or(Noise{});
   const Unlocked others_may_run;
-  NoisyIncrements drive = noisy_increments(part, start, length, rows, noise, seed);
+  NoisyIncrements drive = noisy_increments(part, start, length, rows, noise, seed, seconds);
   NoisyRoll result;
   result.log = std::move(drive.log);
   result.truth.s = PerFinger<std::vector<double>>(std::move(drive.s));

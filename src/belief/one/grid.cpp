@@ -1,6 +1,7 @@
 #include "belief/one/grid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -54,8 +55,6 @@ constexpr int kMostRounds = 50;
 constexpr double kEven = 1e-6;
 // ... and one that changes by more, as a logarithm, is as good as all at its upper end.
 constexpr double kSteep = 600;
-// A grid does not grow beyond this; what is not resolved by then counts as rest.
-constexpr std::size_t kMostPoints = 400000;
 
 double rate_of(const Score& lo, const Score& hi, double h) {
   return std::max(std::sqrt(std::max(lo.information, hi.information)),
@@ -79,15 +78,28 @@ double GridCell::quantile(double share_of_mass) const {
   return std::clamp(at, 0.0, 1.0);
 }
 
+std::size_t most_first_points(const TiltedBoundary& boundary) {
+  auto most = static_cast<std::size_t>(kFirstCells);
+  for (const TiltedArc& arc : boundary.arcs()) most += 2 + arc.kinks().size() * (1 + kInstants);
+  return most;
+}
+
 Grid::Grid(const TiltedBoundary& boundary, const ErrorModel& errors, const BeliefOptions& options,
-           const Boundary& places, double corner_length, const CentreModel* centres)
-    : boundary_(&boundary),
+           const Boundary& places, double corner_length, const CentreModel* centres, std::pmr::memory_resource* memory,
+           std::size_t most_points)
+    : memory_(memory),
+      most_points_(most_points),
+      boundary_(&boundary),
       options_(options),
       places_(places),
-      scorer_(boundary, errors, options, places, centres),
+      scorer_(boundary, errors, options, places, centres, memory),
       corner_length_(corner_length),
       can_be_alike_(!errors.gathers_rows() && options.noise.correlation == 0),
-      folds_(options.prior || options.pose || !options.within.empty() ? 1 : boundary.folds()) {
+      folds_(options.prior || options.pose || !options.within.empty() ? 1 : boundary.folds()),
+      ranges_(memory),
+      points_(memory),
+      spare_(memory),
+      cells_(memory) {
   for (const TiltedArc& arc : boundary.arcs()) {
     length_ += arc.hi() - arc.lo();
     ranges_.push_back({arc.lo(), arc.hi()});
@@ -103,20 +115,21 @@ RollFilter Grid::filter(const GridCell& cell, std::size_t end) const {
   return point(cell, end).now.moved(boundary_->arcs()[cell.arc + shift.arcs], shift);
 }
 
-std::unique_ptr<GridPoint> Grid::point_at(std::size_t arc, double w) {
+GridPointer Grid::point_at(std::size_t arc, double w) {
   if (arc < spare_.size()) {
-    std::vector<SparePoint>& spare = spare_[arc];
+    std::pmr::vector<SparePoint>& spare = spare_[arc];
     const auto known = std::lower_bound(spare.begin(), spare.end(), w,
                                         [](const SparePoint& point, double place) { return point.w < place; });
     if (known != spare.end() && known->w == w && known->point) return std::move(known->point);
   }
-  return std::make_unique<GridPoint>(scorer_.make(boundary_->arcs()[arc], w));
+  std::pmr::polymorphic_allocator<> allocator(memory_);
+  return {allocator.new_object<GridPoint>(scorer_.make(boundary_->arcs()[arc], w)), GiveBack{memory_}};
 }
 
 void Grid::lay_out(const Nodes& nodes) {
   const double step = length_ / kFirstCells;
-  std::vector<double> rolls{0};
-  const std::vector<Node>& complete = nodes.complete();
+  std::pmr::vector<double> rolls({0.0}, memory_);
+  const std::pmr::vector<Node>& complete = nodes.complete();
   for (std::size_t k = 1; k <= kInstants && !complete.empty(); ++k) {
     const Node& node = complete[(complete.size() * k - 1) / kInstants];
     rolls.push_back(node.turn + boundary_->tilt() * node.length);
@@ -125,7 +138,7 @@ void Grid::lay_out(const Nodes& nodes) {
   for (std::size_t a = 0; a < ranges_.size(); ++a) {
     const TiltedArc& arc = boundary_->arcs()[a];
     const Interval& range = ranges_[a];
-    std::vector<double> ws;
+    std::pmr::vector<double> ws(memory_);
     for (const double kink : arc.kinks()) {
       if (kink > range.hi) break;
       for (const double roll : rolls) {
@@ -153,7 +166,7 @@ void Grid::keep_points(const Nodes& nodes) {
   spare_.clear();
   for (GridPoints& arc : points_) {
     spare_.emplace_back();
-    for (std::unique_ptr<GridPoint>& point : arc) {
+    for (GridPointer& point : arc) {
       if (point->generation != nodes.generation()) continue;
       const double w = point->filter.w();
       spare_.back().push_back({w, std::move(point)});
@@ -164,7 +177,7 @@ void Grid::keep_points(const Nodes& nodes) {
 }
 
 void Grid::refresh_all(const Nodes& nodes) {
-  std::vector<GridPoint*> points;
+  std::pmr::vector<GridPoint*> points(memory_);
   for (const GridPoints& arc : points_) {
     for (std::size_t k = 0; k < arc.size(); ++k) {
       const GridPoint& before = *arc[k > 0 ? k - 1 : k];
@@ -243,7 +256,7 @@ bool Grid::refine(const Nodes& nodes) {
     const double least = kLeastCell * (arc.hi() - arc.lo());
     const double narrow = length_ / kMostCells;
     const GridPoints& points = points_[a];
-    std::vector<double> added;
+    std::pmr::vector<double> added(memory_);
     for (std::size_t k = 0; k + 1 < points.size(); ++k) {
       GridPoint& lo = *points[k];
       GridPoint& hi = *points[k + 1];
@@ -258,7 +271,7 @@ bool Grid::refine(const Nodes& nodes) {
       // A cost only grows with more samples: one that was too large before is so now.
       const bool stale = PointScorer::is_stale(lo, nodes) || PointScorer::is_stale(hi, nodes);
       if (stale && bound.log_density + log_width - best_mass_ > -kNegligible) {
-        scorer_.refresh({&lo, &hi}, nodes);
+        scorer_.refresh(std::array{&lo, &hi}, nodes);
         bound = bound_of(lo, hi, cell);
         changed = changed || (!PointScorer::is_stale(lo, nodes) && !PointScorer::is_stale(hi, nodes));
       }
@@ -269,7 +282,7 @@ bool Grid::refine(const Nodes& nodes) {
       const bool is_resolved = cell.steps <= kFineStep * (1 + std::max(0.0, depth) / kDepth) &&
                                (h <= narrow || depth > kShallow || is_even(lo, hi, cell.s.width()));
       cell.fine = !negligible && (is_resolved || h <= 2 * least);
-      if (!negligible && !cell.fine && count_ + added.size() < kMostPoints) {
+      if (!negligible && !cell.fine && count_ + added.size() < most_points_) {
         added.push_back(cell.lo + 0.5 * h);
       } else if (!cell.fine) {
         rest_ += std::exp(std::min(0.0, most - best_ / heat));
@@ -281,14 +294,14 @@ bool Grid::refine(const Nodes& nodes) {
   return changed;
 }
 
-bool Grid::split(std::size_t arc, const std::vector<double>& added, const Nodes& nodes) {
+bool Grid::split(std::size_t arc, std::span<const double> added, const Nodes& nodes) {
   if (added.empty()) return false;
   GridPoints& points = points_[arc];
-  GridPoints merged;
+  GridPoints merged(memory_);
   merged.reserve(points.size() + added.size());
-  std::vector<GridPoint*> fresh;
+  std::pmr::vector<GridPoint*> fresh(memory_);
   std::size_t next = 0;
-  for (std::unique_ptr<GridPoint>& point : points) {
+  for (GridPointer& point : points) {
     while (next < added.size() && added[next] < point->filter.w()) {
       merged.push_back(point_at(arc, added[next++]));
       fresh.push_back(merged.back().get());
@@ -325,9 +338,11 @@ void Grid::weigh() {
     cell.share = std::exp(cell.log_density) * h;
     total += cell.share;
   }
-  for (GridCell& cell : cells_) cell.share /= total;
   log_total_ = std::log(total * static_cast<double>(folds_));
-  rest_ = std::min(1.0, rest_ / total);
+  // Where so few points are allowed that no cell is resolved, nothing is known.
+  rest_ = total > 0 ? std::min(1.0, rest_ / total) : 1;
+  if (!(total > 0)) return;
+  for (GridCell& cell : cells_) cell.share /= total;
 }
 
 void Grid::unfold() {
@@ -354,18 +369,26 @@ void Grid::resolve(const Nodes& nodes) {
   }
 }
 
+// As the roll goes on, other places of the boundary decide: the first points are laid out anew at each doubling. So
+// they are when nodes were joined: what a point was worth node by node can't be compared with what a point that takes
+// the joined ones is worth, because the scatter within the joined ones costs it nothing. And where no room is left for
+// those that decide now.
+bool Grid::is_outgrown(const Nodes& nodes) const {
+  const bool has_room = 2 * count_ <= most_points_;
+  const auto is_fine = [](const GridCell& cell) { return cell.fine; };
+  return !has_room || nodes.rows() >= 2 * laid_out_at_ || nodes.generation() != generation_ ||
+         std::none_of(cells_.begin(), cells_.end(), is_fine);
+}
+
 void Grid::settle(const Nodes& nodes) {
   scorer_.forget_limit();
-  // As the roll goes on, other places of the boundary decide: the first points are laid out anew at each doubling.
-  // So they are when nodes were joined: what a point was worth node by node can't be compared with what a point that
-  // takes the joined ones is worth, because the scatter within the joined ones costs it nothing.
-  if (points_.empty() || nodes.rows() >= 2 * laid_out_at_ || nodes.generation() != generation_) {
+  if (is_outgrown(nodes)) {
     lay_out(nodes);
     generation_ = nodes.generation();
     laid_out_at_ = std::max<std::size_t>(1, nodes.rows());
     refresh_all(nodes);
   } else {
-    std::vector<GridPoint*> ends;
+    std::pmr::vector<GridPoint*> ends(memory_);
     for (const GridCell& cell : cells_) {
       if (!cell.fine || cell.fold > 0) continue;
       for (const std::size_t end : {cell.first, cell.first + 1}) {
@@ -391,7 +414,7 @@ bool Grid::holds_something(const Nodes& nodes, const Rival& rival) const {
   const auto is_fine = [](const GridCell& cell) { return cell.fine; };
   if (std::any_of(cells_.begin(), cells_.end(), is_fine)) return true;
   for (const GridPoints& arc : points_) {
-    for (const std::unique_ptr<GridPoint>& point : arc) {
+    for (const GridPointer& point : arc) {
       if (!PointScorer::is_stale(*point, nodes) && log_mass(*point) > rival.log_evidence - kNegligible) return true;
     }
   }

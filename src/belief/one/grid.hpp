@@ -3,6 +3,9 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <memory_resource>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "belief/one/point_scorer.hpp"
@@ -11,13 +14,22 @@
 
 namespace rollfix::belief {
 
+// A grid does not grow beyond this; what is not resolved by then counts as rest.
+inline constexpr std::size_t kMostPoints = 400000;
+
+/// Gives a point back to where its memory came from.
+struct GiveBack {
+  std::pmr::memory_resource* memory = nullptr;
+  void operator()(GridPoint* point) const { std::pmr::polymorphic_allocator<>(memory).delete_object(point); }
+};
 /// They are large, and others come between them.
-using GridPoints = std::vector<std::unique_ptr<GridPoint>>;
+using GridPointer = std::unique_ptr<GridPoint, GiveBack>;
+using GridPoints = std::pmr::vector<GridPointer>;
 
 /// One that is not on the grid any more; nullptr: it is again.
 struct SparePoint {
   double w;
-  std::unique_ptr<GridPoint> point;
+  GridPointer point;
 };
 
 /// What lies between two neighbouring points.
@@ -40,13 +52,24 @@ struct GridCell {
   double mean() const { return 0.5 + 0.5 * std::tanh(rise / 6); }
 };
 
+/// The boundary by its turning, tilted by a disk's curvature; without by what makes lengths and angles, as uncertain as
+/// they are, count alike.
+TiltedBoundary tilted(const Part& part, const ErrorModel& errors, double curvature);
+
+/// As many nodes of a roll as the boundary turns, to and fro, more than once around.
+std::size_t most_nodes(const Part& part);
+
+/// The first points that a grid on this boundary begins with, at most.
+std::size_t most_first_points(const TiltedBoundary& boundary);
+
 /// The posterior density of a roll's first contact over the whole boundary, on points that lie as close together as it
 /// takes: where the samples' likelihood changes fast and is not negligible. Of a boundary that looks the same several
 /// times one of them tells the others.
 class Grid {
  public:
+  /// `memory`: for all that it keeps and works with. `most_points`: it does not grow beyond.
   Grid(const TiltedBoundary& boundary, const ErrorModel& errors, const BeliefOptions& options, const Boundary& places,
-       double corner_length, const CentreModel* centres);
+       double corner_length, const CentreModel* centres, std::pmr::memory_resource* memory, std::size_t most_points);
 
   /// Brings all up to date with the samples.
   void settle(const Nodes& nodes);
@@ -54,7 +77,8 @@ class Grid {
   /// Whether all of it holds next to nothing beside a rival, for all samples so far. Leaves no points.
   bool is_hopeless(const Nodes& nodes, const Rival& rival);
 
-  const std::vector<GridCell>& cells() const { return cells_; }
+  const std::pmr::vector<GridCell>& cells() const { return cells_; }
+  std::pmr::memory_resource* memory() const { return memory_; }
   std::size_t folds() const { return folds_; }
   /// The lower or the upper end of a cell, but for its folds, ...
   const GridPoint& point(const GridCell& cell, std::size_t end) const { return *points_[cell.arc][cell.first + end]; }
@@ -68,13 +92,14 @@ class Grid {
   double rest() const { return rest_; }
 
  private:
+  bool is_outgrown(const Nodes& nodes) const;
   void lay_out(const Nodes& nodes);
   void refresh_all(const Nodes& nodes);
-  bool split(std::size_t arc, const std::vector<double>& added, const Nodes& nodes);
+  bool split(std::size_t arc, std::span<const double> added, const Nodes& nodes);
   /// Takes the points away, but keeps what they have taken, for those that come again.
   void keep_points(const Nodes& nodes);
   /// One that was kept, or a new one.
-  std::unique_ptr<GridPoint> point_at(std::size_t arc, double w);
+  GridPointer point_at(std::size_t arc, double w);
   /// What the point costs, or as much as is known of one that stopped early.
   Score at_least(Score score, const GridPoint& point) const;
   /// The same without what a narrow prior adds.
@@ -112,6 +137,8 @@ class Grid {
   /// Of the density by w, between two places that far apart, over this width.
   double log_prior(double length, double h, double width = 1) const;
 
+  std::pmr::memory_resource* memory_;
+  std::size_t most_points_;
   const TiltedBoundary* boundary_;
   BeliefOptions options_;
   Boundary places_;
@@ -119,23 +146,23 @@ class Grid {
   double corner_length_;
   bool can_be_alike_;
   Fit fit_;
-  Trend trend_;                     // of the likeliest point, ...
-  std::unique_ptr<Traced> traced_;  // ... and what is kept to go on from
+  Trend trend_;                   // of the likeliest point, ...
+  std::optional<Traced> traced_;  // ... and what is kept to go on from
   double rest_ = 0;
-  std::size_t folds_;             // of the boundary look the same to all that is known: points lie on the first one ...
-  std::vector<Interval> ranges_;  // ... alone, on each of its arcs between these, in w
-  double length_ = 0;             // of the whole boundary, in w
-  double best_ = 0;               // the largest log-likelihood of a point
-  double farthest_ = 0;           // a cost that can matter
-  double gathered_ = 0;           // see Evidence: at that point
-  double log_total_ = 0;          // of the density's integral, as a share of the best point's
-  double best_mass_ = 0;          // about the logarithm of the mass around it
+  std::size_t folds_;  // of the boundary look the same to all that is known: points lie on the first one ...
+  std::pmr::vector<Interval> ranges_;  // ... alone, on each of its arcs between these, in w
+  double length_ = 0;                  // of the whole boundary, in w
+  double best_ = 0;                    // the largest log-likelihood of a point
+  double farthest_ = 0;                // a cost that can matter
+  double gathered_ = 0;                // see Evidence: at that point
+  double log_total_ = 0;               // of the density's integral, as a share of the best point's
+  double best_mass_ = 0;               // about the logarithm of the mass around it
   std::size_t laid_out_at_ = 0;
-  std::size_t generation_ = 0;                  // of the nodes that were laid out for
-  std::size_t count_ = 0;                       // of points
-  std::vector<GridPoints> points_;              // of each arc, by w
-  std::vector<std::vector<SparePoint>> spare_;  // likewise: those of the layout before
-  std::vector<GridCell> cells_;
+  std::size_t generation_ = 0;                            // of the nodes that were laid out for
+  std::size_t count_ = 0;                                 // of points
+  std::pmr::vector<GridPoints> points_;                   // of each arc, by w
+  std::pmr::vector<std::pmr::vector<SparePoint>> spare_;  // likewise: those of the layout before
+  std::pmr::vector<GridCell> cells_;
 };
 
 /// What the modes are asked about, beyond the grid.
@@ -148,7 +175,7 @@ struct ModeQuestion {
 
 /// The stretches of the boundary that hold the mass, the most probable first: two peaks of the density are two modes
 /// where it falls far enough between them.
-std::vector<Mode> modes_of(const Grid& grid, const ModeQuestion& question);
+std::pmr::vector<Mode> modes_of(const Grid& grid, const ModeQuestion& question);
 
 /// The cells that hold the mass, in order, with the part's pose where the rows tell it.
 std::vector<Piece> pieces_of(const Grid& grid, const TiltedBoundary& boundary);

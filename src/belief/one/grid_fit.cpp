@@ -10,7 +10,7 @@ namespace rollfix::belief {
 const GridPoint& Grid::best_point(const Nodes& nodes) const {
   const GridPoint* best = nullptr;
   for (const GridPoints& arc : points_) {
-    for (const std::unique_ptr<GridPoint>& point : arc) {
+    for (const GridPointer& point : arc) {
       if (PointScorer::is_stale(*point, nodes)) continue;
       if (best != nullptr && point->score.log_likelihood() <= best->score.log_likelihood()) continue;
       best = point.get();
@@ -74,6 +74,9 @@ void Grid::measure_scale() {
   fit_.length_scale_sd = of_lengths.sd;
   fit_.turn_scale = 1 - of_turns.mean;
   fit_.turn_scale_sd = of_turns.sd;
+  const Error of_rate = shared_error(4);
+  fit_.turn_bias = of_rate.mean;
+  fit_.turn_bias_sd = of_rate.sd;
 }
 
 }  // namespace rollfix::belief

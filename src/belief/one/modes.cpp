@@ -14,24 +14,29 @@ namespace {
 
 // For what holds 95 %, cells are taken apart where their density changes by more than this, as a logarithm.
 constexpr double kRisePerPart = 0.25;
-// They hold equal shares of it: more of them than this tell nothing more, and far out a cell may rise by a million.
+// They hold equal shares of it: more of them than this tell nothing more, nor does one that holds less of all mass than
+// this, and far out a cell may rise by a million.
 constexpr double kMostParts = 1000;
+constexpr double kLeastPart = 1e-4;
 
 /// A run of cells; `turns`: how often each of them lies beyond the seam of a closed boundary.
 struct Run {
-  std::vector<const GridCell*> cells;
-  std::vector<double> turns;
+  explicit Run(std::pmr::memory_resource* memory) : cells(memory), turns(memory) {}
+
+  std::pmr::vector<const GridCell*> cells;
+  std::pmr::vector<double> turns;
 };
+using Runs = std::pmr::vector<Run>;
 
 /// Cuts the cells of one arc, in order, at the valleys of the density.
-std::vector<Run> cut_at_valleys(const Run& arc) {
-  std::vector<Run> runs;
+Runs cut_at_valleys(const Run& arc, std::pmr::memory_resource* memory) {
+  Runs runs(memory);
   double peak = -std::numeric_limits<double>::infinity();
   double valley = peak;
   std::size_t valley_at = 0;
   std::size_t begin = 0;
   const auto close = [&](std::size_t end) {
-    Run run;
+    Run run(memory);
     for (std::size_t k = begin; k < end; ++k) {
       run.cells.push_back(arc.cells[k]);
       run.turns.push_back(arc.turns[k]);
@@ -59,8 +64,10 @@ std::vector<Run> cut_at_valleys(const Run& arc) {
 }
 
 /// The cells of each arc; a loop's from where the density is least on.
-std::vector<Run> arcs_of(const Grid& grid, const TiltedBoundary& boundary) {
-  std::vector<Run> arcs(boundary.arcs().size());
+Runs arcs_of(const Grid& grid, const TiltedBoundary& boundary) {
+  Runs arcs(grid.memory());
+  arcs.reserve(boundary.arcs().size());
+  while (arcs.size() < boundary.arcs().size()) arcs.emplace_back(grid.memory());
   for (const GridCell& cell : grid.cells()) {
     Run& arc = arcs[cell.arc + boundary.shift(cell.fold).arcs];
     arc.cells.push_back(&cell);
@@ -230,18 +237,19 @@ class ModeOfRun {
 
 }  // namespace
 
-std::vector<Mode> modes_of(const Grid& grid, const ModeQuestion& question) {
-  std::vector<Mode> modes;
+std::pmr::vector<Mode> modes_of(const Grid& grid, const ModeQuestion& question) {
+  std::pmr::vector<Mode> modes(grid.memory());
+  const auto is_likelier = [](const Mode& a, const Mode& b) { return a.probability > b.probability; };
   for (const Run& arc : arcs_of(grid, *question.boundary)) {
     if (arc.cells.empty()) continue;
-    for (const Run& run : cut_at_valleys(arc)) {
+    for (const Run& run : cut_at_valleys(arc, grid.memory())) {
       double probability = 0;
       for (const GridCell* cell : run.cells) probability += cell->share;
-      if (probability >= kLeastProbability) modes.push_back(ModeOfRun(grid, question, run).mode());
+      if (probability < kLeastProbability) continue;
+      const Mode mode = ModeOfRun(grid, question, run).mode();
+      modes.insert(std::upper_bound(modes.begin(), modes.end(), mode, is_likelier), mode);
     }
   }
-  std::stable_sort(modes.begin(), modes.end(),
-                   [](const Mode& a, const Mode& b) { return a.probability > b.probability; });
   return modes;
 }
 
@@ -295,7 +303,7 @@ struct Stretch {
   double length;
 };
 
-void sort_by_density(std::vector<Stretch>& stretches) {
+void sort_by_density(std::pmr::vector<Stretch>& stretches) {
   std::sort(stretches.begin(), stretches.end(),
             [](const Stretch& a, const Stretch& b) { return a.density > b.density; });
 }
@@ -309,8 +317,9 @@ Interval densities_in(const GridCell& cell) {
 }
 
 /// The density changes within a cell: its parts are looked at by themselves.
-void add_parts(const GridCell& cell, std::vector<Stretch>& stretches) {
-  const auto parts = static_cast<int>(std::ceil(std::clamp(std::abs(cell.rise) / kRisePerPart, 1.0, kMostParts)));
+void add_parts(const GridCell& cell, std::pmr::vector<Stretch>& stretches) {
+  const double enough = std::clamp(cell.share / kLeastPart, 1.0, kMostParts);
+  const auto parts = static_cast<int>(std::ceil(std::clamp(std::abs(cell.rise) / kRisePerPart, 1.0, enough)));
   double before = 0;
   for (int k = 1; k <= parts; ++k) {
     const double to = cell.quantile(static_cast<double>(k) / parts);
@@ -322,7 +331,7 @@ void add_parts(const GridCell& cell, std::vector<Stretch>& stretches) {
 
 /// Cells that hold what is credible are everywhere as dense as this.
 double density_of_enough(const Grid& grid) {
-  std::vector<Stretch> cells;
+  std::pmr::vector<Stretch> cells(grid.memory());
   for (const GridCell& cell : grid.cells()) {
     if (cell.share > 0) cells.push_back({densities_in(cell).lo, cell.share, 0});
   }
@@ -341,7 +350,7 @@ double credible_length(const Grid& grid) {
   // Cells that are nowhere as dense are none of those that are asked for. What one fold holds the others hold as well.
   const double enough = density_of_enough(grid);
   const auto folds = static_cast<double>(grid.folds());
-  std::vector<Stretch> stretches;
+  std::pmr::vector<Stretch> stretches(grid.memory());
   for (const GridCell& cell : grid.cells()) {
     if (cell.fold == 0 && cell.share > 0 && densities_in(cell).hi >= enough) add_parts(cell, stretches);
   }

@@ -8,6 +8,19 @@
 
 namespace rollfix::belief {
 
+std::size_t most_nodes(const Part& part) {
+  double turned = 0;
+  for (const Spiral& spiral : part.turning().spirals()) turned += std::abs(spiral.end.angle - spiral.start.angle);
+  const double finer = std::clamp(turned / (2 * std::numbers::pi), 1.0, kMostFiner);
+  return static_cast<std::size_t>(finer * static_cast<double>(kMostNodes));
+}
+
+TiltedBoundary tilted(const Part& part, const ErrorModel& errors, double curvature) {
+  const RowCovariance own = errors.row(curvature);
+  const double even = std::sqrt(own.turn / own.length);
+  return {part, tilt_of(curvature, even, part), accuracy_of(std::sqrt(own.length), part)};
+}
+
 namespace {
 
 /// Where a finger's centre was felt at the first contact, if it was, and where that contact's normal points: N(u) +
@@ -29,27 +42,12 @@ struct OneFingersGrid {
         path(first && first->has_place && options.noise.position > 0 ? std::make_unique<BoundaryPath>(part) : nullptr),
         has_first(first.has_value()),
         centres(model(part, first)),
-        boundary(part, tilt(part, errors.row(curvature)), accuracy(part, errors.row(curvature))),
+        boundary(tilted(part, errors, curvature)),
         nodes(errors, boundary.tilt(), options.robust, options.nodes.value_or(most_nodes(part)), !options.by_rows),
-        grid(boundary, errors, options, part.boundary(), corner_length(curvature, part),
-             has_first ? &centres : nullptr) {}
+        grid(boundary, errors, options, part.boundary(), corner_length(curvature, part), has_first ? &centres : nullptr,
+             std::pmr::get_default_resource(), kMostPoints) {}
   OneFingersGrid(const OneFingersGrid&) = delete;
   OneFingersGrid& operator=(const OneFingersGrid&) = delete;
-
-  /// A disk's curvature; else what makes lengths and angles, as uncertain as they are, count alike.
-  double tilt(const Part& part, const RowCovariance& own) const {
-    return tilt_of(finger_curvature, std::sqrt(own.turn / own.length), part);
-  }
-  /// As many as the boundary turns, to and fro, more than once around.
-  static std::size_t most_nodes(const Part& part) {
-    double turned = 0;
-    for (const Spiral& spiral : part.turning().spirals()) turned += std::abs(spiral.end.angle - spiral.start.angle);
-    const double finer = std::clamp(turned / (2 * std::numbers::pi), 1.0, kMostFiner);
-    return static_cast<std::size_t>(finer * static_cast<double>(kMostNodes));
-  }
-  static double accuracy(const Part& part, const RowCovariance& own) {
-    return accuracy_of(std::sqrt(own.length), part);
-  }
 
   CentreModel model(const Part& part, const std::optional<FirstCentre>& first) const {
     if (!first) return {};
@@ -103,7 +101,8 @@ class OneFingersPosterior : public Posterior {
     if (!has_begun()) return {};
     state_->grid.settle(state_->nodes);
     const ModeQuestion question{&state_->boundary, last_, state_->errors.row(last_.finger_curvature), part_.boundary()};
-    return {modes_of(state_->grid, question), state_->grid.fit(), state_->grid.evidence(), state_->grid.rest()};
+    const auto modes = modes_of(state_->grid, question);
+    return {{modes.begin(), modes.end()}, state_->grid.fit(), state_->grid.evidence(), state_->grid.rest()};
   }
 
   bool is_hopeless(const Rival& rival) override {
@@ -122,7 +121,7 @@ class OneFingersPosterior : public Posterior {
       const double kappa = part_.turning().curvature(mode.end[0]);
       // f is off by the turn's error less kappa times the length's.
       Shared by_error = Shared::Zero();
-      by_error.head<kRolling>() << -kappa, 1, -kappa * last_.reading.length[0], last_.sensed;
+      by_error.head<kRolling>() << -kappa, 1, -kappa * last_.reading.length[0], last_.sensed, last_.seconds;
       const double gathered = square(options_.noise.part.walk) * std::abs(last_.reading.length[0]);
       const double variance =
           by_error.dot(shared * by_error) + gathered + own.turn - 2 * kappa * own.both + kappa * kappa * own.length;

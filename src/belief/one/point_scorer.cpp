@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <utility>
 
@@ -40,6 +41,10 @@ constexpr double kSettledTurn = 1e-3;
 // all around are split down to its width.
 constexpr double kNarrowPrior = 0.01;
 
+std::pmr::vector<double> in(std::pmr::memory_resource* memory, std::span<const double> values = {}) {
+  return {values.begin(), values.end(), memory};
+}
+
 Score score_of(const RollFilter& filter) {
   return {filter.cost(), filter.log_volume(), filter.slope(), filter.information()};
 }
@@ -64,12 +69,13 @@ Score score_of(const PosePrior& prior, const RollFilter& filter) {
 }  // namespace
 
 PointScorer::PointScorer(const TiltedBoundary& boundary, const ErrorModel& errors, const BeliefOptions& options,
-                         const Boundary& places, const CentreModel* centres)
+                         const Boundary& places, const CentreModel* centres, std::pmr::memory_resource* memory)
     : tilt_(boundary.tilt()),
       centres_(centres),
       errors_(errors),
       options_(options),
       outliers_{options.robust ? kOutlierShare : 0, places.perimeter},
+      memory_(memory),
       places_(places) {}
 
 RollFilter PointScorer::fresh_filter(const TiltedArc& arc, double w) const {
@@ -81,7 +87,7 @@ GridPoint PointScorer::make(const TiltedArc& arc, double w) const {
   return {fresh, 0, 0, 0, static_cast<std::size_t>(-1), fresh, {}};
 }
 
-void PointScorer::refresh(const std::vector<GridPoint*>& points, const Nodes& nodes) {
+void PointScorer::refresh(std::span<GridPoint* const> points, const Nodes& nodes) {
   const std::optional<Node> pending = nodes.pending();
   auto next = points.begin();
   const auto next_of_all = [&](Errand& errand) {
@@ -93,12 +99,12 @@ void PointScorer::refresh(const std::vector<GridPoint*>& points, const Nodes& no
     }
     return false;
   };
-  run_errands(next_of_all, equations(), limit_, outliers_);
+  run_errands(std::ref(next_of_all), equations(), limit_, outliers_);
 }
 
-void PointScorer::refresh_likely_first(const std::vector<GridPoint*>& points, const Nodes& nodes) {
-  const std::vector<Node> trial = some_of(nodes.complete(), kTrialNodes);
-  std::vector<RollFilter> filters;
+void PointScorer::refresh_likely_first(std::span<GridPoint* const> points, const Nodes& nodes) {
+  const std::pmr::vector<Node> trial = some_of(nodes.complete(), kTrialNodes);
+  std::pmr::vector<RollFilter> filters(memory_);
   filters.reserve(points.size());
   for (const GridPoint* point : points) filters.push_back(fresh_filter(*point->filter.arc(), point->filter.w()));
   std::size_t begun = 0;
@@ -108,12 +114,13 @@ void PointScorer::refresh_likely_first(const std::vector<GridPoint*>& points, co
     ++begun;
     return true;
   };
-  run_errands(next, equations(), limit_, outliers_);
-  std::vector<std::size_t> order(points.size());
+  run_errands(std::ref(next), equations(), limit_, outliers_);
+  std::pmr::vector<std::size_t> order(points.size(), memory_);
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
             [&](std::size_t a, std::size_t b) { return filters[a].deviance() < filters[b].deviance(); });
-  std::vector<GridPoint*> ordered;
+  std::pmr::vector<GridPoint*> ordered(memory_);
+  ordered.reserve(points.size());
   for (const std::size_t k : order) ordered.push_back(points[k]);
   refresh(ordered, nodes);
 }
@@ -123,13 +130,13 @@ Errand PointScorer::first_errand(GridPoint& point, const Nodes& nodes) const {
     point = make(*point.filter.arc(), point.filter.w());
     point.generation = nodes.generation();
   }
-  const std::vector<Node>& complete = nodes.complete();
+  const std::pmr::vector<Node>& complete = nodes.complete();
   return {&point, 1, &point.filter, complete.data() + point.taken, complete.data() + complete.size()};
 }
 
 bool PointScorer::next_errand(Errand& errand, const Nodes& nodes, const std::optional<Node>& pending) {
   GridPoint& point = *errand.point;
-  const std::vector<Node>& complete = nodes.complete();
+  const std::pmr::vector<Node>& complete = nodes.complete();
   const Node* last = complete.data() + complete.size();
   if (errand.filter == &point.filter) {
     point.taken = static_cast<std::size_t>(errand.next - complete.data());
@@ -146,9 +153,9 @@ bool PointScorer::next_errand(Errand& errand, const Nodes& nodes, const std::opt
     errand.end = errand.next + 1;
     return true;
   }
-  if (errors_.is_wide() && errand.pass < kPassesOfWide && !point.now.is_settled(kSettledTurn)) {
+  if (errors_.is_wide() && errand.pass < kPassesOfWide && !point.now.is_settled(kSettledTurn, errand.end[-1].seconds)) {
     ++errand.pass;
-    point.now = point.now.again(errors_.start());
+    point.now = point.now.again(errors_.start(), memory_);
     errand.next = complete.data();
     errand.end = last;
     return true;
@@ -178,14 +185,15 @@ void PointScorer::lower_limit(double deviance, const Nodes& nodes) {
   limit_ = std::min(limit_, square(farthest));
 }
 
-Trend PointScorer::trend(const GridPoint& point, const Nodes& nodes, std::unique_ptr<Traced>& traced) const {
+Trend PointScorer::trend(const GridPoint& point, const Nodes& nodes, std::optional<Traced>& traced) const {
   const bool goes_on = traced && !errors_.is_wide() && traced->filter.arc() == point.filter.arc() &&
                        traced->filter.w() == point.filter.w() && traced->generation == nodes.generation();
   if (!goes_on) {
     // About the offset of turn that the last pass was taken about, or one as good.
-    traced = std::make_unique<Traced>(Traced{
-        errors_.is_wide() ? point.now.again(errors_.start()) : fresh_filter(*point.filter.arc(), point.filter.w()), 0,
-        nodes.generation()});
+    const RollFilter& filter = point.filter;
+    traced.emplace(
+        errors_.is_wide() ? point.now.again(errors_.start(), memory_) : fresh_filter(*filter.arc(), filter.w()),
+        std::size_t{0}, nodes.generation(), Innovations{in(memory_), in(memory_), in(memory_)});
     traced->filter.record_to(traced->innovations);
   }
   const auto take = [&](RollFilter& filter, const Node* from, const Node* end) {
@@ -194,15 +202,16 @@ Trend PointScorer::trend(const GridPoint& point, const Nodes& nodes, std::unique
       errand = {nullptr, 1, &filter, from, end, true};
       return !std::exchange(is_begun, true) && from != end;
     };
-    run_errands(once, equations(), limit_, outliers_);
+    run_errands(std::ref(once), equations(), limit_, outliers_);
   };
-  const std::vector<Node>& complete = nodes.complete();
+  const std::pmr::vector<Node>& complete = nodes.complete();
   take(traced->filter, complete.data() + traced->taken, complete.data() + complete.size());
   traced->taken = complete.size();
   const std::optional<Node> pending = nodes.pending();
   if (!pending) return trend_of(traced->innovations, nodes.freedom());
   // It will change: what it adds is not kept.
-  Innovations all = traced->innovations;
+  Innovations all{in(memory_, traced->innovations[0]), in(memory_, traced->innovations[1]),
+                  in(memory_, traced->innovations[2])};
   RollFilter now = traced->filter;
   now.record_to(all);
   take(now, &*pending, &*pending + 1);

@@ -2,8 +2,9 @@
 
 #include <cstddef>
 #include <limits>
-#include <memory>
+#include <memory_resource>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "belief/one/roll_filter.hpp"
@@ -39,25 +40,25 @@ struct Traced {
   RollFilter filter;  // has taken `taken` complete nodes
   std::size_t taken = 0;
   std::size_t generation = 0;
-  Innovations innovations{};
+  Innovations innovations;
 };
 
 /// Lets first contacts on trial take the samples, and says what each is worth, the prior included.
 class PointScorer {
  public:
   PointScorer(const TiltedBoundary& boundary, const ErrorModel& errors, const BeliefOptions& options,
-              const Boundary& places, const CentreModel* centres);
+              const Boundary& places, const CentreModel* centres, std::pmr::memory_resource* memory);
 
   GridPoint make(const TiltedArc& arc, double w) const;
   /// Lets each of the points take the nodes that it has not. Beyond the limit of what can matter it takes no more: it
   /// stays stale, and what it has cost by then is a bound.
-  void refresh(const std::vector<GridPoint*>& points, const Nodes& nodes);
+  void refresh(std::span<GridPoint* const> points, const Nodes& nodes);
   /// The same, those that some of the nodes speak for first: then the others reach the limit early.
-  void refresh_likely_first(const std::vector<GridPoint*>& points, const Nodes& nodes);
+  void refresh_likely_first(std::span<GridPoint* const> points, const Nodes& nodes);
   static bool is_stale(const GridPoint& point, const Nodes& nodes) { return point.rows != nodes.rows(); }
 
   /// How a point's innovations run in the long term; `traced`: what was kept when that was asked before.
-  Trend trend(const GridPoint& point, const Nodes& nodes, std::unique_ptr<Traced>& traced) const;
+  Trend trend(const GridPoint& point, const Nodes& nodes, std::optional<Traced>& traced) const;
 
   /// Of a deviance that can matter: it comes down with each better point, until all is new.
   double limit() const { return limit_; }
@@ -83,7 +84,7 @@ class PointScorer {
   Score prior_at(const TiltedPlace& place) const;
   void lower_limit(double deviance, const Nodes& nodes);
   RowEquations equations() const {
-    return {centres_ != nullptr && centres_->path != nullptr, errors_.has_gyroscope_scale()};
+    return {centres_ != nullptr && centres_->path != nullptr, errors_.has_gyroscope_scale(), errors_.has_bias()};
   }
 
   double tilt_;
@@ -91,6 +92,7 @@ class PointScorer {
   ErrorModel errors_;
   BeliefOptions options_;
   Outliers outliers_;
+  std::pmr::memory_resource* memory_;
   Boundary places_;
   double limit_ = std::numeric_limits<double>::infinity();
 };

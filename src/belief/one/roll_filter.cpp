@@ -11,7 +11,7 @@
 //   s(w), m         place on the boundary, m = ds/dw = 1 / (kappa + c): `TiltedPlace::s`, `slope`
 //   L, theta        a row's length and turn less the shared errors: `Corrected`
 //   x, P            errors that the roll shares (offset of length, offset of turn, scale of lengths, a gyroscope's
-//                   scale, the first centre's x and y) and their covariance: `x_`, `p_`; dx/dw is `dx_`
+//                   scale and bias, the first centre's x and y) and their covariance: `x_`, `p_`; dx/dw is `dx_`
 //   e, H            a row's equations and their derivative by x: `Equations::miss`, `by_errors`
 //   R, K            variance of the row on its own: `own`; what has gathered on the way: `walk_`, by x
 //   cost, volume    e^T S^-1 e and det S / det S_w of all rows, S = S_w + H P0 H^T, S_w = R + K: -2 log likelihood is
@@ -48,12 +48,14 @@ RollFilter::RollFilter(const TiltedArc& arc, double tilt, double w, const Shared
       place_(arc.at(w)),
       most_scale_(most_scale(start(2, 2))),
       most_gyroscope_scale_(most_scale(start(3, 3))),
+      most_bias_(kMostSigmas * std::sqrt(start(4, 4))),
       p_(start) {}
 
-RollFilter RollFilter::again(const SharedCovariance& start) const {
+RollFilter RollFilter::again(const SharedCovariance& start, std::pmr::memory_resource* memory) const {
   RollFilter fresh(*arc_, tilt_, w_, start, centres_);
   fresh.found_ =
-      std::make_shared<const Found>(Found{x_.head<kRolling>(), p_.topLeftCorner<kRolling, kRolling>(), on_the_way_});
+      std::allocate_shared<Found>(std::pmr::polymorphic_allocator<Found>(memory),
+                                  Found{x_.head<kRolling>(), p_.topLeftCorner<kRolling, kRolling>(), on_the_way_});
   return fresh;
 }
 
@@ -95,7 +97,7 @@ struct RollFilter::Equations {
 // With de/dtheta = m and de/dL = c m - 1, e tells of the errors of L and theta what can be told.
 RollFilter::Equations RollFilter::equations_at(double w, const About& about, double w_variance,
                                                const Node& node) const {
-  const Corrected roll = corrected(node.length, node.turn, node.sensed, about.errors);
+  const Corrected roll = corrected(node, about.errors);
   const SpreadPlace end = arc_->about(w, w_variance, node.spread);
   const double by_turn = end.slope;
   const double by_length = tilt_ * end.slope - 1;
@@ -120,7 +122,7 @@ void RollFilter::add_centre(const SpreadPlace& end, double w, const About& about
                             Equations& rows) const {
   constexpr double kQuarter = std::numbers::pi / 2;
   const Shared& errors = about.errors;
-  const Corrected roll = corrected(node.length, node.turn, node.sensed, errors);
+  const Corrected roll = corrected(node, errors);
   const double per_scale = 1 / (1 + errors[2]);
   const double smaller = 1 / (1 + centres_->radius_share * errors[2]);  // the finger, where its radius is wrong
   const double angle = w - tilt_ * end.s;
@@ -136,7 +138,7 @@ void RollFilter::add_centre(const SpreadPlace& end, double w, const About& about
   const Vec2 by_w = end.slope * of_arm.col(1) * -1 - turn_by_w * turned_left(arm);
   const Vec2 by_w_first = place_.slope * of_first_arm.col(1) * -1 - turn_by_w_first * turned_left(first_arm);
   const Vec2 way = to_world * (centres_->path->at(end.s) - centres_->path->at(place_.s)) - arm + first_arm;
-  const Vec2 centre_off(x_[4], x_[5]);
+  const Vec2 centre_off(x_[5], x_[6]);
 
   const double beyond = w_ + roll.turn + tilt_ * roll.length - w;
   rows.miss.tail<2>() = way + by_w * beyond + centre_off - (node.felt.centre - centres_->first.centre);
@@ -145,6 +147,7 @@ void RollFilter::add_centre(const SpreadPlace& end, double w, const About& about
   by_errors.col(1) = -by_w + turned_left(way);
   by_errors.col(2) = -tilt_ * roll.length * per_scale * by_w + centres_->radius_share * (arm - first_arm);
   by_errors.col(3) = -roll.sensed * by_w;
+  by_errors.col(4) = -roll.seconds * by_w;
   by_errors.rightCols<2>().setIdentity();
   rows.by_own.bottomRows<2>().col(0) = tilt_ * by_w + of_arm * node.felt.arm.per_length;
   rows.by_own.bottomRows<2>().col(1) = by_w;
@@ -173,6 +176,7 @@ void RollFilter::update(const Node& node, const Outliers& outliers) {
   };
   bound(2, most_scale_);
   bound(3, most_gyroscope_scale_);
+  bound(4, most_bias_);
 }
 
 RowShare share_of(int equations, double squared, double noise, double all, const Outliers& outliers) {
@@ -187,7 +191,7 @@ RowShare share_of(int equations, double squared, double noise, double all, const
 
 void RollFilter::absorb(const Node& node, const Outliers& outliers) {
   const About about = this->about(node.length);
-  const Corrected roll = corrected(node.length, node.turn, node.sensed, about.errors);
+  const Corrected roll = corrected(node, about.errors);
   const double measured = w_ + roll.turn + tilt_ * roll.length;
   const double w_variance = variance_of_roll(roll, about, node.own);
   Equations rows = equations_at(measured, about, w_variance, node);
@@ -243,7 +247,7 @@ void RollFilter::absorb(const Node& node, const Outliers& outliers) {
 }
 
 TiltedPlace RollFilter::after(const Row& measured, double further) const {
-  const Corrected roll = corrected(measured.reading.length[0], measured.reading.turn, measured.sensed, x_);
+  const Corrected roll = corrected(measured, x_);
   return arc_->at(w_ + further + roll.turn + tilt_ * roll.length);
 }
 
@@ -263,7 +267,7 @@ PoseSpread RollFilter::pose(Eigen::Vector3d* by_w) const {
   const Arm& first = centres_->first.arm;
   const Vec2 arm = rotation(facing) * (1 / (1 + centres_->radius_share * x_[2]) * first.at - x_[0] * first.per_length);
   const Vec2 on_part = spread.mean.turned(centres_->part->point(place_.s));
-  const Vec2 origin = centres_->first.centre + Vec2(x_[4], x_[5]) + arm - on_part;
+  const Vec2 origin = centres_->first.centre + Vec2(x_[5], x_[6]) + arm - on_part;
   spread.mean.x = origin.x();
   spread.mean.y = origin.y();
   Eigen::Matrix<double, 3, kShared> by_errors = Eigen::Matrix<double, 3, kShared>::Zero();
@@ -286,8 +290,8 @@ PoseSpread RollFilter::pose(Eigen::Vector3d* by_w) const {
 Eigen::Matrix<double, 2, kRolling> RollFilter::by_rolling(const Corrected& roll, const Shared& errors) {
   const double per_scale = 1 / (1 + errors[2]);
   Eigen::Matrix<double, 2, kRolling> by_errors;
-  by_errors << -per_scale, 0, -roll.length * per_scale, 0,  //
-      0, -1, 0, -roll.sensed;
+  by_errors << -per_scale, 0, -roll.length * per_scale, 0, 0,  //
+      0, -1, 0, -roll.sensed, -roll.seconds;
   return by_errors;
 }
 
@@ -300,7 +304,7 @@ double RollFilter::variance_of_roll(const Corrected& roll, const About& about, c
 
 double RollFilter::variance_after(const Row& measured, const RowCovariance& own) const {
   const double m = after(measured).slope;
-  const Corrected roll = corrected(measured.reading.length[0], measured.reading.turn, measured.sensed, x_);
+  const Corrected roll = corrected(measured, x_);
   return m * m * variance_of_roll(roll, {x_, p_}, own);
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <memory_resource>
 
 #include "belief/error_model.hpp"
 #include "belief/nodes.hpp"
@@ -41,17 +42,17 @@ class RollFilter {
   RollFilter(const TiltedArc& arc, double tilt, double w, const SharedCovariance& start, const CentreModel* centres);
   /// The same again, with what the rows were found to share: from the first one on they are linearised about that, and
   /// over what that leaves open.
-  RollFilter again(const SharedCovariance& start) const;
+  RollFilter again(const SharedCovariance& start, std::pmr::memory_resource* memory) const;
 
   /// Takes a row with its centre, as three equations; see side_by_side.hpp for rows without.
   void update(const Node& node, const Outliers& outliers);
   /// The rows were taken about nearly what they were found to share. `accuracy`: of the contact's place in w after a
-  /// full turn.
-  bool is_settled(double accuracy) const {
+  /// full turn, and after this time from the roll's start.
+  bool is_settled(double accuracy, double seconds) const {
     constexpr double kFullTurn = 2 * std::numbers::pi;
     if (!found_) return false;
-    const Eigen::Vector4d off = (x_.head<kRolling>() - found_->errors).cwiseAbs();
-    return std::max({tilt_ * off[0], off[1], kFullTurn * off[3]}) <= accuracy;
+    const Eigen::Matrix<double, kRolling, 1> off = (x_.head<kRolling>() - found_->errors).cwiseAbs();
+    return std::max({tilt_ * off[0], off[1], kFullTurn * off[3], seconds * off[4]}) <= accuracy;
   }
 
   const TiltedArc* arc() const { return arc_; }
@@ -98,6 +99,7 @@ class RollFilter {
     double length;
     double turn;
     double sensed;
+    double seconds;
   };
   /// What a pass found that a roll's rows share, and what gathered on the whole way.
   struct Found {
@@ -115,8 +117,15 @@ class RollFilter {
   void add_centre(const SpreadPlace& end, double w, const About& about, const Node& node, Equations& rows) const;
   void absorb(const Node& node, const Outliers& outliers);
   About about(double length) const;
-  static Corrected corrected(double length, double turn, double sensed, const Shared& errors) {
-    return {(length - errors[0]) / (1 + errors[2]), turn - errors[1] - errors[3] * sensed, sensed};
+  static Corrected corrected(const Node& node, const Shared& errors) {
+    return corrected(node.length, node.turn, node.sensed, node.seconds, errors);
+  }
+  static Corrected corrected(const Row& row, const Shared& errors) {
+    return corrected(row.reading.length[0], row.reading.turn, row.sensed, row.seconds, errors);
+  }
+  static Corrected corrected(double length, double turn, double sensed, double seconds, const Shared& errors) {
+    return {(length - errors[0]) / (1 + errors[2]), turn - errors[1] - errors[3] * sensed - errors[4] * seconds, sensed,
+            seconds};
   }
 
   /// What length and turn are, by the errors that the roll shares.
@@ -131,6 +140,7 @@ class RollFilter {
   TiltedPlace place_;
   double most_scale_;
   double most_gyroscope_scale_;
+  double most_bias_;
   Shared x_ = Shared::Zero();
   SharedCovariance p_;
   Eigen::Matrix2d walk_ = Eigen::Matrix2d::Zero();  // of the first two, from what has gathered alone

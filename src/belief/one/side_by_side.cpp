@@ -75,7 +75,7 @@ class SideBySide {
 
   /// Of the rows that are taken at once.
   struct Rows {
-    Four length, turn, sensed, spread;
+    Four length, turn, sensed, seconds, spread;
     Four own_length, own_both, own_turn;
     Four averaged_length, averaged_turn;  // of what gathers among the joined rows
   };
@@ -90,9 +90,10 @@ class SideBySide {
   };
   /// Lengths and turns as they are without what the roll shares.
   struct Rolled {
-    Four per_scale, length, sensed;
+    Four per_scale, length, sensed, seconds;
     Four by_turns(const PerError& errors) const {
-      if constexpr (Errors > 3) return errors[1] + sensed * errors[3];
+      if constexpr (Errors > kWithoutBias) return errors[1] + sensed * errors[3] + seconds * errors[4];
+      if constexpr (Errors > kWithoutGyroscope) return errors[1] + sensed * errors[3];
       return errors[1];
     }
     Four by_lengths(const PerError& errors) const { return per_scale * (errors[0] + length * errors[2]); }
@@ -158,7 +159,8 @@ class SideBySide {
     first_s_[at(lane)] = filter.place_.s;
     first_slope_[at(lane)] = filter.place_.slope;
     most_[2][at(lane)] = filter.most_scale_;
-    if constexpr (Errors > 3) most_[3][at(lane)] = filter.most_gyroscope_scale_;
+    if constexpr (Errors > kWithoutGyroscope) most_[3][at(lane)] = filter.most_gyroscope_scale_;
+    if constexpr (Errors > kWithoutBias) most_[4][at(lane)] = filter.most_bias_;
     is_first_[at(lane)] = filter.found_ ? 0 : 1;
     if (filter.found_) load_found(lane, *filter.found_);
   }
@@ -215,7 +217,7 @@ class SideBySide {
 
 template <int Errors>
 typename SideBySide<Errors>::Rows SideBySide<Errors>::next_rows() {
-  static const Node kNone{0, 0, 0, 0, {1, 0, 1}, {}, 1, 1};
+  static const Node kNone{0, 0, 0, 0, 0, {1, 0, 1}, {}, 1, 1};
   std::array<const Node*, kLanes> nodes;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     nodes[lane] = errands_[lane].filter != nullptr ? errands_[lane].next : &kNone;
@@ -232,6 +234,7 @@ typename SideBySide<Errors>::Rows SideBySide<Errors>::next_rows() {
   return {each([](const Node& node) { return node.length; }),
           each([](const Node& node) { return node.turn; }),
           each([](const Node& node) { return node.sensed; }),
+          each([](const Node& node) { return node.seconds; }),
           each([](const Node& node) { return node.spread; }),
           each([](const Node& node) { return node.own.length; }),
           each([](const Node& node) { return node.own.both; }),
@@ -285,7 +288,7 @@ typename SideBySide<Errors>::About SideBySide<Errors>::about(const Rows& rows) c
 template <int Errors>
 typename SideBySide<Errors>::Rolled SideBySide<Errors>::rolled(const Rows& rows, const PerError& errors) {
   const Four per_scale = 1 / (1 + errors[2]);
-  return {per_scale, (rows.length - errors[0]) * per_scale, rows.sensed};
+  return {per_scale, (rows.length - errors[0]) * per_scale, rows.sensed, rows.seconds};
 }
 
 template <int Errors>
@@ -294,7 +297,8 @@ typename SideBySide<Errors>::Uncertain SideBySide<Errors>::uncertain(const Rolle
   for (std::size_t k = 0; k < Errors; ++k) {
     uncertain.with_length[k] = rolled.per_scale * (p(0, k) + rolled.length * p(2, k));
     uncertain.with_turn[k] = p(1, k);
-    if constexpr (Errors > 3) uncertain.with_turn[k] += rolled.sensed * p(3, k);
+    if constexpr (Errors > kWithoutGyroscope) uncertain.with_turn[k] += rolled.sensed * p(3, k);
+    if constexpr (Errors > kWithoutBias) uncertain.with_turn[k] += rolled.seconds * p(4, k);
   }
   uncertain.length = rolled.by_lengths(uncertain.with_length);
   uncertain.both = rolled.by_turns(uncertain.with_length);
@@ -313,8 +317,8 @@ typename SideBySide<Errors>::Uncertain SideBySide<Errors>::open_of(const Rolled&
 }
 
 // The true L and theta lead from one place to another: e = s(w + theta + c L) - s(w) - L = 0, with ds/dw = m. By the
-// shared errors that is (1 - c m) g less m h, g = (1, 0, L, 0) / (1 + scale) and h = (0, 1, 0, what was sensed): what g
-// and h make of their covariance does for any m.
+// shared errors that is (1 - c m) g less m h, g = (1, 0, L, 0, 0) / (1 + scale) and h = (0, 1, 0, what was sensed, the
+// time): what g and h make of their covariance does for any m.
 template <int Errors>
 void SideBySide<Errors>::take_nodes() {
   const Rows rows = next_rows();
@@ -449,7 +453,8 @@ void SideBySide<Errors>::correct(const Lines& lines, const Rolled& rolled, const
 }
 
 void run_errands(const NextErrand& next, const RowEquations& equations, const double& limit, const Outliers& outliers) {
-  if (!equations.centres && equations.gyroscope_scale) return SideBySide<kRolling>(next, limit, outliers).run();
+  if (!equations.centres && equations.bias) return SideBySide<kRolling>(next, limit, outliers).run();
+  if (!equations.centres && equations.gyroscope_scale) return SideBySide<kWithoutBias>(next, limit, outliers).run();
   if (!equations.centres) return SideBySide<kWithoutGyroscope>(next, limit, outliers).run();
   for (Errand errand; next(errand);) {
     const auto goes_on = [&] { return errand.whole || !errand.filter->is_beyond(limit); };

@@ -21,7 +21,8 @@ struct Errand {
 /// What rows tell of besides lengths and turns.
 struct RowEquations {
   bool centres = false;          // two equations more
-  bool gyroscope_scale = false;  // one unknown more
+  bool gyroscope_scale = false;  // one unknown more, ...
+  bool bias = false;             // ... and another
 };
 
 /// Gives the next errand; false: there is none. It is called with the one that is over, to go on from: its filter has

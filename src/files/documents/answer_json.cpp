@@ -123,7 +123,9 @@ Json fit_json(const Fit& fit) {
           {"length_scale", json_numbers(fit.length_scale)},
           {"length_scale_sd", json_numbers(fit.length_scale_sd)},
           {"turn_scale", json_number(fit.turn_scale)},
-          {"turn_scale_sd", json_number(fit.turn_scale_sd)}};
+          {"turn_scale_sd", json_number(fit.turn_scale_sd)},
+          {"turn_bias", json_number(fit.turn_bias)},
+          {"turn_bias_sd", json_number(fit.turn_bias_sd)}};
 }
 
 void add_weighing(const Weighing& weighing, Json& document) {

@@ -14,15 +14,15 @@ function(expect prefix components sentence)
 endfunction()
 
 expect(${PREFIX} "COMPONENTS;march;nonsense"
-  "rollfix: found the component \"nonsense\", expected march, files, catalog or draw; rollfix::rollfix needs none.")
+  "rollfix: found the component \"nonsense\", expected march, files, catalog, draw or c; rollfix::rollfix needs none.")
 
 # The same prefix, as it is when the others are not built.
 file(REMOVE_RECURSE ${SCRATCH}/bare)
 file(COPY ${PREFIX}/ DESTINATION ${SCRATCH}/bare)
 file(GLOB_RECURSE unbuilt ${SCRATCH}/bare/*/rollfix_files* ${SCRATCH}/bare/*/rollfix_catalog*
-  ${SCRATCH}/bare/*/rollfix_draw* ${SCRATCH}/bare/*/librollfix_[cfd]*)
+  ${SCRATCH}/bare/*/rollfix_draw* ${SCRATCH}/bare/*/rollfix_cT* ${SCRATCH}/bare/*/librollfix_[cfd]*)
 file(REMOVE ${unbuilt})
-foreach(component IN ITEMS files catalog draw)
+foreach(component IN ITEMS files catalog draw c)
   string(TOUPPER ${component} option)
   expect(${SCRATCH}/bare "COMPONENTS;${component}"
     "rollfix: the component \"${component}\" was not built: build rollfix with -DROLLFIX_BUILD_${option}=ON.")

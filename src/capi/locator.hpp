@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstddef>
+#include <memory_resource>
+#include <optional>
+#include <vector>
+
+#include "belief/one/grid.hpp"
+#include "capi/fixed_pool.hpp"
+#include "contact/log_rows.hpp"
+#include "rollfix/belief/belief.hpp"
+#include "rollfix/part/part.hpp"
+
+namespace rollfix::capi {
+
+/// A log of increments on a course, as Belief takes it: the same nodes on the same grid with the same modes, in memory
+/// that is taken once.
+class Locator {
+ public:
+  /// `points`: of the grid, at most; 0: as many as recommended. Throws InputError: noise that is not valid, or fewer
+  /// points than the grid begins with.
+  Locator(const Part& part, const Noise& noise, std::size_t points);
+  Locator(const Locator&) = delete;
+  Locator& operator=(const Locator&) = delete;
+
+  /// Why such a row can't be taken; nullptr: it can.
+  const char* refusal(double seconds, double distance, double turn) const;
+  /// Throws std::bad_alloc: from then on all is used up.
+  void push(double seconds, double distance, double turn);
+  /// REQUIRES a row. Throws std::bad_alloc likewise.
+  void locate();
+  void restart();
+
+  bool is_used_up() const { return is_used_up_; }
+  std::size_t bytes() const { return pool_.bytes(); }
+  std::size_t used() const { return pool_.used(); }
+  std::size_t rows() const { return belief_->nodes.rows(); }
+  const Part& part() const { return part_; }
+  // Of the last locate().
+  const Fit& fit() const { return belief_->grid.fit(); }
+  const Verdict& verdict() const { return verdict_; }
+  const std::pmr::vector<Mode>& modes() const { return belief_->modes; }
+  double rest() const;
+
+ private:
+  /// What is made anew for every log.
+  struct LogBelief {
+    explicit LogBelief(Locator& locator);
+
+    Odometer odometer{LogKind::increments, false};  // adds up as a reader does
+    belief::Nodes nodes;
+    belief::Grid grid;
+    std::pmr::vector<Mode> modes;
+    std::optional<double> first_time;
+    belief::Row last;
+  };
+
+  bool has_times() const { return options_.noise.drift > 0 || options_.noise.walk > 0; }
+  /// What a grid of so many points takes at most.
+  std::size_t bytes_for(std::size_t points) const;
+  template <class Work>
+  void use_memory(const Work& work);
+
+  Part part_;
+  BeliefOptions options_;
+  belief::ErrorModel errors_;
+  belief::TiltedBoundary boundary_;
+  std::size_t points_;
+  FixedPool pool_;
+  std::optional<LogBelief> belief_;
+  Verdict verdict_{Verdict::unobservable};
+  bool is_used_up_ = false;
+};
+
+}  // namespace rollfix::capi
