@@ -39,7 +39,7 @@ TEST_F(AdviseCatalog, leaves_one_part_whichever_it_is) {
   EXPECT_LT(next.advice->advised().travel, 1.5 * std::abs(next.advice->advised().length));
   for (const NextRollOfParts::Place& place : next.places) {
     const Part part = catalog_.part(found.parts[place.part].weight.part);
-    const double start = place.contender.place - 0.5;
+    const double start = place.contender.place[0] - 0.5;
     std::vector<double> lengths = {0.5};
     for (int k = 1; k <= 10; ++k) lengths.push_back(0.5 + 0.1 * k * next.advice->advised().length);
     const Identified then = identify(catalog_, {part, roll_on(part, start, lengths)});
@@ -53,7 +53,7 @@ TEST_F(AdviseCatalog, says_what_turn_each_part_would_show) {
   const NextRollOfParts next = next_roll(found);
   for (const NextRollOfParts::Place& place : next.places) {
     const TurningFunction& turning = found.parts[place.part].answer.part.turning();
-    const double from = place.contender.place;
+    const double from = place.contender.place[0];
     const double to = from + next.advice->advised().length;
     EXPECT_EQ(place.turn_ahead, turning.angle(to) - turning.angle(from));
   }

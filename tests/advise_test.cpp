@@ -43,7 +43,7 @@ TEST(Advise, the_roll_is_just_long_enough_for_the_first_difference) {
   const Advice advice = advise(part, contenders);
   ASSERT_TRUE(advice.helps);
   const auto turn = [&](const Contender& c) {
-    return part.turning().angle(c.place + advice.advised().length) - part.turning().angle(c.place);
+    return part.turning().angle(c.place[0] + advice.advised().length) - part.turning().angle(c.place[0]);
   };
   EXPECT_GT(std::abs(turn(contenders[0]) - turn(contenders[1])), 1e-5);
   EXPECT_NEAR(advice.advised().bits, 1, 0.03);

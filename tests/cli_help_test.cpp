@@ -18,9 +18,9 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-const std::vector<std::string> kCommands = {"inspect",  "locate",   "advise",    "catalog build", "catalog list",
-                                            "identify", "simulate", "teach",     "watch",         "demo",
-                                            "paper",    "man",      "completion"};
+const std::vector<std::string> kCommands = {"inspect",  "locate",   "advise", "catalog build", "catalog list",
+                                            "identify", "simulate", "plan",   "teach",         "watch",
+                                            "demo",     "paper",    "man",    "completion"};
 
 /// COLUMNS as long as it lives.
 class Columns {

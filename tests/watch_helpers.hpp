@@ -77,7 +77,7 @@ class Ear {
  public:
   explicit Ear(const std::string& name, const rollfix::app::SourceOptions& options = {})
       : source_(rollfix::app::open_source(io_, name, options, hear())) {}
-  explicit Ear(int descriptor) : source_(rollfix::app::read_descriptor(*io_, descriptor, hear())) {}
+  explicit Ear(int descriptor) : source_(rollfix::app::read_descriptor(*io_, descriptor, {}, hear())) {}
 
   /// The next line, or what happened in brackets. Notes alone are passed over, but kept.
   std::string next() { return within(kLongEnough); }

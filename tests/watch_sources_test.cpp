@@ -42,7 +42,7 @@ using watching::Pipe;
 using watching::SerialLine;
 using watching::Server;
 
-constexpr SourceOptions kOnce{true, 115200};
+const SourceOptions kOnce{true, 115200};
 
 void append(const std::string& path, const std::string& text) { std::ofstream(path, std::ios::app) << text; }
 void rewrite(const std::string& path, const std::string& text) { std::ofstream(path, std::ios::trunc) << text; }

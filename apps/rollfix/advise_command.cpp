@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <utility>
 
 #include "files/documents/documents.hpp"
 #include "rollfix/advise/advise_touches.hpp"
@@ -32,6 +33,8 @@ constexpr const char* kAdviseExamples = R"(Examples (wing.csv and wing-roll.csv:
   rollfix advise gallery:cam --reading 0.4,20.1deg
   rollfix advise gallery:limacon --reading 0.9,30.15deg --finger disk,r=0.1 --travel -1,1.5 -o next.svg
   rollfix advise wing.csv --log wing-roll.csv --finger disk,r=10 --noise contact=0.05,angle=0.2deg --json
+Two fingers on a part that is free to move: which rolls on, and how far:
+  rollfix advise gallery:spline,n=9,seed=7,wobble=0.2 --reading 0.58,0.94,-0.725248 --reading 1.01,1.92,-1.99849
 Touches without rolling: where to touch next, of all ways or of two:
   rollfix advise gallery:cam --touch 6.486,3.822 --touch 4.355,4.133 --touch 3.824,3.238 --finger disk,r=0.2 --noise position=0.005
   rollfix advise gallery:cam --touch 6.486,3.822 --touch 4.355,4.133 --touch 3.824,3.238 --finger disk,r=0.2 --noise position=0.005 --approach 3,1,1,1 --approach 9,3,-1,0
@@ -48,6 +51,7 @@ struct AdviseArguments {
   std::vector<std::string> approaches;
   std::string catalog;
   std::string travel;
+  std::string friction;
   bool json = false;
   OutputArgument output;
 };
@@ -70,6 +74,18 @@ Interval read_travel(const std::string& text, const std::string& unit) {
   return travel;
 }
 
+/// "roll on forwards by 1.2 mm"; "roll on finger a forwards by 1.2 mm, finger b stays".
+std::string roll_text(const PerFinger<double>& lengths, const Part& part) {
+  const auto by = [&](double length) {
+    return fmt::format("{} by {}{}", length < 0 ? "backwards" : "forwards",
+                       fixed(std::abs(length), decimals_for(part.perimeter())), behind(part.unit()));
+  };
+  if (lengths.size() == 1) return "roll on " + by(lengths[0]);
+  if (lengths[0] == 0) return fmt::format("roll finger b on {}, finger a stays", by(lengths[1]));
+  if (lengths[1] == 0) return fmt::format("roll finger a on {}, finger b stays", by(lengths[0]));
+  return fmt::format("roll finger a on {}, finger b {}", by(lengths[0]), by(lengths[1]));
+}
+
 std::string headline(const std::string& verdict, const std::optional<Advice>& advice, const std::string& why,
                      const Part& part) {
   if (!advice) return fmt::format("{}: {}", verdict, why);
@@ -77,18 +93,16 @@ std::string headline(const std::string& verdict, const std::optional<Advice>& ad
   const Prospect& advised = advice->advised();
   const int decimals = decimals_for(part.perimeter());
   return fmt::format(
-      "{}: roll on {} by {}{}: {:.2f} placements are expected to remain, {:.2f} of {:.2f} bits gained; travel to "
-      "expect "
-      "until they are told apart: {}{}",
-      verdict, advised.length < 0 ? "backwards" : "forwards", fixed(std::abs(advised.length), decimals),
-      behind(part.unit()), advised.placements, advised.bits, advice->bits_wanted, fixed(advised.travel, decimals),
-      behind(part.unit()));
+      "{}: {}: {:.2f} placements are expected to remain, {:.2f} of {:.2f} bits gained; travel to expect until they are "
+      "told apart: {}{}",
+      verdict, roll_text(advice->lengths(), part), advised.placements, advised.bits, advice->bits_wanted,
+      fixed(advised.travel, decimals), behind(part.unit()));
 }
 
 /// What the contenders of one placement have in common.
 struct Expected {
-  double first = 0;  // contact
-  double last = 0;
+  PerFinger<double> first;  // contacts
+  PerFinger<double> last;
   double probability = 0;
   Interval turn{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
 
@@ -110,14 +124,23 @@ struct Row {
 
 std::string table_of(const std::string& first, const std::vector<Row>& rows, const Part& part) {
   const int decimals = decimals_for(part.perimeter());
+  const std::size_t fingers = rows.front().expected.first.size();
   Table table;
   table.add_column(first, Table::Align::left);
-  table.add_column(title_in("contact now", part.unit()));
+  for (std::size_t k = 0; k < fingers; ++k) {
+    const char* const title = fingers == 1 ? "contact now" : k == 0 ? "finger a now" : "finger b now";
+    table.add_column(title_in(title, part.unit()));
+  }
   for (const char* title : {"probability", "turn to expect [deg]"}) table.add_column(title);
   for (std::size_t k = 0; k < std::min(rows.size(), kMostContenders); ++k) {
     const Expected& row = rows[k].expected;
-    table.add_row({rows[k].name, span_of(fixed(row.first, decimals), fixed(row.last, decimals)),
-                   fmt::format("{:.4f}", row.probability), span_of(degrees(row.turn.lo), degrees(row.turn.hi))});
+    std::vector<std::string> cells{rows[k].name};
+    for (std::size_t finger = 0; finger < fingers; ++finger) {
+      cells.push_back(span_of(fixed(row.first[finger], decimals), fixed(row.last[finger], decimals)));
+    }
+    cells.push_back(fmt::format("{:.4f}", row.probability));
+    cells.push_back(span_of(degrees(row.turn.lo), degrees(row.turn.hi)));
+    table.add_row(std::move(cells));
   }
   std::string text = "\n" + table.str();
   if (rows.size() > kMostContenders)
@@ -131,7 +154,7 @@ std::string advise_text(const NextRoll& outcome) {
   if (!outcome.helps()) return text;
   std::vector<Row> rows;
   for (const Contender& contender : outcome.contenders) {
-    const std::string name = fmt::format("a{}", contender.label);
+    const std::string name = fmt::format("{}{}", contender.place.size() == 1 ? "a" : "", contender.label);
     if (rows.empty() || rows.back().name != name) rows.push_back({name, {}});
     rows.back().expected.add(contender, outcome.turn_ahead(contender));
   }
@@ -164,6 +187,9 @@ void add_advice_figure(const AdviseArguments& arguments, const std::optional<Adv
 }
 
 Report advise_on_catalog(const AdviseArguments& arguments) {
+  if (!arguments.friction.empty()) {
+    throw InputError("--friction: rolls are planned on a known part: give PART, or leave it out");
+  }
   require_no_prior(arguments.roll.prior);
   const Catalog catalog(arguments.catalog);
   const Part any_part = any_part_of(catalog);
@@ -186,6 +212,9 @@ Report advise_report(const AdviseArguments& arguments) {
   if (arguments.catalog.empty() && are_touches(arguments.touches, roll)) {
     if (!arguments.travel.empty())
       throw InputError("--travel: touches do not roll and have no use for it; leave it out");
+    if (!arguments.friction.empty()) {
+      throw InputError("--friction: touches do not roll and have no use for it; leave it out");
+    }
     return advise_touches(arguments.touches, roll, arguments.approaches, arguments.output, arguments.json);
   }
   if (!arguments.touches.empty() || !arguments.approaches.empty() || !roll.clear.empty()) {
@@ -202,10 +231,12 @@ Report advise_report(const AdviseArguments& arguments) {
   const Problem problem = read_problem(roll, report.notes);
   std::optional<Interval> travel;
   if (!arguments.travel.empty()) travel = read_travel(arguments.travel, problem.part.unit());
-  if (problem.felt.is_log() ? problem.felt.log->fingers.size() == 2 : problem.felt.readings.front().fingers() == 2) {
-    throw InputError("advise: expected what one finger read, found two fingers");
+  std::optional<PerFinger<double>> friction;
+  if (!arguments.friction.empty()) {
+    const std::vector<double> each = read_friction(arguments.friction, 2);
+    friction = PerFinger<double>(each[0], each[1]);
   }
-  const NextRoll outcome = next_roll(solve(problem), travel);
+  const NextRoll outcome = next_roll(solve(problem), travel, problem.may_overlap, friction);
   add_notes(outcome.answer, report);
   report.exit_code = exit_code_of(outcome.answer);
   report.data = arguments.json ? json_text(next_roll_json(outcome)) : advise_text(outcome);
@@ -233,8 +264,13 @@ void add_advise_command(CLI::App& program, Command& chosen) {
   command
       ->add_option(
           "--travel", arguments->travel,
-          "how far the finger can roll on: a length, or one backwards, below 0, and one forwards; default one lap")
+          "how far each finger can roll on: a length, or one backwards, below 0, and one forwards; default one lap")
       ->type_name("BACK,FORWARD");
+  command
+      ->add_option("--friction", arguments->friction,
+                   "of two disks or jaws on the part, one coefficient or two: a roll is advised only if it can be "
+                   "planned with it")
+      ->type_name("MU[,MU]");
   add_output_argument(
       *command, arguments->output,
       "a figure of what is expected against the roll's length: .svg, .png or .pdf, - for SVG on stdout");

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Optional, Sequence,
 import numpy as np
 
 from . import _core
-from ._checks import least, path, places, text, travel as travel_given, whole
+from ._checks import flag, friction as friction_given, least, path, places, text, travel as travel_given, whole
 from ._core import Answer as CoreAnswer, InputError, Placement as Placement
 from ._fingers import Finger, finger_from
 from ._made import Made
@@ -268,17 +268,21 @@ class Answer(Made, SequenceABC):  # type: ignore[type-arg]
             return self._core.density_pieces(which)
         return self._core.density(which, places(s))
 
-    def advise(self, travel: Any = None) -> "Advice":
-        """The next roll: which one tells the remaining placements apart. Of one finger.
+    def advise(self, travel: Any = None, *, may_overlap: bool = False, friction: Any = None) -> "Advice":
+        """The next roll: which one tells the remaining placements apart; of two fingers, how far each rolls.
 
         Parameters
         ----------
         travel : float or (float, float), optional
-            How far the finger can roll on: a length, or (back, forward). Default: one lap.
+            How far each finger can roll on: a length, or (back, forward). Default: one lap.
+        may_overlap : bool
+            Of two disks at different heights, which pass one another.
+        friction : float or (float, float), optional
+            Of two disks or jaws on the part: only rolls are advised that can be planned with it.
         """
         from ._documents import Advice
 
-        return Advice(self._core, travel_given(travel))
+        return Advice(self._core, travel_given(travel), flag(may_overlap, "may_overlap"), friction_given(friction))
 
     # --- as a table, as a figure ---
 

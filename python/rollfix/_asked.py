@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _core
 from ._answer import Answer
-from ._checks import clockwise, travel as travel_given
+from ._checks import clockwise, flag, friction as friction_given, travel as travel_given
 from ._columns import Columns, Naming, Units
 from ._core import InputError
 from ._documents import Advice
@@ -346,6 +346,7 @@ class Asked(Shape):
         turn: Any = None,
         *,
         travel: Any = None,
+        friction: Any = None,
         log: Any = None,
         finger: Optional[FingerLike] = None,
         noise: NoiseLike = None,
@@ -367,14 +368,16 @@ class Asked(Shape):
         rounding: Optional[Tuple[float, float]] = None,
         budget: Optional[int] = None,
     ) -> Advice:
-        """The next roll: which one tells the remaining placements apart. Of one finger.
+        """The next roll: which one tells the remaining placements apart; of two fingers, how far each rolls.
 
         Parameters
         ----------
         readings, turn, log, ...
             The roll so far, as of `locate`.
         travel : float or (float, float), optional
-            How far the finger can roll on: a length, or (back, forward) with back <= 0. Default: one lap.
+            How far each finger can roll on: a length, or (back, forward) with back <= 0. Default: one lap.
+        friction : float or (float, float), optional
+            Of two disks or jaws on the part: only rolls are advised that can be planned with it.
 
         Returns
         -------
@@ -405,7 +408,7 @@ class Asked(Shape):
             rounding=rounding,
             budget=budget,
         )
-        return Advice(answer._core, range_given)
+        return Advice(answer._core, range_given, flag(may_overlap, "may_overlap"), friction_given(friction))
 
     def locate_many(
         self,

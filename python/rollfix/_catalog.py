@@ -12,7 +12,7 @@ from ._catalog_sources import sources_from
 from ._checks import path as path_given, travel as travel_given, unit_of_length, whole
 from ._columns import Columns, Units
 from ._core import InputError
-from ._documents import Document
+from ._documents import Document, rolled
 from ._fingers import FingerLike
 from ._identified import Identified, answers_of
 from ._log_answers import Results, checked, errors_given, several
@@ -296,14 +296,14 @@ class Catalog(Made):
     def advise(
         self, readings: Any = None, turn: Any = None, *, log: Any = None, travel: Any = None, **options: Any
     ) -> "PartsAdvice":
-        """The next roll: which one tells apart the parts that remain, and the places on them. Of one finger.
+        """The next roll: which one tells apart the parts that remain, and the places on them.
 
         Parameters
         ----------
         readings, turn, log, **options
             The roll so far, as of `identify`.
         travel : float or (float, float), optional
-            How far the finger can roll on, as of `Part.advise`.
+            How far each finger can roll on, as of `Part.advise`.
         """
         range_given = travel_given(travel)
         problem, read = self._asked(readings, turn, log, options)
@@ -418,4 +418,4 @@ class PartsAdvice(Document):
     def __repr__(self) -> str:
         if not self.helps:
             return f"<PartsAdvice: {self.verdict}; {self.why}>"
-        return f"<PartsAdvice: {self.verdict}; roll on by {self.length:.6g}>"
+        return f"<PartsAdvice: {self.verdict}; roll on by {rolled(self.length)}>"

@@ -310,3 +310,14 @@ def travel(given: Any) -> Optional[Tuple[float, float]]:
     if not (back <= 0 <= forward and back < forward):
         raise InputError(f"travel: expected back <= 0 <= forward, found ({back!r}, {forward!r})")
     return (back, forward)
+
+
+def friction(given: Any) -> Optional[Tuple[float, float]]:
+    """One coefficient of both fingers, or one of each."""
+    if given is None:
+        return None
+    if np.ndim(given) == 0:
+        one = least(given, "friction", 0, "a coefficient")
+        return one, one
+    a, b = numbers(given, 2, "friction", "(finger a's, finger b's)")
+    return least(a, "friction", 0, "a coefficient"), least(b, "friction", 0, "a coefficient")

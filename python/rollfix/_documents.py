@@ -82,19 +82,25 @@ class Inspection(Document):
 class Advice(Document):
     """Which roll tells the remaining placements apart: the fields of `rollfix/advise/1`, see docs/json.md.
 
-    `length` is the advised roll from where the contact is now, positive along the stored outline, or None; `helps`, and
-    where no roll does `why`; `expected_placements`, `expected_travel`, `bits`, `bits_wanted`, `contenders`,
+    `length` is the advised roll from where the contact is now, positive along the stored outline, or None; of two fingers
+    a list, how far each of them rolls. `helps`, and where no roll does `why`; `expected_placements`, `expected_travel`, `bits`, `bits_wanted`, `contenders`,
     `prospects`.
     """
 
-    __slots__ = ("_answer", "_travel")
+    __slots__ = ("_answer", "_how")
 
-    def __init__(self, answer: "_core.Answer", travel: Optional[Tuple[float, float]]) -> None:
+    def __init__(
+        self,
+        answer: "_core.Answer",
+        travel: Optional[Tuple[float, float]],
+        may_overlap: bool = False,
+        friction: Optional[Tuple[float, float]] = None,
+    ) -> None:
         from . import _core
 
-        super().__init__(_core.next_roll(answer, travel).document())
+        self._how = (travel, may_overlap, friction)
+        super().__init__(_core.next_roll(answer, *self._how).document())
         self._answer = answer
-        self._travel = travel
 
     def to_svg(self) -> str:
         """A figure of what is to be expected by length. Throws InputError where there is nothing to tell apart."""
@@ -110,7 +116,7 @@ class Advice(Document):
     def _figure(self) -> Any:
         from . import _core, _draw
 
-        return _draw.next_roll_figure(_core.next_roll(self._answer, self._travel))
+        return _draw.next_roll_figure(_core.next_roll(self._answer, *self._how))
 
     def _repr_svg_(self) -> Optional[str]:
         return in_a_page(self.to_svg()) if self.prospects else None
@@ -118,13 +124,19 @@ class Advice(Document):
     def __repr__(self) -> str:
         if not self.helps:
             return f"<Advice: {self.verdict}; {self.why}>"
-        return f"<Advice: {self.verdict}; roll on by {self.length:.6g}, {self.expected_placements:.2f} placements remain>"
+        by = rolled(self.length)
+        return f"<Advice: {self.verdict}; roll on by {by}, {self.expected_placements:.2f} placements remain>"
 
     def __reduce__(self) -> Any:
         from ._answer import Answer
 
-        return (_advice, (Answer(self._answer), self._travel))
+        return (_advice, (Answer(self._answer), *self._how))
 
 
-def _advice(answer: Any, travel: Optional[Tuple[float, float]]) -> Advice:
-    return Advice(answer._core, travel)
+def rolled(length: Any) -> str:
+    """How far the finger rolls on, or each of two."""
+    return " and ".join(f"{one:.6g}" for one in length) if isinstance(length, list) else f"{length:.6g}"
+
+
+def _advice(answer: Any, *how: Any) -> Advice:
+    return Advice(answer._core, *how)

@@ -6,7 +6,7 @@ from typing import Any, Mapping, Optional, Sequence, Tuple, Union
 
 from ._asked import Asked
 from ._columns import Columns, Units
-from ._fingers import Finger, FingerLike
+from ._fingers import FingerLike
 from ._logs import Roll
 from ._noise import Noise, NoiseLike
 from ._plans import Plan, planned
@@ -24,7 +24,7 @@ class RolledOn(Asked):
         self,
         *,
         noise: Union[Noise, Mapping[str, float]],
-        finger: Optional[Finger] = None,
+        finger: Optional[FingerLike] = None,
         prior: Optional[Tuple[float, float]] = None,
         heading: Optional[Tuple[float, float]] = None,
         pose: Optional[Sequence[float]] = None,
@@ -37,7 +37,8 @@ class RolledOn(Asked):
         direction: str = "ccw",
         mirrored: bool = False,
         live: bool = False,
-        name: str = "log",
+        may_overlap: bool = False,
+        name: Union[str, Tuple[str, str]] = "log",
     ) -> Watch:
         """A `Watch` on this part."""
         return Watch(
@@ -56,6 +57,7 @@ class RolledOn(Asked):
             direction=direction,
             mirrored=mirrored,
             live=live,
+            may_overlap=may_overlap,
             name=name,
         )
 

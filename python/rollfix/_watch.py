@@ -15,7 +15,7 @@ from ._checks import clockwise, flag, place_prior, pose_prior, text, whole
 from ._clock import Clock
 from ._columns import Columns, Naming, Units
 from ._core import InputError
-from ._fingers import Finger, fingers
+from ._fingers import FingerLike, fingers
 from ._made import Made
 from ._messages import shown, warn
 from ._noise import NoiseLike, weighing
@@ -30,19 +30,22 @@ Event = Dict[str, Any]
 
 
 class Watch(Made):
-    """Where the finger is, live, from a log that grows: the events of `rollfix watch`, in constant memory. One finger.
+    """Where the finger is, live, from a log that grows: the events of `rollfix watch`, in constant memory.
+
+    Of two fingers on a part that is free to move, rows have the columns of both, `u_a`, `psi_a`, `u_b`, `psi_b` and so on;
+    or each finger has a log of its own: `name` has two names then, and `add` is told which log rows are of.
 
     Any number of threads can feed it: what is given to one call of `add` is taken as a whole, before the next call's.
 
     Parameters
     ----------
     part : Part
-    finger : Disk, Jaw or OutlineFinger, optional
-        For logs of u and psi.
+    finger : Disk, Jaw or OutlineFinger, or a list of two, optional
+        For logs of u and psi. One serves both of two.
     noise : Noise or dict
         How far the sensors are off.
     prior : (s, sd), optional
-        About where the finger starts.
+        About where the finger starts, of two finger a.
     heading, pose
         About how the part lies, as of `Part.locate`.
     robust : bool
@@ -53,8 +56,10 @@ class Watch(Made):
         As of `Part.locate`.
     live : bool
         Rows come as they are felt: what is new is not kept back for longer than a tenth of a second.
-    name : str
-        What messages call the log.
+    may_overlap : bool
+        Of two fingers at different heights, as of `Part.locate`.
+    name : str or (str, str)
+        What messages call the log, or the logs of both fingers.
     catalog : Catalog, optional
         Which of its parts is it? `part` is any of them then: `Catalog.watch` makes such a watch.
     """
@@ -63,7 +68,7 @@ class Watch(Made):
         self,
         part: "Shape",
         *,
-        finger: Optional[Finger] = None,
+        finger: Optional[FingerLike] = None,
         noise: NoiseLike,
         prior: Optional[Tuple[float, float]] = None,
         heading: Optional[Tuple[float, float]] = None,
@@ -77,33 +82,31 @@ class Watch(Made):
         direction: str = "ccw",
         mirrored: bool = False,
         live: bool = False,
-        name: str = "log",
+        may_overlap: bool = False,
+        name: Union[str, Tuple[str, str]] = "log",
         catalog: Optional["Catalog"] = None,
     ) -> None:
         sds = weighing(noise)
         if sds is None:
             raise InputError("noise: expected how far the sensors are off, as in Noise(contact=0.1, angle=0.01)")
-        if not text(name, "name"):
-            raise InputError("name: expected what messages call the log, found ''")
+        names = _names_of(name)
         self._alone = threading.RLock()  # whoever has it feeds; a warning's handler may feed as well
         self._naming = Naming(columns, units, degrees, wrapped)
         self._clock = Clock()
-        self._names: Optional[List[str]] = None  # of the columns, once a table came
-        self._numbering = Numbering({name: []})
-        self._name = name
-        self._pushed = 0  # lines
+        self._logs = [_Log(one) for one in names]
+        self._numbering = Numbering({one: [] for one in names})
         self._is_text = False
         self._is_over = False
         self._last: Optional[Event] = None
         self._core = _core.Watch(
             part._core,
-            fingers(finger, 1),
+            fingers(finger),
             sds,
             None if prior is None else place_prior(prior),
             pose_prior(heading, pose),
             flag(robust, "robust"),
             whole(every, "every"),
-            name,
+            names,
             [(column, safe(called), unit) for column, called, unit in self._naming.declared()],
             self._naming.angles,
             self._naming.wrapped,
@@ -111,10 +114,11 @@ class Watch(Made):
             flag(mirrored, "mirrored"),
             flag(live, "live"),
             None if catalog is None else catalog._core,
+            flag(may_overlap, "may_overlap"),
         )
 
-    def add(self, rows: Any) -> List[Event]:
-        """The next rows.
+    def add(self, rows: Any, log: int = 0) -> List[Event]:
+        """The next rows. A row of one of two logs waits for its partner, the row with the same time of the other log.
 
         Parameters
         ----------
@@ -122,6 +126,8 @@ class Watch(Made):
             Text: whole lines of CSV, the header first. A mapping of numbers or of arrays, a list of them, or a data frame:
             columns by name, the same each time, in any order. An array, (k,) or (n, k): with `columns` the names of its
             columns. Times may be dates: then seconds count from the first one of the watch's life.
+        log : int
+            Of two logs, which one: 0 of finger a, 1 of finger b.
 
         Returns
         -------
@@ -132,8 +138,9 @@ class Watch(Made):
         with self._alone:
             if self._is_over:
                 raise InputError("rows: the watch is over; make another one")
+            of = self._log(log)
             for some in rows if _is_list_of_rows(rows) else [rows]:
-                self._take(some)
+                self._take(some, of)
             return self._events()
 
     def follow(self, source: Iterable[Any]) -> Iterator[Event]:
@@ -167,11 +174,15 @@ class Watch(Made):
             self._core.finish()
             return self._events()
 
-    def resume(self) -> List[Event]:
+    def resume(self, log: int = 0) -> List[Event]:
         """After a dropped connection: the next row continues the roll, however far it is, and a header may come again."""
         with self._alone:
-            self._core.resume()
-            self._names = None
+            of = self._log(log)
+            try:
+                self._core.resume(log)
+            except InputError as error:
+                raise InputError(self._said(str(error))) from None
+            of.columns = None
             return self._events()
 
     @property
@@ -189,38 +200,34 @@ class Watch(Made):
         """list of dict: of the last answer, the most probable first; `end_mean` is where the finger is now."""
         return [] if self._last is None else list(self._last["placements"])
 
-    def _take(self, rows: Any) -> None:
+    def _log(self, log: Any) -> "_Log":
+        which = whole(log, "log")
+        if which >= len(self._logs):
+            known = "0: there is one log" if len(self._logs) == 1 else "0 or 1"
+            raise InputError(f"log: expected {known}, found {which}")
+        return self._logs[which]
+
+    def _take(self, rows: Any, of: "_Log") -> None:
         if isinstance(rows, (bytes, bytearray)):
             rows = rows.decode("utf-8", "replace")
         if isinstance(rows, str):
             self._naming.require_table("a text")
             self._is_text = True
-            self._push(rows)
+            self._push(rows, of)
             return
         table = Table(_columns_of(rows), self._naming, "rows")
-        columns = self._in_order(table, table.numbers(self._clock))
+        columns = _in_order(of.columns, table, table.numbers(self._clock))
         header, _, lines = text_of(columns).partition("\n")
-        if self._names is None:
-            self._numbering.headers[self._name].append(self._pushed + 1)
-            self._push(header)
-            self._names = list(columns)
-        self._push(lines)
+        if of.columns is None:
+            self._numbering.headers[of.name].append(of.pushed + 1)
+            self._push(header, of)
+            of.columns = list(columns)
+        self._push(lines, of)
 
-    def _in_order(self, table: Table, columns: Dict[str, np.ndarray]) -> Dict[str, np.ndarray]:
-        """As the columns came the first time; of those that nobody reads one may be missing or new."""
-        if self._names is None:
-            return columns
-        if {one for one in columns if table.is_wanted(one)} != {one for one in self._names if table.is_wanted(one)}:
-            raise InputError(
-                f"rows: expected the columns {', '.join(self._names)} as before, found {', '.join(columns) or 'none'}"
-            )
-        nothing = np.full(len(next(iter(columns.values()))), np.nan)
-        return {name: columns.get(name, nothing) for name in self._names}
-
-    def _push(self, lines: str) -> None:
-        self._pushed += len(lines.splitlines())
+    def _push(self, lines: str, of: "_Log") -> None:
+        of.pushed += len(lines.splitlines())
         try:
-            self._core.push(lines)
+            self._core.push(lines, self._logs.index(of))
         except InputError as error:
             raise InputError(self._said(str(error)).replace("state it with unit=", "make the part with unit=")) from None
 
@@ -252,6 +259,37 @@ class Watch(Made):
 
     def __repr__(self) -> str:
         return f"<Watch: {self.verdict or 'no contact yet'}>"
+
+
+class _Log:
+    """One of the logs that rows are taken of."""
+
+    __slots__ = ("columns", "name", "pushed")
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+        self.pushed = 0  # lines
+        self.columns: Optional[List[str]] = None  # their names, once a table came
+
+
+def _names_of(name: Any) -> List[str]:
+    several = list(name) if isinstance(name, (list, tuple)) else [name]
+    for one in several:
+        if not text(one, "name"):
+            raise InputError("name: expected what messages call the log, found ''")
+    if len(several) > 2 or not several or len(set(several)) < len(several):
+        raise InputError(f"name: expected one, or two different ones of both fingers' logs, found {shown(name)}")
+    return several
+
+
+def _in_order(names: Optional[List[str]], table: Table, columns: Dict[str, np.ndarray]) -> Dict[str, np.ndarray]:
+    """As the columns came the first time; of those that nobody reads one may be missing or new."""
+    if names is None:
+        return columns
+    if {one for one in columns if table.is_wanted(one)} != {one for one in names if table.is_wanted(one)}:
+        raise InputError(f"rows: expected the columns {', '.join(names)} as before, found {', '.join(columns) or 'none'}")
+    nothing = np.full(len(next(iter(columns.values()))), np.nan)
+    return {name: columns.get(name, nothing) for name in names}
 
 
 def _is_list_of_rows(rows: Any) -> bool:

@@ -137,13 +137,7 @@ struct PairNode {
   std::optional<PairCentres> centres{};  // where they are looked at: means
 };
 
-/// A roll's rows as at most kMostNodes nodes. `facing`: the first contacts', then the first node. `robust`: as above.
-/// `centres`: of the first contacts, then of every row; empty where they are not looked at.
-std::vector<PairNode> pair_nodes(const std::vector<Reading>& rows, const std::vector<PairCentres>& centres,
-                                 const std::optional<double>& facing, bool absolute, bool robust,
-                                 const PairErrors& errors);
-
-/// See above.
+/// As of one finger's nodes.
 std::vector<PairNode> some_of(const std::vector<PairNode>& nodes, std::size_t most);
 
 }  // namespace rollfix::belief

@@ -20,7 +20,7 @@ using namespace belief;
 
 // Grids are refined to so many points, besides twice those that they begin with, where they are not told otherwise: a
 // few hundred are usual.
-constexpr std::size_t kUsualPoints = 800;
+constexpr std::size_t kUsualPoints = 1500;
 
 Noise checked(const Part& part, const Noise& noise) {
   require_weighable(noise);

@@ -98,8 +98,8 @@ std::string format_next_roll(const Catalog& catalog, const Identified& found, co
   for (const NextRollOfParts::Place& place : next.places) {
     contenders.push_back({{"part", catalog.entry(found.parts[place.part].weight.part).name},
                           {"placement", place.contender.label},
-                          {"contact", json_number(place.contender.place)},
-                          {"sd", json_number(place.contender.sd)},
+                          {"contact", per_finger_json(place.contender.place)},
+                          {"sd", per_finger_json(place.contender.sd)},
                           {"probability", json_number(place.contender.probability)},
                           {"turn", next.helps() ? json_number(place.turn_ahead) : Json(nullptr)}});
   }

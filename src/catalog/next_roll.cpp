@@ -47,7 +47,6 @@ NextRollOfParts next_roll(const Identified& found, const std::optional<Interval>
     return next;
   }
   for (const PartFound& one : found.parts) {
-    if (one.answer.finger_count() != 1) throw InputError("advise: expected what one finger read, found two fingers");
     for (const Placement& placement : one.answer.placements) {
       if (placement.clockwise) throw InputError("advise: expected one direction of the roll, found either");
     }
@@ -57,22 +56,21 @@ NextRollOfParts next_roll(const Identified& found, const std::optional<Interval>
     next.why = "there is only one part and one place left";
     return next;
   }
-  std::vector<std::optional<Reach>> reaches;
-  for (const PartFound& one : found.parts) reaches.push_back(reach_for_advice(one.answer));
+  std::vector<ReachForAdvice> reaches;
+  for (const PartFound& one : found.parts) reaches.emplace_back(one.answer);
   std::vector<PartContender> contenders;
   for (const NextRollOfParts::Place& place : next.places) {
-    const std::optional<Reach>& reach = reaches[place.part];
-    contenders.push_back({&found.parts[place.part].answer.part, reach ? &*reach : nullptr, place.contender});
+    contenders.push_back({&found.parts[place.part].answer.part, reaches[place.part].pointers(), place.contender});
   }
-  next.advice = advise(contenders, advice_options(found.parts.front().answer, travel));
+  AdviceOptions options = advice_options(found.parts.front().answer, travel);
+  options.disks = disks_for_advice(found.parts.front().answer, false);
+  next.advice = advise(contenders, options);
   if (!next.advice->helps) {
     next.why = why_no_roll(found);
     return next;
   }
   for (NextRollOfParts::Place& place : next.places) {
-    const TurningFunction& turning = found.parts[place.part].answer.part.turning();
-    const double from = place.contender.place;
-    place.turn_ahead = turning.angle(from + next.advice->advised().length) - turning.angle(from);
+    place.turn_ahead = turn_ahead(found.parts[place.part].answer.part, place.contender, next.advice->lengths());
   }
   return next;
 }

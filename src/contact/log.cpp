@@ -257,22 +257,6 @@ std::vector<Log> rolls_of_file(const std::string& path, Splitting splitting, con
   return rolls_in(lines, splitting, options);
 }
 
-/// What the options say of one of two files.
-LogOptions options_for(const LogOptions& options, std::size_t finger) {
-  LogOptions result = options;
-  result.columns.clear();
-  for (ColumnSource source : options.columns) {
-    const std::string end = source.column.size() > 2 ? source.column.substr(source.column.size() - 2) : "";
-    if (end == kFingerSuffixes[1 - finger]) continue;
-    if (end == kFingerSuffixes[finger]) source.column.resize(source.column.size() - 2);
-    result.columns.push_back(source);
-  }
-  return result;
-}
-
-// Two clocks' readings of one instant may differ by this share of the roll's duration: rounding, not a delay.
-constexpr double kSameInstant = 1e-9;
-
 std::string columns_in(const Log& log) {
   switch (log.kind) {
     case LogKind::contact:
@@ -385,6 +369,18 @@ PinLog read_pin_log(const std::string& path, const LogOptions& options) {
   return {std::move(rolls_in(lines, Splitting::refused, options, true).front())};
 }
 
+LogOptions options_for_finger(const LogOptions& options, std::size_t finger) {
+  LogOptions result = options;
+  result.columns.clear();
+  for (ColumnSource source : options.columns) {
+    const std::string end = source.column.size() > 2 ? source.column.substr(source.column.size() - 2) : "";
+    if (end == kFingerSuffixes[1 - finger]) continue;
+    if (end == kFingerSuffixes[finger]) source.column.resize(source.column.size() - 2);
+    result.columns.push_back(source);
+  }
+  return result;
+}
+
 Log parse_log(std::string_view text, const std::string& name, const LogOptions& options) {
   return std::move(rolls_of_text(text, name, Splitting::refused, options).front());
 }
@@ -397,8 +393,8 @@ Log read_log(const std::string& path_a, const std::string& path_b, const LogOpti
   if (path_a == "-" && path_b == "-") {
     throw InputError("the logs of both fingers can't come from standard input: give one of them as a file");
   }
-  Log a = read_log(path_a, options_for(options, 0));  // first, so that its errors come first
-  return paired(std::move(a), read_log(path_b, options_for(options, 1)));
+  Log a = read_log(path_a, options_for_finger(options, 0));  // first, so that its errors come first
+  return paired(std::move(a), read_log(path_b, options_for_finger(options, 1)));
 }
 
 std::vector<Log> parse_rolls(std::string_view text, const std::string& name, const LogOptions& options) {

@@ -132,6 +132,12 @@ class RowReader {
   std::size_t time_line_ = 0;  // 0: there was none
 };
 
+/// What the options say of one of two files.
+LogOptions options_for_finger(const LogOptions& options, std::size_t finger);
+
+// Two clocks' readings of one instant may differ by this share of the roll's duration: rounding, not a delay.
+inline constexpr double kSameInstant = 1e-9;
+
 /// How the rows of a log without u and psi are measured from the first contact of their roll. That lies before the
 /// log's first row. A later roll's first row is its own first contact: what was counted while the finger was off the
 /// part does not count.

@@ -19,7 +19,7 @@ constexpr int kSteps = 4000;
 class Opposite {
  public:
   Opposite(const Part& part, double radius, double s)
-      : part_(part), radius_(radius), s_(s), jaw_(part.turning().at(s)), point_(part.point(s)) {}
+      : part_(part), radius_(radius), jaw_(part.turning().at(s)), point_(part.point(s)) {}
 
   double miss(double t) const {
     const double angle = part_.turning().angle(t);
@@ -47,7 +47,6 @@ class Opposite {
  private:
   const Part& part_;
   double radius_;
-  double s_;
   Turning jaw_;
   Vec2 point_;
 };

@@ -1,7 +1,10 @@
 #include "rollfix/draw/advice_figure.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
+#include <string>
 
 #include "legend.hpp"
 #include "plot.hpp"
@@ -43,6 +46,18 @@ void draw_prospects(Svg& svg, const Advice& advice, const ProspectPlot& plot, do
   svg.circle(axes(advised.length, plot.value(advised)), 4, filled(plot.colour));
 }
 
+/// What the length along the plots means.
+std::string about_way(const PerFinger<double>& way) {
+  if (way.size() == 1) return "rolling on from where the contact is now; below 0: backwards";
+  const auto of = [&](std::size_t finger) {
+    const char* const name = finger == 0 ? "a" : "b";
+    if (way[finger] == 0) return fmt::format("{} stays", name);
+    return way[finger] == 1 ? fmt::format("{} rolls on", name)
+                            : fmt::format("{} by {:g} times as far", name, way[finger]);
+  };
+  return fmt::format("from where the contacts are now: finger {}, finger {}; below 0: backwards", of(0), of(1));
+}
+
 }  // namespace
 }  // namespace draw
 
@@ -53,7 +68,7 @@ Svg draw_advice(const AdviceFigure& figure) {
   Svg svg(figure.width, second + kProspectHeight + kProspectEnd);
   svg.describe(figure.title + ": " + figure.outcome);
   svg.rectangle(0, 0, svg.width(), svg.height(), filled(kPaper));
-  draw_header(svg, figure.title, figure.outcome, {{"rolling on from where the contact is now; below 0: backwards"}});
+  draw_header(svg, figure.title, figure.outcome, {{about_way(figure.advice.way)}});
   double most = 1;
   for (const Prospect& prospect : figure.advice.prospects) most = std::max(most, prospect.placements);
   draw_prospects(

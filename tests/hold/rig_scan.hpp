@@ -14,7 +14,7 @@ namespace rig_cases {
 
 class RigScan {
  public:
-  explicit RigScan(const HoldProblem& problem, std::size_t points = 3000)
+  explicit RigScan(const HoldProblem& problem, int points = 3000)
       : problem_(problem), points_(problem.part.polyline(0, problem.part.perimeter(), points)) {}
 
   /// The largest of |distance - r| over all instants, for a first contact.

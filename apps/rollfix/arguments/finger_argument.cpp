@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <string_view>
 
@@ -148,6 +149,21 @@ std::string no_reach_note(const Finger& finger) {
       "whether the finger {} would hit the part elsewhere is not looked at: that is known of disks and "
       "jaws only",
       finger.name());
+}
+
+std::vector<double> read_friction(const std::string& text, std::size_t fingers) {
+  const std::string what = "--friction " + text;
+  const std::vector<std::string_view> fields = split(text, ',');
+  if (fields.size() > fingers) {
+    throw InputError(fmt::format("{}: expected a coefficient for all fingers, or one for each of {}, found {}", what,
+                                 fingers, fields.size()));
+  }
+  std::vector<double> friction;
+  for (std::size_t which = 0; which < fingers; ++which) {
+    friction.push_back(read_number(fields[std::min(which, fields.size() - 1)], what));
+    if (friction.back() < 0) throw InputError(fmt::format("{}: expected a coefficient of at least 0", what));
+  }
+  return friction;
 }
 
 }  // namespace rollfix::app

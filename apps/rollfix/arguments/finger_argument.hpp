@@ -32,4 +32,7 @@ void require_disks(const std::vector<Finger>& fingers, const std::string& what);
 /// That it is not known where such a finger can touch a part.
 std::string no_reach_note(const Finger& finger);
 
+/// Of --friction: a coefficient for each of so many fingers, typed once for all or once for each.
+std::vector<double> read_friction(const std::string& text, std::size_t fingers);
+
 }  // namespace rollfix::app

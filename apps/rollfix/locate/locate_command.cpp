@@ -47,8 +47,6 @@ Two fingers on a part that is free to move:
   rollfix locate gallery:cam --reading 1.5,-0.8,110.97000deg --facing -142.40990deg
   rollfix simulate gallery:cam --finger disk,r=0.2 --start 1 --start 4 --length 1.5 --length -0.8 -o cam-rolls.csv
   rollfix locate gallery:cam --log cam-rolls.csv --finger disk,r=0.2 -o cam-pairs.svg
-A jaw with skin, and a wheel without: of the wheel only the pin's place x,y is known, and psi by an encoder:
-  rollfix locate gallery:cam --log jaw.csv --log pin.csv --finger jaw --finger wheel,r=0.4 --noise contact=0.01,angle=0.3deg,position=0.01 -o rig.svg
 Three and more fingers on a part that is free to move, a log of each with the same times:
   rollfix simulate gallery:cam --finger disk,r=0.2 --start 1 --start 4 --length 1.5 --length -0.8 -o hold-a.csv -o hold-b.csv
   rollfix simulate gallery:cam --finger disk,r=0.2 --start 1 --start 6 --length 1.5 --length 0.5 -o again.csv -o hold-c.csv
@@ -186,8 +184,7 @@ Report locate_report(const LocateArguments& arguments, std::ostream& out) {
   require_sensible(arguments);
   if (!arguments.roll.squeezed.empty()) {
     throw InputError(
-        "--squeezed: it is about a finger with skin and a wheel without that squeeze a part, as in --finger jaw "
-        "--finger "
+        "--squeezed: it is about a finger with skin and a wheel without that squeeze a part, such as a jaw and "
         "wheel,r=0.4; leave it out");
   }
   const OutputArgument& output = arguments.output;

@@ -94,16 +94,9 @@ Staying read_staying(const std::string& text) {
 
 void read_friction(const std::string& text, PlanProblem& problem) {
   if (text.empty()) return;
-  const std::string what = "--friction " + text;
-  const std::vector<std::string_view> fields = split(text, ',');
-  if (fields.size() > problem.fingers.size()) {
-    throw InputError(fmt::format("{}: expected a coefficient for all fingers, or one for each of {}, found {}", what,
-                                 problem.fingers.size(), fields.size()));
-  }
+  const std::vector<double> friction = read_friction(text, problem.fingers.size());
   for (std::size_t which = 0; which < problem.fingers.size(); ++which) {
-    const double friction = read_number(fields[std::min(which, fields.size() - 1)], what);
-    if (friction < 0) throw InputError(fmt::format("{}: expected a coefficient of at least 0", what));
-    problem.fingers[which].friction = friction;
+    problem.fingers[which].friction = friction[which];
   }
 }
 

@@ -19,7 +19,7 @@ Two fingers on a part that is free to move; how far the second one rolls is foun
   rollfix plan gallery:ellipse --finger disk,r=0.3 --start 2.4 --start 7.2 --length 0.8 --friction 0.5 -o both.csv
   rollfix plan gallery:ellipse --finger disk,r=0.3 --start 2.4 --start 7.2 --length 0.8 --length 0.7 -o a.csv -o b.csv
 A jaw and a wheel on a free pin:
-  rollfix plan gallery:ellipse --finger jaw --finger wheel,r=0.3 --start 2.4 --length 0.5 --friction 0.4
+  rollfix plan gallery:ellipse --finger jaw --finger wheel,r=0.3 --start 2.4 --length 0.3 --friction 0.4
 )";
 
 void require_plan_files(const PlanArguments& arguments) {

@@ -3,9 +3,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <boost/asio/signal_set.hpp>
-#include <csignal>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -23,6 +20,7 @@
 #include "rollfix/output/touch_text.hpp"
 #include "rollfix/touch/touch_table.hpp"
 #include "rollfix/usage.hpp"
+#include "rollfix/watch/hearing.hpp"
 #include "rollfix/watch/source.hpp"
 #include "rollfix/watch/watching.hpp"
 #include "rollfix/watch/writer.hpp"
@@ -32,7 +30,8 @@ namespace rollfix::app {
 namespace {
 
 constexpr const char* kExamples =
-    "A finger rolls, its log grows, and this says where it is as soon as that changes. The log is read from a pipe, "
+    "A finger rolls, or two, the log grows, and this says where it is as soon as that changes. The log is read from a "
+    "pipe, "
     "from "
     "a file that is being written, from a serial device, or from a TCP server; Ctrl-C ends it with a summary. --noise "
     "is "
@@ -45,6 +44,8 @@ Examples:
   rollfix watch track.csv --noise angle=0.2deg,slip=0.002 --log tcp:robot.local:7000 --jsonl | ./drive
   robot-log | rollfix watch part.dxf --finger disk,r=5mm --noise angle=0.5deg --columns u=skin:deg,psi=yaw:deg
   rollfix watch gallery:cam --finger disk,r=0.2 --noise contact=0.002,angle=0.2deg --log roll.csv --once
+Two fingers on a part that is free to move, each with a log of its own:
+  rollfix watch part.dxf --finger disk,r=5 --noise contact=0.1,angle=0.5deg --log /dev/ttyUSB0 --log /dev/ttyUSB1
 Touches without rolling, a row each: where the part lies, and where to touch next:
   probe-log | rollfix watch part.dxf --finger disk,r=3 --noise position=0.02
 Which part is it? Of a catalog the parts that remain, fewer and fewer:
@@ -54,9 +55,10 @@ Which part is it? Of a catalog the parts that remain, fewer and fewer:
 struct WatchArguments {
   PartArgument part;
   std::string catalog;
-  std::string log;
+  std::vector<std::string> logs;
   LogArguments reading;
   std::vector<std::string> fingers;
+  bool may_overlap = false;
   std::string noise;
   std::string prior;
   PoseArguments pose;
@@ -83,20 +85,33 @@ BeliefOptions belief_options(const WatchArguments& arguments, const std::string&
       "sensors are off");
 }
 
-std::string log_name(const WatchArguments& arguments) {
-  if (!arguments.log.empty()) return arguments.log;
+/// The log, or two of one finger each.
+std::vector<std::string> log_names(const WatchArguments& arguments) {
+  const std::vector<std::string>& logs = arguments.logs;
+  if (logs.size() > 2) {
+    throw InputError(fmt::format(
+        "watch: --log is given {} times, expected at most twice, one for each finger; three and more fingers "
+        "are for rollfix locate, when they have rolled",
+        logs.size()));
+  }
+  if (logs.size() == 2 && logs[0] == logs[1]) {
+    throw InputError(fmt::format(
+        "watch: --log {} is given twice: expected a log of each finger; one with the columns of both is given once",
+        logs[0]));
+  }
+  if (!logs.empty()) return logs;
   if (::isatty(STDIN_FILENO) == 1) {
     throw InputError(
         "watch: expected --log FILE, --log /dev/ttyUSB0 or --log tcp:HOST:PORT, or a log piped in; to type one, --log "
         "-");
   }
-  return "-";
+  return {"-"};
 }
 
-void require_sensible(const WatchArguments& arguments, const std::string& log) {
+void require_sensible(const WatchArguments& arguments, const std::vector<std::string>& logs) {
   require_part_or_catalog("watch", arguments.part, arguments.catalog);
   if (!arguments.catalog.empty()) require_no_prior(arguments.prior);
-  if (log == "-" && arguments.part.part == "-") {
+  if (std::find(logs.begin(), logs.end(), "-") != logs.end() && arguments.part.part == "-") {
     throw InputError("the part and the log can't both come from standard input: give one of them as a file");
   }
   if (arguments.on_change && !arguments.every.empty()) {
@@ -110,11 +125,15 @@ void require_sensible(const WatchArguments& arguments, const std::string& log) {
   }
 }
 
-WatchOptions watch_options(const WatchArguments& arguments, const std::string& log, const std::string& unit) {
+WatchOptions watch_options(const WatchArguments& arguments, const std::vector<std::string>& logs,
+                           const std::string& unit) {
+  const auto name_of = [](const std::string& log) { return log == "-" ? "standard input" : log; };
   WatchOptions options;
-  options.name = log == "-" ? "standard input" : log;
-  options.fingers = read_fingers(arguments.fingers, 1, unit);
+  options.name = name_of(logs[0]);
+  if (logs.size() == 2) options.name_b = name_of(logs[1]);
+  options.fingers = read_fingers(arguments.fingers, 2, unit);
   options.belief = belief_options(arguments, unit);
+  options.may_overlap = arguments.may_overlap;
   LogArguments reading = arguments.reading;
   if (names_touch_columns(reading.columns)) reading.columns.clear();  // of a table of touches
   options.log = read_log_options(reading, unit);
@@ -138,7 +157,7 @@ WatchOptions watch_options(const WatchArguments& arguments, const std::string& l
   }
   options.live = !arguments.once;
   options.again = arguments.again;
-  options.midway = may_begin_midway(log);
+  options.midway = std::any_of(logs.begin(), logs.end(), may_begin_midway);
   options.log.any_part = !arguments.catalog.empty();
   if (!arguments.every.empty()) options.every = read_count(arguments.every, "--every", 1);
   return options;
@@ -147,7 +166,7 @@ WatchOptions watch_options(const WatchArguments& arguments, const std::string& l
 /// What a table of touches is read with; none: the log can't be one.
 std::optional<TouchWatchOptions> touch_options(const WatchArguments& arguments, const Part& part,
                                                const WatchOptions& watch) {
-  if (watch.catalog) return std::nullopt;
+  if (watch.catalog || watch.name_b || watch.fingers.size() > 1) return std::nullopt;
   TouchWatchOptions options{watch.name, {part, {}}};
   try {
     if (!arguments.reading.columns.empty()) options.table.columns = parse_touch_columns(arguments.reading.columns);
@@ -172,14 +191,16 @@ std::optional<TouchWatchOptions> touch_options(const WatchArguments& arguments, 
   return options;
 }
 
-SourceOptions source_options(const WatchArguments& arguments) {
+SourceOptions source_options(const WatchArguments& arguments, const Watching& watcher, std::size_t which) {
   SourceOptions options;
   options.once = arguments.once;
+  if (arguments.logs.size() == 2) {
+    options.waits = [&watcher, which] { return watcher.is_ahead(which); };
+    options.has_waiting = [&watcher, which] { return watcher.has_waiting(which); };
+  }
   if (!arguments.baud.empty()) options.baud = static_cast<unsigned>(read_count(arguments.baud, "--baud", 1));
   return options;
 }
-
-using Seconds = std::chrono::duration<double>;
 
 std::optional<Seconds> idle_timeout_of(const WatchArguments& arguments) {
   if (arguments.idle_timeout.empty()) return std::nullopt;
@@ -188,95 +209,6 @@ std::optional<Seconds> idle_timeout_of(const WatchArguments& arguments) {
   if (seconds > 0 && seconds <= kLongest) return Seconds(seconds);
   throw InputError(fmt::format("--idle-timeout {}: expected seconds above 0, at most {}", seconds, kLongest));
 }
-
-/// As long as it lives, SIGINT and SIGTERM only stop the io_context, so that the program can end cleanly; a second one
-/// of them ends it at once. Afterwards they do what they did before.
-class StopSignals {
- public:
-  explicit StopSignals(asio::io_context& io) : set_(io, kSignals[0], kSignals[1]) {
-    set_.async_wait([&io](const error_code& /*error*/, int /*signal*/) { io.stop(); });
-    for (const int signal : kSignals) {
-      struct sigaction action = {};
-      ::sigaction(signal, nullptr, &action);
-      // What is being printed is printed; the second one also ends it where nobody takes that.
-      action.sa_flags |= static_cast<int>(SA_RESTART | SA_RESETHAND);
-      ::sigaction(signal, &action, nullptr);
-    }
-  }
-  ~StopSignals() {
-    error_code ignored;
-    set_.clear(ignored);
-    for (std::size_t i = 0; i < kSignals.size(); ++i) ::sigaction(kSignals[i], &before_[i], nullptr);
-  }
-  StopSignals(const StopSignals&) = delete;
-  StopSignals& operator=(const StopSignals&) = delete;
-
- private:
-  static constexpr std::array<int, 2> kSignals = {SIGINT, SIGTERM};
-  static std::array<struct sigaction, 2> handlers() {
-    std::array<struct sigaction, 2> found = {};
-    for (std::size_t i = 0; i < kSignals.size(); ++i) ::sigaction(kSignals[i], nullptr, &found[i]);
-    return found;
-  }
-
-  std::array<struct sigaction, 2> before_ = handlers();
-  asio::signal_set set_;
-};
-
-/// Hears a log and watches it, until it ends, the user stops it, or no line came for too long.
-class Hearing {
- public:
-  Hearing(asio::io_context& io, Watching& watcher, WatchWriter& writer, std::ostream& err,
-          std::optional<Seconds> patience)
-      : io_(io), timer_(io), watcher_(watcher), writer_(writer), err_(err), patience_(patience) {}
-
-  void hear(Heard what, std::string_view text) {
-    if (what == Heard::line) {
-      last_line_ = std::chrono::steady_clock::now();
-      watcher_.push(text);
-    } else if (!text.empty()) {
-      err_ << "rollfix: " << text << std::endl;
-    }
-    if (what == Heard::ended) return stop(WatchEnd::stream);
-    if (what == Heard::restarted) watcher_.restart();
-    if (what == Heard::resumed) watcher_.resume();
-    writer_.show();
-  }
-
-  WatchEnd run() {
-    last_line_ = std::chrono::steady_clock::now();
-    look_after_a_while();
-    io_.run();
-    return why_;
-  }
-
- private:
-  /// Sees to what waits for its time, again and again.
-  void look_after_a_while() {
-    const Seconds pause = std::min<Seconds>(kMostDelay, patience_.value_or(kMostDelay));
-    timer_.expires_after(std::chrono::ceil<std::chrono::milliseconds>(pause));
-    timer_.async_wait([this](const error_code& /*error*/) {
-      watcher_.catch_up();
-      if (patience_ && std::chrono::steady_clock::now() - last_line_ >= *patience_) return stop(WatchEnd::idle);
-      writer_.show();
-      look_after_a_while();
-    });
-  }
-
-  void stop(WatchEnd why) {
-    why_ = why;
-    io_.stop();
-  }
-
-  asio::io_context& io_;
-  asio::steady_timer timer_;
-  Watching& watcher_;
-  WatchWriter& writer_;
-  std::ostream& err_;
-  std::optional<Seconds> patience_;
-  std::chrono::steady_clock::time_point last_line_;
-  WatchEnd why_ = WatchEnd::signal;  // stopped, but not by this
-};
 
 /// Whether standard output takes a line without waiting for whoever reads it.
 bool standard_output_is_ready() {
@@ -291,14 +223,14 @@ void require_rows(WatchEnd why, const Watching& watcher, const std::string& name
 }
 
 Report watch(const WatchArguments& arguments, std::ostream& out, std::ostream& err) {
-  const std::string log = log_name(arguments);
-  require_sensible(arguments, log);
+  const std::vector<std::string> logs = log_names(arguments);
+  require_sensible(arguments, logs);
   const std::optional<Seconds> idle_timeout = idle_timeout_of(arguments);
   std::vector<std::string> notes;
   const std::shared_ptr<const Catalog> catalog =
       arguments.catalog.empty() ? nullptr : std::make_shared<const Catalog>(arguments.catalog);
   const Part part = catalog ? any_part_of(*catalog) : load_part(arguments.part, notes);
-  WatchOptions options = watch_options(arguments, log, part.unit());
+  WatchOptions options = watch_options(arguments, logs, part.unit());
   options.catalog = catalog;
   if (!catalog && part.reversed()) notes.push_back(reversed_note(part));
 
@@ -308,9 +240,12 @@ Report watch(const WatchArguments& arguments, std::ostream& out, std::ostream& e
   const std::unique_ptr<WatchWriter> writer =
       arguments.jsonl ? watch_jsonl(part, out, err, is_ready) : watch_text(part, out, err, is_ready);
   Watching watcher(part, options, touch_options(arguments, part, options), *writer);
-  Hearing hearing(*io, watcher, *writer, err, idle_timeout);
-  const std::unique_ptr<Source> source = open_source(
-      io, log, source_options(arguments), [&hearing](Heard what, std::string_view text) { hearing.hear(what, text); });
+  Hearing hearing(*io, watcher, *writer, err, idle_timeout, logs.size());
+  std::vector<std::unique_ptr<Source>> sources;
+  for (std::size_t k = 0; k < logs.size(); ++k) {
+    sources.push_back(open_source(io, logs[k], source_options(arguments, watcher, k),
+                                  [&hearing, k](Heard what, std::string_view text) { hearing.hear(what, text, k); }));
+  }
   for (const std::string& note : notes) err << "rollfix: " << plain(note) << '\n';
   writer->begin(part, options);
   const WatchEnd why = hearing.run();
@@ -331,12 +266,15 @@ void add_watch_command(CLI::App& program, Command& chosen, std::ostream& out, st
   add_part_argument(*command, arguments->part);
   add_catalog_argument(*command, arguments->catalog);
   command
-      ->add_option("--log", arguments->log,
+      ->add_option("--log", arguments->logs,
                    "the growing log: a file, which is followed as tail -F does; a serial device; tcp:HOST:PORT or "
-                   "tcp:PORT, a server to connect to; - for stdin, the default")
-      ->type_name("SOURCE");
+                   "tcp:PORT, a server to connect to; - for stdin, the default; twice: a log of each of two fingers")
+      ->type_name("SOURCE")
+      ->allow_extra_args(false);
   add_reading_arguments(*command, arguments->reading);
   add_finger_argument(*command, arguments->fingers);
+  add_switch(*command, "--may-overlap", arguments->may_overlap,
+             "two fingers at different heights: places where their disks would overlap are kept");
   add_noise_arguments(*command, arguments->noise, arguments->prior, arguments->robust);
   add_pose_arguments(*command, arguments->pose);
   add_side_arguments(*command, arguments->mirror, arguments->direction);

@@ -26,7 +26,8 @@ int of_our_own(int descriptor) {
 
 class StandardInput final : public StreamSource<asio::posix::stream_descriptor> {
  public:
-  StandardInput(asio::io_context& io, int descriptor, Hear hear) : StreamSource(io, std::move(hear)) {
+  StandardInput(asio::io_context& io, int descriptor, const SourceOptions& options, Hear hear)
+      : StreamSource(io, std::move(hear), options.waits) {
     error_code error;
     stream_.assign(of_our_own(descriptor), error);
     if (error) refuse_to_read("standard input", error);
@@ -42,8 +43,8 @@ class StandardInput final : public StreamSource<asio::posix::stream_descriptor> 
 
 class NamedPipe final : public StreamSource<asio::posix::stream_descriptor> {
  public:
-  NamedPipe(asio::io_context& io, std::string path, bool once, Hear hear)
-      : StreamSource(io, std::move(hear)), path_(std::move(path)), once_(once) {
+  NamedPipe(asio::io_context& io, std::string path, const SourceOptions& options, Hear hear)
+      : StreamSource(io, std::move(hear), options.waits), path_(std::move(path)), once_(options.once) {
     open();
   }
 
@@ -78,7 +79,7 @@ class NamedPipe final : public StreamSource<asio::posix::stream_descriptor> {
 class SerialSource final : public ReconnectingSource<asio::serial_port> {
  public:
   SerialSource(asio::io_context& io, const std::string& path, const SourceOptions& options, Hear hear)
-      : ReconnectingSource(io, path, options.once, std::move(hear)), baud_(options.baud) {
+      : ReconnectingSource(io, path, options, std::move(hear)), baud_(options.baud) {
     const std::string failure = open();
     if (!failure.empty()) throw InputError(fmt::format("{}: {}", path, failure));
     go_on();
@@ -107,12 +108,13 @@ class SerialSource final : public ReconnectingSource<asio::serial_port> {
 
 }  // namespace
 
-std::unique_ptr<Source> read_descriptor(asio::io_context& io, int descriptor, Hear hear) {
-  return std::make_unique<StandardInput>(io, descriptor, std::move(hear));
+std::unique_ptr<Source> read_descriptor(asio::io_context& io, int descriptor, const SourceOptions& options, Hear hear) {
+  return std::make_unique<StandardInput>(io, descriptor, options, std::move(hear));
 }
 
-std::unique_ptr<Source> open_named_pipe(asio::io_context& io, const std::string& path, bool once, Hear hear) {
-  return std::make_unique<NamedPipe>(io, path, once, std::move(hear));
+std::unique_ptr<Source> open_named_pipe(asio::io_context& io, const std::string& path, const SourceOptions& options,
+                                        Hear hear) {
+  return std::make_unique<NamedPipe>(io, path, options, std::move(hear));
 }
 
 std::unique_ptr<Source> open_serial(asio::io_context& io, const std::string& path, const SourceOptions& options,

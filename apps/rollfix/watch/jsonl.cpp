@@ -20,20 +20,35 @@ constexpr std::array kWhyOver = {"lost", "jump", "restarted", "ended", "elsewher
 constexpr std::array kWhyEnd = {"stream", "signal", "idle"};
 
 /// As in locate's JSON: one entry per finger.
-Json one_finger(Json value) { return Json::array({std::move(value)}); }
+template <class T, class MakeJson>
+Json each_finger(const PerFinger<T>& entries, const MakeJson& json) {
+  Json all = Json::array();
+  for (const T& entry : entries) all.push_back(json(entry));
+  return all;
+}
 
 Json mode_json(const Mode& mode, const Part& part) {
-  const Vec2 point = part.point(mode.start[0]);
-  return {{"start", one_finger(json_number(mode.start[0]))},
-          {"end", one_finger(json_number(mode.end[0]))},
-          {"probability", json_number(mode.probability)},
-          {"mean", one_finger(json_number(mode.mean[0]))},
-          {"sd", one_finger(json_number(mode.sd[0]))},
-          {"interval", one_finger(json_interval(mode.interval[0]))},
-          {"end_mean", one_finger(json_number(mode.end_mean[0]))},
-          {"end_sd", one_finger(json_number(mode.end_sd[0]))},
-          {"point", one_finger(Json::array({json_number(point.x()), json_number(point.y())}))},
-          {"tangent", one_finger(json_number(std::remainder(mode.tangent[0], 2 * std::numbers::pi)))}};
+  const auto point = [&](double s) {
+    const Vec2 at = part.point(s);
+    return Json::array({json_number(at.x()), json_number(at.y())});
+  };
+  const auto direction = [](double angle) { return json_number(std::remainder(angle, 2 * std::numbers::pi)); };
+  Json json = {{"start", json_numbers(mode.start)},
+               {"end", json_numbers(mode.end)},
+               {"probability", json_number(mode.probability)},
+               {"mean", json_numbers(mode.mean)},
+               {"sd", json_numbers(mode.sd)},
+               {"interval", each_finger(mode.interval, json_interval)},
+               {"end_mean", json_numbers(mode.end_mean)},
+               {"end_sd", json_numbers(mode.end_sd)},
+               {"point", each_finger(mode.start, point)},
+               {"tangent", each_finger(mode.tangent, direction)}};
+  if (mode.start.size() < 2) return json;
+  json["covariance"] = Json::array();
+  for (const Eigen::Index row : {0, 1}) {
+    json["covariance"].push_back(json_numbers(std::array{mode.covariance(row, 0), mode.covariance(row, 1)}));
+  }
+  return json;
 }
 
 /// The parts that remain, as identify lists them.
@@ -54,8 +69,9 @@ Json answer_json(const char* name, const WatchAnswer& answer, const Part& part, 
   event["line"] = answer.sample.line;
   event["time"] = answer.sample.time ? json_number(*answer.sample.time) : Json(nullptr);
   // What has not moved yet is 0 and not -0.
-  event["reading"] = {{"length", one_finger(json_number(answer.sample.reading.length[0] + 0.0))},
-                      {"turn", json_number(answer.sample.reading.turn)}};
+  event["reading"] = {
+      {"length", each_finger(answer.sample.reading.length, [](double length) { return json_number(length + 0.0); })},
+      {"turn", json_number(answer.sample.reading.turn)}};
   if (answer.parts) {
     add_parts(answer, *catalog, event);
     return event;
@@ -65,8 +81,8 @@ Json answer_json(const char* name, const WatchAnswer& answer, const Part& part, 
   for (const Mode& mode : answer.modes) event["placements"].push_back(mode_json(mode, part));
   event["rest"] = json_number(answer.rest);
   event["excess"] = json_number(answer.fit.excess);
-  event["length_scale"] = one_finger(json_number(answer.fit.length_scale[0]));
-  event["length_scale_sd"] = one_finger(json_number(answer.fit.length_scale_sd[0]));
+  event["length_scale"] = json_numbers(answer.fit.length_scale);
+  event["length_scale_sd"] = json_numbers(answer.fit.length_scale_sd);
   event["turn_scale"] = json_number(answer.fit.turn_scale);
   event["turn_scale_sd"] = json_number(answer.fit.turn_scale_sd);
   event["turn_bias"] = json_number(answer.fit.turn_bias);
@@ -107,15 +123,17 @@ class JsonlWriter : public WatchWriter {
   void begin(const Part& part, const WatchOptions& options) override {
     fingers_ = options.fingers;
     noise_ = options.belief.noise;
-    Json event = event_json("begin");
+    begin_ = event_json("begin");
+    Json& event = begin_;
     catalog_ = options.catalog;
     if (catalog_) {
       event["catalog"] = {{"file", catalog_->path()}, {"parts", catalog_->size()}};
     } else {
       event["part"] = part_json(part);
     }
-    event["fingers"] = 1;
-    event["log"] = options.name;
+    event["fingers"] = nullptr;
+    if (options.name_b) event["fingers"] = 2;
+    event["log"] = options.name_b ? Json::array({options.name, *options.name_b}) : Json(options.name);
     event["noise"] = noise_json(options.belief.noise);
     event["prior"] = nullptr;
     if (const auto& prior = options.belief.prior) {
@@ -124,6 +142,13 @@ class JsonlWriter : public WatchWriter {
     event["pose_prior"] = pose_prior_json(options.belief.pose);
     event["robust"] = options.belief.robust;
     announce(json_line(event));
+  }
+
+  /// As early as the first line says it.
+  void knows_fingers(std::size_t count) override {
+    if (has_shown()) return;
+    begin_["fingers"] = count;
+    announce(json_line(begin_));
   }
 
   void found(const WatchAnswer& answer) override { write_event(answer_json("found", answer, part_, catalog_.get())); }
@@ -138,7 +163,7 @@ class JsonlWriter : public WatchWriter {
     write_event(event);
   }
 
-  void begin_touches() override {}  // the first touch says so
+  void begin_touches() override { knows_fingers(1); }  // the first touch says so
 
   void touched(const TouchNews& news) override { write_event(touches_json("touch", news)); }
 
@@ -175,6 +200,7 @@ class JsonlWriter : public WatchWriter {
   void write_event(const Json& event) { write(json_line(event)); }
 
   Part part_;
+  Json begin_;  // the event, as long as it was not shown
   std::shared_ptr<const Catalog> catalog_;
   std::vector<Finger> fingers_;  // and the noise, as given: cures name them
   Noise noise_;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "outline/turn.hpp"
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/error.hpp"
 #include "text/text.hpp"
@@ -38,6 +39,7 @@ Problem problem_of(const Part& part, const WatchOptions& watch, LogKind kind, co
   problem.prior = options.prior;
   problem.pose = options.pose;
   problem.robust = options.robust;
+  problem.may_overlap = watch.may_overlap;
   if (kind == LogKind::increments) {  // one stands for several, which were off each
     problem.noise->contact *= std::sqrt(static_cast<double>(kept.each()));
     problem.noise->angle *= std::sqrt(static_cast<double>(kept.each()));
@@ -57,7 +59,17 @@ Mode mode_of(const Placement& placement) {
   mode.interval = placement.interval;
   mode.end_mean = placement.end_mean;
   mode.end_sd = placement.end_sd;
+  mode.covariance = placement.covariance;
   return mode;
+}
+
+/// What is known of the fingers at their first contacts, as `solve` has it.
+Contacts contacts_at(const Sample& first, const std::vector<Finger>& fingers) {
+  Contacts contacts{first.finger_curvature, {}, fingers};
+  if (first.reading.fingers() != 2 || !first.contact) return contacts;
+  contacts.facing = nearest_angle(facing(*finger_of(fingers, 0), (*first.contact)[0]) -
+                                  facing(*finger_of(fingers, 1), (*first.contact)[1]));
+  return contacts;
 }
 
 class OnPart final : public Meaning {
@@ -66,7 +78,7 @@ class OnPart final : public Meaning {
       : part_(part),
         options_(options),
         kind_(kind),
-        belief_(part, kind, as_read(options), {first.finger_curvature, {}, options.fingers}) {}
+        belief_(part, kind, as_read(options), contacts_at(first, options.fingers)) {}
 
   void add(const Sample& sample) override {
     belief_.add(sample);
@@ -92,6 +104,7 @@ class OnPart final : public Meaning {
       // Of a long roll only some samples were kept: where they fit, all of them say more.
       if (kept_.each() > 1 && !is_bad) return look(answer);
       answer.verdict = located.verdict;
+      answer.impossible = located.impossible.size();
       answer.rest = located.weighing->rest;
       answer.fit = located.weighing->fit;
       answer.modes.clear();
@@ -158,6 +171,26 @@ class OnCatalog final : public Meaning {
 
 }  // namespace
 
+namespace {
+
+/// A finger's. Of two fingers only the difference of their turns is known, which goes with the first one.
+void add_row(const Sample& sample, std::size_t which, LogKind kind, const Part& part, FingerRows& rows) {
+  rows.u_period = std::numeric_limits<double>::infinity();  // a sample's angles are unwrapped
+  if (kind == LogKind::contact) {
+    rows.u.push_back((*sample.contact)[which].u);
+    rows.psi.push_back((*sample.contact)[which].psi);
+  } else {
+    const Reading as_given = in_stored_direction(sample.reading, part);  // back again
+    rows.length.push_back(as_given.length[which]);
+    rows.turn.push_back(which == 0 ? as_given.turn : 0);
+  }
+  if (!sample.centre) return;
+  rows.x.push_back((*sample.centre)[which].x());
+  rows.y.push_back((*sample.centre)[which].y());
+}
+
+}  // namespace
+
 void KeptSamples::add(const Sample& sample) {
   if (seen_++ % every_ != 0) return;
   kept_.push_back(sample);
@@ -170,21 +203,12 @@ void KeptSamples::add(const Sample& sample) {
 Log KeptSamples::log(LogKind kind, const Part& part) const {
   Log log;
   log.kind = kind;
-  FingerRows& rows = log.fingers.front();
-  rows.u_period = std::numeric_limits<double>::infinity();  // a sample's angles are unwrapped
+  log.fingers.resize(kept_.empty() ? 1 : kept_.front().reading.fingers());
   for (const Sample& sample : kept_) {
     if (sample.time) log.time.push_back(*sample.time);
-    if (kind == LogKind::contact) {
-      rows.u.push_back((*sample.contact)[0].u);
-      rows.psi.push_back((*sample.contact)[0].psi);
-    } else {
-      const Reading as_given = in_stored_direction(sample.reading, part);  // back again
-      rows.length.push_back(as_given.length[0]);
-      rows.turn.push_back(as_given.turn);
+    for (std::size_t which = 0; which < log.fingers.size(); ++which) {
+      add_row(sample, which, kind, part, log.fingers[which]);
     }
-    if (!sample.centre) continue;
-    rows.x.push_back((*sample.centre)[0].x());
-    rows.y.push_back((*sample.centre)[0].y());
   }
   return log;
 }

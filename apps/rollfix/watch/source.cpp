@@ -46,8 +46,8 @@ bool may_begin_midway(const std::string& name) {
 
 std::unique_ptr<Source> open_source(const std::shared_ptr<asio::io_context>& io, const std::string& name,
                                     const SourceOptions& options, Hear hear) {
-  if (name == "-") return read_descriptor(*io, STDIN_FILENO, std::move(hear));
-  if (name.starts_with(kTcp)) return connect_tcp(io, name.substr(kTcp.size()), options.once, std::move(hear));
+  if (name == "-") return read_descriptor(*io, STDIN_FILENO, options, std::move(hear));
+  if (name.starts_with(kTcp)) return connect_tcp(io, name.substr(kTcp.size()), options, std::move(hear));
   struct stat status = {};
   if (::stat(name.c_str(), &status) != 0) {
     if (errno != ENOENT) refuse_to_read(name, last_error());
@@ -57,9 +57,9 @@ std::unique_ptr<Source> open_source(const std::shared_ptr<asio::io_context>& io,
   if (S_ISDIR(status.st_mode)) {
     throw InputError(fmt::format("{}: is a folder; expected a file, a serial device, - or tcp:HOST:PORT", name));
   }
-  if (S_ISFIFO(status.st_mode)) return open_named_pipe(*io, name, options.once, std::move(hear));
+  if (S_ISFIFO(status.st_mode)) return open_named_pipe(*io, name, options, std::move(hear));
   if (S_ISCHR(status.st_mode) && is_terminal(name)) return open_serial(*io, name, options, std::move(hear));
-  return follow_file(*io, name, options.once, std::move(hear));
+  return follow_file(*io, name, options, std::move(hear));
 }
 
 }  // namespace rollfix::app

@@ -38,6 +38,10 @@ using Hear = std::function<void(Heard what, std::string_view text)>;
 struct SourceOptions {
   bool once = false;       // a file: stop at its end; a connection: when it closes
   unsigned baud = 115200;  // of a serial device
+  /// While this holds nothing more is read: another log has to come first. None: never.
+  std::function<bool()> waits{};
+  /// While this holds, and not for ever, a file that was replaced is not left: lines of it wait for another log.
+  std::function<bool()> has_waiting{};
 };
 
 /// Where the lines of a growing log come from. As long as it lives, they are heard by whoever runs its io_context,
@@ -62,17 +66,19 @@ std::unique_ptr<Source> open_source(const std::shared_ptr<asio::io_context>& io,
 // Its kinds.
 
 /// A descriptor, which stays open, read to its end: standard input.
-std::unique_ptr<Source> read_descriptor(asio::io_context& io, int descriptor, Hear hear);
+std::unique_ptr<Source> read_descriptor(asio::io_context& io, int descriptor, const SourceOptions& options, Hear hear);
 /// A named pipe: when its writers are gone the next ones continue.
-std::unique_ptr<Source> open_named_pipe(asio::io_context& io, const std::string& path, bool once, Hear hear);
+std::unique_ptr<Source> open_named_pipe(asio::io_context& io, const std::string& path, const SourceOptions& options,
+                                        Hear hear);
 /// A serial device, in raw mode; when it is pulled out it is awaited.
 std::unique_ptr<Source> open_serial(asio::io_context& io, const std::string& path, const SourceOptions& options,
                                     Hear hear);
 /// A file that something else writes; survives that it is replaced or cut back.
-std::unique_ptr<Source> follow_file(asio::io_context& io, const std::string& path, bool once, Hear hear);
-/// A client of "HOST:PORT" or "PORT"; connects again when the connection drops.
-std::unique_ptr<Source> connect_tcp(const std::shared_ptr<asio::io_context>& io, const std::string& address, bool once,
+std::unique_ptr<Source> follow_file(asio::io_context& io, const std::string& path, const SourceOptions& options,
                                     Hear hear);
+/// A client of "HOST:PORT" or "PORT"; connects again when the connection drops.
+std::unique_ptr<Source> connect_tcp(const std::shared_ptr<asio::io_context>& io, const std::string& address,
+                                    const SourceOptions& options, Hear hear);
 
 // What they are made of.
 
@@ -88,10 +94,18 @@ int open_for_reading(const std::string& path, int more_flags = 0);
 template <class Stream>
 class StreamSource : public Source {
  protected:
-  StreamSource(asio::io_context& io, Hear hear) : hear_(std::move(hear)), stream_(io) { bytes_.reserve(kBlock); }
+  StreamSource(asio::io_context& io, Hear hear, std::function<bool()> waits)
+      : hear_(std::move(hear)), stream_(io), waits_(std::move(waits)), pause_(io) {
+    bytes_.reserve(kBlock);
+  }
 
   /// Hears lines until the stream can't go on.
   void read() {
+    if (waits_ && waits_()) {
+      pause_.expires_after(kPause);
+      pause_.async_wait([this](const error_code& /*error*/) { read(); });
+      return;
+    }
     asio::async_read_until(stream_, asio::dynamic_buffer(bytes_, kLongestLine + 2), '\n',
                            [this](const error_code& error, std::size_t /*length*/) {
                              if (error && error != asio::error::not_found) return stopped(error);
@@ -118,6 +132,7 @@ class StreamSource : public Source {
   bool has_heard_ = false;  // a line
 
  private:
+  static constexpr std::chrono::milliseconds kPause{1};
   static constexpr std::size_t kBlock = 4096;  // read at once, and then looked for signals: a hundred rows or so
 
   void hear_lines() {
@@ -138,6 +153,8 @@ class StreamSource : public Source {
     bytes_.clear();
   }
 
+  std::function<bool()> waits_;
+  asio::steady_timer pause_;
   std::string bytes_;
   bool skipping_ = false;  // until the end of a line that was too long
 };
@@ -161,8 +178,11 @@ template <class Stream>
 class ReconnectingSource : public StreamSource<Stream> {
  protected:
   /// `once`: the first time that it closes is the end.
-  ReconnectingSource(asio::io_context& io, std::string name, bool once, Hear hear)
-      : StreamSource<Stream>(io, std::move(hear)), name_(std::move(name)), timer_(io), once_(once) {}
+  ReconnectingSource(asio::io_context& io, std::string name, const SourceOptions& options, Hear hear)
+      : StreamSource<Stream>(io, std::move(hear), options.waits),
+        name_(std::move(name)),
+        timer_(io),
+        once_(options.once) {}
 
   /// Tries to connect; sooner or later one of the next two follows.
   virtual void connect() = 0;

@@ -40,8 +40,9 @@ TcpAddress read_address(const std::string& text) {
 
 class TcpSource final : public ReconnectingSource<tcp::socket> {
  public:
-  TcpSource(const std::shared_ptr<asio::io_context>& io, const std::string& address, bool once, Hear hear)
-      : ReconnectingSource(*io, "tcp:" + address, once, std::move(hear)), io_(io), address_(read_address(address)) {
+  TcpSource(const std::shared_ptr<asio::io_context>& io, const std::string& address, const SourceOptions& options,
+            Hear hear)
+      : ReconnectingSource(*io, "tcp:" + address, options, std::move(hear)), io_(io), address_(read_address(address)) {
     look_up();
   }
 
@@ -86,9 +87,9 @@ class TcpSource final : public ReconnectingSource<tcp::socket> {
 
 }  // namespace
 
-std::unique_ptr<Source> connect_tcp(const std::shared_ptr<asio::io_context>& io, const std::string& address, bool once,
-                                    Hear hear) {
-  return std::make_unique<TcpSource>(io, address, once, std::move(hear));
+std::unique_ptr<Source> connect_tcp(const std::shared_ptr<asio::io_context>& io, const std::string& address,
+                                    const SourceOptions& options, Hear hear) {
+  return std::make_unique<TcpSource>(io, address, options, std::move(hear));
 }
 
 }  // namespace rollfix::app

@@ -45,19 +45,21 @@ class TextWriter : public WatchWriter {
     noise_ = options.belief.noise;
     catalog_ = options.catalog;
     if (catalog_) return announce_catalog(options);
-    about_ =
-        fmt::format("part  {}, {}, perimeter {}{}\nlog   {}\n\n", plain(part.name()), part.closed() ? "closed" : "open",
-                    fixed(part.perimeter(), decimals), unit, plain(options.name));
-    announce(about_ + row("line", "time [s]", "length", "turn [deg]", "verdict",
-                          fmt::format("{:>10}  {:>10}  {:>8}  {:>7}", "start", "now", "sd", "p")));
+    about_ = fmt::format("part  {}, {}, perimeter {}{}\nlog   {}\n\n", plain(part.name()),
+                         part.closed() ? "closed" : "open", fixed(part.perimeter(), decimals), unit, names_of(options));
+    announce(about_ + titles(options.name_b ? 2 : 1));
+  }
+
+  void knows_fingers(std::size_t count) override {
+    if (count == 1 || has_titles_of_two_) return;
+    announce((has_shown() ? "\n" : about_) + titles(count));
   }
 
   void announce_catalog(const WatchOptions& options) {
     const std::string unit = unit_.empty() ? "" : fmt::format("; all lengths are in {}", unit_);
-    announce(fmt::format("catalog  {}, {}{}\nlog      {}\n\n", plain(catalog_->path()),
-                         counted(catalog_->size(), "part", "parts"), unit, plain(options.name)) +
-             row("line", "time [s]", "length", "turn [deg]", "verdict",
-                 fmt::format("     {:>10}  {:>8}  {}", "start", "p", "part")));
+    about_ = fmt::format("catalog  {}, {}{}\nlog      {}\n\n", plain(catalog_->path()),
+                         counted(catalog_->size(), "part", "parts"), unit, names_of(options));
+    announce(about_ + titles(options.name_b ? 2 : 1));
   }
 
   void begin_touches() override {
@@ -146,7 +148,40 @@ class TextWriter : public WatchWriter {
   std::string row(const WatchAnswer& answer, const std::string& verdict, const std::string& text) const {
     const Sample& sample = answer.sample;
     return row(std::to_string(sample.line), sample.time ? fixed(*sample.time, 3) : "-",
-               fixed(sample.reading.length[0], decimals_), degrees(sample.reading.turn), verdict, text);
+               columns_of(sample.reading.length, 10), degrees(sample.reading.turn), verdict, text);
+  }
+
+  static std::string names_of(const WatchOptions& options) {
+    return plain(options.name) + (options.name_b ? " and " + plain(*options.name_b) : "");
+  }
+
+  /// What stands above the columns, of one finger or of two.
+  std::string titles(std::size_t fingers) {
+    const auto each = [&](const char* title, std::size_t width) {
+      if (fingers == 1) return fmt::format("{:>{}}", title, width);
+      return fmt::format("{:>{}}  {:>{}}", fmt::format("{} a", title), width, fmt::format("{} b", title), width);
+    };
+    has_titles_of_two_ = fingers == 2;
+    const std::string text =
+        catalog_ ? fmt::format("     {}  {:>8}  {}", each("start", 10), "p", "part")
+                 : fmt::format("{}  {}  {}  {:>7}", each("start", 10), each("now", 10), each("sd", 8), "p");
+    return row("line", "time [s]", each("length", 10), "turn [deg]", "verdict", text);
+  }
+
+  /// A column for each finger.
+  std::string columns_of(const PerFinger<double>& lengths, std::size_t width) const {
+    std::string text;
+    for (const double length : lengths) {
+      text += fmt::format("{}{:>{}}", text.empty() ? "" : "  ", fixed(length, decimals_), width);
+    }
+    return text;
+  }
+
+  /// In running text.
+  std::string pair_of(const PerFinger<double>& lengths) const {
+    std::string text;
+    for (const double length : lengths) text += (text.empty() ? "" : " and ") + fixed(length, decimals_);
+    return text;
   }
 
   std::string row_of(const WatchAnswer& answer) const {
@@ -156,11 +191,13 @@ class TextWriter : public WatchWriter {
   std::string places(const WatchAnswer& answer) const {
     if (answer.modes.empty() || answer.verdict.name == Verdict::inconsistent) return "";
     const Mode& best = answer.modes.front();
-    std::string text = fmt::format("{:>10}  {:>10}  {:>8}  {:>7}", fixed(best.start[0], decimals_),
-                                   fixed(best.end[0], decimals_), rough(best.sd[0]), percent(best.probability));
+    std::string sds;
+    for (const double sd : best.sd) sds += fmt::format("{:>8}  ", rough(sd));
+    std::string text = fmt::format("{}  {}  {}{:>7}", columns_of(best.start, 10), columns_of(best.end, 10), sds,
+                                   percent(best.probability));
     const std::size_t shown = std::min(answer.modes.size(), kMostOthers + 1);
     for (std::size_t i = 1; i < shown; ++i) {
-      text += fmt::format("{}{} ({})", i == 1 ? "  or " : ", ", fixed(answer.modes[i].start[0], decimals_),
+      text += fmt::format("{}{} ({})", i == 1 ? "  or " : ", ", pair_of(answer.modes[i].start),
                           percent(answer.modes[i].probability));
     }
     if (answer.modes.size() > shown) text += fmt::format(" and {} more", answer.modes.size() - shown);
@@ -174,7 +211,7 @@ class TextWriter : public WatchWriter {
       const PartFound& one = found.parts[k];
       const std::string name = plain(catalog_->entry(one.weight.part).name);
       text += k > 0 ? fmt::format("{}{} ({})", k == 1 ? " or " : ", ", name, percent(one.probability))
-                    : fmt::format("     {:>10}  {:>8}  {}", fixed(one.answer.placements.front().start[0], decimals_),
+                    : fmt::format("     {}  {:>8}  {}", columns_of(one.answer.placements.front().start, 10),
                                   percent(one.probability), name);
     }
     if (found.parts.size() > kMostOthers + 1) text += fmt::format(" and {} more", found.parts.size() - kMostOthers - 1);
@@ -185,22 +222,35 @@ class TextWriter : public WatchWriter {
     if (last.parts->parts.empty()) return last.parts->verdict;
     const PartFound& best = last.parts->parts.front();
     return fmt::format("{}: roll {} was on {}, from s = {}{}, with probability {}", last.parts->verdict, last.roll,
-                       plain(catalog_->entry(best.weight.part).name),
-                       fixed(best.answer.placements.front().start[0], decimals_), behind(unit_),
-                       fixed(best.probability, 4));
+                       plain(catalog_->entry(best.weight.part).name), pair_of(best.answer.placements.front().start),
+                       behind(unit_), fixed(best.probability, 4));
   }
 
   std::string conclusion(const WatchAnswer& last) const {
     if (last.roll == 0) return "no contact came";
     if (last.parts) return conclusion_of_parts(last);
+    if (last.verdict.name == Verdict::inconsistent && last.impossible > 0) {
+      return fmt::format("{}: {} would fit, but the finger{} can't be there{}{}", last.verdict.text(),
+                         counted(last.impossible, "place", "places"), last.sample.reading.fingers() == 1 ? "" : "s",
+                         last.sample.reading.fingers() == 1
+                             ? ""
+                             : ", or would overlap; of fingers at different heights say --may-overlap",
+                         why(last));
+    }
     if (last.verdict.name == Verdict::inconsistent) return last.verdict.text() + ": nothing fits" + why(last);
     if (last.verdict.name != Verdict::unique) return last.verdict.text() + why(last);
     if (last.modes.empty()) return last.verdict.text() + ": nothing that fits is within the finger's reach";
     const Mode& only = last.modes.front();
     const bool is_doubted = !last.diagnoses.empty() && only.probability < kDoubtful;
-    return fmt::format("{}: {}roll {} started at s = {} +- {}{}{}{}", last.verdict.text(),
-                       is_doubted ? "taken as said, " : "", last.roll, fixed(only.start[0], decimals_),
-                       rough(only.sd[0]), behind(unit_), is_doubted ? ", but what follows is likelier" : "", why(last));
+    return fmt::format("{}: {}roll {} started at {}{}{}", last.verdict.text(), is_doubted ? "taken as said, " : "",
+                       last.roll, place_of(only), is_doubted ? ", but what follows is likelier" : "", why(last));
+  }
+
+  std::string place_of(const Mode& mode) const {
+    const auto of = [&](std::size_t k) {
+      return fmt::format("s = {} +- {}{}", fixed(mode.start[k], decimals_), rough(mode.sd[k]), behind(unit_));
+    };
+    return mode.start.size() == 1 ? of(0) : fmt::format("{} (finger a) and {} (finger b)", of(0), of(1));
   }
 
   /// Where its rows fit badly: what explains them, and the cure.
@@ -215,7 +265,8 @@ class TextWriter : public WatchWriter {
   Noise noise_;
   std::string unit_;  // the part's, or the catalog's
   std::shared_ptr<const Catalog> catalog_;
-  std::string about_;                 // the part and the log
+  std::string about_;  // the part and the log
+  bool has_titles_of_two_ = false;
   std::size_t touch_line_shown_ = 0;  // the last row was of this line's touch
   std::size_t roll_shown_ = 0;        // the last row was of this roll
   std::string shown_;                 // that row

@@ -9,9 +9,9 @@
 
 #include "part/not_lost.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/part/boundary.hpp"
 #include "rollfix/watch/beginning.hpp"
 #include "rollfix/watch/meaning.hpp"
+#include "rollfix/watch/two_logs.hpp"
 
 namespace rollfix::app {
 namespace {
@@ -35,9 +35,6 @@ constexpr std::size_t kMostRowsBeforeHeader = 200;
 constexpr const char* kHalfRow = "the end of a row that was not heard whole";
 constexpr const char* kNoHeader = "a row before the header, which says what its numbers are";
 
-constexpr double kOtherProbability = 0.1;  // below that nobody decides otherwise
-constexpr double kTwiceAsSure = 0.5;       // the new standard deviation, as a share of the old one
-
 /// Adds the time that passes while it lives.
 class WorkTime {
  public:
@@ -51,44 +48,7 @@ class WorkTime {
   WorkClock::time_point start_ = WorkClock::now();
 };
 
-double distance_on(const Part& part, double a, double b) {
-  return part.closed() ? periodic_distance(a, b, part.perimeter()) : std::abs(a - b);
-}
-
-/// Of several places that were known the one that this is, or is nearest to.
-const Mode& nearest_to(const Mode& mode, const std::vector<Mode>& known, const Part& part) {
-  return *std::min_element(known.begin(), known.end(), [&](const Mode& a, const Mode& b) {
-    return distance_on(part, a.mean[0], mode.mean[0]) < distance_on(part, b.mean[0], mode.mean[0]);
-  });
-}
-
-bool is_news_of_a_place(const Mode& said, const Mode& now, const Part& part) {
-  return distance_on(part, said.mean[0], now.mean[0]) > said.sd[0] || now.sd[0] < kTwiceAsSure * said.sd[0] ||
-         std::abs(now.probability - said.probability) > kOtherProbability;
-}
-
-/// Fewer parts, or another one is the likeliest, or as likely no more.
-bool is_news_of_parts(const Identified& said, const Identified& now) {
-  if (said.verdict != now.verdict) return true;
-  if (said.parts.empty() || now.parts.empty()) return said.parts.size() != now.parts.size();
-  const PartFound& before = said.parts.front();
-  const PartFound& best = now.parts.front();
-  return before.weight.part != best.weight.part || std::abs(before.probability - best.probability) > kOtherProbability;
-}
-
 }  // namespace
-
-std::string verdict_of(const WatchAnswer& answer) {
-  return answer.parts ? answer.parts->verdict : answer.verdict.text();
-}
-
-bool is_news(const WatchAnswer& said, const WatchAnswer& now, const Part& part) {
-  if (now.parts) return !said.parts || is_news_of_parts(*said.parts, *now.parts);
-  if (now.verdict != said.verdict || now.modes.empty() != said.modes.empty()) return true;
-  if (now.modes.empty() || now.verdict.name == Verdict::inconsistent) return false;  // no place that is worth telling
-  const Mode& best = now.modes.front();
-  return is_news_of_a_place(nearest_to(best, said.modes, part), best, part);
-}
 
 double WatchCounts::seconds_per_sample() const {
   return samples > 0 ? seconds / static_cast<double>(samples) : std::numeric_limits<double>::quiet_NaN();
@@ -100,10 +60,12 @@ Watcher::Watcher(const Part& part, WatchOptions options, WatchListener& listener
   const std::optional<PosePrior>& pose = options_.belief.pose;
   if (pose) require_not_lost(part_, pose->place_sd, "a pose with a standard deviation", "");
   const Belief trial(part_, LogKind::contact, options_.belief);
+  if (options_.name_b) two_ = std::make_unique<TwoLogs>(part_, options_);
 }
 Watcher::~Watcher() = default;
 
-void Watcher::push(std::string_view line) {
+void Watcher::push(std::string_view line, std::size_t which) {
+  if (two_) return take_line(line, which);
   if (options_.midway && begins_) return push_beginning(line);
   if (!has_header_ && take_late_header(line)) return;
   take_line(line);
@@ -159,8 +121,32 @@ void Watcher::skip(const std::string& why) {
   listener_.note(fmt::format("{}:{}: skipped: {}", options_.name, stream_.lines(), why));
 }
 
-void Watcher::take_line(std::string_view line) {
-  const LogLine row = read(line);
+void Watcher::take_line(std::string_view line) { take_row(read(line)); }
+
+void Watcher::take_line(std::string_view line, std::size_t which) {
+  std::vector<LogLine> rows;
+  {
+    const WorkTime time(counts_.seconds);
+    ++counts_.lines;
+    rows = two_->push(which, line);
+  }
+  tell_fingers(two_->fingers());
+  for (const LogLine& row : rows) take_row(row);
+}
+
+void Watcher::tell_fingers(std::size_t count) {
+  if (knows_fingers_ || count == 0) return;
+  knows_fingers_ = true;
+  listener_.knows_fingers(count);
+}
+
+LogKind Watcher::kind() const { return two_ ? two_->kind() : stream_.kind(); }
+
+bool Watcher::is_ahead(std::size_t which) const { return two_ && two_->is_ahead(which); }
+
+bool Watcher::has_waiting(std::size_t which) const { return two_ && two_->has_waiting(which); }
+
+void Watcher::take_row(const LogLine& row) {
   if (row.kind != LineKind::malformed && row.kind != LineKind::nothing) rows_back_ = 0;
   switch (row.kind) {
     case LineKind::nothing:
@@ -196,7 +182,7 @@ void Watcher::take_line(std::string_view line) {
 /// One row whose time does not grow is a row like any other; after the second in a row it is the clock.
 void Watcher::note_malformed(const LogLine& row) {
   const std::size_t before = row.goes_back ? rows_back_++ : std::exchange(rows_back_, 0);
-  if (!row.goes_back || before == 0) return listener_.note(row.message);
+  if (!row.goes_back || before == 0 || two_) return listener_.note(row.message);
   if (before > 1) return;
   listener_.note(fmt::format(
       "{}:{}: time went back: rows are left out, and not told one by one, until their time is after {:.9g} s; "
@@ -204,13 +190,17 @@ void Watcher::note_malformed(const LogLine& row) {
       options_.name, stream_.lines(), last_.time.value_or(0)));
 }
 
-void Watcher::resume() {
+void Watcher::resume(std::size_t which) {
   ++counts_.reconnects;
-  stream_.resume();
+  two_ ? two_->resume(which) : stream_.resume();
 }
 
-void Watcher::restart() {
+void Watcher::restart(std::size_t which) {
   end_roll(RollEnd::restarted);
+  if (two_) {
+    for (const LogLine& row : two_->restart(which)) take_row(row);
+    return;
+  }
   stream_ = new_stream();
   begins_ = has_header_ = true;
   held_cells_ = rows_before_header_ = 0;
@@ -218,6 +208,9 @@ void Watcher::restart() {
 
 void Watcher::finish() {
   if (std::exchange(held_cells_, 0) > 0) take_line(held_);
+  if (two_) {
+    for (const LogLine& row : two_->finish()) take_row(row);
+  }
   end_roll(RollEnd::ended);
 }
 
@@ -230,9 +223,8 @@ LogLine Watcher::read(std::string_view line) {
   ++counts_.lines;
   if (line.size() <= kLongestLine) {
     LogLine row = stream_.push(line);
-    if (stream_.fingers() < 2) return row;
-    throw InputError(fmt::format("{}:{}: this log is of two fingers, expected one with columns 'u' and 'psi'",
-                                 options_.name, stream_.lines()));
+    tell_fingers(stream_.fingers());
+    return row;
   }
   stream_.push("#");  // it counts as a line all the same
   LogLine row;
@@ -261,8 +253,8 @@ void Watcher::begin_roll(const Sample& sample) {
   require_evidence(sample);
   {
     const WorkTime time(counts_.seconds);
-    meaning_ = options_.catalog ? meaning_on_catalog(part_, options_, stream_.kind())
-                                : meaning_on_part(part_, options_, stream_.kind(), sample);
+    meaning_ = options_.catalog ? meaning_on_catalog(part_, options_, kind())
+                                : meaning_on_part(part_, options_, kind(), sample);
   }
   ++counts_.rolls;
   samples_ = 0;

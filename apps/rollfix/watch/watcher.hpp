@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <memory>
@@ -12,6 +13,7 @@
 #include "rollfix/catalog/catalog.hpp"
 #include "rollfix/catalog/identify.hpp"
 #include "rollfix/contact/log.hpp"
+#include "rollfix/contact/paired_stream.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace rollfix::app {
@@ -28,6 +30,7 @@ struct WatchAnswer {
   std::vector<Mode> modes;           // the most probable first
   double rest = 0;                   // probability outside of them
   Fit fit;                           // how well the samples fit, and what they tell of the scales and of a bias
+  std::size_t impossible = 0;        // of a roll that is over: places that fit, and that the fingers can't have
   std::vector<Diagnosis> diagnoses;  // of a roll that is over, where its rows fit badly: why, see Answer
   /// Of a catalog: the parts that remain. The places are theirs then, and there are no modes.
   std::shared_ptr<const Identified> parts{};
@@ -64,13 +67,17 @@ class WatchListener {
   virtual void note(const std::string& message) = 0;              // a line that can't be read, a jump
   /// Whether a change can be told without making the log wait. What is told later is then what is known by then.
   virtual bool is_ready() = 0;
+  /// Whether the log is of one finger or of two, once that is known: before anything is found in it.
+  virtual void knows_fingers(std::size_t /*count*/) {}
 };
 
 /// How a growing log is watched.
 struct WatchOptions {
   std::string name;                          // of the log, for messages
-  std::vector<Finger> fingers;               // for logs of u and psi: at most one
-  BeliefOptions belief;                      // a pose's prior is of every roll's first contact
+  std::optional<std::string> name_b{};       // of two logs, one of each finger, that of finger b
+  std::vector<Finger> fingers;               // for logs of u and psi: one that serves both of two, or each
+  BeliefOptions belief;                      // a pose's prior is of every roll's first contacts
+  bool may_overlap = false;                  // see Problem
   LogOptions log;                            // what its columns are called, and the part's unit
   std::shared_ptr<const Catalog> catalog{};  // which of its parts is it? none: the part is known
   bool midway = false;                       // its first line may be the rest of one: a serial line, a connection
@@ -94,8 +101,10 @@ struct WatchCounts {
 };
 
 class Meaning;
+class TwoLogs;
 
-/// Turns the lines of a growing log into news of where the contact is, in constant memory. Knows no files or streams.
+/// Turns the lines of a growing log, of one finger or of two, into news of where the contacts are, in constant memory;
+/// also the lines of two logs, one of each finger. Knows no files or streams.
 ///
 /// Taking a sample is cheap, working out what it means is not. So that is done after every sample at first, and then
 /// each time a roll has grown by a quarter; where it is live as often as kMostDelay asks for as well.
@@ -108,12 +117,13 @@ class Watcher {
   Watcher(const Watcher&) = delete;
   Watcher& operator=(const Watcher&) = delete;
 
-  /// One line. Throws InputError: what LogStream::push throws.
-  void push(std::string_view line);
+  /// One line, of two logs of the first or of the second, 0 or 1. Throws InputError: what LogStream::push and
+  /// PairedStream::push throw.
+  void push(std::string_view line, std::size_t which = 0);
   /// The connection dropped and is there again.
-  void resume();
+  void resume(std::size_t which = 0);
   /// Another log begins.
-  void restart();
+  void restart(std::size_t which = 0);
   /// The log is over.
   void finish();
 
@@ -122,6 +132,10 @@ class Watcher {
   bool is_behind() const;
   void catch_up();
 
+  /// Of two logs: nothing more of this one should be read before more comes of the other one.
+  bool is_ahead(std::size_t which) const;
+  /// Of two logs: rows of this one wait for their partners.
+  bool has_waiting(std::size_t which) const;
   const WatchCounts& counts() const { return counts_; }
   const WatchAnswer& last_answer() const { return answer_; }  // roll 0: there was none yet
 
@@ -134,6 +148,11 @@ class Watcher {
   /// Whether the line is a header, in place of what was made of rows without one.
   bool take_late_header(std::string_view line);
   void take_line(std::string_view line);
+  /// The same of one of two logs.
+  void take_line(std::string_view line, std::size_t which);
+  void take_row(const LogLine& row);
+  void tell_fingers(std::size_t count);
+  LogKind kind() const;
   void note_malformed(const LogLine& row);
   void skip(const std::string& why);
   LogLine read(std::string_view line);
@@ -158,6 +177,8 @@ class Watcher {
   WatchOptions options_;
   WatchListener& listener_;
   LogStream stream_;
+  std::unique_ptr<TwoLogs> two_;  // in place of that, of two logs
+  bool knows_fingers_ = false;
   bool begins_ = true;          // of a log that was joined in the middle: what its rows are is not known yet
   bool has_header_ = true;      // false: it was joined in the middle, and taken without one
   std::string held_;            // its last row of numbers, not taken yet: ...

@@ -24,7 +24,7 @@ Watching::Watching(const Part& part, const WatchOptions& options, std::optional<
   }
 }
 
-void Watching::push(std::string_view line) {
+void Watching::push(std::string_view line, std::size_t which) {
   if (!touches_ && begins_touches(line)) {
     writer_.begin_touches();
     touches_.emplace(*touch_options_, writer_);
@@ -36,7 +36,7 @@ void Watching::push(std::string_view line) {
         "--catalog: {} is a table of touches, which watch takes of one part: give PART, or ask rollfix identify",
         name_));
   }
-  if (rolls_) return rolls_->push(line);
+  if (rolls_) return rolls_->push(line, which);
   const std::string_view text = trimmed(line);
   if (!text.empty() && text.front() != '#') throw InputError(refused_);
 }
@@ -46,14 +46,14 @@ bool Watching::begins_touches(std::string_view line) const {
   return may_be && TouchWatcher::begins_with(line, touch_options_->table);
 }
 
-void Watching::resume() {
-  if (rolls_) rolls_->resume();
+void Watching::resume(std::size_t which) {
+  if (rolls_) rolls_->resume(which);
   writer_.resumed(counts());
 }
 
-void Watching::restart() {
+void Watching::restart(std::size_t which) {
   if (touches_) return touches_->restart();
-  if (rolls_) rolls_->restart();
+  if (rolls_) rolls_->restart(which);
 }
 
 void Watching::catch_up() {

@@ -19,10 +19,12 @@ class Watching {
   Watching(const Part& part, const WatchOptions& options, std::optional<TouchWatchOptions> touches,
            WatchWriter& writer);
 
-  /// Throws InputError: as Watcher and TouchWatcher do.
-  void push(std::string_view line);
-  void resume();
-  void restart();
+  /// Of two logs of log 0 or 1. Throws InputError: as Watcher and TouchWatcher do.
+  void push(std::string_view line, std::size_t which = 0);
+  void resume(std::size_t which = 0);
+  void restart(std::size_t which = 0);
+  bool is_ahead(std::size_t which) const { return rolls_ && rolls_->is_ahead(which); }
+  bool has_waiting(std::size_t which) const { return rolls_ && rolls_->has_waiting(which); }
   void catch_up();
   void finish();
   void end(WatchEnd why);

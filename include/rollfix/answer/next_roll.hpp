@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,18 +18,32 @@ struct NextRoll {
   std::string why{};                  // where there is none, or no roll helps: why, in words; else empty
 
   bool helps() const { return advice && advice->helps; }
-  /// How far the tangent turns along the advised roll if this is the place, radians. REQUIRES helps().
+  /// How far the tangent turns along the advised roll if this is the place, radians; of two fingers the difference of
+  /// both, a's less b's. REQUIRES helps().
   double turn_ahead(const Contender& contender) const;
 };
 
 /// How well what was felt for this answer tells turns and lengths apart.
 AdviceOptions advice_options(const Answer& answer, const std::optional<Interval>& travel);
-/// Where this finger of an answer can touch the part; nothing: anywhere, as far as is known.
-std::optional<Reach> reach_for_advice(const Answer& answer);
+/// Where each finger of an answer can touch the part.
+class ReachForAdvice {
+ public:
+  explicit ReachForAdvice(const Answer& answer);
+  /// As long as this lives; nullptr: anywhere, as far as is known.
+  PerFinger<const Reach*> pointers() const;
 
-/// From an answer of one finger to the roll to do next: with the answer's noise, within the reach of its finger.
-/// `travel`: how far the finger can roll on, see AdviceOptions. Throws InputError: an answer of two fingers, and as
-/// `advise` does.
-NextRoll next_roll(const Answer& answer, const std::optional<Interval>& travel = {});
+ private:
+  std::array<std::optional<Reach>, 2> each_;
+};
+/// The radii of two disks that must not overlap; nothing where that is not asked.
+std::optional<PerFinger<double>> disks_for_advice(const Answer& answer, bool may_overlap);
+
+/// From an answer of one finger or of two to the roll to do next: with the answer's noise, within the reach of its
+/// fingers. `travel`: how far each finger can roll on, see AdviceOptions. `may_overlap`: as in Problem. `friction`: of
+/// two fingers, the coefficient between each and the part; only rolls are advised that can be planned with it, from
+/// every place that counts (PlanProblem). Throws InputError as `advise` does, and: friction of one finger, or of
+/// fingers that are not disks and jaws.
+NextRoll next_roll(const Answer& answer, const std::optional<Interval>& travel = {}, bool may_overlap = false,
+                   const std::optional<PerFinger<double>>& friction = {});
 
 }  // namespace rollfix

@@ -25,7 +25,7 @@ struct NextRollOfParts {
 };
 
 /// As next_roll(const Answer&) does of one part's places, of all parts that were found. Without noise all places of all
-/// parts are as probable. Throws InputError: of two fingers, rolls that may have gone either way, and as `advise` does.
+/// parts are as probable. Throws InputError: rolls that may have gone either way, and as `advise` does.
 NextRollOfParts next_roll(const Identified& found, const std::optional<Interval>& travel = {});
 
 }  // namespace rollfix

@@ -18,14 +18,14 @@ namespace rollfix {
 /// moves the jaw and the pin; the part, which is free, and the wheel turn as the rolling requires: docs/rolling.md.
 /// Everything by time is seconds from the start, and 0 at the start.
 struct RigPlan {
-  double radius = 0;                // of the wheel, r > 0, in the outline's unit
-  PerFinger<double> start{0, 0};    // s of the jaw's first contact and of the wheel's, along the stored outline
-  double u = 0;                     // where on the jaw its first contact is, length
-  double psi = 0;                   // the wheel's orientation there, in the world, radians
-  Pose pose;                        // the part's, at the start
-  double duration = 1;              // seconds
-  std::function<Vec2(double)> pin{};  // how far the pin has moved in the jaw's frame, along its surface and away from it
-                                    // (to the jaw's body)
+  double radius = 0;                  // of the wheel, r > 0, in the outline's unit
+  PerFinger<double> start{0, 0};      // s of the jaw's first contact and of the wheel's, along the stored outline
+  double u = 0;                       // where on the jaw its first contact is, length
+  double psi = 0;                     // the wheel's orientation there, in the world, radians
+  Pose pose;                          // the part's, at the start
+  double duration = 1;                // seconds
+  std::function<Vec2(double)> pin{};  // how far the pin has moved in the jaw's frame, along its surface and away from
+                                      // it (to the jaw's body)
   std::function<Pose(double)> jaw{};  // how far the jaw's frame has moved and turned in the world; none: it stays
   /// The pin is pressed on the part by a spring, along y of the jaw's frame, so that the wheel's force passes through
   /// the jaw's contact at every instant. Then of `pin` only x is taken, and y follows.

@@ -170,11 +170,14 @@ py::tuple teach_part(const LogHandle& log, const py::object& finger, const py::o
   return py::make_tuple(PartHandle(std::move(*loaded)), document);
 }
 
-NextRollHandle next_roll_of(const AnswerHandle& answer, const std::optional<std::pair<double, double>>& travel) {
+NextRollHandle next_roll_of(const AnswerHandle& answer, const std::optional<std::pair<double, double>>& travel,
+                            bool may_overlap, const std::optional<std::pair<double, double>>& friction) {
   const Unlocked others_may_run;
   const std::optional<Interval> range =
       travel ? std::optional<Interval>(Interval{travel->first, travel->second}) : std::nullopt;
-  return {std::make_shared<const NextRoll>(next_roll(*answer.answer, range))};
+  std::optional<PerFinger<double>> each;
+  if (friction) each = PerFinger<double>(friction->first, friction->second);
+  return {std::make_shared<const NextRoll>(next_roll(*answer.answer, range, may_overlap, each))};
 }
 
 }  // namespace

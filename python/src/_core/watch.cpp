@@ -23,12 +23,12 @@ class Watch {
         writer_(app::watch_jsonl(part_, events_, notes_, [] { return true; })),
         watcher_(part_, begun(std::move(options)), *writer_) {}
 
-  void push(const std::string& lines) {
+  void push(const std::string& lines, std::size_t which) {
     const std::lock_guard alone(mutex_);
     std::istringstream stream(lines);
     auto last = std::chrono::steady_clock::now();
     for (std::string line; std::getline(stream, line);) {
-      watcher_.push(line);
+      watcher_.push(line, which);
       // Between lines: what is half taken would be lost.
       if (const auto now = std::chrono::steady_clock::now(); now - last > kBetweenSignals) {
         last = now;
@@ -46,9 +46,9 @@ class Watch {
     writer_->show();
     writer_->end(app::WatchEnd::stream, watcher_.last_answer(), watcher_.counts());
   }
-  void resume() {
+  void resume(std::size_t which) {
     const std::lock_guard alone(mutex_);
-    watcher_.resume();
+    watcher_.resume(which);
     writer_->resumed(watcher_.counts());
   }
   /// What was written since the last time: events and notes.
@@ -84,18 +84,20 @@ namespace {
 std::unique_ptr<Watch> watch(const PartHandle& part, const py::iterable& fingers, const py::dict& noise,
                              const std::optional<std::pair<double, double>>& prior,
                              const std::optional<std::vector<double>>& pose, bool robust, std::size_t every,
-                             const std::string& name,
+                             const std::vector<std::string>& names,
                              const std::vector<std::tuple<std::string, std::string, std::string>>& columns,
                              const std::string& angles, const std::optional<bool>& wrapped, bool clockwise,
-                             bool mirrored, bool live, const std::optional<CatalogHandle>& catalog) {
+                             bool mirrored, bool live, const std::optional<CatalogHandle>& catalog, bool may_overlap) {
   app::WatchOptions options;
-  options.name = name;
+  options.name = names[0];
+  if (names.size() == 2) options.name_b = names[1];
   options.fingers = fingers_from(fingers);
   options.belief.noise = noise_from(noise);
   if (prior) options.belief.prior = Prior{prior->first, prior->second};
   options.belief.pose = pose_from(pose);
   options.belief.robust = robust;
   options.every = every;
+  options.may_overlap = may_overlap;
   options.log.unit = part.part().unit();
   options.log.angles = angles;
   options.log.wrapped = wrapped;

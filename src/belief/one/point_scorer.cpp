@@ -192,8 +192,8 @@ Trend PointScorer::trend(const GridPoint& point, const Nodes& nodes, std::option
     // About the offset of turn that the last pass was taken about, or one as good.
     const RollFilter& filter = point.filter;
     traced.emplace(
-        errors_.is_wide() ? point.now.again(errors_.start(), memory_) : fresh_filter(*filter.arc(), filter.w()),
-        std::size_t{0}, nodes.generation(), Innovations{in(memory_), in(memory_), in(memory_)});
+        Traced{errors_.is_wide() ? point.now.again(errors_.start(), memory_) : fresh_filter(*filter.arc(), filter.w()),
+               0, nodes.generation(), Innovations{in(memory_), in(memory_), in(memory_)}});
     traced->filter.record_to(traced->innovations);
   }
   const auto take = [&](RollFilter& filter, const Node* from, const Node* end) {

@@ -7,6 +7,7 @@
 
 #include "belief/posterior.hpp"
 #include "belief/two/pair_density.hpp"
+#include "belief/two/pair_rows.hpp"
 #include "rollfix/error.hpp"
 
 namespace rollfix::belief {
@@ -49,7 +50,8 @@ class TwoFingersPosterior : public Posterior {
         errors_(options, kind, {contacts.finger_curvature[0], contacts.finger_curvature[1]},
                 contacts.facing.has_value(), part.perimeter()),
         boundary_{boundary(0), boundary(1)},
-        range_(part_.turning(), kRangeCells) {
+        range_(part_.turning(), kRangeCells),
+        rows_(options.robust) {
     if (options.noise.position > 0) path_.emplace(part_);
     if (options.noise.drift == 0 && options.noise.walk == 0 && options.noise.gyro == 0) return;
     throw InputError(
@@ -59,12 +61,15 @@ class TwoFingersPosterior : public Posterior {
   void add(const Sample& sample) override {
     question_.reset();
     const Reading& row = sample.reading;
-    if (const auto centres = centres_of(sample)) centres_.push_back(*centres);
+    const std::optional<PairCentres> centres = centres_of(sample);
     if (rows_.empty() && !has_first_) keep_first(sample);
     const bool is_first = rows_.empty() && row.length[0] == 0 && row.length[1] == 0 && row.turn == 0;
     // The first contacts are what the others are measured from; their facing is a row of its own.
-    if (is_first && kind_ == LogKind::contact) return;
-    rows_.push_back(row);
+    if (is_first && kind_ == LogKind::contact) {
+      if (!first_centres_) first_centres_ = centres;
+      return;
+    }
+    rows_.add(row, centres);
   }
 
   std::size_t samples() const override { return rows_.size(); }
@@ -91,7 +96,7 @@ class TwoFingersPosterior : public Posterior {
         is_hopeless ? Effort::hopeless : std::max(model.effort, found.fit.is_bad() ? Effort::trial : Effort::whole);
     const PairDensity density =
         pair_density(model, found.peaks, question.nodes, found.fit.widened, {corner(0), corner(1)});
-    PairModes modes = modes_of(density, model, rows_.empty() ? Reading(0, 0, 0) : rows_.back());
+    PairModes modes = modes_of(density, model, rows_.empty() ? Reading(0, 0, 0) : rows_.last());
     outcome.modes = std::move(modes.modes);
     pieces_ = std::move(modes.pieces);
     const PairScore& best = found.peaks.front().score;
@@ -152,8 +157,7 @@ class TwoFingersPosterior : public Posterior {
   /// All that hypotheses are held against, with some errors.
   struct Question {
     Question(const TwoFingersPosterior& of, const PairErrors& errors)
-        : nodes(pair_nodes(of.rows_, of.looked_at_centres(), of.contacts_.facing, errors.absolute(), of.options_.robust,
-                           errors)) {
+        : nodes(of.rows_.nodes(of.contacts_.facing, of.looked_at_centres(errors), errors)) {
       let_part_be_off(nodes, errors);
       const double accuracy = kShareOfAngle * std::sqrt(errors.turn_variance());
       const PerFinger<double>& curvature = of.contacts_.finger_curvature;
@@ -193,7 +197,7 @@ class TwoFingersPosterior : public Posterior {
   /// By the end of the roll, length.
   double most_slipped() const {
     if (rows_.empty()) return 0;
-    const double rolled = std::max(std::abs(rows_.back().length[0]), std::abs(rows_.back().length[1]));
+    const double rolled = std::max(std::abs(rows_.last().length[0]), std::abs(rows_.last().length[1]));
     return std::sqrt(errors_.gathered(0, {rolled, rolled})[0]);
   }
 
@@ -227,10 +231,9 @@ class TwoFingersPosterior : public Posterior {
     }
     return PairCentres::of(felt, normals);
   }
-  /// Of the first contacts and of every row, or none.
-  std::vector<PairCentres> looked_at_centres() const {
-    const bool is_whole = path_ && errors_.absolute() && centres_.size() == rows_.size() + 1;
-    return is_whole ? centres_ : std::vector<PairCentres>{};
+  /// Of the first contacts; nothing where centres are not looked at, as not all rows have them.
+  std::optional<PairCentres> looked_at_centres(const PairErrors& errors) const {
+    return path_ && errors.absolute() && rows_.have_centres() ? first_centres_ : std::nullopt;
   }
 
   TiltedBoundary boundary(std::size_t finger) const {
@@ -248,10 +251,10 @@ class TwoFingersPosterior : public Posterior {
   std::array<TiltedBoundary, 2> boundary_;
   TurningRange range_;
   std::optional<BoundaryPath> path_;  // where centres are evidence
-  std::vector<Reading> rows_;
+  PairRows rows_;
   bool has_first_ = false;
-  std::array<FeltContact, 2> first_;          // as felt at the first contacts
-  std::vector<PairCentres> centres_;          // of the first contacts, then of each row
+  std::array<FeltContact, 2> first_;  // as felt at the first contacts
+  std::optional<PairCentres> first_centres_;
   std::unique_ptr<const Question> question_;  // of all rows so far, with its peaks; none: they were not looked for yet
   Peaks peaks_;
   std::vector<std::vector<Piece>> pieces_;  // of each mode

@@ -22,6 +22,8 @@ Json inspection_json(const Inspection& inspection);
 
 /// "rollfix/advise/1".
 Json next_roll_json(const NextRoll& next);
+/// A number of one finger, a list of two.
+Json per_finger_json(const PerFinger<double>& values);
 /// Of one part or of several: `of` says which.
 Json advice_json(const std::string& verdict, const Json& of, const std::optional<Advice>& advice,
                  const std::string& why, const Json& contenders);

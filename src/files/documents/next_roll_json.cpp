@@ -2,6 +2,10 @@
 
 namespace rollfix {
 
+Json per_finger_json(const PerFinger<double>& values) {
+  return values.size() == 1 ? json_number(values[0]) : json_numbers(values);
+}
+
 Json advice_json(const std::string& verdict, const Json& of, const std::optional<Advice>& advice,
                  const std::string& why, const Json& contenders) {
   Json document = {{"schema", "rollfix/advise/1"},
@@ -17,14 +21,14 @@ Json advice_json(const std::string& verdict, const Json& of, const std::optional
                    {"prospects", Json::array()}};
   for (const auto& [field, value] : of.items()) document[field] = value;
   if (!advice) return document;
-  if (advice->helps) document["length"] = json_number(advice->advised().length);
+  if (advice->helps) document["length"] = per_finger_json(advice->lengths());
   document["expected_placements"] = json_number(advice->advised().placements);
   document["expected_travel"] = json_number(advice->advised().travel);
   document["bits"] = json_number(advice->advised().bits);
   document["bits_wanted"] = json_number(advice->bits_wanted);
   for (const Prospect& prospect : advice->prospects) {
-    document["prospects"].push_back(
-        Json::array({json_number(prospect.length), json_number(prospect.placements), json_number(prospect.bits)}));
+    document["prospects"].push_back(Json::array(
+        {per_finger_json(advice->lengths(prospect)), json_number(prospect.placements), json_number(prospect.bits)}));
   }
   return document;
 }
@@ -33,8 +37,8 @@ Json next_roll_json(const NextRoll& next) {
   Json contenders = Json::array();
   for (const Contender& contender : next.contenders) {
     contenders.push_back({{"placement", contender.label},
-                          {"contact", json_number(contender.place)},
-                          {"sd", json_number(contender.sd)},
+                          {"contact", per_finger_json(contender.place)},
+                          {"sd", per_finger_json(contender.sd)},
                           {"probability", json_number(contender.probability)},
                           {"turn", next.helps() ? json_number(next.turn_ahead(contender)) : Json(nullptr)}});
   }

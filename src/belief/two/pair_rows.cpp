@@ -1,0 +1,151 @@
+#include "belief/two/pair_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+// Notation:
+//   stride    rows of a node: the least power of two with which there are at most kMostNodes nodes
+//   median    of up to kRowsOfUnit neighbouring rows where outliers are reckoned with, else a row is its own
+//   unit      kRowsOfUnit rows, the least that is kept of a long roll
+// Idea: up to kMostRows all rows are kept, as their medians are taken anew when the stride grows. From there on a
+// median has as many rows as it ever will, and sums over them are joined two by two: the memory is that of kMostRows.
+// Follows docs/two_fingers.md, "The errors".
+namespace rollfix::belief {
+namespace {
+
+constexpr std::size_t kRowsOfUnit = 16;  // see rows_of_median
+constexpr std::size_t kMostRows = kMostNodes * kRowsOfUnit;
+
+/// `far` up to half turns, as near as can be to `near`.
+double brought_near(double far, double near) { return far - kHalfTurn * std::round((far - near) / kHalfTurn); }
+
+/// The mean of so many rows' centres and so many others'.
+PairCentres mean_of(const PairCentres& a, double rows_of_a, const PairCentres& b, double rows_of_b) {
+  const double of_a = rows_of_a / (rows_of_a + rows_of_b);
+  const double of_b = rows_of_b / (rows_of_a + rows_of_b);
+  PairCentres mean;
+  mean.distance = of_a * a.distance + of_b * b.distance;
+  mean.direction = of_a * a.direction + of_b * brought_near(b.direction, a.direction);
+  for (const std::size_t finger : {0U, 1U}) {
+    mean.arm[finger].at = of_a * a.arm[finger].at + of_b * b.arm[finger].at;
+    mean.arm[finger].per_length = of_a * a.arm[finger].per_length + of_b * b.arm[finger].per_length;
+  }
+  return mean;
+}
+
+}  // namespace
+
+PairRows::Block PairRows::joined(const Block& a, const Block& b) {
+  if (a.rows == 0) return b;
+  Block both = a;
+  for (const std::size_t finger : {0U, 1U}) both.length[finger] += b.length[finger];
+  both.turn += b.turn;
+  both.medians += b.medians;
+  both.rows += b.rows;
+  both.centres = mean_of(a.centres, static_cast<double>(a.rows), b.centres, static_cast<double>(b.rows));
+  return both;
+}
+
+/// Of the rows that are kept, from `begin` to before `end`.
+PairRows::Block PairRows::block_of(std::size_t begin, std::size_t end, std::size_t of_median) const {
+  Block block;
+  block.rows = end - begin;
+  for (std::size_t from = begin; from < end; from += of_median) {
+    const auto first = rows_.begin() + static_cast<std::ptrdiff_t>(from);
+    const auto last = rows_.begin() + static_cast<std::ptrdiff_t>(std::min(end, from + of_median));
+    const Reading middle = median_of({first, last});
+    for (const std::size_t finger : {0U, 1U}) block.length[finger] += middle.length[finger];
+    block.turn += middle.turn;
+    block.medians += 1;
+  }
+  if (!have_centres()) return block;
+  block.centres = centres_[begin];
+  for (std::size_t k = begin + 1; k < end; ++k) {
+    block.centres = mean_of(block.centres, static_cast<double>(k - begin), centres_[k], 1);
+  }
+  return block;
+}
+
+void PairRows::add(const Reading& row, const std::optional<PairCentres>& centres) {
+  if (rows_of_block_ == 0 && size_ == kMostRows) condense();
+  if (blocks_.size() == kMostNodes && open_.rows == 0 && rows_.empty()) halve();
+  rows_.push_back(row);
+  if (centres) centres_.push_back(*centres);
+  with_centres_ += centres ? 1 : 0;
+  last_ = row;
+  ++size_;
+  if (rows_of_block_ == 0 || rows_.size() < kRowsOfUnit) return;
+  open_ = joined(open_, block_of(0, kRowsOfUnit, rows_of_median(robust_, kRowsOfUnit)));
+  rows_.clear();
+  centres_.clear();
+  if (open_.rows < rows_of_block_) return;
+  blocks_.push_back(open_);
+  open_ = {};
+}
+
+void PairRows::condense() {
+  for (std::size_t begin = 0; begin < rows_.size(); begin += kRowsOfUnit) {
+    blocks_.push_back(block_of(begin, begin + kRowsOfUnit, rows_of_median(robust_, kRowsOfUnit)));
+  }
+  rows_of_block_ = kRowsOfUnit;
+  rows_.clear();
+  centres_.clear();
+}
+
+void PairRows::halve() {
+  for (std::size_t k = 0; 2 * k + 1 < blocks_.size(); ++k) blocks_[k] = joined(blocks_[2 * k], blocks_[2 * k + 1]);
+  blocks_.resize(blocks_.size() / 2);
+  rows_of_block_ *= 2;
+}
+
+std::vector<PairRows::Block> PairRows::blocks() const {
+  std::vector<Block> all = blocks_;
+  if (rows_of_block_ > 0) {
+    Block last = open_;
+    if (!rows_.empty()) last = joined(last, block_of(0, rows_.size(), rows_of_median(robust_, kRowsOfUnit)));
+    if (last.rows > 0) all.push_back(last);
+    return all;
+  }
+  std::size_t stride = 1;
+  while (stride * kMostNodes < rows_.size()) stride *= 2;
+  for (std::size_t begin = 0; begin < rows_.size(); begin += stride) {
+    all.push_back(block_of(begin, std::min(rows_.size(), begin + stride), rows_of_median(robust_, stride)));
+  }
+  return all;
+}
+
+std::vector<PairNode> PairRows::nodes(const std::optional<double>& facing, const std::optional<PairCentres>& centres,
+                                      const PairErrors& errors) const {
+  std::vector<PairNode> nodes;
+  const bool looks_at_centres = centres && have_centres();
+  if (facing) {
+    PairNode first;
+    if (looks_at_centres) first.centres = centres;
+    first.is_facing = true;
+    first.turn = *facing;
+    nodes.push_back(first);
+  }
+  const double lift = errors.absolute() && facing ? *facing : 0;
+  std::array<Travel, 2> travel{errors.travel(), errors.travel()};
+  std::size_t begin = 0;
+  for (const Block& block : blocks()) {
+    PairNode node;
+    for (const std::size_t finger : {0U, 1U}) node.length[finger] = block.length[finger] / block.medians;
+    node.turn = block.turn / block.medians + lift;
+    node.gathered = static_cast<double>(block.rows);
+    for (const std::size_t finger : {0U, 1U}) {
+      const double middle = 0.5 * static_cast<double>(2 * begin + block.rows - 1);
+      const Travel::Mark mark{middle, node.length[finger], errors.contact_variance() / block.medians};
+      node.travelled[finger] = travel[finger].add(mark);
+    }
+    const double worth = errors.worth(std::max(node.travelled[0], node.travelled[1]), node.gathered);
+    // A median of rows on a slope is hardly better than one of them.
+    node.rows = block.medians * worth / node.gathered;
+    if (looks_at_centres) node.centres = block.centres;
+    nodes.push_back(node);
+    begin += block.rows;
+  }
+  return nodes;
+}
+
+}  // namespace rollfix::belief
