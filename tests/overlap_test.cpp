@@ -84,8 +84,9 @@ TEST(OverlapOf, two_bodies_is_what_a_scan_of_all_directions_finds) {
   int apart = 0;
   const std::vector<Finger> all = bodies();
   for (int round = 0; round < test_count(25); ++round) {
-    const Finger& a = all[round % all.size()];
-    const Finger& b = all[(round / all.size() + round) % all.size()];
+    const auto number = static_cast<std::size_t>(round);
+    const Finger& a = all[number % all.size()];
+    const Finger& b = all[(number / all.size() + number) % all.size()];
     const Pose of_a{0, 0, 3 * unit(generator)};
     const Pose of_b{2.5 * unit(generator), 2 * unit(generator), 3 * unit(generator)};
     const double scanned = scanned_depth(points_of(a, of_a), points_of(b, of_b));

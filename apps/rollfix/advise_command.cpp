@@ -233,7 +233,7 @@ Report advise_report(const AdviseArguments& arguments) {
   if (!arguments.travel.empty()) travel = read_travel(arguments.travel, problem.part.unit());
   std::optional<PerFinger<double>> friction;
   if (!arguments.friction.empty()) {
-    const std::vector<double> each = read_friction(arguments.friction, 2);
+    const std::vector<double> each = read_coefficients(arguments.friction, 2);
     friction = PerFinger<double>(each[0], each[1]);
   }
   const NextRoll outcome = next_roll(solve(problem), travel, problem.may_overlap, friction);

@@ -40,6 +40,13 @@ void require_fingers_to_plan(const Answer& answer) {
   }
 }
 
+/// Next to nothing: where that can't be planned the part could not be held, so that it is not the true place.
+PerFinger<double> hardly(PerFinger<double> by) {
+  constexpr double kHardly = 1e-3;
+  for (double& length : by) length *= kHardly;
+  return by;
+}
+
 /// Why two fingers can't roll on by these lengths from a place; nothing: they can.
 std::optional<std::string> why_not_planned(const Answer& answer, const Contender& from, const PerFinger<double>& by,
                                            const PerFinger<double>& friction) {
@@ -123,12 +130,18 @@ NextRoll next_roll(const Answer& answer, const std::optional<Interval>& travel, 
   const Advice any = advise(answer.part, next.contenders, options);
   next.advice = any;
   if (friction && any.helps) {
+    bool can_any = false;
     options.can_roll = [&](const PartContender& from, const PerFinger<double>& by) {
-      return !why_not_planned(answer, from.contender, by, *friction);
+      const bool can = !why_not_planned(answer, from.contender, by, *friction);
+      can_any = can_any || can;
+      return can || why_not_planned(answer, from.contender, hardly(by), *friction);
     };
     next.advice = advise(answer.part, next.contenders, options);
-    if (!next.advice->helps) {
-      next.why = "with this friction the fingers can do none that would, from every place that is left";
+    if (!can_any) {
+      next.advice->helps = false;
+      next.why = "with this friction the fingers could not hold the part in any of them";
+    } else if (!next.advice->helps) {
+      next.why = "with this friction the fingers can do none that would, from every place where they can hold the part";
     }
   } else if (!any.helps) {
     next.why = why_no_roll(answer.part);

@@ -54,6 +54,22 @@ TEST(AdviseTwoFingers, on_a_circle_nothing_helps) {
   EXPECT_FALSE(advise(part_of("circle"), between({{1, 2}, {3, 5}})).helps);
 }
 
+TEST(AdviseTwoFingers, a_roll_that_the_robot_can_not_do_is_not_advised) {
+  const Part cam = part_of("cam");
+  const std::vector<Contender> two = between({{1, 4.5}, {2, 5}});
+  AdviceOptions options;
+  options.can_roll = [](const auto& /*from*/, const PerFinger<double>& by) {
+    return std::abs(by[0]) < 1e-3 && std::abs(by[1]) < 1e-3;
+  };
+  const Advice free = advise(cam, two);
+  const Advice bound = advise(cam, two, options);
+  ASSERT_TRUE(free.helps && bound.helps);
+  EXPECT_GT(std::max(std::abs(free.lengths()[0]), std::abs(free.lengths()[1])), 1e-3);
+  EXPECT_LT(std::max(std::abs(bound.lengths()[0]), std::abs(bound.lengths()[1])), 1e-3);
+  options.can_roll = [](const auto& /*from*/, const auto& /*by*/) { return false; };
+  EXPECT_FALSE(advise(cam, two, options).helps);
+}
+
 TEST(AdviseTwoFingers, the_finger_whose_place_is_not_known_rolls_alone) {
   // On a stadium's straight side: half a unit from its end and a unit from it.
   const Part part = part_of("stadium,length=2,r=0.5");

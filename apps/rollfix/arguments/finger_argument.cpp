@@ -151,7 +151,7 @@ std::string no_reach_note(const Finger& finger) {
       finger.name());
 }
 
-std::vector<double> read_friction(const std::string& text, std::size_t fingers) {
+std::vector<double> read_coefficients(const std::string& text, std::size_t fingers) {
   const std::string what = "--friction " + text;
   const std::vector<std::string_view> fields = split(text, ',');
   if (fields.size() > fingers) {

@@ -33,6 +33,6 @@ void require_disks(const std::vector<Finger>& fingers, const std::string& what);
 std::string no_reach_note(const Finger& finger);
 
 /// Of --friction: a coefficient for each of so many fingers, typed once for all or once for each.
-std::vector<double> read_friction(const std::string& text, std::size_t fingers);
+std::vector<double> read_coefficients(const std::string& text, std::size_t fingers);
 
 }  // namespace rollfix::app

@@ -94,7 +94,7 @@ Staying read_staying(const std::string& text) {
 
 void read_friction(const std::string& text, PlanProblem& problem) {
   if (text.empty()) return;
-  const std::vector<double> friction = read_friction(text, problem.fingers.size());
+  const std::vector<double> friction = read_coefficients(text, problem.fingers.size());
   for (std::size_t which = 0; which < problem.fingers.size(); ++which) {
     problem.fingers[which].friction = friction[which];
   }

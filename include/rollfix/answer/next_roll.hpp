@@ -41,8 +41,8 @@ std::optional<PerFinger<double>> disks_for_advice(const Answer& answer, bool may
 /// From an answer of one finger or of two to the roll to do next: with the answer's noise, within the reach of its
 /// fingers. `travel`: how far each finger can roll on, see AdviceOptions. `may_overlap`: as in Problem. `friction`: of
 /// two fingers, the coefficient between each and the part; only rolls are advised that can be planned with it, from
-/// every place that counts (PlanProblem). Throws InputError as `advise` does, and: friction of one finger, or of
-/// fingers that are not disks and jaws.
+/// every place that counts and where the part can be held at all (PlanProblem). Throws InputError as `advise` does,
+/// and: friction of one finger, or of fingers that are not disks and jaws.
 NextRoll next_roll(const Answer& answer, const std::optional<Interval>& travel = {}, bool may_overlap = false,
                    const std::optional<PerFinger<double>>& friction = {});
 

@@ -199,9 +199,10 @@ bool can_do(const std::vector<PartContender>& contenders, const AdviceOptions& o
 std::pair<const Trial*, std::size_t> chosen_of_possible(const std::vector<PartContender>& contenders,
                                                         const AdviceOptions& options, std::list<Trial>& trials) {
   for (std::size_t cut = 0;; ++cut) {
-    const auto [best, roll] = chosen(contenders, trials);
-    const double length = best->prospects[roll].length;
-    if (!options.can_roll || length == 0 || can_do(contenders, options, best->way.rolled(length))) return {best, roll};
+    const std::pair<const Trial*, std::size_t> now = chosen(contenders, trials);
+    const Trial* const best = now.first;
+    const double length = best->prospects[now.second].length;
+    if (!options.can_roll || length == 0 || can_do(contenders, options, best->way.rolled(length))) return now;
     const auto at = std::find_if(trials.begin(), trials.end(), [&](const Trial& one) { return &one == best; });
     Way way = at->way;
     (length < 0 ? way.travel.lo : way.travel.hi) = kShorter * length;
