@@ -118,7 +118,8 @@ def is_for_python(problem):
 def chosen(slow):
     from problems import all_problems
 
-    fitting = [problem for problem in all_problems() if is_for_python(problem)]
+    groups = ("1/", "2/")  # what has readings and rolls
+    fitting = [problem for problem in all_problems() if problem.id.startswith(groups) and is_for_python(problem)]
     return fitting if slow else fitting[3::37]
 
 

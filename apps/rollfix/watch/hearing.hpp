@@ -71,7 +71,7 @@ class Hearing {
     if (what == Heard::ended && --going_on_ == 0) return stop(WatchEnd::stream);
     if (what == Heard::restarted) watcher_.restart(which);
     if (what == Heard::resumed) watcher_.resume(which);
-    writer_.show();
+    if (what != Heard::line) writer_.show();  // the header may be the next line
   }
 
   WatchEnd run() {
