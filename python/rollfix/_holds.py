@@ -28,8 +28,8 @@ class HoldAnswer(Listing):
 
     def __init__(self, asked: Tuple[Any, ...]) -> None:
         part, logs, *rest, wheels, squeezed = asked
-        pins = [(one._core, radius) for one, radius in wheels]
-        self._answer = _core.locate_hold(part._core, [one._core for one in logs], *rest, pins, squeezed)
+        rest += [[(one._core, radius) for one, radius in wheels], squeezed]
+        self._answer = _core.locate_hold(part._core, [one._core for one in logs], *rest)
         self._asked = asked
         super().__init__(self._answer.document())
 

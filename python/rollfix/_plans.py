@@ -43,7 +43,7 @@ class Plan(Document):
     @property
     def rows(self) -> Dict[str, np.ndarray]:
         """dict of ndarray, (samples,): the columns of the table, see docs/plan.md."""
-        table = np.genfromtxt(io.StringIO(self._plan.table(None)), delimiter=",", names=True)
+        table: Any = np.genfromtxt(io.StringIO(self._plan.table(None)), delimiter=",", names=True)
         return {name: table[name] for name in table.dtype.names or ()}
 
     def to_csv(self, *, finger: Optional[str] = None) -> str:

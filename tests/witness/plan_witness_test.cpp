@@ -16,7 +16,9 @@ TEST(PlanWitness, what_is_planned_holds_and_what_is_refused_slips) {
     const Played played = play(done);
     EXPECT_TRUE(holds(played)) << k << ": slip " << slip_of(played) << ", apart " << played.apart;
     EXPECT_LT(played.place, 2e-3) << k;
-    if (const auto refused = refused_case(done)) EXPECT_FALSE(holds(play(*refused))) << k;
+    if (const auto refused = refused_case(done)) {
+      EXPECT_FALSE(holds(play(*refused))) << k;
+    }
   }
 }
 
