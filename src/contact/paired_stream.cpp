@@ -63,7 +63,7 @@ struct PairedStream::State {
   void push(std::size_t which, std::string_view line);
   void drop_front(std::size_t which);
   void match();
-  std::vector<LogLine> take() { return std::exchange(found, {}); }
+  std::vector<LogLine> take() { return std::exchange(found_, {}); }
 
   std::array<OneLog, 2> sides;
   RollRows rolls;
@@ -76,7 +76,7 @@ struct PairedStream::State {
   void take_fronts();
   double slack() const;
 
-  std::vector<LogLine> found;
+  std::vector<LogLine> found_;
 };
 
 /// Both logs' columns are known.
@@ -107,7 +107,7 @@ void PairedStream::State::push(std::size_t which, std::string_view line) {
     next.kind = side.reader.read(line, next.row);
   } catch (const InputError& error) {
     if (!side.knows_columns()) throw;
-    LogLine& skipped = found.emplace_back(malformed(error.what()));
+    LogLine& skipped = found_.emplace_back(malformed(error.what()));
     skipped.goes_back = dynamic_cast<const NotLater*>(&error) != nullptr;
     if (!side.has_time()) side.rows.push_back({});
     return match();
@@ -117,17 +117,17 @@ void PairedStream::State::push(std::size_t which, std::string_view line) {
   if (next.kind == RowKind::none) return match();
   side.reader.accept(next.row);
   if (!side.began) side.began = next.row.time;
-  side.rows.push_back(std::move(next));
+  side.rows.push_back(next);
   match();
 }
 
 void PairedStream::State::drop_front(std::size_t which) {
   OneLog& side = sides[which];
-  const WaitingRow gone = std::move(side.rows.front());
+  const WaitingRow gone = side.rows.front();
   side.rows.pop_front();
   if (gone.kind == RowKind::none) return;  // it was told
   const std::string at = gone.row.time ? fmt::format(" at the time {}", *gone.row.time) : "";
-  found.push_back(malformed(fmt::format("{}: {} has no row{} to go with it: it is left out",
+  found_.push_back(malformed(fmt::format("{}: {} has no row{} to go with it: it is left out",
                                         where(side.reader.name(), gone.row.line), sides[1 - which].reader.name(), at)));
 }
 
@@ -164,11 +164,11 @@ void PairedStream::State::match_by_time() {
 
 void PairedStream::State::take_fronts() {
   holds = false;
-  const WaitingRow a = std::move(sides[0].rows.front());
-  const WaitingRow b = std::move(sides[1].rows.front());
+  const WaitingRow a = sides[0].rows.front();
+  const WaitingRow b = sides[1].rows.front();
   for (OneLog& side : sides) side.rows.pop_front();
   if (a.kind == RowKind::off || b.kind == RowKind::off) {
-    found.push_back(rolls.off());
+    found_.push_back(rolls.off());
     return;
   }
   LogRow both = a.row;
@@ -177,10 +177,10 @@ void PairedStream::State::take_fronts() {
   try {
     rolls.require_on_finger(both, lines);
   } catch (const InputError& error) {
-    found.push_back(malformed(error.what()));
+    found_.push_back(malformed(error.what()));
     return;
   }
-  found.push_back(rolls.take(both, lines));
+  found_.push_back(rolls.take(both, lines));
 }
 
 PairedStream::PairedStream(const std::array<std::string, 2>& names, const Part& part, std::vector<Finger> fingers,

@@ -111,7 +111,7 @@ class Course {
 
   Vec2 first_displacement() const {
     for (const double time : times_) {
-      const Vec2 moved = displacement(time);
+      Vec2 moved = displacement(time);
       if (moved != Vec2::Zero()) return moved;
     }
     throw InputError(plan_.squeezed

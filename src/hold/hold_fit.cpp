@@ -45,9 +45,7 @@ HoldFit::HoldFit(const Part& part, const HeldRows& rows, const WheelPaths& wheel
   settled_ = rows.has_noise || rows.wheels.empty() ? kFitSettled : kExactSettled;
   has_stretches_ = rows.has_noise && any_stretch;
   size_ = has_stretches_ ? 2 * count : count;
-  for (std::size_t k = 0; k < rows.wheels.size(); ++k) {
-    size_ += (rows.wheels[k].radius > 0 ? 1 : 0) + (rows.wheels[k].spin ? 1 : 0);
-  }
+  for (const auto& wheel : rows.wheels) size_ += (wheel.radius > 0 ? 1 : 0) + (wheel.spin ? 1 : 0);
   constexpr int kPoints = 64;
   for (int k = 0; k < kPoints; ++k) middle_ += part.point(part.perimeter() * (k + 0.5) / kPoints) / kPoints;
 }

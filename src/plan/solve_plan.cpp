@@ -136,7 +136,7 @@ void conclude(Making& making, const RollPath& path) {
   double first = 2;
   for (Looked& looked : making.looked) {
     looked.margin.time = time_of(looked.at) * plan.duration;
-    const double rows = static_cast<double>(making.problem.rows - 1);
+    const auto rows = static_cast<double>(making.problem.rows - 1);
     looked.margin.row = static_cast<std::size_t>(std::lround(time_of(looked.at) * rows));
     if (looked.margin.fails && looked.at < first) {
       first = looked.at;
