@@ -241,14 +241,14 @@ Advice advise(const Part& part, const std::vector<Contender>& contenders, const 
   return advise(on_part, options);
 }
 
-Advice advise(const std::vector<PartContender>& all, const AdviceOptions& options) {
-  require_valid(all, options);
-  const std::vector<PartContender> contenders = compared(all);
+Advice advise(const std::vector<PartContender>& contenders, const AdviceOptions& options) {
+  require_valid(contenders, options);
+  const std::vector<PartContender> some = compared(contenders);
   std::vector<double> prior;
-  for (const PartContender& one : contenders) prior.push_back(one.contender.probability);
+  for (const PartContender& one : some) prior.push_back(one.contender.probability);
   std::list<Trial> trials;
-  for (const Way& way : belief::ways_of(contenders, options)) trials.emplace_back(contenders, options, way);
-  const auto [trial, best] = chosen_of_possible(contenders, options, trials);
+  for (const Way& way : belief::ways_of(some, options)) trials.emplace_back(some, options, way);
+  const auto [trial, best] = chosen_of_possible(some, options, trials);
   double most_bits = 0;
   for (const Trial& each : trials) most_bits = std::max(most_bits, each.most.bits);
   Advice advice;

@@ -49,7 +49,7 @@ void add_along_ridge(const Part& part, const Contender& whole, std::vector<Conte
   axes.computeDirect(covariance);
   const double along = std::sqrt(std::max(0.0, axes.eigenvalues()(1)));
   const Vec2 axis = axes.eigenvectors().col(1);
-  constexpr double kPieces = static_cast<double>(kSevenDeviates.size());
+  constexpr auto kPieces = static_cast<double>(kSevenDeviates.size());
   // What is left within each of them: as much less along the ridge as there are of them.
   const Mat2 within = covariance - (1 - 1 / (kPieces * kPieces)) * along * along * axis * axis.transpose();
   for (const double deviate : kSevenDeviates) {
