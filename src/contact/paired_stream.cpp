@@ -127,8 +127,9 @@ void PairedStream::State::drop_front(std::size_t which) {
   side.rows.pop_front();
   if (gone.kind == RowKind::none) return;  // it was told
   const std::string at = gone.row.time ? fmt::format(" at the time {}", *gone.row.time) : "";
-  found_.push_back(malformed(fmt::format("{}: {} has no row{} to go with it: it is left out",
-                                        where(side.reader.name(), gone.row.line), sides[1 - which].reader.name(), at)));
+  found_.push_back(
+      malformed(fmt::format("{}: {} has no row{} to go with it: it is left out",
+                            where(side.reader.name(), gone.row.line), sides[1 - which].reader.name(), at)));
 }
 
 void PairedStream::State::match() {
