@@ -83,9 +83,9 @@ class Folder {
 
   void write(const std::string& name, const std::string& text) const { std::ofstream(path_ / name) << text; }
 
-  std::vector<std::string> files() const {
+  std::vector<std::string> files(const std::string& below = "") const {
     std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(path_)) names.push_back(entry.path().filename().string());
+    for (const auto& entry : fs::directory_iterator(path_ / below)) names.push_back(entry.path().filename().string());
     std::sort(names.begin(), names.end());
     return names;
   }

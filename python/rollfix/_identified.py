@@ -107,18 +107,22 @@ class Identified(Made, SequenceABC):  # type: ignore[type-arg]
         return document
 
     def to_frame(self) -> Any:
-        """A pandas.DataFrame with a row for each placement: `part`, with noise `part_probability`, and as of an answer."""
+        """A pandas.DataFrame with a row for each placement: `part`, with noise `part_probability`, and as of an answer.
+
+        A part of which none is listed, as after a single touch, has one row without a placement's numbers.
+        """
         from ._logs import pandas
 
         columns: Dict[str, List[Any]] = {"part": []}
         if self._fields["noise"] is not None:
             columns["part_probability"] = []
         for one in self._parts:
-            columns["part"] += [one.name] * len(one.answer)
+            rows = max(len(one.answer), 1)
+            columns["part"] += [one.name] * rows
             if self._fields["noise"] is not None:
-                columns["part_probability"] += [one.probability] * len(one.answer)
+                columns["part_probability"] += [one.probability] * rows
             for name, values in one.answer._columns().items():
-                columns.setdefault(name, []).extend(values)
+                columns.setdefault(name, []).extend(values or [None])
         return pandas().DataFrame(columns)
 
     def __len__(self) -> int:

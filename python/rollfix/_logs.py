@@ -304,6 +304,7 @@ def rolls_of(log: Any, naming: Naming, unit: str) -> List[Log]:
         return [log_of(log, naming, unit, False, None)]
     options: Dict[str, Any] = {"unit": unit, "angles": naming.angles, "wrapped": naming.wrapped, "clockwise": False}
     options["skip_bad"] = False
+    options["single_rows"] = True
     options["decimal_comma"] = decimal_comma(".")
     file = path_of(log, "log")
     if file is not None:

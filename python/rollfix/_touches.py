@@ -214,15 +214,16 @@ def _rows(touches: Any) -> Any:
             raise InputError(f"touches: expected (x, y) or (x, y, normal), found {shown(touch)} (touch {number})")
         plain = [_number(value, COLUMNS[k], number) for k, value in enumerate(values)]
         row = array(plain, "touches")
-        if not np.isfinite(row[:2]).all():
+        is_normal_alone = all(value is None for value in values[:2]) and len(row) > 2 and np.isfinite(row[2])
+        if not (is_normal_alone or np.isfinite(row[:2]).all()):
             raise InputError(f"touches: expected finite x and y, found {shown(touch)} (touch {number})")
         rows.append([*row, *[float("nan")] * (len(COLUMNS) - len(row))])
     return np.array(rows, dtype=float).reshape(-1, len(COLUMNS))
 
 
 def _number(value: Any, column: str, number: int) -> Any:
-    """NaN for None, of a place aside; of an angle also a text such as "162deg"."""
-    if value is None and column not in ("x", "y"):
+    """NaN for None, which is what was not measured; of an angle also a text such as "162deg"."""
+    if value is None:
         return float("nan")
     if not (isinstance(value, str) and column in ("normal", "normal_sd")):
         return value

@@ -165,7 +165,13 @@ def test_touches_tell_the_part_as_the_program_says_it(catalog, program):
     assert found[0].answer == catalog.part(found.names[0]).locate(**asked)
     assert pickle.loads(pickle.dumps(found)) == found
     rows = found.to_frame()
-    assert list(rows["part"])[0] == found.names[0] and len(rows) == sum(len(one.answer) for one in found)
+    assert list(rows["part"])[0] == found.names[0] and len(rows) == sum(max(len(one.answer), 1) for one in found)
+
+
+def test_a_part_without_a_placement_has_a_row_of_the_frame(catalog):
+    found = catalog.identify(touches=TOUCHES[:1], finger=rollfix.Disk(0.1), noise={"position": 0.005})
+    rows = found.to_frame()
+    assert list(rows["part"]) == found.names and rows["x"].isna().all()
 
 
 def test_touches_and_a_roll_are_two_questions(catalog, roll):

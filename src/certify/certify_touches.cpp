@@ -89,6 +89,10 @@ TouchCertificate certify_touches(const TouchAnswer& answer, std::optional<std::s
     throw InputError(
         "a certificate of touches: expected at least two, found 1, which leaves all poses along the boundary");
   }
+  for (const MeasuredTouch& touch : answer.touches) {
+    if (touch.has_place()) continue;
+    throw InputError("a certificate of touches: expected the place of each, found a normal alone: leave it out");
+  }
   TouchCertificate certificate;
   static_cast<CertifiedOutline&>(certificate) = certified_outline(answer.part);
   certificate.mirrored = answer.mirrored;

@@ -33,7 +33,8 @@ std::size_t least_rows(LogKind kind, bool is_later_roll) {
 /// Makes logs of the rows that a reader gives.
 class LogMaker {
  public:
-  LogMaker(const RowReader& reader, Splitting splitting) : reader_(reader), splitting_(splitting) {}
+  LogMaker(const RowReader& reader, Splitting splitting, bool single_rows)
+      : reader_(reader), splitting_(splitting), single_rows_(single_rows) {}
 
   void take(RowKind kind, const LogRow& row) {
     if (kind == RowKind::none) return;
@@ -125,7 +126,8 @@ class LogMaker {
 
   /// Keeps the roll, unless it is too short to be one.
   void end_roll() {
-    if (roll_.rows() >= least_rows(reader_.kind(), is_later_roll_)) rolls_.push_back(std::move(roll_));
+    const bool is_touch = single_rows_ && reader_.kind() == LogKind::contact && roll_.rows() == 1;
+    if (is_touch || roll_.rows() >= least_rows(reader_.kind(), is_later_roll_)) rolls_.push_back(std::move(roll_));
     roll_ = Log{};
   }
 
@@ -143,7 +145,8 @@ class LogMaker {
 
   const RowReader& reader_;
   Splitting splitting_;
-  Log roll_;  // that goes on
+  bool single_rows_;  // are rolls
+  Log roll_;          // that goes on
   std::vector<Odometer> odometers_;
   std::vector<FingerRounding> roundings_;  // of each finger's columns
   std::vector<Log> rolls_;
@@ -232,7 +235,7 @@ class RowsInLines {
 /// Runs a stream of lines to its end.
 std::vector<Log> rolls_in(LogLines& lines, Splitting splitting, const LogOptions& options, bool of_pin = false) {
   RowsInLines rows(lines, options, of_pin);
-  LogMaker maker(rows.reader(), splitting);
+  LogMaker maker(rows.reader(), splitting, options.single_rows);
   RowKind kind = RowKind::none;
   LogRow row;
   while (rows.next(kind, row)) maker.take(kind, row);

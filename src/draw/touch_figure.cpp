@@ -82,6 +82,7 @@ class TouchPicture {
     Box seen;
     for (const std::vector<Vec2>& points : poses_) seen.extend(box_around(points));
     for (const MeasuredTouch& touch : answer_.touches) {
+      if (!touch.has_place()) continue;
       seen.extend(Vec2(touch.at + Vec2::Constant(answer_.radius)));
       seen.extend(Vec2(touch.at - Vec2::Constant(answer_.radius)));
     }
@@ -169,6 +170,7 @@ class TouchPicture {
   }
 
   void touched(Svg& svg, const MeasuredTouch& touch) const {
+    if (!touch.has_place()) return;
     const Vec2 at = axes_(touch.at.x(), touch.at.y());
     svg.open_group("touch");
     if (answer_.radius > 0) svg.circle(at, answer_.radius * scale_, stroke(kSoftInk, 0.8));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace rollfix::touch {
@@ -10,14 +11,15 @@ std::vector<Measured> measured(const TouchProblem& problem) {
   std::vector<Measured> touches;
   for (const MeasuredTouch& touch : problem.touches) {
     Measured one;
-    one.at = touch.at;
+    one.has_place = touch.has_place();
+    if (one.has_place) one.at = touch.at;
     if (touch.normal) one.tangent = *touch.normal + 0.5 * std::numbers::pi;
     const Noise none;
     const Noise& noise = problem.noise ? *problem.noise : none;
     one.place_unit = problem.noise ? touch.position_sd.value_or(noise.position) : problem.tolerance->length;
     one.angle_unit = problem.noise ? touch.normal_sd.value_or(noise.angle) : problem.tolerance->angle;
     const double most = problem.noise ? kTouchSigmas : 1;
-    one.place_most = most * one.place_unit;
+    one.place_most = one.has_place ? most * one.place_unit : std::numeric_limits<double>::infinity();
     one.angle_most = std::min(most * one.angle_unit, std::numbers::pi);
     touches.push_back(one);
   }

@@ -48,11 +48,13 @@ class Refit {
     std::vector<Measured> touches;
     for (std::size_t k = 0; k < answer.touches.size(); ++k) {
       const TouchTolerance& most = answer.tolerance[k];
-      Measured one{answer.touches[k].at};
+      Measured one;
+      one.has_place = answer.touches[k].has_place();
+      if (one.has_place) one.at = answer.touches[k].at;
       if (answer.touches[k].normal) one.tangent = *answer.touches[k].normal + 0.5 * std::numbers::pi;
       one.place_most = most.length;
       one.angle_most = most.angle;
-      one.place_unit = most.length / kTouchSigmas;
+      if (one.has_place) one.place_unit = most.length / kTouchSigmas;
       if (most.angle > 0) one.angle_unit = most.angle / kTouchSigmas;
       touches.push_back(one);
     }

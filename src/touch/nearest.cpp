@@ -37,7 +37,9 @@ std::optional<PathPlace> beyond(const CentrePath& path, const InPart& touch, std
   return (forwards ? slope > 0 : slope < 0) ? next : std::nullopt;
 }
 
-double least_distance(const PathTree::Node& node, const InPart& touch) {
+}  // namespace
+
+double least_square(const PathTree::Node& node, const InPart& touch) {
   const double off_disc = touch.has_place ? (touch.at - node.middle).norm() - node.radius : 0;
   const double place = std::max(0.0, off_disc) / touch.place_unit;
   if (!touch.tangent) return place * place;
@@ -45,8 +47,6 @@ double least_distance(const PathTree::Node& node, const InPart& touch) {
   const double angle = std::max(0.0, off) / touch.angle_unit;
   return place * place + angle * angle;
 }
-
-}  // namespace
 
 Distance distance_at(const CentrePoint& point, const InPart& touch) {
   Distance distance;
@@ -121,8 +121,8 @@ PathPlace nearest_place(PathTree& tree, const InPart& touch) {
       }
       continue;
     }
-    const double of_left = least_distance(tree.node(left), touch);
-    const double of_right = least_distance(tree.node(right), touch);
+    const double of_left = least_square(tree.node(left), touch);
+    const double of_right = least_square(tree.node(right), touch);
     const bool left_first = of_left <= of_right;
     waiting.emplace_back(std::max(of_left, of_right), left_first ? right : left);
     waiting.emplace_back(std::min(of_left, of_right), left_first ? left : right);

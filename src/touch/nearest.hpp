@@ -26,6 +26,9 @@ struct Distance {
 };
 Distance distance_at(const CentrePoint& point, const InPart& touch);
 
+/// No place of a node has a smaller sum of squares.
+double least_square(const PathTree::Node& node, const InPart& touch);
+
 /// The nearest place to be found by going downhill from this one, from stretch to stretch.
 PathPlace downhill(const CentrePath& path, const InPart& touch, PathPlace from);
 

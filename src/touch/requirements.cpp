@@ -39,7 +39,11 @@ void require_touch(const TouchProblem& problem, std::size_t number) {
   const MeasuredTouch& touch = problem.touches[number];
   const std::string where = fmt::format("touch {}", number + 1);
   const double far = kMostFar * problem.part.perimeter();
-  if (!(std::abs(touch.at.x()) <= far && std::abs(touch.at.y()) <= far)) {
+  if (!touch.has_place() && !(touch.at.x() != touch.at.x() && touch.at.y() != touch.at.y() && touch.normal)) {
+    refuse(fmt::format("{}: expected a place, x and y, or a normal alone, found {}", where,
+                       touch.normal ? "one of x and y" : "neither"));
+  }
+  if (touch.has_place() && !(std::abs(touch.at.x()) <= far && std::abs(touch.at.y()) <= far)) {
     refuse(fmt::format("{}: expected a place within {:.3g} of the origin, found ({}, {})", where, far, touch.at.x(),
                        touch.at.y()));
   }
@@ -48,11 +52,23 @@ void require_touch(const TouchProblem& problem, std::size_t number) {
                        *touch.normal));
   }
   if (!problem.noise) return;
-  require_sd(touch.position_sd.value_or(problem.noise->position), problem.part.perimeter(), where, "its place",
-             "give `noise` with position=SD");
+  if (touch.has_place()) {
+    require_sd(touch.position_sd.value_or(problem.noise->position), problem.part.perimeter(), where, "its place",
+               "give `noise` with position=SD");
+  }
   if (!touch.normal) return;
   require_sd(touch.normal_sd.value_or(problem.noise->angle), kMostNormalSd, where, "its normal",
              "give `noise` with angle=SD, or leave the normals out");
+}
+
+/// Normals alone leave the place open, as rolls without x and y do.
+void require_a_place(const TouchProblem& problem) {
+  const bool any = std::any_of(problem.touches.begin(), problem.touches.end(),
+                               [](const MeasuredTouch& one) { return one.has_place(); }) ||
+                   std::any_of(problem.rolls.begin(), problem.rolls.end(),
+                               [](const Log& log) { return !log.fingers.front().x.empty(); });
+  if (any || problem.touches.empty()) return;
+  refuse("expected a place, x and y, of at least one contact, found normals alone, which leave open where the part is");
 }
 
 void require_clear(const TouchProblem& problem) {
@@ -138,6 +154,7 @@ void require_valid(const TouchProblem& problem) {
   if (problem.robust && !problem.noise) refuse("`robust` is about noise: give `noise` as well");
   for (std::size_t k = 0; k < problem.rolls.size(); ++k) require_roll(problem, k);
   for (std::size_t k = 0; k < problem.touches.size(); ++k) require_touch(problem, k);
+  require_a_place(problem);
   if (!problem.clear.empty() && !problem.rolls.empty()) {
     refuse("`clear`: paths on which nothing was felt are taken with touches alone, found rolls: leave one of them out");
   }

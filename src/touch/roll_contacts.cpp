@@ -23,6 +23,8 @@ namespace {
 constexpr double kLeastPlace = 1e-6;
 // Rows of a roll that are searched with at most.
 constexpr std::size_t kInstants = 8;
+// A normal of exact numbers is off by their rounding alone, radians.
+constexpr double kLeastNormal = 1e-9;
 // Arcs are rounded, a share of the perimeter.
 constexpr double kArcRounding = 1e-12;
 // A place of the boundary where the belief is less than exp(-this) of its largest has next to nothing of it.
@@ -178,7 +180,49 @@ void measure_exactly(const TouchProblem& problem, const Log& log, RollContact& c
       measured.has_place ? place_tolerance(problem, log, *problem.finger) : problem.part.perimeter();
 }
 
+/// How far a single row may be off: the contact's place in the world, of a disk its centre, and its normal.
+void measure_touch(const TouchProblem& problem, const Log& log, Measured& measured) {
+  const Finger& finger = *problem.finger;
+  if (!problem.noise) {
+    const double digits = problem.tolerance ? 0 : rounding_of(log, {*problem.finger}).turn;
+    measured.angle_unit = measured.angle_most =
+        problem.tolerance && problem.tolerance->angle > 0 ? problem.tolerance->angle : digits + kLeastNormal;
+    measured.place_unit = measured.place_most = place_tolerance(problem, log, finger);
+    return;
+  }
+  const Noise& noise = *problem.noise;
+  const Contact first = contacts_of(log.fingers.front(), finger).front();
+  measured.angle_unit = std::max(std::hypot(noise.angle, finger.curvature(first.u) * noise.contact), kLeastNormal);
+  measured.place_unit = noise.position;
+  if (!finger.is_disk()) {  // of a disk the centre is what was measured
+    const double arm = centre_of(finger, Vec2::Zero(), first).norm();
+    measured.place_unit = std::hypot(noise.position, noise.contact, arm * noise.angle);
+  }
+  measured.angle_most = std::min(kTouchSigmas * measured.angle_unit, std::numbers::pi);
+  measured.place_most = kTouchSigmas * measured.place_unit;
+}
+
+/// Of one row: it can be anywhere on the part.
+RollContact touch_of(const TouchProblem& problem, const Log& log, RollCentre centre) {
+  const double radius = problem.finger->is_disk() ? problem.finger->disk()->radius : 0;
+  RollContact contact{Answer{problem.part}, {}, {}, {}, {}, {}};
+  contact.alone.readings = {Reading(0, 0)};
+  contact.alone.verdict.name = Verdict::unobservable;
+  contact.path = std::make_unique<CentrePath>(problem.part, radius);
+  contact.confined.arcs = {{0, problem.part.perimeter()}};
+  if (!contact.path->stretches().empty()) contact.tree = std::make_unique<PathTree>(*contact.path);
+  Measured& measured = contact.measured;
+  measured.has_place = centre != RollCentre::unused;
+  measured.tree = contact.tree.get();
+  measure_first(log, *problem.finger, radius, measured);
+  measure_touch(problem, log, measured);
+  if (centre == RollCentre::evidence) return contact;
+  measured.place_unit = measured.place_most = problem.part.perimeter();
+  return contact;
+}
+
 RollContact contact_of(const TouchProblem& problem, const Log& log, RollCentre centre) {
+  if (log.rows() == 1) return touch_of(problem, log, centre);
   const Problem single = alone(problem, log);
   RollContact contact{solve(single), {}, {}, {}, {}, {}};
   const bool is_disk = problem.finger->is_disk();
@@ -242,9 +286,10 @@ Problem alone(const TouchProblem& problem, const Log& log) {
 }
 
 std::vector<RollContact> roll_contacts(const TouchProblem& problem) {
-  const bool any_place =
-      !problem.touches.empty() || std::any_of(problem.rolls.begin(), problem.rolls.end(),
-                                              [&](const Log& log) { return places_count(problem, log); });
+  const bool any_place = std::any_of(problem.touches.begin(), problem.touches.end(),
+                                     [](const MeasuredTouch& touch) { return touch.has_place(); }) ||
+                         std::any_of(problem.rolls.begin(), problem.rolls.end(),
+                                     [&](const Log& log) { return places_count(problem, log); });
   std::vector<RollContact> contacts;
   for (const Log& log : problem.rolls) {
     const bool is_reference = !any_place && contacts.empty();

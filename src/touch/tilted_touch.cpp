@@ -10,6 +10,7 @@
 //   r(u)            the touch's residuals in the given pose; r^T r is `distance_at(...).square`, least at the nearest
 //                   place
 //   l(pose)         the integral of exp(-r^T r / 2) ds: `sum_`, with exp(-least / 2) taken out
+//                   of a normal alone, at every place that has it
 //   g(u), M(u)      a place's share of the normal equations, J^T r with its sign and J^T J: `Normals`
 //   E g, E M        means over u with these weights: d log l = E g, -d^2 log l = E M - Cov g: `result`
 // Follows docs/touch.md, "How it works": the last paragraph. Gauss and Legendre's rule of 5 points on panels of
@@ -32,6 +33,7 @@ class Integral {
   Integral(const PoseFit& fit, const Pose& pose, std::size_t touch, const PathPlace& nearest)
       : fit_(fit), path_(fit.path(touch)), pose_(pose), number_(touch), touch_(fit.in_part(pose, touch)) {
     least_ = distance_at(path_.at(nearest), touch_).square;
+    if (!touch_.has_place || is_reference(fit.touches()[touch])) return go_everywhere();
     go(nearest, true);
     go(nearest, false);
   }
@@ -71,6 +73,29 @@ class Integral {
       add_panel(from.stretch, std::min(from.u, to), std::max(from.u, to), length);
       gone += std::abs(to - from.u) * length;
       from.u = to;
+    }
+  }
+
+  /// Of a normal alone: every stretch of the boundary that has it, wherever it is.
+  void go_everywhere() {
+    PathTree& tree = fit_.tree(number_);
+    std::vector<std::int32_t> waiting{tree.root()};
+    while (!waiting.empty()) {
+      const std::int32_t index = waiting.back();
+      waiting.pop_back();
+      const PathTree::Node node = tree.node(index);
+      if (least_square(node, touch_) > least_ + kNothing) continue;
+      const auto stretch = static_cast<std::size_t>(node.stretch);
+      const double length = node.is_single() ? length_per_u(path_, stretch) : 1;
+      if (length == 0) continue;  // a corner that a point touches
+      if (node.is_single() && node.half_turn <= 0.5 * kPanel * touch_.angle_unit) {
+        add_panel(stretch, node.u.lo, node.u.hi, length);
+        continue;
+      }
+      const auto [left, right] = tree.halves(index);
+      if (left == right) continue;
+      waiting.push_back(left);
+      waiting.push_back(right);
     }
   }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "contact/header/log_header.hpp"
 #include "contact/log_table.hpp"
@@ -46,10 +47,12 @@ class TouchReader {
 
   MeasuredTouch read(const TableRow& row) const {
     MeasuredTouch touch;
-    touch.at = {number(row, TouchColumn::x).value(), number(row, TouchColumn::y).value()};
+    constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+    touch.at = {number(row, TouchColumn::x).value_or(kUnknown), number(row, TouchColumn::y).value_or(kUnknown)};
     touch.normal = number(row, TouchColumn::normal);
     touch.position_sd = number(row, TouchColumn::position_sd);
     touch.normal_sd = number(row, TouchColumn::normal_sd);
+    if (!touch.has_place()) require_normal_alone(row, touch);
     return touch;
   }
 
@@ -64,10 +67,19 @@ class TouchReader {
 
  private:
   /// Nothing of an empty cell, unless it is a coordinate.
+  /// Without a place only a normal that was felt says something.
+  void require_normal_alone(const TableRow& row, const MeasuredTouch& touch) const {
+    const bool is_half = !std::isnan(touch.at.x()) || !std::isnan(touch.at.y());
+    if (!is_half && touch.normal && has_contact(row)) return;
+    throw InputError(fmt::format("{}: column {}: expected a number, found ''{}", where(name_, row.line),
+                                 touch::name_of(std::isnan(touch.at.x()) ? TouchColumn::x : TouchColumn::y),
+                                 is_half ? "" : "; a touch whose normal alone was measured has a normal"));
+  }
+
   std::optional<double> number(const TableRow& row, TouchColumn column) const {
     if (!header_.has(column)) return std::nullopt;
     const std::string_view cell = row.cells[header_.cell(column)];
-    if (cell.empty() && column != TouchColumn::x && column != TouchColumn::y) return std::nullopt;
+    if (cell.empty()) return std::nullopt;
     const std::optional<double> plain = parse_number(cell);
     const std::optional<double> value = plain || !is_of_angle(column) ? plain : parse_angle(cell);
     if (!value || !std::isfinite(*value)) {

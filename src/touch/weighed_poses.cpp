@@ -66,7 +66,7 @@ TouchFit fit_of(const Asked& asked, const FittedPose& fitted, bool is_continuum)
     // How dense a roll's belief is counts as a measurement of its place.
     if (contacts[k].roll != nullptr) result.freedom += contacts[k].has_place ? 3 : 1;
     if (contacts[k].roll != nullptr) continue;
-    result.freedom += contacts[k].tangent ? 2 : 1;
+    result.freedom += (contacts[k].has_place && !is_reference(contacts[k]) ? 2 : 0) + (contacts[k].tangent ? 1 : 0) - 1;
     result.freedom += asked.fit.is_pinned(fitted.pose, k, fitted.places[k]) ? 1 : 0;
   }
   if (asked.problem.pose) result.freedom += std::isfinite(asked.problem.pose->place_sd) ? 3 : 1;

@@ -99,7 +99,7 @@ std::string typed_touch(const Json& value) {
   if (!value.is_object() || !value.contains("at")) {
     throw InputError(fmt::format("\"touches\": expected [x, y] or [x, y, normal] of each, found {}", value.dump()));
   }
-  text = typed_list(value["at"], "touches");
+  text = value["at"].is_null() ? "," : typed_list(value["at"], "touches");
   for (const char* name : {"normal", "position_sd", "normal_sd"}) {
     text += "," + (value.contains(name) ? field(value[name]) : "");
   }

@@ -71,6 +71,7 @@ TouchProblem read_rolls_problem(const std::vector<std::string>& touches, const R
   const std::string unit = problem.part.unit();
   LogOptions options = read_log_options(arguments.reading, unit);
   if (!options.decimal_comma) options.decimal_comma = has_decimal_comma(arguments.part.decimal);
+  options.single_rows = true;
   problem.rolls = read_all_rolls(arguments, options, notes);
   for (const std::string& text : touches) problem.touches.push_back(read_touch(text, unit));
   const std::vector<Finger> fingers = read_fingers(arguments.fingers, 1, unit);
@@ -97,6 +98,7 @@ bool are_contacts(const std::vector<std::string>& touches, const RollArguments& 
   if (!touches.empty() || arguments.logs.size() > 1) return true;
   LogOptions options = read_log_options(arguments.reading, "");
   if (!options.decimal_comma) options.decimal_comma = has_decimal_comma(arguments.part.decimal);
+  options.single_rows = true;
   return arguments.logs.front() == "-" || read_rolls(arguments.logs.front(), options).size() > 1;
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <limits>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -68,7 +69,11 @@ void add_clear(const std::vector<std::string>& given, std::vector<Clear> of_rows
       problem.clear.push_back(read_clear(text, problem.part.unit()));
       continue;
     }
-    if (of_rows.empty()) throw InputError("--clear rows: expected rows with contact 0 in the --log, found none");
+    if (of_rows.empty()) {
+      throw InputError(
+          "--clear rows: expected in the --log a row with contact 0 and a row after it, found none: the "
+          "way from the one to the other is what felt nothing");
+    }
     problem.clear.insert(problem.clear.end(), of_rows.begin(), of_rows.end());
     of_rows.clear();
   }
@@ -124,7 +129,10 @@ MeasuredTouch read_touch(const std::string& text, const std::string& unit) {
   }
   const auto is_given = [&](std::size_t k) { return k < fields.size() && !fields[k].empty(); };
   MeasuredTouch touch;
-  touch.at = {read_length(fields[0], what, unit), read_length(fields[1], what, unit)};
+  for (std::size_t k = 0; k < 2; ++k) {  // where only the normal was measured both are empty
+    touch.at[static_cast<Eigen::Index>(k)] =
+        is_given(k) ? read_length(fields[k], what, unit) : std::numeric_limits<double>::quiet_NaN();
+  }
   if (is_given(2)) touch.normal = read_angle(fields[2], what);
   if (is_given(3)) touch.position_sd = read_length(fields[3], what, unit);
   if (is_given(4)) touch.normal_sd = read_angle(fields[4], what);

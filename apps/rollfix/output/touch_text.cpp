@@ -302,8 +302,10 @@ class TouchText {
     table.add_column("normal off [deg]");
     for (std::size_t k = 0; k < pose.contacts.size(); ++k) {
       const TouchContact& contact = pose.contacts[k];
-      table.add_row({std::to_string(k + 1), place(answer_.touches[k].at.x()), place(answer_.touches[k].at.y()),
-                     place(contact.s), rough(contact.distance),
+      const MeasuredTouch& touch = answer_.touches[k];
+      const bool has_place = touch.has_place();
+      table.add_row({std::to_string(k + 1), has_place ? place(touch.at.x()) : "-",
+                     has_place ? place(touch.at.y()) : "-", place(contact.s), has_place ? rough(contact.distance) : "-",
                      contact.turn ? fmt::format("{:.2f}", *contact.turn / kDegree) : "-"});
     }
     return "touches on the part in p0:\n" + table.str();

@@ -41,6 +41,8 @@ struct LogOptions {
   /// The part is one of many, which of them is not known: no step of a stream is a jump. Of files each part has its
   /// say.
   bool any_part = false;
+  /// Of several rolls with u and psi: contact for a single row is a roll of length 0, and kept. Else it is left out.
+  bool single_rows = false;
 };
 
 /// "u=contact_deg:deg,psi=yaw_deg:deg,time=stamp:ms": COLUMN=NAME or COLUMN=NAME:UNIT, any number of them. Throws

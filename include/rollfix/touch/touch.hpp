@@ -20,10 +20,13 @@ namespace rollfix {
 
 /// One contact without rolling, in the world: a probe's ball, or a round finger.
 struct MeasuredTouch {
-  Vec2 at = Vec2::Zero();               // the finger's centre, in the outline's unit; of a point the contact itself
+  Vec2 at = Vec2::Zero();               // the finger's centre, in the outline's unit; of a point the contact itself;
+                                        // NaN: it was not measured, and the normal alone counts
   std::optional<double> normal{};       // direction out of the part, radians; none: it was not measured
   std::optional<double> position_sd{};  // of each coordinate of `at`, length; none: TouchProblem::noise has it
   std::optional<double> normal_sd{};    // radians; likewise
+
+  bool has_place() const { return !at.hasNaN(); }
 };
 
 /// Where the finger's centre went straight through the world and felt nothing. It may be off as a touch's place may.
@@ -56,7 +59,8 @@ struct TouchProblem {
   bool mirrored = false;                      // the part lies face down
   bool diagnose = true;                       // if the touches contradict the noise, the usual mistakes are tried
   std::vector<Log> rolls{};                   // each of u and psi; with x and y they tell where the part is as well:
-                                              // with noise where `position` is stated
+                                              // with noise where `position` is stated. Of one row: a touch of a finger
+                                              // with skin
   bool robust = false;                        // with noise: outliers among the rows of rolls don't count
   std::vector<Clear> clear{};                 // where nothing was felt: poses in which the part is in the way go
 };
@@ -162,7 +166,7 @@ struct RollFacts {
   bool has_centre = false;     // its log has x and y
   std::vector<Vec2> track{};   // then: the finger's centres, in the world
   Verdict alone{};             // without the other contacts
-  std::size_t placements = 0;  // likewise: where it can have started
+  std::size_t placements = 0;  // likewise: where it can have started; of a roll of one row none is listed
 };
 
 /// Every pose of the part that fits the touches and the rolls.
@@ -202,10 +206,10 @@ struct TouchAnswer {
 /// places of two contacts on the boundary, of a roll over those that its readings leave. Places where a disk would
 /// enter the part elsewhere are left out. With noise also the posterior, if contacts are as likely anywhere on the
 /// boundary. One touch leaves a continuum: the verdict is `unobservable` and no pose is listed. One roll is what
-/// `solve` of a Problem makes of it. Throws InputError: no contact, a number that is not finite, a finger that is no
-/// disk for a touch, noise without `position` for a touch (or without `angle` where it has a normal), neither noise nor
-/// tolerance for a touch, a roll without u and psi or without a finger, and what `solve` of a Problem throws of each
-/// roll.
+/// `solve` of a Problem makes of it. Throws InputError: no contact, none that has a place beside touches, a number that
+/// is not finite, a finger that is no disk for a touch, noise without `position` for a touch (or without `angle` where
+/// it has a normal), neither noise nor tolerance for a touch, a roll without u and psi or without a finger, and what
+/// `solve` of a Problem throws of each roll.
 TouchAnswer solve(const TouchProblem& problem);
 
 }  // namespace rollfix

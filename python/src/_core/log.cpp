@@ -27,6 +27,7 @@ LogOptions log_options(const py::dict& given) {
   options.skip_bad = given["skip_bad"].cast<bool>();
   if (given["decimal_comma"].cast<bool>()) options.decimal_comma = true;
   options.clockwise = given["clockwise"].cast<bool>();
+  options.single_rows = given.contains("single_rows");
   return options;
 }
 

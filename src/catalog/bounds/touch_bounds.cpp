@@ -201,6 +201,8 @@ class CellPairs {
 TouchBounds::TouchBounds(const Catalog& catalog, const TouchProblem& like)
     : catalog_(catalog), radius_(touch::radius_of(like)) {
   touches_ = touch::measured(like.mirrored ? touch::in_mirror(like) : like);
+  // Fewer touches rule out less, and normals without a place next to nothing.
+  std::erase_if(touches_, [](const touch::Measured& touch) { return !touch.has_place; });
   if (touches_.size() > 1) pair_ = touch::choose_pair(touches_);
 }
 

@@ -481,7 +481,7 @@ Columns bare_columns(const TableRow& row, const std::string& log, const LogOptio
   if (row.cells.size() != 2) {
     throw InputError(fmt::format(
         "{}: the log starts with '{}', {} numbers without a header: expected a header that names {}, or exactly two "
-        "columns, distance and dturn. Known are: {}",
+        "columns, distance and dturn; touched places are named x,y. Known are: {}",
         where(log, row.line), shown(row.text), row.cells.size(), kExpected, fmt::join(kColumnNames, ", ")));
   }
   Columns columns;

@@ -20,12 +20,12 @@ Json number_or_null(const std::optional<double>& value) { return value ? json_nu
 Json triple(const Pose& pose) { return json_numbers(std::array<double, 3>{pose.x, pose.y, pose.heading}); }
 
 Json measured_json(const MeasuredTouch& touch, const TouchTolerance& tolerance) {
-  return {{"at", point_json(touch.at)},
+  return {{"at", touch.has_place() ? point_json(touch.at) : Json(nullptr)},
           {"normal", number_or_null(touch.normal)},
           {"position_sd", number_or_null(touch.position_sd)},
           {"normal_sd", number_or_null(touch.normal_sd)},
-          {"tolerance",
-           Json::array({json_number(tolerance.length), touch.normal ? json_number(tolerance.angle) : Json(nullptr)})}};
+          {"tolerance", Json::array({touch.has_place() ? json_number(tolerance.length) : Json(nullptr),
+                                     touch.normal ? json_number(tolerance.angle) : Json(nullptr)})}};
 }
 
 Json fit_of_touches(const TouchFit& fit) {
