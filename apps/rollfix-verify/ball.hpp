@@ -79,6 +79,10 @@ inline Ball operator/(const Ball& a, const Ball& b) { return made<Ball>(arb_div,
 inline Ball operator-(const Ball& a) { return made<Ball>(arb_neg, a.get()); }
 inline Ball abs(const Ball& a) { return made<Ball>(arb_abs, a.get()); }
 inline Ball sqrt(const Ball& a) { return made<Ball>(arb_sqrt, a.get(), kPrecision); }
+/// The length of a vector; where it may be 0 as well.
+inline Ball length_of(const Ball& x, const Ball& y) {
+  return made<Ball>(arb_sqrtpos, (x * x + y * y).get(), kPrecision);
+}
 inline Ball sin(const Ball& a) { return made<Ball>(arb_sin, a.get(), kPrecision); }
 inline Ball cos(const Ball& a) { return made<Ball>(arb_cos, a.get(), kPrecision); }
 inline Ball atan2(const Ball& y, const Ball& x) { return made<Ball>(arb_atan2, y.get(), x.get(), kPrecision); }

@@ -50,6 +50,9 @@ class CentreTree {
   /// Both halves; twice itself where it has none. References to nodes do not outlive it.
   std::pair<int, int> halves(int index);
 
+  /// Some stretch of a curve of the first lap, which need not be one of the tree.
+  Node stretch(long curve, const Interval& u) const;
+
   /// The tangent's angle in the outline's own frame.
   Ball direction(const Place& place) const { return place.angle + base_; }
   /// The angles that a finger can have where this curve ends and the next one begins; none: it does not pivot there.
@@ -63,7 +66,6 @@ class CentreTree {
   void add_corner(long curve, const std::optional<Considered>& considered);
   bool is_on(double s, const std::vector<Interval>& arcs) const;
   int add(Node node);
-  Node stretch(long curve, const Interval& u) const;
   Node corner(long curve, const Interval& angles) const;
   int join(std::size_t from, std::size_t to);
 

@@ -18,6 +18,7 @@ std::string plain(const Json& value) { return value.dump(-1, ' ', true, Json::er
 constexpr const char* kOneFinger = "rollfix/certificate/1";
 constexpr const char* kTwoFingers = "rollfix/pair-certificate/1";
 constexpr const char* kTouches = "rollfix/touch-certificate/1";
+constexpr const char* kHolds = "rollfix/hold-certificate/1";
 
 std::string part_of(const Json& json) {
   return "part " + plain(json.at("part")) + (json.at("closed").get<bool>() ? ", closed" : ", open") + ", perimeter " +
@@ -56,8 +57,51 @@ std::string touches_question(const Json& json) {
   return text;
 }
 
+std::string or_nothing(const Json& tolerance, const std::string& what, const std::string& unit) {
+  return tolerance.is_null() ? "" : ", " + what + " " + plain(tolerance) + unit;
+}
+
+std::string holds_question(const Json& json) {
+  std::string text = part_of(json);
+  if (json.at("mirrored").get<bool>()) text += "face down\n";
+  for (const Json& finger : json.at("fingers")) {
+    const Json& tolerance = finger.at("tolerance");
+    text += "finger " + finger.at("kind").get<std::string>();
+    if (finger.contains("radius")) text += ", radius " + plain(finger.at("radius"));
+    text += ": within travel " + plain(tolerance.at("travel")) + ", angle " + plain(tolerance.at("angle")) + " rad" +
+            or_nothing(tolerance.at("place"), "place", "") + "\n";
+  }
+  for (const Json& wheel : json.at("wheels")) {
+    const Json& tolerance = wheel.at("tolerance");
+    text += "wheel, radius " + plain(wheel.at("radius")) + ": within place " + plain(tolerance.at("place")) +
+            or_nothing(tolerance.at("spin"), "encoder", " rad") + or_nothing(tolerance.at("line"), "squeezed", " rad") +
+            "\n";
+  }
+  for (const Json& instant : json.at("instants")) {
+    text += "at " + plain(instant.at("time")) + ":";
+    for (const Json& contact : instant.at("contacts")) {
+      text += " travelled " + plain(contact.at("travelled")) + ", tangent " + plain(contact.at("tangent")) + " rad";
+      if (contact.contains("at")) text += ", at " + plain(contact.at("at").at(0)) + " " + plain(contact.at("at").at(1));
+      text += ";";
+    }
+    for (const Json& pin : instant.at("pins")) {
+      text += " pin " + plain(pin.at("at").at(0)) + " " + plain(pin.at("at").at(1));
+      if (pin.contains("spin")) text += ", turned " + plain(pin.at("spin")) + " rad";
+      text += ";";
+    }
+    text.back() = '\n';
+  }
+  for (const Json& set : json.at("sets")) {
+    text += set.at("listed").get<bool>() ? "first contacts in" : "left out: first contacts in";
+    for (const Json& arc : set.at("extent")) text += " s " + between(arc) + ",";
+    text.back() = '\n';
+  }
+  return text;
+}
+
 std::string question_of(const Json& json, const std::string& schema) {
   if (schema == kTouches) return touches_question(json);
+  if (schema == kHolds) return holds_question(json);
   const bool is_one = schema == kOneFinger;
   std::string text = part_of(json);
   for (const Json& reading : json.at("readings")) {
@@ -98,6 +142,23 @@ std::string described_poses(const Verdict& verdict) {
   return "proved but for " + but + ": " + found + "\n" + verdict.question;
 }
 
+/// Of a hold.
+std::string described_holds(const Verdict& verdict) {
+  std::string found =
+      std::to_string(verdict.placements) + (verdict.placements == 1 ? " set" : " sets") + " of first contacts";
+  if (verdict.left_out > 0) found += " and " + std::to_string(verdict.left_out) + " that the answer leaves out";
+  if (verdict.is_complete()) return "proved: " + found + ", nothing else\n" + verdict.question;
+  std::string but;
+  const auto add = [&](const std::string& what) { but += (but.empty() ? "" : " and ") + what; };
+  if (verdict.open > 0) add("first contacts on " + percent_of(verdict.share) + " % of all");
+  if (verdict.unproved > 0) {
+    add(std::to_string(verdict.unproved) + (verdict.unproved == 1 ? " box" : " boxes") +
+        " of first contacts within rounding of the tolerance");
+  }
+  if (verdict.unwitnessed > 0) add(counted(verdict.unwitnessed, "set") + " in which nothing is shown to fit");
+  return "proved but for " + but + ": " + found + "\n" + verdict.question;
+}
+
 }  // namespace
 
 Verdict check(const std::string& text) {
@@ -109,18 +170,19 @@ Verdict check(const std::string& text) {
   const Json json = Json::parse(text, nullptr, false);
   if (json.is_discarded()) throw std::runtime_error("is no JSON document, expected one that locate --certify wrote");
   const Json schema = json.is_object() && json.contains("schema") ? json["schema"] : Json();
-  if (schema != kOneFinger && schema != kTwoFingers && schema != kTouches) {
-    throw std::runtime_error(std::string("it is no certificate of version ") + kOneFinger + ", " + kTwoFingers +
-                             " or " + kTouches);
+  if (schema != kOneFinger && schema != kTwoFingers && schema != kTouches && schema != kHolds) {
+    throw std::runtime_error(std::string("it is no certificate of version ") + kOneFinger + ", " + kTwoFingers + ", " +
+                             kTouches + " or " + kHolds);
   }
   const std::string question = question_of(json, schema);
   try {
     const Budget budget(kMostWork);
     const Document document(json);
-    if (schema != kTouches) document.check();
+    if (schema == kOneFinger || schema == kTwoFingers) document.check();
     Verdict verdict = schema == kOneFinger    ? check_one_finger(document)
                       : schema == kTwoFingers ? check_two_fingers(document)
-                                              : check_touches(document);
+                      : schema == kTouches    ? check_touches(document)
+                                              : check_holds(document);
     verdict.question = question;
     return verdict;
   } catch (const std::domain_error& error) {
@@ -134,6 +196,7 @@ Verdict check(const std::string& text) {
 std::string described(const Verdict& verdict) {
   if (!verdict.refusal.empty()) return "refused: " + verdict.refusal + "\n";
   if (verdict.of_touches) return described_poses(verdict);
+  if (verdict.of_holds) return described_holds(verdict);
   std::string found = counted(verdict.placements, "placement");
   if (verdict.families == 1) found += ", 1 of them a family";
   if (verdict.families > 1) found += ", " + std::to_string(verdict.families) + " of them families";

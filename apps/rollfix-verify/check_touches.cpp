@@ -11,6 +11,7 @@
 #include "document.hpp"
 #include "out_of_reach.hpp"
 #include "pose_search.hpp"
+#include "stated.hpp"
 
 // Notation: a pose X, phi has the part's point c at X + R(phi) c; q_i is a touch's measured centre, tau_i the tangent
 // by its normal; p + r n the finger's centre where it touches at p.
@@ -22,45 +23,6 @@ namespace {
 // Tolerances are at least this share of the largest coordinate, and so many radians: below it doubles decide.
 constexpr double kLeastLength = 1e-9;
 constexpr double kLeastAngle = 1e-9;
-// How far a residual may be beyond its tolerance, as a share of it: a search takes what is on the edge.
-constexpr double kEdge = 1e-9;
-constexpr double kMostAngle = 1e6;
-
-double number(const Json& stated) {
-  const double value = stated.get<double>();
-  if (!std::isfinite(value)) refuse("a number that is not finite");
-  return value;
-}
-
-Interval interval(const Json& stated) { return {number(stated.at(0)), number(stated.at(1))}; }
-
-std::vector<Interval> intervals(const Json& stated) {
-  std::vector<Interval> result;
-  for (const Json& one : stated) result.push_back(interval(one));
-  return result;
-}
-
-/// Of a closed outline arcs begin on the first lap and are no longer than one.
-std::vector<Interval> arcs(const Json& stated, double period) {
-  std::vector<Interval> result = intervals(stated);
-  for (const Interval& arc : result) {
-    if (!(arc.lo >= -kLengthSlack * period && arc.lo <= period && arc.hi >= arc.lo &&
-          arc.hi <= arc.lo + (1 + kLengthSlack) * period)) {
-      refuse("an arc that is none of the boundary");
-    }
-  }
-  return result;
-}
-
-std::optional<Considered> considered(const Json& stated, double period) {
-  if (stated.is_null()) return std::nullopt;
-  Considered result;
-  result.arcs = arcs(stated.at("arcs"), period);
-  for (const Json& corner : stated.at("corners")) {
-    result.corners.push_back({number(corner.at("s")), intervals(corner.at("angles"))});
-  }
-  return result;
-}
 
 /// A stated set of poses.
 struct Set {
@@ -158,25 +120,6 @@ class Touches {
     refuse(text);
   }
 
-  bool is_considered(const Place& place, double tangent) const {
-    if (!considered_) return true;
-    const double slack = kPlaceSlack * period_;
-    const double s = place.s.middle();
-    for (const double lap : boundary_.laps()) {
-      for (const Interval& arc : considered_->arcs) {
-        if (s >= arc.lo + lap - slack && s <= arc.hi + lap + slack) return true;
-      }
-      for (const CornerAngles& corner : considered_->corners) {
-        if (std::abs(s - corner.s - lap) > slack) continue;
-        for (const Interval& angles : corner.angles) {
-          const Ball off = to_nearest_turn(Ball(tangent) - 0.5 * (angles.lo + angles.hi));
-          if (abs(off).is_below(0.5 * angles.width() + kPlaceSlack)) return true;
-        }
-      }
-    }
-    return false;
-  }
-
   // ---- each stated pose fits ----
 
   void check_set(const CentreTree& tree, std::size_t number) const {
@@ -198,8 +141,8 @@ class Touches {
                      const std::string& name) const {
     const Place place = document_.place_at(stated.at("at"));
     if (!document_.is_as_far(place.s, number(stated.at("s")))) refuse(name + " is elsewhere");
-    const Ball direction = direction_at(tree, place, number(stated.at("tangent")), name);
-    if (!is_considered(place, number(stated.at("tangent")))) refuse(name + " is out of reach");
+    const Ball direction = direction_at(document_, tree, place, number(stated.at("tangent")), name);
+    if (!is_considered(boundary_, considered_, place, number(stated.at("tangent")))) refuse(name + " is out of reach");
     const Point point = boundary_.position(place);
     const Ball x = point.x + radius_ * sin(direction);
     const Ball y = point.y - radius_ * cos(direction);
@@ -207,49 +150,10 @@ class Touches {
     const Ball s = sin(Ball(set.pose[2]));
     const Ball dx = set.pose[0] + c * x - s * y - touch.x;
     const Ball dy = set.pose[1] + s * x + c * y - touch.y;
-    require_off(sqrt(dx * dx + dy * dy), touch.length, kLengthSlack * size_, stated.at("off").at(0), name);
+    require_off(length_of(dx, dy), touch.length, kLengthSlack * size_, number(stated.at("off").at(0)), name);
     if (!touch.tangent) return;
     const Ball turn = to_nearest_turn(Ball(*touch.tangent) - direction - set.pose[2]);
     require_off(turn, touch.angle, kTurnSlack, Ball(mirrored(1)) * number(stated.at("off").at(1)), name);
-  }
-
-  /// A residual is within its tolerance, and as it is stated, in tolerances.
-  static void require_off(const Ball& residual, double tolerance, double slack, const Ball& stated,
-                          const std::string& name) {
-    if (!abs(residual).is_below((1 + kEdge) * tolerance + slack)) refuse(name + " is off by more than its tolerance");
-    if (!abs(residual - stated * tolerance).is_below(kEdge * tolerance + 2 * slack)) {
-      refuse(name + " is off by another share of its tolerance");
-    }
-  }
-  static void require_off(const Ball& residual, double tolerance, double slack, const Json& stated,
-                          const std::string& name) {
-    require_off(residual, tolerance, slack, Ball(number(stated)), name);
-  }
-
-  /// The tangent's angle: at a corner the stated one, if the finger can pivot to it; else the boundary's own.
-  Ball direction_at(const CentreTree& tree, const Place& place, double stated, const std::string& name) const {
-    if (!(std::abs(stated) <= kMostAngle)) refuse(name + " has another tangent");
-    const auto near = [&](const Ball& one, const Ball& slack) {
-      return abs(to_nearest_turn(one - stated)).is_below(slack);
-    };
-    const Ball slack = kPlaceSlack + document_.turn_beside(place);
-    Ball own = tree.direction(place);
-    if (near(own, slack)) return own;
-    for (const long joint : {place.curve, place.curve - 1}) {
-      const bool is_end = !boundary_.closed() && (joint < 0 || joint + 1 == boundary_.curves());
-      if (is_end) continue;
-      const Ball apart = boundary_.back(joint).s - place.s;
-      if (!abs(apart).is_below(kPlaceSlack * period_)) continue;
-      Ball before = tree.direction(boundary_.back(joint));
-      Ball after = before + boundary_.jump(joint);
-      if (near(before, slack)) return before;
-      if (near(after, slack)) return after;
-      if (const std::optional<Ball> pivots = tree.pivots(joint)) {
-        const Ball off = to_nearest_turn(Ball(stated) - pivots->middle());
-        if (abs(off).is_below(0.5 * spread(*pivots))) return stated;
-      }
-    }
-    refuse(name + " has another tangent");
   }
 
   // ---- there is no other ----

@@ -10,8 +10,10 @@
 // Notation: (c, rho) is the disc of a node of centres that are left out, (b, sigma) that of a node of the boundary. All
 // of that stretch is inside a finger of radius r at each of those centres if |c - b| + rho + sigma < r. Follows
 // docs/certificates.md, "Touches": P1 is about the places within reach. Idea: what is left out is halved until each
-// part has such a stretch. A finger counts as touching that enters the part by less than a slack, so that where a place
-// is left out the point is as deep as that, and halving ends.
+// part has such a stretch. A flat jaw is the half plane beyond the tangent: all of the stretch is inside of it if
+// n . (b - c) - rho - sigma - 2 |b - c| sin(w / 2) > 0 for the normal n in the middle of the tangents +- w. A finger
+// counts as touching that enters the part by less than a slack, so that where a place is left out the point is as deep
+// as that, and halving ends.
 namespace rollfix_verify {
 namespace {
 
@@ -23,6 +25,7 @@ constexpr double kSmallNode = 0.125;
 // finger is that counts as entering the part.
 constexpr double kLeastOfSize = 1e-8;
 constexpr double kLeastOfRadius = 1e-5;
+constexpr double kHalfCircle = 3.14159265358979;
 
 /// What is left of an interval.
 std::vector<Interval> without(const Interval& whole, std::vector<Interval> parts) {
@@ -43,11 +46,13 @@ class LeftOut {
   LeftOut(const Boundary& boundary, double radius, const Considered& considered)
       : all_(boundary, 0, std::nullopt),
         radius_(radius),
+        is_jaw_(std::isinf(radius)),
         period_(boundary.perimeter().middle()),
-        centres_(boundary, radius, rest(boundary, considered)) {
+        centres_(boundary, is_jaw_ ? 0 : radius, rest(boundary, considered)) {
     const CentreTree::Node& root = all_.node(all_.root());
+    size_ = root.radius;
     least_ = std::min(kLeastOfSize * root.radius, kLeastOfRadius * radius);
-    rounding_ = kReachRounding * (std::hypot(root.x, root.y) + root.radius + radius);
+    rounding_ = kReachRounding * (std::hypot(root.x, root.y) + root.radius + (is_jaw_ ? 0 : radius));
   }
 
   std::optional<double> find() {
@@ -57,9 +62,10 @@ class LeftOut {
       const int index = waiting.back();
       waiting.pop_back();
       const CentreTree::Node node = centres_.node(index);
-      if (is_entered(node)) continue;
+      if (is_jaw_ ? is_beyond(node) : is_entered(node)) continue;
       const auto [left, right] = centres_.halves(index);
-      if (left == right || node.radius <= least_) return node.s.lo;
+      const double size = is_jaw_ ? std::max(node.radius, node.half_turn * size_) : node.radius;
+      if (left == right || size <= least_) return node.s.lo;
       waiting.push_back(right);
       waiting.push_back(left);
     }
@@ -115,10 +121,36 @@ class LeftOut {
     return false;
   }
 
+  /// The same of a flat jaw along all these tangents: what is furthest beyond it is asked first.
+  bool is_beyond(const CentreTree::Node& contacts) {
+    const double swing = 2 * std::sin(0.5 * std::min(contacts.half_turn, kHalfCircle));
+    const auto height = [&](const CentreTree::Node& node) {
+      return std::sin(contacts.angle) * (node.x - contacts.x) - std::cos(contacts.angle) * (node.y - contacts.y);
+    };
+    std::vector<int> waiting{all_.root()};
+    while (!waiting.empty()) {
+      Budget::spend(kReachComparison);
+      const int index = waiting.back();
+      waiting.pop_back();
+      const CentreTree::Node node = all_.node(index);
+      const double off = contacts.radius + rounding_ + swing * std::hypot(node.x - contacts.x, node.y - contacts.y);
+      if (height(node) - node.radius > off) return true;
+      if (height(node) + node.radius <= off || node.radius <= kSmallNode * contacts.radius) continue;
+      const auto [left, right] = all_.halves(index);
+      if (left == right) continue;
+      const bool is_left_higher = height(all_.node(left)) > height(all_.node(right));
+      waiting.push_back(is_left_higher ? right : left);
+      waiting.push_back(is_left_higher ? left : right);
+    }
+    return false;
+  }
+
   CentreTree all_;  // the boundary itself
   double radius_;
+  bool is_jaw_;
   double period_;
   CentreTree centres_;  // that are left out
+  double size_ = 0;
   double rounding_ = 0;
   double least_ = 0;
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "angles.hpp"
 #include "budget.hpp"
 #include "document.hpp"
 
@@ -32,10 +33,6 @@ constexpr double kAngleRounding = 1e-14;
 // One node beside one box, in expansions; a box.
 constexpr double kComparison = 1e-3;
 constexpr double kBox = 4e-3;
-const double kTurn = 2 * std::acos(-1.0);
-
-double nearest(double angle) { return std::remainder(angle, kTurn); }
-
 /// The values of |p| cos over middle +- half.
 Interval cosines(double middle, double half, double length) {
   if (half >= 0.5 * kTurn) return {-length, length};

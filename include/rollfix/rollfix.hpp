@@ -9,6 +9,7 @@
 #include "rollfix/belief/advise.hpp"              // IWYU pragma: export
 #include "rollfix/belief/belief.hpp"              // IWYU pragma: export
 #include "rollfix/certify/certify.hpp"            // IWYU pragma: export
+#include "rollfix/certify/hold_certificate.hpp"   // IWYU pragma: export
 #include "rollfix/certify/pair_certificate.hpp"   // IWYU pragma: export
 #include "rollfix/certify/touch_certificate.hpp"  // IWYU pragma: export
 #include "rollfix/contact/dead_reckoning.hpp"     // IWYU pragma: export

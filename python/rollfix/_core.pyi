@@ -286,6 +286,7 @@ class TouchAnswer:
 
 class HoldAnswer:
     def document(self) -> str: ...
+    def certificate(self, arg0: Optional[int]) -> Tuple[str, bool]: ...
 
 class Plan:
     @property

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
@@ -13,7 +14,7 @@ from ._core import InputError
 from ._documents import Listing
 from ._fingers import FingerLike, Wheel, fingers
 from ._logs import Log, _is_log, pin_of, rolls_of
-from ._messages import in_a_page, shown
+from ._messages import in_a_page, shown, warn
 from ._noise import NoiseLike, noise as noise_given
 
 
@@ -48,6 +49,28 @@ class HoldAnswer(Listing):
         """ndarray, (n, 2, 3): x, y and heading in radians at the first contacts and at the last. Of logs without x and y
         these are NaN."""
         return np.array([one["pose"] for one in self.placements], dtype=float).reshape(-1, 2, 3)
+
+    def certify(self, file: Any = None, budget: Optional[int] = None) -> Dict[str, Any]:
+        """The proof that there are no other first contacts: the document that `rollfix-verify` checks with code of its own.
+
+        A RollfixWarning says where something is left unproved. docs/certificates.md says what is proved.
+
+        Parameters
+        ----------
+        file : path, optional
+            Also writes it there.
+        budget : int, optional
+            As of `Part.locate`; by default what this answer was asked with.
+        """
+        most = None if budget is None else whole(budget, "budget", 1)
+        document, is_complete = self._answer.certificate(most)
+        if file is not None:
+            with open(path(file, "file"), "w", encoding="utf-8") as out:
+                out.write(document)
+        if not is_complete:
+            warn("certify: the certificate leaves something unproved: `unresolved`, or sets without `first`, say where")
+        certificate: Dict[str, Any] = json.loads(document)
+        return certificate
 
     def to_svg(self, *, title: str = "", width: float = 0) -> str:
         """A figure of the part in the world at the last contacts, in each placement."""

@@ -69,6 +69,7 @@ struct TouchAnswerHandle {
 
 struct HoldAnswerHandle {
   std::shared_ptr<const HoldAnswer> answer;
+  std::shared_ptr<const HoldProblem> problem;  // that it answers
 };
 
 struct NextRollHandle {

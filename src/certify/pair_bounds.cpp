@@ -1,10 +1,11 @@
 #include "pair_bounds.hpp"
-#include "rollfix/pulse.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+
+#include "outline/turn.hpp"
+#include "rollfix/pulse.hpp"
 
 // Notation, as in docs/certificates.md, "Two fingers":
 //   Theta_c(s)      angle of a finger's contact c, at s + L_c, c = 0 the first one: ContactStretch
@@ -22,7 +23,6 @@
 namespace rollfix {
 namespace {
 
-constexpr double kFullTurn = 2 * std::numbers::pi;
 // Half of a box is more than what its image may fill: the verifier's bounds on slopes are wider than those by spirals.
 constexpr double kFill = 0.35;
 // A pivot's angles stay what they are when a range around it is halved: from this share of the perimeter on they count

@@ -5,10 +5,12 @@
 #include <utility>
 
 #include "rollfix/certify/certify.hpp"
+#include "rollfix/certify/hold_certificate.hpp"
 #include "rollfix/certify/pair_certificate.hpp"
 #include "rollfix/certify/touch_certificate.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/files/documents.hpp"
+#include "rollfix/files/hold_document.hpp"
 #include "rollfix/output/files.hpp"
 
 namespace rollfix::app {
@@ -80,6 +82,13 @@ void add_certificate(const std::string& file, bool force, const TouchProblem& pr
   const TouchCertificate certificate = certify_touches(answer, problem.budget);
   add_written(file, force, {format_certificate(certificate), certificate.is_complete(), "`unresolved` says where"},
               report);
+}
+
+void add_certificate(const std::string& file, bool force, const HoldProblem& problem, const HoldAnswer& answer,
+                     Report& report) {
+  const HoldCertificate certificate = certify_holds(problem, answer);
+  const char* where = certificate.unresolved.empty() ? "sets without `first` say where" : "`unresolved` says where";
+  add_written(file, force, {format_certificate(certificate), certificate.is_complete(), where}, report);
 }
 
 }  // namespace rollfix::app

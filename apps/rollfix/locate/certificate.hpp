@@ -4,6 +4,7 @@
 
 #include "rollfix/answer/answer.hpp"
 #include "rollfix/arguments/roll_arguments.hpp"
+#include "rollfix/hold/hold.hpp"
 #include "rollfix/output/report.hpp"
 #include "rollfix/touch/touch.hpp"
 
@@ -15,6 +16,10 @@ void add_certificate(const std::string& file, bool force, const Problem& problem
 
 /// The same of an answer to touches.
 void add_certificate(const std::string& file, bool force, const TouchProblem& problem, const TouchAnswer& answer,
+                     Report& report);
+
+/// The same of three and more fingers, and of fingers beside wheels.
+void add_certificate(const std::string& file, bool force, const HoldProblem& problem, const HoldAnswer& answer,
                      Report& report);
 
 /// Throws InputError where --certify can't be followed, before any work.

@@ -145,13 +145,13 @@ Report hold_report(const LocateArguments& arguments) {
     if (given) throw InputError(fmt::format("{}: is of one or two fingers with skin; leave it out", option));
   };
   refuse(!arguments.maps.empty(), "--map");
-  refuse(!arguments.certificate.empty(), "--certify");
   refuse(arguments.march.march, "--march");
   refuse(arguments.detail.explain, "--explain");
   if (!arguments.touches.empty()) {
     throw InputError("--touch and --log of rolls share a pose of a part at rest with --roll all: add it");
   }
-  return locate_hold(arguments.roll, {arguments.output, arguments.json, arguments.detail.verbose});
+  return locate_hold(arguments.roll,
+                     {arguments.output, arguments.json, arguments.detail.verbose, arguments.certificate});
 }
 
 /// What a batch has no use for.

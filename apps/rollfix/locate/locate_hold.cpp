@@ -12,6 +12,7 @@
 #include "rollfix/error.hpp"
 #include "rollfix/files/hold_document.hpp"
 #include "rollfix/hold/hold.hpp"
+#include "rollfix/locate/certificate.hpp"
 #include "rollfix/locate/touch_arguments.hpp"
 #include "rollfix/output/hold_text.hpp"
 #include "text/text.hpp"
@@ -145,6 +146,7 @@ bool are_many_fingers(const RollArguments& arguments) {
 
 Report locate_hold(const RollArguments& arguments, const TouchOutput& output) {
   require_figure_output(output.figure, output.json);
+  require_certificate(output.certificate, output.figure.force, output.json, output.figure.file);
   Report report;
   std::vector<Outline> others;
   const HoldProblem problem = read_hold_problem(arguments, report.notes, &others);
@@ -156,10 +158,14 @@ Report locate_hold(const RollArguments& arguments, const TouchOutput& output) {
   const HoldAnswer answer = solve(problem);
   report.exit_code = exit_code_of(answer);
   report.data = output.json ? format_hold(answer) : hold_text(answer);
-  if (output.figure.file.empty()) return report;
-  HoldFigure figure{&answer};
-  figure.others = std::move(others);
-  add_figure(output.figure, draw_hold(figure), report);
+  if (!output.figure.file.empty()) {
+    HoldFigure figure{&answer};
+    figure.others = std::move(others);
+    add_figure(output.figure, draw_hold(figure), report);
+  }
+  if (!output.certificate.empty()) {
+    add_certificate(output.certificate, output.figure.force, problem, answer, report);
+  }
   return report;
 }
 

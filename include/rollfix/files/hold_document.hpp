@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "rollfix/certify/hold_certificate.hpp"
 #include "rollfix/files/documents.hpp"
 #include "rollfix/hold/hold.hpp"
 
@@ -9,5 +10,8 @@ namespace rollfix {
 
 /// "rollfix/locate/1" of three and more fingers: docs/json.md lists its fields.
 std::string format_hold(const HoldAnswer& answer, Layout layout = Layout::lines);
+
+/// "rollfix/hold-certificate/1".
+std::string format_certificate(const HoldCertificate& certificate);
 
 }  // namespace rollfix

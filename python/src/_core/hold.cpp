@@ -1,8 +1,11 @@
 #include "rollfix/hold/hold.hpp"
 
+#include <utility>
+
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "fingers.hpp"
+#include "rollfix/certify/hold_certificate.hpp"
 #include "rollfix/files/hold_document.hpp"
 #include "signals.hpp"
 
@@ -24,15 +27,26 @@ HoldAnswerHandle locate_hold(const PartHandle& part, const std::vector<LogHandle
   for (const auto& [pin, radius] : wheels) problem.wheels.push_back({{*pin.log}, radius});
   problem.squeezed = squeezed;
   const Unlocked others_may_run;
-  return {std::make_shared<const HoldAnswer>(solve(problem))};
+  auto answer = std::make_shared<const HoldAnswer>(solve(problem));
+  return {std::move(answer), std::make_shared<const HoldProblem>(std::move(problem))};
+}
+
+/// The document, and whether it proves everything.
+std::pair<std::string, bool> hold_certificate_of(const HoldAnswerHandle& handle,
+                                                 const std::optional<std::size_t>& budget) {
+  const Unlocked others_may_run;
+  HoldProblem problem = *handle.problem;
+  if (budget) problem.budget = budget;
+  const HoldCertificate certificate = certify_holds(problem, *handle.answer);
+  return {format_certificate(certificate), certificate.is_complete()};
 }
 
 }  // namespace
 
 void bind_hold(py::module_& module) {
-  py::class_<HoldAnswerHandle>(module, "HoldAnswer").def("document", [](const HoldAnswerHandle& handle) {
-    return format_hold(*handle.answer, Layout::line);
-  });
+  py::class_<HoldAnswerHandle>(module, "HoldAnswer")
+      .def("document", [](const HoldAnswerHandle& handle) { return format_hold(*handle.answer, Layout::line); })
+      .def("certificate", &hold_certificate_of);
   module.def("locate_hold", &locate_hold);
 }
 

@@ -2,6 +2,7 @@
 
 #include "documents.hpp"
 #include "rollfix/files/documents.hpp"
+#include "rollfix/files/hold_document.hpp"
 
 namespace rollfix {
 namespace {
@@ -94,9 +95,7 @@ Json outline_json(const char* schema, const CertifiedOutline& outline) {
 }
 
 Json intervals_json(const std::vector<Interval>& intervals) {
-  Json list = Json::array();
-  for (const Interval& one : intervals) list.push_back(json_numbers(std::array{one.lo, one.hi}));
-  return list;
+  return json_list(intervals, [](const Interval& one) { return json_numbers(std::array{one.lo, one.hi}); });
 }
 
 Json touches_json(const TouchCertificate& certificate) {
@@ -120,6 +119,69 @@ Json reach_json(const std::optional<Reach>& reach) {
     corners.push_back({{"s", json_number(pivot.s)}, {"angles", intervals_json(pivot.angles)}});
   }
   return {{"arcs", intervals_json(reach->arcs)}, {"corners", corners}};
+}
+
+template <class Value>
+Json number_if_any(const Value& value) {
+  return value ? json_number(*value) : Json();
+}
+
+Json held_finger_json(const CertifiedFinger& finger) {
+  Json json = {{"kind", finger.kind},
+               {"tolerance",
+                {{"travel", json_number(finger.travel)},
+                 {"angle", json_number(finger.angle)},
+                 {"place", number_if_any(finger.place)}}},
+               {"passed", json_numbers(std::array{finger.passed.lo, finger.passed.hi})},
+               {"reach", reach_json(finger.reach)}};
+  if (finger.radius > 0) json["radius"] = json_number(finger.radius);
+  return json;
+}
+
+Json held_wheel_json(const CertifiedWheel& wheel) {
+  return {
+      {"radius", json_number(wheel.radius)},
+      {"tolerance",
+       {{"place", json_number(wheel.place)}, {"spin", number_if_any(wheel.spin)}, {"line", number_if_any(wheel.line)}}},
+      {"reach", reach_json(wheel.reach)}};
+}
+
+Json held_instant_json(const CertifiedInstant& instant) {
+  Json contacts = Json::array(), pins = Json::array();
+  for (const CertifiedInstant::Contact& contact : instant.contacts) {
+    contacts.push_back({{"travelled", json_number(contact.travelled)}, {"tangent", json_number(contact.tangent)}});
+    if (contact.at) contacts.back()["at"] = point_json(*contact.at);
+  }
+  for (const CertifiedInstant::Pin& pin : instant.pins) {
+    pins.push_back({{"at", point_json(pin.at)}});
+    if (pin.spin) pins.back()["spin"] = json_number(*pin.spin);
+  }
+  return {{"time", json_number(instant.time)}, {"contacts", contacts}, {"pins", pins}};
+}
+
+Json lie_json(const CertifiedLie& lie) {
+  Json contacts = Json::array(), pins = Json::array();
+  for (const auto& off : lie.off) contacts.push_back({{"off", json_numbers(off)}});
+  for (const CertifiedLie::Wheel& wheel : lie.wheels) {
+    pins.push_back(
+        {{"at", place_json(wheel.at)}, {"tangent", json_number(wheel.tangent)}, {"off", json_numbers(wheel.off)}});
+  }
+  const Pose& pose = lie.pose;
+  return {{"pose", json_numbers(std::array{pose.x, pose.y, pose.heading})}, {"contacts", contacts}, {"pins", pins}};
+}
+
+Json held_set_json(const CertifiedHoldSet& set) {
+  Json json = {{"listed", set.listed}, {"extent", intervals_json(set.extent)}};
+  if (set.first.empty()) return json;
+  Json first = Json::array(), lies = Json::array();
+  for (std::size_t k = 0; k < set.first.size(); ++k) {
+    first.push_back({{"at", place_json(set.at[k])}, {"s", json_number(set.first[k])}});
+  }
+  for (const CertifiedLie& lie : set.lies) lies.push_back(lie_json(lie));
+  json["first"] = first;
+  json["zeros"] = json_numbers(set.zeros);
+  json["instants"] = lies;
+  return json;
 }
 
 Json pose_json(const CertifiedPose& one, const std::vector<TouchTolerance>& tolerance) {
@@ -175,6 +237,18 @@ std::string format_certificate(const TouchCertificate& certificate) {
   if (!certificate.is_complete()) {
     json["unresolved"] = {{"touch", certificate.unresolved_touch}, {"arcs", intervals_json(certificate.unresolved)}};
   }
+  return json_text(json);
+}
+
+std::string format_certificate(const HoldCertificate& certificate) {
+  Json json = outline_json("rollfix/hold-certificate/1", certificate);
+  json["mirrored"] = certificate.mirrored;
+  json["fingers"] = json_list(certificate.fingers, held_finger_json);
+  json["wheels"] = json_list(certificate.wheels, held_wheel_json);
+  json["instants"] = json_list(certificate.instants, held_instant_json);
+  json["sets"] = json_list(certificate.sets, held_set_json);
+  if (!certificate.unresolved.empty())
+    json["unresolved"] = json_list(certificate.unresolved, [](const auto& arcs) { return intervals_json(arcs); });
   return json_text(json);
 }
 

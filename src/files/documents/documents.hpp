@@ -14,6 +14,13 @@
 // The documents of docs/json.md, and the pieces that several of them share.
 namespace rollfix {
 
+template <class Entries, class ToJson>
+Json json_list(const Entries& entries, const ToJson& to_json) {
+  Json list = Json::array();
+  for (const auto& entry : entries) list.push_back(to_json(entry));
+  return list;
+}
+
 /// "rollfix/locate/1". `explain`: with what the fingers can't do.
 Json answer_json(const Answer& answer, bool explain);
 

@@ -7,13 +7,6 @@
 namespace rollfix {
 namespace {
 
-template <class Entries, class ToJson>
-Json held_list(const Entries& entries, const ToJson& to_json) {
-  Json list = Json::array();
-  for (const auto& entry : entries) list.push_back(to_json(entry));
-  return list;
-}
-
 /// x and y are null where nothing tells them.
 Json held_pose(const Pose& pose, PlaceKnown place) {
   if (place == PlaceKnown::unknown) return Json::array({nullptr, nullptr, json_number(pose.heading)});
@@ -34,7 +27,7 @@ Json covariance_json(const Eigen::Matrix3d& covariance, PlaceKnown place) {
 }
 
 Json held_json(const HoldPlacement& one, const HoldAnswer& answer) {
-  const auto each = [&](const auto& value) { return held_list(one.contacts, value); };
+  const auto each = [&](const auto& value) { return json_list(one.contacts, value); };
   Json json = {
       {"kind", one.continuum ? "continuum" : "place"},
       {"start", each([](const HoldContact& contact) { return json_number(contact.start); })},
@@ -83,15 +76,15 @@ std::string format_hold(const HoldAnswer& answer, Layout layout) {
                    {"part", part_json(answer.part)},
                    {"fingers", answer.rolls.size()},
                    {"mirrored", answer.mirrored},
-                   {"rolls", held_list(answer.rolls, held_roll_json)},
+                   {"rolls", json_list(answer.rolls, held_roll_json)},
                    {"rows", answer.rows},
                    {"instants", json_numbers(answer.instants)},
                    {"place", place}};
   document["placements"] =
-      held_list(answer.placements, [&](const HoldPlacement& one) { return held_json(one, answer); });
+      json_list(answer.placements, [&](const HoldPlacement& one) { return held_json(one, answer); });
   document["dropped"] = answer.noise ? Json{{"improbable", answer.improbable}} : Json::object();
   document["unresolved"] =
-      held_list(answer.unresolved, [](const auto& arcs) { return held_list(arcs, json_interval); });
+      json_list(answer.unresolved, [](const auto& arcs) { return json_list(arcs, json_interval); });
   document["counts"] = {{"comparisons", answer.comparisons}};
   document["noise"] = answer.noise ? noise_json(*answer.noise) : Json(nullptr);
   if (answer.noise) document["rest"] = json_number(answer.rest);

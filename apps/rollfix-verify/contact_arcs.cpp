@@ -1,0 +1,189 @@
+#include "contact_arcs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "budget.hpp"
+#include "document.hpp"
+
+// Notation:
+//   [A, B]          an arc of the boundary; (c, rho): the disc that holds its points
+//   z in [lo, hi]   first contacts; [lo + L - a, hi + L + a]: where the contact is at an instant
+// Idea: the boundary's stretches, small ones beside the arc, together hold it; so rho is about half its length.
+namespace rollfix_verify {
+namespace {
+
+// Stretches are no longer than this share of the arc, and go beyond its ends by no more than that.
+constexpr double kArcGrain = 0.125;
+constexpr double kBeyond = 1.0 / 256;
+// Shares of the perimeter.
+constexpr double kShort = 1.0 / 64;
+constexpr double kTiny = 1e-4;
+// Arcs are widened for rounding by this share of the perimeter.
+constexpr double kArcSlack = 1e-13;
+constexpr double kPlaceRounding = 1e-14;
+constexpr double kArcAngleRounding = 1e-14;
+constexpr double kArcWork = 2e-3;
+// Arcs of first contacts are no shorter than this share of the tolerances.
+constexpr double kLeastArc = 2e-3;
+// What is passed over counts from so far in, a share of the perimeter.
+constexpr double kPassedSlack = 1e-12;
+
+}  // namespace
+
+BoundaryArcs::BoundaryArcs(const Boundary& boundary)
+    : boundary_(boundary),
+      tree_(boundary, 0, std::nullopt),
+      closed_(boundary.closed()),
+      period_(boundary.perimeter().middle()),
+      turn_(boundary.closed() ? boundary.total_turn().middle() : 0) {
+  const CentreTree::Node& root = tree_.node(tree_.root());
+  size_ = std::hypot(root.x, root.y) + root.radius;
+  if (!(size_ < std::numeric_limits<double>::infinity())) refuse("an outline without a size");
+}
+
+/// A short arc on one curve is bounded as it stands, in a few parts if it is not tiny.
+bool BoundaryArcs::add_curve(const Interval& arc, double slack) {
+  if (arc.width() > kShort * period_) return false;
+  const std::optional<Place> from = boundary_.after(arc.lo - slack);
+  const std::optional<Place> to = boundary_.after(arc.hi + slack);
+  if (!from || !to || from->curve != to->curve) return false;
+  const double lap = std::floor(static_cast<double>(from->curve) / static_cast<double>(boundary_.curves()));
+  const long curve = from->curve - static_cast<long>(lap) * boundary_.curves();
+  const Interval u{from->u.lower(), to->u.upper()};
+  const int parts = arc.width() > kTiny * period_ ? 4 : 1;
+  for (int k = 0; k < parts; ++k) {
+    const auto end = [&](int part) { return part == parts ? u.hi : u.lo + u.width() * part / parts; };
+    const CentreTree::Node node = tree_.stretch(curve, {end(k), end(k + 1)});
+    found_.push_back({node.x, node.y, node.radius, node.angle + lap * turn_, node.half_turn});
+  }
+  return true;
+}
+
+void BoundaryArcs::add(int index, const Lap& lap, double grain) {
+  const CentreTree::Node node = tree_.node(index);
+  if (node.s.hi < lap.arc.lo || node.s.lo > lap.arc.hi) return;
+  Budget::spend(0.1 * kArcWork);
+  const bool is_within = lap.arc.holds(node.s, kBeyond / kArcGrain * grain);
+  const bool is_small = node.curve >= 0 && (node.is_corner || (is_within && node.s.width() <= grain));
+  const auto [left, right] = is_small ? std::make_pair(index, index) : tree_.halves(index);
+  if (left == right) {
+    found_.push_back({node.x, node.y, node.radius, node.angle + lap.turn,
+                      node.half_turn + kArcAngleRounding * (2 + std::abs(node.angle + lap.turn))});
+    return;
+  }
+  add(left, lap, grain);
+  add(right, lap, grain);
+}
+
+OnArc BoundaryArcs::over(Interval arc) {
+  Budget::spend(kArcWork);
+  found_.clear();
+  if (!closed_) arc = {std::clamp(arc.lo, 0.0, period_), std::clamp(arc.hi, 0.0, period_)};
+  const double laps = std::max(std::abs(arc.lo), std::abs(arc.hi)) / period_;
+  const double slack = kArcSlack * (1 + laps) * period_;
+  const double grain = std::max(kArcGrain * arc.width(), slack);
+  if (add_curve(arc, slack)) return hull_of_found();
+  const double first = closed_ ? std::floor((arc.lo - slack) / period_) : 0;
+  const double last = closed_ ? std::floor((arc.hi + slack) / period_) : 0;
+  for (double lap = first; lap <= last; lap += 1) {
+    const double on = lap * period_;
+    add(tree_.root(), {{arc.lo - slack - on, arc.hi + slack - on}, lap * turn_}, grain);
+  }
+  if (found_.empty()) refuse("a boundary with a gap");
+  return hull_of_found();
+}
+
+OnArc BoundaryArcs::hull_of_found() const {
+  const double most = std::numeric_limits<double>::infinity();
+  Interval x{most, -most}, y{most, -most}, angle{most, -most};
+  for (const OnArc& one : found_) {
+    x = {std::min(x.lo, one.x), std::max(x.hi, one.x)};
+    y = {std::min(y.lo, one.y), std::max(y.hi, one.y)};
+    angle = {std::min(angle.lo, one.angle - one.half_turn), std::max(angle.hi, one.angle + one.half_turn)};
+  }
+  OnArc all{0.5 * (x.lo + x.hi), 0.5 * (y.lo + y.hi), 0, 0.5 * (angle.lo + angle.hi), 0.5 * angle.width()};
+  for (const OnArc& one : found_) {
+    all.radius = std::max(all.radius, std::hypot(one.x - all.x, one.y - all.y) + one.radius);
+  }
+  all.radius += kPlaceRounding * size_;
+  all.half_turn += kArcAngleRounding * (2 + std::abs(all.angle));
+  return all;
+}
+
+FirstContacts::FirstContacts(BoundaryArcs& boundary, const HeldFinger& finger) : boundary_(boundary), finger_(finger) {
+  add({0, boundary.period()});
+}
+
+Interval FirstContacts::moved(const Interval& arc, std::size_t instant) const {
+  const double travelled = finger_.at[instant].travelled;
+  return {arc.lo + travelled - finger_.travel, arc.hi + travelled + finger_.travel};
+}
+
+/// On some lap.
+bool FirstContacts::meets(const Interval& one, const Interval& other) const {
+  if (!boundary_.closed()) return one.meets(other);
+  const double period = boundary_.period();
+  return std::floor((other.hi - one.lo) / period) >= std::ceil((other.lo - one.hi) / period);
+}
+
+/// Each contact has a place within reach, and so has all that was rolled over from every first contact of the arc.
+bool FirstContacts::can_be(const Interval& arc) const {
+  const double slack = kPassedSlack * boundary_.period();
+  const Interval passed{arc.hi + finger_.passed.lo + slack, arc.lo + finger_.passed.hi - slack};
+  const bool is_open = !boundary_.closed();
+  if (is_open && passed.lo < passed.hi && (passed.lo < -slack || passed.hi > boundary_.period() + slack)) return false;
+  for (std::size_t instant = 0; instant < finger_.at.size(); ++instant) {
+    const Interval there = moved(arc, instant);
+    if (is_open && (there.hi < 0 || there.lo > boundary_.period())) return false;
+    const bool is_within = std::any_of(finger_.within.begin(), finger_.within.end(), [&](const Interval& one) {
+      return meets({one.lo - slack, one.hi + slack}, there);
+    });
+    if (finger_.reach && !is_within) return false;
+  }
+  if (!finger_.reach || !(passed.lo < passed.hi)) return true;
+  return std::none_of(finger_.gaps.begin(), finger_.gaps.end(), [&](const Interval& gap) {
+    const Interval inner{gap.lo + slack, gap.hi - slack};
+    return inner.lo < inner.hi && meets(inner, passed);
+  });
+}
+
+int FirstContacts::add(const Interval& arc) {
+  nodes_.push_back({arc, can_be(arc), -1, {}});
+  return static_cast<int>(nodes_.size()) - 1;
+}
+
+const OnArc& FirstContacts::at(int index, std::size_t instant) {
+  Node& node = nodes_[static_cast<std::size_t>(index)];
+  if (node.at.empty()) node.at.resize(finger_.at.size());
+  if (!node.at[instant]) node.at[instant] = boundary_.over(moved(node.arc, instant));
+  return *node.at[instant];
+}
+
+/// What the arc length itself may be off by does not get smaller, nor does a corner's turn.
+double FirstContacts::size(int index) {
+  const double width = arc(index).width();
+  double size = 0;
+  for (std::size_t instant = 0; instant < finger_.at.size(); ++instant) {
+    const double turn = std::min(at(index, instant).half_turn / finger_.turn, width / finger_.travel);
+    const double place = finger_.has_place ? 0.5 * width / finger_.place : 0;
+    size = std::max({size, turn, place});
+  }
+  return size / kLeastArc;
+}
+
+std::pair<int, int> FirstContacts::halves(int index) {
+  const Interval whole = arc(index);
+  if (nodes_[static_cast<std::size_t>(index)].left < 0) {
+    const double middle = 0.5 * (whole.lo + whole.hi);
+    if (!(middle > whole.lo && middle < whole.hi)) return {index, index};
+    const int left = add({whole.lo, middle});
+    add({middle, whole.hi});
+    nodes_[static_cast<std::size_t>(index)].left = left;
+  }
+  const int left = nodes_[static_cast<std::size_t>(index)].left;
+  return {left, left + 1};
+}
+
+}  // namespace rollfix_verify

@@ -1,0 +1,190 @@
+#include "held_document.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+
+#include "out_of_reach.hpp"
+#include "stated.hpp"
+
+namespace rollfix_verify {
+namespace {
+
+// Tolerances are at least these shares of the largest coordinate and of the perimeter, and so many radians: below
+// doubles decide.
+constexpr double kLeastHeldLength = 1e-9;
+constexpr double kLeastHeldTravel = 1e-10;
+constexpr double kLeastHeldAngle = 1e-10;
+constexpr std::size_t kMostFingers = 8;
+constexpr std::size_t kMostInstants = 1000;
+constexpr double kMostHeldLaps = 1e3;
+
+/// Above 0.
+double positive(const Json& stated) {
+  const double value = number(stated);
+  if (!(value > 0)) refuse("a tolerance or a radius that is not above 0");
+  return value;
+}
+
+std::optional<double> positive_if_any(const Json& stated) {
+  if (stated.is_null()) return std::nullopt;
+  return positive(stated);
+}
+
+/// The parts of the boundary that are on no arc, on the first lap.
+std::vector<Interval> gaps_between(std::vector<Interval> arcs, const Boundary& boundary) {
+  const double period = boundary.perimeter().middle();
+  std::vector<Interval> on;
+  for (const Interval& arc : arcs) {
+    for (const double lap : boundary.laps()) on.push_back({arc.lo + lap, arc.hi + lap});
+  }
+  std::sort(on.begin(), on.end(), [](const Interval& a, const Interval& b) { return a.lo < b.lo; });
+  std::vector<Interval> gaps;
+  double from = 0;
+  for (const Interval& arc : on) {
+    if (arc.lo > from) gaps.push_back({from, std::min(arc.lo, period)});
+    from = std::max(from, arc.hi);
+    if (from >= period) return gaps;
+  }
+  gaps.push_back({from, period});
+  return gaps;
+}
+
+HeldFinger finger_of(const Json& stated, const Boundary& boundary) {
+  HeldFinger finger;
+  const Json& tolerance = stated.at("tolerance");
+  finger.travel = positive(tolerance.at("travel"));
+  finger.angle = positive(tolerance.at("angle"));
+  finger.has_place = !tolerance.at("place").is_null();
+  if (finger.has_place) finger.place = positive(tolerance.at("place"));
+  finger.passed = interval(stated.at("passed"));
+  finger.reach = considered(stated.at("reach"), boundary.perimeter().middle());
+  if (!finger.reach) return finger;
+  finger.within = finger.reach->arcs;
+  for (const CornerAngles& corner : finger.reach->corners) {
+    if (!corner.angles.empty()) finger.within.push_back({corner.s, corner.s});
+  }
+  finger.gaps = gaps_between(finger.reach->arcs, boundary);
+  return finger;
+}
+
+HeldWheel wheel_of(const Json& stated, double period) {
+  HeldWheel wheel;
+  wheel.radius = positive(stated.at("radius"));
+  const Json& tolerance = stated.at("tolerance");
+  wheel.place = positive(tolerance.at("place"));
+  wheel.spin = positive_if_any(tolerance.at("spin"));
+  wheel.line = positive_if_any(tolerance.at("line"));
+  wheel.reach = considered(stated.at("reach"), period);
+  return wheel;
+}
+
+double angle(const Json& stated) {
+  const double value = number(stated);
+  if (!(std::abs(value) <= kMostAngle)) refuse("an angle of too many turns");
+  return value;
+}
+
+/// Of a finger, infinity of a jaw; 0: of one whose reach is not looked at.
+double radius_of(const Json& stated) {
+  const auto kind = stated.at("kind").get<std::string>();
+  if (kind == "jaw") return std::numeric_limits<double>::infinity();
+  if (kind == "disk") return positive(stated.at("radius"));
+  if (kind != "outline") refuse("a finger of a kind that is not known");
+  if (!stated.at("reach").is_null()) refuse("a finger whose reach is not known");
+  return 0;
+}
+
+void require_reach(const Boundary& boundary, double radius, const std::optional<Considered>& reach) {
+  if (!reach) return;
+  const std::optional<double> place = not_out_of_reach(boundary, radius, *reach);
+  if (!place) return;
+  char text[120];
+  std::snprintf(text, sizeof text, "the reach leaves out s = %.6g, where the finger may touch", *place);
+  refuse(text);
+}
+
+}  // namespace
+
+HeldQuestion::HeldQuestion(const Document& document) : is_mirrored(document.json().at("mirrored").get<bool>()) {
+  const Json& json = document.json();
+  for (const Json& stated : json.at("fingers")) fingers.push_back(finger_of(stated, document.boundary()));
+  for (const Json& stated : json.at("wheels")) wheels.push_back(wheel_of(stated, document.period()));
+  const std::size_t count = fingers.size() + wheels.size();
+  if (fingers.empty() || count < 2 || count > kMostFingers) refuse("expected two to eight fingers, one with skin");
+  instants = json.at("instants").size();
+  if (instants == 0 || instants > kMostInstants) refuse("expected 1 to 1000 instants");
+  for (const Json& instant : json.at("instants")) {
+    if (instant.at("contacts").size() != fingers.size() || instant.at("pins").size() != wheels.size()) {
+      refuse("an instant without a contact of each finger");
+    }
+    for (std::size_t k = 0; k < fingers.size(); ++k) {
+      const Json& stated = instant.at("contacts").at(k);
+      HeldFinger::At at;
+      at.travelled = number(stated.at("travelled"));
+      at.tangent = angle(stated.at("tangent"));
+      if (is_mirrored) at.tangent = (0.5 * full_turn() - at.tangent).middle();
+      if (fingers[k].has_place) {
+        at.x = mirrored(number(stated.at("at").at(0)));
+        at.y = number(stated.at("at").at(1));
+      }
+      fingers[k].at.push_back(at);
+      if (!(std::abs(at.travelled) <= kMostHeldLaps * document.period())) refuse("a roll of more than a thousand laps");
+      size = std::max({size, std::abs(at.x), std::abs(at.y)});
+    }
+    for (std::size_t k = 0; k < wheels.size(); ++k) {
+      const Json& stated = instant.at("pins").at(k);
+      HeldWheel::At at{mirrored(number(stated.at("at").at(0))), number(stated.at("at").at(1)), 0};
+      if (wheels[k].spin) at.spin = mirrored(angle(stated.at("spin")));
+      wheels[k].at.push_back(at);
+      size = std::max({size, std::abs(at.x), std::abs(at.y)});
+    }
+  }
+  set_turn();
+  for (const HeldFinger& finger : fingers) any_place = any_place || finger.has_place;
+  const CentreTree all(document.boundary(), 0, std::nullopt);
+  const CentreTree::Node& root = all.node(all.root());
+  size = std::max({size, std::abs(root.x) + root.radius, std::abs(root.y) + root.radius});
+}
+
+/// The tangent of a single finger tells the heading, which is seen where it moves a pin further than that is known.
+void HeldQuestion::set_turn() {
+  for (HeldFinger& finger : fingers) finger.turn = finger.angle;
+  if (fingers.size() > 1) return;
+  HeldFinger& finger = fingers.front();
+  double least = kMostAngle;
+  for (const HeldWheel& wheel : wheels) {
+    if (wheel.spin) least = std::min(least, *wheel.spin);
+    if (wheel.line) least = std::min(least, *wheel.line);
+    for (std::size_t t = 0; t < instants; ++t) {
+      const double arm = std::hypot(wheel.at[t].x - finger.at[t].x, wheel.at[t].y - finger.at[t].y);
+      least = std::min(least, (finger.place + wheel.place) / arm);
+    }
+  }
+  finger.turn += least;
+}
+
+void HeldQuestion::require_sound(const Document& document) const {
+  const auto require = [](double tolerance, double least) {
+    if (!(tolerance >= least)) refuse("a tolerance below what rounding allows");
+  };
+  for (const HeldFinger& finger : fingers) {
+    require(finger.travel, kLeastHeldTravel * document.period());
+    require(finger.angle, kLeastHeldAngle);
+    if (finger.has_place) require(finger.place, kLeastHeldLength * size);
+  }
+  for (const HeldWheel& wheel : wheels) {
+    require(wheel.place, kLeastHeldLength * size);
+    if (wheel.spin) require(*wheel.spin, kLeastHeldAngle);
+    if (wheel.line) require(*wheel.line, kLeastHeldAngle);
+    if (!any_place) refuse("a wheel beside fingers whose places are not known");
+    require_reach(document.boundary(), wheel.radius, wheel.reach);
+  }
+  for (std::size_t k = 0; k < fingers.size(); ++k) {
+    require_reach(document.boundary(), radius_of(document.json().at("fingers").at(k)), fingers[k].reach);
+  }
+}
+
+}  // namespace rollfix_verify

@@ -1,0 +1,204 @@
+#include "hold_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "angles.hpp"
+#include "budget.hpp"
+#include "document.hpp"
+
+// Notation, of an instant at which the part lies at X, phi:
+//   z_i, s_i        first contact of finger i, and its contact now: s_i = z_i + L_i, within a_i
+//   tau_i, q_i      the part's tangent and the contact in the world; eps_i, delta_i: how far they may be off
+//   (c_i, rho_i), theta_i +- w_i   where the contact is on the part if z_i is on the box's arc: OnArc
+// A box goes where at some instant no phi is left by
+//   normals         |tau_i - theta_i - phi| <= w_i + eps_i for all fingers
+//   chords          |R(phi) (c_j - c_i) - (q_j - q_i)| <= rho_i + rho_j + delta_i + delta_j for all that have places
+//   wheels          their pins are on their paths as seen from each finger that has a place: pin_look.cpp
+// or where no zero of some encoder is left by all instants together.
+// Follows docs/certificates.md, "Holds".
+// Idea: the pose of each instant is a function of the first contacts, or nearly; so these alone are halved.
+namespace rollfix_verify {
+namespace {
+
+constexpr double kHoldBox = 4e-3;
+constexpr double kHoldComparison = 1e-3;
+constexpr double kHoldRounding = 1e-13;
+constexpr double kHeadingRounding = 1e-13;
+/// What an interval of angles leaves of another one: of more than one piece all that lies between as well.
+bool keep(const Interval& others, Interval& angles) {
+  Interval kept{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  const double first = std::ceil((angles.lo - others.hi) / kTurn);
+  const double last = std::floor((angles.hi - others.lo) / kTurn);
+  for (double turn = first; turn <= last; turn += 1) {
+    kept.lo = std::min(kept.lo, std::max(angles.lo, others.lo + turn * kTurn));
+    kept.hi = std::max(kept.hi, std::min(angles.hi, others.hi + turn * kTurn));
+  }
+  angles = kept;
+  return angles.lo <= angles.hi;
+}
+
+/// From both ends to the middle: instants that are far apart tell most.
+std::vector<std::size_t> telling_order(std::size_t count) {
+  std::vector<std::size_t> order;
+  for (std::size_t k = 0; k < count; ++k) order.push_back(k % 2 == 0 ? k / 2 : count - 1 - k / 2);
+  return order;
+}
+
+}  // namespace
+
+HoldSearch::HoldSearch(BoundaryArcs& boundary, const std::vector<HeldFinger>& fingers, std::deque<PinLook>& wheels,
+                       std::vector<HeldSet> listed, std::vector<HeldSet> open)
+    : boundary_(boundary),
+      fingers_(fingers),
+      wheels_(wheels),
+      listed_(std::move(listed)),
+      open_(std::move(open)),
+      order_(telling_order(fingers.front().at.size())) {
+  double largest = boundary.size();
+  for (const HeldFinger& finger : fingers_) {
+    contacts_.emplace_back(boundary_, finger);
+    for (const HeldFinger::At& at : finger.at) largest = std::max({largest, std::abs(at.x), std::abs(at.y)});
+  }
+  rounding_ = kHoldRounding * largest;
+}
+
+HoldCovered HoldSearch::run() {
+  covered_ = {};
+  visit(Nodes(fingers_.size(), 0));
+  return covered_;
+}
+
+bool HoldSearch::is_in(const std::vector<HeldSet>& sets, const Nodes& box) const {
+  Budget::spend(kHoldComparison * static_cast<double>(sets.size()));
+  const double period = boundary_.period();
+  const double slack = kLengthSlack * period;
+  const auto holds = [&](const HeldSet& set, std::size_t finger) {
+    const Interval& arc = contacts_[finger].arc(box[finger]);
+    if (!boundary_.closed()) return set[finger].holds(arc, slack);
+    if (set[finger].width() >= period - slack) return true;
+    return set[finger].holds(arc, slack) || set[finger].holds({arc.lo + period, arc.hi + period}, slack);
+  };
+  return std::any_of(sets.begin(), sets.end(), [&](const HeldSet& set) {
+    for (std::size_t finger = 0; finger < fingers_.size(); ++finger) {
+      if (!holds(set, finger)) return false;
+    }
+    return true;
+  });
+}
+
+bool HoldSearch::keep_chord(const Nodes& box, std::size_t instant, std::size_t one, std::size_t other, double base,
+                            Interval& offsets) {
+  const OnArc& from = contacts_[one].at(box[one], instant);
+  const OnArc& to = contacts_[other].at(box[other], instant);
+  const HeldFinger::At& from_at = fingers_[one].at[instant];
+  const HeldFinger::At& to_at = fingers_[other].at[instant];
+  const double part_x = to.x - from.x, part_y = to.y - from.y;
+  const double world_x = to_at.x - from_at.x, world_y = to_at.y - from_at.y;
+  const double reach = from.radius + to.radius + fingers_[one].place + fingers_[other].place + rounding_;
+  const double part = std::hypot(part_x, part_y), world = std::hypot(world_x, world_y);
+  if (std::abs(part - world) > reach) return false;
+  // The law of cosines.
+  const double cosine = (part * part + world * world - reach * reach) / (2 * part * world);
+  if (!(cosine > -1)) return true;
+  const double half = std::acos(std::min(cosine, 1.0)) + kHeadingRounding;
+  const double middle = std::atan2(world_y, world_x) - std::atan2(part_y, part_x) - base;
+  return keep({middle - half, middle + half}, offsets);
+}
+
+/// Those that suit all normals and chords, counted on from instant to instant with the first finger's.
+std::optional<Interval> HoldSearch::headings(const Nodes& box, std::size_t instant) {
+  const auto own = [&](std::size_t finger) {
+    const OnArc& on = contacts_[finger].at(box[finger], instant);
+    const double middle = fingers_[finger].at[instant].tangent - on.angle;
+    const double half = on.half_turn + fingers_[finger].angle + kHeadingRounding * (1 + std::abs(middle));
+    return Interval{middle - half, middle + half};
+  };
+  Interval first = own(0);
+  const double base = 0.5 * (first.lo + first.hi);
+  Interval offsets{first.lo - base, first.hi - base};
+  if (offsets.width() > kTurn) offsets = {-0.5 * kTurn, 0.5 * kTurn};
+  for (std::size_t finger = 1; finger < fingers_.size(); ++finger) {
+    Interval other = own(finger);
+    if (other.width() >= kTurn) continue;
+    if (!keep({other.lo - base, other.hi - base}, offsets)) return std::nullopt;
+  }
+  for (std::size_t one = 0; one < fingers_.size(); ++one) {
+    for (std::size_t other = one + 1; other < fingers_.size(); ++other) {
+      if (!fingers_[one].has_place || !fingers_[other].has_place) continue;
+      if (!keep_chord(box, instant, one, other, base, offsets)) return std::nullopt;
+    }
+  }
+  return Interval{offsets.lo + base, offsets.hi + base};
+}
+
+bool HoldSearch::may_touch(const Nodes& box, std::size_t instant, const Interval& heading, std::vector<Zeros>& zeros) {
+  const double middle = 0.5 * (heading.lo + heading.hi);
+  const double half = 0.5 * heading.width() + kHeadingRounding * (1 + std::abs(middle));
+  for (std::size_t wheel = 0; wheel < wheels_.size(); ++wheel) {
+    for (std::size_t finger = 0; finger < fingers_.size(); ++finger) {
+      if (!fingers_[finger].has_place) continue;
+      const OnArc& on = contacts_[finger].at(box[finger], instant);
+      const HeldFinger::At& at = fingers_[finger].at[instant];
+      const SeenFrom from{on.x, on.y, at.x, at.y, on.radius + fingers_[finger].place + rounding_};
+      std::vector<Interval> left;
+      if (!wheels_[wheel].may_touch(from, instant, middle, half, left)) return false;
+      if (!wheels_[wheel].wheel().spin) continue;
+      zeros[wheel].keep(std::move(left));
+      if (zeros[wheel].is_empty()) return false;
+    }
+  }
+  return true;
+}
+
+bool HoldSearch::may_fit(const Nodes& box) {
+  for (std::size_t finger = 0; finger < fingers_.size(); ++finger) {
+    if (!contacts_[finger].is_possible(box[finger])) return false;
+  }
+  std::vector<Zeros> zeros;
+  for (const PinLook& wheel : wheels_) zeros.emplace_back(wheel.period());
+  return std::all_of(order_.begin(), order_.end(), [&](std::size_t instant) {
+    Budget::spend(kHoldComparison);
+    const std::optional<Interval> heading = headings(box, instant);
+    return heading && may_touch(box, instant, *heading, zeros);
+  });
+}
+
+void HoldSearch::add_undecided(const Nodes& box) {
+  ++covered_.undecided;
+  if (!covered_.first_undecided.empty()) return;
+  for (std::size_t finger = 0; finger < fingers_.size(); ++finger) {
+    const Interval& arc = contacts_[finger].arc(box[finger]);
+    covered_.first_undecided.push_back(0.5 * (arc.lo + arc.hi));
+  }
+}
+
+void HoldSearch::visit(const Nodes& box) {
+  if (covered_.is_cut_short()) return;
+  Budget::spend(kHoldBox);
+  ++covered_.boxes;
+  if (is_in(listed_, box) || !may_fit(box)) return;
+  if (is_in(open_, box)) {
+    ++covered_.open;
+    return;
+  }
+  std::size_t widest = 0;
+  double most = 0;
+  for (std::size_t finger = 0; finger < fingers_.size(); ++finger) {
+    const double size = contacts_[finger].size(box[finger]);
+    if (size <= most) continue;
+    most = size;
+    widest = finger;
+  }
+  const auto [left, right] =
+      most > 1 ? contacts_[widest].halves(box[widest]) : std::make_pair(box[widest], box[widest]);
+  if (left == right) return add_undecided(box);
+  for (const int half : {left, right}) {
+    Nodes next = box;
+    next[widest] = half;
+    visit(next);
+  }
+}
+
+}  // namespace rollfix_verify

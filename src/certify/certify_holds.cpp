@@ -1,0 +1,245 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "hold/arc_tree.hpp"
+#include "hold/held_question.hpp"
+#include "hold/hold_facts.hpp"
+#include "hold/hold_witness.hpp"
+#include "hold/requirements.hpp"
+#include "hold_lies.hpp"
+#include "outline/turn.hpp"
+#include "places.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/pulse.hpp"
+
+// Follows docs/certificates.md, "Holds".
+// Idea: the certificate is the question, and the sets of first contacts; the verifier searches by itself. With noise it
+// is the same question within 4.5 standard deviations: so what the answer leaves out as improbable is found as well.
+namespace rollfix {
+namespace {
+
+using hold::HeldContact;
+using hold::HeldErrors;
+using hold::HeldRow;
+using hold::HeldRows;
+using hold::HeldWheel;
+
+/// How much wider extents are written down than they are, in shares of the tolerances: where first contacts are at
+/// their very edge no box is on one side of it.
+constexpr double kWiderSet = 0.05;
+
+/// Of the chord from a contact to a pin, each off by so much: by how much its direction may be off.
+double swing(double off, double length) { return off >= length ? std::numbers::pi : std::asin(off / length); }
+
+HeldErrors slacks_of(const HeldRows& rows, std::size_t finger) {
+  HeldErrors widest;
+  widest.has_place = rows.errors[finger].has_place;
+  for (const HeldRow& row : rows.rows) {
+    const hold::Slack slack = hold::slack_of(rows.errors[finger], row.contacts[finger], true);
+    widest.travel = std::max(widest.travel, slack.travel);
+    widest.angle = std::max(widest.angle, slack.angle);
+    widest.place = std::max(widest.place, slack.place);
+  }
+  return widest;
+}
+
+HeldWheel slacks_of(const HeldRows& rows, std::size_t number, double finger_place) {
+  HeldWheel wheel = rows.wheels[number];
+  wheel.place = kTouchSigmas * (wheel.place + wheel.radius);
+  for (const HeldRow& row : rows.rows) {
+    if (wheel.spin) {
+      const double turned = std::abs(row.pins[number].spin - rows.rows.front().pins[number].spin) + kFullTurn;
+      const HeldWheel& given = rows.wheels[number];
+      wheel.spin = std::max(*wheel.spin, kTouchSigmas * (*given.spin + given.radius / given.wheel_radius * turned));
+    }
+    if (wheel.line) {
+      const double length = (row.pins[number].at - row.contacts[0].at).norm();
+      wheel.line = std::max(*wheel.line, std::min(std::numbers::pi, kTouchSigmas * *rows.wheels[number].line +
+                                                                        swing(finger_place + wheel.place, length)));
+    }
+  }
+  wheel.radius = 0;
+  return wheel;
+}
+
+/// The same rows with tolerances in place of standard deviations: the most of all rows.
+HeldRows within_slack(HeldRows rows) {
+  if (!rows.has_noise) return rows;
+  const HeldRows noisy = rows;
+  rows.has_noise = false;
+  for (std::size_t k = 0; k < rows.fingers(); ++k) rows.errors[k] = slacks_of(noisy, k);
+  for (std::size_t k = 0; k < rows.wheels.size(); ++k) rows.wheels[k] = slacks_of(noisy, k, rows.errors[0].place);
+  return rows;
+}
+
+/// Only where it leaves something out.
+std::optional<Reach> confined(const Reach* reach) {
+  if (reach == nullptr || !reach->decided || reach->is_whole()) return std::nullopt;
+  return *reach;
+}
+
+CertifiedFinger certified_finger(const Finger& finger, const HeldRows& rows, std::size_t number, const Reach* reach) {
+  const HeldErrors& errors = rows.errors[number];
+  CertifiedFinger result;
+  result.kind = finger.is_disk() ? "disk" : finger.is_jaw() ? "jaw" : "outline";
+  if (finger.is_disk()) result.radius = finger.disk()->radius;
+  result.travel = errors.travel;
+  result.angle = errors.angle;
+  if (errors.has_place) result.place = errors.place;
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (const HeldRow& row : rows.rows) {
+    least = std::min(least, row.contacts[number].travelled);
+    most = std::max(most, row.contacts[number].travelled);
+  }
+  result.passed = {least + errors.travel, most - errors.travel};
+  result.reach = confined(reach);
+  return result;
+}
+
+CertifiedWheel certified_wheel(const Part& part, const HeldWheel& wheel) {
+  const Reach reach = reach_of_disk(part, wheel.wheel_radius);
+  CertifiedWheel result{wheel.wheel_radius, wheel.place, wheel.spin, wheel.line, std::nullopt};
+  if (!reach.is_whole()) result.reach = reach;
+  return result;
+}
+
+CertifiedInstant certified_instant(const HeldRow& row, const HeldRows& rows) {
+  CertifiedInstant instant{row.time, {}, {}};
+  for (std::size_t k = 0; k < row.contacts.size(); ++k) {
+    const HeldContact& contact = row.contacts[k];
+    instant.contacts.push_back({contact.travelled, contact.tangent, std::nullopt});
+    if (rows.errors[k].has_place) instant.contacts.back().at = contact.at;
+  }
+  for (std::size_t k = 0; k < row.pins.size(); ++k) {
+    instant.pins.push_back({row.pins[k].at, std::nullopt});
+    if (rows.wheels[k].spin) instant.pins.back().spin = row.pins[k].spin;
+  }
+  return instant;
+}
+
+/// A little longer.
+std::vector<Interval> widened(const std::vector<Interval>& extent, const HeldRows& rows, const Boundary& boundary) {
+  std::vector<Interval> result;
+  for (std::size_t k = 0; k < rows.fingers(); ++k) {
+    const HeldErrors& errors = rows.errors[k];
+    double by = errors.angle / kFullTurn * boundary.perimeter;  // as on a circle
+    if (errors.has_place) by = std::min(by, errors.place);
+    by = kWiderSet * std::max(by, errors.travel);
+    result.push_back(boundary.is_full(extent[k]) ? extent[k] : boundary.arc(extent[k].lo - by, extent[k].hi + by));
+  }
+  return result;
+}
+
+/// Which sets have what an answer lists, among others it may be: those that its first contacts are in.
+void mark_listed(const HoldAnswer& answer, const Boundary& boundary, std::vector<CertifiedHoldSet>& sets) {
+  if (!answer.noise) return;
+  for (CertifiedHoldSet& set : sets) set.listed = false;
+  for (const HoldPlacement& placement : answer.placements) {
+    const auto all_of = [&](const CertifiedHoldSet& set, const auto& suits) {
+      for (std::size_t k = 0; k < set.extent.size(); ++k) {
+        if (!suits(set.extent[k], placement.contacts[k])) return false;
+      }
+      return true;
+    };
+    auto own = std::find_if(sets.begin(), sets.end(), [&](const CertifiedHoldSet& set) {
+      return all_of(set, [&](const Interval& extent, const HoldContact& contact) {
+        return boundary.contains(extent, contact.start);
+      });
+    });
+    if (own == sets.end()) {  // the best fit may be a little beyond what 4.5 standard deviations leave
+      own = std::find_if(sets.begin(), sets.end(), [&](const CertifiedHoldSet& set) {
+        return all_of(set, [&](const Interval& extent, const HoldContact& contact) {
+          return boundary.intersects(extent, contact.extent);
+        });
+      });
+    }
+    if (own != sets.end()) own->listed = true;
+  }
+}
+
+/// In the world as it is.
+void take_out_of_mirror(HoldCertificate& certificate) {
+  for (CertifiedInstant& instant : certificate.instants) {
+    for (CertifiedInstant::Contact& contact : instant.contacts) {
+      contact.tangent = std::numbers::pi - contact.tangent;
+      if (contact.at) contact.at->x() = -contact.at->x();
+    }
+    for (CertifiedInstant::Pin& pin : instant.pins) {
+      pin.at.x() = -pin.at.x();
+      if (pin.spin) pin.spin = -*pin.spin;
+    }
+  }
+  for (CertifiedHoldSet& set : certificate.sets) {
+    for (double& zero : set.zeros) zero = -zero;
+    for (CertifiedLie& lie : set.lies) {
+      lie.pose = {-lie.pose.x, lie.pose.y, -lie.pose.heading};
+      for (auto& off : lie.off) off[1] = -off[1];
+      for (CertifiedLie::Wheel& wheel : lie.wheels) {
+        wheel.off[1] = -wheel.off[1];
+        wheel.off[2] = -wheel.off[2];
+      }
+    }
+  }
+}
+
+void add_sets(hold::HeldQuestion& question, const hold::WheelPaths& wheels, const HoldAnswer& answer,
+              HoldCertificate& certificate) {
+  const Part& part = question.part();
+  const Boundary boundary = part.boundary();
+  const auto arcs = [&](std::vector<Interval> extent) {
+    extent.resize(question.rows().fingers());
+    return widened(extent, question.rows(), boundary);
+  };
+  hold::HoldFit fit(part, question.searched(), wheels);
+  const hold::Witnessed found = hold::witnessed(question, fit, question.search().search());
+  for (const hold::WitnessedSet& one : found.sets) {
+    CertifiedHoldSet set = lies_of(part, fit, wheels, one.state).value_or(CertifiedHoldSet{});
+    set.extent = arcs(one.set.extent);
+    certificate.sets.push_back(std::move(set));
+  }
+  mark_listed(answer, boundary, certificate.sets);
+  if (found.undecided.empty()) return;
+  for (const hold::FoundSet& one : question.sets(found.undecided)) {
+    certificate.unresolved.push_back(arcs(one.set.extent));
+  }
+}
+
+}  // namespace
+
+bool HoldCertificate::is_complete() const {
+  return unresolved.empty() &&
+         std::none_of(sets.begin(), sets.end(), [](const CertifiedHoldSet& set) { return set.first.empty(); });
+}
+
+HoldCertificate certify_holds(const HoldProblem& problem, const HoldAnswer& answer) {
+  hold::require_valid(problem);
+  const Doing doing("looking for the proof that no other places fit");
+  const hold::WheelPaths wheels = hold::paths_of(problem);
+  std::vector<Log> logs = hold::logs_of(problem);
+  const HoldProblem seen = problem.mirrored ? hold::in_mirror(problem, logs) : problem;
+  const HeldRows rows = within_slack(hold::held_rows(seen, logs));
+  hold::HeldQuestion question(seen, rows, hold::rows_to_search(problem, logs.front()), wheels);
+  HoldCertificate certificate;
+  static_cast<CertifiedOutline&>(certificate) = certified_outline(problem.part);
+  certificate.mirrored = problem.mirrored;
+  for (std::size_t k = 0; k < rows.fingers(); ++k) {
+    certificate.fingers.push_back(certified_finger(hold::finger_of_log(seen, k), rows, k, question.reach(k)));
+  }
+  for (const HeldWheel& wheel : rows.wheels) certificate.wheels.push_back(certified_wheel(problem.part, wheel));
+  std::vector<double> times;
+  for (const HeldRow& row : question.searched().rows) {
+    certificate.instants.push_back(certified_instant(row, rows));
+    times.push_back(row.time);
+  }
+  if (answer.instants != times || answer.noise.has_value() != problem.noise.has_value()) {
+    throw InputError("a certificate of fingers on a free part: expected the answer to this problem, found another one");
+  }
+  add_sets(question, wheels, answer, certificate);
+  if (certificate.mirrored) take_out_of_mirror(certificate);
+  return certificate;
+}
+
+}  // namespace rollfix

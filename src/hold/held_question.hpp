@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "arc_tree.hpp"
+#include "box_search.hpp"
+#include "held_rows.hpp"
+#include "rollfix/hold/hold.hpp"
+#include "weigh_holds.hpp"
+
+namespace rollfix::hold {
+
+/// Throws InputError: a wheel that fits nowhere.
+WheelPaths paths_of(const HoldProblem& problem);
+
+/// The logs of the fingers, then those of the wheels, in the part's unit, at the instants that all of them share.
+std::vector<Log> logs_of(const HoldProblem& problem);
+
+/// Where each finger can touch: of disks, and of jaws beside wheels; nullptr for others. Fingers of one radius share
+/// it.
+class ReachOfFingers {
+ public:
+  explicit ReachOfFingers(const HoldProblem& problem);
+  std::vector<const Reach*> each;
+
+ private:
+  std::map<double, std::unique_ptr<Reach>> reaches_;
+};
+
+/// A problem with what is searched in: rows, of them those that are searched with, and boxes of first contacts.
+class HeldQuestion {
+ public:
+  /// `instants`: rows to search with, in the order in which they tell most. What is given has to outlive it.
+  HeldQuestion(const HoldProblem& problem, HeldRows rows, const std::vector<std::size_t>& instants,
+               const WheelPaths& wheels);
+
+  const Part& part() const { return part_.part; }
+  const HeldRows& rows() const { return rows_; }
+  const HeldRows& searched() const { return searched_; }  // in the order of time
+  const Reach* reach(std::size_t finger) const { return reach_.each[finger]; }
+  BoxSearch& search() { return search_; }
+
+  /// Boxes that hang together.
+  std::vector<FoundSet> sets(const std::vector<Box>& boxes);
+
+ private:
+  std::size_t wheels_;
+  HeldRows rows_;
+  HeldRows searched_;
+  HeldPart part_;
+  ReachOfFingers reach_;
+  BoxSearch search_;
+};
+
+}  // namespace rollfix::hold
