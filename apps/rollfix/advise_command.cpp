@@ -13,6 +13,7 @@
 #include "rollfix/arguments/catalog_argument.hpp"
 #include "rollfix/arguments/finger_argument.hpp"
 #include "rollfix/arguments/output_argument.hpp"
+#include "rollfix/arguments/question_arguments.hpp"
 #include "rollfix/arguments/roll_arguments.hpp"
 #include "rollfix/arguments/typed_number.hpp"
 #include "rollfix/catalog/documents.hpp"

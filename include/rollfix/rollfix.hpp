@@ -32,6 +32,8 @@
 #include "rollfix/part/reach.hpp"                 // IWYU pragma: export
 #include "rollfix/part/samples.hpp"               // IWYU pragma: export
 #include "rollfix/plan/plan.hpp"                  // IWYU pragma: export
+#include "rollfix/question/question.hpp"          // IWYU pragma: export
+#include "rollfix/question/solution.hpp"          // IWYU pragma: export
 #include "rollfix/touch/next_touch.hpp"           // IWYU pragma: export
 #include "rollfix/touch/touch.hpp"                // IWYU pragma: export
 #include "rollfix/touch/touch_table.hpp"          // IWYU pragma: export

@@ -3,26 +3,26 @@
 from __future__ import annotations
 
 import functools
-from typing import Any, Callable, Iterable, List, Literal, Optional, Sequence, Tuple, TypeVar, Union, cast, overload
+from typing import TYPE_CHECKING, Any, Callable, Iterable, List, Literal, Optional, TypeVar, Union, cast, overload
 
 import numpy as np
 
 from . import _core
 from ._answer import Answer
 from ._checks import clockwise, flag, friction as friction_given, travel as travel_given
-from ._columns import Columns, Naming, Units
-from ._core import InputError
 from ._documents import Advice
-from ._fingers import FingerLike
-from ._holds import HoldAnswer, held, is_hold
+from ._holds import HoldAnswer
+from ._kinds import answer_to
 from ._log_answers import LogAnswers, locate_logs
-from ._logs import rolls_of
 from ._many import ManyAnswers, locate_many
-from ._noise import NoiseLike
-from ._question import Question, solved
+from ._options import AnyOptions, HoldOptions, LogOptions, RestOptions, RollOptions, RowOptions, TouchOptions, keywords
+from ._question import Question
 from ._rounding import offer_rounding
 from ._shape import Shape
-from ._touches import TouchAnswer, located
+from ._touches import TouchAnswer
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 Method = TypeVar("Method", bound=Callable[..., Any])
 
@@ -46,116 +46,25 @@ class Asked(Shape):
     __slots__ = ()
 
     @overload
-    def locate(
-        self,
-        *,
-        touches: Any,
-        finger: Optional[FingerLike] = None,
-        noise: NoiseLike = None,
-        tolerance: Union[float, Tuple[float, float], None] = None,
-        heading: Optional[Tuple[float, float]] = None,
-        pose: Optional[Sequence[float]] = None,
-        mirrored: bool = False,
-        budget: Optional[int] = None,
-        clear: Any = None,
-    ) -> TouchAnswer: ...
+    def locate(self, *, touches: Any, **options: Unpack[TouchOptions]) -> TouchAnswer: ...
 
     @overload
     def locate(
-        self,
-        *,
-        log: Any,
-        roll: Literal["all"],
-        touches: Any = None,
-        finger: Optional[FingerLike] = None,
-        noise: NoiseLike = None,
-        tolerance: Union[float, Tuple[float, float], None] = None,
-        heading: Optional[Tuple[float, float]] = None,
-        pose: Optional[Sequence[float]] = None,
-        mirrored: bool = False,
-        robust: bool = False,
-        columns: Columns = None,
-        units: Units = None,
-        degrees: bool = False,
-        wrapped: Optional[bool] = None,
-        budget: Optional[int] = None,
+        self, *, log: Any, roll: Literal["all"], touches: Any = None, **options: Unpack[RestOptions]
     ) -> Union[Answer, TouchAnswer]: ...
 
     @overload
-    def locate(
-        self,
-        *,
-        log: List[Any],
-        finger: Optional[FingerLike] = None,
-        noise: NoiseLike = None,
-        tolerance: Union[float, Tuple[float, float], None] = None,
-        at: Any = None,
-        mirrored: bool = False,
-        columns: Columns = None,
-        units: Units = None,
-        degrees: bool = False,
-        wrapped: Optional[bool] = None,
-        budget: Optional[int] = None,
-        squeezed: Optional[float] = None,
-    ) -> Any: ...  # three and more, or wheels: a HoldAnswer
+    def locate(self, *, log: List[Any], **options: Unpack[HoldOptions]) -> Any: ...  # three and more, or wheels: a HoldAnswer
 
     @overload
     def locate(
-        self,
-        readings: Any = None,
-        turn: Any = None,
-        *,
-        log: Any = None,
-        finger: Optional[FingerLike] = None,
-        noise: NoiseLike = None,
-        tolerance: Optional[float] = None,
-        facing: Optional[float] = None,
-        at: Any = None,
-        prior: Optional[Tuple[float, float]] = None,
-        heading: Optional[Tuple[float, float]] = None,
-        pose: Optional[Sequence[float]] = None,
-        mirrored: bool = False,
-        direction: str = "ccw",
-        robust: bool = False,
-        may_overlap: bool = False,
-        columns: Columns = None,
-        units: Units = None,
-        degrees: bool = False,
-        wrapped: Optional[bool] = None,
-        roll: Optional[int] = None,
-        rounding: Optional[Tuple[float, float]] = None,
-        budget: Optional[int] = None,
+        self, readings: Any = None, turn: Any = None, *, log: Any = None, **options: Unpack[RollOptions]
     ) -> Answer: ...
 
     @_quick
+    @keywords(AnyOptions)
     def locate(
-        self,
-        readings: Any = None,
-        turn: Any = None,
-        *,
-        log: Any = None,
-        touches: Any = None,
-        clear: Any = None,
-        finger: Optional[FingerLike] = None,
-        noise: NoiseLike = None,
-        tolerance: Any = None,
-        facing: Optional[float] = None,
-        at: Any = None,
-        prior: Optional[Tuple[float, float]] = None,
-        heading: Optional[Tuple[float, float]] = None,
-        pose: Optional[Sequence[float]] = None,
-        mirrored: bool = False,
-        direction: str = "ccw",
-        robust: bool = False,
-        may_overlap: bool = False,
-        columns: Columns = None,
-        units: Units = None,
-        degrees: bool = False,
-        wrapped: Optional[bool] = None,
-        roll: Union[int, str, None] = None,
-        rounding: Optional[Tuple[float, float]] = None,
-        budget: Optional[int] = None,
-        squeezed: Optional[float] = None,
+        self, readings: Any = None, turn: Any = None, *, log: Any = None, touches: Any = None, **options: Unpack[AnyOptions]
     ) -> Union[Answer, TouchAnswer, HoldAnswer]:
         """Every place where the roll can have started. There is no other: see `Answer.status`.
 
@@ -232,114 +141,9 @@ class Asked(Shape):
         InputError
             What can't be meant; the message names the argument.
         """
-        if roll == "all":
-            others = {
-                "readings": readings, "turn": turn, "facing": facing, "at": at, "prior": prior, "rounding": rounding,
-                "may_overlap": may_overlap or None, "direction": None if direction == "ccw" else direction,
-            }  # fmt: skip
-            for name, value in others.items():
-                if value is not None:
-                    raise InputError(f"{name}: is of one roll, found roll='all': leave it out")
-            if log is None:
-                raise InputError("roll: 'all' takes the rolls of a log, expected `log` as well")
-            rolls = rolls_of(log, Naming(columns, units, degrees, wrapped), self.unit)
-            if touches is not None or len(rolls) > 1:
-                return located(
-                    self,
-                    touches,
-                    finger=finger,
-                    noise=noise,
-                    tolerance=tolerance,
-                    heading=heading,
-                    pose=pose,
-                    mirrored=mirrored,
-                    budget=budget,
-                    rolls=rolls,
-                    robust=robust,
-                )
-            log, roll, columns, units, degrees, wrapped = rolls[0], None, None, None, False, None
-        if isinstance(roll, str):
-            raise InputError(f"roll: expected a number from 1, or 'all', found '{roll}'")
-        if is_hold(log, finger):
-            others = {
-                "readings": readings, "turn": turn, "touches": touches, "clear": clear, "facing": facing, "prior": prior,
-                "heading": heading, "pose": pose, "roll": roll, "rounding": rounding, "robust": robust or None,
-                "may_overlap": may_overlap or None, "direction": None if direction == "ccw" else direction,
-            }  # fmt: skip
-            for name, value in others.items():
-                if value is not None:
-                    raise InputError(f"{name}: is not taken with three and more fingers or a wheel: leave it out")
-            return held(
-                self,
-                log,
-                finger=finger,
-                noise=noise,
-                tolerance=tolerance,
-                at=at,
-                mirrored=mirrored,
-                naming=Naming(columns, units, degrees, wrapped),
-                budget=budget,
-                squeezed=squeezed,
-            )
-        if squeezed is not None:
-            raise InputError("squeezed: is about a finger with skin and a Wheel without that squeeze a part: leave it out")
-        if touches is not None:
-            others = {
-                "readings": readings, "turn": turn, "log": log, "facing": facing, "at": at, "prior": prior,
-                "columns": columns, "units": units, "wrapped": wrapped, "roll": roll, "rounding": rounding,
-                "robust": robust or None, "may_overlap": may_overlap or None, "degrees": degrees or None,
-                "direction": None if direction == "ccw" else direction,
-            }  # fmt: skip
-            for name, value in others.items():
-                if name == "log" and value is not None:
-                    raise InputError("log: shares a pose with `touches` where roll='all': add it")
-                if value is not None:
-                    raise InputError(f"{name}: touches do not roll and have no use for it: leave it out")
-            return located(
-                self,
-                touches,
-                finger=finger,
-                noise=noise,
-                tolerance=tolerance,
-                heading=heading,
-                pose=pose,
-                mirrored=mirrored,
-                budget=budget,
-                clear=clear,
-            )
-        if clear is not None:
-            raise InputError("clear: is about touches: give them as `touches`, or leave it out")
-        if (readings is None) == (log is None):
-            found = "neither" if log is None else "both: they can't be of the same roll"
-            raise InputError(f"readings: expected readings or `log`, found {found}")
-        question = Question(
-            self._core,
-            finger=finger,
-            noise=noise,
-            tolerance=tolerance,
-            facing=facing,
-            at=at,
-            prior=prior,
-            heading=heading,
-            pose=pose,
-            mirrored=mirrored,
-            direction=direction,
-            robust=robust,
-            may_overlap=may_overlap,
-            columns=columns,
-            units=units,
-            degrees=degrees,
-            wrapped=wrapped,
-            roll=roll,
-            rounding=rounding,
-            budget=budget,
-        )
-        if log is None:
-            answer = solved(question.of_readings(readings, turn))
-            is_exact = noise is None and tolerance is None and rounding is None
-            return offer_rounding(answer, answer.readings) if is_exact and not len(answer) else answer
-        return solved(*question.of_log(log, turn))
+        return answer_to(self, {"readings": readings, "turn": turn, "log": log, "touches": touches}, options)
 
+    @keywords(RollOptions)
     def advise(
         self,
         readings: Any = None,
@@ -348,25 +152,7 @@ class Asked(Shape):
         travel: Any = None,
         friction: Any = None,
         log: Any = None,
-        finger: Optional[FingerLike] = None,
-        noise: NoiseLike = None,
-        tolerance: Optional[float] = None,
-        facing: Optional[float] = None,
-        at: Any = None,
-        prior: Optional[Tuple[float, float]] = None,
-        heading: Optional[Tuple[float, float]] = None,
-        pose: Optional[Sequence[float]] = None,
-        mirrored: bool = False,
-        direction: str = "ccw",
-        robust: bool = False,
-        may_overlap: bool = False,
-        columns: Columns = None,
-        units: Units = None,
-        degrees: bool = False,
-        wrapped: Optional[bool] = None,
-        roll: Optional[int] = None,
-        rounding: Optional[Tuple[float, float]] = None,
-        budget: Optional[int] = None,
+        **options: Unpack[RollOptions],
     ) -> Advice:
         """The next roll: which one tells the remaining placements apart; of two fingers, how far each rolls.
 
@@ -384,48 +170,20 @@ class Asked(Shape):
         Advice
         """
         range_given = travel_given(travel)
-        answer = self.locate(
-            readings,
-            turn,
-            log=log,
-            finger=finger,
-            noise=noise,
-            tolerance=tolerance,
-            facing=facing,
-            at=at,
-            prior=prior,
-            heading=heading,
-            pose=pose,
-            mirrored=mirrored,
-            direction=direction,
-            robust=robust,
-            may_overlap=may_overlap,
-            columns=columns,
-            units=units,
-            degrees=degrees,
-            wrapped=wrapped,
-            roll=roll,
-            rounding=rounding,
-            budget=budget,
-        )
-        return Advice(answer._core, range_given, flag(may_overlap, "may_overlap"), friction_given(friction))
+        answer = self.locate(readings, turn, log=log, **options)
+        may_overlap = flag(options.get("may_overlap", False), "may_overlap")
+        return Advice(answer._core, range_given, may_overlap, friction_given(friction))
 
+    @keywords(RowOptions)
     def locate_many(
         self,
         readings: Any,
         *,
-        finger: Optional[FingerLike] = None,
-        noise: NoiseLike = None,
-        tolerance: Optional[float] = None,
         facing: Any = None,
-        mirrored: bool = False,
-        direction: str = "ccw",
-        may_overlap: bool = False,
-        rounding: Optional[Tuple[float, float]] = None,
-        budget: Optional[int] = None,
         threads: int = 0,
         client: Any = None,
         progress: Optional[bool] = None,
+        **options: Unpack[RowOptions],
     ) -> ManyAnswers:
         """The answers to many problems, on all cores, as arrays. Ctrl-C stops it; an error stays with its problem.
 
@@ -448,45 +206,19 @@ class Asked(Shape):
         -------
         ManyAnswers
         """
-        clockwise(direction)  # not both ways at once
-        question = Question(
-            self._core,
-            finger=finger,
-            noise=noise,
-            tolerance=tolerance,
-            mirrored=mirrored,
-            direction=direction,
-            may_overlap=may_overlap,
-            rounding=rounding,
-            budget=budget,
-        )
-        return locate_many(question, readings, facing, threads, client, progress)
+        clockwise(options.get("direction", "ccw"))  # not both ways at once
+        return locate_many(Question(self._core, options), readings, facing, threads, client, progress)
 
+    @keywords(LogOptions)
     def locate_logs(
         self,
         logs: Iterable[Any],
         *,
-        finger: Optional[FingerLike] = None,
-        noise: NoiseLike = None,
-        tolerance: Optional[float] = None,
-        at: Any = None,
-        prior: Optional[Tuple[float, float]] = None,
-        heading: Optional[Tuple[float, float]] = None,
-        pose: Optional[Sequence[float]] = None,
-        mirrored: bool = False,
-        direction: str = "ccw",
-        robust: bool = False,
-        may_overlap: bool = False,
-        columns: Columns = None,
-        units: Units = None,
-        degrees: bool = False,
-        wrapped: Optional[bool] = None,
-        roll: Optional[int] = None,
-        budget: Optional[int] = None,
         threads: int = 0,
         client: Any = None,
         progress: Optional[bool] = None,
         errors: str = "collect",
+        **options: Unpack[LogOptions],
     ) -> LogAnswers:
         """The answers to many logs, on all cores: `locate(log=one, ...)` of each, in order.
 
@@ -505,24 +237,4 @@ class Asked(Shape):
         -------
         LogAnswers
         """
-        question = Question(
-            self._core,
-            finger=finger,
-            noise=noise,
-            tolerance=tolerance,
-            at=at,
-            prior=prior,
-            heading=heading,
-            pose=pose,
-            mirrored=mirrored,
-            direction=direction,
-            robust=robust,
-            may_overlap=may_overlap,
-            columns=columns,
-            units=units,
-            degrees=degrees,
-            wrapped=wrapped,
-            roll=roll,
-            budget=budget,
-        )
-        return locate_logs(question, logs, threads, client, progress, errors)
+        return locate_logs(Question(self._core, options), logs, threads, client, progress, errors)

@@ -4,28 +4,30 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from typing import Any, Dict, Iterable, Iterator, List, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, Iterable, Iterator, List, Optional, Sequence, Tuple, Union
 
 from . import _cluster, _core
 from ._answer import Answer
 from ._catalog_sources import sources_from
 from ._checks import path as path_given, travel as travel_given, unit_of_length, whole
-from ._columns import Columns, Units
 from ._core import InputError
 from ._documents import Document, rolled
-from ._fingers import FingerLike
 from ._identified import Identified, answers_of
 from ._log_answers import Results, checked, errors_given, several
 from ._logs import Log
 from ._made import Made
 from ._messages import did_you_mean, shown, warn
 from ._noise import NoiseLike
+from ._options import PartsOptions, TouchOptions, keywords, names_of, require_only
 from ._part import Part
 from ._progress import Progress
-from ._question import Question, refused
+from ._question import Question, refused, require_one_roll
 from ._touches import TouchAnswer, asked_of
 from ._watch import Watch
 from ._words import in_python
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 
 @dataclass(frozen=True)
@@ -178,6 +180,7 @@ class Catalog(Made):
 
     # --- which of them is it ---
 
+    @keywords(PartsOptions)
     def identify(
         self,
         readings: Any = None,
@@ -185,26 +188,8 @@ class Catalog(Made):
         *,
         log: Any = None,
         touches: Any = None,
-        clear: Any = None,
-        finger: Optional[FingerLike] = None,
-        noise: NoiseLike = None,
-        tolerance: Any = None,
-        facing: Optional[float] = None,
-        at: Any = None,
-        heading: Optional[Tuple[float, float]] = None,
-        pose: Optional[Sequence[float]] = None,
-        mirrored: bool = False,
-        direction: str = "ccw",
-        robust: bool = False,
-        may_overlap: bool = False,
-        columns: Columns = None,
-        units: Units = None,
-        degrees: bool = False,
-        wrapped: Optional[bool] = None,
-        roll: Optional[int] = None,
-        rounding: Optional[Tuple[float, float]] = None,
-        budget: Optional[int] = None,
         threads: int = 0,
+        **options: Unpack[PartsOptions],
     ) -> Identified:
         """Every part on which the roll, or the touches, can have been, and every place on it. Ctrl-C stops it.
 
@@ -227,18 +212,12 @@ class Catalog(Made):
         InputError
             What can't be meant; the message names the argument.
         """
-        options = dict(
-            finger=finger, noise=noise, tolerance=tolerance, facing=facing, at=at, heading=heading, pose=pose,
-            mirrored=mirrored, direction=direction, robust=robust, may_overlap=may_overlap, columns=columns, units=units, degrees=degrees,
-            wrapped=wrapped,
-            roll=roll, rounding=rounding, budget=budget,
-        )  # fmt: skip
-        count = whole(threads, "threads")
+        count, given = whole(threads, "threads"), dict(options)
         if touches is not None:
-            return self._touched(touches, clear, {"readings": readings, "turn": turn, "log": log, **options}, count)
-        if clear is not None:
+            return self._touched(touches, {"readings": readings, "log": log}, {"turn": turn, **given}, count)
+        if given.pop("clear", None) is not None:
             raise InputError("clear: is about touches: give them as `touches`, or leave it out")
-        problem, read = self._asked(readings, turn, log, options)
+        problem, read = self._asked(readings, turn, log, given)
         return self._search(problem, read, count)
 
     def identify_many(
@@ -319,12 +298,10 @@ class Catalog(Made):
         return Watch(self.part(0), noise=noise, catalog=self, **options)
 
     def _asked(self, readings: Any, turn: Any, log: Any, options: Dict[str, Any]) -> Tuple[_core.Problem, Optional[Log]]:
-        if (readings is None) == (log is None):
-            found = "neither" if log is None else "both: they can't be of the same roll"
-            raise InputError(f"readings: expected readings or `log`, found {found}")
+        require_one_roll(readings, log)
         if len(self) == 0:
             raise InputError(f"{self.path}: the catalog has no parts")
-        question = Question(self._core.part(0), **options)
+        question = Question(self._core.part(0), options)
         if log is None:
             return question.of_readings(readings, turn), None
         try:
@@ -347,20 +324,14 @@ class Catalog(Made):
             raise refused(error, log) from None
         return Identified(text, answers_of(found, log))
 
-    def _touched(self, touches: Any, clear: Any, options: Dict[str, Any], threads: int) -> Identified:
-        taken = ("finger", "noise", "tolerance", "heading", "pose", "mirrored", "budget")
-        given = {name: options.pop(name) for name in taken}
-        if options.pop("direction") != "ccw":
-            raise InputError("direction: touches do not roll and have no use for it: leave it out")
-        for name in ("readings", "log"):
-            if options.pop(name) is not None:
+    def _touched(self, touches: Any, rolls: Dict[str, Any], options: Dict[str, Any], threads: int) -> Identified:
+        for name, value in rolls.items():
+            if value is not None:
                 raise InputError(f"{name}: a part is identified by `touches` or by one roll: leave one of them out")
-        for name, value in options.items():
-            if value is not None and value is not False:
-                raise InputError(f"{name}: touches do not roll and have no use for it: leave it out")
+        require_only(TouchOptions, options, "touches do not roll and have no use for it")
         if len(self) == 0:
             raise InputError(f"{self.path}: the catalog has no parts")
-        asked = asked_of(touches, **given, clear=clear)
+        asked = asked_of(touches, {name: value for name, value in options.items() if name in names_of(TouchOptions)})
         try:
             text, found = self._core.identify_touches(*[*asked, threads])
         except InputError as error:

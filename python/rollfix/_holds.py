@@ -12,10 +12,10 @@ from ._checks import flag, least, numbers, path, text, whole
 from ._columns import Naming
 from ._core import InputError
 from ._documents import Listing
-from ._fingers import FingerLike, Wheel, fingers
+from ._fingers import Wheel, fingers
 from ._logs import Log, _is_log, pin_of, rolls_of
 from ._messages import in_a_page, shown, warn
-from ._noise import NoiseLike, noise as noise_given
+from ._noise import noise as noise_given
 
 
 class HoldAnswer(Listing):
@@ -129,20 +129,11 @@ def _is_row(one: Any) -> bool:
     return isinstance(one, np.ndarray) and one.ndim == 1
 
 
-def held(
-    part: Any,
-    logs: Sequence[Any],
-    *,
-    finger: Optional[FingerLike],
-    noise: NoiseLike,
-    tolerance: Any,
-    at: Any,
-    mirrored: bool,
-    naming: Naming,
-    budget: Optional[int],
-    squeezed: Optional[float],
-) -> HoldAnswer:
-    """The answer to logs of three and more fingers, or of fingers beside wheels, checked."""
+def held(part: Any, logs: Sequence[Any], **options: Any) -> HoldAnswer:
+    """The answer to logs of three and more fingers, or of fingers beside wheels, checked. `options`: all of HoldOptions."""
+    finger, noise, tolerance, at = (options[name] for name in ("finger", "noise", "tolerance", "at"))
+    budget, squeezed = options["budget"], options["squeezed"]
+    naming = Naming(options["columns"], options["units"], options["degrees"], options["wrapped"])
     if noise is not None and tolerance is not None:
         raise InputError("tolerance: `noise` already says how far rows are off: leave one out")
     wheels: Sequence[Wheel] = []
@@ -164,7 +155,7 @@ def held(
         noise_given(noise),
         _tolerance(tolerance),
         [] if at is None else [float(one) for one in np.atleast_1d(at)],
-        flag(mirrored, "mirrored"),
+        flag(options["mirrored"], "mirrored"),
         None if budget is None else whole(budget, "budget", 1),
         tuple((pin._in_unit(part.unit, [radius]), radius) for pin, radius in pins),
         None if squeezed is None else least(squeezed, "squeezed", 0, "an angle"),

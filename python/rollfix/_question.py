@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, List, Optional, Sequence, Tuple
+from typing import Any, Callable, List, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -21,11 +21,12 @@ from ._checks import (
     rounding as rounding_given,
     whole,
 )
-from ._columns import Columns, Naming, Units
+from ._columns import Naming
 from ._core import InputError
-from ._fingers import FingerLike, fingers
+from ._fingers import fingers
 from ._logs import Log, Roll, log_of
-from ._noise import NoiseLike, weighing
+from ._noise import weighing
+from ._options import RollOptions, filled
 from ._tables import is_frame
 from ._words import in_python
 
@@ -38,50 +39,29 @@ class Question:
         "_either", "_robust", "_may_overlap", "_naming", "_roll", "_rounding", "_budget", "_of_logs",
     )  # fmt: skip
 
-    def __init__(
-        self,
-        part: _core.Part,
-        *,
-        finger: Optional[FingerLike] = None,
-        noise: NoiseLike = None,
-        tolerance: Optional[float] = None,
-        facing: Optional[float] = None,
-        at: Any = None,
-        prior: Any = None,
-        heading: Any = None,
-        pose: Any = None,
-        mirrored: bool = False,
-        direction: str = "ccw",
-        robust: bool = False,
-        may_overlap: bool = False,
-        columns: Columns = None,
-        units: Units = None,
-        degrees: bool = False,
-        wrapped: Optional[bool] = None,
-        roll: Optional[int] = None,
-        rounding: Optional[Tuple[float, float]] = None,
-        budget: Optional[int] = None,
-    ) -> None:
+    def __init__(self, part: _core.Part, options: Mapping[str, Any]) -> None:
+        """`options`: any of RollOptions."""
+        given = filled(options, RollOptions)
         self._part = part
-        self._fingers = fingers(finger)
-        self._noise = weighing(noise)
-        self._tolerance = None if tolerance is None else least(tolerance, "tolerance", 0, "an angle")
-        self._facing = None if facing is None else number(facing, "facing")
-        self._at = None if at is None else list(finite(np.atleast_1d(array(at, "at")), "at"))
-        self._prior = None if prior is None else place_prior(prior)
-        self._pose = pose_prior(heading, pose)
-        self._mirrored = flag(mirrored, "mirrored")
+        self._fingers = fingers(given["finger"])
+        self._noise = weighing(given["noise"])
+        self._tolerance = _or_none(given["tolerance"], lambda value: least(value, "tolerance", 0, "an angle"))
+        self._facing = _or_none(given["facing"], lambda value: number(value, "facing"))
+        self._at = _or_none(given["at"], lambda value: list(finite(np.atleast_1d(array(value, "at")), "at")))
+        self._prior = _or_none(given["prior"], place_prior)
+        self._pose = pose_prior(given["heading"], given["pose"])
+        self._mirrored = flag(given["mirrored"], "mirrored")
+        direction = given["direction"]
         self._either = isinstance(direction, str) and direction == "either"
         self._clockwise = not self._either and clockwise(direction, either=True)
-        self._robust = flag(robust, "robust")
-        self._may_overlap = flag(may_overlap, "may_overlap")
-        self._naming = Naming(columns, units, degrees, wrapped)
-        self._roll = None if roll is None else whole(roll, "roll", 1)
-        self._rounding = None if rounding is None else rounding_given(rounding)
-        self._budget = None if budget is None else whole(budget, "budget", 1)
-        self._require_noise("prior" if prior is not None else "pose" if pose is not None else "heading")
-        about_logs = {"at": at, "columns": columns, "units": units, "roll": roll}
-        self._of_logs = [name for name, value in about_logs.items() if value is not None]
+        self._robust = flag(given["robust"], "robust")
+        self._may_overlap = flag(given["may_overlap"], "may_overlap")
+        self._naming = Naming(given["columns"], given["units"], given["degrees"], given["wrapped"])
+        self._roll = _or_none(given["roll"], lambda value: whole(value, "roll", 1))
+        self._rounding = _or_none(given["rounding"], rounding_given)
+        self._budget = _or_none(given["budget"], lambda value: whole(value, "budget", 1))
+        self._require_noise("prior" if self._prior is not None else "pose" if given["pose"] is not None else "heading")
+        self._of_logs = [name for name in ("at", "columns", "units", "roll") if given[name] is not None]
 
     @property
     def part(self) -> _core.Part:
@@ -164,6 +144,17 @@ class Question:
             return rows
         signs: np.ndarray = np.array([-1.0] * (rows.shape[-1] - 1) + [1.0])
         return np.multiply(rows, signs)
+
+
+def require_one_roll(readings: Any, log: Any) -> None:
+    """Throws InputError: not exactly one of both."""
+    if (readings is None) == (log is None):
+        found = "neither" if log is None else "both: they can't be of the same roll"
+        raise InputError(f"readings: expected readings or `log`, found {found}")
+
+
+def _or_none(value: Any, check: Callable[[Any], Any]) -> Any:
+    return None if value is None else check(value)
 
 
 def require_finger(given: Sequence[Any], log: Log) -> None:

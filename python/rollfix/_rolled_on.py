@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Any, Mapping, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence, Tuple, Union
 
 from ._asked import Asked
-from ._columns import Columns, Units
 from ._fingers import FingerLike
 from ._logs import Roll
 from ._noise import Noise, NoiseLike
+from ._options import LiveOptions, keywords
 from ._plans import Plan, planned
 from ._rig import simulated_rig
 from ._simulate import simulated, tell_of_dropped
 from ._watch import Watch
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 
 class RolledOn(Asked):
@@ -20,46 +23,18 @@ class RolledOn(Asked):
 
     __slots__ = ()
 
+    @keywords(LiveOptions)
     def watch(
         self,
         *,
         noise: Union[Noise, Mapping[str, float]],
-        finger: Optional[FingerLike] = None,
-        prior: Optional[Tuple[float, float]] = None,
-        heading: Optional[Tuple[float, float]] = None,
-        pose: Optional[Sequence[float]] = None,
-        robust: bool = False,
         every: int = 0,
-        columns: Columns = None,
-        units: Units = None,
-        degrees: bool = False,
-        wrapped: Optional[bool] = None,
-        direction: str = "ccw",
-        mirrored: bool = False,
         live: bool = False,
-        may_overlap: bool = False,
         name: Union[str, Tuple[str, str]] = "log",
+        **options: Unpack[LiveOptions],
     ) -> Watch:
         """A `Watch` on this part."""
-        return Watch(
-            self,
-            noise=noise,
-            finger=finger,
-            prior=prior,
-            heading=heading,
-            pose=pose,
-            robust=robust,
-            every=every,
-            columns=columns,
-            units=units,
-            degrees=degrees,
-            wrapped=wrapped,
-            direction=direction,
-            mirrored=mirrored,
-            live=live,
-            may_overlap=may_overlap,
-            name=name,
-        )
+        return Watch(self, noise=noise, every=every, live=live, name=name, **options)
 
     def simulate(
         self,

@@ -11,10 +11,11 @@ from . import _core
 from ._checks import array, flag, least, numbers, path, pose_prior, text, whole
 from ._core import InputError
 from ._documents import Document, Listing
-from ._fingers import FingerLike, fingers
+from ._fingers import fingers
 from ._logs import Log
 from ._messages import in_a_page, shown, warn
-from ._noise import NoiseLike, angle_from, noise as noise_given
+from ._noise import angle_from, noise as noise_given
+from ._options import TouchOptions, filled, names_of
 from ._tables import is_frame
 
 COLUMNS = ("x", "y", "normal", "position_sd", "normal_sd")
@@ -135,44 +136,28 @@ class TouchAnswer(Listing):
         return (TouchAnswer, (self._asked,))
 
 
-def located(
-    part: Any,
-    touches: Any,
-    *,
-    finger: Optional[FingerLike],
-    noise: NoiseLike,
-    tolerance: Any,
-    heading: Any,
-    pose: Any,
-    mirrored: bool,
-    budget: Optional[int],
-    rolls: Sequence[Log] = (),
-    robust: bool = False,
-    clear: Any = None,
-) -> TouchAnswer:
-    """The answer to touches of a part, and to rolls, checked."""
-    given = asked_of(touches, finger, noise, tolerance, heading, pose, mirrored, budget, clear)
-    *rest, paths = given
-    cores = tuple(one._in_unit(part.unit, fingers(finger, most=1)) for one in rolls)
+def located(part: Any, touches: Any, *, rolls: Sequence[Log] = (), robust: bool = False, **options: Any) -> TouchAnswer:
+    """The answer to touches of a part, and to rolls, checked. `options`: any of TouchOptions; how logs are read is no matter."""
+    *rest, paths = asked_of(touches, {name: options[name] for name in names_of(TouchOptions) if name in options})
+    cores = tuple(one._in_unit(part.unit, fingers(options["finger"], most=1)) for one in rolls)
     return TouchAnswer((part, *rest, cores, flag(robust, "robust"), paths, True))
 
 
-def asked_of(
-    touches: Any, finger: Any, noise: Any, tolerance: Any, heading: Any, pose: Any, mirrored: bool, budget: Any, clear: Any
-) -> Tuple[Any, ...]:
-    """What is asked of touches, whichever part it is, checked."""
-    if noise is not None and tolerance is not None:
+def asked_of(touches: Any, options: Mapping[str, Any]) -> Tuple[Any, ...]:
+    """What is asked of touches, whichever part it is, checked. `options`: any of TouchOptions."""
+    asked = filled(options, TouchOptions)
+    if asked["noise"] is not None and asked["tolerance"] is not None:
         raise InputError("tolerance: `noise` already says how far touches are off: leave one out")
-    given = fingers(finger, most=1)
+    given = fingers(asked["finger"], most=1)
     return (
         _rows([] if touches is None else touches),
         given[0] if given else None,
-        noise_given(noise),
-        _tolerance(tolerance, touches is None),
-        pose_prior(heading, pose),
-        flag(mirrored, "mirrored"),
-        None if budget is None else whole(budget, "budget", 1),
-        _paths(clear),
+        noise_given(asked["noise"]),
+        _tolerance(asked["tolerance"], touches is None),
+        pose_prior(asked["heading"], asked["pose"]),
+        flag(asked["mirrored"], "mirrored"),
+        None if asked["budget"] is None else whole(asked["budget"], "budget", 1),
+        _paths(asked["clear"]),
     )
 
 

@@ -13,16 +13,19 @@ import numpy as np
 from . import _core
 from ._checks import clockwise, flag, place_prior, pose_prior, text, whole
 from ._clock import Clock
-from ._columns import Columns, Naming, Units
+from ._columns import Naming
 from ._core import InputError
-from ._fingers import FingerLike, fingers
+from ._fingers import fingers
 from ._made import Made
 from ._messages import shown, warn
 from ._noise import NoiseLike, weighing
+from ._options import LiveOptions, filled, keywords
 from ._tables import Table, is_frame, safe, text_of
 from ._words import Numbering, diagnosis_in_python, in_python
 
 if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
     from ._catalog import Catalog
     from ._shape import Shape
 
@@ -64,34 +67,25 @@ class Watch(Made):
         Which of its parts is it? `part` is any of them then: `Catalog.watch` makes such a watch.
     """
 
+    @keywords(LiveOptions)
     def __init__(
         self,
         part: "Shape",
         *,
-        finger: Optional[FingerLike] = None,
         noise: NoiseLike,
-        prior: Optional[Tuple[float, float]] = None,
-        heading: Optional[Tuple[float, float]] = None,
-        pose: Optional[Sequence[float]] = None,
-        robust: bool = False,
         every: int = 0,
-        columns: Columns = None,
-        units: Units = None,
-        degrees: bool = False,
-        wrapped: Optional[bool] = None,
-        direction: str = "ccw",
-        mirrored: bool = False,
         live: bool = False,
-        may_overlap: bool = False,
         name: Union[str, Tuple[str, str]] = "log",
         catalog: Optional["Catalog"] = None,
+        **options: Unpack[LiveOptions],
     ) -> None:
+        given = filled(options, LiveOptions)
         sds = weighing(noise)
         if sds is None:
             raise InputError("noise: expected how far the sensors are off, as in Noise(contact=0.1, angle=0.01)")
         names = _names_of(name)
         self._alone = threading.RLock()  # whoever has it feeds; a warning's handler may feed as well
-        self._naming = Naming(columns, units, degrees, wrapped)
+        self._naming = Naming(given["columns"], given["units"], given["degrees"], given["wrapped"])
         self._clock = Clock()
         self._logs = [_Log(one) for one in names]
         self._numbering = Numbering({one: [] for one in names})
@@ -100,21 +94,21 @@ class Watch(Made):
         self._last: Optional[Event] = None
         self._core = _core.Watch(
             part._core,
-            fingers(finger),
+            fingers(given["finger"]),
             sds,
-            None if prior is None else place_prior(prior),
-            pose_prior(heading, pose),
-            flag(robust, "robust"),
+            None if given["prior"] is None else place_prior(given["prior"]),
+            pose_prior(given["heading"], given["pose"]),
+            flag(given["robust"], "robust"),
             whole(every, "every"),
             names,
             [(column, safe(called), unit) for column, called, unit in self._naming.declared()],
             self._naming.angles,
             self._naming.wrapped,
-            clockwise(direction),
-            flag(mirrored, "mirrored"),
+            clockwise(given["direction"]),
+            flag(given["mirrored"], "mirrored"),
             flag(live, "live"),
             None if catalog is None else catalog._core,
-            flag(may_overlap, "may_overlap"),
+            flag(given["may_overlap"], "may_overlap"),
         )
 
     def add(self, rows: Any, log: int = 0) -> List[Event]:

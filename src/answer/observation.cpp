@@ -16,7 +16,7 @@ std::vector<double> times_of(const Log& log, const std::vector<std::size_t>& row
 }
 
 Observation observe_readings(const Problem& problem) {
-  if (!problem.at.empty()) throw InputError("`at`: picks instants of a log, found readings");
+  if (!problem.at.empty()) throw InputError("`at` picks instants of a log: give a `log` as well");
   Observation observed;
   observed.readings = problem.felt.readings;
   observed.facing = problem.facing;
@@ -62,7 +62,7 @@ double Observation::length_error() const {
 
 Observation observe(const Problem& problem) {
   if (!problem.felt.is_log()) return observe_readings(problem);
-  if (problem.facing) throw InputError("`facing`: goes with readings; a log of two fingers has it in u and psi");
+  if (problem.facing) throw InputError("`facing` goes with `reading`: a log of two fingers has it in u and psi");
   return observe_log(problem);
 }
 

@@ -30,14 +30,6 @@ constexpr double kWidestSearch = 0.5;  // radians
 // A million normal numbers are within so many standard deviations.
 constexpr double kFarthestRow = 5;
 
-void require_consistent(const Problem& problem) {
-  if (problem.fingers.size() > 2) throw InputError("`fingers`: expected at most two fingers");
-  if (problem.noise) return;
-  if (problem.prior) throw InputError("`prior`: weighs places against noisy readings, expected noise as well");
-  if (problem.pose) throw InputError("`pose`: is weighed against noisy readings, expected noise as well");
-  if (problem.robust) throw InputError("`robust`: is about noise, expected noise as well");
-}
-
 bool is_in_another_unit(const Log& log, const Part& part) {
   return !log.unit.empty() && !part.unit().empty() && log.unit != part.unit();
 }
@@ -230,7 +222,8 @@ Reach reach_of(const Part& part, const Finger& finger) {
 }
 
 Answer solve(const Problem& problem) {
-  require_consistent(problem);
+  if (problem.fingers.size() > 2) throw InputError("`fingers`: expected at most two fingers");
+  require_noise(problem);
   if (problem.felt.is_log() && is_in_another_unit(*problem.felt.log, problem.part)) {
     Problem converted = problem;
     converted.felt.log = in_unit(*problem.felt.log, problem.part.unit(), problem.fingers);

@@ -1,11 +1,12 @@
 #include "weighing.hpp"
 
-#include "diagnosis.hpp"
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "diagnosis.hpp"
 #include "part/not_lost.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
@@ -103,6 +104,17 @@ std::vector<Diagnosis> diagnoses_by_centres(const Problem& problem, const Observ
 
 LogKind kind_of(const Problem& problem) { return problem.felt.is_log() ? problem.felt.log->kind : LogKind::travelled; }
 
+const char* name_of(const PosePrior& pose) { return std::isinf(pose.place_sd) ? "heading" : "pose"; }
+
+void require_noise(const Problem& problem) {
+  if (problem.noise) return;
+  if (problem.prior) throw InputError("`prior` weighs places against noisy readings: give `noise` as well");
+  if (problem.pose) {
+    throw InputError(fmt::format("`{}` is weighed against noisy rows: give `noise` as well", name_of(*problem.pose)));
+  }
+  if (problem.robust) throw InputError("`robust` is about noise: give `noise` as well");
+}
+
 double finger_curvature(const Problem& problem, std::size_t which, std::size_t row) {
   if (problem.fingers.empty()) return 0;
   // Where u is wrapped makes no difference to the curvature there.
@@ -134,7 +146,12 @@ std::optional<Belief> believe(const Problem& problem, const Observation& observe
   options.within = supposed.within;
   options.bare = !problem.felt.is_log();
   if (problem.pose && (!observed.contacts || problem.fingers.empty())) {
-    throw InputError("`pose`: the fingers tell how the part lies by u and psi, expected a log of them");
+    const char* const found = !problem.felt.is_log() ? "readings"
+                              : !observed.contacts   ? "one of lengths and turns"
+                                                     : "no finger";
+    throw InputError(
+        fmt::format("`{}`: a finger tells how the part lies by u and psi, expected a log of them, found {}",
+                    name_of(*problem.pose), found));
   }
   if (problem.pose && std::isfinite(problem.pose->place_sd) && !has_centres) {
     throw InputError(

@@ -15,6 +15,12 @@ LogKind kind_of(const Problem& problem);
 /// The curvature of finger 0 or 1 where it touches in a row; 0 where the finger is not known.
 double finger_curvature(const Problem& problem, std::size_t which, std::size_t row);
 
+/// "heading" or "pose": what was said of how the part lies.
+const char* name_of(const PosePrior& pose);
+
+/// Throws InputError: what is weighed against noise, where there is none.
+void require_noise(const Problem& problem);
+
 /// What a problem is tried with that it does not say.
 struct Supposed {
   double scale_sd = 0;                                         // see BeliefOptions

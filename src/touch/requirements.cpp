@@ -111,7 +111,9 @@ void require_roll(const TouchProblem& problem, std::size_t number) {
 void require_tolerance(const TouchProblem& problem) {
   if (!problem.tolerance && problem.touches.empty() && !problem.pose) return;  // the rolls' digits tell it
   if (!problem.tolerance) {
-    refuse("expected how exact they are, found neither `noise` nor `tolerance`; give noise with position=SD,angle=SD");
+    refuse(
+        "expected how exact they are, found neither `noise` nor `tolerance`; standard deviations are given with "
+        "`noise` position=0.05,angle=1deg");
   }
   const TouchTolerance& tolerance = *problem.tolerance;
   const double most = problem.part.perimeter();

@@ -53,6 +53,19 @@ TEST(CliHold, JsonHasEachFingersPlacesAndBothPoses) {
   EXPECT_EQ(found["probability"], nullptr);
 }
 
+TEST(CliHold, ALineOfABatchSaysWhatTheCommandSays) {
+  const Folder folder;
+  simulate();
+  folder.write("problems.jsonl", R"({"log": ["a.csv", "b.csv", "c.csv"], "fingers": "disk,r=0.1"}
+{"log": ["a.csv", "b.csv", "c.csv"], "fingers": "disk,r=0.1", "facing": 1})");
+  const Ran ran = run("locate " + kPart + "--batch problems.jsonl");
+  EXPECT_EQ(ran.code, 2);
+  const std::size_t first = ran.out.find('\n');
+  EXPECT_EQ(Json::parse(ran.out.substr(0, first)), run("locate " + kPart + kLogs + "--json").json());
+  EXPECT_THAT(ran.out.substr(first),
+              HasSubstr("problems.jsonl:2: --facing: logs of u and psi contain it; leave it out"));
+}
+
 TEST(CliHold, WithNoiseEachFingerHasAnInterval) {
   const Folder folder;
   simulate("--noise contact=0.01,angle=0.3deg");

@@ -151,8 +151,8 @@ TEST(TouchRefusals, SayWhatIsWrongAndWhatToGive) {
   EXPECT_EQ(refused([](TouchProblem& problem) { problem.finger = rollfix::jaw(); }),
             "touches: expected a round finger, disk,r=R, or none for a point, found jaw");
   EXPECT_EQ(refused([](TouchProblem& problem) { problem.noise.reset(); }),
-            "touches: expected how exact they are, found neither `noise` nor `tolerance`; give noise with "
-            "position=SD,angle=SD");
+            "touches: expected how exact they are, found neither `noise` nor `tolerance`; standard "
+            "deviations are given with `noise` position=0.05,angle=1deg");
   EXPECT_EQ(refused([](TouchProblem& problem) { problem.noise->position = 0; }),
             "touches: touch 1: expected a standard deviation above 0 of its place, found 0; give `noise` with "
             "position=SD");

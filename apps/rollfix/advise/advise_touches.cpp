@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "outline/turn.hpp"
+#include "rollfix/arguments/question_arguments.hpp"
 #include "rollfix/arguments/typed_number.hpp"
 #include "rollfix/draw/touch_figure.hpp"
 #include "rollfix/error.hpp"

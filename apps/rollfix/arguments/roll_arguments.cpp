@@ -4,13 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numbers>
 #include <set>
 #include <string_view>
 #include <utility>
 
-#include "outline/turn.hpp"
 #include "rollfix/arguments/finger_argument.hpp"
 #include "rollfix/arguments/gyroscope_number.hpp"
 #include "rollfix/arguments/typed_number.hpp"
@@ -22,71 +19,6 @@
 
 namespace rollfix::app {
 namespace {
-
-bool in_degrees(std::string_view angle) { return take_degrees(angle); }
-
-/// Half a unit of the last decimal, whatever the unit is.
-double half_unit(std::string_view number) {
-  take_degrees(number);
-  return rounding_of(number);
-}
-
-/// Trailing zeros are often left off, so all numbers are taken to be rounded alike: to the decimals of the one that
-/// shows most of them, each in its own unit. `lengths`: as typed.
-Rounding common_rounding(const std::vector<std::string_view>& fields, const std::vector<Length>& lengths,
-                         const std::string& unit) {
-  double finest = 0;
-  for (const std::string_view field : fields) {
-    const double one = half_unit(field);
-    if (one > 0 && (finest == 0 || one < finest)) finest = one;
-  }
-  double length = 0;
-  for (const Length& one : lengths) length += in_unit({finest, one.unit}, unit, "");
-  return {length, finest * (in_degrees(fields.back()) ? kDegree : 1)};
-}
-
-std::string found_instead(std::size_t count) {
-  if (count == 1) return "1 number";
-  return fmt::format("{} numbers; are there decimal commas among them?", count);
-}
-
-/// LENGTH,TURN of one finger, or LENGTH_A,LENGTH_B,TURN of two.
-void read_reading(const std::string& text, bool of_two, const std::string& unit, Felt& felt) {
-  const std::string what = fmt::format("--reading {}", text);
-  const std::vector<std::string_view> fields = split(text, ',');
-  if (of_two && fields.size() != 3) {
-    throw InputError(fmt::format("{}: expected LENGTH_A,LENGTH_B,TURN as in 0.5,-0.3,73deg, found {}", what,
-                                 found_instead(fields.size())));
-  }
-  if (!of_two && fields.size() != 2) {
-    throw InputError(
-        fmt::format("{}: expected LENGTH,TURN as in 0.5,73deg, or of two fingers LENGTH_A,LENGTH_B,TURN, found {}",
-                    what, found_instead(fields.size())));
-  }
-  std::vector<Length> lengths;
-  for (std::size_t k = 0; k + 1 < fields.size(); ++k) lengths.push_back(read_given_length(fields[k], what));
-  const auto length = [&](std::size_t k) { return in_unit(lengths[k], unit, what); };
-  const double turn = read_angle(fields.back(), what);
-  felt.readings.push_back(of_two ? Reading(length(0), length(1), turn) : Reading(length(0), turn));
-  felt.roundings.push_back(common_rounding(fields, lengths, unit));
-}
-
-Felt read_readings(const RollArguments& arguments, const std::string& unit) {
-  Felt felt(std::vector<Reading>{});
-  const bool of_two = std::any_of(arguments.readings.begin(), arguments.readings.end(),
-                                  [](const std::string& text) { return split(text, ',').size() == 3; });
-  for (const std::string& text : arguments.readings) read_reading(text, of_two, unit, felt);
-  return felt;
-}
-
-std::vector<double> read_instants(const std::string& text) {
-  std::vector<double> instants;
-  if (text.empty()) return instants;
-  for (const std::string_view field : split(text, ',')) {
-    instants.push_back(read_number(field, fmt::format("--at {}", text)));
-  }
-  return instants;
-}
 
 Log read_both_logs(const std::vector<std::string>& paths, const LogOptions& options) {
   if (paths.size() == 2) return read_log(paths.front(), paths.back(), options);
@@ -117,31 +49,6 @@ std::string noise_form(const char* separator) {
     fields.push_back(fmt::format("{}={}", kind.name, kForms[static_cast<std::size_t>(kind.unit)]));
   }
   return fmt::format("{}", fmt::join(fields, separator));
-}
-
-/// What can't be meant, before any file is read.
-void require_sensible(const RollArguments& arguments) {
-  const bool from_log = !arguments.logs.empty();
-  if (!arguments.roll.empty() && !from_log) throw InputError("--roll chooses from a log: give a --log as well");
-  if (arguments.reading.any() && !from_log) {
-    throw InputError(
-        fmt::format("--{} is about a log: give a --log as well", !arguments.reading.columns.empty()   ? "columns"
-                                                                 : !arguments.reading.wrapped.empty() ? "wrapped"
-                                                                                                      : "skip-bad"));
-  }
-  if (!arguments.instants.empty() && !from_log) throw InputError("--at picks instants of a log: give a --log as well");
-  if (from_log && arguments.logs.front() == "-" && arguments.part.part == "-") {
-    throw InputError("the part and the log can't both come from standard input: give one of them as a file");
-  }
-  if (!arguments.noise.empty()) return;
-  if (!arguments.prior.empty()) {
-    throw InputError("--prior weighs places against noisy readings: give --noise as well");
-  }
-  if (!arguments.pose.heading.empty() || !arguments.pose.pose.empty()) {
-    throw InputError(fmt::format("--{} is weighed against noisy rows: give --noise as well",
-                                 arguments.pose.pose.empty() ? "heading" : "pose"));
-  }
-  if (arguments.robust) throw InputError("--robust is about noise: give --noise as well");
 }
 
 }  // namespace
@@ -338,95 +245,6 @@ Log read_roll(const std::vector<std::string>& paths, const std::string& roll, co
         fmt::format("{}: roll {} of {}{}", log.name, chosen, count, number > 0 ? "" : "; --roll N takes another"));
   }
   return log;
-}
-
-namespace {
-
-// A turn of more than this, and of as much again for each lap that was rolled, radians, was hardly meant as radians.
-constexpr double kHardlyRadians = 4 * std::numbers::pi;
-
-/// Where a turn that was typed without a unit was likely meant in degrees; else empty.
-std::string degrees_hint(const std::string& typed, const Reading& reading, const Part& part) {
-  const std::string_view turn = trimmed(split(typed, ',').back());
-  double laps = 0;
-  for (const double length : reading.length) laps += std::abs(length) / part.perimeter();
-  if (in_degrees(turn) || std::abs(reading.turn) <= kHardlyRadians * (1 + laps)) return "";
-  return fmt::format("--reading {}: a turn of {} rad is {:.3g} turns; did you mean {}deg?", typed, turn,
-                     std::abs(reading.turn) / (2 * std::numbers::pi), turn);
-}
-
-/// What --heading and --pose are held against.
-void require_u_and_psi(const Problem& problem, const PoseArguments& pose) {
-  if (problem.felt.is_log() && problem.felt.log->kind == LogKind::contact) return;
-  throw InputError(fmt::format("--{}: a finger tells how the part lies by u and psi, expected a log of them, found {}",
-                               pose.pose.empty() ? "heading" : "pose",
-                               problem.felt.is_log() ? "one of lengths and turns" : "readings"));
-}
-
-}  // namespace
-
-Problem read_problem(const RollArguments& arguments, std::vector<std::string>& notes, std::vector<Outline>* others) {
-  require_sensible(arguments);
-  std::vector<std::string> part_notes;
-  const Part part = load_part(arguments.part, part_notes, others);
-  Problem problem = read_problem(arguments, part, notes);
-  notes.insert(notes.end(), part_notes.begin(), part_notes.end());
-  return problem;
-}
-
-Problem read_problem(const RollArguments& arguments, Part part, std::vector<std::string>& notes) {
-  require_sensible(arguments);
-  const std::string unit = part.unit();
-  LogOptions log_options = read_log_options(arguments.reading, unit);
-  if (!log_options.decimal_comma) log_options.decimal_comma = has_decimal_comma(arguments.part.decimal);
-  const bool is_either = arguments.direction == "either";
-  const bool is_clockwise = !is_either && counts_clockwise(arguments.direction);
-  log_options.clockwise = is_clockwise;
-  Felt felt = arguments.logs.empty() ? read_readings(arguments, unit)
-                                     : Felt(read_roll(arguments.logs, arguments.roll, log_options, notes));
-  if ((is_clockwise || is_either) && felt.is_log() && felt.log->kind == LogKind::contact) {
-    throw InputError(
-        fmt::format("--direction: {} has u and psi, which say the direction themselves: leave it out", felt.log->name));
-  }
-  if (is_clockwise) {
-    for (Reading& reading : felt.readings) {
-      for (double& length : reading.length) length = -length;
-    }
-  }
-  for (std::size_t k = 0; k < arguments.readings.size() && !felt.is_log(); ++k) {
-    const std::string hint = degrees_hint(arguments.readings[k], felt.readings[k], part);
-    if (!hint.empty()) notes.push_back(hint);
-  }
-  const bool of_two = felt.is_log() ? felt.log->fingers.size() == 2 : felt.readings.front().fingers() == 2;
-  if (!arguments.facing.empty()) {
-    if (!of_two) throw InputError("--facing compares two fingers: expected --reading LA,LB,THETA with it");
-    if (felt.is_log()) throw InputError("--facing goes with --reading: a log of two fingers has it in u and psi");
-  }
-  std::vector<Finger> fingers = read_fingers(arguments.fingers, of_two ? 2 : 1, unit);
-  const std::optional<Noise> noise = read_noise(arguments.noise, unit);
-  const std::optional<Prior> prior = read_prior(arguments.prior, unit);
-  Problem problem{std::move(part), std::move(felt), std::move(fingers), noise};
-  problem.prior = prior;
-  problem.pose = read_pose(arguments.pose, unit);
-  if (problem.pose) require_u_and_psi(problem, arguments.pose);
-  problem.robust = arguments.robust;
-  problem.may_overlap = arguments.may_overlap;
-  problem.mirrored = arguments.mirror;
-  problem.either_way = is_either;
-  problem.at = read_instants(arguments.instants);
-  if (!arguments.facing.empty()) {
-    problem.facing = read_angle(arguments.facing, "--facing");
-    problem.felt.roundings.push_back({0, half_unit(arguments.facing) * (in_degrees(arguments.facing) ? kDegree : 1)});
-  }
-  if (!arguments.tolerance.empty()) {
-    problem.tolerance = read_angle(arguments.tolerance, "--tolerance");
-    if (*problem.tolerance < 0) {
-      throw InputError(
-          fmt::format("--tolerance: '{}' is negative, expected an angle of at least 0", arguments.tolerance));
-    }
-  }
-  if (!arguments.budget.empty()) problem.budget = read_count(arguments.budget, "--budget", 1);
-  return problem;
 }
 
 }  // namespace rollfix::app

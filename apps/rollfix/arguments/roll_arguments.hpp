@@ -65,13 +65,6 @@ void add_reading_arguments(CLI::App& command, LogArguments& reading);
 /// Adds --noise, --prior and --robust.
 void add_noise_arguments(CLI::App& command, std::string& noise, std::string& prior, bool& robust);
 
-/// The problem that is meant, every argument read once. What the user should know of how it was taken is added to the
-/// notes. `others`, where asked for: see load_part. Throws InputError.
-Problem read_problem(const RollArguments& arguments, std::vector<std::string>& notes,
-                     std::vector<Outline>* others = nullptr);
-/// The same on a part that is there already.
-Problem read_problem(const RollArguments& arguments, Part part, std::vector<std::string>& notes);
-
 // `unit`: the part's, empty where it is not known.
 
 /// --noise as typed; nothing where it is not. Throws InputError.

@@ -9,6 +9,7 @@
 
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/arguments/output_argument.hpp"
+#include "rollfix/arguments/question_arguments.hpp"
 #include "rollfix/arguments/roll_arguments.hpp"
 #include "rollfix/commands.hpp"
 #include "rollfix/demo/demo_parts.hpp"

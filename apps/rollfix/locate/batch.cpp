@@ -2,26 +2,20 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <map>
 #include <optional>
 #include <ostream>
 #include <span>
 #include <string_view>
-#include <utility>
 #include <vector>
 
-#include "answer/crew.hpp"
 #include "files/documents/documents.hpp"
 #include "files/json/fields.hpp"
-#include "rollfix/answer/many.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/files/touch_document.hpp"
-#include "rollfix/locate/touch_arguments.hpp"
+#include "rollfix/files/solution_document.hpp"
+#include "rollfix/locate/question_json.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/option_names.hpp"
-#include "rollfix/output/touch_text.hpp"
-#include "rollfix/usage.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::app {
@@ -29,144 +23,6 @@ namespace {
 
 // Problems that are held at once: enough for all cores, and little memory.
 constexpr std::size_t kAtOnce = 1024;
-
-/// A number as it is written, or what a user would type.
-std::string typed(const Json& value, const std::string& field) {
-  if (value.is_string()) return value.get<std::string>();
-  if (value.is_number()) return value.dump();
-  throw InputError(fmt::format("\"{}\": expected a number or a text, found {}", field, value.dump()));
-}
-
-/// [1, 2] as "1,2".
-std::string typed_list(const Json& value, const std::string& field) {
-  if (!value.is_array()) return typed(value, field);
-  std::string text;
-  for (const Json& entry : value) text += (text.empty() ? "" : ",") + typed(entry, field);
-  return text;
-}
-
-/// One or several.
-std::vector<std::string> typed_each(const Json& value, const std::string& field) {
-  if (!value.is_array()) return {typed(value, field)};
-  std::vector<std::string> texts;
-  for (const Json& entry : value) texts.push_back(typed(entry, field));
-  return texts;
-}
-
-/// [L, theta], {"length": [L], "turn": theta} as in the answer, or "L,THETA" as typed.
-std::string typed_reading(const Json& value) {
-  if (!value.is_object()) return typed_list(value, "readings");
-  if (!value.contains("length") || !value.contains("turn")) {
-    throw InputError(fmt::format("\"readings\": expected \"length\" and \"turn\", found {}", value.dump()));
-  }
-  if (value.contains("pivot")) {
-    throw InputError(fmt::format(
-        "\"readings\": expected a reading whose turn is known, found one on a corner of the finger, {}: give the log",
-        value.dump()));
-  }
-  return typed_list(value["length"], "readings") + "," + typed(value["turn"], "readings");
-}
-
-/// [[L, theta], ...].
-std::vector<std::string> typed_readings(const Json& value) {
-  if (!value.is_array()) throw InputError("\"readings\": expected a list of them, found " + value.dump());
-  std::vector<std::string> texts;
-  for (const Json& entry : value) texts.push_back(typed_reading(entry));
-  return texts;
-}
-
-/// {"contact": 0.1, "angle": 0.01}.
-std::string typed_noise(const Json& value) {
-  if (!value.is_object()) return typed(value, "noise");
-  std::string text;
-  for (const auto& [name, sd] : value.items()) {
-    if (sd.is_number() && sd.get<double>() == 0) continue;  // as an answer lists them
-    text += (text.empty() ? "" : ",") + name + "=" + typed(sd, "noise");
-  }
-  return text;
-}
-
-/// [x, y], [x, y, normal], {"at": [x, y], "normal": ...} as in the answer, or "X,Y,NORMAL" as typed; null: not
-/// measured.
-std::string typed_touch(const Json& value) {
-  const auto field = [](const Json& one) { return one.is_null() ? "" : typed(one, "touches"); };
-  if (value.is_string()) return value.get<std::string>();
-  std::string text;
-  if (value.is_array()) {
-    for (const Json& one : value) text += (text.empty() ? "" : ",") + field(one);
-    return text;
-  }
-  if (!value.is_object() || !value.contains("at")) {
-    throw InputError(fmt::format("\"touches\": expected [x, y] or [x, y, normal] of each, found {}", value.dump()));
-  }
-  text = value["at"].is_null() ? "," : typed_list(value["at"], "touches");
-  for (const char* name : {"normal", "position_sd", "normal_sd"}) {
-    text += "," + (value.contains(name) ? field(value[name]) : "");
-  }
-  return text;
-}
-
-/// [[x, y, x, y], ...], or "rows".
-std::vector<std::string> typed_clear(const Json& value) {
-  if (value.is_string()) return {value.get<std::string>()};
-  if (!value.is_array()) throw InputError("\"clear\": expected a list of [x, y, x, y], found " + value.dump());
-  std::vector<std::string> texts;
-  for (const Json& path : value) texts.push_back(typed_list(path, "clear"));
-  return texts;
-}
-
-/// [[x, y], ...].
-std::vector<std::string> typed_touches(const Json& value) {
-  if (!value.is_array()) throw InputError("\"touches\": expected a list of them, found " + value.dump());
-  std::vector<std::string> texts;
-  for (const Json& touch : value) texts.push_back(typed_touch(touch));
-  return texts;
-}
-
-bool typed_switch(const Json& value, const std::string& field) {
-  if (value.is_boolean()) return value.get<bool>();
-  throw InputError(fmt::format("\"{}\": expected true or false, found {}", field, value.dump()));
-}
-
-/// What a field of a problem sets.
-struct Field {
-  const char* name;
-  void (*set)(const Json& value, RollArguments& arguments);
-};
-constexpr std::array<Field, 20> kFields = {{
-    {"readings", [](const Json& value, RollArguments& to) { to.readings = typed_readings(value); }},
-    {"log", [](const Json& value, RollArguments& to) { to.logs = typed_each(value, "log"); }},
-    {"clear", [](const Json& value, RollArguments& to) { to.clear = typed_clear(value); }},
-    {"fingers", [](const Json& value, RollArguments& to) { to.fingers = typed_each(value, "fingers"); }},
-    {"roll", [](const Json& value, RollArguments& to) { to.roll = typed(value, "roll"); }},
-    {"columns", [](const Json& value, RollArguments& to) { to.reading.columns = typed(value, "columns"); }},
-    {"wrapped", [](const Json& value, RollArguments& to) { to.reading.wrapped = typed(value, "wrapped"); }},
-    {"skip_bad", [](const Json& value, RollArguments& to) { to.reading.skip_bad = typed_switch(value, "skip_bad"); }},
-    {"facing", [](const Json& value, RollArguments& to) { to.facing = typed(value, "facing"); }},
-    {"at", [](const Json& value, RollArguments& to) { to.instants = typed_list(value, "at"); }},
-    {"tolerance", [](const Json& value, RollArguments& to) { to.tolerance = typed(value, "tolerance"); }},
-    {"budget", [](const Json& value, RollArguments& to) { to.budget = typed(value, "budget"); }},
-    {"noise", [](const Json& value, RollArguments& to) { to.noise = typed_noise(value); }},
-    {"prior", [](const Json& value, RollArguments& to) { to.prior = typed_list(value, "prior"); }},
-    {"heading", [](const Json& value, RollArguments& to) { to.pose.heading = typed_list(value, "heading"); }},
-    {"pose", [](const Json& value, RollArguments& to) { to.pose.pose = typed_list(value, "pose"); }},
-    {"direction", [](const Json& value, RollArguments& to) { to.direction = typed(value, "direction"); }},
-    {"mirrored", [](const Json& value, RollArguments& to) { to.mirror = typed_switch(value, "mirrored"); }},
-    {"robust", [](const Json& value, RollArguments& to) { to.robust = typed_switch(value, "robust"); }},
-    {"may_overlap", [](const Json& value, RollArguments& to) { to.may_overlap = typed_switch(value, "may_overlap"); }},
-}};
-
-void set_field(const std::string& name, const Json& value, RollArguments& arguments) {
-  if (value.is_null()) return;  // not given
-  for (const Field& field : kFields) {
-    if (name != field.name) continue;
-    field.set(value, arguments);
-    return;
-  }
-  std::vector<std::string> names = {"part", "id", "touches"};
-  for (const Field& field : kFields) names.emplace_back(field.name);
-  throw InputError(fmt::format("there is no field \"{}\"; {}", name, known_names(name, names)));
-}
 
 /// Parts by what a line calls them, each loaded once.
 class Parts {
@@ -188,15 +44,15 @@ class Parts {
 
 /// A line, and what became of it.
 struct BatchLine {
-  Json id;  // null: it has none
-  std::optional<Problem> problem{};
-  std::optional<TouchProblem> touches{};  // instead
+  std::string where;  // file and line
+  Json id{};          // null: it has none
+  std::optional<Question> question{};
   std::vector<std::string> notes{};
   std::string error{};
 };
 
 BatchLine read_line(const std::string& text, const std::string& where, const RollArguments& like, Parts& parts) {
-  BatchLine line;
+  BatchLine line{where};
   try {
     const auto watch = [](int depth, Json::parse_event_t /*event*/, const Json& /*value*/) {
       if (depth <= kMostNesting) return true;
@@ -205,26 +61,8 @@ BatchLine read_line(const std::string& text, const std::string& where, const Rol
     const Json object = Json::parse(text, watch);
     if (!object.is_object()) throw InputError("expected a problem, a JSON object, found " + shown(text));
     if (object.contains("id")) line.id = object["id"];
-    RollArguments arguments = like;
-    std::vector<std::string> touches;
-    for (const auto& [name, value] : object.items()) {
-      if (name == "id") continue;
-      if (name == "part") {
-        arguments.part.part = typed(value, name);
-      } else if (name == "touches") {
-        if (!value.is_null()) touches = typed_touches(value);
-      } else {
-        set_field(name, value, arguments);
-      }
-    }
-    if (arguments.readings.empty() && are_touches(touches, arguments)) {
-      line.touches = read_touch_problem(touches, arguments, parts.of(arguments.part.part), line.notes);
-      return line;
-    }
-    if (arguments.readings.empty() == arguments.logs.empty() || !touches.empty()) {
-      throw InputError("expected one of \"readings\", \"log\" and \"touches\"");
-    }
-    line.problem = read_problem(arguments, parts.of(arguments.part.part), line.notes);
+    line.question = question_from_json(
+        object, like, [&](const std::string& name) { return parts.of(name); }, line.notes);
   } catch (const Json::parse_error& error) {
     line.error = fmt::format("{}: not a JSON object in one line, from its character {} on", where, error.byte);
   } catch (const Json::exception&) {
@@ -243,67 +81,39 @@ ExitCode worse_of(ExitCode one, ExitCode other) {
   return weight(one) >= weight(other) ? one : other;
 }
 
-/// An answer to a line, or why there is none.
-struct LineAnswer {
-  Json document{};
-  ExitCode code = ExitCode::bad_input;
-  std::string error{};
-};
-
-/// All at once, on all cores.
-std::vector<LineAnswer> answers_to_touches(const std::vector<BatchLine>& lines) {
-  std::vector<const TouchProblem*> problems;
+/// The outcomes of the lines that ask something, in order, on all cores.
+std::vector<Outcome> outcomes_of(const std::vector<BatchLine>& lines) {
+  std::vector<Question> questions;
   for (const BatchLine& line : lines) {
-    if (line.touches) problems.push_back(&*line.touches);
+    if (line.question) questions.push_back(*line.question);
   }
-  std::vector<LineAnswer> answers(problems.size());
-  Crew crew(problems.size(), 1);
-  crew.run(0, {}, [&](std::size_t lo, std::size_t hi) {
-    for (std::size_t k = lo; k < hi; ++k) {
-      try {
-        const TouchAnswer answer = solve(*problems[k]);
-        answers[k] = {Json::parse(format_touches(answer, Layout::line)), exit_code_of(answer)};
-      } catch (const InputError& error) {
-        answers[k].error = error.what();
-      }
-    }
-  });
-  crew.require_done();
-  return answers;
+  return solve(std::span<const Question>(questions));
 }
 
-std::vector<LineAnswer> answers_to_rolls(const std::vector<BatchLine>& lines, bool explain) {
-  std::vector<Problem> problems;
-  for (const BatchLine& line : lines) {
-    if (line.problem) problems.push_back(*line.problem);
+/// Of a line's answer, or of why there is none.
+Json document_of(const BatchLine& line, const Outcome& outcome, bool explain) {
+  Json document;
+  if (outcome.solution) {
+    document = Json::parse(format_solution(*outcome.solution, Layout::line, explain));
+  } else {
+    const std::string error =
+        line.question ? fmt::format("{}: {}", line.where, with_options(outcome.error)) : line.error;
+    document = {{"schema", "rollfix/locate/1"}, {"error", error}};
   }
-  std::vector<LineAnswer> answers;
-  for (const Solved& solved : solve(std::span<const Problem>(problems))) {
-    answers.push_back({{}, ExitCode::bad_input, solved.error});
-    if (solved.answer) answers.back() = {answer_json(*solved.answer, explain), exit_code_of(*solved.answer)};
-  }
-  return answers;
+  if (!line.id.is_null()) document["id"] = line.id;
+  for (const std::string& note : line.notes) document["notes"].push_back(with_options(note));
+  return document;
 }
 
 /// Writes the answers; the exit code of the worst.
-ExitCode answer_lines(const std::vector<BatchLine>& lines, const std::string& name, std::size_t first, bool explain,
-                      std::ostream& out) {
-  std::vector<LineAnswer> of_rolls = answers_to_rolls(lines, explain);
-  std::vector<LineAnswer> of_touches = answers_to_touches(lines);
+ExitCode answer_lines(const std::vector<BatchLine>& lines, bool explain, std::ostream& out) {
+  const std::vector<Outcome> outcomes = outcomes_of(lines);
   ExitCode worst = ExitCode::fits;
-  std::size_t next_roll = 0, next_touches = 0;
-  for (std::size_t k = 0; k < lines.size(); ++k) {
-    const BatchLine& line = lines[k];
-    LineAnswer answer;
-    if (line.problem) answer = std::move(of_rolls[next_roll++]);
-    if (line.touches) answer = std::move(of_touches[next_touches++]);
-    if (!answer.error.empty()) answer.error = fmt::format("{}:{}: {}", name, first + k, with_options(answer.error));
-    if (!line.error.empty()) answer.error = line.error;
-    if (!answer.error.empty()) answer.document = {{"schema", "rollfix/locate/1"}, {"error", answer.error}};
-    if (!line.id.is_null()) answer.document["id"] = line.id;
-    for (const std::string& note : line.notes) answer.document["notes"].push_back(with_options(note));
-    out << json_line(answer.document);
-    worst = worse_of(worst, answer.code);
+  std::size_t next = 0;
+  for (const BatchLine& line : lines) {
+    const Outcome outcome = line.question ? outcomes[next++] : Outcome{};
+    out << json_line(document_of(line, outcome, explain));
+    worst = worse_of(worst, outcome.solution ? exit_code_of(*outcome.solution) : ExitCode::bad_input);
   }
   out << std::flush;
   if (!out) throw InputError("standard output can't be written to");
@@ -321,8 +131,7 @@ Report locate_batch(const RollArguments& like, const std::string& file, bool exp
   std::vector<BatchLine> lines;
   std::size_t number = 0;
   const auto answer_all = [&] {
-    const std::size_t first = number - lines.size() + 1;
-    report.exit_code = worse_of(report.exit_code, answer_lines(lines, name, first, explain, out));
+    report.exit_code = worse_of(report.exit_code, answer_lines(lines, explain, out));
     lines.clear();
   };
   for (std::string_view rest = without_mark(text); !rest.empty();) {

@@ -11,20 +11,19 @@
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/arguments/finger_argument.hpp"
 #include "rollfix/arguments/output_argument.hpp"
-#include "rollfix/arguments/roll_arguments.hpp"
+#include "rollfix/arguments/question_arguments.hpp"
 #include "rollfix/commands.hpp"
-#include "rollfix/draw/answer_figure.hpp"
+#include "rollfix/draw/solution_figure.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/files/documents.hpp"
+#include "rollfix/files/solution_document.hpp"
 #include "rollfix/locate/batch.hpp"
 #include "rollfix/locate/certificate.hpp"
 #include "rollfix/locate/locate_by_march.hpp"
-#include "rollfix/locate/locate_hold.hpp"
-#include "rollfix/locate/locate_rolls.hpp"
-#include "rollfix/locate/locate_touches.hpp"
 #include "rollfix/locate/map_points.hpp"
 #include "rollfix/locate/touch_arguments.hpp"
 #include "rollfix/output/answer_output.hpp"
+#include "rollfix/output/hold_text.hpp"
+#include "rollfix/output/touch_text.hpp"
 #include "rollfix/usage.hpp"
 #include "text/text.hpp"
 
@@ -65,19 +64,20 @@ struct LocateArguments {
   MarchArguments march;
 };
 
+/// Throws InputError: nothing to work with, or too much.
 void require_sensible(const LocateArguments& arguments) {
   const RollArguments& roll = arguments.roll;
   require_part(roll.part);
-  if (!roll.clear.empty()) throw InputError("--clear is about touches: give them with --touch, or leave --clear out");
-  if (roll.readings.empty() && roll.logs.empty()) {
+  if (roll.readings.empty() && roll.logs.empty() && arguments.touches.empty()) {
     throw InputError("locate: expected --reading LENGTH,TURN, --log FILE or --touch X,Y, found none");
   }
-  if (!roll.readings.empty() && !roll.logs.empty()) {
+  const bool are_of_one_roll = !roll.readings.empty() && !roll.logs.empty() && roll.logs.size() <= 2;
+  if (are_of_one_roll && roll.roll != "all" && arguments.touches.empty()) {
     throw InputError("locate: expected --reading or --log, found both: they can't be of the same roll");
   }
-  if (arguments.detail.explain && roll.fingers.empty()) {
-    throw InputError("--explain lists what the finger can't reach: give --finger as well");
-  }
+  if (arguments.maps.empty()) require_figure_output(arguments.output, arguments.json);
+  require_certificate(arguments.certificate, arguments.output.force, arguments.json, arguments.output.file);
+  read_step(arguments.march);
 }
 
 /// What the paper's algorithm has no use for.
@@ -98,10 +98,7 @@ void require_march(const LocateArguments& arguments) {
 }
 
 /// The same readings, asked of the paper's algorithm.
-Report march_report(const LocateArguments& arguments) {
-  require_march(arguments);
-  std::vector<std::string> notes;
-  const Problem problem = read_problem(arguments.roll, notes);
+Report march_report(const LocateArguments& arguments, const Problem& problem) {
   const Observation observed = observe(problem);
   const Tolerance tolerance = problem.tolerance
                                   ? tolerance_given(*problem.tolerance)
@@ -115,43 +112,33 @@ Report march_report(const LocateArguments& arguments) {
     }
     question.readings.push_back({{reading.length.begin(), reading.length.end()}, reading.turn});
   }
-  Report report = locate_by_march(problem.part, question);
-  report.notes = std::move(notes);
-  return report;
+  return locate_by_march(problem.part, question);
 }
 
-/// What touches, and several rolls, have no use for.
-Report poses_report(const LocateArguments& arguments, bool has_rolls) {
+/// What only answers to one roll have.
+void require_outputs(const LocateArguments& arguments, const Question& question) {
+  const QuestionKind kind = kind_of(question);
+  const bool has_rolls = !question.measured.rolls.empty();
   const auto refuse = [&](bool given, const char* option) {
     if (!given) return;
     throw InputError(fmt::format("{}: {}", option,
-                                 has_rolls ? "is of one roll; leave it out, or choose one with --roll N"
-                                           : "touches do not roll and have no use for it; leave it out"));
+                                 kind == QuestionKind::moving ? "is of one or two fingers with skin; leave it out"
+                                 : has_rolls ? "is of one roll; leave it out, or choose one with --roll N"
+                                             : "touches do not roll and have no use for it; leave it out"));
   };
+  if (kind == QuestionKind::roll) {
+    if (arguments.detail.explain && question.fingers.empty()) {
+      throw InputError("--explain lists what the finger can't reach: give --finger as well");
+    }
+    return require_map_output(arguments.maps, arguments.output.file, arguments.output.force, arguments.json, has_rolls,
+                              !question.fingers.empty());
+  }
   refuse(!arguments.maps.empty(), "--map");
   refuse(arguments.march.march, "--march");
   refuse(arguments.detail.explain, "--explain");
-  if (has_rolls && !arguments.certificate.empty()) {
+  if (!arguments.certificate.empty() && kind == QuestionKind::at_rest && has_rolls) {
     throw InputError("--certify: a certificate is of one roll, or of touches alone; choose a roll with --roll N");
   }
-  const TouchOutput output{arguments.output, arguments.json, arguments.detail.verbose, arguments.certificate};
-  return has_rolls ? locate_rolls(arguments.touches, arguments.roll, output)
-                   : locate_touches(arguments.touches, arguments.roll, output);
-}
-
-/// What three and more fingers have no use for.
-Report hold_report(const LocateArguments& arguments) {
-  const auto refuse = [&](bool given, const char* option) {
-    if (given) throw InputError(fmt::format("{}: is of one or two fingers with skin; leave it out", option));
-  };
-  refuse(!arguments.maps.empty(), "--map");
-  refuse(arguments.march.march, "--march");
-  refuse(arguments.detail.explain, "--explain");
-  if (!arguments.touches.empty()) {
-    throw InputError("--touch and --log of rolls share a pose of a part at rest with --roll all: add it");
-  }
-  return locate_hold(arguments.roll,
-                     {arguments.output, arguments.json, arguments.detail.verbose, arguments.certificate});
 }
 
 /// What a batch has no use for.
@@ -168,56 +155,72 @@ void require_batch(const LocateArguments& arguments) {
   refuse(arguments.march.march, "--march");
 }
 
-Report locate_report(const LocateArguments& arguments, std::ostream& out) {
-  if (arguments.roll.roll == "all" && arguments.batch.empty()) {
-    if (are_contacts(arguments.touches, arguments.roll)) return poses_report(arguments, true);
-    LocateArguments only = arguments;
-    only.roll.roll = "1";
-    return locate_report(only, out);
+std::string text_of(const Solution& solution, const AnswerDetail& detail) {
+  if (solution.at_rest() != nullptr) return touches_text(*solution.at_rest(), detail.verbose);
+  if (solution.moving() != nullptr) return hold_text(*solution.moving());
+  return answer_text(*solution.roll(), detail);
+}
+
+void add_certificate(const LocateArguments& arguments, const Question& question, const Solution& solution,
+                     Report& report) {
+  const std::string& file = arguments.certificate;
+  const bool force = arguments.output.force;
+  if (solution.roll() != nullptr) add_certificate(file, force, roll_problem(question), *solution.roll(), report);
+  if (solution.at_rest() != nullptr) add_certificate(file, force, rest_problem(question), *solution.at_rest(), report);
+  if (solution.moving() != nullptr) add_certificate(file, force, moving_problem(question), *solution.moving(), report);
+}
+
+/// Of fingers on a part that moves; those of a roll are among the notes on its answer.
+void add_reach_note(const Question& question, Report& report) {
+  for (const Finger& finger : question.fingers) {
+    if (finger.is_disk() || (finger.is_jaw() && !question.measured.wheels.empty())) continue;
+    report.notes.push_back(no_reach_note(finger));
+    return;
   }
+}
+
+/// Everything that was found, in the forms that are wanted.
+void add_solution(const LocateArguments& arguments, const Question& question, std::vector<Outline> others,
+                  const Solution& solution, Report& report) {
+  if (solution.roll() != nullptr) add_notes(*solution.roll(), report);
+  if (solution.moving() != nullptr) add_reach_note(question, report);
+  report.exit_code = exit_code_of(solution);
+  report.data = arguments.json ? format_solution(solution, Layout::lines, arguments.detail.explain)
+                               : text_of(solution, arguments.detail);
+  if (!arguments.maps.empty()) {
+    add_table(arguments.output, mapped_points(*solution.roll(), arguments.maps, others, report.notes), report);
+  } else if (!arguments.output.file.empty()) {
+    add_figure(arguments.output, draw_solution({&question, &solution, std::move(others)}), report);
+  }
+  if (!arguments.certificate.empty()) add_certificate(arguments, question, solution, report);
+}
+
+/// Of two fingers' readings both ways round are no figure.
+void require_one_way(const LocateArguments& arguments, const Question& question) {
+  const std::vector<Reading>& readings = question.measured.readings;
+  if (arguments.output.file.empty() || readings.empty() || readings.front().fingers() != 2) return;
+  if (question.direction != Direction::either) return;
+  throw InputError("-o: a figure of two fingers is of one way round: expected --direction ccw or cw, found either");
+}
+
+Report locate_report(const LocateArguments& arguments, std::ostream& out) {
   if (!arguments.batch.empty()) {
     require_batch(arguments);
     return locate_batch(arguments.roll, arguments.batch, arguments.detail.explain, out);
   }
-  if (are_many_fingers(arguments.roll)) return hold_report(arguments);
-  if (are_touches(arguments.touches, arguments.roll)) return poses_report(arguments, false);
   require_sensible(arguments);
-  if (!arguments.roll.squeezed.empty()) {
-    throw InputError(
-        "--squeezed: it is about a finger with skin and a wheel without that squeeze a part, such as a jaw and "
-        "wheel,r=0.4; leave it out");
-  }
-  const OutputArgument& output = arguments.output;
-  if (arguments.maps.empty()) require_figure_output(output, arguments.json);
-  require_map_output(arguments.maps, output.file, output.force, arguments.json, !arguments.roll.logs.empty(),
-                     !arguments.roll.fingers.empty());
-  require_certificate(arguments.certificate, output.force, arguments.json, output.file);
-  read_step(arguments.march);
-  if (arguments.march.march) return march_report(arguments);
   Report report;
   std::vector<Outline> others;
-  Problem problem = read_problem(arguments.roll, report.notes, &others);
-  if (problem.either_way && !output.file.empty() && !problem.felt.is_log() && problem.felt.readings[0].fingers() == 2) {
-    throw InputError("-o: a figure of two fingers is of one way round: expected --direction ccw or cw, found either");
+  const Question question = read_question(arguments.touches, arguments.roll, report.notes, &others);
+  require_outputs(arguments, question);
+  require_one_way(arguments, question);
+  if (arguments.march.march) {
+    require_march(arguments);
+    Report of_march = march_report(arguments, roll_problem(question));
+    of_march.notes = std::move(report.notes);
+    return of_march;
   }
-  const Answer answer = solve(problem);
-  add_notes(answer, report);
-  report.exit_code = exit_code_of(answer);
-  report.data = arguments.json ? format_answer(answer, Layout::lines, arguments.detail.explain)
-                               : answer_text(answer, arguments.detail);
-  if (!arguments.maps.empty()) {
-    add_table(output, mapped_points(answer, arguments.maps, others, report.notes), report);
-  } else if (!output.file.empty()) {
-    AnswerFigure figure{&answer};
-    figure.others = std::move(others);
-    if (!answer.strays.empty()) {
-      problem.felt.log = without_strays(*problem.felt.log, problem.part, problem.fingers, *problem.noise);
-    }
-    if (problem.felt.is_log() && !answer.mirrored) figure.log = &*problem.felt.log;
-    add_figure(arguments.output, draw_answer(figure), report);
-  }
-  if (!arguments.certificate.empty())
-    add_certificate(arguments.certificate, arguments.output.force, problem, answer, report);
+  add_solution(arguments, question, std::move(others), solve(question), report);
   return report;
 }
 
@@ -233,9 +236,9 @@ std::string strays_note(const std::vector<std::size_t>& lines) {
 
 }  // namespace
 
-ExitCode exit_code_of(const Answer& answer) {
-  if (answer.status == Status::incomplete) return ExitCode::incomplete;
-  return answer.placements.empty() ? ExitCode::nothing_fits : ExitCode::fits;
+ExitCode exit_code_of(const Solution& solution) {
+  if (solution.status() == Status::incomplete) return ExitCode::incomplete;
+  return solution.fits() ? ExitCode::fits : ExitCode::nothing_fits;
 }
 
 /// On a corner of the finger only where the contact is is known.

@@ -9,7 +9,6 @@
 #include <system_error>
 #include <utility>
 
-#include "rollfix/arguments/finger_argument.hpp"
 #include "rollfix/arguments/typed_number.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/touch/touch_table.hpp"
@@ -63,10 +62,11 @@ Clear read_clear(const std::string& text, const std::string& unit) {
   return {{numbers[0], numbers[1]}, {numbers[2], numbers[3]}};
 }
 
-void add_clear(const std::vector<std::string>& given, std::vector<Clear> of_rows, TouchProblem& problem) {
+void add_clear(const std::vector<std::string>& given, std::vector<Clear> of_rows, const std::string& unit,
+               Measurements& measured) {
   for (const std::string& text : given) {
     if (text != "rows") {
-      problem.clear.push_back(read_clear(text, problem.part.unit()));
+      measured.clear.push_back(read_clear(text, unit));
       continue;
     }
     if (of_rows.empty()) {
@@ -74,46 +74,9 @@ void add_clear(const std::vector<std::string>& given, std::vector<Clear> of_rows
           "--clear rows: expected in the --log a row with contact 0 and a row after it, found none: the "
           "way from the one to the other is what felt nothing");
     }
-    problem.clear.insert(problem.clear.end(), of_rows.begin(), of_rows.end());
+    measured.clear.insert(measured.clear.end(), of_rows.begin(), of_rows.end());
     of_rows.clear();
   }
-}
-
-void require_touch_options(const std::vector<std::string>& touches, const RollArguments& arguments) {
-  if (!touches.empty() && !arguments.logs.empty()) {
-    const bool is_table = is_table_of_touches(arguments.logs.front(), arguments);
-    throw InputError(is_table ? "--touch and --log both give touches: leave one of them out"
-                              : "--touch and a --log of rolls share a pose with --roll all: add it");
-  }
-  const auto refuse = [](bool given, const char* option) {
-    if (given) throw InputError(fmt::format("{}: touches do not roll and have no use for it; leave it out", option));
-  };
-  refuse(!arguments.readings.empty(), "--reading");
-  refuse(!arguments.roll.empty(), "--roll");
-  refuse(!arguments.reading.wrapped.empty(), "--wrapped");
-  refuse(arguments.reading.skip_bad, "--skip-bad");
-  refuse(!arguments.facing.empty(), "--facing");
-  refuse(!arguments.instants.empty(), "--at");
-  refuse(!arguments.prior.empty(), "--prior");
-  refuse(!arguments.direction.empty(), "--direction");
-  refuse(arguments.robust, "--robust");
-  refuse(arguments.may_overlap, "--may-overlap");
-  const bool from_log = !arguments.logs.empty();
-  if (!arguments.reading.columns.empty() && !from_log) {
-    throw InputError("--columns is about a table: give it with --log, or leave --columns out");
-  }
-  if (from_log && arguments.logs.front() == "-" && arguments.part.part == "-") {
-    throw InputError("the part and the touches can't both come from standard input: give one of them as a file");
-  }
-}
-
-/// Throws InputError unless something says how exact the touches are.
-void require_exactness(const RollArguments& arguments, const TouchProblem& problem) {
-  const bool is_said = !arguments.noise.empty() || !arguments.tolerance.empty();
-  if (is_said || have_own_noise(problem.touches)) return;
-  throw InputError(
-      "touches: expected how exact they are, found neither --noise nor --tolerance; standard deviations are given "
-      "with --noise position=0.05,angle=1deg");
 }
 
 }  // namespace
@@ -176,41 +139,25 @@ bool are_touches(const std::vector<std::string>& touches, const RollArguments& a
   return names_touch_columns(arguments.reading.columns) || is_table_of_touches(arguments.logs.front(), arguments);
 }
 
-TouchProblem read_touch_problem(const std::vector<std::string>& touches, const RollArguments& arguments,
-                                std::vector<std::string>& notes, std::vector<Outline>* others) {
-  require_touch_options(touches, arguments);
-  return read_touch_problem(touches, arguments, load_part(arguments.part, notes, others), notes);
-}
-
-TouchProblem read_touch_problem(const std::vector<std::string>& touches, const RollArguments& arguments, Part part,
-                                std::vector<std::string>& notes) {
-  require_touch_options(touches, arguments);
-  TouchProblem problem{std::move(part), {}};
-  const std::string unit = problem.part.unit();
-  for (const std::string& text : touches) problem.touches.push_back(read_touch(text, unit));
+void add_touches(const std::vector<std::string>& touches, const RollArguments& arguments, const std::string& unit,
+                 Measurements& measured, std::vector<std::string>& notes) {
+  for (const std::string& text : touches) measured.touches.push_back(read_touch(text, unit));
   std::vector<Clear> of_rows;
-  if (touches.empty()) {
+  const bool is_roll = !measured.rolls.empty() || arguments.logs.empty();
+  if (!is_roll && !touches.empty()) {
+    const bool is_table = is_table_of_touches(arguments.logs.front(), arguments);
+    throw InputError(is_table ? "--touch and --log both give touches: leave one of them out"
+                              : "--touch and a --log of rolls share a pose with --roll all: add it");
+  }
+  if (!is_roll) {
     const std::string& file = arguments.logs.front();
     TouchTable table =
         parse_touches(read_text(file), file == "-" ? "standard input" : file, table_options(arguments, unit));
-    problem.touches = std::move(table.touches);
+    measured.touches = std::move(table.touches);
     of_rows = std::move(table.clear);
     notes.insert(notes.end(), table.notes.begin(), table.notes.end());
   }
-  add_clear(arguments.clear, std::move(of_rows), problem);
-  require_exactness(arguments, problem);
-  const std::vector<Finger> fingers = read_fingers(arguments.fingers, 1, unit);
-  require_disks(fingers, "--touch");
-  if (!fingers.empty()) problem.finger = fingers.front();
-  problem.noise = read_noise(arguments.noise, unit);
-  if (!arguments.tolerance.empty()) {
-    if (problem.noise) throw InputError("--tolerance: --noise already says how far touches are off; leave one out");
-    problem.tolerance = read_touch_tolerance(arguments.tolerance, unit);
-  }
-  problem.pose = read_pose(arguments.pose, unit);
-  problem.mirrored = arguments.mirror;
-  if (!arguments.budget.empty()) problem.budget = read_count(arguments.budget, "--budget", 1);
-  return problem;
+  add_clear(arguments.clear, std::move(of_rows), unit, measured);
 }
 
 }  // namespace rollfix::app

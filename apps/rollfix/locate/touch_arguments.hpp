@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "rollfix/arguments/roll_arguments.hpp"
-#include "rollfix/touch/touch.hpp"
+#include "rollfix/question/question.hpp"
 
 namespace rollfix::app {
 
@@ -17,16 +17,12 @@ bool is_table_of_touches(const std::string& path, const RollArguments& arguments
 /// Whether touches are meant: --touch, or one --log whose columns are x and y without those of a roll.
 bool are_touches(const std::vector<std::string>& touches, const RollArguments& arguments);
 
-/// The touches and what is known of them. `others`: see load_part. Throws InputError, also for options that only a roll
-/// has a use for.
-TouchProblem read_touch_problem(const std::vector<std::string>& touches, const RollArguments& arguments,
-                                std::vector<std::string>& notes, std::vector<Outline>* others);
-/// The same on a part that is there already.
-TouchProblem read_touch_problem(const std::vector<std::string>& touches, const RollArguments& arguments, Part part,
-                                std::vector<std::string>& notes);
-
 // `unit`: the part's, empty where it is not known.
 
+/// Adds touches and paths on which nothing was felt: of --touch and --clear, or of the table that --log is, if it is no
+/// log of rolls that is read already. Throws InputError.
+void add_touches(const std::vector<std::string>& touches, const RollArguments& arguments, const std::string& unit,
+                 Measurements& measured, std::vector<std::string>& notes);
 /// X,Y or X,Y,NORMAL. Throws InputError.
 MeasuredTouch read_touch(const std::string& text, const std::string& unit);
 /// --tolerance LENGTH or LENGTH,ANGLE. Throws InputError.

@@ -5,6 +5,7 @@
 #include "files/documents/documents.hpp"
 #include "rollfix/answer/answer.hpp"
 #include "rollfix/output/report.hpp"
+#include "rollfix/question/solution.hpp"
 
 namespace rollfix::app {
 
@@ -18,7 +19,7 @@ struct AnswerDetail {
 std::string answer_text(const Answer& answer, const AnswerDetail& detail);
 
 /// What an answer tells whoever called the program.
-ExitCode exit_code_of(const Answer& answer);
+ExitCode exit_code_of(const Solution& solution);
 
 /// Notes on a part that is stored the other way round than its file has it, on a log that follows it, and on fingers
 /// whose reach is not known.

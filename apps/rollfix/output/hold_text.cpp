@@ -241,11 +241,6 @@ class HoldText {
 
 }  // namespace
 
-ExitCode exit_code_of(const HoldAnswer& answer) {
-  if (answer.status == Status::incomplete) return ExitCode::incomplete;
-  return answer.placements.empty() ? ExitCode::nothing_fits : ExitCode::fits;
-}
-
 std::string hold_text(const HoldAnswer& answer) { return HoldText(answer).text(); }
 
 }  // namespace rollfix::app

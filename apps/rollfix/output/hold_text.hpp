@@ -3,13 +3,10 @@
 #include <string>
 
 #include "rollfix/hold/hold.hpp"
-#include "rollfix/output/report.hpp"
 
 namespace rollfix::app {
 
 /// For people: the verdict, a table of the first contacts, poses, each finger, and what was asked.
 std::string hold_text(const HoldAnswer& answer);
-
-ExitCode exit_code_of(const HoldAnswer& answer);
 
 }  // namespace rollfix::app

@@ -397,11 +397,6 @@ class TouchText {
 
 }  // namespace
 
-ExitCode exit_code_of(const TouchAnswer& answer) {
-  if (answer.status == Status::incomplete) return ExitCode::incomplete;
-  return answer.verdict.name == Verdict::inconsistent ? ExitCode::nothing_fits : ExitCode::fits;
-}
-
 std::string touches_text(const TouchAnswer& answer, bool verbose) { return TouchText(answer).text(verbose); }
 
 }  // namespace rollfix::app

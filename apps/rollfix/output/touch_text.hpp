@@ -2,7 +2,6 @@
 
 #include <string>
 
-#include "rollfix/output/report.hpp"
 #include "rollfix/touch/touch.hpp"
 
 namespace rollfix::app {
@@ -10,7 +9,5 @@ namespace rollfix::app {
 /// For people: the verdict, a table of the poses, what they leave open, and what was asked. `verbose`: with each
 /// touch's place on the part.
 std::string touches_text(const TouchAnswer& answer, bool verbose);
-
-ExitCode exit_code_of(const TouchAnswer& answer);
 
 }  // namespace rollfix::app

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "rollfix/error.hpp"
+#include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/touch_text.hpp"
 #include "text/text.hpp"
 

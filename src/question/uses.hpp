@@ -1,0 +1,77 @@
+#pragma once
+
+#include "rollfix/cpp20.hpp"  // IWYU pragma: keep
+
+#include <string>
+#include <string_view>
+
+#include "answer/weighing.hpp"
+#include "rollfix/question/question.hpp"
+
+// Which options go with which contacts. A search takes an option if its problem has the field; what it has no use for
+// is refused, with the reason that `Uses` knows for this kind of contacts.
+namespace rollfix::question {
+
+/// Why contacts of some kind have no use for an option, as a whole message.
+class Uses {
+ public:
+  explicit Uses(const Question& question);
+
+  /// Throws InputError where it is given all the same. `name`: of the Question's field.
+  void refuse(bool is_given, std::string_view name) const;
+
+ private:
+  std::string why_not(std::string_view name) const;
+
+  const Question& question_;
+  QuestionKind kind_;
+  bool has_rolls_;
+};
+
+/// Throws InputError: contacts of different kinds, none at all.
+void require_contacts(const Question& question);
+
+/// The options that a search has fields for; those that it has not must not be given.
+template <class Searched>
+void hand_over(const Question& question, Searched& problem) {
+  const Uses uses(question);
+  problem.noise = question.noise;
+  problem.budget = question.budget;
+  problem.mirrored = question.mirrored;
+  if constexpr (requires { problem.facing; })
+    problem.facing = question.facing;
+  else
+    uses.refuse(question.facing.has_value(), "facing");
+  if constexpr (requires { problem.at; })
+    problem.at = question.at;
+  else
+    uses.refuse(!question.at.empty(), "at");
+  if constexpr (requires { problem.prior; })
+    problem.prior = question.prior;
+  else
+    uses.refuse(question.prior.has_value(), "prior");
+  if constexpr (requires { problem.pose; })
+    problem.pose = question.pose;
+  else if (question.pose)
+    uses.refuse(true, name_of(*question.pose));
+  if constexpr (requires { problem.either_way; })
+    problem.either_way = question.direction == Direction::either;
+  else
+    uses.refuse(question.direction.has_value(), "direction");
+  if constexpr (requires { problem.robust; })
+    problem.robust = question.robust;
+  else
+    uses.refuse(question.robust, "robust");
+  if constexpr (requires { problem.may_overlap; })
+    problem.may_overlap = question.may_overlap;
+  else
+    uses.refuse(question.may_overlap, "may_overlap");
+  if constexpr (requires { problem.squeezed; }) problem.squeezed = question.squeezed;
+  if constexpr (requires { problem.clear; })
+    problem.clear = question.measured.clear;
+  else
+    uses.refuse(!question.measured.clear.empty(), "clear");
+  if constexpr (requires { problem.diagnose; }) problem.diagnose = question.diagnose;
+}
+
+}  // namespace rollfix::question
