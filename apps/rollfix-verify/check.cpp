@@ -27,19 +27,36 @@ std::string part_of(const Json& json) {
 
 std::string between(const Json& limits) { return plain(limits.at(0)) + " to " + plain(limits.at(1)); }
 
+/// Of a touch, or of a roll's first contact.
+std::string contact_text(const Json& touch) {
+  std::string text = "an unknown place";
+  if (touch.contains("at")) {
+    text = plain(touch.at("at").at(0)) + ", " + plain(touch.at("at").at(1)) + " within " +
+           plain(touch.at("tolerance").at(0));
+  }
+  if (touch.contains("normal")) {
+    text += ", normal " + plain(touch.at("normal")) + " within " + plain(touch.at("tolerance").at(1)) + " rad";
+  }
+  return text;
+}
+
+std::string readings_text(const Json& roll) {
+  std::string text;
+  for (const Json& reading : roll.at("readings")) {
+    text += ", by " + plain(reading.at("length")) + " turned " + plain(reading.at("turn"));
+  }
+  return text + " rad within " + plain(roll.at("within"));
+}
+
 std::string touches_question(const Json& json) {
   std::string text = part_of(json);
   if (json.at("mirrored").get<bool>()) text += "face down\n";
   text += json.at("radius").get<double>() == 0 ? "finger point\n"
                                                : "finger disk, radius " + plain(json.at("radius")) + "\n";
-  for (const Json& touch : json.at("touches")) {
-    text += "touch at " + plain(touch.at("at").at(0)) + ", " + plain(touch.at("at").at(1)) + " within " +
-            plain(touch.at("tolerance").at(0));
-    if (touch.contains("normal")) {
-      text += ", normal " + plain(touch.at("normal")) + " within " + plain(touch.at("tolerance").at(1)) + " rad";
-    }
-    text += "\n";
+  if (json.contains("rolls")) {
+    for (const Json& roll : json.at("rolls")) text += "roll from " + contact_text(roll) + readings_text(roll) + "\n";
   }
+  for (const Json& touch : json.at("touches")) text += "touch at " + contact_text(touch) + "\n";
   for (const Json& one : json.at("poses")) {
     text += one.at("listed").get<bool>() ? "pose " : "left out: pose ";
     const bool fits = one.contains("pose");
@@ -132,8 +149,7 @@ std::string described_poses(const Verdict& verdict) {
   if (verdict.is_complete()) return "proved: " + found + ", nothing else\n" + verdict.question;
   std::string but;
   if (verdict.open > 0) {
-    but = "poses with touch " + std::to_string(verdict.open_touch) + " on " + percent_of(verdict.share) +
-          " % of the boundary";
+    but = "poses with " + verdict.open_contact + " on " + percent_of(verdict.share) + " % of the boundary";
   }
   if (verdict.unproved > 0) {
     but += std::string(but.empty() ? "" : " and ") + std::to_string(verdict.unproved) +

@@ -21,7 +21,7 @@ struct Verdict {
   std::size_t unwitnessed = 0;  // of a hold: sets of which it is not shown that anything in them fits
   std::size_t left_out = 0;     // sets that the answer does not list
   std::size_t inside = 0;       // poses that the answer lists by themselves, though they are in another one's set
-  std::size_t open_touch = 0;   // whose place is known of the poses that are left open
+  std::string open_contact;     // "touch 0": whose place is known of the poses that are left open
   std::string question;         // which part, readings, facing and tolerance
   std::string refusal;          // why it is refused; empty: all but what is open is proved
 

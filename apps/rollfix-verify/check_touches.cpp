@@ -2,6 +2,8 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,12 +13,15 @@
 #include "document.hpp"
 #include "out_of_reach.hpp"
 #include "pose_search.hpp"
+#include "roll_starts.hpp"
 #include "stated.hpp"
+#include "touch_question.hpp"
 
 // Notation: a pose X, phi has the part's point c at X + R(phi) c; q_i is a touch's measured centre, tau_i the tangent
 // by its normal; p + r n the finger's centre where it touches at p.
 // What a certificate of touches claims, docs/certificates.md: each stated pose fits (`check_pose`), and every pose that
-// fits is in a stated set (`PoseSearch`). A part that lies face down is looked at in the mirror x = -x.
+// fits is in a stated set (`PoseSearch`). A roll is its first contact, on what its readings leave (`RollStarts`); rolls
+// stand before touches. A part that lies face down is looked at in the mirror x = -x.
 namespace rollfix_verify {
 namespace {
 
@@ -24,36 +29,24 @@ namespace {
 constexpr double kLeastLength = 1e-9;
 constexpr double kLeastAngle = 1e-9;
 
-/// A stated set of poses.
-struct Set {
-  std::array<double, 3> pose{};
-  std::optional<PoseBox> extent;   // none: the pose is in another one's
-  const Json* contacts = nullptr;  // nullptr: it is not said that a pose of the set fits
-};
-
 class Touches {
  public:
   explicit Touches(const Document& document)
       : document_(document),
         boundary_(document.boundary()),
         period_(document.period()),
-        is_mirrored_(document.json().at("mirrored").get<bool>()),
-        radius_(number(document.json().at("radius"))) {
-    if (!(radius_ >= 0)) refuse("a finger whose radius is below 0");
-    considered_ = considered(document.json().at("reach"), period_);
-    for (const Json& stated : document.json().at("touches")) read_touch(stated);
-    if (touches_.empty()) refuse("there is no touch");
-    for (const Json& stated : document.json().at("poses")) sets_.push_back(read_set(stated));
-  }
+        question_(document),
+        touches_(question_.touches) {}
 
   Verdict check() {
     document_.check_outline();
     require_tolerances();
     check_reach();
-    CentreTree tree(boundary_, radius_, considered_);
+    CentreTree tree(boundary_, question_.radius, question_.considered);
+    if (tree.root() >= 0) read_readings(tree);
     Verdict verdict;
     verdict.of_touches = true;
-    for (std::size_t k = 0; k < sets_.size(); ++k) check_set(tree, k);
+    for (std::size_t k = 0; k < question_.sets.size(); ++k) check_set(tree, k);
     for (const Json& stated : document_.json().at("poses")) {
       ++(!stated.contains("extent")        ? verdict.inside
          : stated.at("listed").get<bool>() ? verdict.placements
@@ -64,56 +57,38 @@ class Touches {
   }
 
  private:
-  double mirrored(double value) const { return is_mirrored_ ? -value : value; }
-  Interval mirrored(const Interval& one) const { return is_mirrored_ ? Interval{-one.hi, -one.lo} : one; }
-
-  void read_touch(const Json& stated) {
-    SoughtTouch touch;
-    touch.x = mirrored(number(stated.at("at").at(0)));
-    touch.y = number(stated.at("at").at(1));
-    touch.length = number(stated.at("tolerance").at(0));
-    touch.angle = number(stated.at("tolerance").at(1));
-    if (stated.contains("normal")) {
-      const double normal = number(stated.at("normal"));
-      if (!(std::abs(normal) <= kMostAngle)) refuse("an angle of too many turns");
-      const Ball quarter = 0.25 * full_turn();
-      const Ball tangent = is_mirrored_ ? 3.0 * quarter - normal : Ball(normal) + quarter;
-      touch.tangent = to_nearest_turn(tangent).middle();
+  /// Lengths and turns count along the outline as it is stated, whichever side of the part is up.
+  void read_readings(const CentreTree& tree) {
+    for (std::size_t k = 0; k < question_.rolls; ++k) {
+      const Json& stated = document_.json().at("rolls").at(k);
+      std::vector<RollReading> readings;
+      for (const Json& one : stated.at("readings")) {
+        readings.push_back({document_.length(one.at("length")), Document::turn(one.at("turn"))});
+      }
+      if (readings.empty()) refuse("a roll without readings");
+      const double within = number(stated.at("within"));
+      if (!(within >= kLeastAngle)) refuse("a tolerance of readings below what rounding allows");
+      starts_.push_back(std::make_unique<RollStarts>(boundary_, tree, std::move(readings), within));
+      touches_[k].starts = starts_.back().get();
     }
-    touches_.push_back(touch);
-  }
-
-  Set read_set(const Json& stated) const {
-    Set set;
-    if (stated.contains("extent")) {
-      const Json& extent = stated.at("extent");
-      set.extent = {mirrored(interval(extent.at(0))), interval(extent.at(1)), mirrored(interval(extent.at(2)))};
-    }
-    if (!stated.contains("pose")) {
-      if (stated.at("listed").get<bool>() || !set.extent) refuse("a set without a pose");
-      return set;
-    }
-    const Json& pose = stated.at("pose");
-    set.pose = {mirrored(number(pose.at(0))), number(pose.at(1)), mirrored(number(pose.at(2)))};
-    set.contacts = &stated.at("contacts");
-    return set;
   }
 
   void require_tolerances() {
     for (const SoughtTouch& touch : touches_) size_ = std::max({size_, std::abs(touch.x), std::abs(touch.y)});
-    const CentreTree all(boundary_, radius_, std::nullopt);
+    const CentreTree all(boundary_, question_.radius, std::nullopt);
     const CentreTree::Node& root = all.node(all.root());
     size_ = std::max({size_, std::abs(root.x) + root.radius, std::abs(root.y) + root.radius});
     for (const SoughtTouch& touch : touches_) {
-      if (!(touch.length >= kLeastLength * size_)) refuse("a tolerance of length below what rounding allows");
+      if (touch.has_place && !(touch.length >= kLeastLength * size_))
+        refuse("a tolerance of length below what rounding allows");
       if (touch.tangent && !(touch.angle >= kLeastAngle)) refuse("a tolerance of angle below what rounding allows");
     }
   }
 
   /// Where contacts are not looked for the finger can't be.
   void check_reach() const {
-    if (!considered_) return;
-    const std::optional<double> place = not_out_of_reach(boundary_, radius_, *considered_);
+    if (!question_.considered) return;
+    const std::optional<double> place = not_out_of_reach(boundary_, question_.radius, *question_.considered);
     if (!place) return;
     char text[120];
     std::snprintf(text, sizeof text, "the reach leaves out s = %.6g, where the finger may touch", *place);
@@ -123,7 +98,7 @@ class Touches {
   // ---- each stated pose fits ----
 
   void check_set(const CentreTree& tree, std::size_t number) const {
-    const Set& set = sets_[number];
+    const StatedSet& set = question_.sets[number];
     if (set.contacts == nullptr) return;
     const std::string name = "set " + std::to_string(number);
     for (std::size_t axis = 0; set.extent && axis < 3; ++axis) {
@@ -131,36 +106,42 @@ class Touches {
       if (!(*set.extent)[axis].holds({set.pose[axis], set.pose[axis]}, slack))
         refuse(name + ": its pose is outside of it");
     }
-    if (set.contacts->size() != touches_.size()) refuse(name + " has not one contact for each touch");
+    if (set.contacts->size() != touches_.size()) refuse(name + " has not one contact for each roll and touch");
     for (std::size_t k = 0; k < touches_.size(); ++k) {
-      check_contact(tree, set, touches_[k], set.contacts->at(k), name + ", touch " + std::to_string(k));
+      check_contact(tree, set, touches_[k], set.contacts->at(k), name + ", " + question_.name_of(k));
     }
   }
 
-  void check_contact(const CentreTree& tree, const Set& set, const SoughtTouch& touch, const Json& stated,
+  void check_contact(const CentreTree& tree, const StatedSet& set, const SoughtTouch& touch, const Json& stated,
                      const std::string& name) const {
     const Place place = document_.place_at(stated.at("at"));
     if (!document_.is_as_far(place.s, number(stated.at("s")))) refuse(name + " is elsewhere");
     const Ball direction = direction_at(document_, tree, place, number(stated.at("tangent")), name);
-    if (!is_considered(boundary_, considered_, place, number(stated.at("tangent")))) refuse(name + " is out of reach");
+    if (!is_considered(boundary_, question_.considered, place, number(stated.at("tangent"))))
+      refuse(name + " is out of reach");
     const Point point = boundary_.position(place);
-    const Ball x = point.x + radius_ * sin(direction);
-    const Ball y = point.y - radius_ * cos(direction);
+    const Ball x = point.x + question_.radius * sin(direction);
+    const Ball y = point.y - question_.radius * cos(direction);
     const Ball c = cos(Ball(set.pose[2]));
     const Ball s = sin(Ball(set.pose[2]));
     const Ball dx = set.pose[0] + c * x - s * y - touch.x;
     const Ball dy = set.pose[1] + s * x + c * y - touch.y;
-    require_off(length_of(dx, dy), touch.length, kLengthSlack * size_, number(stated.at("off").at(0)), name);
+    if (touch.has_place) {
+      require_off(length_of(dx, dy), touch.length, kLengthSlack * size_, number(stated.at("off").at(0)), name);
+    }
+    if (touch.starts != nullptr && !touch.starts->may_start(place, direction)) {
+      refuse(name + " starts a roll that its readings contradict");
+    }
     if (!touch.tangent) return;
     const Ball turn = to_nearest_turn(Ball(*touch.tangent) - direction - set.pose[2]);
-    require_off(turn, touch.angle, kTurnSlack, Ball(mirrored(1)) * number(stated.at("off").at(1)), name);
+    require_off(turn, touch.angle, kTurnSlack, Ball(question_.mirrored(1)) * number(stated.at("off").at(1)), name);
   }
 
   // ---- there is no other ----
 
   void cover(CentreTree& tree, Verdict& verdict) const {
     std::vector<PoseBox> listed;
-    for (const Set& set : sets_) {
+    for (const StatedSet& set : question_.sets) {
       if (set.extent) listed.push_back(*set.extent);
     }
     std::optional<LeftOpen> open;
@@ -176,25 +157,27 @@ class Touches {
     verdict.unproved = covered.undecided;
     verdict.open = covered.open;
     if (!open) return;
-    verdict.open_touch = open->touch;
+    verdict.open_contact = question_.name_of(open->touch);
     for (const Interval& arc : open->arcs) verdict.share = std::min(verdict.share + arc.width() / period_, 1.0);
   }
 
   std::string unlisted(const std::array<double, 3>& pose) const {
     char text[160];
+    if (!question_.any_place) {
+      std::snprintf(text, sizeof text, "the heading %.6g rad fits and is in no set", question_.mirrored(pose[2]));
+      return text;
+    }
     std::snprintf(text, sizeof text, "the pose x %.6g, y %.6g, heading %.6g rad fits and is in no set",
-                  mirrored(pose[0]), pose[1], mirrored(pose[2]));
+                  question_.mirrored(pose[0]), pose[1], question_.mirrored(pose[2]));
     return text;
   }
 
   const Document& document_;
   const Boundary& boundary_;
   double period_;
-  bool is_mirrored_;
-  double radius_;
-  std::optional<Considered> considered_;
-  std::vector<SoughtTouch> touches_;
-  std::vector<Set> sets_;
+  TouchQuestion question_;
+  std::vector<SoughtTouch> touches_;  // of the question, rolls with where they can have started
+  std::vector<std::unique_ptr<RollStarts>> starts_;
   double size_ = 0;  // of the largest coordinate
 };
 

@@ -17,6 +17,7 @@
 //   y +- b, phi +- h: the box. A touch may have its contact on a node if
 //                     |y + R(-phi) v_i - c| <= |b| + 2 |v_i| sin(h / 2) + rho + delta_i
 //                     |tau_i - theta - phi| <= w + eps_i + h, modulo turns
+//                   and, of a roll, if it can have started somewhere on the node: RollStarts
 // Follows docs/certificates.md, "Touches": where a touch has no node left, no pose of the box fits.
 // Idea: poses are halved, not places. In one pose touches have nothing to do with each other, so that boxes decide what
 // pairs of places leave open; and a box inside a listed set needs no more looking at, however large the set is.
@@ -30,6 +31,8 @@ constexpr double kLeast = 2e-3;
 constexpr double kNodeShare = 0.7;
 constexpr double kRoundings = 1e-13;
 constexpr double kAngleRounding = 1e-14;
+// Parts of a node that are looked at for one where a roll can have started.
+constexpr int kMostLooks = 200;
 // One node beside one box, in expansions; a box.
 constexpr double kComparison = 1e-3;
 constexpr double kBox = 4e-3;
@@ -57,18 +60,21 @@ PoseSearch::PoseSearch(CentreTree& tree, std::vector<SoughtTouch> touches, std::
                        std::optional<LeftOpen> open)
     : tree_(tree), touches_(std::move(touches)), listed_(std::move(listed)), open_(std::move(open)) {
   double largest = 0;
+  double count = 0;
+  for (const SoughtTouch& touch : touches_) count += touch.has_place ? 1 : 0;
   for (const SoughtTouch& touch : touches_) {
-    x_ += touch.x / static_cast<double>(touches_.size());
-    y_ += touch.y / static_cast<double>(touches_.size());
-    largest = std::max({largest, std::abs(touch.x), std::abs(touch.y)});
+    if (!touch.has_place) continue;
+    x_ += touch.x / count;
+    y_ += touch.y / count;
+    largest = std::max({largest, std::abs(touch.x), std::abs(touch.y), touch.length});
   }
   for (SoughtTouch& touch : touches_) {
-    touch.x -= x_;
-    touch.y -= y_;
+    touch.x = touch.has_place ? touch.x - x_ : 0;
+    touch.y = touch.has_place ? touch.y - y_ : 0;
   }
   const CentreTree::Node& root = tree_.node(tree_.root());
   const double part = std::hypot(root.x, root.y) + root.radius;
-  rounding_ = kRoundings * (4 * largest + part + touches_.front().length);
+  rounding_ = kRoundings * (4 * largest + part);
 }
 
 Covered PoseSearch::run() {
@@ -78,12 +84,19 @@ Covered PoseSearch::run() {
   for (std::size_t k = 0; k < touches_.size(); ++k) lists.emplace_back(k, k + 1);
   const CentreTree::Node& root = tree_.node(tree_.root());
   double reach = std::numeric_limits<double>::infinity();
+  bool any_place = false;
   for (const SoughtTouch& touch : touches_) {
+    if (!touch.has_place) continue;
+    any_place = true;
     reach = std::min(reach, root.radius + touch.length + std::hypot(touch.x, touch.y));
+  }
+  const double half = 0.5 * kTurn * (1 + kAngleRounding);
+  if (!any_place) {  // only headings
+    visit({Interval{0, 0}, {0, 0}, {-half, half}}, lists);
+    return covered_;
   }
   reach += 2 * rounding_;
   if (!(reach < std::numeric_limits<double>::infinity())) refuse("an outline without a size");
-  const double half = 0.5 * kTurn * (1 + kAngleRounding);
   visit({Interval{root.x - reach, root.x + reach}, {root.y - reach, root.y + reach}, {-half, half}}, lists);
   return covered_;
 }
@@ -107,7 +120,7 @@ PoseSearch::View PoseSearch::view(const PoseBox& box) const {
 
 double PoseSearch::node_size(std::size_t touch, const CentreTree::Node& node) const {
   const SoughtTouch& one = touches_[touch];
-  const double place = node.radius / one.length;
+  const double place = one.has_place ? node.radius / one.length : 0;
   return one.tangent ? std::max(place, node.half_turn / one.angle) : place;
 }
 
@@ -116,7 +129,7 @@ bool PoseSearch::may_hold(const View& view, std::size_t touch, const CentreTree:
   const double dx = view.x + view.cosine * one.x + view.sine * one.y - node.x;
   const double dy = view.y + view.cosine * one.y - view.sine * one.x - node.y;
   const double reach = view.place + view.swing * std::hypot(one.x, one.y) + node.radius + one.length + rounding_;
-  if (dx * dx + dy * dy > reach * reach) return false;
+  if (one.has_place && dx * dx + dy * dy > reach * reach) return false;
   if (!one.tangent) return true;
   const double most = node.half_turn + one.angle + view.half + kAngleRounding * (2 + std::abs(node.angle));
   return !(std::abs(nearest(*one.tangent - node.angle - view.heading)) > most);
@@ -125,7 +138,7 @@ bool PoseSearch::may_hold(const View& view, std::size_t touch, const CentreTree:
 /// The nodes of a list that may hold a touch's contact, halved down to the size of the box, as a new list.
 bool PoseSearch::narrow(const View& view, std::size_t touch, List& list) {
   const SoughtTouch& one = touches_[touch];
-  const double place = (view.place + view.swing * std::hypot(one.x, one.y)) / one.length;
+  const double place = one.has_place ? (view.place + view.swing * std::hypot(one.x, one.y)) / one.length : 0;
   const double size = kNodeShare * (one.tangent ? std::max(place, view.half / one.angle) : place);
   const std::size_t top = stack_.size();
   waiting_.assign(stack_.begin() + static_cast<std::ptrdiff_t>(list.first),
@@ -135,7 +148,9 @@ bool PoseSearch::narrow(const View& view, std::size_t touch, List& list) {
     const int index = waiting_.back();
     waiting_.pop_back();
     if (!may_hold(view, touch, tree_.node(index))) continue;
-    if (!(node_size(touch, tree_.node(index)) <= size)) {
+    const double spread = one.starts != nullptr ? one.starts->on(index).spread : 0;
+    if (one.starts != nullptr && !one.starts->on(index).may_start) continue;
+    if (!(std::max(node_size(touch, tree_.node(index)), spread) <= size)) {
       const auto [left, right] = tree_.halves(index);
       if (left != right) {
         waiting_.push_back(left);
@@ -179,24 +194,59 @@ bool PoseSearch::is_open(const List& list) const {
                      });
 }
 
+/// Whether every contact of a node fits a pose for certain.
+bool PoseSearch::fits_all_on(const View& view, std::size_t touch, int index) {
+  const SoughtTouch& one = touches_[touch];
+  const CentreTree::Node& node = tree_.node(index);
+  if (one.starts != nullptr && !one.starts->on(index).all_start) return false;
+  const double x = view.x + view.cosine * one.x + view.sine * one.y;
+  const double y = view.y + view.cosine * one.y - view.sine * one.x;
+  const double far = std::hypot(x - node.x, y - node.y) + node.radius + rounding_;
+  if (one.has_place && !(far <= one.length)) return false;
+  if (!one.tangent) return true;
+  const double off = std::abs(nearest(*one.tangent - node.angle - view.heading));
+  return off + node.half_turn + kAngleRounding * (2 + std::abs(node.angle)) <= one.angle;
+}
+
+/// Whether some contact of a node fits a pose for certain. A roll may start on much less than the node.
+bool PoseSearch::fits_on(const View& view, std::size_t touch, int index) {
+  RollStarts* starts = touches_[touch].starts;
+  waiting_.assign(1, index);
+  for (int looks = 0; looks < kMostLooks && !waiting_.empty(); ++looks) {
+    Budget::spend(kComparison);
+    const int node = waiting_.back();
+    waiting_.pop_back();
+    if (fits_all_on(view, touch, node)) return true;
+    if (starts == nullptr || !starts->on(node).may_start || !may_hold(view, touch, tree_.node(node))) continue;
+    const auto [left, right] = tree_.halves(node);
+    if (left == right) continue;
+    waiting_.push_back(left);
+    waiting_.push_back(right);
+  }
+  return false;
+}
+
 /// Whether the pose in the middle of a box fits for certain.
-bool PoseSearch::fits_in_the_middle(const View& view, const std::vector<List>& lists) const {
+bool PoseSearch::fits_in_the_middle(const View& view, const std::vector<List>& lists) {
   for (std::size_t touch = 0; touch < touches_.size(); ++touch) {
-    const SoughtTouch& one = touches_[touch];
-    const double x = view.x + view.cosine * one.x + view.sine * one.y;
-    const double y = view.y + view.cosine * one.y - view.sine * one.x;
-    const auto fits = [&](int index) {
-      const CentreTree::Node& node = tree_.node(index);
-      if (!(std::hypot(x - node.x, y - node.y) + node.radius + rounding_ <= one.length)) return false;
-      if (!one.tangent) return true;
-      const double off = std::abs(nearest(*one.tangent - node.angle - view.heading));
-      return off + node.half_turn + kAngleRounding * (2 + std::abs(node.angle)) <= one.angle;
-    };
-    const auto from = stack_.begin() + static_cast<std::ptrdiff_t>(lists[touch].first);
-    const auto to = stack_.begin() + static_cast<std::ptrdiff_t>(lists[touch].second);
-    if (std::none_of(from, to, fits)) return false;
+    const auto [from, to] = lists[touch];
+    bool fits = false;
+    for (std::size_t k = from; k < to && !fits; ++k) fits = fits_on(view, touch, stack_[k]);
+    if (!fits) return false;
   }
   return true;
+}
+
+/// How large a box is beside the tolerances: its places, and its headings.
+std::array<double, 2> PoseSearch::sizes(const View& view) const {
+  double place = 0;
+  double turn = 0;
+  for (const SoughtTouch& touch : touches_) {
+    if (touch.has_place) place = std::max(place, view.place / touch.length);
+    if (touch.has_place) turn = std::max(turn, view.half * std::hypot(touch.x, touch.y) / touch.length);
+    if (touch.tangent) turn = std::max(turn, view.half / touch.angle);
+  }
+  return {place, turn};
 }
 
 void PoseSearch::visit(const PoseBox& box, const std::vector<List>& lists) {
@@ -217,16 +267,10 @@ void PoseSearch::visit(const PoseBox& box, const std::vector<List>& lists) {
     stack_.resize(top);
     return;
   }
-  double place = 0;
-  double turn = 0;
-  for (const SoughtTouch& touch : touches_) {
-    place = std::max(place, at.place / touch.length);
-    turn = std::max(turn, at.half * std::hypot(touch.x, touch.y) / touch.length);
-    if (touch.tangent) turn = std::max(turn, at.half / touch.angle);
-  }
+  const auto [place, turn] = sizes(at);
   if (std::max(place, turn) <= kLeast) {
     const View middle = view({Interval{at.x, at.x}, {at.y, at.y}, {at.heading, at.heading}});
-    if (!is_listed(middle) && fits_in_the_middle(at, own)) {
+    if (!is_listed(middle) && fits_in_the_middle(middle, own)) {
       covered_.unlisted = {x_ - (at.cosine * at.x - at.sine * at.y), y_ - (at.sine * at.x + at.cosine * at.y),
                            at.heading};
     } else {

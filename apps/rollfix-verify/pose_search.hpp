@@ -8,19 +8,22 @@
 #include <vector>
 
 #include "centre_tree.hpp"
+#include "roll_starts.hpp"
 
 namespace rollfix_verify {
 
-/// A touch in the world, and how far it may be off.
+/// A touch in the world, or a roll's first contact, and how far it may be off.
 struct SoughtTouch {
   double x = 0;  // of the finger's centre
   double y = 0;
+  bool has_place = true;            // false: where the centre was is not known
   std::optional<double> tangent{};  // of the part in the world, radians; none: not measured
   double length = 0;                // tolerances: of the centre, ...
   double angle = 0;                 // ... and of the tangent, radians
+  RollStarts* starts = nullptr;     // of a roll: where it can have started; not owned
 };
 
-/// Poses: x, y and the heading, in radians.
+/// Poses: x, y and the heading, in radians. Where no contact has a place, x and y are 0 and tell nothing.
 using PoseBox = std::array<Interval, 3>;
 
 /// All poses whose contact of one touch is on some arcs.
@@ -63,7 +66,10 @@ class PoseSearch {
   double node_size(std::size_t touch, const CentreTree::Node& node) const;
   bool is_listed(const View& view) const;
   bool is_open(const List& list) const;
-  bool fits_in_the_middle(const View& view, const std::vector<List>& lists) const;
+  bool fits_in_the_middle(const View& view, const std::vector<List>& lists);
+  bool fits_on(const View& view, std::size_t touch, int index);
+  bool fits_all_on(const View& view, std::size_t touch, int index);
+  std::array<double, 2> sizes(const View& view) const;
 
   CentreTree& tree_;
   std::vector<SoughtTouch> touches_;

@@ -210,6 +210,11 @@ Report advise_on_catalog(const AdviseArguments& arguments) {
 
 Report advise_report(const AdviseArguments& arguments) {
   const RollArguments& roll = arguments.roll;
+  if (roll.roll == "all") {
+    throw InputError(
+        "advise: --roll all: the next touch is advised after touches alone, the next roll after one roll; give --touch "
+        "alone, or one roll with --roll N");
+  }
   if (arguments.catalog.empty() && are_touches(arguments.touches, roll)) {
     if (!arguments.travel.empty())
       throw InputError("--travel: touches do not roll and have no use for it; leave it out");

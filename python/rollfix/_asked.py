@@ -93,8 +93,8 @@ class Asked(Shape):
             angle), or `tolerance` as (length, angle), `heading`, `pose`, `mirrored`, `budget` and `clear`. With `log` and
             roll='all' both.
         clear : array_like, (n, 4), optional
-            With touches: (x, y, x, y), from where to where the finger's centre went straight and felt nothing. Poses in
-            which the part is in the way are left out.
+            With touches, or several rolls that have x and y: (x, y, x, y), from where to where the finger's centre went
+            straight and felt nothing. Poses in which the part is in the way are left out.
         finger : Disk, Jaw, OutlineFinger, or two of them
             For logs of u and psi; and what it can't reach is dropped. One serves both of two.
         noise : Noise or dict, optional

@@ -9,16 +9,18 @@ from typing import TYPE_CHECKING, Any, Dict, Iterable, Iterator, List, Optional,
 from . import _cluster, _core
 from ._answer import Answer
 from ._catalog_sources import sources_from
-from ._checks import path as path_given, travel as travel_given, unit_of_length, whole
+from ._checks import flag, path as path_given, travel as travel_given, unit_of_length, whole
 from ._core import InputError
 from ._documents import Document, rolled
+from ._fingers import fingers
 from ._identified import Identified, answers_of
+from ._kinds import all_rolls
 from ._log_answers import Results, checked, errors_given, several
 from ._logs import Log
 from ._made import Made
 from ._messages import did_you_mean, shown, warn
 from ._noise import NoiseLike
-from ._options import PartsOptions, TouchOptions, keywords, names_of, require_only
+from ._options import PartsOptions, Read, TouchOptions, keywords, names_of, require_only
 from ._part import Part
 from ._progress import Progress
 from ._question import Question, refused, require_one_roll
@@ -199,7 +201,8 @@ class Catalog(Made):
             The roll, as of `Part.locate`, in the catalog's unit.
         touches, clear
             Instead: touches without rolling, and where nothing was felt, as of `Part.locate`, with `finger`, `noise` or
-            `tolerance`, `heading`, `pose`, `mirrored` and `budget`. Each part's `answer` is a `TouchAnswer`.
+            `tolerance`, `heading`, `pose`, `mirrored` and `budget`. Each part's `answer` is a `TouchAnswer`. With `log` and
+            roll='all' both: the rolls of the log, or of a list of logs, and the touches share the part's pose.
         threads : int
             0: as many as there are processors. Any number gives the same bits.
 
@@ -213,8 +216,18 @@ class Catalog(Made):
             What can't be meant; the message names the argument.
         """
         count, given = whole(threads, "threads"), dict(options)
-        if touches is not None:
-            return self._touched(touches, {"readings": readings, "log": log}, {"turn": turn, **given}, count)
+        if given.get("roll") == "all":
+            rolls = all_rolls(self.unit, {"readings": readings, "turn": turn, "log": log, "touches": touches}, given)
+            if touches is not None or len(rolls) > 1:
+                return self._touched(touches, given, count, rolls)
+            log = rolls[0]
+            given = {name: value for name, value in given.items() if name not in ("roll", *names_of(Read))}
+        elif touches is not None:
+            if log is not None:
+                raise InputError("log: shares a pose with `touches` where roll='all': add it")
+            asked = {"readings": readings, "turn": turn, **given}
+            require_only(TouchOptions, asked, "touches do not roll and have no use for it")
+            return self._touched(touches, given, count)
         if given.pop("clear", None) is not None:
             raise InputError("clear: is about touches: give them as `touches`, or leave it out")
         problem, read = self._asked(readings, turn, log, given)
@@ -324,22 +337,22 @@ class Catalog(Made):
             raise refused(error, log) from None
         return Identified(text, answers_of(found, log))
 
-    def _touched(self, touches: Any, rolls: Dict[str, Any], options: Dict[str, Any], threads: int) -> Identified:
-        for name, value in rolls.items():
-            if value is not None:
-                raise InputError(f"{name}: a part is identified by `touches` or by one roll: leave one of them out")
-        require_only(TouchOptions, options, "touches do not roll and have no use for it")
+    def _touched(self, touches: Any, options: Dict[str, Any], threads: int, rolls: Sequence[Log] = ()) -> Identified:
         if len(self) == 0:
             raise InputError(f"{self.path}: the catalog has no parts")
-        asked = asked_of(touches, {name: value for name, value in options.items() if name in names_of(TouchOptions)})
+        *most, paths = asked_of(touches, {name: value for name, value in options.items() if name in names_of(TouchOptions)})
+        cores = tuple(one._in_unit(self.unit, fingers(options.get("finger"), most=1)) for one in rolls)
+        robust = flag(options.get("robust", False), "robust")
         try:
-            text, found = self._core.identify_touches(*[*asked, threads])
+            text, found = self._core.identify_touches(
+                *most, [one._core for one in cores], robust, paths, threads
+            )
         except InputError as error:
             raise InputError(in_python(str(error))) from None
-        *most, paths = asked
         names = {entry.id: entry.name for entry in self._entries}
         answers = {
-            part: TouchAnswer((self.part(names[part]), *most, (), False, paths, False), answer) for part, answer in found
+            part: TouchAnswer((self.part(names[part]), *most, cores, robust, paths, False), answer)
+            for part, answer in found
         }
         return Identified(text, answers)
 

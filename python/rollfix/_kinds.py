@@ -19,7 +19,7 @@ def answer_to(part: Any, given: Mapping[str, Any], options: Mapping[str, Any]) -
     """The answer to a question of whichever kind. `given`: readings, turn, log and touches."""
     sources, options = dict(given), dict(options)
     if options.get("roll") == "all":
-        rolls = _all_rolls(part, sources, options)
+        rolls = all_rolls(part.unit, sources, options)
         del options["roll"]
         if sources["touches"] is not None or len(rolls) > 1:
             return located(part, sources["touches"], rolls=rolls, **filled(_taken(options, RestOptions), RestOptions))
@@ -46,9 +46,10 @@ def _taken(options: Mapping[str, Any], kind: Any) -> Dict[str, Any]:
     return {name: options[name] for name in names_of(kind) if name in options}
 
 
-def _all_rolls(part: Any, sources: Mapping[str, Any], options: Mapping[str, Any]) -> Any:
+def all_rolls(unit: str, sources: Mapping[str, Any], options: Mapping[str, Any]) -> Any:
+    """The rolls of roll='all', in a part's unit; what is of one roll is refused."""
     others = {name: value for name, value in {**sources, **options}.items() if name not in ("log", "touches", "roll")}
-    of_others = {name: others.pop(name) for name in ("clear", "squeezed") if name in others}
+    of_others = {name: others.pop(name) for name in ("squeezed",) if name in others}
     require_only(RestOptions, of_others, "is not taken with roll='all'")
     require_only(RestOptions, others, "is of one roll, found roll='all'")
     if sources["log"] is None:
@@ -56,7 +57,7 @@ def _all_rolls(part: Any, sources: Mapping[str, Any], options: Mapping[str, Any]
     naming = Naming(
         options.get("columns"), options.get("units"), options.get("degrees", False), options.get("wrapped")
     )
-    return rolls_of(sources["log"], naming, part.unit)
+    return rolls_of(sources["log"], naming, unit)
 
 
 def _of_touches(part: Any, sources: Mapping[str, Any], options: Mapping[str, Any]) -> TouchAnswer:

@@ -54,6 +54,7 @@ class RestOptions(Measured, Lies, Read, total=False):
 
     tolerance: Union[float, Tuple[float, float], None]
     robust: bool
+    clear: Any
 
 
 class HoldOptions(Measured, Read, total=False):
@@ -95,12 +96,12 @@ class Rolled(Rolling, total=False):
     noise: NoiseLike
     budget: Optional[int]
     at: Any
-    roll: Optional[int]
 
 
 class LogOptions(Rolled, total=False):
     """Of rolls with logs."""
 
+    roll: Optional[int]
     tolerance: Optional[float]
     prior: Optional[Tuple[float, float]]
 
@@ -113,8 +114,9 @@ class RollOptions(LogOptions, total=False):
 
 
 class PartsOptions(Rolled, total=False):
-    """Of a roll on any of many parts, where it can't be said where it started; or of touches."""
+    """Of a roll on any of many parts, where it can't be said where it started; or of touches, or of several rolls."""
 
+    roll: Union[int, str, None]
     tolerance: Any
     facing: Optional[float]
     rounding: Optional[Tuple[float, float]]

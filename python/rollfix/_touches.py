@@ -80,7 +80,8 @@ class TouchAnswer(Listing):
     def certify(self, file: Any = None, budget: Optional[int] = None) -> Dict[str, Any]:
         """The proof that there is no other pose: the document that `rollfix-verify` checks with code of its own.
 
-        Of an answer to two touches or more, without rolls. A RollfixWarning says where something is left unproved.
+        Of an answer to two contacts or more: touches, or rolls without noise. A RollfixWarning says where something is
+        left unproved.
         docs/certificates.md says what is proved.
 
         Parameters

@@ -175,7 +175,7 @@ def test_a_part_without_a_placement_has_a_row_of_the_frame(catalog):
 
 
 def test_touches_and_a_roll_are_two_questions(catalog, roll):
-    with pytest.raises(rollfix.InputError, match="by `touches` or by one roll"):
+    with pytest.raises(rollfix.InputError, match="shares a pose with `touches` where roll='all'"):
         catalog.identify(touches=TOUCHES, log=roll, noise={"position": 0.005})
     with pytest.raises(rollfix.InputError, match="facing: touches do not roll"):
         catalog.identify(touches=TOUCHES, facing=1.0, noise={"position": 0.005})

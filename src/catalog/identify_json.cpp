@@ -75,16 +75,24 @@ std::string format_identified(const Catalog& catalog, const IdentifiedByTouches&
     parts.push_back(part_json(catalog, one.part, one.probability, one.answer.verdict_text(), one.congruent,
                               pose_sets_json(one.answer)));
   }
+  Json rolls = Json::array();
+  std::size_t samples = found.touches.size();
+  for (const RollGiven& roll : found.rolls) {
+    samples += roll.rows;
+    rolls.push_back(
+        {{"name", roll.name}, {"rows", roll.rows}, {"lines", roll.lines.empty() ? Json(nullptr) : Json(roll.lines)}});
+  }
   const Json document = {{"schema", kSchema},
                          {"status", name_of(found.status)},
                          {"verdict", found.verdict},
                          {"catalog", catalog_json(catalog, found.asked, found.searched)},
+                         {"rolls", rolls},
                          {"radius", json_number(found.radius)},
                          {"touches", touches_json(found.touches, found.tolerance)},
                          {"clear", clear_json(found.clear)},
                          {"noise", found.noise ? noise_json(*found.noise) : Json(nullptr)},
                          {"mirrored", found.mirrored},
-                         {"samples", found.touches.size()},
+                         {"samples", samples},
                          {"parts", parts},
                          {"rest", found.noise ? json_number(found.rest) : Json(nullptr)},
                          {"undecided", names_json(catalog, found.undecided)},

@@ -2,16 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
 #include "answer/crew.hpp"
+#include "belief/posterior.hpp"
+#include "bounds/bounds.hpp"
 #include "bounds/touch_bounds.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/pulse.hpp"
 #include "text/text.hpp"
 #include "touch/measured.hpp"
+#include "touch/mirror_poses.hpp"
 #include "touch/requirements.hpp"
+#include "touch/roll_contacts.hpp"
 #include "weights.hpp"
 
 namespace rollfix {
@@ -42,6 +47,7 @@ std::string words_for_poses(const PartWeight& weight) {
   return weight.places == 1 ? "unique pose" : counted(weight.places, "pose", "poses");
 }
 const Wording kOfTouches{&words_for_poses, ", but the touches contradict the stated noise"};
+const Wording kOfContacts{&words_for_poses, ", but the measurements contradict the stated noise"};
 
 PartWeight weight_of(std::size_t part, const TouchAnswer& answer) {
   PartWeight weight;
@@ -71,12 +77,20 @@ Likeness likeness_of(const TouchProblem& like, const std::vector<TouchTolerance>
       likeness.roll = std::max(likeness.roll, (other.at - one.at).norm());
     }
   }
+  for (const Log& roll : like.rolls) {
+    const Likeness of_roll = likeness_of(touch::alone(like, roll));
+    likeness.length = std::min(likeness.length, of_roll.length);
+    likeness.roll = std::max(likeness.roll, of_roll.roll);
+    if (like.touches.empty()) likeness.turn = of_roll.turn;
+  }
   return likeness;
 }
 
 /// Throws InputError: what no part could take.
 void require_valid(const Catalog& catalog, const TouchProblem& like) {
-  if (!like.rolls.empty()) throw InputError("identify: expected touches alone, or one roll, found both");
+  if (like.rolls.size() == 1 && like.touches.empty()) {
+    throw InputError("identify: expected several rolls, or touches, found one roll: give it as a Problem");
+  }
   std::size_t largest = 0;
   for (std::size_t k = 1; k < catalog.size(); ++k) {
     if (catalog.entry(k).perimeter > catalog.entry(largest).perimeter) largest = k;
@@ -88,12 +102,34 @@ void require_valid(const Catalog& catalog, const TouchProblem& like) {
 
 IdentifiedByTouches touches_of(const TouchProblem& like) {
   IdentifiedByTouches found;
+  for (const Log& roll : like.rolls) {
+    const std::vector<std::size_t>& line = roll.fingers.front().line;
+    found.rolls.push_back({roll.name, {}, roll.rows()});
+    if (!line.empty()) found.rolls.back().lines = {line.front(), line.back()};
+  }
   found.touches = like.touches;
   found.clear = like.clear;
   found.radius = touch::radius_of(like);
   found.noise = like.noise;
   found.mirrored = like.mirrored;
   return found;
+}
+
+/// Those of the parts that no touches and no roll by itself rule out, with so many times the noise of rolls. With
+/// outliers among the rows no roll does.
+std::vector<std::size_t> parts_left(const Catalog& catalog, const TouchProblem& like, double excess,
+                                    const IdentifyOptions& options, std::vector<std::size_t> parts) {
+  if (!options.use_index) return parts;
+  std::vector<std::size_t> left = TouchBounds(catalog, like).left_of(parts, options);
+  if (like.robust) return left;
+  const TouchProblem seen = like.mirrored ? touch::in_mirror(like) : like;
+  for (const Log& roll : seen.rolls) {
+    const std::vector<PartLeft> of_roll = Bounds(catalog, touch::alone(seen, roll), excess).left_of(left, options);
+    left.clear();
+    for (const PartLeft& one : of_roll) left.push_back(one.part);
+    std::sort(left.begin(), left.end());
+  }
+  return left;
 }
 
 /// Solves the parts that are left.
@@ -106,6 +142,24 @@ std::vector<TouchOutcome> touch_outcomes_of(const Catalog& catalog, const TouchP
   });
   crew.require_done();
   return outcomes;
+}
+
+bool any_fits_well(const std::vector<TouchOutcome>& outcomes) {
+  return std::any_of(outcomes.begin(), outcomes.end(), [](const TouchOutcome& one) {
+    return one.answer && !one.answer->poses.empty() && !one.answer->verdict.fits_badly;
+  });
+}
+
+/// The other parts that may be it where rows are noisier than stated, up to where nothing is said to fit.
+void look_widely(const Catalog& catalog, const TouchProblem& like, const IdentifyOptions& options,
+                 const std::vector<std::size_t>& parts, std::vector<TouchOutcome>& outcomes,
+                 IdentifiedByTouches& found) {
+  std::vector<std::size_t> others;
+  const std::vector<std::size_t> wide = parts_left(catalog, like, belief::kMostExcess, options, parts);
+  std::set_difference(wide.begin(), wide.end(), found.left.begin(), found.left.end(), std::back_inserter(others));
+  for (TouchOutcome& one : touch_outcomes_of(catalog, like, options, others)) outcomes.push_back(std::move(one));
+  found.left.insert(found.left.end(), others.begin(), others.end());
+  found.searched = found.left.size();
 }
 
 /// The parts that something fits on, as one verdict.
@@ -130,8 +184,11 @@ void take(const Catalog& catalog, const TouchProblem& like, std::vector<TouchOut
   }
   if (!found.refused.empty() && found.refused.size() == found.searched) throw InputError(found.refused.front().why);
   found.left = std::move(remaining);
-  const Conclusion conclusion =
-      conclude(catalog, weights, weights.size(), likeness_of(like, found.tolerance), kOfTouches);
+  // Rolls may be ruled out whose rows are far off, but not as far as to fit nowhere: whether they were or not, `rest`
+  // has all parts.
+  const bool has_rolls = !like.rolls.empty();
+  const Conclusion conclusion = conclude(catalog, weights, has_rolls ? found.asked : weights.size(),
+                                         likeness_of(like, found.tolerance), has_rolls ? kOfContacts : kOfTouches);
   found.verdict = conclusion.verdict;
   found.rest = conclusion.rest;
   for (const std::size_t k : conclusion.order) {
@@ -165,14 +222,17 @@ IdentifiedByTouches identify(const Catalog& catalog, const TouchProblem& asked, 
     std::iota(parts.begin(), parts.end(), std::size_t{0});
   }
   found.asked = parts.size();
-  found.left = options.use_index ? TouchBounds(catalog, like).left_of(parts, options) : parts;
+  found.left = parts_left(catalog, like, 1, options, parts);
   found.searched = found.left.size();
   if (found.left.size() > options.most_searched) {
     found.counted = true;
     found.verdict = counted(found.left.size(), "part", "parts");
     return found;
   }
-  take(catalog, like, touch_outcomes_of(catalog, like, options, found.left), found);
+  std::vector<TouchOutcome> outcomes = touch_outcomes_of(catalog, like, options, found.left);
+  if (like.noise && !like.rolls.empty() && !any_fits_well(outcomes))
+    look_widely(catalog, like, options, parts, outcomes, found);
+  take(catalog, like, std::move(outcomes), found);
   return found;
 }
 

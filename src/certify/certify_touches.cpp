@@ -1,5 +1,8 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -19,7 +22,7 @@ TouchProblem asked(const TouchAnswer& answer, std::optional<std::size_t> budget)
   TouchProblem problem{answer.part, answer.touches};
   if (answer.radius > 0) problem.finger = disk(answer.radius);
   problem.noise = answer.noise;
-  if (!problem.noise) problem.tolerance = answer.tolerance.front();
+  if (!problem.noise) problem.tolerance = answer.tolerance.back();  // of a touch, if there is one
   problem.mirrored = answer.mirrored;
   problem.budget = budget;
   return problem;
@@ -36,25 +39,68 @@ struct Margin {
   Vec2 about = Vec2::Zero();
 };
 
+/// What tells a pose: where a centre was, if that is known, and whether a normal.
+struct Told {
+  std::optional<Vec2> at;
+  bool normal = false;
+};
+
+std::vector<Told> told_by(const TouchAnswer& answer) {
+  std::vector<Told> told;
+  for (const RollFacts& roll : answer.rolls) told.push_back({roll.searched.at, true});
+  for (const MeasuredTouch& touch : answer.touches) told.push_back({touch.at, touch.normal.has_value()});
+  return told;
+}
+
 Margin margin_of(const TouchAnswer& answer) {
+  const std::vector<Told> told = told_by(answer);
+  const auto count = std::count_if(told.begin(), told.end(), [](const Told& one) { return one.at.has_value(); });
   Margin margin;
-  for (const MeasuredTouch& touch : answer.touches) {
-    margin.about += touch.at / static_cast<double>(answer.touches.size());
+  for (const Told& one : told) {
+    if (one.at) margin.about += *one.at / static_cast<double>(count);
   }
   margin.place = margin.turn = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < answer.touches.size(); ++k) {
+  for (std::size_t k = 0; k < told.size(); ++k) {
     const TouchTolerance& tolerance = answer.tolerance[k];
-    const double away = (answer.touches[k].at - margin.about).norm();
+    if (told[k].normal) margin.turn = std::min(margin.turn, kWider * tolerance.angle);
+    if (!told[k].at) continue;
+    const double away = (*told[k].at - margin.about).norm();
     margin.place = std::min(margin.place, kWider * tolerance.length);
     margin.turn = std::min(margin.turn, kWider * tolerance.length / std::max(away, tolerance.length));
-    if (answer.touches[k].normal) margin.turn = std::min(margin.turn, kWider * tolerance.angle);
   }
   return margin;
 }
 
+/// Below it the verifier's doubles decide, radians.
+constexpr double kLeastAngle = 1e-9;
+
+/// Throws InputError: what certificates have no claim for.
+void require_certifiable(const TouchAnswer& answer) {
+  if (answer.contact_count() < 2) {
+    throw InputError(
+        "a certificate of touches: expected at least two contacts, found 1, which leaves all poses along the "
+        "boundary; of one roll without noise certify its readings");
+  }
+  if (answer.rolls.empty()) return;
+  if (answer.noise) {
+    throw InputError(
+        "a certificate of rolls: expected a tolerance, found noise, under which no pose is out of the question: give "
+        "`tolerance` LENGTH,ANGLE in its place");
+  }
+  for (const RollFacts& roll : answer.rolls) {
+    const double angle = 0.5 * roll.searched.tolerance;
+    if (angle >= kLeastAngle) continue;
+    throw InputError(
+        fmt::format("a certificate of rolls: expected a `tolerance` of angles of at least {:.0e} rad, found {:.3g}: "
+                    "give LENGTH,ANGLE",
+                    2 * kLeastAngle, roll.searched.tolerance));
+  }
+}
+
 /// With its extent a little wider.
 CertifiedPose certified(const Part& part, const TouchPose& pose, const Margin& margin, bool listed) {
-  CertifiedPose result{pose, {}, listed, pose.contacts.empty() || touch::is_own(pose)};
+  const bool has_place = !std::isnan(pose.extent[0].lo);
+  CertifiedPose result{pose, {}, listed, pose.contacts.empty() || !has_place || touch::is_own(pose)};
   // The part's origin is no further from the touches than in the extent's corner that is furthest from them.
   const double away = std::hypot(
       std::max(std::abs(pose.extent[0].lo - margin.about.x()), std::abs(pose.extent[0].hi - margin.about.x())),
@@ -82,21 +128,12 @@ std::vector<Interval> widened(std::vector<Interval> arcs, double by, const Bound
 }  // namespace
 
 TouchCertificate certify_touches(const TouchAnswer& answer, std::optional<std::size_t> budget) {
-  if (!answer.rolls.empty()) {
-    throw InputError("a certificate of touches: expected touches alone, found rolls as well: leave them out");
-  }
-  if (answer.touches.size() < 2) {
-    throw InputError(
-        "a certificate of touches: expected at least two, found 1, which leaves all poses along the boundary");
-  }
-  for (const MeasuredTouch& touch : answer.touches) {
-    if (touch.has_place()) continue;
-    throw InputError("a certificate of touches: expected the place of each, found a normal alone: leave it out");
-  }
+  require_certifiable(answer);
   TouchCertificate certificate;
   static_cast<CertifiedOutline&>(certificate) = certified_outline(answer.part);
   certificate.mirrored = answer.mirrored;
   certificate.radius = answer.radius;
+  for (const RollFacts& roll : answer.rolls) certificate.rolls.push_back(roll.searched);
   certificate.touches = answer.touches;
   certificate.tolerance = answer.tolerance;
   if (answer.radius > 0) {
@@ -110,8 +147,9 @@ TouchCertificate certify_touches(const TouchAnswer& answer, std::optional<std::s
   for (const TouchPose& pose : answer.poses) add(pose, true);
   std::vector<Interval> unresolved = answer.unresolved;
   certificate.unresolved_touch = answer.unresolved_touch;
-  if (answer.noise || !answer.clear.empty()) {
-    const TouchAnswer beyond = touch::poses_beyond(asked(answer, budget), answer.poses);
+  if (answer.noise || !answer.clear.empty() || !answer.rolls.empty()) {
+    const TouchAnswer beyond =
+        touch::poses_beyond(asked(answer, budget), certificate.rolls, answer.tolerance, answer.poses);
     for (const TouchPose& pose : beyond.poses) add(pose, false);
     unresolved = beyond.unresolved;  // what could not be weighed is among its sets
     certificate.unresolved_touch = beyond.unresolved_touch;

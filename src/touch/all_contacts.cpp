@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace rollfix::touch {
 
@@ -26,7 +27,8 @@ std::vector<Measured> measured(const TouchProblem& problem) {
   return touches;
 }
 
-AllContacts::AllContacts(const TouchProblem& problem, double radius) : rolls(roll_contacts(problem)) {
+AllContacts::AllContacts(const TouchProblem& problem, double radius, std::vector<RollContact> of_rolls)
+    : rolls(std::move(of_rolls)) {
   for (const RollContact& roll : rolls) each.push_back(roll.measured);
   if (problem.touches.empty()) return;
   path.emplace(problem.part, radius);

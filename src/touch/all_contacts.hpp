@@ -14,7 +14,9 @@ namespace rollfix::touch {
 /// All contacts of a problem as the search takes them, rolls first, with what they point to.
 struct AllContacts {
   /// `radius`: of the finger that touches.
-  AllContacts(const TouchProblem& problem, double radius);
+  AllContacts(const TouchProblem& problem, double radius) : AllContacts(problem, radius, roll_contacts(problem)) {}
+  /// `of_rolls` in place of the problem's.
+  AllContacts(const TouchProblem& problem, double radius, std::vector<RollContact> of_rolls);
   AllContacts(const AllContacts&) = delete;
   AllContacts& operator=(const AllContacts&) = delete;
 

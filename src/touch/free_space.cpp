@@ -15,29 +15,46 @@ constexpr double kRoundingOfDistance = 1e-9;
 constexpr double kLeastStep = 0.1;
 // Cells with wider headings move a path too far to be blocked by them.
 constexpr double kWideHeading = 0.7;
-// A path ends so many of its tolerances before a touch: there the finger meets the part.
-constexpr double kBeforeTouch = 2;
+// A path ends so many of its tolerances before a contact: there the finger meets the part.
+constexpr double kBeforeContact = 2;
 // Beyond so many standard deviations from the part a path is free.
 constexpr double kSurelyFree = 6;
 
-double slack_of(const TouchProblem& problem) {
-  if (!problem.noise) return problem.tolerance->length;
+double slack_of(const TouchProblem& problem, const std::vector<Measured>& contacts) {
+  double most = 0;
+  for (const Measured& contact : contacts) {
+    if (contact.has_place) most = std::max(most, contact.place_most);
+  }
+  if (!problem.noise) return most;
   double sd = problem.noise->position;
   for (const MeasuredTouch& touch : problem.touches) sd = std::max(sd, touch.position_sd.value_or(0));
   return kTouchSigmas * sd;
 }
 
-/// Without its last bit before a touch.
-Clear before_touches(const Clear& path, const TouchProblem& problem, double slack) {
+/// Where the finger's centre was as it met the part, or left it.
+std::vector<Vec2> ends_of_contacts(const TouchProblem& problem) {
+  std::vector<Vec2> ends;
+  for (const MeasuredTouch& touch : problem.touches) ends.push_back(touch.at);
+  for (const Log& roll : problem.rolls) {
+    const FingerRows& rows = roll.fingers.front();
+    if (rows.x.empty()) continue;
+    ends.emplace_back(rows.x.front(), rows.y.front());
+    ends.emplace_back(rows.x.back(), rows.y.back());
+  }
+  return ends;
+}
+
+/// Without its last bit before a contact.
+Clear before_contacts(const Clear& path, const std::vector<Vec2>& contacts, double slack) {
   const Vec2 along = path.to - path.from;
   const double length = along.norm();
-  const auto is_touch = [&](const Vec2& end) {
-    return std::any_of(problem.touches.begin(), problem.touches.end(),
-                       [&](const MeasuredTouch& touch) { return (touch.at - end).norm() <= slack; });
+  const auto is_contact = [&](const Vec2& end) {
+    return std::any_of(contacts.begin(), contacts.end(),
+                       [&](const Vec2& contact) { return (contact - end).norm() <= slack; });
   };
-  const double cut = length > 0 ? std::min(kBeforeTouch * slack / length, 0.5) : 0;
-  const Vec2 from = path.from + (is_touch(path.from) ? cut : 0) * along;
-  const Vec2 to = path.to - (is_touch(path.to) ? cut : 0) * along;
+  const double cut = length > 0 ? std::min(kBeforeContact * slack / length, 0.5) : 0;
+  const Vec2 from = path.from + (is_contact(path.from) ? cut : 0) * along;
+  const Vec2 to = path.to - (is_contact(path.to) ? cut : 0) * along;
   return {from, to};
 }
 
@@ -60,14 +77,16 @@ bool walk(const Clear& path, double least_step, const Look& look) {
 
 }  // namespace
 
-FreeSpace::FreeSpace(const TouchProblem& problem) : part_(problem.part), radius_(radius_of(problem)) {
+FreeSpace::FreeSpace(const TouchProblem& problem, const std::vector<Measured>& contacts)
+    : part_(problem.part), radius_(radius_of(problem)) {
   if (problem.clear.empty()) return;
-  const double slack = slack_of(problem);
+  const double slack = slack_of(problem, contacts);
   sd_ = problem.noise ? slack / kTouchSigmas : 0;
   bound_ = radius_ - slack - kRoundingOfDistance * part_.diagonal();
   least_step_ = kLeastStep * slack;
   if (!problem.part.closed() && bound_ <= 0) return;  // such a path may as well have gone by
-  for (const Clear& path : problem.clear) paths_.push_back(before_touches(path, problem, slack));
+  const std::vector<Vec2> ends = ends_of_contacts(problem);
+  for (const Clear& path : problem.clear) paths_.push_back(before_contacts(path, ends, slack));
 }
 
 bool FreeSpace::is_blocked(const Pose& pose) {

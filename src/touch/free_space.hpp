@@ -15,7 +15,8 @@ namespace rollfix::touch {
 /// finger's radius, but for what the path may be off. Of an open outline only the distance counts: it has no inside.
 class FreeSpace {
  public:
-  explicit FreeSpace(const TouchProblem& problem);
+  /// `contacts`: the problem's. A path may be off as far as their places may.
+  FreeSpace(const TouchProblem& problem, const std::vector<Measured>& contacts);
   FreeSpace(const FreeSpace&) = delete;
   FreeSpace& operator=(const FreeSpace&) = delete;
 
@@ -23,7 +24,7 @@ class FreeSpace {
 
   /// Whether in this pose the part is in the way by more than a path may be off.
   bool is_blocked(const Pose& pose);
-  /// Whether it is in each pose with the first touch on the cell's node: some point of a path is so deep in the part
+  /// Whether it is in each pose with the first contact on the cell's node: some point of a path is so deep in the part
   /// that no pose of the cell sets it free. No pose that is free is lost.
   bool blocks_all(const Cell& cell, const PathTree& tree, const Measured& first);
   void drop_blocked(std::vector<Cell>& cells, const PathTree& tree, const Measured& first);

@@ -2,8 +2,10 @@
 
 #include <array>
 #include <numbers>
+#include <utility>
 
 #include "contact/mirrored.hpp"
+#include "outline/turn.hpp"
 
 namespace rollfix::touch {
 namespace {
@@ -14,6 +16,7 @@ void mirror(RollFacts& roll) {
   for (Vec2& centre : roll.track) centre.x() = -centre.x();
   for (double& length : roll.reading.length) length = -length;
   roll.reading.turn = -roll.reading.turn;
+  roll.searched = in_mirror(std::move(roll.searched));
 }
 
 void mirror(TouchPose& pose) {
@@ -33,6 +36,12 @@ void mirror(TouchPose& pose) {
 }
 
 }  // namespace
+
+RollSearched in_mirror(RollSearched roll) {
+  if (roll.at) roll.at->x() = -roll.at->x();
+  roll.normal = nearest_angle(std::numbers::pi - roll.normal);
+  return roll;
+}
 
 TouchProblem in_mirror(const TouchProblem& problem) {
   TouchProblem result = problem;

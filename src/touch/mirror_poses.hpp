@@ -6,6 +6,8 @@
 namespace rollfix::touch {
 
 TouchProblem in_mirror(const TouchProblem& problem);
+/// Its first contact; readings are along the outline as it is.
+RollSearched in_mirror(RollSearched roll);
 
 /// Back into the world: poses, and what rolls say.
 void out_of_mirror(TouchAnswer& answer);

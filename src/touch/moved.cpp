@@ -10,10 +10,11 @@ namespace {
 // Each of so many touches is left out once.
 constexpr std::size_t kMostTouches = 12;
 
-/// Some of the rolls alone, without the touches: when these were made is not known.
+/// Some of the rolls alone, without touches and free paths: when these were made is not known.
 TouchProblem some_rolls(const TouchProblem& problem, std::size_t begin, std::size_t end) {
   TouchProblem result = problem;
   result.touches.clear();
+  result.clear.clear();
   result.diagnose = false;
   result.rolls.assign(problem.rolls.begin() + static_cast<std::ptrdiff_t>(begin),
                       problem.rolls.begin() + static_cast<std::ptrdiff_t>(end));
@@ -24,7 +25,7 @@ bool fits(const TouchAnswer& answer) {
   return answer.status == Status::complete && !answer.poses.empty() && !answer.verdict.fits_badly;
 }
 
-/// What the rolls share a pose without: what was said of the pose beforehand, or one of the touches.
+/// What the rolls share a pose without: what was said of the pose beforehand, the free paths, or one of the touches.
 std::vector<TouchDiagnosis> not_of_rolls(const TouchProblem& problem) {
   std::vector<TouchDiagnosis> told;
   const auto add = [&](TouchDiagnosis what, TouchProblem without) {
@@ -40,6 +41,11 @@ std::vector<TouchDiagnosis> not_of_rolls(const TouchProblem& problem) {
     TouchProblem without = problem;
     without.pose.reset();
     add({TouchCause::pose}, without);
+  }
+  if (!problem.clear.empty()) {
+    TouchProblem without = problem;
+    without.clear.clear();
+    add({TouchCause::clear}, without);
   }
   for (std::size_t k = 0; k < std::min(problem.touches.size(), kMostTouches); ++k) {
     TouchProblem without = problem;
@@ -59,7 +65,7 @@ std::vector<TouchDiagnosis> moved(const TouchProblem& problem, const TouchAnswer
     return roll.alone.name != Verdict::inconsistent && !roll.alone.fits_badly;
   };
   if (!std::all_of(answer.rolls.begin(), answer.rolls.end(), fits_alone)) return told;
-  if (problem.pose || !problem.touches.empty()) {
+  if (problem.pose || !problem.touches.empty() || !problem.clear.empty()) {
     TouchProblem rolls_alone = some_rolls(problem, 0, problem.rolls.size());
     rolls_alone.pose.reset();
     if (fits(solve_plain(rolls_alone))) return not_of_rolls(problem);

@@ -1,13 +1,18 @@
 #include "poses_beyond.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
 #include "all_contacts.hpp"
 #include "answer_poses.hpp"
+#include "heading_sets.hpp"
 #include "mirror_poses.hpp"
+#include "outline/turn.hpp"
+#include "plain_rolls.hpp"
 #include "requirements.hpp"
+#include "roll_poses.hpp"
 #include "witnessed_poses.hpp"
 
 namespace rollfix::touch {
@@ -36,6 +41,12 @@ void drop_known(std::vector<Cell>& cells, const Asked& asked, const std::vector<
   cells.erase(std::remove_if(cells.begin(), cells.end(), is_known), cells.end());
 }
 
+/// Whether headings are all among others, which may be whole turns off.
+bool is_in(const Interval& headings, const Interval& others) {
+  const double off = std::abs(nearest_angle(headings.middle() - others.middle()));
+  return off + 0.5 * headings.width() <= 0.5 * others.width() + kRounding * others.width();
+}
+
 /// Sets of which it is not known whether a pose of theirs fits: extents alone.
 std::vector<TouchPose> bare_poses(const Asked& asked, std::vector<Cell> cells) {
   std::vector<TouchPose> bare;
@@ -48,21 +59,52 @@ std::vector<TouchPose> bare_poses(const Asked& asked, std::vector<Cell> cells) {
   return bare;
 }
 
-void search_beyond(const TouchProblem& problem, const std::vector<TouchPose>& known, TouchAnswer& answer) {
-  AllContacts contacts(problem, answer.radius);
+/// Sets of headings that are in none of those that are known; nothing tells where the part is.
+void headings_beyond(const AllContacts& contacts, const std::vector<TouchPose>& known, std::size_t budget,
+                     TouchAnswer& answer) {
+  HeadingSets found = heading_sets(contacts.each, budget);
+  for (TouchPose& pose : found.poses) {
+    const bool is_known = std::any_of(known.begin(), known.end(), [&](const TouchPose& one) {
+      return one.extent[2].width() >= kFullTurn || is_in(pose.extent[2], one.extent[2]);
+    });
+    if (!is_known) answer.poses.push_back(std::move(pose));
+  }
+  if (found.complete) return;
+  for (const CentreStretch& stretch : contacts.each.front().tree->path().stretches()) {
+    answer.unresolved.push_back(stretch.corner ? Interval{stretch.s, stretch.s} : stretch.u);
+  }
+}
+
+/// What the search of a roll's readings could not decide stays undecided.
+void leave_rolls_open(const AllContacts& contacts, TouchAnswer& answer) {
+  for (std::size_t k = 0; k < contacts.rolls.size(); ++k) {
+    const Answer& alone = contacts.rolls[k].alone;
+    if (alone.status == Status::complete) continue;
+    const bool is_other = !answer.unresolved.empty() && answer.unresolved_touch != k;
+    if (is_other) answer.unresolved = {{0, answer.part.perimeter()}};
+    if (is_other) return;
+    answer.unresolved_touch = k;
+    for (const PerFinger<Interval>& arc : alone.unresolved) answer.unresolved.push_back(arc[0]);
+  }
+}
+
+void search_beyond(const TouchProblem& problem, AllContacts& contacts, const std::vector<TouchPose>& known,
+                   TouchAnswer& answer) {
   for (Measured& touch : contacts.each) {  // all that is within the tolerances counts
     touch.place_unit = touch.place_most;
     touch.angle_unit = touch.angle_most;
   }
-  if (contacts.one_fits_nowhere()) return;
+  const std::size_t budget = problem.budget.value_or(kTouchBudget);
+  if (answer.place == PlaceKnown::unknown) return headings_beyond(contacts, known, budget, answer);
   const TouchPair pair = choose_pair(contacts.each);
-  CellSearch search(contacts.each, pair, problem.budget.value_or(kTouchBudget));
-  Cells cells = search.search();
+  CellSearch search(contacts.each, pair, budget);
+  double leaf = CellSearch::kLeaf;
+  Cells cells = contacts.rolls.empty() ? search.search() : search_by_levels(search, contacts.each, pair, leaf);
   PoseFit fit(contacts.each, problem.pose);
-  FreeSpace free(problem);
+  FreeSpace free(problem, contacts.each);
   const Asked asked{problem, fit, pair, free, answer.place};
   drop_known(cells.fit, asked, known);
-  WitnessedPoses found = witnessed_poses(asked, search, CellSearch::kLeaf, std::move(cells.fit));
+  WitnessedPoses found = witnessed_poses(asked, search, leaf, std::move(cells.fit));
   answer.poses = std::move(found.poses);
   for (TouchPose& bare : bare_poses(asked, std::move(found.without))) answer.poses.push_back(std::move(bare));
   cells.undecided.insert(cells.undecided.end(), found.undecided.begin(), found.undecided.end());
@@ -74,16 +116,27 @@ void search_beyond(const TouchProblem& problem, const std::vector<TouchPose>& kn
 
 bool is_own(const TouchPose& pose) { return holds(pose.extent, pose.pose); }
 
-TouchAnswer poses_beyond(const TouchProblem& problem, const std::vector<TouchPose>& known) {
+TouchAnswer poses_beyond(const TouchProblem& problem, const std::vector<RollSearched>& rolls,
+                         const std::vector<TouchTolerance>& tolerance, const std::vector<TouchPose>& known) {
   TouchAnswer answer{problem.part, problem.touches};
   answer.radius = radius_of(problem);
   answer.noise = problem.noise;
   answer.mirrored = problem.mirrored;
-  std::copy_if(known.begin(), known.end(), std::back_inserter(answer.poses), is_own);
+  const bool any_place = !problem.touches.empty() ||
+                         std::any_of(rolls.begin(), rolls.end(), [](const RollSearched& roll) { return roll.at; });
+  if (!any_place) answer.place = PlaceKnown::unknown;
+  std::copy_if(known.begin(), known.end(), std::back_inserter(answer.poses),
+               [&](const TouchPose& pose) { return !any_place || is_own(pose); });
   if (problem.mirrored) out_of_mirror(answer);  // into it: once more leads back
   const std::vector<TouchPose> seen_known = std::exchange(answer.poses, {});
   const TouchProblem seen = problem.mirrored ? in_mirror(problem) : problem;
-  search_beyond(seen, seen_known, answer);
+  std::vector<RollSearched> seen_rolls = rolls;
+  for (RollSearched& roll : seen_rolls) {
+    if (problem.mirrored) roll = in_mirror(std::move(roll));
+  }
+  AllContacts contacts(seen, answer.radius, plain_rolls(problem.part, answer.radius, seen_rolls, tolerance));
+  if (!contacts.one_fits_nowhere()) search_beyond(seen, contacts, seen_known, answer);
+  leave_rolls_open(contacts, answer);
   if (problem.mirrored) out_of_mirror(answer);
   return answer;
 }

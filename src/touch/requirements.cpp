@@ -71,7 +71,31 @@ void require_a_place(const TouchProblem& problem) {
   refuse("expected a place, x and y, of at least one contact, found normals alone, which leave open where the part is");
 }
 
+/// Rolls beside paths on which nothing was felt have to say where the part is.
+void require_clear_beside_rolls(const TouchProblem& problem) {
+  if (!problem.finger->is_disk()) {
+    refuse(
+        fmt::format("`clear`: expected a round finger, disk,r=R, found {}: leave `clear` out", problem.finger->name()));
+  }
+  if (problem.rolls.size() + problem.touches.size() < 2) {
+    refuse("`clear`: expected another roll or a touch beside one roll, found none: give one, or leave `clear` out");
+  }
+  if (!problem.touches.empty()) return;
+  const bool any_centre = std::any_of(problem.rolls.begin(), problem.rolls.end(),
+                                      [](const Log& roll) { return !roll.fingers.front().x.empty(); });
+  if (!any_centre) {
+    refuse(
+        "`clear`: expected where the part is, found rolls without x and y, which tell its heading alone: give logs "
+        "with "
+        "x and y, or a touch, or leave `clear` out");
+  }
+  if (problem.noise && !(problem.noise->position > 0)) {
+    refuse("`clear`: expected how exact x and y are, found no position in `noise`: give position=SD");
+  }
+}
+
 void require_clear(const TouchProblem& problem) {
+  if (!problem.clear.empty() && !problem.rolls.empty()) require_clear_beside_rolls(problem);
   const double far = kMostFar * problem.part.perimeter();
   for (const Clear& path : problem.clear) {
     for (const double number : {path.from.x(), path.from.y(), path.to.x(), path.to.y()}) {
@@ -157,9 +181,6 @@ void require_valid(const TouchProblem& problem) {
   for (std::size_t k = 0; k < problem.rolls.size(); ++k) require_roll(problem, k);
   for (std::size_t k = 0; k < problem.touches.size(); ++k) require_touch(problem, k);
   require_a_place(problem);
-  if (!problem.clear.empty() && !problem.rolls.empty()) {
-    refuse("`clear`: paths on which nothing was felt are taken with touches alone, found rolls: leave one of them out");
-  }
   require_clear(problem);
 }
 

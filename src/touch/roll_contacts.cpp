@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "answer/observation.hpp"
@@ -27,6 +28,8 @@ constexpr std::size_t kInstants = 8;
 constexpr double kLeastNormal = 1e-9;
 // Arcs are rounded, a share of the perimeter.
 constexpr double kArcRounding = 1e-12;
+// Nearer to a corner than this share of the perimeter a contact may be at it.
+constexpr double kAtCorner = 1e-9;
 // A place of the boundary where the belief is less than exp(-this) of its largest has next to nothing of it.
 constexpr double kLeastDensity = 25;
 
@@ -56,6 +59,49 @@ std::vector<Interval> merged(std::vector<Interval> arcs, const Boundary& boundar
   return result;
 }
 
+/// By how much the worst of a roll's readings is off if it starts there, radians; none: a contact at a corner, where
+/// that depends on the pivot, or beyond an end.
+std::optional<double> off_from(const Answer& alone, double s) {
+  const Boundary boundary = alone.part.boundary();
+  const double slack = kAtCorner * boundary.perimeter;
+  const auto is_clear = [&](double at) {
+    if (!boundary.closed && !(at >= 0 && at <= boundary.perimeter)) return false;
+    return std::none_of(alone.part.corners().begin(), alone.part.corners().end(),
+                        [&](const Corner& corner) { return boundary.distance(corner.s, at) <= slack; });
+  };
+  if (!is_clear(s)) return std::nullopt;
+  const TurningFunction& turning = alone.part.turning();
+  double worst = 0;
+  for (const Reading& reading : alone.readings) {
+    const double end = s + reading.length[0];
+    if (!is_clear(end)) return std::nullopt;
+    worst = std::max(worst, std::abs(turning.angle(end) - turning.angle(s) - reading.turn));
+  }
+  return worst;
+}
+
+/// An extent encloses what fits: this is it without what is off by more than the tolerance at its ends.
+Interval arc_of(const Answer& alone, const Placement& placement) {
+  constexpr int kTrims = 50;
+  Interval arc = placement.extent[0];
+  const auto fits = [&](double s) {
+    const std::optional<double> off = off_from(alone, s);
+    return !off || *off <= alone.tolerance.value;
+  };
+  double inside = placement.start[0];
+  if (alone.part.closed() && inside < arc.lo) inside += alone.part.perimeter();
+  if (!(inside >= arc.lo && inside <= arc.hi && fits(inside))) return arc;
+  for (double* end : {&arc.lo, &arc.hi}) {
+    double fitting = inside;
+    for (int k = 0; k < kTrims && !fits(*end); ++k) {
+      const double middle = 0.5 * (fitting + *end);
+      (fits(middle) ? fitting : *end) = middle;
+      if (k + 1 == kTrims) *end = fitting;
+    }
+  }
+  return arc;
+}
+
 /// Where the roll can have started, by itself: what all of its rows agree with, where there is any.
 std::vector<Interval> arcs_alone(const Answer& alone) {
   const double slack = kArcRounding * alone.part.perimeter();
@@ -65,7 +111,7 @@ std::vector<Interval> arcs_alone(const Answer& alone) {
   std::vector<Interval> arcs;
   for (const Placement& placement : alone.placements) {
     if (any_agrees && placement.is_contradicted) continue;
-    Interval arc = placement.extent[0];
+    Interval arc = arc_of(alone, placement);
     // A root is more than a point, but of a start at a corner the sides next to it are no part.
     const bool is_corner = std::any_of(corners.begin(), corners.end(), [&](const Corner& corner) {
       return alone.part.boundary().distance(corner.s, arc.lo) <= slack;
@@ -221,35 +267,35 @@ RollContact touch_of(const TouchProblem& problem, const Log& log, RollCentre cen
   return contact;
 }
 
+/// To its arcs.
+void confine(RollContact& contact, const Part& part, double radius) {
+  contact.confined.arcs = merged(std::move(contact.confined.arcs), part.boundary());
+  contact.path = std::make_unique<CentrePath>(part, radius, &contact.confined);
+  contact.confined.angles = {};  // it has served
+  if (!contact.path->stretches().empty()) contact.tree = std::make_unique<PathTree>(*contact.path);
+}
+
 RollContact contact_of(const TouchProblem& problem, const Log& log, RollCentre centre) {
   if (log.rows() == 1) return touch_of(problem, log, centre);
   const Problem single = alone(problem, log);
   RollContact contact{solve(single), {}, {}, {}, {}, {}};
   const bool is_disk = problem.finger->is_disk();
   const double radius = is_disk ? problem.finger->disk()->radius : 0;
-  const Boundary boundary = problem.part.boundary();
   const Log& used = *single.felt.log;
   contact.travelled = observe(single).rolls.back().length[0];
   contact.measured.has_place = centre == RollCentre::evidence;
   measure_first(used, *problem.finger, radius, contact.measured);
-  std::vector<PosePiece> pieces;
   if (problem.noise) {
     std::optional<Belief> belief = believe(single, observe(single));
-    pieces = possible_pieces(*belief, contact.alone);
-    contact.confined.arcs = arcs_of(pieces, boundary);
+    contact.log_evidence = belief->evidence().with(1);
+    const std::vector<PosePiece> pieces = possible_pieces(*belief, contact.alone);
+    contact.confined.arcs = arcs_of(pieces, problem.part.boundary());
+    confine(contact, problem.part, radius);
+    if (contact.tree) contact.belief = std::make_unique<RollBelief>(*contact.path, pieces, centre);
+    if (contact.belief && !contact.belief->nodes().empty()) measure_belief(*contact.belief, contact.measured);
   } else {
-    contact.confined.arcs = arcs_alone(contact.alone);
-    contact.confined.angles = [&](double s, const Interval& angles) { return pivots_alone(contact.alone, s, angles); };
-  }
-  contact.confined.arcs = merged(std::move(contact.confined.arcs), boundary);
-  contact.path = std::make_unique<CentrePath>(problem.part, radius, &contact.confined);
-  contact.confined.angles = {};  // it has served
-  if (!contact.path->stretches().empty()) contact.tree = std::make_unique<PathTree>(*contact.path);
-  if (!problem.noise) {
+    confine_by_readings(contact, problem.part, radius);
     measure_exactly(problem, used, contact);
-  } else if (contact.tree) {
-    contact.belief = std::make_unique<RollBelief>(*contact.path, pieces, centre);
-    if (!contact.belief->nodes().empty()) measure_belief(*contact.belief, contact.measured);
   }
   if (centre == RollCentre::reference) {
     contact.measured.has_place = true;
@@ -302,6 +348,12 @@ std::vector<RollContact> roll_contacts(const TouchProblem& problem) {
   return contacts;
 }
 
+void confine_by_readings(RollContact& contact, const Part& part, double radius) {
+  contact.confined.arcs = arcs_alone(contact.alone);
+  contact.confined.angles = [&](double s, const Interval& angles) { return pivots_alone(contact.alone, s, angles); };
+  confine(contact, part, radius);
+}
+
 RollFacts facts_of(const RollContact& contact, const Log& log) {
   const std::vector<std::size_t>& line = log.fingers.front().line;
   RollFacts facts;
@@ -314,6 +366,12 @@ RollFacts facts_of(const RollContact& contact, const Log& log) {
   for (std::size_t k = 0; k < rows.x.size(); ++k) facts.track.emplace_back(rows.x[k], rows.y[k]);
   facts.alone = contact.alone.verdict;
   facts.placements = contact.alone.placements.size();
+  const Measured& measured = contact.measured;
+  facts.searched.normal = nearest_angle(*measured.tangent - 0.5 * std::numbers::pi);
+  const bool is_reference = measured.place_most >= contact.alone.part.perimeter();
+  if (measured.has_place && !is_reference) facts.searched.at = measured.at;
+  facts.searched.readings.assign(contact.alone.readings.begin(), contact.alone.readings.end());
+  facts.searched.tolerance = contact.alone.tolerance.value;
   return facts;
 }
 

@@ -21,6 +21,8 @@ struct RollContact {
   std::unique_ptr<RollBelief> belief;  // with noise
   Measured measured;
   double travelled = 0;  // by its last row, along the stored outline
+  double log_evidence =
+      0;  // with noise: log of the likelihood of its rows, summed over all poses and over the boundary
 
   /// It fits no place of the part by itself.
   bool fits_nowhere() const {
@@ -35,6 +37,9 @@ Problem alone(const TouchProblem& problem, const Log& log);
 /// The problem's rolls. Which of the centres are evidence: all that are known, unless noise leaves them out; where no
 /// contact's is, the first roll's is the reference.
 std::vector<RollContact> roll_contacts(const TouchProblem& problem);
+
+/// Confines a contact to where the readings of its roll alone, `alone`, leave it: a finger of this radius.
+void confine_by_readings(RollContact& contact, const Part& part, double radius);
 
 /// What of a roll goes into an answer.
 RollFacts facts_of(const RollContact& contact, const Log& log);

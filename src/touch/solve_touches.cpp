@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -43,10 +44,21 @@ void add_rolls(const TouchProblem& problem, const std::vector<RollContact>& roll
   if (!is_measured) answer.place = answer.rolls.front().has_centre ? PlaceKnown::reference : PlaceKnown::unknown;
 }
 
+/// With noise: the likelihood of all contacts, averaged over where each of them may be. `of_poses`: what the posterior
+/// adds up to, in which a roll's density by its first contact and the pose is 1 all together.
+double log_evidence_of(const TouchProblem& problem, const AllContacts& contacts, double of_poses) {
+  const double radius = radius_of(problem);
+  const double length = contacts.path ? length_in_reach(*contacts.path) : length_in_reach({problem.part, radius});
+  double sum = of_poses - static_cast<double>(contacts.each.size()) * std::log(length);
+  for (const RollContact& roll : contacts.rolls) sum += roll.log_evidence;
+  return sum;
+}
+
 /// Of one contact alone; of a touch there is nothing to say.
 void take_alone(const TouchProblem& problem, const AllContacts& contacts, TouchAnswer& answer) {
   if (!contacts.rolls.empty()) {
     take_from(contacts.rolls.front(), answer);
+    if (problem.noise) answer.log_evidence = log_evidence_of(problem, contacts, 0);
     return;
   }
   answer.verdict.name = Verdict::unobservable;
@@ -64,12 +76,12 @@ void search_headings(const TouchProblem& problem, const AllContacts& contacts, T
   }
 }
 
-void take_over(WeighedPoses weighed, TouchAnswer& answer) {
+void take_over(WeighedPoses weighed, const TouchProblem& problem, const AllContacts& contacts, TouchAnswer& answer) {
   answer.poses = std::move(weighed.poses);
   answer.fit = weighed.fit;
   answer.improbable += weighed.improbable;
   answer.rest += weighed.rest;
-  if (weighed.log_evidence) answer.log_evidence = *weighed.log_evidence;
+  if (weighed.log_evidence) answer.log_evidence = log_evidence_of(problem, contacts, *weighed.log_evidence);
 }
 
 void search_poses(const TouchProblem& problem, AllContacts& contacts, TouchAnswer& answer) {
@@ -84,7 +96,7 @@ void search_poses(const TouchProblem& problem, AllContacts& contacts, TouchAnswe
     cells = search_by_levels(*search, contacts.each, pair, leaf);
   }
   PoseFit fit(contacts.each, problem.pose);
-  FreeSpace free(problem);
+  FreeSpace free(problem, contacts.each);
   free.drop_blocked(cells.fit, fit.tree(pair.first), contacts.each[pair.first]);
   const Asked asked{problem, fit, pair, free, answer.place};
   std::vector<Cell> undecided = std::move(cells.undecided);
@@ -95,7 +107,7 @@ void search_poses(const TouchProblem& problem, AllContacts& contacts, TouchAnswe
     const CellSets sets = sets_of(fit.tree(pair.first), fit.tree(pair.second), std::move(cells.fit));
     WeighedPoses weighed = weighed_poses(asked, sets, budget);
     if (weighed.is_too_long) leave(sets.cells);
-    take_over(std::move(weighed), answer);
+    take_over(std::move(weighed), problem, contacts, answer);
   } else {
     WitnessedPoses witnessed = witnessed_poses(asked, *search, leaf, std::move(cells.fit));
     leave(witnessed.undecided);

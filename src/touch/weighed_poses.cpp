@@ -20,15 +20,6 @@ constexpr double kNegligible = 1e-8;
 // Weighing poses with the first touch at one place takes as long as this many comparisons.
 constexpr std::size_t kPlaceCost = 2000;
 
-/// The boundary's length as far as the finger gets to it, of a corner that of the finger's arc around it.
-double length_in_reach(const CentrePath& path) {
-  double length = 0;
-  for (std::size_t k = 0; k < path.stretches().size(); ++k) {
-    length += path.stretches()[k].u.width() * length_per_u(path, k);
-  }
-  return length;
-}
-
 /// log(exp(a) + exp(b) + ...) of the nodes' weights.
 double log_total(const std::vector<PosteriorNode>& nodes) {
   double most = -std::numeric_limits<double>::infinity();
@@ -116,6 +107,14 @@ std::vector<PoseSet> sets_to_list(const Asked& asked, const CellSets& sets, cons
 
 }  // namespace
 
+double length_in_reach(const CentrePath& path) {
+  double length = 0;
+  for (std::size_t k = 0; k < path.stretches().size(); ++k) {
+    length += path.stretches()[k].u.width() * length_per_u(path, k);
+  }
+  return length;
+}
+
 WeighedPoses weighed_poses(const Asked& asked, const CellSets& sets, std::size_t budget) {
   WeighedPoses result;
   const std::size_t first = asked.pair.first;
@@ -123,11 +122,7 @@ WeighedPoses weighed_poses(const Asked& asked, const CellSets& sets, std::size_t
   if (result.is_too_long) return result;
   Posterior posterior = posterior_of(asked.fit, sets, first);
   asked.free.weigh(posterior.nodes);
-  if (asked.problem.rolls.empty()) {
-    const double length = length_in_reach(asked.fit.path(first));
-    const auto touches = static_cast<double>(asked.problem.touches.size());
-    result.log_evidence = log_total(posterior.nodes) - touches * std::log(length);
-  }
+  result.log_evidence = log_total(posterior.nodes);
   result.improbable = posterior.hopeless;
   for (const PoseSet& set : sets_to_list(asked, sets, posterior, result)) {
     const bool is_listed = set.mode.probability >= kLeastProbability && worst_of(asked.fit, set.fitted) <= 1;

@@ -13,9 +13,12 @@ struct WeighedPoses {
   std::optional<TouchFit> fit;         // of the one that fits best
   std::size_t improbable = 0;          // sets that are not listed, ...
   double rest = 0;                     // ... and their probability
-  std::optional<double> log_evidence;  // of touches alone
+  std::optional<double> log_evidence;  // but for what rolls say of themselves, and contacts' own places
   bool is_too_long = false;            // so many places that they were not weighed
 };
+
+/// The boundary's length as far as the finger gets to it, of a corner that of the finger's arc around it.
+double length_in_reach(const CentrePath& path);
 
 /// With noise: what is less probable than a bound is not looked at, and modes that end in one pose are one.
 WeighedPoses weighed_poses(const Asked& asked, const CellSets& sets, std::size_t budget);

@@ -162,8 +162,8 @@ TEST(CliRollAll, WhatOnlyOneRollHasIsRefused) {
   const Folder folder;
   folder.write("run.csv", log_of_two());
   const std::string all = "locate gallery:limacon --log run.csv" + kRest;
-  for (const char* option : {" --at 1", " --prior 1,0.1 --noise angle=1deg,contact=0.1", " --direction cw",
-                             " --explain", " --certify a.json", " --map a.csv"}) {
+  for (const char* option :
+       {" --at 1", " --prior 1,0.1 --noise angle=1deg,contact=0.1", " --direction cw", " --explain", " --map a.csv"}) {
     const Ran ran = run(all + option);
     EXPECT_EQ(ran.code, 2) << option;
     EXPECT_THAT(ran.err, HasSubstr("--roll N")) << option;
@@ -182,12 +182,50 @@ TEST(CliRollAll, ATableOfTouchesAndTheSameLogTwiceAreRefused) {
               HasSubstr("--log run.csv: it is given twice"));
 }
 
-TEST(CliRollAll, PathsAreRefused) {
+TEST(CliRollAll, PathsLeaveOutThePosesThatAreInTheWay) {
   const Folder folder;
   folder.write("run.csv", log_of_two());
+  const std::string asked = "locate gallery:limacon --log run.csv" + kRest + " --clear ";
+  EXPECT_EQ(run(asked + "50,50,60,50").code, 0);
+  const Ran through = run(asked + "3.6,1.3,3.7,1.3");
+  EXPECT_EQ(through.code, 1);
+  EXPECT_THAT(through.out, HasSubstr("inconsistent"));
+}
+
+TEST(CliRollAll, PathsAreTheRowsBetweenRolls) {
+  const Folder folder;
+  folder.write("run.csv", header(true) + rows_of(0.5, 0.8, 0, true) + "50,0,0,0,90,0\n51,0,0,0,90,90\n" +
+                              rows_of(3.1, -0.9, 100, true));
+  const Ran ran = run("locate gallery:limacon --log run.csv" + kRest + " --clear rows --json");
+  ASSERT_EQ(ran.json()["clear"].size(), 2U) << ran.err;
+  EXPECT_EQ(ran.json()["clear"][0], (Json{90, 0, 90, 90}));
+}
+
+TEST(CliRollAll, PathsAreRefusedWhereNothingTellsThePlace) {
+  const Folder folder;
+  folder.write("run.csv", log_of_two(false));
   const Ran ran = run("locate gallery:limacon --log run.csv" + kRest + " --clear 0,0,1,1");
   EXPECT_EQ(ran.code, 2);
-  EXPECT_THAT(ran.err, HasSubstr("--clear: paths on which nothing was felt are taken with touches alone"));
+  EXPECT_THAT(ran.err, HasSubstr("give logs with x and y, or a touch"));
+}
+
+TEST(CliRollAll, TheProofOfTwoRollsIsProvedAgain) {
+  const Folder folder;
+  folder.write("run.csv", log_of_two());
+  const std::string asked = "locate gallery:limacon --log run.csv" + kRest;
+  EXPECT_EQ(run(asked + " --tolerance 0.001,0.1deg --certify proof.json").code, 0);
+  const Ran proved = cli::shell("rollfix-verify proof.json");
+  EXPECT_EQ(proved.code, 0) << proved.out;
+  EXPECT_EQ(proved.out.substr(0, proved.out.find('\n')), "proved: 1 set of poses, nothing else");
+  EXPECT_THAT(run(asked + " --noise contact=0.002,angle=0.1deg,position=0.002 --certify noisy.json").err,
+              HasSubstr("give `tolerance` LENGTH,ANGLE"));
+}
+
+TEST(CliRollAll, IsNoQuestionOfAdvise) {
+  const Folder folder;
+  folder.write("run.csv", log_of_two());
+  EXPECT_THAT(run("advise gallery:limacon --log run.csv" + kRest + " --touch 1,2").err,
+              HasSubstr("the next touch is advised after touches alone"));
 }
 
 }  // namespace cli_roll_all_test

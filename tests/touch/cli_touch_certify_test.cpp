@@ -49,17 +49,17 @@ TEST(CliTouchCertify, says_what_certificates_are_not_of) {
   const Folder folder;
   const Ran one = run("locate " + kBracket + " --loop 1 --touch 1,2 --tolerance 0.1 --certify proof.json");
   EXPECT_EQ(one.code, 2);
-  EXPECT_THAT(one.err, testing::HasSubstr("a certificate of touches: expected at least two, found 1"));
+  EXPECT_THAT(one.err, testing::HasSubstr("a certificate of touches: expected at least two contacts, found 1"));
 }
 
-TEST(CliTouchCertify, is_of_touches_alone) {
+TEST(CliTouchCertify, proves_that_a_roll_and_a_touch_far_from_it_fit_nowhere) {
   const Folder folder;
   run("simulate " + kBracket + " --loop 1 --finger disk,r=3 --start 10 --length 30 --samples 20 -o roll.csv");
   const Ran both = run("locate " + kBracket +
-                       " --loop 1 --log roll.csv --roll all --touch 1,2 --finger disk,r=3 "
+                       " --loop 1 --log roll.csv --roll all --touch 901,2 --finger disk,r=3 "
                        "--tolerance 0.1,1deg --certify proof.json");
-  EXPECT_EQ(both.code, 2);
-  EXPECT_THAT(both.err, testing::HasSubstr("--certify: a certificate is of one roll, or of touches alone"));
+  EXPECT_EQ(both.code, 1) << both.err;
+  EXPECT_THAT(verified().out, testing::StartsWith("proved: 0 sets of poses, nothing else\n"));
 }
 
 }  // namespace

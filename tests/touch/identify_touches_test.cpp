@@ -220,7 +220,7 @@ TEST_F(IdentifyTouches, refuse_what_can_not_be_meant) {
   std::ofstream("roll.csv") << "time,u,psi\n0,0,0\n1,1,1\n";
   const auto said = [](const std::string& more) { return run("identify parts.db --touch 0,0 " + more).err; };
   EXPECT_THAT(said(""), HasSubstr("--noise position="));
-  EXPECT_THAT(said("--log roll.csv --noise position=1"), HasSubstr("by touches or by one roll"));
+  EXPECT_THAT(said("--log roll.csv --noise position=1"), HasSubstr("share a pose with --roll all: add it"));
   EXPECT_THAT(said("--noise position=0.1 --facing 1"), HasSubstr("--facing: touches do not roll"));
   EXPECT_THAT(said("--noise position=0.1 -o which.svg"), HasSubstr("rollfix locate PART"));
 }

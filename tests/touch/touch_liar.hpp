@@ -30,7 +30,9 @@ struct Document {
     return std::uniform_int_distribution<std::size_t>(0, json["poses"].size() - 1)(generator);
   }
   double sign() { return uniform(generator, -1, 1) < 0 ? -1 : 1; }
-  double tolerance() const { return json["touches"][0]["tolerance"][0].get<double>(); }
+  double tolerance() const {
+    return json[json["touches"].empty() ? "rolls" : "touches"][0]["tolerance"][0].get<double>();
+  }
 
   /// Some pose of its set with all contacts, whose set is no larger than it looks.
   Json* any_set() {

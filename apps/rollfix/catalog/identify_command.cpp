@@ -34,6 +34,8 @@ constexpr const char* kIdentifyExamples = R"(Examples:
 Touches without rolling, of a part at rest:
   rollfix identify parts.db --touch 106.5,94.4 --touch 158.0,50.0 --touch 192.9,57.6 --finger disk,r=3 --noise position=0.02
   rollfix identify parts.db --log touches.csv --finger disk,r=3 --noise position=0.02,angle=2deg --json
+Several rolls of a finger, and touches, of a part at rest:
+  rollfix identify parts.db --log run.csv --roll all --finger disk,r=10 --noise contact=0.05,angle=0.2deg,position=0.05
 )";
 
 struct IdentifyArguments {
@@ -67,14 +69,6 @@ Report of_document(const std::string& text, const IdentifyArguments& arguments, 
   return report;
 }
 
-/// What is asked of every part by touches.
-TouchProblem read_touches(const IdentifyArguments& arguments, const Catalog& catalog, std::vector<std::string>& notes) {
-  if (!arguments.touches.empty() && !arguments.roll.logs.empty()) {
-    throw InputError("identify: expected --touch or --log, found both: a part is identified by touches or by one roll");
-  }
-  return read_touch_problem(arguments.touches, arguments.roll, any_part_of(catalog), notes);
-}
-
 Svg figure_of(const Identified& found, const Catalog& catalog) {
   PartsFigure figure;
   figure.verdict = found.verdict;
@@ -88,6 +82,17 @@ Svg figure_of(const Identified& found, const Catalog& catalog) {
   return draw_parts(figure);
 }
 
+/// By touches, or by several rolls and touches, of which --roll all says that they share a pose.
+Report report_of_contacts(const TouchProblem& question, const IdentifyArguments& arguments, const Catalog& catalog,
+                          const IdentifyOptions& options, Report report) {
+  if (!arguments.output.file.empty()) {
+    throw InputError(fmt::format("-o: a figure is of one roll; of {} draw the part: rollfix locate PART with the same",
+                                 question.rolls.empty() ? "touches" : "several rolls"));
+  }
+  const IdentifiedByTouches found = identify(catalog, question, options);
+  return of_document(format_identified(catalog, found), arguments, catalog, std::move(report));
+}
+
 Report identify_report(const IdentifyArguments& arguments) {
   if (arguments.catalog.empty()) throw InputError("identify: expected a CATALOG: rollfix catalog build makes one");
   require_figure_output(arguments.output, arguments.json);
@@ -96,14 +101,14 @@ Report identify_report(const IdentifyArguments& arguments) {
   options.use_index = !arguments.without_index;
   if (!arguments.jobs.empty()) options.threads = static_cast<unsigned>(read_count(arguments.jobs, "--jobs", 1));
   Report report;
-  if (are_touches(arguments.touches, arguments.roll)) {
-    if (!arguments.output.file.empty()) {
-      throw InputError("-o: a figure is of rolls; of touches draw the part: rollfix locate PART with the same touches");
-    }
-    const IdentifiedByTouches found = identify(catalog, read_touches(arguments, catalog, report.notes), options);
-    return of_document(format_identified(catalog, found), arguments, catalog, std::move(report));
+  const bool may_share_a_pose = arguments.roll.roll == "all" || are_touches(arguments.touches, arguments.roll);
+  const Question asked = may_share_a_pose
+                             ? app::read_question(arguments.touches, arguments.roll, any_part_of(catalog), report.notes)
+                             : Question(any_part_of(catalog), {});
+  if (may_share_a_pose && kind_of(asked) == QuestionKind::at_rest) {
+    return report_of_contacts(rest_problem(asked), arguments, catalog, options, std::move(report));
   }
-  const Problem question = read_question(arguments, catalog, report.notes);
+  const Problem question = may_share_a_pose ? roll_problem(asked) : read_question(arguments, catalog, report.notes);
   const Identified found = identify(catalog, question, options);
   report = of_document(format_identified(catalog, found), arguments, catalog, std::move(report));
   if (!arguments.output.file.empty()) add_figure(arguments.output, figure_of(found, catalog), report);

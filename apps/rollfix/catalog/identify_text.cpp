@@ -77,11 +77,12 @@ Table table_of_poses(bool has_noise, const std::string& unit) {
   return table;
 }
 
-/// x, y and heading of a pose, with noise each with its standard deviation; null: of any pose.
+/// x, y and heading of a pose, with noise each with its standard deviation; null: of any pose, of rolls without x and y
+/// of any place.
 void add_pose_cells(const Json& pose, bool has_noise, std::vector<std::string>& cells) {
   for (std::size_t i = 0; i < 3; ++i) {
     const double factor = i < 2 ? 1 : 1 / kDegree;
-    const bool is_any = pose.is_null() || (i == 2 && pose["any_heading"].get<bool>());
+    const bool is_any = pose.is_null() || pose["pose"][0][i].is_null() || (i == 2 && pose["any_heading"].get<bool>());
     const double value = is_any ? 0 : factor * pose["pose"][0][i].get<double>();
     cells.push_back(is_any ? "any" : fixed(value, i < 2 ? decimals_for(value) : 3));
     if (!has_noise) continue;
@@ -119,14 +120,19 @@ std::string poses_table(const Json& document, const std::string& unit) {
                     : fmt::format("... and {}; --json lists them all\n", counted(more, "more part", "more parts")));
 }
 
-/// Of touches: what to do next.
+/// Of touches and rolls: what to do next.
 std::string advice_of_touches(const Json& document) {
+  const bool has_rolls = !document["rolls"].empty();
   if (document["samples"] == 1) return "one touch fits every part in any pose: touch the part elsewhere as well\n";
   if (!document["undecided"].empty()) {
-    return fmt::format("the budget ran out on {}: more touches, or a larger --budget, leave less to look at\n",
-                       counted(document["undecided"].size(), "part", "parts"));
+    return fmt::format("the budget ran out on {}: more {}, or a larger --budget, leave less to look at\n",
+                       counted(document["undecided"].size(), "part", "parts"), has_rolls ? "rolls" : "touches");
   }
   if (!document["parts"].empty()) return "";
+  if (has_rolls) {
+    return "no pose of any part fits all rolls and touches: check the noise, the unit, the finger's radius, and "
+           "--mirror, and whether the part was moved in between\n";
+  }
   return "no pose of any part fits all touches: check the noise, the unit, the finger's radius, and --mirror\n";
 }
 

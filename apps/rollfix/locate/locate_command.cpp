@@ -136,9 +136,6 @@ void require_outputs(const LocateArguments& arguments, const Question& question)
   refuse(!arguments.maps.empty(), "--map");
   refuse(arguments.march.march, "--march");
   refuse(arguments.detail.explain, "--explain");
-  if (!arguments.certificate.empty() && kind == QuestionKind::at_rest && has_rolls) {
-    throw InputError("--certify: a certificate is of one roll, or of touches alone; choose a roll with --roll N");
-  }
 }
 
 /// What a batch has no use for.

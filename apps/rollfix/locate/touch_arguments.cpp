@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <limits>
@@ -60,6 +61,31 @@ Clear read_clear(const std::string& text, const std::string& unit) {
   std::array<double, 4> numbers{};
   for (std::size_t k = 0; k < 4; ++k) numbers[k] = read_length(fields[k], what, unit);
   return {{numbers[0], numbers[1]}, {numbers[2], numbers[3]}};
+}
+
+/// Of --columns of a roll what it says of where the centre was, and of contact.
+std::string columns_of_places(const std::string& columns) {
+  std::vector<std::string> kept;
+  for (const std::string_view one : split(columns, ',')) {
+    const std::string_view column = trimmed(one.substr(0, one.find('=')));
+    if (column == "x" || column == "y" || column == "contact") kept.emplace_back(one);
+  }
+  return fmt::format("{}", fmt::join(kept, ","));
+}
+
+/// The paths between the rows with contact 0 of logs, and from them to the next roll.
+std::vector<Clear> free_rows_of(const RollArguments& arguments, const std::string& unit) {
+  RollArguments places = arguments;
+  places.reading.columns = columns_of_places(arguments.reading.columns);
+  std::vector<Clear> paths;
+  for (const std::string& path : arguments.logs) {
+    if (path == "-") {
+      throw InputError("--clear rows: of rolls it reads the log twice, which standard input can't: give it as a file");
+    }
+    const TouchTable table = parse_touches(read_text(path), path, table_options(places, unit));
+    paths.insert(paths.end(), table.clear.begin(), table.clear.end());
+  }
+  return paths;
 }
 
 void add_clear(const std::vector<std::string>& given, std::vector<Clear> of_rows, const std::string& unit,
@@ -123,8 +149,9 @@ void add_touch_arguments(CLI::App& command, std::vector<std::string>& touches, R
       ->allow_extra_args(false);
   command
       .add_option("--clear", arguments.clear,
-                  "of touches: where the finger's centre went straight from one place to another and felt nothing; "
-                  "repeatable; rows: between the rows of the log with contact 0, and from them to the next touch")
+                  "of touches and several rolls: where the finger's centre went straight from one place to another and "
+                  "felt nothing; "
+                  "repeatable; rows: between the rows of the log with contact 0, and from them to the next contact")
       ->type_name("X,Y,X,Y|rows")
       ->allow_extra_args(false);
 }
@@ -157,6 +184,8 @@ void add_touches(const std::vector<std::string>& touches, const RollArguments& a
     of_rows = std::move(table.clear);
     notes.insert(notes.end(), table.notes.begin(), table.notes.end());
   }
+  const bool any_rows = std::find(arguments.clear.begin(), arguments.clear.end(), "rows") != arguments.clear.end();
+  if (any_rows && measured.at_rest && !measured.rolls.empty()) of_rows = free_rows_of(arguments, unit);
   add_clear(arguments.clear, std::move(of_rows), unit, measured);
 }
 

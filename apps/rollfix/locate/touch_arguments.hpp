@@ -25,6 +25,8 @@ void add_touches(const std::vector<std::string>& touches, const RollArguments& a
                  Measurements& measured, std::vector<std::string>& notes);
 /// X,Y or X,Y,NORMAL. Throws InputError.
 MeasuredTouch read_touch(const std::string& text, const std::string& unit);
+/// --clear of rolls, with rows those of all logs. Throws InputError.
+void add_clear(const RollArguments& arguments, TouchProblem& problem);
 /// --tolerance LENGTH or LENGTH,ANGLE. Throws InputError.
 TouchTolerance read_touch_tolerance(const std::string& text, const std::string& unit);
 

@@ -12,7 +12,7 @@
 
 namespace rollfix {
 
-/// A part that the touches may have been on.
+/// A part that the touches and rolls may have been on.
 struct PartTouched {
   std::size_t part = 0;  // its place in the catalog
   TouchAnswer answer;    // as of this part alone: probabilities of poses are given that it is this part
@@ -20,7 +20,14 @@ struct PartTouched {
   std::vector<std::size_t> congruent{};                           // parts that can't be told from it, by their places
 };
 
-/// Every part of a catalog that touches fit.
+/// A roll on whichever part it is.
+struct RollGiven {
+  std::string name{};                // of its log
+  std::vector<std::size_t> lines{};  // of the file: its first and its last row; of simulated rows none
+  std::size_t rows = 0;
+};
+
+/// Every part of a catalog that touches and rolls fit.
 struct IdentifiedByTouches {
   std::vector<PartTouched> parts{};  // the likeliest first, without noise in the catalog's order
   std::string verdict{};             // "unique part, unique pose", "3 parts", "none", ...
@@ -34,20 +41,22 @@ struct IdentifiedByTouches {
   std::vector<PartRefused> refused{};
 
   // As in the problem.
+  std::vector<RollGiven> rolls{};
   std::vector<MeasuredTouch> touches{};
-  std::vector<TouchTolerance> tolerance{};  // that was searched with, for each of them
+  std::vector<TouchTolerance> tolerance{};  // that was searched with, for each of the touches
   std::vector<Clear> clear{};
   double radius = 0;  // of the finger; 0: a point
   std::optional<Noise> noise{};
   bool mirrored = false;
 };
 
-/// Every part of a catalog that the touches can have been on, and every pose of it: what `solve` says of each part by
-/// itself, to the bit, but that bounds rule out most parts at once, which loses none. `asked`: the problem; its part
-/// does not matter, and lengths are in the catalog's unit. With noise parts are weighed by the likelihood of all
-/// touches, averaged over the poses and over contacts that are anywhere on the boundary alike, times their count. One
-/// touch fits every part. See docs/identify.md.
-/// Throws InputError: rolls, and what `solve` throws where it throws it of all parts.
+/// Every part of a catalog that the touches and rolls can have been on, and every pose of it: what `solve` says of each
+/// part by itself, to the bit, but that bounds rule out most parts at once, which loses none. `asked`: the problem; its
+/// part does not matter, and lengths are in the catalog's unit. With noise parts are weighed by the likelihood of all
+/// touches and rows, averaged over the poses and over contacts that are anywhere on the boundary alike, times their
+/// count. One touch fits every part. See docs/identify.md.
+/// Throws InputError: one roll and no touch (which is a Problem), and what `solve` throws where it throws it of all
+/// parts.
 IdentifiedByTouches identify(const Catalog& catalog, const TouchProblem& asked, const IdentifyOptions& options = {});
 
 }  // namespace rollfix

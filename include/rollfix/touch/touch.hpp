@@ -157,6 +157,14 @@ enum class PlaceKnown {
   unknown     // nothing: the rolls have no x and y, and only the heading of a pose means anything
 };
 
+/// What a search takes of a roll: its first contact, and the readings that tell where it can have been.
+struct RollSearched {
+  double normal = 0;                // out of the part at the first contact, in the world, radians
+  std::optional<Vec2> at{};         // where a disk's centre was then, of another finger the contact; none: not known
+  std::vector<Reading> readings{};  // along the outline as it is stored, whichever side of the part is up
+  double tolerance = 0;             // of their turns, radians
+};
+
 /// A roll by itself.
 struct RollFacts {
   std::string name{};                // of its log
@@ -167,6 +175,7 @@ struct RollFacts {
   std::vector<Vec2> track{};   // then: the finger's centres, in the world
   Verdict alone{};             // without the other contacts
   std::size_t placements = 0;  // likewise: where it can have started; of a roll of one row none is listed
+  RollSearched searched{};
 };
 
 /// Every pose of the part that fits the touches and the rolls.
@@ -188,8 +197,9 @@ struct TouchAnswer {
                                        // is not listed may be; lo in [0, P), hi may exceed P
   std::size_t unresolved_touch = 0;    // which contact they are of: rolls are the first ones
   std::optional<TouchFit> fit{};       // with noise, if a pose fits
-  /// With noise, of touches alone: logarithm of their likelihood, averaged over all poses and over contacts that are
-  /// anywhere on the boundary alike, up to what does not depend on the part. NaN: not known.
+  /// With noise: logarithm of the likelihood of all touches and of all rows of rolls, averaged over all poses and over
+  /// contacts (of rolls the first ones) that are anywhere on the boundary alike, up to what does not depend on the
+  /// part. NaN: not known.
   double log_evidence = std::numeric_limits<double>::quiet_NaN();
   std::vector<TouchDiagnosis> diagnoses{};  // what explains touches that do not fit, the likeliest first
   std::size_t comparisons = 0;

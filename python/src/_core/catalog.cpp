@@ -72,10 +72,13 @@ py::tuple identify_roll(const CatalogHandle& handle, const Problem& like, unsign
 py::tuple identify_touches(const CatalogHandle& handle, const Numbers& rows, const py::object& finger,
                            const py::object& noise, const std::optional<std::pair<double, double>>& tolerance,
                            const std::optional<std::vector<double>>& pose, bool mirrored,
-                           const std::optional<std::size_t>& budget, const Numbers& clear, unsigned threads) {
+                           const std::optional<std::size_t>& budget, const std::vector<LogHandle>& rolls, bool robust,
+                           const Numbers& clear, unsigned threads) {
   const std::shared_ptr<const Catalog> catalog = handle.catalog;
-  const TouchProblem like =
+  TouchProblem like =
       touch_problem_from(catalog->part(0), rows, finger, noise, tolerance, pose, mirrored, budget, clear);
+  for (const LogHandle& roll : rolls) like.rolls.push_back(*roll.log);
+  like.robust = robust;
   const py::object nobody = py::none();
   IdentifyOptions options;
   options.threads = threads;

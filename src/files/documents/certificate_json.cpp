@@ -102,10 +102,24 @@ Json touches_json(const TouchCertificate& certificate) {
   Json list = Json::array();
   for (std::size_t k = 0; k < certificate.touches.size(); ++k) {
     const MeasuredTouch& touch = certificate.touches[k];
-    const TouchTolerance& tolerance = certificate.tolerance[k];
+    const TouchTolerance& tolerance = certificate.tolerance[certificate.rolls.size() + k];
     list.push_back(
         {{"at", point_json(touch.at)}, {"tolerance", json_numbers(std::array{tolerance.length, tolerance.angle})}});
     if (touch.normal) list.back()["normal"] = json_number(*touch.normal);
+  }
+  return list;
+}
+
+Json rolls_json(const TouchCertificate& certificate) {
+  Json list = Json::array();
+  for (std::size_t k = 0; k < certificate.rolls.size(); ++k) {
+    const RollSearched& roll = certificate.rolls[k];
+    const TouchTolerance& tolerance = certificate.tolerance[k];
+    list.push_back({{"normal", json_number(roll.normal)},
+                    {"tolerance", json_numbers(std::array{roll.at ? tolerance.length : 0.0, tolerance.angle})},
+                    {"readings", readings_json(roll.readings)},
+                    {"within", json_number(roll.tolerance)}});
+    if (roll.at) list.back()["at"] = point_json(*roll.at);
   }
   return list;
 }
@@ -230,6 +244,7 @@ std::string format_certificate(const TouchCertificate& certificate) {
   Json json = outline_json("rollfix/touch-certificate/1", certificate);
   json["mirrored"] = certificate.mirrored;
   json["radius"] = json_number(certificate.radius);
+  if (!certificate.rolls.empty()) json["rolls"] = rolls_json(certificate);
   json["touches"] = touches_json(certificate);
   json["reach"] = reach_json(certificate.reach);
   json["poses"] = Json::array();
