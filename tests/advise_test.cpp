@@ -5,6 +5,9 @@
 #include <numbers>
 
 #include "belief_cases.hpp"
+#include "cli.hpp"
+#include "refusal.hpp"
+#include "rollfix/answer/next_roll.hpp"
 #include "rollfix/belief/advise.hpp"
 #include "rollfix/error.hpp"
 
@@ -16,6 +19,7 @@ using rollfix::Advice;
 using rollfix::AdviceOptions;
 using rollfix::Contender;
 using rollfix::Interval;
+using testing::HasSubstr;
 
 namespace {
 
@@ -25,6 +29,12 @@ std::vector<Contender> between(std::initializer_list<double> places) {
     contenders.push_back({place, 0, 1.0 / static_cast<double>(places.size()), contenders.size()});
   }
   return contenders;
+}
+
+/// A disk's centre, seen from the part.
+rollfix::Vec2 centre(const Part& part, double s, double radius) {
+  const double tangent = part.tangent(s);
+  return part.point(s) + radius * rollfix::Vec2(std::sin(tangent), -std::cos(tangent));
 }
 
 }  // namespace
@@ -178,6 +188,54 @@ TEST(Advise, without_contenders_there_is_nothing_to_advise) {
   AdviceOptions options;
   options.travel = Interval{0.1, 0.2};
   EXPECT_THROW(advise(part_of("cam"), between({1, 2}), options), rollfix::InputError);
+}
+
+// ---- before any contact
+
+TEST(FirstRoll, of_one_finger_tells_places_apart_that_bend_differently) {
+  const rollfix::NextRoll next = rollfix::next_roll(
+      rollfix::before_contact(part_of("cam"), {rollfix::disk(0.2)}, rollfix::Noise{.contact = 0.005, .angle = 0.003}));
+  ASSERT_TRUE(next.helps());
+  EXPECT_EQ(next.contenders.size(), 90U);
+  EXPECT_LT(next.advice->advised().placements, 40);
+  EXPECT_NE(next.advice->advised().length, 0);
+}
+
+TEST(FirstRoll, on_a_circle_tells_nothing) {
+  const rollfix::NextRoll next = rollfix::next_roll(rollfix::before_contact(part_of("circle"), {rollfix::disk(0.2)}));
+  EXPECT_FALSE(next.helps());
+  EXPECT_THAT(next.why, HasSubstr("looks the same from every place"));
+}
+
+TEST(FirstRoll, of_two_fingers_starts_where_both_can_be_apart) {
+  const Part part = part_of("cam");
+  const rollfix::NextRoll next =
+      rollfix::next_roll(rollfix::before_contact(part, {rollfix::disk(0.6), rollfix::disk(0.3)}));
+  ASSERT_TRUE(next.helps());
+  EXPECT_LT(next.contenders.size(), 81U);
+  for (const Contender& one : next.contenders) {
+    EXPECT_GE((centre(part, one.place[0], 0.6) - centre(part, one.place[1], 0.3)).norm(), 0.9 - 1e-9);
+  }
+}
+
+TEST(FirstRoll, of_fingers_that_may_overlap_starts_anywhere) {
+  const std::vector<rollfix::Finger> fingers{rollfix::disk(0.6), rollfix::disk(0.3)};
+  EXPECT_EQ(rollfix::before_contact(part_of("cam"), fingers, {}, true).placements.size(), 81U);
+  EXPECT_LT(rollfix::before_contact(part_of("cam"), fingers).placements.size(), 81U);
+}
+
+TEST(FirstRoll, of_no_finger_or_three_is_refused) {
+  EXPECT_THAT(refusal_of([] { rollfix::before_contact(part_of("cam"), {}); }), HasSubstr("one finger or two, found 0"));
+}
+
+TEST(FirstRoll, is_what_advise_says_without_a_reading_or_a_log) {
+  const cli::Ran said = cli::run("advise gallery:cam --finger disk,r=0.2");
+  EXPECT_EQ(said.code, 0) << said.err;
+  EXPECT_THAT(said.out, HasSubstr("nothing is known yet: roll on "));
+  const cli::Ran refused = cli::run("advise gallery:cam --finger disk,r=0.2 --robust");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("--robust: it is about a roll that was"));
+  EXPECT_EQ(cli::run("advise gallery:cam").code, 2);
 }
 
 }  // namespace advise_test

@@ -96,7 +96,7 @@ TEST(SearchTree, passes_over_no_place_that_fits) {
   for (int k = 0; k < count; ++k) {
     const Part part = random_part(generator, k % 6);
     const std::vector<Reading> readings = random_readings(generator, part);
-    const Question question{part, readings};
+    const ContactEquations question{part, readings};
     const double tolerance = std::pow(10, uniform(generator, -9, -1.3));
     Interval range{0, part.perimeter()};
     for (const Reading& reading : readings) {

@@ -150,4 +150,35 @@ TEST(MixedFingers, leave_out_a_disk_that_is_beyond_the_jaws_line_and_keep_one_th
   EXPECT_GT(apart, 2);
 }
 
+TEST(MixedFingers, leave_out_outlines_that_are_in_one_another_and_keep_those_that_are_not) {
+  std::mt19937_64 generator = test_generator(825);
+  std::uniform_real_distribution<double> share(0, 1);
+  const Part part(gallery("cam"));
+  const Finger flat = Finger::outlined(gallery("ellipse,a=0.7,b=0.3"));
+  const Finger round = Finger::outlined(gallery("ellipse,a=0.6,b=0.5"));
+  const std::vector<std::pair<Finger, Finger>> pairs{
+      {flat, round}, {flat, disk(0.4)}, {disk(0.4), flat}, {jaw(), flat}};
+  int inside = 0;
+  int apart = 0;
+  for (int round_number = 0; round_number < test_count(24); ++round_number) {
+    const auto& [a, b] = pairs[static_cast<std::size_t>(round_number) % pairs.size()];
+    Case one{part, {a, b}, {}};
+    for (const std::size_t k : {0U, 1U}) {
+      const double start = part.perimeter() * share(generator);
+      one.plan.fingers[k] = {one.fingers[k], start, 0, k == 0 ? 0.5 : -0.3};
+      if (!one.fingers[k].is_disk()) one.plan.fingers[k].u = 1 + share(generator);
+    }
+    one.plan.rows = 41;
+    const Roll roll = roll_free(part, one.plan);
+    const auto overlap = overlap_of(roll, a, b);
+    if (overlap && overlap->depth < 1e-3) continue;
+    (overlap ? inside : apart) += 1;
+    EXPECT_EQ(holds_truth(one, solve(Problem{part, roll.log, one.fingers}), 1e-6), !overlap)
+        << a.name() << " " << b.name() << ", seed " << test_seed() << " round " << round_number;
+    EXPECT_TRUE(holds_truth(one, answer_of(one, roll.log, {}), 1e-6));
+  }
+  EXPECT_GT(inside, 5);
+  EXPECT_GT(apart, 5);
+}
+
 }  // namespace rollfix::mixed_fingers_test

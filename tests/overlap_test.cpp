@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "contact/convex_body.hpp"
 #include "random.hpp"
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/outline/gallery.hpp"
@@ -98,6 +99,44 @@ TEST(OverlapOf, two_bodies_is_what_a_scan_of_all_directions_finds) {
   }
   EXPECT_GT(deep, 3);
   EXPECT_GT(apart, 3);
+}
+
+TEST(DistanceBetween, two_bodies_is_what_a_scan_of_all_directions_finds_and_below_zero_their_depth) {
+  std::mt19937_64 generator = test_generator(812);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const std::vector<Finger> all = bodies();
+  constexpr double kExact = std::numeric_limits<double>::infinity();
+  int apart = 0;
+  for (int round = 0; round < test_count(25); ++round) {
+    const auto number = static_cast<std::size_t>(round);
+    const Finger& a = all[number % all.size()];
+    const Finger& b = all[(number / all.size() + number) % all.size()];
+    const Pose of_a{0, 0, 3 * unit(generator)};
+    const Pose of_b{4 * unit(generator), 4 * unit(generator), 3 * unit(generator)};
+    const double found = distance_between(ConvexBody(a, of_a), ConvexBody(b, of_b), kExact);
+    EXPECT_NEAR(found, -scanned_depth(points_of(a, of_a), points_of(b, of_b)), 1e-3)
+        << a.name() << " " << b.name() << ", seed " << test_seed();
+    EXPECT_GE(distance_between(ConvexBody(a, of_a), ConvexBody(b, of_b), 0.5 * found), std::min(found, 0.5 * found));
+    apart += found > 0 ? 1 : 0;
+  }
+  EXPECT_GT(apart, 10);
+}
+
+TEST(DistanceBetween, circles_and_corners_is_that_of_closed_forms) {
+  constexpr double kExact = std::numeric_limits<double>::infinity();
+  const Finger round = Finger::outlined(gallery("circle,r=0.7"));
+  const ConvexBody left(round, {0, 0, 1});
+  EXPECT_NEAR(distance_between(left, ConvexBody(disk(0.5), {3, 4, 0}), kExact), 5 - 1.2, 1e-12);
+  // A corner against a circle, and against a flat side.
+  OutlineOptions corners;
+  corners.corner_angle = 0;
+  const Finger square = Finger::outlined(outline_through({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, "square", corners));
+  const double diagonal = std::sqrt(2.0);
+  EXPECT_NEAR(distance_between(ConvexBody(square, {}), ConvexBody(round, {4, 4, 0}), kExact),
+              4 * diagonal - diagonal - 0.7, 1e-12);
+  EXPECT_NEAR(distance_between(ConvexBody(square, {}), ConvexBody(square, {3, 0.2, kTurn / 8}), kExact),
+              3 - 1 - diagonal, 1e-12);
+  EXPECT_NEAR(distance_between(ConvexBody(square, {}), ConvexBody(square, {3, 0.4, 0}), kExact), 1, 1e-12);
 }
 
 TEST(OverlapOf, two_outlines_that_are_circles_is_that_of_disks) {

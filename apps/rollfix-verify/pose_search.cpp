@@ -27,6 +27,8 @@ namespace {
 
 // Boxes are no smaller than this share of the tolerances.
 constexpr double kLeast = 2e-3;
+// Headings that contacts without a place leave are known to this share of their tolerances.
+constexpr double kHeadingShare = 0.01;
 // Nodes are halved while they are larger than this share of the box.
 constexpr double kNodeShare = 0.7;
 constexpr double kRoundings = 1e-13;
@@ -85,7 +87,9 @@ Covered PoseSearch::run() {
   const CentreTree::Node& root = tree_.node(tree_.root());
   double reach = std::numeric_limits<double>::infinity();
   bool any_place = false;
+  bool all_have = true;
   for (const SoughtTouch& touch : touches_) {
+    all_have = all_have && touch.has_place;
     if (!touch.has_place) continue;
     any_place = true;
     reach = std::min(reach, root.radius + touch.length + std::hypot(touch.x, touch.y));
@@ -97,8 +101,47 @@ Covered PoseSearch::run() {
   }
   reach += 2 * rounding_;
   if (!(reach < std::numeric_limits<double>::infinity())) refuse("an outline without a size");
-  visit({Interval{root.x - reach, root.x + reach}, {root.y - reach, root.y + reach}, {-half, half}}, lists);
+  std::vector<Interval> headings;
+  if (all_have) headings.push_back({-half, half});
+  if (!all_have) add_headings({-half, half}, lists, headings);
+  for (const Interval& heading : headings) {
+    visit({Interval{root.x - reach, root.x + reach}, {root.y - reach, root.y + reach}, heading}, lists);
+  }
   return covered_;
+}
+
+/// Adds the headings that contacts without a place leave: what these say is the same wherever the part is, which may be
+/// free to slide.
+void PoseSearch::add_headings(const Interval& headings, const std::vector<List>& lists, std::vector<Interval>& left) {
+  Budget::spend(kBox);
+  const View at = view({Interval{0, 0}, {0, 0}, headings});
+  const std::size_t top = stack_.size();
+  std::vector<List> own = lists;
+  bool may_fit = true;
+  double turn = 0;
+  for (std::size_t k = 0; k < touches_.size() && may_fit; ++k) {
+    if (touches_[k].has_place) continue;
+    turn = std::max(turn, at.half / touches_[k].angle);
+    may_fit = narrow(at, k, own[k]);
+  }
+  const auto is_listed = [&](const View& one) {
+    return std::any_of(listed_.begin(), listed_.end(), [&](const PoseBox& box) { return holds_heading(box, one); });
+  };
+  if (may_fit && (turn <= kHeadingShare || is_listed(at))) {
+    left.push_back(headings);
+    if (left.size() > 1 && left[left.size() - 2].hi == headings.lo) {
+      const Interval both{left[left.size() - 2].lo, headings.hi};
+      if (is_listed(view({Interval{0, 0}, {0, 0}, both}))) {
+        left.pop_back();
+        left.back() = both;
+      }
+    }
+  } else if (may_fit) {
+    const double middle = 0.5 * (headings.lo + headings.hi);
+    add_headings({headings.lo, middle}, own, left);
+    add_headings({middle, headings.hi}, own, left);
+  }
+  stack_.resize(top);
 }
 
 PoseSearch::View PoseSearch::view(const PoseBox& box) const {
@@ -164,6 +207,12 @@ bool PoseSearch::narrow(const View& view, std::size_t touch, List& list) {
   return list.first != list.second;
 }
 
+bool PoseSearch::holds_heading(const PoseBox& box, const View& view) {
+  if (box[2].width() >= kTurn) return true;
+  const double off = nearest(view.heading - 0.5 * (box[2].lo + box[2].hi));
+  return std::abs(off) + view.half <= 0.5 * box[2].width() + kTurnSlack;
+}
+
 /// X = q_0 - R(phi) y: R(phi) turns the middle of y on an arc, and adds what the rest of y is along each axis.
 bool PoseSearch::is_listed(const View& view) const {
   Budget::spend(kComparison * static_cast<double>(listed_.size()));
@@ -179,9 +228,7 @@ bool PoseSearch::is_listed(const View& view) const {
   const Interval at_y{y_ - y.hi - by, y_ - y.lo + by};
   return std::any_of(listed_.begin(), listed_.end(), [&](const PoseBox& box) {
     if (!box[0].holds(at_x, 2 * rounding_) || !box[1].holds(at_y, 2 * rounding_)) return false;
-    if (box[2].width() >= kTurn) return true;
-    const double off = nearest(view.heading - 0.5 * (box[2].lo + box[2].hi));
-    return std::abs(off) + view.half <= 0.5 * box[2].width() + kTurnSlack;
+    return holds_heading(box, view);
   });
 }
 

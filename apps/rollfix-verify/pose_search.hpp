@@ -64,6 +64,8 @@ class PoseSearch {
   bool narrow(const View& view, std::size_t touch, List& list);
   bool may_hold(const View& view, std::size_t touch, const CentreTree::Node& node) const;
   double node_size(std::size_t touch, const CentreTree::Node& node) const;
+  void add_headings(const Interval& headings, const std::vector<List>& lists, std::vector<Interval>& left);
+  static bool holds_heading(const PoseBox& box, const View& view);
   bool is_listed(const View& view) const;
   bool is_open(const List& list) const;
   bool fits_in_the_middle(const View& view, const std::vector<List>& lists);

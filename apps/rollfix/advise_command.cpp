@@ -34,6 +34,8 @@ constexpr const char* kAdviseExamples = R"(Examples (wing.csv and wing-roll.csv:
   rollfix advise gallery:cam --reading 0.4,20.1deg
   rollfix advise gallery:limacon --reading 0.9,30.15deg --finger disk,r=0.1 --travel -1,1.5 -o next.svg
   rollfix advise wing.csv --log wing-roll.csv --finger disk,r=10 --noise contact=0.05,angle=0.2deg --json
+Nothing is known yet: which roll tells most at first; for two fingers --finger for each:
+  rollfix advise gallery:cam --finger disk,r=0.2 --finger disk,r=0.2 --noise contact=0.005,angle=0.2deg
 Two fingers on a part that is free to move: which rolls on, and how far:
   rollfix advise gallery:spline,n=9,seed=7,wobble=0.2 --reading 0.58,0.94,-0.725248 --reading 1.01,1.92,-1.99849
 Touches without rolling: where to touch next, of all ways or of two:
@@ -176,6 +178,20 @@ std::string advise_text(const Catalog& catalog, const Identified& found, const N
   return text + table_of("part", rows, any_part);
 }
 
+/// Before any contact: places all over the boundary, which stand for all others, need no table.
+std::string first_roll_text(const NextRoll& outcome) {
+  const Part& part = outcome.answer.part;
+  const std::string fingers = outcome.answer.finger_count() == 1 ? "places" : "pairs of places";
+  if (!outcome.helps())
+    return fmt::format("nothing is known yet, and no roll will tell {} apart: {}\n", fingers, outcome.why);
+  const Prospect& advised = outcome.advice->advised();
+  return fmt::format(
+      "nothing is known yet: {}: of {} {} all over the boundary {:.2f} are expected to remain, {:.2f} of {:.2f} bits "
+      "gained; travel to expect until they are told apart: {}{}\n",
+      roll_text(outcome.advice->lengths(), part), outcome.contenders.size(), fingers, advised.placements, advised.bits,
+      outcome.advice->bits_wanted, fixed(advised.travel, decimals_for(part.perimeter())), behind(part.unit()));
+}
+
 /// What is drawn of an advice, if there is one.
 void add_advice_figure(const AdviseArguments& arguments, const std::optional<Advice>& advice, const std::string& why,
                        const std::string& name, const std::string& verdict, Report& report) {
@@ -208,6 +224,31 @@ Report advise_on_catalog(const AdviseArguments& arguments) {
   return report;
 }
 
+/// Options that say something of a roll that was.
+void require_no_roll(const RollArguments& roll) {
+  const auto refuse = [](bool given, const char* option) {
+    if (given)
+      throw InputError(fmt::format("{}: it is about a roll that was, and none is given: leave it out", option));
+  };
+  refuse(!roll.tolerance.empty(), "--tolerance");
+  refuse(!roll.prior.empty(), "--prior");
+  refuse(!roll.pose.heading.empty(), "--heading");
+  refuse(!roll.pose.pose.empty(), "--pose");
+  refuse(!roll.direction.empty(), "--direction");
+  refuse(!roll.roll.empty(), "--roll");
+  refuse(roll.robust, "--robust");
+  refuse(roll.mirror, "--mirror");
+}
+
+/// Only the part, the fingers and how noisy a roll would be.
+Problem read_before_contact(const RollArguments& roll, std::vector<std::string>& notes) {
+  Problem problem{load_part(roll.part, notes), std::vector<Reading>{}};
+  problem.fingers = read_fingers(roll.fingers, 2, problem.part.unit());
+  problem.noise = read_noise(roll.noise, problem.part.unit());
+  problem.may_overlap = roll.may_overlap;
+  return problem;
+}
+
 Report advise_report(const AdviseArguments& arguments) {
   const RollArguments& roll = arguments.roll;
   if (roll.roll == "all") {
@@ -227,14 +268,21 @@ Report advise_report(const AdviseArguments& arguments) {
     throw InputError("advise: --touch, --approach and --clear are about touches of one part: give PART and --touch");
   }
   require_part_or_catalog("advise", roll.part, arguments.catalog);
-  if (roll.readings.empty() == roll.logs.empty()) {
-    throw InputError("advise: expected --reading LENGTH,TURN or --log FILE of the roll so far, or --touch X,Y");
+  const bool is_first = roll.readings.empty() && roll.logs.empty();
+  if (!roll.readings.empty() && !roll.logs.empty()) {
+    throw InputError("advise: --reading and --log are both given: leave one of them out");
+  }
+  if (is_first && (roll.fingers.empty() || !arguments.catalog.empty())) {
+    throw InputError(
+        "advise: expected --reading LENGTH,TURN or --log FILE of the roll so far, or --touch X,Y; before any contact "
+        "PART and --finger, once or for each of two");
   }
   counts_clockwise(roll.direction);  // one way or the other, not either
   require_figure_output(arguments.output, arguments.json);
   if (!arguments.catalog.empty()) return advise_on_catalog(arguments);
   Report report;
-  const Problem problem = read_problem(roll, report.notes);
+  if (is_first) require_no_roll(roll);
+  const Problem problem = is_first ? read_before_contact(roll, report.notes) : read_problem(roll, report.notes);
   std::optional<Interval> travel;
   if (!arguments.travel.empty()) travel = read_travel(arguments.travel, problem.part.unit());
   std::optional<PerFinger<double>> friction;
@@ -242,10 +290,14 @@ Report advise_report(const AdviseArguments& arguments) {
     const std::vector<double> each = read_coefficients(arguments.friction, 2);
     friction = PerFinger<double>(each[0], each[1]);
   }
-  const NextRoll outcome = next_roll(solve(problem), travel, problem.may_overlap, friction);
+  const NextRoll outcome = next_roll(
+      is_first ? before_contact(problem.part, problem.fingers, problem.noise, problem.may_overlap) : solve(problem),
+      travel, problem.may_overlap, friction);
   add_notes(outcome.answer, report);
   report.exit_code = exit_code_of(outcome.answer);
-  report.data = arguments.json ? json_text(next_roll_json(outcome)) : advise_text(outcome);
+  report.data = arguments.json ? json_text(next_roll_json(outcome))
+                : is_first     ? first_roll_text(outcome)
+                               : advise_text(outcome);
   add_advice_figure(arguments, outcome.advice, outcome.why, outcome.answer.part.name(), outcome.answer.verdict.text(),
                     report);
   return report;

@@ -229,7 +229,7 @@ class Catalog(Made):
             require_only(TouchOptions, asked, "touches do not roll and have no use for it")
             return self._touched(touches, given, count)
         if given.pop("clear", None) is not None:
-            raise InputError("clear: is about touches: give them as `touches`, or leave it out")
+            raise InputError("clear: is about touches and several rolls: give `touches`, or rolls with roll='all', or leave it out")
         problem, read = self._asked(readings, turn, log, given)
         return self._search(problem, read, count)
 

@@ -274,8 +274,10 @@ class Catalog:
         arg4: Optional[Sequence[float]],
         arg5: bool,
         arg6: Optional[int],
-        arg7: _Array,
-        arg8: int,
+        arg7: Sequence[Log],
+        arg8: bool,
+        arg9: _Array,
+        arg10: int,
     ) -> Tuple[str, List[Tuple[int, TouchAnswer]]]: ...
     def advise(self, arg0: Problem, arg1: Optional[Tuple[float, float]]) -> str: ...
 
@@ -310,6 +312,8 @@ def plan_roll(
     arg12: float,
     arg13: float,
     arg14: int,
+    arg15: bool,
+    arg16: bool,
 ) -> Plan: ...
 def load_part(arg0: str, arg1: Dict[str, Any]) -> Part: ...
 def part_from_points(arg0: _Array, arg1: str, arg2: Dict[str, Any]) -> Part: ...
@@ -347,6 +351,7 @@ def locate_hold(
     arg7: Optional[int],
     arg8: Sequence[Tuple[Log, float]],
     arg9: Optional[float],
+    arg10: bool,
 ) -> HoldAnswer: ...
 def locate_one(arg0: Part, arg1: float, arg2: float) -> Answer: ...
 def finger_name(arg0: _Given) -> str: ...

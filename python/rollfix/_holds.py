@@ -28,8 +28,8 @@ class HoldAnswer(Listing):
     __slots__ = ("_answer", "_asked")
 
     def __init__(self, asked: Tuple[Any, ...]) -> None:
-        part, logs, *rest, wheels, squeezed = asked
-        rest += [[(one._core, radius) for one, radius in wheels], squeezed]
+        part, logs, *rest, wheels, squeezed, may_overlap = asked
+        rest += [[(one._core, radius) for one, radius in wheels], squeezed, may_overlap]
         self._answer = _core.locate_hold(part._core, [one._core for one in logs], *rest)
         self._asked = asked
         super().__init__(self._answer.document())
@@ -132,7 +132,7 @@ def _is_row(one: Any) -> bool:
 def held(part: Any, logs: Sequence[Any], **options: Any) -> HoldAnswer:
     """The answer to logs of three and more fingers, or of fingers beside wheels, checked. `options`: all of HoldOptions."""
     finger, noise, tolerance, at = (options[name] for name in ("finger", "noise", "tolerance", "at"))
-    budget, squeezed = options["budget"], options["squeezed"]
+    budget, squeezed, may_overlap = options["budget"], options["squeezed"], options["may_overlap"]
     naming = Naming(options["columns"], options["units"], options["degrees"], options["wrapped"])
     if noise is not None and tolerance is not None:
         raise InputError("tolerance: `noise` already says how far rows are off: leave one out")
@@ -141,6 +141,8 @@ def held(part: Any, logs: Sequence[Any], **options: Any) -> HoldAnswer:
         finger, wheels = _apart(finger, logs)
     pins = [(pin_of(log, naming, part.unit), one.radius) for log, one in zip(logs[len(logs) - len(wheels):], wheels)]
     logs = logs[: len(logs) - len(wheels)]
+    if may_overlap and not wheels:
+        raise InputError("may_overlap: is not taken with three and more fingers: leave it out")
     given = fingers(finger, most=len(logs))
     if not given:
         raise InputError("finger: expected the fingers that rolled, as in finger=Disk(radius), found none")
@@ -159,6 +161,7 @@ def held(part: Any, logs: Sequence[Any], **options: Any) -> HoldAnswer:
         None if budget is None else whole(budget, "budget", 1),
         tuple((pin._in_unit(part.unit, [radius]), radius) for pin, radius in pins),
         None if squeezed is None else least(squeezed, "squeezed", 0, "an angle"),
+        flag(may_overlap, "may_overlap"),
     ))  # fmt: skip
 
 

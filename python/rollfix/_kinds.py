@@ -37,7 +37,7 @@ def answer_to(part: Any, given: Mapping[str, Any], options: Mapping[str, Any]) -
     if sources["touches"] is not None:
         return _of_touches(part, sources, options)
     if options.pop("clear", None) is not None:
-        raise InputError("clear: is about touches: give them as `touches`, or leave it out")
+        raise InputError("clear: is about touches and several rolls: give `touches`, or rolls with roll='all', or leave it out")
     return _of_one_roll(part, sources, options)
 
 

@@ -63,6 +63,7 @@ class HoldOptions(Measured, Read, total=False):
     tolerance: Union[float, Tuple[float, float], None]
     at: Any
     squeezed: Optional[float]
+    may_overlap: bool
 
 
 class RowOptions(Measured, total=False):
@@ -147,6 +148,7 @@ DEFAULTS: Dict[str, Any] = {
 }  # fmt: skip
 
 
+@functools.lru_cache(maxsize=None)
 def names_of(options: Any) -> Tuple[str, ...]:
     """Of one of the classes above."""
     return tuple(name for name in DEFAULTS if name in options.__annotations__)
@@ -154,11 +156,17 @@ def names_of(options: Any) -> Tuple[str, ...]:
 
 def filled(given: Mapping[str, Any], options: Any) -> Dict[str, Any]:
     """All options, with those that are not given. Throws TypeError: one that is not known."""
-    names = names_of(options)
-    for name in given:
-        if name not in names:
+    everything = dict(_defaults_of(options))
+    for name, value in given.items():
+        if name not in everything:
             raise TypeError(f"got an unexpected keyword argument {name!r}")
-    return {name: given.get(name, DEFAULTS[name]) for name in names}
+        everything[name] = value
+    return everything
+
+
+@functools.lru_cache(maxsize=None)
+def _defaults_of(options: Any) -> Mapping[str, Any]:
+    return {name: DEFAULTS[name] for name in names_of(options)}
 
 
 def require_only(options: Any, given: Mapping[str, Any], why: str) -> None:
@@ -182,9 +190,9 @@ def keywords(options: Any) -> Callable[[Method], Method]:
     def shown(method: Method) -> Method:
         @functools.wraps(method)
         def known(self: Any, *args: Any, **given: Any) -> Any:
-            for name in given:
-                if name not in names:
-                    raise TypeError(f"{method.__name__}() got an unexpected keyword argument {name!r}")
+            if not given.keys() <= names:
+                unknown = next(name for name in given if name not in names)
+                raise TypeError(f"{method.__name__}() got an unexpected keyword argument {unknown!r}")
             return method(self, *args, **given)
 
         signature = inspect.signature(method)

@@ -117,6 +117,8 @@ def planned(
     clearance: float,
     samples: int,
     contact: Any,
+    may_overlap: bool,
+    mirrored: bool,
 ) -> Plan:
     given = fingers(finger)
     if not given:
@@ -140,5 +142,7 @@ def planned(
         number(margin, "margin"),
         number(clearance, "clearance"),
         whole(samples, "samples", 2),
+        flag(may_overlap, "may_overlap"),
+        flag(mirrored, "mirrored"),
     )
     return Plan(asked)

@@ -123,6 +123,8 @@ class RolledOn(Asked):
         clearance: float = 0.0,
         samples: int = 101,
         contact: Any = None,
+        may_overlap: bool = False,
+        mirrored: bool = False,
     ) -> Plan:
         """What the fingers have to do so that they roll as far as is asked, or which condition fails.
 
@@ -156,6 +158,10 @@ class RolledOn(Asked):
             Rows of the plan.
         contact : float, of two fingers also a pair, optional
             Of a disk its angle u at the first contact, radians; of another finger the place on it.
+        may_overlap : bool
+            Two fingers at different heights: they may pass one another.
+        mirrored : bool
+            The part lies face down. `start` and `length` are along the outline as drawn.
 
         Returns
         -------
@@ -177,4 +183,6 @@ class RolledOn(Asked):
             clearance,
             samples,
             contact,
+            may_overlap,
+            mirrored,
         )

@@ -32,12 +32,7 @@ def tell_of_dropped(part: _core.Part, roll: _core.Roll, finger: Optional[FingerL
             why = f"enter the part by {met[1]:.3g}" if met[1] > 0 else "roll over a concave corner"
             warn(f"simulate: {name}a real one can't do this roll: at s = {met[0]:.6g} it would {why}; `locate` leaves it out")
     if len(names) == 2 and (deepest := roll.overlap(given)):
-        left_out = all(isinstance(one, (float, str)) for one in given)
-        then = (
-            "`locate` leaves such a roll out; of fingers at different heights say may_overlap=True there"
-            if left_out
-            else "real ones must be at different heights"
-        )
+        then = "`locate` leaves such a roll out; of fingers at different heights say may_overlap=True there"
         warn(f"simulate: the fingers overlap, by {deepest[1]:.3g} in row {deepest[0]}: {then}")
 
 

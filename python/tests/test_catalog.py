@@ -174,10 +174,23 @@ def test_a_part_without_a_placement_has_a_row_of_the_frame(catalog):
     assert list(rows["part"]) == found.names and rows["x"].isna().all()
 
 
+def test_several_rolls_say_which_part_it_is(catalog):
+    part = catalog.part(catalog.names[0])
+    sensors = {"contact": 0.002, "angle": 0.005}
+    rolls = [part.simulate(rollfix.Disk(0.05), start=s, length=0.5, samples=30, noise=sensors, seed=1) for s in (1, 3)]
+    given = {"finger": rollfix.Disk(0.05), "noise": {**sensors, "position": 0.005}}
+    found = catalog.identify(log=[roll.log for roll in rolls], roll="all", **given)
+    assert found.names[0] == catalog.names[0]
+    alone = part.locate(log=[roll.log for roll in rolls], roll="all", **given)
+    assert found[0].answer.poses.tolist() == alone.poses.tolist()
+    with pytest.raises(rollfix.InputError, match="facing: is of one roll"):
+        catalog.identify(log=[roll.log for roll in rolls], roll="all", facing=1.0, **given)
+
+
 def test_touches_and_a_roll_are_two_questions(catalog, roll):
     with pytest.raises(rollfix.InputError, match="shares a pose with `touches` where roll='all'"):
         catalog.identify(touches=TOUCHES, log=roll, noise={"position": 0.005})
     with pytest.raises(rollfix.InputError, match="facing: touches do not roll"):
         catalog.identify(touches=TOUCHES, facing=1.0, noise={"position": 0.005})
-    with pytest.raises(rollfix.InputError, match="clear: is about touches"):
+    with pytest.raises(rollfix.InputError, match="clear: is about touches and several rolls"):
         catalog.identify(clear=[(0, 0, 1, 1)])

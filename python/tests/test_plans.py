@@ -35,6 +35,18 @@ def test_what_can_not_be_done_says_why():
     assert plan.margins[plan.failure]["condition"] == "friction"
 
 
+def test_a_part_face_down_is_found_where_the_plan_starts():
+    plan = across(mirrored=True)
+    assert plan.feasible
+    found = ELLIPSE.locate(log=plan.log, finger=DISK, mirrored=True)
+    assert np.allclose(found[0].start, (2.4, 7.2), atol=1e-7)
+
+
+def test_fingers_at_different_heights_are_not_kept_apart():
+    assert "apart" in [margin["condition"] for margin in across().margins]
+    assert "apart" not in [margin["condition"] for margin in across(may_overlap=True).margins]
+
+
 def test_a_wheel_finds_its_place():
     plan = ELLIPSE.plan((rollfix.Jaw(), DISK), start=(2.4, None), length=0.3, wheel=True)
     assert plan.path == "squeezed"

@@ -151,5 +151,5 @@ def test_an_answer_has_a_certificate(found, tmp_path):
 
 
 def test_one_touch_has_no_certificate(bracket):
-    with pytest.raises(rollfix.InputError, match="expected at least two, found 1"):
+    with pytest.raises(rollfix.InputError, match="expected at least two contacts, found 1"):
         bracket.locate(touches=FIVE[:1], finger=rollfix.Disk(3), noise=NOISE).certify()

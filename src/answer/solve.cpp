@@ -13,6 +13,7 @@
 #include "finger_corners.hpp"
 #include "mirror.hpp"
 #include "observation.hpp"
+#include "overlapping.hpp"
 #include "rollfix/contact/pose.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate/locate.hpp"
@@ -94,14 +95,17 @@ double length_error(const Problem& problem, const Observation& observed) {
   return digits + kFarthestRow * std::hypot(contact, scale * travelled);
 }
 
-/// What the fingers can't do goes, where that is known of all of them.
+/// What the fingers can't do goes: where they can be is known if all of them are disks or jaws.
 void drop_impossible(const Problem& problem, const Observation& observed, Answer& answer) {
   const Doing doing("looking where the fingers can reach");
-  if (answer.fingers.empty() || !std::all_of(answer.fingers.begin(), answer.fingers.end(), has_reach)) return;
-  answer.has_reach = true;
+  if (answer.fingers.empty()) return;
+  answer.has_reach = std::all_of(answer.fingers.begin(), answer.fingers.end(), has_reach);
+  const double error = length_error(problem, observed);
   answer.impossible =
-      drop_unreachable(answer.part, reaches_of(answer.part, answer.fingers, answer.finger_count()), answer.readings,
-                       answer.placements, observed.rolls, length_error(problem, observed), problem.may_overlap);
+      answer.has_reach
+          ? drop_unreachable(answer.part, reaches_of(answer.part, answer.fingers, answer.finger_count()),
+                             answer.readings, answer.placements, observed.rolls, error, problem.may_overlap)
+          : drop_overlapping(problem, observed, error, answer.placements);
   for (const Impossible& item : answer.impossible) {
     ++(item.reason == Impossible::Reason::reach ? answer.dropped.reach : answer.dropped.overlap);
   }

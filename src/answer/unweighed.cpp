@@ -84,7 +84,7 @@ class RowsCheck {
     for (const FingerRows& rows : problem.felt.log->fingers) {
       centre_rounding_ += rounding_of_column(rows.x) + rounding_of_column(rows.y);
     }
-    is_open_ = Question{part_, answer.readings}.is_open();
+    is_open_ = ContactEquations{part_, answer.readings}.is_open();
   }
 
   bool contradicts(const Placement& placement) const {
@@ -103,7 +103,7 @@ class RowsCheck {
   static constexpr double kLeastOff = 1e-6;  // of the perimeter: an outline's own accuracy
 
   double off(const Placement& placement) const {
-    Question question{part_, observed_.rolls};
+    ContactEquations question{part_, observed_.rolls};
     if (answer_.facing) question.facing = without_laps(*answer_.facing);
     double least = residual_at(question, placement.start);
     for (const PerFinger<double>& root : placement.roots) least = std::min(least, residual_at(question, root));

@@ -226,6 +226,8 @@ void weigh(const Problem& problem, const Observation& observed, bool explains, B
   answer.dropped.improbable = weighing.improbable.size();
   if (answer.finger_count() == 2) {  // what is listed is the posterior's: the search only says what kinds they are
     answer.status = weighing.rest <= kMostRest ? Status::complete : Status::incomplete;
+  } else if (answer.verdict.name == Verdict::undecided) {
+    answer.status = Status::incomplete;
   }
   answer.weighing = std::move(weighing);
   keep_probabilities(answer);

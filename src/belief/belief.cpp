@@ -125,7 +125,9 @@ template <class Place>
 Verdict Belief::State::verdict_on(const std::vector<Place>& places) {
   settle();
   if (!posterior->has_begun()) return {Verdict::unobservable};
-  if (places.empty()) return {Verdict::inconsistent};
+  // Where so much is unresolved that nothing could be listed, nothing was excluded either.
+  const bool is_open = outcome.modes.empty() && outcome.unresolved > 1 - kCertain && outcome.fit.excess <= kMostExcess;
+  if (places.empty()) return {is_open ? Verdict::undecided : Verdict::inconsistent};
   std::vector<PerFinger<Interval>> that_count;
   for (const Place& each : places) {
     if (each.probability >= kCounts) that_count.push_back(each.interval);

@@ -26,7 +26,8 @@ namespace {
 
 // Where what gathers is seen, nodes are this many times as long as slip is one and the same: long enough that what
 // gathers in neighbours is independent. There are at least so many, to tell a roll's course. Calibrated: chosen by
-// simulation, not derived (docs/belief.md, "How many rows are joined").
+// simulation, not derived (docs/belief.md, "How many rows are joined"). On a boundary that turns to and fro more than
+// kWavy times as much as a circle nodes are shorter by the square of that: a mean over a bend and back is off both.
 constexpr double kPatches = 2.5;
 constexpr double kFewestNodes = 24;
 
@@ -67,7 +68,7 @@ void Nodes::add(const Row& row) {
 
 bool Nodes::are_too_many() const {
   if (!by_walk_) return false;
-  const double many = std::max(kFewestNodes, travel_.so_far() / (kPatches * errors_.patch()));
+  const double many = std::max(kFewestNodes, finer_ * travel_.so_far() / (kPatches * errors_.patch()));
   return static_cast<double>(nodes_.size()) > many && walk_.modes() > 0.5 * many;
 }
 

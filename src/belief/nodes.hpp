@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <memory_resource>
@@ -18,7 +19,9 @@ namespace rollfix::belief {
 // A roll's rows are joined to at most this many nodes, however many rows there are, ...
 inline constexpr std::size_t kMostNodes = 512;
 // ... on a boundary that turns to and fro to as many more, up to so many times: a mean over rows on a bend is off it.
-inline constexpr double kMostFiner = 4;
+inline constexpr double kMostFiner = 16;
+// A boundary that turns so many times as much as a circle, to and fro, has bends that are as many times shorter.
+inline constexpr double kWavy = 4;
 
 /// Neighbouring rows of a roll as one: their mean, which is as good as all of them where they are close together.
 struct Node {
@@ -51,12 +54,14 @@ struct Node {
 /// with their number. docs/belief.md derives it.
 class Nodes {
  public:
-  /// `robust`, `most`: see RowBlocks. `by_walk`: fewer where what gathers is seen. `memory`: for all that it keeps.
+  /// `robust`, `most`: see RowBlocks. `by_walk`: fewer where what gathers is seen, but more where the boundary `turns`,
+  /// to and fro, so many times as much as a circle. `memory`: for all that it keeps.
   Nodes(const ErrorModel& errors, double tilt, bool robust, std::size_t most = kMostNodes, bool by_walk = true,
-        std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+        double turns = 1, std::pmr::memory_resource* memory = std::pmr::get_default_resource())
       : errors_(errors),
         tilt_(tilt),
         by_walk_(by_walk),
+        finer_(std::max(1.0, (turns / kWavy) * (turns / kWavy))),
         blocks_(errors, tilt, robust, most, memory),
         nodes_(memory),
         travel_(errors.travel(memory)) {}
@@ -102,6 +107,7 @@ class Nodes {
   ErrorModel errors_;
   double tilt_;
   bool by_walk_;
+  double finer_;  // nodes are so many times shorter than slip asks for
   std::size_t generation_ = 0;
   std::size_t rows_ = 0;
   RowBlocks blocks_;

@@ -125,7 +125,7 @@ Placement with_mode(Placement placement, const Mode& mode, const Part& part) {
 
 Weighed weigh(const Part& part, const std::vector<Reading>& readings, const std::optional<double>& facing,
               const std::vector<Placement>& found, Belief& belief) {
-  const Question question{part, readings, facing};
+  const ContactEquations question{part, readings, facing};
   Weighed weighed;
   std::vector<bool> has_mode(found.size(), false);
   for (const Mode& mode : belief.modes()) {

@@ -38,7 +38,8 @@ std::size_t points_of(std::size_t given, const TiltedBoundary& boundary, const P
 }  // namespace
 
 Locator::LogBelief::LogBelief(Locator& locator)
-    : nodes(locator.errors_, locator.boundary_.tilt(), false, most_nodes(locator.part_), true, &locator.pool_),
+    : nodes(locator.errors_, locator.boundary_.tilt(), false, most_nodes(locator.part_), true,
+            turns_to_and_fro(locator.part_), &locator.pool_),
       grid(locator.boundary_, locator.errors_, locator.options_, locator.part_.boundary(),
            corner_length(0, locator.part_), nullptr, &locator.pool_, locator.points_),
       modes(&locator.pool_) {}

@@ -48,7 +48,9 @@ struct Told {
 std::vector<Told> told_by(const TouchAnswer& answer) {
   std::vector<Told> told;
   for (const RollFacts& roll : answer.rolls) told.push_back({roll.searched.at, true});
-  for (const MeasuredTouch& touch : answer.touches) told.push_back({touch.at, touch.normal.has_value()});
+  for (const MeasuredTouch& touch : answer.touches) {
+    told.push_back({touch.has_place() ? std::optional(touch.at) : std::nullopt, touch.normal.has_value()});
+  }
   return told;
 }
 
@@ -82,6 +84,12 @@ void require_certifiable(const TouchAnswer& answer) {
         "boundary; of one roll without noise certify its readings");
   }
   if (answer.rolls.empty()) return;
+  const bool any_single =
+      std::any_of(answer.rolls.begin(), answer.rolls.end(), [](const RollFacts& roll) { return roll.rows == 1; });
+  if (any_single) {
+    throw InputError(
+        "a certificate of rolls: expected two rows of each, found one row: give it as a touch with its normal");
+  }
   if (answer.noise) {
     throw InputError(
         "a certificate of rolls: expected a tolerance, found noise, under which no pose is out of the question: give "

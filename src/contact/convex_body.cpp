@@ -24,6 +24,8 @@ constexpr double kDepthAccuracy = 1e-13;
 // Directions closer together than this, radians, differ by less than rounding.
 constexpr double kLeastWidth = 1e-9;
 constexpr int kFirstDirections = 8;
+// Of a direction, radians: as it is found, a distance is off by rounding alone.
+constexpr double kLeastTurn = 1e-12;
 
 Vec2 towards(double direction) { return {std::cos(direction), std::sin(direction)}; }
 
@@ -98,29 +100,69 @@ Vec2 ConvexBody::farthest_in_frame(double direction) const {
   return best;
 }
 
-double depth_of_overlap(const ConvexBody& one, const ConvexBody& other, double enough) {
+namespace {
+
+/// The direction in which the bodies are least in one another; where that is no more than `enough` any that shows it.
+Looked least_of_all(const ConvexBody& one, const ConvexBody& other, double enough) {
   std::priority_queue<Between> open;
   const Looked first = look(one, other, 0);
-  double least = first.depth;
+  Looked least = first;
+  const auto keep = [&](const Looked& looked) {
+    if (looked.depth < least.depth) least = looked;
+  };
   Looked before = first;
-  for (int k = 1; k <= kFirstDirections && least > enough; ++k) {
+  for (int k = 1; k <= kFirstDirections && least.depth > enough; ++k) {
     Looked next = k < kFirstDirections ? look(one, other, kBodyTurn * k / kFirstDirections) : first;
     next.direction = kBodyTurn * k / kFirstDirections;
-    least = std::min(least, next.depth);
+    keep(next);
     open.push(bounded(before, next));
     before = next;
   }
-  while (least > enough && !open.empty() && open.top().bound < least * (1 - kDepthAccuracy)) {
+  while (least.depth > enough && !open.empty() && open.top().bound < least.depth * (1 - kDepthAccuracy)) {
     const Between widest = open.top();
     open.pop();
     const double width = widest.hi.direction - widest.lo.direction;
     if (width < kLeastWidth) continue;
     const Looked middle = look(one, other, widest.lo.direction + 0.5 * width);
-    least = std::min(least, middle.depth);
+    keep(middle);
     open.push(bounded(widest.lo, middle));
     open.push(bounded(middle, widest.hi));
   }
   return least;
+}
+
+/// In which direction from here g falls: +1 or -1.
+int downhill(const Looked& looked) {
+  return looked.difference.dot(towards(looked.direction + kBodyTurn / 4)) > 0 ? -1 : 1;
+}
+
+}  // namespace
+
+double depth_of_overlap(const ConvexBody& one, const ConvexBody& other, double enough) {
+  return least_of_all(one, other, enough).depth;
+}
+
+// Where g is below 0 it has one minimum: -g is a concave function of a vector, over that vector's length. The
+// directions in which it is are less than half a turn, so that the minimum is less than that from any of them.
+double distance_between(const ConvexBody& one, const ConvexBody& other, double enough) {
+  Looked least = least_of_all(one, other, 0);
+  if (least.depth >= 0) return -least.depth;
+  const double start = least.direction;
+  const int way = downhill(least);
+  double near = 0;
+  double far = kBodyTurn / 2;
+  while (-least.depth < enough && far - near > kLeastTurn) {
+    const double middle = 0.5 * (near + far);
+    const Looked looked = look(one, other, start + way * middle);
+    const bool is_beyond = looked.depth >= 0 || downhill(looked) != way;
+    (is_beyond ? far : near) = middle;
+    if (looked.depth < least.depth) least = looked;
+  }
+  return -least.depth;
+}
+
+double depth_along(const ConvexBody& one, const ConvexBody& other, double direction) {
+  return look(one, other, direction).depth;
 }
 
 double depth_of_overlap(const Pose& jaw, const ConvexBody& other) {

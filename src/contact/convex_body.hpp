@@ -25,7 +25,15 @@ class ConvexBody {
 /// enough that something separates them. `enough`: a depth of no more than this needs not be exact.
 double depth_of_overlap(const ConvexBody& one, const ConvexBody& other, double enough);
 
-/// The same of a jaw in this pose, which has no ends, and a body.
+/// How far apart two of them are, below 0 by how much they are in one another. `enough`: a distance of no less than
+/// this needs not be exact.
+double distance_between(const ConvexBody& one, const ConvexBody& other, double enough);
+
+/// The depth as seen in one direction, radians, from the one to the other: no less than the depth; at or below 0 a line
+/// across it separates them.
+double depth_along(const ConvexBody& one, const ConvexBody& other, double direction);
+
+/// The depth of a jaw in this pose, which has no ends, and a body; below 0 how far they are apart.
 double depth_of_overlap(const Pose& jaw, const ConvexBody& other);
 
 }  // namespace rollfix

@@ -44,6 +44,10 @@ constexpr double kHardlyFits = 100;
 constexpr double kAlongJaw = 1e-3;
 // A rig that stops with a larger margin than this, as a share of the size, does not stop because of it.
 constexpr double kMarginGone = 1e-4;
+// A joint lies ahead if so small a step, radians, changes what holds the part.
+constexpr double kAhead = 1e-6;
+// Contacts nearer to each other than this, as a share of the size, leave nothing between them.
+constexpr double kNothingBetween = 1e-6;
 // Of a squeezed rig's start: how far the wheel's normal may miss the jaw's contact, as a share of the size.
 constexpr double kOnNormal = 1e-9;
 
@@ -199,6 +203,10 @@ class Course {
 
   /// Which finger hardly fits where it is, if one does, or that no jaw could take the force.
   std::string tightness_text() const {
+    const Part& part = closure_.jaw().part();
+    if ((part.point(now_.jaw.s) - part.point(now_.wheel.s)).norm() < kNothingBetween * closure_.size()) {
+      return ": both touch it at one and the same place, and nothing of it is left between them";
+    }
     if (plan_.squeezed && std::abs(std::cos(now_.wheel.angle - now_.jaw.angle)) < kAlongJaw) {
       return ": the wheel's force lies along the jaw, where no friction holds it";
     }
@@ -210,18 +218,30 @@ class Course {
     return "";
   }
 
+  /// Whether the margin is gone, or is a little further on: at a joint of the part it jumps.
+  bool is_margin_gone(std::size_t row) {
+    if (std::abs(now_.margin) <= kMarginGone * closure_.size()) return true;
+    const Vec2 lead = now_.slope.inverse() * (target(times_[row]) - now_.value);
+    try {
+      return closure_.at(now_.rotations + kAhead * lead.normalized()).margin * sign_ <= 0;
+    } catch (const InputError&) {
+      return false;
+    }
+  }
+
   /// Says why the rig can't go on.
-  [[noreturn]] void stop(std::size_t row, double time) const {
+  [[noreturn]] void stop(std::size_t row, double time) {
     const Vec2 moved = displacement(time);
     const std::string possible = plan_.squeezed ? fmt::format("{:.6g} along the jaw", moved.x())
                                                 : fmt::format("({:.6g}, {:.6g})", moved.x(), moved.y());
     const std::string head = fmt::format("row {} of the log, at {:.6g} s: ", row + 1, time);
     const std::string cure = fmt::format("the pin can move by {}", possible);
-    const bool is_margin_gone = std::abs(now_.margin) <= kMarginGone * closure_.size();
-    if (!is_margin_gone && !refusal_.empty()) throw InputError(head + refusal_ + "; " + cure);
-    if (!is_margin_gone) {
-      throw InputError(fmt::format("{}the rig can't be followed any further ({}){}; {}", head, places_text(),
-                                   tightness_text(), cure));
+    const std::string tightness = tightness_text();
+    const bool is_gone = tightness.empty() && is_margin_gone(row);
+    if (!is_gone && !refusal_.empty()) throw InputError(head + refusal_ + "; " + cure);
+    if (!is_gone) {
+      throw InputError(
+          fmt::format("{}the rig can't be followed any further ({}){}; {}", head, places_text(), tightness, cure));
     }
     if (plan_.squeezed) {
       throw InputError(

@@ -69,13 +69,17 @@ class PlanPicture {
     const FingerRows& rows = plan_.roll.log.fingers[which];
     return {rows.x[row], rows.y[row], rows.psi[row]};
   }
+  /// Of the part's frame in the world.
+  Vec2 placed(const Vec2& point, std::size_t row) const {
+    return pose(row).world({problem_.mirrored ? -point.x() : point.x(), point.y()});
+  }
   Vec2 contact(std::size_t which, std::size_t row) const {
-    return pose(row).world(problem_.part.point(plan_.roll.s[which][row]));
+    return placed(problem_.part.point(plan_.roll.s[which][row]), row);
   }
 
   std::vector<Vec2> part_at(std::size_t row) const {
     std::vector<Vec2> world;
-    for (const Vec2& point : outline_) world.push_back(pose(row).world(point));
+    for (const Vec2& point : outline_) world.push_back(placed(point, row));
     return world;
   }
 
@@ -155,7 +159,8 @@ class PlanPicture {
       const PlanFinger& finger = problem_.fingers[which];
       if (!finger.friction && !finger.wheel) continue;
       const double half = finger.wheel ? 0 : std::atan(*finger.friction);
-      const double inward = plan_.roll.angle[which][shown_] + pose(shown_).heading + 0.5 * std::numbers::pi;
+      const double on_part = plan_.roll.angle[which][shown_] + 0.5 * std::numbers::pi;
+      const double inward = pose(shown_).heading + (problem_.mirrored ? std::numbers::pi - on_part : on_part);
       const Vec2 tip = contact(which, shown_);
       const auto edge = [&](double angle) {
         return Vec2(tip + kPlanCone * size_ * Vec2(std::cos(angle), std::sin(angle)));

@@ -83,6 +83,7 @@ HeldWheel wheel_of(const HoldProblem& problem, std::size_t number, const Log& lo
     wheel.place = problem.noise->position;
     wheel.radius = problem.noise->radius;
     if (given.log.has_encoder()) wheel.spin = std::max(problem.noise->angle, kLeastHeldAngle);
+    wheel.line_alike = static_cast<double>(rows.x.size());
     return wheel;
   }
   std::vector<double> coordinates = rows.x;

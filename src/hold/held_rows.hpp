@@ -31,6 +31,7 @@ struct HeldWheel {
   double radius = 0;             // of the wheel's radius
   std::optional<double> spin{};  // of the orientation, radians; none: it has no encoder
   std::optional<double> line{};  // of the angle between its normal and the way to the finger's contact; none: not known
+  double line_alike = 1;         // with noise so many rows are off alike: all of them, since what tilts a force lasts
 };
 
 /// How far one finger's measurements may be off. With noise standard deviations, else tolerances.

@@ -150,7 +150,10 @@ double HoldFit::freedom(const HeldState& state) const {
       const Look one = look(state.placed[row], place_of(state, row, k), row, k);
       numbers += one.angles + (rows_.errors[k].has_place ? 2 : 0);
     }
-    for (const HeldWheel& wheel : rows_.wheels) numbers += 1 + (wheel.spin ? 1 : 0) + (wheel.line ? 1 : 0);
+    for (const HeldWheel& wheel : rows_.wheels) {
+      const double of_line = wheel.line ? rows_.rows[row].weight / wheel.line_alike : 0;
+      numbers += 1 + (wheel.spin ? 1 : 0) + of_line;
+    }
     numbers -= rows_.any_place ? 3 : 1;
   }
   for (const HeldWheel& wheel : rows_.wheels) numbers -= wheel.spin ? 1 : 0;

@@ -90,7 +90,7 @@ HoldFit::PinLook HoldFit::pin_look(const HeldState& state, std::size_t row, std:
         nearest_angle(std::atan2(way.y(), way.x()) - placed.heading - near.angle + 0.5 * std::numbers::pi);
     look.by_pose.row(2) = -near.turn_per_length * by_pose(near.along) - Eigen::RowVector3d(0, 0, 1);
     const double beside = rows_.has_noise ? std::numbers::sqrt2 * one.place / way.norm() : 0;
-    look.information(2) = times / (*one.line * *one.line + beside * beside);
+    look.information(2) = times / (one.line_alike * *one.line * *one.line + beside * beside);
     look.log_size -= std::log(look.information(2));
   }
   return look;

@@ -12,6 +12,7 @@
 #include "rollfix/hold/hold.hpp"
 #include "rollfix/pulse.hpp"
 #include "weigh_holds.hpp"
+#include "wheels_apart.hpp"
 
 // Follows docs/two_fingers.md, "Three and more fingers".
 namespace rollfix {
@@ -133,6 +134,7 @@ HoldAnswer solve(const HoldProblem& problem) {
   const Doing doing("looking for places that fit all fingers");
   const hold::WheelPaths wheels = hold::paths_of(problem);
   std::vector<Log> logs = hold::logs_of(problem);
+  hold::require_wheels_apart(problem, logs);
   HoldAnswer answer{problem.part, {}};
   for (std::size_t k = 0; k < logs.size(); ++k) answer.rolls.push_back(hold::roll_of(problem, logs[k], k));
   answer.rows = logs.front().rows();

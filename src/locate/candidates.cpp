@@ -141,7 +141,7 @@ class Descent {
 
 }  // namespace
 
-Candidates find_candidates(const Question& question, const Interval& range, double tolerance) {
+Candidates find_candidates(const ContactEquations& question, const Interval& range, double tolerance) {
   const Part& part = question.part;
   const double same_place = kLengthAccuracy * part.perimeter();
   if (PartAccess::data(part).tree.is_empty() || range.width() <= same_place) return {{range}, {}};

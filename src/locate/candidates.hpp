@@ -19,6 +19,6 @@ struct Candidates {
 /// some reading is off by more than the tolerance, whatever pivots at corners do, which bounds over runs of spirals
 /// prove. They start and end where spirals do, or the range does; s = 0 of a closed outline may be in the last one, as
 /// s = P. All of the range where the part has too few spirals to make it worth while.
-Candidates find_candidates(const Question& question, const Interval& range, double tolerance);
+Candidates find_candidates(const ContactEquations& question, const Interval& range, double tolerance);
 
 }  // namespace rollfix

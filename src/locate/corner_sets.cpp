@@ -75,7 +75,7 @@ Fit fit(const Interval& start, const Intervals& wanted) {
 }
 
 /// With w the start's tangent, f_k = Theta(s + L_k) - theta_k - w; of two fingers w = Theta(s) - Theta(t).
-Fit best_fit(const Question& question, const PerFinger<double>& at) {
+Fit best_fit(const ContactEquations& question, const PerFinger<double>& at) {
   // One-sided ends at a concave corner make several combinations; each is tried.
   boost::container::small_vector<Intervals, 2> combinations(1);
   for (const Reading& reading : question.readings) {
@@ -122,7 +122,7 @@ Fit best_fit(const Question& question, const PerFinger<double>& at) {
 }
 
 /// Can any of the contacts be at a corner?
-bool meets_corner(const Question& question, const PerFinger<double>& at) {
+bool meets_corner(const ContactEquations& question, const PerFinger<double>& at) {
   const Part& part = question.part;
   if (part.corners().empty()) return false;
   if (at.size() == 2) return true;  // on arcs the best of equal residuals is picked by their last bits: by the sets'
@@ -136,7 +136,7 @@ bool meets_corner(const Question& question, const PerFinger<double>& at) {
 
 /// Of one finger, where there are no corners: in the order of the sets above, so that a part with corners far away has
 /// the same bits.
-double smooth_residual(const Question& question, double at) {
+double smooth_residual(const ContactEquations& question, double at) {
   const Tangents tangents = tangents_of(question, 0, at);
   double largest = 0;
   for (std::size_t k = 0; k < question.readings.size(); ++k) {  // eqs. (4), (5)
@@ -162,20 +162,20 @@ AngleSet angle_set(const Part& part, double s) {
   return {{std::min(before, after), std::max(before, after)}, !corner->is_concave(), corner->is_concave()};
 }
 
-double residual_at(const Question& question, const PerFinger<double>& at) {
+double residual_at(const ContactEquations& question, const PerFinger<double>& at) {
   if (meets_corner(question, at)) return best_fit(question, at).residual;
   if (at.size() == 1) return smooth_residual(question, at[0]);
   return residual_of(question, tangents_of(question, 0, at[0]), tangents_of(question, 1, at[1]));
 }
 
-Tangents tangents_of(const Question& question, std::size_t finger, double at) {
+Tangents tangents_of(const ContactEquations& question, std::size_t finger, double at) {
   const TurningFunction& turning = question.part.turning();
   Tangents tangents{turning.angle(at)};
   for (const Reading& reading : question.readings) tangents.push_back(turning.angle(at + reading.length[finger]));
   return tangents;
 }
 
-double residual_of(const Question& question, const Tangents& of_a, const Tangents& of_b) {
+double residual_of(const ContactEquations& question, const Tangents& of_a, const Tangents& of_b) {
   const double start = of_a[0] - of_b[0];
   double largest = question.facing ? std::abs(std::remainder(start - *question.facing, kFullTurn)) : 0;
   for (std::size_t k = 0; k < question.readings.size(); ++k) {  // eqs. (8), (9)
@@ -186,7 +186,7 @@ double residual_of(const Question& question, const Tangents& of_a, const Tangent
   return largest;
 }
 
-PerFinger<Pivot> pivots_at(const Question& question, const PerFinger<double>& at) {
+PerFinger<Pivot> pivots_at(const ContactEquations& question, const PerFinger<double>& at) {
   const Reading& last = question.readings.back();
   const PerFinger<double> ends = ends_of(at, last);
   PerFinger<Pivot> pivots = PerFinger<Pivot>::of(at.size());

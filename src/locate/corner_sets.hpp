@@ -24,7 +24,7 @@ struct AngleSet {
 AngleSet angle_set(const Part& part, double s);
 
 /// What is asked of first contacts: f_k = 0 for each reading, and of two fingers the facing equation where it is known.
-struct Question {
+struct ContactEquations {
   const Part& part;
   std::span<const Reading> readings;
   std::optional<double> facing{};
@@ -40,16 +40,16 @@ struct Question {
 
 /// The largest |f_k| at these first contacts, the facing equation's included, corners taken as sets: for the best
 /// choice within the pivots, those of the first contacts being the same for all readings.
-double residual_at(const Question& question, const PerFinger<double>& at);
+double residual_at(const ContactEquations& question, const PerFinger<double>& at);
 
 /// Theta at a first contact of one finger and where each reading's roll ends from there, on a part without corners.
 using Tangents = boost::container::small_vector<double, 4>;
-Tangents tangents_of(const Question& question, std::size_t finger, double at);
+Tangents tangents_of(const ContactEquations& question, std::size_t finger, double at);
 
 /// Of two fingers the same as residual_at their first contacts. REQUIRES a part without corners.
-double residual_of(const Question& question, const Tangents& of_a, const Tangents& of_b);
+double residual_of(const ContactEquations& question, const Tangents& of_a, const Tangents& of_b);
 
 /// The tangents at the first and the last contacts that starts at `at` leave possible.
-PerFinger<Pivot> pivots_at(const Question& question, const PerFinger<double>& at);
+PerFinger<Pivot> pivots_at(const ContactEquations& question, const PerFinger<double>& at);
 
 }  // namespace rollfix

@@ -80,7 +80,7 @@ void require_enough(std::span<const Reading> readings, const LocateOptions& opti
 }
 
 /// A smooth closed part's f is continuous and periodic: it crosses 0 evenly often; and so do two closed plane curves.
-void check_parity(const Question& question, Search& search) {
+void check_parity(const ContactEquations& question, Search& search) {
   const Part& part = question.part;
   if (!part.closed() || !part.corners().empty() || question.rows() != question.fingers()) return;
   const bool one_finger = question.fingers() == 1;
@@ -99,7 +99,7 @@ void check_parity(const Question& question, Search& search) {
 constexpr double kMostLaps = 1e6;
 
 /// Throws InputError: it can't be told where on the closed part such a roll ends.
-void require_lengths_that_tell(const Question& question, std::size_t finger) {
+void require_lengths_that_tell(const ContactEquations& question, std::size_t finger) {
   const double most = kMostLaps * question.part.perimeter();
   for (const Reading& reading : question.readings) {
     const double length = reading.length[finger];
@@ -113,7 +113,7 @@ void require_lengths_that_tell(const Question& question, std::size_t finger) {
 
 }  // namespace
 
-Interval first_contacts(const Question& question, std::size_t finger) {
+Interval first_contacts(const ContactEquations& question, std::size_t finger) {
   const Part& part = question.part;
   Interval range{0, part.perimeter()};
   if (part.closed()) {
@@ -142,7 +142,7 @@ Search search(const Part& part, std::span<const Reading> readings, const LocateO
   require_tolerance(options);
   LocateOptions clamped = options;
   clamped.tolerance = std::max(options.tolerance, kLeastTolerance);
-  Question question{part, readings};
+  ContactEquations question{part, readings};
   if (options.facing) question.facing = without_laps(*options.facing);
   Search search = question.fingers() == 1 ? search_one(question, clamped) : search_two(question, clamped);
   search.status = search.unresolved.empty() ? Status::complete : Status::incomplete;

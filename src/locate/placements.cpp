@@ -21,7 +21,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Curvatures whose differences the slopes of two fingers are: below kNoSlope times them a slope is rounding.
-double curvature_scale(const Question& question, const SlopeSample* samples) {
+double curvature_scale(const ContactEquations& question, const SlopeSample* samples) {
   double scale = 0;
   for (std::size_t k = 0; k < question.readings.size(); ++k) {
     double start = 1 / question.part.perimeter();
@@ -35,7 +35,7 @@ double curvature_scale(const Question& question, const SlopeSample* samples) {
 
 /// ds/dtheta = 1 / (kappa(t) - kappa(s)), ds/dL = -kappa(t) / (kappa(t) - kappa(s)), of several readings by least
 /// squares.
-void describe_slopes_of_one(const Question& question, const SlopeSample* samples, Placement& placement) {
+void describe_slopes_of_one(const ContactEquations& question, const SlopeSample* samples, Placement& placement) {
   double square = 0;
   double scale = 0;  // the curvatures whose differences the slopes are
   // Where a reading says no more than an interval, nothing moves with it.
@@ -57,7 +57,7 @@ void describe_slopes_of_one(const Question& question, const SlopeSample* samples
 
 /// J by rows [kappa(s_k) - kappa(s0), -(kappa(t_k) - kappa(t0))], the facing row [kappa(s0), -kappa(t0)] last.
 template <int Rows>
-void describe_slopes_of_two(const Question& question, const SlopeSample* samples, Placement& placement) {
+void describe_slopes_of_two(const ContactEquations& question, const SlopeSample* samples, Placement& placement) {
   const std::size_t count = question.readings.size();
   const auto rows = static_cast<Eigen::Index>(question.rows());
   Eigen::Matrix<double, Rows, 2> jacobian(rows, 2);
@@ -94,7 +94,7 @@ void describe_slopes_of_two(const Question& question, const SlopeSample* samples
 /// Which contacts stand at a convex corner.
 class CornerContacts {
  public:
-  CornerContacts(const Question& question, const PerFinger<double>& at) {
+  CornerContacts(const ContactEquations& question, const PerFinger<double>& at) {
     for (std::size_t finger = 0; finger < at.size(); ++finger) {
       first_[finger] = angle_set(question.part, at[finger]).pivot;
       for (const Reading& reading : question.readings) {
@@ -129,7 +129,7 @@ void describe_held(const CornerContacts& contacts, std::size_t finger, Sensitivi
 /// The other finger of two is held. Readings whose other end pivots tell nothing; a pivot w of the other's first
 /// contact is one more unknown: with sign +1 for finger a and -1 for b
 ///   sign (kappa(s_k) - kappa(s0)) ds + w = dtheta_k - sum over both of sign kappa_k dL_k,  sign kappa(s0) ds - w = dC.
-void describe_free(const Question& question, const PerFinger<double>& at, const CornerContacts& contacts,
+void describe_free(const ContactEquations& question, const PerFinger<double>& at, const CornerContacts& contacts,
                    std::size_t finger, Sensitivity& sensitivity) {
   const std::size_t other = 1 - finger;
   const std::size_t count = question.readings.size();
@@ -250,7 +250,7 @@ SlopeSample slope_sample(const Part& part, const Reading& reading, const PerFing
   return sample;
 }
 
-void describe_slopes(const Question& question, const SlopeSample* samples, Placement& placement) {
+void describe_slopes(const ContactEquations& question, const SlopeSample* samples, Placement& placement) {
   placement.error = kInfinity;
   if (placement.kind != Kind::crossing) return;
   if (question.fingers() == 1) {

@@ -28,7 +28,7 @@ struct SlopeSample {
 /// Makes placements of connected sets: wraps places, adds points and tangents, and says how sure they are.
 class PlacementMaker {
  public:
-  explicit PlacementMaker(const Question& question) : question_(question) {}
+  explicit PlacementMaker(const ContactEquations& question) : question_(question) {}
 
   void make(FoundSet&& found, Placement& placement) const;
   /// By far the most frequent set, at once: of one finger and one reading, one simple root that the search has a sample
@@ -41,7 +41,7 @@ class PlacementMaker {
   void describe_contacts(const PerFinger<double>& start, Placement& placement) const;
   void describe_corner(const FoundSet& found, Placement& placement) const;
 
-  Question question_;
+  ContactEquations question_;
 };
 
 /// f_k of a reading.
@@ -49,6 +49,6 @@ SlopeSample slope_sample(const Part& part, const Reading& reading, const PerFing
 
 /// Error and sensitivity of a crossing from the samples at its start, one per reading: where J has no inverse the error
 /// is infinite and the sensitivity empty.
-void describe_slopes(const Question& question, const SlopeSample* samples, Placement& placement);
+void describe_slopes(const ContactEquations& question, const SlopeSample* samples, Placement& placement);
 
 }  // namespace rollfix

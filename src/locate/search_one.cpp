@@ -25,7 +25,7 @@ namespace {
 
 class Sweep {
  public:
-  Sweep(const Question& question, const LocateOptions& options)
+  Sweep(const ContactEquations& question, const LocateOptions& options)
       : part_(question.part),
         turning_(part_.turning()),
         same_place_(kLengthAccuracy * part_.perimeter()),
@@ -161,7 +161,8 @@ class Sweep {
 };
 
 /// What the first reading allows on the stretches of the range.
-void search_stretches(const Question& question, const Interval& range, const Stretches& stretches, Sweep& sweep) {
+void search_stretches(const ContactEquations& question, const Interval& range, const Stretches& stretches,
+                      Sweep& sweep) {
   const double same_place = kLengthAccuracy * question.part.perimeter();
   sweep.ask(question.readings.front());
   Findings& found = sweep.found();
@@ -189,8 +190,8 @@ void join_touching(Pieces& pieces) {
 }
 
 /// Keeps of each piece what a further reading allows as well; at a corner's pivot what all of them allow together.
-void narrow(const Question& question, const Reading& further, double tolerance, Sweep& sweep) {
-  const Question its_own{question.part, {&further, 1}};
+void narrow(const ContactEquations& question, const Reading& further, double tolerance, Sweep& sweep) {
+  const ContactEquations its_own{question.part, {&further, 1}};
   Findings& kept = sweep.found();
   Pieces pieces = std::exchange(kept.pieces, {});
   join_touching(pieces);
@@ -210,7 +211,7 @@ void narrow(const Question& question, const Reading& further, double tolerance, 
 }
 
 /// A first contact at a convex corner: the finger may have pivoted there by any amount, the same for all readings.
-void look_at_start(const Question& question, const Corner& corner, double tolerance, Findings& findings) {
+void look_at_start(const ContactEquations& question, const Corner& corner, double tolerance, Findings& findings) {
   if (corner.is_concave()) return;
   const double residual = residual_at(question, corner.s);
   if (residual > tolerance) return;
@@ -218,7 +219,8 @@ void look_at_start(const Question& question, const Corner& corner, double tolera
   findings.roots.push_back({corner.s, residual <= kTurnAccuracy, true});
 }
 
-void add_start_corners(const Question& question, const Stretches& stretches, double tolerance, Findings& findings) {
+void add_start_corners(const ContactEquations& question, const Stretches& stretches, double tolerance,
+                       Findings& findings) {
   const Part& part = question.part;
   const std::vector<Corner>& corners = part.corners();
   if (corners.empty() || stretches.empty()) return;
@@ -252,7 +254,7 @@ std::vector<PerFinger<Interval>> joined(std::vector<Interval> intervals) {
 
 }  // namespace
 
-Search search_one(const Question& question, const LocateOptions& options) {
+Search search_one(const ContactEquations& question, const LocateOptions& options) {
   const Interval range = first_contacts(question, 0);
   const Candidates candidates = find_candidates(question, range, options.tolerance);
   Sweep sweep(question, options);

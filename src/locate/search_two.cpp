@@ -11,8 +11,8 @@ namespace rollfix {
 namespace {
 
 /// A corner of one finger's against a corner of the other's: places, not intervals.
-void add_corner_pairs(const Question& question, const RollCurve& a, const RollCurve& b, const PairLimits& limits,
-                      PairFindings& findings) {
+void add_corner_pairs(const ContactEquations& question, const RollCurve& a, const RollCurve& b,
+                      const PairLimits& limits, PairFindings& findings) {
   for (const RollPatch& on_a : a.patches()) {
     for (const RollPatch& on_b : b.patches()) {
       const PairPoint at{on_a.s, on_b.s};
@@ -27,7 +27,7 @@ void add_corner_pairs(const Question& question, const RollCurve& a, const RollCu
 }
 
 /// Eqs. (8) and (9) as two curves that meet: of finger a with nothing added, of finger b with the turns.
-RollEquations equations_of(const Question& question, std::size_t finger) {
+RollEquations equations_of(const ContactEquations& question, std::size_t finger) {
   RollEquations equations;
   for (const Reading& reading : question.readings) {
     equations.lengths.push_back(reading.length[finger]);
@@ -39,7 +39,7 @@ RollEquations equations_of(const Question& question, std::size_t finger) {
 
 }  // namespace
 
-Search search_two(const Question& question, const LocateOptions& options) {
+Search search_two(const ContactEquations& question, const LocateOptions& options) {
   const Part& part = question.part;
   PairLimits limits;
   limits.tolerance = options.tolerance;

@@ -95,7 +95,7 @@ FoundRoots handed_out(const Part& part, FoundRoots& roots, Clusters& clusters) {
 
 class SetsOfOne {
  public:
-  SetsOfOne(const Question& question, const FoundRoots& roots)
+  SetsOfOne(const ContactEquations& question, const FoundRoots& roots)
       : question_(question),
         handed_out_(roots),
         turning_(question.part.turning()),
@@ -276,7 +276,7 @@ class SetsOfOne {
     return turning_.angle(s + reading.length[0], side) - turning_.angle(s, side) - reading.turn;
   }
 
-  const Question& question_;
+  const ContactEquations& question_;
   const FoundRoots& handed_out_;
   const TurningFunction& turning_;
   std::span<const Reading> readings_;
@@ -286,7 +286,7 @@ class SetsOfOne {
 
 }  // namespace
 
-std::vector<Placement> make_placements(const Question& question, Findings found) {
+std::vector<Placement> make_placements(const ContactEquations& question, Findings found) {
   Clusters clusters = clusters_of(question.part, found.pieces);
   const FoundRoots roots = handed_out(question.part, found.roots, clusters);
   const SetsOfOne sets(question, roots);

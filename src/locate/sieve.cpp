@@ -2,18 +2,15 @@
 #include <cmath>
 #include <utility>
 
-#include "corner_sets.hpp"
-#include "part/turning_range.hpp"
+#include "pieces.hpp"
 #include "pivots.hpp"
 #include "rollfix/locate/reachable.hpp"
 
 namespace rollfix {
 namespace {
 
-// A continuum of pairs is looked at in pieces whose fingers move by less than this share of the smaller radius, or by
-// as little as this many pieces allow.
+// A continuum of pairs is looked at in pieces whose fingers move by less than this share of the smaller radius.
 constexpr double kPiece = 0.1;
-constexpr int kMostPieces = 400;
 
 /// Where a finger's centre can be while its contact is in an interval: in a disk.
 struct Ball {
@@ -21,18 +18,8 @@ struct Ball {
   double radius = 0;
 };
 
-/// The tangent's angles anywhere in an interval of s; corners within rounding of its ends are in it.
-Interval tangents(const Part& part, const Interval& contacts) {
-  Interval angles = angles_over(part.turning(), contacts);
-  for (const double end : {contacts.lo, contacts.hi}) {
-    const Interval there = angle_set(part, end).angles;
-    angles = {std::min(angles.lo, there.lo), std::max(angles.hi, there.hi)};
-  }
-  return angles;
-}
-
 Ball centre_of(const Part& part, double radius, const Interval& contacts) {
-  const Interval angles = tangents(part, contacts);
+  const Interval angles = tangents_over(part, contacts);
   const double angle = angles.middle();
   const Vec2 normal(std::sin(angle), -std::cos(angle));
   return {part.point(contacts.middle()) + radius * normal, 0.5 * contacts.width() + 0.5 * radius * angles.width()};
@@ -41,7 +28,7 @@ Ball centre_of(const Part& part, double radius, const Interval& contacts) {
 /// How far a place in a ball is behind the line of a jaw that touches in an interval of s, at least: along the part's
 /// outward normal there.
 double least_depth(const Part& part, const Interval& contacts, const Ball& ball) {
-  const Interval angles = tangents(part, contacts);
+  const Interval angles = tangents_over(part, contacts);
   const Vec2 normal(std::sin(angles.middle()), -std::cos(angles.middle()));
   const Vec2 from_contact = ball.centre - part.point(contacts.middle());
   const double moved = 0.5 * contacts.width() + ball.radius;
@@ -161,40 +148,13 @@ class Sieve {
     return {box[finger].lo + length - error, box[finger].hi + length + error};
   }
 
-  /// What a placement consists of: its extent, or of a continuum small boxes along its line.
+  /// What a placement consists of.
   std::vector<PerFinger<Interval>> boxes_of(const Placement& placement) const {
-    if (placement.kind != Kind::stretch || placement.family.size() < 2) return {placement.extent};
-    std::vector<PerFinger<Interval>> boxes;
     double step = part_.perimeter();
     for (const Reach& reach : reach_) {
       if (reach.curvature > 0) step = std::min(step, kPiece / reach.curvature);
     }
-    double length = 0;
-    for (std::size_t k = 1; k < placement.family.size(); ++k) length += distance(placement, k);
-    step = std::max(step, length / kMostPieces);
-    for (std::size_t k = 1; k < placement.family.size(); ++k) {
-      const int count = 1 + static_cast<int>(distance(placement, k) / step);
-      for (int i = 0; i < count; ++i) boxes.push_back(piece(placement, k, i, count));
-    }
-    return boxes;
-  }
-
-  static double distance(const Placement& placement, std::size_t k) {
-    const PerFinger<double>& from = placement.family[k - 1];
-    const PerFinger<double>& to = placement.family[k];
-    return std::max(std::abs(to[0] - from[0]), std::abs(to[1] - from[1]));
-  }
-
-  static PerFinger<Interval> piece(const Placement& placement, std::size_t k, int i, int count) {
-    PerFinger<Interval> box = placement.extent;
-    for (std::size_t f = 0; f < 2; ++f) {
-      const double from = placement.family[k - 1][f];
-      const double step = (placement.family[k][f] - from) / count;
-      const double one = from + i * step;
-      const double two = one + step;
-      box[f] = {std::min(one, two) - placement.family_error, std::max(one, two) + placement.family_error};
-    }
-    return box;
+    return pieces_of(placement, step);
   }
 
   const Part& part_;

@@ -16,7 +16,8 @@
 //   v                 the most that something can change between two instants: `change_between`
 // Between two instants x, y, s and t are monotone. So p moves by ds at most, q by dt, and the line through both turns
 // by asin((ds + dt) / D) at most. Theta = x - N with N, the turn of the finger's normal, monotone as well: it changes
-// by dx or dN at most. A disk's centre moves by r dx. What is left at an instant, less v, is left all the way to the
+// by dx or dN at most. A disk's centre moves by r dx, any point of a body by dx times how far it is from the contact.
+// What is left at an instant, less v, is left all the way to the
 // next; where that is not enough, the interval is halved.
 namespace rollfix {
 namespace {
@@ -104,6 +105,7 @@ class Looker {
       instant.left[1] = cone_of(problem_.fingers[1]) - std::abs(instant.squeeze.at_b) - problem_.margin;
     }
     if (path_.squeezed()) instant.left[kStable] = stability_of(path_.way_a(), *path_.way_b(), place);
+    if (problem_.may_overlap) return instant;
     const auto gap = gap_between(path_.way_a().finger(), place.a, path_.way_b()->finger(), place.b);
     if (gap) instant.left[2] = *gap - problem_.clearance;
     return instant;
@@ -124,24 +126,12 @@ class Looker {
     const ContactPlace& b = one.place.b;
     const double ds = std::abs(two.place.a.s - a.s);
     const double dt = std::abs(two.place.b.s - b.s);
-    const double dx = std::abs(two.place.a.turned - a.turned);
-    const double dy = std::abs(two.place.b.turned - b.turned);
     const double share = (ds + dt) / std::min(one.squeeze.distance, two.squeeze.distance);
     const double line = share < 1 ? std::asin(share) : std::numbers::pi;
-    return {line + turn_between(a, two.place.a), line + turn_between(b, two.place.b), gap_change(a, ds, dx, b, dt, dy),
-            0};
-  }
-
-  double gap_change(const ContactPlace& a, double ds, double dx, const ContactPlace& b, double dt, double dy) const {
-    const Finger& of_a = path_.way_a().finger();
-    const Finger& of_b = path_.way_b()->finger();
-    const auto of_jaw = [](const ContactPlace& jaw, double along, double turn, const ContactPlace& disk, double moved) {
-      return (disk.centre - jaw.point).norm() * turn + (along + moved) * turn + along * std::min(1.0, turn) + moved;
-    };
-    if (of_a.is_disk() && of_b.is_disk()) return of_a.disk()->radius * dx + of_b.disk()->radius * dy;
-    if (of_a.is_jaw() && of_b.is_disk()) return of_jaw(a, ds, dx, b, of_b.disk()->radius * dy);
-    if (of_a.is_disk() && of_b.is_jaw()) return of_jaw(b, dt, dy, a, of_a.disk()->radius * dx);
-    return 0;
+    const double gap = problem_.may_overlap ? 0
+                                            : gap_change(path_.way_a().finger(), a, two.place.a,
+                                                         path_.way_b()->finger(), b, two.place.b);
+    return {line + turn_between(a, two.place.a), line + turn_between(b, two.place.b), gap, 0};
   }
 
   const PlanProblem& problem_;

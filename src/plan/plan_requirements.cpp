@@ -81,6 +81,9 @@ void require_valid(const PlanProblem& problem) {
   if (!(problem.clearance >= 0 && std::isfinite(problem.clearance))) {
     throw InputError(fmt::format("expected a clearance of at least 0, found {}", problem.clearance));
   }
+  if (problem.may_overlap && problem.clearance > 0) {
+    throw InputError("fingers that may overlap are at different heights: leave their clearance out");
+  }
   if (problem.fingers.size() == 2) return;
   if (problem.part_rotation || problem.staying != Staying::middle) {
     throw InputError("one finger rolls on a part at rest: how that turns, or what stays, is of two fingers");

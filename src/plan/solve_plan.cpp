@@ -12,6 +12,7 @@
 #include "plan/conditions.hpp"
 #include "plan/motion_rows.hpp"
 #include "plan/path_search.hpp"
+#include "plan/plan_mirror.hpp"
 #include "plan/plan_requirements.hpp"
 #include "plan/squeeze.hpp"
 #include "plan/stability.hpp"
@@ -27,7 +28,7 @@ constexpr std::size_t kLimitInstants = 1001;
 constexpr double kSettling = 0.01;
 // Balances on two laps are one: found to rounding, as a share of the perimeter.
 constexpr double kSamePlace = 1e-9;
-// Fingers that a search keeps apart are so far apart, as a share of their radii: what is just touching proves nothing.
+// Fingers that a search keeps apart are so far apart, as a share of their size: what is just touching proves nothing.
 constexpr double kApartShare = 0.01;
 
 /// Says which finger an error is about.
@@ -82,11 +83,11 @@ double margin_between(const PlanProblem& problem, bool expanding, const ContactP
                                cone_of(problem.fingers[1]) - std::abs(squeeze.at_b));
   const Finger& of_a = problem.fingers[0].finger;
   const Finger& of_b = problem.fingers[1].finger;
-  const auto gap = gap_between(of_a, a, of_b, b);
+  const double size = size_of(of_a) + size_of(of_b);
+  const auto gap =
+      problem.may_overlap ? std::nullopt : gap_between(of_a, a, of_b, b, problem.clearance + kApartShare * size);
   if (!gap) return left;
-  double radii = 0;
-  for (const Finger* finger : {&of_a, &of_b}) radii += finger->is_disk() ? finger->disk()->radius : 0;
-  const double apart = (*gap - problem.clearance) / radii - kApartShare;
+  const double apart = (*gap - problem.clearance) / size - kApartShare;
   return apart < 0 ? std::min(left, apart + problem.margin) : left;
 }
 
@@ -290,8 +291,9 @@ std::vector<std::string> unchecked_of(const PlanProblem& problem) {
   if (problem.fingers.size() == 1) return unchecked;
   const Finger& a = problem.fingers[0].finger;
   const Finger& b = problem.fingers[1].finger;
-  const bool known = (a.is_disk() || b.is_disk()) && (a.is_disk() || a.is_jaw()) && (b.is_disk() || b.is_jaw());
-  if (!known) unchecked.emplace_back("whether the fingers hit each other");
+  if (a.is_jaw() && b.is_jaw() && !problem.may_overlap) {
+    unchecked.emplace_back("whether the fingers hit each other: two jaws without ends always would");
+  }
   return unchecked;
 }
 
@@ -299,6 +301,12 @@ std::vector<std::string> unchecked_of(const PlanProblem& problem) {
 
 Plan solve(const PlanProblem& problem) {
   require_valid(problem);
+  if (problem.mirrored) {
+    const PlanProblem seen = in_mirror(problem);
+    Plan plan = solve(seen);
+    out_of_mirror(seen, plan);
+    return plan;
+  }
   Making making{problem, reaches_of(problem), {}, {}};
   making.plan.unchecked = unchecked_of(problem);
   if (problem.fingers.size() == 1) {

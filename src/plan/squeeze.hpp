@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "plan/contact_way.hpp"
@@ -25,8 +26,16 @@ struct Squeeze {
 /// `expanding`: they press apart.
 Squeeze squeeze_of(const ContactPlace& a, const ContactPlace& b, bool expanding);
 
-/// How far apart two fingers are; nothing where that is not known: of disks, and of a disk and a jaw, it is.
+/// How far apart two fingers are, below 0 by how much they are in one another; nothing of two jaws, which without ends
+/// would always meet somewhere. `enough`: a distance of no less than this needs not be exact.
 std::optional<double> gap_between(const Finger& finger_a, const ContactPlace& a, const Finger& finger_b,
-                                  const ContactPlace& b);
+                                  const ContactPlace& b, double enough = std::numeric_limits<double>::infinity());
+
+/// How much that can change, at most, from one contact of both to others, where each rolls from the one to the other.
+double gap_change(const Finger& finger_a, const ContactPlace& a, const ContactPlace& next_a, const Finger& finger_b,
+                  const ContactPlace& b, const ContactPlace& next_b);
+
+/// What a finger is about as large as: a disk's radius, an outline's perimeter over a whole turn; of a jaw 0.
+double size_of(const Finger& finger);
 
 }  // namespace rollfix

@@ -52,7 +52,7 @@ Uses::Uses(const Question& question)
 
 std::string Uses::why_not(std::string_view name) const {
   if (name == "clear" && kind_ == QuestionKind::roll) {
-    return "`clear` is about touches: give them with `touch`, or leave `clear` out";
+    return "`clear` is about touches and several rolls: give `touch`, or rolls with `at_rest`, or leave `clear` out";
   }
   if (kind_ == QuestionKind::at_rest && !has_rolls_) {
     return fmt::format("`{}`: touches do not roll and have no use for it; leave it out", name);

@@ -33,7 +33,10 @@ class Integral {
   Integral(const PoseFit& fit, const Pose& pose, std::size_t touch, const PathPlace& nearest)
       : fit_(fit), path_(fit.path(touch)), pose_(pose), number_(touch), touch_(fit.in_part(pose, touch)) {
     least_ = distance_at(path_.at(nearest), touch_).square;
-    if (!touch_.has_place || is_reference(fit.touches()[touch])) return go_everywhere();
+    if (!touch_.has_place || is_reference(fit.touches()[touch])) {
+      go_everywhere();
+      return;
+    }
     go(nearest, true);
     go(nearest, false);
   }

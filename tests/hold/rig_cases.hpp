@@ -154,6 +154,7 @@ class Rig {
 inline RigCase rig_of(const Part& part, const RigSetup& setup) {
   Rig rig(part, setup);
   RigCase result{HoldProblem{part, {}, {rollfix::jaw()}}, setup.start, setup.wheel_start, 0, 0, setup.first, {}};
+  result.problem.may_overlap = true;  // a random wheel may be beyond the jaw's line
   Log log;
   log.name = "jaw";
   rollfix::FingerRows& jaw = log.fingers.front();
@@ -243,6 +244,7 @@ inline Vec2 normal_of(double tangent) { return {std::sin(tangent), -std::cos(tan
 /// The logs of instants that are told: what a wheel without an encoder says needs no roll in between.
 inline HoldProblem held_at(const Part& part, double radius, const std::vector<Held>& instants) {
   HoldProblem problem{part, {}, {rollfix::jaw()}};
+  problem.may_overlap = true;
   Log log;
   log.name = "jaw";
   rollfix::FingerRows& jaw = log.fingers.front();

@@ -162,6 +162,48 @@ TEST(Rig, FaceDownItIsFoundInTheMirror) {
   expect_found(one, 1);
 }
 
+/// How far the pin is inside of the jaw's line, at most, less the wheel's radius; of the logs alone.
+double depth_in_jaw(const HoldProblem& problem) {
+  const rollfix::FingerRows& jaw = problem.logs[0].fingers[0];
+  const rollfix::FingerRows& pin = problem.wheels[0].log.rows.fingers[0];
+  double most = -1e300;
+  for (std::size_t k = 0; k < jaw.x.size(); ++k) {
+    const double above = -std::sin(jaw.psi[k]) * (pin.x[k] - jaw.x[k]) + std::cos(jaw.psi[k]) * (pin.y[k] - jaw.y[k]);
+    most = std::max(most, above + problem.wheels[0].radius);
+  }
+  return most;
+}
+
+TEST(Rig, AWheelThatIsInTheJawIsRefusedUnlessTheyMayOverlap) {
+  int refused = 0;
+  int apart = 0;
+  for (unsigned seed = 0; seed < 24; ++seed) {
+    RigCase one = random_on(cam(), seed);
+    one.problem.may_overlap = false;
+    const double depth = depth_in_jaw(one.problem);
+    if (std::abs(depth) < 1e-3) continue;
+    (depth > 0 ? refused : apart) += 1;
+    if (depth < 0) {
+      EXPECT_NO_THROW(rollfix::solve(one.problem)) << "seed " << seed;
+      continue;
+    }
+    EXPECT_THAT(refusal_of([&] { rollfix::solve(one.problem); }),
+                testing::AllOf(HasSubstr("finger a and wheel b are apart"), HasSubstr("may overlap")))
+        << "seed " << seed;
+  }
+  EXPECT_GE(refused, 2);
+  EXPECT_GT(apart, 2);
+}
+
+TEST(Rig, WithNoiseAWheelThatTouchesTheJawIsNotRefused) {
+  // As deep in the jaw as the noise may make it.
+  RigCase one = random_on(cam(), 1);
+  one.problem.may_overlap = false;
+  const double depth = depth_in_jaw(one.problem);
+  one.problem.noise = rollfix::Noise{.contact = 0.01, .angle = 0.005, .position = std::abs(depth) + 0.01};
+  EXPECT_NO_THROW(rollfix::solve(one.problem));
+}
+
 TEST(Rig, WithNoiseTheTruthIsInTheInterval) {
   std::mt19937_64 generator(3);
   const RigCase one = noisy(random_on(cam(), 9), {0.01, 0.005, 0.01, 0}, generator);

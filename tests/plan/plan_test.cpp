@@ -60,6 +60,86 @@ TEST(Plan, has_velocities_that_lead_where_its_rows_are) {
   for (const std::size_t which : {0U, 1U}) EXPECT_LT(off_integral(plan, which), 1e-6);
 }
 
+/// Two flattened fingers across the flat sides of an ellipse.
+PlanProblem of_outlines(double length = 0.5) {
+  const Finger flat = Finger::outlined(gallery("ellipse,a=0.5,b=0.2"));
+  PlanProblem problem = two(ellipse(), finger(flat, 2.4, length), finger(flat, 7.2, -0.3));
+  problem.fingers[0].u = 0.4;
+  problem.fingers[1].u = 0.4;
+  return problem;
+}
+
+TEST(Plan, keeps_outlines_apart_and_tells_how_far_they_are) {
+  const PlanProblem problem = of_outlines();
+  const Plan plan = solve(problem);
+  expect_rolls(problem, plan);
+  EXPECT_EQ(plan.unchecked.size(), 2U);  // their reach alone
+  const PlanMargin& apart = margin_of(plan, Condition::apart);
+  EXPECT_TRUE(apart.proved);
+  double least = 1e9;
+  for (std::size_t row = 0; row < problem.rows; ++row) {
+    least = std::min(least, plans::distance_in(problem, plan, row));
+  }
+  EXPECT_NEAR(apart.value, least, 1e-3);
+}
+
+TEST(Plan, says_where_outlines_would_enter_each_other_unless_they_may) {
+  const Finger large = Finger::outlined(gallery("ellipse,a=3,b=2"));
+  PlanProblem problem = two(ellipse(), finger(large, 2.4, 0.3), finger(large, 4.6, -0.3));
+  problem.fingers[0].u = problem.fingers[1].u = 2;
+  const Plan plan = solve(problem);
+  ASSERT_TRUE(plan.failure);
+  EXPECT_EQ(plan.margins[*plan.failure].condition, Condition::apart);
+  EXPECT_LT(plans::distance_in(problem, plan, plan.margins[*plan.failure].row), 0.05);  // the nearest row
+  problem.may_overlap = true;
+  const Plan passing = solve(problem);
+  for (const PlanMargin& margin : passing.margins) EXPECT_NE(margin.condition, Condition::apart);
+  problem.clearance = 0.1;
+  EXPECT_THAT(message_of([&] { solve(problem); }), HasSubstr("leave their clearance out"));
+}
+
+TEST(Plan, of_a_part_face_down_is_that_of_a_part_drawn_the_other_way_round) {
+  std::vector<Vec2> points;
+  std::vector<Vec2> turned_over;
+  for (int k = 0; k < 9; ++k) {
+    const double r = 1 + 0.12 * std::sin(1.7 * k * k);
+    points.emplace_back(r * std::cos(2 * kPi * k / 9), r * std::sin(2 * kPi * k / 9));
+    turned_over.emplace_back(-points.back().x(), points.back().y());
+  }
+  const Part part(outline_through(points, "as drawn"));
+  const Part mirrored(outline_through(turned_over, "turned over"));
+  const double P = part.perimeter();
+  for (const Finger& shape : {Finger(disk(0.2)), jaw(), Finger::outlined(gallery("cam"))}) {
+    PlanProblem face_down = two(part, finger(shape, 0.4, 0.2), finger(disk(0.3), 0.4 + 0.5 * P, -0.2));
+    if (!shape.is_disk()) face_down.fingers[0].u = 0.7;
+    face_down.part_rotation = 0.3;
+    PlanProblem drawn = face_down;
+    drawn.part = mirrored;
+    face_down.mirrored = true;
+    for (PlanFinger& one : drawn.fingers) {
+      one.start = P - *one.start;
+      one.length = -*one.length;
+    }
+    const Plan a = solve(face_down);
+    const Plan b = solve(drawn);
+    ASSERT_EQ(a.roll.pose.size(), b.roll.pose.size());
+    for (const std::size_t row : {std::size_t{0}, std::size_t{40}, std::size_t{100}}) {
+      EXPECT_NEAR(a.roll.pose[row].x, b.roll.pose[row].x, 1e-8) << shape.name();
+      EXPECT_NEAR(a.roll.pose[row].heading, b.roll.pose[row].heading, 1e-8);
+      EXPECT_NEAR(std::remainder(a.force[row] - b.force[row], 2 * kPi), 0, 1e-8);
+      for (const std::size_t which : {0U, 1U}) {
+        const FingerRows& of_a = a.roll.log.fingers[which];
+        const FingerRows& of_b = b.roll.log.fingers[which];
+        EXPECT_NEAR(of_a.x[row], of_b.x[row], 1e-8) << shape.name();
+        EXPECT_NEAR(of_a.y[row], of_b.y[row], 1e-8) << shape.name();
+        EXPECT_NEAR(std::remainder(of_a.psi[row] - of_b.psi[row], 2 * kPi), 0, 1e-8) << shape.name();
+        EXPECT_NEAR(a.rates[which].vx[row], b.rates[which].vx[row], 1e-6) << shape.name();
+        EXPECT_NEAR(a.rates[which].omega[row], b.rates[which].omega[row], 1e-6) << shape.name();
+      }
+    }
+  }
+}
+
 TEST(Plan, begins_and_ends_at_rest) {
   const Plan plan = solve(across());
   for (const PlanRates& rates : plan.rates) {

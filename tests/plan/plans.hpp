@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <random>
 #include <string>
@@ -111,6 +112,23 @@ inline double off_contact(const PlanProblem& problem, const Plan& plan, std::siz
     most = std::max(most, (frame.world(rim) - contact_in_world(problem, plan, which, k)).norm());
   }
   return most;
+}
+
+/// How far two outlines' rims are apart in a row, from many points of both in the world.
+inline double distance_in(const PlanProblem& problem, const Plan& plan, std::size_t row) {
+  constexpr int kPoints = 200;
+  std::vector<std::vector<Vec2>> rims(2);
+  for (const std::size_t which : {0U, 1U}) {
+    const rollfix::FingerRows& rows = plan.roll.log.fingers[which];
+    const rollfix::Finger& shape = problem.fingers[which].finger;
+    const Pose frame{rows.x[row], rows.y[row], rows.psi[row]};
+    for (int k = 0; k < kPoints; ++k) rims[which].push_back(frame.world(shape.point(shape.period() * k / kPoints)));
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vec2& one : rims[0]) {
+    for (const Vec2& other : rims[1]) least = std::min(least, (one - other).norm());
+  }
+  return least;
 }
 
 /// What the velocities of a finger add up to, by Simpson's rule, against where it is at the end; rows must be odd.

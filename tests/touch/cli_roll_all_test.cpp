@@ -218,7 +218,7 @@ TEST(CliRollAll, TheProofOfTwoRollsIsProvedAgain) {
   EXPECT_EQ(proved.code, 0) << proved.out;
   EXPECT_EQ(proved.out.substr(0, proved.out.find('\n')), "proved: 1 set of poses, nothing else");
   EXPECT_THAT(run(asked + " --noise contact=0.002,angle=0.1deg,position=0.002 --certify noisy.json").err,
-              HasSubstr("give `tolerance` LENGTH,ANGLE"));
+              HasSubstr("give --tolerance LENGTH,ANGLE"));
 }
 
 TEST(CliRollAll, IsNoQuestionOfAdvise) {

@@ -157,6 +157,8 @@ TEST(CliTouch, WhatCannotBeMeantIsRefusedWithTheCure) {
   EXPECT_THAT(refused("--touch 1,2,1 --noise position=0.1"), HasSubstr("angle=SD"));
   EXPECT_THAT(refused("--touch 1,2 --finger jaw --tolerance 0.1"), HasSubstr("takes disks only"));
   EXPECT_THAT(refused("--touch 1,2 --tolerance 0.1 --facing 1"), HasSubstr("--facing: touches do not roll"));
+  EXPECT_THAT(refused("--touch 1,2 --tolerance 0.1 --squeezed"),
+              HasSubstr("--squeezed: it is about a finger with skin and a wheel"));
 }
 
 TEST(CliTouch, ATableThatCannotBeReadIsToldWithItsLine) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <string_view>
 
 #include "rollfix/arguments/typed_number.hpp"
@@ -97,12 +98,10 @@ double read_wheel(const std::string& text, const std::string& unit) {
     throw InputError(fmt::format("{}: expected a wheel with its radius, as in wheel,r=0.4", what));
   }
   const double radius = read_length(fields[1].substr(2), what, unit);
-  try {
-    require_valid(Finger(disk(radius)));
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", what, error.what()));
-  }
-  return radius;
+  if (radius > 0 && std::isfinite(radius)) return radius;
+  throw InputError(fmt::format(
+      "{}: expected a wheel whose radius is a finite number above 0, found {}: give it in the outline's unit", what,
+      radius));
 }
 
 bool names_outline(const std::string& text) {
@@ -142,6 +141,20 @@ void require_disks(const std::vector<Finger>& fingers, const std::string& what) 
     if (finger.is_disk()) continue;
     throw InputError(fmt::format("--finger {}: {} takes disks only, as in --finger disk,r=0.1", finger.name(), what));
   }
+}
+
+void require_owners(const std::vector<std::string>& typed, const std::vector<Finger>& fingers, bool of_disks) {
+  const bool of_a = finger_of(fingers, 0)->is_disk() == of_disks;
+  const bool of_b = finger_of(fingers, 1)->is_disk() == of_disks;
+  if (typed.empty() || (of_a && of_b) || (typed.size() == 1 && (of_a || of_b))) return;
+  const char* const option = of_disks ? "--contact-angle" : "--contact";
+  const char* const kind = of_disks ? "a disk" : "a jaw or an outline";
+  if (!of_a && !of_b) {
+    throw InputError(of_disks ? "--contact-angle is of a disk; a jaw or an outline has --contact, an arc length"
+                              : "--contact is of a jaw or an outline; a disk has --contact-angle");
+  }
+  throw InputError(fmt::format("{} is given twice, and only finger {} is {}; give it once, and {} for the other one",
+                               option, of_a ? "a" : "b", kind, of_disks ? "--contact" : "--contact-angle"));
 }
 
 std::string no_reach_note(const Finger& finger) {

@@ -29,6 +29,10 @@ bool names_outline(const std::string& text);
 /// Throws InputError where one is no disk; `what` says for what it must be.
 void require_disks(const std::vector<Finger>& fingers, const std::string& what);
 
+/// Places on fingers, --contact-angle `of_disks` or --contact of others. What is typed once is of every finger that can
+/// have it, what is typed twice of one each. Throws InputError where there are too few of those.
+void require_owners(const std::vector<std::string>& typed, const std::vector<Finger>& fingers, bool of_disks);
+
 /// That it is not known where such a finger can touch a part.
 std::string no_reach_note(const Finger& finger);
 

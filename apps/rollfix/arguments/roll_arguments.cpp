@@ -133,7 +133,8 @@ bool counts_clockwise(const std::string& direction) {
   if (direction.empty() || direction == "ccw") return false;
   if (direction == "cw") return true;
   if (direction == "either") {
-    throw InputError("--direction either: both ways round are tried by locate alone; expected ccw or cw");
+    throw InputError(
+        "--direction either: both ways round are tried by locate alone, which says ccw or cw; expected one of these");
   }
   throw InputError(fmt::format("--direction {}: expected ccw, cw or either", direction));
 }

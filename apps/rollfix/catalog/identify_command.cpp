@@ -54,7 +54,10 @@ Problem read_question(const IdentifyArguments& arguments, const Catalog& catalog
   if (roll.readings.empty() && roll.logs.empty()) {
     throw InputError("identify: expected --reading LENGTH,TURN, --log FILE or --touch X,Y, found none");
   }
-  if (!roll.clear.empty()) throw InputError("--clear is about touches: give them with --touch, or leave --clear out");
+  if (!roll.clear.empty()) {
+    throw InputError(
+        "--clear is about touches and several rolls: give --touch, or rolls with --roll all, or leave --clear out");
+  }
   if (!roll.readings.empty() && !roll.logs.empty()) {
     throw InputError("identify: expected --reading or --log, found both: they can't be of the same roll");
   }

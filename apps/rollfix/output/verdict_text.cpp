@@ -23,6 +23,11 @@ class VerdictText : AnswerWords {
  private:
   std::string advice() const {
     const std::string verdict = answer_.verdict.text();
+    if (answer_.weighing && answer_.verdict.name == Verdict::undecided) {
+      return verdict +
+             ": the rows could be held against no place closely enough, and none is excluded; roll less far, "
+             "or say that the errors are larger";
+    }
     if (answer_.weighing && (answer_.status == Status::complete || fingers_ == 2)) return verdict + weighed_advice();
     if (answer_.status == Status::incomplete) {
       return fmt::format("undecided: {} found, {} left open; try a larger --budget",
@@ -116,6 +121,9 @@ class VerdictText : AnswerWords {
     return fmt::format(": the finger started between s = {} and {}{}{}", lo, hi, unit_, way_of(only));
   }
 
+  /// A log of lengths and turns for which no finger was given is a wheel's with a gyroscope.
+  bool is_wheel() const { return answer_.fingers.empty() && answer_.weighing->samples > answer_.readings.size(); }
+
   std::string weighed_advice() const {
     if (answer_.verdict.name == Verdict::inconsistent && !answer_.diagnoses.empty()) return ": nothing fits";
     if (answer_.placements.empty()) return ": nothing that fits is within the finger's reach";
@@ -129,7 +137,9 @@ class VerdictText : AnswerWords {
                          where(first));
     }
     if (verdict.name == Verdict::unique) {
-      return (fingers_ == 1 ? ": the finger started at " : ": the roll started with ") + where(first);
+      return (fingers_ == 1 ? fmt::format(": the {} started at ", is_wheel() ? "wheel" : "finger")
+                            : ": the roll started with ") +
+             where(first);
     }
     if (verdict.name == Verdict::unobservable) {
       if (fingers_ == 2) return all_the_way_round();

@@ -15,26 +15,24 @@
 namespace rollfix::app {
 namespace {
 
-constexpr std::string_view kWheel = "wheel,";
-
 void add_repeated_option(CLI::App& command, const std::string& name, std::vector<std::string>& values, const char* type,
                          const std::string& meaning) {
   command.add_option(name, values, meaning)->type_name(type)->allow_extra_args(false);
 }
 
-/// "wheel,r=0.4" is a disk on a free pin.
-bool names_wheel(const std::string& text) { return text.compare(0, kWheel.size(), kWheel) == 0; }
-
-std::vector<std::string> as_disks(std::vector<std::string> fingers) {
-  for (std::string& finger : fingers) {
-    if (names_wheel(finger)) finger = "disk," + finger.substr(kWheel.size());
+/// A wheel is a disk on a free pin.
+std::vector<Finger> read_shapes(const std::vector<std::string>& typed, std::size_t count, const std::string& unit) {
+  std::vector<Finger> shapes;
+  for (const std::string& text : typed) {
+    shapes.push_back(names_wheel(text) ? disk(read_wheel(text, unit)) : read_fingers({text}, count, unit).front());
   }
-  return fingers;
+  return shapes;
 }
 
 std::size_t count_of_fingers(const PlanArguments& arguments) {
-  const std::size_t most = std::max({arguments.fingers.size(), arguments.starts.size(), arguments.lengths.size(),
-                                     arguments.contact_angles.size(), files_of(arguments).tables.size()});
+  const std::size_t most =
+      std::max({arguments.fingers.size(), arguments.starts.size(), arguments.lengths.size(),
+                arguments.contact_angles.size(), arguments.contacts.size(), files_of(arguments).tables.size()});
   if (most > 2) {
     throw InputError("plan: expected one finger on a part at rest, or two that hold it; found an option three times");
   }
@@ -109,14 +107,18 @@ PlanFinger read_plan_finger(const PlanArguments& arguments, const Part& part, co
   if (which < arguments.starts.size()) finger.start = read_length(arguments.starts[which], "--start", part.unit());
   if (which < arguments.lengths.size()) finger.length = read_length(arguments.lengths[which], "--length", part.unit());
   if (!shape.is_disk()) {
-    if (!arguments.contact.empty()) finger.u = read_length(arguments.contact, "--contact", part.unit());
+    const std::vector<std::string>& places = arguments.contacts;
+    if (!places.empty()) {
+      finger.u = read_length(places[std::min(which, places.size() - 1)], "--contact", part.unit());
+    }
     return finger;
   }
   const std::vector<std::string>& angles = arguments.contact_angles;
   const double angle = angles.empty() ? 0 : read_angle(angles[std::min(which, angles.size() - 1)], "--contact-angle");
   const double s = finger.start.value_or(0);
   if (part.closed() || (s >= 0 && s <= part.perimeter())) {
-    finger.psi = part.tangent(s) + heading + std::numbers::pi / 2 - angle;
+    const double inward = part.tangent(s) + std::numbers::pi / 2;
+    finger.psi = heading + (arguments.mirror ? std::numbers::pi - inward : inward) - angle;
   }
   return finger;
 }
@@ -187,8 +189,14 @@ void add_plan_arguments(CLI::App& command, PlanArguments& arguments) {
       ->type_name("a|b|part");
   add_repeated_option(command, "--contact-angle", arguments.contact_angles, "ANGLE",
                       "where on a disk the first contact is; default 0; once for both fingers or for each");
-  command.add_option("--contact", arguments.contact, "where on a jaw or an outline the first contact is, arc length")
-      ->type_name("U");
+  add_repeated_option(
+      command, "--contact", arguments.contacts, "U",
+      "where on a jaw or an outline the first contact is, arc length; once for both fingers or for each");
+  add_switch(command, "--mirror", arguments.mirror,
+             "the part lies face down: the fingers roll on the mirror image of the outline; --start and --length are "
+             "along the outline as it was drawn");
+  add_switch(command, "--may-overlap", arguments.may_overlap,
+             "two fingers at different heights: they may pass one another");
   command.add_option("--samples", arguments.samples, "rows of the plan, at equal times; default 101")->type_name("N");
   add_switch(command, "--json", arguments.json, "print JSON");
   add_repeated_option(command, "-o", arguments.files, "FILE",
@@ -200,7 +208,9 @@ void add_plan_arguments(CLI::App& command, PlanArguments& arguments) {
 PlanProblem read_plan_problem(const PlanArguments& arguments, const Part& part) {
   const std::size_t count = count_of_fingers(arguments);
   require_given(arguments, count);
-  const std::vector<Finger> shapes = read_fingers(as_disks(arguments.fingers), count, part.unit());
+  const std::vector<Finger> shapes = read_shapes(arguments.fingers, count, part.unit());
+  require_owners(arguments.contact_angles, shapes, true);
+  require_owners(arguments.contacts, shapes, false);
   PlanProblem problem{part, PerFinger<PlanFinger>::of(count)};
   problem.pose = read_start_pose(arguments.pose, part.unit());
   for (std::size_t which = 0; which < count; ++which) {
@@ -213,6 +223,8 @@ PlanProblem read_plan_problem(const PlanArguments& arguments, const Part& part) 
   if (!arguments.duration.empty()) problem.duration = read_number(arguments.duration, "--duration");
   if (!arguments.margin.empty()) problem.margin = read_angle(arguments.margin, "--margin");
   if (!arguments.clearance.empty()) problem.clearance = read_length(arguments.clearance, "--clearance", part.unit());
+  problem.mirrored = arguments.mirror;
+  problem.may_overlap = arguments.may_overlap;
   if (!arguments.samples.empty()) problem.rows = read_count(arguments.samples, "--samples", 2);
   return problem;
 }

@@ -16,7 +16,7 @@ struct PlanArguments {
   std::vector<std::string> starts;
   std::vector<std::string> lengths;
   std::vector<std::string> contact_angles;
-  std::string contact;
+  std::vector<std::string> contacts;
   std::string friction;
   std::string margin;
   std::string clearance;
@@ -27,6 +27,8 @@ struct PlanArguments {
   std::string stays;
   std::string samples;
   std::vector<std::string> files;
+  bool mirror = false;
+  bool may_overlap = false;
   bool json = false;
   bool force = false;
 };

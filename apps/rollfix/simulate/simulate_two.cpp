@@ -42,22 +42,6 @@ void require_two_fingers(const SimulateArguments& arguments) {
   require_two(arguments.lengths, "--length");
 }
 
-/// What is typed once is of every finger that can have it, what is typed twice of one each. Throws InputError where
-/// there are too few of those: disks, or else others.
-void require_owners(const std::vector<std::string>& typed, const std::vector<Finger>& fingers, bool of_disks) {
-  const bool of_a = finger_of(fingers, 0)->is_disk() == of_disks;
-  const bool of_b = finger_of(fingers, 1)->is_disk() == of_disks;
-  if (typed.empty() || (of_a && of_b) || (typed.size() == 1 && (of_a || of_b))) return;
-  const char* const option = of_disks ? "--contact-angle" : "--contact";
-  const char* const kind = of_disks ? "a disk" : "a jaw or an outline";
-  if (!of_a && !of_b) {
-    throw InputError(of_disks ? "--contact-angle is of a disk; a jaw or an outline has --contact, an arc length"
-                              : "--contact is of a jaw or an outline; a disk has --contact-angle");
-  }
-  throw InputError(fmt::format("{} is given twice, and only finger {} is {}; give it once, and {} for the other one",
-                               option, of_a ? "a" : "b", kind, of_disks ? "--contact" : "--contact-angle"));
-}
-
 FreeFinger plan_of(const SimulateArguments& arguments, const Part& part, const Finger& seen, std::size_t which) {
   FreeFinger finger;
   finger.finger = arguments.mirror ? mirrored(seen) : seen;
@@ -94,13 +78,10 @@ std::string part_text(const Part& part, const Roll& roll) {
 void add_overlap_note(const Part& part, const std::vector<Finger>& fingers, const Roll& roll, Report& report) {
   const auto overlap = overlap_of(roll, *finger_of(fingers, 0), *finger_of(fingers, 1));
   if (!overlap) return;
-  const bool is_left_out = has_reach(*finger_of(fingers, 0)) && has_reach(*finger_of(fingers, 1));
-  report.notes.push_back(
-      fmt::format("the fingers overlap, by {} in row {} of the log: {}", rough(overlap->depth) + behind(part.unit()),
-                  overlap->row + 1,
-                  is_left_out ? "locate leaves out such a roll, unless --may-overlap says that they are at different "
-                                "heights"
-                              : "real ones must be at different heights"));
+  report.notes.push_back(fmt::format(
+      "the fingers overlap, by {} in row {} of the log: locate leaves out such a roll, unless --may-overlap "
+      "says that they are at different heights",
+      rough(overlap->depth) + behind(part.unit()), overlap->row + 1));
 }
 
 void add_logs(Report& report, const std::vector<std::string>& files, const Log& log, bool force) {

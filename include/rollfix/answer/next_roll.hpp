@@ -23,6 +23,12 @@ struct NextRoll {
   double turn_ahead(const Contender& contender) const;
 };
 
+/// What is known before any contact, for next_roll to say which roll tells most at first: places spread evenly over the
+/// boundary, of two fingers pairs of places, wherever these fingers can be, apart from each other; all as probable.
+/// `noise`: of the rolls to come. Throws InputError: no finger, or more than two.
+Answer before_contact(const Part& part, const std::vector<Finger>& fingers, const std::optional<Noise>& noise = {},
+                      bool may_overlap = false);
+
 /// How well what was felt for this answer tells turns and lengths apart.
 AdviceOptions advice_options(const Answer& answer, const std::optional<Interval>& travel);
 /// Where each finger of an answer can touch the part.

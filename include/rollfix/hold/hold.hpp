@@ -43,6 +43,7 @@ struct HoldProblem {
                                      // of the floor and of the pin are small: the wheel's normal points
                                      // through the finger's contact, to this standard deviation, radians;
                                      // without noise to this tolerance
+  bool may_overlap = false;          // at different heights a finger and a wheel, or two wheels, pass one another
 };
 
 /// Instants to search with where none are chosen, spread evenly over the logs.
@@ -129,7 +130,8 @@ struct HoldAnswer {
 /// part; contacts travel as their logs say. Places where a disk would enter the part are left out. With noise also the
 /// posterior, from all rows, if contacts are as likely anywhere on the boundary. Throws InputError: fewer than two
 /// logs, logs without u and psi or with different instants, fingers that are missing, wheels beside logs without x and
-/// y, a wheel that fits nowhere, kinds of noise that it can't take, and what `read_log` of two files throws.
+/// y, or that enter a finger or each other, a wheel that fits nowhere, kinds of noise that it can't take, and what
+/// `read_log` of two files throws.
 HoldAnswer solve(const HoldProblem& problem);
 
 }  // namespace rollfix

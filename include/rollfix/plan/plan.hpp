@@ -48,9 +48,12 @@ struct PlanProblem {
   std::optional<double> duration{};       // seconds; none: the shortest within the limits, else a finger turns against
                                           // the part at 1 rad/s at most
   PlanLimits limits{};
-  double margin = 0;       // radians: how far the force must stay inside the friction cones
-  double clearance = 0;    // length: how far the fingers must stay apart
-  std::size_t rows = 101;  // of the plan, at equal times, both ends included; at least 2
+  double margin = 0;         // radians: how far the force must stay inside the friction cones
+  double clearance = 0;      // length: how far the fingers must stay apart
+  bool may_overlap = false;  // two fingers at different heights pass one another
+  bool mirrored = false;     // the part lies face down: x = -x of the outline, then the pose. Starts and lengths are
+                             // along the outline as drawn
+  std::size_t rows = 101;    // of the plan, at equal times, both ends included; at least 2
 };
 
 /// What a roll needs.
@@ -117,8 +120,8 @@ struct Plan {
 
 /// Plans a roll. Two fingers hold a part in the plane by two forces that are equal and opposite, on the line through
 /// both contacts, as long as the floor's friction is small against the squeeze: that line must lie in both friction
-/// cones all the time, and a wheel's must go through its pin. docs/plan.md has the derivation. Friction, and disks and
-/// jaws that enter each other, and the balance on a wheel are proved between the rows as well, by bounds on how fast
+/// cones all the time, and a wheel's must go through its pin. docs/plan.md has the derivation. Friction, fingers that
+/// enter each other, and the balance on a wheel are proved between the rows as well, by bounds on how fast
 /// they can change; speeds and travels are looked at in many instants. Throws InputError: a problem that contradicts
 /// itself, a finger that can't roll there at all (with the place and the cure), a wheel that no start keeps in balance.
 Plan solve(const PlanProblem& problem);

@@ -15,9 +15,10 @@ namespace {
 using OfFingers = std::vector<std::optional<double>>;
 
 /// psi of a disk whose first contact is at s, with the contact at this angle in its frame; the rest have u.
-void place_contact(const Part& part, double heading, double contact, PlanFinger& finger) {
+void place_contact(const Part& part, double heading, bool mirrored, double contact, PlanFinger& finger) {
   if (finger.finger.is_disk()) {
-    finger.psi = contact_at(finger.finger, part.tangent(finger.start.value_or(0)) + heading, contact).psi;
+    const double tangent = part.tangent(finger.start.value_or(0));
+    finger.psi = contact_at(finger.finger, heading + (mirrored ? -tangent : tangent), contact).psi;
   } else {
     finger.u = contact;
   }
@@ -38,7 +39,7 @@ PlanHandle plan_roll(const PartHandle& handle, const py::iterable& fingers_given
                      const OfFingers& lengths, const OfFingers& frictions, const OfFingers& contacts,
                      const std::array<double, 3>& pose, const std::optional<double>& part_rotation,
                      const std::string& stays, const std::optional<double>& duration, const py::dict& limits,
-                     double margin, double clearance, std::size_t rows) {
+                     double margin, double clearance, std::size_t rows, bool may_overlap, bool mirrored) {
   const std::vector<Finger> shapes = fingers_from(fingers_given);
   PlanProblem problem{handle.part(), PerFinger<PlanFinger>::of(starts.size())};
   problem.pose = {pose[0], pose[1], pose[2]};
@@ -50,7 +51,7 @@ PlanHandle plan_roll(const PartHandle& handle, const py::iterable& fingers_given
     finger.friction = frictions[which];
     finger.wheel = wheel && which == 1;
     if (contacts[which] || finger.finger.is_disk()) {
-      place_contact(problem.part, problem.pose.heading, contacts[which].value_or(0), finger);
+      place_contact(problem.part, problem.pose.heading, mirrored, contacts[which].value_or(0), finger);
     }
   }
   problem.part_rotation = part_rotation;
@@ -60,6 +61,8 @@ PlanHandle plan_roll(const PartHandle& handle, const py::iterable& fingers_given
   problem.margin = margin;
   problem.clearance = clearance;
   problem.rows = rows;
+  problem.may_overlap = may_overlap;
+  problem.mirrored = mirrored;
   const Unlocked others_may_run;
   auto plan = std::make_shared<const Plan>(solve(problem));
   return {std::make_shared<const PlanProblem>(std::move(problem)), std::move(plan)};

@@ -58,6 +58,8 @@ TiltedBoundary tilted(const Part& part, const ErrorModel& errors, double curvatu
 
 /// As many nodes of a roll as the boundary turns, to and fro, more than once around.
 std::size_t most_nodes(const Part& part);
+/// How many times as much as around a circle a boundary turns, to and fro, corners apart.
+double turns_to_and_fro(const Part& part);
 
 /// The first points that a grid on this boundary begins with, at most.
 std::size_t most_first_points(const TiltedBoundary& boundary);

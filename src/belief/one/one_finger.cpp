@@ -8,10 +8,14 @@
 
 namespace rollfix::belief {
 
-std::size_t most_nodes(const Part& part) {
+double turns_to_and_fro(const Part& part) {
   double turned = 0;
   for (const Spiral& spiral : part.turning().spirals()) turned += std::abs(spiral.end.angle - spiral.start.angle);
-  const double finer = std::clamp(turned / (2 * std::numbers::pi), 1.0, kMostFiner);
+  return turned / (2 * std::numbers::pi);
+}
+
+std::size_t most_nodes(const Part& part) {
+  const double finer = std::clamp(turns_to_and_fro(part), 1.0, kMostFiner);
   return static_cast<std::size_t>(finer * static_cast<double>(kMostNodes));
 }
 
@@ -43,7 +47,8 @@ struct OneFingersGrid {
         has_first(first.has_value()),
         centres(model(part, first)),
         boundary(tilted(part, errors, curvature)),
-        nodes(errors, boundary.tilt(), options.robust, options.nodes.value_or(most_nodes(part)), !options.by_rows),
+        nodes(errors, boundary.tilt(), options.robust, options.nodes.value_or(most_nodes(part)), !options.by_rows,
+              turns_to_and_fro(part)),
         grid(boundary, errors, options, part.boundary(), corner_length(curvature, part), has_first ? &centres : nullptr,
              std::pmr::get_default_resource(), kMostPoints) {}
   OneFingersGrid(const OneFingersGrid&) = delete;

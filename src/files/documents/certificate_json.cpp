@@ -103,8 +103,9 @@ Json touches_json(const TouchCertificate& certificate) {
   for (std::size_t k = 0; k < certificate.touches.size(); ++k) {
     const MeasuredTouch& touch = certificate.touches[k];
     const TouchTolerance& tolerance = certificate.tolerance[certificate.rolls.size() + k];
-    list.push_back(
-        {{"at", point_json(touch.at)}, {"tolerance", json_numbers(std::array{tolerance.length, tolerance.angle})}});
+    const double length = touch.has_place() ? tolerance.length : 0.0;
+    list.push_back({{"tolerance", json_numbers(std::array{length, tolerance.angle})}});
+    if (touch.has_place()) list.back()["at"] = point_json(touch.at);
     if (touch.normal) list.back()["normal"] = json_number(*touch.normal);
   }
   return list;

@@ -37,7 +37,7 @@ using Matrix = Eigen::Matrix<double, Eigen::Dynamic, 2>;
 /// What kind of answer a connected set of pairs is.
 class SetsOfTwo {
  public:
-  explicit SetsOfTwo(const Question& question)
+  explicit SetsOfTwo(const ContactEquations& question)
       : question_(question), part_(question.part), turning_(part_.turning()), period_(part_.perimeter()) {}
 
   FoundSet set_of(const PairCluster& cluster) const {
@@ -238,7 +238,7 @@ class SetsOfTwo {
     return sum != 0 ? Kind::crossing : Kind::touching;
   }
 
-  const Question& question_;
+  const ContactEquations& question_;
   const Part& part_;
   const TurningFunction& turning_;
   double period_;
@@ -246,7 +246,7 @@ class SetsOfTwo {
 
 }  // namespace
 
-std::vector<Placement> make_placements(const Question& question, const std::vector<PairCluster>& clusters) {
+std::vector<Placement> make_placements(const ContactEquations& question, const std::vector<PairCluster>& clusters) {
   const SetsOfTwo sets(question);
   const PlacementMaker maker(question);
   struct Ranked {

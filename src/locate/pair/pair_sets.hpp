@@ -8,6 +8,6 @@
 namespace rollfix {
 
 /// One placement for each connected set: its kind, its roots, how sure they are; ordered by start.
-std::vector<Placement> make_placements(const Question& question, const std::vector<PairCluster>& clusters);
+std::vector<Placement> make_placements(const ContactEquations& question, const std::vector<PairCluster>& clusters);
 
 }  // namespace rollfix

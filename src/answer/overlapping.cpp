@@ -1,0 +1,167 @@
+#include "overlapping.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "contact/convex_body.hpp"
+#include "locate/pieces.hpp"
+#include "rollfix/contact/finger.hpp"
+
+// Notation, all of it as the part sees it:
+//   p, Theta     a contact on the part, and the tangent there
+//   N, c(u)      the finger's own normal and its rim where it touches, in its frame
+//   beta         how its frame is turned: Theta + pi / 2 - N; its origin is p - R(beta) c(u)
+// Idea: two bodies any of whose points is off by no more than `moved` are in one another by no less than what their
+// middle poses are, less both. So a box of first contacts goes only where no pair in it keeps the fingers apart.
+namespace rollfix {
+namespace {
+
+// Of the part's and the fingers' size: fingers that touch are apart.
+constexpr double kTouchingRounding = 1e-9;
+// A continuum of pairs is looked at in pieces of this share of the smaller finger's size.
+constexpr double kBodyPiece = 0.05;
+// A million normal numbers are within so many standard deviations.
+constexpr double kFarthestRadius = 5;
+
+/// No two points of a finger's body are farther apart; of a jaw, which has no ends, 0.
+double extent_of(const Finger& finger) {
+  if (finger.is_disk()) return 2 * finger.length_per_u();
+  if (finger.is_jaw()) return 0;
+  return finger.outline()->closed() ? finger.outline()->perimeter() / 2 : finger.outline()->perimeter();
+}
+
+/// A finger at one instant when its contact is somewhere on an arc.
+struct Lying {
+  Pose pose;             // of its frame
+  Vec2 contact;          // the middle of the arc
+  double half_turn = 0;  // its orientation is off by no more than this, radians
+  double moved = 0;      // any of its points by no more than this; of a jaw: the contact
+};
+
+Lying lying(const Part& part, const Finger& finger, const Interval& arc, double u, double error) {
+  const Interval tangents = tangents_over(part, arc);
+  const double inward = tangents.middle() + 0.5 * std::numbers::pi;
+  const Vec2 contact = part.point(arc.middle());
+  if (finger.is_disk()) {  // the same however it is turned
+    const double radius = finger.length_per_u();
+    const Vec2 centre = contact - radius * Vec2(std::cos(inward), std::sin(inward));
+    return {{centre.x(), centre.y(), 0}, contact, 0, 0.5 * (arc.width() + radius * tangents.width())};
+  }
+  const Interval ends = finger.ends();
+  const double lo = std::clamp(u - error, ends.lo, ends.hi);
+  const double hi = std::clamp(u + error, ends.lo, ends.hi);
+  const double rounding = kTouchingRounding * extent_of(finger);
+  const Interval normals{finger.normals(lo, rounding).lo, finger.normals(hi, rounding).hi};
+  const Pose turned{0, 0, inward - normals.middle()};
+  const Vec2 origin = contact - turned.turned(finger.point(0.5 * (lo + hi)));
+  const double half_turn = 0.5 * (tangents.width() + normals.width());
+  const double moved = 0.5 * (arc.width() + hi - lo) + half_turn * extent_of(finger);
+  return {{origin.x(), origin.y(), turned.heading}, contact, half_turn, finger.is_jaw() ? 0.5 * arc.width() : moved};
+}
+
+/// By how much a body is beyond the line of a jaw, at least.
+double least_depth(const Lying& jaw, const ConvexBody& body, double body_moved) {
+  const double up = jaw.pose.heading + 0.5 * std::numbers::pi;
+  const Vec2 arm = body.farthest(up) - jaw.contact;
+  const double moved = jaw.moved + body_moved;
+  return arm.dot(Vec2(std::cos(up), std::sin(up))) - moved - jaw.half_turn * (arm.norm() + moved);
+}
+
+/// The log's rows, and two fingers in them.
+class Rows {
+ public:
+  Rows(const Problem& problem, const Observation& observed, double length_error)
+      : part_(problem.part),
+        contacts_(*observed.contacts),
+        rolls_(observed.rolls),
+        error_(length_error),
+        fingers_(finger_of(problem.fingers, 0), finger_of(problem.fingers, 1)) {
+    const double radius = problem.noise ? kFarthestRadius * problem.noise->radius : 0;
+    for (const Finger* finger : fingers_) {
+      slack_ += kTouchingRounding * (part_.perimeter() + extent_of(*finger)) + (finger->is_disk() ? radius : 0);
+    }
+  }
+
+  /// Whether both are in one another in some row, from wherever in the box they started.
+  bool overlap(const PerFinger<Interval>& box) const {
+    for (std::size_t row = 0; row < rolls_.size(); ++row) {
+      if (depth(box, row, slack_) > slack_) return true;
+    }
+    return false;
+  }
+
+  /// Where they are deepest in one another from these first contacts, and by how much.
+  std::pair<std::size_t, double> deepest(const PerFinger<double>& start) const {
+    const PerFinger<Interval> box(Interval{start[0], start[0]}, Interval{start[1], start[1]});
+    std::pair<std::size_t, double> found{0, 0};
+    for (std::size_t row = 0; row < rolls_.size(); ++row) {
+      const double one = depth(box, row, found.second);
+      if (one > found.second) found = {row, one};
+    }
+    return found;
+  }
+
+  double piece() const {
+    double least = part_.perimeter();
+    for (const Finger* finger : fingers_) {
+      if (!finger->is_jaw()) least = std::min(least, extent_of(*finger));
+    }
+    return kBodyPiece * least;
+  }
+
+ private:
+  /// At least, and where that is no more than `enough` no more than it.
+  double depth(const PerFinger<Interval>& box, std::size_t row, double enough) const {
+    const Lying a = at(box, row, 0);
+    const Lying b = at(box, row, 1);
+    const ConvexBody of_a(*fingers_[0], a.pose);
+    const ConvexBody of_b(*fingers_[1], b.pose);
+    if (fingers_[0]->is_jaw()) return least_depth(a, of_b, b.moved);
+    if (fingers_[1]->is_jaw()) return least_depth(b, of_a, a.moved);
+    const double moved = a.moved + b.moved;
+    const Vec2 way = b.contact - a.contact;
+    const double straight = depth_along(of_a, of_b, std::atan2(way.y(), way.x()));
+    if (straight - moved <= enough) return straight - moved;  // as fingers that press against each other mostly are
+    return depth_of_overlap(of_a, of_b, enough + moved) - moved;
+  }
+
+  Lying at(const PerFinger<Interval>& box, std::size_t row, std::size_t finger) const {
+    const double length = rolls_[row].length[finger];
+    const double error = row > 0 ? error_ : 0;
+    const Interval arc{box[finger].lo + length - error, box[finger].hi + length + error};
+    return lying(part_, *fingers_[finger], arc, contacts_[finger][row].u, error_);
+  }
+
+  const Part& part_;
+  const PerFinger<std::vector<Contact>>& contacts_;
+  const std::vector<Reading>& rolls_;
+  double error_;
+  double slack_ = 0;
+  PerFinger<const Finger*> fingers_;
+};
+
+}  // namespace
+
+std::vector<Impossible> drop_overlapping(const Problem& problem, const Observation& observed, double length_error,
+                                         std::vector<Placement>& placements) {
+  std::vector<Impossible> dropped;
+  if (problem.may_overlap || !observed.contacts || observed.contacts->size() != 2) return dropped;
+  if (finger_of(problem.fingers, 0)->is_jaw() && finger_of(problem.fingers, 1)->is_jaw()) return dropped;
+  const Rows rows(problem, observed, length_error);
+  std::vector<Placement> kept;
+  for (Placement& placement : placements) {
+    const std::vector<PerFinger<Interval>> boxes = pieces_of(placement, rows.piece());
+    if (!std::all_of(boxes.begin(), boxes.end(), [&](const auto& box) { return rows.overlap(box); })) {
+      kept.push_back(std::move(placement));
+      continue;
+    }
+    const auto [row, depth] = rows.deepest(placement.start);
+    dropped.push_back({std::move(placement), Impossible::Reason::overlap, 0, {}, row, depth});
+  }
+  placements = std::move(kept);
+  return dropped;
+}
+
+}  // namespace rollfix

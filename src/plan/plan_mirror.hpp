@@ -1,0 +1,13 @@
+#pragma once
+
+#include "rollfix/plan/plan.hpp"
+
+namespace rollfix {
+
+/// The same problem as a mirror shows it, x with the other sign: there a part that lies face down lies as it was drawn.
+PlanProblem in_mirror(const PlanProblem& problem);
+
+/// Back again. `seen`: the problem in the mirror.
+void out_of_mirror(const PlanProblem& seen, Plan& plan);
+
+}  // namespace rollfix
