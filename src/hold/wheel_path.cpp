@@ -66,17 +66,19 @@ NearPin WheelPath::described(const Vec2& point, const touch::PathPlace& place) c
   return near;
 }
 
-NearPin WheelPath::nearest(const Vec2& point) { return described(point, touch::nearest_place(*tree_, seen(point))); }
+NearPin WheelPath::nearest(const Vec2& point) {
+  return described(point, touch::nearest_place(*tree_, seen(point)).place);
+}
 
 NearPin WheelPath::nearest(const Vec2& point, std::optional<touch::PathPlace>& from) {
   if (from) {
-    const touch::PathPlace place = touch::downhill(path_, seen(point), *from);
-    if ((path_.at(place).centre - point).norm() <= kSameFoot * radius()) {
-      from = place;
-      return described(point, place);
+    const touch::OnPath found = touch::downhill(path_, seen(point), {*from, path_.at(*from)});
+    if ((found.point.centre - point).norm() <= kSameFoot * radius()) {
+      from = found.place;
+      return described(point, found.place);
     }
   }
-  from = touch::nearest_place(*tree_, seen(point));
+  from = touch::nearest_place(*tree_, seen(point)).place;
   return described(point, *from);
 }
 

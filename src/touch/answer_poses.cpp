@@ -19,9 +19,6 @@ namespace {
 constexpr double kContinuum = 12;
 // Headings of extents are rounded, radians.
 constexpr double kHeadingRounding = 1e-12;
-// Starts on a set of cells for its best pose, and rounds of weighting up what is worst (Lawson's method).
-constexpr std::size_t kMostWitnesses = 8;
-constexpr int kLawsonRounds = 30;
 
 TouchContact contact_of(const PoseFit& fit, const FittedPose& fitted, std::size_t touch) {
   const CentrePoint point = fit.path(touch).at(fitted.places[touch]);
@@ -218,36 +215,6 @@ void add_posterior(TouchPose& pose, const PoseMode& mode, const std::vector<Post
   for (std::size_t i = 0; i < 3; ++i) pose.interval[i] = middle_share(terms[i], 0.95);
   pose.heading_density = std::move(terms[2]);
   for (MixtureTerm& term : pose.heading_density) term.weight /= total;
-}
-
-FittedPose best_within(PoseFit& fit, const std::vector<Cell>& cells, const TouchPair& pair) {
-  FittedPose best;
-  double least = std::numeric_limits<double>::infinity();
-  const std::size_t starts = std::min(cells.size(), kMostWitnesses);
-  for (std::size_t start = 0; start < starts; ++start) {
-    const Cell& cell = cells[(2 * start + 1) * cells.size() / (2 * starts)];
-    const PathTree::Node& node = fit.tree(pair.first).node(cell.first);
-    const Held held{pair.first, {static_cast<std::size_t>(node.stretch), node.u.middle()}};
-    FittedPose fitted = fit.fit(fit.pose_at(held, cell.heading.middle));
-    std::vector<double> weights(fit.touches().size(), 1.0);
-    for (int round = 0; round <= kLawsonRounds; ++round) {
-      const double worst = worst_of(fit, fitted);
-      if (worst < least) {
-        least = worst;
-        best = fitted;
-      }
-      if (worst <= 1 || fit.touches().size() < 3) break;
-      double sum = 0;
-      for (std::size_t k = 0; k < weights.size(); ++k) {
-        weights[k] *= 1e-6 + std::sqrt(fit.square_at(fitted.pose, k, fitted.places[k], false)) / worst;
-        sum += weights[k];
-      }
-      for (double& weight : weights) weight *= static_cast<double>(weights.size()) / sum;
-      fitted = fit.fit(fitted.pose, {}, weights);
-    }
-    if (least <= 1) break;
-  }
-  return best;
 }
 
 }  // namespace rollfix::touch

@@ -35,7 +35,4 @@ TouchPose described(const PoseFit& fit, const FittedPose& fitted, const std::vec
 /// Adds what the posterior knows of a mode.
 void add_posterior(TouchPose& pose, const PoseMode& mode, const std::vector<PosteriorNode>& nodes);
 
-/// The fitted pose with the least largest residual, as a share of its tolerance: from a few of the set's cells.
-FittedPose best_within(PoseFit& fit, const std::vector<Cell>& cells, const TouchPair& pair);
-
 }  // namespace rollfix::touch

@@ -1,8 +1,10 @@
 #include "nearest.hpp"
 
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "outline/turn.hpp"
 
@@ -14,6 +16,8 @@ constexpr int kMostSteps = 40;
 constexpr double kNoStep = 1e-5;
 // A stretch that turns by no more, radians, has one nearest place to a touch that is not far from it.
 constexpr double kOneNearest = 0.3;
+// A place is not nearer where its squares are smaller by no more than this share, or this much.
+constexpr double kNotNearer = 1e-6;
 
 /// The place at an end of the neighbouring stretch on this side; past corners where nothing changes for this touch.
 std::optional<PathPlace> neighbour(const CentrePath& path, const InPart& touch, std::size_t stretch, bool forwards) {
@@ -30,11 +34,13 @@ std::optional<PathPlace> neighbour(const CentrePath& path, const InPart& touch, 
 }
 
 /// Where it goes on downhill beyond this end of a stretch.
-std::optional<PathPlace> beyond(const CentrePath& path, const InPart& touch, std::size_t stretch, bool forwards) {
+std::optional<OnPath> beyond(const CentrePath& path, const InPart& touch, std::size_t stretch, bool forwards) {
   const std::optional<PathPlace> next = neighbour(path, touch, stretch, forwards);
   if (!next) return std::nullopt;
-  const double slope = distance_at(path.at(*next), touch).slope;
-  return (forwards ? slope > 0 : slope < 0) ? next : std::nullopt;
+  const OnPath there{*next, path.at(*next)};
+  const double slope = distance_at(there.point, touch).slope;
+  if (forwards ? slope > 0 : slope < 0) return there;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -65,56 +71,67 @@ Distance distance_at(const CentrePoint& point, const InPart& touch) {
   return distance;
 }
 
-PathPlace downhill(const CentrePath& path, const InPart& touch, PathPlace from) {
+OnPath downhill(const CentrePath& path, const InPart& touch, OnPath from) {
   double last = std::numeric_limits<double>::infinity();
-  PathPlace best = from;
+  OnPath best = from;
   double shortened = 1;
+  const auto go_to = [&](double u) {
+    from.place.u = u;
+    from.point = path.at(from.place);
+  };
   for (int step = 0; step < kMostSteps; ++step) {
-    const CentreStretch& stretch = path.stretches()[from.stretch];
-    const Distance here = distance_at(path.at(from), touch);
+    const CentreStretch& stretch = path.stretches()[from.place.stretch];
+    const Distance here = distance_at(from.point, touch);
     if (here.square > last) {  // too far: half of it
       shortened *= 0.5;
-      from.u = best.stretch == from.stretch ? 0.5 * (best.u + from.u) : from.u;
-      if (best.stretch != from.stretch || shortened < 1e-6) return best;
+      if (best.place.stretch != from.place.stretch || shortened < 1e-6) return best;
+      go_to(0.5 * (best.place.u + from.place.u));
       continue;
     }
     last = here.square;
     best = from;
     shortened = 1;
+    const double u = from.place.u;
     const bool is_still = here.weight == 0;
     const double move = is_still ? 0 : here.slope / here.weight;
-    const double to = std::clamp(from.u + move, stretch.u.lo, stretch.u.hi);
-    const bool at_lo = to == stretch.u.lo && from.u == to && (move < 0 || is_still);
-    const bool at_hi = to == stretch.u.hi && from.u == to && (move > 0 || is_still);
+    const double to = std::clamp(u + move, stretch.u.lo, stretch.u.hi);
+    const bool at_lo = to == stretch.u.lo && u == to && (move < 0 || is_still);
+    const bool at_hi = to == stretch.u.hi && u == to && (move > 0 || is_still);
     if (!is_still && !at_lo && !at_hi && std::abs(move) * std::sqrt(here.weight) <= kNoStep) return best;
     if (at_lo || at_hi || is_still) {
-      std::optional<PathPlace> next;
-      if (at_hi || is_still) next = beyond(path, touch, from.stretch, true);
-      if (!next && (at_lo || is_still)) next = beyond(path, touch, from.stretch, false);
+      std::optional<OnPath> next;
+      if (at_hi || is_still) next = beyond(path, touch, from.place.stretch, true);
+      if (!next && (at_lo || is_still)) next = beyond(path, touch, from.place.stretch, false);
       if (!next) return best;
       from = *next;
       last = std::numeric_limits<double>::infinity();  // a drawing's joints may have gaps
       continue;
     }
-    from.u = to;
+    go_to(to);
   }
   return best;
 }
 
-PathPlace nearest_place(PathTree& tree, const InPart& touch) {
-  PathPlace best;
-  double least = std::numeric_limits<double>::infinity();
-  std::vector<std::pair<double, std::int32_t>> waiting{{0.0, tree.root()}};
+namespace {
+
+/// Makes the best place known the nearest of all, if any is nearer than `least`. Of a node that holds the place
+/// `known` nothing else is looked at where it has one nearest place.
+void look_for_nearer(PathTree& tree, const InPart& touch, double least, const PathPlace* known,
+                     std::optional<OnPath>& best) {
+  boost::container::small_vector<std::pair<double, std::int32_t>, 64> waiting{{0.0, tree.root()}};
   while (!waiting.empty()) {
     const auto [bound, index] = waiting.back();
     waiting.pop_back();
     if (bound >= least) continue;
-    const PathTree::Node node = tree.node(index);
+    const PathTree::Node& node = tree.node(index);
     const bool is_plain = node.is_single() && node.half_turn <= 0.5 * kOneNearest;
+    const PathPlace middle{static_cast<std::size_t>(node.stretch), node.u.middle()};
+    const bool is_known = is_plain && known != nullptr && known->stretch == middle.stretch && node.u.contains(known->u);
+    if (is_known) continue;
     const auto [left, right] = is_plain ? std::make_pair(index, index) : tree.halves(index);
     if (left == right) {
-      const PathPlace place = downhill(tree.path(), touch, {static_cast<std::size_t>(node.stretch), node.u.middle()});
-      const double square = distance_at(tree.path().at(place), touch).square;
+      const OnPath place = downhill(tree.path(), touch, {middle, tree.path().at(middle)});
+      const double square = distance_at(place.point, touch).square;
       if (square < least) {
         least = square;
         best = place;
@@ -127,6 +144,20 @@ PathPlace nearest_place(PathTree& tree, const InPart& touch) {
     waiting.emplace_back(std::max(of_left, of_right), left_first ? right : left);
     waiting.emplace_back(std::min(of_left, of_right), left_first ? left : right);
   }
+}
+
+}  // namespace
+
+OnPath nearest_place(PathTree& tree, const InPart& touch) {
+  std::optional<OnPath> best;
+  look_for_nearer(tree, touch, std::numeric_limits<double>::infinity(), nullptr, best);
+  return best.value_or(OnPath{});
+}
+
+std::optional<OnPath> nearer_place(PathTree& tree, const InPart& touch, const OnPath& than) {
+  const double here = distance_at(than.point, touch).square;
+  std::optional<OnPath> best;
+  look_for_nearer(tree, touch, here - kNotNearer * (1 + here), &than.place, best);
   return best;
 }
 

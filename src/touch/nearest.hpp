@@ -29,10 +29,19 @@ Distance distance_at(const CentrePoint& point, const InPart& touch);
 /// No place of a node has a smaller sum of squares.
 double least_square(const PathTree::Node& node, const InPart& touch);
 
+/// A place of the path, and what is there.
+struct OnPath {
+  PathPlace place;
+  CentrePoint point;
+};
+
 /// The nearest place to be found by going downhill from this one, from stretch to stretch.
-PathPlace downhill(const CentrePath& path, const InPart& touch, PathPlace from);
+OnPath downhill(const CentrePath& path, const InPart& touch, OnPath from);
 
 /// The nearest of all places. Branch and bound.
-PathPlace nearest_place(PathTree& tree, const InPart& touch);
+OnPath nearest_place(PathTree& tree, const InPart& touch);
+
+/// The nearest of all places if it is nearer than this one, by more than rounding: nothing if none is.
+std::optional<OnPath> nearer_place(PathTree& tree, const InPart& touch, const OnPath& than);
 
 }  // namespace rollfix::touch

@@ -319,17 +319,23 @@ bool is_better(const TouchProspect& one, const TouchProspect& other) {
   return more > 0 || (more == 0 && one.head_on > other.head_on);
 }
 
-/// Looks closely at the most promising prospects, and says which of them is best.
-std::size_t best_of(Advisor& advisor, std::vector<TouchProspect>& prospects) {
+/// Looks closely at the most promising prospects, and says which of them is best. Bits are no more than roughly: if
+/// only the best is asked for, what is roughly no better than it needs no closer look.
+std::size_t best_of(Advisor& advisor, std::vector<TouchProspect>& prospects, bool only_best) {
   std::vector<std::size_t> order(prospects.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return is_better(prospects[a], prospects[b]); });
   const std::size_t pairs = advisor.pose_count() * advisor.pose_count();
   order.resize(std::min(order.size(), std::max<std::size_t>(1, kMostClosePairs / pairs)));
-  for (const std::size_t k : order) prospects[k] = advisor.prospect(prospects[k].approach);
-  return *std::min_element(order.begin(), order.end(),
-                           [&](std::size_t a, std::size_t b) { return is_better(prospects[a], prospects[b]); });
+  std::size_t best = prospects.size();
+  for (const std::size_t k : order) {
+    const bool is_first = best == prospects.size();
+    if (!is_first && only_best && !is_better(prospects[k], prospects[best])) break;
+    prospects[k] = advisor.prospect(prospects[k].approach);
+    if (is_first || is_better(prospects[k], prospects[best])) best = k;
+  }
+  return best;
 }
 
 void require_finite(const std::vector<Approach>& approaches) {
@@ -381,7 +387,7 @@ NextTouch next_touch(const TouchAnswer& answer, const std::vector<Approach>& app
   for (const Approach& approach : approaches.empty() ? advisor.all_around() : approaches) {
     next.prospects.push_back(advisor.rough_prospect(approach));
   }
-  next.best = touch::best_of(advisor, next.prospects);
+  next.best = touch::best_of(advisor, next.prospects, approaches.empty());
   if (!answer.poses.empty()) {
     for (touch::Forecast& one : advisor.forecasts(next.advised().approach)) next.expected.push_back(one.touch);
   }

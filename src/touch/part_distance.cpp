@@ -71,7 +71,7 @@ Interval PartDistance::between(const Vec2& point) {
 NearestOfPart PartDistance::nearest(const Vec2& point) {
   InPart at;
   at.at = point;
-  const CentrePoint place = boundary_.at(nearest_place(tree_, at));
+  const CentrePoint place = nearest_place(tree_, at).point;
   const Vec2 off = point - place.centre;
   NearestOfPart result;
   result.contact = place.centre;

@@ -14,7 +14,7 @@
 //   q_i, tau_i      a touch's measured centre, and tangent where a normal was measured: `Measured`
 //   c(u), theta(u)  centre and tangent's angle at a contact's place u_i: CentrePoint
 //   r_i             residuals (q - X - R(phi) c(u)) / `place_unit` and (tau - theta(u) - phi) / `angle_unit`
-//   J, v            derivatives of r_i by the pose and by u_i: `by_pose`, `by_place`
+//   J, v            derivatives of r_i by the pose and by u_i; J^T v, v^T v: `Mixed`
 //   M               J^T J - J^T v v^T J / v^T v, a touch's share of the normal matrix with u_i eliminated; where u_i
 //                   can't move, held or at a corner or an end (`is_pinned`), J^T J alone
 // Follows docs/touch.md, "How it works"; K. Levenberg, "A method for the solution of certain non-linear problems in
@@ -35,19 +35,54 @@ constexpr double kNoSlope = 1e-4;
 // A heading is somewhere on the circle, even where no touch tells where: this many radians, as a standard deviation.
 constexpr double kAnyHeading = std::numbers::pi;
 
-/// What the residuals of a held place are by the pose and by u: columns of a 3 by 4 matrix.
-struct Rows {
-  Eigen::Matrix3d by_pose = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d by_place = Eigen::Vector3d::Zero();
-  Eigen::Vector3d residual = Eigen::Vector3d::Zero();
-};
-
 }  // namespace
 
+Mixed mixed_at(const PartFrame& frame, const InPart& touch, const CentrePoint& point) {
+  Mixed mixed;
+  if (touch.has_place) {
+    const double share = 1 / (touch.place_unit * touch.place_unit);
+    const Vec2 along = frame.in_world(point.along);
+    const double turn = turned_left(point.centre - frame.about).dot(point.along);
+    mixed.by_pose = share * Eigen::Vector3d(along.x(), along.y(), turn);
+    mixed.weight = share * point.along.squaredNorm();
+  }
+  if (!touch.tangent) return mixed;
+  const double share = 1 / (touch.angle_unit * touch.angle_unit);
+  mixed.by_pose(2) += share * point.bend;
+  mixed.weight += share * point.bend * point.bend;
+  return mixed;
+}
+
+Normals normals_at(const PartFrame& frame, const InPart& touch, const CentrePoint& point) {
+  Normals normals;
+  if (touch.has_place) {
+    const double share = 1 / (touch.place_unit * touch.place_unit);
+    const Vec2 left = turned_left(point.centre - frame.about);
+    const Vec2 turn = frame.in_world(left);
+    const Vec2 off = touch.at - point.centre;
+    const Vec2 pull = frame.in_world(off);
+    normals.matrix << 1, 0, turn.x(), 0, 1, turn.y(), turn.x(), turn.y(), left.squaredNorm();
+    normals.matrix *= share;
+    normals.slope = share * Eigen::Vector3d(pull.x(), pull.y(), left.dot(off));
+  }
+  if (!touch.tangent) return normals;
+  const double share = 1 / (touch.angle_unit * touch.angle_unit);
+  normals.matrix(2, 2) += share;
+  normals.slope(2) += share * nearest_angle(*touch.tangent - point.angle);
+  return normals;
+}
+
+/// A pose, where each contact is then, and the sum of squares.
 struct PoseFit::State {
   Pose pose;
-  std::vector<PathPlace> places;
+  std::vector<OnPath> contacts;
   double square = 0;
+};
+
+/// A touch as a pose has it.
+struct PoseFit::Seen {
+  PartFrame frame;
+  InPart touch;
 };
 
 PoseFit::PoseFit(const std::vector<Measured>& touches, const std::optional<PosePrior>& prior)
@@ -66,65 +101,54 @@ Pose PoseFit::pose_at(const Held& held, double heading) const {
   return {place.x(), place.y(), heading};
 }
 
-InPart PoseFit::in_part(const Pose& pose, std::size_t touch) const {
+PartFrame PoseFit::frame(const Pose& pose) const {
+  PartFrame frame{{std::cos(pose.heading), std::sin(pose.heading)}};
+  frame.about = frame.in_part(about_ - Vec2(pose.x, pose.y));
+  return frame;
+}
+
+PoseFit::Seen PoseFit::seen(const Pose& pose, std::size_t touch) const {
   const Measured& one = touches_[touch];
-  const Pose back{0, 0, -pose.heading};
-  InPart result;
-  result.at = back.turned(one.at - Vec2(pose.x, pose.y));
-  if (one.tangent) result.tangent = *one.tangent - pose.heading;
-  result.has_place = one.has_place;
-  result.place_unit = one.place_unit;
-  result.angle_unit = one.angle_unit;
+  Seen result{frame(pose), {}};
+  result.touch.at = result.frame.in_part(one.at - Vec2(pose.x, pose.y));
+  if (one.tangent) result.touch.tangent = *one.tangent - pose.heading;
+  result.touch.has_place = one.has_place;
+  result.touch.place_unit = one.place_unit;
+  result.touch.angle_unit = one.angle_unit;
   return result;
 }
 
-namespace {
+InPart PoseFit::in_part(const Pose& pose, std::size_t touch) const { return seen(pose, touch).touch; }
 
-Rows rows_of(const Measured& touch, const Pose& pose, const CentrePoint& point, const Vec2& about) {
-  const Vec2 centre = Vec2(pose.x, pose.y) + pose.turned(point.centre);
-  Rows rows;
-  if (touch.has_place) {
-    rows.residual.head<2>() = (touch.at - centre) / touch.place_unit;
-    rows.by_pose.topLeftCorner<2, 2>() = -Eigen::Matrix2d::Identity() / touch.place_unit;
-    rows.by_pose.topRightCorner<2, 1>() = -turned_left(centre - about) / touch.place_unit;
-    rows.by_place.head<2>() = -pose.turned(point.along) / touch.place_unit;
-  }
-  if (!touch.tangent) return rows;
-  rows.residual(2) = nearest_angle(*touch.tangent - point.angle - pose.heading) / touch.angle_unit;
-  rows.by_pose(2, 2) = -1 / touch.angle_unit;
-  rows.by_place(2) = -point.bend / touch.angle_unit;
-  return rows;
-}
-
-}  // namespace
-
-bool PoseFit::is_pinned(const Pose& pose, std::size_t touch, const PathPlace& place) const {
-  if (touches_[touch].roll != nullptr) return false;
-  const CentreStretch& stretch = path(touch).stretches()[place.stretch];
-  const Distance distance = distance_at(path(touch).at(place), in_part(pose, touch));
+bool PoseFit::is_pinned_at(const PathPlace& place, std::size_t touch, const Distance& distance) const {
   if (distance.weight == 0) return true;
+  const CentreStretch& stretch = path(touch).stretches()[place.stretch];
   const bool is_end = place.u <= stretch.u.lo || place.u >= stretch.u.hi;
   // Past the end it would go on: a place in the middle of a smooth boundary has no slope.
   return is_end && std::abs(distance.slope) > kNoSlope * std::sqrt(distance.weight);
 }
 
-Normals PoseFit::normals_at(const Pose& pose, std::size_t touch, const CentrePoint& point) const {
-  const Rows rows = rows_of(touches_[touch], pose, point, about_);
-  Normals normals;
-  normals.matrix = rows.by_pose.transpose() * rows.by_pose;
-  normals.slope = -rows.by_pose.transpose() * rows.residual;
-  return normals;
+bool PoseFit::is_pinned(const Pose& pose, std::size_t touch, const PathPlace& place) const {
+  if (touches_[touch].roll != nullptr) return false;
+  return is_pinned_at(place, touch, distance_at(path(touch).at(place), in_part(pose, touch)));
 }
 
-PathPlace PoseFit::nearest_to(const Pose& pose, std::size_t touch) const {
+/// Of a roll the point is not looked at.
+OnPath PoseFit::on_path(const PathPlace& place, std::size_t touch) const {
+  if (touches_[touch].roll != nullptr) return {place, {}};
+  return {place, path(touch).at(place)};
+}
+
+OnPath PoseFit::nearest_to(const Pose& pose, std::size_t touch) const {
   const RollBelief* roll = touches_[touch].roll;
-  return roll != nullptr ? roll->nearest(pose).place : nearest_place(tree(touch), in_part(pose, touch));
+  if (roll != nullptr) return {roll->nearest(pose).place, {}};
+  return nearest_place(tree(touch), in_part(pose, touch));
 }
 
 PathPlace PoseFit::downhill_from(const PathPlace& place, const Pose& pose, std::size_t touch) const {
   const RollBelief* roll = touches_[touch].roll;
   return roll != nullptr ? roll->downhill(pose, roll->at(place)).place
-                         : downhill(path(touch), in_part(pose, touch), place);
+                         : downhill(path(touch), in_part(pose, touch), on_path(place, touch)).place;
 }
 
 double PoseFit::square_at(const Pose& pose, std::size_t touch, const PathPlace& place, bool is_held) const {
@@ -134,18 +158,44 @@ double PoseFit::square_at(const Pose& pose, std::size_t touch, const PathPlace& 
 
 Normals PoseFit::held_normals(const Pose& pose, std::size_t touch, const PathPlace& place) const {
   if (const RollBelief* roll = touches_[touch].roll) return roll->normals(pose, roll->at(place), about_, false);
-  return normals_at(pose, touch, path(touch).at(place));
+  const Seen one = seen(pose, touch);
+  return normals_at(one.frame, one.touch, path(touch).at(place));
 }
 
 Normals PoseFit::free_normals(const Pose& pose, std::size_t touch, const PathPlace& place) const {
-  if (const RollBelief* roll = touches_[touch].roll) return roll->normals(pose, roll->at(place), about_, true);
-  if (is_pinned(pose, touch, place)) return held_normals(pose, touch, place);
-  const Rows rows = rows_of(touches_[touch], pose, path(touch).at(place), about_);
-  Normals normals;
-  const Eigen::Vector3d mixed = rows.by_pose.transpose() * rows.by_place;
-  normals.matrix = rows.by_pose.transpose() * rows.by_pose - mixed * mixed.transpose() / rows.by_place.squaredNorm();
-  normals.slope = -rows.by_pose.transpose() * rows.residual;
+  return free_normals(pose, touch, on_path(place, touch));
+}
+
+Normals PoseFit::free_normals(const Pose& pose, std::size_t touch, const OnPath& at) const {
+  if (const RollBelief* roll = touches_[touch].roll) return roll->normals(pose, roll->at(at.place), about_, true);
+  const Seen one = seen(pose, touch);
+  Normals normals = normals_at(one.frame, one.touch, at.point);
+  if (is_pinned_at(at.place, touch, distance_at(at.point, one.touch))) return normals;
+  const Mixed mixed = mixed_at(one.frame, one.touch, at.point);
+  normals.matrix -= mixed.by_pose * mixed.by_pose.transpose() / mixed.weight;
   return normals;
+}
+
+ByPlace PoseFit::by_place(const FittedPose& fitted, const Held& held) const {
+  const Seen one = seen(fitted.pose, held.touch);
+  const Mixed mixed = mixed_at(one.frame, one.touch, path(held.touch).at(held.place));
+  ByPlace result;
+  result.pose = -fitted.information.ldlt().solve(mixed.by_pose);
+  result.own_information = mixed.weight;
+  result.information = std::max(0.0, mixed.weight + mixed.by_pose.dot(result.pose));
+  return result;
+}
+
+double PoseFit::touches_moved(const Eigen::Vector3d& step) const {
+  double most = 0;
+  for (const Measured& touch : touches_) {
+    if (touch.has_place) {
+      const Vec2 moved = step.head<2>() + step(2) * turned_left(touch.at - about_);
+      most = std::max(most, moved.norm() / touch.place_unit);
+    }
+    if (touch.tangent) most = std::max(most, std::abs(step(2)) / touch.angle_unit);
+  }
+  return most;
 }
 
 Normals PoseFit::prior_normals(const Pose& pose) const {
@@ -190,87 +240,119 @@ Eigen::Matrix3d PoseFit::at_origin(const Pose& pose, const Eigen::Matrix3d& cova
   return by * covariance * by.transpose();
 }
 
-double PoseFit::square_of(State& state, const std::optional<Held>& held, const std::vector<double>& weights) const {
-  double sum = prior_square(state.pose);
+/// Each contact to its nearest place in the state's pose, and the squares there.
+void PoseFit::go_downhill(State& state, const std::optional<Held>& held) const {
+  state.square = prior_square(state.pose);
   for (std::size_t k = 0; k < touches_.size(); ++k) {
     const bool is_held = held && held->touch == k;
-    if (!is_held) state.places[k] = downhill_from(state.places[k], state.pose, k);
-    sum += (weights.empty() ? 1 : weights[k]) * square_at(state.pose, k, state.places[k], is_held);
+    OnPath& at = state.contacts[k];
+    if (const RollBelief* roll = touches_[k].roll) {
+      if (!is_held) at.place = roll->downhill(state.pose, roll->at(at.place)).place;
+      state.square += roll->square(state.pose, roll->at(at.place), !is_held);
+      continue;
+    }
+    const InPart touch = in_part(state.pose, k);
+    if (!is_held) at = downhill(path(k), touch, at);
+    state.square += distance_at(at.point, touch).square;
   }
-  return sum;
 }
 
-Normals PoseFit::normals_of(const State& state, const std::optional<Held>& held,
-                            const std::vector<double>& weights) const {
+Normals PoseFit::normals_of(const State& state, const std::optional<Held>& held) const {
   Normals sum = prior_normals(state.pose);
   for (std::size_t k = 0; k < touches_.size(); ++k) {
     const bool is_held = held && held->touch == k;
     const Normals one =
-        is_held ? held_normals(state.pose, k, state.places[k]) : free_normals(state.pose, k, state.places[k]);
-    const double weight = weights.empty() ? 1 : weights[k];
-    sum.matrix += weight * one.matrix;
-    sum.slope += weight * one.slope;
+        is_held ? held_normals(state.pose, k, state.contacts[k].place) : free_normals(state.pose, k, state.contacts[k]);
+    sum.matrix += one.matrix;
+    sum.slope += one.slope;
   }
   return sum;
 }
 
-void PoseFit::descend(State& state, const std::optional<Held>& held, const std::vector<double>& weights) const {
-  state.square = square_of(state, held, weights);
+void PoseFit::descend(State& state, const std::optional<Held>& held) const {
+  go_downhill(state, held);
+  State next;
   double damping = 1e-6;
+  Normals normals = normals_of(state, held);
   for (int round = 0; round < kMostRounds && damping < kMostDamping; ++round) {
-    const Normals normals = normals_of(state, held, weights);
     Eigen::Matrix3d matrix = normals.matrix;
     matrix.diagonal() *= 1 + damping;
-    State next = state;
+    next = state;
     next.pose = moved(state.pose, matrix.ldlt().solve(normals.slope));
-    next.square = square_of(next, held, weights);
+    go_downhill(next, held);
     if (!(next.square <= state.square)) {
       damping *= 10;
       continue;
     }
     const double gain = state.square - next.square;
-    state = std::move(next);
+    std::swap(state, next);
     damping = std::max(0.1 * damping, 1e-12);
     if (gain <= kSettled * (1 + state.square)) break;
+    normals = normals_of(state, held);
   }
 }
 
 /// Whether another touch is nearer to another place than where going downhill has led it.
-bool PoseFit::jump_nearer(State& state, const std::optional<Held>& held) {
+bool PoseFit::jump_nearer(State& state, const std::optional<Held>& held) const {
   bool jumped = false;
   for (std::size_t k = 0; k < touches_.size(); ++k) {
     if (held && held->touch == k) continue;
-    const PathPlace place = nearest_to(state.pose, k);
-    const double here = square_at(state.pose, k, state.places[k], false);
-    if (square_at(state.pose, k, place, false) >= here - 1e-6 * (1 + here)) continue;
-    state.places[k] = place;
+    OnPath& at = state.contacts[k];
+    if (const RollBelief* roll = touches_[k].roll) {
+      const RollNode& there = roll->nearest(state.pose);
+      const double here = roll->square(state.pose, roll->at(at.place), true);
+      if (roll->square(state.pose, there, true) >= here - 1e-6 * (1 + here)) continue;
+      at.place = there.place;
+      jumped = true;
+      continue;
+    }
+    const std::optional<OnPath> nearer = nearer_place(tree(k), in_part(state.pose, k), at);
+    if (!nearer) continue;
+    at = *nearer;
     jumped = true;
   }
   return jumped;
 }
 
-FittedPose PoseFit::at(const Pose& pose, std::vector<PathPlace> places) const {
-  State state{pose, std::move(places), prior_square(pose)};
-  for (std::size_t k = 0; k < touches_.size(); ++k) {
-    state.square += square_at(pose, k, state.places[k], false);
-  }
-  state.pose.heading = nearest_angle(pose.heading);
-  return {state.pose, state.places, state.square, normals_of(state, {}, {}).matrix};
-}
-
-FittedPose PoseFit::fit(const Pose& from, const std::optional<Held>& held, const std::vector<double>& weights) {
-  beat();
-  State state{from, std::vector<PathPlace>(touches_.size()), 0};
-  for (std::size_t k = 0; k < touches_.size(); ++k) {
-    const bool is_held = held && held->touch == k;
-    state.places[k] = is_held ? held->place : nearest_to(from, k);
-  }
+FittedPose PoseFit::settled(State state, const std::optional<Held>& held) const {
   for (int jump = 0; jump < kMostJumps; ++jump) {
-    descend(state, held, weights);
+    descend(state, held);
     if (!jump_nearer(state, held)) break;
   }
   state.pose.heading = nearest_angle(state.pose.heading);
-  return {state.pose, state.places, state.square, normals_of(state, held, weights).matrix};
+  FittedPose fitted{state.pose, {}, state.square, normals_of(state, held).matrix};
+  for (const OnPath& one : state.contacts) fitted.places.push_back(one.place);
+  return fitted;
+}
+
+FittedPose PoseFit::at(const Pose& pose, std::vector<PathPlace> places) const {
+  State state{pose, {}, prior_square(pose)};
+  for (std::size_t k = 0; k < touches_.size(); ++k) {
+    state.contacts.push_back(on_path(places[k], k));
+    state.square += square_at(pose, k, places[k], false);
+  }
+  state.pose.heading = nearest_angle(pose.heading);
+  return {state.pose, std::move(places), state.square, normals_of(state, {}).matrix};
+}
+
+FittedPose PoseFit::fit(const Pose& from, const std::optional<Held>& held) {
+  beat();
+  State state{from, {}, 0};
+  for (std::size_t k = 0; k < touches_.size(); ++k) {
+    const bool is_held = held && held->touch == k;
+    state.contacts.push_back(is_held ? on_path(held->place, k) : nearest_to(from, k));
+  }
+  return settled(std::move(state), held);
+}
+
+FittedPose PoseFit::fit(const FittedPose& from, const std::optional<Held>& held) {
+  beat();
+  State state{from.pose, {}, 0};
+  for (std::size_t k = 0; k < touches_.size(); ++k) {
+    const bool is_held = held && held->touch == k;
+    state.contacts.push_back(on_path(is_held ? held->place : from.places[k], k));
+  }
+  return settled(std::move(state), held);
 }
 
 }  // namespace rollfix::touch

@@ -34,6 +34,35 @@ struct Normals {
   Eigen::Vector3d slope = Eigen::Vector3d::Zero();  // half the derivative of the squares, with its sign
 };
 
+/// What a held place does to the best pose, and what the touches know of it.
+struct ByPlace {
+  Eigen::Vector3d pose = Eigen::Vector3d::Zero();  // d (x, y, heading) / du, of what lies at `about`
+  double information = 0;                          // of u, one by its variance, by all touches ...
+  double own_information = 0;                      // ... and by the held one, if the pose were known
+};
+
+/// How a pose turns the part.
+struct PartFrame {
+  Vec2 axis = Vec2::UnitX();  // the part's x axis in the world
+  Vec2 about = Vec2::Zero();  // the point of the world about which poses are turned, in the part's frame
+  Vec2 in_world(const Vec2& v) const {
+    return {axis.x() * v.x() - axis.y() * v.y(), axis.y() * v.x() + axis.x() * v.y()};
+  }
+  Vec2 in_part(const Vec2& v) const {
+    return {axis.x() * v.x() + axis.y() * v.y(), axis.x() * v.y() - axis.y() * v.x()};
+  }
+};
+
+/// What a contact at a place says of the pose, held there.
+Normals normals_at(const PartFrame& frame, const InPart& touch, const CentrePoint& point);
+
+/// What moving the contact along the path does to its squares, alone and with the pose: v^T v and J^T v.
+struct Mixed {
+  Eigen::Vector3d by_pose = Eigen::Vector3d::Zero();
+  double weight = 0;
+};
+Mixed mixed_at(const PartFrame& frame, const InPart& touch, const CentrePoint& point);
+
 /// Least squares over poses, with each touch at its nearest place: Levenberg's method. Poses are moved about a point of
 /// the world near the touches.
 class PoseFit {
@@ -42,7 +71,9 @@ class PoseFit {
 
   /// The pose with this heading that has the finger at the touch when the contact is there.
   Pose pose_at(const Held& held, double heading) const;
-  FittedPose fit(const Pose& from, const std::optional<Held>& held = {}, const std::vector<double>& weights = {});
+  FittedPose fit(const Pose& from, const std::optional<Held>& held = {});
+  /// The same from a pose whose contacts are known, if a little off.
+  FittedPose fit(const FittedPose& from, const std::optional<Held>& held = {});
 
   /// A pose with the contacts at these places, as it is.
   FittedPose at(const Pose& pose, std::vector<PathPlace> places) const;
@@ -52,17 +83,19 @@ class PoseFit {
   PathTree& tree(std::size_t touch) const { return *touches_[touch].tree; }
   const CentrePath& path(std::size_t touch) const { return tree(touch).path(); }
   const std::vector<Measured>& touches() const { return touches_; }
+  PartFrame frame(const Pose& pose) const;
   InPart in_part(const Pose& pose, std::size_t touch) const;
-  /// The place of a contact that fits a pose best; the same by going downhill from another.
-  PathPlace nearest_to(const Pose& pose, std::size_t touch) const;
+  /// The place of a contact that fits a pose best, by going downhill from another.
   PathPlace downhill_from(const PathPlace& place, const Pose& pose, std::size_t touch) const;
   /// What a contact there adds to the sum of squares.
   double square_at(const Pose& pose, std::size_t touch, const PathPlace& place, bool is_held) const;
   /// Its share of the normal equations, held there, and free to move.
   Normals held_normals(const Pose& pose, std::size_t touch, const PathPlace& place) const;
   Normals free_normals(const Pose& pose, std::size_t touch, const PathPlace& place) const;
-  /// The share of a touch whose contact is held there: what it says of the pose.
-  Normals normals_at(const Pose& pose, std::size_t touch, const CentrePoint& point) const;
+  /// REQUIRES a pose that was fitted with the touch held there, and that it is no roll.
+  ByPlace by_place(const FittedPose& fitted, const Held& held) const;
+  /// How far, in their units, a small step of the pose moves the touches in the part's frame, at the most.
+  double touches_moved(const Eigen::Vector3d& step) const;
   /// What is known beforehand, and that a heading has no more than a turn to be in; and its squares alone.
   Normals prior_normals(const Pose& pose) const;
   double prior_square(const Pose& pose) const;
@@ -76,10 +109,17 @@ class PoseFit {
 
  private:
   struct State;
-  double square_of(State& state, const std::optional<Held>& held, const std::vector<double>& weights) const;
-  Normals normals_of(const State& state, const std::optional<Held>& held, const std::vector<double>& weights) const;
-  void descend(State& state, const std::optional<Held>& held, const std::vector<double>& weights) const;
-  bool jump_nearer(State& state, const std::optional<Held>& held);
+  struct Seen;
+  Seen seen(const Pose& pose, std::size_t touch) const;
+  OnPath on_path(const PathPlace& place, std::size_t touch) const;
+  OnPath nearest_to(const Pose& pose, std::size_t touch) const;
+  Normals free_normals(const Pose& pose, std::size_t touch, const OnPath& at) const;
+  bool is_pinned_at(const PathPlace& place, std::size_t touch, const Distance& distance) const;
+  void go_downhill(State& state, const std::optional<Held>& held) const;
+  Normals normals_of(const State& state, const std::optional<Held>& held) const;
+  void descend(State& state, const std::optional<Held>& held) const;
+  bool jump_nearer(State& state, const std::optional<Held>& held) const;
+  FittedPose settled(State state, const std::optional<Held>& held) const;
 
   const std::vector<Measured>& touches_;
   std::optional<PosePrior> prior_;

@@ -12,6 +12,9 @@ namespace {
 
 // Between two modes the density falls to less than exp(-6) of the lower peak.
 constexpr double kValley = 6;
+// A normal distribution is within this many standard deviations, and a quantile is found to this share of all of them.
+constexpr double kAllOfTerm = 9;
+constexpr double kQuantileShare = 1e-11;
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 using Links = std::vector<std::vector<std::size_t>>;
@@ -136,19 +139,25 @@ Interval middle_share(const std::vector<MixtureTerm>& terms, double share) {
   double total = 0, least = std::numeric_limits<double>::infinity(), most = -least;
   for (const MixtureTerm& term : terms) {
     total += term.weight;
-    least = std::min(least, term.mean - 9 * term.sd);
-    most = std::max(most, term.mean + 9 * term.sd);
+    least = std::min(least, term.mean - kAllOfTerm * term.sd);
+    most = std::max(most, term.mean + kAllOfTerm * term.sd);
   }
   const auto below = [&](double value) {
     double sum = 0;
     for (const MixtureTerm& term : terms) {
-      sum += term.weight * 0.5 * std::erfc((term.mean - value) / (term.sd * std::numbers::sqrt2));
+      const double off = term.mean - value;
+      if (std::abs(off) > kAllOfTerm * term.sd) {
+        sum += off < 0 ? term.weight : 0;
+      } else {
+        sum += term.weight * 0.5 * std::erfc(off / (term.sd * std::numbers::sqrt2));
+      }
     }
     return sum / total;
   };
+  const double close = kQuantileShare * (most - least);
   const auto quantile = [&](double wanted) {
     double lo = least, hi = most;
-    for (int k = 0; k < 60 && lo < hi; ++k) {
+    while (hi - lo > close && lo < 0.5 * (lo + hi) && 0.5 * (lo + hi) < hi) {
       const double middle = 0.5 * (lo + hi);
       (below(middle) < wanted ? lo : hi) = middle;
     }

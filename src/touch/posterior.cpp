@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "hopeless_sets.hpp"
 #include "outline/turn.hpp"
 #include "roll_belief.hpp"
 #include "tilted_touch.hpp"
@@ -14,9 +15,14 @@
 namespace rollfix::touch {
 namespace {
 
-// The grid's step, in standard deviations of the first touch's own place. The density by it is no narrower than they
-// are, and the midpoint rule is off by exp(-2 pi^2) of a normal one.
-constexpr double kStep = 1;
+// The grid's step is at most so many standard deviations of the first touch's place as all touches know it: the
+// midpoint rule is off by next to nothing of a normal density, and what a node stands for makes its own distribution
+// wider. At most it moves a touch by so many of its own: near a fold of a curve of poses a little of the place moves
+// them far. It is never finer than the first touch's own: the density is no narrower. Where the search had to stop at
+// coarser cells, which are a continuum then, it has no more steps than on one of the finest.
+constexpr double kStep = 0.7;
+constexpr double kStepOfTouch = 3;
+constexpr int kMostPlacesOfCell = 7;
 // Starts at headings no further apart than this, radians, so that each best pose is found from one of them.
 constexpr double kStartApart = 0.35;
 constexpr int kMostStarts = 9;
@@ -29,8 +35,6 @@ constexpr double kSamePose = 0.2;
 constexpr int kMostTilts = 4;
 constexpr double kSmallTilt = 0.05;
 constexpr double kLargeTilt = 4;
-// Squares that exceed the least known by more are worth exp(-25) of it: such a place is not looked at closely.
-constexpr double kHopeless = 50;
 
 /// The pose about which all others lie, given the first touch's place.
 class NodeMaker {
@@ -157,6 +161,7 @@ struct Column {
   std::vector<double> places;
   std::vector<double> log_weights;  // of each: of the length that it stands for, and of a roll of its probability
   std::vector<std::vector<KnownPose>> known;
+  double step = 0;  // in u, of a touch
 };
 
 /// The roll's own nodes on the stretch.
@@ -172,118 +177,128 @@ Column column_of_roll(const RollBelief& roll, const PathTree::Node& at, std::int
   return column;
 }
 
-Column column_of(PoseFit& fit, std::int32_t node, std::size_t touch) {
+/// Neighbouring groups with one stretch for the first touch.
+struct Groups {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+
+/// `fineness`: steps by u.
+Column column_of(const PoseFit& fit, std::int32_t node, std::size_t touch, double fineness) {
   const PathTree::Node& at = fit.tree(touch).node(node);
   if (const RollBelief* roll = fit.touches()[touch].roll) return column_of_roll(*roll, at, node);
-  const PathPlace middle{static_cast<std::size_t>(at.stretch), at.u.middle()};
-  const Measured& one = fit.touches()[touch];
-  InPart alike{Vec2::Zero(), true, one.tangent, one.place_unit, one.angle_unit};
-  const double weight = distance_at(fit.path(touch).at(middle), alike).weight;
-  const int count = std::max(1, static_cast<int>(std::ceil(at.u.width() * std::sqrt(weight) / kStep)));
-  const double step = at.u.width() / count;
-  const double length = step * length_per_u(fit.path(touch), static_cast<std::size_t>(at.stretch));
+  const int count = std::clamp(
+      static_cast<int>(std::ceil(std::min<double>(kMostPlacesOfCell, at.u.width() * fineness))), 1, kMostPlacesOfCell);
   Column column;
   column.node = node;
+  column.step = at.u.width() / count;
+  const double length = column.step * length_per_u(fit.path(touch), static_cast<std::size_t>(at.stretch));
   if (!(length > 0)) return column;
   for (int k = 0; k < count; ++k) {
-    column.places.push_back(at.u.lo + (k + 0.5) * step);
+    column.places.push_back(at.u.lo + (k + 0.5) * column.step);
     column.log_weights.push_back(std::log(length));
   }
   column.known.resize(column.places.size());
   return column;
 }
 
-/// One in so many cells of a component is started from to see how well it fits at all; no fewer and no more than these.
-constexpr std::size_t kCellsPerLook = 6;
-constexpr std::size_t kLeastLooks = 4;
-constexpr std::size_t kMostLooks = 40;
+/// Goes over the cells column by column: all groups with one stretch for the first touch.
+class Weigher {
+ public:
+  Weigher(PoseFit& fit, const CellSets& sets, std::size_t first_touch, std::size_t most_places)
+      : fit_(fit), sets_(sets), first_(first_touch), most_places_(most_places), maker_(fit, first_touch) {}
 
-/// A pose to start from with the first touch on this stretch; none where a roll's belief has nothing there.
-std::optional<Pose> start_in(const PoseFit& fit, const PathTree::Node& node, double heading, std::size_t touch) {
-  const auto stretch = static_cast<std::size_t>(node.stretch);
-  const RollBelief* roll = fit.touches()[touch].roll;
-  if (roll == nullptr) return fit.pose_at({touch, {stretch, node.u.middle()}}, heading);
-  const auto [begin, end] = roll->nodes_in(stretch, node.u);
-  if (begin == end) return std::nullopt;
-  return roll->pose_at(roll->nodes()[begin + (end - begin) / 2]);
-}
+  Posterior posterior() {
+    result_.owner.assign(sets_.groups.size(), Posterior::kNone);
+    hopeless_ = hopeless_groups(fit_, sets_, first_);
+    for (const std::vector<std::size_t>& component : sets_.components) {
+      result_.hopeless += hopeless_[component.front()] ? 1 : 0;
+    }
+    Groups groups;
+    while (groups.begin < sets_.groups.size() && !result_.is_too_long) {
+      groups.end = groups.begin + 1;
+      while (groups.end < sets_.groups.size() && node_of(groups.end) == node_of(groups.begin)) ++groups.end;
+      add(groups);
+      groups.begin = groups.end;
+    }
+    return std::move(result_);
+  }
 
-/// The least sum of squares that is found from a few of a component's cells.
-double least_square(PoseFit& fit, const CellSets& sets, const std::vector<std::size_t>& component,
-                    std::size_t first_touch) {
-  std::vector<std::size_t> cells;
-  for (const std::size_t g : component) cells.insert(cells.end(), sets.groups[g].begin(), sets.groups[g].end());
-  const std::size_t looks = std::min(cells.size(), std::clamp(cells.size() / kCellsPerLook, kLeastLooks, kMostLooks));
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t look = 0; look < looks; ++look) {
-    const Cell& cell = sets.cells[cells[(2 * look + 1) * cells.size() / (2 * looks)]];
-    const PathTree::Node& node = fit.tree(first_touch).node(cell.first);
-    const std::optional<Pose> start = start_in(fit, node, cell.heading.middle, first_touch);
-    if (start) least = std::min(least, fit.fit(*start).square);
+ private:
+  std::int32_t node_of(std::size_t group) const { return sets_.cells[sets_.groups[group].front()].first; }
+  PathPlace place_of(std::int32_t node, double u) const {
+    return {static_cast<std::size_t>(fit_.tree(first_).node(node).stretch), u};
   }
-  return least;
-}
 
-/// Of each group whether its component fits so badly, next to the best, that it has no probability to speak of.
-std::vector<bool> hopeless_groups(PoseFit& fit, const CellSets& sets, std::size_t first_touch) {
-  std::vector<double> squares;
-  for (const std::vector<std::size_t>& component : sets.components) {
-    squares.push_back(least_square(fit, sets, component, first_touch));
+  void add(const Groups& groups) {
+    column_ = column_of(fit_, node_of(groups.begin), first_, fineness(groups));
+    for (std::size_t g = groups.begin; g < groups.end; ++g) {
+      if (hopeless_[g]) continue;
+      places_ += column_.places.size();
+      result_.is_too_long = places_ > most_places_;
+      if (result_.is_too_long) return;
+      for (std::size_t k = 0; k < column_.places.size(); ++k) add_place(g, k);
+    }
   }
-  const double least = squares.empty() ? 0 : *std::min_element(squares.begin(), squares.end());
-  std::vector<bool> hopeless(sets.groups.size(), false);
-  for (std::size_t c = 0; c < squares.size(); ++c) {
-    for (const std::size_t g : sets.components[c]) hopeless[g] = squares[c] > least + kHopeless;
+
+  /// How fine the grid has to be on a stretch, by what is in its middle.
+  double fineness(const Groups& groups) {
+    if (fit_.touches()[first_].roll != nullptr) return 0;
+    const std::int32_t node = node_of(groups.begin);
+    const Held held{first_, place_of(node, fit_.tree(first_).node(node).u.middle())};
+    double most = 0;
+    double own = 0;
+    for (std::size_t g = groups.begin; g < groups.end; ++g) {
+      if (hopeless_[g]) continue;
+      const Cell& middle = sets_.cells[sets_.groups[g][sets_.groups[g].size() / 2]];
+      const FittedPose fitted = fit_.fit(fit_.pose_at(held, middle.heading.middle), held);
+      const ByPlace by_place = fit_.by_place(fitted, held);
+      most =
+          std::max({most, std::sqrt(by_place.information) / kStep, fit_.touches_moved(by_place.pose) / kStepOfTouch});
+      own = by_place.own_information;
+    }
+    return std::min(most, std::sqrt(own));
   }
-  return hopeless;
-}
+
+  void add_place(std::size_t group, std::size_t k) {
+    const Held held{first_, place_of(column_.node, column_.places[k])};
+    for (const double heading : start_headings(sets_, sets_.groups[group])) {
+      add_pose(group, k, held, fit_.fit(fit_.pose_at(held, heading), held));
+    }
+  }
+
+  void add_pose(std::size_t group, std::size_t k, const Held& held, const FittedPose& best) {
+    const auto known = find_known(fit_, best, column_.known[k]);
+    if (known != column_.known[k].end()) {
+      result_.owner[group] = known->group;
+      return;
+    }
+    column_.known[k].push_back({best, group});
+    PosteriorNode node = maker_.node_at(held, best);
+    node.group = group;
+    node.log_weight = node.log_density + column_.log_weights[k];
+    if (column_.step > 0) {
+      const Eigen::Vector3d along = column_.step * fit_.by_place(best, held).pose;
+      node.covariance += fit_.at_origin(node.pose, along * along.transpose() / 12);
+    }
+    if (std::isfinite(node.log_weight)) result_.nodes.push_back(node);
+  }
+
+  PoseFit& fit_;
+  const CellSets& sets_;
+  std::size_t first_;
+  std::size_t most_places_;
+  std::size_t places_ = 0;
+  NodeMaker maker_;
+  std::vector<bool> hopeless_;
+  Column column_;
+  Posterior result_;
+};
 
 }  // namespace
 
-std::size_t count_places(PoseFit& fit, const CellSets& sets, std::size_t first_touch) {
-  std::size_t count = 0;
-  Column column;
-  for (const std::vector<std::size_t>& group : sets.groups) {
-    const std::int32_t first = sets.cells[group.front()].first;
-    if (column.node != first) column = column_of(fit, first, first_touch);
-    count += column.places.size();
-  }
-  return count;
-}
-
-Posterior posterior_of(PoseFit& fit, const CellSets& sets, std::size_t first_touch) {
-  Posterior result;
-  result.owner.assign(sets.groups.size(), Posterior::kNone);
-  const std::vector<bool> hopeless = hopeless_groups(fit, sets, first_touch);
-  for (const std::vector<std::size_t>& component : sets.components)
-    result.hopeless += hopeless[component.front()] ? 1 : 0;
-  NodeMaker maker(fit, first_touch);
-  Column column;
-  for (std::size_t g = 0; g < sets.groups.size(); ++g) {
-    const std::vector<std::size_t>& group = sets.groups[g];
-    const std::int32_t first = sets.cells[group.front()].first;
-    const auto stretch = static_cast<std::size_t>(fit.tree(first_touch).node(first).stretch);
-    if (hopeless[g]) continue;
-    if (column.node != first) column = column_of(fit, first, first_touch);
-    const std::vector<double> headings = start_headings(sets, group);
-    for (std::size_t k = 0; k < column.places.size(); ++k) {
-      const Held held{first_touch, {stretch, column.places[k]}};
-      for (const double heading : headings) {
-        const FittedPose best = fit.fit(fit.pose_at(held, heading), held);
-        const auto known = find_known(fit, best, column.known[k]);
-        if (known != column.known[k].end()) {
-          result.owner[g] = known->group;
-          continue;
-        }
-        column.known[k].push_back({best, g});
-        PosteriorNode node = maker.node_at(held, best);
-        node.group = g;
-        node.log_weight = node.log_density + column.log_weights[k];
-        if (std::isfinite(node.log_weight)) result.nodes.push_back(node);
-      }
-    }
-  }
-  return result;
+Posterior posterior_of(PoseFit& fit, const CellSets& sets, std::size_t first_touch, std::size_t most_places) {
+  return Weigher(fit, sets, first_touch, most_places).posterior();
 }
 
 }  // namespace rollfix::touch

@@ -37,14 +37,14 @@ struct Posterior {
   std::vector<std::size_t> owner;
   /// Components whose best pose fits so much worse than that of another that they were not looked at.
   std::size_t hopeless = 0;
+  /// There were more places to look at than asked for: it ends before them.
+  bool is_too_long = false;
 };
 
 /// p(pose, place of the first touch), with all other places summed over: a grid over the places of the first touch, and
 /// the normal distribution of the pose about the best one in each (Laplace's method). See docs/touch.md.
-Posterior posterior_of(PoseFit& fit, const CellSets& sets, std::size_t first_touch);
-
-/// So many places of the first touch would be looked at, each with its groups.
-std::size_t count_places(PoseFit& fit, const CellSets& sets, std::size_t first_touch);
+/// `most_places`: of the first touch, each with its groups.
+Posterior posterior_of(PoseFit& fit, const CellSets& sets, std::size_t first_touch, std::size_t most_places);
 
 /// The modes, the most probable first.
 std::vector<PoseMode> modes_of(const CellSets& sets, const Posterior& posterior);

@@ -11,8 +11,6 @@
 namespace rollfix::touch {
 namespace {
 
-// Cells that are cut no finer: they are a continuum, which so many show.
-constexpr std::size_t kEnoughCells = 20000;
 // Discs of the first level, as a share of the part's diagonal, and how much finer each next one is.
 constexpr double kFirstDisc = 0.02;
 constexpr double kFinerLevel = 0.125;
@@ -69,7 +67,8 @@ bool is_reference(const Measured& contact) {
   return contact.has_place && contact.tree != nullptr && contact.place_most >= contact.tree->path().part().perimeter();
 }
 
-Cells search_by_levels(CellSearch& search, const std::vector<Measured>& contacts, const TouchPair& pair, double& leaf) {
+Cells search_by_levels(CellSearch& search, const std::vector<Measured>& contacts, const TouchPair& pair, double& leaf,
+                       std::size_t enough) {
   const double disc = kFirstDisc * contacts[pair.first].tree->path().diagonal();
   double coarsest = CellSearch::kLeaf;
   for (const std::size_t k : {pair.first, pair.second}) {
@@ -79,7 +78,7 @@ Cells search_by_levels(CellSearch& search, const std::vector<Measured>& contacts
   leaf = coarsest;
   Cells cells = search.search(leaf);
   std::vector<Cell> undecided = std::move(cells.undecided);
-  while (leaf > CellSearch::kLeaf && cells.fit.size() < kEnoughCells && undecided.empty()) {
+  while (leaf > CellSearch::kLeaf && cells.fit.size() < enough && undecided.empty()) {
     const double finer = std::max(CellSearch::kLeaf, kFinerLevel * leaf);
     Cells next = search.search(cells.fit, finer);
     undecided = std::move(next.undecided);

@@ -93,7 +93,7 @@ void search_poses(const TouchProblem& problem, AllContacts& contacts, TouchAnswe
   if (contacts.rolls.empty() && contacts.each.size() == 2 && !cells.undecided.empty()) {  // a continuum
     answer.comparisons = search->comparisons();
     search.emplace(contacts.each, pair, budget);
-    cells = search_by_levels(*search, contacts.each, pair, leaf);
+    cells = search_by_levels(*search, contacts.each, pair, leaf, problem.noise ? kEnoughToWeigh : kEnoughCells);
   }
   PoseFit fit(contacts.each, problem.pose);
   FreeSpace free(problem, contacts.each);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 // Notation:
@@ -27,11 +28,18 @@ constexpr double kPanel = 3;
 // Squares that exceed the least by more add next to nothing: of a normal distribution 6e-7.
 constexpr double kNothing = 25;
 constexpr int kMostPanels = 60;  // in either direction
+// Where a side goes on for so many standard deviations to both sides of the nearest place, ...
+constexpr double kAllOfIt = 5.5;
+// ... and the squares at this many are those of a straight side but for such shares of them, even and odd, the integral
+// is that of a normal distribution: the odd part counts by its square, and the even one is taken along.
+constexpr double kTried = 3;
+constexpr double kEvenPart = 0.1;
+constexpr double kOddPart = 0.1;
 
 class Integral {
  public:
   Integral(const PoseFit& fit, const Pose& pose, std::size_t touch, const PathPlace& nearest)
-      : fit_(fit), path_(fit.path(touch)), pose_(pose), number_(touch), touch_(fit.in_part(pose, touch)) {
+      : path_(fit.path(touch)), frame_(fit.frame(pose)), touch_(fit.in_part(pose, touch)) {
     least_ = distance_at(path_.at(nearest), touch_).square;
     if (!touch_.has_place || is_reference(fit.touches()[touch])) {
       go_everywhere();
@@ -116,17 +124,15 @@ class Integral {
   void add(const PathPlace& place, double length) {
     const CentrePoint point = path_.at(place);
     const double weight = length * std::exp(-0.5 * (distance_at(point, touch_).square - least_));
-    const Normals normals = fit_.normals_at(pose_, number_, point);
+    const Normals normals = normals_at(frame_, touch_, point);
     sum_ += weight;
     slope_ += weight * normals.slope;
     matrix_ += weight * normals.matrix;
     spread_ += weight * normals.slope * normals.slope.transpose();
   }
 
-  const PoseFit& fit_;
   const CentrePath& path_;
-  Pose pose_;
-  std::size_t number_;
+  PartFrame frame_;
   InPart touch_;
   double least_ = 0;
   double sum_ = 0;
@@ -137,7 +143,49 @@ class Integral {
 
 }  // namespace
 
+namespace {
+
+/// E g and E M - Cov g for a place with this variance on a straight side: there g is linear, and M quadratic, in u.
+Normals mean_and_spread(const PartFrame& frame, const InPart& touch, const CentrePoint& point, double variance) {
+  Normals normals = normals_at(frame, touch, point);
+  Eigen::Vector3d by_place = -mixed_at(frame, touch, point).by_pose;  // d g / du
+  if (touch.has_place) {
+    const double share = 1 / (touch.place_unit * touch.place_unit);
+    by_place(2) += share * turned_left(point.along).dot(touch.at - point.centre);
+    normals.matrix(2, 2) += share * variance * point.along.squaredNorm();
+  }
+  normals.matrix -= variance * by_place * by_place.transpose();
+  return normals;
+}
+
+/// In the middle of a side that is straight next to the noise, in closed form; nothing elsewhere.
+std::optional<TiltedTouch> on_a_side(const PoseFit& fit, const Pose& pose, std::size_t touch,
+                                     const PathPlace& nearest) {
+  const CentrePath& path = fit.path(touch);
+  const Interval& side = path.stretches()[nearest.stretch].u;
+  const InPart at = fit.in_part(pose, touch);
+  const CentrePoint point = path.at(nearest);
+  const Distance here = distance_at(point, at);
+  const double sd = here.weight > 0 ? 1 / std::sqrt(here.weight) : side.width();
+  if (nearest.u - kAllOfIt * sd < side.lo || nearest.u + kAllOfIt * sd > side.hi) return std::nullopt;
+  const auto rise = [&](double by) {
+    return distance_at(path.at({nearest.stretch, nearest.u + by}), at).square - here.square;
+  };
+  const double before = rise(-kTried * sd) / (kTried * kTried);  // of a straight side 1
+  const double behind = rise(kTried * sd) / (kTried * kTried);
+  const double even = 0.5 * (before + behind);
+  if (std::abs(even - 1) > kEvenPart || 0.5 * std::abs(behind - before) > kOddPart) return std::nullopt;
+  TiltedTouch result;
+  result.log_likelihood = -0.5 * here.square + std::log(sd * length_per_u(path, nearest.stretch)) +
+                          0.5 * std::log(2 * std::numbers::pi / even);
+  result.normals = mean_and_spread(fit.frame(pose), at, point, sd * sd / even);
+  return result;
+}
+
+}  // namespace
+
 TiltedTouch tilted_touch(const PoseFit& fit, const Pose& pose, std::size_t touch, const PathPlace& nearest) {
+  if (const std::optional<TiltedTouch> plain = on_a_side(fit, pose, touch, nearest)) return *plain;
   return Integral(fit, pose, touch, nearest).result();
 }
 

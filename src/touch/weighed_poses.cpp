@@ -9,6 +9,7 @@
 
 #include "answer_poses.hpp"
 #include "outline/turn.hpp"
+#include "tilted_touch.hpp"
 
 namespace rollfix::touch {
 namespace {
@@ -118,9 +119,9 @@ double length_in_reach(const CentrePath& path) {
 WeighedPoses weighed_poses(const Asked& asked, const CellSets& sets, std::size_t budget) {
   WeighedPoses result;
   const std::size_t first = asked.pair.first;
-  result.is_too_long = count_places(asked.fit, sets, first) > budget / kPlaceCost;
+  Posterior posterior = posterior_of(asked.fit, sets, first, budget / kPlaceCost);
+  result.is_too_long = posterior.is_too_long;
   if (result.is_too_long) return result;
-  Posterior posterior = posterior_of(asked.fit, sets, first);
   asked.free.weigh(posterior.nodes);
   result.log_evidence = log_total(posterior.nodes);
   result.improbable = posterior.hopeless;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "answer_poses.hpp"
+#include "least_worst.hpp"
 #include "pose_boxes.hpp"
 
 namespace rollfix::touch {
