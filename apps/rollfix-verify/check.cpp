@@ -83,7 +83,7 @@ std::string holds_question(const Json& json) {
   if (json.at("mirrored").get<bool>()) text += "face down\n";
   for (const Json& finger : json.at("fingers")) {
     const Json& tolerance = finger.at("tolerance");
-    text += "finger " + finger.at("kind").get<std::string>();
+    text += "finger " + plain(finger.at("kind"));
     if (finger.contains("radius")) text += ", radius " + plain(finger.at("radius"));
     text += ": within travel " + plain(tolerance.at("travel")) + ", angle " + plain(tolerance.at("angle")) + " rad" +
             or_nothing(tolerance.at("place"), "place", "") + "\n";

@@ -60,7 +60,7 @@ class Holds {
       ++(set.at("listed").get<bool>() ? verdict.placements : verdict.left_out);
       if (set.contains("first")) {
         check_set(set, listed.back(), "set " + std::to_string(k));
-      } else {
+      } else if (set.at("listed").get<bool>()) {
         ++verdict.unwitnessed;
       }
     }

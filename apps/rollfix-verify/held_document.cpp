@@ -19,7 +19,9 @@ constexpr double kLeastHeldTravel = 1e-10;
 constexpr double kLeastHeldAngle = 1e-10;
 constexpr std::size_t kMostFingers = 8;
 constexpr std::size_t kMostInstants = 1000;
+// More laps, or a tolerance of more radians, is not looked at.
 constexpr double kMostHeldLaps = 1e3;
+constexpr double kMostTolerance = 1e3;
 
 /// Above 0.
 double positive(const Json& stated) {
@@ -28,9 +30,16 @@ double positive(const Json& stated) {
   return value;
 }
 
-std::optional<double> positive_if_any(const Json& stated) {
+/// Of an angle.
+double tolerance_of(const Json& stated) {
+  const double value = positive(stated);
+  if (!(value <= kMostTolerance)) refuse("a tolerance of too many turns");
+  return value;
+}
+
+std::optional<double> tolerance_if_any(const Json& stated) {
   if (stated.is_null()) return std::nullopt;
-  return positive(stated);
+  return tolerance_of(stated);
 }
 
 /// The parts of the boundary that are on no arc, on the first lap.
@@ -56,10 +65,13 @@ HeldFinger finger_of(const Json& stated, const Boundary& boundary) {
   HeldFinger finger;
   const Json& tolerance = stated.at("tolerance");
   finger.travel = positive(tolerance.at("travel"));
-  finger.angle = positive(tolerance.at("angle"));
+  finger.angle = tolerance_of(tolerance.at("angle"));
+  if (!(finger.travel <= boundary.perimeter().middle())) refuse("a contact that may be anywhere");
   finger.has_place = !tolerance.at("place").is_null();
   if (finger.has_place) finger.place = positive(tolerance.at("place"));
   finger.passed = interval(stated.at("passed"));
+  const double most = kMostHeldLaps * boundary.perimeter().middle();
+  if (!(std::max(std::abs(finger.passed.lo), std::abs(finger.passed.hi)) <= most)) refuse("a roll of too many laps");
   finger.reach = considered(stated.at("reach"), boundary.perimeter().middle());
   if (!finger.reach) return finger;
   finger.within = finger.reach->arcs;
@@ -75,8 +87,8 @@ HeldWheel wheel_of(const Json& stated, double period) {
   wheel.radius = positive(stated.at("radius"));
   const Json& tolerance = stated.at("tolerance");
   wheel.place = positive(tolerance.at("place"));
-  wheel.spin = positive_if_any(tolerance.at("spin"));
-  wheel.line = positive_if_any(tolerance.at("line"));
+  wheel.spin = tolerance_if_any(tolerance.at("spin"));
+  wheel.line = tolerance_if_any(tolerance.at("line"));
   wheel.reach = considered(stated.at("reach"), period);
   return wheel;
 }
@@ -179,6 +191,8 @@ void HeldQuestion::require_sound(const Document& document) const {
     require(wheel.place, kLeastHeldLength * size);
     if (wheel.spin) require(*wheel.spin, kLeastHeldAngle);
     if (wheel.line) require(*wheel.line, kLeastHeldAngle);
+    const bool is_known = !document.boundary().closed() || document.boundary().total_turn().is_above(0.0);
+    if (wheel.spin && !is_known) refuse("an encoder on an outline that goes round clockwise");
     if (!any_place) refuse("a wheel beside fingers whose places are not known");
     require_reach(document.boundary(), wheel.radius, wheel.reach);
   }

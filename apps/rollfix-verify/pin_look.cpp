@@ -23,7 +23,7 @@ constexpr double kPinAngleRounding = 1e-13;
 // Stretches that hold the pin are no larger than this share of how far off it may be; those that just come near enough
 // than the second.
 constexpr double kPinGrain = 0.1;
-constexpr double kPinEdge = 0.02;
+constexpr double kPinEdge = 0.002;
 // Headings are halved until they move the pin no further than this share of it.
 constexpr double kHeadingGrain = 0.5;
 /// In order, those that overlap as one.

@@ -84,7 +84,7 @@ Covered PoseSearch::run() {
   stack_.assign(touches_.size(), tree_.root());
   std::vector<List> lists;
   for (std::size_t k = 0; k < touches_.size(); ++k) lists.emplace_back(k, k + 1);
-  const CentreTree::Node& root = tree_.node(tree_.root());
+  const CentreTree::Node root = tree_.node(tree_.root());  // references do not outlive halving
   double reach = std::numeric_limits<double>::infinity();
   bool any_place = false;
   bool all_have = true;

@@ -120,7 +120,7 @@ class Asked(Shape):
         robust : bool
             With noise: stray rows don't count.
         may_overlap : bool
-            Two fingers at different heights: places where their disks would overlap are kept.
+            Fingers at different heights: places where they would overlap are kept.
         rounding : (length, turn), optional
             Of readings: how far their digits may be off, half a unit of the last one each; widens the tolerance as that
             asks for.

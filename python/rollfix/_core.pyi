@@ -351,7 +351,10 @@ def locate_hold(
     arg7: Optional[int],
     arg8: Sequence[Tuple[Log, float]],
     arg9: Optional[float],
-    arg10: bool,
+    arg10: Optional[Tuple[float, float]],
+    arg11: Optional[Sequence[float]],
+    arg12: bool,
+    arg13: bool,
 ) -> HoldAnswer: ...
 def locate_one(arg0: Part, arg1: float, arg2: float) -> Answer: ...
 def finger_name(arg0: _Given) -> str: ...

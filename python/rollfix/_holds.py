@@ -8,7 +8,7 @@ from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 import numpy as np
 
 from . import _core
-from ._checks import flag, least, numbers, path, text, whole
+from ._checks import flag, least, numbers, path, place_prior, pose_prior, text, whole
 from ._columns import Naming
 from ._core import InputError
 from ._documents import Listing
@@ -22,14 +22,15 @@ class HoldAnswer(Listing):
     """Every set of first contacts of several fingers that fits: the fields of `rollfix/locate/1`, see docs/json.md.
 
     `placements` has one entry for each connected set, with noise the most probable first; `starts` and `ends` have the
-    places of all fingers, `poses` the part's at the first and at the last contacts. `status`, `verdict`, `fit`, ...
+    places of all fingers, `poses` the part's at the first and at the last contacts. `diagnosis` lists what may be wrong
+    where nothing fits, or the rows contradict the noise; None elsewhere. `status`, `verdict`, `fit`, ...
     """
 
     __slots__ = ("_answer", "_asked")
 
     def __init__(self, asked: Tuple[Any, ...]) -> None:
-        part, logs, *rest, wheels, squeezed, may_overlap = asked
-        rest += [[(one._core, radius) for one, radius in wheels], squeezed, may_overlap]
+        part, logs, *rest, wheels, squeezed, prior, pose, robust, may_overlap = asked
+        rest += [[(one._core, radius) for one, radius in wheels], squeezed, prior, pose, robust, may_overlap]
         self._answer = _core.locate_hold(part._core, [one._core for one in logs], *rest)
         self._asked = asked
         super().__init__(self._answer.document())
@@ -132,7 +133,7 @@ def _is_row(one: Any) -> bool:
 def held(part: Any, logs: Sequence[Any], **options: Any) -> HoldAnswer:
     """The answer to logs of three and more fingers, or of fingers beside wheels, checked. `options`: all of HoldOptions."""
     finger, noise, tolerance, at = (options[name] for name in ("finger", "noise", "tolerance", "at"))
-    budget, squeezed, may_overlap = options["budget"], options["squeezed"], options["may_overlap"]
+    budget, squeezed, prior = options["budget"], options["squeezed"], options["prior"]
     naming = Naming(options["columns"], options["units"], options["degrees"], options["wrapped"])
     if noise is not None and tolerance is not None:
         raise InputError("tolerance: `noise` already says how far rows are off: leave one out")
@@ -141,8 +142,6 @@ def held(part: Any, logs: Sequence[Any], **options: Any) -> HoldAnswer:
         finger, wheels = _apart(finger, logs)
     pins = [(pin_of(log, naming, part.unit), one.radius) for log, one in zip(logs[len(logs) - len(wheels):], wheels)]
     logs = logs[: len(logs) - len(wheels)]
-    if may_overlap and not wheels:
-        raise InputError("may_overlap: is not taken with three and more fingers: leave it out")
     given = fingers(finger, most=len(logs))
     if not given:
         raise InputError("finger: expected the fingers that rolled, as in finger=Disk(radius), found none")
@@ -161,7 +160,10 @@ def held(part: Any, logs: Sequence[Any], **options: Any) -> HoldAnswer:
         None if budget is None else whole(budget, "budget", 1),
         tuple((pin._in_unit(part.unit, [radius]), radius) for pin, radius in pins),
         None if squeezed is None else least(squeezed, "squeezed", 0, "an angle"),
-        flag(may_overlap, "may_overlap"),
+        None if prior is None else place_prior(prior),
+        pose_prior(options["heading"], options["pose"]),
+        flag(options["robust"], "robust"),
+        flag(options["may_overlap"], "may_overlap"),
     ))  # fmt: skip
 
 

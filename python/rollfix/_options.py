@@ -57,12 +57,14 @@ class RestOptions(Measured, Lies, Read, total=False):
     clear: Any
 
 
-class HoldOptions(Measured, Read, total=False):
+class HoldOptions(Measured, Lies, Read, total=False):
     """Of three and more fingers, and of fingers beside wheels."""
 
     tolerance: Union[float, Tuple[float, float], None]
     at: Any
+    prior: Optional[Tuple[float, float]]
     squeezed: Optional[float]
+    robust: bool
     may_overlap: bool
 
 

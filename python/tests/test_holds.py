@@ -114,6 +114,14 @@ def test_a_wheel_without_skin_has_its_pins_place(rig):
     assert pickle.loads(pickle.dumps(found)).starts == pytest.approx(found.starts)
 
 
+def test_an_answer_has_a_certificate(rig, tmp_path):
+    cam, jaw, pin = rig
+    found = cam.locate(log=[jaw, pin], finger=[rollfix.Jaw(), rollfix.Wheel(0.3)])
+    certificate = found.certify(tmp_path / "proof.json")
+    assert certificate["schema"] == "rollfix/hold-certificate/1" and (tmp_path / "proof.json").exists()
+    assert [one["listed"] for one in certificate["sets"]] == [True]
+
+
 def test_a_wheel_alone_or_first_is_refused(rig):
     cam, jaw, pin = rig
     for finger in (rollfix.Wheel(0.3), [rollfix.Wheel(0.3), rollfix.Jaw()]):

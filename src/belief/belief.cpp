@@ -125,9 +125,11 @@ template <class Place>
 Verdict Belief::State::verdict_on(const std::vector<Place>& places) {
   settle();
   if (!posterior->has_begun()) return {Verdict::unobservable};
-  // Where so much is unresolved that nothing could be listed, nothing was excluded either.
-  const bool is_open = outcome.modes.empty() && outcome.unresolved > 1 - kCertain && outcome.fit.excess <= kMostExcess;
-  if (places.empty()) return {is_open ? Verdict::undecided : Verdict::inconsistent};
+  // Of one finger: where so much is unresolved, the best that was seen need not be near the best there is. Of two,
+  // what the search missed is told by its status.
+  const bool is_one = contacts.finger_curvature.size() == 1;
+  if (is_one && outcome.unresolved > 1 - kCertain) return {Verdict::undecided};
+  if (places.empty()) return {Verdict::inconsistent};
   std::vector<PerFinger<Interval>> that_count;
   for (const Place& each : places) {
     if (each.probability >= kCounts) that_count.push_back(each.interval);

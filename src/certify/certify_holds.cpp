@@ -29,7 +29,7 @@ using hold::HeldWheel;
 
 /// How much wider extents are written down than they are, in shares of the tolerances: where first contacts are at
 /// their very edge no box is on one side of it.
-constexpr double kWiderSet = 0.05;
+constexpr double kWiderSet = 0.1;
 
 /// Of the chord from a contact to a pin, each off by so much: by how much its direction may be off.
 double swing(double off, double length) { return off >= length ? std::numbers::pi : std::asin(off / length); }
@@ -194,11 +194,20 @@ void add_sets(hold::HeldQuestion& question, const hold::WheelPaths& wheels, cons
     return widened(extent, question.rows(), boundary);
   };
   hold::HoldFit fit(part, question.searched(), wheels);
-  const hold::Witnessed found = hold::witnessed(question, fit, question.search().search());
+  hold::Witnessed found = hold::witnessed(question, fit, question.search().search());
   for (const hold::WitnessedSet& one : found.sets) {
     CertifiedHoldSet set = lies_of(part, fit, wheels, one.state).value_or(CertifiedHoldSet{});
     set.extent = arcs(one.set.extent);
     certificate.sets.push_back(std::move(set));
+  }
+  // Without noise an answer tells of them as unresolved; with noise they are improbable as a rule.
+  if (!answer.noise) {
+    found.undecided.insert(found.undecided.end(), found.doubtful.begin(), found.doubtful.end());
+  } else if (!found.doubtful.empty()) {
+    for (const hold::FoundSet& one : question.sets(found.doubtful)) {
+      certificate.sets.push_back({});
+      certificate.sets.back().extent = arcs(one.set.extent);
+    }
   }
   mark_listed(answer, boundary, certificate.sets);
   if (found.undecided.empty()) return;
@@ -210,12 +219,18 @@ void add_sets(hold::HeldQuestion& question, const hold::WheelPaths& wheels, cons
 }  // namespace
 
 bool HoldCertificate::is_complete() const {
-  return unresolved.empty() &&
-         std::none_of(sets.begin(), sets.end(), [](const CertifiedHoldSet& set) { return set.first.empty(); });
+  return unresolved.empty() && std::none_of(sets.begin(), sets.end(), [](const CertifiedHoldSet& set) {
+           return set.listed && set.first.empty();
+         });
 }
 
 HoldCertificate certify_holds(const HoldProblem& problem, const HoldAnswer& answer) {
   hold::require_valid(problem);
+  if (problem.robust) {
+    throw InputError(
+        "a certificate of fingers on a free part: expected rows that all count, found `robust`, under which a few need "
+        "not fit: leave it out");
+  }
   const Doing doing("looking for the proof that no other places fit");
   const hold::WheelPaths wheels = hold::paths_of(problem);
   std::vector<Log> logs = hold::logs_of(problem);

@@ -41,6 +41,7 @@ class Lies {
       set.first.push_back(boundary.canonical(state_.unknowns(static_cast<Eigen::Index>(k))));
       set.at.push_back(place_of(part_, set.first.back()));
     }
+    first_ = set.first.front();
     set.zeros.assign(paths_.size(), 0);
     spun_.assign(paths_.size(), {});
     for (std::size_t row = 0; row < rows_.rows.size(); ++row) set.lies.push_back(lie_at(row));
@@ -103,7 +104,7 @@ class Lies {
 
   /// The first finger's tangents say how often the part went round.
   double counted_heading(std::size_t row, const Pose& pose) const {
-    const double s = fit_.place_of(state_, row, 0);
+    const double s = first_ + rows_.rows[row].contacts[0].travelled;
     const Boundary boundary = part_.boundary();
     const double angle = part_.turning().angle(boundary.closed ? s : std::clamp(s, 0.0, boundary.perimeter));
     const double about = rows_.rows[row].contacts[0].tangent - angle;
@@ -133,6 +134,7 @@ class Lies {
   const HeldRows& rows_;
   const hold::WheelPaths& paths_;
   const HeldState& state_;
+  double first_ = 0;                       // of the first finger
   std::vector<std::vector<double>> spun_;  // of each wheel, at each instant
   bool fits_ = true;
 };

@@ -36,4 +36,8 @@ double depth_along(const ConvexBody& one, const ConvexBody& other, double direct
 /// The depth of a jaw in this pose, which has no ends, and a body; below 0 how far they are apart.
 double depth_of_overlap(const Pose& jaw, const ConvexBody& other);
 
+/// The same of any two fingers, each in its pose. Two jaws, which without ends would always meet, count as apart.
+double depth_of_overlap(const Finger& one, const Pose& pose_of_one, const Finger& other, const Pose& pose_of_other,
+                        double enough);
+
 }  // namespace rollfix

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 
 #include "contact/convex_body.hpp"
@@ -19,19 +20,19 @@ double size_of(const Finger& finger) {
 
 Pose pose_of(const FingerRows& rows, std::size_t row) { return {rows.x[row], rows.y[row], rows.psi[row]}; }
 
-/// How deep the fingers are in one another; at most `enough` where that is all that matters.
-double depth_in(const FingerRows& of_a, const FingerRows& of_b, const Finger& a, const Finger& b, std::size_t row,
-                double enough) {
-  if (a.is_jaw()) return depth_of_overlap(pose_of(of_a, row), ConvexBody(b, pose_of(of_b, row)));
-  if (b.is_jaw()) return depth_of_overlap(pose_of(of_b, row), ConvexBody(a, pose_of(of_a, row)));
-  if (a.is_disk() && b.is_disk()) {
-    const double distance = std::hypot(of_a.x[row] - of_b.x[row], of_a.y[row] - of_b.y[row]);
-    return a.length_per_u() + b.length_per_u() - distance;
-  }
-  return depth_of_overlap(ConvexBody(a, pose_of(of_a, row)), ConvexBody(b, pose_of(of_b, row)), enough);
-}
-
 }  // namespace
+
+double depth_of_overlap(const Finger& one, const Pose& pose_of_one, const Finger& other, const Pose& pose_of_other,
+                        double enough) {
+  if (one.is_jaw() && other.is_jaw()) return -std::numeric_limits<double>::infinity();
+  if (one.is_jaw()) return depth_of_overlap(pose_of_one, ConvexBody(other, pose_of_other));
+  if (other.is_jaw()) return depth_of_overlap(pose_of_other, ConvexBody(one, pose_of_one));
+  if (one.is_disk() && other.is_disk()) {
+    const double distance = std::hypot(pose_of_one.x - pose_of_other.x, pose_of_one.y - pose_of_other.y);
+    return one.length_per_u() + other.length_per_u() - distance;
+  }
+  return depth_of_overlap(ConvexBody(one, pose_of_one), ConvexBody(other, pose_of_other), enough);
+}
 
 std::optional<Overlap> overlap_of(const Roll& roll, const Finger& a, const Finger& b) {
   if (roll.log.fingers.size() != 2 || (a.is_jaw() && b.is_jaw())) return std::nullopt;
@@ -39,7 +40,7 @@ std::optional<Overlap> overlap_of(const Roll& roll, const Finger& a, const Finge
   const FingerRows& of_b = roll.log.fingers[1];
   Overlap deepest;
   for (std::size_t k = 0; k < of_a.x.size(); ++k) {
-    const double depth = depth_in(of_a, of_b, a, b, k, deepest.depth);
+    const double depth = depth_of_overlap(a, pose_of(of_a, k), b, pose_of(of_b, k), deepest.depth);
     if (depth > deepest.depth) deepest = {k, depth};
   }
   return deepest.depth > kTouchRounding * (size_of(a) + size_of(b)) ? std::optional<Overlap>(deepest) : std::nullopt;

@@ -62,6 +62,21 @@ std::vector<double> weights_of(const HoldMode& mode) {
   return weights;
 }
 
+/// Lengths are 1 / (1 + e) times what was measured.
+void add_length_scale(HoldContact& contact, const HoldFit& fit, const HoldMode& mode,
+                      const std::vector<double>& weights, std::size_t finger) {
+  const auto k = static_cast<Eigen::Index>(fit.fingers() + finger);
+  double mean = 0, second = 0;
+  for (std::size_t node = 0; node < weights.size(); ++node) {
+    const double stretch = mode.nodes[node].state.unknowns(k);
+    mean += weights[node] * stretch;
+    second += weights[node] * (stretch * stretch + mode.nodes[node].covariance(k, k));
+  }
+  contact.length_scale = 1 / (1 + mean);
+  contact.length_scale_sd =
+      std::sqrt(std::max(0.0, second - mean * mean)) * contact.length_scale * contact.length_scale;
+}
+
 PoseSpread spread_of(const HoldFit& fit, const HoldMode& mode, const std::vector<double>& weights, std::size_t row,
                      const Pose& about) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
@@ -165,7 +180,7 @@ HoldPlacement described(const HoldFit& fit, const Part& part, const HeldState& s
   placement.first.heading = nearest_angle(placement.first.heading);
   placement.last.heading = nearest_angle(placement.last.heading);
   placement.worst = fit.rows().has_noise ? 0 : fit.worst(state);
-  placement.chi_square = state.square;
+  placement.chi_square = state.right_square;
   return placement;
 }
 
@@ -182,6 +197,7 @@ void add_posterior(HoldPlacement& placement, const HoldFit& fit, const Part& par
     contact.interval = start.interval;
     contact.end_mean = end.mean;
     contact.end_sd = end.sd;
+    if (fit.has_stretches() && k < fit.fingers()) add_length_scale(contact, fit, mode, weights, k);
   }
   placement.first_spread = spread_of(fit, mode, weights, 0, placement.first);
   placement.last_spread = spread_of(fit, mode, weights, last, placement.last);
@@ -190,7 +206,7 @@ void add_posterior(HoldPlacement& placement, const HoldFit& fit, const Part& par
 
 TouchFit fit_of(const HoldFit& fit, const HeldState& state) {
   TouchFit result;
-  result.chi_square = state.square;
+  result.chi_square = state.right_square;
   const double freedom = fit.freedom(state);
   result.freedom = std::max(0, static_cast<int>(std::lround(freedom)));
   if (result.freedom > 0) result.p = boost::math::gamma_q(0.5 * result.freedom, 0.5 * result.chi_square);

@@ -25,6 +25,7 @@ namespace {
 constexpr std::size_t kMostBoxes = 20000;
 constexpr std::size_t kMostNoisyBoxes = 8000;
 constexpr double kHeadingGrain = 1e-12;  // headings are rounded, radians
+constexpr double kMoreMisses = 1e-3;     // that more instants than allowed have outliers: as rare as bad fits
 constexpr double kSameArc = 1e-12;       // arcs that share an end, of the perimeter
 
 using touch::HeadingArc;
@@ -32,6 +33,19 @@ using touch::HeadingArc;
 std::size_t find(std::vector<std::size_t>& parent, std::size_t k) {
   while (parent[k] != k) k = parent[k] = parent[parent[k]];
   return k;
+}
+
+/// Instants of so many in which some finger's measurement is an outlier, but for a chance of kMoreMisses.
+std::size_t most_misses(const HeldRows& rows, std::size_t instants) {
+  const double right = std::pow(1 - rows.outlier_share, static_cast<double>(rows.fingers()));
+  double probability = std::pow(right, static_cast<double>(instants));
+  double beyond = 1 - probability;
+  std::size_t misses = 0;
+  for (; beyond > kMoreMisses && misses + 1 < instants; ++misses) {
+    probability *= static_cast<double>(instants - misses) / static_cast<double>(misses + 1) * (1 - right) / right;
+    beyond -= probability;
+  }
+  return misses;
 }
 
 }  // namespace
@@ -51,6 +65,7 @@ BoxSearch::BoxSearch(const HeldPart& part, const HeldRows& rows, const std::vect
     }
     instants_.push_back(std::move(instant));
   }
+  misses_ = most_misses(rows, instants.size());
   if (fingers() == 1 && pins_.wheels() > 0) add_levers(instants.size());
 }
 
@@ -139,8 +154,9 @@ bool BoxSearch::may_fit(const Box& box) {
   }
   std::vector<SpinSet> spins;
   for (std::size_t k = 0; k < pins_.wheels(); ++k) spins.push_back(pins_.any_spin(k));
+  std::size_t misses = 0;
   for (std::size_t t = 0; t < instants_.size(); ++t) {
-    if (!may_fit(box, t, spins)) return false;
+    if (!may_fit(box, t, spins) && ++misses > misses_) return false;
   }
   return true;
 }

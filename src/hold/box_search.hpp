@@ -60,6 +60,7 @@ class BoxSearch {
   std::vector<Instant> instants_;
   std::vector<bool> has_place_;
   PinSearch pins_;
+  std::size_t misses_ = 0;  // instants with an outlier, at most
   std::size_t most_boxes_;
   std::size_t budget_;
   std::size_t comparisons_ = 0;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "answer/unweighed.hpp"
+#include "belief/posterior.hpp"
 #include "hold_facts.hpp"
 
 // Notation, as in docs/two_fingers.md, "Three and more fingers":
@@ -24,6 +25,8 @@ constexpr double kLeastHeldTravel = 1e-9;
 constexpr double kLeastHeldAngle = 1e-9;  // radians
 // A row is at the same corner as another if both contacts are within so many standard deviations of one another.
 constexpr double kAlikeSigmas = 3;
+constexpr double kMedianVariance = 0.5 * std::numbers::pi;  // of a median, in those of a mean
+constexpr std::size_t kRobustInstants = 15;  // in place of kHoldInstants: of some a measurement may be an outlier
 
 double radius_share(const Noise& noise, const Finger& finger) {
   return finger.is_disk() ? noise.radius / finger.disk()->radius : 0;
@@ -68,6 +71,7 @@ void add_contacts(const Log& log, const Finger& finger, HeldRows& held) {
     contact.tangent = facing(finger, contacts[row]) - 0.5 * std::numbers::pi;
     contact.lever = -centre_of(finger, Vec2::Zero(), contacts[row]);
     if (!rows.x.empty()) contact.at = Vec2(rows.x[row], rows.y[row]) + contact.lever;
+    contact.orientation = contacts[row].psi;
     contact.finger_curvature = finger.curvature(contacts[row].u);
     held.rows[row].contacts.push_back(contact);
   }
@@ -122,25 +126,51 @@ void count_alike(std::size_t finger, HeldRows& held) {
   }
 }
 
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
+}
+
+/// What an outlier does not move: each number of a finger's rows is their median, but for how the contact lies on it.
+HeldContact median_of(const std::vector<HeldRow>& rows, std::size_t from, std::size_t to, std::size_t finger,
+                      HeldContact mean) {
+  const auto of = [&](auto number) {
+    std::vector<double> values;
+    for (std::size_t k = from; k < to; ++k) values.push_back(number(rows[k].contacts[finger]));
+    return median(std::move(values));
+  };
+  mean.travelled = of([](const HeldContact& one) { return one.travelled; });
+  mean.tangent = of([](const HeldContact& one) { return one.tangent; });
+  mean.orientation = of([](const HeldContact& one) { return one.orientation; });
+  mean.at = {of([](const HeldContact& one) { return one.at.x(); }),
+             of([](const HeldContact& one) { return one.at.y(); })};
+  mean.lever = {of([](const HeldContact& one) { return one.lever.x(); }),
+                of([](const HeldContact& one) { return one.lever.y(); })};
+  return mean;
+}
+
 /// The mean of the rows from one to before another.
-HeldRow mean_of(const std::vector<HeldRow>& rows, std::size_t from, std::size_t to) {
+HeldRow mean_of(const std::vector<HeldRow>& rows, std::size_t from, std::size_t to, bool robust) {
   HeldRow mean = rows[from];
   if (to - from == 1) return mean;
   const auto count = static_cast<double>(to - from);
   mean.time = 0;
   for (std::size_t k = from; k < to; ++k) mean.time += rows[k].time / count;
   for (std::size_t finger = 0; finger < mean.contacts.size(); ++finger) {
-    HeldContact sum{0, 0, Vec2::Zero(), Vec2::Zero(), 0, 0};
+    HeldContact sum{0, 0, Vec2::Zero(), Vec2::Zero(), 0, 0, 0};
     for (std::size_t k = from; k < to; ++k) {
       const HeldContact& one = rows[k].contacts[finger];
       sum.travelled += one.travelled / count;
       sum.tangent += one.tangent / count;
       sum.at += one.at / count;
       sum.lever += one.lever / count;
+      sum.orientation += one.orientation / count;
       sum.finger_curvature += one.finger_curvature / count;
       sum.rows_alike += one.rows_alike / count;
     }
-    mean.contacts[finger] = sum;
+    mean.contacts[finger] = robust ? median_of(rows, from, to, finger, sum) : sum;
   }
   for (std::size_t pin = 0; pin < mean.pins.size(); ++pin) {
     HeldPin sum;
@@ -150,7 +180,7 @@ HeldRow mean_of(const std::vector<HeldRow>& rows, std::size_t from, std::size_t 
     }
     mean.pins[pin] = sum;
   }
-  mean.weight = count;
+  mean.weight = robust ? count / kMedianVariance : count;
   return mean;
 }
 
@@ -188,6 +218,9 @@ HeldRows held_rows(const HoldProblem& problem, const std::vector<Log>& logs) {
     add_pins(logs[problem.logs.size() + k], held.wheels.back(), held);
   }
   if (held.any_place) held.reference.reset();
+  held.outlier_share = problem.robust ? belief::kOutlierShare : 0;
+  held.prior = problem.prior;
+  held.pose = problem.pose;
   return held;
 }
 
@@ -199,7 +232,7 @@ HeldRows averaged(const HeldRows& rows, std::size_t most) {
   const std::size_t stride = (count - 2 + most - 1) / most;
   result.rows.push_back(rows.rows.front());
   for (std::size_t from = 1; from + 1 < count; from += stride) {
-    result.rows.push_back(mean_of(rows.rows, from, std::min(from + stride, count - 1)));
+    result.rows.push_back(mean_of(rows.rows, from, std::min(from + stride, count - 1), rows.outlier_share > 0));
   }
   result.rows.push_back(rows.rows.back());
   return result;
@@ -212,7 +245,7 @@ std::vector<std::size_t> rows_to_search(const HoldProblem& problem, const Log& l
   if (!problem.at.empty()) {
     others = rows_at(log, problem.at);
   } else {
-    const std::size_t steps = std::min(last, kHoldInstants - 1);
+    const std::size_t steps = std::min(last, (problem.robust ? kRobustInstants : kHoldInstants) - 1);
     for (std::size_t k = 1; k <= steps; ++k) others.push_back(k * last / steps);
   }
   // The one furthest from those that are chosen comes next.

@@ -14,6 +14,7 @@ struct HeldContact {
   double tangent = 0;           // direction of the part's tangent in the world, by u and psi, radians
   Vec2 at = Vec2::Zero();       // the contact in the world, where the log has x and y
   Vec2 lever = Vec2::Zero();    // from the finger's centre to it, in the world
+  double orientation = 0;       // psi: of the finger's frame, radians
   double finger_curvature = 0;  // 1 / r of a disk
   double rows_alike = 1;        // rows that may be at one corner together with this one
 };
@@ -59,6 +60,9 @@ struct HeldRows {
   bool has_noise = false;
   bool any_place = false;
   std::optional<std::size_t> reference{};  // without any: the finger whose x and y only say where the part is
+  double outlier_share = 0;                // robust: so many of a finger's rows are anything
+  std::optional<Prior> prior{};            // of the first finger's first contact
+  std::optional<PosePrior> pose{};         // of the first row
 
   std::size_t fingers() const { return errors.size(); }
 };

@@ -92,11 +92,16 @@ HoldFit::RowEquations HoldFit::equations(const HeldState& state, std::size_t row
     sum.own_slope = Unknowns::Zero(size_);
   }
   for (std::size_t finger = 0; finger < fingers(); ++finger) {
-    const Look one = look(state.placed[row], place_of(state, row, finger), row, finger);
+    Look one = look(state.placed[row], place_of(state, row, finger), row, finger);
+    const double square = one.residual.dot(one.information * one.residual);
+    const Counted how = counted(one, square);
+    one.information *= how.right;
     const Eigen::Matrix3d weighed = one.by_pose.transpose() * one.information;
     sum.pose += weighed * one.by_pose;
     sum.slope -= weighed * one.residual;
-    sum.square += one.residual.dot(one.information * one.residual);
+    sum.square += how.cost;
+    sum.right_square += how.right * square;
+    sum.strays += 1 - how.right;
     sum.log_size += one.log_size;
     sum.blur_size += one.blur_size;
     if (!with_unknowns) continue;
@@ -117,6 +122,12 @@ HoldFit::RowEquations HoldFit::equations(const HeldState& state, std::size_t row
     sum.own_slope(count + k) += by_stretch * slope;
   }
   for (std::size_t wheel = 0; wheel < wheels(); ++wheel) add_pin(state, row, wheel, with_unknowns, sum);
+  if (row == 0 && rows_.pose) add_pose_prior(state.placed[row], sum);
+  if (rows_.outlier_share > 0) {
+    // Where all are outliers the part is somewhere near.
+    const double near = 1 / (part_.perimeter() * part_.perimeter());
+    sum.pose.diagonal() += Eigen::Vector3d(near, near, 1);
+  }
   // What nothing tells stays: of rows without x and y where the part is.
   if (!rows_.any_place) sum.pose(0, 0) = sum.pose(1, 1) = 1;
   sum.pose(2, 2) += kRidge * sum.pose(2, 2) + 1e-30;
@@ -139,6 +150,14 @@ HoldFit::ContactError HoldFit::contact_error(const HeldState& state, std::size_t
   error.by_turn = -bend * variance / total;
   error.mean = error.by_turn * one.residual(2);
   error.variance = variance * one.turn_variance / total;
+  const double right = counted(one, one.residual.dot(one.information * one.residual)).right;
+  if (right < 1 && bend != 0) {
+    // Of an outlier it is the contact or the orientation that is wrong, and nothing tells which.
+    const double half = 0.5 * one.residual(2) / bend;
+    error.mean = right * error.mean - (1 - right) * half;
+    error.variance += (1 - right) * half * half;
+    error.by_turn *= right;
+  }
   error.curvature = one.curvature;
   return error;
 }
@@ -146,15 +165,18 @@ HoldFit::ContactError HoldFit::contact_error(const HeldState& state, std::size_t
 double HoldFit::freedom(const HeldState& state) const {
   double numbers = 0;
   for (std::size_t row = 0; row < rows_.rows.size(); ++row) {
+    double of_row = 0;
     for (std::size_t k = 0; k < fingers(); ++k) {
       const Look one = look(state.placed[row], place_of(state, row, k), row, k);
-      numbers += one.angles + (rows_.errors[k].has_place ? 2 : 0);
+      const double right = counted(one, one.residual.dot(one.information * one.residual)).right;
+      of_row += right * (one.angles + (rows_.errors[k].has_place ? 2 : 0));
     }
     for (const HeldWheel& wheel : rows_.wheels) {
       const double of_line = wheel.line ? rows_.rows[row].weight / wheel.line_alike : 0;
-      numbers += 1 + (wheel.spin ? 1 : 0) + of_line;
+      of_row += 1 + (wheel.spin ? 1 : 0) + of_line;
     }
-    numbers -= rows_.any_place ? 3 : 1;
+    of_row -= rows_.any_place ? 3 : 1;
+    numbers += rows_.outlier_share > 0 ? std::max(0.0, of_row) : of_row;
   }
   for (const HeldWheel& wheel : rows_.wheels) numbers -= wheel.spin ? 1 : 0;
   return numbers - static_cast<double>(fingers());

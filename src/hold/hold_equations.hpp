@@ -40,6 +40,9 @@ struct HoldFit::RowEquations {
   UnknownsMatrix own;
   Unknowns own_slope;
   double square = 0;
+  double right_square = 0;  // see HeldState, as are the next two
+  double prior_square = 0;
+  double strays = 0;
   double log_size = 0;
   double blur_size = 0;
 };

@@ -2,7 +2,47 @@
 
 #include "contact/mirrored.hpp"
 
-namespace rollfix::hold {
+namespace rollfix {
+
+const char* name_of(HoldCause cause) {
+  switch (cause) {
+    case HoldCause::radius:
+      return "radius";
+    case HoldCause::unit:
+      return "unit";
+    case HoldCause::late:
+      return "late";
+    case HoldCause::mirrored:
+      return "mirrored";
+    case HoldCause::u_clockwise:
+      return "u_clockwise";
+    case HoldCause::psi_clockwise:
+      return "psi_clockwise";
+    case HoldCause::both_clockwise:
+      return "both_clockwise";
+    case HoldCause::u_degrees:
+      return "u_degrees";
+    case HoldCause::psi_degrees:
+      return "psi_degrees";
+    case HoldCause::angles_degrees:
+      return "angles_degrees";
+    case HoldCause::u_psi_swapped:
+      return "u_psi_swapped";
+    case HoldCause::fingers_swapped:
+      return "fingers_swapped";
+    case HoldCause::prior:
+      return "prior";
+    case HoldCause::stray:
+      return "stray";
+    case HoldCause::slip:
+      return "slip";
+    case HoldCause::noise:
+      break;
+  }
+  return "noise";
+}
+
+namespace hold {
 
 const Finger& finger_of_log(const HoldProblem& problem, std::size_t log) {
   return problem.fingers[problem.fingers.size() == 1 ? 0 : log];
@@ -44,6 +84,7 @@ HoldProblem in_mirror(const HoldProblem& problem, std::vector<Log>& logs) {
     mirror(logs[k].fingers.front(), &finger);
   }
   for (Finger& finger : result.fingers) finger = rollfix::mirrored(finger);
+  if (result.pose) result.pose->mean = {-result.pose->mean.x, result.pose->mean.y, -result.pose->mean.heading};
   return result;
 }
 
@@ -59,4 +100,5 @@ void out_of_mirror(HoldAnswer& answer) {
   }
 }
 
-}  // namespace rollfix::hold
+}  // namespace hold
+}  // namespace rollfix

@@ -33,6 +33,7 @@ constexpr double kExactSettled = 1e-16;  // without noise, beside wheels: their 
 constexpr int kPoseRounds = 12;          // of one row's pose alone
 constexpr double kPoseSettled = 10;      // as much more is the last of one row's pose
 constexpr double kLeastShare = 1e-3;     // of a step of it
+constexpr double kAnyStray = 0.5;        // measurements: then a row's pose may be by the wrong ones
 constexpr int kWorstRounds = 25;         // of weighting up what is worst (Lawson's method)
 
 }  // namespace
@@ -163,19 +164,29 @@ HoldFit::RowEquations HoldFit::settled(HeldState& state, std::size_t row) const 
 
 /// The best poses for the unknowns, from where they are.
 void HoldFit::settle(HeldState& state) const {
-  state.square = state.cost = 0;
+  state.square = state.cost = state.right_square = state.prior_square = state.strays = 0;
   for (std::size_t row = 0; row < rows_.rows.size(); ++row) {
     if (!state.placed[row].is_known) guess(state, row);
-    const RowEquations now = settled(state, row);
+    RowEquations now = settled(state, row);
+    if (now.strays > kAnyStray) now = settled_by_fewer(state, row, now);
     state.square += now.square;
     state.cost += now.square + now.blur_size;
+    state.right_square += now.right_square;
+    state.prior_square += now.prior_square;
+    state.strays += now.strays;
     if (rows_.reference) refer(state, row);
   }
   for (auto k = static_cast<Eigen::Index>(fingers()); k < size_; ++k) {
     const double square = state.unknowns(k) * state.unknowns(k) * prior_precision(k);
     state.square += square;
     state.cost += square;
+    state.right_square += square;
   }
+  if (!rows_.prior) return;
+  const double square = std::pow(prior_offset(state) / rows_.prior->sd, 2);
+  state.square += square;
+  state.cost += square;
+  state.prior_square += square;
 }
 
 HeldState HoldFit::at(const std::vector<double>& first_contacts) const {
@@ -219,6 +230,11 @@ Reduced HoldFit::reduced(const HeldState& state) const {
     const double precision = prior_precision(k);
     sum.matrix(k, k) += precision;
     sum.slope(k) -= precision * state.unknowns(k);
+  }
+  if (rows_.prior) {
+    const double precision = 1 / (rows_.prior->sd * rows_.prior->sd);
+    sum.matrix(0, 0) += precision;
+    sum.slope(0) -= precision * prior_offset(state);
   }
   return sum;
 }

@@ -29,6 +29,9 @@ struct HeldState {
   std::vector<Placed> placed;  // at each row
   double square = 0;           // of all residuals, in their units
   double cost = 0;             // that, and with noise what corners add to the logarithm of the errors' size
+  double right_square = 0;     // of what is no outlier, without priors
+  double prior_square = 0;     // of what was known of the first contact and of the pose beforehand
+  double strays = 0;           // measurements that are outliers, by their probabilities
 };
 
 /// The pose at one row by the unknowns: mean, its change with them, and what is unknown besides.
@@ -122,6 +125,15 @@ class HoldFit {
     return weights_.empty() ? 1 : weights_[row * (fingers() + wheels()) + contact];
   }
   RowEquations settled(HeldState& state, std::size_t row) const;
+  /// How a measurement counts that may be an outlier.
+  struct Counted {
+    double cost = 0;   // in place of its square
+    double right = 1;  // probability that it is none
+  };
+  Counted counted(const Look& look, double square) const;
+  RowEquations settled_by_fewer(HeldState& state, std::size_t row, const RowEquations& all) const;
+  double prior_offset(const HeldState& state) const;
+  void add_pose_prior(const Placed& placed, RowEquations& sum) const;
   void settle(HeldState& state) const;
   void guess(HeldState& state, std::size_t row) const;
   void refer(HeldState& state, std::size_t row) const;

@@ -330,6 +330,18 @@ bool is_within(const HeldSet& set, const HeldState& state, const Boundary& bound
   return true;
 }
 
+bool keep_nodes(HoldMode& mode, const std::function<bool(const HoldNode&)>& is_possible) {
+  const std::size_t before = mode.nodes.size();
+  std::erase_if(mode.nodes, [&](const HoldNode& node) { return !is_possible(node); });
+  if (mode.nodes.empty()) return false;
+  if (mode.nodes.size() == before) return true;
+  mode.log_weight = log_sum(mode.nodes);
+  mode.best = std::min_element(mode.nodes.begin(), mode.nodes.end(), [](const HoldNode& a, const HoldNode& b) {
+                return a.state.cost < b.state.cost;
+              })->state;
+  return true;
+}
+
 std::vector<HoldMode> modes_about(const HoldFit& fit, const Part& part, std::vector<Optimum> optima,
                                   const std::vector<HeldSet>& sets) {
   return Humps(fit, part, sets).run(std::move(optima));

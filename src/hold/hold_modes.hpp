@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "hold_fit.hpp"
@@ -40,6 +41,9 @@ struct Optimum {
 /// of its places the rest is taken as normally distributed (Laplace's method).
 std::vector<HoldMode> modes_about(const HoldFit& fit, const Part& part, std::vector<Optimum> optima,
                                   const std::vector<HeldSet>& sets);
+
+/// The mode as it is without some of its nodes, which are taken out; false: none is left.
+bool keep_nodes(HoldMode& mode, const std::function<bool(const HoldNode&)>& is_possible);
 
 /// Whether first contacts are in a set of boxes, by their extents.
 bool is_within(const HeldSet& set, const HeldState& state, const Boundary& boundary, double slack);

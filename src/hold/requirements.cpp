@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -100,6 +101,42 @@ void require_different(const std::vector<Log>& logs) {
   }
 }
 
+/// What is weighed against noisy rows. `given`, `name`: whether, and what it is called.
+void require_weighing(const HoldProblem& problem) {
+  struct Weighed {
+    bool given;
+    const char* name;
+    const char* why;
+  };
+  const std::array<Weighed, 3> all = {{{problem.robust, "robust", "is about outliers among noisy rows"},
+                                       {problem.prior.has_value(), "prior", "is weighed against noisy rows"},
+                                       {problem.pose.has_value(), "pose", "is weighed against noisy rows"}}};
+  for (const Weighed& one : all) {
+    if (!one.given) continue;
+    if (!problem.noise) refuse(fmt::format("`{}` {}: expected noise as well, found none", one.name, one.why));
+    if (!problem.wheels.empty()) refuse(fmt::format("`{}` is not taken beside a wheel; leave it out", one.name));
+  }
+  if (problem.prior &&
+      !(std::isfinite(problem.prior->s) && std::isfinite(problem.prior->sd) && problem.prior->sd > 0)) {
+    refuse(fmt::format("expected a prior of a place and a standard deviation above 0, found {} and {}",
+                       problem.prior->s, problem.prior->sd));
+  }
+  if (!problem.pose) return;
+  const PosePrior& pose = *problem.pose;
+  if (!(std::isfinite(pose.mean.heading) && pose.heading_sd > 0 && pose.place_sd > 0)) {
+    refuse(fmt::format("expected a pose with standard deviations above 0, found {} of the heading and {} of the place",
+                       pose.heading_sd, pose.place_sd));
+  }
+  const bool any_place =
+      problem.noise->position > 0 && std::any_of(problem.logs.begin(), problem.logs.end(),
+                                                 [](const Log& log) { return !log.fingers.front().x.empty(); });
+  if (std::isfinite(pose.place_sd) && !any_place) {
+    refuse(
+        "a pose with x and y says something where the fingers' centres are evidence: expected logs with x and y and "
+        "noise with position=SD; else give the heading alone");
+  }
+}
+
 void require_noise(const HoldProblem& problem) {
   const Noise& noise = *problem.noise;
   rollfix::require_valid(noise);
@@ -135,6 +172,7 @@ void require_valid(const HoldProblem& problem) {
   require_wheels(problem);
   require_different(problem.logs);
   if (problem.noise) require_noise(problem);
+  require_weighing(problem);
   if (!problem.tolerance) return;
   const TouchTolerance& given = *problem.tolerance;
   const bool is_valid =

@@ -4,10 +4,13 @@
 #include <utility>
 
 #include "answer_holds.hpp"
+#include "fingers_apart.hpp"
 #include "held_question.hpp"
 #include "hold_facts.hpp"
 #include "hold_fit.hpp"
+#include "hold_mistakes.hpp"
 #include "hold_witness.hpp"
+#include "log_jumps.hpp"
 #include "requirements.hpp"
 #include "rollfix/hold/hold.hpp"
 #include "rollfix/pulse.hpp"
@@ -24,12 +27,15 @@ constexpr double kFreeHold = 0.05;   // of the perimeter: without noise what is 
 
 class HoldSolver {
  public:
-  HoldSolver(const HoldProblem& problem, const std::vector<Log>& logs, const WheelPaths& wheels, HoldAnswer& answer)
+  HoldSolver(const HoldProblem& problem, const std::vector<Log>& logs, const WheelPaths& wheels, Care care,
+             HoldAnswer& answer)
       : problem_(problem),
+        care_(care),
         answer_(answer),
         boundary_(problem.part.boundary()),
         wheels_(wheels),
-        question_(problem, held_rows(problem, logs), rows_to_search(problem, logs.front()), wheels) {}
+        question_(problem, held_rows(problem, logs), rows_to_search(problem, logs.front()), wheels),
+        apart_(problem, question_.rows()) {}
 
   void run() {
     for (const HeldRow& row : question_.searched().rows) answer_.instants.push_back(row.time);
@@ -39,8 +45,13 @@ class HoldSolver {
     const HeldRows& rows = question_.rows();
     if (!rows.any_place) answer_.place = rows.reference ? PlaceKnown::reference : PlaceKnown::unknown;
     Boxes boxes = question_.search().search();
+    if (care_ == Care::glance) {
+      boxes.fit.insert(boxes.fit.end(), boxes.undecided.begin(), boxes.undecided.end());
+      boxes.undecided.clear();
+    }
     if (rows.has_noise) {
-      weigh(problem_, rows, question_.searched(), question_.sets(boxes.fit), question_.search(), wheels_, answer_);
+      weigh(problem_, rows, question_.searched(), question_.sets(boxes.fit), question_.search(), wheels_, care_,
+            answer_);
       add_unresolved(boxes.undecided);
     } else {
       add_witnessed(std::move(boxes));
@@ -52,11 +63,16 @@ class HoldSolver {
  private:
   void add_witnessed(Boxes boxes) {
     HoldFit fit(problem_.part, question_.searched(), wheels_);
-    const Witnessed found = witnessed(question_, fit, std::move(boxes));
+    Witnessed found = witnessed(question_, fit, std::move(boxes), &apart_);
     for (const WitnessedSet& one : found.sets) {
+      if (one.overlaps) {
+        ++answer_.overlap;
+        continue;
+      }
       answer_.placements.push_back(described(fit, problem_.part, one.state, one.set));
       answer_.placements.back().continuum = is_free(fit, one.state, one.set);
     }
+    found.undecided.insert(found.undecided.end(), found.doubtful.begin(), found.doubtful.end());
     add_unresolved(found.undecided);
     std::sort(answer_.placements.begin(), answer_.placements.end(),
               [](const HoldPlacement& a, const HoldPlacement& b) { return a.contacts[0].start < b.contacts[0].start; });
@@ -85,7 +101,7 @@ class HoldSolver {
   void conclude() {
     Verdict& verdict = answer_.verdict;
     verdict.name = Verdict::inconsistent;
-    verdict.fits_badly = answer_.fit && answer_.fit->is_bad();
+    verdict.fits_badly = answer_.is_contradicted();
     const std::vector<HoldPlacement>& placements = answer_.placements;
     if (!answer_.unresolved.empty()) {
       answer_.status = Status::incomplete;
@@ -110,10 +126,12 @@ class HoldSolver {
   }
 
   const HoldProblem& problem_;
+  Care care_;
   HoldAnswer& answer_;
   Boundary boundary_;
   const WheelPaths& wheels_;
   HeldQuestion question_;
+  FingersApart apart_;
 };
 
 TouchTolerance largest_tolerance(const HeldRows& rows) {
@@ -127,24 +145,40 @@ TouchTolerance largest_tolerance(const HeldRows& rows) {
 }
 
 }  // namespace
-}  // namespace hold
 
-HoldAnswer solve(const HoldProblem& problem) {
-  hold::require_valid(problem);
-  const Doing doing("looking for places that fit all fingers");
-  const hold::WheelPaths wheels = hold::paths_of(problem);
-  std::vector<Log> logs = hold::logs_of(problem);
-  hold::require_wheels_apart(problem, logs);
+HoldAnswer solve_plain(const HoldProblem& problem, Care care) {
+  require_valid(problem);
+  const WheelPaths wheels = paths_of(problem);
+  std::vector<Log> logs = logs_of(problem);
+  require_wheels_apart(problem, logs);
   HoldAnswer answer{problem.part, {}};
-  for (std::size_t k = 0; k < logs.size(); ++k) answer.rolls.push_back(hold::roll_of(problem, logs[k], k));
+  if (problem.robust) answer.jumps = leave_out_jumps(problem, logs);
+  for (std::size_t k = 0; k < logs.size(); ++k) answer.rolls.push_back(roll_of(problem, logs[k], k));
   answer.rows = logs.front().rows();
   answer.noise = problem.noise;
   answer.squeezed = problem.squeezed;
   answer.mirrored = problem.mirrored;
-  const HoldProblem seen = problem.mirrored ? hold::in_mirror(problem, logs) : problem;
-  if (!problem.noise) answer.tolerance = hold::largest_tolerance(hold::held_rows(seen, logs));
-  hold::HoldSolver(seen, logs, wheels, answer).run();
-  if (problem.mirrored) hold::out_of_mirror(answer);
+  answer.robust = problem.robust;
+  answer.prior = problem.prior;
+  answer.pose = problem.pose;
+  require_apart(problem, logs);
+  const HoldProblem seen = problem.mirrored ? in_mirror(problem, logs) : problem;
+  if (!problem.noise) answer.tolerance = largest_tolerance(held_rows(seen, logs));
+  HoldSolver(seen, logs, wheels, care, answer).run();
+  if (problem.mirrored) out_of_mirror(answer);
+  return answer;
+}
+
+}  // namespace hold
+
+HoldAnswer solve(const HoldProblem& problem) {
+  const Doing doing("looking for places that fit all fingers");
+  HoldAnswer answer = hold::solve_plain(problem);
+  const bool is_wrong = answer.placements.empty() || answer.verdict.fits_badly;
+  if (!problem.diagnose || !problem.wheels.empty() || answer.status != Status::complete || !is_wrong) return answer;
+  const Doing looking("looking for what explains the misfit");
+  answer.diagnoses = hold::mistakes(problem, answer);
+  answer.was_diagnosed = true;
   return answer;
 }
 

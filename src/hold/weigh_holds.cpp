@@ -1,11 +1,14 @@
 #include "weigh_holds.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
+#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "answer_holds.hpp"
+#include "fingers_apart.hpp"
 #include "hold_fit.hpp"
 
 // Notation:
@@ -16,6 +19,9 @@ namespace rollfix::hold {
 namespace {
 
 constexpr std::size_t kLooks = 1200;      // at places of all sets, to choose from where to start
+constexpr std::size_t kGlanceLooks = 96;  // the same at a glance, ...
+constexpr std::size_t kGlanceStarts = 2;  // ... of each set from where to start, ...
+constexpr std::size_t kGlanceOptima = 4;  // ... and the best of all that are looked at by all rows
 constexpr std::size_t kMostRows = 512;    // of a posterior; more are averaged
 constexpr double kHopeless = 60;          // a set whose chi-square is so much larger than the best has no probability
 constexpr double kLeastHoldShare = 1e-4;  // a set that is less probable is counted, not listed
@@ -24,8 +30,9 @@ constexpr double kWideHold = 0.1;         // of the perimeter: no place is known
 class HoldWeighing {
  public:
   HoldWeighing(const HoldProblem& problem, const HeldRows& rows, const HeldRows& searched, BoxSearch& search,
-               const WheelPaths& wheels, HoldAnswer& answer)
+               const WheelPaths& wheels, Care care, HoldAnswer& answer)
       : problem_(problem),
+        at_a_glance_(care == Care::glance),
         boundary_(problem.part.boundary()),
         rows_(rows),
         searched_(searched),
@@ -40,13 +47,19 @@ class HoldWeighing {
     std::vector<HeldSet> known;
     for (const FoundSet& one : found) known.push_back(one.set);
     const std::vector<Optimum> optima = best_of(found, few, fit);
+    if (at_a_glance_) {
+      if (!optima.empty()) add_at_a_glance(fit, optima.front(), known);
+      return;
+    }
     std::vector<HoldMode> modes = modes_about(fit, problem_.part, optima, known);
+    answer_.improbable = found.size() - std::min(found.size(), modes.size());
+    drop_overlaps(modes, all);
     if (modes.empty()) return;
     double most = modes.front().log_weight;
     for (const HoldMode& mode : modes) most = std::max(most, mode.log_weight);
     double sum = 0;
     for (const HoldMode& mode : modes) sum += std::exp(mode.log_weight - most);
-    answer_.improbable = found.size() - std::min(found.size(), modes.size());
+    answer_.log_evidence = most + std::log(sum);
     for (const HoldMode& mode : modes) {
       const double probability = std::exp(mode.log_weight - most) / sum;
       if (probability < kLeastHoldShare) {
@@ -64,9 +77,53 @@ class HoldWeighing {
     }
     std::stable_sort(answer_.placements.begin(), answer_.placements.end(),
                      [](const HoldPlacement& a, const HoldPlacement& b) { return a.probability > b.probability; });
+    const HeldState& best = std::max_element(modes.begin(), modes.end(), [](const HoldMode& a, const HoldMode& b) {
+                              return a.log_weight < b.log_weight;
+                            })->best;
+    if (problem_.robust) answer_.strays = static_cast<std::size_t>(std::lround(best.strays));
+    answer_.prior_p = prior_p(best);
   }
 
  private:
+  /// The place that fits best, and how well.
+  void add_at_a_glance(const HoldFit& fit, const Optimum& best, const std::vector<HeldSet>& sets) {
+    answer_.placements.push_back(described(fit, problem_.part, best.state, sets[best.set]));
+    answer_.fit = fit_of(fit, best.state);
+    answer_.log_evidence = -0.5 * best.state.square;
+    if (!fit.has_stretches()) return;
+    UnknownsMatrix information = fit.reduced(best.state).matrix;
+    information.diagonal().array() += 1 / (boundary_.perimeter * boundary_.perimeter);  // where nothing tells a place
+    const UnknownsMatrix covariance = information.inverse();
+    for (std::size_t k = 0; k < fit.fingers(); ++k) {
+      const auto i = static_cast<Eigen::Index>(fit.fingers() + k);
+      HoldContact& contact = answer_.placements.back().contacts[k];
+      contact.length_scale = 1 / (1 + best.state.unknowns(i));
+      contact.length_scale_sd = std::sqrt(covariance(i, i)) * contact.length_scale * contact.length_scale;
+    }
+  }
+
+  /// What fingers would have to be in each other for goes.
+  void drop_overlaps(std::vector<HoldMode>& modes, const HeldRows& rows) {
+    const FingersApart apart(problem_, rows);
+    const auto is_possible = [&](const HoldNode& node) {
+      std::vector<Interval> arcs;
+      for (std::size_t k = 0; k < rows.fingers(); ++k) {
+        const auto i = static_cast<Eigen::Index>(k);
+        const double off = kTouchSigmas * std::sqrt(node.covariance(i, i));
+        arcs.push_back({node.state.unknowns(i) - off, node.state.unknowns(i) + off});
+      }
+      return !apart.must_overlap(arcs);
+    };
+    answer_.overlap += std::erase_if(modes, [&](HoldMode& mode) { return !keep_nodes(mode, is_possible); });
+  }
+
+  /// Of what was said of the first contact and of the pose.
+  double prior_p(const HeldState& state) const {
+    const bool has_place = rows_.any_place && problem_.pose && std::isfinite(problem_.pose->place_sd);
+    const int numbers = (problem_.prior ? 1 : 0) + (problem_.pose ? 1 : 0) + (has_place ? 2 : 0);
+    return numbers == 0 ? 1 : boost::math::gamma_q(0.5 * numbers, 0.5 * state.prior_square);
+  }
+
   HoldPlacement posterior_of(const HoldMode& mode, const HeldState& shown, const HoldFit& fit,
                              const HeldSet& set) const {
     HoldPlacement placement = described(fit, problem_.part, shown, set);
@@ -107,6 +164,7 @@ class HoldWeighing {
     }
     std::stable_sort(rough.begin(), rough.end(),
                      [](const Optimum& a, const Optimum& b) { return a.state.cost < b.state.cost; });
+    if (at_a_glance_ && rough.size() > kGlanceOptima) rough.resize(kGlanceOptima);
     std::vector<Optimum> optima;
     double least = std::numeric_limits<double>::infinity();
     for (const Optimum& one : rough) {
@@ -121,23 +179,26 @@ class HoldWeighing {
       least = std::min(least, state.cost);
       optima.push_back({std::move(state), set});
     }
-    std::erase_if(optima, [&](const Optimum& one) { return one.state.cost > least + kHopeless; });
+    const double hopeless = at_a_glance_ ? 0 : kHopeless;
+    std::erase_if(optima, [&](const Optimum& one) { return one.state.cost > least + hopeless; });
     return optima;
   }
 
   /// Of many places all over a set those that fit best as they are, and some that are spread evenly.
   std::vector<HeldState> starts_in(const FoundSet& found, std::size_t sets, const HoldFit& few) {
-    const std::size_t looks = std::min(found.boxes.size(), std::max(kStarts, kLooks / sets));
+    const std::size_t looks = std::min(found.boxes.size(), at_a_glance_ ? std::max<std::size_t>(1, kGlanceLooks / sets)
+                                                                        : std::max(kStarts, kLooks / sets));
     std::vector<HeldState> states;
     for (std::size_t look = 0; look < looks; ++look)
       states.push_back(few.at(middle_of_box(search_, found, look, looks)));
     std::vector<HeldState> starts;
-    for (std::size_t k = 0; k < states.size(); k += std::max<std::size_t>(1, states.size() / kStarts)) {
+    for (std::size_t k = 0; k < states.size() && !at_a_glance_;
+         k += std::max<std::size_t>(1, states.size() / kStarts)) {
       starts.push_back(states[k]);
     }
     std::stable_sort(states.begin(), states.end(),
                      [](const HeldState& a, const HeldState& b) { return a.cost < b.cost; });
-    states.resize(std::min(states.size(), kStarts));
+    states.resize(std::min(states.size(), at_a_glance_ ? kGlanceStarts : kStarts));
     starts.insert(starts.end(), states.begin(), states.end());
     return starts;
   }
@@ -164,6 +225,7 @@ class HoldWeighing {
   }
 
   const HoldProblem& problem_;
+  bool at_a_glance_;
   Boundary boundary_;
   const HeldRows& rows_;
   const HeldRows& searched_;
@@ -182,8 +244,9 @@ std::vector<double> middle_of_box(BoxSearch& search, const FoundSet& found, std:
 }
 
 void weigh(const HoldProblem& problem, const HeldRows& rows, const HeldRows& searched,
-           const std::vector<FoundSet>& found, BoxSearch& search, const WheelPaths& wheels, HoldAnswer& answer) {
-  HoldWeighing(problem, rows, searched, search, wheels, answer).run(found);
+           const std::vector<FoundSet>& found, BoxSearch& search, const WheelPaths& wheels, Care care,
+           HoldAnswer& answer) {
+  HoldWeighing(problem, rows, searched, search, wheels, care, answer).run(found);
 }
 
 }  // namespace rollfix::hold

@@ -68,6 +68,15 @@ TEST(CliRig, AFigureShowsJawAndWheel) {
   EXPECT_THAT(cli::read("rig.svg"), HasSubstr("1 finger and 1 wheel"));
 }
 
+TEST(CliRig, CertifyWritesWhatTheVerifierProves) {
+  const Folder folder;
+  simulate(true);
+  EXPECT_EQ(run(kAsked + "--certify proof.json").code, 0);
+  const Ran verified = cli::shell("rollfix-verify proof.json");
+  EXPECT_EQ(verified.code, 0);
+  EXPECT_THAT(verified.out, testing::StartsWith("proved: 1 set of first contacts, nothing else\npart "));
+}
+
 TEST(CliRig, SqueezedTakesItsErrorOrNot) {
   const Folder folder;
   simulate();

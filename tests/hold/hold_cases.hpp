@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -175,6 +176,27 @@ inline HoldCase hold_of(const Part& part, const std::vector<Rolled>& rolled, con
   return result;
 }
 
+/// Of the finger's centre on the part, at each row.
+inline std::vector<Vec2> track_of(const Part& part, const Way& way, double length, double radius, std::size_t rows,
+                                  double slowness) {
+  std::vector<Vec2> track;
+  for (std::size_t k = 0; k <= rows; ++k) {
+    const OnWay at = way.at(length * std::pow(static_cast<double>(k) / static_cast<double>(rows), slowness));
+    track.push_back(part.point(at.s) + radius * outward(at.tangent));
+  }
+  return track;
+}
+
+/// Whether disks of this radius with such centres keep apart.
+inline bool are_apart(const std::vector<Vec2>& one, const std::vector<Vec2>& other, double radius) {
+  constexpr double kLarger = 1.1;
+  for (std::size_t k = 0; k < one.size(); ++k) {
+    if ((one[k] - other[k]).norm() < 2 * kLarger * radius) return false;
+  }
+  return true;
+}
+
+/// Fingers that enter neither the part nor each other.
 inline HoldCase random_hold(const Part& part, const Holding& holding, std::mt19937_64& generator) {
   const double size = diagonal(part);
   const double radius = holding.radius * size;
@@ -184,11 +206,18 @@ inline HoldCase random_hold(const Part& part, const Holding& holding, std::mt199
   result.first = {uniform(generator, -size, size), uniform(generator, -size, size),
                   uniform(generator, -std::numbers::pi, std::numbers::pi)};
   result.last = moved(result.first, 1, size);
+  std::vector<std::vector<Vec2>> tracks;
   while (result.problem.logs.size() < holding.fingers) {
     const int direction = uniform(generator, -1, 1) > 0 ? 1 : -1;
     const Way way(part, radius, uniform(generator, 0, part.perimeter()), direction);
     if (!is_free_way(part, way, length, radius, boundary)) continue;
     const double slowness = uniform(generator, 0.7, 1.6);
+    const std::vector<Vec2> track = track_of(part, way, length, radius, holding.rows, slowness);
+    if (!std::all_of(tracks.begin(), tracks.end(),
+                     [&](const std::vector<Vec2>& other) { return are_apart(track, other, radius); })) {
+      continue;
+    }
+    tracks.push_back(track);
     result.problem.logs.push_back(
         finger_log(part, way, length, radius, result.first, size, holding, slowness, generator));
     result.starts.push_back(way.at(0).s);

@@ -112,7 +112,7 @@ inline std::vector<Lie> about_sets() {
       {"a set that nothing is known of",
        [](Document& d) {
          Json& set = d.any_set();
-         return set.erase("first") > 0;
+         return set["listed"].get<bool>() && set.erase("first") > 0;
        }},
       {"first contacts that are elsewhere",
        [](Document& d) {

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string>
 
-#include "hold/hold_cases.hpp"
+#include "hold/hold_spoilt.hpp"
 #include "random.hpp"
 
 // Three and four fingers with noise: whether intervals hold the truth as often as they say, and the likeliest placement
@@ -77,13 +77,18 @@ Part smooth(int number, std::mt19937_64& /*generator*/) {
 }
 Part flat(int number, std::mt19937_64& generator) { return number % 2 == 0 ? random_polygon(generator) : bracket(); }
 
+/// `outliers`: a share of all measurements that are anything.
 template <class PartOf>
-void expect_calibrated(const char* what, const Holding& holding, const PartOf& part_of) {
+void expect_calibrated(const char* what, const Holding& holding, const PartOf& part_of, double outliers = 0) {
   Tally tally;
   const int count = test_count(6);
   for (int number = 0; number < count; ++number) {
     std::mt19937_64 generator = test_generator(static_cast<std::uint64_t>(number) + 400);
-    const HoldCase one = random_hold(part_of(number, generator), holding, generator);
+    HoldCase one = random_hold(part_of(number, generator), holding, generator);
+    if (outliers > 0) {
+      add_outliers(one, outliers, generator);
+      one.problem.robust = true;
+    }
     tally.add(rollfix::solve(one.problem), one);
   }
   tally.expect_calibrated(what);
@@ -106,6 +111,15 @@ TEST(HoldCoverage, FourFingersWithCentresOnSmoothParts) { expect_calibrated("4, 
 TEST(HoldCoverage, FourFingersWithoutCentresOnSmoothParts) { expect_calibrated("4", noisy(4, false), smooth); }
 TEST(HoldCoverage, ThreeFingersThatSlipOnSmoothParts) {
   expect_calibrated("3, x y, slip", noisy(3, true, 0.02), smooth);
+}
+TEST(HoldCoverage, RobustThreeFingersWithCentresAndOutliers) {
+  expect_calibrated("3, x y, robust, 2 % outliers", noisy(3, true), smooth, 0.02);
+}
+TEST(HoldCoverage, RobustThreeFingersWithoutCentresAndOutliers) {
+  expect_calibrated("3, robust, 2 % outliers", noisy(3, false), smooth, 0.02);
+}
+TEST(HoldCoverage, RobustThreeFingersOfHonestLogs) {
+  expect_calibrated("3, x y, robust, no outliers", noisy(3, true), smooth, 1e-12);
 }
 TEST(HoldCoverage, ThreeFingersWithCentresOnFlats) { expect_calibrated("3, x y, flats", noisy(3, true), flat); }
 TEST(HoldCoverage, FourFingersWithCentresOnFlats) { expect_calibrated("4, x y, flats", noisy(4, true), flat); }

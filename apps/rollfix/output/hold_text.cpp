@@ -8,6 +8,7 @@
 
 #include "outline/turn.hpp"
 #include "rollfix/answer/part_facts.hpp"
+#include "rollfix/files/hold_document.hpp"
 #include "rollfix/output/answer_words.hpp"
 #include "rollfix/output/table.hpp"
 #include "text/text.hpp"
@@ -25,7 +26,7 @@ class HoldText {
       : answer_(answer), decimals_(decimals_for(answer.part.perimeter())), unit_(answer.part.unit()) {}
 
   std::string text() const {
-    std::string text = answer_.verdict_text() + first_line() + "\n" + advice();
+    std::string text = answer_.verdict_text() + first_line() + "\n" + advice() + diagnosis_lines();
     if (!answer_.placements.empty()) text += "\n" + starts_table() + "\n" + pose_lines();
     return text + "\n" + fingers_table() + "\n" + unresolved_lines() + asked_lines();
   }
@@ -71,6 +72,12 @@ class HoldText {
       case Verdict::inconsistent:
         break;
     }
+    if (!answer_.diagnoses.empty()) return "no places on the part fit all fingers\n";
+    if (answer_.overlap > 0) {
+      return "no places on the part fit all fingers unless they enter each other: check the radii, or if the fingers "
+             "are "
+             "at different heights add --may-overlap\n";
+    }
     return std::string("no places on the part fit all fingers: ") +
            (answer_.noise ? "" : "without --noise all digits are taken as exact; if they are not, add it; ") +
            "check the units and signs of u and psi, that --log and --finger are in the same order, and " +
@@ -78,6 +85,28 @@ class HoldText {
                 ? "that x and y of all logs are in one frame, of a wheel its pin, of a jaw its frame's origin, where "
                   "u is 0\n"
                 : "locate two of the logs at a time\n");
+  }
+
+  /// What is wrong, what to do, and what fits then.
+  std::string diagnosis_lines() const {
+    if (!answer_.was_diagnosed) return "";
+    std::string text;
+    for (const HoldDiagnosis& one : answer_.diagnoses) {
+      std::string then = one.verdict.text();
+      if (one.verdict.name == Verdict::unique) {
+        for (std::size_t k = 0; k < one.placements.front().contacts.size(); ++k) {
+          then += fmt::format("{}{} at {:.6g}", k == 0 ? ", finger " : ", ", letter(k),
+                              one.placements.front().contacts[k].start);
+        }
+      }
+      const bool is_for_all = one.fit.is_bad();
+      text += fmt::format("possible cause: {}; try {}: {}{}\n", words_of(one, answer_), cure_of(one, answer_), then,
+                          is_for_all ? ", still not as good as the noise says" : "");
+    }
+    if (text.empty() && answer_.overlap == 0) {
+      text = "no usual mistake explains it: check the part, its side, and each finger\n";
+    }
+    return text;
   }
 
   std::string starts_table() const {
@@ -205,6 +234,24 @@ class HoldText {
     if (answer_.fit && answer_.fit->freedom > 0) {
       text += fmt::format("fit        chi-square {:.4g} where {} is expected, p = {:.2g}\n", answer_.fit->chi_square,
                           answer_.fit->freedom, answer_.fit->p);
+    }
+    if (answer_.robust) {
+      text += fmt::format("robust     {} of {} measurements do not count{}{}\n", answer_.strays,
+                          answer_.rows * answer_.rolls.size(),
+                          answer_.jumps.empty() ? "" : "; left out: ", fmt::join(answer_.jumps, "; "));
+    }
+    if (answer_.prior || answer_.pose) {
+      text += fmt::format(
+          "beforehand {}{}p = {:.2g}\n",
+          answer_.prior ? fmt::format("finger a at {} ± {}, ", place(answer_.prior->s), rough(answer_.prior->sd)) : "",
+          answer_.pose ? fmt::format("heading {} ± {} deg, ", degrees(answer_.pose->mean.heading),
+                                     rough(answer_.pose->heading_sd / kDegree))
+                       : "",
+          answer_.prior_p);
+    }
+    if (answer_.overlap > 0) {
+      text += fmt::format("dropped    {} in which fingers enter each other\n",
+                          counted(answer_.overlap, "set of places", "sets of places"));
     }
     if (answer_.improbable > 0 && !answer_.placements.empty()) {
       text += fmt::format("rejected   {} that fit far worse, together less than {:.1g} % probable\n",

@@ -80,7 +80,7 @@ struct HoldCertificate : CertifiedOutline {
   std::vector<CertifiedHoldSet> sets;
   std::vector<std::vector<Interval>> unresolved{};  // arcs of each finger on which other first contacts may be
 
-  /// Nothing is unresolved, and something is known to fit in each set.
+  /// Nothing is unresolved, and something is known to fit in each set that is listed.
   bool is_complete() const;
 };
 

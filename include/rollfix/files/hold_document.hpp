@@ -14,4 +14,8 @@ std::string format_hold(const HoldAnswer& answer, Layout layout = Layout::lines)
 /// "rollfix/hold-certificate/1".
 std::string format_certificate(const HoldCertificate& certificate);
 
+/// What is wrong, and what to give instead, in plain English.
+std::string words_of(const HoldDiagnosis& diagnosis, const HoldAnswer& answer);
+std::string cure_of(const HoldDiagnosis& diagnosis, const HoldAnswer& answer);
+
 }  // namespace rollfix

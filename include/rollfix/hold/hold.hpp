@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "rollfix/belief/belief.hpp"
 #include "rollfix/contact/finger.hpp"
 #include "rollfix/contact/log.hpp"
 #include "rollfix/contact/noise.hpp"
@@ -43,7 +44,13 @@ struct HoldProblem {
                                      // of the floor and of the pin are small: the wheel's normal points
                                      // through the finger's contact, to this standard deviation, radians;
                                      // without noise to this tolerance
-  bool may_overlap = false;          // at different heights a finger and a wheel, or two wheels, pass one another
+  bool may_overlap = false;          // at different heights fingers and wheels pass one another
+  // Of fingers with skin alone:
+  bool robust = false;              // with noise: stray measurements don't count
+  std::optional<Prior> prior{};     // with noise: about where finger a started
+  std::optional<PosePrior> pose{};  // with noise: about how the part lay at the first contacts; x and y of it only
+                                    // where noise `position` makes centres evidence
+  bool diagnose = true;             // where nothing fits, or fits badly, the usual mistakes are tried
 };
 
 /// Instants to search with where none are chosen, spread evenly over the logs.
@@ -67,6 +74,8 @@ struct HoldContact {
   Interval interval{};  // holds 95 % of its probability; lo in [0, P), hi may exceed P
   double end_mean = 0;
   double end_sd = 0;
+  double length_scale = 1;     // lengths are so many times what was measured, as far as noise `slip` or `radius` ...
+  double length_scale_sd = 0;  // ... leaves that open, give or take
 };
 
 /// One answer: a connected set of first contacts, with a pose of the part at each instant.
@@ -83,6 +92,46 @@ struct HoldPlacement {
   double probability = std::numeric_limits<double>::quiet_NaN();
   PoseSpread first_spread{};
   PoseSpread last_spread{};
+};
+
+/// A usual mistake.
+enum class HoldCause {
+  noise,            // the measurements are noisier than said
+  radius,           // lengths are off by one factor: the radius, or slip all along
+  unit,             // x and y are in another unit
+  late,             // one log's rows are of other instants than the others'
+  mirrored,         // the part lies the other way up
+  u_clockwise,      // u is counted clockwise, ...
+  psi_clockwise,    // ... psi is
+  both_clockwise,   // ... both are
+  u_degrees,        // u is in degrees, ...
+  psi_degrees,      // ... psi is
+  angles_degrees,   // ... both are
+  u_psi_swapped,    // u was taken for psi, and psi for u
+  fingers_swapped,  // two fingers were given in the wrong order, or their logs were
+  prior,            // what was said of the first contact, or of the pose, beforehand
+  stray,            // a few measurements are anything
+  slip              // lengths are off here and there
+};
+const char* name_of(HoldCause cause);
+
+/// A mistake that would explain logs that fit nowhere, or contradict the noise; and the answer without it.
+struct HoldDiagnosis {
+  HoldCause cause = HoldCause::noise;
+  std::optional<std::size_t> finger{};  // whose log, or radius, alone is wrong, from 0; none: of all
+  std::optional<std::size_t> other{};   // fingers swapped: with this one
+  double factor = 1;       // radius: lengths are this many times what was measured; unit: by which x and y are to be
+                           // multiplied; noise: this many times what was said
+  double factor_sd = 0;    // radius: give or take
+  std::string unit{};      // unit: the one that x and y seem to be in, and ...
+  std::string into{};      // ... that of the part, both as guessed
+  int rows = 0;            // late: row k + this of this log belongs to row k of the others
+  std::size_t strays = 0;  // stray: measurements
+  Noise noise{};           // with which that was found
+  double log_odds = 0;     // of it against logs without mistake that are as noisy as they seem
+  TouchFit fit{};          // without the mistake
+  Verdict verdict{};       // likewise, as are these:
+  std::vector<HoldPlacement> placements{};  // the most probable first
 };
 
 /// What the log of one finger, or wheel, says.
@@ -119,6 +168,19 @@ struct HoldAnswer {
   std::vector<std::vector<Interval>> unresolved{};  // if incomplete: arcs, one of each finger, on which the first
                                                     // contacts of a placement that is not listed may be
   std::optional<TouchFit> fit{};                    // with noise, of the best placement
+  double log_evidence = 0;                          // with noise: of all measurements, but for a constant
+  std::size_t overlap = 0;                          // sets that fit but for fingers that would enter each other
+  bool robust = false;                              // as in the problem
+  std::size_t strays = 0;                           // robust: measurements of the best placement that do not count, ...
+  std::vector<std::string> jumps{};  // ... besides rows that jump away, which were left out: "b.csv, line 17"
+  std::optional<Prior> prior{};      // as in the problem
+  std::optional<PosePrior> pose{};
+  double prior_p = 1;                      // probability that the best placement is as far from both, together
+  std::vector<HoldDiagnosis> diagnoses{};  // where nothing fits, or fits badly: what explains it, the likeliest first
+  bool was_diagnosed = false;              // whether that was looked for
+
+  /// Whether the rows contradict the noise, or what was known beforehand.
+  bool is_contradicted() const { return (fit && fit->is_bad()) || prior_p < TouchFit::kLeastP; }
   std::size_t comparisons = 0;
 
   /// "unique", "ambiguous (2)", "unique, but the rows contradict the stated noise", ...
@@ -127,11 +189,11 @@ struct HoldAnswer {
 
 /// Every set of first contacts from which all fingers can have rolled as their logs say, while the part moved as it
 /// would: complete, by branch and prune over the first contacts of all fingers. Each instant has its own pose of the
-/// part; contacts travel as their logs say. Places where a disk would enter the part are left out. With noise also the
-/// posterior, from all rows, if contacts are as likely anywhere on the boundary. Throws InputError: fewer than two
-/// logs, logs without u and psi or with different instants, fingers that are missing, wheels beside logs without x and
-/// y, or that enter a finger or each other, a wheel that fits nowhere, kinds of noise that it can't take, and what
-/// `read_log` of two files throws.
+/// part; contacts travel as their logs say. Places where a disk would enter the part are left out, and those where
+/// fingers would enter each other. With noise also the posterior, from all rows, if contacts are as likely anywhere on
+/// the boundary. Throws InputError: fewer than two logs, logs without u and psi or with different instants, fingers
+/// that are missing, fingers and wheels that enter each other by their own x and y, wheels beside logs without x and y,
+/// a wheel that fits nowhere, kinds of noise that it can't take, and what `read_log` of two files throws.
 HoldAnswer solve(const HoldProblem& problem);
 
 }  // namespace rollfix

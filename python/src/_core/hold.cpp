@@ -16,7 +16,9 @@ HoldAnswerHandle locate_hold(const PartHandle& part, const std::vector<LogHandle
                              const py::object& noise, const std::optional<std::pair<double, double>>& tolerance,
                              const std::vector<double>& at, bool mirrored, const std::optional<std::size_t>& budget,
                              const std::vector<std::pair<LogHandle, double>>& wheels,
-                             const std::optional<double>& squeezed, bool may_overlap) {
+                             const std::optional<double>& squeezed,
+                             const std::optional<std::pair<double, double>>& prior,
+                             const std::optional<std::vector<double>>& pose, bool robust, bool may_overlap) {
   HoldProblem problem{part.part(), {}, fingers_from(fingers)};
   for (const LogHandle& log : logs) problem.logs.push_back(*log.log);
   problem.noise = noise_from_optional(noise);
@@ -26,6 +28,9 @@ HoldAnswerHandle locate_hold(const PartHandle& part, const std::vector<LogHandle
   problem.budget = budget;
   for (const auto& [pin, radius] : wheels) problem.wheels.push_back({{*pin.log}, radius});
   problem.squeezed = squeezed;
+  if (prior) problem.prior = Prior{prior->first, prior->second};
+  problem.pose = pose_from(pose);
+  problem.robust = robust;
   problem.may_overlap = may_overlap;
   const Unlocked others_may_run;
   auto answer = std::make_shared<const HoldAnswer>(solve(problem));

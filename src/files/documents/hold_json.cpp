@@ -47,11 +47,43 @@ Json held_json(const HoldPlacement& one, const HoldAnswer& answer) {
   json["sd"] = each([](const HoldContact& contact) { return json_number(contact.sd); });
   json["interval"] = each([](const HoldContact& contact) { return json_interval(contact.interval); });
   json["end_mean"] = each([](const HoldContact& contact) { return json_number(contact.end_mean); });
+  json["length_scale"] = each([](const HoldContact& contact) { return json_number(contact.length_scale); });
+  json["length_scale_sd"] = each([](const HoldContact& contact) { return json_number(contact.length_scale_sd); });
   json["end_sd"] = each([](const HoldContact& contact) { return json_number(contact.end_sd); });
   json["pose_mean"] = held_pose(one.first_spread.mean, answer.place);
   json["pose_covariance"] = covariance_json(one.first_spread.covariance, answer.place);
   json["end_pose_mean"] = held_pose(one.last_spread.mean, answer.place);
   json["end_pose_covariance"] = covariance_json(one.last_spread.covariance, answer.place);
+  return json;
+}
+
+Json fit_json(const TouchFit& fit) {
+  return {{"chi_square", json_number(fit.chi_square)}, {"freedom", fit.freedom}, {"p", json_number(fit.p)}};
+}
+
+/// What would be the answer without a mistake is said in short.
+Json held_diagnosis_json(const HoldDiagnosis& one, const HoldAnswer& answer) {
+  Json json = {{"cause", name_of(one.cause)},
+               {"what", words_of(one, answer)},
+               {"cure", cure_of(one, answer)},
+               {"finger", one.finger ? Json(*one.finger) : Json(nullptr)},
+               {"log_odds", json_number(one.log_odds)},
+               {"fit", fit_json(one.fit)},
+               {"verdict", one.verdict.text()},
+               {"placements", json_list(one.placements, [](const HoldPlacement& placement) {
+                  return Json{
+                      {"start", json_list(placement.contacts,
+                                          [](const HoldContact& contact) { return json_number(contact.start); })},
+                      {"probability", json_number(placement.probability)}};
+                })}};
+  if (one.cause == HoldCause::radius || one.cause == HoldCause::unit || one.cause == HoldCause::noise) {
+    json["factor"] = json_number(one.factor);
+  }
+  if (one.cause == HoldCause::radius) json["factor_sd"] = json_number(one.factor_sd);
+  if (one.cause == HoldCause::fingers_swapped) json["other"] = *one.other;
+  if (one.cause == HoldCause::late) json["rows"] = one.rows;
+  if (one.cause == HoldCause::stray) json["stray"] = one.strays;
+  if (one.cause == HoldCause::noise || one.cause == HoldCause::slip) json["noise"] = noise_json(one.noise);
   return json;
 }
 
@@ -82,7 +114,23 @@ std::string format_hold(const HoldAnswer& answer, Layout layout) {
                    {"place", place}};
   document["placements"] =
       json_list(answer.placements, [&](const HoldPlacement& one) { return held_json(one, answer); });
-  document["dropped"] = answer.noise ? Json{{"improbable", answer.improbable}} : Json::object();
+  document["dropped"] = {{"overlap", answer.overlap}};
+  if (answer.noise) document["dropped"]["improbable"] = answer.improbable;
+  document["robust"] = answer.robust;
+  document["stray"] = answer.strays;
+  document["left_out"] = answer.jumps;
+  document["prior"] =
+      answer.prior ? json_numbers(std::array<double, 2>{answer.prior->s, answer.prior->sd}) : Json(nullptr);
+  document["pose_prior"] =
+      answer.pose
+          ? json_numbers(std::array<double, 5>{answer.pose->mean.x, answer.pose->mean.y, answer.pose->mean.heading,
+                                               answer.pose->place_sd, answer.pose->heading_sd})
+          : Json(nullptr);
+  document["prior_p"] = answer.prior || answer.pose ? json_number(answer.prior_p) : Json(nullptr);
+  document["diagnosis"] =
+      answer.was_diagnosed
+          ? json_list(answer.diagnoses, [&](const HoldDiagnosis& one) { return held_diagnosis_json(one, answer); })
+          : Json(nullptr);
   document["unresolved"] =
       json_list(answer.unresolved, [](const auto& arcs) { return json_list(arcs, json_interval); });
   document["counts"] = {{"comparisons", answer.comparisons}};
@@ -94,10 +142,7 @@ std::string format_hold(const HoldAnswer& answer, Layout layout) {
                      json_number(answer.tolerance.angle)});
   }
   document["squeezed"] = answer.squeezed ? json_number(*answer.squeezed) : Json(nullptr);
-  document["fit"] = answer.fit ? Json{{"chi_square", json_number(answer.fit->chi_square)},
-                                      {"freedom", answer.fit->freedom},
-                                      {"p", json_number(answer.fit->p)}}
-                               : Json(nullptr);
+  document["fit"] = answer.fit ? fit_json(*answer.fit) : Json(nullptr);
   return layout == Layout::lines ? json_text(document) : json_line(document);
 }
 

@@ -1,0 +1,175 @@
+#include "fingers_apart.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "arc_tree.hpp"
+#include "contact/convex_body.hpp"
+#include "hold_facts.hpp"
+#include "part/turning_range.hpp"
+#include "rollfix/contact/rolling.hpp"
+#include "rollfix/error.hpp"
+
+// Notation, as in docs/two_fingers.md, "Three and more fingers":
+//   s, Theta        a contact on the part, and the tangent there; from there the finger lies to the right
+//   tau, w, psi     the tangent in the world, the contact as seen from the finger's centre, the finger's orientation;
+//                   so that on the part the finger is at p(s) - R(Theta - tau) w, turned by psi + Theta - tau
+// Idea: a body moves by no more than its contact does and its reach times its turn. What is left of the depth in the
+// middle of both arcs is there everywhere on them.
+namespace rollfix::hold {
+namespace {
+
+constexpr std::size_t kMostRowsApart = 64;
+constexpr double kApartRounding = 1e-9;  // of the perimeter: fingers that touch are apart
+// With x and y, of noise: so many standard deviations, as wherever something is refused.
+constexpr double kRefusedSigmas = kTouchSigmas;
+// Rows that may be outliers where the problem is robust.
+constexpr double kStrayRows = 0.1;
+
+/// How far any point of the finger is at most from a contact on it, if it turns about that; of a jaw 0.
+double size_of(const Finger& finger) {
+  if (finger.is_disk()) return finger.disk()->radius;
+  return finger.is_jaw() ? 0 : finger.outline()->perimeter();
+}
+
+}  // namespace
+
+/// A finger on the part.
+struct FingersApart::Body {
+  const Finger* finger = nullptr;
+  Pose pose;  // in the part's frame
+  Vec2 contact = Vec2::Zero();
+  double moved = 0;  // of its contact and with its turn, at most
+  double turn = 0;   // at most, radians
+  double size = 0;
+};
+
+FingersApart::FingersApart(const HoldProblem& problem, const HeldRows& rows)
+    : problem_(problem), has_noise_(rows.has_noise) {
+  const std::size_t last = rows.rows.size() - 1;
+  const std::size_t steps = std::min(last, kMostRowsApart - 1);
+  for (std::size_t k = 0; k <= steps; ++k) rows_.push_back(rows.rows[steps == 0 ? 0 : k * last / steps]);
+  for (const HeldRow& row : rows_) {
+    travel_.emplace_back();
+    for (std::size_t k = 0; k < rows.fingers(); ++k) {
+      travel_.back().push_back(slack_of(rows.errors[k], row.contacts[k], rows.has_noise).travel);
+    }
+  }
+  for (std::size_t k = 0; k < rows.fingers(); ++k) size_.push_back(size_of(finger_of_log(problem, k)));
+  if (problem.noise) radius_slack_ = kRefusedSigmas * std::numbers::sqrt2 * problem.noise->radius;
+}
+
+FingersApart::Body FingersApart::body_at(std::size_t row, std::size_t finger, const Interval& first_contact) const {
+  const HeldContact& contact = rows_[row].contacts[finger];
+  const double off = travel_[row][finger];
+  const double middle = first_contact.middle() + contact.travelled;
+  const double about = together(0.5 * first_contact.width(), off);
+  const Interval arc{middle - about, middle + about};
+  const Boundary boundary = problem_.part.boundary();
+  const auto on = [&](double s) { return boundary.closed ? s : std::clamp(s, 0.0, boundary.perimeter); };
+  const Interval angles = angles_over(problem_.part.turning(), {on(arc.lo), on(arc.hi)});
+  Body body;
+  body.finger = &finger_of_log(problem_, finger);
+  const double turned = angles.middle() - contact.tangent;
+  body.contact = problem_.part.point(on(arc.middle()));
+  const Vec2 centre = body.contact - Pose{0, 0, turned}.turned(contact.lever);
+  body.pose = {centre.x(), centre.y(), contact.orientation + turned};
+  // How an outline is turned is only known as well as the contact on it.
+  const double by_outline = body.finger->outline() == nullptr ? 0 : contact.finger_curvature * off;
+  body.turn = 0.5 * angles.width() + by_outline;
+  body.size = size_[finger];
+  body.moved = about + body.turn * body.size;
+  return body;
+}
+
+/// Two ways to be off. With noise both are normally distributed, each on its own.
+double FingersApart::together(double one, double other) const {
+  return has_noise_ ? std::hypot(one, other) : one + other;
+}
+
+/// At least, from anywhere on the arcs. A jaw's line turns about its contact, and passes the other body that far away.
+double FingersApart::depth(const Body& one, const Body& other) const {
+  const double deep = depth_of_overlap(*one.finger, one.pose, *other.finger, other.pose, 0);
+  const auto by_jaw = [&](const Body& jaw, const Body& body) {
+    if (!jaw.finger->is_jaw()) return 0.0;
+    return jaw.turn * ((body.contact - jaw.contact).norm() + 2 * body.size + body.moved + jaw.moved);
+  };
+  return deep - together(one.moved, other.moved) - by_jaw(one, other) - by_jaw(other, one) - radius_slack_;
+}
+
+bool FingersApart::must_overlap(const std::vector<Interval>& first_contacts) const {
+  if (problem_.may_overlap) return false;
+  for (std::size_t row = 0; row < rows_.size(); ++row) {
+    std::vector<Body> bodies;
+    for (std::size_t k = 0; k < size_.size(); ++k) {
+      bodies.push_back(body_at(row, k, first_contacts[k]));
+      for (std::size_t i = 0; i < k; ++i) {
+        if (depth(bodies[i], bodies[k]) > kApartRounding * problem_.part.perimeter()) return true;
+      }
+    }
+  }
+  return false;
+}
+
+namespace {
+
+/// Rows in which two fingers are deeper in one another than they may be off.
+struct Crossing {
+  std::size_t rows = 0;
+  std::size_t row = 0;  // the deepest of them
+  double depth = 0;
+};
+
+Crossing crossing_of(const Log& a, const Log& b, const Finger& one, const Finger& other, double slack) {
+  Crossing found;
+  const FingerRows &of_a = a.fingers.front(), &of_b = b.fingers.front();
+  for (std::size_t row = 0; row < of_a.x.size(); ++row) {
+    const Pose pose_a{of_a.x[row], of_a.y[row], of_a.psi[row]}, pose_b{of_b.x[row], of_b.y[row], of_b.psi[row]};
+    const double depth = depth_of_overlap(one, pose_a, other, pose_b, slack);
+    if (depth <= slack) continue;
+    ++found.rows;
+    if (depth <= found.depth) continue;
+    found.depth = depth;
+    found.row = row;
+  }
+  return found;
+}
+
+double slack_of_centres(const HoldProblem& problem) {
+  if (!problem.noise) return kApartRounding * problem.part.perimeter();
+  // Of the deepest of all rows, and of both centres and radii.
+  return kRefusedSigmas * std::numbers::sqrt2 * (problem.noise->position + problem.noise->radius);
+}
+
+std::string place_of(const Log& log, std::size_t row) {
+  const std::vector<std::size_t>& lines = log.fingers.front().line;
+  return row < lines.size() ? fmt::format("{}:{}", log.name, lines[row]) : fmt::format("{}, row {}", log.name, row + 1);
+}
+
+}  // namespace
+
+void require_apart(const HoldProblem& problem, const std::vector<Log>& logs) {
+  if (problem.may_overlap || (problem.noise && problem.noise->position <= 0)) return;
+  for (std::size_t b = 1; b < problem.logs.size(); ++b) {
+    for (std::size_t a = 0; a < b; ++a) {
+      if (logs[a].fingers.front().x.empty() || logs[b].fingers.front().x.empty()) continue;
+      const Crossing found = crossing_of(logs[a], logs[b], finger_of_log(problem, a), finger_of_log(problem, b),
+                                         slack_of_centres(problem));
+      const double allowed = problem.robust ? kStrayRows * static_cast<double>(logs[a].rows()) : 0;
+      if (static_cast<double>(found.rows) <= allowed) continue;
+      throw InputError(fmt::format(
+          "fingers on a free part: {} and {}: expected x and y at which fingers {} and {} are apart, found them {:.4g} "
+          "deep "
+          "in each other, in {} of {} rows, whatever the part does; check the radii and the units of x and y, or if "
+          "the fingers are at different heights say that they may overlap",
+          place_of(logs[a], found.row), place_of(logs[b], found.row), static_cast<char>('a' + a),
+          static_cast<char>('a' + b), found.depth, found.rows, logs[a].rows()));
+    }
+  }
+}
+
+}  // namespace rollfix::hold

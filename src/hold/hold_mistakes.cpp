@@ -1,0 +1,371 @@
+#include "hold_mistakes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "held_rows.hpp"
+#include "hold_facts.hpp"
+#include "mended_holds.hpp"
+#include "rollfix/error.hpp"
+#include "rollfix/pulse.hpp"
+
+// Notation:
+//   trial           the problem as it would be without a mistake, and its answer; glance: by some of the rows
+//   excess          square root of chi-square over what is expected of it
+//   evidence        logarithm of the probability of all measurements, as noisy as they seem
+// Idea: as of one finger and of two, see answer/diagnosis.cpp: each mistake is undone, and the rows say how likely it
+// is.
+namespace rollfix {
+
+namespace hold {
+namespace {
+
+constexpr std::size_t kGlanceRows = 24;
+constexpr std::size_t kGlanceBudget = kHoldBudget / 400;
+constexpr std::size_t kTrialBudget = kHoldBudget / 10;
+// At a glance what is off by more, and by much more than before, is not looked at with all rows.
+constexpr double kWorthLooking = 1.6;
+constexpr std::size_t kMostSecondLooks = 3;
+// An explanation with which the rows are off by this share of what they are without it is better, where none is right.
+constexpr double kFarBetter = 0.6;
+constexpr double kStepOfEvidence = 6;  // what is about as likely stays in the order of how common it is
+constexpr double kFarUnlikelier = 12;
+constexpr std::size_t kMostExplanations = 4;
+// Noise of logs of which none was said: shares of the perimeter, radians.
+constexpr double kSupposedLength = 3e-4;
+constexpr double kSupposedAngle = 2e-3;
+constexpr double kExactNoise = 1e-3;  // rows this much less noisy than said are exact
+constexpr double kMostNoisier = 32;
+// Scales of lengths that are tried, and the slip that leaves each open.
+constexpr std::array<double, 9> kLengthScales = {0.5, 0.79, 0.86, 0.93, 1.0, 1.08, 1.16, 1.26, 2.0};
+constexpr double kOpenSlip = 0.04;
+constexpr std::size_t kScalesToSettle = 2;
+constexpr int kSettleSteps = 3;
+constexpr double kScaleDiffers = 3;  // standard deviations from 1
+// Rows that a log is shifted by, in units of the glance's rows, at first with more noise, so that it shows from afar.
+constexpr std::array<int, 7> kShifts = {1, 2, 3, 4, 6, 8, 12};
+constexpr double kNoiseFromAfar = 2;
+constexpr double kOddsAgainstLate = 4;
+// No more measurements are outliers than three, or this share.
+constexpr double kMostOutliers = 0.05;
+struct Slipping {
+  double slip;
+  double log_odds;
+};
+constexpr std::array<Slipping, 2> kSlips = {{{0.04, 6}, {0.2, 18}}};
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+/// How well an answer fits.
+struct Seen {
+  double excess = kNever;
+  double evidence = -kNever;
+};
+
+Seen seen(const std::optional<HoldAnswer>& answer) {
+  if (!answer || answer->status != Status::complete || answer->placements.empty() || !answer->fit) return {};
+  const double freedom = std::max(1, answer->fit->freedom);
+  const double excess = std::sqrt(answer->fit->chi_square / freedom);
+  const double times = std::max(kExactNoise, excess);
+  const double less = 0.5 * answer->fit->chi_square * (1 - 1 / (times * times));
+  return {excess, answer->log_evidence + less - freedom * std::log(times)};
+}
+
+std::optional<HoldAnswer> attempt(HoldProblem problem, Care care = Care::full) {
+  const std::size_t budget = care == Care::full ? kTrialBudget : kGlanceBudget;
+  problem.budget = std::min(problem.budget.value_or(budget), budget);
+  try {
+    return solve_plain(problem, care);
+  } catch (const InputError&) {  // what no logs can be explains nothing
+    return std::nullopt;
+  }
+}
+
+Noise supposed_noise(const HoldProblem& problem) {
+  Noise noise;
+  noise.contact = kSupposedLength * problem.part.perimeter();
+  noise.angle = kSupposedAngle;
+  const bool any = std::any_of(problem.logs.begin(), problem.logs.end(),
+                               [](const Log& log) { return !log.fingers.front().x.empty(); });
+  if (any) noise.position = noise.contact;
+  return noise;
+}
+
+/// In the part's unit, and cut to the same instants.
+HoldProblem with_noise_and_same_rows(const HoldProblem& problem) {
+  HoldProblem result = problem;
+  if (!result.noise) result.noise = supposed_noise(problem);
+  result.tolerance.reset();
+  result.at.clear();
+  for (std::size_t k = 0; k < result.logs.size(); ++k) {
+    result.logs[k] = in_unit(result.logs[k], problem.part.unit(), {finger_of_log(problem, k)});
+  }
+  result.logs = aligned(std::move(result.logs));
+  return result;
+}
+
+struct Trial {
+  HoldDiagnosis diagnosis;
+  bool is_right = false;
+  double evidence = 0;
+};
+
+/// A trial that is only worth it if nothing explains the rows.
+struct PutOff {
+  HoldDiagnosis what;
+  HoldProblem mended;
+  double log_odds = 0;
+  double excess = 0;  // at a glance
+};
+
+class Mistakes {
+ public:
+  Mistakes(const HoldProblem& problem, const HoldAnswer& answer)
+      : has_noise_(problem.noise.has_value()), problem_(with_noise_and_same_rows(problem)) {
+    const std::optional<HoldAnswer> as_said = has_noise_ ? answer : attempt(problem_);
+    as_said_ = seen(as_said);
+    is_anything_ = as_said && as_said->verdict.name == Verdict::unobservable;
+    glance_ = glance(problem_);
+  }
+
+  std::vector<HoldDiagnosis> run() {
+    try_noise();
+    try_prior();
+    try_mirror();
+    for (const auto& all : {without_slips_of_the_pen(problem_), without_units(problem_), without_swaps(problem_)}) {
+      for (const Mended& one : all) take(one.what, one.problem, one.log_stretch);
+    }
+    try_lengths(std::nullopt);
+    for (std::size_t k = 0; k < problem_.logs.size(); ++k) try_lengths(k);
+    try_stray();
+    for (std::size_t k = 0; k < problem_.logs.size(); ++k) try_late(k);
+    try_slip();
+    if (std::none_of(trials_.begin(), trials_.end(), [](const Trial& trial) { return trial.is_right; })) look_again();
+    return likeliest();
+  }
+
+ private:
+  Seen glance(const HoldProblem& problem) const { return seen(attempt(thinned(problem, kGlanceRows), Care::glance)); }
+
+  void take(HoldDiagnosis what, const HoldProblem& mended, double log_odds = 0) {
+    const double excess = glance(mended).excess;
+    if (excess <= kWorthLooking) {
+      add(std::move(what), mended, attempt(mended), log_odds);
+    } else if (excess < kFarBetter * glance_.excess) {
+      put_off_.push_back({std::move(what), mended, log_odds, excess});
+    }
+  }
+
+  /// Where nothing explains the rows: what seemed far better.
+  void look_again() {
+    std::stable_sort(put_off_.begin(), put_off_.end(),
+                     [](const PutOff& a, const PutOff& b) { return a.excess < b.excess; });
+    for (std::size_t k = 0; k < std::min(put_off_.size(), kMostSecondLooks); ++k) {
+      add(put_off_[k].what, put_off_[k].mended, attempt(put_off_[k].mended), put_off_[k].log_odds);
+    }
+  }
+
+  /// Counts where it explains the rows, which is returned, or explains them much better.
+  bool add(HoldDiagnosis what, const HoldProblem& mended, const std::optional<HoldAnswer>& answer,
+           double log_odds = 0) {
+    const Seen now = seen(answer);
+    if (!std::isfinite(now.excess)) return false;
+    const bool is_right = !answer->is_contradicted();
+    if (!is_right && !(now.excess < kFarBetter * as_said_.excess)) return false;
+    // What would have any place fit explains nothing.
+    if (answer->verdict.name == Verdict::unobservable && !is_anything_) return false;
+    what.noise = *mended.noise;
+    what.fit = *answer->fit;
+    what.verdict = answer->verdict;
+    what.placements = answer->placements;
+    // Of a shifted log some rows are left.
+    const double rows = static_cast<double>(problem_.logs.front().rows()) / static_cast<double>(answer->rows);
+    const double evidence = now.evidence * (what.cause == HoldCause::late ? rows : 1) + log_odds;
+    what.log_odds = evidence - as_said_.evidence;
+    trials_.push_back({std::move(what), is_right, evidence});
+    return is_right;
+  }
+
+  /// As noisy as they are, the rows may be nothing but that.
+  void try_noise() {
+    if (!has_noise_) {
+      HoldDiagnosis what{HoldCause::noise};
+      const std::optional<HoldAnswer> answer = attempt(problem_);
+      if (add(what, problem_, answer)) {
+        trials_.back().diagnosis.factor = as_said_.excess;
+        trials_.back().diagnosis.noise = *noisier(problem_, as_said_.excess).noise;
+        return;
+      }
+    }
+    for (double factor = 2; factor <= kMostNoisier; factor *= 2) {
+      const Seen now = glance(noisier(problem_, factor));
+      if (!(now.excess <= 1)) continue;
+      const double times = factor * now.excess;
+      HoldDiagnosis what{HoldCause::noise};
+      what.factor = times;
+      const HoldProblem without = noisier(problem_, times);
+      const std::optional<HoldAnswer> answer = attempt(without);
+      add(what, without, answer, -std::log(times));
+      return;
+    }
+  }
+
+  void try_prior() {
+    if (!problem_.prior && !problem_.pose) return;
+    HoldProblem without = problem_;
+    without.prior.reset();
+    without.pose.reset();
+    take({HoldCause::prior}, without);
+  }
+
+  void try_mirror() {
+    HoldProblem without = problem_;
+    without.mirrored = !problem_.mirrored;
+    take({HoldCause::mirrored}, without);
+  }
+
+  void try_lengths(std::optional<std::size_t> whose) {
+    std::vector<std::pair<double, double>> by_evidence;
+    for (const double scale : kLengthScales) {
+      std::optional<HoldProblem> scaled = with_lengths(problem_, whose, scale);
+      if (!scaled) return;
+      scaled->noise->slip = std::hypot(scaled->noise->slip, kOpenSlip);
+      const Seen now = glance(*scaled);
+      if (now.excess <= kWorthLooking) by_evidence.emplace_back(-now.evidence, scale);
+    }
+    std::sort(by_evidence.begin(), by_evidence.end());
+    if (by_evidence.size() > kScalesToSettle) by_evidence.resize(kScalesToSettle);
+    for (const auto& [cost, scale] : by_evidence) {
+      if (settle_lengths(whose, scale)) return;
+    }
+  }
+
+  /// The scale by some rows, and whether with it all of them fit.
+  bool settle_lengths(std::optional<std::size_t> whose, double scale) {
+    double sd = 0;
+    for (int step = 0; step < kSettleSteps; ++step) {
+      HoldProblem open = *with_lengths(problem_, whose, scale);
+      open.noise->slip = std::hypot(open.noise->slip, kOpenSlip);
+      const std::optional<HoldAnswer> answer = attempt(thinned(open, kGlanceRows), Care::glance);
+      if (!answer || answer->placements.empty()) return false;
+      double sum = 0, weights = 0;
+      for (std::size_t k = 0; k < problem_.logs.size(); ++k) {
+        if (whose && *whose != k) continue;
+        const HoldContact& contact = answer->placements.front().contacts[k];
+        const double weight = 1 / std::max(1e-18, contact.length_scale_sd * contact.length_scale_sd);
+        sum += weight * contact.length_scale;
+        weights += weight;
+      }
+      const double by = sum / weights;
+      scale *= by;
+      sd = scale / std::sqrt(weights);
+      if (std::abs(by - 1) * scale < 0.2 * sd) break;
+    }
+    if (std::abs(scale - 1) < kScaleDiffers * sd) return false;
+    HoldDiagnosis what{HoldCause::radius};
+    what.finger = whose;
+    what.factor = scale;
+    what.factor_sd = sd;
+    const HoldProblem mended = *with_lengths(problem_, whose, scale);
+    return add(what, mended, attempt(mended));
+  }
+
+  void try_stray() {
+    if (problem_.robust) return;
+    HoldProblem robust = problem_;
+    robust.robust = true;
+    const std::optional<HoldAnswer> answer = attempt(robust);
+    if (!answer) return;
+    const std::size_t strays = answer->strays + answer->jumps.size();
+    const auto all = static_cast<double>(problem_.logs.size() * problem_.logs.front().rows());
+    if (strays < 1 || static_cast<double>(strays) > std::max(3.0, kMostOutliers * all)) return;
+    HoldDiagnosis what{HoldCause::stray};
+    what.strays = strays;
+    add(what, robust, answer);
+  }
+
+  /// Of two logs either may be late.
+  void try_late(std::size_t log) {
+    if (problem_.logs.size() == 2 && log == 0) return;
+    const auto rows = static_cast<int>(problem_.logs.front().rows());
+    const int unit = std::max(1, rows / static_cast<int>(2 * kGlanceRows));
+    const auto evidence = [&](int shift) {
+      return 2 * std::abs(shift) > rows ? -kNever
+                                        : glance(noisier(shifted(problem_, log, shift), kNoiseFromAfar)).evidence;
+    };
+    int best = 0;
+    double most = evidence(0);
+    for (const int step : kShifts) {
+      for (const int shift : {step * unit, -step * unit}) {
+        const double now = evidence(shift);
+        if (now <= most) continue;
+        most = now;
+        best = shift;
+      }
+    }
+    if (best == 0) return;
+    for (int stride = std::max(1, std::abs(best) / 4); stride > 0; stride /= 2) {
+      for (const int shift : {best - stride, best + stride}) {
+        const double now = evidence(shift);
+        if (now <= most) continue;
+        most = now;
+        best = shift;
+      }
+    }
+    if (best == 0) return;
+    HoldDiagnosis what{HoldCause::late};
+    what.finger = log;
+    what.rows = best;
+    take(what, shifted(problem_, log, best), -kOddsAgainstLate);
+  }
+
+  /// By more than that the rows are noisier.
+  bool is_explained() const {
+    return std::any_of(trials_.begin(), trials_.end(),
+                       [](const Trial& trial) { return trial.is_right && trial.diagnosis.cause != HoldCause::noise; });
+  }
+
+  void try_slip() {
+    for (const auto& [slip, log_odds] : kSlips) {
+      if (slip <= problem_.noise->slip) continue;
+      if (slip == kSlips.back().slip && is_explained()) return;
+      HoldProblem slipping = problem_;
+      slipping.noise->slip = slip;
+      const std::optional<HoldAnswer> answer = attempt(slipping);
+      if (add({HoldCause::slip}, slipping, answer, -log_odds)) return;
+    }
+  }
+
+  std::vector<HoldDiagnosis> likeliest() {
+    const auto steps = [](const Trial& trial) { return std::round(trial.evidence / kStepOfEvidence); };
+    std::stable_sort(trials_.begin(), trials_.end(), [&](const Trial& a, const Trial& b) {
+      return a.is_right != b.is_right ? a.is_right : steps(a) > steps(b);
+    });
+    std::vector<HoldDiagnosis> told;
+    for (Trial& trial : trials_) {
+      if (trial.is_right != trials_.front().is_right || told.size() == kMostExplanations) break;
+      if (trial.evidence > trials_.front().evidence - kFarUnlikelier) told.push_back(std::move(trial.diagnosis));
+    }
+    return told;
+  }
+
+  bool has_noise_;
+  HoldProblem problem_;
+  Seen as_said_;
+  Seen glance_;  // the same by some rows
+  bool is_anything_ = false;
+  std::vector<Trial> trials_;
+  std::vector<PutOff> put_off_;
+};
+
+}  // namespace
+
+std::vector<HoldDiagnosis> mistakes(const HoldProblem& problem, const HoldAnswer& as_said) {
+  return Mistakes(problem, as_said).run();
+}
+
+}  // namespace hold
+}  // namespace rollfix

@@ -1,0 +1,205 @@
+#include "mended_holds.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "hold_facts.hpp"
+#include "log_jumps.hpp"
+#include "outline/turn.hpp"
+
+namespace rollfix::hold {
+namespace {
+
+// Angles that differ by less, in numbers, are not taken for degrees: a roll of two degrees says nothing.
+constexpr double kLeastDegrees = 3;
+// Fingers in another unit are no further apart than this share of the perimeter, and not all at one place.
+constexpr double kMostApart = 2;
+constexpr double kLeastApart = 0.02;
+
+/// All logs, or one: none stands for all.
+std::vector<std::optional<std::size_t>> whose_logs(const HoldProblem& problem) {
+  std::vector<std::optional<std::size_t>> all{std::nullopt};
+  for (std::size_t k = 0; k < problem.logs.size(); ++k) all.emplace_back(k);
+  return all;
+}
+
+HoldProblem mended(const HoldProblem& problem, std::optional<std::size_t> whose,
+                   const std::function<void(FingerRows&)>& mend) {
+  HoldProblem result = problem;
+  for (std::size_t k = 0; k < result.logs.size(); ++k) {
+    if (!whose || *whose == k) mend(result.logs[k].fingers.front());
+  }
+  return result;
+}
+
+double rows_of(const HoldProblem& problem, std::optional<std::size_t> whose) {
+  return static_cast<double>(problem.logs.front().rows() * (whose ? 1 : problem.logs.size()));
+}
+
+double range_of(const std::vector<double>& values) {
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  return *most - *least;
+}
+
+using Column = std::vector<double> FingerRows::*;
+
+/// Whether all columns have numbers as degrees of a roll would be.
+bool may_be_degrees(const HoldProblem& problem, std::optional<std::size_t> whose, const std::vector<Column>& columns) {
+  for (std::size_t k = 0; k < problem.logs.size(); ++k) {
+    if (whose && *whose != k) continue;
+    for (const Column column : columns) {
+      if (range_of(problem.logs[k].fingers.front().*column) < kLeastDegrees) return false;
+    }
+  }
+  return true;
+}
+
+void times(FingerRows& rows, const std::vector<Column>& columns, double factor) {
+  for (const Column column : columns) {
+    for (double& value : rows.*column) value *= factor;
+  }
+}
+
+}  // namespace
+
+std::vector<Mended> without_slips_of_the_pen(const HoldProblem& problem) {
+  const std::vector<Column> u{&FingerRows::u}, psi{&FingerRows::psi}, both{&FingerRows::u, &FingerRows::psi};
+  std::vector<Mended> all;
+  const auto add = [&](HoldCause cause, std::optional<std::size_t> whose, double log_stretch, const auto& mend) {
+    HoldDiagnosis what{cause};
+    what.finger = whose;
+    all.push_back({std::move(what), mended(problem, whose, mend), log_stretch});
+  };
+  for (const auto& whose : whose_logs(problem)) {
+    add(HoldCause::u_clockwise, whose, 0, [&](FingerRows& rows) { times(rows, u, -1); });
+    add(HoldCause::psi_clockwise, whose, 0, [&](FingerRows& rows) { times(rows, psi, -1); });
+    add(HoldCause::both_clockwise, whose, 0, [&](FingerRows& rows) { times(rows, both, -1); });
+    add(HoldCause::u_psi_swapped, whose, 0, [](FingerRows& rows) {
+      std::swap(rows.u, rows.psi);
+      std::swap(rows.place_rounding, rows.angle_rounding);
+    });
+    // Of a row one angle counts, u + psi: it is in degrees only if both are.
+    if (may_be_degrees(problem, whose, u))
+      add(HoldCause::u_degrees, whose, 0, [&](FingerRows& rows) { times(rows, u, kDegree); });
+    if (may_be_degrees(problem, whose, psi))
+      add(HoldCause::psi_degrees, whose, 0, [&](FingerRows& rows) { times(rows, psi, kDegree); });
+    if (may_be_degrees(problem, whose, both))
+      add(HoldCause::angles_degrees, whose, rows_of(problem, whose) * std::log(kDegree),
+          [&](FingerRows& rows) { times(rows, both, kDegree); });
+  }
+  return all;
+}
+
+std::vector<Mended> without_units(const HoldProblem& problem) {
+  struct Scale {
+    double factor;
+    const char* from;
+    const char* to;
+  };
+  constexpr std::array<Scale, 6> kScales = {{{25.4, "in", "mm"},
+                                             {1 / 25.4, "mm", "in"},
+                                             {10, "cm", "mm"},
+                                             {0.1, "mm", "cm"},
+                                             {1000, "m", "mm"},
+                                             {0.001, "mm", "m"}}};
+  std::vector<Mended> all;
+  if (problem.noise->position <= 0) return all;
+  const std::vector<Column> centre{&FingerRows::x, &FingerRows::y};
+  for (const auto& whose : whose_logs(problem)) {
+    for (const Scale& scale : kScales) {
+      HoldDiagnosis what{HoldCause::unit};
+      what.finger = whose;
+      what.factor = scale.factor;
+      what.unit = scale.from;
+      what.into = scale.to;
+      HoldProblem without = mended(problem, whose, [&](FingerRows& rows) { times(rows, centre, scale.factor); });
+      double apart = 0;
+      for (const Log& log : without.logs) {
+        const FingerRows &one = log.fingers.front(), &first = without.logs.front().fingers.front();
+        if (one.x.empty() || first.x.empty()) continue;
+        apart = std::max(apart, std::hypot(one.x.front() - first.x.front(), one.y.front() - first.y.front()));
+      }
+      const double perimeter = problem.part.perimeter();
+      if (apart < kLeastApart * perimeter || apart > kMostApart * perimeter) continue;
+      all.push_back({std::move(what), std::move(without), 2 * rows_of(problem, whose) * std::log(scale.factor)});
+    }
+  }
+  return all;
+}
+
+std::vector<Mended> without_swaps(const HoldProblem& problem) {
+  std::vector<Mended> all;
+  const std::vector<Finger>& fingers = problem.fingers;
+  for (std::size_t i = 0; i < fingers.size(); ++i) {
+    for (std::size_t j = i + 1; j < fingers.size(); ++j) {
+      const bool are_alike = fingers[i].name() == fingers[j].name() && fingers[i].outline() == fingers[j].outline() &&
+                             fingers[i].length_per_u() == fingers[j].length_per_u();
+      if (are_alike) continue;
+      Mended one{{HoldCause::fingers_swapped}, problem};
+      one.what.finger = i;
+      one.what.other = j;
+      std::swap(one.problem.fingers[i], one.problem.fingers[j]);
+      all.push_back(std::move(one));
+    }
+  }
+  return all;
+}
+
+std::optional<HoldProblem> with_lengths(const HoldProblem& problem, std::optional<std::size_t> whose, double scale) {
+  HoldProblem result = problem;
+  if (whose && result.fingers.size() == 1) result.fingers.assign(problem.logs.size(), problem.fingers.front());
+  bool any = false;
+  for (std::size_t k = 0; k < result.fingers.size(); ++k) {
+    if ((whose && *whose != k) || !result.fingers[k].is_disk()) continue;
+    result.fingers[k] = disk(scale * result.fingers[k].disk()->radius);
+    any = true;
+  }
+  return any ? std::optional<HoldProblem>(std::move(result)) : std::nullopt;
+}
+
+HoldProblem shifted(const HoldProblem& problem, std::size_t log, int rows) {
+  HoldProblem result = problem;
+  const std::size_t count = problem.logs.front().rows();
+  const auto by = static_cast<std::size_t>(std::abs(rows));
+  std::vector<std::size_t> first, last;
+  for (std::size_t row = 0; row + by < count; ++row) {
+    first.push_back(row);
+    last.push_back(row + by);
+  }
+  for (std::size_t k = 0; k < result.logs.size(); ++k) {
+    result.logs[k] = with_rows(problem.logs[k], (k == log) == (rows > 0) ? last : first);
+  }
+  for (Log& each : result.logs) each.time = result.logs[log == 0 ? 1 : 0].time;
+  return result;
+}
+
+HoldProblem noisier(const HoldProblem& problem, double times) {
+  HoldProblem result = problem;
+  for (double* const sd : {&result.noise->contact, &result.noise->angle, &result.noise->position}) *sd *= times;
+  result.noise->angle = std::min(result.noise->angle, BeliefOptions::kMostAngle);
+  return result;
+}
+
+HoldProblem thinned(const HoldProblem& problem, std::size_t rows) {
+  HoldProblem result = problem;
+  const std::size_t last = problem.logs.front().rows() - 1;
+  std::vector<std::size_t> chosen;
+  const std::size_t steps = std::min(last, rows - 1);
+  for (std::size_t k = 0; k <= steps; ++k) chosen.push_back(k * last / steps);
+  for (std::size_t k = 0; k < result.logs.size(); ++k) {
+    FingerRows& of = result.logs[k].fingers.front();
+    const std::vector<Contact> contacts = contacts_of(of, finger_of_log(problem, k));
+    for (std::size_t row = 0; row < contacts.size(); ++row) {
+      of.u[row] = contacts[row].u;
+      of.psi[row] = contacts[row].psi;
+    }
+    of.u_wrapped = of.psi_wrapped = false;
+    result.logs[k] = with_rows(result.logs[k], chosen);
+  }
+  return result;
+}
+
+}  // namespace rollfix::hold
