@@ -218,7 +218,7 @@ class Catalog(Made):
         count, given = whole(threads, "threads"), dict(options)
         if given.get("roll") == "all":
             rolls = all_rolls(self.unit, {"readings": readings, "turn": turn, "log": log, "touches": touches}, given)
-            if touches is not None or len(rolls) > 1:
+            if touches is not None or len(rolls) > 1 or len(rolls[0]) == 1:
                 return self._touched(touches, given, count, rolls)
             log = rolls[0]
             given = {name: value for name, value in given.items() if name not in ("roll", *names_of(Read))}
@@ -344,9 +344,7 @@ class Catalog(Made):
         cores = tuple(one._in_unit(self.unit, fingers(options.get("finger"), most=1)) for one in rolls)
         robust = flag(options.get("robust", False), "robust")
         try:
-            text, found = self._core.identify_touches(
-                *most, [one._core for one in cores], robust, paths, threads
-            )
+            text, found = self._core.identify_touches(*[*most, [one._core for one in cores], robust, paths, threads])
         except InputError as error:
             raise InputError(in_python(str(error))) from None
         names = {entry.id: entry.name for entry in self._entries}

@@ -21,7 +21,7 @@ def answer_to(part: Any, given: Mapping[str, Any], options: Mapping[str, Any]) -
     if options.get("roll") == "all":
         rolls = all_rolls(part.unit, sources, options)
         del options["roll"]
-        if sources["touches"] is not None or len(rolls) > 1:
+        if sources["touches"] is not None or len(rolls) > 1 or len(rolls[0]) == 1:
             return located(part, sources["touches"], rolls=rolls, **filled(_taken(options, RestOptions), RestOptions))
         sources["log"] = rolls[0]
         options = {name: value for name, value in options.items() if name not in ("columns", "units", "degrees", "wrapped")}

@@ -171,7 +171,7 @@ def test_touches_tell_the_part_as_the_program_says_it(catalog, program):
 def test_a_part_without_a_placement_has_a_row_of_the_frame(catalog):
     found = catalog.identify(touches=TOUCHES[:1], finger=rollfix.Disk(0.1), noise={"position": 0.005})
     rows = found.to_frame()
-    assert list(rows["part"]) == found.names and rows["x"].isna().all()
+    assert tuple(rows["part"]) == found.names and rows["x"].isna().all()
 
 
 def test_several_rolls_say_which_part_it_is(catalog):

@@ -48,7 +48,7 @@ def test_rolls_at_rest_ignore_nothing(ellipse, option, value):
 
 
 def test_three_fingers_refuse_what_they_do_not_take(ellipse):
-    for option, value in {"prior": (1, 0.1), "clear": [(0, 0, 1, 1)], "rounding": (0.1, 0.1)}.items():
+    for option, value in {"clear": [(0, 0, 1, 1)], "rounding": (0.1, 0.1)}.items():
         with pytest.raises(InputError, match=f"{option}: is not taken with three and more fingers"):
             ellipse.locate(log=[ONE_LOG] * 3, finger=Disk(0.1), **{option: value})
 

@@ -102,7 +102,9 @@ void HoldFit::add_pin(const HeldState& state, std::size_t row, std::size_t wheel
   const Eigen::Matrix3d weighed = one.by_pose.transpose() * one.information.asDiagonal();
   sum.pose += weighed * one.by_pose;
   sum.slope -= weighed * one.residual;
-  sum.square += one.residual.dot(one.information.cwiseProduct(one.residual));
+  const double square = one.residual.dot(one.information.cwiseProduct(one.residual));
+  sum.square += square;
+  sum.right_square += square;
   sum.log_size += one.log_size;
   if (!with_unknowns) return;
   const auto add = [&](std::optional<Eigen::Index> at, Eigen::Index residual, double by) {

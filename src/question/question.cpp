@@ -67,8 +67,9 @@ QuestionKind kind_of(const Question& question) {
   const Measurements& measured = question.measured;
   const std::size_t rolls = measured.rolls.size();
   if (measured.at_rest || (rolls == 0 && measured.wheels.empty())) {
-    return measured.touches.empty() && rolls <= 1 && measured.wheels.empty() ? QuestionKind::roll
-                                                                             : QuestionKind::at_rest;
+    const bool is_touch = rolls == 1 && measured.rolls.front().rows() == 1;  // of a finger with skin
+    const bool is_one = measured.touches.empty() && rolls <= 1 && measured.wheels.empty() && !is_touch;
+    return is_one ? QuestionKind::roll : QuestionKind::at_rest;
   }
   return rolls > 2 || !measured.wheels.empty() ? QuestionKind::moving : QuestionKind::roll;
 }

@@ -42,7 +42,7 @@ class Integral {
       : path_(fit.path(touch)), frame_(fit.frame(pose)), touch_(fit.in_part(pose, touch)) {
     least_ = distance_at(path_.at(nearest), touch_).square;
     if (!touch_.has_place || is_reference(fit.touches()[touch])) {
-      go_everywhere();
+      go_everywhere(fit.tree(touch));
       return;
     }
     go(nearest, true);
@@ -88,8 +88,7 @@ class Integral {
   }
 
   /// Of a normal alone: every stretch of the boundary that has it, wherever it is.
-  void go_everywhere() {
-    PathTree& tree = fit_.tree(number_);
+  void go_everywhere(PathTree& tree) {
     std::vector<std::int32_t> waiting{tree.root()};
     while (!waiting.empty()) {
       const std::int32_t index = waiting.back();
@@ -185,7 +184,10 @@ std::optional<TiltedTouch> on_a_side(const PoseFit& fit, const Pose& pose, std::
 }  // namespace
 
 TiltedTouch tilted_touch(const PoseFit& fit, const Pose& pose, std::size_t touch, const PathPlace& nearest) {
-  if (const std::optional<TiltedTouch> plain = on_a_side(fit, pose, touch, nearest)) return *plain;
+  const Measured& measured = fit.touches()[touch];
+  const bool may_be_anywhere = !measured.has_place || is_reference(measured);
+  const std::optional<TiltedTouch> plain = may_be_anywhere ? std::nullopt : on_a_side(fit, pose, touch, nearest);
+  if (plain) return *plain;
   return Integral(fit, pose, touch, nearest).result();
 }
 

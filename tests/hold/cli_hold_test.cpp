@@ -105,7 +105,7 @@ TEST(SlowCliHold, NoisyLogsWithoutNoiseFitNowhereAndTheCureIsSaid) {
   simulate("--noise contact=0.01,angle=0.3deg");
   const Ran ran = run("locate " + kPart + kLogs);
   EXPECT_EQ(ran.code, 1);
-  EXPECT_THAT(ran.out, HasSubstr("no noise was stated; try --noise contact="));
+  EXPECT_THAT(ran.out, HasSubstr("no noise was stated; cure: --noise contact="));
 }
 
 TEST(CliHold, WithRollAllTheSameLogsAreRollsOfOneFinger) {
@@ -127,7 +127,7 @@ TEST(CliHold, WhatIsNotTakenIsRefused) {
   const Folder folder;
   simulate();
   const auto refusal = [](const std::string& more) { return run("locate " + kPart + kLogs + more).err; };
-  EXPECT_THAT(refusal("--robust"), HasSubstr("--robust: is weighed against noisy rows: give --noise as well"));
+  EXPECT_THAT(refusal("--robust"), HasSubstr("--robust is about outliers among noisy rows: expected noise as well"));
   EXPECT_THAT(refusal("--touch 1,2"), HasSubstr("--roll all"));
   EXPECT_THAT(refusal("--finger disk,r=0.2"), HasSubstr("expected one finger for all logs, or 3"));
   EXPECT_THAT(refusal("--roll 1"), HasSubstr("--roll"));

@@ -70,7 +70,7 @@ TEST(CliRig, AFigureShowsJawAndWheel) {
 
 TEST(CliRig, CertifyWritesWhatTheVerifierProves) {
   const Folder folder;
-  simulate(true);
+  simulate();
   EXPECT_EQ(run(kAsked + "--certify proof.json").code, 0);
   const Ran verified = cli::shell("rollfix-verify proof.json");
   EXPECT_EQ(verified.code, 0);

@@ -153,7 +153,8 @@ TEST(CliTouchReading, ClearRowsAreFreeSpace) {
   EXPECT_EQ(clear[1], Json({180, 20, 200, 20}));
   EXPECT_EQ(clear[2], Json({200, 20, 180.292, 54.717}));
   EXPECT_EQ(clear[3], Json({0, 0, 1, 1}));
-  EXPECT_THAT(located("t.csv", "x,y\n1,2\n", kBall + " --clear rows").err, HasSubstr("expected rows with contact 0"));
+  EXPECT_THAT(located("t.csv", "x,y\n1,2\n", kBall + " --clear rows").err,
+              HasSubstr("expected in the --log a row with contact 0 and a row after it"));
   EXPECT_THAT(located("t.csv", "x,y\n1,2\n", kBall + " --clear 1,2").err, HasSubstr("expected X,Y,X,Y"));
   EXPECT_THAT(run("locate gallery:cam --reading 1,1 --clear 1,2,3,4").err, HasSubstr("--clear is about touches"));
 }

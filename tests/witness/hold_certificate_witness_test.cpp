@@ -65,7 +65,7 @@ void ask(const HoldProblem& problem, Measured& measured) {
 
 TEST(HoldCertificateWitness, random_rigs_are_proved) {
   Measured plain, encoder, noisy;
-  for (int k = 0; k < test_count(30); ++k) {
+  for (int k = 0; k < test_count(8); ++k) {
     SCOPED_TRACE("question " + std::to_string(k));
     std::mt19937_64 generator = test_generator(static_cast<std::uint64_t>(k) + 9000);
     const HoldProblem problem = random_rig_question(k, generator);
@@ -78,7 +78,7 @@ TEST(HoldCertificateWitness, random_rigs_are_proved) {
 
 TEST(HoldCertificateWitness, random_holds_are_proved) {
   Measured placed, headings, noisy;
-  for (int k = 0; k < test_count(24); ++k) {
+  for (int k = 0; k < test_count(4); ++k) {
     SCOPED_TRACE("question " + std::to_string(k));
     std::mt19937_64 generator = test_generator(static_cast<std::uint64_t>(k) + 9500);
     const HoldProblem problem = random_hold_question(k, generator);
@@ -92,7 +92,7 @@ TEST(HoldCertificateWitness, random_holds_are_proved) {
 TEST(HoldCertificateWitness, no_lie_is_proved) {
   std::mt19937_64 generator = test_generator(9900);
   const std::vector<int> told =
-      hold_liar::tell(test_count(12), generator, [](const Json& lie, const std::string& name, int question) {
+      hold_liar::tell(test_count(2), generator, [](const Json& lie, const std::string& name, int question) {
         EXPECT_FALSE(is_proved(lie)) << question << ": " << name;
       });
   EXPECT_LE(std::count(told.begin(), told.end(), 0), 2);

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -6,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "cli.hpp"
 #include "hold/hold_spoilt.hpp"
 #include "random.hpp"
 #include "rollfix/error.hpp"
@@ -109,7 +111,8 @@ void expect_named(const Planted& planted, bool centres) {
 }
 
 class HoldMistakes : public testing::TestWithParam<bool> {};
-INSTANTIATE_TEST_SUITE_P(Centres, HoldMistakes, testing::Bool(),
+// By night: each tries all that may be wrong, of several logs.
+INSTANTIATE_TEST_SUITE_P(SlowCentres, HoldMistakes, testing::Bool(),
                          [](const auto& of) { return of.param ? "XY" : "NoXY"; });
 
 TEST_P(HoldMistakes, NoneInHonestLogs) {
@@ -195,6 +198,24 @@ TEST(HoldMistakesOfUnits, CentresInCentimetres) {
                 },
                 HoldCause::unit},
                true);
+}
+
+/// What the program says of three exact logs with this finger, and this besides.
+std::string told_of(const std::string& asked) {
+  const cli::Folder folder;
+  const std::string part = "gallery:spline,n=9,seed=4,wobble=0.25 ";
+  const std::string first = "--finger disk,r=0.1 --start 1 --length 0.7 ";
+  cli::run("simulate " + part + first + "--start 3 --length -0.5 -o a.csv -o b.csv");
+  cli::run("simulate " + part + first + "--start 5 --length 0.3 -o again.csv -o c.csv");
+  return cli::run("locate " + part + "--log a.csv --log b.csv --log c.csv " + asked).out;
+}
+
+TEST(HoldMistakesByTheProgram, AWrongRadiusIsNamedWithTheRightOne) {
+  EXPECT_THAT(told_of("--finger disk,r=0.13"),
+              testing::HasSubstr("cure: --finger disk,r=0.1; then unique, finger a at 1"));
+}
+TEST(HoldMistakesByTheProgram, APartThatDoesNotLieFaceDownIsNamed) {
+  EXPECT_THAT(told_of("--finger disk,r=0.1 --mirror"), testing::HasSubstr("cure: leave --mirror out; then unique"));
 }
 
 }  // namespace hold_mistakes_test

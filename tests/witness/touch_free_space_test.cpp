@@ -85,7 +85,7 @@ TEST(TouchFreeSpace, ABlockedPoseHasThePartInTheWayAndAFreeOneHasNot) {
     const double slack = 0.01 * size;
     problem.tolerance = rollfix::TouchTolerance{slack, 0};
     problem.clear = {{around({0, 0}, uniform(generator, 0, size), generator), around({0, 0}, size, generator)}};
-    FreeSpace space(problem);
+    FreeSpace space(problem, rollfix::touch::measured(problem));
     for (int k = 0; k < 20; ++k) {
       const Pose pose{uniform(generator, -size, size), uniform(generator, -size, size), uniform(generator, -3, 3)};
       const double margin = least_distance(boundary, pose, problem.clear[0], 400) - (radius - slack);
@@ -190,11 +190,12 @@ TEST(TouchFreeSpace, AHoleIsPassedInsideAndAnOpenOutlineOnBothSides) {
   problem.tolerance = rollfix::TouchTolerance{0.1, 0};
   problem.clear = {{{2, 5}, {8, 5}}};
   ASSERT_LT(problem.part.turns(), 0);
-  EXPECT_FALSE(FreeSpace(problem).is_blocked({}));
+  EXPECT_FALSE(FreeSpace(problem, rollfix::touch::measured(problem)).is_blocked({}));
   problem.part = rollfix::load_part("gallery:exponential");
-  EXPECT_TRUE(FreeSpace(problem).is_empty());  // a point passes an outline that has no inside
+  EXPECT_TRUE(FreeSpace(problem, rollfix::touch::measured(problem))
+                  .is_empty());  // a point passes an outline that has no inside
   problem.finger = rollfix::disk(1);
-  EXPECT_FALSE(FreeSpace(problem).is_empty());
+  EXPECT_FALSE(FreeSpace(problem, rollfix::touch::measured(problem)).is_empty());
 }
 
 /// The table of docs/touch.md: --count=60.

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "outline/turn.hpp"
 #include "random.hpp"
 #include "touch/touch_cases.hpp"
 

@@ -100,8 +100,8 @@ class HoldText {
         }
       }
       const bool is_for_all = one.fit.is_bad();
-      text += fmt::format("possible cause: {}; try {}: {}{}\n", words_of(one, answer_), cure_of(one, answer_), then,
-                          is_for_all ? ", still not as good as the noise says" : "");
+      text += fmt::format("possible cause: {}; cure: {}; then {}{}\n", words_of(one, answer_), cure_of(one, answer_),
+                          then, is_for_all ? ", still not as good as the noise says" : "");
     }
     if (text.empty() && answer_.overlap == 0) {
       text = "no usual mistake explains it: check the part, its side, and each finger\n";
