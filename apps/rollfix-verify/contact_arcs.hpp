@@ -60,10 +60,10 @@ class FirstContacts {
   const Interval& arc(int node) const { return nodes_[static_cast<std::size_t>(node)].arc; }
   /// The finger can have rolled so from somewhere on it: within reach, and on an open boundary.
   bool is_possible(int node) const { return nodes_[static_cast<std::size_t>(node)].is_possible; }
-  const OnArc& at(int node, std::size_t instant);
+  const OnArc& at(int index, std::size_t instant);
   /// In the least arcs that are looked at.
-  double size(int node);
-  std::pair<int, int> halves(int node);
+  double size(int index);
+  std::pair<int, int> halves(int index);
 
  private:
   struct Node {

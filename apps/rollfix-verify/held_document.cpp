@@ -43,7 +43,7 @@ std::optional<double> tolerance_if_any(const Json& stated) {
 }
 
 /// The parts of the boundary that are on no arc, on the first lap.
-std::vector<Interval> gaps_between(std::vector<Interval> arcs, const Boundary& boundary) {
+std::vector<Interval> gaps_between(const std::vector<Interval>& arcs, const Boundary& boundary) {
   const double period = boundary.perimeter().middle();
   std::vector<Interval> on;
   for (const Interval& arc : arcs) {

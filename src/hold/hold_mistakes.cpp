@@ -19,9 +19,7 @@
 //   evidence        logarithm of the probability of all measurements, as noisy as they seem
 // Idea: as of one finger and of two, see answer/diagnosis.cpp: each mistake is undone, and the rows say how likely it
 // is.
-namespace rollfix {
-
-namespace hold {
+namespace rollfix::hold {
 namespace {
 
 constexpr std::size_t kGlanceRows = 24;
@@ -367,5 +365,4 @@ std::vector<HoldDiagnosis> mistakes(const HoldProblem& problem, const HoldAnswer
   return Mistakes(problem, as_said).run();
 }
 
-}  // namespace hold
-}  // namespace rollfix
+}  // namespace rollfix::hold

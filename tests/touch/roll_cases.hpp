@@ -133,8 +133,8 @@ inline RollCase random_rolls(const Part& part, const Rolling& rolling, std::mt19
   for (std::size_t k = 0; k < rolling.touches; ++k) {
     const Place place = random_place(part, radius, boundary, generator);
     MeasuredTouch touch;
-    touch.at = result.truth.world(place.point + radius * outward(place.tangent)) +
-               Vec2(normal(generator, rolling.place_sd * size), normal(generator, rolling.place_sd * size));
+    touch.at =
+        result.truth.world(place.point + radius * outward(place.tangent)) + scatter(generator, rolling.place_sd * size);
     touch.normal = place.tangent - 0.5 * std::numbers::pi + result.truth.heading + normal(generator, rolling.angle_sd);
     result.problem.touches.push_back(touch);
   }

@@ -32,6 +32,12 @@ inline double normal(std::mt19937_64& generator, double sd) {
   return std::normal_distribution<double>(0, 1)(generator) * sd;
 }
 
+/// By so much a place is off; one coordinate after the other, so that every compiler draws the same.
+inline Vec2 scatter(std::mt19937_64& generator, double sd) {
+  const double y = normal(generator, sd);
+  return {normal(generator, sd), y};
+}
+
 inline Part polygon(const std::vector<Vec2>& corners, const std::string& name = "polygon") {
   rollfix::Outline outline;
   outline.name = name;
@@ -115,8 +121,7 @@ inline Case random_case(const Part& part, const Making& making, std::mt19937_64&
     const Place place = random_place(part, making.radius, boundary, generator);
     const Vec2 centre = place.point + making.radius * outward(place.tangent);
     MeasuredTouch touch;
-    touch.at = Vec2(result.truth.x, result.truth.y) + result.truth.turned(centre) +
-               Vec2(normal(generator, making.place_sd), normal(generator, making.place_sd));
+    touch.at = Vec2(result.truth.x, result.truth.y) + result.truth.turned(centre) + scatter(generator, making.place_sd);
     if (k < making.normals) {
       touch.normal = place.tangent - 0.5 * std::numbers::pi + result.truth.heading + normal(generator, making.angle_sd);
     }

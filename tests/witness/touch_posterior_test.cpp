@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "outline/turn.hpp"
-#include "touch_cases.hpp"
+#include "touch/touch_cases.hpp"
 
 // Probabilities, means and standard deviations of poses, against sums over a grid of poses and all of the boundary.
 namespace touch_posterior_test {
