@@ -32,7 +32,7 @@ MeasuredTouch normal_alone(double normal) {
 
 /// The likelihood of a normal in a pose, wherever on the boundary it was felt: summed by small steps.
 double summed(const Part& part, double heading, double normal, double sd) {
-  constexpr int kSteps = 200000;
+  constexpr int kSteps = 20000;
   double sum = 0;
   for (int k = 0; k < kSteps; ++k) {
     const double s = part.perimeter() * (k + 0.5) / kSteps;
