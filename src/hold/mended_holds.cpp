@@ -9,6 +9,7 @@
 #include "hold_facts.hpp"
 #include "log_jumps.hpp"
 #include "outline/turn.hpp"
+#include "touch/mistaken_units.hpp"
 
 namespace rollfix::hold {
 namespace {
@@ -94,22 +95,11 @@ std::vector<Mended> without_slips_of_the_pen(const HoldProblem& problem) {
 }
 
 std::vector<Mended> without_units(const HoldProblem& problem) {
-  struct Scale {
-    double factor;
-    const char* from;
-    const char* to;
-  };
-  constexpr std::array<Scale, 6> kScales = {{{25.4, "in", "mm"},
-                                             {1 / 25.4, "mm", "in"},
-                                             {10, "cm", "mm"},
-                                             {0.1, "mm", "cm"},
-                                             {1000, "m", "mm"},
-                                             {0.001, "mm", "m"}}};
   std::vector<Mended> all;
   if (problem.noise->position <= 0) return all;
   const std::vector<Column> centre{&FingerRows::x, &FingerRows::y};
   for (const auto& whose : whose_logs(problem)) {
-    for (const Scale& scale : kScales) {
+    for (const MistakenUnit& scale : kMistakenUnits) {
       HoldDiagnosis what{HoldCause::unit};
       what.finger = whose;
       what.factor = scale.factor;

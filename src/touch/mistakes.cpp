@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "mistaken_units.hpp"
 #include "other_radius.hpp"
 #include "rollfix/outline/outline.hpp"
 
@@ -144,22 +145,11 @@ class Mistakes {
   }
 
   void add_units() {
-    struct Scale {
-      double factor;
-      const char* from;
-      const char* to;
-    };
-    constexpr std::array<Scale, 6> kScales = {{{25.4, "in", "mm"},
-                                               {1 / 25.4, "mm", "in"},
-                                               {10, "cm", "mm"},
-                                               {0.1, "mm", "cm"},
-                                               {1000, "m", "mm"},
-                                               {0.001, "mm", "m"}}};
     double spread = 0;
     for (const MeasuredTouch& touch : problem_.touches) {
       spread = std::max(spread, (touch.at - problem_.touches.front().at).norm());
     }
-    for (const Scale& scale : kScales) {
+    for (const MistakenUnit& scale : kMistakenUnits) {
       // Touches that lie on one spot would fit about anywhere, and no two are further apart than the part is long.
       if (scale.factor * spread < kLeastSpread * problem_.part.perimeter()) continue;
       TouchProblem without = problem_;
