@@ -209,7 +209,7 @@ inline bool is_free(const Part& part, double s, double t, double radius) {
 inline RigCase random_rig(const Part& part, double radius, std::mt19937_64& generator, bool encoder = false,
                           std::size_t rows = 40) {
   const double size = part.perimeter() / 10;
-  const auto vector = [&] { return Vec2(uniform(generator, -size, size), uniform(generator, -size, size)); };
+  const auto vector = [&] { return Vec2{uniform(generator, -size, size), uniform(generator, -size, size)}; };
   while (true) {
     RigSetup setup;
     setup.radius = radius;
