@@ -72,9 +72,10 @@ double HoldFit::scale_of(Eigen::Index unknown) const {
   return precision > 0 ? std::max(1 / std::sqrt(precision), 1e-6) : std::numbers::pi;
 }
 
-/// Of what is no first contact; 0: nothing is known of it beforehand.
+/// 0: nothing is known of it beforehand, as of a first contact.
 double HoldFit::prior_precision(Eigen::Index unknown) const {
   const auto count = static_cast<Eigen::Index>(fingers());
+  if (unknown < count) return 0;
   if (has_stretches_ && unknown < 2 * count) {
     const double sd = rows_.errors[static_cast<std::size_t>(unknown - count)].stretch;
     return sd > 0 ? 1 / (sd * sd) : 1e12;
