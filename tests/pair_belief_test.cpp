@@ -80,7 +80,7 @@ TEST(PairBelief, does_not_follow_stray_rows_when_it_is_robust) {
   BeliefOptions options = options_with(0.002, 0.002, 0.002);
   options.robust = true;
   Calibration all;
-  for (int k = 0; k < test_count(30); ++k) {
+  for (int k = 0; k < test_count(10); ++k) {
     Case drawn = random_pair(part, 100, options.noise, generator);
     disturb(drawn, 0.05, generator);
     all.add(part, drawn, belief_of(part, drawn, options));
@@ -183,7 +183,7 @@ TEST(PairBelief, takes_long_logs_as_it_takes_short_ones) {
   std::mt19937_64 generator = test_generator(15);
   const BeliefOptions options = options_with(0.01, 0.005, 0.002);
   Calibration all;
-  for (int k = 0; k < test_count(15); ++k) {
+  for (int k = 0; k < test_count(5); ++k) {
     const Case drawn = random_pair(part, 3000, options.noise, generator);
     all.add(part, drawn, belief_of(part, drawn, options));
   }

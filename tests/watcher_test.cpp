@@ -157,7 +157,7 @@ TEST(Watcher, gives_each_sample_its_due_however_rarely_it_tells) {
 }
 
 TEST(Watcher, comes_to_the_same_answer_however_often_it_works_it_out) {
-  const std::vector<std::string> rows = noisy_rows(2, 3, 1100);
+  const std::vector<std::string> rows = noisy_rows(2, 3, 400);
   const WatchAnswer by_default = answer_to(rows);
   for (const std::size_t every : {1U, 7U, 100000U}) {
     WatchOptions asked = options();

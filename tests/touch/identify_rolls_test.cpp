@@ -2,70 +2,21 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
-#include "catalogs.hpp"
-#include "random.hpp"
 #include "refusal.hpp"
-#include "rollfix/catalog/documents.hpp"
-#include "rollfix/catalog/identify_touches.hpp"
-#include "touch/roll_certificates.hpp"
+#include "touch/identify_rolls.hpp"
 
 namespace identify_rolls_test {
 
-using namespace roll_certificates;
-using catalogs::Catalog;
+using namespace identify_rolls;
 using cli::run;
-using rollfix::IdentifiedByTouches;
-using rollfix::PartTouched;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-const std::vector<std::string> kShapes = {"ellipse,a=2,b=1",
-                                          "cam",
-                                          "limacon",
-                                          "spline,n=9,wobble=0.2,seed=1",
-                                          "spline,n=9,wobble=0.2,seed=2",
-                                          "spline,n=9,wobble=0.2,seed=3"};
-constexpr std::size_t kCam = 1, kSpline = 3;
-
-class IdentifyRolls : public testing::Test {
- protected:
-  IdentifyRolls() : catalog_(catalogs::of(kShapes)) {}
-
-  RollCase rolled(std::size_t part, std::size_t rolls, std::size_t touches, std::uint64_t seed, double noise = 1) {
-    std::mt19937_64 generator = test_generator(seed);
-    Rolling rolling;
-    rolling.count = rolls;
-    rolling.touches = touches;
-    rolling.length = 0.06;
-    rolling.rows = 15;
-    rolling.contact_sd = rolling.place_sd = 0.001 * noise;
-    rolling.angle_sd = 0.005 * noise;
-    return random_rolls(catalog_.part(part), rolling, generator);
-  }
-  std::vector<std::string> names_of(const IdentifiedByTouches& found) const {
-    std::vector<std::string> names;
-    for (const PartTouched& part : found.parts) names.push_back(catalog_.entry(part.part).name);
-    return names;
-  }
-  std::string all_of(const IdentifiedByTouches& found) const {
-    cli::Json document = cli::Json::parse(format_identified(catalog_, found));
-    document["catalog"].erase("searched");
-    return document.dump();
-  }
-  void expect_no_loss(const TouchProblem& problem) const {
-    rollfix::IdentifyOptions without;
-    without.use_index = false;
-    EXPECT_EQ(all_of(identify(catalog_, problem)), all_of(identify(catalog_, problem, without)));
-  }
-
-  cli::Folder folder_;
-  Catalog catalog_;
-};
+class IdentifyRolls : public Identified {};
 
 TEST_F(IdentifyRolls, NameThePartAndItsPose) {
   const RollCase one = rolled(kSpline, 2, 0, 1);
@@ -88,19 +39,6 @@ TEST_F(IdentifyRolls, WithoutCentresListThePartThatWasRolledOn) {
     problem.noise->position = 0;
     EXPECT_THAT(names_of(identify(catalog_, problem)), Contains(kShapes[kSpline])) << k;
   }
-}
-
-TEST_F(IdentifyRolls, LoseNothingByBounds) {
-  expect_no_loss(rolled(kSpline, 2, 0, 30).problem);
-  expect_no_loss(rolled(kSpline + 1, 1, 2, 31, 4).problem);
-  expect_no_loss(face_down(rolled(kCam, 2, 1, 32).problem));
-}
-
-TEST_F(IdentifyRolls, LoseNothingWithinATolerance) {
-  TouchProblem problem = rolled(kSpline, 2, 0, 33).problem;
-  problem.noise.reset();
-  problem.tolerance = {0.02, 0.05};
-  expect_no_loss(problem);
 }
 
 TEST_F(IdentifyRolls, SayThatNoPartFitsWhereThePartWasMoved) {

@@ -32,8 +32,8 @@ std::vector<MeasuredTouch> touches_of(const Part& part, const std::vector<double
   return touches;
 }
 
-TEST(TouchCertificate, of_touches_of_all_kinds_is_proved) {
-  for (int k = 0; k < test_count(7); ++k) {
+TEST(TouchCertificate, of_touches_of_three_kinds_of_parts_is_proved) {
+  for (int k = 0; k < test_count(3); ++k) {
     std::mt19937_64 generator = test_generator(static_cast<std::uint64_t>(k) + 40);
     EXPECT_TRUE(is_proved(certificate(random_question(k, generator, 5e-3)))) << "question " << k;
   }
