@@ -3,9 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <ctime>
-#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -13,54 +10,17 @@
 #include "hold/hold_certificates.hpp"
 #include "hold/hold_liar.hpp"
 #include "random.hpp"
+#include "witness/certificate_measures.hpp"
 
 namespace hold_certificate_witness_test {
 namespace {
 
 using namespace hold_certificates;
-
-/// Of questions of one kind; times in ms.
-struct Measured {
-  std::vector<double> bytes, boxes, search, drawn_up, checked;
-  int open = 0;
-};
-
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-/// A row of the table in docs/certificates.md.
-void print(const char* name, const Measured& of) {
-  if (of.bytes.empty()) return;
-  std::printf("| %s | %zu | %d | %.0f | %.0f | %.3g | %.3g | %.3g | %.3g |\n", name, of.bytes.size(), of.open,
-              median_of(of.bytes), median_of(of.boxes), median_of(of.search), median_of(of.drawn_up),
-              median_of(of.checked), *std::max_element(of.checked.begin(), of.checked.end()));
-}
-
-/// In ms, of what is called: of this thread's processor.
-template <class Call>
-double timed(const Call& call) {
-  const std::clock_t start = std::clock();
-  call();
-  return 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-}
+using namespace certificate_measures;
 
 void ask(const HoldProblem& problem, Measured& measured) {
-  std::optional<HoldAnswer> answer;
-  std::string text;
-  Verdict verdict;
-  measured.search.push_back(timed([&] { answer = rollfix::solve(problem); }));
-  measured.drawn_up.push_back(
-      timed([&] { text = rollfix::format_certificate(rollfix::certify_holds(problem, *answer)); }));
-  measured.checked.push_back(timed([&] { verdict = rollfix_verify::check(text); }));
-  measured.bytes.push_back(static_cast<double>(text.size()));
-  measured.boxes.push_back(static_cast<double>(verdict.cells));
-  const bool is_decided = answer->status == rollfix::Status::complete;
-  measured.open += verdict.is_complete() ? 0 : 1;
-  EXPECT_TRUE(verdict.refusal.empty() || !is_decided) << verdict.refusal;
-  EXPECT_TRUE(verdict.is_complete() || !is_decided) << described(verdict).substr(0, 200);
+  measure(
+      problem, [&](const HoldAnswer& answer) { return rollfix::certify_holds(problem, answer); }, measured);
 }
 
 TEST(HoldCertificateWitness, random_rigs_are_proved) {
