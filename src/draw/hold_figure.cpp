@@ -13,22 +13,14 @@
 #include "scene.hpp"
 #include "text/text.hpp"
 #include "trace.hpp"
+#include "world.hpp"
 
 namespace rollfix {
 namespace draw {
 namespace {
 
 constexpr std::size_t kMostHeldPoses = 6;
-constexpr double kHoldLeft = 58;  // around the frame, pixels
-constexpr double kHoldRight = 16;
-constexpr double kHoldAbove = 22;
-constexpr double kHoldBelow = 34;
-constexpr double kHoldLeastHeight = 160;
-constexpr double kHoldMostHeight = 720;
-constexpr double kHoldMargin = 0.06;  // of what is shown
-constexpr double kHoldGhost = 0.55;   // opacity of placements but the first
-constexpr double kHoldDot = 2.6;      // pixels
-constexpr double kHoldJaw = 0.45;     // half of a jaw as it is drawn, of the part's size
+constexpr double kHoldJaw = 0.45;  // half of a jaw as it is drawn, of the part's size
 
 class HoldPicture {
  public:
@@ -49,25 +41,20 @@ class HoldPicture {
 
   Svg draw() {
     const Legend legend(entries(), figure_.width);
-    Svg svg(figure_.width, axes_.corner.y() + axes_.size.y() + kHoldBelow + legend.height());
+    Svg svg(figure_.width, world_.bottom() + legend.height());
     svg.describe("The part at the last instant in each placement that the fingers leave");
     draw_header(svg, figure_.title.empty() ? answer_.part.name() : figure_.title, answer_.verdict_text(),
                 {{fingers_words()}});
-    svg.open_group("world");
-    draw_axes(
-        svg, axes_, round_ticks(axes_.x, 5), round_ticks(axes_.y, 5),
-        {{answer_.place == PlaceKnown::unknown ? "turned as in the world; its place is not known" : "in the world"}},
-        "");
-    svg.open_clip(axes_.corner.x(), axes_.corner.y(), axes_.size.x(), axes_.size.y());
-    if (is_known()) svg.polyline(on_page(first_), stroke(kSoftInk, 1, "4 3"));
+    world_.open(
+        svg, answer_.place == PlaceKnown::unknown ? "turned as in the world; its place is not known" : "in the world");
+    if (is_known()) svg.polyline(world_.path(first_), stroke(kSoftInk, 1, "4 3"));
     for (std::size_t k = last_.size(); k-- > 0;) placement(svg, k);
     for (const HoldRoll& roll : answer_.rolls) {
       finger(svg, roll);
       if (roll.is_jaw && !roll.track.empty()) jaw(svg, roll);
     }
-    svg.close_group();
-    svg.close_group();
-    legend.draw(svg, axes_.corner.y() + axes_.size.y() + kHoldBelow);
+    World::close(svg);
+    legend.draw(svg, world_.bottom());
     return svg;
   }
 
@@ -82,12 +69,7 @@ class HoldPicture {
   bool is_known() const { return !first_.empty() && answer_.place != PlaceKnown::unknown; }
 
   std::vector<Vec2> in_world(const std::vector<Vec2>& points, const Pose& pose) const {
-    const Pose shown = answer_.place == PlaceKnown::unknown ? Pose{0, 0, pose.heading} : pose;
-    std::vector<Vec2> world;
-    for (const Vec2& point : points) {
-      world.push_back(shown.world({answer_.mirrored ? -point.x() : point.x(), point.y()}));
-    }
-    return world;
+    return posed(points, answer_.place == PlaceKnown::unknown ? Pose{0, 0, pose.heading} : pose, answer_.mirrored);
   }
 
   /// One scale both ways, and all of it inside.
@@ -103,35 +85,20 @@ class HoldPicture {
       for (std::size_t end = 0; end < 2 && roll.is_jaw && !roll.track.empty(); ++end) seen.extend(on_jaw(roll, end, 0));
     }
     if (seen.isEmpty()) seen = box_around(outline_);
-    const double margin = std::max(kHoldMargin * seen.sizes().maxCoeff(), 1e-9 * answer_.part.perimeter());
-    const Box wide(seen.min() - Vec2::Constant(margin), seen.max() + Vec2::Constant(margin));
-    const double width = figure_.width - kHoldLeft - kHoldRight;
-    const double height = std::clamp(width * wide.sizes().y() / wide.sizes().x(), kHoldLeastHeight, kHoldMostHeight);
-    scale_ = std::min(width / wide.sizes().x(), height / wide.sizes().y());
-    const Vec2 half = 0.5 * Vec2(width, height) / scale_;
-    axes_.corner = {kHoldLeft, kHeaderHeight + kHoldAbove};
-    axes_.size = {width, height};
-    axes_.x = {wide.center().x() - half.x(), wide.center().x() + half.x()};
-    axes_.y = {wide.center().y() - half.y(), wide.center().y() + half.y()};
-  }
-
-  std::vector<Vec2> on_page(const std::vector<Vec2>& points) const {
-    std::vector<Vec2> page;
-    for (const Vec2& point : points) page.push_back(axes_(point.x(), point.y()));
-    return page;
+    world_ = World(seen, answer_.part, figure_.width);
   }
 
   void placement(Svg& svg, std::size_t k) const {
-    const std::vector<Vec2> points = on_page(last_[k]);
+    const std::vector<Vec2> points = world_.path(last_[k]);
     svg.open_group("placement");
     if (k == 0 && answer_.part.closed() && !answer_.part.outline().hole) svg.polygon(points, draw::filled(kMaterial));
-    svg.polyline(points, stroke(colour(k), k == 0 ? 1.8 : 1.1, "", k == 0 ? 1 : kHoldGhost));
+    svg.polyline(points, stroke(colour(k), k == 0 ? 1.8 : 1.1, "", k == 0 ? 1 : kWorldGhost));
     if (k == 0) {
       for (const Outline& other : figure_.others) {
-        svg.polyline(on_page(in_world(polyline_of(other), answer_.placements[0].last)), stroke(kSoftInk, 0.6));
+        svg.polyline(world_.path(in_world(polyline_of(other), answer_.placements[0].last)), stroke(kSoftInk, 0.6));
       }
     }
-    for (const Vec2& contact : on_page(contacts_[k])) svg.circle(contact, kHoldDot, draw::filled(colour(k)));
+    for (const Vec2& contact : world_.path(contacts_[k])) svg.circle(contact, kWorldDot, draw::filled(colour(k)));
     svg.close_group();
   }
 
@@ -148,7 +115,7 @@ class HoldPicture {
     svg.open_group("jaw");
     for (std::size_t end = 0; end < 2; ++end) {
       const std::vector<Vec2> line{on_jaw(roll, end, -half), on_jaw(roll, end, half)};
-      svg.polyline(on_page(line), end == 0 ? stroke(kSoftInk, 1, "4 3") : stroke(kInk, 1.6));
+      svg.polyline(world_.path(line), end == 0 ? stroke(kSoftInk, 1, "4 3") : stroke(kInk, 1.6));
     }
     svg.close_group();
   }
@@ -157,11 +124,11 @@ class HoldPicture {
   void finger(Svg& svg, const HoldRoll& roll) const {
     if (roll.track.empty()) return;
     svg.open_group("finger");
-    const std::vector<Vec2> path = on_page(roll.track);
-    if (roll.is_wheel) svg.circle(path.front(), roll.radius * scale_, stroke(kSoftInk, 1, "4 3"));
-    if (roll.radius > 0) svg.circle(path.back(), roll.radius * scale_, stroke(kSoftInk, 0.8));
+    const std::vector<Vec2> path = world_.path(roll.track);
+    if (roll.is_wheel) svg.circle(path.front(), world_.pixels(roll.radius), stroke(kSoftInk, 1, "4 3"));
+    if (roll.radius > 0) svg.circle(path.back(), world_.pixels(roll.radius), stroke(kSoftInk, 0.8));
     svg.polyline(path, stroke(kInk, 1.4));
-    svg.circle(path.back(), kHoldDot, draw::filled(kInk));
+    svg.circle(path.back(), kWorldDot, draw::filled(kInk));
     svg.close_group();
   }
 
@@ -197,8 +164,7 @@ class HoldPicture {
   std::vector<Vec2> first_;
   std::vector<std::vector<Vec2>> last_;
   std::vector<std::vector<Vec2>> contacts_;
-  Axes axes_;
-  double scale_ = 1;
+  World world_;
 };
 
 }  // namespace

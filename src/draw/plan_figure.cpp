@@ -14,21 +14,14 @@
 #include "scene.hpp"
 #include "text/text.hpp"
 #include "trace.hpp"
+#include "world.hpp"
 
 namespace rollfix {
 namespace draw {
 namespace {
 
-constexpr double kPlanLeft = 58;  // around the frame, pixels
-constexpr double kPlanRight = 16;
-constexpr double kPlanAbove = 22;
-constexpr double kPlanBelow = 34;
-constexpr double kPlanLeastHeight = 160;
-constexpr double kPlanMostHeight = 720;
-constexpr double kPlanMargin = 0.06;  // of what is shown
-constexpr double kPlanDot = 2.6;      // pixels
-constexpr double kPlanCone = 0.14;    // of the part's size: how long a cone is drawn
-constexpr double kPlanJaw = 0.35;     // of the part's size: how much of a jaw is drawn to each side
+constexpr double kPlanCone = 0.14;  // of the part's size: how long a cone is drawn
+constexpr double kPlanJaw = 0.35;   // of the part's size: how much of a jaw is drawn to each side
 
 class PlanPicture {
  public:
@@ -43,22 +36,19 @@ class PlanPicture {
 
   Svg draw() {
     const Legend legend(entries(), figure_.width);
-    Svg svg(figure_.width, axes_.corner.y() + axes_.size.y() + kPlanBelow + legend.height());
+    Svg svg(figure_.width, world_.bottom() + legend.height());
     svg.describe("The part and the fingers at the start and the end of the planned roll");
     draw_header(svg, figure_.title.empty() ? problem_.part.name() : figure_.title,
                 plan_.feasible() ? "a plan"
                 : plan_.failure  ? "no plan"
                                  : "undecided",
                 {{counted(fingers(), "finger", "fingers")}});
-    svg.open_group("world");
-    draw_axes(svg, axes_, round_ticks(axes_.x, 5), round_ticks(axes_.y, 5), {{"in the world"}}, "");
-    svg.open_clip(axes_.corner.x(), axes_.corner.y(), axes_.size.x(), axes_.size.y());
+    world_.open(svg, "in the world");
     part(svg);
     for (std::size_t which = 0; which < fingers(); ++which) finger(svg, which);
     if (fingers() == 2) force(svg);
-    svg.close_group();
-    svg.close_group();
-    legend.draw(svg, axes_.corner.y() + axes_.size.y() + kPlanBelow);
+    World::close(svg);
+    legend.draw(svg, world_.bottom());
     return svg;
   }
 
@@ -69,19 +59,11 @@ class PlanPicture {
     const FingerRows& rows = plan_.roll.log.fingers[which];
     return {rows.x[row], rows.y[row], rows.psi[row]};
   }
-  /// Of the part's frame in the world.
-  Vec2 placed(const Vec2& point, std::size_t row) const {
-    return pose(row).world({problem_.mirrored ? -point.x() : point.x(), point.y()});
-  }
   Vec2 contact(std::size_t which, std::size_t row) const {
-    return placed(problem_.part.point(plan_.roll.s[which][row]), row);
+    return posed({problem_.part.point(plan_.roll.s[which][row])}, pose(row), problem_.mirrored).front();
   }
 
-  std::vector<Vec2> part_at(std::size_t row) const {
-    std::vector<Vec2> world;
-    for (const Vec2& point : outline_) world.push_back(placed(point, row));
-    return world;
-  }
+  std::vector<Vec2> part_at(std::size_t row) const { return posed(outline_, pose(row), problem_.mirrored); }
 
   /// A disk around its centre, of a jaw what is near its contact, an outline.
   std::vector<Vec2> finger_at(std::size_t which, std::size_t row) const {
@@ -114,47 +96,32 @@ class PlanPicture {
     for (std::size_t which = 0; which < fingers(); ++which) {
       for (const std::size_t row : {std::size_t{0}, shown_}) seen.extend(box_around(finger_at(which, row)));
     }
-    const double margin = kPlanMargin * seen.sizes().maxCoeff();
-    const Box wide(seen.min() - Vec2::Constant(margin), seen.max() + Vec2::Constant(margin));
-    const double width = figure_.width - kPlanLeft - kPlanRight;
-    const double height = std::clamp(width * wide.sizes().y() / wide.sizes().x(), kPlanLeastHeight, kPlanMostHeight);
-    const double scale = std::min(width / wide.sizes().x(), height / wide.sizes().y());
-    const Vec2 half = 0.5 * Vec2(width, height) / scale;
-    axes_.corner = {kPlanLeft, kHeaderHeight + kPlanAbove};
-    axes_.size = {width, height};
-    axes_.x = {wide.center().x() - half.x(), wide.center().x() + half.x()};
-    axes_.y = {wide.center().y() - half.y(), wide.center().y() + half.y()};
-  }
-
-  std::vector<Vec2> on_page(const std::vector<Vec2>& points) const {
-    std::vector<Vec2> page;
-    for (const Vec2& point : points) page.push_back(axes_(point.x(), point.y()));
-    return page;
+    world_ = World(seen, problem_.part, figure_.width);
   }
 
   void part(Svg& svg) const {
-    const std::vector<Vec2> points = on_page(part_at(shown_));
+    const std::vector<Vec2> points = world_.path(part_at(shown_));
     svg.open_group("part");
     if (problem_.part.closed() && !problem_.part.outline().hole) svg.polygon(points, draw::filled(kMaterial));
-    if (fingers() == 2) svg.polyline(on_page(part_at(0)), stroke(kSoftInk, 1, "4 3"));
+    if (fingers() == 2) svg.polyline(world_.path(part_at(0)), stroke(kSoftInk, 1, "4 3"));
     svg.polyline(points, stroke(kInk, 1.6));
     svg.close_group();
   }
 
   void finger(Svg& svg, std::size_t which) const {
     svg.open_group("finger");
-    svg.polyline(on_page(finger_at(which, 0)), stroke(colour(which), 0.9, "4 3"));
-    svg.polyline(on_page(finger_at(which, shown_)), stroke(colour(which), 1.8));
+    svg.polyline(world_.path(finger_at(which, 0)), stroke(colour(which), 0.9, "4 3"));
+    svg.polyline(world_.path(finger_at(which, shown_)), stroke(colour(which), 1.8));
     // A jaw's frame may be far from where it touches: its way would mislead.
-    if (!problem_.fingers[which].finger.is_jaw()) svg.polyline(on_page(way(which)), stroke(colour(which), 1.2));
-    svg.circle(on_page({contact(which, shown_)}).front(), kPlanDot, draw::filled(colour(which)));
+    if (!problem_.fingers[which].finger.is_jaw()) svg.polyline(world_.path(way(which)), stroke(colour(which), 1.2));
+    svg.circle(world_.at(contact(which, shown_)), kWorldDot, draw::filled(colour(which)));
     svg.close_group();
   }
 
   /// The line of the force, and the cones that it must lie in.
   void force(Svg& svg) const {
     svg.open_group("force");
-    svg.polyline(on_page({contact(0, shown_), contact(1, shown_)}), stroke(kInk, 1, "1 3"));
+    svg.polyline(world_.path({contact(0, shown_), contact(1, shown_)}), stroke(kInk, 1, "1 3"));
     for (std::size_t which = 0; which < 2; ++which) {
       const PlanFinger& finger = problem_.fingers[which];
       if (!finger.friction && !finger.wheel) continue;
@@ -165,7 +132,7 @@ class PlanPicture {
       const auto edge = [&](double angle) {
         return Vec2(tip + kPlanCone * size_ * Vec2(std::cos(angle), std::sin(angle)));
       };
-      svg.polyline(on_page({edge(inward - half), tip, edge(inward + half)}), stroke(colour(which), 1));
+      svg.polyline(world_.path({edge(inward - half), tip, edge(inward + half)}), stroke(colour(which), 1));
     }
     svg.close_group();
   }
@@ -200,7 +167,7 @@ class PlanPicture {
   std::size_t shown_ = 0;
   double size_ = 1;
   std::vector<Vec2> outline_;
-  Axes axes_;
+  World world_;
 };
 
 }  // namespace
