@@ -115,7 +115,9 @@ Verdict verdict_of_places(const Remaining& remaining, const Boundary& places) {
 }  // namespace
 
 Verdict belief::verdict_of(const Fit& fit, const Remaining& remaining, const Boundary& places) {
-  if (fit.excess > kMostExcess) return {Verdict::inconsistent};
+  // The best that was seen need not be near the best there is.
+  if (remaining.unresolved > 1 - kCertain) return {Verdict::undecided};
+  if (remaining.most == 0 || fit.excess > kMostExcess) return {Verdict::inconsistent};
   Verdict verdict = verdict_of_places(remaining, places);
   verdict.fits_badly = fit.is_bad();
   return verdict;
@@ -125,17 +127,19 @@ template <class Place>
 Verdict Belief::State::verdict_on(const std::vector<Place>& places) {
   settle();
   if (!posterior->has_begun()) return {Verdict::unobservable};
-  // Of one finger: where so much is unresolved, the best that was seen need not be near the best there is. Of two,
-  // what the search missed is told by its status.
-  const bool is_one = contacts.finger_curvature.size() == 1;
-  if (is_one && outcome.unresolved > 1 - kCertain) return {Verdict::undecided};
-  if (places.empty()) return {Verdict::inconsistent};
   std::vector<PerFinger<Interval>> that_count;
   for (const Place& each : places) {
     if (each.probability >= kCounts) that_count.push_back(each.interval);
   }
-  const double length = posterior->credible_length(that_count);
-  return verdict_of(outcome.fit, {that_count.size(), places.front().probability, length}, part.boundary());
+  Remaining remaining;
+  remaining.that_count = that_count.size();
+  if (!places.empty()) {
+    remaining.most = places.front().probability;
+    remaining.credible_length = posterior->credible_length(that_count);
+  }
+  // Of two fingers what the search missed is told by its status.
+  if (contacts.finger_curvature.size() == 1) remaining.unresolved = outcome.unresolved;
+  return verdict_of(outcome.fit, remaining, part.boundary());
 }
 
 Belief::Belief(const Part& part, LogKind kind, const BeliefOptions& options, const Contacts& contacts) {

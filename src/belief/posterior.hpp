@@ -247,12 +247,13 @@ std::unique_ptr<Posterior> posterior_of_one(const Part& part, LogKind kind, cons
 std::unique_ptr<Posterior> posterior_of_two(const Part& part, LogKind kind, const BeliefOptions& options,
                                             const Contacts& contacts);
 
-/// What is left of all places: how many that count, how probable the likeliest is, and as much of the boundary as
-/// holds 95 %, length.
+/// What is left of all places: how many that count, how probable the likeliest is, 0 of none, and as much of the
+/// boundary as holds 95 %, length.
 struct Remaining {
   std::size_t that_count = 0;
   double most = 0;
   double credible_length = 0;
+  double unresolved = 0;  // so much of the probability is anywhere: points did not suffice to tell
 };
 /// docs/belief.md has the table.
 Verdict verdict_of(const Fit& fit, const Remaining& remaining, const Boundary& places);

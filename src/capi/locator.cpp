@@ -103,10 +103,8 @@ void Locator::locate() {
         log.modes.begin(), log.modes.end(), [](const Mode& mode) { return mode.probability >= kCounts; }));
     remaining.most = log.modes.empty() ? 0 : log.modes.front().probability;
     remaining.credible_length = credible_length(log.grid);
-    const bool is_open = log.grid.rest() > 1 - kCertain;  // the points did not suffice
-    verdict_ = is_open             ? Verdict{Verdict::undecided}
-               : log.modes.empty() ? Verdict{Verdict::inconsistent}
-                                   : verdict_of(log.grid.fit(), remaining, part_.boundary());
+    remaining.unresolved = log.grid.rest();
+    verdict_ = verdict_of(log.grid.fit(), remaining, part_.boundary());
   });
 }
 
