@@ -30,6 +30,8 @@ constexpr std::size_t kBudgetWithNoise = 30000;
 constexpr double kWidestSearch = 0.5;  // radians
 // A million normal numbers are within so many standard deviations.
 constexpr double kFarthestRow = 5;
+// A disk with an uncertain radius is not taken to be smaller than this share of what was said.
+constexpr double kSmallestDisk = 0.01;
 
 bool is_in_another_unit(const Log& log, const Part& part) {
   return !log.unit.empty() && !part.unit().empty() && log.unit != part.unit();
@@ -72,11 +74,20 @@ void search(const Problem& problem, const LeadingRows& leading, Answer& answer) 
   answer.counts = found.counts;
 }
 
-PerFinger<Reach> reaches_of(const Part& part, const std::vector<Finger>& fingers, std::size_t count) {
-  const Reach reach = reach_of(part, fingers.front());
+/// The smallest disk that a finger may be: it lies within any larger one that touches at the same contact, so that all
+/// of them hit what it hits.
+Finger smallest(const Finger& finger, double radius_sd) {
+  if (!finger.is_disk()) return finger;
+  const double radius = finger.disk()->radius;
+  return disk(std::max(radius - kFarthestRow * radius_sd, kSmallestDisk * radius));
+}
+
+PerFinger<Reach> reaches_of(const Problem& problem, std::size_t count) {
+  const double radius_sd = problem.noise ? problem.noise->radius : 0;
+  const Finger a = smallest(problem.fingers.front(), radius_sd), b = smallest(problem.fingers.back(), radius_sd);
+  const Reach reach = reach_of(problem.part, a);
   if (count == 1) return reach;
-  const bool alike = fingers.front().curvature(0) == fingers.back().curvature(0);
-  return {reach, alike ? reach : reach_of(part, fingers.back())};
+  return {reach, a.curvature(0) == b.curvature(0) ? reach : reach_of(problem.part, b)};
 }
 
 /// How far a rolled length may be off: by its digits, and by its noise.
@@ -101,11 +112,10 @@ void drop_impossible(const Problem& problem, const Observation& observed, Answer
   if (answer.fingers.empty()) return;
   answer.has_reach = std::all_of(answer.fingers.begin(), answer.fingers.end(), has_reach);
   const double error = length_error(problem, observed);
-  answer.impossible =
-      answer.has_reach
-          ? drop_unreachable(answer.part, reaches_of(answer.part, answer.fingers, answer.finger_count()),
-                             answer.readings, answer.placements, observed.rolls, error, problem.may_overlap)
-          : drop_overlapping(problem, observed, error, answer.placements);
+  answer.impossible = answer.has_reach
+                          ? drop_unreachable(answer.part, reaches_of(problem, answer.finger_count()), answer.readings,
+                                             answer.placements, observed.rolls, error, problem.may_overlap)
+                          : drop_overlapping(problem, observed, error, answer.placements);
   for (const Impossible& item : answer.impossible) {
     ++(item.reason == Impossible::Reason::reach ? answer.dropped.reach : answer.dropped.overlap);
   }
