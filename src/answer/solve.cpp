@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "corner_rows.hpp"
 #include "either_way.hpp"
 #include "finger_corners.hpp"
 #include "mirror.hpp"
@@ -169,7 +170,8 @@ Answer solve_from_row(const Problem& problem, const LeadingRows& leading, bool e
   if (belief) weigh(problem, observed, explains, *belief, answer);
   drop_impossible(problem, observed, answer);
   if (belief) {
-    conclude(*belief, answer);
+    const bool is_reweighed = weigh_corner_rows(problem, leading, observed, answer);
+    conclude(*belief, answer, is_reweighed);
     to_last_contacts(observed, *problem.noise, answer);
   }
   add_poses(problem, answer);

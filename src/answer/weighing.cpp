@@ -233,8 +233,8 @@ void weigh(const Problem& problem, const Observation& observed, bool explains, B
   keep_probabilities(answer);
 }
 
-void conclude(Belief& belief, Answer& answer) {
-  if (!answer.impossible.empty()) {
+void conclude(Belief& belief, Answer& answer, bool is_reweighed) {
+  if (!answer.impossible.empty() || is_reweighed) {
     double total = 0;
     for (const Placement& placement : answer.placements) total += placement.probability;
     for (Placement& placement : answer.placements) placement.probability /= total;

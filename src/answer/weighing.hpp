@@ -42,7 +42,7 @@ std::vector<Mode> modes_of(Belief& belief);
 /// `explains`, nothing is said of what may be wrong.
 void weigh(const Problem& problem, const Observation& observed, bool explains, Belief& belief, Answer& answer);
 
-/// After the fingers dropped some: the others' probabilities, as if there were no more.
-void conclude(Belief& belief, Answer& answer);
+/// After the fingers dropped some, or rows on their corners did: the others' probabilities, as if there were no more.
+void conclude(Belief& belief, Answer& answer, bool is_reweighed = false);
 
 }  // namespace rollfix

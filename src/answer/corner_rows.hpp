@@ -1,0 +1,15 @@
+#pragma once
+
+#include "finger_corners.hpp"
+#include "observation.hpp"
+#include "rollfix/answer/answer.hpp"
+
+namespace rollfix {
+
+/// With noise, of an answer that was weighed without them: what rows on corners of the fingers say of each place.
+/// Places that none of their turns allow become less probable, and those that are next to impossible are no longer
+/// listed. True: some did. Of the rows before the first one off the corners the first alone is looked at, of one
+/// finger.
+bool weigh_corner_rows(const Problem& problem, const LeadingRows& leading, const Observation& observed, Answer& answer);
+
+}  // namespace rollfix
