@@ -239,6 +239,18 @@ struct Held {
   std::optional<double> wheel_pivot{};
 };
 
+/// An angle from instant to instant, without turns that nothing made.
+class Followed {
+ public:
+  double operator()(double angle) {
+    last_ = last_ ? *last_ + rollfix::nearest_angle(angle - *last_) : angle;
+    return *last_;
+  }
+
+ private:
+  std::optional<double> last_;
+};
+
 inline Vec2 normal_of(double tangent) { return {std::sin(tangent), -std::cos(tangent)}; }
 
 /// The logs of instants that are told: what a wheel without an encoder says needs no roll in between.
@@ -253,8 +265,9 @@ inline HoldProblem held_at(const Part& part, double radius, const std::vector<He
   const auto tangent_at = [&](double s, const std::optional<double>& pivot) {
     return pivot ? part.tangent(s - 1e-9 * part.perimeter()) + *pivot : part.tangent(s);
   };
+  Followed tangent;
   for (const Held& one : instants) {
-    const double turn = one.pose.heading + tangent_at(one.s, one.pivot) + std::numbers::pi;
+    const double turn = one.pose.heading + tangent(tangent_at(one.s, one.pivot)) + std::numbers::pi;
     const double u = 0.1 - (one.s - instants.front().s);
     const Vec2 origin = one.pose.world(part.point(one.s)) - turned({u, 0}, turn);
     const Vec2 pin = one.pose.world(part.point(one.t) + radius * normal_of(tangent_at(one.t, one.wheel_pivot)));

@@ -10,14 +10,24 @@
 #include "hold/rig_cases.hpp"
 
 /// Rigs that squeeze a part: where the finger touches, how the part lies and by how much the wheel's normal misses the
-/// finger's contact is told, and where the wheel touches is solved for.
+/// finger's contact is told, and where the wheel touches is solved for. At each instant finger and wheel fit.
 namespace squeezed_cases {
 
 using namespace rig_cases;
 
 struct SqueezeErrors {
   double each_row = 0;  // of the wheel's normal, radians: each row on its own, ...
-  double alike = 0;     // ... and all rows alike
+  double alike = 0;     // ... all rows alike, ...
+  double turning = 0;   // ... and as much to one side in the first half of the rows, to the other one in the second
+};
+
+struct Squeeze {
+  double radius = 0;  // of the wheel
+  SqueezeErrors errors{};
+  double stated = 0;      // of them, radians
+  std::size_t rows = 40;  // behind the first one
+  bool encoder = false;
+  double disk_radius = 0;  // of the finger; 0: a jaw
 };
 
 /// How far the way from the finger's contact to the pin is turned from the wheel's normal, as the part sees it.
@@ -54,29 +64,41 @@ inline std::optional<double> wheel_place(const Part& part, double s, double radi
   return found[std::uniform_int_distribution<std::size_t>(0, found.size() - 1)(generator)];
 }
 
-/// The wheel follows the finger.
-inline std::optional<std::vector<Held>> roll_on(const Part& part, double s, double t, double length, double radius,
-                                                const SqueezeErrors& errors, std::size_t rows,
-                                                std::mt19937_64& generator) {
+/// The wheel follows the finger. Between rows as well both fit.
+inline std::optional<std::vector<Held>> roll_on(const Part& part, double s, double t, double length,
+                                                const Squeeze& squeeze, std::mt19937_64& generator) {
   const double P = part.perimeter();
-  const double alike = normal(generator, errors.alike);
+  const double alike = normal(generator, squeeze.errors.alike);
+  const double turning = normal(generator, squeeze.errors.turning);
   const double way = uniform(generator, -0.3, 0.3);
   std::vector<Held> instants;
-  for (std::size_t k = 0; k <= rows; ++k) {
-    const double share = static_cast<double>(k) / static_cast<double>(rows);
+  constexpr std::size_t kSteps = 40;  // at least
+  const std::size_t steps_of_row = (kSteps + squeeze.rows - 1) / squeeze.rows;
+  for (std::size_t k = 0; k <= squeeze.rows * steps_of_row; ++k) {
+    const double share = static_cast<double>(k) / static_cast<double>(squeeze.rows * steps_of_row);
     Held one;
     one.s = s + share * length;
-    const auto exact = root(part, one.s, radius, 0, t - 0.05 * P, t + 0.05 * P);
+    const auto exact = root(part, one.s, squeeze.radius, 0, t - 0.05 * P, t + 0.05 * P);
     if (!exact) return std::nullopt;
     t = *exact;
-    const double off = alike + normal(generator, errors.each_row);
-    const auto missed = root(part, one.s, radius, off, t - 0.1 * P, t + 0.1 * P);
-    if (!missed) return std::nullopt;
+    const double off = alike + (share < 0.5 ? turning : -turning) + normal(generator, squeeze.errors.each_row);
+    const auto missed = root(part, one.s, squeeze.radius, off, t - 0.1 * P, t + 0.1 * P);
+    if (!missed || !is_free(part, one.s, *missed, squeeze.radius)) return std::nullopt;
     one.t = *missed;
     one.pose = {0.3 + share * way * P, -0.2 + share * share * 0.1 * P, 0.5 + 2 * way * share};
-    instants.push_back(one);
+    if (k % steps_of_row == 0) instants.push_back(one);
   }
   return instants;
+}
+
+/// How a wheel is turned that rolls: by the part's heading, by the tangent where it touches, and by the way there.
+inline void turn_wheel(const Part& part, const std::vector<Held>& instants, rollfix::PassiveWheel& wheel) {
+  std::vector<double>& psi = wheel.log.rows.fingers.front().psi;
+  Followed tangent;
+  for (const Held& one : instants) {
+    psi.push_back(one.pose.heading + tangent(part.tangent(one.t)) + one.t / wheel.radius);
+  }
+  wheel.log.rows.fingers.front().psi_wrapped = false;
 }
 
 /// The finger's log where a disk takes the jaw's place.
@@ -95,25 +117,24 @@ inline void let_disk_roll(const Part& part, double radius, const std::vector<Hel
   }
 }
 
-/// `squeezed`: as it is stated.
-inline RigCase random_squeezed(const Part& part, double radius, bool is_disk, const SqueezeErrors& errors,
-                               double squeezed, std::mt19937_64& generator) {
+inline RigCase random_squeezed(const Part& part, const Squeeze& squeeze, std::mt19937_64& generator) {
   const double P = part.perimeter();
   while (true) {
     const double s = uniform(generator, 0, P);
-    const auto t = wheel_place(part, s, radius, generator);
+    const auto t = wheel_place(part, s, squeeze.radius, generator);
     if (!t) continue;
-    const auto instants = roll_on(part, s, *t, uniform(generator, 0.05, 0.15) * P, radius, errors, 40, generator);
-    if (!instants || !is_free(part, instants->back().s, instants->back().t, radius)) continue;
-    RigCase one{held_at(part, radius, *instants),
+    const auto instants = roll_on(part, s, *t, uniform(generator, 0.05, 0.15) * P, squeeze, generator);
+    if (!instants) continue;
+    RigCase one{held_at(part, squeeze.radius, *instants),
                 s,
                 instants->front().t,
                 instants->back().s,
                 instants->back().t,
                 instants->front().pose,
                 instants->back().pose};
-    if (is_disk) let_disk_roll(part, 0.04 * P, *instants, one.problem);
-    one.problem.squeezed = squeezed;
+    if (squeeze.disk_radius > 0) let_disk_roll(part, squeeze.disk_radius, *instants, one.problem);
+    if (squeeze.encoder) turn_wheel(part, *instants, one.problem.wheels.front());
+    one.problem.squeezed = squeeze.stated;
     return one;
   }
 }
