@@ -181,4 +181,16 @@ TEST(MixedFingers, leave_out_outlines_that_are_in_one_another_and_keep_those_tha
   EXPECT_GT(apart, 5);
 }
 
+// On arcs whose centres are corners both fingers roll alike from a line of pairs.
+TEST(MixedFingers, a_continuum_of_pairs_is_not_contradicted_by_the_pair_that_is_listed) {
+  Case one{Part(gallery("reuleaux")), {jaw(), disk(0.12)}, {}};
+  const double P = one.part.perimeter();
+  one.plan.fingers[0] = {one.fingers[0], 0.1 * P, 0, 0.2 * P};
+  one.plan.fingers[1] = {one.fingers[1], 0.6 * P, 0, -0.15 * P};
+  const Answer answer = answer_of(one, roll_free(one.part, one.plan).log, std::nullopt);
+  EXPECT_EQ(answer.placements.front().kind, Kind::stretch);
+  EXPECT_TRUE(holds_truth(one, answer, 1e-9));
+  EXPECT_FALSE(answer.verdict.fits_badly);
+}
+
 }  // namespace rollfix::mixed_fingers_test

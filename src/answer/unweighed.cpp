@@ -93,7 +93,9 @@ class RowsCheck {
     const double width = width_of(placement);
     const double bend = 2 * part_.turning().most_curvature() * width;
     if (placement.kind != Kind::corner && off(placement) > tolerance + bend) return true;
-    if (!placement.pose_residual) return false;
+    // Of a continuum of pairs the one that is listed need not be where the fingers were.
+    const bool is_of_many = placement.kind == Kind::stretch && placement.start.size() == 2;
+    if (!placement.pose_residual || is_of_many) return false;
     const double length =
         kOverTolerance * (observed_.length_error() + centre_rounding_) + width + (tolerance + bend) * part_.perimeter();
     return placement.pose_residual->length > length + kLeastOff * part_.perimeter();
