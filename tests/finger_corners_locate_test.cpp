@@ -226,10 +226,21 @@ TEST(FingerCornersLocate, noisy_rows_near_a_corner_are_not_weighed) {
   EXPECT_LT(answer.weighing->samples, 200 - 50);
 }
 
-TEST(FingerCornersLocate, what_does_not_take_corners_says_so) {
+TEST(FingerCornersLocate, a_row_of_a_stream_is_the_reading_of_the_log_on_a_corner_or_not) {
   const Case cam;
-  EXPECT_THAT(refusal_of([&] { LogStream("live", cam.part, {cam.finger}); }),
-              HasSubstr("expected a finger without corners"));
+  const std::vector<Reading> readings = readings_as_given(cam.log, {cam.finger});
+  LogStream live("live", cam.part, {cam.finger});
+  for (std::size_t row = 0; row < cam.log.rows(); ++row) {
+    const Sample sample = live.push(cam.log.time[row], cam.log.fingers[0].u[row], cam.log.fingers[0].psi[row]).sample;
+    EXPECT_EQ(sample.reading.length[0], readings[row].length[0]);
+    EXPECT_EQ(sample.reading.turn, readings[row].turn);
+    EXPECT_EQ(sample.reading.pivot, readings[row].pivot);
+    EXPECT_EQ(std::isinf(sample.finger_curvature[0]), cam.on_corners()[row]);
+  }
+}
+
+TEST(FingerCornersLocate, a_certificate_of_readings_on_a_corner_is_refused) {
+  const Case cam;
   Reading open(0.8, 0.3);
   open.pivot = 0.25;
   EXPECT_THAT(refusal_of([&] { certify(cam.part, {open}); }), HasSubstr("on a corner of the finger"));

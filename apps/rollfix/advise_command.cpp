@@ -7,14 +7,17 @@
 #include <utility>
 
 #include "files/documents/documents.hpp"
+#include "rollfix/advise/advise_rig.hpp"
 #include "rollfix/advise/advise_touches.hpp"
 #include "rollfix/answer/next_roll.hpp"
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/arguments/catalog_argument.hpp"
 #include "rollfix/arguments/finger_argument.hpp"
+#include "rollfix/arguments/measured_arguments.hpp"
 #include "rollfix/arguments/output_argument.hpp"
 #include "rollfix/arguments/question_arguments.hpp"
 #include "rollfix/arguments/roll_arguments.hpp"
+#include "rollfix/arguments/travel_argument.hpp"
 #include "rollfix/arguments/typed_number.hpp"
 #include "rollfix/catalog/documents.hpp"
 #include "rollfix/catalog/next_roll.hpp"
@@ -38,6 +41,8 @@ Nothing is known yet: which roll tells most at first; for two fingers --finger f
   rollfix advise gallery:cam --finger disk,r=0.2 --finger disk,r=0.2 --noise contact=0.005,angle=0.2deg
 Two fingers on a part that is free to move: which rolls on, and how far:
   rollfix advise gallery:spline,n=9,seed=7,wobble=0.2 --reading 0.58,0.94,-0.725248 --reading 1.01,1.92,-1.99849
+A jaw with skin and a wheel without: how the wheel's pin moves next
+  rollfix advise gallery:cam --log jaw.csv --log pin.csv --finger jaw --finger wheel,r=0.4 --noise contact=0.01,angle=0.3deg,position=0.01
 Touches without rolling: where to touch next, of all ways or of two:
   rollfix advise gallery:cam --touch 6.486,3.822 --touch 4.355,4.133 --touch 3.824,3.238 --finger disk,r=0.2 --noise position=0.005
   rollfix advise gallery:cam --touch 6.486,3.822 --touch 4.355,4.133 --touch 3.824,3.238 --finger disk,r=0.2 --noise position=0.005 --approach 3,1,1,1 --approach 9,3,-1,0
@@ -58,24 +63,6 @@ struct AdviseArguments {
   bool json = false;
   OutputArgument output;
 };
-
-Interval read_travel(const std::string& text, const std::string& unit) {
-  const std::vector<std::string_view> fields = split(text, ',');
-  const std::string what = "--travel " + text;
-  if (fields.size() == 1) {
-    const double most = read_length(fields[0], what, unit);
-    if (!(most > 0)) throw InputError(what + ": expected a length above 0, or BACK,FORWARD as in -0.5,1.2");
-    return {-most, most};
-  }
-  if (fields.size() != 2) {
-    throw InputError(what + ": expected one length, or BACK,FORWARD as in -0.5,1.2; are there decimal commas in it?");
-  }
-  const Interval travel{read_length(fields[0], what, unit), read_length(fields[1], what, unit)};
-  if (!(travel.lo <= 0 && travel.hi >= 0 && travel.width() > 0)) {
-    throw InputError(what + ": expected a length of at most 0, backwards, and one of at least 0, forwards, not both 0");
-  }
-  return travel;
-}
 
 /// "roll on forwards by 1.2 mm"; "roll on finger a forwards by 1.2 mm, finger b stays".
 std::string roll_text(const PerFinger<double>& lengths, const Part& part) {
@@ -249,6 +236,23 @@ Problem read_before_contact(const RollArguments& roll, std::vector<std::string>&
   return problem;
 }
 
+Report advise_beside_wheel(const AdviseArguments& arguments) {
+  const RollArguments& roll = arguments.roll;
+  if (!arguments.catalog.empty()) {
+    throw InputError("--catalog: a wheel without skin is taken beside a known part: give PART, or fingers with skin");
+  }
+  if (roll.logs.empty()) {
+    throw InputError(
+        "advise: beside a wheel without skin expected --log of the jaw and --log of the pin: how the pin moves next "
+        "follows from where both can be; before any contact move it a little first");
+  }
+  if (!arguments.friction.empty()) {
+    throw InputError("--friction: it is not looked at beside a wheel without skin: leave it out, or ask rollfix plan");
+  }
+  require_figure_output(arguments.output, arguments.json);
+  return advise_rig(roll, arguments.travel, arguments.output, arguments.json);
+}
+
 Report advise_report(const AdviseArguments& arguments) {
   const RollArguments& roll = arguments.roll;
   if (roll.roll == "all") {
@@ -276,6 +280,12 @@ Report advise_report(const AdviseArguments& arguments) {
     throw InputError(
         "advise: expected --reading LENGTH,TURN or --log FILE of the roll so far, or --touch X,Y; before any contact "
         "PART and --finger, once or for each of two");
+  }
+  if (has_wheel(roll)) return advise_beside_wheel(arguments);
+  if (!roll.squeezed.empty()) {
+    throw InputError(
+        "--squeezed: it is about a finger with skin and a wheel without that squeeze a part, such as a jaw and "
+        "wheel,r=0.4; leave it out");
   }
   counts_clockwise(roll.direction);  // one way or the other, not either
   require_figure_output(arguments.output, arguments.json);
@@ -312,6 +322,7 @@ void add_advise_command(CLI::App& program, Command& chosen) {
   command->footer(kAdviseExamples);
   add_roll_arguments(*command, arguments->roll);
   add_touch_arguments(*command, arguments->touches, arguments->roll);
+  add_squeezed_argument(*command, arguments->roll.squeezed);
   command
       ->add_option("--approach", arguments->approaches,
                    "of touches: a way on which the next one can be tried, from X,Y towards DX,DY; repeatable; default "
@@ -320,9 +331,10 @@ void add_advise_command(CLI::App& program, Command& chosen) {
       ->allow_extra_args(false);
   add_catalog_argument(*command, arguments->catalog);
   command
-      ->add_option(
-          "--travel", arguments->travel,
-          "how far each finger can roll on: a length, or one backwards, below 0, and one forwards; default one lap")
+      ->add_option("--travel", arguments->travel,
+                   "how far each finger can roll on: a length, or one backwards, below 0, and one forwards; default "
+                   "one lap; of a "
+                   "wheel without skin how far its pin can go, default a tenth of a lap")
       ->type_name("BACK,FORWARD");
   command
       ->add_option("--friction", arguments->friction,

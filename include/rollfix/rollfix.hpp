@@ -21,6 +21,7 @@
 #include "rollfix/contact/teach.hpp"              // IWYU pragma: export
 #include "rollfix/error.hpp"                      // IWYU pragma: export
 #include "rollfix/hold/hold.hpp"                  // IWYU pragma: export
+#include "rollfix/hold/next_pin.hpp"              // IWYU pragma: export
 #include "rollfix/locate/locate.hpp"              // IWYU pragma: export
 #include "rollfix/locate/reachable.hpp"           // IWYU pragma: export
 #include "rollfix/outline/gallery.hpp"            // IWYU pragma: export

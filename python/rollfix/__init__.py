@@ -14,7 +14,7 @@ from ._catalog import Catalog, CatalogEntry, ManyIdentified, PartsAdvice
 from ._core import InputError, InternalError, __version__
 from ._documents import Advice, Inspection
 from ._fingers import Disk, Finger, Jaw, OutlineFinger, Wheel
-from ._holds import HoldAnswer
+from ._holds import HoldAnswer, PinAdvice
 from ._identified import Identified, PartFound
 from ._log_answers import LogAnswers
 from ._logs import Log, Roll, read_log
@@ -54,6 +54,7 @@ __all__ = [
     "Part",
     "PartFound",
     "PartsAdvice",
+    "PinAdvice",
     "Placement",
     "Plan",
     "Reach",

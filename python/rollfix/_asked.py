@@ -11,11 +11,25 @@ from . import _core
 from ._answer import Answer
 from ._checks import clockwise, flag, friction as friction_given, travel as travel_given
 from ._documents import Advice
-from ._holds import HoldAnswer
+from ._fingers import fingers
+from ._holds import HoldAnswer, PinAdvice
 from ._kinds import answer_to
 from ._log_answers import LogAnswers, locate_logs
 from ._many import ManyAnswers, locate_many
-from ._options import AnyOptions, HoldOptions, LogOptions, RestOptions, RollOptions, RowOptions, TouchOptions, keywords
+from ._noise import weighing
+from ._options import (
+    AdvisedOptions,
+    AnyOptions,
+    FirstOptions,
+    HoldOptions,
+    LogOptions,
+    RestOptions,
+    RollOptions,
+    RowOptions,
+    TouchOptions,
+    keywords,
+    require_only,
+)
 from ._question import Question
 from ._rounding import offer_rounding
 from ._shape import Shape
@@ -143,7 +157,7 @@ class Asked(Shape):
         """
         return answer_to(self, {"readings": readings, "turn": turn, "log": log, "touches": touches}, options)
 
-    @keywords(RollOptions)
+    @keywords(AdvisedOptions)
     def advise(
         self,
         readings: Any = None,
@@ -152,26 +166,36 @@ class Asked(Shape):
         travel: Any = None,
         friction: Any = None,
         log: Any = None,
-        **options: Unpack[RollOptions],
-    ) -> Advice:
+        **options: Unpack[AdvisedOptions],
+    ) -> Union[Advice, PinAdvice]:
         """The next roll: which one tells the remaining placements apart; of two fingers, how far each rolls.
 
         Parameters
         ----------
         readings, turn, log, ...
-            The roll so far, as of `locate`.
+            The roll so far, as of `locate`. Without any of them, before any contact, `finger` alone, with `noise` and
+            `may_overlap`: which roll tells most at first.
         travel : float or (float, float), optional
-            How far each finger can roll on: a length, or (back, forward) with back <= 0. Default: one lap.
+            How far each finger can roll on: a length, or (back, forward) with back <= 0. Default: one lap. Of a `Wheel` beside a
+            jaw how far its pin can go; default a tenth of a lap.
         friction : float or (float, float), optional
             Of two disks or jaws on the part: only rolls are advised that can be planned with it.
 
         Returns
         -------
         Advice
+            Of a jaw beside a `Wheel` a `PinAdvice`.
         """
         range_given = travel_given(travel)
-        answer = self.locate(readings, turn, log=log, **options)
         may_overlap = flag(options.get("may_overlap", False), "may_overlap")
+        if readings is None and turn is None and log is None:
+            require_only(FirstOptions, options, "is about a roll that was, and none is given")
+            sds = weighing(options.get("noise"))
+            answer = Answer(_core.before_contact(self._core, fingers(options.get("finger")), sds, may_overlap))
+        else:
+            answer = self.locate(readings, turn, log=log, **options)
+        if isinstance(answer, HoldAnswer):
+            return answer.advise(travel=travel)
         return Advice(answer._core, range_given, may_overlap, friction_given(friction))
 
     @keywords(RowOptions)

@@ -135,7 +135,7 @@ class Wheel(Finger):
 
     def _given(self) -> Any:
         raise InputError(
-            "finger: a Wheel has no skin: `Part.locate` takes it beside a finger with skin, as in finger=[Jaw(), Wheel(0.4)]"
+            "finger: a Wheel has no skin: `Part.locate` and `Part.watch` take it beside a finger with skin, as in finger=[Jaw(), Wheel(0.4)]"
         )
 
     def __eq__(self, other: object) -> bool:

@@ -8,14 +8,30 @@ from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 import numpy as np
 
 from . import _core
-from ._checks import flag, least, numbers, path, place_prior, pose_prior, text, whole
+from ._checks import flag, least, numbers, path, place_prior, pose_prior, text, travel as travel_given, whole
 from ._columns import Naming
 from ._core import InputError
-from ._documents import Listing
+from ._documents import Document, Listing
 from ._fingers import Wheel, fingers
 from ._logs import Log, _is_log, pin_of, rolls_of
 from ._messages import in_a_page, shown, warn
 from ._noise import noise as noise_given
+
+
+class PinAdvice(Document):
+    """How the pin of a wheel without skin moves next: the fields of `rollfix/advise/1`, see docs/json.md.
+
+    `pin` is how far, (x, y) in the jaw's frame, or None. `helps`, and where no motion does `why`; each of the `contenders` has
+    the `length` that the jaw's contact would travel.
+    """
+
+    __slots__ = ()
+
+    def __repr__(self) -> str:
+        if not self.helps:
+            return f"<PinAdvice: {self.verdict}; {self.why}>"
+        by = ", ".join(f"{one:.6g}" for one in self.pin)
+        return f"<PinAdvice: {self.verdict}; move the pin by ({by}), {self.expected_placements:.2f} placements remain>"
 
 
 class HoldAnswer(Listing):
@@ -50,6 +66,16 @@ class HoldAnswer(Listing):
         """ndarray, (n, 2, 3): x, y and heading in radians at the first contacts and at the last. Of logs without x and y
         these are NaN."""
         return np.array([one["pose"] for one in self.placements], dtype=float).reshape(-1, 2, 3)
+
+    def advise(self, *, travel: Any = None) -> PinAdvice:
+        """Of a jaw beside a wheel: how its pin moves next, to tell the placements apart.
+
+        Parameters
+        ----------
+        travel : float or (float, float), optional
+            How far the pin can go: a length, or (back, forward) with back <= 0. Default: a tenth of the perimeter.
+        """
+        return PinAdvice(self._answer.next_pin(travel_given(travel)))
 
     def certify(self, file: Any = None, budget: Optional[int] = None) -> Dict[str, Any]:
         """The proof that there are no other first contacts: the document that `rollfix-verify` checks with code of its own.

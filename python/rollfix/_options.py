@@ -91,6 +91,7 @@ class LiveOptions(Rolling, total=False):
     """Of a roll that goes on."""
 
     prior: Optional[Tuple[float, float]]
+    squeezed: Optional[float]
 
 
 class Rolled(Rolling, total=False):
@@ -124,6 +125,20 @@ class PartsOptions(Rolled, total=False):
     facing: Optional[float]
     rounding: Optional[Tuple[float, float]]
     clear: Any
+
+
+class AdvisedOptions(RollOptions, total=False):
+    """Of a roll that goes on as is advised."""
+
+    squeezed: Optional[float]
+
+
+class FirstOptions(TypedDict, total=False):
+    """Of the first roll, before any contact."""
+
+    finger: Optional[FingerLike]
+    noise: NoiseLike
+    may_overlap: bool
 
 
 class AnyOptions(Measured, Lies, Read, total=False):

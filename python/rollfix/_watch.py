@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Any, Dict, Iterable, Iterator, List, Mapping, 
 import numpy as np
 
 from . import _core
-from ._checks import clockwise, flag, place_prior, pose_prior, text, whole
+from ._checks import clockwise, flag, number, place_prior, pose_prior, text, whole
 from ._clock import Clock
 from ._columns import Naming
 from ._core import InputError
-from ._fingers import fingers
+from ._fingers import Wheel, fingers
 from ._made import Made
 from ._messages import shown, warn
 from ._noise import NoiseLike, weighing
@@ -44,7 +44,8 @@ class Watch(Made):
     ----------
     part : Part
     finger : Disk, Jaw or OutlineFinger, or a list of two, optional
-        For logs of u and psi. One serves both of two.
+        For logs of u and psi. One serves both of two. The second one may be a `Wheel`, which has no skin: then `name` has two
+        names, rows of log 1 have `x` and `y` of its pin, and `psi` where it has an encoder; placements have the part's pose.
     noise : Noise or dict
         How far the sensors are off.
     prior : (s, sd), optional
@@ -59,6 +60,8 @@ class Watch(Made):
         As of `Part.locate`.
     live : bool
         Rows come as they are felt: what is new is not kept back for longer than a tenth of a second.
+    squeezed : float, optional
+        Of a finger and a `Wheel`, as of `Part.locate`.
     may_overlap : bool
         Of two fingers at different heights, as of `Part.locate`.
     name : str or (str, str)
@@ -84,6 +87,10 @@ class Watch(Made):
         if sds is None:
             raise InputError("noise: expected how far the sensors are off, as in Noise(contact=0.1, angle=0.01)")
         names = _names_of(name)
+        with_skin, wheel = _with_wheel(given["finger"], names)
+        squeezed = None if given["squeezed"] is None else number(given["squeezed"], "squeezed")
+        if squeezed is not None and wheel is None:
+            raise InputError("squeezed: is about a finger with skin and a Wheel without that squeeze a part: leave it out")
         self._alone = threading.RLock()  # whoever has it feeds; a warning's handler may feed as well
         self._naming = Naming(given["columns"], given["units"], given["degrees"], given["wrapped"])
         self._clock = Clock()
@@ -94,7 +101,7 @@ class Watch(Made):
         self._last: Optional[Event] = None
         self._core = _core.Watch(
             part._core,
-            fingers(given["finger"]),
+            fingers(with_skin),
             sds,
             None if given["prior"] is None else place_prior(given["prior"]),
             pose_prior(given["heading"], given["pose"]),
@@ -109,6 +116,8 @@ class Watch(Made):
             flag(live, "live"),
             None if catalog is None else catalog._core,
             flag(given["may_overlap"], "may_overlap"),
+            wheel,
+            squeezed,
         )
 
     def add(self, rows: Any, log: int = 0) -> List[Event]:
@@ -274,6 +283,19 @@ def _names_of(name: Any) -> List[str]:
     if len(several) > 2 or not several or len(set(several)) < len(several):
         raise InputError(f"name: expected one, or two different ones of both fingers' logs, found {shown(name)}")
     return several
+
+
+def _with_wheel(finger: Any, names: List[str]) -> Tuple[Any, Optional[float]]:
+    """The fingers with skin, and the radius of the wheel behind one of them."""
+    given = list(finger) if isinstance(finger, (list, tuple)) else [finger]
+    if not any(isinstance(one, Wheel) for one in given):
+        return finger, None
+    if len(given) != 2 or isinstance(given[0], Wheel) or not isinstance(given[1], Wheel) or len(names) != 2:
+        raise InputError(
+            "finger: expected one finger with skin and behind it one Wheel, with a log of each, as in "
+            f"finger=[Jaw(), Wheel(0.4)], name=('jaw', 'pin'), found {shown(finger)}"
+        )
+    return given[0], given[1].radius
 
 
 def _in_order(names: Optional[List[str]], table: Table, columns: Dict[str, np.ndarray]) -> Dict[str, np.ndarray]:

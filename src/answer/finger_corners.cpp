@@ -26,8 +26,8 @@ constexpr double kWithin = 1.96;
 
 class WayBack {
  public:
-  WayBack(const LeadingRows& leading, const Problem& problem)
-      : part_(problem.part), length_(leading.way.length), noise_(problem.noise.value_or(Noise{})) {}
+  WayBack(const PerFinger<double>& length, const Part& part, const Noise& noise)
+      : part_(part), length_(length), noise_(noise) {}
 
   PerFinger<double> place(PerFinger<double> at) const {
     for (std::size_t k = 0; k < at.size(); ++k) at[k] = part_.boundary().canonical(at[k] - length_[k]);
@@ -54,18 +54,28 @@ class WayBack {
     if (!std::isnan(placement.probability)) move_belief(placement);
   }
 
+  void move(Mode& mode) const {
+    mode.start = place(mode.start);
+    for (std::size_t k = 0; k < mode.start.size(); ++k) {
+      mode.region[k] = arc(mode.region[k], k);
+      mode.tangent[k] = part_.tangent(mode.start[k]);
+    }
+    move_belief(mode);
+  }
+
  private:
-  void move_belief(Placement& placement) const {
-    placement.mean = place(placement.mean);
-    for (std::size_t k = 0; k < placement.start.size(); ++k) {
+  template <class Remaining>
+  void move_belief(Remaining& one) const {
+    one.mean = place(one.mean);
+    for (std::size_t k = 0; k < one.start.size(); ++k) {
       const auto i = static_cast<Eigen::Index>(k);
       const double of_way = sd(k);
-      placement.sd[k] = std::hypot(placement.sd[k], of_way);
-      if (placement.start.size() == 2) placement.covariance(i, i) += of_way * of_way;
-      const Interval there = placement.interval[k];
+      one.sd[k] = std::hypot(one.sd[k], of_way);
+      if (one.start.size() == 2) one.covariance(i, i) += of_way * of_way;
+      const Interval there = one.interval[k];
       if (part_.boundary().is_full(there)) continue;
       const double beyond = std::hypot(0.5 * there.width(), kWithin * of_way) - 0.5 * there.width();
-      placement.interval[k] = arc({there.lo - beyond, there.hi + beyond}, k);
+      one.interval[k] = arc({there.lo - beyond, there.hi + beyond}, k);
     }
   }
 
@@ -78,6 +88,16 @@ class WayBack {
   PerFinger<double> length_;
   Noise noise_;
 };
+
+/// The last contacts lie that much further on.
+template <class Remaining>
+void go_on(const PerFinger<double>& further, const Part& part, const Noise& noise, Remaining& one) {
+  for (std::size_t k = 0; k < one.end.size(); ++k) {
+    one.end[k] = part.boundary().canonical(one.end[k] + further[k]);
+    one.end_mean[k] = part.boundary().canonical(one.end_mean[k] + further[k]);
+    one.end_sd[k] = std::hypot(one.end_sd[k], noise.contact, noise.contact);  // both rows'
+  }
+}
 
 /// Without what belongs to the last entries, which the answer does not list.
 template <class Entry>
@@ -146,7 +166,7 @@ Problem without(const LeadingRows& leading, const Problem& problem) {
 }
 
 void to_first_contacts(const LeadingRows& leading, const Problem& problem, Answer& answer) {
-  const WayBack way(leading, problem);
+  const WayBack way(leading.way.length, problem.part, problem.noise.value_or(Noise{}));
   const auto move_all = [&](std::vector<Placement>& placements) {
     for (Placement& placement : placements) {
       way.move(placement);
@@ -178,6 +198,10 @@ void to_first_contacts(const LeadingRows& leading, const Problem& problem, Answe
   }
 }
 
+void to_first_contacts(const Reading& way, const Part& part, const Noise& noise, Mode& mode) {
+  WayBack(way.length, part, noise).move(mode);
+}
+
 std::vector<std::size_t> rows_to_search(const Problem& problem, const std::vector<bool>& on_corners) {
   const Log& log = *problem.felt.log;
   std::vector<std::size_t> rows = rows_at(log, problem.at);
@@ -199,18 +223,15 @@ void to_last_contacts(const Observation& observed, const Noise& noise, Answer& a
   if (observed.on_corners.empty() || !observed.on_corners.back()) return;
   const Reading& last = observed.rolls.back();
   const Reading& weighed = observed.rolls[last_exact(observed.on_corners, observed.rolls.size() - 1)];
-  const auto move = [&](std::vector<Placement>& placements) {
-    for (Placement& placement : placements) {
-      for (std::size_t k = 0; k < placement.end.size(); ++k) {
-        const double further = last.length[k] - weighed.length[k];
-        placement.end[k] = answer.part.boundary().canonical(placement.end[k] + further);
-        placement.end_mean[k] = answer.part.boundary().canonical(placement.end_mean[k] + further);
-        placement.end_sd[k] = std::hypot(placement.end_sd[k], noise.contact, noise.contact);  // both rows'
-      }
-    }
-  };
-  move(answer.placements);
-  move(answer.weighing->improbable);
+  PerFinger<double> further = last.length;
+  for (std::size_t k = 0; k < further.size(); ++k) further[k] -= weighed.length[k];
+  for (std::vector<Placement>* placements : {&answer.placements, &answer.weighing->improbable}) {
+    for (Placement& placement : *placements) go_on(further, answer.part, noise, placement);
+  }
+}
+
+void to_last_contacts(const Reading& further, const Part& part, const Noise& noise, Mode& mode) {
+  go_on(further.length, part, noise, mode);
 }
 
 }  // namespace rollfix

@@ -30,11 +30,16 @@ Problem without(const LeadingRows& leading, const Problem& problem);
 /// do.
 void to_first_contacts(const LeadingRows& leading, const Problem& problem, Answer& answer);
 
+/// The same of a mode that was found from the row that lies `way` behind the first contacts.
+void to_first_contacts(const Reading& way, const Part& part, const Noise& noise, Mode& mode);
+
 /// The rows to search with: those that are asked for; else the last, and before it, if that is on a corner, the last
 /// one that is not. Of two fingers the middle one and the last, each the nearest before it that is off corners.
 std::vector<std::size_t> rows_to_search(const Problem& problem, const std::vector<bool>& on_corners);
 
 /// With noise rows on corners at the end of the log were not weighed: the last contacts are that much further on.
 void to_last_contacts(const Observation& observed, const Noise& noise, Answer& answer);
+/// The same of a mode: the last contacts lie `further` behind those of the last row that was weighed.
+void to_last_contacts(const Reading& further, const Part& part, const Noise& noise, Mode& mode);
 
 }  // namespace rollfix

@@ -146,7 +146,7 @@ void require_no_corners(const std::vector<Finger>& fingers, const std::string& w
     if (!finger.has_corners()) continue;
     throw InputError(fmt::format(
         "{}: expected a finger without corners, found {}: on a corner u does not tell how the finger's normal is "
-        "turned; round its corners, or ask `locate` about a log of one finger or two",
+        "turned; round its corners, or ask `locate` or `watch` about one finger with skin or two",
         what, finger.name()));
   }
 }

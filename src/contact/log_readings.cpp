@@ -51,7 +51,7 @@ class FingerCourse {
       : kind_(log.kind),
         rows_(log.fingers[which]),
         finger_(finger_of(fingers, which)),
-        within_(reach_of_corners(rows_, noise)) {
+        within_(reach_of_corners(rows_.place_rounding, noise)) {
     if (kind_ != LogKind::contact) return;
     u_ = unwrapped_as_said(rows_.u, rows_.place_rounding, finger_->period(), rows_.u_wrapped);
     psi_ = unwrapped_as_said(rows_.psi, rows_.angle_rounding, kTurn, rows_.psi_wrapped);
@@ -285,9 +285,9 @@ std::vector<Reading> readings(const Log& log, const Part& part, const std::vecto
   return result;
 }
 
-double reach_of_corners(const FingerRows& rows, const Noise& noise) {
+double reach_of_corners(double place_rounding, const Noise& noise) {
   constexpr double kSurelyOff = 5;  // standard deviations: one row in two million is on the other side
-  return std::max(2 * rows.place_rounding, kSurelyOff * noise.contact);
+  return std::max(2 * place_rounding, kSurelyOff * noise.contact);
 }
 
 std::vector<Contact> contacts_of(const FingerRows& rows, const Finger& finger) {
@@ -305,7 +305,7 @@ std::vector<bool> rows_on_corners(const Log& log, const std::vector<Finger>& fin
     if (finger == nullptr || !finger->has_corners()) continue;
     on_corners.resize(log.rows());
     const std::vector<double>& u = log.fingers[which].u;  // wrapped or not
-    const double within = reach_of_corners(log.fingers[which], noise);
+    const double within = reach_of_corners(log.fingers[which].place_rounding, noise);
     for (std::size_t row = 0; row < u.size(); ++row) {
       on_corners[row] = on_corners[row] || finger->is_on_corner(u[row], within);
     }

@@ -118,6 +118,7 @@ RowKind RowReader::read(std::string_view line, LogRow& row) {
 bool RowReader::take_header() {
   const bool may_come = columns_.empty() || header_may_come_;
   if (!may_come) return false;
+  if (of_pin_ && !columns_.empty() && is_data(table_row_)) return false;
   if (of_pin_) {
     columns_ = {pin_columns_of(table_row_, name_, options_)};
     return true;

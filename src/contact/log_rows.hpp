@@ -183,7 +183,7 @@ std::vector<double> unwrapped_as_said(const std::vector<double>& angles, double 
                                       const std::optional<bool>& is_wrapped);
 
 /// How near to a corner of its finger the contact of such a row may be on it, length: by its digits, or by the noise.
-double reach_of_corners(const FingerRows& rows, const Noise& noise);
+double reach_of_corners(double place_rounding, const Noise& noise);
 
 /// The first row that is so far from the one before that the column may be wrapped there or may not; nothing where the
 /// rows around show which it is, or where it was said.

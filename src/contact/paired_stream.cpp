@@ -28,17 +28,19 @@ struct WaitingRow {
 
 /// One of the logs.
 struct OneLog {
-  OneLog(const std::string& name, LogOptions of_log) : options(std::move(of_log)), reader(name, options) {}
+  OneLog(const std::string& name, LogOptions of_log, bool is_pin)
+      : options(std::move(of_log)), of_pin(is_pin), reader(name, options, of_pin) {}
 
   bool knows_columns() const { return reader.knows_columns(); }
   bool has_time() const { return reader.columns().front().has(Column::time); }
   void begin_anew() {
-    reader = RowReader(reader.name(), options);
+    reader = RowReader(reader.name(), options, of_pin);
     rows.clear();
     began.reset();
   }
 
   LogOptions options;
+  bool of_pin;  // of a wheel without skin
   RowReader reader;
   std::deque<WaitingRow> rows;
   std::optional<double> began{};  // time of its first row
@@ -55,9 +57,9 @@ LogLine malformed(const std::string& why) {
 
 struct PairedStream::State {
   State(const std::array<std::string, 2>& names, const Part& part, std::vector<Finger> fingers, const Noise& noise,
-        const LogOptions& options, bool robust)
-      : sides{OneLog{names[0], in_unit_of(part, options_for_finger(options, 0))},
-              OneLog{names[1], in_unit_of(part, options_for_finger(options, 1))}},
+        const LogOptions& options, bool robust, bool b_is_pin)
+      : sides{OneLog{names[0], in_unit_of(part, options_for_finger(options, 0)), false},
+              OneLog{names[1], in_unit_of(part, options_for_finger(options, 1)), b_is_pin}},
         rolls(part, std::move(fingers), noise, robust, options.any_part, names[0]) {}
 
   void push(std::size_t which, std::string_view line);
@@ -87,6 +89,12 @@ void PairedStream::State::start() {
     if (side.reader.columns().size() == 1) continue;
     throw InputError(
         fmt::format("{}: this log is of two fingers, expected one with columns 'u' and 'psi'", side.reader.name()));
+  }
+  if (b.of_pin && (a.kind != LogKind::contact || !a.has(Column::x))) {
+    throw InputError(fmt::format(
+        "{}: expected columns 'u', 'psi', 'x' and 'y' beside a wheel: it says something by where its pin was as seen "
+        "from the finger; without them any place on the part fits",
+        sides[0].reader.name()));
   }
   if (a.kind != b.kind) {
     throw InputError(fmt::format("{} and {}: expected the same columns of both fingers, found logs of different kinds",
@@ -185,8 +193,8 @@ void PairedStream::State::take_fronts() {
 }
 
 PairedStream::PairedStream(const std::array<std::string, 2>& names, const Part& part, std::vector<Finger> fingers,
-                           const Noise& noise, const LogOptions& options, bool robust)
-    : state_(std::make_unique<State>(names, part, std::move(fingers), noise, options, robust)) {}
+                           const Noise& noise, const LogOptions& options, bool robust, bool b_is_pin)
+    : state_(std::make_unique<State>(names, part, std::move(fingers), noise, options, robust, b_is_pin)) {}
 PairedStream::~PairedStream() = default;
 PairedStream::PairedStream(PairedStream&&) noexcept = default;
 PairedStream& PairedStream::operator=(PairedStream&&) noexcept = default;

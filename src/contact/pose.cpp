@@ -25,7 +25,7 @@ class FeltPart {
         finger_(finger),
         rows_(rows),
         start_(start),
-        within_(reach_of_corners(rows, noise)),
+        within_(reach_of_corners(rows.place_rounding, noise)),
         u_(unwrapped_as_said(rows.u, rows.place_rounding, finger.period(), rows.u_wrapped)),
         psi_(unwrapped_as_said(rows.psi, rows.angle_rounding, 2 * std::numbers::pi, rows.psi_wrapped)) {}
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -23,17 +24,16 @@ RollRows::RollRows(const Part& part, std::vector<Finger> fingers, const Noise& n
                    const std::string& name)
     : part_(part), fingers_(std::move(fingers)), noise_(noise), robust_(robust), any_part_(any_part) {
   require_fingers(fingers_, 2, false, name);
-  require_no_corners(fingers_, name + ", as a stream");
 }
 
 void RollRows::start(const std::vector<Columns>& columns, const std::vector<std::string>& names) {
-  require_fingers(fingers_, columns.size(), columns.front().kind == LogKind::contact, names.front());
-  for (std::size_t k = 0; k < columns.size(); ++k) {
-    require_unit_of_u(columns[k].u_dimension, finger_of(fingers_, k), names[k]);
-  }
   columns_ = columns;
   names_ = names;
-  if (!check_) check_.emplace(part_, kind(), fingers_, columns.size(), noise_);
+  require_fingers(fingers_, with_skin(), kind() == LogKind::contact, names.front());
+  for (std::size_t k = 0; k < with_skin(); ++k) {
+    require_unit_of_u(columns[k].u_dimension, finger_of(fingers_, k), names[k]);
+  }
+  if (!check_) check_.emplace(part_, kind(), fingers_, with_skin(), noise_);
 }
 
 std::string RollRows::place_of(std::size_t finger, const PerFinger<std::size_t>& lines) const {
@@ -51,7 +51,7 @@ void RollRows::begin_roll() {
 }
 
 void RollRows::require_on_finger(const LogRow& row, const PerFinger<std::size_t>& lines) const {
-  for (std::size_t k = 0; k < fingers() && kind() == LogKind::contact; ++k) {
+  for (std::size_t k = 0; k < with_skin() && kind() == LogKind::contact; ++k) {
     const WrittenValue& u = row.fingers[k].place;
     const auto why = check_->off_finger(k, u.value, u.half_unit);
     if (why) throw InputError(fmt::format("{}: {}", place_of(k, lines), *why));
@@ -68,19 +68,31 @@ Reading RollRows::measure_contact(const FingerCells& cells, std::size_t which, S
   if (!roll.has_first) roll.first = contact;
   roll.has_first = true;
   (*sample.contact)[which] = contact;
-  sample.finger_curvature[which] = finger.curvature(contact.u);
-  before = reading_between(finger, roll.first, {roll.u.before(), roll.psi.before()});
-  return reading_between(finger, roll.first, contact);
+  const double within = reach_of_corners(roll.rounding.place.value(), noise_);
+  const bool is_on_corner = finger.has_corners() && finger.is_on_corner(contact.u, within);
+  sample.finger_curvature[which] = is_on_corner ? std::numeric_limits<double>::infinity() : finger.curvature(contact.u);
+  before = reading_between(finger, roll.first, {roll.u.before(), roll.psi.before()}, within);
+  return reading_between(finger, roll.first, contact, within);
+}
+
+/// A wheel's contact is not known, and without an encoder neither is how it is turned.
+void RollRows::add_pin(const FingerCells& cells, std::size_t which, Sample& sample) {
+  OngoingRoll& roll = rolls_[which];
+  roll.rounding.angle.add(cells.angle);
+  const bool has_encoder = columns_[which].has(Column::psi);
+  (*sample.contact)[which] = {0, has_encoder ? roll.psi.add(cells.angle.value, roll.rounding.angle.value())
+                                             : std::numeric_limits<double>::quiet_NaN()};
 }
 
 RollRows::Steps RollRows::measure(const LogRow& row, Sample& sample) {
-  Steps steps{PerFinger<Reading>::of(fingers()), PerFinger<Reading>::of(fingers())};
-  for (std::size_t k = 0; k < fingers(); ++k) {
+  Steps steps{PerFinger<Reading>::of(with_skin()), PerFinger<Reading>::of(with_skin())};
+  for (std::size_t k = 0; k < with_skin(); ++k) {
     steps.before[k] = rolls_[k].last;
     steps.now[k] = kind() == LogKind::contact ? measure_contact(row.fingers[k], k, sample, steps.before[k])
                                               : in_stored_direction(rolls_[k].odometer.add(row.fingers[k]), part_);
     rolls_[k].last = steps.now[k];
   }
+  for (std::size_t k = with_skin(); k < fingers(); ++k) add_pin(row.fingers[k], k, sample);
   sample.reading = together(steps.now);
   return steps;
 }
@@ -96,7 +108,7 @@ Sample RollRows::sample_of(const LogRow& row, const PerFinger<std::size_t>& line
   for (const Columns& columns : columns_) has_centre = has_centre && columns.has(Column::x);
   if (has_centre) sample.centre = PerFinger<Vec2>::of(fingers(), Vec2::Zero());
   for (std::size_t k = 0; k < fingers(); ++k) {
-    const Finger* const finger = finger_of(fingers_, k);
+    const Finger* const finger = k < with_skin() ? finger_of(fingers_, k) : nullptr;
     if (finger != nullptr && finger->is_disk()) sample.finger_curvature[k] = finger->curvature(0);
     if (sample.centre) (*sample.centre)[k] = Vec2(row.fingers[k].x, row.fingers[k].y);
   }
@@ -118,7 +130,8 @@ LogLine RollRows::take(const LogRow& row, const PerFinger<std::size_t>& lines) {
   if (rolls_.empty()) begin_roll();
   const std::vector<OngoingRoll> as_it_was = robust_ ? rolls_ : std::vector<OngoingRoll>{};
   Steps steps = measure(row, sample);
-  if (any_part_) return result;
+  // One finger's steps alone, on a part that turns as it likes beside a wheel, can be any.
+  if (any_part_ || with_skin() < fingers()) return result;
   const auto jump = check_->jump(lines, steps.before, steps.now, row.time);
   if (jump && robust_ && strays_ < kMostStrays) {
     ++strays_;

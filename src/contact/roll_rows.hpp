@@ -10,8 +10,8 @@
 
 namespace rollfix {
 
-/// What the rows of growing rolls come to, one after the other, of one finger or of two: each is judged, and measured
-/// from the first contacts of its roll. Knows no lines of text.
+/// What the rows of growing rolls come to, one after the other, of one finger or of two, or of one beside the pin of a
+/// wheel: each is judged, and measured from the first contacts of its roll. Knows no lines of text.
 class RollRows {
  public:
   /// `any_part`: see LogOptions. `name`: for messages. Throws InputError: fingers that are not valid, more than two.
@@ -22,7 +22,7 @@ class RollRows {
   /// fingers of another number.
   void start(const std::vector<Columns>& columns, const std::vector<std::string>& names);
   bool has_started() const { return check_.has_value(); }
-  std::size_t fingers() const { return columns_.size(); }
+  std::size_t fingers() const { return columns_.size(); }  // a wheel without skin included
   LogKind kind() const { return columns_.front().kind; }
 
   /// Throws InputError: u is beyond an open finger's end. REQUIRES has_started().
@@ -50,7 +50,7 @@ class RollRows {
     Reading last;
   };
 
-  /// Each finger's reading of a row, and what the row before it says by now.
+  /// The reading of each finger with skin of a row, and what the row before it says by now.
   struct Steps {
     PerFinger<Reading> before;
     PerFinger<Reading> now;
@@ -60,6 +60,8 @@ class RollRows {
   Sample sample_of(const LogRow& row, const PerFinger<std::size_t>& lines) const;
   Steps measure(const LogRow& row, Sample& sample);
   Reading measure_contact(const FingerCells& cells, std::size_t which, Sample& sample, Reading& before);
+  void add_pin(const FingerCells& cells, std::size_t which, Sample& sample);
+  std::size_t with_skin() const { return columns_.size() - (columns_.back().of_pin ? 1 : 0); }
   std::string place_of(std::size_t finger, const PerFinger<std::size_t>& lines) const;
 
   Part part_;

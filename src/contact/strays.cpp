@@ -22,7 +22,7 @@ class RowByRow {
         part_(part),
         rows_(log.fingers[which]),
         finger_(finger),
-        within_(reach_of_corners(rows_, noise)),
+        within_(reach_of_corners(rows_.place_rounding, noise)),
         u_(finger != nullptr ? finger->period() : 2 * std::numbers::pi, rows_.u_wrapped),
         psi_(2 * std::numbers::pi, rows_.psi_wrapped) {}
 

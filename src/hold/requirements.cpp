@@ -38,7 +38,7 @@ void require_fingers(const HoldProblem& problem) {
                        problem.fingers.size()));
   }
   for (const Finger& finger : problem.fingers) rollfix::require_valid(finger);
-  require_no_corners(problem.fingers, "three and more fingers");
+  require_no_corners(problem.fingers, problem.wheels.empty() ? "three and more fingers" : "a finger beside a wheel");
 }
 
 void require_log(const Log& log) {

@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <string>
+
 #include "rollfix/contact/log.hpp"
 #include "rollfix/contact/paired_stream.hpp"
 #include "rollfix/error.hpp"
@@ -34,7 +37,10 @@ struct Streams {
     return *this;
   }
 
-  PairedStream stream{{"a.csv", "b.csv"}, part(), {rollfix::disk(0.1)}};
+  explicit Streams(const rollfix::Finger& finger = rollfix::disk(0.1), bool b_is_pin = false)
+      : stream({"a.csv", "b.csv"}, part(), {finger}, {}, {}, false, b_is_pin) {}
+
+  PairedStream stream;
   std::vector<LineKind> kinds;
   std::vector<double> times;  // of those that were taken
   std::string why;            // the last one was skipped
@@ -47,6 +53,25 @@ Streams with_headers(const std::string& header = "time,u,psi") {
 }
 
 }  // namespace
+
+TEST(PairedStream, a_jaw_goes_with_a_wheels_pin_which_has_no_encoder_or_one) {
+  for (const std::string psi : {"", ",psi"}) {
+    Streams streams(rollfix::jaw(), true);
+    streams.push(0, "time,u,psi,x,y").push(1, "time,x,y" + psi).push(0, "0,0.5,0,1,2");
+    const LogLine row = streams.stream.push(1, psi.empty() ? "0,3,4" : "0,3,4,0.7").front();
+    EXPECT_EQ(row.kind, LineKind::first);
+    EXPECT_EQ((*row.sample.centre)[1], rollfix::Vec2(3, 4));
+    EXPECT_EQ(std::isnan((*row.sample.contact)[1].psi), psi.empty());
+  }
+}
+
+TEST(PairedStream, a_pins_log_goes_on_without_its_header_after_a_dropped_connection) {
+  Streams streams(rollfix::jaw(), true);
+  streams.push(0, "time,u,psi,x,y").push(1, "time,x,y").push(0, "0,0.5,0,1,2").push(1, "0,3,4");
+  streams.stream.resume(1);
+  streams.push(0, "1,0.5,0,1,2").push(1, "1,3,4");
+  EXPECT_THAT(streams.times, ElementsAre(0, 1));
+}
 
 TEST(PairedStream, a_row_is_taken_when_its_partner_comes) {
   Streams streams = with_headers();

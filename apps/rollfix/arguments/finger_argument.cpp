@@ -79,10 +79,11 @@ Finger read_outlined(const std::string& text, const std::string& unit) {
 Finger read_any(const std::string& text, const std::string& unit) {
   if (text == kJaw) return jaw();
   if (names_wheel(text)) {
-    throw InputError(fmt::format(
-        "--finger {}: a wheel has no skin: locate takes it beside a finger with skin, with a log of each, as "
-        "in --log jaw.csv --log pin.csv --finger jaw --finger {}",
-        text, text));
+    throw InputError(
+        fmt::format("--finger {}: a wheel has no skin: locate, watch and advise take it beside a finger with skin, "
+                    "with a log of each, as "
+                    "in --log jaw.csv --log pin.csv --finger jaw --finger {}",
+                    text, text));
   }
   return names_outline(text) ? read_outlined(text, unit) : Finger(read_disk(text, unit));
 }
@@ -117,8 +118,8 @@ void add_finger_argument(CLI::App& command, std::vector<std::string>& fingers) {
           "--finger", fingers,
           "the finger: disk,r=RADIUS, in the part's unit or with a unit as in r=8mm; jaw, a flat one; or the file of "
           "a convex outline, with ,open behind it if it is open, and ,polygon if its points are the corners of a "
-          "polygon; for several fingers once, or once for each if they differ; `locate` takes wheel,r=RADIUS beside "
-          "them, a wheel without skin on a pin")
+          "polygon; for several fingers once, or once for each if they differ; `locate`, `watch` and `advise` "
+          "take wheel,r=RADIUS beside them, a wheel without skin on a pin")
       ->type_name("FINGER")
       ->allow_extra_args(false);
 }

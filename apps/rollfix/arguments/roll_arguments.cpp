@@ -97,6 +97,16 @@ void add_log_arguments(CLI::App& command, std::vector<std::string>& logs, std::s
   add_skip_argument(command, reading);
 }
 
+void add_squeezed_argument(CLI::App& command, std::string& squeezed) {
+  command
+      .add_option("--squeezed", squeezed,
+                  "a finger with skin and a wheel squeeze the part, and the floor's and the pin's friction are small: "
+                  "the wheel's normal points through the finger's contact, to this standard deviation; default 5deg")
+      ->type_name("SD")
+      ->expected(0, 1)
+      ->default_str("5deg");
+}
+
 void add_noise_argument(CLI::App& command, std::string& noise) {
   command
       .add_option("--noise", noise,

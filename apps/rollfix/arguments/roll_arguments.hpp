@@ -48,6 +48,8 @@ struct RollArguments {
 void add_roll_arguments(CLI::App& command, RollArguments& arguments, bool takes_either = false);
 /// The same without PART.
 void add_felt_arguments(CLI::App& command, RollArguments& arguments, bool takes_either = false);
+/// Adds --squeezed.
+void add_squeezed_argument(CLI::App& command, std::string& squeezed);
 /// Adds --noise alone.
 void add_noise_argument(CLI::App& command, std::string& noise);
 /// Adds --log, --roll, --columns, --wrapped and --skip-bad alone.

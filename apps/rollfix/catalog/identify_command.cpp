@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "rollfix/arguments/catalog_argument.hpp"
+#include "rollfix/arguments/measured_arguments.hpp"
 #include "rollfix/arguments/output_argument.hpp"
 #include "rollfix/arguments/question_arguments.hpp"
 #include "rollfix/arguments/roll_arguments.hpp"
@@ -99,6 +100,12 @@ Report report_of_contacts(const TouchProblem& question, const IdentifyArguments&
 Report identify_report(const IdentifyArguments& arguments) {
   if (arguments.catalog.empty()) throw InputError("identify: expected a CATALOG: rollfix catalog build makes one");
   require_figure_output(arguments.output, arguments.json);
+  if (has_wheel(arguments.roll)) {
+    throw InputError(
+        "identify: a wheel without skin is taken beside a known part: ask rollfix locate of each part that it may be, "
+        "or "
+        "give the logs of fingers with skin alone");
+  }
   const Catalog catalog(arguments.catalog);
   IdentifyOptions options;
   options.use_index = !arguments.without_index;

@@ -277,13 +277,7 @@ void add_locate_command(CLI::App& program, Command& chosen, std::ostream& out) {
           "the angle from finger b's contact normal to finger a's at the first contacts; with it one reading of two "
           "fingers is enough")
       ->type_name("ANGLE");
-  command
-      ->add_option("--squeezed", roll.squeezed,
-                   "a finger with skin and a wheel squeeze the part, and the floor's and the pin's friction are small: "
-                   "the wheel's normal points through the finger's contact, to this standard deviation; default 5deg")
-      ->type_name("SD")
-      ->expected(0, 1)
-      ->default_str("5deg");
+  add_squeezed_argument(*command, roll.squeezed);
   command
       ->add_option("--budget", roll.budget,
                    "intervals to examine, beyond the part's own, before giving up; default 1000000")

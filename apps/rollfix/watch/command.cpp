@@ -46,6 +46,8 @@ Examples:
   rollfix watch gallery:cam --finger disk,r=0.2 --noise contact=0.002,angle=0.2deg --log roll.csv --once
 Two fingers on a part that is free to move, each with a log of its own:
   rollfix watch part.dxf --finger disk,r=5 --noise contact=0.1,angle=0.5deg --log /dev/ttyUSB0 --log /dev/ttyUSB1
+A jaw with skin and a wheel without, on a pin: of the wheel x and y of its pin, and psi if it has an encoder:
+  rollfix watch part.dxf --finger jaw --finger wheel,r=4 --noise contact=0.1,angle=0.5deg,position=0.1 --log jaw.csv --log pin.csv
 Touches without rolling, a row each: where the part lies, and where to touch next:
   probe-log | rollfix watch part.dxf --finger disk,r=3 --noise position=0.02
 Which part is it? Of a catalog the parts that remain, fewer and fewer:
@@ -58,6 +60,7 @@ struct WatchArguments {
   std::vector<std::string> logs;
   LogArguments reading;
   std::vector<std::string> fingers;
+  std::string squeezed;
   bool may_overlap = false;
   std::string noise;
   std::string prior;
@@ -125,23 +128,58 @@ void require_sensible(const WatchArguments& arguments, const std::vector<std::st
   }
 }
 
+/// Fingers with skin, or one and behind it a wheel without.
+void read_fingers_and_wheel(const WatchArguments& arguments, std::size_t logs, const std::string& unit,
+                            WatchOptions& options) {
+  std::vector<std::string> with_skin = arguments.fingers;
+  const auto wheel = std::find_if(with_skin.begin(), with_skin.end(), names_wheel);
+  if (wheel == with_skin.end()) {
+    options.fingers = read_fingers(with_skin, 2, unit);
+    if (!arguments.squeezed.empty()) {
+      throw InputError(
+          "--squeezed: it is about a finger with skin and a wheel without that squeeze a part, such as a jaw and "
+          "wheel,r=0.4; leave it out");
+    }
+    return;
+  }
+  if (with_skin.size() != 2 || wheel == with_skin.begin() || logs != 2) {
+    throw InputError(fmt::format(
+        "--finger {}: watch takes one finger with skin and behind it one wheel, with a log of each in the same order, "
+        "as "
+        "in --finger jaw --finger wheel,r=0.4 --log jaw.csv --log pin.csv; more of them are for rollfix locate, when "
+        "they have rolled",
+        *wheel));
+  }
+  if (!arguments.catalog.empty()) {
+    throw InputError(fmt::format(
+        "--catalog: a wheel without skin is taken beside a known part; give PART, or leave --finger {} out and ask "
+        "with fingers that have skin",
+        *wheel));
+  }
+  options.wheel = read_wheel(*wheel, unit);
+  if (!arguments.squeezed.empty()) options.squeezed = read_angle(arguments.squeezed, "--squeezed");
+  with_skin.erase(wheel);
+  options.fingers = read_fingers(with_skin, 1, unit);
+}
+
 WatchOptions watch_options(const WatchArguments& arguments, const std::vector<std::string>& logs,
                            const std::string& unit) {
   const auto name_of = [](const std::string& log) { return log == "-" ? "standard input" : log; };
   WatchOptions options;
   options.name = name_of(logs[0]);
   if (logs.size() == 2) options.name_b = name_of(logs[1]);
-  options.fingers = read_fingers(arguments.fingers, 2, unit);
+  read_fingers_and_wheel(arguments, logs.size(), unit, options);
   options.belief = belief_options(arguments, unit);
   options.may_overlap = arguments.may_overlap;
   LogArguments reading = arguments.reading;
   if (names_touch_columns(reading.columns)) reading.columns.clear();  // of a table of touches
   options.log = read_log_options(reading, unit);
   if (!options.log.decimal_comma) options.log.decimal_comma = has_decimal_comma(arguments.part.decimal);
-  options.log.mirrored = arguments.mirror;
+  options.log.mirrored = arguments.mirror && !options.wheel;
+  options.mirrored = arguments.mirror && options.wheel.has_value();
   options.log.clockwise = counts_clockwise(arguments.direction);
   for (Finger& finger : options.fingers) {
-    if (!arguments.mirror) break;
+    if (!options.log.mirrored) break;
     if (finger.outline() != nullptr && !finger.outline()->closed()) {
       throw InputError(fmt::format(
           "--mirror: the outline of the finger {} is open, which watch does not turn over: expected a closed "
@@ -275,6 +313,7 @@ void add_watch_command(CLI::App& program, Command& chosen, std::ostream& out, st
   add_finger_argument(*command, arguments->fingers);
   add_switch(*command, "--may-overlap", arguments->may_overlap,
              "two fingers at different heights: places where their disks would overlap are kept");
+  add_squeezed_argument(*command, arguments->squeezed);
   add_noise_arguments(*command, arguments->noise, arguments->prior, arguments->robust);
   add_pose_arguments(*command, arguments->pose);
   add_side_arguments(*command, arguments->mirror, arguments->direction);

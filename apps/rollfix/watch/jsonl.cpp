@@ -6,6 +6,7 @@
 
 #include "files/documents/json_output.hpp"
 #include "rollfix/catalog/documents.hpp"
+#include "rollfix/files/hold_document.hpp"
 #include "rollfix/files/touch_document.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/watch/writer.hpp"
@@ -60,6 +61,14 @@ void add_parts(const WatchAnswer& answer, const Catalog& catalog, Json& event) {
   event["rest"] = answer.parts->counted ? Json(nullptr) : document["rest"];
 }
 
+/// Beside a wheel, as `locate` has it.
+void add_held(const HoldAnswer& held, Json& event) {
+  const Json document = Json::parse(format_hold(held, Layout::line));
+  for (const char* field : {"status", "verdict", "placements", "rest", "fit", "unresolved"}) {
+    event[field] = document[field];
+  }
+}
+
 Json event_json(const char* name) { return {{"schema", kSchema}, {"event", name}}; }
 
 Json answer_json(const char* name, const WatchAnswer& answer, const Part& part, const Catalog* catalog) {
@@ -72,8 +81,16 @@ Json answer_json(const char* name, const WatchAnswer& answer, const Part& part, 
   event["reading"] = {
       {"length", each_finger(answer.sample.reading.length, [](double length) { return json_number(length + 0.0); })},
       {"turn", json_number(answer.sample.reading.turn)}};
+  const Reading& reading = answer.sample.reading;
+  if (!reading.is_exact()) {
+    event["reading"]["pivot"] = {json_number(reading.turn - reading.pivot), json_number(reading.turn + reading.pivot)};
+  }
   if (answer.parts) {
     add_parts(answer, *catalog, event);
+    return event;
+  }
+  if (answer.held) {
+    add_held(*answer.held, event);
     return event;
   }
   event["verdict"] = answer.verdict.text();
@@ -135,6 +152,7 @@ class JsonlWriter : public WatchWriter {
     if (options.name_b) event["fingers"] = 2;
     event["log"] = options.name_b ? Json::array({options.name, *options.name_b}) : Json(options.name);
     event["noise"] = noise_json(options.belief.noise);
+    if (options.wheel) event["wheel"] = json_number(*options.wheel);
     event["prior"] = nullptr;
     if (const auto& prior = options.belief.prior) {
       event["prior"] = Json::array({json_number(prior->s), json_number(prior->sd)});
@@ -159,7 +177,7 @@ class JsonlWriter : public WatchWriter {
   void over(const WatchAnswer& answer, RollEnd why) override {
     Json event = answer_json("over", answer, part_, catalog_.get());
     event["why"] = kWhyOver.at(static_cast<std::size_t>(why));
-    if (!answer.parts) event["diagnosis"] = diagnoses_json(answer.diagnoses, fingers_, noise_);
+    if (!answer.parts && !answer.held) event["diagnosis"] = diagnoses_json(answer.diagnoses, fingers_, noise_);
     write_event(event);
   }
 

@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "answer/finger_corners.hpp"
+#include "contact/log_rows.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/error.hpp"
@@ -35,7 +37,7 @@ BeliefOptions as_read(const WatchOptions& watch) {
 /// What is asked of all samples together.
 Problem problem_of(const Part& part, const WatchOptions& watch, LogKind kind, const KeptSamples& kept) {
   const BeliefOptions options = as_read(watch);
-  Problem problem{part, kept.log(kind, part), watch.fingers, options.noise};
+  Problem problem{part, kept.log(kind, part, watch.fingers, options.noise), watch.fingers, options.noise};
   problem.prior = options.prior;
   problem.pose = options.pose;
   problem.robust = options.robust;
@@ -72,25 +74,44 @@ Contacts contacts_at(const Sample& first, const std::vector<Finger>& fingers) {
   return contacts;
 }
 
+/// On a corner of a finger, where u does not tell how its normal is turned.
+bool is_on_corner(const Sample& sample) {
+  return std::any_of(sample.finger_curvature.begin(), sample.finger_curvature.end(),
+                     [](double curvature) { return std::isinf(curvature); });
+}
+
+/// The way from one row to another.
+Reading between(const Reading& from, Reading to) {
+  for (std::size_t k = 0; k < to.length.size(); ++k) to.length[k] -= from.length[k];
+  to.turn -= from.turn;
+  to.pivot = 0;
+  return to;
+}
+
+/// Rows on corners of the fingers are not weighed: all others are measured from the first of these, as `solve` does.
 class OnPart final : public Meaning {
  public:
-  OnPart(const Part& part, const WatchOptions& options, LogKind kind, const Sample& first)
-      : part_(part),
-        options_(options),
-        kind_(kind),
-        belief_(part, kind, as_read(options), contacts_at(first, options.fingers)) {}
+  OnPart(const Part& part, const WatchOptions& options, LogKind kind) : part_(part), options_(options), kind_(kind) {}
 
   void add(const Sample& sample) override {
-    belief_.add(sample);
     kept_.add(sample);
+    last_ = sample.reading;
+    if (is_on_corner(sample)) return;
+    if (!belief_) begin(sample);
+    weighed_ = sample.reading;
+    belief_->add(from_base(sample));
   }
 
   void look(WatchAnswer& answer) override {
-    answer.verdict = belief_.verdict();
-    answer.modes = belief_.modes();
+    answer.verdict = {Verdict::unobservable};
+    answer.rest = 1;
+    if (!belief_) return;
+    answer.verdict = belief_->verdict();
+    answer.modes = belief_->modes();
     for (Mode& mode : answer.modes) mode.probability = std::min(1.0, mode.probability);  // a sum, with its rounding
-    answer.rest = belief_.rest();
-    answer.fit = belief_.fit();
+    for (Mode& mode : answer.modes) to_ends(mode);
+    answer.rest = belief_->rest();
+    answer.fit = belief_->fit();
   }
 
   /// What `locate` says of the same rows.
@@ -115,10 +136,34 @@ class OnPart final : public Meaning {
   }
 
  private:
+  void begin(const Sample& base) {
+    BeliefOptions options = as_read(options_);
+    if (kept_.size() > 1) way_ = base.reading;
+    if (options.prior && way_) options.prior->s += way_->length[0];
+    belief_.emplace(part_, kind_, options, contacts_at(base, options_.fingers));
+  }
+
+  Sample from_base(Sample sample) const {
+    if (way_) sample.reading = between(*way_, sample.reading);
+    return sample;
+  }
+
+  /// From the rows that were weighed to the first contacts and the last ones.
+  void to_ends(Mode& mode) const {
+    const Noise& noise = options_.belief.noise;
+    if (way_) to_first_contacts(*way_, part_, noise, mode);
+    const Reading further = between(weighed_, last_);
+    const bool is_further = std::any_of(further.length.begin(), further.length.end(), [](double l) { return l != 0; });
+    if (is_further) to_last_contacts(further, part_, noise, mode);
+  }
+
   Part part_;
   WatchOptions options_;
   LogKind kind_;
-  Belief belief_;
+  std::optional<Belief> belief_;  // none before the first row off all corners
+  std::optional<Reading> way_{};  // to that row, where it is not the first
+  Reading weighed_{};             // of the last row off them
+  Reading last_{};                // of the last row
   KeptSamples kept_;
 };
 
@@ -173,6 +218,26 @@ class OnCatalog final : public Meaning {
 
 namespace {
 
+/// How far u is from the nearest corner of such a finger.
+double from_corner(const Finger& finger, double u) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Corner& corner : finger.outline()->corners()) {
+    if (corner.turn > kJointTurn) least = std::min(least, finger.outline()->distance(u, corner.s));
+  }
+  return least;
+}
+
+/// The digits of u that put these samples on corners of their finger where the noise does not; 0: there are none.
+double rounding_on_corners(const std::vector<Sample>& samples, std::size_t which, const Finger& finger,
+                           const Noise& noise) {
+  double farthest = 0;
+  for (const Sample& sample : samples) {
+    if (std::isinf(sample.finger_curvature[which]))
+      farthest = std::max(farthest, from_corner(finger, (*sample.contact)[which].u));
+  }
+  return farthest > reach_of_corners(0, noise) ? 0.5 * farthest : 0;
+}
+
 /// A finger's. Of two fingers only the difference of their turns is known, which goes with the first one.
 void add_row(const Sample& sample, std::size_t which, LogKind kind, const Part& part, FingerRows& rows) {
   rows.u_period = std::numeric_limits<double>::infinity();  // a sample's angles are unwrapped
@@ -200,22 +265,30 @@ void KeptSamples::add(const Sample& sample) {
   every_ *= 2;
 }
 
-Log KeptSamples::log(LogKind kind, const Part& part) const {
+void KeptSamples::end_with(const Sample& sample) {
+  if (kept_.empty() || kept_.back().line != sample.line) kept_.push_back(sample);
+}
+
+Log KeptSamples::log(LogKind kind, const Part& part, const std::vector<Finger>& fingers, const Noise& noise) const {
   Log log;
   log.kind = kind;
-  log.fingers.resize(kept_.empty() ? 1 : kept_.front().reading.fingers());
+  log.fingers.resize(kept_.empty() ? 1 : kept_.front().finger_curvature.size());
   for (const Sample& sample : kept_) {
     if (sample.time) log.time.push_back(*sample.time);
     for (std::size_t which = 0; which < log.fingers.size(); ++which) {
       add_row(sample, which, kind, part, log.fingers[which]);
     }
   }
+  for (std::size_t which = 0; which < log.fingers.size(); ++which) {
+    const Finger* const finger = finger_of(fingers, which);
+    if (finger == nullptr || !finger->has_corners()) continue;
+    log.fingers[which].place_rounding = rounding_on_corners(kept_, which, *finger, noise);
+  }
   return log;
 }
 
-std::unique_ptr<Meaning> meaning_on_part(const Part& part, const WatchOptions& options, LogKind kind,
-                                         const Sample& first) {
-  return std::make_unique<OnPart>(part, options, kind, first);
+std::unique_ptr<Meaning> meaning_on_part(const Part& part, const WatchOptions& options, LogKind kind) {
+  return std::make_unique<OnPart>(part, options, kind);
 }
 
 std::unique_ptr<Meaning> meaning_on_catalog(const Part& part, const WatchOptions& options, LogKind kind) {

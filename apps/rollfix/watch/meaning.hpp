@@ -24,9 +24,10 @@ class Meaning {
   virtual void conclude(WatchAnswer& answer, bool explains) = 0;
 };
 
-/// Of a roll that begins with this sample. Throws InputError: noise or prior that are not valid.
-std::unique_ptr<Meaning> meaning_on_part(const Part& part, const WatchOptions& options, LogKind kind,
-                                         const Sample& first);
+/// Of a roll on a known part. Its first sample throws InputError: noise or prior that are not valid.
+std::unique_ptr<Meaning> meaning_on_part(const Part& part, const WatchOptions& options, LogKind kind);
+/// Of a finger with skin beside a wheel without. REQUIRES options.wheel.
+std::unique_ptr<Meaning> meaning_beside_wheel(const Part& part, const WatchOptions& options);
 /// REQUIRES options.catalog.
 std::unique_ptr<Meaning> meaning_on_catalog(const Part& part, const WatchOptions& options, LogKind kind);
 
@@ -34,11 +35,13 @@ std::unique_ptr<Meaning> meaning_on_catalog(const Part& part, const WatchOptions
 class KeptSamples {
  public:
   void add(const Sample& sample);
+  /// This one as well, whether it is one of so many or not.
+  void end_with(const Sample& sample);
   std::size_t size() const { return kept_.size(); }
   /// As one sample of the roll stands for so many.
   std::size_t each() const { return every_; }
   /// The log that they are of, as the user gave it.
-  Log log(LogKind kind, const Part& part) const;
+  Log log(LogKind kind, const Part& part, const std::vector<Finger>& fingers = {}, const Noise& noise = {}) const;
 
  private:
   std::vector<Sample> kept_;

@@ -49,6 +49,7 @@ bool is_news_of_parts(const Identified& said, const Identified& now) {
 }  // namespace
 
 std::string verdict_of(const WatchAnswer& answer) {
+  if (answer.held) return answer.held->verdict_text();
   return answer.parts ? answer.parts->verdict : answer.verdict.text();
 }
 

@@ -11,6 +11,7 @@
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/output/answer_output.hpp"
+#include "rollfix/output/hold_text.hpp"
 #include "rollfix/output/option_names.hpp"
 #include "rollfix/output/scale_text.hpp"
 #include "rollfix/output/table.hpp"
@@ -44,6 +45,7 @@ class TextWriter : public WatchWriter {
     fingers_ = options.fingers;
     noise_ = options.belief.noise;
     catalog_ = options.catalog;
+    has_wheel_ = options.wheel.has_value();
     if (catalog_) return announce_catalog(options);
     about_ = fmt::format("part  {}, {}, perimeter {}{}\nlog   {}\n\n", plain(part.name()),
                          part.closed() ? "closed" : "open", fixed(part.perimeter(), decimals), unit, names_of(options));
@@ -120,10 +122,11 @@ class TextWriter : public WatchWriter {
   void resumed(const WatchCounts& /*counts*/) override {}  // stderr said so
 
   void end(WatchEnd why, const WatchAnswer& last, const WatchCounts& counts) override {
+    const bool fits = last.roll > 0 && last.verdict.name != Verdict::inconsistent;
     write(fmt::format("\n{}: {}\n{}{} in {}, {}, {}; {} us per sample\n",
                       kWatchIsOver.at(static_cast<std::size_t>(why)), conclusion(last),
-                      last.roll > 0 && last.verdict.name != Verdict::inconsistent ? scale_lines(last.fit, 1) : "",
-                      counted(counts.samples, "sample", "samples"), counted(counts.rolls, "roll", "rolls"),
+                      fits && !last.held ? scale_lines(last.fit, 1) : "", counted(counts.samples, "sample", "samples"),
+                      counted(counts.rolls, "roll", "rolls"),
                       counted(counts.malformed, "malformed line", "malformed lines"),
                       counted(counts.reconnects, "reconnect", "reconnects"), rough(1e6 * counts.seconds_per_sample())));
   }
@@ -148,7 +151,8 @@ class TextWriter : public WatchWriter {
   std::string row(const WatchAnswer& answer, const std::string& verdict, const std::string& text) const {
     const Sample& sample = answer.sample;
     return row(std::to_string(sample.line), sample.time ? fixed(*sample.time, 3) : "-",
-               columns_of(sample.reading.length, 10), degrees(sample.reading.turn), verdict, text);
+               columns_of(sample.reading.length, 10), sample.reading.is_exact() ? degrees(sample.reading.turn) : "-",
+               verdict, text);
   }
 
   static std::string names_of(const WatchOptions& options) {
@@ -157,15 +161,16 @@ class TextWriter : public WatchWriter {
 
   /// What stands above the columns, of one finger or of two.
   std::string titles(std::size_t fingers) {
-    const auto each = [&](const char* title, std::size_t width) {
-      if (fingers == 1) return fmt::format("{:>{}}", title, width);
+    const auto each = [](std::size_t count, const char* title, std::size_t width) {
+      if (count == 1) return fmt::format("{:>{}}", title, width);
       return fmt::format("{:>{}}  {:>{}}", fmt::format("{} a", title), width, fmt::format("{} b", title), width);
     };
     has_titles_of_two_ = fingers == 2;
-    const std::string text =
-        catalog_ ? fmt::format("     {}  {:>8}  {}", each("start", 10), "p", "part")
-                 : fmt::format("{}  {}  {}  {:>7}", each("start", 10), each("now", 10), each("sd", 8), "p");
-    return row("line", "time [s]", each("length", 10), "turn [deg]", "verdict", text);
+    const std::string text = catalog_ ? fmt::format("     {}  {:>8}  {}", each(fingers, "start", 10), "p", "part")
+                                      : fmt::format("{}  {}  {}  {:>7}", each(fingers, "start", 10),
+                                                    each(fingers, "now", 10), each(fingers, "sd", 8), "p");
+    const std::size_t with_skin = has_wheel_ ? 1 : fingers;
+    return row("line", "time [s]", each(with_skin, "length", 10), "turn [deg]", "verdict", text);
   }
 
   /// A column for each finger.
@@ -229,6 +234,11 @@ class TextWriter : public WatchWriter {
   std::string conclusion(const WatchAnswer& last) const {
     if (last.roll == 0) return "no contact came";
     if (last.parts) return conclusion_of_parts(last);
+    if (last.held) {
+      std::string text = hold_text(*last.held);
+      text.pop_back();  // its last line's end
+      return text;
+    }
     if (last.verdict.name == Verdict::inconsistent && last.impossible > 0) {
       return fmt::format("{}: {} would fit, but the finger{} can't be there{}{}", last.verdict.text(),
                          counted(last.impossible, "place", "places"), last.sample.reading.fingers() == 1 ? "" : "s",
@@ -267,6 +277,7 @@ class TextWriter : public WatchWriter {
   std::shared_ptr<const Catalog> catalog_;
   std::string about_;  // the part and the log
   bool has_titles_of_two_ = false;
+  bool has_wheel_ = false;            // finger b is one without skin
   std::size_t touch_line_shown_ = 0;  // the last row was of this line's touch
   std::size_t roll_shown_ = 0;        // the last row was of this roll
   std::string shown_;                 // that row

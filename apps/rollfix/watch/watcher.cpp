@@ -48,6 +48,20 @@ class WorkTime {
   WorkClock::time_point start_ = WorkClock::now();
 };
 
+/// Throws InputError: what is not taken of a finger beside a wheel, before any row comes.
+void require_of_wheel(const BeliefOptions& options) {
+  if (!(options.noise.position > 0)) {
+    throw InputError(
+        "`noise`: expected position=SD beside a wheel, found none: all that a wheel says is where its pin was");
+  }
+  const auto refuse = [](bool given, const char* name) {
+    if (given) throw InputError(fmt::format("`{}` is not taken beside a wheel; leave it out", name));
+  };
+  refuse(options.prior.has_value(), "prior");
+  refuse(options.pose.has_value(), "pose");
+  refuse(options.robust, "robust");
+}
+
 }  // namespace
 
 double WatchCounts::seconds_per_sample() const {
@@ -60,6 +74,8 @@ Watcher::Watcher(const Part& part, WatchOptions options, WatchListener& listener
   const std::optional<PosePrior>& pose = options_.belief.pose;
   if (pose) require_not_lost(part_, pose->place_sd, "a pose with a standard deviation", "");
   const Belief trial(part_, LogKind::contact, options_.belief);
+  if (options_.catalog) require_no_corners(options_.fingers, "identify");
+  if (options_.wheel) require_of_wheel(options_.belief);
   if (options_.name_b) two_ = std::make_unique<TwoLogs>(part_, options_);
 }
 Watcher::~Watcher() = default;
@@ -254,7 +270,8 @@ void Watcher::begin_roll(const Sample& sample) {
   {
     const WorkTime time(counts_.seconds);
     meaning_ = options_.catalog ? meaning_on_catalog(part_, options_, kind())
-                                : meaning_on_part(part_, options_, kind(), sample);
+               : options_.wheel ? meaning_beside_wheel(part_, options_)
+                                : meaning_on_part(part_, options_, kind());
   }
   ++counts_.rolls;
   samples_ = 0;

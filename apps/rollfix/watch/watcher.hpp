@@ -14,6 +14,7 @@
 #include "rollfix/catalog/identify.hpp"
 #include "rollfix/contact/log.hpp"
 #include "rollfix/contact/paired_stream.hpp"
+#include "rollfix/hold/hold.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace rollfix::app {
@@ -34,6 +35,8 @@ struct WatchAnswer {
   std::vector<Diagnosis> diagnoses;  // of a roll that is over, where its rows fit badly: why, see Answer
   /// Of a catalog: the parts that remain. The places are theirs then, and there are no modes.
   std::shared_ptr<const Identified> parts{};
+  /// Beside a wheel without skin: what `locate` says, of which the modes have the places of both.
+  std::shared_ptr<const HoldAnswer> held{};
 };
 
 /// In words.
@@ -76,6 +79,9 @@ struct WatchOptions {
   std::string name;                          // of the log, for messages
   std::optional<std::string> name_b{};       // of two logs, one of each finger, that of finger b
   std::vector<Finger> fingers;               // for logs of u and psi: one that serves both of two, or each
+  std::optional<double> wheel{};             // finger b is a wheel without skin: its radius; `name_b` its pin's log
+  std::optional<double> squeezed{};          // beside a wheel: see HoldProblem
+  bool mirrored = false;                     // likewise; else LogOptions::mirrored says it
   BeliefOptions belief;                      // a pose's prior is of every roll's first contacts
   bool may_overlap = false;                  // see Problem
   LogOptions log;                            // what its columns are called, and the part's unit

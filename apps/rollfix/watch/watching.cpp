@@ -77,7 +77,10 @@ bool Watching::has_found() const {
 
 ExitCode Watching::exit_code() const {
   if (touches_) return touches_->last() ? exit_code_of(touches_->last()->answer) : ExitCode::fits;
-  const bool fits = !rolls_ || rolls_->last_answer().verdict.name != Verdict::inconsistent;
+  if (!rolls_) return ExitCode::fits;
+  const WatchAnswer& last = rolls_->last_answer();
+  if (last.held && last.held->status == Status::incomplete) return ExitCode::incomplete;
+  const bool fits = last.verdict.name != Verdict::inconsistent;
   return fits ? ExitCode::fits : ExitCode::nothing_fits;
 }
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "rollfix/belief/belief.hpp"
@@ -35,6 +36,12 @@ struct PartContender {
   Contender contender;
 };
 
+/// What a contender would measure after a roll, and how far that may be off.
+struct Foreseen {
+  double value = 0;
+  double variance = 0;
+};
+
 struct AdviceOptions {
   double turn_sd = 1e-6;             // standard deviation of a turn that is read, radians
   double length_sd = 0;              // of a length, and ...
@@ -46,6 +53,10 @@ struct AdviceOptions {
   /// Whether the robot can roll by these lengths from a contender's places; none: it can do any roll. A roll is advised
   /// that it can do from every contender that counts.
   std::function<bool(const PartContender&, const PerFinger<double>&)> can_roll{};
+  /// Other motions than rolls: what is measured of them in place of turns, and the ways on which to go, each so far
+  /// back and forward; of two numbers each. The other options say nothing then.
+  std::function<Foreseen(const PartContender&, const PerFinger<double>&)> foresees{};
+  std::vector<std::pair<PerFinger<double>, Interval>> ways{};
 };
 
 /// What is to be expected of a roll.

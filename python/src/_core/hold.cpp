@@ -47,11 +47,20 @@ std::pair<std::string, bool> hold_certificate_of(const HoldAnswerHandle& handle,
   return {format_certificate(certificate), certificate.is_complete()};
 }
 
+/// How the wheel's pin moves next, as a document.
+std::string next_pin_of(const HoldAnswerHandle& handle, const std::optional<std::pair<double, double>>& travel) {
+  const Unlocked others_may_run;
+  std::optional<Interval> range;
+  if (travel) range = Interval{travel->first, travel->second};
+  return format_next_pin(*handle.answer, next_pin(*handle.answer, range), Layout::line);
+}
+
 }  // namespace
 
 void bind_hold(py::module_& module) {
   py::class_<HoldAnswerHandle>(module, "HoldAnswer")
       .def("document", [](const HoldAnswerHandle& handle) { return format_hold(*handle.answer, Layout::line); })
+      .def("next_pin", &next_pin_of)
       .def("certificate", &hold_certificate_of);
   module.def("locate_hold", &locate_hold);
 }

@@ -170,6 +170,14 @@ py::tuple teach_part(const LogHandle& log, const py::object& finger, const py::o
   return py::make_tuple(PartHandle(std::move(*loaded)), document);
 }
 
+AnswerHandle before_any_contact(const PartHandle& part, const py::iterable& fingers, const py::object& noise,
+                                bool may_overlap) {
+  const std::vector<Finger> given = fingers_from(fingers);
+  const std::optional<Noise> stated = noise_from_optional(noise);
+  const Unlocked others_may_run;
+  return {std::make_shared<const Answer>(before_contact(part.part(), given, stated, may_overlap))};
+}
+
 NextRollHandle next_roll_of(const AnswerHandle& answer, const std::optional<std::pair<double, double>>& travel,
                             bool may_overlap, const std::optional<std::pair<double, double>>& friction) {
   const Unlocked others_may_run;
@@ -220,6 +228,7 @@ void bind_rolls(py::module_& module) {
   module.def("simulate_drive", &simulate_drive);
   module.def("teach", &teach_part);
   module.def("next_roll", &next_roll_of);
+  module.def("before_contact", &before_any_contact);
 }
 
 }  // namespace rollfix::python

@@ -87,7 +87,8 @@ std::unique_ptr<Watch> watch(const PartHandle& part, const py::iterable& fingers
                              const std::vector<std::string>& names,
                              const std::vector<std::tuple<std::string, std::string, std::string>>& columns,
                              const std::string& angles, const std::optional<bool>& wrapped, bool clockwise,
-                             bool mirrored, bool live, const std::optional<CatalogHandle>& catalog, bool may_overlap) {
+                             bool mirrored, bool live, const std::optional<CatalogHandle>& catalog, bool may_overlap,
+                             const std::optional<double>& wheel, const std::optional<double>& squeezed) {
   app::WatchOptions options;
   options.name = names[0];
   if (names.size() == 2) options.name_b = names[1];
@@ -102,7 +103,10 @@ std::unique_ptr<Watch> watch(const PartHandle& part, const py::iterable& fingers
   options.log.angles = angles;
   options.log.wrapped = wrapped;
   options.log.clockwise = clockwise;
-  options.log.mirrored = mirrored;
+  options.wheel = wheel;
+  options.squeezed = squeezed;
+  options.mirrored = mirrored && wheel;
+  options.log.mirrored = mirrored && !wheel;
   options.live = live;
   if (catalog) options.catalog = catalog->catalog;
   options.log.any_part = catalog.has_value();

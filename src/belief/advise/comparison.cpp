@@ -59,6 +59,10 @@ Prospect Comparison::roll_to(double x) {
 /// What this contender would read at x, and how badly that is known.
 Comparison::Seen Comparison::seen_by(std::size_t contender, double x) const {
   const PartContender& one = contenders_[contender];
+  if (options_.foresees) {
+    const Foreseen foreseen = options_.foresees(one, Way{direction_, {}}.rolled(x));
+    return {foreseen.value, foreseen.variance};
+  }
   Seen seen{0, square(options_.turn_sd) / options_.rows};
   PerFinger<double> by_place = PerFinger<double>::of(direction_.size());
   for (std::size_t k = 0; k < direction_.size(); ++k) {

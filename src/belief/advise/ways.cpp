@@ -86,6 +86,11 @@ bool counts(const PartContender& one, std::size_t contenders) {
 }
 
 std::vector<Way> ways_of(const std::vector<PartContender>& contenders, const AdviceOptions& options) {
+  if (options.foresees) {
+    std::vector<Way> given;
+    for (const auto& [direction, travel] : options.ways) given.push_back({direction, travel});
+    return given;
+  }
   const Interval of_a = common_travel(contenders, options.travel, 0);
   if (contenders.front().contender.place.size() == 1) return {Way{1.0, of_a}};
   const std::array<Interval, 2> each = {of_a, common_travel(contenders, options.travel, 1)};

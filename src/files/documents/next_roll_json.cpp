@@ -1,4 +1,5 @@
 #include "documents.hpp"
+#include "rollfix/files/hold_document.hpp"
 
 namespace rollfix {
 
@@ -45,4 +46,21 @@ Json next_roll_json(const NextRoll& next) {
   return advice_json(next.answer.verdict.text(), {{"part", part_json(next.answer.part)}}, next.advice, next.why,
                      contenders);
 }
+
+std::string format_next_pin(const HoldAnswer& held, const NextPin& next, Layout layout) {
+  Json contenders = Json::array();
+  for (std::size_t k = 0; k < next.contenders.size(); ++k) {
+    const Contender& one = next.contenders[k];
+    contenders.push_back({{"placement", one.label},
+                          {"contact", per_finger_json(one.place)},
+                          {"sd", per_finger_json(one.sd)},
+                          {"probability", json_number(one.probability)},
+                          {"length", next.helps() ? json_number(next.travels[k]) : Json(nullptr)}});
+  }
+  Json document = advice_json(held.verdict_text(), {{"part", part_json(held.part)}}, next.advice, next.why, contenders);
+  document["pin"] = document["length"];
+  document["length"] = nullptr;
+  return layout == Layout::lines ? json_text(document) : json_line(document);
+}
+
 }  // namespace rollfix

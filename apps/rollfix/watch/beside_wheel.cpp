@@ -1,0 +1,99 @@
+// What a finger with skin and a wheel without measure, while they hold a part that moves: docs/rig.md.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "rollfix/hold/hold.hpp"
+#include "rollfix/watch/meaning.hpp"
+
+namespace rollfix::app {
+namespace {
+
+// A first contact alone is no log yet.
+constexpr std::size_t kLeastRows = 2;
+
+PerFinger<double> both(const HoldPlacement& one, double HoldContact::*number) {
+  return {one.contacts[0].*number, one.contacts[1].*number};
+}
+
+Mode mode_of(const HoldPlacement& one) {
+  Mode mode;
+  mode.start = both(one, &HoldContact::start);
+  mode.end = both(one, &HoldContact::end);
+  mode.tangent = both(one, &HoldContact::tangent);
+  mode.probability = one.probability;
+  mode.mean = both(one, &HoldContact::mean);
+  mode.sd = both(one, &HoldContact::sd);
+  mode.interval = {one.contacts[0].interval, one.contacts[1].interval};
+  mode.end_mean = both(one, &HoldContact::end_mean);
+  mode.end_sd = both(one, &HoldContact::end_sd);
+  return mode;
+}
+
+/// A pin's log has no psi without an encoder, and its u says nothing.
+PinLog pin_log_of(Log rows) {
+  std::vector<double>& psi = rows.fingers.front().psi;
+  if (std::isnan(psi.front())) psi.clear();
+  return {std::move(rows)};
+}
+
+/// Where the part lies in an instant leaves nothing behind that the next one could go on with, as long as the first
+/// contact is not known: so rows are kept, and what `locate` says of them is asked again and again.
+class BesideWheel final : public Meaning {
+ public:
+  BesideWheel(const Part& part, const WatchOptions& options) : options_(options), problem_{part, {}, options.fingers} {
+    const BeliefOptions& belief = options.belief;
+    problem_.noise = belief.noise;
+    problem_.prior = belief.prior;
+    problem_.pose = belief.pose;
+    problem_.robust = belief.robust;
+    problem_.mirrored = options.mirrored;
+    problem_.squeezed = options.squeezed;
+    problem_.may_overlap = options.may_overlap;
+  }
+
+  void add(const Sample& sample) override {
+    kept_.add(sample);
+    last_ = sample;
+  }
+
+  void look(WatchAnswer& answer) override { ask(answer, false); }
+  void conclude(WatchAnswer& answer, bool explains) override { ask(answer, explains); }
+
+ private:
+  void ask(WatchAnswer& answer, bool explains) {
+    answer.verdict = {Verdict::unobservable};
+    answer.rest = 1;
+    if (kept_.size() < kLeastRows) return;
+    KeptSamples rows = kept_;
+    rows.end_with(last_);
+    const Log log = rows.log(LogKind::contact, problem_.part);
+    problem_.logs = {one_finger(log, 0)};
+    problem_.logs.front().name = options_.name;
+    Log pin = one_finger(log, 1);
+    pin.name = *options_.name_b;
+    problem_.wheels = {{pin_log_of(std::move(pin)), *options_.wheel}};
+    problem_.diagnose = explains;
+    const auto held = std::make_shared<const HoldAnswer>(solve(problem_));
+    answer.verdict = held->verdict;
+    answer.verdict.fits_badly = held->is_contradicted();
+    answer.rest = held->rest;
+    for (const HoldPlacement& one : held->placements) answer.modes.push_back(mode_of(one));
+    answer.held = held;
+  }
+
+  WatchOptions options_;
+  HoldProblem problem_;
+  KeptSamples kept_;
+  Sample last_;
+};
+
+}  // namespace
+
+std::unique_ptr<Meaning> meaning_beside_wheel(const Part& part, const WatchOptions& options) {
+  return std::make_unique<BesideWheel>(part, options);
+}
+
+}  // namespace rollfix::app
