@@ -163,7 +163,7 @@ struct Sample {
   std::size_t line = 0;                       // of the log; of rows that are pushed as numbers, their count
   std::optional<double> time;                 // seconds
   Reading reading;                            // in the direction in which the part is stored
-  PerFinger<double> finger_curvature;         // where each touches: 1/r of a disk; infinite on a corner; 0: not known
+  PerFinger<double> finger_curvature;         // where each touches: 1/r; 0 of a jaw or not known; infinite on a corner
   std::optional<PerFinger<Contact>> contact;  // u and psi, unwrapped, where the log has them
   std::optional<PerFinger<Vec2>> centre;      // of each finger in the world, where the log has it
 };
