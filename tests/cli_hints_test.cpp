@@ -52,6 +52,14 @@ TEST(CliHints, what_was_meant_is_named) {
   }
 }
 
+TEST(CliHints, two_columns_without_a_header_that_turn_too_far_look_like_touches) {
+  const cli::Folder folder;
+  folder.write("touches.csv", "106.4,94.4\n158,50\n192.8,57.5\n");
+  folder.write("rolls.csv", "0.1,0.02\n0.1,0.03\n");
+  EXPECT_THAT(run("locate gallery:cam --log touches.csv").err, HasSubstr("name them in a header, x,y"));
+  EXPECT_THAT(run("locate gallery:cam --log rolls.csv").err, Not(HasSubstr("x,y")));
+}
+
 TEST(CliHints, what_is_known_stands_on_a_line_of_its_own) {
   const cli::Ran ran = run("locate gallery:cam --reading 1,0.5 --wibble");
   EXPECT_THAT(ran.err, HasSubstr("has no option --wibble\n  Known are: "));

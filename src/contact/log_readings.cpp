@@ -169,9 +169,10 @@ void require_physical(const Log& log, const Courses& courses, const Part& part, 
     }
     const auto time = log.time.empty() ? std::nullopt : std::optional<double>(log.time[row]);
     if (const auto jump = check.jump(line, before, now, time)) {
-      throw InputError(fmt::format("{}: expected a roll that goes on, found a jump: {}; {}",
+      throw InputError(fmt::format("{}: expected a roll that goes on, found a jump: {}; {}{}{}",
                                    place_of(log, jump->finger, row), jump->why,
-                                   cure_of_jump(log, part, fingers, noise, jump->finger, row)));
+                                   cure_of_jump(log, part, fingers, noise, jump->finger, row),
+                                   log.notes.empty() ? "" : "; ", fmt::join(log.notes, "; ")));
     }
     before = now;
   }

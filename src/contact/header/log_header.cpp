@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,6 +14,7 @@
 #include <vector>
 
 #include "rollfix/error.hpp"
+#include "text/number.hpp"
 #include "text/text.hpp"
 
 namespace rollfix {
@@ -471,6 +474,21 @@ Columns pin_columns_of(const TableRow& header, const std::string& log, const Log
   return HeaderReader(header, log, options).pin_columns();
 }
 
+namespace {
+
+/// No finger turns by half a turn from one row to the next: so large a number is a place.
+std::string note_of_touches(const TableRow& row, const Columns& columns) {
+  const auto turn = static_cast<std::size_t>(Column::dturn);
+  const std::optional<double> value = parse_number(row.cells[1]);
+  if (!value || std::abs(columns.conversion[turn](*value)) <= std::numbers::pi) return "";
+  return fmt::format(
+      "line {}: two columns without a header are taken for distance and dturn; they look like x,y of touches: if so, "
+      "name them in a header, x,y",
+      row.line);
+}
+
+}  // namespace
+
 Columns bare_columns(const TableRow& row, const std::string& log, const LogOptions& options) {
   if (!options.columns.empty()) {
     throw InputError(
@@ -492,6 +510,7 @@ Columns bare_columns(const TableRow& row, const std::string& log, const LogOptio
   if (const std::optional<Unit> unit = unit_named(options.angles)) {
     columns.conversion[static_cast<std::size_t>(Column::dturn)] = conversion_to_plain(*unit);
   }
+  columns.note = note_of_touches(row, columns);
   return columns;
 }
 
