@@ -184,4 +184,19 @@ TEST(WatchedTouches, go_on_after_the_header_came_again_and_begin_anew_with_anoth
   EXPECT_THAT(kept.notes, ElementsAre());
 }
 
+TEST(WatchedTouches, end_at_once_with_the_last_answer_when_a_search_is_stopped) {
+  Kept kept;
+  bool is_stopped = false;
+  rollfix::app::TouchWatchOptions options{"log", {Part(rollfix::gallery("cam")), {}}};
+  options.problem.noise = rollfix::Noise{.position = 0.05};
+  options.is_stopped = [&] { return is_stopped; };
+  TouchWatcher watcher(options, kept);
+  for (const char* line : {"x,y", "5,4.4", "4,3"}) watcher.push(line);
+  is_stopped = true;
+  EXPECT_THROW(watcher.push("3,2"), rollfix::app::Stopped);
+  watcher.finish();
+  EXPECT_EQ(kept.over, 1);
+  EXPECT_EQ(watcher.last()->answer.touches.size(), 2U);
+}
+
 }  // namespace watch_touches_test

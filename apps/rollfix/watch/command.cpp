@@ -273,11 +273,13 @@ Report watch(const WatchArguments& arguments, std::ostream& out, std::ostream& e
   if (!catalog && part.reversed()) notes.push_back(reversed_note(part));
 
   const auto io = std::make_shared<asio::io_context>();
-  const StopSignals signals(*io);
+  StopSignals signals(*io);
   const std::function<bool()> is_ready = &out == &std::cout ? standard_output_is_ready : [] { return true; };
   const std::unique_ptr<WatchWriter> writer =
       arguments.jsonl ? watch_jsonl(part, out, err, is_ready) : watch_text(part, out, err, is_ready);
-  Watching watcher(part, options, touch_options(arguments, part, options), *writer);
+  std::optional<TouchWatchOptions> of_touches = touch_options(arguments, part, options);
+  if (of_touches) of_touches->is_stopped = [&signals] { return signals.has_come(); };
+  Watching watcher(part, options, std::move(of_touches), *writer);
   Hearing hearing(*io, watcher, *writer, err, idle_timeout, logs.size());
   std::vector<std::unique_ptr<Source>> sources;
   for (std::size_t k = 0; k < logs.size(); ++k) {
@@ -287,6 +289,7 @@ Report watch(const WatchArguments& arguments, std::ostream& out, std::ostream& e
   for (const std::string& note : notes) err << "rollfix: " << plain(note) << '\n';
   writer->begin(part, options);
   const WatchEnd why = hearing.run();
+  signals.has_come();  // one that ended the hearing leaves time for the last answer
   watcher.finish();
   require_rows(why, watcher, options.name);
   watcher.end(why);

@@ -11,6 +11,7 @@
 #include <optional>
 #include <ostream>
 #include <string_view>
+#include <utility>
 
 #include "rollfix/watch/watching.hpp"
 #include "rollfix/watch/writer.hpp"
@@ -23,8 +24,10 @@ using Seconds = std::chrono::duration<double>;
 /// of them ends it at once. Afterwards they do what they did before.
 class StopSignals {
  public:
-  explicit StopSignals(asio::io_context& io) : set_(io, kSignals[0], kSignals[1]) {
+  explicit StopSignals(asio::io_context& io)
+      : set_(io, kSignals[0], kSignals[1]), aside_set_(aside_, kSignals[0], kSignals[1]) {
     set_.async_wait([&io](const error_code& /*error*/, int /*signal*/) { io.stop(); });
+    aside_set_.async_wait([this](const error_code& error, int /*signal*/) { has_come_ = has_come_ || !error; });
     for (const int signal : kSignals) {
       struct sigaction action = {};
       ::sigaction(signal, nullptr, &action);
@@ -36,7 +39,14 @@ class StopSignals {
   ~StopSignals() {
     error_code ignored;
     set_.clear(ignored);
+    aside_set_.clear(ignored);
     for (std::size_t i = 0; i < kSignals.size(); ++i) ::sigaction(kSignals[i], &before_[i], nullptr);
+  }
+  /// Whether one has come since this was asked before: what is being done within the io_context asks, which itself
+  /// learns of it only afterwards.
+  bool has_come() {
+    aside_.poll();
+    return std::exchange(has_come_, false);
   }
   StopSignals(const StopSignals&) = delete;
   StopSignals& operator=(const StopSignals&) = delete;
@@ -51,6 +61,9 @@ class StopSignals {
 
   std::array<struct sigaction, 2> before_ = handlers();
   asio::signal_set set_;
+  asio::io_context aside_;  // hears the same
+  asio::signal_set aside_set_;
+  bool has_come_ = false;
 };
 
 /// Hears a log, or two, and watches them, until they end, the user stops it, or no line came for too long.
@@ -77,7 +90,11 @@ class Hearing {
   WatchEnd run() {
     last_line_ = std::chrono::steady_clock::now();
     look_after_a_while();
-    io_.run();
+    try {
+      io_.run();
+    } catch (const Stopped&) {
+      why_ = WatchEnd::signal;
+    }
     return why_;
   }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "rollfix/error.hpp"
+#include "rollfix/pulse.hpp"
 
 namespace rollfix::app {
 namespace {
@@ -70,12 +71,17 @@ void TouchWatcher::take(TouchTable table) {
 
 void TouchWatcher::solve_all(bool diagnoses) {
   const WorkClock::time_point start = WorkClock::now();
+  const Pulse pulse([this](const char* /*doing*/) {
+    was_stopped_ = options_.is_stopped && options_.is_stopped();
+    if (was_stopped_) throw Stopped{};
+  });
   TouchProblem problem = options_.problem;
   problem.touches = table_.touches;
   problem.diagnose = diagnoses;
-  last_.emplace(TouchNews{table_.lines.back(), solve(problem)});
-  const TouchAnswer& answer = last_->answer;
-  if (answer.status == Status::complete && answer.verdict.name == Verdict::ambiguous) last_->next = next_touch(answer);
+  TouchNews news{table_.lines.back(), solve(problem)};
+  const TouchAnswer& answer = news.answer;
+  if (answer.status == Status::complete && answer.verdict.name == Verdict::ambiguous) news.next = next_touch(answer);
+  last_.emplace(std::move(news));
   counts_.seconds += std::chrono::duration<double>(WorkClock::now() - start).count();
 }
 
@@ -85,8 +91,11 @@ void TouchWatcher::end(RollEnd why) {
       last_ && last_->line == table_.lines.back() && last_->answer.touches.size() == table_.touches.size();
   const bool is_odd =
       is_known && (last_->answer.verdict.fits_badly || last_->answer.verdict.name == Verdict::inconsistent);
-  if (!is_known || is_odd) solve_all(true);
-  listener_.no_more_touches(*last_, why);
+  try {
+    if (!was_stopped_ && (!is_known || is_odd)) solve_all(true);
+  } catch (const Stopped&) {  // then the last answer is the one before
+  }
+  if (last_) listener_.no_more_touches(*last_, why);
 }
 
 void TouchWatcher::restart() {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -35,6 +36,9 @@ class TouchListener {
   virtual void note(const std::string& message) = 0;
 };
 
+/// Ends a search that the user does not wait for.
+struct Stopped {};
+
 /// How a growing table of touches is watched.
 struct TouchWatchOptions {
   std::string name;      // of the log, for messages
@@ -42,6 +46,7 @@ struct TouchWatchOptions {
   TouchTableOptions table{};
   std::size_t every = 0;                  // tell every so many touches; 0: each
   std::vector<std::string> no_use_for{};  // options that were given, and that only a roll has a use for
+  std::function<bool()> is_stopped{};     // asked every 20 ms or so of a search; true ends it by Stopped
 };
 
 /// Turns the lines of a growing table of touches into the answer of all touches so far. Knows no files or streams. The
@@ -54,11 +59,11 @@ class TouchWatcher {
   /// Whether a line says that what follows is a table of touches.
   static bool begins_with(std::string_view line, const TouchTableOptions& table);
 
-  /// One line. Throws InputError: what parse_touches throws of a header, and `solve` of the problem.
+  /// One line. Throws InputError: what parse_touches throws of a header, and `solve` of the problem; Stopped.
   void push(std::string_view line);
   /// Another table begins.
   void restart();
-  /// The table is over.
+  /// The table is over. Where a search was stopped, what was known before it is the last answer.
   void finish();
 
   const WatchCounts& counts() const { return counts_; }
@@ -77,6 +82,7 @@ class TouchWatcher {
   std::string header_;      // a device may send it again; empty: there is none
   TouchTable table_;
   std::optional<TouchNews> last_;
+  bool was_stopped_ = false;
   WatchCounts counts_;  // samples: touches of all tables
 };
 
