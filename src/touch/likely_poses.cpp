@@ -7,7 +7,9 @@
 #include <optional>
 
 #include "centre_path.hpp"
+#include "free_space.hpp"
 #include "measured.hpp"
+#include "mirror_poses.hpp"
 #include "outline/turn.hpp"
 #include "path_tree.hpp"
 #include "pose_fit.hpp"
@@ -27,9 +29,8 @@ constexpr std::size_t kMostPoses = 60;
 constexpr double kLedBack = 0.25;
 // Poses that stand for all that one touch leaves.
 constexpr std::size_t kOfOneTouch = 150;
-// Their headings, where no normal was measured, go around by this share of a turn: no two places and headings are
-// alike.
-constexpr double kGolden = 0.6180339887498949;
+// One that clear paths leave less of is none.
+constexpr double kLeastFree = 1e-6;
 
 /// Moves poses to where they fit the touches of an answer: those along a continuum lie on a curve.
 class Refit {
@@ -178,11 +179,53 @@ class AfterOneTouch {
   double turn_sd_ = 0;
 };
 
+/// The question that was answered.
+TouchProblem problem_of(const TouchAnswer& answer) {
+  TouchProblem problem{answer.part, answer.touches};
+  if (answer.radius > 0) problem.finger = disk(answer.radius);
+  problem.noise = answer.noise;
+  problem.tolerance = answer.tolerance.front();
+  problem.clear = answer.clear;
+  return problem;
+}
+
+/// As it is, or as a mirror shows it.
+PosteriorNode node_of(const LikelyPose& one, bool mirrored) {
+  PosteriorNode node;
+  node.pose = one.pose;
+  node.covariance = one.covariance;
+  if (!mirrored) return node;
+  const Eigen::Vector3d signs(-1, 1, -1);
+  node.pose = {-one.pose.x, one.pose.y, -one.pose.heading};
+  node.covariance = Eigen::Matrix3d(signs.asDiagonal() * one.covariance * signs.asDiagonal());
+  return node;
+}
+
+/// What clear paths leave of poses that only touches were asked about.
+std::vector<LikelyPose> left_free(std::vector<LikelyPose> poses, const TouchAnswer& answer) {
+  if (answer.clear.empty()) return poses;
+  const TouchProblem problem = answer.mirrored ? in_mirror(problem_of(answer)) : problem_of(answer);
+  FreeSpace space(problem, measured(problem));
+  std::vector<LikelyPose> left;
+  for (LikelyPose& one : poses) {
+    std::vector<PosteriorNode> node{node_of(one, answer.mirrored)};
+    if (answer.noise) {
+      space.weigh(node);
+      one.weight *= std::exp(node.front().log_weight);
+    } else if (space.is_blocked(node.front().pose)) {
+      one.weight = 0;
+    }
+    if (one.weight > kLeastFree) left.push_back(one);
+  }
+  return left.empty() ? poses : left;
+}
+
 }  // namespace
 
 std::vector<LikelyPose> likely_poses(const TouchAnswer& answer) {
-  std::vector<LikelyPose> poses =
-      answer.touches.size() == 1 && answer.poses.empty() ? AfterOneTouch(answer).poses() : poses_of_sets(answer);
+  std::vector<LikelyPose> poses = answer.touches.size() == 1 && answer.poses.empty()
+                                      ? left_free(AfterOneTouch(answer).poses(), answer)
+                                      : poses_of_sets(answer);
   double total = 0;
   for (const LikelyPose& one : poses) total += one.weight;
   for (LikelyPose& one : poses) one.weight /= total;

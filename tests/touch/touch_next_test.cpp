@@ -56,6 +56,16 @@ TEST(TouchNext, AfterOneTouchWithItsNormalSaysWhereTheNextOneTellsMost) {
   EXPECT_EQ(rollfix::next_touch(answer, {from_outside}).advised().bits, 0) << "it goes off, where the part can't be";
 }
 
+TEST(TouchNext, AfterOneTouchPosesInWhichThePartIsInAClearPathDoNotCount) {
+  TouchProblem problem = of_part("gallery:cam", {{{2, 1}, 0.5}});
+  problem.noise->angle = rollfix::kDegree;
+  const NextTouch plain = rollfix::next_touch(rollfix::solve(problem));
+  // Beside the touch and a little behind it: only a side that goes on for so long is there.
+  const Vec2 away(std::cos(0.5), std::sin(0.5)), along(-away.y(), away.x());
+  problem.clear = {{Vec2(2, 1) - 0.5 * away + along, Vec2(2, 1) - 0.5 * away + 9 * along}};
+  EXPECT_LT(rollfix::next_touch(rollfix::solve(problem)).bits_wanted, plain.bits_wanted - 0.2);
+}
+
 TEST(TouchNext, AfterOneTouchOfAPointNothingTellsPlacesOfACircleApart) {
   TouchProblem problem = of_part("gallery:circle", {{{3, 2}, -1.7}});
   problem.finger.reset();
