@@ -15,7 +15,7 @@
 #include "logs.hpp"
 #include "outlines.hpp"
 #include "program.hpp"
-#include "rollfix/answer/part_facts.hpp"
+#include "rollfix/answer/answer.hpp"
 #include "rollfix/belief/advise.hpp"
 #include "rollfix/error.hpp"
 #include "table.hpp"

@@ -6,8 +6,8 @@
 
 #include "outlines.hpp"
 #include "program.hpp"
-#include "rollfix/files/saved_part.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/files/load_part.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/part/reach.hpp"
 #include "table.hpp"
 

@@ -14,8 +14,8 @@
 #include "questions.hpp"
 #include "rollfix/belief/belief.hpp"
 #include "rollfix/contact/log.hpp"
-#include "rollfix/files/saved_part.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/files/load_part.hpp"
+#include "rollfix/outline/outline.hpp"
 
 /// By its name valgrind knows what to count.
 extern "C" [[gnu::noinline]] void measured_query(const std::function<void()>& query) { query(); }

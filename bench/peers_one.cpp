@@ -17,7 +17,7 @@
 #include "questions.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/march/march.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "table.hpp"
 
 namespace {

@@ -13,7 +13,7 @@
 #include "outlines.hpp"
 #include "program.hpp"
 #include "rollfix/contact/log.hpp"
-#include "rollfix/files/saved_part.hpp"
+#include "rollfix/files/load_part.hpp"
 #include "table.hpp"
 
 namespace {

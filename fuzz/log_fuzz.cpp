@@ -9,7 +9,7 @@
 #include "rollfix/contact/log.hpp"
 #include "rollfix/contact/teach.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace {
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "catalogs.hpp"
-#include "rollfix/catalog/next_roll.hpp"
+#include "rollfix/catalog/identify.hpp"
 
 namespace advise_catalog_test {
 namespace {

@@ -10,7 +10,7 @@
 #include "random.hpp"
 #include "rollfix/belief/belief.hpp"
 #include "rollfix/contact/rolling.hpp"
-#include "rollfix/outline/load.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/part/boundary.hpp"
 
 /// Noisy rolls of a disk, and what they make believe.

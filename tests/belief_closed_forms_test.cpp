@@ -9,7 +9,7 @@
 #include "answer/weighing.hpp"
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/contact/rolling.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "shapes.hpp"
 
 namespace belief_closed_forms_test {

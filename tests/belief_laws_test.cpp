@@ -7,8 +7,8 @@
 
 #include "belief_cases.hpp"
 #include "rollfix/contact/rolling.hpp"
+#include "rollfix/outline/curve.hpp"
 #include "rollfix/outline/outline.hpp"
-#include "rollfix/outline/primitives.hpp"
 
 namespace belief_laws_test {
 namespace {

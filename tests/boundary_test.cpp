@@ -12,7 +12,7 @@
 #include "part/cursor.hpp"
 #include "part/turning_range.hpp"
 #include "random.hpp"
-#include "rollfix/outline/load.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace boundary_test {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "certificates.hpp"
-#include "rollfix/outline/primitives.hpp"
+#include "rollfix/outline/curve.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace certificate_small_corners_test {

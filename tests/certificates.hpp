@@ -16,8 +16,8 @@
 #include "random.hpp"
 #include "rollfix/certify/certify.hpp"
 #include "rollfix/files/documents.hpp"
-#include "rollfix/outline/points.hpp"
-#include "rollfix/outline/primitives.hpp"
+#include "rollfix/outline/curve.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/part/part.hpp"
 #include "shapes.hpp"
 

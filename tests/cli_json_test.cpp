@@ -9,7 +9,7 @@
 
 #include "cli.hpp"
 #include "rollfix/locate/locate.hpp"
-#include "rollfix/outline/load.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace cli_json_test {

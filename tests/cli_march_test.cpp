@@ -11,7 +11,7 @@
 
 #include "cli.hpp"
 #include "random.hpp"
-#include "rollfix/outline/load.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace cli_march_test {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "cli.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace cli_reach_test {

@@ -8,7 +8,7 @@
 #include "cli.hpp"
 #include "random.hpp"
 #include "rollfix/locate/locate.hpp"
-#include "rollfix/outline/load.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace cli_reading_test {

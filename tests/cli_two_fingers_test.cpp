@@ -16,8 +16,8 @@
 #include "rollfix/arguments/finger_argument.hpp"
 #include "rollfix/arguments/roll_arguments.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/gallery.hpp"
-#include "rollfix/outline/primitives.hpp"
+#include "rollfix/outline/curve.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/output/answer_output.hpp"
 
 namespace cli_two_fingers_test {

@@ -8,7 +8,7 @@
 
 #include "rollfix/contact/finger.hpp"
 #include "rollfix/contact/log.hpp"
-#include "rollfix/outline/primitives.hpp"
+#include "rollfix/outline/curve.hpp"
 #include "rollfix/part/part.hpp"
 #include "shapes.hpp"
 

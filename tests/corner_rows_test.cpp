@@ -7,7 +7,7 @@
 
 #include "corner_fingers.hpp"
 #include "rollfix/answer/solve.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace corner_rows_test {
 namespace {

@@ -10,8 +10,7 @@
 #include "cli.hpp"
 #include "refusal.hpp"
 #include "rollfix/contact/log.hpp"
-#include "rollfix/outline/load.hpp"
-#include "rollfix/outline/points.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "text/number.hpp"
 
 namespace rollfix::decimal_commas_test {

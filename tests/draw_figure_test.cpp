@@ -5,8 +5,7 @@
 #include <cmath>
 
 #include "draw_helpers.hpp"
-#include "rollfix/draw/answer_figure.hpp"
-#include "rollfix/draw/part_figure.hpp"
+#include "rollfix/draw/figures.hpp"
 #include "rollfix/draw/svg.hpp"
 #include "rollfix/error.hpp"
 

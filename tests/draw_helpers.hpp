@@ -11,9 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/draw/answer_figure.hpp"
-#include "rollfix/outline/gallery.hpp"
-#include "rollfix/outline/points.hpp"
+#include "rollfix/draw/figures.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace draw_test {

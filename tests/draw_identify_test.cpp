@@ -10,7 +10,7 @@
 #include "draw/legend.hpp"
 #include "draw_helpers.hpp"
 #include "rollfix/answer/solve.hpp"
-#include "rollfix/draw/parts_figure.hpp"
+#include "rollfix/draw/figures.hpp"
 #include "rollfix/draw/svg.hpp"
 #include "rollfix/error.hpp"
 

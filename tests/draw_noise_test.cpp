@@ -14,9 +14,8 @@
 #include "noisy_pairs.hpp"
 #include "random.hpp"
 #include "rollfix/answer/solve.hpp"
-#include "rollfix/contact/dead_reckoning.hpp"
 #include "rollfix/contact/rolling.hpp"
-#include "rollfix/draw/part_figure.hpp"
+#include "rollfix/draw/figures.hpp"
 #include "rollfix/error.hpp"
 
 namespace draw_noise_test {

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/outline/loops.hpp"
 #include "rollfix/outline/outline.hpp"
 #include "rollfix/part/part.hpp"
 

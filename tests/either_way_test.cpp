@@ -16,7 +16,7 @@
 #include "random.hpp"
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/locate/locate.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace either_way_test {
 namespace {

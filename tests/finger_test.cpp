@@ -17,7 +17,7 @@
 #include "rollfix/contact/pose.hpp"
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "shapes.hpp"
 
 namespace rollfix::finger_test {

@@ -17,7 +17,7 @@
 #include "free_roll.hpp"
 #include "random.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/points.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace rollfix::free_part_test {
 namespace {

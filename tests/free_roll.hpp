@@ -6,7 +6,7 @@
 #include <type_traits>
 
 #include "rollfix/contact/rolling.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 
 /// Small words for tests about two fingers on a part that is free to move.
 namespace free_rolls {

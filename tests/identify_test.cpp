@@ -11,9 +11,9 @@
 #include "catalogs.hpp"
 #include "refusal.hpp"
 #include "rollfix/answer/solve.hpp"
-#include "rollfix/catalog/documents.hpp"
+#include "rollfix/catalog/identify.hpp"
 #include "rollfix/contact/rolling.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace identify_test {
 namespace {

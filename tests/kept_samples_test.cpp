@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "catalogs.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/watch/meaning.hpp"
 
 namespace kept_samples_test {

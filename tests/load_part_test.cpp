@@ -11,8 +11,7 @@
 
 #include "cli.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/files/saved_part.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace load_part_test {
 namespace {

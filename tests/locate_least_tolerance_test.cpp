@@ -12,7 +12,7 @@
 #include "refusal.hpp"
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/locate/locate.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "shapes.hpp"
 
 namespace locate_least_tolerance_test {

@@ -15,8 +15,8 @@
 #include "rollfix/contact/log.hpp"
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/gallery.hpp"
-#include "rollfix/outline/primitives.hpp"
+#include "rollfix/outline/curve.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace rollfix::log_checks_test {
 namespace {

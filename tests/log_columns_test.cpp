@@ -9,7 +9,7 @@
 
 #include "refusal.hpp"
 #include "rollfix/contact/log.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "shapes.hpp"
 
 namespace rollfix::log_columns_test {

@@ -14,7 +14,7 @@
 #include "rollfix/contact/log.hpp"
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "text/number.hpp"
 
 namespace rollfix::log_readings_test {

@@ -16,7 +16,7 @@
 #include "rollfix/contact/log.hpp"
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace rollfix::log_round_trip_test {
 namespace {

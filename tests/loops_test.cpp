@@ -1,5 +1,5 @@
 // loops: a drawing's curves, in whatever order and direction, joined end to end.
-#include "rollfix/outline/loops.hpp"
+#include "rollfix/outline/outline.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 #include "outline/nesting.hpp"
 #include "random.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/primitives.hpp"
+#include "rollfix/outline/curve.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace loops_test {

@@ -16,7 +16,7 @@
 #include <fmt/core.h>
 
 #include "march_oracle.hpp"
-#include "rollfix/march/march_pairs.hpp"
+#include "rollfix/march/march.hpp"
 #include "rollfix/part/boundary.hpp"
 
 namespace march_pairs {

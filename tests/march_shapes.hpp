@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "rollfix/outline/outline.hpp"
-#include "rollfix/outline/points.hpp"
 
 namespace march_shapes {
 

@@ -9,7 +9,7 @@
 
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/contact/rolling.hpp"
-#include "rollfix/outline/points.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace mirror_test {
 namespace {

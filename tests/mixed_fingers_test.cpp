@@ -14,7 +14,7 @@
 #include "refusal.hpp"
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/contact/rolling.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace rollfix::mixed_fingers_test {
 namespace {

@@ -13,7 +13,7 @@
 #include "contact/normal_numbers.hpp"
 #include "refusal.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "shapes.hpp"
 
 namespace rollfix::noisy_test {

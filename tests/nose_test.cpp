@@ -11,8 +11,7 @@
 
 #include "outline/chord_turns.hpp"
 #include "random.hpp"
-#include "rollfix/outline/load.hpp"
-#include "rollfix/outline/points.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace rollfix::nose_test {

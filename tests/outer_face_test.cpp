@@ -11,9 +11,8 @@
 #include <vector>
 
 #include "rollfix/error.hpp"
-#include "rollfix/outline/loops.hpp"
+#include "rollfix/outline/curve.hpp"
 #include "rollfix/outline/outline.hpp"
-#include "rollfix/outline/primitives.hpp"
 
 namespace outer_face_test {
 namespace {

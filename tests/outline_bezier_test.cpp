@@ -1,5 +1,5 @@
 // Bezier and NURBS curves, and elliptic arcs.
-#include "rollfix/outline/primitives.hpp"
+#include "rollfix/outline/curve.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -7,9 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/curve.hpp"
 #include "rollfix/outline/outline.hpp"
-#include "rollfix/outline/primitives.hpp"
 
 namespace outline_check_test {
 namespace {

@@ -1,5 +1,5 @@
 // load_outline: what a user may write where a part is asked for.
-#include "rollfix/outline/load.hpp"
+#include "rollfix/outline/outline.hpp"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>

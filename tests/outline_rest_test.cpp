@@ -13,8 +13,8 @@
 #include "random.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate/locate.hpp"
+#include "rollfix/outline/curve.hpp"
 #include "rollfix/outline/outline.hpp"
-#include "rollfix/outline/primitives.hpp"
 #include "rollfix/part/part.hpp"
 #include "shapes.hpp"
 

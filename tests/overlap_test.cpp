@@ -11,8 +11,7 @@
 #include "contact/convex_body.hpp"
 #include "random.hpp"
 #include "rollfix/contact/rolling.hpp"
-#include "rollfix/outline/gallery.hpp"
-#include "rollfix/outline/points.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace rollfix::overlap_test {
 namespace {

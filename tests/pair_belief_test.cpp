@@ -15,7 +15,7 @@
 #include "random.hpp"
 #include "rollfix/contact/pose.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "shapes.hpp"
 
 namespace pair_belief_test {

@@ -13,7 +13,7 @@
 #include "free_roll.hpp"
 #include "random.hpp"
 #include "rollfix/contact/log.hpp"
-#include "rollfix/outline/primitives.hpp"
+#include "rollfix/outline/curve.hpp"
 
 namespace rollfix::pair_log_readings_test {
 namespace {

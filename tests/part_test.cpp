@@ -9,10 +9,8 @@
 #include <numbers>
 
 #include "rollfix/error.hpp"
-#include "rollfix/outline/gallery.hpp"
-#include "rollfix/outline/load.hpp"
-#include "rollfix/outline/points.hpp"
-#include "rollfix/outline/primitives.hpp"
+#include "rollfix/outline/curve.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "shapes.hpp"
 
 namespace part_test {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "refusal.hpp"
-#include "rollfix/outline/points.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace rollfix::points_header_test {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "pair_cases.hpp"
 #include "rollfix/error.hpp"
+#include "rollfix/outline/curve.hpp"
 #include "rollfix/outline/outline.hpp"
-#include "rollfix/outline/primitives.hpp"
 #include "rollfix/part/part.hpp"
 #include "shapes.hpp"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "rollfix/answer/solve.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/part/reach.hpp"
 #include "shapes.hpp"
 

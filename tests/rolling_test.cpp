@@ -24,8 +24,7 @@
 
 #include "random.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/gallery.hpp"
-#include "rollfix/outline/points.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace rollfix::rolling_test {
 namespace {

@@ -11,8 +11,7 @@
 #include "random.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate/locate.hpp"
-#include "rollfix/outline/loops.hpp"
-#include "rollfix/outline/points.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "shapes.hpp"
 
 namespace same_outline_test {

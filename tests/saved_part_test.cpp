@@ -1,5 +1,5 @@
 // A saved part answers as before, to the bit, or is refused.
-#include "rollfix/files/saved_part.hpp"
+#include "rollfix/files/load_part.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,9 +15,8 @@
 #include "random.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate/locate.hpp"
-#include "rollfix/outline/gallery.hpp"
-#include "rollfix/outline/points.hpp"
-#include "rollfix/outline/primitives.hpp"
+#include "rollfix/outline/curve.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "shapes.hpp"
 
 namespace saved_part_test {

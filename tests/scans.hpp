@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "random.hpp"
-#include "rollfix/outline/points.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/part/part.hpp"
 #include "shapes.hpp"
 

@@ -12,9 +12,8 @@
 #include <vector>
 
 #include "rollfix/locate/locate.hpp"
-#include "rollfix/outline/gallery.hpp"
-#include "rollfix/outline/points.hpp"
-#include "rollfix/outline/primitives.hpp"
+#include "rollfix/outline/curve.hpp"
+#include "rollfix/outline/outline.hpp"
 
 /// Small words for tests about parts and placements.
 namespace shapes {

@@ -1,5 +1,5 @@
 // Points from scans: noise and pixel stairs go, the shape stays.
-#include "rollfix/outline/points.hpp"
+#include "rollfix/outline/outline.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

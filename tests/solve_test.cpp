@@ -11,8 +11,8 @@
 #include "rollfix/contact/log.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/locate/locate.hpp"
-#include "rollfix/outline/gallery.hpp"
-#include "rollfix/outline/primitives.hpp"
+#include "rollfix/outline/curve.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace solve_test {
 namespace {

@@ -12,8 +12,8 @@
 #include <numbers>
 
 #include "random.hpp"
-#include "rollfix/outline/gallery.hpp"
-#include "rollfix/outline/primitives.hpp"
+#include "rollfix/outline/curve.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/part/part.hpp"
 #include "shapes.hpp"
 

@@ -10,10 +10,8 @@
 
 #include "refusal.hpp"
 #include "rollfix/files/load_part.hpp"
-#include "rollfix/files/saved_part.hpp"
-#include "rollfix/outline/gallery.hpp"
-#include "rollfix/outline/points.hpp"
-#include "rollfix/outline/primitives.hpp"
+#include "rollfix/outline/curve.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace rollfix::units_test {
 namespace {

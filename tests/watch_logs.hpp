@@ -10,7 +10,7 @@
 #include "random.hpp"
 #include "rollfix/contact/noise.hpp"
 #include "rollfix/contact/rolling.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace watching {
 

@@ -8,8 +8,7 @@
 #include "free_roll.hpp"
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/contact/rolling.hpp"
-#include "rollfix/outline/gallery.hpp"
-#include "rollfix/outline/points.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace weighed_placement_test {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <random>
 
-#include "rollfix/answer/part_facts.hpp"
+#include "rollfix/answer/answer.hpp"
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
 

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "rollfix/outline/gallery.hpp"
-#include "rollfix/outline/points.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace bench {
 

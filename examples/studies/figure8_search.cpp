@@ -25,8 +25,7 @@
 #include "rollfix/error.hpp"
 #include "rollfix/locate/locate.hpp"
 #include "rollfix/march/march.hpp"
-#include "rollfix/march/march_pairs.hpp"
-#include "rollfix/outline/load.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace {

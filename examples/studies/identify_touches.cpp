@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "rollfix/catalog/catalog.hpp"
-#include "rollfix/catalog/identify_touches.hpp"
+#include "rollfix/catalog/identify.hpp"
 #include "rollfix/error.hpp"
 
 namespace {

@@ -13,7 +13,7 @@
 #include "rollfix/belief/belief.hpp"
 #include "rollfix/contact/log.hpp"
 #include "rollfix/locate/locate.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 
 /// Rolls whose start is known, located from nothing but their logs.
 namespace physics {

@@ -11,8 +11,7 @@
 
 #include "plan_physics.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/gallery.hpp"
-#include "rollfix/outline/points.hpp"
+#include "rollfix/outline/outline.hpp"
 
 /// Random rolls of two disks, planned or refused, and how they go in a physics engine.
 namespace plan_trial {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "rollfix/contact/teach.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace {

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "rollfix/contact/rolling.hpp"
-#include "rollfix/outline/points.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/part/boundary.hpp"
 #include "rollfix/part/part.hpp"
 #include "rollfix/rollfix.h"

@@ -15,7 +15,7 @@
 #include "rollfix/belief/belief.hpp"
 #include "rollfix/contact/log.hpp"
 #include "rollfix/contact/rolling.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/part/boundary.hpp"
 #include "rollfix/part/part.hpp"
 

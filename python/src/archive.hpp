@@ -12,7 +12,7 @@
 #include "rollfix/contact/log.hpp"
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/loops.hpp"
+#include "rollfix/outline/outline.hpp"
 
 // Values as bytes, for pickle and for ==. Each struct is taken apart by a structured binding, which does not compile
 // when a field is added and not named here. Not for other machines or versions: no more than pickle promises.

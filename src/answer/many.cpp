@@ -1,11 +1,10 @@
-#include "rollfix/answer/many.hpp"
+#include "rollfix/answer/solve.hpp"
 
 #include <cstdint>
 #include <limits>
 #include <tuple>
 
 #include "crew.hpp"
-#include "rollfix/answer/solve.hpp"
 #include "rollfix/error.hpp"
 
 namespace rollfix {

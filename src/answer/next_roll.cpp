@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "rollfix/answer/part_facts.hpp"
+#include "rollfix/answer/answer.hpp"
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/plan/plan.hpp"

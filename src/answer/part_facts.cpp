@@ -1,4 +1,4 @@
-#include "rollfix/answer/part_facts.hpp"
+#include "rollfix/answer/answer.hpp"
 
 #include <algorithm>
 #include <cmath>

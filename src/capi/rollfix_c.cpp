@@ -15,7 +15,7 @@
 #include "capi/locator.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/files/load_part.hpp"
-#include "rollfix/outline/points.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/version.hpp"
 
 struct rollfix_part {

@@ -13,7 +13,7 @@
 #include "bounds/profile.hpp"
 #include "files/byte_stream.hpp"
 #include "files/part_record.hpp"
-#include "rollfix/answer/part_facts.hpp"
+#include "rollfix/answer/answer.hpp"
 #include "rollfix/catalog/catalog.hpp"
 #include "rollfix/error.hpp"
 #include "sums.hpp"

@@ -1,7 +1,7 @@
 #include <utility>
 
 #include "files/documents/documents.hpp"
-#include "rollfix/catalog/documents.hpp"
+#include "rollfix/catalog/identify.hpp"
 
 namespace rollfix {
 namespace {

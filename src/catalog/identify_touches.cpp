@@ -1,4 +1,4 @@
-#include "rollfix/catalog/identify_touches.hpp"
+#include "rollfix/catalog/identify.hpp"
 
 #include <algorithm>
 #include <cmath>

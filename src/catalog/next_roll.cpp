@@ -1,4 +1,4 @@
-#include "rollfix/catalog/next_roll.hpp"
+#include "rollfix/catalog/identify.hpp"
 
 #include <cmath>
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "places.hpp"
-#include "rollfix/certify/touch_certificate.hpp"
+#include "rollfix/certify/certify.hpp"
 #include "rollfix/error.hpp"
 #include "touch/poses_beyond.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "hold/hold_fit.hpp"
-#include "rollfix/certify/hold_certificate.hpp"
+#include "rollfix/certify/certify.hpp"
 
 namespace rollfix {
 

@@ -13,7 +13,6 @@
 
 #include "contact/log_rows.hpp"
 #include "contact/log_table.hpp"
-#include "rollfix/contact/pin_log.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/units.hpp"
 #include "text/text.hpp"

@@ -9,7 +9,6 @@
 
 #include "contact/log_table.hpp"
 #include "rollfix/contact/log.hpp"
-#include "rollfix/contact/log_options.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline/curve.hpp"
 

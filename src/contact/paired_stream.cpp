@@ -1,4 +1,4 @@
-#include "rollfix/contact/paired_stream.hpp"
+#include "rollfix/contact/log.hpp"
 
 #include <fmt/format.h>
 

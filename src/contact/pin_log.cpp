@@ -1,4 +1,4 @@
-#include "rollfix/contact/pin_log.hpp"
+#include "rollfix/contact/log.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "rollfix/draw/advice_figure.hpp"
+#include "rollfix/draw/figures.hpp"
 
 #include <fmt/format.h>
 

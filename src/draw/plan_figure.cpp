@@ -1,4 +1,4 @@
-#include "rollfix/draw/plan_figure.hpp"
+#include "rollfix/draw/figures.hpp"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,6 @@
-#include "rollfix/draw/solution_figure.hpp"
+#include "rollfix/draw/figures.hpp"
 
 #include <optional>
-
-#include "rollfix/draw/answer_figure.hpp"
-#include "rollfix/draw/hold_figure.hpp"
-#include "rollfix/draw/touch_figure.hpp"
 
 namespace rollfix {
 namespace {

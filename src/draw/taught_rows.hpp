@@ -3,7 +3,7 @@
 #include "labels.hpp"
 #include "legend.hpp"
 #include "plot.hpp"
-#include "rollfix/draw/part_figure.hpp"
+#include "rollfix/draw/figures.hpp"
 #include "scene.hpp"
 
 namespace rollfix::draw {

@@ -4,7 +4,6 @@
 #include <string_view>
 #include <variant>
 
-#include "rollfix/outline/loops.hpp"
 #include "rollfix/outline/outline.hpp"
 
 // From a file's bytes to what it draws. `name` is what messages call the file.

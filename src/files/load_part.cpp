@@ -13,8 +13,7 @@
 #include "files/sparse_corners.hpp"
 #include "outline/naming.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/files/saved_part.hpp"
-#include "rollfix/outline/load.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/pulse.hpp"
 #include "text/text.hpp"
 

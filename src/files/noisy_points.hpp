@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/outline/points.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace rollfix {

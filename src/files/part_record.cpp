@@ -9,7 +9,7 @@
 
 #include "files/byte_stream.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace rollfix {
 

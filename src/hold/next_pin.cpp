@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "belief/posterior.hpp"
-#include "rollfix/answer/part_facts.hpp"
+#include "rollfix/answer/answer.hpp"
 #include "rollfix/contact/rig.hpp"
 #include "rollfix/error.hpp"
 #include "text/text.hpp"

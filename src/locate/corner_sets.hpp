@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "rollfix/locate/placement.hpp"
+#include "rollfix/locate/locate.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace rollfix {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "rollfix/locate/placement.hpp"
+#include "rollfix/locate/locate.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace rollfix {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "rollfix/locate/reachable.hpp"
+#include "rollfix/locate/locate.hpp"
 
 namespace rollfix {
 

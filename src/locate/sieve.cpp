@@ -4,7 +4,7 @@
 
 #include "pieces.hpp"
 #include "pivots.hpp"
-#include "rollfix/locate/reachable.hpp"
+#include "rollfix/locate/locate.hpp"
 
 namespace rollfix {
 namespace {

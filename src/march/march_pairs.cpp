@@ -1,4 +1,4 @@
-#include "rollfix/march/march_pairs.hpp"
+#include "rollfix/march/march.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 
 #include "march/limit.hpp"
 #include "march/path.hpp"
-#include "rollfix/march/march_pairs.hpp"
+#include "rollfix/march/march.hpp"
 
 namespace rollfix::march {
 

@@ -1,4 +1,4 @@
-#include "rollfix/outline/primitives.hpp"
+#include "rollfix/outline/curve.hpp"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <functional>
 
-#include "rollfix/outline/points.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace rollfix {
 

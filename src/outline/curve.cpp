@@ -12,7 +12,6 @@
 
 #include "outline/turning_span.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/primitives.hpp"
 
 namespace rollfix {
 

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "rollfix/outline/curve.hpp"
-#include "rollfix/outline/primitives.hpp"
 
 namespace rollfix {
 

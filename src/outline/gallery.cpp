@@ -1,4 +1,4 @@
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 
 #include <fmt/format.h>
 

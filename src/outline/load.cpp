@@ -1,10 +1,9 @@
-#include "rollfix/outline/load.hpp"
+#include "rollfix/outline/outline.hpp"
 
 #include <fmt/format.h>
 
 #include "outline/naming.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/gallery.hpp"
 #include "text/text.hpp"
 
 namespace rollfix {

@@ -1,4 +1,4 @@
-#include "rollfix/outline/points.hpp"
+#include "rollfix/outline/outline.hpp"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 #include "outline/scan_corners.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/primitives.hpp"
+#include "rollfix/outline/curve.hpp"
 #include "rollfix/pulse.hpp"
 
 namespace rollfix {

@@ -1,4 +1,4 @@
-#include "rollfix/part/samples.hpp"
+#include "rollfix/part/part.hpp"
 
 #include <algorithm>
 #include <cmath>

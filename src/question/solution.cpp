@@ -1,4 +1,4 @@
-#include "rollfix/question/solution.hpp"
+#include "rollfix/question/question.hpp"
 
 namespace rollfix {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "rollfix/touch/touch_table.hpp"
+#include "rollfix/touch/touch.hpp"
 
 namespace rollfix::touch {
 

@@ -9,7 +9,7 @@
 
 #include "contact/header/log_header.hpp"
 #include "contact/log_table.hpp"
-#include "rollfix/touch/touch_table.hpp"
+#include "rollfix/touch/touch.hpp"
 #include "rollfix/units.hpp"
 
 namespace rollfix::touch {

@@ -1,4 +1,4 @@
-#include "rollfix/touch/touch_table.hpp"
+#include "rollfix/touch/touch.hpp"
 
 #include <fmt/format.h>
 

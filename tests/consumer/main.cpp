@@ -3,7 +3,7 @@
 #include <string>
 
 #include "rollfix/locate/locate.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/part/part.hpp"
 #include "rollfix/version.hpp"
 

@@ -12,8 +12,8 @@
 #include "hold/hold_cases.hpp"
 #include "hold/rig_cases.hpp"
 #include "random_outlines.hpp"
-#include "rollfix/certify/hold_certificate.hpp"
-#include "rollfix/files/hold_document.hpp"
+#include "rollfix/certify/certify.hpp"
+#include "rollfix/files/documents.hpp"
 #include "rollfix/files/load_part.hpp"
 
 // Certificates of holds and of the rig, and random questions for them.

@@ -15,8 +15,8 @@
 
 #include "oracle/boundary.hpp"
 #include "oracle/formulas.hpp"
-#include "rollfix/outline/gallery.hpp"
-#include "rollfix/outline/primitives.hpp"
+#include "rollfix/outline/curve.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace oracle {

@@ -11,7 +11,7 @@
 #include "plans.hpp"
 #include "random.hpp"
 #include "rollfix/answer/solve.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "shapes.hpp"
 
 namespace rollfix::plan_test {

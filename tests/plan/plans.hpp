@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "rollfix/error.hpp"
-#include "rollfix/outline/points.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/part/part.hpp"
 #include "rollfix/plan/plan.hpp"
 

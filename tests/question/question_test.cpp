@@ -13,9 +13,7 @@
 #include "hold/rig_cases.hpp"
 #include "refusal.hpp"
 #include "rollfix/answer/solve.hpp"
-#include "rollfix/files/hold_document.hpp"
-#include "rollfix/files/solution_document.hpp"
-#include "rollfix/files/touch_document.hpp"
+#include "rollfix/files/documents.hpp"
 #include "touch/roll_cases.hpp"
 
 namespace question_test {

@@ -14,7 +14,7 @@
 #include "rigid_body.hpp"
 #include "rigs.hpp"
 #include "rollfix/contact/rig.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace rollfix::rig_test {
 namespace {

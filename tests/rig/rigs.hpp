@@ -7,7 +7,7 @@
 #include <string>
 
 #include "rollfix/contact/rig.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 
 /// Small words for tests about a jaw and a wheel.
 namespace rigs {

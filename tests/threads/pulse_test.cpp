@@ -7,9 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/answer/many.hpp"
 #include "rollfix/answer/solve.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/pulse.hpp"
 
 namespace pulse_test {

@@ -8,8 +8,8 @@
 
 #include "files/documents/documents.hpp"
 #include "rollfix/answer/solve.hpp"
-#include "rollfix/files/saved_part.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/files/load_part.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace sharing_test {
 namespace {

@@ -7,10 +7,9 @@
 #include <vector>
 
 #include "random.hpp"
-#include "rollfix/answer/many.hpp"
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace solve_many_test {
 namespace {

@@ -7,8 +7,7 @@
 
 #include "catalogs.hpp"
 #include "random.hpp"
-#include "rollfix/catalog/documents.hpp"
-#include "rollfix/catalog/identify_touches.hpp"
+#include "rollfix/catalog/identify.hpp"
 #include "touch/roll_certificates.hpp"
 
 // Which part is it, by several rolls and touches that share its pose: a small catalog, and rolls on one of its parts.

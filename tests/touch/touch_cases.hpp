@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "rollfix/outline/primitives.hpp"
+#include "rollfix/outline/curve.hpp"
 #include "rollfix/part/part.hpp"
 #include "rollfix/touch/touch.hpp"
 

@@ -12,7 +12,7 @@
 #include "check.hpp"
 #include "outline/turn.hpp"
 #include "random_outlines.hpp"
-#include "rollfix/certify/touch_certificate.hpp"
+#include "rollfix/certify/certify.hpp"
 #include "rollfix/files/documents.hpp"
 #include "rollfix/files/load_part.hpp"
 #include "touch/touch_cases.hpp"

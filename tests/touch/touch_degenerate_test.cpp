@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "outline/turn.hpp"
-#include "rollfix/outline/primitives.hpp"
+#include "rollfix/outline/curve.hpp"
 #include "touch_cases.hpp"
 
 namespace touch_degenerate_test {

@@ -10,7 +10,7 @@
 #include "rollfix/contact/rig.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/hold/next_pin.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace advise_rig_test {
 namespace {

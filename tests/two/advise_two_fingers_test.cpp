@@ -7,7 +7,7 @@
 #include "cli.hpp"
 #include "rollfix/belief/advise.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace advise_two_fingers_test {
 namespace {

@@ -6,9 +6,8 @@
 #include <string>
 
 #include "rollfix/contact/log.hpp"
-#include "rollfix/contact/paired_stream.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace paired_stream_test {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "random.hpp"
 #include "rollfix/belief/advise.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/part/boundary.hpp"
 
 namespace advice_pairs_loop_test {

@@ -13,7 +13,7 @@
 #include "rollfix/contact/rig.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/hold/next_pin.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace advice_rig_loop_test {
 namespace {

@@ -14,8 +14,8 @@
 #include "rollfix/certify/certify.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/files/documents.hpp"
-#include "rollfix/outline/gallery.hpp"
-#include "rollfix/outline/primitives.hpp"
+#include "rollfix/outline/curve.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/part/part.hpp"
 #include "shapes.hpp"
 

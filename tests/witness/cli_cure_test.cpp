@@ -12,7 +12,7 @@
 
 #include "cli.hpp"
 #include "rollfix/contact/log.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace cli_cure_test {

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "cli.hpp"
-#include "rollfix/outline/load.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/part/part.hpp"
 
 namespace cli_paper_test {

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "cli.hpp"
-#include "rollfix/march/march_pairs.hpp"
-#include "rollfix/outline/load.hpp"
+#include "rollfix/march/march.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace demo_test {
 namespace {

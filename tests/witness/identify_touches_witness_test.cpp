@@ -9,8 +9,7 @@
 
 #include "catalogs.hpp"
 #include "random.hpp"
-#include "rollfix/catalog/documents.hpp"
-#include "rollfix/catalog/identify_touches.hpp"
+#include "rollfix/catalog/identify.hpp"
 #include "touch/touch_cases.hpp"
 
 namespace identify_touches_witness_test {

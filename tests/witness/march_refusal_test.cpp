@@ -11,7 +11,7 @@
 #include "march_oracle.hpp"
 #include "march_shapes.hpp"
 #include "rollfix/march/march.hpp"
-#include "rollfix/outline/primitives.hpp"
+#include "rollfix/outline/curve.hpp"
 
 namespace march_refusal_test {
 namespace {

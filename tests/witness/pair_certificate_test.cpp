@@ -12,10 +12,10 @@
 #include "certificates.hpp"
 #include "pair_cases.hpp"
 #include "random.hpp"
-#include "rollfix/certify/pair_certificate.hpp"
+#include "rollfix/certify/certify.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/files/documents.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/part/part.hpp"
 #include "shapes.hpp"
 

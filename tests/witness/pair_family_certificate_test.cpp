@@ -16,10 +16,9 @@
 #include "certificates.hpp"
 #include "pair_liar.hpp"
 #include "random.hpp"
-#include "rollfix/certify/pair_certificate.hpp"
-#include "rollfix/outline/gallery.hpp"
-#include "rollfix/outline/points.hpp"
-#include "rollfix/outline/primitives.hpp"
+#include "rollfix/certify/certify.hpp"
+#include "rollfix/outline/curve.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/part/part.hpp"
 #include "shapes.hpp"
 

@@ -12,7 +12,7 @@
 #include "random.hpp"
 #include "rollfix/certify/certify.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/part/part.hpp"
 #include "shapes.hpp"
 

@@ -1,5 +1,5 @@
 // How near a smoothed scan is to its points and to the shape that was scanned.
-#include "rollfix/outline/points.hpp"
+#include "rollfix/outline/outline.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -14,7 +14,7 @@
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/contact/teach.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/part/part.hpp"
 #include "shapes.hpp"
 

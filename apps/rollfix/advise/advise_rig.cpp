@@ -7,8 +7,8 @@
 
 #include "rollfix/arguments/question_arguments.hpp"
 #include "rollfix/arguments/travel_argument.hpp"
-#include "rollfix/draw/advice_figure.hpp"
-#include "rollfix/files/hold_document.hpp"
+#include "rollfix/draw/figures.hpp"
+#include "rollfix/files/documents.hpp"
 #include "rollfix/hold/next_pin.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/table.hpp"

@@ -7,7 +7,7 @@
 #include "files/documents/outline_numbers.hpp"
 #include "rollfix/draw/svg.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/files/saved_part.hpp"
+#include "rollfix/files/load_part.hpp"
 #include "rollfix/output/files.hpp"
 #include "rollfix/usage.hpp"
 

@@ -13,7 +13,7 @@
 #include "rollfix/arguments/roll_arguments.hpp"
 #include "rollfix/commands.hpp"
 #include "rollfix/demo/demo_parts.hpp"
-#include "rollfix/draw/answer_figure.hpp"
+#include "rollfix/draw/figures.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/program.hpp"
 

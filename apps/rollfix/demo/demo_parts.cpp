@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace rollfix::app {
 

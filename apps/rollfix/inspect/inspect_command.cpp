@@ -7,7 +7,7 @@
 #include "rollfix/arguments/output_argument.hpp"
 #include "rollfix/arguments/part_argument.hpp"
 #include "rollfix/commands.hpp"
-#include "rollfix/draw/part_figure.hpp"
+#include "rollfix/draw/figures.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/files/documents.hpp"
 #include "rollfix/inspect/inspect_outcome.hpp"

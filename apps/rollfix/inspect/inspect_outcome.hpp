@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "rollfix/files/inspection.hpp"
+#include "rollfix/files/load_part.hpp"
 
 namespace rollfix::app {
 

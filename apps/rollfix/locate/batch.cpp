@@ -12,7 +12,7 @@
 #include "files/documents/documents.hpp"
 #include "files/json/fields.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/files/solution_document.hpp"
+#include "rollfix/files/documents.hpp"
 #include "rollfix/locate/question_json.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/option_names.hpp"

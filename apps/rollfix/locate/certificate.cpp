@@ -5,12 +5,8 @@
 #include <utility>
 
 #include "rollfix/certify/certify.hpp"
-#include "rollfix/certify/hold_certificate.hpp"
-#include "rollfix/certify/pair_certificate.hpp"
-#include "rollfix/certify/touch_certificate.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/files/documents.hpp"
-#include "rollfix/files/hold_document.hpp"
 #include "rollfix/output/files.hpp"
 
 namespace rollfix::app {

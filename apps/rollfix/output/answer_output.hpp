@@ -5,7 +5,7 @@
 #include "files/documents/documents.hpp"
 #include "rollfix/answer/answer.hpp"
 #include "rollfix/output/report.hpp"
-#include "rollfix/question/solution.hpp"
+#include "rollfix/question/question.hpp"
 
 namespace rollfix::app {
 

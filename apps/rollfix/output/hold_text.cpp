@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "outline/turn.hpp"
-#include "rollfix/answer/part_facts.hpp"
-#include "rollfix/files/hold_document.hpp"
+#include "rollfix/answer/answer.hpp"
+#include "rollfix/files/documents.hpp"
 #include "rollfix/output/answer_words.hpp"
 #include "rollfix/output/table.hpp"
 #include "text/text.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "outline/turn.hpp"
-#include "rollfix/answer/part_facts.hpp"
+#include "rollfix/answer/answer.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/answer_words.hpp"
 #include "rollfix/output/table.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rollfix/answer/part_facts.hpp"
+#include "rollfix/answer/answer.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/answer_sections.hpp"
 #include "rollfix/output/answer_words.hpp"

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "rollfix/march/march.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/paper/claim.hpp"
 #include "rollfix/part/part.hpp"
 

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "march/pairs.hpp"
-#include "rollfix/march/march_pairs.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/march/march.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/paper/claim.hpp"
 #include "rollfix/part/part.hpp"
 

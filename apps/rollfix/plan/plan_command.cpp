@@ -3,9 +3,9 @@
 #include <memory>
 
 #include "rollfix/commands.hpp"
-#include "rollfix/draw/plan_figure.hpp"
+#include "rollfix/draw/figures.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/files/plan_document.hpp"
+#include "rollfix/files/documents.hpp"
 #include "rollfix/plan/plan_arguments.hpp"
 #include "rollfix/plan/plan_output.hpp"
 #include "rollfix/simulate/simulation.hpp"

@@ -5,9 +5,8 @@
 #include <utility>
 
 #include "files/documents/json_output.hpp"
-#include "rollfix/catalog/documents.hpp"
-#include "rollfix/files/hold_document.hpp"
-#include "rollfix/files/touch_document.hpp"
+#include "rollfix/catalog/identify.hpp"
+#include "rollfix/files/documents.hpp"
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/watch/writer.hpp"
 

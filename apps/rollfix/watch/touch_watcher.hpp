@@ -9,7 +9,6 @@
 
 #include "rollfix/touch/next_touch.hpp"
 #include "rollfix/touch/touch.hpp"
-#include "rollfix/touch/touch_table.hpp"
 #include "rollfix/watch/watcher.hpp"
 
 namespace rollfix::app {

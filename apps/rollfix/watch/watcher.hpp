@@ -13,7 +13,6 @@
 #include "rollfix/catalog/catalog.hpp"
 #include "rollfix/catalog/identify.hpp"
 #include "rollfix/contact/log.hpp"
-#include "rollfix/contact/paired_stream.hpp"
 #include "rollfix/hold/hold.hpp"
 #include "rollfix/part/part.hpp"
 

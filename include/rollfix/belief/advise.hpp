@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "rollfix/belief/belief.hpp"
-#include "rollfix/locate/placement.hpp"
+#include "rollfix/locate/locate.hpp"
 #include "rollfix/part/part.hpp"
 #include "rollfix/part/reach.hpp"
 #include "rollfix/per_finger.hpp"

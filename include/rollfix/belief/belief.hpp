@@ -11,7 +11,7 @@
 #include "rollfix/contact/finger.hpp"
 #include "rollfix/contact/log.hpp"
 #include "rollfix/contact/noise.hpp"
-#include "rollfix/locate/placement.hpp"
+#include "rollfix/locate/locate.hpp"
 #include "rollfix/outline/curve.hpp"
 #include "rollfix/part/part.hpp"
 #include "rollfix/per_finger.hpp"

@@ -1,5 +1,8 @@
 #pragma once
 
+#include "rollfix/cpp20.hpp"  // IWYU pragma: keep
+
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <numbers>
@@ -9,7 +12,6 @@
 #include <vector>
 
 #include "rollfix/contact/finger.hpp"
-#include "rollfix/contact/log_options.hpp"
 #include "rollfix/contact/noise.hpp"
 #include "rollfix/contact/reading.hpp"
 #include "rollfix/part/part.hpp"
@@ -17,6 +19,47 @@
 #include "rollfix/units.hpp"
 
 namespace rollfix {
+
+/// Where a log's header has one of the columns, when it does not have it under its known name.
+struct ColumnSource {
+  std::string column;  // the known name: "u", "psi", "time", "x"; of one of two fingers "u_a"
+  std::string name;    // what the header calls it
+  std::string unit{};  // deg, rad, mm, cm, m, in, s, ms, us, ns, ...; empty: what the header says, else radians,
+                       // seconds, or the part's unit. Of u and psi it may be, or end in, "wrapped" or "unwrapped", as
+                       // in "deg:unwrapped": whether the column jumps back after a full turn
+};
+
+/// How to read a log: see docs/rolling.md.
+struct LogOptions {
+  /// A column that is named here is found by that name only. A pair that is named here (u and psi, ...) is the one that
+  /// is read, whatever else the log has. Without _a or _b: of the log's one finger; of two files of both.
+  std::vector<ColumnSource> columns{};
+  /// The part's: columns with a unit of length are converted to it. Empty: not known.
+  std::string unit{};
+  /// What columns of angles are in where neither `columns` nor the header says it: "deg". Empty: radians.
+  std::string angles{};
+  /// Whether u and psi jump back after a full turn, where `columns` does not say it. None: the rows show it.
+  std::optional<bool> wrapped{};
+  /// Whether numbers have a comma for the decimal point, as in 0,5 1,25. None: they may between semicolons.
+  std::optional<bool> decimal_comma{};
+  /// Rows that can't be read, a time that does not grow among them, are left out, and Log::skipped tells of them.
+  bool skip_bad = false;
+  /// As a mirror shows it: u, length, turn, distance, dturn and x with the other sign, pi - psi for psi. What is felt
+  /// of a part that lies face down reads so like what is felt of the part as it was drawn.
+  bool mirrored = false;
+  /// Lengths and distances count against the outline: they get the other sign. Of u and psi that is not meant.
+  bool clockwise = false;
+  /// The part is one of many, which of them is not known: no step of a stream is a jump. Of files each part has its
+  /// say.
+  bool any_part = false;
+  /// Of several rolls with u and psi: contact for a single row is a roll of length 0, and kept. Else it is left out.
+  bool single_rows = false;
+};
+
+/// "u=contact_deg:deg,psi=yaw_deg:deg,time=stamp:ms": COLUMN=NAME or COLUMN=NAME:UNIT, any number of them. Throws
+/// InputError: not of this form, a column that is not known or there twice, a unit that is not known or not the
+/// column's.
+std::vector<ColumnSource> parse_columns(std::string_view text);
 
 /// What the rows of a log say.
 enum class LogKind {
@@ -230,6 +273,72 @@ class LogStream {
   std::size_t fingers() const;    // known then: 1 or 2
   std::size_t lines() const;      // seen
   std::size_t malformed() const;  // of them skipped
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// What is known of a wheel without skin, which turns freely on a pin: where the pin was and, by an encoder, how the
+/// wheel was turned. Where the part touches it is not known. docs/rig.md.
+struct PinLog {
+  /// time, x and y of the pin in the world, and psi in radians, counter-clockwise; no psi: without an encoder. Its u
+  /// says nothing: there are as many as rows.
+  Log rows;
+
+  bool has_encoder() const { return !rows.fingers.front().psi.empty(); }
+};
+
+/// Reads such a log: columns x and y, at most psi, time and contact besides, all else as `read_log`. Throws InputError
+/// as that does, where x or y is missing, and where the log has a skin's u: then the finger is a disk.
+PinLog read_pin_log(const std::string& path, const LogOptions& options = {});
+
+/// The same from a text; `name` is what messages call it.
+PinLog parse_pin_log(std::string_view text, const std::string& name, const LogOptions& options = {});
+
+/// The same from numbers. `psi` and `time` may be empty. Throws InputError: not at least two rows, columns of different
+/// lengths, a number that is not finite, a time that does not grow.
+PinLog pin_log(std::string name, std::vector<double> x, std::vector<double> y, std::vector<double> psi = {},
+               std::vector<double> time = {});
+
+/// Two logs that grow, one of each finger, as one log of two fingers, or the second one of a wheel without skin: a row
+/// waits for its partner, which is the row of the other log with the same time; without a column `time` the row of the
+/// same number. Rows that can't be read and rows that turn out to have no partner are skipped. What a sample says is
+/// what LogStream says of the same rows side by side; its line is the first log's.
+class PairedStream {
+ public:
+  /// Rows that wait: a reader who keeps to it gives no more lines of a log that is_ahead() until the other one's come.
+  static constexpr std::size_t kMostWaiting = 4096;
+
+  /// See LogStream; columns of the options that end in _a or _b are of that log alone. `b_is_pin`: the second log is a
+  /// PinLog. Its samples are beside `fingers`: their `reading` is finger a's, `contact` of the pin has a psi, which
+  /// without an encoder is not a number, and no step is a jump. Throws InputError: fingers that are not valid.
+  PairedStream(const std::array<std::string, 2>& names, const Part& part, std::vector<Finger> fingers,
+               const Noise& noise = {}, const LogOptions& options = {}, bool robust = false, bool b_is_pin = false);
+  ~PairedStream();
+  PairedStream(PairedStream&&) noexcept;
+  PairedStream& operator=(PairedStream&&) noexcept;
+
+  /// The next line of log 0 or 1, with what came of it: rows in order, mostly one or none. Throws InputError as
+  /// LogStream does, and: logs of different kinds, of which only one has times, or one that is of two fingers already.
+  std::vector<LogLine> push(std::size_t which, std::string_view line);
+
+  /// After a dropped connection of that log: the next row continues the roll, however far it is. Throws InputError:
+  /// without times nothing says which rows belong together then.
+  void resume(std::size_t which);
+  /// Another log begins in place of that one, and with it a roll. As long as the other log goes on, rows of both wait
+  /// until two belong together. Returned is what was skipped.
+  std::vector<LogLine> restart(std::size_t which);
+  /// No more of both comes: what still waits is skipped.
+  std::vector<LogLine> finish();
+
+  /// So many rows wait that no more of it should be read before more comes of the other one.
+  bool is_ahead(std::size_t which) const;
+  bool has_waiting(std::size_t which) const;   // rows
+  LogKind kind() const;                        // known after both headers
+  std::size_t fingers() const;                 // 2 then, a pin included, else 0
+  std::size_t lines(std::size_t which) const;  // seen
+  const std::string& name(std::size_t which) const;
 
  private:
   struct State;

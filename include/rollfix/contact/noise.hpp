@@ -4,8 +4,8 @@
 #include <string>
 
 #include "rollfix/cpp20.hpp"  // IWYU pragma: keep
-#include "rollfix/outline/accuracy.hpp"
 #include "rollfix/outline/curve.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace rollfix {
 

@@ -9,7 +9,6 @@
 #include "rollfix/contact/log.hpp"
 #include "rollfix/contact/noise.hpp"
 #include "rollfix/outline/outline.hpp"
-#include "rollfix/outline/points.hpp"
 
 namespace rollfix {
 

@@ -3,11 +3,14 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "rollfix/outline/loops.hpp"
-#include "rollfix/outline/points.hpp"
+#include "rollfix/answer/answer.hpp"
+#include "rollfix/contact/finger.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "rollfix/part/part.hpp"
+#include "rollfix/part/reach.hpp"
 
 namespace rollfix {
 
@@ -45,5 +48,43 @@ LoadedPart load_points(std::string text, const std::string& name, const LoadOpti
 
 /// A part that is there, as if it had been saved and loaded: converted to the unit of the options.
 LoadedPart loaded_part(const Part& part, const LoadOptions& options);
+
+/// What a part is: how large, how curved, how ambiguous rolls on it are, where a finger can touch it.
+struct Inspection {
+  Part part;
+  std::string unit;         // of a drawing, empty: not known
+  std::vector<Loop> loops;  // of a drawing
+  std::size_t loop = 0;     // the one that the part is, counted from 1
+  BoundingBox box;
+  Interval curvature;
+  double largest_disk = 0;
+  int symmetry = 1;
+  std::vector<Ambiguity> ambiguity;
+  std::optional<Finger> finger{};  // that was asked about, and ...
+  std::optional<Reach> reach{};    // ... how far it can reach
+};
+
+/// Tries rolls all along the boundary for `ambiguity`: the slow part. Throws InputError: a finger of which it is not
+/// known where it can touch (see has_reach), or a disk that is not valid.
+Inspection inspect(const LoadedPart& loaded, const std::optional<Finger>& finger = {});
+
+/// A part's outline as the text of a file: JSON whose numbers are kept bit by bit, with a version and a checksum.
+/// Throws InputError when the outline has curves of a type that can't be saved (one of the user's own, without
+/// `record()`).
+std::string format_part(const Part& part);
+
+/// The part of such a text: it answers every question with the same bits as the one that was saved. `name` is what
+/// messages call the text and becomes the part's name. Throws InputError: not such a text, of another version, or
+/// changed since it was written.
+Part parse_part(std::string_view text, const std::string& name);
+
+/// Whether a JSON text says of itself, in its first field, that it is a saved part of whatever version.
+bool is_saved_part(std::string_view text);
+
+/// What the part of such a text, of one that parse_part takes, was called when it was saved.
+std::string saved_name(std::string_view text);
+
+/// Writes format_part to a file. Throws InputError also when it can't be written.
+void save_part(const Part& part, const std::string& path);
 
 }  // namespace rollfix

@@ -11,9 +11,8 @@
 #include "rollfix/contact/finger.hpp"
 #include "rollfix/contact/log.hpp"
 #include "rollfix/contact/noise.hpp"
-#include "rollfix/contact/pin_log.hpp"
 #include "rollfix/contact/reading.hpp"
-#include "rollfix/locate/placement.hpp"
+#include "rollfix/locate/locate.hpp"
 #include "rollfix/part/part.hpp"
 #include "rollfix/touch/touch.hpp"
 

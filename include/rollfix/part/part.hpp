@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -83,5 +84,23 @@ Part with_name(const Part& part, const std::string& name);
 /// The part of what load_outline takes: "gallery:NAME,key=value,...", or points in .csv, .dat or .txt. Throws
 /// InputError as that does and as Part does. Drawings, saved parts, and options: rollfix/files/load_part.hpp.
 Part load_part(const std::string& source);
+
+/// A place on a boundary, in numbers.
+struct BoundarySample {
+  double s = 0;
+  Vec2 point = Vec2::Zero();
+  double tangent = 0;    // Theta(s), radians, unwrapped
+  double curvature = 0;  // positive where convex
+};
+
+/// From one of these samples to the next the tangent turns by no more than this, radians, ...
+inline constexpr double kSampleTurn = std::numbers::pi / 90;
+/// ... and s grows by no more than this share of the perimeter.
+inline constexpr double kSampleShare = 1.0 / 200;
+
+/// A boundary as numbers, by growing s from 0 to P, as densely as its shape asks for (kSampleTurn, kSampleShare). All
+/// ends of spirals are among them: inflections, vertices, joints and corners. Where the tangent or the curvature jumps
+/// there are two samples with the same s: the limits from before and from after.
+std::vector<BoundarySample> samples_of(const Part& part);
 
 }  // namespace rollfix

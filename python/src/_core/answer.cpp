@@ -7,7 +7,6 @@
 #include "bindings.hpp"
 #include "fingers.hpp"
 #include "rollfix/certify/certify.hpp"
-#include "rollfix/certify/pair_certificate.hpp"
 #include "rollfix/files/documents.hpp"
 #include "signals.hpp"
 

@@ -1,10 +1,7 @@
 #include "rollfix/catalog/catalog.hpp"
 
 #include "bindings.hpp"
-#include "rollfix/catalog/documents.hpp"
 #include "rollfix/catalog/identify.hpp"
-#include "rollfix/catalog/identify_touches.hpp"
-#include "rollfix/catalog/next_roll.hpp"
 #include "signals.hpp"
 #include "touches.hpp"
 

@@ -9,7 +9,6 @@
 #include "contact/log_rows.hpp"
 #include "fingers.hpp"
 #include "rollfix/contact/log.hpp"
-#include "rollfix/contact/pin_log.hpp"
 #include "signals.hpp"
 
 namespace rollfix::python {

@@ -1,10 +1,9 @@
-#include "rollfix/answer/many.hpp"
+#include "rollfix/answer/solve.hpp"
 
 #include <ctime>
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "rollfix/answer/solve.hpp"
 #include "signals.hpp"
 
 namespace rollfix::python {

@@ -6,10 +6,10 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "rollfix/files/documents.hpp"
-#include "rollfix/files/saved_part.hpp"
-#include "rollfix/outline/gallery.hpp"
-#include "rollfix/outline/primitives.hpp"
-#include "rollfix/part/samples.hpp"
+#include "rollfix/files/load_part.hpp"
+#include "rollfix/outline/curve.hpp"
+#include "rollfix/outline/outline.hpp"
+#include "rollfix/part/part.hpp"
 #include "signals.hpp"
 
 namespace rollfix::python {

@@ -6,7 +6,7 @@
 #include "bindings.hpp"
 #include "fingers.hpp"
 #include "plan_handle.hpp"
-#include "rollfix/files/plan_document.hpp"
+#include "rollfix/files/documents.hpp"
 #include "signals.hpp"
 
 namespace rollfix::python {

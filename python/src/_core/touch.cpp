@@ -5,8 +5,8 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "fingers.hpp"
-#include "rollfix/certify/touch_certificate.hpp"
-#include "rollfix/files/touch_document.hpp"
+#include "rollfix/certify/certify.hpp"
+#include "rollfix/files/documents.hpp"
 #include "signals.hpp"
 #include "touches.hpp"
 

@@ -1,12 +1,7 @@
 #include "handles.hpp"
 #include "plan_handle.hpp"
 #include "rollfix/answer/solve.hpp"
-#include "rollfix/draw/advice_figure.hpp"
-#include "rollfix/draw/answer_figure.hpp"
-#include "rollfix/draw/hold_figure.hpp"
-#include "rollfix/draw/part_figure.hpp"
-#include "rollfix/draw/plan_figure.hpp"
-#include "rollfix/draw/touch_figure.hpp"
+#include "rollfix/draw/figures.hpp"
 
 namespace rollfix::python {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "contact/log_table.hpp"
-#include "rollfix/contact/log_options.hpp"
+#include "rollfix/contact/log.hpp"
 
 namespace rollfix {
 

@@ -1,4 +1,4 @@
-#include "rollfix/contact/dead_reckoning.hpp"
+#include "rollfix/contact/rolling.hpp"
 
 #include <fmt/format.h>
 

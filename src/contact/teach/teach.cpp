@@ -13,7 +13,7 @@
 #include "contact/teach/teach_notes.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/primitives.hpp"
+#include "rollfix/outline/curve.hpp"
 #include "rollfix/pulse.hpp"
 
 namespace rollfix {

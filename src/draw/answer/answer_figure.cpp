@@ -1,4 +1,4 @@
-#include "rollfix/draw/answer_figure.hpp"
+#include "rollfix/draw/figures.hpp"
 
 #include <algorithm>
 #include <cmath>

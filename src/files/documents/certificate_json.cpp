@@ -2,7 +2,6 @@
 
 #include "documents.hpp"
 #include "rollfix/files/documents.hpp"
-#include "rollfix/files/hold_document.hpp"
 
 namespace rollfix {
 namespace {

@@ -8,7 +8,7 @@
 #include "rollfix/answer/answer.hpp"
 #include "rollfix/answer/next_roll.hpp"
 #include "rollfix/contact/teach.hpp"
-#include "rollfix/files/inspection.hpp"
+#include "rollfix/files/load_part.hpp"
 #include "rollfix/touch/touch.hpp"
 
 // The documents of docs/json.md, and the pieces that several of them share.

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "rollfix/files/hold_document.hpp"
+#include "rollfix/files/documents.hpp"
 #include "text/text.hpp"
 
 namespace rollfix {

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "documents.hpp"
-#include "rollfix/files/hold_document.hpp"
+#include "rollfix/files/documents.hpp"
 
 namespace rollfix {
 namespace {

@@ -1,4 +1,4 @@
-#include "rollfix/files/inspection.hpp"
+#include "rollfix/files/load_part.hpp"
 
 #include <fmt/format.h>
 

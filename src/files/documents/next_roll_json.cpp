@@ -1,5 +1,5 @@
 #include "documents.hpp"
-#include "rollfix/files/hold_document.hpp"
+#include "rollfix/files/documents.hpp"
 
 namespace rollfix {
 

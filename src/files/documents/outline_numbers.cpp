@@ -6,7 +6,7 @@
 #include <iterator>
 #include <utility>
 
-#include "rollfix/part/samples.hpp"
+#include "rollfix/part/part.hpp"
 
 namespace rollfix {
 namespace {

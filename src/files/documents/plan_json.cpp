@@ -1,7 +1,7 @@
 #include <array>
 
 #include "documents.hpp"
-#include "rollfix/files/plan_document.hpp"
+#include "rollfix/files/documents.hpp"
 
 namespace rollfix {
 namespace {

@@ -1,6 +1,4 @@
-#include "rollfix/files/hold_document.hpp"
-#include "rollfix/files/solution_document.hpp"
-#include "rollfix/files/touch_document.hpp"
+#include "rollfix/files/documents.hpp"
 
 namespace rollfix {
 

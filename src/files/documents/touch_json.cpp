@@ -3,7 +3,7 @@
 
 #include "documents.hpp"
 #include "outline/turn.hpp"
-#include "rollfix/files/touch_document.hpp"
+#include "rollfix/files/documents.hpp"
 
 namespace rollfix {
 namespace {

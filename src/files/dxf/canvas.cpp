@@ -12,8 +12,8 @@
 #include "outline/size_limit.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/points.hpp"
-#include "rollfix/outline/primitives.hpp"
+#include "rollfix/outline/curve.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace rollfix::dxf {
 

@@ -15,8 +15,8 @@
 #include "files/dxf/read.hpp"
 #include "files/dxf/tags.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/loops.hpp"
-#include "rollfix/outline/primitives.hpp"
+#include "rollfix/outline/curve.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::dxf {

@@ -8,8 +8,8 @@
 
 #include "outline/box.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/points.hpp"
-#include "rollfix/outline/primitives.hpp"
+#include "rollfix/outline/curve.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace rollfix::svg {
 

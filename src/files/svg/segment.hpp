@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "files/svg/value.hpp"
-#include "rollfix/outline/loops.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace rollfix::svg {
 

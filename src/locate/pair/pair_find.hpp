@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "rollfix/locate/placement.hpp"
+#include "rollfix/locate/locate.hpp"
 #include "rollfix/part/boundary.hpp"
 #include "rollfix/part/turning_function.hpp"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "rollfix/outline/curve.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 
 namespace rollfix {
 

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "rollfix/catalog/identify.hpp"
-#include "rollfix/draw/part_figure.hpp"
-#include "rollfix/files/saved_part.hpp"
+#include "rollfix/draw/figures.hpp"
+#include "rollfix/files/load_part.hpp"
 #include "rollfix/march/march.hpp"
 #include "rollfix/rollfix.hpp"
 
