@@ -19,8 +19,8 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 
 # In the order of the document. Those that end in .py are run by the system's Python and need the Python package.
-PROGRAMS = ["one_finger", "two_fingers", "points", "answers", "readings", "memory", "peers_one", "peers_two", "touches",
-            "python.py", "files", "program", "watch", "posterior", "noisy", "advised", "identify"]
+PROGRAMS = ["one_finger", "two_fingers", "mixed_fingers", "points", "answers", "readings", "memory", "peers_one", "peers_two",
+            "touches", "python.py", "files", "program", "watch", "posterior", "noisy", "advised", "identify"]
 
 
 def command_of(name, build):
