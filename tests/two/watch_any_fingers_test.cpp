@@ -100,7 +100,7 @@ const std::string kJawAndPin = "--finger jaw --finger wheel,r=0.4 " + kRigNoise 
 /// jaw.csv and pin.csv of the rig of docs/rig.md.
 void roll_rig(const std::string& wheel = "pin", const std::string& more = "") {
   ASSERT_EQ(run("simulate gallery:cam --finger jaw --finger wheel,r=0.4 --start 3.9 --start 2 --pin 0.25,-0.1 "
-                "--jaw-rotation 30deg --samples 31 --seed 3 --wheel " +
+                "--jaw-rotation 30deg --samples 15 --seed 3 --wheel " +
                 wheel + " " + kRigNoise + more + " --force -o jaw.csv -o pin.csv")
                 .code,
             0);
@@ -200,7 +200,7 @@ TEST(WatchAnyFingers, a_squeezed_rig_and_a_part_face_down_end_as_locate_says) {
 TEST(WatchAnyFingers, people_read_the_places_of_both_and_the_parts_pose) {
   const cli::Folder folder;
   roll_rig();
-  const Ran text = run("watch gallery:cam --once " + kJawAndPin);
+  const Ran text = run("watch gallery:cam --once --every 10 " + kJawAndPin);
   EXPECT_THAT(text.out, HasSubstr("start a     start b"));
   EXPECT_THAT(text.out, HasSubstr("at the last at x = "));
   EXPECT_THAT(text.out, Not(HasSubstr("nan")));
@@ -209,10 +209,10 @@ TEST(WatchAnyFingers, people_read_the_places_of_both_and_the_parts_pose) {
 TEST(WatchAnyFingers, contact_that_both_lose_and_find_makes_two_rolls_beside_a_wheel) {
   const cli::Folder folder;
   roll_rig();
-  for (const std::string file : {"jaw.csv", "pin.csv"}) lose_contact(file, 14, 16);
+  for (const std::string file : {"jaw.csv", "pin.csv"}) lose_contact(file, 7, 8);
   const Ran watched = watch(kJawAndPin);
   EXPECT_EQ(last(watched, "end")["counts"]["rolls"], 2);
-  EXPECT_EQ(last(watched, "over")["samples"], 15);
+  EXPECT_EQ(last(watched, "over")["samples"], 7);
 }
 
 TEST(WatchAnyFingers, what_is_not_taken_beside_a_wheel_is_refused_before_a_row_comes) {
