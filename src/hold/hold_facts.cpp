@@ -36,6 +36,8 @@ const char* name_of(HoldCause cause) {
       return "stray";
     case HoldCause::slip:
       return "slip";
+    case HoldCause::x_y_swapped:
+      return "x_y_swapped";
     case HoldCause::noise:
       break;
   }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -102,6 +103,10 @@ class HoldFit {
   ContactResidual wheel_residual(const HeldState& state, std::size_t row, std::size_t wheel) const;
   /// Numbers that the rows say, less those that each row's pose takes; angles of pivots count as one for each corner.
   double freedom(const HeldState& state) const;
+  /// With noise: how probable rows are that contradict a fit so much by one measurement alone, by the lengths of one
+  /// finger or of all, or by a slip, whichever is the least: hold_misfit.cpp. Of fits with
+  /// outliers or beside wheels 1: there it is not looked for.
+  double p_of_oddest(const HeldState& state) const;
 
  private:
   struct Look;
@@ -138,6 +143,25 @@ class HoldFit {
   void guess(HeldState& state, std::size_t row) const;
   void refer(HeldState& state, std::size_t row) const;
   double pivot_length(const HeldContact& contact) const;
+  double p_of_measurement(const HeldState& state, std::size_t row, std::size_t finger,
+                          const Eigen::Matrix3d& pose_covariance) const;
+  double p_of_worst_measurement(const HeldState& state) const;
+  /// What a row says of the unknowns, with its pose eliminated.
+  struct RowShare {
+    UnknownsMatrix matrix;
+    Unknowns slope;
+  };
+  std::vector<RowShare> row_shares(const HeldState& state) const;
+  /// How far each finger's contact moves at each row, in some way.
+  using Way = std::function<double(std::size_t row, std::size_t finger)>;
+  struct Moved {
+    const Way* way = nullptr;
+    double by = 0;
+  };
+  Moved best_moved(const std::vector<Way>& ways, const HeldState& state) const;
+  double p_of_moved(const std::vector<Way>& ways, const HeldState& state) const;
+  double p_of_lengths(const HeldState& state) const;
+  double p_of_slip(const HeldState& state) const;
   double prior_precision(Eigen::Index unknown) const;
 
   const Part& part_;

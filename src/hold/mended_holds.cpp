@@ -94,6 +94,17 @@ std::vector<Mended> without_slips_of_the_pen(const HoldProblem& problem) {
   return all;
 }
 
+std::vector<Mended> without_exchanged_axes(const HoldProblem& problem) {
+  std::vector<Mended> all;
+  if (problem.noise->position <= 0) return all;
+  for (const auto& whose : whose_logs(problem)) {
+    HoldDiagnosis what{HoldCause::x_y_swapped};
+    what.finger = whose;
+    all.push_back({std::move(what), mended(problem, whose, [](FingerRows& rows) { std::swap(rows.x, rows.y); })});
+  }
+  return all;
+}
+
 std::vector<Mended> without_units(const HoldProblem& problem) {
   std::vector<Mended> all;
   if (problem.noise->position <= 0) return all;

@@ -18,6 +18,8 @@ struct Mended {
 
 /// Angles that count the other way or are in degrees, u and psi exchanged.
 std::vector<Mended> without_slips_of_the_pen(const HoldProblem& problem);
+/// x and y exchanged.
+std::vector<Mended> without_exchanged_axes(const HoldProblem& problem);
 /// x and y in another unit.
 std::vector<Mended> without_units(const HoldProblem& problem);
 /// Fingers in another order.

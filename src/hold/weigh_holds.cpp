@@ -71,7 +71,8 @@ class HoldWeighing {
       // On a ridge that is flat the best place is anywhere.
       if (!are_within(placement)) placement = posterior_of(mode, middle_of(mode, placement), fit, known[mode.set]);
       placement.probability = probability;
-      const TouchFit one = fit_of(fit, mode.best);
+      TouchFit one = fit_of(fit, mode.best);
+      one.p = std::min(one.p, fit.p_of_oddest(mode.best));
       if (!answer_.fit || one.p > answer_.fit->p) answer_.fit = one;
       answer_.placements.push_back(std::move(placement));
     }

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 #include <vector>
 
 #include "hold_spoilt.hpp"
@@ -90,6 +92,42 @@ TEST(HoldOverlap, FingersThatTouchTheSamePlaceAfterEachOtherAreApart) {
   const HoldAnswer answer = rollfix::solve(one.problem);
   EXPECT_TRUE(std::any_of(answer.placements.begin(), answer.placements.end(),
                           [&](const HoldPlacement& placement) { return is_near(placement, one); }));
+}
+
+/// Whether the sum of all squares is as large as one of a thousand honest logs has.
+bool is_odd_in_all(const HoldAnswer& answer) {
+  const double freedom = answer.fit->freedom;
+  return answer.fit->chi_square > freedom + 3.1 * std::sqrt(2 * freedom);
+}
+
+void expect_noticed_alone(HoldCase one) {
+  one.problem.diagnose = false;
+  const HoldAnswer answer = rollfix::solve(one.problem);
+  EXPECT_FALSE(is_odd_in_all(answer)) << answer.fit->chi_square << " of " << answer.fit->freedom;
+  EXPECT_TRUE(answer.is_contradicted());
+}
+
+TEST(HoldMisfit, OneMeasurementThatTheSumOfSquaresHidesIsNoticed) {
+  HoldCase one = on_wavy(true, 0.002);
+  rows_of(one, 1).psi[17] += 0.3;
+  expect_noticed_alone(one);
+}
+
+TEST(HoldMisfit, ARadiusThatTheSumOfSquaresHidesIsNoticed) {
+  HoldCase one = on_wavy(true, 0.002);
+  say_radius(one, 1.03, 1);
+  expect_noticed_alone(one);
+}
+
+TEST(HoldMisfit, HonestRowsHaveNone) {
+  HoldCase one = on_wavy(true, 0.002);
+  EXPECT_FALSE(rollfix::solve(one.problem).is_contradicted());
+}
+
+TEST(SlowHoldMistakes, XForYIsNamed) {
+  HoldCase one = on_wavy(true, 0.002);
+  for (std::size_t k = 0; k < 3; ++k) std::swap(rows_of(one, k).x, rows_of(one, k).y);
+  with_cause(one, HoldCause::x_y_swapped);
 }
 
 TEST(SlowHoldMistakes, ADiameterForTheRadiusIsNamed) {

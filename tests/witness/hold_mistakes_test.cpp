@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "cli.hpp"
 #include "hold/hold_spoilt.hpp"
@@ -197,6 +198,15 @@ TEST(HoldMistakesOfUnits, CentresInCentimetres) {
                   }
                 },
                 HoldCause::unit},
+               true);
+}
+
+TEST(HoldMistakesOfAxes, XForY) {
+  expect_named({"x for y",
+                [](HoldCase& one) {
+                  for (std::size_t k = 0; k < 3; ++k) std::swap(rows_of(one, k).x, rows_of(one, k).y);
+                },
+                HoldCause::x_y_swapped},
                true);
 }
 

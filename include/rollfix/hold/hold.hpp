@@ -110,7 +110,8 @@ enum class HoldCause {
   fingers_swapped,  // two fingers were given in the wrong order, or their logs were
   prior,            // what was said of the first contact, or of the pose, beforehand
   stray,            // a few measurements are anything
-  slip              // lengths are off here and there
+  slip,             // lengths are off here and there
+  x_y_swapped       // x was taken for y, and y for x; u and psi were not
 };
 const char* name_of(HoldCause cause);
 

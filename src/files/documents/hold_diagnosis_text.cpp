@@ -71,6 +71,8 @@ std::string words_of(const HoldDiagnosis& diagnosis, const HoldAnswer& answer) {
       return fmt::format("u and psi {} are in degrees", of);
     case HoldCause::u_psi_swapped:
       return fmt::format("u and psi {} are exchanged", of);
+    case HoldCause::x_y_swapped:
+      return fmt::format("x and y {} are exchanged", of);
     case HoldCause::fingers_swapped:
       return fmt::format("fingers {} and {} are exchanged: their logs, or their shapes", letter_of(*diagnosis.finger),
                          letter_of(*diagnosis.other));
@@ -118,6 +120,8 @@ std::string cure_of(const HoldDiagnosis& diagnosis, const HoldAnswer& answer) {
     }
     case HoldCause::u_psi_swapped:
       return diagnosis.finger ? "exchange the names of its columns" : "--columns u=psi,psi=u";
+    case HoldCause::x_y_swapped:
+      return diagnosis.finger ? "exchange the names of its columns" : "--columns x=y,y=x";
     case HoldCause::fingers_swapped:
       return "give both in the other order";
     case HoldCause::prior:
