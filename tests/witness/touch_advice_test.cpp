@@ -135,7 +135,7 @@ Count touches_until_unique(int which, bool is_advised, bool with_normals) {
   return result;
 }
 
-/// The table of docs/touch.md: --count=24.
+/// The table of docs/touch.md: --count=96.
 TEST(TouchAdvice, AdvisedTouchesAreNoMoreThanRandomOnes) {
   for (const bool with_normals : {true, false}) {
     double random = 0, advised = 0, first = 0;
