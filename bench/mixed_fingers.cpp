@@ -13,7 +13,7 @@
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
-#include "rollfix/outline/gallery.hpp"
+#include "rollfix/outline/outline.hpp"
 #include "table.hpp"
 
 namespace {

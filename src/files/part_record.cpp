@@ -106,12 +106,12 @@ PartRecord record_of(const Part& part) {
   return {json.dump(0, ' ', false, Json::error_handler_t::replace), numbers.bytes()};
 }
 
-Part part_of(std::string_view outline, std::string_view numbers, const std::string& name, Rest rest) {
+Part part_of(std::string_view outline, std::string_view numbers, const std::string& name, TrailingNumbers rest) {
   const Json json = Json::parse(outline);
   ByteReader reading(numbers);
   const PartOptions as_it_is{true};  // whoever saved it allowed what there is
   Part part(outline_from(json, reading, name), as_it_is);
-  if (!reading.ok() || (rest == Rest::refused && !reading.at_end()))
+  if (!reading.ok() || (rest == TrailingNumbers::refused && !reading.at_end()))
     throw std::invalid_argument("its contents contradict each other");
   return part;
 }

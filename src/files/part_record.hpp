@@ -14,7 +14,7 @@ struct PartRecord {
 };
 
 /// What may stand behind the numbers: files of version 1 kept there what was computed of the outline.
-enum class Rest { refused, ignored };
+enum class TrailingNumbers { refused, ignored };
 
 /// Throws InputError when the outline has curves of a type that can't be recorded (one of the user's own, without
 /// `record()`).
@@ -22,6 +22,7 @@ PartRecord record_of(const Part& part);
 
 /// The part again, which answers with the same bits. `name` becomes the part's. Throws std::exception where the strings
 /// are not such a record.
-Part part_of(std::string_view outline, std::string_view numbers, const std::string& name, Rest rest = Rest::refused);
+Part part_of(std::string_view outline, std::string_view numbers, const std::string& name,
+             TrailingNumbers rest = TrailingNumbers::refused);
 
 }  // namespace rollfix

@@ -75,7 +75,7 @@ Part parse_part(std::string_view text, const std::string& name) {
   if (!is_base64) refuse(name, "is a saved part whose contents contradict each other");
   try {
     return part_of(std::string(text.substr(0, data_at)) + "}", bytes, name,
-                   schema == kOlderSchema ? Rest::ignored : Rest::refused);
+                   schema == kOlderSchema ? TrailingNumbers::ignored : TrailingNumbers::refused);
   } catch (const InputError&) {
     throw;
   } catch (const std::invalid_argument&) {
