@@ -17,13 +17,13 @@ namespace rollfix {
 namespace {
 
 /// What one part says; nothing where nothing fits.
-struct Outcome {
+struct Looked {
   std::optional<Answer> answer;
   std::string refused;
 };
 
-Outcome outcome_of(const Catalog& catalog, const Problem& like, std::size_t part) {
-  Outcome outcome;
+Looked outcome_of(const Catalog& catalog, const Problem& like, std::size_t part) {
+  Looked outcome;
   Problem problem = like;
   problem.diagnose = false;
   problem.part = catalog.part(part);
@@ -66,7 +66,7 @@ void Survey::look(const std::vector<std::size_t>& parts, double excess, Identifi
   if (options_.use_index && can_glance(like_)) {
     left = worth_a_look(catalog_, like_, bounded, found.weights, options_);
   }
-  std::vector<Outcome> outcomes(left.size());
+  std::vector<Looked> outcomes(left.size());
   Crew crew(left.size(), 1);
   crew.run(options_.threads, options_.go_on, [&](std::size_t lo, std::size_t hi) {
     for (std::size_t k = lo; k < hi; ++k) outcomes[k] = outcome_of(catalog_, like_, left[k]);

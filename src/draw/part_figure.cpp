@@ -219,7 +219,7 @@ class PartPicture {
   }
 
   void curvature_plot() {
-    const CurvatureRange range = curvature_range(part_);
+    const CurvatureRange range = shown_curvature(part_);
     const Axes frame = axes(0, range.shown);
     const Ticks ticks = round_ticks(range.shown, 5);
     std::string note;

@@ -231,7 +231,7 @@ Interval value_range(const Part& part, const std::function<double(const Turning&
 
 }  // namespace
 
-CurvatureRange curvature_range(const Part& part) {
+CurvatureRange shown_curvature(const Part& part) {
   const TurningFunction& turning = part.turning();
   const Interval all = value_range(part, [](const Turning& at) { return at.curvature; });
   std::vector<double> sizes;

@@ -86,7 +86,7 @@ struct CurvatureRange {
   double most = 0;  // of |kappa|, corners aside
 };
 
-CurvatureRange curvature_range(const Part& part);
+CurvatureRange shown_curvature(const Part& part);
 
 /// The range of tangent angles to show, degrees.
 Interval turning_range(const Part& part);
