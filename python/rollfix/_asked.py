@@ -191,9 +191,10 @@ class Asked(Shape):
         if readings is None and turn is None and log is None:
             require_only(FirstOptions, options, "is about a roll that was, and none is given")
             sds = weighing(options.get("noise"))
-            answer = Answer(_core.before_contact(self._core, fingers(options.get("finger")), sds, may_overlap))
+            answer: Any = Answer(_core.before_contact(self._core, fingers(options.get("finger")), sds, may_overlap))
         else:
-            answer = self.locate(readings, turn, log=log, **options)
+            sources = {"readings": readings, "turn": turn, "log": log, "touches": None}
+            answer = answer_to(self, sources, options)
         if isinstance(answer, HoldAnswer):
             return answer.advise(travel=travel)
         return Advice(answer._core, range_given, may_overlap, friction_given(friction))
