@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-import json
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 
 from . import _core
-from ._checks import flag, least, numbers, path, place_prior, pose_prior, text, travel as travel_given, whole
+from ._checks import flag, least, numbers, place_prior, pose_prior, travel as travel_given, whole
 from ._columns import Naming
 from ._core import InputError
-from ._documents import Document, Listing
+from ._documents import Document
 from ._fingers import Wheel, fingers
 from ._logs import Log, _is_log, pin_of, rolls_of
-from ._messages import in_a_page, shown, warn
+from ._messages import shown
 from ._noise import noise as noise_given
+from ._proved import Proved
 
 
 class PinAdvice(Document):
@@ -34,7 +34,7 @@ class PinAdvice(Document):
         return f"<PinAdvice: {self.verdict}; move the pin by ({by}), {self.expected_placements:.2f} placements remain>"
 
 
-class HoldAnswer(Listing):
+class HoldAnswer(Proved):
     """Every set of first contacts of several fingers that fits: the fields of `rollfix/locate/1`, see docs/json.md.
 
     `placements` has one entry for each connected set, with noise the most probable first; `starts` and `ends` have the
@@ -42,7 +42,8 @@ class HoldAnswer(Listing):
     where nothing fits, or the rows contradict the noise; None elsewhere. `status`, `verdict`, `fit`, ...
     """
 
-    __slots__ = ("_answer", "_asked")
+    __slots__ = ()
+    _FIGURE = "hold_figure"
 
     def __init__(self, asked: Tuple[Any, ...]) -> None:
         part, logs, *rest, wheels, squeezed, prior, pose, robust, may_overlap = asked
@@ -76,45 +77,6 @@ class HoldAnswer(Listing):
             How far the pin can go: a length, or (back, forward) with back <= 0. Default: a tenth of the perimeter.
         """
         return PinAdvice(self._answer.next_pin(travel_given(travel)))
-
-    def certify(self, file: Any = None, budget: Optional[int] = None) -> Dict[str, Any]:
-        """The proof that there are no other first contacts: the document that `rollfix-verify` checks with code of its own.
-
-        A RollfixWarning says where something is left unproved. docs/certificates.md says what is proved.
-
-        Parameters
-        ----------
-        file : path, optional
-            Also writes it there.
-        budget : int, optional
-            As of `Part.locate`; by default what this answer was asked with.
-        """
-        most = None if budget is None else whole(budget, "budget", 1)
-        document, is_complete = self._answer.certificate(most)
-        if file is not None:
-            with open(path(file, "file"), "w", encoding="utf-8") as out:
-                out.write(document)
-        if not is_complete:
-            warn("certify: the certificate leaves something unproved: `unresolved`, or sets without `first`, say where")
-        certificate: Dict[str, Any] = json.loads(document)
-        return certificate
-
-    def to_svg(self, *, title: str = "", width: float = 0) -> str:
-        """A figure of the part in the world at the last contacts, in each placement."""
-        svg: str = self._figure(title, width).svg()
-        return svg
-
-    def save(self, file: Any, *, title: str = "", width: float = 0) -> None:
-        """Writes that figure, by its ending: .svg, .png or .pdf."""
-        self._figure(title, width).save(path(file, "file"))
-
-    def _figure(self, title: str, width: float) -> Any:
-        from . import _draw
-
-        return _draw.hold_figure(self._answer, text(title, "title"), least(width, "width", 0, "a number of pixels"))
-
-    def _repr_svg_(self) -> Optional[str]:
-        return in_a_page(self.to_svg())
 
     def _columns(self) -> Dict[str, List[Any]]:
         """Fingers are a, b, c, ...; with noise there are more."""

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-import json
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 
 from . import _core
-from ._checks import array, flag, least, numbers, path, pose_prior, text, whole
+from ._checks import array, flag, least, numbers, pose_prior, whole
 from ._core import InputError
-from ._documents import Document, Listing
+from ._documents import Document
 from ._fingers import fingers
 from ._logs import Log
-from ._messages import in_a_page, shown, warn
+from ._messages import shown
 from ._noise import angle_from, noise as noise_given
 from ._options import TouchOptions, filled, names_of
+from ._proved import Proved
 from ._tables import is_frame
 
 COLUMNS = ("x", "y", "normal", "position_sd", "normal_sd")
@@ -39,14 +39,15 @@ class TouchAdvice(Document):
         )
 
 
-class TouchAnswer(Listing):
+class TouchAnswer(Proved):
     """Every pose of the part that fits touches, rolls, or both: the fields of `rollfix/locate/1`, see docs/json.md.
 
     `placements` has one entry for each connected set of poses, with noise the most probable first; `poses` has the best
     pose of each as an array. `status`, `verdict`, `fit`, `diagnosis`, `touches`, ...
     """
 
-    __slots__ = ("_answer", "_asked")
+    __slots__ = ()
+    _FIGURE = "touch_figure"
 
     def __init__(self, asked: Tuple[Any, ...], answer: Optional[_core.TouchAnswer] = None) -> None:
         part, *rest, rolls, robust, clear, diagnose = asked
@@ -76,47 +77,6 @@ class TouchAnswer(Listing):
         if any(way[2:] == [0, 0] for way in ways):
             raise InputError("approaches: expected directions (dx, dy) that are not (0, 0)")
         return TouchAdvice(self._answer.next_touch(np.array(ways, dtype=float).reshape(-1, 4)))
-
-    def certify(self, file: Any = None, budget: Optional[int] = None) -> Dict[str, Any]:
-        """The proof that there is no other pose: the document that `rollfix-verify` checks with code of its own.
-
-        Of an answer to two contacts or more: touches, or rolls without noise. A RollfixWarning says where something is
-        left unproved.
-        docs/certificates.md says what is proved.
-
-        Parameters
-        ----------
-        file : path, optional
-            Also writes it there.
-        budget : int, optional
-            As of `Part.locate`.
-        """
-        most = None if budget is None else whole(budget, "budget", 1)
-        document, is_complete = self._answer.certificate(most)
-        if file is not None:
-            with open(path(file, "file"), "w", encoding="utf-8") as out:
-                out.write(document)
-        if not is_complete:
-            warn("certify: the certificate leaves something unproved: `unresolved` says where")
-        certificate: Dict[str, Any] = json.loads(document)
-        return certificate
-
-    def to_svg(self, *, title: str = "", width: float = 0) -> str:
-        """A figure of the part in each pose, with the touches."""
-        svg: str = self._figure(title, width).svg()
-        return svg
-
-    def save(self, file: Any, *, title: str = "", width: float = 0) -> None:
-        """Writes that figure, by its ending: .svg, .png or .pdf."""
-        self._figure(title, width).save(path(file, "file"))
-
-    def _figure(self, title: str, width: float) -> Any:
-        from . import _draw
-
-        return _draw.touch_figure(self._answer, text(title, "title"), least(width, "width", 0, "a number of pixels"))
-
-    def _repr_svg_(self) -> Optional[str]:
-        return in_a_page(self.to_svg())
 
     def _columns(self) -> Dict[str, List[Any]]:
         placements = self.placements
