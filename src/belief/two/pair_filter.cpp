@@ -35,6 +35,9 @@ constexpr double kPoseStep = 1e-5;
 // Centres nearer together than this share of the perimeter have no direction from one to the other.
 constexpr double kLeastDistance = 1e-6;
 
+// Of a turn's variance at least this share is not in the distance and the direction of the centres.
+constexpr double kLeastOwn = 1e-6;
+
 /// The angle nearest to 0 that is the same: std::remainder, but for rounding, and faster.
 double nearest_to_zero(double angle) { return angle - kTwoPi * std::floor(angle / kTwoPi + 0.5); }
 
@@ -80,6 +83,8 @@ struct ContactThen {
   double s_by_start = 0;
   double s_by_offset = 0;  // by the shared error of the length
   double s_by_scale = 0;
+  double pivot = 0;        // variance of how far the finger has pivoted at a corner ...
+  double pivot_alike = 0;  // ... and as much as counts, see pivots_of
 };
 
 // With the fingers at q = p(s) - R(Theta + pi/2) arm in the part's frame, |q_b - q_a| is the distance of their centres,
@@ -92,17 +97,18 @@ void add_centres(const PairModel& model, const std::array<ContactThen, 2>& at, c
   std::array<Vec2, 2> q_by_s;
   std::array<Vec2, 2> q_by_own;  // where the contact was felt elsewhere than it is
   std::array<Vec2, 2> q_by_start;
+  std::array<Vec2, 2> across;  // the arm, a quarter turn on
   for (const std::size_t finger : {0U, 1U}) {
     const ContactThen& contact = at[finger];
     const Vec2 tangent(std::cos(contact.angle), std::sin(contact.angle));
     const Vec2 normal(-tangent.y(), tangent.x());
     const auto in_part = [&](const Vec2& arm) { return Vec2(arm.x() * normal - arm.y() * tangent); };
     const Vec2 arm = in_part(felt.arm[finger].at);
-    const Vec2 across(-arm.y(), arm.x());
+    across[finger] = {-arm.y(), arm.x()};
     q[finger] = model.path->at(contact.s) - arm;
-    q_by_s[finger] = tangent - contact.slope * across;
+    q_by_s[finger] = tangent - contact.slope * across[finger];
     q_by_own[finger] = q_by_s[finger] + in_part(felt.arm[finger].per_length);
-    q_by_start[finger] = contact.s_by_start * tangent - contact.angle_by_start * across;
+    q_by_start[finger] = contact.s_by_start * tangent - contact.angle_by_start * across[finger];
   }
   const Vec2 way = q[1] - q[0];
   const double distance = std::max(way.norm(), kLeastDistance * errors.perimeter());
@@ -116,6 +122,7 @@ void add_centres(const PairModel& model, const std::array<ContactThen, 2>& at, c
   rows.variance(1, 1) += position;
   rows.variance(2, 2) += position / (distance * distance) + 0.5 * errors.angle_variance() / std::max(1e-6, node.rows);
   Eigen::Matrix<double, 3, 2> by_own;
+  Eigen::Matrix<double, 3, 2> by_pivot;  // of a finger at a corner, whose centre goes around it
   for (const std::size_t finger : {0U, 1U}) {
     const auto i = static_cast<Eigen::Index>(finger);
     const double sign = finger == 0 ? -1 : 1;
@@ -123,6 +130,7 @@ void add_centres(const PairModel& model, const std::array<ContactThen, 2>& at, c
     const double felt_slope = contact.slope + errors.normal_turn(finger);
     by_own.col(i) << -sign * felt_slope, sign * along.dot(q_by_own[finger]),
         sign * turning.dot(q_by_own[finger]) - 0.5 * felt_slope;
+    by_pivot.col(i) << -sign, -sign * along.dot(across[finger]), -sign * turning.dot(across[finger]) - 0.5;
     rows.by_start(1, i) = sign * along.dot(q_by_start[finger]);
     rows.by_start(2, i) = sign * turning.dot(q_by_start[finger]) - 0.5 * contact.angle_by_start;
     const Eigen::Vector2d by_s(sign * along.dot(q_by_s[finger]),
@@ -139,6 +147,22 @@ void add_centres(const PairModel& model, const std::array<ContactThen, 2>& at, c
   for (const Eigen::Index row : {1, 2}) {
     const double both = own * by_own.row(0).dot(by_own.row(row));
     rows.variance(0, row) = rows.variance(row, 0) = both;
+  }
+  // What a normal tells of a place is a table's, whose variance the turn has: it is no less than what goes together.
+  const double together = own * by_own.row(0).squaredNorm() + at[0].pivot_alike + at[1].pivot_alike;
+  rows.variance(0, 0) = std::max(rows.variance(0, 0), (1 + kLeastOwn) * together);
+  // So is how far fingers have pivoted, which the turn has already.
+  for (const std::size_t finger : {0U, 1U}) {
+    const ContactThen& contact = at[finger];
+    if (!(contact.pivot > 0)) continue;
+    const auto i = static_cast<Eigen::Index>(finger);
+    Eigen::Matrix3d pivots = contact.pivot_alike * by_pivot.col(i) * by_pivot.col(i).transpose();
+    pivots(0, 0) = 0;
+    rows.variance += pivots;
+    // A wide arc is no straight line: what is second order in the pivot counts as one more error.
+    const double bend = contact.pivot_alike * contact.pivot * across[finger].squaredNorm();
+    rows.variance(1, 1) += bend;
+    rows.variance(2, 2) += bend / (distance * distance);
   }
 }
 
@@ -159,7 +183,7 @@ PairEquations<N> facing_equations(const PairModel& model, const StartPlaces& at,
       // The first contact was felt where it is but for its own error: the place stays, the normal and the arm tell of
       // it.
       contacts[finger] = {
-          at.place[finger].s, at.angle[finger], slope, at.by_start[finger], at.place[finger].slope, 0, 0};
+          at.place[finger].s, at.angle[finger], slope, at.by_start[finger], at.place[finger].slope, 0, 0, 0, 0};
     }
     add_centres(model, contacts, node, rows);
     for (const Eigen::Index k : {1, 2}) rows.f[k] += rows.by_errors.row(k).dot(x);
@@ -192,9 +216,15 @@ PairEquations<N> row_equations(const PairModel& model, const StartPlaces& at, co
     const double length = (node.length[finger] + x[i]) * per_scale;
     const double s = at.place[finger].s + length;
     const Felt felt = model.felt[finger]->at(s);
-    contacts[finger] = {
-        s,         felt.angle,         felt.slope, felt.slope * at.place[finger].slope, at.place[finger].slope,
-        per_scale, -per_scale * length};
+    contacts[finger] = {s,
+                        felt.angle,
+                        felt.slope,
+                        felt.slope * at.place[finger].slope,
+                        at.place[finger].slope,
+                        per_scale,
+                        -per_scale * length,
+                        0,
+                        0};
     f += sign * felt.angle;  // f_k of docs/two_fingers.md; its differences are eqs. (8), (9)
     rows.by_errors(0, i) = sign * felt.slope * per_scale;
     rows.by_errors(0, 2 + i) = -rows.by_errors(0, i) * length;
@@ -203,6 +233,8 @@ PairEquations<N> row_equations(const PairModel& model, const StartPlaces& at, co
     variance += felt.variance - felt.pivot;
     pivots += pivot;
     pivots_alike += alike[finger] * pivot;
+    contacts[finger].pivot = pivot;
+    contacts[finger].pivot_alike = alike[finger] * pivot;
     if (!model.places.closed) {
       const double off = std::max({0.0, -s, s - errors.perimeter()});
       rows.beyond += off * off / errors.contact_variance();
