@@ -230,11 +230,11 @@ PairEquations<N> row_equations(const PairModel& model, const StartPlaces& at, co
     rows.by_errors(0, 2 + i) = -rows.by_errors(0, i) * length;
     rows.by_start(0, i) = sign * felt.slope * at.place[finger].slope;
     const double pivot = alike[finger] > 1 ? pivot_at(model, finger, s) : felt.pivot;
+    contacts[finger].pivot = pivot;
+    contacts[finger].pivot_alike = alike[finger] * pivot;
     variance += felt.variance - felt.pivot;
     pivots += pivot;
     pivots_alike += alike[finger] * pivot;
-    contacts[finger].pivot = pivot;
-    contacts[finger].pivot_alike = alike[finger] * pivot;
     if (!model.places.closed) {
       const double off = std::max({0.0, -s, s - errors.perimeter()});
       rows.beyond += off * off / errors.contact_variance();
