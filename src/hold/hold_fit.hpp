@@ -77,6 +77,10 @@ class HoldFit {
   /// Without noise: downhill to where the largest residual is as small as can be.
   HeldState best_worst(HeldState from);
 
+  /// The state, and with other poses at its first and its last row all that fit these as well: a finger beside wheels
+  /// that is on a corner there may face them in several ways.
+  std::vector<HeldState> poses_at_ends(const HeldState& state) const;
+
   Reduced reduced(const HeldState& state) const;
   PoseAtRow pose_at(const HeldState& state, std::size_t row) const;
   ContactResidual residual(const HeldState& state, std::size_t row, std::size_t finger) const;
@@ -119,7 +123,14 @@ class HoldFit {
   NearPin near_pin(const HeldState& state, std::size_t row, std::size_t wheel) const;
   double unwrapped_heading(const HeldState& state, std::size_t row) const;
   double spin_of(const HeldState& state, std::size_t row, std::size_t wheel, const NearPin& near) const;
+  /// The part as a finger on a corner may have it, and how far the wheels are from touching it then.
+  struct Facing {
+    Placed placed;
+    double off = 0;
+  };
+  std::vector<Facing> facings(const HeldState& state, std::size_t row) const;
   void face_wheels(HeldState& state, std::size_t row) const;
+  std::vector<HeldState> poses_of(const HeldState& state, std::size_t row) const;
   void zero_spins(HeldState& state) const;
   double worst_of_wheel(const HeldState& state, std::size_t row, std::size_t wheel) const;
   double worst_of(const HeldState& state, std::size_t row, std::size_t contact) const;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "outline/turn.hpp"
 #include "rollfix/pulse.hpp"
 
 // Notation:
@@ -321,7 +322,52 @@ class Humps {
   std::vector<Link> links_;
 };
 
+/// How far the part is turned from one state to another at the first and at the last row.
+Eigen::Vector2d turned_at_ends(const HeldState& one, const HeldState& other) {
+  return {std::abs(nearest_angle(one.placed.front().heading - other.placed.front().heading)),
+          std::abs(nearest_angle(one.placed.back().heading - other.placed.back().heading))};
+}
+
+/// Standard deviations of the heading at the first and at the last row.
+Eigen::Vector2d heading_sds(const HoldFit& fit, const HeldState& state) {
+  const std::size_t last = fit.rows().rows.size() - 1;
+  return {std::sqrt(fit.pose_at(state, 0).covariance(2, 2)), std::sqrt(fit.pose_at(state, last).covariance(2, 2))};
+}
+
+bool are_apart(const HoldFit& fit, const HeldState& one, const HeldState& other) {
+  return (turned_at_ends(one, other).array() > (heading_sds(fit, one) + heading_sds(fit, other)).array()).any();
+}
+
 }  // namespace
+
+std::vector<HoldMode> split_by_poses(const HoldFit& fit, const HoldMode& mode) {
+  std::vector<std::vector<HeldState>> poses;  // of each node
+  for (const HoldNode& node : mode.nodes) poses.push_back(fit.poses_at_ends(node.state));
+  std::size_t head = 0;  // has the most of them, and of those fits best
+  for (std::size_t k = 1; k < poses.size(); ++k) {
+    const auto rank = [&](std::size_t node) { return std::pair(poses[node].size(), -mode.nodes[node].state.cost); };
+    if (rank(k) > rank(head)) head = k;
+  }
+  if (poses[head].size() == 1) return {mode};
+  std::vector<HoldMode> found;
+  for (const HeldState& one : poses[head]) {
+    const bool is_new =
+        std::all_of(found.begin(), found.end(), [&](const HoldMode& other) { return are_apart(fit, one, other.best); });
+    if (is_new) found.push_back({one, {}, 0, mode.continuum, mode.set});
+  }
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    for (const HeldState& state : poses[k]) {
+      const auto own = std::min_element(found.begin(), found.end(), [&](const HoldMode& a, const HoldMode& b) {
+        return turned_at_ends(a.best, state).sum() < turned_at_ends(b.best, state).sum();
+      });
+      own->nodes.push_back(mode.nodes[k]);
+      own->nodes.back().log_density -= 0.5 * (state.square - mode.nodes[k].state.square);
+      own->nodes.back().state = state;
+    }
+  }
+  for (HoldMode& one : found) one.log_weight = log_sum(one.nodes);
+  return found;
+}
 
 bool is_within(const HeldSet& set, const HeldState& state, const Boundary& boundary, double slack) {
   for (std::size_t k = 0; k < set.extent.size(); ++k) {

@@ -42,6 +42,10 @@ struct Optimum {
 std::vector<HoldMode> modes_about(const HoldFit& fit, const Part& part, std::vector<Optimum> optima,
                                   const std::vector<HeldSet>& sets);
 
+/// The mode, once for each way the part may lie at the first and at the last row: HoldFit::poses_at_ends. Those that
+/// noise does not tell apart are one.
+std::vector<HoldMode> split_by_poses(const HoldFit& fit, const HoldMode& mode);
+
 /// The mode as it is without some of its nodes, which are taken out; false: none is left.
 bool keep_nodes(HoldMode& mode, const std::function<bool(const HoldNode&)>& is_possible);
 

@@ -1,8 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "contact_look.hpp"
 #include "hold_equations.hpp"
@@ -19,7 +20,9 @@
 namespace rollfix::hold {
 namespace {
 
-constexpr int kPivotLooks = 48;  // headings of a pivot to start from
+constexpr int kPivotLooks = 48;     // headings of a pivot to start from
+constexpr double kFitsToo = 25;     // a pose by whose square a row is so much worse is five standard deviations off
+constexpr double kSamePose = 0.05;  // of a standard deviation of the heading
 
 /// value less whole periods, nearest to 0.
 double nearest_in(double value, double period) {
@@ -117,30 +120,75 @@ void HoldFit::add_pin(const HeldState& state, std::size_t row, std::size_t wheel
   add(spin_unknown(wheel), 1, one.by_spin);
 }
 
-/// At a corner the finger may have pivoted far: the heading at which all wheels touch best.
-void HoldFit::face_wheels(HeldState& state, std::size_t row) const {
-  Placed& placed = state.placed[row];
+/// At a corner the finger may have pivoted far: the part at headings all over the corner's turn. None: it is at no
+/// corner.
+std::vector<HoldFit::Facing> HoldFit::facings(const HeldState& state, std::size_t row) const {
+  const Placed& placed = state.placed[row];
   const HeldErrors& errors = rows_.errors[0];
   const BlurredPlace range = ranged(part_, place_of(state, row, 0), (rows_.has_noise ? 3 : 1) * errors.travel);
-  if (range.half_turn < 10 * errors.angle) return;
+  std::vector<Facing> facings;
+  if (range.half_turn < 10 * errors.angle) return facings;
   const Pose before{0, 0, placed.heading};
   const Vec2 contact = placed.middle + before.turned(range.point - middle_);
   const double about = rows_.rows[row].contacts[0].tangent - range.angle;
-  Placed best = placed;
-  double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k <= kPivotLooks; ++k) {
-    placed.heading = about + range.half_turn * (2.0 * k / kPivotLooks - 1);
-    placed.middle = contact - Pose{0, 0, placed.heading}.turned(range.point - middle_);
-    double sum = 0;
+    Facing one{placed, 0};
+    one.placed.heading = about + range.half_turn * (2.0 * k / kPivotLooks - 1);
+    one.placed.middle = contact - Pose{0, 0, one.placed.heading}.turned(range.point - middle_);
     for (std::size_t wheel = 0; wheel < rows_.wheels.size(); ++wheel) {
-      const Vec2 point = middle_ + Pose{0, 0, -placed.heading}.turned(rows_.rows[row].pins[wheel].at - placed.middle);
-      sum += std::abs(wheels_[wheel]->nearest(point).distance);
+      const Pose back{0, 0, -one.placed.heading};
+      const Vec2 point = middle_ + back.turned(rows_.rows[row].pins[wheel].at - one.placed.middle);
+      one.off += std::abs(wheels_[wheel]->nearest(point).distance);
     }
-    if (sum >= least) continue;
-    least = sum;
-    best = placed;
+    facings.push_back(one);
   }
-  placed = best;
+  return facings;
+}
+
+/// The heading at which all wheels touch best.
+void HoldFit::face_wheels(HeldState& state, std::size_t row) const {
+  const std::vector<Facing> all = facings(state, row);
+  const auto best =
+      std::min_element(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.off < b.off; });
+  if (best != all.end()) state.placed[row] = best->placed;
+}
+
+std::vector<HeldState> HoldFit::poses_of(const HeldState& state, std::size_t row) const {
+  std::vector<HeldState> found{state};
+  if (fingers() > 1 || wheels() == 0) return found;
+  const std::vector<Facing> all = facings(state, row);
+  if (all.empty()) return found;
+  const RowEquations here = equations(state, row, false);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const bool falls = k == 0 || all[k].off < all[k - 1].off;
+    const bool rises = k + 1 == all.size() || all[k].off <= all[k + 1].off;
+    if (!falls || !rises) continue;
+    HeldState other = state;
+    other.placed[row] = all[k].placed;
+    const RowEquations there = settled(other, row);
+    if (there.square > here.square + kFitsToo) continue;
+    const double same = kSamePose * std::sqrt(pose_at(other, row).covariance(2, 2));
+    const bool is_known = std::any_of(found.begin(), found.end(), [&](const HeldState& one) {
+      return std::abs(nearest_angle(one.placed[row].heading - other.placed[row].heading)) < same;
+    });
+    if (is_known) continue;
+    other.square += there.square - here.square;
+    other.cost += there.square - here.square;
+    other.right_square += there.right_square - here.right_square;
+    found.push_back(std::move(other));
+  }
+  return found;
+}
+
+std::vector<HeldState> HoldFit::poses_at_ends(const HeldState& state) const {
+  const std::size_t last = rows_.rows.size() - 1;
+  std::vector<HeldState> found = poses_of(state, 0);
+  if (last == 0) return found;
+  std::vector<HeldState> both;
+  for (const HeldState& first : found) {
+    for (HeldState& one : poses_of(first, last)) both.push_back(std::move(one));
+  }
+  return both;
 }
 
 /// The encoders' zeros by all rows.

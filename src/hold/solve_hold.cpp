@@ -69,8 +69,11 @@ class HoldSolver {
         ++answer_.overlap;
         continue;
       }
-      answer_.placements.push_back(described(fit, problem_.part, one.state, one.set));
-      answer_.placements.back().continuum = is_free(fit, one.state, one.set);
+      for (const HeldState& state : fit.poses_at_ends(one.state)) {
+        if (fit.worst(state) > 1) continue;
+        answer_.placements.push_back(described(fit, problem_.part, state, one.set));
+        answer_.placements.back().continuum = is_free(fit, state, one.set);
+      }
     }
     found.undecided.insert(found.undecided.end(), found.doubtful.begin(), found.doubtful.end());
     add_unresolved(found.undecided);

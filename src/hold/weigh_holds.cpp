@@ -54,6 +54,7 @@ class HoldWeighing {
     std::vector<HoldMode> modes = modes_about(fit, problem_.part, optima, known);
     answer_.improbable = found.size() - std::min(found.size(), modes.size());
     drop_overlaps(modes, all);
+    modes = by_poses(fit, modes);
     if (modes.empty()) return;
     double most = modes.front().log_weight;
     for (const HoldMode& mode : modes) most = std::max(most, mode.log_weight);
@@ -116,6 +117,15 @@ class HoldWeighing {
       return !apart.must_overlap(arcs);
     };
     answer_.overlap += std::erase_if(modes, [&](HoldMode& mode) { return !keep_nodes(mode, is_possible); });
+  }
+
+  /// Each mode once for each way the part may lie at the ends.
+  static std::vector<HoldMode> by_poses(const HoldFit& fit, const std::vector<HoldMode>& modes) {
+    std::vector<HoldMode> result;
+    for (const HoldMode& mode : modes) {
+      for (HoldMode& one : split_by_poses(fit, mode)) result.push_back(std::move(one));
+    }
+    return result;
   }
 
   /// Of what was said of the first contact and of the pose.

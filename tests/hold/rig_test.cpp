@@ -2,6 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -115,6 +119,67 @@ TEST(Rig, AJawThatPivotsAtACornerStaysThere) {
   EXPECT_TRUE(std::any_of(answer.placements.begin(), answer.placements.end(), [](const HoldPlacement& found) {
     return std::abs(found.contacts[0].start - 50) < 1e-4 && std::abs(found.contacts[1].start - 145) < 1e-3;
   }));
+}
+
+/// The jaw on the bracket's corner (60, 0) with the pin at (17, 48) of the part, and at (-3, y) as far from the corner:
+/// turned from one to the other about it, the part touches as well.
+const double kPinAt = 138 + 5 * std::numbers::sqrt2;  // the wheel is at (17, 45)
+const Vec2 kCorner(60, 0), kPin(17, 48), kOtherPin(-3, std::sqrt(43.0 * 43 + 48 * 48 - 63 * 63));
+const Pose kOnCorner{7, 4, 0.2};
+
+Pose turned_to_the_other_pin() {
+  const double heading = kOnCorner.heading - rollfix::angle_between(kPin - kCorner, kOtherPin - kCorner);
+  const Vec2 origin = kOnCorner.world(kCorner) - turned(kCorner, heading);
+  return {origin.x(), origin.y(), heading};
+}
+
+/// A roll towards the corner, or from it.
+HoldProblem rolled_at_the_corner(bool ends_there, std::optional<rollfix::Noise> noise = {}) {
+  std::vector<Held> instants{
+      {40, 149, {5, 3, 0.3}}, {45, 148, {5, 3, 0.27}}, {50, 147, {6, 3, 0.25}}, {60, kPinAt, kOnCorner, 0.5}};
+  if (!ends_there) std::reverse(instants.begin(), instants.end());
+  HoldProblem problem = held_at(touch_cases::bracket(), 3, instants);
+  problem.noise = noise;
+  return problem;
+}
+
+/// How far a pose is off the nearest of a list: as far as the part moves at 60 from its origin, at most.
+double off_nearest(const Pose& pose, const std::vector<Pose>& poses) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Pose& one : poses) {
+    const double turn = std::abs(rollfix::nearest_angle(one.heading - pose.heading));
+    least = std::min(least, std::hypot(one.x - pose.x, one.y - pose.y) + 60 * turn);
+  }
+  return least;
+}
+
+/// Where an answer has the part on the corner, at its first or at its last row.
+std::vector<Pose> poses_on_corner(const HoldAnswer& answer, bool ends_there) {
+  std::vector<Pose> poses;
+  for (const HoldPlacement& found : answer.placements) poses.push_back(ends_there ? found.last : found.first);
+  return poses;
+}
+
+void expect_both_poses(const HoldProblem& problem, bool ends_there, double slack) {
+  const HoldAnswer answer = rollfix::solve(problem);
+  EXPECT_EQ(answer.verdict.name, Verdict::ambiguous);
+  EXPECT_LT(off_nearest(kOnCorner, poses_on_corner(answer, ends_there)), slack);
+  EXPECT_LT(off_nearest(turned_to_the_other_pin(), poses_on_corner(answer, ends_there)), slack);
+}
+
+TEST(Rig, AJawThatEndsOnACornerHasBothPosesInWhichTheWheelTouches) {
+  expect_both_poses(rolled_at_the_corner(true), true, 1e-3);
+}
+
+TEST(Rig, AJawThatStartsOnACornerHasBothPosesInWhichTheWheelTouches) {
+  expect_both_poses(rolled_at_the_corner(false), false, 1e-3);
+}
+
+TEST(Rig, WithNoiseBothPosesOnACornerAreListed) {
+  const rollfix::Noise noise{.contact = 0.02, .angle = 0.002, .position = 0.02};
+  for (const bool ends_there : {true, false}) {
+    expect_both_poses(rolled_at_the_corner(ends_there, noise), ends_there, 0.5);
+  }
 }
 
 TEST(Rig, AWheelMayTouchAtACorner) {
