@@ -32,8 +32,8 @@ std::size_t least_rows(LogKind kind, bool is_later_roll) {
 /// Makes logs of the rows that a reader gives.
 class LogMaker {
  public:
-  LogMaker(const RowReader& reader, Splitting splitting, bool single_rows)
-      : reader_(reader), splitting_(splitting), single_rows_(single_rows) {}
+  LogMaker(const RowReader& reader, Splitting splitting, bool single_rows, bool of_pin)
+      : reader_(reader), splitting_(splitting), single_rows_(single_rows), of_pin_(of_pin) {}
 
   void take(RowKind kind, const LogRow& row) {
     if (kind == RowKind::none) return;
@@ -51,7 +51,8 @@ class LogMaker {
   /// `skipped`: why rows were left out.
   std::vector<Log> finish(const std::vector<std::string>& skipped) {
     if (!reader_.knows_columns()) {
-      throw InputError(fmt::format("{}: is empty, expected a log with a header such as 'time,u,psi'", reader_.name()));
+      throw InputError(fmt::format("{}: is empty, expected a log with a header such as '{}'", reader_.name(),
+                                   of_pin_ ? "time,x,y" : "time,u,psi"));
     }
     const std::size_t last_rows = roll_.rows();
     end_roll();
@@ -145,6 +146,7 @@ class LogMaker {
   const RowReader& reader_;
   Splitting splitting_;
   bool single_rows_;  // are rolls
+  bool of_pin_;       // of a wheel
   Log roll_;          // that goes on
   std::vector<Odometer> odometers_;
   std::vector<FingerRounding> roundings_;  // of each finger's columns
@@ -234,7 +236,7 @@ class RowsInLines {
 /// Runs a stream of lines to its end.
 std::vector<Log> rolls_in(LogLines& lines, Splitting splitting, const LogOptions& options, bool of_pin = false) {
   RowsInLines rows(lines, options, of_pin);
-  LogMaker maker(rows.reader(), splitting, options.single_rows);
+  LogMaker maker(rows.reader(), splitting, options.single_rows, of_pin);
   RowKind kind = RowKind::none;
   LogRow row;
   while (rows.next(kind, row)) maker.take(kind, row);

@@ -28,21 +28,23 @@ std::string place_of(const Log& log, std::size_t finger, std::size_t row) {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 
-/// Throws InputError where rows are so far apart that a column may be wrapped or not, and nobody said which.
+}  // namespace
+
 void require_clear(const Log& log, std::size_t which, const Finger& finger) {
   const FingerRows& rows = log.fingers[which];
   const auto require = [&](Column column, const std::vector<double>& angles, const std::optional<std::size_t>& row) {
     if (!row) return;
-    throw InputError(
-        fmt::format("{}: {}{} goes from {:.6g} to {:.6g} in one row, which is more than half way round: whether it is "
-                    "wrapped there "
-                    "can't be told, because the rows are far apart; say it with `wrapped` no, or `wrapped` yes",
-                    place_of(log, which, *row), name_of(column), log.fingers.size() == 1 ? "" : kFingerSuffixes[which],
-                    angles[*row - 1], angles[*row]));
+    throw InputError(fmt::format(
+        "{}: {}{} goes from {:.6g} to {:.6g} in one row, which is more than half way round: whether it is "
+        "wrapped there can't be told, because the rows are far apart; say it with `wrapped` no, or `wrapped` yes",
+        place_of(log, which, *row), name_of(column), log.fingers.size() == 1 ? "" : kFingerSuffixes[which],
+        angles[*row - 1], angles[*row]));
   };
   require(Column::u, rows.u, unclear_step(rows.u, rows.place_rounding, finger.period(), rows.u_wrapped));
   require(Column::psi, rows.psi, unclear_step(rows.psi, rows.angle_rounding, kTurn, rows.psi_wrapped));
 }
+
+namespace {
 
 /// One finger's rows as readings from its own first contact.
 class FingerCourse {

@@ -388,7 +388,11 @@ double GrowingAngle::add(double angle, double rounding) {
   const double last = last_;
   const double turns = turns_;
   range_ = count_ == 0 ? Interval{angle, angle} : Interval{std::min(range_.lo, angle), std::max(range_.hi, angle)};
-  if (count_ > 0) turns_ -= turns_in(angle - last, period_);
+  if (count_ > 0) {
+    const double whole = turns_in(angle - last, period_);
+    turns_ -= whole;
+    was_far_ = was_far_ || (whole != 0 && std::abs(angle - last - whole * period_) > kNearRows * period_);
+  }
   last_ = angle;
   ++count_;
   const bool wraps = (turns != 0 || turns_ != 0) && is_wrapped(rounding);
@@ -408,6 +412,15 @@ void require_unit_of_u(const std::optional<Dimension>& dimension, const Finger* 
       "{}: u is in a unit of an angle, and of a jaw or an outline it is the place along it: expected a length", log));
 }
 
+namespace {
+
+/// The first row in which two columns differ; if none does, how many rows there are.
+std::size_t first_change(const std::vector<double>& one, const std::vector<double>& other) {
+  return static_cast<std::size_t>(std::mismatch(one.begin(), one.end(), other.begin()).first - one.begin());
+}
+
+}  // namespace
+
 void require_readable(const FingerRows& rows, const std::string& log) {
   const auto is_finite = [](double value) { return std::isfinite(value); };
   if (!std::all_of(rows.u.begin(), rows.u.end(), is_finite) ||
@@ -415,14 +428,13 @@ void require_readable(const FingerRows& rows, const std::string& log) {
     throw InputError(
         fmt::format("{}: its rows would hold numbers beyond any double: check the units, and the noise", log));
   }
-  if (unwrapped(rows.u, rows.place_rounding, rows.u_period) == rows.u &&
-      unwrapped(rows.psi, rows.angle_rounding) == rows.psi) {
-    return;
-  }
+  const std::size_t row = std::min(first_change(rows.u, unwrapped(rows.u, rows.place_rounding, rows.u_period)),
+                                   first_change(rows.psi, unwrapped(rows.psi, rows.angle_rounding)));
+  if (row == rows.u.size()) return;
   throw InputError(fmt::format(
-      "{}: its {} rows are more than half a turn apart, so that a reader would take the angles as wrapped: take more "
-      "rows",
-      log, rows.u.size()));
+      "{}: its {} rows are more than half a turn apart, rows {} and {}, so that a reader would take the angles as "
+      "wrapped: take more rows, unless they are many and the motion jumps there",
+      log, rows.u.size(), row, row + 1));
 }
 
 }  // namespace rollfix

@@ -189,6 +189,10 @@ double reach_of_corners(double place_rounding, const Noise& noise);
 std::optional<std::size_t> unclear_step(const std::vector<double>& angles, double rounding, double period,
                                         const std::optional<bool>& is_wrapped);
 
+/// Throws InputError where rows of a log of u and psi are so far apart that a column may be wrapped or not, and nobody
+/// said which.
+void require_clear(const Log& log, std::size_t which, const Finger& finger);
+
 /// Throws InputError when a reader of these rows of a log would take angles as wrapped that are not.
 void require_readable(const FingerRows& rows, const std::string& log);
 
@@ -205,6 +209,9 @@ class GrowingAngle {
   /// The angle before that one, as it is understood now: a column that leaves a full turn was never wrapped.
   double before() const { return before_; }
 
+  /// Whether rows were so far apart that the column may be wrapped there or may not, and nobody said which.
+  bool is_unclear(double rounding) const { return !said_ && was_far_ && is_wrapped(rounding); }
+
  private:
   bool is_wrapped(double rounding) const;
 
@@ -212,9 +219,10 @@ class GrowingAngle {
   std::optional<bool> said_;
   Interval range_;
   std::size_t count_ = 0;
-  double last_ = 0;    // as written
-  double turns_ = 0;   // whole ones that were wrapped away, if the column is wrapped
-  double before_ = 0;  // the last but one
+  double last_ = 0;       // as written
+  bool was_far_ = false;  // a step over more than half a turn that is no short one either if it was wrapped
+  double turns_ = 0;      // whole ones that were wrapped away, if the column is wrapped
+  double before_ = 0;     // the last but one
 };
 
 }  // namespace rollfix

@@ -97,6 +97,20 @@ RollRows::Steps RollRows::measure(const LogRow& row, Sample& sample) {
   return steps;
 }
 
+/// Where rows so far apart don't show whether an angle is wrapped.
+std::optional<std::string> RollRows::unclear_angle(const PerFinger<std::size_t>& lines) const {
+  for (std::size_t k = 0; k < rolls_.size(); ++k) {
+    const OngoingRoll& roll = rolls_[k];
+    const bool is_u = roll.u.is_unclear(roll.rounding.place.value());
+    if (!is_u && !roll.psi.is_unclear(roll.rounding.angle.value())) continue;
+    return fmt::format(
+        "{}: whether {} is wrapped can't be told, because the rows are far apart: the roll begins anew; say it with "
+        "`wrapped` no, or `wrapped` yes",
+        place_of(k, lines), name_of(is_u ? Column::u : Column::psi));
+  }
+  return std::nullopt;
+}
+
 /// All of it but what is measured.
 Sample RollRows::sample_of(const LogRow& row, const PerFinger<std::size_t>& lines) const {
   Sample sample;
@@ -130,8 +144,16 @@ LogLine RollRows::take(const LogRow& row, const PerFinger<std::size_t>& lines) {
   if (rolls_.empty()) begin_roll();
   const std::vector<OngoingRoll> as_it_was = robust_ ? rolls_ : std::vector<OngoingRoll>{};
   Steps steps = measure(row, sample);
-  // One finger's steps alone, on a part that turns as it likes beside a wheel, can be any.
-  if (any_part_ || with_skin() < fingers()) return result;
+  if (with_skin() < fingers()) {
+    const auto why = unclear_angle(lines);
+    if (!why) return result;  // one finger's steps alone, on a part that turns as it likes beside a wheel, can be any
+    result.kind = LineKind::jump;
+    result.message = *why;
+    begin_roll();
+    measure(row, sample);
+    return result;
+  }
+  if (any_part_) return result;
   const auto jump = check_->jump(lines, steps.before, steps.now, row.time);
   if (jump && robust_ && strays_ < kMostStrays) {
     ++strays_;

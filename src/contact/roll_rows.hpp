@@ -57,6 +57,7 @@ class RollRows {
   };
 
   void begin_roll();
+  std::optional<std::string> unclear_angle(const PerFinger<std::size_t>& lines) const;
   Sample sample_of(const LogRow& row, const PerFinger<std::size_t>& lines) const;
   Steps measure(const LogRow& row, Sample& sample);
   Reading measure_contact(const FingerCells& cells, std::size_t which, Sample& sample, Reading& before);

@@ -50,15 +50,10 @@ const Finger& finger_of_log(const HoldProblem& problem, std::size_t log) {
   return problem.fingers[problem.fingers.size() == 1 ? 0 : log];
 }
 
-namespace {
-
-/// What a wheel's log is mirrored and measured as: a disk.
 Finger shape_of(const HoldProblem& problem, std::size_t number) {
   const std::size_t fingers = problem.logs.size();
   return number < fingers ? finger_of_log(problem, number) : disk(problem.wheels[number - fingers].radius);
 }
-
-}  // namespace
 
 HoldRoll roll_of(const HoldProblem& problem, const Log& log, std::size_t number) {
   const FingerRows& rows = log.fingers.front();

@@ -10,6 +10,9 @@ namespace rollfix::hold {
 /// The finger of a log: one may hold for all.
 const Finger& finger_of_log(const HoldProblem& problem, std::size_t log);
 
+/// The same of fingers and wheels. What a wheel's log is mirrored and measured as: a disk.
+Finger shape_of(const HoldProblem& problem, std::size_t number);
+
 /// What an answer says of a log, but for how far its contact travelled.
 HoldRoll roll_of(const HoldProblem& problem, const Log& log, std::size_t number);
 

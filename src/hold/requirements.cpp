@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "box_search.hpp"
+#include "contact/log_rows.hpp"
+#include "hold_facts.hpp"
 #include "rollfix/belief/belief.hpp"
 #include "rollfix/error.hpp"
 
@@ -180,6 +182,13 @@ void require_valid(const HoldProblem& problem) {
   if (!is_valid) {
     refuse(fmt::format("expected a tolerance with an angle above 0 and a length of at least 0, found {} and {}",
                        given.angle, given.length));
+  }
+}
+
+void require_clear(const HoldProblem& problem, const std::vector<Log>& logs) {
+  for (std::size_t k = 0; k < logs.size(); ++k) {
+    const bool has_angles = !logs[k].fingers.front().psi.empty();  // a wheel without an encoder has none
+    if (has_angles) rollfix::require_clear(logs[k], 0, shape_of(problem, k));
   }
 }
 

@@ -156,6 +156,7 @@ HoldAnswer solve_plain(const HoldProblem& problem, Care care) {
   require_wheels_apart(problem, logs);
   HoldAnswer answer{problem.part, {}};
   if (problem.robust) answer.jumps = leave_out_jumps(problem, logs);
+  require_clear(problem, logs);
   for (std::size_t k = 0; k < logs.size(); ++k) answer.rolls.push_back(roll_of(problem, logs[k], k));
   answer.rows = logs.front().rows();
   answer.noise = problem.noise;

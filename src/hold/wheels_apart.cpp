@@ -80,9 +80,10 @@ void require_apart(const Body& finger, const Body& wheel, bool has_noise) {
                                                    : fmt::format("{}, row {}", wheel.log->name, deepest + 1);
   throw InputError(fmt::format(
       "{}: expected x and y at which {} and {} are apart, found them {:.4g} deep in each other, in {} of {} rows, "
-      "whatever the part does; check the radius and the unit of x and y; if they are at different heights, or the "
+      "whatever the part does; check the radius and the unit of x and y{}; if they are at different heights, or the "
       "jaw ends before the wheel, say that they may overlap",
-      where, finger.name, wheel.name, most, rows, wheel.log->rows()));
+      where, finger.name, wheel.name, most, rows, wheel.log->rows(),
+      finger.finger.is_disk() ? "" : ", and the unit and the direction of psi"));
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ using cli::Json;
 using cli::Ran;
 using cli::run;
 using testing::HasSubstr;
+using testing::Not;
 
 const std::string kAsked = "locate gallery:cam --log jaw.csv --log pin.csv --finger jaw --finger wheel,r=0.3 ";
 
@@ -104,6 +105,52 @@ TEST(CliRig, WhatSaysNothingIsRefusedWithTheReason) {
   EXPECT_THAT(refusal("--log jaw.csv --log pin.csv --finger jaw --finger wheel,0.3"), HasSubstr("as in wheel,r=0.4"));
   EXPECT_THAT(refusal("--log jaw.csv --finger jaw --squeezed"), HasSubstr("--squeezed"));
   EXPECT_THAT(refusal("--reading 1,2 --finger wheel,r=0.3"), HasSubstr("beside a finger with skin"));
+}
+
+/// The jaw turns by 4 rad from row to row, or by 2.3 rad the other way; the pin stays in front of it.
+void write_rows_far_apart() {
+  write("jaw.csv", "time,u,psi,x,y\n0,0,0,0,0\n1,-1,4,1,0\n2,-1.5,5,2,0\n");
+  write("pin.csv", "time,x,y\n0,0,-3\n1,-1.27,1.96\n2,-0.88,-0.85\n");
+}
+
+TEST(CliRig, AnglesOfRowsFarApartAreAskedAbout) {
+  const Folder folder;
+  write_rows_far_apart();
+  const Ran ran = run(kAsked);
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_THAT(ran.err, HasSubstr("jaw.csv:3: psi goes from 0 to 4 in one row"));
+  EXPECT_THAT(ran.err, HasSubstr("say it with --wrapped no, or --wrapped yes"));
+  EXPECT_THAT(run(kAsked + "--wrapped no").err, Not(HasSubstr("can't be told")));
+}
+
+TEST(CliRig, AWheelsEncoderIsAskedAboutToo) {
+  const Folder folder;
+  write("jaw.csv", "time,u,psi,x,y\n0,0,0,0,0\n1,-1,0.1,1,0\n2,-1.5,0.2,2,0\n");
+  write("pin.csv", "time,psi,x,y\n0,0,0,-3\n1,4,0,-3.1\n2,5,0,-3.2\n");
+  EXPECT_THAT(run(kAsked).err, HasSubstr("pin.csv:3: psi goes from 0 to 4 in one row"));
+}
+
+TEST(CliRig, WatchBeginsAnewWhereAnglesAreInDoubt) {
+  const Folder folder;
+  write_rows_far_apart();
+  const std::string watch = "watch gallery:cam --log jaw.csv --log pin.csv --finger jaw --finger wheel,r=0.3 --once ";
+  const std::string noise = "--noise contact=0.01,angle=0.01,position=0.01 ";
+  EXPECT_THAT(run(watch + noise).err, HasSubstr("jaw.csv:3: whether psi is wrapped can't be told"));
+  EXPECT_THAT(run(watch + noise + "--wrapped no").err, Not(HasSubstr("can't be told")));
+}
+
+TEST(CliRig, AnEmptyLogOfAPinIsToldItsHeader) {
+  const Folder folder;
+  simulate();
+  write("pin.csv", "");
+  EXPECT_THAT(run(kAsked).err, HasSubstr("a header such as 'time,x,y'"));
+}
+
+TEST(CliRig, AJawThatIsTurnedTheOtherWayIsSuspected) {
+  const Folder folder;
+  write("jaw.csv", "time,u,psi,x,y\n0,0,0,0,0\n1,0,0.1,0,0\n");
+  write("pin.csv", "time,x,y\n0,0,5\n1,0,5\n");
+  EXPECT_THAT(run(kAsked).err, HasSubstr("the unit of x and y, and the unit and the direction of psi"));
 }
 
 }  // namespace cli_rig_test

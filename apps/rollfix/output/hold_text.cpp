@@ -80,7 +80,8 @@ class HoldText {
     }
     return std::string("no places on the part fit all fingers: ") +
            (answer_.noise ? "" : "without --noise all digits are taken as exact; if they are not, add it; ") +
-           "check the units and signs of u and psi, that --log and --finger are in the same order, and " +
+           "check the units and signs of u and psi, whether they are wrapped (--wrapped), that --log and --finger are "
+           "in the same order, and " +
            (wheels() > 0
                 ? "that x and y of all logs are in one frame, of a wheel its pin, of a jaw its frame's origin, where "
                   "u is 0\n"

@@ -240,7 +240,8 @@ double rounding_on_corners(const std::vector<Sample>& samples, std::size_t which
 
 /// A finger's. Of two fingers only the difference of their turns is known, which goes with the first one.
 void add_row(const Sample& sample, std::size_t which, LogKind kind, const Part& part, FingerRows& rows) {
-  rows.u_period = std::numeric_limits<double>::infinity();  // a sample's angles are unwrapped
+  rows.u_period = std::numeric_limits<double>::infinity();
+  rows.u_wrapped = rows.psi_wrapped = false;  // a sample's angles are unwrapped
   if (kind == LogKind::contact) {
     rows.u.push_back((*sample.contact)[which].u);
     rows.psi.push_back((*sample.contact)[which].psi);
