@@ -234,6 +234,12 @@ double log_sum(const std::vector<HoldNode>& nodes) {
   return most + std::log(sum);
 }
 
+/// The weight and the best of its nodes.
+void sum_up(HoldMode& mode) {
+  mode.log_weight = log_sum(mode.nodes);
+  mode.best = std::ranges::min_element(mode.nodes, {}, [](const HoldNode& one) { return one.state.cost; })->state;
+}
+
 /// Ridges about all optima, and which of them are one mode.
 class Humps {
  public:
@@ -365,7 +371,7 @@ std::vector<HoldMode> split_by_poses(const HoldFit& fit, const HoldMode& mode) {
       own->nodes.back().state = state;
     }
   }
-  for (HoldMode& one : found) one.log_weight = log_sum(one.nodes);
+  for (HoldMode& one : found) sum_up(one);
   return found;
 }
 
@@ -381,10 +387,7 @@ bool keep_nodes(HoldMode& mode, const std::function<bool(const HoldNode&)>& is_p
   std::erase_if(mode.nodes, [&](const HoldNode& node) { return !is_possible(node); });
   if (mode.nodes.empty()) return false;
   if (mode.nodes.size() == before) return true;
-  mode.log_weight = log_sum(mode.nodes);
-  mode.best = std::min_element(mode.nodes.begin(), mode.nodes.end(), [](const HoldNode& a, const HoldNode& b) {
-                return a.state.cost < b.state.cost;
-              })->state;
+  sum_up(mode);
   return true;
 }
 
