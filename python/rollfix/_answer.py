@@ -13,7 +13,8 @@ from ._checks import flag, friction as friction_given, least, path, places, text
 from ._core import Answer as CoreAnswer, InputError, Placement as Placement
 from ._fingers import Finger, finger_from
 from ._made import Made
-from ._messages import in_a_page, warn
+from ._messages import in_a_page
+from ._proved import proof
 from ._rows import names_of, row_of
 from ._words import diagnosis_in_python, in_python
 
@@ -230,15 +231,7 @@ class Answer(Made, SequenceABC):  # type: ignore[type-arg]
         ):
             if found:
                 raise InputError(f"certify: a certificate is of one way round without noise, found {what}")
-        most = None if budget is None else whole(budget, "budget", 1)
-        document, is_complete = self._core.certificate(most)
-        if file is not None:
-            with open(path(file, "file"), "w", encoding="utf-8") as out:
-                out.write(document)
-        if not is_complete:
-            warn("certify: the certificate leaves something unproved: its cells say where")
-        certificate: Dict[str, Any] = json.loads(document)
-        return certificate
+        return proof(self._core, file, budget, "its cells say where")
 
     def density(self, s: Any = None, finger: int = 0) -> Any:
         """The posterior of where the first contact was. Needs noise.

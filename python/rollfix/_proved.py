@@ -10,6 +10,19 @@ from ._documents import Listing
 from ._messages import in_a_page, warn
 
 
+def proof(answer: Any, file: Any, budget: Optional[int], where: str) -> Dict[str, Any]:
+    """The certificate of an answer of `_core`, written as well if `file` is given. `where`: what says what is left open."""
+    most = None if budget is None else whole(budget, "budget", 1)
+    document, is_complete = answer.certificate(most)
+    if file is not None:
+        with open(path(file, "file"), "w", encoding="utf-8") as out:
+            out.write(document)
+    if not is_complete:
+        warn(f"certify: the certificate leaves something unproved: {where}")
+    certificate: Dict[str, Any] = json.loads(document)
+    return certificate
+
+
 class Proved(Listing):
     """Has the answer of `_core`, and in `_FIGURE` what `_draw` calls its figure."""
 
@@ -30,15 +43,7 @@ class Proved(Listing):
         budget : int, optional
             As of `Part.locate`; by default what this answer was asked with.
         """
-        most = None if budget is None else whole(budget, "budget", 1)
-        document, is_complete = self._answer.certificate(most)
-        if file is not None:
-            with open(path(file, "file"), "w", encoding="utf-8") as out:
-                out.write(document)
-        if not is_complete:
-            warn("certify: the certificate leaves something unproved: `unresolved`, or sets without `first`, say where")
-        certificate: Dict[str, Any] = json.loads(document)
-        return certificate
+        return proof(self._answer, file, budget, "`unresolved`, or sets without `first`, say where")
 
     def to_svg(self, *, title: str = "", width: float = 0) -> str:
         """A figure of the part in the world in each placement, with what touched it."""

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hold/hold_spoilt.hpp"
+#include "hold/noisy_holds.hpp"
 #include "random.hpp"
 #include "rollfix/error.hpp"
 
@@ -18,26 +19,14 @@
 namespace hold_misfit_test {
 
 using namespace hold_cases;
+using noisy_holds::noisy;
+using noisy_holds::smooth;
 
 /// Beyond so many standard deviations and this share of the perimeter a first contact is off, ...
 constexpr double kOffSigmas = 5;
 constexpr double kOffShare = 1e-3;
 // ... and beyond this share elsewhere.
 constexpr double kElsewhere = 0.02;
-
-Part smooth(int number) {
-  return rollfix::load_part("gallery:spline,n=" + std::to_string(number % 2 == 0 ? 9 : 15) +
-                            ",wobble=0.2,seed=" + std::to_string(number + 1));
-}
-
-Holding noisy(bool centres) {
-  Holding holding;
-  holding.centres = centres;
-  holding.length = 0.12;
-  holding.contact_sd = holding.place_sd = 0.002;
-  holding.angle_sd = 0.005;
-  return holding;
-}
 
 void each_log(HoldCase& one, const std::function<void(FingerRows&)>& change) {
   for (std::size_t k = 0; k < one.problem.logs.size(); ++k) change(rows_of(one, k));

@@ -10,6 +10,7 @@
 
 #include "cli.hpp"
 #include "hold/hold_spoilt.hpp"
+#include "hold/noisy_holds.hpp"
 #include "random.hpp"
 #include "rollfix/error.hpp"
 
@@ -17,23 +18,10 @@
 namespace hold_mistakes_test {
 
 using namespace hold_cases;
+using noisy_holds::noisy;
+using noisy_holds::smooth;
 using rollfix::HoldCause;
 using rollfix::HoldDiagnosis;
-
-Part smooth(int number) {
-  return rollfix::load_part("gallery:spline,n=" + std::to_string(number % 2 == 0 ? 9 : 15) +
-                            ",wobble=0.2,seed=" + std::to_string(number + 1));
-}
-
-/// Rolls of 12 % of the perimeter with 41 rows.
-Holding noisy(bool centres) {
-  Holding holding;
-  holding.centres = centres;
-  holding.length = 0.12;
-  holding.contact_sd = holding.place_sd = 0.002;
-  holding.angle_sd = 0.005;
-  return holding;
-}
 
 struct Planted {
   const char* what;
