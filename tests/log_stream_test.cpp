@@ -132,6 +132,12 @@ TEST(LogStream, a_column_that_leaves_a_full_turn_was_never_wrapped) {
   EXPECT_EQ((*streamed(text).lines.back().sample.contact)[0].u, 4.6);
 }
 
+TEST(LogStream, a_roll_begins_anew_where_it_cannot_be_told_whether_an_angle_is_wrapped) {
+  const Streamed found = streamed("u,psi\n0,0\n-0.5,4\n-0.6,4.1\n");
+  EXPECT_THAT(found.kinds, ElementsAre(nothing, first, jump, sample));
+  EXPECT_THAT(found.lines[2].message, HasSubstr("psi is wrapped can't be told"));
+}
+
 TEST(LogStream, a_sample_has_all_that_its_row_has) {
   const LogLine row = streamed("time,u,psi,x,y\n0.5,1,2,3,4\n").lines.back();
   EXPECT_EQ(row.sample.line, 2U);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "contact_look.hpp"
 #include "hold_equations.hpp"
@@ -35,6 +36,9 @@ constexpr double kPoseSettled = 10;      // as much more is the last of one row'
 constexpr double kLeastShare = 1e-3;     // of a step of it
 constexpr double kAnyStray = 0.5;        // measurements: then a row's pose may be by the wrong ones
 constexpr int kWorstRounds = 25;         // of weighting up what is worst (Lawson's method)
+constexpr int kNoGain = 6;               // so many of them without a gain of this share, ...
+constexpr double kBetter = 0.01;
+constexpr double kFarOff = 2;  // ... still so many tolerances off, are the last
 
 }  // namespace
 
@@ -297,7 +301,10 @@ HeldState HoldFit::best_worst(HeldState from) {
   double least = worst(best);
   weights_.assign(rows_.rows.size() * (fingers() + wheels()), 1.0);
   HeldState state = best;
+  const double exact = std::exchange(settled_, kFitSettled);  // only the last fit must be exact
+  int since = 0;                                              // it got better
   for (int round = 0; round < kWorstRounds && least > 1; ++round) {
+    if (least > kFarOff && since == kNoGain) break;
     const double most = worst(state);
     double sum = 0;
     for (std::size_t row = 0; row < rows_.rows.size(); ++row) {
@@ -310,11 +317,14 @@ HeldState HoldFit::best_worst(HeldState from) {
     for (double& weight : weights_) weight *= static_cast<double>(weights_.size()) / sum;
     settle(state);
     state = fit(std::move(state));
-    if (worst(state) >= least) continue;
-    least = worst(state);
+    const double now = worst(state);
+    since = now < (1 - kBetter) * least ? 0 : since + 1;
+    if (now >= least) continue;
+    least = now;
     best = state;
   }
   weights_.clear();
+  settled_ = exact;
   settle(best);
   return best;
 }

@@ -291,6 +291,7 @@ void write_rows(const PlanProblem& problem, const RollPath& path, bool expanding
     add_rates(plan.part_rates, state.part);
     plan.force.push_back(state.force);
   }
+  if (plan.failure) return;  // there is nothing to play
   for (const FingerRows& rows : roll.log.fingers) require_readable(rows, roll.log.name);
 }
 

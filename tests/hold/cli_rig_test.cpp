@@ -116,7 +116,7 @@ void write_rows_far_apart() {
 TEST(CliRig, AnglesOfRowsFarApartAreAskedAbout) {
   const Folder folder;
   write_rows_far_apart();
-  const Ran ran = run(kAsked);
+  const Ran ran = run(kAsked + "--noise contact=0.01,angle=0.01,position=0.01 ");
   EXPECT_EQ(ran.code, 2);
   EXPECT_THAT(ran.err, HasSubstr("jaw.csv:3: psi goes from 0 to 4 in one row"));
   EXPECT_THAT(ran.err, HasSubstr("say it with --wrapped no, or --wrapped yes"));
@@ -126,7 +126,8 @@ TEST(CliRig, AWheelsEncoderIsAskedAboutToo) {
   const Folder folder;
   write("jaw.csv", "time,u,psi,x,y\n0,0,0,0,0\n1,-1,0.1,1,0\n2,-1.5,0.2,2,0\n");
   write("pin.csv", "time,psi,x,y\n0,0,0,-3\n1,4,0,-3.1\n2,5,0,-3.2\n");
-  EXPECT_THAT(run(kAsked).err, HasSubstr("pin.csv:3: psi goes from 0 to 4 in one row"));
+  EXPECT_THAT(run(kAsked + "--noise contact=0.01,angle=0.01,position=0.01 ").err,
+              HasSubstr("pin.csv:3: psi goes from 0 to 4 in one row"));
 }
 
 TEST(CliRig, WatchBeginsAnewWhereAnglesAreInDoubt) {

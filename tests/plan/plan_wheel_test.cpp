@@ -70,6 +70,14 @@ TEST(PlanWheel, is_refused_a_length_of_its_own) {
   EXPECT_THAT(message_of([&] { solve(problem); }), HasSubstr("leave the second length out"));
 }
 
+TEST(PlanWheel, whose_part_rolls_out_is_no_plan_though_no_reader_could_unwrap_its_few_rows) {
+  PlanProblem problem = two(ellipse(), finger(disk(0.3), 2.3, -1.5, 5), wheel(0.2));
+  problem.rows = 2;
+  const Plan plan = solve(problem);
+  ASSERT_TRUE(plan.failure);
+  EXPECT_EQ(plan.margins[*plan.failure].condition, Condition::stable);
+}
+
 // ---- stability, against the part rolled out by hand ----
 
 /// Part and wheel as seen by finger a, which rests: s, t, and from those all else.
