@@ -144,18 +144,19 @@ LogLine RollRows::take(const LogRow& row, const PerFinger<std::size_t>& lines) {
   if (rolls_.empty()) begin_roll();
   const std::vector<OngoingRoll> as_it_was = robust_ ? rolls_ : std::vector<OngoingRoll>{};
   Steps steps = measure(row, sample);
+  // Beside a wheel one finger's steps alone can be any: the part turns as it likes.
+  const bool can_jump = with_skin() == fingers() && !any_part_;
   if (kind() == LogKind::contact) {
     if (const auto why = unclear_angle(lines)) {
       result.kind = LineKind::jump;
       result.message = *why;
       begin_roll();
       steps = measure(row, sample);
-      if (check_) check_->jump(lines, steps.before, steps.now, row.time);  // the next row is compared with this one
+      if (can_jump) check_->jump(lines, steps.before, steps.now, row.time);  // the next row is compared with this one
       return result;
     }
   }
-  if (with_skin() < fingers()) return result;  // one finger's steps alone can be any on a part that turns
-  if (any_part_) return result;
+  if (!can_jump) return result;
   const auto jump = check_->jump(lines, steps.before, steps.now, row.time);
   if (jump && robust_ && strays_ < kMostStrays) {
     ++strays_;
