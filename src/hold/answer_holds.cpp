@@ -6,6 +6,7 @@
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "outline/turn.hpp"
 #include "touch/posterior.hpp"
@@ -62,19 +63,19 @@ std::vector<double> weights_of(const HoldMode& mode) {
   return weights;
 }
 
-/// Lengths are 1 / (1 + e) times what was measured.
 void add_length_scale(HoldContact& contact, const HoldFit& fit, const HoldMode& mode,
-                      const std::vector<double>& weights, std::size_t finger) {
-  const auto k = static_cast<Eigen::Index>(fit.fingers() + finger);
+                      const std::vector<double>& weights, std::size_t contact_number) {
+  const auto unknown = fit.scale_unknown(contact_number);
+  if (!unknown) return;
+  const Eigen::Index k = *unknown;
   double mean = 0, second = 0;
   for (std::size_t node = 0; node < weights.size(); ++node) {
     const double stretch = mode.nodes[node].state.unknowns(k);
     mean += weights[node] * stretch;
     second += weights[node] * (stretch * stretch + mode.nodes[node].covariance(k, k));
   }
-  contact.length_scale = 1 / (1 + mean);
-  contact.length_scale_sd =
-      std::sqrt(std::max(0.0, second - mean * mean)) * contact.length_scale * contact.length_scale;
+  std::tie(contact.length_scale, contact.length_scale_sd) =
+      fit.scale_of_lengths(contact_number, mean, std::sqrt(std::max(0.0, second - mean * mean)));
 }
 
 PoseSpread spread_of(const HoldFit& fit, const HoldMode& mode, const std::vector<double>& weights, std::size_t row,
@@ -197,7 +198,7 @@ void add_posterior(HoldPlacement& placement, const HoldFit& fit, const Part& par
     contact.interval = start.interval;
     contact.end_mean = end.mean;
     contact.end_sd = end.sd;
-    if (fit.has_stretches() && k < fit.fingers()) add_length_scale(contact, fit, mode, weights, k);
+    add_length_scale(contact, fit, mode, weights, k);
   }
   placement.first_spread = spread_of(fit, mode, weights, 0, placement.first);
   placement.last_spread = spread_of(fit, mode, weights, last, placement.last);

@@ -38,6 +38,8 @@ const char* name_of(HoldCause cause) {
       return "slip";
     case HoldCause::x_y_swapped:
       return "x_y_swapped";
+    case HoldCause::squeezed:
+      return "squeezed";
     case HoldCause::noise:
       break;
   }
@@ -53,6 +55,18 @@ const Finger& finger_of_log(const HoldProblem& problem, std::size_t log) {
 Finger shape_of(const HoldProblem& problem, std::size_t number) {
   const std::size_t fingers = problem.logs.size();
   return number < fingers ? finger_of_log(problem, number) : disk(problem.wheels[number - fingers].radius);
+}
+
+std::size_t count_of_logs(const HoldProblem& problem) { return problem.logs.size() + problem.wheels.size(); }
+
+const Log& log_of(const HoldProblem& problem, std::size_t number) {
+  const std::size_t fingers = problem.logs.size();
+  return number < fingers ? problem.logs[number] : problem.wheels[number - fingers].log.rows;
+}
+
+Log& log_of(HoldProblem& problem, std::size_t number) {
+  const std::size_t fingers = problem.logs.size();
+  return number < fingers ? problem.logs[number] : problem.wheels[number - fingers].log.rows;
 }
 
 HoldRoll roll_of(const HoldProblem& problem, const Log& log, std::size_t number) {

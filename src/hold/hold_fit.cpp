@@ -63,6 +63,17 @@ std::optional<Eigen::Index> HoldFit::radius_unknown(std::size_t wheel) const {
   return at;
 }
 
+std::optional<Eigen::Index> HoldFit::scale_unknown(std::size_t contact) const {
+  if (contact >= fingers()) return radius_unknown(contact - fingers());
+  return has_stretches_ ? std::optional(static_cast<Eigen::Index>(fingers() + contact)) : std::nullopt;
+}
+
+std::pair<double, double> HoldFit::scale_of_lengths(std::size_t contact, double value, double sd) const {
+  if (contact < fingers()) return {1 / (1 + value), sd / ((1 + value) * (1 + value))};
+  const double radius = wheels_[contact - fingers()]->radius();
+  return {1 + value / radius, sd / radius};
+}
+
 std::optional<Eigen::Index> HoldFit::spin_unknown(std::size_t wheel) const {
   if (!rows_.wheels[wheel].spin) return std::nullopt;
   if (const auto radius = radius_unknown(wheel)) return *radius + 1;

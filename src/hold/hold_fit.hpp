@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "box_search.hpp"
@@ -105,6 +106,10 @@ class HoldFit {
   WheelAt wheel_at(const HeldState& state, std::size_t row, std::size_t wheel) const;
   /// How far off the wheel is in length, first coordinate, and its encoder in angle.
   ContactResidual wheel_residual(const HeldState& state, std::size_t row, std::size_t wheel) const;
+  /// The unknown that scales a contact's lengths, or a wheel's radius. None: they are as said.
+  std::optional<Eigen::Index> scale_unknown(std::size_t contact) const;
+  /// That scale, give or take, where the unknown is `value`: lengths are 1 / (1 + e) times what was measured.
+  std::pair<double, double> scale_of_lengths(std::size_t contact, double value, double sd) const;
   /// Numbers that the rows say, less those that each row's pose takes; angles of pivots count as one for each corner.
   double freedom(const HeldState& state) const;
   /// With noise: how probable rows are that contradict a fit so much by one measurement alone, by the lengths of one

@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "held_rows.hpp"
+#include "held_question.hpp"
 #include "hold_facts.hpp"
 #include "mended_holds.hpp"
 #include "rollfix/error.hpp"
@@ -98,11 +98,24 @@ HoldProblem with_noise_and_same_rows(const HoldProblem& problem) {
   if (!result.noise) result.noise = supposed_noise(problem);
   result.tolerance.reset();
   result.at.clear();
-  for (std::size_t k = 0; k < result.logs.size(); ++k) {
-    result.logs[k] = in_unit(result.logs[k], problem.part.unit(), {finger_of_log(problem, k)});
-  }
-  result.logs = aligned(std::move(result.logs));
+  std::vector<Log> logs = logs_of(problem);
+  for (std::size_t k = 0; k < logs.size(); ++k) log_of(result, k) = std::move(logs[k]);
   return result;
+}
+
+/// With lengths so many times as long, give or take; of a wheel its radius.
+std::optional<HoldProblem> with_open_lengths(const HoldProblem& problem, std::optional<std::size_t> whose,
+                                             double scale) {
+  std::optional<HoldProblem> open = with_lengths(problem, whose, scale);
+  if (!open) return open;
+  const bool is_wheel = whose && *whose >= problem.logs.size();
+  if (is_wheel) {
+    const double radius = open->wheels[*whose - problem.logs.size()].radius;
+    open->noise->radius = std::hypot(open->noise->radius, kOpenSlip * radius);
+  } else {
+    open->noise->slip = std::hypot(open->noise->slip, kOpenSlip);
+  }
+  return open;
 }
 
 struct Trial {
@@ -138,9 +151,10 @@ class Mistakes {
       for (const Mended& one : all) take(one.what, one.problem, one.log_stretch);
     }
     try_lengths(std::nullopt);
-    for (std::size_t k = 0; k < problem_.logs.size(); ++k) try_lengths(k);
+    for (std::size_t k = 0; k < count_of_logs(problem_); ++k) try_lengths(k);
+    try_squeezed();
     try_stray();
-    for (std::size_t k = 0; k < problem_.logs.size(); ++k) try_late(k);
+    for (std::size_t k = 0; k < count_of_logs(problem_); ++k) try_late(k);
     try_slip();
     if (std::none_of(trials_.begin(), trials_.end(), [](const Trial& trial) { return trial.is_right; })) look_again();
     return likeliest();
@@ -229,9 +243,8 @@ class Mistakes {
   void try_lengths(std::optional<std::size_t> whose) {
     std::vector<std::pair<double, double>> by_evidence;
     for (const double scale : kLengthScales) {
-      std::optional<HoldProblem> scaled = with_lengths(problem_, whose, scale);
+      const std::optional<HoldProblem> scaled = with_open_lengths(problem_, whose, scale);
       if (!scaled) return;
-      scaled->noise->slip = std::hypot(scaled->noise->slip, kOpenSlip);
       const Seen now = glance(*scaled);
       if (now.excess <= kWorthLooking) by_evidence.emplace_back(-now.evidence, scale);
     }
@@ -246,13 +259,12 @@ class Mistakes {
   bool settle_lengths(std::optional<std::size_t> whose, double scale) {
     double sd = 0;
     for (int step = 0; step < kSettleSteps; ++step) {
-      HoldProblem open = *with_lengths(problem_, whose, scale);
-      open.noise->slip = std::hypot(open.noise->slip, kOpenSlip);
+      const HoldProblem open = *with_open_lengths(problem_, whose, scale);
       const std::optional<HoldAnswer> answer = attempt(thinned(open, kGlanceRows), Care::glance);
       if (!answer || answer->placements.empty()) return false;
       double sum = 0, weights = 0;
-      for (std::size_t k = 0; k < problem_.logs.size(); ++k) {
-        if (whose && *whose != k) continue;
+      for (std::size_t k = 0; k < count_of_logs(problem_); ++k) {
+        if (whose ? *whose != k : k >= problem_.logs.size()) continue;
         const HoldContact& contact = answer->placements.front().contacts[k];
         const double weight = 1 / std::max(1e-18, contact.length_scale_sd * contact.length_scale_sd);
         sum += weight * contact.length_scale;
@@ -272,6 +284,13 @@ class Mistakes {
     return add(what, mended, attempt(mended));
   }
 
+  void try_squeezed() {
+    if (!problem_.squeezed) return;
+    HoldProblem without = problem_;
+    without.squeezed.reset();
+    take({HoldCause::squeezed}, without);
+  }
+
   void try_stray() {
     if (problem_.robust) return;
     HoldProblem robust = problem_;
@@ -279,7 +298,7 @@ class Mistakes {
     const std::optional<HoldAnswer> answer = attempt(robust);
     if (!answer) return;
     const std::size_t strays = answer->strays + answer->jumps.size();
-    const auto all = static_cast<double>(problem_.logs.size() * problem_.logs.front().rows());
+    const auto all = static_cast<double>(count_of_logs(problem_) * problem_.logs.front().rows());
     if (strays < 1 || static_cast<double>(strays) > std::max(3.0, kMostOutliers * all)) return;
     HoldDiagnosis what{HoldCause::stray};
     what.strays = strays;
@@ -288,7 +307,7 @@ class Mistakes {
 
   /// Of two logs either may be late.
   void try_late(std::size_t log) {
-    if (problem_.logs.size() == 2 && log == 0) return;
+    if (count_of_logs(problem_) == 2 && log == 0) return;
     const auto rows = static_cast<int>(problem_.logs.front().rows());
     const int unit = std::max(1, rows / static_cast<int>(2 * kGlanceRows));
     const auto evidence = [&](int shift) {

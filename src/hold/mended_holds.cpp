@@ -20,24 +20,32 @@ constexpr double kLeastDegrees = 3;
 constexpr double kMostApart = 2;
 constexpr double kLeastApart = 0.02;
 
-/// All logs, or one: none stands for all.
+/// All logs of skins, or one: none stands for all. Those beside wheels are looked at one by one.
+std::vector<std::optional<std::size_t>> whose_skins(const HoldProblem& problem) {
+  std::vector<std::optional<std::size_t>> all;
+  if (problem.wheels.empty()) all.emplace_back();
+  for (std::size_t k = 0; k < problem.logs.size(); ++k) all.emplace_back(k);
+  return all;
+}
+
+/// All logs, or one, wheels' as well.
 std::vector<std::optional<std::size_t>> whose_logs(const HoldProblem& problem) {
   std::vector<std::optional<std::size_t>> all{std::nullopt};
-  for (std::size_t k = 0; k < problem.logs.size(); ++k) all.emplace_back(k);
+  for (std::size_t k = 0; k < count_of_logs(problem); ++k) all.emplace_back(k);
   return all;
 }
 
 HoldProblem mended(const HoldProblem& problem, std::optional<std::size_t> whose,
                    const std::function<void(FingerRows&)>& mend) {
   HoldProblem result = problem;
-  for (std::size_t k = 0; k < result.logs.size(); ++k) {
-    if (!whose || *whose == k) mend(result.logs[k].fingers.front());
+  for (std::size_t k = 0; k < count_of_logs(result); ++k) {
+    if (!whose || *whose == k) mend(log_of(result, k).fingers.front());
   }
   return result;
 }
 
 double rows_of(const HoldProblem& problem, std::optional<std::size_t> whose) {
-  return static_cast<double>(problem.logs.front().rows() * (whose ? 1 : problem.logs.size()));
+  return static_cast<double>(problem.logs.front().rows() * (whose ? 1 : count_of_logs(problem)));
 }
 
 double range_of(const std::vector<double>& values) {
@@ -49,10 +57,10 @@ using Column = std::vector<double> FingerRows::*;
 
 /// Whether all columns have numbers as degrees of a roll would be.
 bool may_be_degrees(const HoldProblem& problem, std::optional<std::size_t> whose, const std::vector<Column>& columns) {
-  for (std::size_t k = 0; k < problem.logs.size(); ++k) {
+  for (std::size_t k = 0; k < count_of_logs(problem); ++k) {
     if (whose && *whose != k) continue;
     for (const Column column : columns) {
-      if (range_of(problem.logs[k].fingers.front().*column) < kLeastDegrees) return false;
+      if (range_of(log_of(problem, k).fingers.front().*column) < kLeastDegrees) return false;
     }
   }
   return true;
@@ -74,7 +82,7 @@ std::vector<Mended> without_slips_of_the_pen(const HoldProblem& problem) {
     what.finger = whose;
     all.push_back({std::move(what), mended(problem, whose, mend), log_stretch});
   };
-  for (const auto& whose : whose_logs(problem)) {
+  for (const auto& whose : whose_skins(problem)) {
     add(HoldCause::u_clockwise, whose, 0, [&](FingerRows& rows) { times(rows, u, -1); });
     add(HoldCause::psi_clockwise, whose, 0, [&](FingerRows& rows) { times(rows, psi, -1); });
     add(HoldCause::both_clockwise, whose, 0, [&](FingerRows& rows) { times(rows, both, -1); });
@@ -90,6 +98,14 @@ std::vector<Mended> without_slips_of_the_pen(const HoldProblem& problem) {
     if (may_be_degrees(problem, whose, both))
       add(HoldCause::angles_degrees, whose, rows_of(problem, whose) * std::log(kDegree),
           [&](FingerRows& rows) { times(rows, both, kDegree); });
+  }
+  for (std::size_t k = 0; k < problem.wheels.size(); ++k) {
+    if (!problem.wheels[k].log.has_encoder()) continue;
+    const std::size_t whose = problem.logs.size() + k;
+    add(HoldCause::psi_clockwise, whose, 0, [&](FingerRows& rows) { times(rows, psi, -1); });
+    if (may_be_degrees(problem, whose, psi))
+      add(HoldCause::psi_degrees, whose, rows_of(problem, whose) * std::log(kDegree),
+          [&](FingerRows& rows) { times(rows, psi, kDegree); });
   }
   return all;
 }
@@ -118,8 +134,8 @@ std::vector<Mended> without_units(const HoldProblem& problem) {
       what.into = scale.to;
       HoldProblem without = mended(problem, whose, [&](FingerRows& rows) { times(rows, centre, scale.factor); });
       double apart = 0;
-      for (const Log& log : without.logs) {
-        const FingerRows &one = log.fingers.front(), &first = without.logs.front().fingers.front();
+      for (std::size_t k = 0; k < count_of_logs(without); ++k) {
+        const FingerRows &one = log_of(without, k).fingers.front(), &first = without.logs.front().fingers.front();
         if (one.x.empty() || first.x.empty()) continue;
         apart = std::max(apart, std::hypot(one.x.front() - first.x.front(), one.y.front() - first.y.front()));
       }
@@ -151,6 +167,10 @@ std::vector<Mended> without_swaps(const HoldProblem& problem) {
 
 std::optional<HoldProblem> with_lengths(const HoldProblem& problem, std::optional<std::size_t> whose, double scale) {
   HoldProblem result = problem;
+  if (whose && *whose >= problem.logs.size()) {
+    result.wheels[*whose - problem.logs.size()].radius *= scale;
+    return result;
+  }
   if (whose && result.fingers.size() == 1) result.fingers.assign(problem.logs.size(), problem.fingers.front());
   bool any = false;
   for (std::size_t k = 0; k < result.fingers.size(); ++k) {
@@ -170,10 +190,11 @@ HoldProblem shifted(const HoldProblem& problem, std::size_t log, int rows) {
     first.push_back(row);
     last.push_back(row + by);
   }
-  for (std::size_t k = 0; k < result.logs.size(); ++k) {
-    result.logs[k] = with_rows(problem.logs[k], (k == log) == (rows > 0) ? last : first);
+  for (std::size_t k = 0; k < count_of_logs(result); ++k) {
+    log_of(result, k) = with_rows(log_of(problem, k), (k == log) == (rows > 0) ? last : first);
   }
-  for (Log& each : result.logs) each.time = result.logs[log == 0 ? 1 : 0].time;
+  const std::vector<double> time = log_of(result, log == 0 ? 1 : 0).time;
+  for (std::size_t k = 0; k < count_of_logs(result); ++k) log_of(result, k).time = time;
   return result;
 }
 
@@ -189,16 +210,18 @@ HoldProblem thinned(const HoldProblem& problem, std::size_t rows) {
   const std::size_t last = problem.logs.front().rows() - 1;
   std::vector<std::size_t> chosen;
   const std::size_t steps = std::min(last, rows - 1);
-  for (std::size_t k = 0; k <= steps; ++k) chosen.push_back(k * last / steps);
-  for (std::size_t k = 0; k < result.logs.size(); ++k) {
-    FingerRows& of = result.logs[k].fingers.front();
-    const std::vector<Contact> contacts = contacts_of(of, finger_of_log(problem, k));
-    for (std::size_t row = 0; row < contacts.size(); ++row) {
-      of.u[row] = contacts[row].u;
-      of.psi[row] = contacts[row].psi;
+  for (std::size_t k = 0; k <= steps; ++k) chosen.push_back(steps == 0 ? 0 : k * last / steps);
+  for (std::size_t k = 0; k < count_of_logs(result); ++k) {
+    FingerRows& of = log_of(result, k).fingers.front();
+    if (!of.psi.empty()) {
+      const std::vector<Contact> contacts = contacts_of(of, shape_of(problem, k));
+      for (std::size_t row = 0; row < contacts.size(); ++row) {
+        of.u[row] = contacts[row].u;
+        of.psi[row] = contacts[row].psi;
+      }
     }
     of.u_wrapped = of.psi_wrapped = false;
-    result.logs[k] = with_rows(result.logs[k], chosen);
+    log_of(result, k) = with_rows(log_of(result, k), chosen);
   }
   return result;
 }

@@ -25,7 +25,8 @@ std::vector<Mended> without_units(const HoldProblem& problem);
 /// Fingers in another order.
 std::vector<Mended> without_swaps(const HoldProblem& problem);
 
-/// Lengths so many times as long, of all disks or of one: their radii. Nothing: there are none.
+/// Lengths so many times as long, of all disks or of one: their radii; or the radius of a wheel. Nothing: there are
+/// none.
 std::optional<HoldProblem> with_lengths(const HoldProblem& problem, std::optional<std::size_t> whose, double scale);
 
 /// Row k + `rows` of one log with row k of the others.

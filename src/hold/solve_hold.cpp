@@ -179,7 +179,7 @@ HoldAnswer solve(const HoldProblem& problem) {
   const Doing doing("looking for places that fit all fingers");
   HoldAnswer answer = hold::solve_plain(problem);
   const bool is_wrong = answer.placements.empty() || answer.verdict.fits_badly;
-  if (!problem.diagnose || !problem.wheels.empty() || answer.status != Status::complete || !is_wrong) return answer;
+  if (!problem.diagnose || answer.status != Status::complete || !is_wrong) return answer;
   const Doing looking("looking for what explains the misfit");
   answer.diagnoses = hold::mistakes(problem, answer);
   answer.was_diagnosed = true;

@@ -5,6 +5,7 @@
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "answer_holds.hpp"
@@ -92,15 +93,16 @@ class HoldWeighing {
     answer_.placements.push_back(described(fit, problem_.part, best.state, sets[best.set]));
     answer_.fit = fit_of(fit, best.state);
     answer_.log_evidence = -0.5 * best.state.square;
-    if (!fit.has_stretches()) return;
+    if (!fit.has_stretches() && fit.wheels() == 0) return;
     UnknownsMatrix information = fit.reduced(best.state).matrix;
     information.diagonal().array() += 1 / (boundary_.perimeter * boundary_.perimeter);  // where nothing tells a place
     const UnknownsMatrix covariance = information.inverse();
-    for (std::size_t k = 0; k < fit.fingers(); ++k) {
-      const auto i = static_cast<Eigen::Index>(fit.fingers() + k);
+    for (std::size_t k = 0; k < fit.fingers() + fit.wheels(); ++k) {
       HoldContact& contact = answer_.placements.back().contacts[k];
-      contact.length_scale = 1 / (1 + best.state.unknowns(i));
-      contact.length_scale_sd = std::sqrt(covariance(i, i)) * contact.length_scale * contact.length_scale;
+      if (const auto i = fit.scale_unknown(k)) {
+        std::tie(contact.length_scale, contact.length_scale_sd) =
+            fit.scale_of_lengths(k, best.state.unknowns(*i), std::sqrt(covariance(*i, *i)));
+      }
     }
   }
 

@@ -18,6 +18,10 @@ using cli::Folder;
 using cli::Json;
 using cli::Ran;
 using cli::run;
+using rollfix::HoldAnswer;
+using rollfix::HoldCause;
+using rollfix::Noise;
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -51,6 +55,37 @@ TEST(CliRig, AJawAndAPinsPlaceSayWhereThePartIs) {
   EXPECT_THAT(ran.out, HasSubstr("1 with skin and 1 wheel without, on a part"));
 }
 
+const std::string kSmall = "--noise contact=0.0005,angle=0.0005,position=0.0005 ";
+
+TEST(CliRig, AWrongRadiusOfTheWheelIsFound) {
+  const Folder folder;
+  simulate();
+  const Ran ran = run("locate gallery:cam --log jaw.csv --log pin.csv --finger jaw --finger wheel,r=0.33 " + kSmall);
+  EXPECT_THAT(ran.out,
+              AllOf(HasSubstr("the radius of wheel b is 0.3 "), HasSubstr("cure: --finger wheel,r=0.3 for wheel b")));
+}
+
+TEST(CliRig, APartThatIsNotSqueezedIsNamed) {
+  const Folder folder;
+  simulate();
+  const Ran ran = run(kAsked + kSmall + "--squeezed 0.1deg");
+  EXPECT_EQ(ran.code, 1);
+  EXPECT_THAT(ran.out, HasSubstr("leave --squeezed out"));
+}
+
+TEST(CliRig, APinInAnotherUnitIsNamed) {
+  const Folder folder;
+  rig_cases::RigCase one = simulate();
+  for (double& x : one.problem.wheels[0].log.rows.fingers[0].x) x *= 25.4;
+  for (double& y : one.problem.wheels[0].log.rows.fingers[0].y) y *= 25.4;
+  one.problem.noise = Noise{0.002, 0.002, 0, 0};
+  one.problem.noise->position = 0.002;
+  const HoldAnswer answer = solve(one.problem);
+  ASSERT_FALSE(answer.diagnoses.empty());
+  EXPECT_EQ(answer.diagnoses.front().cause, HoldCause::unit);
+  EXPECT_NEAR(answer.diagnoses.front().placements.front().contacts[0].mean, one.start, 0.05);
+}
+
 TEST(CliRig, JsonHasTheWheelsPlacesLikeAFingers) {
   const Folder folder;
   const rig_cases::RigCase one = simulate(true);
@@ -81,9 +116,8 @@ TEST(CliRig, CertifyWritesWhatTheVerifierProves) {
 TEST(CliRig, SqueezedTakesItsErrorOrNot) {
   const Folder folder;
   simulate();
-  // The simulated part is not squeezed.
-  EXPECT_EQ(run(kAsked + "--squeezed=0.01deg").code, 1);
-  EXPECT_THAT(run(kAsked + "--squeezed --json").json()["squeezed"].dump(), HasSubstr("0.0872"));
+  EXPECT_THAT(run(kAsked + kSmall + "--squeezed --json").json()["squeezed"].dump(), HasSubstr("0.0872"));
+  EXPECT_THAT(run(kAsked + kSmall + "--squeezed=60deg --json").json()["squeezed"].dump(), HasSubstr("1.04"));
 }
 
 TEST(CliRig, WhatSaysNothingIsRefusedWithTheReason) {
@@ -116,7 +150,7 @@ void write_rows_far_apart() {
 TEST(CliRig, AnglesOfRowsFarApartAreAskedAbout) {
   const Folder folder;
   write_rows_far_apart();
-  const Ran ran = run(kAsked + "--noise contact=0.01,angle=0.01,position=0.01 ");
+  const Ran ran = run(kAsked + "--noise contact=0.3,angle=0.5,position=2 ");
   EXPECT_EQ(ran.code, 2);
   EXPECT_THAT(ran.err, HasSubstr("jaw.csv:3: psi goes from 0 to 4 in one row"));
   EXPECT_THAT(ran.err, HasSubstr("say it with --wrapped no, or --wrapped yes"));
@@ -126,7 +160,7 @@ TEST(CliRig, AWheelsEncoderIsAskedAboutToo) {
   const Folder folder;
   write("jaw.csv", "time,u,psi,x,y\n0,0,0,0,0\n1,-1,0.1,1,0\n2,-1.5,0.2,2,0\n");
   write("pin.csv", "time,psi,x,y\n0,0,0,-3\n1,4,0,-3.1\n2,5,0,-3.2\n");
-  EXPECT_THAT(run(kAsked + "--noise contact=0.01,angle=0.01,position=0.01 ").err,
+  EXPECT_THAT(run(kAsked + "--noise contact=0.3,angle=0.5,position=2 ").err,
               HasSubstr("pin.csv:3: psi goes from 0 to 4 in one row"));
 }
 
@@ -134,7 +168,7 @@ TEST(CliRig, WatchBeginsAnewWhereAnglesAreInDoubt) {
   const Folder folder;
   write_rows_far_apart();
   const std::string watch = "watch gallery:cam --log jaw.csv --log pin.csv --finger jaw --finger wheel,r=0.3 --once ";
-  const std::string noise = "--noise contact=0.01,angle=0.01,position=0.01 ";
+  const std::string noise = "--noise contact=0.3,angle=0.5,position=2 ";
   EXPECT_THAT(run(watch + noise).err, HasSubstr("jaw.csv:3: whether psi is wrapped can't be told"));
   EXPECT_THAT(run(watch + noise + "--wrapped no").err, Not(HasSubstr("can't be told")));
 }

@@ -74,7 +74,7 @@ struct HoldContact {
   double end_mean = 0;
   double end_sd = 0;
   double length_scale = 1;     // lengths are so many times what was measured, as far as noise `slip` or `radius` ...
-  double length_scale_sd = 0;  // ... leaves that open, give or take
+  double length_scale_sd = 0;  // ... leaves that open, give or take; of a wheel its radius, as of what was said
 };
 
 /// One answer: a connected set of first contacts, with a pose of the part at each instant.
@@ -111,14 +111,15 @@ enum class HoldCause {
   prior,            // what was said of the first contact, or of the pose, beforehand
   stray,            // a few measurements are anything
   slip,             // lengths are off here and there
-  x_y_swapped       // x was taken for y, and y for x; u and psi were not
+  x_y_swapped,      // x was taken for y, and y for x; u and psi were not
+  squeezed          // the part is not squeezed, or not as well as said
 };
 const char* name_of(HoldCause cause);
 
 /// A mistake that would explain logs that fit nowhere, or contradict the noise; and the answer without it.
 struct HoldDiagnosis {
   HoldCause cause = HoldCause::noise;
-  std::optional<std::size_t> finger{};  // whose log, or radius, alone is wrong, from 0; none: of all
+  std::optional<std::size_t> finger{};  // whose log, or radius, alone is wrong, from 0, wheels last; none: of all
   std::optional<std::size_t> other{};   // fingers swapped: with this one
   double factor = 1;       // radius: lengths are this many times what was measured; unit: by which x and y are to be
                            // multiplied; noise: this many times what was said

@@ -12,10 +12,15 @@ namespace {
 
 char letter_of(std::size_t finger) { return static_cast<char>('a' + finger); }
 
+/// "finger a", "wheel b".
+std::string named(std::size_t finger, const HoldAnswer& answer) {
+  return fmt::format("{} {}", answer.rolls[finger].is_wheel ? "wheel" : "finger", letter_of(finger));
+}
+
 /// "of all logs", "of b.csv, finger b".
 std::string whose(const HoldDiagnosis& diagnosis, const HoldAnswer& answer) {
   if (!diagnosis.finger) return "of all logs";
-  return fmt::format("of {}, finger {},", plain(answer.rolls[*diagnosis.finger].name), letter_of(*diagnosis.finger));
+  return fmt::format("of {}, {},", plain(answer.rolls[*diagnosis.finger].name), named(*diagnosis.finger, answer));
 }
 
 /// As it was typed, with other numbers.
@@ -36,8 +41,8 @@ std::string radius_words(const HoldDiagnosis& diagnosis, const HoldAnswer& answe
   const std::size_t finger = diagnosis.finger.value_or(0);
   const double said = answer.rolls[finger].radius;
   return fmt::format("the radius of {} is {:.4g} ± {:.1g} instead of {:.4g}",
-                     diagnosis.finger ? fmt::format("finger {}", letter_of(finger)) : "the fingers",
-                     diagnosis.factor * said, diagnosis.factor_sd * said, said);
+                     diagnosis.finger ? named(finger, answer) : "the fingers", diagnosis.factor * said,
+                     diagnosis.factor_sd * said, said);
 }
 
 std::string counted_rows(int rows) { return fmt::format("{} {}", rows, rows == 1 ? "row" : "rows"); }
@@ -81,6 +86,8 @@ std::string words_of(const HoldDiagnosis& diagnosis, const HoldAnswer& answer) {
     case HoldCause::stray:
       return fmt::format("{} of {} measurements {} outliers", diagnosis.strays, answer.rows * answer.rolls.size(),
                          diagnosis.strays == 1 ? "is an" : "are");
+    case HoldCause::squeezed:
+      return "the wheel's normal does not point through the finger's contact as --squeezed says";
     case HoldCause::slip:
       return "lengths are wrong here and there: probably a finger slipped";
     case HoldCause::noise:
@@ -93,9 +100,10 @@ std::string words_of(const HoldDiagnosis& diagnosis, const HoldAnswer& answer) {
 std::string cure_of(const HoldDiagnosis& diagnosis, const HoldAnswer& answer) {
   switch (diagnosis.cause) {
     case HoldCause::radius:
-      return fmt::format("--finger disk,r={:.4g}{}",
+      return fmt::format("--finger {},r={:.4g}{}",
+                         answer.rolls[diagnosis.finger.value_or(0)].is_wheel ? "wheel" : "disk",
                          diagnosis.factor * answer.rolls[diagnosis.finger.value_or(0)].radius,
-                         diagnosis.finger ? fmt::format(" for finger {}", letter_of(*diagnosis.finger)) : "");
+                         diagnosis.finger ? fmt::format(" for {}", named(*diagnosis.finger, answer)) : "");
     case HoldCause::unit:
       return fmt::format("multiply x and y by {:.6g}", diagnosis.factor);
     case HoldCause::late:
@@ -126,6 +134,8 @@ std::string cure_of(const HoldDiagnosis& diagnosis, const HoldAnswer& answer) {
       return "give both in the other order";
     case HoldCause::prior:
       return "leave it out";
+    case HoldCause::squeezed:
+      return "leave --squeezed out, or state a larger error, as in --squeezed 5deg";
     case HoldCause::stray:
       return "--robust";
     case HoldCause::slip:
