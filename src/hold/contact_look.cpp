@@ -18,20 +18,26 @@ namespace {
 
 constexpr double kBlurReach = 5;  // standard deviations: beyond, a corner is not seen
 
+double on_boundary(const Boundary& boundary, double s) {
+  return boundary.closed ? s : std::clamp(s, 0.0, boundary.perimeter);
+}
+
 BlurredPlace plain(const Part& part, double s) {
+  const Turning turning = part.turning().at(on_boundary(part.boundary(), s));
   BlurredPlace place;
-  const Boundary boundary = part.boundary();
-  const double at = boundary.closed ? s : std::clamp(s, 0.0, boundary.perimeter);
-  place.point = part.point(at);
-  place.angle = part.turning().angle(at);
-  place.curvature = place.bend = part.turning().curvature(at);
-  place.tangent = {std::cos(place.angle), std::sin(place.angle)};
-  // Beyond an open boundary's end it goes straight on, so that a fit finds back.
-  place.point += (s - at) * place.tangent;
+  place.side = place.angle = turning.angle;
+  place.curvature = place.bend = turning.curvature;
   return place;
 }
 
 }  // namespace
+
+Vec2 point_about(const Part& part, double s) {
+  const double at = on_boundary(part.boundary(), s);
+  if (at == s) return part.point(s);
+  const double angle = part.turning().angle(at);
+  return part.point(at) + (s - at) * Vec2(std::cos(angle), std::sin(angle));
+}
 
 BlurredPlace blurred(const Part& part, double s, double sd, double pivot) {
   BlurredPlace place = plain(part, s);

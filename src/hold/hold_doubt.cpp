@@ -37,12 +37,13 @@ HoldFit::RowEquations HoldFit::settled_by_fewer(HeldState& state, std::size_t ro
   for (std::size_t k = 0; k < fingers(); ++k) {
     const HeldContact& contact = rows_.rows[row].contacts[k];
     const double blur = std::max(rows_.errors[k].travel, kLeastBlur * part_.perimeter());
-    const BlurredPlace at = blurred(part_, place_of(state, row, k), blur, pivot_length(contact));
+    const double s = place_of(state, row, k);
+    const BlurredPlace at = blurred(part_, s, blur, pivot_length(contact));
     Placed& placed = state.placed[row];
     placed = kept;
     placed.heading = contact.tangent - at.angle;
     if (rows_.errors[k].has_place) {
-      placed.middle = contact.at - Pose{0, 0, placed.heading}.turned(at.point - middle_);
+      placed.middle = contact.at - Pose{0, 0, placed.heading}.turned(point_about(part_, s) - middle_);
     }
     const RowEquations own = settled(state, row);
     if (!(own.square < best.square)) continue;

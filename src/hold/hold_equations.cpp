@@ -25,65 +25,81 @@ double HoldFit::pivot_length(const HeldContact& contact) const {
   return 1 / std::max(contact.finger_curvature, 2 * std::numbers::pi / part_.perimeter());
 }
 
-HoldFit::Look HoldFit::look(const Placed& placed, double s, std::size_t row, std::size_t finger) const {
+HoldFit::Sight HoldFit::sight(double s, std::size_t row, std::size_t finger) const {
   const HeldContact& contact = rows_.rows[row].contacts[finger];
   const HeldErrors& errors = rows_.errors[finger];
   const double blur = std::max(errors.travel, kLeastBlur * part_.perimeter());
-  const BlurredPlace at =
-      rows_.has_noise ? blurred(part_, s, blur, pivot_length(contact)) : ranged(part_, s, errors.travel);
-  const Pose turn{0, 0, placed.heading};
-  Look look;
-  look.curvature = at.curvature;
-  const double off = nearest_angle(contact.tangent - placed.heading - at.angle);
-  const double beyond = std::max(0.0, std::abs(off) - at.half_turn);
-  look.residual(2) = std::copysign(beyond, off);
-  if (beyond > 0 || at.half_turn == 0) {
-    look.by_pose(2, 2) = -1;
-    look.by_place(2) = -at.bend;
-  }
-  if (errors.has_place) {
-    const Vec2 arm = turn.turned(at.point - middle_);
-    look.residual.head<2>() = contact.at - placed.middle - arm;
-    look.by_pose.topLeftCorner<2, 2>() = -Eigen::Matrix2d::Identity();
-    look.by_pose.topRightCorner<2, 1>() = Vec2(arm.y(), -arm.x());
-    look.by_place.head<2>() = -turn.turned(at.tangent);
-  }
+  Sight sight;
+  sight.at = rows_.has_noise ? blurred(part_, s, blur, pivot_length(contact)) : ranged(part_, s, errors.travel);
+  if (errors.has_place) sight.point = point_about(part_, s);
   const double times = weight(row, finger) * rows_.rows[row].weight;
   if (!rows_.has_noise) {
-    if (errors.has_place) look.information(0, 0) = look.information(1, 1) = times / (errors.place * errors.place);
+    if (errors.has_place) sight.information(0, 0) = sight.information(1, 1) = times / (errors.place * errors.place);
     // An angle that is exact beside places that are not would only cost digits.
     const double angle = std::max(errors.angle, wheels() == 0 ? 0 : errors.place / part_.perimeter());
-    look.information(2, 2) = times / (angle * angle);
-    return look;
+    sight.information(2, 2) = times / (angle * angle);
+    return sight;
   }
-  const double bend = (at.curvature + contact.finger_curvature) * errors.travel;
+  const double bend = (sight.at.curvature + contact.finger_curvature) * errors.travel;
   const double angle = errors.angle * errors.angle;
   const double alike = std::max(1.0, contact.rows_alike / rows_.rows[row].weight);
   const double plain = (angle + bend * bend) / rows_.rows[row].weight;
-  const double corner = at.variance * alike;
-  look.turn_variance = angle + at.variance;
-  look.blur_size = std::log1p(corner / plain) / alike;
-  look.angles = (1 + corner / (plain * alike)) / (1 + corner / plain);
+  const double corner = sight.at.variance * alike;
+  sight.turn_variance = angle + sight.at.variance;
+  sight.blur_size = std::log1p(corner / plain) / alike;
+  sight.angles = (1 + corner / (plain * alike)) / (1 + corner / plain);
   if (!errors.has_place) {
-    look.information(2, 2) = 1 / (plain + corner);
-    look.log_size = std::log(plain) + look.blur_size;
-    return look;
+    sight.information(2, 2) = 1 / (plain + corner);
+    sight.log_size = std::log(plain) + sight.blur_size;
+    return sight;
   }
   const Eigen::Vector3d lever(-contact.lever.y(), contact.lever.x(), 1);
   Eigen::Matrix3d covariance = angle * lever * lever.transpose();
   // At a corner n moves the contact along the finger, which is not along the part.
-  const double place = errors.place * errors.place + at.pivoting * errors.travel * errors.travel;
+  const double place = errors.place * errors.place + sight.at.pivoting * errors.travel * errors.travel;
   covariance(0, 0) += place;
   covariance(1, 1) += place;
   covariance(2, 2) += bend * bend;
   covariance /= rows_.rows[row].weight;
-  look.log_size = std::log(covariance.determinant()) + look.blur_size;
+  sight.log_size = std::log(covariance.determinant()) + sight.blur_size;
   covariance(2, 2) += corner;
-  look.information = covariance.inverse();
+  sight.information = covariance.inverse();
+  return sight;
+}
+
+std::vector<HoldFit::Sight> HoldFit::sights_at(const HeldState& state, std::size_t row) const {
+  std::vector<Sight> sights;
+  sights.reserve(fingers());
+  for (std::size_t k = 0; k < fingers(); ++k) sights.push_back(sight(place_of(state, row, k), row, k));
+  return sights;
+}
+
+HoldFit::Look HoldFit::look(const HeldState& state, std::size_t row, std::size_t finger) const {
+  return look(sight(place_of(state, row, finger), row, finger), state.placed[row], row, finger);
+}
+
+HoldFit::Look HoldFit::look(const Sight& sight, const Placed& placed, std::size_t row, std::size_t finger) const {
+  const HeldContact& contact = rows_.rows[row].contacts[finger];
+  Look look{sight};
+  const double off = nearest_angle(contact.tangent - placed.heading - sight.at.angle);
+  const double beyond = std::max(0.0, std::abs(off) - sight.at.half_turn);
+  look.residual(2) = std::copysign(beyond, off);
+  if (beyond > 0 || sight.at.half_turn == 0) {
+    look.by_pose(2, 2) = -1;
+    look.by_place(2) = -sight.at.bend;
+  }
+  if (!rows_.errors[finger].has_place) return look;
+  const Pose turn{0, 0, placed.heading};
+  const Vec2 arm = turn.turned(sight.point - middle_);
+  look.residual.head<2>() = contact.at - placed.middle - arm;
+  look.by_pose.topLeftCorner<2, 2>() = -Eigen::Matrix2d::Identity();
+  look.by_pose.topRightCorner<2, 1>() = Vec2(arm.y(), -arm.x());
+  look.by_place.head<2>() = -turn.turned(Vec2(std::cos(sight.at.side), std::sin(sight.at.side)));
   return look;
 }
 
-HoldFit::RowEquations HoldFit::equations(const HeldState& state, std::size_t row, bool with_unknowns) const {
+HoldFit::RowEquations HoldFit::equations(const HeldState& state, std::size_t row, const std::vector<Sight>& sights,
+                                         bool with_unknowns) const {
   RowEquations sum;
   const auto count = static_cast<Eigen::Index>(fingers());
   if (with_unknowns) {
@@ -92,7 +108,7 @@ HoldFit::RowEquations HoldFit::equations(const HeldState& state, std::size_t row
     sum.own_slope = Unknowns::Zero(size_);
   }
   for (std::size_t finger = 0; finger < fingers(); ++finger) {
-    Look one = look(state.placed[row], place_of(state, row, finger), row, finger);
+    Look one = look(sights[finger], state.placed[row], row, finger);
     const double square = one.residual.dot(one.information * one.residual);
     const Counted how = counted(one, square);
     one.information *= how.right;
@@ -135,15 +151,15 @@ HoldFit::RowEquations HoldFit::equations(const HeldState& state, std::size_t row
 }
 
 ContactResidual HoldFit::residual(const HeldState& state, std::size_t row, std::size_t finger) const {
-  const Look one = look(state.placed[row], place_of(state, row, finger), row, finger);
+  const Look one = look(state, row, finger);
   return {one.residual.head<2>(), one.residual(2)};
 }
 
 HoldFit::ContactError HoldFit::contact_error(const HeldState& state, std::size_t row, std::size_t finger) const {
-  const Look one = look(state.placed[row], place_of(state, row, finger), row, finger);
+  const Look one = look(state, row, finger);
   const HeldContact& contact = rows_.rows[row].contacts[finger];
   const double variance = rows_.errors[finger].travel * rows_.errors[finger].travel;
-  const double bend = one.curvature + contact.finger_curvature;
+  const double bend = one.at.curvature + contact.finger_curvature;
   // r = a - (kappa + kappa_finger) n.
   const double total = one.turn_variance + bend * bend * variance;
   ContactError error;
@@ -158,7 +174,7 @@ HoldFit::ContactError HoldFit::contact_error(const HeldState& state, std::size_t
     error.variance += (1 - right) * half * half;
     error.by_turn *= right;
   }
-  error.curvature = one.curvature;
+  error.curvature = one.at.curvature;
   return error;
 }
 
@@ -167,7 +183,7 @@ double HoldFit::freedom(const HeldState& state) const {
   for (std::size_t row = 0; row < rows_.rows.size(); ++row) {
     double of_row = 0;
     for (std::size_t k = 0; k < fingers(); ++k) {
-      const Look one = look(state.placed[row], place_of(state, row, k), row, k);
+      const Look one = look(state, row, k);
       const double right = counted(one, one.residual.dot(one.information * one.residual)).right;
       of_row += right * (one.angles + (rows_.errors[k].has_place ? 2 : 0));
     }

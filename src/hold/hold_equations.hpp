@@ -1,5 +1,6 @@
 #pragma once
 
+#include "contact_look.hpp"
 #include "hold_fit.hpp"
 
 namespace rollfix::hold {
@@ -9,17 +10,22 @@ inline constexpr double kLeastBlur = 1e-7;
 
 using RowBlock = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 2 * kMostFingers>;
 
-/// A contact's residuals with their derivatives: of d (two rows) and of r.
-struct HoldFit::Look {
-  Eigen::Vector3d residual = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d by_pose = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d by_place = Eigen::Vector3d::Zero();
+/// Where a contact is on the part, and how far it may be off: whatever the part's pose.
+struct HoldFit::Sight {
+  BlurredPlace at;
+  Vec2 point = Vec2::Zero();                              // if it is evidence
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  // C^-1, 0 for what is not measured
   double log_size = 0;                                    // log det C, corners by their share
   double blur_size = 0;                                   // of it what corners add
   double angles = 1;                                      // numbers that the angle counts as
-  double curvature = 0;
-  double turn_variance = 0;  // of r without n, with what a corner adds
+  double turn_variance = 0;                               // of r without n, with what a corner adds
+};
+
+/// A contact's residuals with their derivatives: of d (two rows) and of r.
+struct HoldFit::Look : Sight {
+  Eigen::Vector3d residual = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d by_pose = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d by_place = Eigen::Vector3d::Zero();
 };
 
 /// A wheel's residuals, of closure, encoder and line of force, with their derivatives; what is not measured is 0.

@@ -115,8 +115,9 @@ void HoldFit::guess(HeldState& state, std::size_t row) const {
   std::vector<Vec2> points;
   for (std::size_t k = 0; k < fingers(); ++k) {
     const double blur = std::max(rows_.errors[k].travel, kLeastBlur * part_.perimeter());
-    const BlurredPlace at = blurred(part_, place_of(state, row, k), blur, pivot_length(now.contacts[k]));
-    points.push_back(at.point);
+    const double s = place_of(state, row, k);
+    const BlurredPlace at = blurred(part_, s, blur, pivot_length(now.contacts[k]));
+    points.push_back(rows_.errors[k].has_place ? point_about(part_, s) : Vec2::Zero());
     const double heading = now.contacts[k].tangent - at.angle;
     const double sd = std::hypot(rows_.errors[k].angle, blur * now.contacts[k].finger_curvature);
     sum += Vec2(std::cos(heading), std::sin(heading)) / (sd * sd + at.variance);
@@ -155,7 +156,8 @@ void HoldFit::refer(HeldState& state, std::size_t row) const {
 
 /// The best pose of one row for the unknowns, from where it is: Newton's steps, shorter where they go too far.
 HoldFit::RowEquations HoldFit::settled(HeldState& state, std::size_t row) const {
-  RowEquations now = equations(state, row, false);
+  const std::vector<Sight> sights = sights_at(state, row);
+  RowEquations now = equations(state, row, sights, false);
   double share = 1;
   for (int round = 0; round < kPoseRounds; ++round) {
     const Eigen::Vector3d step = share * now.pose.ldlt().solve(now.slope);
@@ -163,7 +165,7 @@ HoldFit::RowEquations HoldFit::settled(HeldState& state, std::size_t row) const 
     const Placed before = state.placed[row];
     state.placed[row].middle += step.head<2>();
     state.placed[row].heading += step(2);
-    const RowEquations next = equations(state, row, false);
+    const RowEquations next = equations(state, row, sights, false);
     if (next.square > now.square) {
       state.placed[row] = before;
       share *= 0.25;
@@ -232,7 +234,7 @@ Reduced HoldFit::reduced(const HeldState& state) const {
   sum.matrix = UnknownsMatrix::Zero(size_, size_);
   sum.slope = Unknowns::Zero(size_);
   for (std::size_t row = 0; row < rows_.rows.size(); ++row) {
-    const RowEquations one = equations(state, row, true);
+    const RowEquations one = equations(state, row, sights_at(state, row), true);
     const Eigen::LDLT<Eigen::Matrix3d> pose(one.pose);
     const RowBlock share = pose.solve(one.mixed);
     sum.matrix += one.own - UnknownsMatrix(one.mixed.transpose() * share);
@@ -341,7 +343,7 @@ HeldState HoldFit::best_worst(HeldState from) {
 }
 
 PoseAtRow HoldFit::pose_at(const HeldState& state, std::size_t row) const {
-  const RowEquations one = equations(state, row, true);
+  const RowEquations one = equations(state, row, sights_at(state, row), true);
   const Eigen::Matrix3d covariance = one.pose.inverse();
   const Placed& placed = state.placed[row];
   PoseAtRow result;

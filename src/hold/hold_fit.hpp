@@ -118,10 +118,15 @@ class HoldFit {
   double p_of_oddest(const HeldState& state) const;
 
  private:
+  struct Sight;
+  Sight sight(double s, std::size_t row, std::size_t finger) const;
+  std::vector<Sight> sights_at(const HeldState& state, std::size_t row) const;
   struct Look;
-  Look look(const Placed& placed, double s, std::size_t row, std::size_t finger) const;
+  Look look(const Sight& sight, const Placed& placed, std::size_t row, std::size_t finger) const;
+  Look look(const HeldState& state, std::size_t row, std::size_t finger) const;
   struct RowEquations;
-  RowEquations equations(const HeldState& state, std::size_t row, bool with_unknowns) const;
+  RowEquations equations(const HeldState& state, std::size_t row, const std::vector<Sight>& sights,
+                         bool with_unknowns) const;
   struct PinLook;
   PinLook pin_look(const HeldState& state, std::size_t row, std::size_t wheel) const;
   void add_pin(const HeldState& state, std::size_t row, std::size_t wheel, bool with_unknowns, RowEquations& sum) const;

@@ -29,7 +29,7 @@ double p_of(double square, double freedom) { return boost::math::gamma_q(0.5 * f
 
 double HoldFit::p_of_measurement(const HeldState& state, std::size_t row, std::size_t finger,
                                  const Eigen::Matrix3d& pose_covariance) const {
-  const Look one = look(state.placed[row], place_of(state, row, finger), row, finger);
+  const Look one = look(state, row, finger);
   if (one.blur_size > kCornerShare) return 1;
   const Eigen::Matrix3d shared = one.information * one.by_pose;
   const Eigen::Matrix3d left = one.information - shared * pose_covariance * shared.transpose();
@@ -45,7 +45,7 @@ double HoldFit::p_of_measurement(const HeldState& state, std::size_t row, std::s
 double HoldFit::p_of_worst_measurement(const HeldState& state) const {
   double least = 1;
   for (std::size_t row = 0; row < rows_.rows.size(); ++row) {
-    const Eigen::Matrix3d pose_covariance = equations(state, row, false).pose.inverse();
+    const Eigen::Matrix3d pose_covariance = equations(state, row, sights_at(state, row), false).pose.inverse();
     for (std::size_t k = 0; k < fingers(); ++k) {
       least = std::min(least, p_of_measurement(state, row, k, pose_covariance));
     }
@@ -56,7 +56,7 @@ double HoldFit::p_of_worst_measurement(const HeldState& state) const {
 std::vector<HoldFit::RowShare> HoldFit::row_shares(const HeldState& state) const {
   std::vector<RowShare> shares;
   for (std::size_t row = 0; row < rows_.rows.size(); ++row) {
-    const RowEquations one = equations(state, row, true);
+    const RowEquations one = equations(state, row, sights_at(state, row), true);
     const RowBlock by_pose = one.pose.ldlt().solve(one.mixed);
     shares.push_back({one.own - UnknownsMatrix(one.mixed.transpose() * by_pose),
                       one.own_slope - Unknowns(by_pose.transpose() * one.slope)});

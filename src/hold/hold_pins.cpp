@@ -125,20 +125,22 @@ void HoldFit::add_pin(const HeldState& state, std::size_t row, std::size_t wheel
 std::vector<HoldFit::Facing> HoldFit::facings(const HeldState& state, std::size_t row) const {
   const Placed& placed = state.placed[row];
   const HeldErrors& errors = rows_.errors[0];
-  const BlurredPlace range = ranged(part_, place_of(state, row, 0), (rows_.has_noise ? 3 : 1) * errors.travel);
+  const double place = place_of(state, row, 0);
+  const BlurredPlace range = ranged(part_, place, (rows_.has_noise ? 3 : 1) * errors.travel);
   std::vector<Facing> facings;
   if (range.half_turn < 10 * errors.angle) return facings;
   const Pose before{0, 0, placed.heading};
-  const Vec2 contact = placed.middle + before.turned(range.point - middle_);
+  const Vec2 point = point_about(part_, place);
+  const Vec2 contact = placed.middle + before.turned(point - middle_);
   const double about = rows_.rows[row].contacts[0].tangent - range.angle;
   for (int k = 0; k <= kPivotLooks; ++k) {
     Facing one{placed, 0};
     one.placed.heading = about + range.half_turn * (2.0 * k / kPivotLooks - 1);
-    one.placed.middle = contact - Pose{0, 0, one.placed.heading}.turned(range.point - middle_);
+    one.placed.middle = contact - Pose{0, 0, one.placed.heading}.turned(point - middle_);
     for (std::size_t wheel = 0; wheel < rows_.wheels.size(); ++wheel) {
       const Pose back{0, 0, -one.placed.heading};
-      const Vec2 point = middle_ + back.turned(rows_.rows[row].pins[wheel].at - one.placed.middle);
-      one.off += std::abs(wheels_[wheel]->nearest(point).distance);
+      const Vec2 pin = middle_ + back.turned(rows_.rows[row].pins[wheel].at - one.placed.middle);
+      one.off += std::abs(wheels_[wheel]->nearest(pin).distance);
     }
     facings.push_back(one);
   }
@@ -158,7 +160,7 @@ std::vector<HeldState> HoldFit::poses_of(const HeldState& state, std::size_t row
   if (fingers() > 1 || wheels() == 0) return found;
   const std::vector<Facing> all = facings(state, row);
   if (all.empty()) return found;
-  const RowEquations here = equations(state, row, false);
+  const RowEquations here = equations(state, row, sights_at(state, row), false);
   for (std::size_t k = 0; k < all.size(); ++k) {
     const bool falls = k == 0 || all[k].off < all[k - 1].off;
     const bool rises = k + 1 == all.size() || all[k].off <= all[k + 1].off;
