@@ -20,6 +20,8 @@ namespace rollfix::hold {
 namespace {
 
 constexpr std::size_t kLooks = 1200;      // at places of all sets, to choose from where to start
+constexpr std::size_t kAllStarts = 64;    // as many of them at least, the best ones: of 16 a true place got lost, ...
+constexpr double kCloseStarts = 0.04;     // ... and no two of a set that are closer than this share of it
 constexpr std::size_t kGlanceLooks = 96;  // the same at a glance, ...
 constexpr std::size_t kGlanceStarts = 2;  // ... of each set from where to start, ...
 constexpr std::size_t kGlanceOptima = 4;  // ... and the best of all that are looked at by all rows
@@ -197,23 +199,39 @@ class HoldWeighing {
     return optima;
   }
 
-  /// Of many places all over a set those that fit best as they are, and some that are spread evenly.
+  /// Of many places all over a set those that fit best as they are, no two of them close together, and some that are
+  /// spread evenly.
   std::vector<HeldState> starts_in(const FoundSet& found, std::size_t sets, const HoldFit& few) {
     const std::size_t looks = std::min(found.boxes.size(), at_a_glance_ ? std::max<std::size_t>(1, kGlanceLooks / sets)
                                                                         : std::max(kStarts, kLooks / sets));
+    const std::size_t most = at_a_glance_ ? kGlanceStarts : std::max(kStarts, kAllStarts / sets);
+    const std::size_t stride = std::max<std::size_t>(1, looks / kStarts);
     std::vector<HeldState> states;
-    for (std::size_t look = 0; look < looks; ++look)
-      states.push_back(few.at(middle_of_box(search_, found, look, looks)));
     std::vector<HeldState> starts;
-    for (std::size_t k = 0; k < states.size() && !at_a_glance_;
-         k += std::max<std::size_t>(1, states.size() / kStarts)) {
-      starts.push_back(states[k]);
+    for (std::size_t look = 0; look < looks; ++look) {
+      states.push_back(few.at(middle_of_box(search_, found, look, looks)));
+      if (look % stride == 0 && !at_a_glance_) starts.push_back(states.back());
     }
-    std::stable_sort(states.begin(), states.end(),
-                     [](const HeldState& a, const HeldState& b) { return a.cost < b.cost; });
-    states.resize(std::min(states.size(), at_a_glance_ ? kGlanceStarts : kStarts));
-    starts.insert(starts.end(), states.begin(), states.end());
+    std::ranges::stable_sort(states, {}, &HeldState::cost);
+    std::vector<HeldState> best;
+    for (HeldState& state : states) {
+      if (best.size() == most) break;
+      const bool is_new =
+          std::ranges::none_of(best, [&](const HeldState& better) { return are_close(better, state, found.set); });
+      if (is_new) best.push_back(std::move(state));
+    }
+    starts.insert(starts.end(), best.begin(), best.end());
     return starts;
+  }
+
+  /// As a set is wide.
+  bool are_close(const HeldState& one, const HeldState& other, const HeldSet& set) const {
+    for (std::size_t k = 0; k < set.extent.size(); ++k) {
+      const auto i = static_cast<Eigen::Index>(k);
+      const double off = std::abs(boundary_.offset(one.unknowns(i), other.unknowns(i)));
+      if (off > kCloseStarts * set.extent[k].width()) return false;
+    }
+    return true;
   }
 
   /// Nearer to each other than contacts are measured.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hold_cases.hpp"
+#include "noisy_holds.hpp"
 #include "random.hpp"
 #include "refusal.hpp"
 
@@ -172,6 +173,13 @@ TEST(Hold, UnderstatedNoiseIsTold) {
   one.problem.noise->position *= 0.6;
   one.problem.diagnose = false;
   EXPECT_THAT(rollfix::solve(one.problem).verdict_text(), testing::AnyOf(HasSubstr("contradict"), "inconsistent"));
+}
+
+/// Boxes of this log hang together all around the part, and hold many places that fit nearly as well.
+TEST(Hold, TheTruthIsListedWhereOneSetHoldsManyPlaces) {
+  std::mt19937_64 generator = test_generator(920);
+  const HoldCase one = random_hold(noisy_holds::smooth(20), noisy_holds::noisy(false), generator);
+  EXPECT_LT(nearest_miss(rollfix::solve(one.problem), one), 0.02 * one.problem.part.perimeter());
 }
 
 TEST(Hold, TheOrderOfTheFingersDoesNotMatter) {
