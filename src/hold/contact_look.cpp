@@ -49,6 +49,7 @@ BlurredPlace blurred(const Part& part, double s, double sd, double pivot) {
       past -= std::copysign(boundary.perimeter, past);
     }
     if (std::abs(past) > kBlurReach * sd) continue;
+    place.has_corner = true;
     const double d = past / sd;
     const double bell = std::exp(-0.5 * d * d) / std::sqrt(2 * std::numbers::pi);
     const double behind = 0.5 * std::erfc(-d / std::numbers::sqrt2);
@@ -62,6 +63,13 @@ BlurredPlace blurred(const Part& part, double s, double sd, double pivot) {
   }
   return place;
 }
+
+double turn_from(const Part& part, double s, double m) {
+  const Boundary boundary = part.boundary();
+  return part.turning().angle(on_boundary(boundary, s + m)) - part.turning().angle(on_boundary(boundary, s));
+}
+
+double curvature_at(const Part& part, double s) { return part.turning().curvature(on_boundary(part.boundary(), s)); }
 
 BlurredPlace ranged(const Part& part, double s, double reach) {
   BlurredPlace place = plain(part, s);

@@ -17,6 +17,20 @@ namespace rollfix::hold {
 namespace {
 
 constexpr double kRidge = 1e-12;  // keeps what nothing determines where it is
+// The normal is looked at as far as so many standard deviations of the contact's error; within this share of the
+// angle's own it turns evenly.
+constexpr double kErrorReach = 2;
+constexpr double kUneven = 0.2;
+constexpr int kErrorRounds = 6;
+constexpr double kErrorSettled = 1e-6;  // of a chi-square
+
+/// The normal turns over the contact's error otherwise than its curvature there says, and no corner is near.
+bool is_uneven(const Part& part, const BlurredPlace& at, double s, const HeldErrors& errors) {
+  if (at.has_corner || errors.angle <= 0 || errors.travel <= 0) return false;
+  const double reach = kErrorReach * errors.travel;
+  const auto off = [&](double m) { return std::abs(turn_from(part, s, m) - m * at.curvature); };
+  return std::max(off(reach), off(-reach)) > kUneven * errors.angle;
+}
 
 }  // namespace
 
@@ -31,6 +45,7 @@ HoldFit::Sight HoldFit::sight(double s, std::size_t row, std::size_t finger) con
   const double blur = std::max(errors.travel, kLeastBlur * part_.perimeter());
   Sight sight;
   sight.at = rows_.has_noise ? blurred(part_, s, blur, pivot_length(contact)) : ranged(part_, s, errors.travel);
+  sight.s = s;
   if (errors.has_place) sight.point = point_about(part_, s);
   const double times = weight(row, finger) * rows_.rows[row].weight;
   if (!rows_.has_noise) {
@@ -48,7 +63,14 @@ HoldFit::Sight HoldFit::sight(double s, std::size_t row, std::size_t finger) con
   sight.turn_variance = angle + sight.at.variance;
   sight.blur_size = std::log1p(corner / plain) / alike;
   sight.angles = (1 + corner / (plain * alike)) / (1 + corner / plain);
+  const bool is_bent = is_uneven(part_, sight.at, s, errors);
+  sight.error = errors.travel / std::sqrt(rows_.rows[row].weight);
   if (!errors.has_place) {
+    if (is_bent) {
+      sight.bare_information = Eigen::Matrix3d::Zero();
+      (*sight.bare_information)(2, 2) = rows_.rows[row].weight / angle;
+      sight.bare_log_size = std::log(angle / rows_.rows[row].weight);
+    }
     sight.information(2, 2) = 1 / (plain + corner);
     sight.log_size = std::log(plain) + sight.blur_size;
     return sight;
@@ -59,6 +81,11 @@ HoldFit::Sight HoldFit::sight(double s, std::size_t row, std::size_t finger) con
   const double place = errors.place * errors.place + sight.at.pivoting * errors.travel * errors.travel;
   covariance(0, 0) += place;
   covariance(1, 1) += place;
+  if (is_bent) {
+    const Eigen::Matrix3d bare = covariance / rows_.rows[row].weight;
+    sight.bare_information = bare.inverse();
+    sight.bare_log_size = std::log(bare.determinant());
+  }
   covariance(2, 2) += bend * bend;
   covariance /= rows_.rows[row].weight;
   sight.log_size = std::log(covariance.determinant()) + sight.blur_size;
@@ -72,6 +99,50 @@ std::vector<HoldFit::Sight> HoldFit::sights_at(const HeldState& state, std::size
   sights.reserve(fingers());
   for (std::size_t k = 0; k < fingers(); ++k) sights.push_back(sight(place_of(state, row, k), row, k));
   return sights;
+}
+
+/// r is linear in n about the n that is most probable beside the other measurements.
+void HoldFit::bend(Look& look, double finger_curvature) const {
+  const Eigen::Matrix3d& bare = *look.bare_information;
+  const auto left = [&](double n) {
+    Eigen::Vector3d residual = look.residual;
+    residual(2) -= turn_from(part_, look.s, n) + finger_curvature * n;
+    return residual;
+  };
+  const auto cost = [&](double n) {
+    const Eigen::Vector3d residual = left(n);
+    return residual.dot(bare * residual) + n * n / (look.error * look.error);
+  };
+  double n = 0;
+  double least = cost(0);
+  for (const double times : {-3, -2, -1, 1, 2, 3}) {
+    const double now = cost(times * look.error);
+    if (now >= least) continue;
+    least = now;
+    n = times * look.error;
+  }
+  for (int round = 0; round < kErrorRounds; ++round) {
+    const double rate = curvature_at(part_, look.s + n) + finger_curvature;
+    const double slope = rate * bare.row(2).dot(left(n)) - n / (look.error * look.error);
+    double step = slope / (rate * rate * bare(2, 2) + 1 / (look.error * look.error));
+    double now = cost(n + step);
+    for (int shorter = 0; shorter < kErrorRounds && now > least; ++shorter) {
+      step *= 0.3;
+      now = cost(n + step);
+    }
+    if (now > least) break;
+    const bool is_last = least - now < kErrorSettled;
+    least = now;
+    n += step;
+    if (is_last) break;
+  }
+  const double curvature = curvature_at(part_, look.s + n);
+  look.residual(2) -= turn_from(part_, look.s, n) - curvature * n;
+  look.by_place(2) = -curvature;
+  const double turn = (curvature + finger_curvature) * look.error;
+  const double size = 1 + turn * turn * bare(2, 2);
+  look.information = bare - turn * turn / size * bare.col(2) * bare.row(2);
+  look.log_size = look.bare_log_size + std::log(size);
 }
 
 HoldFit::Look HoldFit::look(const HeldState& state, std::size_t row, std::size_t finger) const {
@@ -88,13 +159,17 @@ HoldFit::Look HoldFit::look(const Sight& sight, const Placed& placed, std::size_
     look.by_pose(2, 2) = -1;
     look.by_place(2) = -sight.at.bend;
   }
-  if (!rows_.errors[finger].has_place) return look;
+  if (!rows_.errors[finger].has_place) {
+    if (sight.bare_information) bend(look, contact.finger_curvature);
+    return look;
+  }
   const Pose turn{0, 0, placed.heading};
   const Vec2 arm = turn.turned(sight.point - middle_);
   look.residual.head<2>() = contact.at - placed.middle - arm;
   look.by_pose.topLeftCorner<2, 2>() = -Eigen::Matrix2d::Identity();
   look.by_pose.topRightCorner<2, 1>() = Vec2(arm.y(), -arm.x());
   look.by_place.head<2>() = -turn.turned(Vec2(std::cos(sight.at.side), std::sin(sight.at.side)));
+  if (sight.bare_information) bend(look, contact.finger_curvature);
   return look;
 }
 

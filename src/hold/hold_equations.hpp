@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "contact_look.hpp"
 #include "hold_fit.hpp"
 
@@ -19,6 +21,11 @@ struct HoldFit::Sight {
   double blur_size = 0;                                   // of it what corners add
   double angles = 1;                                      // numbers that the angle counts as
   double turn_variance = 0;                               // of r without n, with what a corner adds
+  double s = 0;
+  // Where the normal turns unevenly over the contact's error n: without n.
+  std::optional<Eigen::Matrix3d> bare_information{};
+  double bare_log_size = 0;
+  double error = 0;  // standard deviation of n
 };
 
 /// A contact's residuals with their derivatives: of d (two rows) and of r.

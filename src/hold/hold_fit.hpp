@@ -124,6 +124,7 @@ class HoldFit {
   struct Look;
   Look look(const Sight& sight, const Placed& placed, std::size_t row, std::size_t finger) const;
   Look look(const HeldState& state, std::size_t row, std::size_t finger) const;
+  void bend(Look& look, double finger_curvature) const;
   struct RowEquations;
   RowEquations equations(const HeldState& state, std::size_t row, const std::vector<Sight>& sights,
                          bool with_unknowns) const;
