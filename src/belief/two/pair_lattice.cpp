@@ -184,7 +184,8 @@ bool Spreading::look_into(PairRegion& region, const Task& task, std::vector<std:
         matters = look_into(region, quarter, leaves) || matters;
       }
     }
-    return matters;
+    // A peak so sharp that no quarter's middle is on it stays, not resolved.
+    if (matters || (leaf.score.log_likelihood() - best_) / heat_ < -kNegligiblePair) return matters;
   }
   leaf.log_density = (leaf.score.log_likelihood() - best_) / heat_ + log_prior(leaf.start);
   weigh(region, leaf);

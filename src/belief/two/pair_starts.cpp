@@ -1,10 +1,14 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <unordered_map>
+#include <vector>
 
 #include "belief/two/pair_density.hpp"
+#include "outline/turn.hpp"
 #include "rollfix/part/boundary.hpp"
 
 // Notation:
@@ -44,6 +48,8 @@ constexpr int kMostTrials = 100;
 constexpr double kLongestTrial = 0.01;  // of an arc
 // Only where the deviance is within this of the best one's.
 constexpr double kWorthTrying = 80;
+// A pivot begins where the boundary before the corner ends, but for this share of the perimeter.
+constexpr double kBeforeCorner = 1e-9;
 
 double deviance(const PairScore& score) { return score.cost + score.log_volume; }
 
@@ -112,60 +118,104 @@ std::vector<PairNode> without_centres(std::vector<PairNode> nodes) {
 
 bool by_deviance(const PairPeak& one, const PairPeak& other) { return deviance(one.score) < deviance(other.score); }
 
-/// The first contacts at arc lengths s and t, where a finger can be there.
-std::vector<PairStart> starts_at(const PairModel& model, double s, double t) {
-  struct OnArc {
-    const TiltedArc* arc;
-    double w;
-  };
-  const auto on_arcs = [&](std::size_t finger, double place) {
-    std::vector<OnArc> found;
-    const TiltedBoundary& boundary = *model.boundary[finger];
-    for (const TiltedArc& arc : boundary.arcs()) {
-      const double lo = arc.at(arc.lo()).s;
-      const double from_lo = model.places.ahead(lo, place);
-      // s grows with w: halve until w is found.
-      double below = arc.lo();
-      double above = arc.hi();
-      const double end = arc.loop() ? lo + model.perimeter() : arc.at(arc.hi()).s;
-      if (from_lo < 0 || from_lo > end - lo) continue;
-      for (int k = 0; k < 40; ++k) {
-        const double middle = 0.5 * (below + above);
-        (arc.at(middle).s - lo < from_lo ? below : above) = middle;
-      }
-      found.push_back({&arc, below});
+/// Where one first contact may be in a cell: a place on the boundary, or a corner at which the finger has pivoted by up
+/// to `pivot` from w on.
+struct Stand {
+  const TiltedArc* arc = nullptr;
+  double w = 0;
+  double pivot = 0;
+};
+
+/// Where s is on the boundary: nothing where a finger can't be there.
+std::optional<Stand> stand_at(const PairModel& model, std::size_t finger, double s) {
+  for (const TiltedArc& arc : model.boundary[finger]->arcs()) {
+    const double lo = arc.at(arc.lo()).s;
+    const double from_lo = model.places.ahead(lo, s);
+    // s grows with w: halve until w is found.
+    double below = arc.lo();
+    double above = arc.hi();
+    const double end = arc.loop() ? lo + model.perimeter() : arc.at(arc.hi()).s;
+    if (from_lo < 0 || from_lo > end - lo) continue;
+    for (int k = 0; k < 40; ++k) {
+      const double middle = 0.5 * (below + above);
+      (arc.at(middle).s - lo < from_lo ? below : above) = middle;
     }
-    return found;
-  };
-  std::vector<PairStart> starts;
-  for (const OnArc& a : on_arcs(0, s)) {
-    for (const OnArc& b : on_arcs(1, t)) starts.push_back({{a.arc, b.arc}, {a.w, b.w}});
+    return Stand{&arc, below};
   }
-  return starts;
+  return std::nullopt;
+}
+
+/// The places of a finger in the cells of the candidates' grid that are in use: the middle of each, and its corners.
+class Stands {
+ public:
+  Stands(const PairModel& model, std::size_t finger, std::uint32_t cells)
+      : model_(model), finger_(finger), step_(model.perimeter() / static_cast<double>(cells)) {}
+
+  const std::vector<Stand>& in(std::uint32_t cell) {
+    const auto [found, is_new] = of_cell_.try_emplace(cell);
+    if (is_new) add_places(cell, found->second);
+    return found->second;
+  }
+
+ private:
+  void add_places(std::uint32_t cell, std::vector<Stand>& places) const {
+    const double from = static_cast<double>(cell) * step_;
+    if (const auto middle = stand_at(model_, finger_, from + 0.5 * step_)) places.push_back(*middle);
+    for (const Corner& corner : model_.part->corners()) {
+      if (corner.s < from || corner.s >= from + step_ || !is_felt(corner)) continue;
+      auto pivot = stand_at(model_, finger_, corner.s - kBeforeCorner * model_.perimeter());
+      if (!pivot) continue;
+      pivot->pivot = corner.turn;
+      places.push_back(*pivot);
+    }
+  }
+
+  bool is_felt(const Corner& corner) const {
+    return corner.turn > kFarthest * std::sqrt(model_.errors->facing_variance());
+  }
+
+  const PairModel& model_;
+  std::size_t finger_;
+  double step_;
+  std::unordered_map<std::uint32_t, std::vector<Stand>> of_cell_;
+};
+
+/// How far fingers at corners have pivoted follows from the facing, where it is known: Theta(s) - Theta(t) = C. Else,
+/// and of both at first, half way.
+PairStart faced(const PairModel& model, const std::array<Stand, 2>& stands, const PairNode& first) {
+  PairStart start;
+  for (const std::size_t finger : {0U, 1U}) {
+    start.arc[finger] = stands[finger].arc;
+    start.w[finger] = stands[finger].w + 0.5 * stands[finger].pivot;
+  }
+  if (!first.is_facing) return start;
+  for (const std::size_t finger : {0U, 1U}) {
+    const Stand& stand = stands[finger];
+    if (!(stand.pivot > 0)) continue;
+    const auto tangent = [&](std::size_t k) {
+      return start.w[k] - model.boundary[k]->tilt() * start.arc[k]->at(start.w[k]).s;
+    };
+    const double off = std::remainder(tangent(0) - tangent(1) - first.turn, kFullTurn);
+    start.w[finger] = std::clamp(start.w[finger] + (finger == 0 ? -off : off), stand.w, stand.w + stand.pivot);
+  }
+  return start;
 }
 
 /// The candidates by few rows: no arc where a finger can't be there.
 std::vector<PairPeak> scored(const PairModel& model, const PairCandidates& candidates,
                              const std::vector<PairNode>& nodes) {
-  const double step = model.perimeter() / static_cast<double>(candidates.cells);
-  // The places of all rows and columns of the grid that are in use.
-  std::unordered_map<std::uint32_t, PairStart> diagonal;
-  const auto on_diagonal = [&](std::uint32_t i) {
-    auto found = diagonal.find(i);
-    if (found == diagonal.end()) {
-      const double at = (static_cast<double>(i) + 0.5) * step;
-      const std::vector<PairStart> starts = starts_at(model, at, at);
-      found = diagonal.emplace(i, starts.empty() ? PairStart{} : starts.front()).first;
-    }
-    return found->second;
-  };
+  Stands of_a(model, 0, candidates.cells);
+  Stands of_b(model, 1, candidates.cells);
   std::vector<PairPeak> peaks(candidates.squares.size());
   for (std::size_t k = 0; k < peaks.size(); ++k) {
-    const PairStart a = on_diagonal(candidates.squares[k].i);
-    const PairStart b = on_diagonal(candidates.squares[k].j);
-    if (a.arc[0] == nullptr || b.arc[0] == nullptr) continue;
-    peaks[k].start = {{a.arc[0], b.arc[1]}, {a.w[0], b.w[1]}};
-    peaks[k].score = score_of(model, peaks[k].start, nodes, PairShared::Zero(), 1);
+    PairPeak& best = peaks[k];
+    for (const Stand& a : of_a.in(candidates.squares[k].i)) {
+      for (const Stand& b : of_b.in(candidates.squares[k].j)) {
+        const PairStart start = faced(model, {a, b}, nodes.front());
+        const PairScore score = score_of(model, start, nodes, PairShared::Zero(), 1);
+        if (best.start.arc[0] == nullptr || deviance(score) < deviance(best.score)) best = {start, score};
+      }
+    }
   }
   return peaks;
 }
