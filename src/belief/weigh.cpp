@@ -146,7 +146,7 @@ Weighed weigh(const Part& part, const std::vector<Reading>& readings, const std:
     const bool is_found = nearest != nullptr && least <= kNear && !is_elsewhere;
     Placement placement = with_mode(is_found ? within(*nearest, mode, part) : placement_of(mode), mode, part);
     // Within a wide tolerance one placement spans several corners, and its pivot is of one of them.
-    if (placement.pivot) placement.pivot = pivots_at(question, mode.start);
+    if (placement.pivot) placement.pivot = pivots_at(question, mode.start, placement.end);
     const bool is_of_one = mode.start.size() == 1;
     if (!is_of_one || placement.kind != Kind::corner) placement.residual = residual_at(question, mode.start);
     if (is_of_one && placement.kind != Kind::corner) {

@@ -15,10 +15,9 @@ namespace {
 using Intervals = boost::container::small_vector<Interval, 4>;
 
 /// The corner at base, 0 <= base <= P, or none.
-const Corner* corner_at(const Part& part, double base) {
+const Corner* corner_at(const Part& part, double base, double same_place) {
   const std::vector<Corner>& corners = part.corners();
   if (corners.empty()) return nullptr;
-  const double same_place = kLengthAccuracy * part.perimeter();
   auto next = std::lower_bound(corners.begin(), corners.end(), base - same_place,
                                [](const Corner& corner, double value) { return corner.s < value; });
   if (next == corners.end() && part.closed() && part.perimeter() - base <= same_place) {
@@ -26,6 +25,15 @@ const Corner* corner_at(const Part& part, double base) {
     base -= part.perimeter();
   }
   return next != corners.end() && std::abs(next->s - base) <= same_place ? &*next : nullptr;
+}
+
+/// The same, and a corner to pivot at that is as near as `at_corner`.
+const Corner* corner_near(const Part& part, double base, double at_corner) {
+  const double same_place = kLengthAccuracy * part.perimeter();
+  const Corner* corner = corner_at(part, base, same_place);
+  if (corner != nullptr || !(at_corner > same_place)) return corner;
+  corner = corner_at(part, base, at_corner);
+  return corner != nullptr && !corner->is_concave() ? corner : nullptr;
 }
 
 /// What to try of a set, one at a time: a pivot's interval, or the one or two values at a smooth point or a concave
@@ -36,12 +44,15 @@ Intervals choices(const AngleSet& set) {
 }
 
 /// The tangent at a contact, of two fingers a's less b's.
-Intervals tangents_at(const Part& part, const PerFinger<double>& at) {
-  Intervals of_a = choices(angle_set(part, at[0]));
+Intervals tangents_at(const ContactEquations& question, const PerFinger<double>& at) {
+  const auto tangents = [&](std::size_t finger) {
+    return choices(angle_set(question.part, at[finger], question.at_corner));
+  };
+  Intervals of_a = tangents(0);
   if (at.size() == 1) return of_a;
   Intervals differences;
   for (const Interval& a : of_a) {
-    for (const Interval& b : choices(angle_set(part, at[1]))) differences.push_back({a.lo - b.hi, a.hi - b.lo});
+    for (const Interval& b : tangents(1)) differences.push_back({a.lo - b.hi, a.hi - b.lo});
   }
   return differences;
 }
@@ -79,7 +90,7 @@ Fit best_fit(const ContactEquations& question, const PerFinger<double>& at) {
   // One-sided ends at a concave corner make several combinations; each is tried.
   boost::container::small_vector<Intervals, 2> combinations(1);
   for (const Reading& reading : question.readings) {
-    const Intervals ends = tangents_at(question.part, ends_of(at, reading));
+    const Intervals ends = tangents_at(question, ends_of(at, reading));
     const auto add = [&](Intervals& wanted, const Interval& end) {
       wanted.push_back({end.lo - (reading.turn + reading.pivot), end.hi - (reading.turn - reading.pivot)});
     };
@@ -101,7 +112,7 @@ Fit best_fit(const ContactEquations& question, const PerFinger<double>& at) {
     const Fit one = fit(start, wanted);
     if (one.residual < best.residual) best = one;
   };
-  for (const Interval& start : tangents_at(question.part, at)) {
+  for (const Interval& start : tangents_at(question, at)) {
     for (Intervals& wanted : combinations) {
       if (!question.facing) {
         consider(start, wanted);
@@ -126,7 +137,9 @@ bool meets_corner(const ContactEquations& question, const PerFinger<double>& at)
   const Part& part = question.part;
   if (part.corners().empty()) return false;
   if (at.size() == 2) return true;  // on arcs the best of equal residuals is picked by their last bits: by the sets'
-  const auto is_at_corner = [&](double s) { return corner_at(part, part.boundary().reduced(s).base) != nullptr; };
+  const auto is_at_corner = [&](double s) {
+    return corner_near(part, part.boundary().reduced(s).base, question.at_corner) != nullptr;
+  };
   if (is_at_corner(at[0])) return true;
   for (const Reading& reading : question.readings) {
     if (is_at_corner(at[0] + reading.length[0])) return true;
@@ -148,10 +161,10 @@ double smooth_residual(const ContactEquations& question, double at) {
 
 }  // namespace
 
-AngleSet angle_set(const Part& part, double s) {
+AngleSet angle_set(const Part& part, double s, double at_corner) {
   const TurningFunction& turning = part.turning();
   const Wrapped place = part.boundary().reduced(s);
-  const Corner* corner = corner_at(part, place.base);
+  const Corner* corner = corner_near(part, place.base, at_corner);
   if (corner == nullptr) {
     const double angle = turning.angle(s, !part.closed() && s >= part.perimeter() ? Side::before : Side::after);
     return {{angle, angle}, false, false};
@@ -186,18 +199,20 @@ double residual_of(const ContactEquations& question, const Tangents& of_a, const
   return largest;
 }
 
-PerFinger<Pivot> pivots_at(const ContactEquations& question, const PerFinger<double>& at) {
+PerFinger<Pivot> pivots_at(const ContactEquations& question, const PerFinger<double>& at,
+                           const PerFinger<double>& end) {
   const Reading& last = question.readings.back();
-  const PerFinger<double> ends = ends_of(at, last);
+  PerFinger<double> ends = ends_of(at, last);
   PerFinger<Pivot> pivots = PerFinger<Pivot>::of(at.size());
   for (std::size_t finger = 0; finger < at.size(); ++finger) {
+    ends[finger] += question.part.boundary().offset(ends[finger], end[finger]);  // `end`, of as many laps
     pivots[finger] = {angle_set(question.part, at[finger]).angles, angle_set(question.part, ends[finger]).angles};
   }
   if (at.size() == 2) return pivots;
   // One finger's start and end tell of each other.
   const Interval start = best_fit(question, at).start;
-  const Interval end = pivots[0].end;
-  const auto inside = [&](double angle) { return std::clamp(angle, end.lo, end.hi); };
+  const Interval tangents = pivots[0].end;
+  const auto inside = [&](double angle) { return std::clamp(angle, tangents.lo, tangents.hi); };
   return Pivot{start, {inside(start.lo + (last.turn - last.pivot)), inside(start.hi + (last.turn + last.pivot))}};
 }
 

@@ -20,14 +20,16 @@ struct AngleSet {
   bool concave = false;  // a concave corner: only the two ends are
 };
 
-/// Theta at s as a set. Places within kLengthAccuracy * P of a corner are at it.
-AngleSet angle_set(const Part& part, double s);
+/// Theta at s as a set. Places within kLengthAccuracy * P of a corner are at it, of a convex one as near as
+/// `at_corner`.
+AngleSet angle_set(const Part& part, double s, double at_corner = 0);
 
 /// What is asked of first contacts: f_k = 0 for each reading, and of two fingers the facing equation where it is known.
 struct ContactEquations {
   const Part& part;
   std::span<const Reading> readings;
   std::optional<double> facing{};
+  double at_corner = 0;  // contacts that are no further from a convex corner may be at it: lengths are known no better
 
   std::size_t fingers() const { return readings.front().fingers(); }
   std::size_t rows() const { return readings.size() + (facing ? 1 : 0); }
@@ -49,7 +51,8 @@ Tangents tangents_of(const ContactEquations& question, std::size_t finger, doubl
 /// Of two fingers the same as residual_at their first contacts. REQUIRES a part without corners.
 double residual_of(const ContactEquations& question, const Tangents& of_a, const Tangents& of_b);
 
-/// The tangents at the first and the last contacts that starts at `at` leave possible.
-PerFinger<Pivot> pivots_at(const ContactEquations& question, const PerFinger<double>& at);
+/// The tangents at the first and the last contacts, `at` and `end`, that are left possible. With noise the last ones
+/// need not be where the last lengths end.
+PerFinger<Pivot> pivots_at(const ContactEquations& question, const PerFinger<double>& at, const PerFinger<double>& end);
 
 }  // namespace rollfix

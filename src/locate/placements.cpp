@@ -335,7 +335,7 @@ void PlacementMaker::place(const PerFinger<double>& start, std::size_t likely_pa
 void PlacementMaker::describe_corner(const FoundSet& found, Placement& placement) const {
   const std::size_t fingers = question_.fingers();
   placement.error = kRootLength * question_.part.perimeter();
-  placement.pivot = pivots_at(question_, found.start);
+  placement.pivot = pivots_at(question_, found.start, placement.end);
   if (fingers == 1) placement.tangent = std::remainder((*placement.pivot)[0].start.middle(), kFullTurn);
   placement.sensitivity = {PerFinger<ShortList<double>>::of(fingers),
                            PerFinger<ShortList<PerFinger<double>>>::of(fingers), PerFinger<double>::of(fingers)};

@@ -34,18 +34,23 @@ Interval near(const Interval& angles, const Interval& pivot) {
   return {angles.lo + shift, angles.hi + shift};
 }
 
-bool meets(const Interval& one, const Interval& two) {
-  return one.lo <= two.hi + kGivenRounding && two.lo <= one.hi + kGivenRounding;
+bool meets(const Interval& one, const Interval& two, double slack) {
+  return one.lo <= two.hi + slack && two.lo <= one.hi + slack;
+}
+
+/// A contact that is at a corner but for rounding has the tangent of a place beside it.
+double slack_of_tangents(const Part& part) {
+  return kGivenRounding * (1 + part.turning().most_curvature() * part.perimeter());
 }
 
 /// Can a finger that pivots at a corner between these tangents come from the boundary before it or after it, or go
 /// there? Neither asked: can it be there at all?
-bool can_pivot(const PivotReach& pivot, const Interval& tangents, bool before, bool after) {
+bool can_pivot(const PivotReach& pivot, const Interval& tangents, bool before, bool after, double slack) {
   const Interval wanted = near(tangents, pivot.whole);
   return std::any_of(pivot.angles.begin(), pivot.angles.end(), [&](const Interval& angles) {
     if (before && angles.lo > pivot.whole.lo) return false;
     if (after && angles.hi < pivot.whole.hi) return false;
-    return meets(angles, wanted);
+    return meets(angles, wanted, slack);
   });
 }
 
@@ -81,11 +86,12 @@ bool can_pivot(const Part& part, const Reach& reach, const Placement& placement,
                const Interval& roll, double last) {
   if (!placement.pivot) return true;
   const Pivot& tangents = (*placement.pivot)[finger];
+  const double slack = slack_of_tangents(part);
   const PivotReach* start = pivot_at(part, reach, placement.start[finger]);
-  if (start != nullptr && !can_pivot(*start, tangents.start, roll.lo<0, roll.hi> 0)) return false;
+  if (start != nullptr && !can_pivot(*start, tangents.start, roll.lo<0, roll.hi> 0, slack)) return false;
   const PivotReach* end = pivot_at(part, reach, placement.end[finger]);
   if (end == nullptr) return true;
-  return can_pivot(*end, tangents.end, last > 0 && last >= roll.hi, last < 0 && last <= roll.lo);
+  return can_pivot(*end, tangents.end, last > 0 && last >= roll.hi, last < 0 && last <= roll.lo, slack);
 }
 
 bool can_roll(const Reach& reach, const Interval& starts, const Interval& roll) {
