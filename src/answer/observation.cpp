@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "corner_ways.hpp"
 #include "finger_corners.hpp"
 #include "rollfix/error.hpp"
 
@@ -61,9 +62,12 @@ double Observation::length_error() const {
 }
 
 Observation observe(const Problem& problem) {
-  if (!problem.felt.is_log()) return observe_readings(problem);
-  if (problem.facing) throw InputError("`facing` goes with `reading`: a log of two fingers has it in u and psi");
-  return observe_log(problem);
+  if (problem.felt.is_log() && problem.facing) {
+    throw InputError("`facing` goes with `reading`: a log of two fingers has it in u and psi");
+  }
+  Observation observed = problem.felt.is_log() ? observe_log(problem) : observe_readings(problem);
+  if (!problem.noise && !problem.tolerance) put_on_corners(problem.part, observed.length_error(), observed.readings);
+  return observed;
 }
 
 }  // namespace rollfix

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "corner_rows.hpp"
+#include "corner_ways.hpp"
 #include "either_way.hpp"
 #include "finger_corners.hpp"
 #include "mirror.hpp"
@@ -73,6 +74,24 @@ void search(const Problem& problem, const LeadingRows& leading, Answer& answer) 
   answer.placements = std::move(found.placements);
   answer.unresolved = std::move(found.unresolved);
   answer.counts = found.counts;
+}
+
+/// Of a continuum of pairs those that fit all rows are left: the search is asked about one row after the other that the
+/// place which stands for it does not fit, while something fits them all.
+void search_all_rows(const Problem& problem, const Observation& observed, Answer& answer) {
+  std::vector<std::size_t> asked;
+  while (const std::optional<std::size_t> row = row_to_ask(problem, observed, answer)) {
+    if (std::find(asked.begin(), asked.end(), *row) != asked.end()) return;
+    asked.push_back(*row);
+    Answer next = answer;
+    const auto at = next.readings.end() - 1;  // the last one stays so
+    next.readings.insert(at, observed.rolls[*row]);
+    if (!next.times.empty()) next.times.insert(next.times.end() - 1, next.pose_time[*row]);
+    put_on_corners(problem.part, observed.length_error(), next.readings);
+    search(problem, {}, next);
+    if (next.status != Status::complete || next.placements.empty()) return;
+    answer = std::move(next);
+  }
 }
 
 /// The smallest disk that a finger may be: it lies within any larger one that touches at the same contact, so that all
@@ -167,6 +186,8 @@ Answer solve_from_row(const Problem& problem, const LeadingRows& leading, bool e
   answer.corner_rows.last = !on_corners.empty() && on_corners.back();
   answer.tolerance = tolerance_of(problem, observed, belief);
   search(problem, leading, answer);
+  const bool all_rows_count = !belief && problem.felt.is_log() && !problem.tolerance && problem.at.empty();
+  if (all_rows_count && leading.count == 0) search_all_rows(problem, observed, answer);
   if (belief) weigh(problem, observed, explains, *belief, answer);
   drop_impossible(problem, observed, answer);
   if (belief) {
@@ -175,8 +196,7 @@ Answer solve_from_row(const Problem& problem, const LeadingRows& leading, bool e
     to_last_contacts(observed, *problem.noise, answer);
   }
   add_poses(problem, answer);
-  if (!belief && problem.felt.is_log() && !problem.tolerance && problem.at.empty())
-    check_rows(problem, observed, explains, answer);
+  if (all_rows_count) check_rows(problem, observed, explains, answer);
   return answer;
 }
 

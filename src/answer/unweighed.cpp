@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "diagnosis.hpp"
@@ -70,11 +71,15 @@ double jitter(std::vector<double> values) {
 
 double beyond_digits(double sd, double half_unit) { return sd > kOverDigits * half_unit ? sd : 0; }
 
-/// How far a placement may be off its true place.
-double width_of(const Placement& placement) {
+double widest(const Placement& placement) {
   double most = 0;
   for (const Interval& extent : placement.extent) most = std::max(most, extent.width());
-  return placement.kind == Kind::stretch || placement.kind == Kind::corner ? 0 : most;
+  return most;
+}
+
+/// How far a placement may be off its true place.
+double width_of(const Placement& placement) {
+  return placement.kind == Kind::stretch || placement.kind == Kind::corner ? 0 : widest(placement);
 }
 
 class RowsCheck {
@@ -89,27 +94,57 @@ class RowsCheck {
 
   bool contradicts(const Placement& placement) const {
     if (is_open_) return false;
+    if (placement.kind != Kind::corner && is_off(placement)) return true;
     const double tolerance = kOverTolerance * answer_.tolerance.value;
     const double width = width_of(placement);
-    const double bend = 2 * part_.turning().most_curvature() * width;
-    if (placement.kind != Kind::corner && off(placement) > tolerance + bend) return true;
-    // Of a continuum of pairs the one that is listed need not be where the fingers were.
-    const bool is_of_many = placement.kind == Kind::stretch && placement.start.size() == 2;
-    if (!placement.pose_residual || is_of_many) return false;
+    const double bend = bend_over(width);
+    if (!placement.pose_residual || is_of_many(placement)) return false;
     const double length =
         kOverTolerance * (observed_.length_error() + centre_rounding_) + width + (tolerance + bend) * part_.perimeter();
     return placement.pose_residual->length > length + kLeastOff * part_.perimeter();
   }
 
- private:
-  static constexpr double kLeastOff = 1e-6;  // of the perimeter: an outline's own accuracy
+  /// The row that is furthest off one place of many: others of them may fit it. Nothing where none is off so much.
+  std::optional<std::size_t> row_to_ask() const {
+    for (const Placement& placement : answer_.placements) {
+      if (!is_open_ && is_of_many(placement) && is_off(placement)) return furthest(placement);
+    }
+    return std::nullopt;
+  }
 
-  double off(const Placement& placement) const {
-    ContactEquations question{part_, observed_.rolls};
+ private:
+  static constexpr double kLeastOff = 1e-6;   // of the perimeter: an outline's own accuracy
+  static constexpr double kContinuum = 1e-3;  // of the perimeter: far more than digits leave open of one place
+
+  double bend_over(double width) const { return 2 * part_.turning().most_curvature() * width; }
+  /// A continuum of pairs, but for digits: the one that is listed need not be where the fingers were.
+  bool is_of_many(const Placement& placement) const {
+    return placement.start.size() == 2 &&
+           (placement.kind == Kind::stretch || widest(placement) > kContinuum * part_.perimeter());
+  }
+
+  /// Where contacts are known no better.
+  double near(const Placement& placement) const {
+    return kOverTolerance * observed_.length_error() + (is_of_many(placement) ? 0 : width_of(placement));
+  }
+
+  bool is_off(const Placement& placement) const {
+    const double most = kOverTolerance * answer_.tolerance.value + bend_over(width_of(placement));
+    return off(placement, observed_.rolls) > most;
+  }
+
+  double off(const Placement& placement, std::span<const Reading> rows) const {
+    ContactEquations question{part_, rows, {}, near(placement)};
     if (answer_.facing) question.facing = without_laps(*answer_.facing);
     double least = residual_at(question, placement.start);
     for (const PerFinger<double>& root : placement.roots) least = std::min(least, residual_at(question, root));
     return least;
+  }
+
+  std::size_t furthest(const Placement& placement) const {
+    std::vector<double> each;
+    for (const Reading& row : observed_.rolls) each.push_back(off(placement, {&row, 1}));
+    return static_cast<std::size_t>(std::max_element(each.begin(), each.end()) - each.begin());
   }
 
   const Part& part_;
@@ -204,6 +239,10 @@ double jitter_of_centres(const Log& log) {
     if (rows.x.size() >= kFewestRows) most = std::max({most, jitter(rows.x), jitter(rows.y)});
   }
   return most;
+}
+
+std::optional<std::size_t> row_to_ask(const Problem& problem, const Observation& observed, const Answer& answer) {
+  return RowsCheck(problem, observed, answer).row_to_ask();
 }
 
 void check_rows(const Problem& problem, const Observation& observed, bool explains, Answer& answer) {

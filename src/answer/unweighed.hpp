@@ -19,6 +19,10 @@ double jitter_of_centres(const Log& log);
 /// Half a unit of the last decimal that any of the numbers shows; 0: they show more than can be told.
 double rounding_of_column(const std::vector<double>& values);
 
+/// Of two fingers' log, a row that is off the place which stands for a continuum of pairs: the search is to be asked
+/// about it as well. Nothing where all rows fit those places.
+std::optional<std::size_t> row_to_ask(const Problem& problem, const Observation& observed, const Answer& answer);
+
 /// Marks placements that other rows of the log contradict, or the contacts in the world, and puts them last; the
 /// verdict is of the others. Where none is left it says that the rows fit badly, and why, if it `explains`. REQUIRES a
 /// log, and poses where it has them.
