@@ -59,8 +59,11 @@ struct Tally {
   int noticed = 0;
   int open = 0;  // several places, or free to slide
   int right = 0;
-  int off = 0;   // sure, at the right place, but beyond its interval
-  int sure = 0;  // sure, at a wrong one
+  int off = 0;               // sure, at the right place, but beyond its interval
+  int sure = 0;              // sure, at a wrong one
+  double chance = 0;         // that those who are sure are wrong, as they say, together
+  double right_squares = 0;  // chi-square over what is expected, of those that are right, ...
+  double sure_squares = 0;   // ... and of those that are sure at a wrong place
 
   void add(HoldCase one, bool has_truth) {
     ++cases;
@@ -73,15 +76,19 @@ struct Tally {
       return;
     }
     const bool is_sure = answer->verdict.name == rollfix::Verdict::unique;
+    const double square = answer->fit ? answer->fit->chi_square / answer->fit->freedom : 0;
     if (answer->placements.empty() || answer->is_contradicted()) {
       ++noticed;
     } else if (!is_sure) {
       ++open;
     } else if (!has_truth || farthest(answer->placements.front(), one, kElsewhere) > 1) {
       ++sure;
+      sure_squares += square;
     } else {
       ++(farthest(answer->placements.front(), one, kOffShare) > 1 ? off : right);
+      right_squares += square;
     }
+    if (is_sure && !answer->is_contradicted()) chance += 1 - answer->placements.front().probability;
   }
 
   /// Of first contacts, in what each may be off.
@@ -95,7 +102,9 @@ struct Tally {
   }
 
   void print(const std::string& what) const {
-    std::printf("| %s | %d | %d | %d | %d | %d | %d |\n", what.c_str(), cases, noticed, open, right, off, sure);
+    const auto mean = [](double sum, int count) { return count > 0 ? sum / count : 0; };
+    std::printf("| %s | %d | %d | %d | %d | %d | %d | %.1f | %.2f | %.2f |\n", what.c_str(), cases, noticed, open,
+                right, off, sure, chance, mean(right_squares, right + off), mean(sure_squares, sure));
   }
 };
 
