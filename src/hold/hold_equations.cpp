@@ -61,8 +61,9 @@ HoldFit::Sight HoldFit::sight(double s, std::size_t row, std::size_t finger) con
   const double plain = (angle + bend * bend) / rows_.rows[row].weight;
   const double corner = sight.at.variance * alike;
   sight.turn_variance = angle + sight.at.variance;
-  sight.blur_size = std::log1p(corner / plain) / alike;
   sight.angles = (1 + corner / (plain * alike)) / (1 + corner / plain);
+  // What an angle that hardly counts would have cost on average, so that no place is likelier because it says less.
+  sight.blur_size = std::log1p(corner / plain) / alike + 1 - sight.angles;
   const bool is_bent = is_uneven(part_, sight.at, s, errors);
   sight.error = errors.travel / std::sqrt(rows_.rows[row].weight);
   if (!errors.has_place) {
@@ -142,7 +143,12 @@ void HoldFit::bend(Look& look, double finger_curvature) const {
   const double turn = (curvature + finger_curvature) * look.error;
   const double size = 1 + turn * turn * bare(2, 2);
   look.information = bare - turn * turn / size * bare.col(2) * bare.row(2);
-  look.log_size = look.bare_log_size + std::log(size);
+  // Of all n, whichever it is here: else places would be likelier whose errors can be told to be on a flat side.
+  const double aside = std::numbers::sqrt3 * look.error;
+  const double ahead = turn_from(part_, look.s, aside) + finger_curvature * aside;
+  const double back = turn_from(part_, look.s, -aside) - finger_curvature * aside;
+  const double variance = (ahead * ahead + back * back) / 6 - std::pow((ahead + back) / 6, 2);
+  look.log_size = look.bare_log_size + std::log1p(variance * bare(2, 2));
 }
 
 HoldFit::Look HoldFit::look(const HeldState& state, std::size_t row, std::size_t finger) const {

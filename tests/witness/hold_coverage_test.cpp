@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -75,6 +76,12 @@ Part smooth(int number, std::mt19937_64& /*generator*/) {
   return rollfix::load_part("gallery:spline,n=" + std::to_string(number % 2 == 0 ? 9 : 15) +
                             ",wobble=0.2,seed=" + std::to_string(number + 1));
 }
+/// Roundings of a few times the contact's error.
+Part rounded(int number, std::mt19937_64& /*generator*/) {
+  const double radius = 0.01 + 0.004 * (number % 6);
+  return rollfix::load_part(
+      fmt::format("gallery:rounded-rectangle,width=1.5,height={},r={}", 0.8 + 0.05 * (number % 5), radius));
+}
 Part flat(int number, std::mt19937_64& generator) { return number % 2 == 0 ? random_polygon(generator) : bracket(); }
 
 /// `outliers`: a share of all measurements that are anything.
@@ -122,6 +129,9 @@ TEST(HoldCoverage, RobustThreeFingersOfHonestLogs) {
   expect_calibrated("3, x y, robust, no outliers", noisy(3, true), smooth, 1e-12);
 }
 TEST(HoldCoverage, ThreeFingersWithCentresOnFlats) { expect_calibrated("3, x y, flats", noisy(3, true), flat); }
+TEST(HoldCoverage, ThreeFingersWithCentresOnSmallRoundings) {
+  expect_calibrated("3, x y, roundings", noisy(3, true), rounded);
+}
 TEST(HoldCoverage, FourFingersWithCentresOnFlats) { expect_calibrated("4, x y, flats", noisy(4, true), flat); }
 
 }  // namespace hold_coverage_test
