@@ -57,7 +57,7 @@ TEST(CliRig, AJawAndAPinsPlaceSayWhereThePartIs) {
 
 const std::string kSmall = "--noise contact=0.0005,angle=0.0005,position=0.0005 ";
 
-TEST(CliRig, AWrongRadiusOfTheWheelIsFound) {
+TEST(SlowCliRig, AWrongRadiusOfTheWheelIsFound) {
   const Folder folder;
   simulate();
   const Ran ran = run("locate gallery:cam --log jaw.csv --log pin.csv --finger jaw --finger wheel,r=0.33 " + kSmall);
@@ -65,7 +65,7 @@ TEST(CliRig, AWrongRadiusOfTheWheelIsFound) {
               AllOf(HasSubstr("the radius of wheel b is 0.3 "), HasSubstr("cure: --finger wheel,r=0.3 for wheel b")));
 }
 
-TEST(CliRig, APartThatIsNotSqueezedIsNamed) {
+TEST(SlowCliRig, APartThatIsNotSqueezedIsNamed) {
   const Folder folder;
   simulate();
   const Ran ran = run(kAsked + kSmall + "--squeezed 0.1deg");
