@@ -134,7 +134,13 @@ class Server {
 
   std::string name() const { return "tcp:127.0.0.1:" + port(); }
   std::string port() const { return std::to_string(ntohs(address_.sin_port)); }
-  void accept() { client_ = Descriptor(::accept4(listening_.number(), nullptr, nullptr, SOCK_CLOEXEC)); }
+  /// Fails where nobody connects, rather than waiting for ever.
+  void accept() {
+    pollfd waiting{listening_.number(), POLLIN, 0};
+    const auto longest = std::chrono::milliseconds(kLongEnough).count();
+    require(::poll(&waiting, 1, static_cast<int>(longest)) == 1, "nobody connects");
+    client_ = Descriptor(::accept4(listening_.number(), nullptr, nullptr, SOCK_CLOEXEC));
+  }
   void send(const std::string& text) const { write_all(client_, text); }
   void drop() { client_.close(); }
   /// No more clients.
