@@ -52,7 +52,7 @@ struct PairEquations {
   Eigen::Matrix<double, N, 5> by_errors = Eigen::Matrix<double, N, 5>::Zero();
   Eigen::Matrix<double, N, 2> by_start = Eigen::Matrix<double, N, 2>::Zero();
   Eigen::Matrix<double, N, N> variance = Eigen::Matrix<double, N, N>::Zero();  // of the row on its own
-  double turn_share = 1;  // of the turn's variance, what it would be were each row of a pivot off on its own
+  Eigen::Matrix<double, N, N> pivots = Eigen::Matrix<double, N, N>::Zero();    // of that, what pivots have
   double beyond = 0;      // squared distance beyond an open outline's ends, in standard deviations
 };
 
@@ -156,13 +156,14 @@ void add_centres(const PairModel& model, const std::array<ContactThen, 2>& at, c
     const ContactThen& contact = at[finger];
     if (!(contact.pivot > 0)) continue;
     const auto i = static_cast<Eigen::Index>(finger);
-    Eigen::Matrix3d pivots = contact.pivot_alike * by_pivot.col(i) * by_pivot.col(i).transpose();
+    Eigen::Matrix3d pivots = by_pivot.col(i) * by_pivot.col(i).transpose();
     pivots(0, 0) = 0;
-    rows.variance += pivots;
     // A wide arc is no straight line: what is second order in the pivot counts as one more error.
-    const double bend = contact.pivot_alike * contact.pivot * across[finger].squaredNorm();
-    rows.variance(1, 1) += bend;
-    rows.variance(2, 2) += bend / (distance * distance);
+    const double bend = contact.pivot * across[finger].squaredNorm();
+    pivots(1, 1) += bend;
+    pivots(2, 2) += bend / (distance * distance);
+    rows.variance += contact.pivot_alike * pivots;
+    rows.pivots += contact.pivot_alike * pivots;
   }
 }
 
@@ -206,7 +207,6 @@ PairEquations<N> row_equations(const PairModel& model, const StartPlaces& at, co
   std::array<ContactThen, 2> contacts;
   double& f = rows.f[0];
   double variance = errors.turn_variance() + node.alike * errors.part_variance();
-  double pivots = 0;
   double pivots_alike = 0;
   f = -node.turn;
   for (const std::size_t finger : {0U, 1U}) {
@@ -233,7 +233,6 @@ PairEquations<N> row_equations(const PairModel& model, const StartPlaces& at, co
     contacts[finger].pivot = pivot;
     contacts[finger].pivot_alike = alike[finger] * pivot;
     variance += felt.variance - felt.pivot;
-    pivots += pivot;
     pivots_alike += alike[finger] * pivot;
     if (!model.places.closed) {
       const double off = std::max({0.0, -s, s - errors.perimeter()});
@@ -252,7 +251,7 @@ PairEquations<N> row_equations(const PairModel& model, const StartPlaces& at, co
     rows.by_start(0, 1) += at.by_start[1];
   }
   rows.variance(0, 0) = variance / node.rows + pivots_alike;
-  rows.turn_share = (variance / node.rows + pivots) / rows.variance(0, 0);
+  rows.pivots(0, 0) = pivots_alike;
   if constexpr (N == 3) add_centres(model, contacts, node, rows);
   return rows;
 }
@@ -362,7 +361,7 @@ class PairPass {
     const Eigen::Matrix<double, N, N> noise = own + rows.by_errors * of_walk;
     // Rows of a pivot tell next to nothing. They cost what others do in the mean: else starts would be likelier the
     // more rows they leave to pivots.
-    const double untold = std::min(1.0, node.rows) * (1 - rows.turn_share);
+    const double untold = std::min(1.0, node.rows) * (own.inverse() * rows.pivots).trace();
     double weight = 1;
     if (model_.outlier_share > 0) {
       const double range = N == 1 ? kTwoPi : kTwoPi * kTwoPi * model_.perimeter();

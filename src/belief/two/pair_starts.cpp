@@ -268,6 +268,22 @@ std::vector<PairPeak> distinct(const std::vector<PairPeak>& peaks, double rows, 
   return found;
 }
 
+/// The candidates' peaks by few of the rows, the best first.
+std::vector<PairPeak> peaks_by_few(const PairModel& model, const PairCandidates& candidates,
+                                   const std::vector<PairNode>& nodes) {
+  const std::vector<PairNode> few = some_of(nodes, kFewRows);
+  std::vector<PairPeak> chosen = best_of_neighbours(model, candidates, some_of(nodes, kVeryFewRows));
+  std::sort(chosen.begin(), chosen.end(), by_deviance);
+  const bool on_trial = model.effort != Effort::whole;
+  chosen.resize(std::min(chosen.size(), on_trial ? kMostStartsOnTrial : kMostStarts));
+  for (PairPeak& peak : chosen) {
+    peak.score = score_of(model, peak.start, few, PairShared::Zero(), 1);
+    peak = climb(model, peak, few, kCoarseSteps);
+  }
+  std::sort(chosen.begin(), chosen.end(), by_deviance);
+  return distinct(chosen, static_cast<double>(few.size()), on_trial ? kMostPeaksOnTrial : kMostPeaks);
+}
+
 }  // namespace
 
 PairStart moved(const PairStart& start, const Eigen::Vector2d& by) {
@@ -283,20 +299,16 @@ PairStart moved(const PairStart& start, const Eigen::Vector2d& by) {
 
 std::vector<PairPeak> pair_peaks(const PairModel& model, const PairCandidates& candidates,
                                  const std::vector<PairNode>& nodes) {
-  // What the centres tell is so sharp that it leads astray from far away: it counts with all rows.
-  const std::vector<PairNode> few = without_centres(some_of(nodes, kFewRows));
-  std::vector<PairPeak> chosen = best_of_neighbours(model, candidates, without_centres(some_of(nodes, kVeryFewRows)));
-  std::sort(chosen.begin(), chosen.end(), by_deviance);
-  const bool on_trial = model.effort != Effort::whole;
-  chosen.resize(std::min(chosen.size(), on_trial ? kMostStartsOnTrial : kMostStarts));
-  for (PairPeak& peak : chosen) {
-    peak.score = score_of(model, peak.start, few, PairShared::Zero(), 1);
-    peak = climb(model, peak, few, kCoarseSteps);
+  // What the centres tell is so sharp that it leads astray from far away; but the normals alone leave families of
+  // places on straight sides, whose best is anywhere. So places are looked for without the centres and with them.
+  std::vector<PairPeak> found = peaks_by_few(model, candidates, without_centres(nodes));
+  const bool has_centres = nodes.back().centres.has_value();
+  if (has_centres && model.path != nullptr) {
+    const std::vector<PairPeak> sharp = peaks_by_few(model, candidates, nodes);
+    found.insert(found.end(), sharp.begin(), sharp.end());
   }
-  std::sort(chosen.begin(), chosen.end(), by_deviance);
-  std::vector<PairPeak> found =
-      distinct(chosen, static_cast<double>(few.size()), on_trial ? kMostPeaksOnTrial : kMostPeaks);
-  if (few.size() < nodes.size() || nodes.back().centres) {
+  const bool on_trial = model.effort != Effort::whole;
+  if (nodes.size() > kFewRows || has_centres) {
     for (PairPeak& peak : found) {
       peak.score = score_of(model, peak.start, nodes, peak.score.errors, 3);
       peak = climb(model, peak, nodes, kFineSteps);
