@@ -132,6 +132,27 @@ Drawn noisy_pair(const Part& part, Generator& generator) {
   return noisy;
 }
 
+/// A disk about still on one long side of a quadrilateral, another one that rolls on the opposite side; with centres.
+Drawn noisy_sides(Generator& generator) {
+  rollfix::Outline outline{"trapezoid", {}, true};
+  const std::vector<rollfix::Vec2> corners{{0, 0}, {60, 0}, {60, 40}, {0, 38}};
+  for (std::size_t k = 0; k < 4; ++k) outline.curves.push_back(rollfix::Line(corners[k], corners[(k + 1) % 4]));
+  const Part part(outline);
+  rollfix::FreePlan plan;
+  plan.rows = 20;
+  plan.part_rotation = 0.4;
+  for (rollfix::FreeFinger& finger : plan.fingers) finger.finger = rollfix::disk(3);
+  plan.fingers[0].start = uniform(10, 50, generator);
+  plan.fingers[0].distance = uniform(-1, 1, generator);
+  plan.fingers[1].start = uniform(110, 150, generator);
+  plan.fingers[1].distance = uniform(-8, 8, generator);
+  const Noise noise{.contact = 0.2, .angle = 0.0017, .position = 0.1};
+  const rollfix::NoisyRoll roll = rollfix::noisy_roll_free(part, plan, noise, generator());
+  Problem problem{part, roll.log, {rollfix::disk(3)}, noise};
+  problem.may_overlap = true;
+  return {problem, {roll.truth.s[0][0], roll.truth.s[1][0]}};
+}
+
 /// One finger on a part at rest rolls from a random place and stops while it pivots.
 Drawn noisy_stop(const Part& part, Generator& generator) {
   const rollfix::Finger finger = rollfix::disk(uniform(0.02, 0.06, generator) * part.perimeter());
@@ -179,6 +200,13 @@ TEST(SharpCorners, of_two_noisy_fingers_that_start_there_are_found) {
   for (int k = 0; k < test_count(10); ++k) {
     Generator generator = test_generator(static_cast<std::uint64_t>(k) + 1001);
     EXPECT_TRUE(is_honest(noisy_pair(cornered(k % 2 == 0, generator), generator), kByNoise)) << "case " << k;
+  }
+}
+
+TEST(SharpCorners, far_from_two_noisy_fingers_on_sides_explain_nothing_alone) {
+  for (int k = 0; k < test_count(4); ++k) {
+    Generator generator = test_generator(static_cast<std::uint64_t>(k) + 3034);
+    EXPECT_TRUE(is_honest(noisy_sides(generator), kByNoise)) << "case " << k;
   }
 }
 

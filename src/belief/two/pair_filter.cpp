@@ -53,7 +53,7 @@ struct PairEquations {
   Eigen::Matrix<double, N, 2> by_start = Eigen::Matrix<double, N, 2>::Zero();
   Eigen::Matrix<double, N, N> variance = Eigen::Matrix<double, N, N>::Zero();  // of the row on its own
   Eigen::Matrix<double, N, N> pivots = Eigen::Matrix<double, N, N>::Zero();    // of that, what pivots have
-  double beyond = 0;      // squared distance beyond an open outline's ends, in standard deviations
+  double beyond = 0;  // squared distance beyond an open outline's ends, in standard deviations
 };
 
 /// Where the first contacts are.
