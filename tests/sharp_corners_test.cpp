@@ -203,7 +203,7 @@ TEST(SharpCorners, of_two_noisy_fingers_that_start_there_are_found) {
   }
 }
 
-TEST(SharpCorners, far_from_two_noisy_fingers_on_sides_explain_nothing_alone) {
+TEST(SlowSharpCorners, far_from_two_noisy_fingers_on_sides_explain_nothing_alone) {
   for (int k = 0; k < test_count(4); ++k) {
     Generator generator = test_generator(static_cast<std::uint64_t>(k) + 3034);
     EXPECT_TRUE(is_honest(noisy_sides(generator), kByNoise)) << "case " << k;

@@ -52,7 +52,7 @@ struct PairEquations {
   Eigen::Matrix<double, N, 5> by_errors = Eigen::Matrix<double, N, 5>::Zero();
   Eigen::Matrix<double, N, 2> by_start = Eigen::Matrix<double, N, 2>::Zero();
   Eigen::Matrix<double, N, N> variance = Eigen::Matrix<double, N, N>::Zero();  // of the row on its own
-  Eigen::Matrix<double, N, N> pivots = Eigen::Matrix<double, N, N>::Zero();    // of that, what pivots have
+  Eigen::Matrix<double, N, N> pivots = Eigen::Matrix<double, N, N>::Zero();    // of that, of fingers at corners
   double beyond = 0;  // squared distance beyond an open outline's ends, in standard deviations
 };
 
@@ -359,8 +359,8 @@ class PairPass {
     // As of one finger only what the rows share has a volume, see RollFilter::absorb.
     const Eigen::Matrix<double, 5, N> of_walk = walk_ * rows.by_errors.transpose();
     const Eigen::Matrix<double, N, N> noise = own + rows.by_errors * of_walk;
-    // Rows of a pivot tell next to nothing. They cost what others do in the mean: else starts would be likelier the
-    // more rows they leave to pivots.
+    // Rows of a pivot tell next to nothing, neither by the turn nor by the centres. They cost what others do in the
+    // mean: else starts would be likelier the more rows they leave to pivots.
     const double untold = std::min(1.0, node.rows) * (own.inverse() * rows.pivots).trace();
     double weight = 1;
     if (model_.outlier_share > 0) {
