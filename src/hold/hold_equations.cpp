@@ -140,6 +140,7 @@ void HoldFit::bend(Look& look, double finger_curvature) const {
   const double curvature = curvature_at(part_, look.s + n);
   look.residual(2) -= turn_from(part_, look.s, n) - curvature * n;
   look.by_place(2) = -curvature;
+  look.at.curvature = curvature;
   const double turn = (curvature + finger_curvature) * look.error;
   const double size = 1 + turn * turn * bare(2, 2);
   look.information = bare - turn * turn / size * bare.col(2) * bare.row(2);
@@ -165,16 +166,14 @@ HoldFit::Look HoldFit::look(const Sight& sight, const Placed& placed, std::size_
     look.by_pose(2, 2) = -1;
     look.by_place(2) = -sight.at.bend;
   }
-  if (!rows_.errors[finger].has_place) {
-    if (sight.bare_information) bend(look, contact.finger_curvature);
-    return look;
+  if (rows_.errors[finger].has_place) {
+    const Pose turn{0, 0, placed.heading};
+    const Vec2 arm = turn.turned(sight.point - middle_);
+    look.residual.head<2>() = contact.at - placed.middle - arm;
+    look.by_pose.topLeftCorner<2, 2>() = -Eigen::Matrix2d::Identity();
+    look.by_pose.topRightCorner<2, 1>() = Vec2(arm.y(), -arm.x());
+    look.by_place.head<2>() = -turn.turned(Vec2(std::cos(sight.at.side), std::sin(sight.at.side)));
   }
-  const Pose turn{0, 0, placed.heading};
-  const Vec2 arm = turn.turned(sight.point - middle_);
-  look.residual.head<2>() = contact.at - placed.middle - arm;
-  look.by_pose.topLeftCorner<2, 2>() = -Eigen::Matrix2d::Identity();
-  look.by_pose.topRightCorner<2, 1>() = Vec2(arm.y(), -arm.x());
-  look.by_place.head<2>() = -turn.turned(Vec2(std::cos(sight.at.side), std::sin(sight.at.side)));
   if (sight.bare_information) bend(look, contact.finger_curvature);
   return look;
 }
