@@ -9,6 +9,10 @@ namespace rollfix::hold {
 
 /// Where contacts are exact they are still blurred by this share of the perimeter, so that corners have a slope.
 inline constexpr double kLeastBlur = 1e-7;
+/// Of a standard deviation of the heading: poses of a row that differ by less are one.
+inline constexpr double kSamePose = 0.05;
+/// A pose by whose square a row is so much worse is five standard deviations off.
+inline constexpr double kFitsToo = 25;
 
 using RowBlock = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 2 * kMostFingers>;
 

@@ -177,6 +177,7 @@ HoldFit::RowEquations HoldFit::settled(HeldState& state, std::size_t row) const 
     share = 1;
     if (is_last) break;
   }
+  if (wheels() > 0) state.placed[row].heading_sd = std::sqrt(now.pose.inverse()(2, 2));
   return now;
 }
 
@@ -200,6 +201,8 @@ void HoldFit::settle(HeldState& state) const {
     state.cost += square;
     state.right_square += square;
   }
+  state.square += state.steps;
+  state.cost += state.steps;
   if (!rows_.prior) return;
   const double square = std::pow(prior_offset(state) / rows_.prior->sd, 2);
   state.square += square;
@@ -207,24 +210,28 @@ void HoldFit::settle(HeldState& state) const {
   state.prior_square += square;
 }
 
-HeldState HoldFit::at(const std::vector<double>& first_contacts) const {
-  Unknowns unknowns = Unknowns::Zero(size_);
-  for (std::size_t k = 0; k < fingers(); ++k) unknowns(static_cast<Eigen::Index>(k)) = first_contacts[k];
+HeldState HoldFit::guessed(const Unknowns& unknowns) const {
   HeldState state;
   state.unknowns = unknowns;
   state.placed = std::vector<Placed>(rows_.rows.size());
-  if (wheels() > 0) {
-    for (std::size_t row = 0; row < rows_.rows.size(); ++row) guess(state, row);
-    zero_spins(state);
-  }
+  for (std::size_t row = 0; row < rows_.rows.size(); ++row) guess(state, row);
+  zero_spins(state, rows_.rows.size());
+  return state;
+}
+
+HeldState HoldFit::at(const std::vector<double>& first_contacts) const {
+  Unknowns unknowns = Unknowns::Zero(size_);
+  for (std::size_t k = 0; k < fingers(); ++k) unknowns(static_cast<Eigen::Index>(k)) = first_contacts[k];
+  HeldState state = guessed(unknowns);
   settle(state);
   return state;
 }
 
-HeldState HoldFit::at(const Unknowns& unknowns, const std::vector<Placed>& near) const {
+HeldState HoldFit::at(const Unknowns& unknowns, const HeldState& near) const {
   HeldState state;
   state.unknowns = unknowns;
-  state.placed = near;
+  state.placed = near.placed;
+  state.steps = near.steps;
   settle(state);
   return state;
 }
@@ -277,7 +284,7 @@ HeldState HoldFit::fit(HeldState state, std::optional<Eigen::Index> held) const 
                            Unknowns::Constant(size_, 1e-14 * trace + std::numeric_limits<double>::min());
       const Unknowns step = damped.ldlt().solve(now.slope);
       if (!step.allFinite()) break;
-      HeldState next = at(Unknowns(state.unknowns + step), state.placed);
+      HeldState next = at(Unknowns(state.unknowns + step), state);
       gain = state.cost - next.cost;
       is_better = gain >= 0;
       if (is_better) {

@@ -23,6 +23,7 @@ struct Placed {
   Vec2 middle = Vec2::Zero();
   double heading = 0;  // radians
   bool is_known = false;
+  double heading_sd = 0;  // with noise, with the unknowns given
 };
 
 /// First contacts with the poses that suit them best.
@@ -31,6 +32,7 @@ struct HeldState {
   std::vector<Placed> placed;  // at each row
   double square = 0;           // of all residuals, in their units
   double cost = 0;             // that, and with noise what corners add to the logarithm of the errors' size
+  double steps = 0;            // in both: of going from pose to pose where rows have several, see hold_paths.cpp
   double right_square = 0;     // of what is no outlier, without priors
   double prior_square = 0;     // of what was known of the first contact and of the pose beforehand
   double strays = 0;           // measurements that are outliers, by their probabilities
@@ -70,9 +72,11 @@ class HoldFit {
   /// What an unknown that is no first contact can be at most, about.
   double scale_of(Eigen::Index unknown) const;
 
-  /// The state with these first contacts, and the best poses for them.
+  /// The state with these first contacts, and poses near a guess of each row.
   HeldState at(const std::vector<double>& first_contacts) const;
-  HeldState at(const Unknowns& unknowns, const std::vector<Placed>& near) const;
+  HeldState at(const Unknowns& unknowns, const HeldState& near) const;
+  /// Beside wheels with poses that follow from one another: see hold_paths.cpp.
+  HeldState afresh(const Unknowns& unknowns) const;
   /// Downhill. `held`: this unknown stays. `weights`: of each contact of each row, see `best_worst`.
   HeldState fit(HeldState state, std::optional<Eigen::Index> held = {}) const;
   /// Without noise: downhill to where the largest residual is as small as can be.
@@ -134,15 +138,27 @@ class HoldFit {
   NearPin near_pin(const HeldState& state, std::size_t row, std::size_t wheel) const;
   double unwrapped_heading(const HeldState& state, std::size_t row) const;
   double spin_of(const HeldState& state, std::size_t row, std::size_t wheel, const NearPin& near) const;
-  /// The part as a finger on a corner may have it, and how far the wheels are from touching it then.
+  /// The part as the finger may have it, and how far the wheels are from touching it then.
   struct Facing {
     Placed placed;
     double off = 0;
   };
   std::vector<Facing> facings(const HeldState& state, std::size_t row) const;
+  Facing faced(std::size_t row, const Vec2& point, const Vec2& touched, double heading) const;
+  std::vector<Placed> touching(const HeldState& state, std::size_t row) const;
   void face_wheels(HeldState& state, std::size_t row) const;
   std::vector<HeldState> poses_of(const HeldState& state, std::size_t row) const;
-  void zero_spins(HeldState& state) const;
+  std::vector<HeldState> paths(const HeldState& state) const;
+  void zero_spins(HeldState& state, std::size_t rows) const;
+  struct PathPose;
+  std::vector<PathPose> poses_at(HeldState& state, std::size_t row) const;
+  using PosesOfRows = std::vector<std::vector<PathPose>>;
+  PosesOfRows all_poses(HeldState& state) const;
+  static std::vector<double> step_costs(const Placed& from, const std::vector<PathPose>& to, double step);
+  static double step_of(const PosesOfRows& rows);
+  static void follow(PosesOfRows& rows, std::optional<std::size_t> first);
+  static void take(const PosesOfRows& rows, std::size_t last, HeldState& state);
+  void follow(HeldState& state) const;
   double worst_of_wheel(const HeldState& state, std::size_t row, std::size_t wheel) const;
   double worst_of(const HeldState& state, std::size_t row, std::size_t contact) const;
   std::optional<Eigen::Index> radius_unknown(std::size_t wheel) const;
@@ -163,6 +179,7 @@ class HoldFit {
   void add_pose_prior(const Placed& placed, RowEquations& sum) const;
   void settle(HeldState& state) const;
   void guess(HeldState& state, std::size_t row) const;
+  HeldState guessed(const Unknowns& unknowns) const;
   void refer(HeldState& state, std::size_t row) const;
   double pivot_length(const HeldContact& contact) const;
   double p_of_measurement(const HeldState& state, std::size_t row, std::size_t finger,

@@ -30,6 +30,8 @@ constexpr double kSteep = 1.2;           // a step over which log p changes more
 constexpr double kFlat = 0.15;           // ... and one over which it changes less may be longer
 constexpr double kRising = 0.4;          // behind a valley log p rises by this much
 constexpr std::size_t kMostNodes = 160;  // to one side
+constexpr double kApart = 2;             // standard deviations of both headings: poses that noise tells apart
+constexpr std::size_t kWayLooks = 5;     // at nodes, for the ways the part may lie
 constexpr double kOneMode = 0.05;        // a valley no deeper than this share of the lower peak
 constexpr double kSamePlace = 1e-9;      // of the perimeter
 constexpr double kSameOptimum = 0.05;    // of a standard deviation
@@ -175,7 +177,7 @@ class RidgeWalk {
       unknowns += std::clamp(share, -2.0, 2.0) * (from.state.unknowns - before->state.unknowns);
     }
     unknowns(axis_) = place(from) + step;
-    return node_at(fit_.fit(fit_.at(unknowns, from.state.placed), axis_));
+    return node_at(fit_.fit(fit_.at(unknowns, from.state), axis_));
   }
 
   std::vector<HoldNode> walk(int direction, double room) {
@@ -341,34 +343,35 @@ Eigen::Vector2d heading_sds(const HoldFit& fit, const HeldState& state) {
 }
 
 bool are_apart(const HoldFit& fit, const HeldState& one, const HeldState& other) {
-  return (turned_at_ends(one, other).array() > (heading_sds(fit, one) + heading_sds(fit, other)).array()).any();
+  const Eigen::Vector2d sds = heading_sds(fit, one) + heading_sds(fit, other);
+  return (turned_at_ends(one, other).array() > kApart * sds.array()).any();
+}
+
+/// The ways the part may lie at the ends, of some of the mode's nodes where they are the most.
+std::vector<HeldState> ways_to_lie(const HoldFit& fit, const HoldMode& mode) {
+  std::vector<HeldState> most = fit.poses_at_ends(mode.best);
+  for (std::size_t k = 0; k < kWayLooks; ++k) {
+    const HoldNode& node = mode.nodes[(2 * k + 1) * mode.nodes.size() / (2 * kWayLooks)];
+    std::vector<HeldState> ways = fit.poses_at_ends(node.state);
+    if (ways.size() > most.size()) most = std::move(ways);
+  }
+  return most;
 }
 
 }  // namespace
 
 std::vector<HoldMode> split_by_poses(const HoldFit& fit, const HoldMode& mode) {
-  std::vector<std::vector<HeldState>> poses;  // of each node
-  for (const HoldNode& node : mode.nodes) poses.push_back(fit.poses_at_ends(node.state));
-  std::size_t head = 0;  // has the most of them, and of those fits best
-  for (std::size_t k = 1; k < poses.size(); ++k) {
-    const auto rank = [&](std::size_t node) { return std::pair(poses[node].size(), -mode.nodes[node].state.cost); };
-    if (rank(k) > rank(head)) head = k;
-  }
-  if (poses[head].size() == 1) return {mode};
+  if (fit.wheels() == 0 || fit.fingers() > 1) return {mode};
+  const std::vector<HeldState> ways = ways_to_lie(fit, mode);
+  if (ways.size() < 2) return {mode};
   std::vector<HoldMode> found;
-  for (const HeldState& one : poses[head]) {
-    const bool is_new =
-        std::all_of(found.begin(), found.end(), [&](const HoldMode& other) { return are_apart(fit, one, other.best); });
-    if (is_new) found.push_back({one, {}, 0, mode.continuum, mode.set});
-  }
-  for (std::size_t k = 0; k < poses.size(); ++k) {
-    for (const HeldState& state : poses[k]) {
-      const auto own = std::min_element(found.begin(), found.end(), [&](const HoldMode& a, const HoldMode& b) {
-        return turned_at_ends(a.best, state).sum() < turned_at_ends(b.best, state).sum();
-      });
-      own->nodes.push_back(mode.nodes[k]);
-      own->nodes.back().log_density -= 0.5 * (state.square - mode.nodes[k].state.square);
-      own->nodes.back().state = state;
+  for (const HeldState& way : ways) {
+    auto own = std::ranges::find_if(found, [&](const HoldMode& one) { return !are_apart(fit, way, one.best); });
+    if (own == found.end()) own = found.insert(found.end(), {way, {}, 0, mode.continuum, mode.set});
+    for (const HoldNode& node : mode.nodes) {
+      own->nodes.push_back(node);
+      own->nodes.back().state = fit.at(node.state.unknowns, way);
+      own->nodes.back().log_density -= 0.5 * (own->nodes.back().state.square - node.state.square);
     }
   }
   for (HoldMode& one : found) sum_up(one);

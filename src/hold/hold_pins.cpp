@@ -20,9 +20,10 @@
 namespace rollfix::hold {
 namespace {
 
-constexpr int kPivotLooks = 48;     // headings of a pivot to start from
-constexpr double kFitsToo = 25;     // a pose by whose square a row is so much worse is five standard deviations off
-constexpr double kSamePose = 0.05;  // of a standard deviation of the heading
+constexpr double kPivots = 10;   // times the angle's error: a corner that turns so far on both sides leaves ways to lie
+constexpr int kPivotLooks = 48;  // headings of a pivot to start from, ...
+constexpr int kFacingLooks = 16;    // ... and of a finger that is on no corner
+constexpr double kFacingReach = 3;  // standard deviations of its normal
 
 /// value less whole periods, nearest to 0.
 double nearest_in(double value, double period) {
@@ -120,62 +121,79 @@ void HoldFit::add_pin(const HeldState& state, std::size_t row, std::size_t wheel
   add(spin_unknown(wheel), 1, one.by_spin);
 }
 
-/// At a corner the finger may have pivoted far: the part at headings all over the corner's turn. None: it is at no
-/// corner.
+/// The part at headings all over a corner's turn, where the finger may have pivoted, and with noise as far beyond as
+/// its normal may be off. None: its normal is exact.
 std::vector<HoldFit::Facing> HoldFit::facings(const HeldState& state, std::size_t row) const {
   const Placed& placed = state.placed[row];
   const HeldErrors& errors = rows_.errors[0];
+  const HeldContact& contact = rows_.rows[row].contacts[0];
   const double place = place_of(state, row, 0);
   const BlurredPlace range = ranged(part_, place, (rows_.has_noise ? 3 : 1) * errors.travel);
   std::vector<Facing> facings;
-  if (range.half_turn < 10 * errors.angle) return facings;
+  const bool pivots = range.half_turn >= kPivots * errors.angle;
+  if (!pivots && !rows_.has_noise) return facings;
+  const double off = rows_.has_noise ? std::hypot(errors.angle, contact.finger_curvature * errors.travel) : 0;
+  const double reach = range.half_turn + kFacingReach * off;
   const Pose before{0, 0, placed.heading};
   const Vec2 point = point_about(part_, place);
-  const Vec2 contact = placed.middle + before.turned(point - middle_);
-  const double about = rows_.rows[row].contacts[0].tangent - range.angle;
-  for (int k = 0; k <= kPivotLooks; ++k) {
-    Facing one{placed, 0};
-    one.placed.heading = about + range.half_turn * (2.0 * k / kPivotLooks - 1);
-    one.placed.middle = contact - Pose{0, 0, one.placed.heading}.turned(point - middle_);
-    for (std::size_t wheel = 0; wheel < rows_.wheels.size(); ++wheel) {
-      const Pose back{0, 0, -one.placed.heading};
-      const Vec2 pin = middle_ + back.turned(rows_.rows[row].pins[wheel].at - one.placed.middle);
-      one.off += std::abs(wheels_[wheel]->nearest(pin).distance);
-    }
-    facings.push_back(one);
+  const Vec2 touched = placed.middle + before.turned(point - middle_);
+  const int looks = pivots ? kPivotLooks : kFacingLooks;
+  for (int k = 0; k <= looks; ++k) {
+    facings.push_back(faced(row, point, touched, contact.tangent - range.angle + reach * (2.0 * k / looks - 1)));
   }
   return facings;
 }
 
-/// The heading at which all wheels touch best.
-void HoldFit::face_wheels(HeldState& state, std::size_t row) const {
+/// The part turned to a heading about where the finger touches it.
+HoldFit::Facing HoldFit::faced(std::size_t row, const Vec2& point, const Vec2& touched, double heading) const {
+  Facing one;
+  one.placed = {touched - Pose{0, 0, heading}.turned(point - middle_), heading, true};
+  for (std::size_t wheel = 0; wheel < rows_.wheels.size(); ++wheel) {
+    const Pose back{0, 0, -heading};
+    const Vec2 pin = middle_ + back.turned(rows_.rows[row].pins[wheel].at - one.placed.middle);
+    one.off += std::abs(wheels_[wheel]->nearest(pin).distance);
+  }
+  return one;
+}
+
+/// The headings at which all wheels touch better than beside them.
+std::vector<Placed> HoldFit::touching(const HeldState& state, std::size_t row) const {
   const std::vector<Facing> all = facings(state, row);
-  const auto best =
-      std::min_element(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.off < b.off; });
-  if (best != all.end()) state.placed[row] = best->placed;
+  std::vector<Placed> found;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const bool falls = k == 0 || all[k].off < all[k - 1].off;
+    const bool rises = k + 1 == all.size() || all[k].off <= all[k + 1].off;
+    if (falls && rises) found.push_back(all[k].placed);
+  }
+  return found;
+}
+
+/// At a corner the heading at which all wheels touch best.
+void HoldFit::face_wheels(HeldState& state, std::size_t row) const {
+  const double reach = (rows_.has_noise ? 3 : 1) * rows_.errors[0].travel;
+  if (ranged(part_, place_of(state, row, 0), reach).half_turn < kPivots * rows_.errors[0].angle) return;
+  state.placed[row] = std::ranges::min(facings(state, row), {}, &Facing::off).placed;
 }
 
 std::vector<HeldState> HoldFit::poses_of(const HeldState& state, std::size_t row) const {
   std::vector<HeldState> found{state};
   if (fingers() > 1 || wheels() == 0) return found;
-  const std::vector<Facing> all = facings(state, row);
+  const std::vector<Placed> all = touching(state, row);
   if (all.empty()) return found;
   const RowEquations here = equations(state, row, sights_at(state, row), false);
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    const bool falls = k == 0 || all[k].off < all[k - 1].off;
-    const bool rises = k + 1 == all.size() || all[k].off <= all[k + 1].off;
-    if (!falls || !rises) continue;
+  for (const Placed& placed : all) {
     HeldState other = state;
-    other.placed[row] = all[k].placed;
+    other.placed[row] = placed;
     const RowEquations there = settled(other, row);
-    if (there.square > here.square + kFitsToo) continue;
+    const double more = there.square - here.square;
+    if (more > kFitsToo) continue;
     const double same = kSamePose * std::sqrt(pose_at(other, row).covariance(2, 2));
     const bool is_known = std::any_of(found.begin(), found.end(), [&](const HeldState& one) {
       return std::abs(nearest_angle(one.placed[row].heading - other.placed[row].heading)) < same;
     });
     if (is_known) continue;
-    other.square += there.square - here.square;
-    other.cost += there.square - here.square;
+    other.square += more;
+    other.cost += more;
     other.right_square += there.right_square - here.right_square;
     found.push_back(std::move(other));
   }
@@ -184,6 +202,7 @@ std::vector<HeldState> HoldFit::poses_of(const HeldState& state, std::size_t row
 
 std::vector<HeldState> HoldFit::poses_at_ends(const HeldState& state) const {
   const std::size_t last = rows_.rows.size() - 1;
+  if (rows_.has_noise && fingers() == 1 && wheels() > 0 && last > 0) return paths(state);
   std::vector<HeldState> found = poses_of(state, 0);
   if (last == 0) return found;
   std::vector<HeldState> both;
@@ -193,18 +212,18 @@ std::vector<HeldState> HoldFit::poses_at_ends(const HeldState& state) const {
   return both;
 }
 
-/// The encoders' zeros by all rows.
-void HoldFit::zero_spins(HeldState& state) const {
+/// The encoders' zeros by so many rows.
+void HoldFit::zero_spins(HeldState& state, std::size_t rows) const {
   for (std::size_t wheel = 0; wheel < rows_.wheels.size(); ++wheel) {
     const std::optional<Eigen::Index> at = spin_unknown(wheel);
     if (!at) continue;
     const double period = wheels_[wheel]->spin_period();
     const double first = spin_of(state, 0, wheel, near_pin(state, 0, wheel));
     double off = 0;
-    for (std::size_t row = 0; row < rows_.rows.size(); ++row) {
+    for (std::size_t row = 0; row < rows; ++row) {
       off += nearest_in(spin_of(state, row, wheel, near_pin(state, row, wheel)) - first, period);
     }
-    state.unknowns(*at) = first + off / static_cast<double>(rows_.rows.size());
+    state.unknowns(*at) = first + off / static_cast<double>(rows);
   }
 }
 

@@ -26,6 +26,8 @@ constexpr std::size_t kGlanceLooks = 96;  // the same at a glance, ...
 constexpr std::size_t kGlanceStarts = 2;  // ... of each set from where to start, ...
 constexpr std::size_t kGlanceOptima = 4;  // ... and the best of all that are looked at by all rows
 constexpr std::size_t kMostRows = 512;    // of a posterior; more are averaged
+constexpr int kNudges = 4;                // to both sides, of a contact's error each, ...
+constexpr double kFitsNowhere = 1e-6;     // ... where all rows are less probable
 constexpr double kHopeless = 60;          // a set whose chi-square is so much larger than the best has no probability
 constexpr double kLeastHoldShare = 1e-4;  // a set that is less probable is counted, not listed
 constexpr double kWideHold = 0.1;         // of the perimeter: no place is known no better, as of one finger
@@ -175,20 +177,30 @@ class HoldWeighing {
   std::vector<Optimum> best_of(const std::vector<FoundSet>& found, const HoldFit& few, const HoldFit& fit) {
     std::vector<Optimum> rough;
     for (std::size_t k = 0; k < found.size(); ++k) {
-      for (const HeldState& start : starts_in(found[k], found.size(), few)) rough.push_back({few.fit(start), k});
+      for (const HeldState& start : starts_in(found[k], found.size(), few)) {
+        rough.push_back({few.fit(few.wheels() > 0 ? few.afresh(start.unknowns) : start), k});
+      }
     }
     std::stable_sort(rough.begin(), rough.end(),
                      [](const Optimum& a, const Optimum& b) { return a.state.cost < b.state.cost; });
     if (at_a_glance_ && rough.size() > kGlanceOptima) rough.resize(kGlanceOptima);
     std::vector<Optimum> optima;
+    std::vector<const Optimum*> tried;
     double least = std::numeric_limits<double>::infinity();
     for (const Optimum& one : rough) {
       if (one.state.cost > least + kHopeless) break;
-      const bool is_new = std::none_of(optima.begin(), optima.end(), [&](const Optimum& other) {
+      const auto is_known = [&](const Optimum& other) {
         return other.set == one.set && are_alike(other.state, one.state, fit);
-      });
-      if (!is_new) continue;
-      HeldState state = fit.fit(fit.at(one.state.unknowns, std::vector<Placed>(fit.rows().rows.size())));
+      };
+      if (std::ranges::any_of(tried, is_known, [](const Optimum* other) -> const Optimum& { return *other; })) continue;
+      if (std::ranges::any_of(optima, is_known)) continue;
+      tried.push_back(&one);
+      HeldState state = fit.fit(fit.afresh(one.state.unknowns));
+      const bool is_found = std::ranges::any_of(
+          optima, [&](const Optimum& other) { return other.set == one.set && fits(fit, other.state); });
+      if (fit.wheels() > 0 && !is_found && fits(few, one.state) && !fits(fit, state)) {
+        state = nudged(fit, one.state.unknowns, std::move(state));
+      }
       const std::size_t set = set_with(found, state, one.set);
       if (set == found.size()) continue;
       least = std::min(least, state.cost);
@@ -197,6 +209,21 @@ class HoldWeighing {
     const double hopeless = at_a_glance_ ? 0 : kHopeless;
     std::erase_if(optima, [&](const Optimum& one) { return one.state.cost > least + hopeless; });
     return optima;
+  }
+
+  static bool fits(const HoldFit& fit, const HeldState& state) { return fit_of(fit, state).p > kFitsNowhere; }
+
+  /// Where few rows fit and all of them don't, some may have turned to a wrong side of a corner: from about there
+  /// again.
+  static HeldState nudged(const HoldFit& fit, const Unknowns& unknowns, HeldState state) {
+    std::vector<HeldState> starts;
+    for (int k = -kNudges; k <= kNudges; ++k) {
+      Unknowns about = unknowns;
+      about(0) += k * fit.rows().errors[0].travel;
+      starts.push_back(fit.afresh(about));
+    }
+    HeldState other = fit.fit(*std::ranges::min_element(starts, {}, &HeldState::cost));
+    return other.cost < state.cost ? other : state;
   }
 
   /// Of many places all over a set those that fit best as they are, no two of them close together, and some that are

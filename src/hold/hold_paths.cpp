@@ -1,0 +1,185 @@
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "hold_equations.hpp"
+
+// Notation as in hold_pins.cpp:
+//   phi_k, sigma_k  the part's heading at row k in one of its poses, and its standard deviation there
+//   F_k             what row k costs in it
+//   h               how far the part turns from row to row, by the smallest steps between their poses
+//   w_ij            1 / (1 + (phi_j - phi_i)^2 / (h^2 + sigma_i^2 + sigma_j^2)): from pose i of a row to pose j of
+//   the next;
+//                   -2 log of its share among all j is what that costs: nothing where there is one pose
+// The path is the one of least sum of both, by dynamic programming (R. Bellman, 1957).
+// Idea: beside a wheel a row may fit in several poses, but a part that was in one of them a row ago is near it still.
+// If each row took what fits best, places would fit the better the more poses they leave to choose from.
+namespace rollfix::hold {
+namespace {
+
+constexpr double kFewSteps = 8;  // of so many the usual one may be twice as long, and of fewer much longer
+
+double turned_between(const Placed& one, const Placed& other) {
+  return std::abs(nearest_angle(other.heading - one.heading));
+}
+
+}  // namespace
+
+/// One way in which the part may lie at a row.
+struct HoldFit::PathPose {
+  Placed placed;
+  double cost = 0;       // of its row
+  double sum = 0;        // of the best path to it: of all its rows and ...
+  double steps = 0;      // ... from each to the next
+  std::size_t from = 0;  // where that was a row before
+};
+
+/// From a pose to each of the next row's.
+std::vector<double> HoldFit::step_costs(const Placed& from, const std::vector<PathPose>& to, double step) {
+  std::vector<double> shares;
+  double sum = 0;
+  for (const PathPose& one : to) {
+    const double scale = std::hypot(step, from.heading_sd, one.placed.heading_sd);
+    const double turned = turned_between(from, one.placed) / std::max(scale, std::numeric_limits<double>::min());
+    shares.push_back(1 / (1 + turned * turned));
+    sum += shares.back();
+  }
+  for (double& share : shares) share = -2 * std::log(share / sum);
+  return shares;
+}
+
+HoldFit::PosesOfRows HoldFit::all_poses(HeldState& state) const {
+  PosesOfRows rows;
+  for (std::size_t row = 0; row < rows_.rows.size(); ++row) rows.push_back(poses_at(state, row));
+  return rows;
+}
+
+double HoldFit::step_of(const PosesOfRows& rows) {
+  double sum = 0;
+  for (std::size_t row = 1; row < rows.size(); ++row) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const PathPose& one : rows[row - 1]) {
+      for (const PathPose& other : rows[row]) least = std::min(least, turned_between(one.placed, other.placed));
+    }
+    sum += least;
+  }
+  const auto steps = static_cast<double>(rows.size() - 1);
+  return sum / steps * (1 + std::pow(kFewSteps / steps, 2));
+}
+
+/// Those in which the wheels touch, and the one it has.
+std::vector<HoldFit::PathPose> HoldFit::poses_at(HeldState& state, std::size_t row) const {
+  std::vector<Placed> starts = touching(state, row);
+  starts.push_back(state.placed[row]);
+  std::vector<PathPose> found;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Placed& start : starts) {
+    state.placed[row] = start;
+    const RowEquations there = settled(state, row);
+    const PathPose one{state.placed[row], there.square + there.blur_size};
+    const bool is_known = std::ranges::any_of(found, [&](const PathPose& other) {
+      return turned_between(one.placed, other.placed) < kSamePose * one.placed.heading_sd;
+    });
+    if (is_known) continue;
+    least = std::min(least, one.cost);
+    found.push_back(one);
+  }
+  std::erase_if(found, [&](const PathPose& one) { return one.cost > least + kFitsToo; });
+  return found;
+}
+
+/// The best paths from one pose of the first row, or from any, to each of the last row's.
+void HoldFit::follow(PosesOfRows& rows, std::optional<std::size_t> first) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  const double step = step_of(rows);
+  const double any = 2 * std::log(static_cast<double>(rows.front().size()));
+  for (std::size_t k = 0; k < rows.front().size(); ++k) {
+    PathPose& one = rows.front()[k];
+    one.steps = !first || *first == k ? any : kNever;
+    one.sum = one.cost + one.steps;
+  }
+  for (std::size_t row = 1; row < rows.size(); ++row) {
+    for (PathPose& one : rows[row]) one.sum = kNever;
+    for (std::size_t i = 0; i < rows[row - 1].size(); ++i) {
+      const PathPose& before = rows[row - 1][i];
+      if (before.sum == kNever) continue;
+      const std::vector<double> costs = step_costs(before.placed, rows[row], step);
+      for (std::size_t j = 0; j < rows[row].size(); ++j) {
+        PathPose& one = rows[row][j];
+        const double sum = before.sum + one.cost + costs[j];
+        if (sum >= one.sum) continue;
+        one.sum = sum;
+        one.steps = before.steps + costs[j];
+        one.from = i;
+      }
+    }
+  }
+}
+
+/// The path that ends in one of the last row's poses.
+void HoldFit::take(const PosesOfRows& rows, std::size_t last, HeldState& state) {
+  state.steps = rows.back()[last].steps;
+  for (std::size_t row = rows.size(); row-- > 0;) {
+    state.placed[row] = rows[row][last].placed;
+    last = rows[row][last].from;
+  }
+}
+
+void HoldFit::follow(HeldState& state) const {
+  PosesOfRows rows = all_poses(state);
+  follow(rows, std::nullopt);
+  const auto best = std::ranges::min_element(rows.back(), {}, &PathPose::sum);
+  take(rows, static_cast<std::size_t>(best - rows.back().begin()), state);
+}
+
+std::vector<HeldState> HoldFit::paths(const HeldState& state) const {
+  HeldState any = state;
+  PosesOfRows rows = all_poses(any);
+  std::vector<HeldState> found;
+  for (std::size_t first = 0; first < rows.front().size(); ++first) {
+    follow(rows, first);
+    for (std::size_t last = 0; last < rows.back().size(); ++last) {
+      if (rows.back()[last].sum > state.cost + kFitsToo) continue;
+      take(rows, last, any);
+      found.push_back(at(any.unknowns, any));
+    }
+  }
+  std::ranges::stable_sort(found, {}, &HeldState::cost);
+  return found;
+}
+
+HeldState HoldFit::afresh(const Unknowns& unknowns) const {
+  HeldState state = guessed(unknowns);
+  const std::size_t count = rows_.rows.size();
+  if (!rows_.has_noise || fingers() > 1 || wheels() == 0 || count == 1) {
+    settle(state);
+    return state;
+  }
+  if (std::ranges::none_of(rows_.wheels, [](const HeldWheel& wheel) { return wheel.spin.has_value(); })) {
+    follow(state);
+    settle(state);
+    return state;
+  }
+  // An encoder's zero is by one pose of the first row, whichever suits all rows best, and then by all of them.
+  std::vector<Placed> firsts = touching(state, 0);
+  if (firsts.empty()) firsts.push_back(state.placed.front());
+  std::optional<HeldState> best;
+  for (const Placed& first : firsts) {
+    HeldState one = state;
+    one.placed.front() = first;
+    zero_spins(one, 1);
+    follow(one);
+    zero_spins(one, count);
+    settle(one);
+    if (!best || one.cost < best->cost) best = std::move(one);
+  }
+  follow(*best);
+  zero_spins(*best, count);
+  settle(*best);
+  return *best;
+}
+
+}  // namespace rollfix::hold
