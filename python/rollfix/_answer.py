@@ -11,15 +11,16 @@ import numpy as np
 from . import _core
 from ._checks import flag, friction as friction_given, least, path, places, text, travel as travel_given, whole
 from ._core import Answer as CoreAnswer, InputError, Placement as Placement
+from ._documents import Advice
 from ._fingers import Finger, finger_from
 from ._made import Made
 from ._messages import in_a_page
 from ._proved import proof
 from ._rows import names_of, row_of
+from ._shape import Shape
 from ._words import diagnosis_in_python, in_python
 
 if TYPE_CHECKING:
-    from ._documents import Advice
     from ._logs import Log
     from ._part import Part
 
@@ -85,9 +86,8 @@ class Answer(Made, SequenceABC):  # type: ignore[type-arg]
     @property
     def part(self) -> "Part":
         """Part: on which the roll was."""
-        from ._part import Part
-
-        return Part._of(self._core.part)
+        part: "Part" = Shape._part_of(self._core.part)
+        return part
 
     @property
     def fingers(self) -> int:
@@ -273,8 +273,6 @@ class Answer(Made, SequenceABC):  # type: ignore[type-arg]
         friction : float or (float, float), optional
             Of two disks or jaws on the part: only rolls are advised that can be planned with it.
         """
-        from ._documents import Advice
-
         return Advice(self._core, travel_given(travel), flag(may_overlap, "may_overlap"), friction_given(friction))
 
     # --- as a table, as a figure ---

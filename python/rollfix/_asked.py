@@ -11,12 +11,9 @@ from . import _core
 from ._answer import Answer
 from ._checks import clockwise, flag, friction as friction_given, travel as travel_given
 from ._documents import Advice
-from ._fingers import fingers
 from ._holds import HoldAnswer, PinAdvice
-from ._kinds import answer_to
 from ._log_answers import LogAnswers, locate_logs
 from ._many import ManyAnswers, locate_many
-from ._noise import weighing
 from ._options import (
     AdvisedOptions,
     AnyOptions,
@@ -30,7 +27,7 @@ from ._options import (
     keywords,
     require_only,
 )
-from ._question import Question
+from ._question import Question, answer_to
 from ._rounding import offer_rounding
 from ._shape import Shape
 from ._touches import TouchAnswer
@@ -155,7 +152,10 @@ class Asked(Shape):
         InputError
             What can't be meant; the message names the argument.
         """
-        return answer_to(self, {"readings": readings, "turn": turn, "log": log, "touches": touches}, options)
+        answer: Union[Answer, TouchAnswer, HoldAnswer] = answer_to(
+            self._core, {"readings": readings, "turn": turn, "log": log, "touches": touches}, options
+        )
+        return answer
 
     @keywords(AdvisedOptions)
     def advise(
@@ -190,11 +190,9 @@ class Asked(Shape):
         may_overlap = flag(options.get("may_overlap", False), "may_overlap")
         if readings is None and turn is None and log is None:
             require_only(FirstOptions, options, "is about a roll that was, and none is given")
-            sds = weighing(options.get("noise"))
-            answer: Any = Answer(_core.before_contact(self._core, fingers(options.get("finger")), sds, may_overlap))
+            answer: Any = Answer(_core.before_contact(Question(self._core, options).core()))
         else:
-            sources = {"readings": readings, "turn": turn, "log": log, "touches": None}
-            answer = answer_to(self, sources, options)
+            answer = answer_to(self._core, {"readings": readings, "turn": turn, "log": log, "touches": None}, options)
         if isinstance(answer, HoldAnswer):
             return answer.advise(travel=travel)
         return Advice(answer._core, range_given, may_overlap, friction_given(friction))

@@ -4,27 +4,22 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Dict, Iterable, Iterator, List, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
 
 from . import _cluster, _core
-from ._answer import Answer
 from ._catalog_sources import sources_from
-from ._checks import flag, path as path_given, travel as travel_given, unit_of_length, whole
+from ._checks import path as path_given, travel as travel_given, unit_of_length, whole
 from ._core import InputError
 from ._documents import Document, rolled
-from ._fingers import fingers
-from ._identified import Identified, answers_of
-from ._kinds import all_rolls
+from ._identified import Identified
 from ._log_answers import Results, checked, errors_given, several
-from ._logs import Log
 from ._made import Made
 from ._messages import did_you_mean, shown, warn
 from ._noise import NoiseLike
-from ._options import PartsOptions, Read, TouchOptions, keywords, names_of, require_only
+from ._options import PartsOptions, keywords
 from ._part import Part
 from ._progress import Progress
-from ._question import Question, refused, require_one_roll
-from ._touches import TouchAnswer, asked_of
+from ._question import Posed, Question
 from ._watch import Watch
 from ._words import in_python
 
@@ -215,23 +210,8 @@ class Catalog(Made):
         InputError
             What can't be meant; the message names the argument.
         """
-        count, given = whole(threads, "threads"), dict(options)
-        if given.get("roll") == "all":
-            rolls = all_rolls(self.unit, {"readings": readings, "turn": turn, "log": log, "touches": touches}, given)
-            if touches is not None or len(rolls) > 1 or len(rolls[0]) == 1:
-                return self._touched(touches, given, count, rolls)
-            log = rolls[0]
-            given = {name: value for name, value in given.items() if name not in ("roll", *names_of(Read))}
-        elif touches is not None:
-            if log is not None:
-                raise InputError("log: shares a pose with `touches` where roll='all': add it")
-            asked = {"readings": readings, "turn": turn, **given}
-            require_only(TouchOptions, asked, "touches do not roll and have no use for it")
-            return self._touched(touches, given, count)
-        if given.pop("clear", None) is not None:
-            raise InputError("clear: is about touches and several rolls: give `touches`, or rolls with roll='all', or leave it out")
-        problem, read = self._asked(readings, turn, log, given)
-        return self._search(problem, read, count)
+        count = whole(threads, "threads")
+        return self._search(self._asked({"readings": readings, "turn": turn, "log": log, "touches": touches}, options), count)
 
     def identify_many(
         self,
@@ -265,10 +245,12 @@ class Catalog(Made):
         ManyIdentified
             A sequence of `Identified`, and of InputError where a roll can't be worked with; `answers`, `errors`, `to_frame`.
         """
+        if options.get("roll") == "all":
+            raise InputError("roll: expected a number from 1, found 'all': of contacts that share a pose ask `identify`")
         if (readings is None) == (logs is None):
             raise InputError(f"readings: expected readings or `logs`, found {'neither' if logs is None else 'both'}")
         then = errors_given(errors)
-        rolls = [(None, one) for one in several(logs)] if readings is None else [(one, None) for one in readings]
+        rolls = [{"log": one} for one in several(logs)] if readings is None else [{"readings": one} for one in readings]
         count = whole(threads, "threads")
         if client is not None:
             _cluster.require_client(client)
@@ -279,7 +261,7 @@ class Catalog(Made):
             for roll in rolls[len(found) :]:
                 asked = self._asked_or_error(roll, options)
                 try:
-                    found.append(asked if isinstance(asked, InputError) else self._search(*asked, count))
+                    found.append(asked if isinstance(asked, InputError) else self._search(asked, count))
                 except InputError as error:
                     found.append(error)
                 bar.report(len(found))
@@ -298,11 +280,11 @@ class Catalog(Made):
             How far each finger can roll on, as of `Part.advise`.
         """
         range_given = travel_given(travel)
-        problem, read = self._asked(readings, turn, log, options)
+        posed = self._asked({"readings": readings, "turn": turn, "log": log}, options)
         try:
-            return PartsAdvice(self._core.advise(problem, range_given))
+            return PartsAdvice(self._core.advise(posed.core, range_given))
         except InputError as error:
-            raise refused(error, read) from None
+            raise posed.refused(error) from None
 
     def watch(self, *, noise: NoiseLike, **options: Any) -> Watch:
         """A `Watch` on whichever of the parts it is: fewer and fewer of them remain. Options as of `Part.watch`."""
@@ -310,64 +292,44 @@ class Catalog(Made):
             raise InputError(f"{self.path}: the catalog has no parts")
         return Watch(self.part(0), noise=noise, catalog=self, **options)
 
-    def _asked(self, readings: Any, turn: Any, log: Any, options: Dict[str, Any]) -> Tuple[_core.Problem, Optional[Log]]:
-        require_one_roll(readings, log)
+    def _asked(self, contacts: Mapping[str, Any], options: Mapping[str, Any]) -> Posed:
+        """Of the first part, whichever it is."""
         if len(self) == 0:
             raise InputError(f"{self.path}: the catalog has no parts")
-        question = Question(self._core.part(0), options)
-        if log is None:
-            return question.of_readings(readings, turn), None
+        everything = {"readings": None, "turn": None, "log": None, "touches": None, **contacts}
         try:
-            return question.of_log(log, turn)
+            return Question(self._core.part(0), options).of(**everything)
         except InputError as error:
             raise InputError(str(error).replace("make the part with unit=", "build the catalog with unit=")) from None
 
-    def _asked_or_error(
-        self, roll: Tuple[Any, Any], options: Dict[str, Any]
-    ) -> Union[Tuple[_core.Problem, Optional[Log]], InputError]:
+    def _asked_or_error(self, contacts: Mapping[str, Any], options: Mapping[str, Any]) -> Union[Posed, InputError]:
         try:
-            return self._asked(roll[0], None, roll[1], options)
+            return self._asked(contacts, options)
         except InputError as error:
             return error
 
-    def _search(self, problem: _core.Problem, log: Optional[Log], threads: int) -> Identified:
+    def _search(self, posed: Posed, threads: int) -> Identified:
         try:
-            text, found = self._core.identify(problem, threads)
+            text, found = self._core.identify(posed.core, threads)
         except InputError as error:
-            raise refused(error, log) from None
-        return Identified(text, answers_of(found, log))
+            raise posed.refused(error) from None
+        return self._identified(text, found, posed)
 
-    def _touched(self, touches: Any, options: Dict[str, Any], threads: int, rolls: Sequence[Log] = ()) -> Identified:
-        if len(self) == 0:
-            raise InputError(f"{self.path}: the catalog has no parts")
-        *most, paths = asked_of(touches, {name: value for name, value in options.items() if name in names_of(TouchOptions)})
-        cores = tuple(one._in_unit(self.unit, fingers(options.get("finger"), most=1)) for one in rolls)
-        robust = flag(options.get("robust", False), "robust")
-        try:
-            text, found = self._core.identify_touches(*[*most, [one._core for one in cores], robust, paths, threads])
-        except InputError as error:
-            raise InputError(in_python(str(error))) from None
-        names = {entry.id: entry.name for entry in self._entries}
-        answers = {
-            part: TouchAnswer((self.part(names[part]), *most, cores, robust, paths, False), answer)
-            for part, answer in found
-        }
-        return Identified(text, answers)
+    def _identified(self, text: str, found: Iterable[Tuple[int, Any]], posed: Posed) -> Identified:
+        return Identified(text, {part: posed.on(answer.part).answer(answer) for part, answer in found})
 
-    def _by_cluster(
-        self, client: Any, asked: Sequence[Union[Tuple[_core.Problem, Optional[Log]], InputError]], bar: Progress
-    ) -> List[Union[Identified, InputError]]:
-        problems = [one[0] for one in asked if not isinstance(one, InputError)]
-        said = iter(_cluster.identify_many(client, self.path, problems, bar.report))
-        return [one if isinstance(one, InputError) else self._identified(next(said), one[1]) for one in asked]
+    def _by_cluster(self, client: Any, asked: Sequence[Union[Posed, InputError]], bar: Progress) -> List[Union[Identified, InputError]]:
+        questions = [one.core for one in asked if not isinstance(one, InputError)]
+        said = iter(_cluster.identify_many(client, self.path, questions, bar.report))
+        return [one if isinstance(one, InputError) else self._said(next(said), one) for one in asked]
 
-    def _identified(self, said: "_cluster.Identified", log: Optional[Log]) -> Union[Identified, InputError]:
+    def _said(self, said: "_cluster.Identified", posed: Posed) -> Union[Identified, InputError]:
         if isinstance(said, str):
-            return refused(InputError(said), log)
+            return posed.refused(said)
         text, states = said
         parts = {entry.id: entry.name for entry in self._entries if entry.id in states}
-        answers = {part: _core.answer_from_state(self.part(parts[part])._core, *state) for part, state in states.items()}
-        return Identified(text, answers_of(list(answers.items()), log))
+        answers = [(part, _core.answer_from_state(self.part(parts[part])._core, *state)) for part, state in states.items()]
+        return self._identified(text, answers, posed)
 
     def __len__(self) -> int:
         return len(self._entries)

@@ -19,17 +19,17 @@ Solved = Union[State, str]  # an answer's, or why there is none
 Identified = Union[Tuple[str, Dict[int, State]], str]  # a document, and of its parts' ids the answers'
 
 
-def solve_problems(
-    client: Any, part: _core.Part, problems: Sequence[_core.Problem], report: Callable[[int], None]
+def solve_questions(
+    client: Any, part: _core.Part, questions: Sequence[_core.Question], report: Callable[[int], None]
 ) -> List[Union[_core.Answer, str]]:
-    """As `_core.solve_problems`."""
-    found: List[Solved] = _spread(client, _solve, [problem.state() for problem in problems], report, part)
+    """As `_core.solve_questions`."""
+    found: List[Solved] = _spread(client, _solve, [question.state() for question in questions], report, part)
     return [one if isinstance(one, str) else _core.answer_from_state(part, *one) for one in found]
 
 
 def solve_many(
     client: Any,
-    like: _core.Problem,
+    like: _core.Question,
     part: _core.Part,
     rows: np.ndarray,
     facings: Optional[np.ndarray],
@@ -42,10 +42,10 @@ def solve_many(
 
 
 def identify_many(
-    client: Any, file: str, problems: Sequence[_core.Problem], report: Callable[[int], None]
+    client: Any, file: str, questions: Sequence[_core.Question], report: Callable[[int], None]
 ) -> List[Identified]:
     """What `_core.Catalog.identify` says of each, or why it can't."""
-    return _spread(client, _identify, [problem.state() for problem in problems], report, os.path.abspath(file))
+    return _spread(client, _identify, [question.state() for question in questions], report, os.path.abspath(file))
 
 
 def require_client(client: Any) -> None:
@@ -105,14 +105,14 @@ def _joined(shares: Sequence[Dict[str, Any]]) -> Dict[str, Any]:
 
 
 def _solve(states: List[State], part: _core.Part) -> List[Solved]:
-    found = _core.solve_problems([_core.problem_from_state(part, *state) for state in states], 1, None)
+    found: List[Any] = _core.solve_questions([_core.question_from_state(part, *state) for state in states], 1, None)
     return [one if isinstance(one, str) else one.state()[1:] for one in found]
 
 
 def _solve_rows(
     share: List[int], part: _core.Part, like: State, rows: np.ndarray, facings: Optional[np.ndarray]
 ) -> Dict[str, Any]:
-    return _core.solve_many(_core.problem_from_state(part, *like), np.ascontiguousarray(rows), facings, 1, None)
+    return _core.solve_many(_core.question_from_state(part, *like), np.ascontiguousarray(rows), facings, 1, None)
 
 
 def _identify(states: List[State], file: str) -> List[Identified]:
@@ -120,8 +120,9 @@ def _identify(states: List[State], file: str) -> List[Identified]:
     found: List[Identified] = []
     for state in states:
         try:
-            text, answers = catalog.identify(_core.problem_from_state(catalog.part(0), *state), 1)
-            found.append((text, {part: answer.state()[1:] for part, answer in answers}))
+            text, answers = catalog.identify(_core.question_from_state(catalog.part(0), *state), 1)
+            of_rolls: Dict[int, Any] = dict(answers)  # of contacts that share a pose nobody asks many times
+            found.append((text, {part: answer.state()[1:] for part, answer in of_rolls.items()}))
         except InputError as error:
             found.append(str(error))
     return found

@@ -176,24 +176,36 @@ class Answer:
     def bytes(self) -> bytes: ...
     def state(self) -> Tuple[Part, Tuple[_Given, ...], Any]: ...
 
-class Problem:
-    tolerance: Optional[float]
-    budget: Optional[int]
-    facing: Optional[float]
-    at: List[float]
-    mirrored: bool
-    either_way: bool
-    robust: bool
-    may_overlap: bool
-    def __init__(self, arg0: Part) -> None: ...
-    def set_readings(self, arg0: _Array) -> None: ...
-    def set_roundings(self, arg0: Sequence[Tuple[float, float]]) -> None: ...
-    def set_log(self, arg0: Log) -> None: ...
-    def set_fingers(self, arg0: Iterable[_Given]) -> None: ...
-    def set_noise(self, arg0: Optional[Dict[str, float]]) -> None: ...
-    def set_prior(self, arg0: Optional[Tuple[float, float]]) -> None: ...
-    def set_pose(self, arg0: Optional[Sequence[float]]) -> None: ...
-    def solve(self) -> Answer: ...
+class Question:
+    def __init__(
+        self,
+        arg0: Part,
+        *,
+        readings: Optional[_Array] = None,
+        roundings: Optional[Sequence[Tuple[float, float]]] = None,
+        rolls: Optional[Sequence[Log]] = None,
+        wheels: Optional[Sequence[Tuple[Log, float]]] = None,
+        touches: Optional[_Array] = None,
+        clear: Optional[_Array] = None,
+        at_rest: bool = False,
+        fingers: Iterable[_Given] = (),
+        noise: Optional[Dict[str, float]] = None,
+        tolerance: Optional[Tuple[float, float]] = None,
+        budget: Optional[int] = None,
+        facing: Optional[float] = None,
+        at: Optional[Sequence[float]] = None,
+        prior: Optional[Tuple[float, float]] = None,
+        pose: Optional[Sequence[float]] = None,
+        squeezed: Optional[float] = None,
+        direction: Optional[str] = None,
+        mirrored: bool = False,
+        robust: bool = False,
+        may_overlap: bool = False,
+        diagnose: bool = True,
+    ) -> None: ...
+    def solve(self) -> Union[Answer, TouchAnswer, HoldAnswer]: ...
+    def about(self, arg0: Part) -> Question: ...
+    def require_roll(self) -> None: ...
     def state(self) -> Tuple[Tuple[_Given, ...], Any]: ...
 
 class Roll:
@@ -232,23 +244,15 @@ class Watch:
     def __init__(
         self,
         arg0: Part,
-        arg1: Iterable[_Given],
-        arg2: Dict[str, float],
-        arg3: Optional[Tuple[float, float]],
-        arg4: Optional[Sequence[float]],
-        arg5: bool,
-        arg6: int,
-        arg7: List[str],
-        arg8: _Columns,
-        arg9: str,
-        arg10: Optional[bool],
-        arg11: bool,
-        arg12: bool,
-        arg13: bool,
-        arg14: Optional[Catalog],
-        arg15: bool,
-        arg16: Optional[float],
-        arg17: Optional[float],
+        arg1: Question,
+        arg2: List[str],
+        arg3: int,
+        arg4: bool,
+        arg5: _Columns,
+        arg6: str,
+        arg7: Optional[bool],
+        arg8: Optional[Catalog],
+        arg9: Optional[float],
     ) -> None: ...
     def push(self, arg0: str, arg1: int) -> None: ...
     def catch_up(self) -> None: ...
@@ -266,24 +270,12 @@ class Catalog:
     def entries(self) -> List[Tuple[str, int, float, int, bool, bool, float]]: ...
     def left_out(self) -> List[Tuple[str, str]]: ...
     def part(self, arg0: int) -> Part: ...
-    def identify(self, arg0: Problem, arg1: int) -> Tuple[str, List[Tuple[int, Answer]]]: ...
-    def identify_touches(
-        self,
-        arg0: _Array,
-        arg1: Optional[_Given],
-        arg2: Optional[Dict[str, float]],
-        arg3: Optional[Tuple[float, float]],
-        arg4: Optional[Sequence[float]],
-        arg5: bool,
-        arg6: Optional[int],
-        arg7: Sequence[Log],
-        arg8: bool,
-        arg9: _Array,
-        arg10: int,
-    ) -> Tuple[str, List[Tuple[int, TouchAnswer]]]: ...
-    def advise(self, arg0: Problem, arg1: Optional[Tuple[float, float]]) -> str: ...
+    def identify(self, arg0: Question, arg1: int) -> Tuple[str, List[Tuple[int, Union[Answer, TouchAnswer]]]]: ...
+    def advise(self, arg0: Question, arg1: Optional[Tuple[float, float]]) -> str: ...
 
 class TouchAnswer:
+    @property
+    def part(self) -> Part: ...
     def document(self) -> str: ...
     def certificate(self, arg0: Optional[int]) -> Tuple[str, bool]: ...
     def next_touch(self, arg0: _Array) -> str: ...
@@ -329,41 +321,10 @@ def read_log_text(arg0: str, arg1: str, arg2: Dict[str, Any]) -> List[Log]: ...
 def read_pin(arg0: str, arg1: Optional[str], arg2: Dict[str, Any]) -> Log: ...
 def parse_columns(arg0: str) -> List[Tuple[str, str, str]]: ...
 def table_text(arg0: Sequence[str], arg1: Sequence[_Array]) -> str: ...
-def locate_touches(
-    arg0: Part,
-    arg1: _Array,
-    arg2: Optional[_Given],
-    arg3: Optional[Dict[str, float]],
-    arg4: Optional[Tuple[float, float]],
-    arg5: Optional[Sequence[float]],
-    arg6: bool,
-    arg7: Optional[int],
-    arg8: Sequence[Log],
-    arg9: bool,
-    arg10: _Array,
-    arg11: bool,
-) -> TouchAnswer: ...
-def locate_hold(
-    arg0: Part,
-    arg1: Sequence[Log],
-    arg2: Sequence[_Given],
-    arg3: Optional[Dict[str, float]],
-    arg4: Optional[Tuple[float, float]],
-    arg5: Sequence[float],
-    arg6: bool,
-    arg7: Optional[int],
-    arg8: Sequence[Tuple[Log, float]],
-    arg9: Optional[float],
-    arg10: Optional[Tuple[float, float]],
-    arg11: Optional[Sequence[float]],
-    arg12: bool,
-    arg13: bool,
-) -> HoldAnswer: ...
 def locate_one(arg0: Part, arg1: float, arg2: float) -> Answer: ...
 def finger_name(arg0: _Given) -> str: ...
-def check_noise(arg0: Dict[str, float]) -> None: ...
 def answer_from_state(arg0: Part, arg1: Tuple[_Given, ...], arg2: Any) -> Answer: ...
-def problem_from_state(arg0: Part, arg1: Tuple[_Given, ...], arg2: Any) -> Problem: ...
+def question_from_state(arg0: Part, arg1: Tuple[_Given, ...], arg2: Any) -> Question: ...
 def catalog_sources(arg0: str) -> List[Tuple[str, str, float, Optional[Part]]]: ...
 def build_catalog(
     arg0: str,
@@ -374,12 +335,12 @@ def build_catalog(
 ) -> Tuple[List[Tuple[str, str]], List[str]]: ...
 def remove_from_catalog(arg0: str, arg1: Sequence[str]) -> int: ...
 def solve_many(
-    arg0: Problem, arg1: _Array, arg2: Optional[_Array], arg3: int, arg4: Optional[Callable[[int], None]]
+    arg0: Question, arg1: _Array, arg2: Optional[_Array], arg3: int, arg4: Optional[Callable[[int], None]]
 ) -> Dict[str, Any]: ...
 def seconds_of_rows(arg0: Part, arg1: _Array, arg2: bool) -> float: ...
-def solve_problems(
-    arg0: Sequence[Problem], arg1: int, arg2: Optional[Callable[[int], None]]
-) -> List[Union[Answer, str]]: ...
+def solve_questions(
+    arg0: Sequence[Question], arg1: int, arg2: Optional[Callable[[int], None]]
+) -> List[Union[Answer, TouchAnswer, HoldAnswer, str]]: ...
 def simulate_one(
     arg0: Part,
     arg1: _Given,
@@ -434,9 +395,7 @@ def teach(
     arg5: Optional[float],
     arg6: bool,
 ) -> Tuple[Part, str]: ...
-def before_contact(
-    arg0: Part, arg1: Iterable[_Given], arg2: Optional[Dict[str, float]], arg3: bool
-) -> Answer: ...
+def before_contact(arg0: Question) -> Answer: ...
 def next_roll(
     arg0: Answer, arg1: Optional[Tuple[float, float]], arg2: bool, arg3: Optional[Tuple[float, float]]
 ) -> NextRoll: ...

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple
+from typing import Any, Dict, List, Optional, Tuple
 
+from . import _core
+from ._checks import path
 from ._made import no_value
 from ._messages import in_a_page
-
-if TYPE_CHECKING:
-    from . import _core
 
 
 class Document:
@@ -91,13 +90,11 @@ class Advice(Document):
 
     def __init__(
         self,
-        answer: "_core.Answer",
+        answer: _core.Answer,
         travel: Optional[Tuple[float, float]],
         may_overlap: bool = False,
         friction: Optional[Tuple[float, float]] = None,
     ) -> None:
-        from . import _core
-
         self._how = (travel, may_overlap, friction)
         super().__init__(_core.next_roll(answer, *self._how).document())
         self._answer = answer
@@ -109,12 +106,10 @@ class Advice(Document):
 
     def save(self, file: Any) -> None:
         """Writes that figure: .svg, .png or .pdf."""
-        from ._checks import path
-
         self._figure().save(path(file, "file"))
 
     def _figure(self) -> Any:
-        from . import _core, _draw
+        from . import _draw
 
         return _draw.next_roll_figure(_core.next_roll(self._answer, *self._how))
 
@@ -128,9 +123,7 @@ class Advice(Document):
         return f"<Advice: {self.verdict}; roll on by {by}, {self.expected_placements:.2f} placements remain>"
 
     def __reduce__(self) -> Any:
-        from ._answer import Answer
-
-        return (_advice, (Answer(self._answer), *self._how))
+        return (_advice, (self._answer.state(), *self._how))
 
 
 def rolled(length: Any) -> str:
@@ -138,5 +131,5 @@ def rolled(length: Any) -> str:
     return " and ".join(f"{one:.6g}" for one in length) if isinstance(length, list) else f"{length:.6g}"
 
 
-def _advice(answer: Any, *how: Any) -> Advice:
-    return Advice(answer._core, *how)
+def _advice(state: Any, *how: Any) -> Advice:
+    return Advice(_core.answer_from_state(*state), *how)

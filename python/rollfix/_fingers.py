@@ -9,6 +9,7 @@ from ._checks import number
 from ._core import InputError
 from ._made import Made
 from ._messages import shown
+from ._shape import Shape
 
 if TYPE_CHECKING:
     from ._part import Part
@@ -170,6 +171,4 @@ def finger_from(given: Any) -> Finger:
         return Jaw()
     if isinstance(given, float):
         return Disk(given)
-    from ._part import Part
-
-    return OutlineFinger(Part._of(given))
+    return OutlineFinger(Shape._part_of(given))

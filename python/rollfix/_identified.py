@@ -5,11 +5,9 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence as SequenceABC
 from dataclasses import dataclass
-from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, Union, overload
+from typing import Any, Dict, Iterator, List, Mapping, Optional, Tuple, Union, overload
 
-from . import _core
 from ._answer import Answer
-from ._logs import Log
 from ._made import Made
 from ._touches import TouchAnswer
 from ._words import in_python
@@ -156,7 +154,3 @@ class Identified(Made, SequenceABC):  # type: ignore[type-arg]
 
     def __reduce__(self) -> Any:
         return (Identified, (self._text, self._answers))
-
-
-def answers_of(found: Sequence[Tuple[int, _core.Answer]], log: Optional[Log]) -> Dict[int, Answer]:
-    return {part: Answer(answer, log) for part, answer in found}

@@ -17,7 +17,7 @@ from ._logs import Log, Roll
 from ._made import Made
 from ._messages import shown
 from ._progress import Progress
-from ._question import Question
+from ._question import Posed, Question
 from ._tables import is_frame, is_table
 
 One = TypeVar("One")  # what is found of each
@@ -120,18 +120,19 @@ def locate_logs(
     if client is not None:
         _cluster.require_client(client)
     given = several(logs)
-    asked: List[Union[Tuple[_core.Problem, Log], InputError]] = []
+    question.require_one_roll()
+    asked: List[Union[Posed, InputError]] = []
     with Progress(len(given), progress, "logs read") as bar:
         for log in given:
             asked.append(_asked(question, log))
             bar.report(len(asked))
-    problems = [one[0] for one in asked if not isinstance(one, InputError)]
-    with Progress(len(problems), progress, "logs") as bar:
+    questions = [one.core for one in asked if not isinstance(one, InputError)]
+    with Progress(len(questions), progress, "logs") as bar:
         if client is None:
-            found = iter(_core.solve_problems(problems, count, bar.report))
+            found = iter(_core.solve_questions(questions, count, bar.report))
         else:
-            found = iter(_cluster.solve_problems(client, question.part, problems, bar.report))
-    all_found = [one if isinstance(one, InputError) else _of_log(next(found), one[1]) for one in asked]
+            found = iter(_cluster.solve_questions(client, question.part, questions, bar.report))
+    all_found = [one if isinstance(one, InputError) else _of_log(next(found), one) for one in asked]
     return LogAnswers(checked(all_found, then, "logs"))
 
 
@@ -145,12 +146,12 @@ def several(logs: Any) -> List[Any]:
     return list(logs)
 
 
-def _asked(question: Question, log: Any) -> Union[Tuple[_core.Problem, Log], InputError]:
+def _asked(question: Question, log: Any) -> Union[Posed, InputError]:
     try:
         return question.of_log(log)
     except InputError as error:
         return error
 
 
-def _of_log(solution: Union[_core.Answer, str], log: Log) -> Union[Answer, InputError]:
-    return InputError(log._said(solution)) if isinstance(solution, str) else Answer(solution, log)
+def _of_log(found: Any, posed: Posed) -> Any:
+    return posed.refused(found) if isinstance(found, str) else posed.answer(found)

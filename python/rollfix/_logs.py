@@ -272,22 +272,20 @@ def read_log(
     if bad not in ("refuse", "skip"):
         raise InputError(f"bad: expected 'refuse' or 'skip', found {shown(bad)}")
     naming = Naming(columns, units, degrees, wrapped)
-    return log_of(log, naming, unit_of_length(unit), False, roll, skip_bad=bad == "skip", decimal=decimal)
+    return log_of(log, naming, unit_of_length(unit), roll, skip_bad=bad == "skip", decimal=decimal)
 
 
 def log_of(
-    log: Any, naming: Naming, unit: str, clockwise: bool, roll: Optional[int], skip_bad: bool = False, decimal: str = "."
+    log: Any, naming: Naming, unit: str, roll: Optional[int], skip_bad: bool = False, decimal: str = "."
 ) -> Log:
-    """`unit` of the part, `clockwise` lengths, which `roll` of several."""
+    """`unit` of the part, which `roll` of several."""
     ready = log.log if isinstance(log, Roll) else log
     if isinstance(ready, Log):
-        if not naming.says_nothing or clockwise:
-            raise InputError("log: is read already, expected `columns`, `units`, `degrees`, `wrapped` and `direction` where it was")
+        if not naming.says_nothing:
+            raise InputError("log: is read already, expected `columns`, `units`, `degrees` and `wrapped` where it was")
         return ready
-    options = {"unit": unit, "angles": naming.angles, "wrapped": naming.wrapped, "clockwise": clockwise}
-    options["skip_bad"] = skip_bad
-    options["decimal_comma"] = decimal_comma(decimal)
-    if isinstance(log, (tuple, list)) and log and all(_is_log(one) for one in log):
+    options = _reading(naming, unit, skip_bad=skip_bad, decimal=decimal)
+    if isinstance(log, (tuple, list)) and log and all(is_log(one) for one in log):
         if len(log) == 2:
             return _told(_pair(log, naming, options, roll))
         if not all(isinstance(one, np.ndarray) and one.ndim == 1 for one in log):
@@ -298,14 +296,11 @@ def log_of(
 
 def rolls_of(log: Any, naming: Naming, unit: str) -> List[Log]:
     """Every roll of a log in which contact is lost and found again, or of a list of logs, one after another."""
-    if isinstance(log, (tuple, list)) and log and all(_is_log(one) for one in log):
+    if isinstance(log, (tuple, list)) and log and all(is_log(one) for one in log):
         return [roll for one in log for roll in rolls_of(one, naming, unit)]
     if isinstance(log, (Log, Roll)):
-        return [log_of(log, naming, unit, False, None)]
-    options: Dict[str, Any] = {"unit": unit, "angles": naming.angles, "wrapped": naming.wrapped, "clockwise": False}
-    options["skip_bad"] = False
-    options["single_rows"] = True
-    options["decimal_comma"] = decimal_comma(".")
+        return [log_of(log, naming, unit, None)]
+    options = _reading(naming, unit, single_rows=True)
     file = path_of(log, "log")
     if file is not None:
         rolls = _of_files([file], naming, options)
@@ -316,11 +311,9 @@ def rolls_of(log: Any, naming: Naming, unit: str) -> List[Log]:
 
 def pin_of(log: Any, naming: Naming, unit: str) -> Any:
     """The log of a wheel without skin, as C++ holds it: x and y of its pin, and psi where it has an encoder."""
-    options: Dict[str, Any] = {"unit": unit, "angles": naming.angles, "wrapped": naming.wrapped, "clockwise": False}
-    options["skip_bad"] = False
-    options["decimal_comma"] = decimal_comma(".")
+    options = _reading(naming, unit)
     if isinstance(log, (Log, Roll)):
-        log = log_of(log, naming, unit, False, None).to_dict()
+        log = log_of(log, naming, unit, None).to_dict()
     file = path_of(log, "log")
     numbering = Numbering()
     try:
@@ -337,13 +330,27 @@ def pin_of(log: Any, naming: Naming, unit: str) -> Any:
     return _told(Log(core, numbering))
 
 
+def _reading(
+    naming: Naming, unit: str, *, skip_bad: bool = False, decimal: str = ".", single_rows: bool = False
+) -> Dict[str, Any]:
+    """How C++ reads a log, but for what it calls its columns."""
+    return {
+        "unit": unit,
+        "angles": naming.angles,
+        "wrapped": naming.wrapped,
+        "skip_bad": skip_bad,
+        "single_rows": single_rows,
+        "decimal_comma": decimal_comma(decimal),
+    }
+
+
 def _told(log: Log) -> Log:
     for note in log.notes:
         warn(note)
     return log
 
 
-def _is_log(one: Any) -> bool:
+def is_log(one: Any) -> bool:
     return isinstance(one, (Log, Roll, str, os.PathLike)) or is_table(one)
 
 

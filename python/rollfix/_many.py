@@ -14,7 +14,7 @@ from ._core import InputError
 from ._made import Made
 from ._messages import shown
 from ._progress import Progress
-from ._question import Question, solved
+from ._question import Question
 
 Result = Union[Answer, InputError]
 KINDS: np.ndarray = np.array(["crossing", "touching", "stretch", "corner"])
@@ -186,7 +186,8 @@ class ManyAnswers(Made):
 
     def _answer(self, k: int) -> Answer:
         facing = None if self._facing is None else float(self._facing[k])
-        return solved(self._question.of_rows(self._readings[k], facing))
+        answer: Answer = self._question.of_rows(self._readings[k], facing).solved()
+        return answer
 
     def _result(self, k: int) -> Result:
         try:
@@ -223,6 +224,7 @@ def locate_many(
 ) -> ManyAnswers:
     if client is not None:
         _cluster.require_client(client)
+    question.require_one_roll()
     rows = array(by_name(readings, "readings", *READINGS), "readings", masked_is_nan=True)  # as NaN: an error stays with its problem
     if rows.ndim == 2:
         rows = rows[:, np.newaxis, :]
@@ -240,9 +242,9 @@ def locate_many(
             raise InputError(f"facing: expected one angle, or one for each of {len(rows)}, found shape {given.shape}")
         facings = np.ascontiguousarray(np.broadcast_to(given, (len(rows),)))
     with Progress(len(rows), progress) as bar:
-        like, along = question.like_rows(rows.shape[1]), np.ascontiguousarray(question.along_outline(rows))
+        like = question.of_rows(np.zeros(rows.shape[1:])).core
         if client is None:
-            columns = _core.solve_many(like, along, facings, whole(threads, "threads"), bar.report)
+            columns = _core.solve_many(like, rows, facings, whole(threads, "threads"), bar.report)
         else:
-            columns = _cluster.solve_many(client, like, question.part, along, facings, bar.report)
+            columns = _cluster.solve_many(client, like, question.part, rows, facings, bar.report)
     return ManyAnswers(columns, question, rows, facings)

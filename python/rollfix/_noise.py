@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import inspect
 import math
 import re
-from typing import Any, Dict, Mapping, Optional, Union
+from typing import Any, Dict, Mapping, Optional, Tuple, Union
 
-from ._checks import degrees_hint, number
+from ._checks import number
 from ._core import InputError
 from ._made import no_value
 from ._messages import did_you_mean, shown, warn
@@ -43,7 +44,7 @@ class Noise:
     """
 
     __slots__ = ("_sds",)
-    NAMES = ("contact", "angle", "slip", "radius", "position", "correlation", "drift", "walk", "gyro")
+    NAMES: Tuple[str, ...]
 
     def __init__(
         self,
@@ -57,8 +58,8 @@ class Noise:
         walk: float = 0,
         gyro: float = 0,
     ) -> None:
-        values = (contact, _angle(angle), slip, radius, position, correlation, drift, walk, gyro)
-        sds = {name: number(value, f"noise: {name}") for name, value in zip(self.NAMES, values)}
+        given = locals()
+        sds = {name: _angle(angle) if name == "angle" else number(given[name], f"noise: {name}") for name in self.NAMES}
         for name, sd in sds.items():
             if sd < 0:
                 raise InputError(f"noise: {name} is {sd!r}, expected a standard deviation of at least 0")
@@ -87,6 +88,9 @@ class Noise:
 
     def __repr__(self) -> str:
         return f"Noise({', '.join(f'{name}={sd!r}' for name, sd in self._sds.items() if sd != 0)})"
+
+
+Noise.NAMES = tuple(inspect.signature(Noise).parameters)
 
 
 def angle_from(text: str) -> Optional[float]:
@@ -133,19 +137,3 @@ def noise(given: NoiseLike) -> Optional[Dict[str, float]]:
             raise InputError(f"noise: there is no {unknown[0]!r}; {hint}known are {', '.join(Noise.NAMES)}")
         return Noise(**given)._sds
     raise InputError(f"noise: expected Noise(contact=..., angle=...), found {shown(given)}")
-
-
-def weighing(given: NoiseLike) -> Optional[Dict[str, float]]:
-    """The same, of noise that rows are weighed with."""
-    sds = noise(given)
-    if sds is None:
-        return None
-    if sds["contact"] == 0 and sds["angle"] == 0:
-        raise InputError("noise: expected a standard deviation of the contact or of the angle above 0, found neither")
-    if sds["angle"] > MOST_ANGLE:
-        angle = sds["angle"]
-        raise InputError(
-            f"noise: angle is {angle!r}, expected at most {MOST_ANGLE} radians, beyond which a row says nothing"
-            f"{degrees_hint(angle)}"
-        )
-    return sds

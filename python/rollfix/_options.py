@@ -190,11 +190,11 @@ def require_only(options: Any, given: Mapping[str, Any], why: str) -> None:
     """Throws InputError: something that `options` does not take is given all the same."""
     taken = names_of(options)
     for name, value in given.items():
-        if name not in taken and _is_said(name, value):
+        if name not in taken and is_said(name, value):
             raise InputError(f"{name}: {why}: leave it out")
 
 
-def _is_said(name: str, value: Any) -> bool:
+def is_said(name: str, value: Any) -> bool:
     default = DEFAULTS.get(name)
     if default is None:
         return value is not None

@@ -13,6 +13,7 @@ from ._fingers import Finger, fingers
 from ._messages import in_a_page, warn
 from ._reach import Reach
 from ._rolled_on import RolledOn
+from ._shape import Shape
 from ._words import in_python
 
 
@@ -241,6 +242,9 @@ class Part(RolledOn):
 
     def __reduce__(self) -> Any:
         return (_part, (self._core,))
+
+
+Shape._part_of = Part._of
 
 
 def _part(core: _core.Part) -> Part:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
-from typing import Any, Dict, Optional
+from typing import Any, Callable, Dict, Optional
 
+from . import _core
 from ._checks import least, path, text, whole
 from ._documents import Listing
 from ._messages import in_a_page, warn
@@ -26,9 +27,13 @@ def proof(answer: Any, file: Any, budget: Optional[int], where: str) -> Dict[str
 class Proved(Listing):
     """Has the answer of `_core`, and in `_FIGURE` what `_draw` calls its figure."""
 
-    __slots__ = ("_answer", "_asked")
+    __slots__ = ("_answer", "_part", "_question")
     _FIGURE = ""
     _answer: Any
+
+    def __init__(self, part: _core.Part, question: _core.Question, answer: Any) -> None:
+        super().__init__(answer.document())
+        self._answer, self._part, self._question = answer, part, question
 
     def certify(self, file: Any = None, budget: Optional[int] = None) -> Dict[str, Any]:
         """The proof that there is nothing else: the document that `rollfix-verify` checks with code of its own.
@@ -62,3 +67,12 @@ class Proved(Listing):
 
     def _repr_svg_(self) -> Optional[str]:
         return in_a_page(self.to_svg())
+
+    def __reduce__(self) -> Any:
+        return (_again, (type(self), self._part, *self._question.state()))
+
+
+def _again(kind: Callable[..., Proved], part: _core.Part, fingers: Any, state: Any) -> Proved:
+    """The answer to the same question, worked out again."""
+    question = _core.question_from_state(part, fingers, state)
+    return kind(part, question, question.solve())

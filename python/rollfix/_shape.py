@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, Tuple
+from typing import Any, Callable, ClassVar, Dict, Tuple
 
 import numpy as np
 
@@ -18,6 +18,7 @@ class Shape(Made):
     __slots__ = ("_core", "__weakref__")
 
     _core: _core.Part
+    _part_of: ClassVar[Callable[[Any], Any]]  # the Part that C++ holds: `_part` says how, as answers stand below it
 
     @property
     def name(self) -> str:

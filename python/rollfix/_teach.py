@@ -14,7 +14,6 @@ from ._logs import log_of
 from ._messages import in_a_page
 from ._noise import NoiseLike, noise as noise_given
 from ._part import Part
-from ._question import require_finger
 
 
 class Taught(Document):
@@ -97,9 +96,12 @@ def teach(
         corner_angle_given(corner_angle),
         flag(allow_crossing, "allow_crossing"),
     )
-    read = log_of(log, naming, part_unit, False, None)
-    if read.kind == "contact":
-        require_finger(given, read)
+    read = log_of(log, naming, part_unit, None)
+    if read.kind == "contact" and not given:
+        raise InputError(
+            f"finger: {read.name} has u and psi, and u says where on the finger the contact is: expected the finger's shape, "
+            "as in finger=Disk(10), its radius in the part's unit"
+        )
     read = read._in_unit(part_unit, given)
     try:
         part, document = _core.teach(read._core, given[0] if given else None, *options)

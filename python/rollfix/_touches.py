@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
+from typing import Any, Dict, List, Mapping
 
 import numpy as np
 
-from . import _core
-from ._checks import array, flag, least, numbers, pose_prior, whole
+from ._checks import array, numbers
 from ._core import InputError
 from ._documents import Document
-from ._fingers import fingers
-from ._logs import Log
 from ._messages import shown
-from ._noise import angle_from, noise as noise_given
-from ._options import TouchOptions, filled, names_of
+from ._noise import angle_from
 from ._proved import Proved
 from ._tables import is_frame
 
@@ -48,13 +44,6 @@ class TouchAnswer(Proved):
 
     __slots__ = ()
     _FIGURE = "touch_figure"
-
-    def __init__(self, asked: Tuple[Any, ...], answer: Optional[_core.TouchAnswer] = None) -> None:
-        part, *rest, rolls, robust, clear, diagnose = asked
-        rest += [[one._core for one in rolls], robust, clear, diagnose]
-        self._answer = _core.locate_touches(part._core, *rest) if answer is None else answer
-        self._asked = asked
-        super().__init__(self._answer.document())
 
     @property
     def poses(self) -> Any:
@@ -93,57 +82,16 @@ class TouchAnswer(Proved):
             return f"<TouchAnswer: {self.verdict}; heading {np.degrees(heading):.6g} deg>"
         return f"<TouchAnswer: {self.verdict}; x {x:.6g}, y {y:.6g}, heading {np.degrees(heading):.6g} deg>"
 
-    def __reduce__(self) -> Any:
-        return (TouchAnswer, (self._asked,))
 
-
-def located(part: Any, touches: Any, *, rolls: Sequence[Log] = (), robust: bool = False, **options: Any) -> TouchAnswer:
-    """The answer to touches of a part, and to rolls, checked. `options`: any of TouchOptions; how logs are read is no matter."""
-    *rest, paths = asked_of(touches, {name: options[name] for name in names_of(TouchOptions) if name in options})
-    cores = tuple(one._in_unit(part.unit, fingers(options["finger"], most=1)) for one in rolls)
-    return TouchAnswer((part, *rest, cores, flag(robust, "robust"), paths, True))
-
-
-def asked_of(touches: Any, options: Mapping[str, Any]) -> Tuple[Any, ...]:
-    """What is asked of touches, whichever part it is, checked. `options`: any of TouchOptions."""
-    asked = filled(options, TouchOptions)
-    if asked["noise"] is not None and asked["tolerance"] is not None:
-        raise InputError("tolerance: `noise` already says how far touches are off: leave one out")
-    given = fingers(asked["finger"], most=1)
-    return (
-        _rows([] if touches is None else touches),
-        given[0] if given else None,
-        noise_given(asked["noise"]),
-        _tolerance(asked["tolerance"], touches is None),
-        pose_prior(asked["heading"], asked["pose"]),
-        flag(asked["mirrored"], "mirrored"),
-        None if asked["budget"] is None else whole(asked["budget"], "budget", 1),
-        _paths(asked["clear"]),
-    )
-
-
-def _paths(clear: Any) -> Any:
+def paths_from(clear: Any) -> Any:
     """(n, 4): from x, y to x, y."""
-    paths = [] if clear is None else clear
-    if not hasattr(paths, "__iter__") or isinstance(paths, (str, bytes)):
+    if not hasattr(clear, "__iter__") or isinstance(clear, (str, bytes)):
         raise InputError(f"clear: expected a list of (x, y, x, y), found {shown(clear)}")
-    rows = [numbers(path, 4, "clear", "(x, y, x, y), from where to where nothing was felt") for path in paths]
+    rows = [numbers(path, 4, "clear", "(x, y, x, y), from where to where nothing was felt") for path in clear]
     return np.array(rows, dtype=float).reshape(-1, 4)
 
 
-def _tolerance(given: Any, of_rolls_alone: bool) -> Optional[Tuple[float, float]]:
-    """A single number is a length, but of rolls alone the angle that it is of one roll."""
-    if given is None:
-        return None
-    if np.ndim(given) == 0:
-        if of_rolls_alone:
-            return 0.0, least(given, "tolerance", 0, "an angle")
-        return least(given, "tolerance", 0, "a length"), 0.0
-    length, angle = numbers(given, 2, "tolerance", "(length, angle)")
-    return length, angle
-
-
-def _rows(touches: Any) -> Any:
+def touches_from(touches: Any) -> Any:
     """(n, 5): x, y, normal and both standard deviations; NaN for what is not there."""
     if is_frame(touches):
         return _rows_of_columns({name: touches[name] for name in touches.columns})

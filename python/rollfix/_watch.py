@@ -6,20 +6,21 @@ import json
 import os
 import re
 import threading
-from typing import TYPE_CHECKING, Any, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, Iterable, Iterator, List, Mapping, Optional, Tuple, Union
 
 import numpy as np
 
 from . import _core
-from ._checks import clockwise, flag, number, place_prior, pose_prior, text, whole
+from ._checks import clockwise, flag, text, whole
 from ._clock import Clock
 from ._columns import Naming
 from ._core import InputError
-from ._fingers import Wheel, fingers
+from ._fingers import Wheel
 from ._made import Made
 from ._messages import shown, warn
-from ._noise import NoiseLike, weighing
+from ._noise import NoiseLike
 from ._options import LiveOptions, filled, keywords
+from ._question import Question
 from ._tables import Table, is_frame, safe, text_of
 from ._words import Numbering, diagnosis_in_python, in_python
 
@@ -83,13 +84,12 @@ class Watch(Made):
         **options: Unpack[LiveOptions],
     ) -> None:
         given = filled(options, LiveOptions)
-        sds = weighing(noise)
-        if sds is None:
+        if noise is None:
             raise InputError("noise: expected how far the sensors are off, as in Noise(contact=0.1, angle=0.01)")
+        clockwise(given["direction"])  # not both ways at once
         names = _names_of(name)
         with_skin, wheel = _with_wheel(given["finger"], names)
-        squeezed = None if given["squeezed"] is None else number(given["squeezed"], "squeezed")
-        if squeezed is not None and wheel is None:
+        if given["squeezed"] is not None and wheel is None:
             raise InputError("squeezed: is about a finger with skin and a Wheel without that squeeze a part: leave it out")
         self._alone = threading.RLock()  # whoever has it feeds; a warning's handler may feed as well
         self._naming = Naming(given["columns"], given["units"], given["degrees"], given["wrapped"])
@@ -101,23 +101,15 @@ class Watch(Made):
         self._last: Optional[Event] = None
         self._core = _core.Watch(
             part._core,
-            fingers(with_skin),
-            sds,
-            None if given["prior"] is None else place_prior(given["prior"]),
-            pose_prior(given["heading"], given["pose"]),
-            flag(given["robust"], "robust"),
-            whole(every, "every"),
+            Question(part._core, {**given, "finger": with_skin, "noise": noise}).core(),
             names,
+            whole(every, "every"),
+            flag(live, "live"),
             [(column, safe(called), unit) for column, called, unit in self._naming.declared()],
             self._naming.angles,
             self._naming.wrapped,
-            clockwise(given["direction"]),
-            flag(given["mirrored"], "mirrored"),
-            flag(live, "live"),
             None if catalog is None else catalog._core,
-            flag(given["may_overlap"], "may_overlap"),
             wheel,
-            squeezed,
         )
 
     def add(self, rows: Any, log: int = 0) -> List[Event]:

@@ -20,6 +20,7 @@ _PLAIN = (
     (r"; `skip_bad` leaves such rows out", "; read_log(..., bad='skip') leaves such rows out"),
     (r"`wrapped` no\b", "wrapped=False"),
     (r"`wrapped` yes\b", "wrapped=True"),
+    (r"says nothing; degrees are written ([\d.]+)deg", r"says nothing; of degrees make radians: np.radians(\1)"),
     (r"; degrees are written \d+deg", "; of degrees say degrees=True"),
     (r"\(degrees are written as in (\d+)deg\)", r"(of degrees make radians: np.radians(\1))"),
     (r"with `unit`, (?:as in|such as) `unit` (\w+)", r"with unit='\1'"),
@@ -32,6 +33,14 @@ _PLAIN = (
     (r"`decimal_comma`", "decimal=','"),
     (r"([)}']|=True) noise=Noise", r"\1, noise=Noise"),
     (r"`either_way`", "direction"),
+    (r"`at_rest`", "roll='all'"),
+    (r"`reading` LA,LB,THETA", "`readings` of (La, Lb, theta)"),
+    (r"`reading`", "`readings`"),
+    (r"`touch`", "`touches`"),
+    (r"`fingers`", "`finger`"),
+    (r"\bwheel,r=([\d.]+)", r"Wheel(\1)"),
+    (r"\bdisk,r=R\b", "Disk(radius)"),
+    (r"^`(\w+)`:?(?= (?:is|weighs|compares|goes|picks) |(?<=:) )", r"\1:"),
     (r"(?<!\S)--([a-z]+)", r"\1"),
 )
 

@@ -13,6 +13,7 @@
 #include "rollfix/contact/rolling.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/outline/outline.hpp"
+#include "rollfix/question/question.hpp"
 
 // Values as bytes, for pickle and for ==. Each struct is taken apart by a structured binding, which does not compile
 // when a field is added and not named here. Not for other machines or versions: no more than pickle promises.
@@ -253,13 +254,44 @@ void visit(A& a, Rounding& v) {
   all(a, length, turn);
 }
 template <class A>
-void visit(A& a, Felt& v);
+void visit(A& a, Log& v);
+template <class A>
+void visit(A& a, PinLog& v) {
+  auto& [rows] = v;
+  all(a, rows);
+}
+template <class A>
+void visit(A& a, PassiveWheel& v) {
+  auto& [log, radius] = v;
+  all(a, log, radius);
+}
+template <class A>
+void visit(A& a, MeasuredTouch& v) {
+  auto& [at, normal, position_sd, normal_sd] = v;
+  all(a, at, normal, position_sd, normal_sd);
+}
+template <class A>
+void visit(A& a, Clear& v) {
+  auto& [from, to] = v;
+  all(a, from, to);
+}
+template <class A>
+void visit(A& a, TouchTolerance& v) {
+  auto& [length, angle] = v;
+  all(a, length, angle);
+}
+template <class A>
+void visit(A& a, Measurements& v) {
+  auto& [readings, roundings, rolls, wheels, touches, clear, at_rest] = v;
+  all(a, readings, roundings, rolls, wheels, touches, clear, at_rest);
+}
 /// Without the part and the fingers, as an answer.
 template <class A>
-void visit(A& a, Problem& v) {
-  auto& [part, felt, fingers, noise, tolerance, budget, facing, at, prior, pose, mirrored, either_way, robust,
-         may_overlap, diagnose] = v;
-  all(a, felt, noise, tolerance, budget, facing, at, prior, pose, mirrored, either_way, robust, may_overlap, diagnose);
+void visit(A& a, Question& v) {
+  auto& [part, contacts, fingers, noise, tolerance, budget, facing, at, prior, pose, squeezed, direction, mirrored,
+         robust, may_overlap, diagnose] = v;
+  all(a, contacts, noise, tolerance, budget, facing, at, prior, pose, squeezed, direction, mirrored, robust,
+      may_overlap, diagnose);
 }
 template <class A>
 void visit(A& a, FingerRows& v) {
@@ -272,11 +304,6 @@ template <class A>
 void visit(A& a, Log& v) {
   auto& [name, kind, time, fingers, contact_was_off, unit, notes, skipped] = v;
   all(a, name, kind, time, fingers, contact_was_off, unit, notes, skipped);
-}
-template <class A>
-void visit(A& a, Felt& v) {
-  auto& [readings, log, roundings] = v;
-  all(a, readings, log, roundings);
 }
 template <class A>
 void visit(A& a, Roll& v) {

@@ -12,7 +12,6 @@
 #include "made.hpp"
 #include "rollfix/answer/answer.hpp"
 #include "rollfix/answer/next_roll.hpp"
-#include "rollfix/answer/solve.hpp"
 #include "rollfix/catalog/catalog.hpp"
 #include "rollfix/contact/log.hpp"
 #include "rollfix/contact/rolling.hpp"
@@ -20,6 +19,7 @@
 #include "rollfix/files/load_part.hpp"
 #include "rollfix/hold/hold.hpp"
 #include "rollfix/part/reach.hpp"
+#include "rollfix/question/question.hpp"
 #include "rollfix/touch/touch.hpp"
 
 // What Python holds of the library's values. All are immutable and shared, so that a thread that works without the
@@ -106,6 +106,6 @@ inline constexpr bool kIsPythonClass<PlacementHandle> = true;
 template <>
 inline constexpr bool kIsPythonClass<Reach> = true;
 template <>
-inline constexpr bool kIsPythonClass<Problem> = true;
+inline constexpr bool kIsPythonClass<Question> = true;
 
 }  // namespace rollfix::python

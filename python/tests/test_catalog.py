@@ -125,7 +125,7 @@ def test_all_is_in_the_catalog_s_unit(tmp_path):
 
 
 @pytest.mark.parametrize("wrong, why", [
-    (dict(), "readings: expected readings or `log`"),
+    (dict(), "expected readings, a log or touches, found none"),
     (dict(readings=[1, 2, 3, 4]), "readings:"),
     (dict(readings=[1, 0.5], noise=3), "noise:"),
     (dict(readings=[1, 0.5], finger=-1), "finger:"),
@@ -183,14 +183,14 @@ def test_several_rolls_say_which_part_it_is(catalog):
     assert found.names[0] == catalog.names[0]
     alone = part.locate(log=[roll.log for roll in rolls], roll="all", **given)
     assert found[0].answer.poses.tolist() == alone.poses.tolist()
-    with pytest.raises(rollfix.InputError, match="facing: is of one roll"):
+    with pytest.raises(rollfix.InputError, match="facing: rolls with u and psi have it themselves"):
         catalog.identify(log=[roll.log for roll in rolls], roll="all", facing=1.0, **given)
 
 
 def test_touches_and_a_roll_are_two_questions(catalog, roll):
-    with pytest.raises(rollfix.InputError, match="shares a pose with `touches` where roll='all'"):
+    with pytest.raises(rollfix.InputError, match="share a pose with roll='all': add it"):
         catalog.identify(touches=TOUCHES, log=roll, noise={"position": 0.005})
     with pytest.raises(rollfix.InputError, match="facing: touches do not roll"):
         catalog.identify(touches=TOUCHES, facing=1.0, noise={"position": 0.005})
     with pytest.raises(rollfix.InputError, match="clear: is about touches and several rolls"):
-        catalog.identify(clear=[(0, 0, 1, 1)])
+        catalog.identify(1.0, 0.5, clear=[(0, 0, 1, 1)])

@@ -76,7 +76,7 @@ def test_it_is_pickled_and_drawn(found, tmp_path):
 @pytest.mark.parametrize(
     "options, words",
     [
-        ({}, "finger: expected"),
+        ({}, "expected `finger`, once for all or once for each"),
         ({"finger": [DISK] * 2}, "3, one for each log"),
         ({"finger": DISK, "robust": True}, "robust"),
         ({"finger": DISK, "noise": NOISE, "tolerance": 0.1}, "tolerance"),

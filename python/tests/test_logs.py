@@ -176,7 +176,7 @@ def test_what_can_not_be_meant_is_a_sentence(wing, noise, frame, change, options
     (lambda p: p.locate(1, 1, facing=1.0), "facing"),
     (lambda p: p.locate(1, 1, at=[1]), "^at"),
     (lambda p: p.locate(1, 1, degrees=True), "^degrees"),
-    (lambda p: p.locate(1, 1, log="x.csv"), "^readings"),
+    (lambda p: p.locate(1, 1, log={"length": [1.0], "turn": [0.6]}), "expected readings or a log, found both"),
     (lambda p: p.locate(1, 1, heading=(1, 0), noise=dict(angle=.1)), "^heading"),
     (lambda p: p.locate(1, 1, pose=(1, 2, 3), noise=dict(angle=.1)), "^pose"),
     (lambda p: p.simulate(Disk(0.1), start=0), "`|length|expected"),

@@ -57,8 +57,8 @@ def test_a_unit_has_its_usual_name():
 
 
 @pytest.mark.parametrize("call, message", [
-    (lambda p: p.locate(1, 1, noise=Noise(angle=3)), r"^noise: angle is 3.0, .*np.radians\(3\)$"),
-    (lambda p: p.locate(1, 1, noise=Noise(angle=0.6)), "^noise: angle is 0.6, expected at most 0.5 radians"),
+    (lambda p: p.locate(1, 1, noise=Noise(angle=3)), r"^noise: an angle's standard deviation of 3 rad .*np.radians\(3\)$"),
+    (lambda p: p.locate(1, 1, noise=Noise(angle=0.6)), "^noise: .* of 0.6 rad is 34.4 deg, expected at most 0.5 rad"),
     (lambda p: p.locate(1, 1, noise=Noise(slip=0.1)), "^noise: expected a standard deviation of the contact or"),
     (lambda p: p.locate(1, 1, heading=(90, 5), **WEIGHED), r"^heading: .*at most pi radians, found 5.0; .*radians\(5\)$"),
     (lambda p: p.locate(1, 1, pose=(0, 0, 90, 1, 5), **WEIGHED), "^pose: .*at most pi radians"),
@@ -75,14 +75,14 @@ def test_degrees_for_radians_are_seen(ellipse, call, message):
     (lambda p: p.locate(1, 1, rounding=(-1, 0)), "^rounding: expected half units of at least 0"),
     (lambda p: p.locate(1, 1, direction="left"), "^direction: expected 'ccw', 'cw' or 'either', found 'left'"),
     (lambda p: p.locate_many([[1, 1]], direction="either"), "^direction: expected 'ccw' or 'cw', found 'either'; "),
-    (lambda p: p.locate(1, 1, prior=(1, 1)), "^prior: .*expected `noise` as well"),
-    (lambda p: p.locate(1, 1, robust=True), "^robust: .*expected `noise` as well"),
+    (lambda p: p.locate(1, 1, prior=(1, 1)), "^prior: .*give `noise` as well"),
+    (lambda p: p.locate(1, 1, robust=True), "^robust: .*give `noise` as well"),
     (lambda p: p.locate(1, 1, tolerance="1"), "^tolerance: expected a number, found '1'"),
     (lambda p: p.locate(LOG, finger=Disk(1)), "^readings: .*found a data frame: give a log by name, as log="),
     (lambda p: p.locate("roll.csv"), "^readings: .*log="),
     (lambda p: p.locate({"u": [0, 1], "psi": [0, 1]}), "^readings: .*found a dict: .*log="),
     (lambda p: p.locate((LOG, LOG)), "^readings: .*log="),
-    (lambda p: p.locate(log=LOG), r"^finger: log has u and psi, .*finger=Disk\(10\)"),
+    (lambda p: p.locate(log=LOG), r"^log: u says where on the finger .*finger=Disk\(RADIUS\)"),
     (lambda p: p.locate(log=[LOG] * 9, finger=Disk(1)), "^fingers on a free part: expected logs of 2 to 8 fingers, found 9$"),
     (lambda p: p.locate(log=LOG.to_dict("records") * 2, finger=Disk(1)), r"^log: .*pandas.DataFrame\(rows\)"),
     (lambda p: p.locate(log="u,psi\n0,0\n1,1\n", finger=Disk(1)), "^log: expected the path of a file, found 3 lines"),

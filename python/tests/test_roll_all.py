@@ -88,7 +88,7 @@ def test_an_answer_can_be_pickled(found):
 
 
 def test_what_is_of_one_roll_is_refused(part, logs):
-    with pytest.raises(rollfix.InputError, match="at: is of one roll"):
+    with pytest.raises(rollfix.InputError, match="at: roll='all' takes rows all along every roll"):
         part.locate(log=logs, roll="all", at=[1.0], finger=rollfix.Disk(0.2))
     with pytest.raises(rollfix.InputError, match="roll='all'"):
         part.locate(log=logs[0], touches=[(1, 2)], finger=rollfix.Disk(0.2), noise=NOISE)

@@ -130,7 +130,7 @@ def test_an_answer_can_be_pickled_and_drawn(found, tmp_path):
     [
         ({"touches": FIVE}, "found neither `noise` nor `tolerance`"),
         ({"touches": [(1,)], "noise": NOISE}, r"expected \(x, y\) or \(x, y, normal\)"),
-        ({"touches": [], "noise": NOISE}, "expected at least one"),
+        ({"touches": [], "noise": NOISE}, "expected readings, a log or touches, found none"),
         ({"touches": FIVE, "noise": NOISE, "tolerance": 1}, "leave one out"),
         ({"touches": FIVE, "noise": NOISE, "facing": 1}, "facing: touches do not roll"),
         ({"touches": FIVE, "noise": NOISE, "finger": rollfix.Jaw()}, "expected a round finger"),

@@ -7,7 +7,7 @@ namespace rollfix::python {
 
 void bind_part(pybind11::module_& module);
 void bind_log(pybind11::module_& module);
-void bind_problem(pybind11::module_& module);
+void bind_question(pybind11::module_& module);
 void bind_answer(pybind11::module_& module);
 void bind_placement(pybind11::module_& module);
 void bind_many(pybind11::module_& module);

@@ -1,9 +1,10 @@
 #include "rollfix/catalog/catalog.hpp"
 
 #include "bindings.hpp"
+#include "handles.hpp"
 #include "rollfix/catalog/identify.hpp"
+#include "rollfix/question/question.hpp"
 #include "signals.hpp"
-#include "touches.hpp"
 
 namespace rollfix::python {
 namespace {
@@ -40,70 +41,45 @@ py::list pairs_of(const std::vector<LeftOut>& left_out) {
   return result;
 }
 
-/// The document, and the answers by the ids of their parts.
-py::tuple identify_roll(const CatalogHandle& handle, const Problem& like, unsigned threads) {
-  const std::shared_ptr<const Catalog> catalog = handle.catalog;
-  const Problem own = like;  // another thread may change the original meanwhile
-  const py::object nobody = py::none();
-  IdentifyOptions options;
-  options.threads = threads;
-  options.go_on = [&nobody](std::size_t done) { return goes_on(nobody, done); };
-  std::string document;
-  std::vector<std::pair<std::int64_t, AnswerHandle>> answers;
-  {
-    const Unlocked others_may_run;
-    Identified found = identify(*catalog, own, options);
-    document = format_identified(*catalog, found, Layout::line);
-    for (PartFound& part : found.parts) {
-      part.answer.part = in_catalogs_unit(*catalog, part.answer.part);
-      answers.emplace_back(catalog->entry(part.weight.part).id,
-                           AnswerHandle{std::make_shared<const Answer>(std::move(part.answer))});
-    }
-  }
-  py::list list;
-  for (auto& [id, answer] : answers) list.append(py::make_tuple(id, std::move(answer)));
-  return py::make_tuple(document, list);
-}
+AnswerHandle handle_of(Answer&& answer) { return {std::make_shared<const Answer>(std::move(answer))}; }
+TouchAnswerHandle handle_of(TouchAnswer&& answer) { return {std::make_shared<const TouchAnswer>(std::move(answer))}; }
+std::size_t place_of(const PartFound& found) { return found.weight.part; }
+std::size_t place_of(const PartTouched& found) { return found.part; }
 
 /// The document, and the answers by the ids of their parts.
-py::tuple identify_touches(const CatalogHandle& handle, const Numbers& rows, const py::object& finger,
-                           const py::object& noise, const std::optional<std::pair<double, double>>& tolerance,
-                           const std::optional<std::vector<double>>& pose, bool mirrored,
-                           const std::optional<std::size_t>& budget, const std::vector<LogHandle>& rolls, bool robust,
-                           const Numbers& clear, unsigned threads) {
-  const std::shared_ptr<const Catalog> catalog = handle.catalog;
-  TouchProblem like =
-      touch_problem_from(catalog->part(0), rows, finger, noise, tolerance, pose, mirrored, budget, clear);
-  for (const LogHandle& roll : rolls) like.rolls.push_back(*roll.log);
-  like.robust = robust;
+template <class Searched>
+py::tuple identify_as(const Catalog& catalog, const Searched& like, unsigned threads) {
   const py::object nobody = py::none();
   IdentifyOptions options;
   options.threads = threads;
   options.go_on = [&nobody](std::size_t done) { return goes_on(nobody, done); };
   std::string document;
-  std::vector<std::pair<std::int64_t, TouchAnswerHandle>> answers;
+  decltype(identify(catalog, like, options)) found;
   {
     const Unlocked others_may_run;
-    IdentifiedByTouches found = identify(*catalog, like, options);
-    document = format_identified(*catalog, found, Layout::line);
-    for (PartTouched& part : found.parts) {
-      part.answer.part = in_catalogs_unit(*catalog, part.answer.part);
-      answers.emplace_back(catalog->entry(part.part).id,
-                           TouchAnswerHandle{std::make_shared<const TouchAnswer>(std::move(part.answer))});
-    }
+    found = identify(catalog, like, options);
+    document = format_identified(catalog, found, Layout::line);
+    for (auto& part : found.parts) part.answer.part = in_catalogs_unit(catalog, part.answer.part);
   }
-  py::list list;
-  for (auto& [id, answer] : answers) list.append(py::make_tuple(id, std::move(answer)));
-  return py::make_tuple(document, list);
+  py::list answers;
+  for (auto& part : found.parts) {
+    answers.append(py::make_tuple(catalog.entry(place_of(part)).id, handle_of(std::move(part.answer))));
+  }
+  return py::make_tuple(document, answers);
+}
+
+py::tuple identify_question(const CatalogHandle& handle, const Question& asked, unsigned threads) {
+  const std::shared_ptr<const Catalog> catalog = handle.catalog;
+  if (kind_of(asked) == QuestionKind::at_rest) return identify_as(*catalog, rest_problem(asked), threads);
+  return identify_as(*catalog, roll_problem(asked), threads);
 }
 
 /// The document of what tells apart the parts that remain.
-std::string advise_on(const CatalogHandle& handle, const Problem& like,
+std::string advise_on(const CatalogHandle& handle, const Question& asked,
                       const std::optional<std::pair<double, double>>& travel) {
   const std::shared_ptr<const Catalog> catalog = handle.catalog;
-  const Problem own = like;
   const Unlocked others_may_run;
-  const Identified found = identify(*catalog, own);
+  const Identified found = identify(*catalog, roll_problem(asked));
   const std::optional<Interval> range =
       travel ? std::optional<Interval>(Interval{travel->first, travel->second}) : std::nullopt;
   return format_next_roll(*catalog, found, next_roll(found, range), Layout::line);
@@ -155,8 +131,7 @@ void bind_catalog(py::module_& module) {
       .def("entries", &entries_of)
       .def("left_out", [](const CatalogHandle& handle) { return pairs_of(handle.catalog->left_out()); })
       .def("part", &part_of)
-      .def("identify", &identify_roll)
-      .def("identify_touches", &identify_touches)
+      .def("identify", &identify_question)
       .def("advise", &advise_on);
   module.def("catalog_sources", &sources_of);
   module.def("build_catalog", &build);

@@ -54,13 +54,6 @@ inline std::optional<Noise> noise_from_optional(const py::object& given) {
   return noise_from(given.cast<py::dict>());
 }
 
-/// x, y, heading, sd, sd of the heading.
-inline std::optional<PosePrior> pose_from(const std::optional<std::vector<double>>& given) {
-  if (!given) return std::nullopt;
-  const std::vector<double>& numbers = *given;
-  return PosePrior{{numbers.at(0), numbers.at(1), numbers.at(2)}, numbers.at(4), numbers.at(3)};
-}
-
 inline py::dict noise_to(const Noise& noise) {
   py::dict result;
   for (const NoiseKind& kind : kNoiseKinds) result[kind.name] = noise.*kind.sd;

@@ -25,8 +25,7 @@ LogOptions log_options(const py::dict& given) {
   options.wrapped = given["wrapped"].cast<std::optional<bool>>();
   options.skip_bad = given["skip_bad"].cast<bool>();
   if (given["decimal_comma"].cast<bool>()) options.decimal_comma = true;
-  options.clockwise = given["clockwise"].cast<bool>();
-  options.single_rows = given.contains("single_rows");
+  options.single_rows = given["single_rows"].cast<bool>();
   return options;
 }
 

@@ -2,8 +2,8 @@
 
 #include <ctime>
 
-#include "arrays.hpp"
 #include "bindings.hpp"
+#include "questions.hpp"
 #include "signals.hpp"
 
 namespace rollfix::python {
@@ -12,18 +12,19 @@ namespace {
 /// Problem k of an (n, m, 2) or (n, m, 3) array.
 class ManyReadings {
  public:
-  ManyReadings(const Numbers& rows, const std::optional<Numbers>& facing)
+  ManyReadings(const Numbers& rows, const std::optional<Numbers>& facing, bool clockwise)
       : first_(rows.data()),
         readings_(static_cast<std::size_t>(rows.shape(1))),
         numbers_(static_cast<std::size_t>(rows.shape(2))),
-        facing_(facing ? facing->data() : nullptr) {}
+        facing_(facing ? facing->data() : nullptr),
+        sign_(clockwise ? -1 : 1) {}
 
   void make(std::size_t k, Problem& problem) const {
     std::vector<Reading>& readings = problem.felt.readings;
     readings.resize(readings_);
     const double* row = first_ + k * readings_ * numbers_;
     for (Reading& reading : readings) {
-      reading = numbers_ == 3 ? Reading(row[0], row[1], row[2]) : Reading(row[0], row[1]);
+      reading = numbers_ == 3 ? Reading(sign_ * row[0], sign_ * row[1], row[2]) : Reading(sign_ * row[0], row[1]);
       row += numbers_;
     }
     if (facing_ != nullptr) problem.facing = facing_[k];
@@ -35,6 +36,7 @@ class ManyReadings {
   std::size_t readings_;
   std::size_t numbers_;
   const double* facing_;
+  double sign_;
 };
 
 ManyOptions many_options(unsigned threads, const py::object& progress) {
@@ -74,34 +76,36 @@ py::dict dict_of(AnswerTable table) {
   return result;
 }
 
-py::dict solve_many(const Problem& like, const Numbers& rows, const std::optional<Numbers>& facing, unsigned threads,
+/// `like`: with any readings, as many as each problem has.
+py::dict solve_many(const Question& like, const Numbers& rows, const std::optional<Numbers>& facing, unsigned threads,
                     const py::object& progress) {
-  const ManyReadings readings(rows, facing);
+  const ManyReadings readings(rows, facing, like.direction == Direction::clockwise);
   const auto count = static_cast<std::size_t>(rows.shape(0));
   const ManyOptions options = many_options(threads, progress);
   AnswerTable table;
   {
     const Unlocked others_may_run;
     table = solve_table(
-        like, count, [&](std::size_t k, Problem& problem) { readings.make(k, problem); }, readings.fingers(), options);
+        roll_problem(like), count, [&](std::size_t k, Problem& problem) { readings.make(k, problem); },
+        readings.fingers(), options);
   }
   return dict_of(std::move(table));
 }
 
-/// Problems that differ in more than their readings: logs, noise, fingers. Each answer whole, or its error.
-py::list solve_problems(const std::vector<Problem>& problems, unsigned threads, const py::object& progress) {
+/// Questions that differ in more than their readings: logs, noise, fingers. Each answer whole, or its error.
+py::list solve_questions(const std::vector<Question>& questions, unsigned threads, const py::object& progress) {
   const ManyOptions options = many_options(threads, progress);
-  std::vector<Solved> solved;
+  std::vector<Outcome> outcomes;
   {
     const Unlocked others_may_run;
-    solved = solve(problems, options);
+    outcomes = solve(questions, options);
   }
   py::list result;
-  for (Solved& one : solved) {
-    if (one.answer) {
-      result.append(AnswerHandle{std::make_shared<const Answer>(std::move(*one.answer))});
+  for (std::size_t k = 0; k < outcomes.size(); ++k) {
+    if (outcomes[k].solution) {
+      result.append(handle_of(std::move(*outcomes[k].solution), questions[k]));
     } else {
-      result.append(one.error);
+      result.append(outcomes[k].error);
     }
   }
   return result;
@@ -131,7 +135,7 @@ double seconds_of_rows(const PartHandle& handle, const Numbers& rows, bool as_ta
 void bind_many(py::module_& module) {
   module.def("solve_many", &solve_many);
   module.def("seconds_of_rows", &seconds_of_rows);  // for bench/python.py
-  module.def("solve_problems", &solve_problems);
+  module.def("solve_questions", &solve_questions);
 }
 
 }  // namespace rollfix::python

@@ -18,7 +18,7 @@ PYBIND11_MODULE(_core, module) {
   bind_log(module);
   bind_placement(module);
   bind_answer(module);
-  bind_problem(module);
+  bind_question(module);
   bind_many(module);
   bind_rolls(module);
   bind_reach(module);

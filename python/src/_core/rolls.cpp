@@ -170,12 +170,9 @@ py::tuple teach_part(const LogHandle& log, const py::object& finger, const py::o
   return py::make_tuple(PartHandle(std::move(*loaded)), document);
 }
 
-AnswerHandle before_any_contact(const PartHandle& part, const py::iterable& fingers, const py::object& noise,
-                                bool may_overlap) {
-  const std::vector<Finger> given = fingers_from(fingers);
-  const std::optional<Noise> stated = noise_from_optional(noise);
+AnswerHandle before_any_contact(const Question& asked) {
   const Unlocked others_may_run;
-  return {std::make_shared<const Answer>(before_contact(part.part(), given, stated, may_overlap))};
+  return {std::make_shared<const Answer>(before_contact(asked.part, asked.fingers, asked.noise, asked.may_overlap))};
 }
 
 NextRollHandle next_roll_of(const AnswerHandle& answer, const std::optional<std::pair<double, double>>& travel,

@@ -2,9 +2,9 @@
 #include <mutex>
 #include <sstream>
 
-#include "arrays.hpp"
 #include "bindings.hpp"
-#include "fingers.hpp"
+#include "handles.hpp"
+#include "rollfix/question/question.hpp"
 #include "rollfix/watch/watcher.hpp"
 #include "rollfix/watch/writer.hpp"
 #include "signals.hpp"
@@ -81,32 +81,30 @@ inline constexpr bool kIsPythonClass<Watch> = true;
 
 namespace {
 
-std::unique_ptr<Watch> watch(const PartHandle& part, const py::iterable& fingers, const py::dict& noise,
-                             const std::optional<std::pair<double, double>>& prior,
-                             const std::optional<std::vector<double>>& pose, bool robust, std::size_t every,
-                             const std::vector<std::string>& names,
+/// `asked`: of a part and of contacts that are still to come.
+std::unique_ptr<Watch> watch(const PartHandle& part, const Question& asked, const std::vector<std::string>& names,
+                             std::size_t every, bool live,
                              const std::vector<std::tuple<std::string, std::string, std::string>>& columns,
-                             const std::string& angles, const std::optional<bool>& wrapped, bool clockwise,
-                             bool mirrored, bool live, const std::optional<CatalogHandle>& catalog, bool may_overlap,
-                             const std::optional<double>& wheel, const std::optional<double>& squeezed) {
+                             const std::string& angles, const std::optional<bool>& wrapped,
+                             const std::optional<CatalogHandle>& catalog, const std::optional<double>& wheel) {
   app::WatchOptions options;
   options.name = names[0];
   if (names.size() == 2) options.name_b = names[1];
-  options.fingers = fingers_from(fingers);
-  options.belief.noise = noise_from(noise);
-  if (prior) options.belief.prior = Prior{prior->first, prior->second};
-  options.belief.pose = pose_from(pose);
-  options.belief.robust = robust;
+  options.fingers = asked.fingers;
+  options.belief.noise = asked.noise.value_or(Noise{});
+  options.belief.prior = asked.prior;
+  options.belief.pose = asked.pose;
+  options.belief.robust = asked.robust;
   options.every = every;
-  options.may_overlap = may_overlap;
+  options.may_overlap = asked.may_overlap;
   options.log.unit = part.part().unit();
   options.log.angles = angles;
   options.log.wrapped = wrapped;
-  options.log.clockwise = clockwise;
+  options.log.clockwise = asked.direction == Direction::clockwise;
   options.wheel = wheel;
-  options.squeezed = squeezed;
-  options.mirrored = mirrored && wheel;
-  options.log.mirrored = mirrored && !wheel;
+  options.squeezed = asked.squeezed;
+  options.mirrored = asked.mirrored && wheel;
+  options.log.mirrored = asked.mirrored && !wheel;
   options.live = live;
   if (catalog) options.catalog = catalog->catalog;
   options.log.any_part = catalog.has_value();
