@@ -131,7 +131,6 @@ constexpr std::array<Field, 21> kFields = {{
 }};
 
 void set_field(const std::string& name, const py::handle& given, Question& question) {
-  if (given.is_none()) return;  // not said
   for (const Field& field : kFields) {
     if (field.name == name) return field.set(given, question);
   }
@@ -140,7 +139,9 @@ void set_field(const std::string& name, const py::handle& given, Question& quest
 
 Question question_from(const PartHandle& part, const py::kwargs& given) {
   Question question(part.part(), {});
-  for (const auto& [name, value] : given) set_field(name.cast<std::string>(), value, question);
+  for (const auto& [name, value] : given) {
+    if (!value.is_none()) set_field(name.cast<std::string>(), value, question);  // None: not said
+  }
   return question;
 }
 
