@@ -17,7 +17,8 @@ from ._fingers import Disk, Finger, Jaw, OutlineFinger, Wheel
 from ._holds import HoldAnswer, PinAdvice
 from ._identified import Identified, PartFound
 from ._log_answers import LogAnswers
-from ._logs import Log, Roll, read_log
+from ._log_reading import read_log
+from ._logs import Log, Roll
 from ._making import gallery_shapes
 from ._many import ManyAnswers
 from ._messages import RollfixWarning

@@ -296,9 +296,8 @@ class Catalog(Made):
         """Of the first part, whichever it is."""
         if len(self) == 0:
             raise InputError(f"{self.path}: the catalog has no parts")
-        everything = {"readings": None, "turn": None, "log": None, "touches": None, **contacts}
         try:
-            return Question(self._core.part(0), options).of(**everything)
+            return Question(self._core.part(0), options).of(**contacts)
         except InputError as error:
             raise InputError(str(error).replace("make the part with unit=", "build the catalog with unit=")) from None
 
@@ -316,9 +315,11 @@ class Catalog(Made):
         return self._identified(text, found, posed)
 
     def _identified(self, text: str, found: Iterable[Tuple[int, Any]], posed: Posed) -> Identified:
-        return Identified(text, {part: posed.on(answer.part).answer(answer) for part, answer in found})
+        return Identified(text, {part: posed.answer_of_one(answer) for part, answer in found})
 
-    def _by_cluster(self, client: Any, asked: Sequence[Union[Posed, InputError]], bar: Progress) -> List[Union[Identified, InputError]]:
+    def _by_cluster(
+        self, client: Any, asked: Sequence[Union[Posed, InputError]], bar: Progress
+    ) -> List[Union[Identified, InputError]]:
         questions = [one.core for one in asked if not isinstance(one, InputError)]
         said = iter(_cluster.identify_many(client, self.path, questions, bar.report))
         return [one if isinstance(one, InputError) else self._said(next(said), one) for one in asked]

@@ -27,7 +27,8 @@ from ._columns import Naming
 from ._core import InputError
 from ._fingers import Wheel, fingers
 from ._holds import HoldAnswer
-from ._logs import Log, Roll, is_log, log_of, pin_of, rolls_of
+from ._log_reading import is_log, log_of, pin_of, rolls_of
+from ._logs import Log, Roll
 from ._messages import shown
 from ._noise import noise
 from ._options import AnyOptions, filled, is_said
@@ -40,7 +41,7 @@ OF_LOGS = ("columns", "units", "degrees", "wrapped", "roll")
 MOST_FINGERS = 8  # that C++ holds a part with; fewer where there are fewer logs, as C++ says
 
 
-@dataclass(frozen=True)
+@dataclass
 class Posed:
     """A question with its contacts, and the logs whose rows C++ speaks of."""
 
@@ -63,9 +64,11 @@ class Posed:
             return TouchAnswer(self.part, self.core, found)
         return HoldAnswer(self.part, self.core, found)
 
-    def on(self, part: _core.Part) -> "Posed":
-        """The same of another part, that is one of many."""
-        return replace(self, core=self.core.about(part), part=part)
+    def answer_of_one(self, found: Any) -> Any:
+        """The same of what C++ found of one of many parts."""
+        if isinstance(found, _core.Answer):
+            return self.answer(found)
+        return replace(self, core=self.core.about(found.part), part=found.part).answer(found)
 
     def refused(self, error: Union[InputError, str]) -> InputError:
         """What C++ says of it, in Python's words."""
@@ -102,9 +105,9 @@ class Question:
             "pose": pose_prior(given["heading"], given["pose"]),
             "squeezed": _or_none(given["squeezed"], lambda value: least(value, "squeezed", 0, "an angle")),
             "direction": _direction(given["direction"]),
-            "mirrored": flag(given["mirrored"], "mirrored"),
-            "robust": flag(given["robust"], "robust"),
-            "may_overlap": flag(given["may_overlap"], "may_overlap"),
+            "mirrored": flag(given["mirrored"], "mirrored") or None,
+            "robust": flag(given["robust"], "robust") or None,
+            "may_overlap": flag(given["may_overlap"], "may_overlap") or None,
             "clear": _or_none(given["clear"], paths_from),
         }
 
@@ -121,7 +124,7 @@ class Question:
             tolerance = (tolerance, 0.0) if contacts.get("touches") is not None else (0.0, tolerance)
         return _core.Question(self.part, **{"fingers": self._fingers, "tolerance": tolerance, **self._options, **contacts})
 
-    def of(self, readings: Any, turn: Any, log: Any, touches: Any) -> Posed:
+    def of(self, readings: Any = None, turn: Any = None, log: Any = None, touches: Any = None) -> Posed:
         """Of contacts of whichever kind: what one of them is not, or all together are not, C++ says."""
         is_all = self._given["roll"] == "all"
         if log is None and is_all:
@@ -135,7 +138,7 @@ class Question:
             "touches": None if touches is None else touches_from(touches),
         }
         if log is None:
-            self._require_no_log("touches do not roll and have no use for it" if touches is not None else "is about a log, found none")
+            self._require_no_log("is about a log, found none" if touches is None else "touches do not roll and have no use for it")
             return Posed(self.core(**contacts), self.part)
         if is_all:
             rolls = [self._in_unit(one) for one in rolls_of(log, self._naming, self.part.unit)]
@@ -207,17 +210,19 @@ class Question:
         return Posed(self.core(rolls=[log._core for log in logs], **contacts), self.part, tuple(logs))
 
     def _require_no_log(self, why: str) -> None:
-        for name in OF_LOGS:
-            if is_said(name, self._given[name]):
-                raise InputError(f"{name}: {why}")
+        if self._naming.says_nothing and self._given["roll"] is None:
+            return
+        name = next(name for name in OF_LOGS if is_said(name, self._given[name]))
+        raise InputError(f"{name}: {why}")
 
 
 def answer_to(part: _core.Part, contacts: Mapping[str, Any], options: Mapping[str, Any]) -> Any:
     """The answer to a question of whichever kind. `contacts`: readings, turn, log and touches."""
     answer = Question(part, options).of(**contacts).solved()
+    if contacts["readings"] is None or len(answer) > 0:
+        return answer
     is_exact = all(options.get(name) is None for name in ("noise", "tolerance", "rounding"))
-    fits_nowhere = contacts["readings"] is not None and len(answer) == 0
-    return offer_rounding(answer, answer.readings) if is_exact and fits_nowhere else answer
+    return offer_rounding(answer, answer.readings) if is_exact else answer
 
 
 def _or_none(value: Any, check: Callable[[Any], Any]) -> Any:

@@ -10,7 +10,8 @@ from ._checks import number
 from ._clock import Clock
 from ._core import InputError
 from ._fingers import Disk, Finger
-from ._logs import Log, Roll, read_log
+from ._log_reading import read_log
+from ._logs import Log, Roll
 from ._messages import shown
 
 SUMS = {"distance": "length", "dturn": "turn"}

@@ -10,7 +10,7 @@ from ._columns import Columns, Naming, Units
 from ._core import InputError
 from ._documents import Document
 from ._fingers import Finger, fingers
-from ._logs import log_of
+from ._log_reading import log_of
 from ._messages import in_a_page
 from ._noise import NoiseLike, noise as noise_given
 from ._part import Part
