@@ -131,3 +131,11 @@ def test_a_wheel_alone_or_first_is_refused(rig):
         cam.locate(log=[jaw, jaw], finger=[rollfix.Jaw(), rollfix.Wheel(0.3)])
     with pytest.raises(rollfix.InputError, match="squeezed"):
         cam.locate(0.5, 0.1, squeezed=0.1)
+
+
+def test_errors_of_several_fingers_name_rows_from_0_and_cures_in_python(part):
+    time, u = np.arange(5.0), np.linspace(0, 0.1, 5)
+    logs = [{"time": time, "u": u, "psi": k * u} for k in (1, 2, 3)]
+    logs[1]["time"] = time + [0, 0, 0, 0.3, 0]
+    with pytest.raises(rollfix.InputError, match=r"^row 3 of log is at the time 3 and row 3 of log at 3\.3"):
+        part.locate(log=logs, finger=rollfix.Disk(0.1))
