@@ -137,8 +137,7 @@ Verdict Belief::State::verdict_on(const std::vector<Place>& places) {
     remaining.most = places.front().probability;
     remaining.credible_length = posterior->credible_length(that_count);
   }
-  // Of two fingers what the search missed is told by its status.
-  if (contacts.finger_curvature.size() == 1) remaining.unresolved = outcome.unresolved;
+  remaining.unresolved = outcome.unresolved;
   return verdict_of(outcome.fit, remaining, part.boundary());
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -84,6 +85,8 @@ struct PairRegion {
 
   /// The leaf at these coordinates; none: leaves.size().
   std::size_t leaf_at(const Eigen::Vector2d& y) const;
+  /// By (w_a, w_b); nothing where it is further than the region goes.
+  std::optional<Eigen::Vector2d> off_origin(const PairStart& start) const;
   bool covers(const PairStart& start) const;
 };
 

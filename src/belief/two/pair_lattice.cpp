@@ -5,6 +5,7 @@
 #include <cmath>
 #include <deque>
 #include <limits>
+#include <utility>
 
 #include "belief/two/pair_density.hpp"
 
@@ -44,6 +45,8 @@ constexpr std::array<std::size_t, 3> kManySquares = {2500, 1500, 150};
 constexpr double kLargerSquares = 3;
 constexpr int kMostBeginnings = 4;
 constexpr double kOffTop = 4;
+// A square's quadratic must be this near to a peak that is known in it: else the peak is sharper than the square.
+constexpr double kForetold = 1;
 constexpr int kGrainsAcross = 3;
 constexpr int kPasses = 4;
 
@@ -71,17 +74,21 @@ bool is_within(const PairStart& origin, const Eigen::Vector2d& by) {
 class Spreading {
  public:
   Spreading(const PairModel& model, const std::vector<PairNode>& nodes, double excess,
-            const std::array<double, 2>& corner_length, double best, PairDensity& density)
+            const std::array<double, 2>& corner_length, const std::vector<PairPeak>& peaks, PairDensity& density)
       : model_(model),
         nodes_(nodes),
         heat_(excess * excess),
         corner_length_(corner_length),
-        best_(best),
+        best_(peaks.front().score.log_likelihood()),
+        peaks_(peaks),
         most_hypotheses_(kMostHypotheses[static_cast<std::size_t>(model.effort)]),
         many_squares_(kManySquares[static_cast<std::size_t>(model.effort)]),
         density_(density) {}
 
   void from(const PairPeak& peak);
+  /// The peaks, those first that have the widest squares: these suit a ridge that leads to a sharper peak, and that
+  /// one's own, which are not turned along it, do not.
+  std::vector<PairPeak> widest_first() const;
   double total() const { return total_; }
   double unresolved() const { return unresolved_; }
 
@@ -96,20 +103,37 @@ class Spreading {
     Eigen::Matrix<double, 5, 2> by_start;
   };
 
+  /// A peak, in a region's coordinates.
+  struct Known {
+    Eigen::Vector2d at;
+    double log_likelihood;
+  };
+
   bool spread(PairRegion& region, const PairPeak& peak, std::size_t most_squares);
+  std::vector<Known> known_in(const PairRegion& region) const;
+  /// Peaks in a square that its quadratic does not foretell are sharper than it is.
+  bool foretells_peaks(const PairRegion& region, const PairLeaf& leaf) const;
   bool look_into(PairRegion& region, const Task& task, std::vector<std::size_t>& leaves);
   void weigh(const PairRegion& region, PairLeaf& leaf) const;
   double log_prior(const PairStart& start) const;
+  bool is_negligible(const PairScore& score) const {
+    return (score.log_likelihood() - best_) / heat_ < -kNegligiblePair;
+  }
+  /// So wide that a square is `factor` standard deviations, as far as that is known at the peak.
+  Eigen::Matrix2d frame_of(const PairPeak& peak, double factor) const;
 
   const PairModel& model_;
   const std::vector<PairNode>& nodes_;
   double heat_;
   std::array<double, 2> corner_length_;
   double best_;
+  const std::vector<PairPeak>& peaks_;
+  std::vector<Known> known_;  // in the region that spreads
   std::size_t most_hypotheses_;
   std::size_t many_squares_;
   PairDensity& density_;
   std::size_t hypotheses_ = 0;
+  std::size_t limit_ = 0;  // of them, with this region
   double total_ = 0;
   double unresolved_ = 0;
 };
@@ -151,6 +175,28 @@ void Spreading::weigh(const PairRegion& region, PairLeaf& leaf) const {
   }
 }
 
+std::vector<Spreading::Known> Spreading::known_in(const PairRegion& region) const {
+  std::vector<Known> known;
+  for (const PairPeak& peak : peaks_) {
+    if (is_negligible(peak.score)) continue;
+    if (const auto by = region.off_origin(peak.start)) {
+      known.push_back({region.back * *by, peak.score.log_likelihood()});
+    }
+  }
+  return known;
+}
+
+bool Spreading::foretells_peaks(const PairRegion& region, const PairLeaf& leaf) const {
+  return std::all_of(known_.begin(), known_.end(), [&](const Known& peak) {
+    const Eigen::Vector2d off = peak.at - leaf.centre;
+    if (off.cwiseAbs().maxCoeff() > 0.5 * leaf.size) return true;
+    const Eigen::Vector2d by = region.frame * off;
+    const double foretold =
+        leaf.score.log_likelihood() + leaf.score.slope.dot(by) - 0.5 * by.dot(leaf.score.information * by);
+    return (peak.log_likelihood - foretold) / heat_ < kForetold;
+  });
+}
+
 /// True where the density of a square, or of some part of it, is not negligible.
 bool Spreading::look_into(PairRegion& region, const Task& task, std::vector<std::size_t>& leaves) {
   const Eigen::Vector2d by = region.frame * task.centre;
@@ -169,9 +215,10 @@ bool Spreading::look_into(PairRegion& region, const Task& task, std::vector<std:
   const double reach = kPairRateSafety * rate * task.size * std::sqrt(0.5);
   const double distance = std::max(0.0, std::sqrt(leaf.score.cost) - reach);
   const double most = -0.5 * (std::min(leaf.score.cost, distance * distance) + leaf.score.log_volume);
-  if ((most - best_) / heat_ < -kNegligiblePair) return false;
-  const bool is_fine = rate * task.size <= kFinePairStep * std::sqrt(heat_);
-  if (!is_fine && task.depth < kMostPairHalvings && hypotheses_ < most_hypotheses_) {
+  const bool foretells = foretells_peaks(region, leaf);
+  if (foretells && (most - best_) / heat_ < -kNegligiblePair) return false;
+  const bool is_fine = foretells && rate * task.size <= kFinePairStep * std::sqrt(heat_);
+  if (!is_fine && task.depth < kMostPairHalvings && hypotheses_ < limit_) {
     bool matters = false;
     for (const double x : {-0.25, 0.25}) {
       for (const double y : {-0.25, 0.25}) {
@@ -185,7 +232,7 @@ bool Spreading::look_into(PairRegion& region, const Task& task, std::vector<std:
       }
     }
     // A peak so sharp that no quarter's middle is on it stays, not resolved.
-    if (matters || (leaf.score.log_likelihood() - best_) / heat_ < -kNegligiblePair) return matters;
+    if (matters || is_negligible(leaf.score)) return matters;
   }
   leaf.log_density = (leaf.score.log_likelihood() - best_) / heat_ + log_prior(leaf.start);
   weigh(region, leaf);
@@ -197,6 +244,7 @@ bool Spreading::look_into(PairRegion& region, const Task& task, std::vector<std:
 
 /// False where there are too many squares.
 bool Spreading::spread(PairRegion& region, const PairPeak& peak, std::size_t most_squares) {
+  known_ = known_in(region);
   std::deque<Task> tasks;
   std::unordered_map<std::uint64_t, bool> seen;
   tasks.push_back(
@@ -205,7 +253,7 @@ bool Spreading::spread(PairRegion& region, const PairPeak& peak, std::size_t mos
   while (!tasks.empty()) {
     const Task task = tasks.front();
     tasks.pop_front();
-    if (hypotheses_ >= most_hypotheses_) {
+    if (hypotheses_ >= limit_) {
       unresolved_ = std::numeric_limits<double>::infinity();
       return true;
     }
@@ -237,23 +285,43 @@ bool Spreading::spread(PairRegion& region, const PairPeak& peak, std::size_t mos
   return true;
 }
 
+Eigen::Matrix2d Spreading::frame_of(const PairPeak& peak, double factor) const {
+  const double longest = kLongestSquare * std::min(span(*peak.start.arc[0]), span(*peak.start.arc[1]));
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(peak.score.information / heat_);
+  Eigen::Matrix2d frame;
+  for (const Eigen::Index i : {0, 1}) {
+    const double precision = std::max(0.0, solver.eigenvalues()[i]);
+    const double step = std::min(longest, precision > 0 ? factor / std::sqrt(precision) : longest);
+    frame.col(i) = step * solver.eigenvectors().col(i);
+  }
+  return frame;
+}
+
+std::vector<PairPeak> Spreading::widest_first() const {
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t k = 0; k < peaks_.size(); ++k) {
+    const double area = std::abs(frame_of(peaks_[k], 1).determinant());
+    order.emplace_back(is_negligible(peaks_[k].score) ? 0 : -area, k);
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<PairPeak> sorted;
+  for (const auto& [area, k] : order) sorted.push_back(peaks_[k]);
+  return sorted;
+}
+
 void Spreading::from(const PairPeak& peak) {
   // One that is off its hill's top may still lead to it.
   if ((peak.score.log_likelihood() - best_) / heat_ < -kOffTop * kNegligiblePair) return;
   for (const PairRegion& region : density_.regions) {
     if (region.covers(peak.start)) return;
   }
-  const double longest = kLongestSquare * std::min(span(*peak.start.arc[0]), span(*peak.start.arc[1]));
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(peak.score.information / heat_);
+  // No region takes what others need.
+  limit_ = hypotheses_ + (most_hypotheses_ - std::min(hypotheses_, most_hypotheses_)) / 2;
   double factor = 1;
   for (int beginning = 0; beginning < kMostBeginnings; ++beginning, factor *= kLargerSquares) {
     PairRegion region;
     region.origin = peak.start;
-    for (const Eigen::Index i : {0, 1}) {
-      const double precision = std::max(0.0, solver.eigenvalues()[i]);
-      const double step = std::min(longest, precision > 0 ? factor / std::sqrt(precision) : longest);
-      region.frame.col(i) = step * solver.eigenvectors().col(i);
-    }
+    region.frame = frame_of(peak, factor);
     region.back = region.frame.inverse();
     for (const std::size_t finger : {0U, 1U}) {
       region.origin_s[finger] = region.origin.arc[finger]->at(region.origin.w[finger]).s;
@@ -282,24 +350,29 @@ std::size_t PairRegion::leaf_at(const Eigen::Vector2d& y) const {
   return leaves.size();
 }
 
-bool PairRegion::covers(const PairStart& start) const {
-  if (start.arc != origin.arc) return false;
+std::optional<Eigen::Vector2d> PairRegion::off_origin(const PairStart& start) const {
+  if (start.arc != origin.arc) return std::nullopt;
   Eigen::Vector2d by;
   for (const std::size_t finger : {0U, 1U}) {
     const auto i = static_cast<Eigen::Index>(finger);
     by[i] = start.w[finger] - origin.w[finger];
     if (origin.arc[finger]->loop()) by[i] = std::remainder(by[i], span(*origin.arc[finger]));
   }
-  if (!is_within(origin, by)) return false;
-  return leaves_of.count(square_key(back * by)) > 0;
+  if (!is_within(origin, by)) return std::nullopt;
+  return by;
+}
+
+bool PairRegion::covers(const PairStart& start) const {
+  const auto by = off_origin(start);
+  return by && leaves_of.count(square_key(back * *by)) > 0;
 }
 
 PairDensity pair_density(const PairModel& model, const std::vector<PairPeak>& peaks, const std::vector<PairNode>& nodes,
                          double excess, const std::array<double, 2>& corner_length) {
   PairDensity density;
   if (peaks.empty()) return density;
-  Spreading spreading(model, nodes, excess, corner_length, peaks.front().score.log_likelihood(), density);
-  for (const PairPeak& peak : peaks) spreading.from(peak);
+  Spreading spreading(model, nodes, excess, corner_length, peaks, density);
+  for (const PairPeak& peak : spreading.widest_first()) spreading.from(peak);
   // What goes on round the loop makes more regions.
   std::size_t next = 0;
   while (next < density.regions.size()) {

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "belief/two/pair_density.hpp"
@@ -35,6 +37,9 @@ constexpr int kFineSteps = 8;
 constexpr double kHopeless = 120;
 constexpr std::size_t kMostStarts = 400;
 constexpr std::size_t kMostPeaks = 200;
+// Of as many, half are the best there are; the others come from wherever they can, of so many parts of a perimeter: a
+// plateau has thousands, all as good, and would leave none for what is a little worse elsewhere.
+constexpr std::uint32_t kParts = 16;
 // Of an explanation on trial only the best peak matters.
 constexpr std::size_t kMostStartsOnTrial = 100;
 constexpr std::size_t kMostPeaksOnTrial = 24;
@@ -249,14 +254,35 @@ std::vector<PairPeak> best_of_neighbours(const PairModel& model, const PairCandi
   return best;
 }
 
-/// Of peaks, the best first, those that may be the answer, each once, no more than `most`. `rows`: by which they were
-/// compared.
-std::vector<PairPeak> distinct(const std::vector<PairPeak>& peaks, double rows, std::size_t most) {
+/// Of peaks, the best first, no more than `most`: half of them the best, then the best of each part of the boundary,
+/// the second best of each, and so on.
+std::vector<PairPeak> from_everywhere(const PairModel& model, std::vector<PairPeak> peaks, std::size_t most) {
+  if (peaks.size() <= most) return peaks;
+  const auto part_at = [&](const PairStart& start, std::size_t finger) {
+    const double s = model.places.on_first_lap(start.arc[finger]->at(start.w[finger]).s);
+    return static_cast<std::uint32_t>(kParts * s / model.perimeter());
+  };
+  std::unordered_map<std::uint32_t, std::size_t> count;
+  std::vector<std::pair<std::size_t, std::size_t>> turns;  // of each peak, when it is its part's turn
+  for (std::size_t k = 0; k < peaks.size(); ++k) {
+    const std::uint32_t part = kParts * part_at(peaks[k].start, 0) + part_at(peaks[k].start, 1);
+    const std::size_t rank = count[part]++;
+    turns.emplace_back(2 * k < most ? 0 : rank, k);
+  }
+  std::sort(turns.begin(), turns.end());
+  turns.resize(most);
+  std::vector<PairPeak> chosen;
+  for (const auto& [rank, k] : turns) chosen.push_back(peaks[k]);
+  std::sort(chosen.begin(), chosen.end(), by_deviance);
+  return chosen;
+}
+
+/// Of peaks, the best first, those that may be the answer, each once. `rows`: by which they were compared.
+std::vector<PairPeak> distinct(const std::vector<PairPeak>& peaks, double rows) {
   std::vector<PairPeak> found;
   for (const PairPeak& peak : peaks) {
     const double scale = std::max(1.0, peaks.front().score.cost / rows);
     if (deviance(peak.score) > deviance(peaks.front().score) + kHopeless * scale) break;
-    if (found.size() == most) break;
     const bool is_known = std::any_of(found.begin(), found.end(), [&](const PairPeak& other) {
       if (other.start.arc != peak.start.arc) return false;
       const Eigen::Vector2d off(peak.start.w[0] - other.start.w[0], peak.start.w[1] - other.start.w[1]);
@@ -275,13 +301,14 @@ std::vector<PairPeak> peaks_by_few(const PairModel& model, const PairCandidates&
   std::vector<PairPeak> chosen = best_of_neighbours(model, candidates, some_of(nodes, kVeryFewRows));
   std::sort(chosen.begin(), chosen.end(), by_deviance);
   const bool on_trial = model.effort != Effort::whole;
-  chosen.resize(std::min(chosen.size(), on_trial ? kMostStartsOnTrial : kMostStarts));
+  chosen = from_everywhere(model, std::move(chosen), on_trial ? kMostStartsOnTrial : kMostStarts);
   for (PairPeak& peak : chosen) {
     peak.score = score_of(model, peak.start, few, PairShared::Zero(), 1);
     peak = climb(model, peak, few, kCoarseSteps);
   }
   std::sort(chosen.begin(), chosen.end(), by_deviance);
-  return distinct(chosen, static_cast<double>(few.size()), on_trial ? kMostPeaksOnTrial : kMostPeaks);
+  return from_everywhere(model, distinct(chosen, static_cast<double>(few.size())),
+                         on_trial ? kMostPeaksOnTrial : kMostPeaks);
 }
 
 }  // namespace
