@@ -45,6 +45,8 @@ constexpr std::array<std::size_t, 3> kManySquares = {2500, 1500, 150};
 constexpr double kLargerSquares = 3;
 constexpr int kMostBeginnings = 4;
 constexpr double kOffTop = 4;
+// Wide peaks come first, but not those that next to nothing is at: of a peak's density this power counts.
+constexpr double kShareOfDensity = 0.5;
 // A square's quadratic must be this near to a peak that is known in it: else the peak is sharper than the square.
 constexpr double kForetold = 1;
 constexpr int kGrainsAcross = 3;
@@ -54,6 +56,12 @@ std::uint64_t square_key(const Eigen::Vector2d& y) {
   const auto i = static_cast<std::int32_t>(std::floor(y[0] + 0.5));
   const auto j = static_cast<std::int32_t>(std::floor(y[1] + 0.5));
   return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(i)) << 32) | static_cast<std::uint32_t>(j);
+}
+
+double mass_of(const PairRegion& region) {
+  double sum = 0;
+  for (const PairLeaf& leaf : region.leaves) sum += leaf.share;
+  return sum;
 }
 
 double span(const TiltedArc& arc) { return arc.hi() - arc.lo(); }
@@ -253,8 +261,9 @@ bool Spreading::spread(PairRegion& region, const PairPeak& peak, std::size_t mos
   while (!tasks.empty()) {
     const Task task = tasks.front();
     tasks.pop_front();
+    // As much again as was found may be missing.
     if (hypotheses_ >= limit_) {
-      unresolved_ = std::numeric_limits<double>::infinity();
+      unresolved_ += region.leaves.empty() ? std::numeric_limits<double>::infinity() : mass_of(region);
       return true;
     }
     std::vector<std::size_t> leaves;
@@ -300,12 +309,13 @@ Eigen::Matrix2d Spreading::frame_of(const PairPeak& peak, double factor) const {
 std::vector<PairPeak> Spreading::widest_first() const {
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t k = 0; k < peaks_.size(); ++k) {
-    const double area = std::abs(frame_of(peaks_[k], 1).determinant());
-    order.emplace_back(is_negligible(peaks_[k].score) ? 0 : -area, k);
+    const double log_area = std::log(std::abs(frame_of(peaks_[k], 1).determinant()));
+    const double log_density = (peaks_[k].score.log_likelihood() - best_) / heat_;
+    order.emplace_back(-log_area - kShareOfDensity * log_density, k);
   }
   std::sort(order.begin(), order.end());
   std::vector<PairPeak> sorted;
-  for (const auto& [area, k] : order) sorted.push_back(peaks_[k]);
+  for (const auto& [rank, k] : order) sorted.push_back(peaks_[k]);
   return sorted;
 }
 
@@ -333,7 +343,7 @@ void Spreading::from(const PairPeak& peak) {
       continue;
     }
     if (region.leaves.empty()) return;
-    for (const PairLeaf& leaf : region.leaves) total_ += leaf.share;
+    total_ += mass_of(region);
     density_.regions.push_back(std::move(region));
     return;
   }
