@@ -93,19 +93,19 @@ std::vector<HoldFit::PathPose> HoldFit::poses_at(HeldState& state, std::size_t r
 
 /// The best paths from one pose of the first row, or from any, to each of the last row's.
 void HoldFit::follow(PosesOfRows& rows, std::optional<std::size_t> first) {
-  constexpr double kNever = std::numeric_limits<double>::infinity();
+  constexpr double kNoPath = std::numeric_limits<double>::infinity();
   const double step = step_of(rows);
   const double any = 2 * std::log(static_cast<double>(rows.front().size()));
   for (std::size_t k = 0; k < rows.front().size(); ++k) {
     PathPose& one = rows.front()[k];
-    one.steps = !first || *first == k ? any : kNever;
+    one.steps = !first || *first == k ? any : kNoPath;
     one.sum = one.cost + one.steps;
   }
   for (std::size_t row = 1; row < rows.size(); ++row) {
-    for (PathPose& one : rows[row]) one.sum = kNever;
+    for (PathPose& one : rows[row]) one.sum = kNoPath;
     for (std::size_t i = 0; i < rows[row - 1].size(); ++i) {
       const PathPose& before = rows[row - 1][i];
-      if (before.sum == kNever) continue;
+      if (before.sum == kNoPath) continue;
       const std::vector<double> costs = step_costs(before.placed, rows[row], step);
       for (std::size_t j = 0; j < rows[row].size(); ++j) {
         PathPose& one = rows[row][j];
