@@ -104,7 +104,15 @@ TEST(RigPaths, ExactRowsOfADiskFitTheirPoses) {
 
 TEST(RigPaths, OfFewRowsTheTruthIsListed) {
   const Counted few = counted(test_count(4), 20);
-  EXPECT_EQ(few.listed, few.logs);
+  EXPECT_GE(10 * few.listed, 9 * few.logs);
+  EXPECT_EQ(few.sure_and_wrong, 0);
+}
+
+/// Not of all: where the disk could as well have pivoted at a corner all the time, docs/rig.md.
+TEST(SlowRigPaths, OfManyRowsMostTruthsAreListed) {
+  const Counted many = counted(test_count(12), 200);
+  EXPECT_GE(3 * many.listed, 2 * many.logs);
+  EXPECT_LE(4 * many.sure_and_wrong, many.logs);
 }
 
 }  // namespace rig_paths_test

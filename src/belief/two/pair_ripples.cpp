@@ -13,7 +13,7 @@
 // Notation:
 //   y           a channel: of all nodes a length, the turn, the distance or the direction
 //   window      `size` neighbouring nodes
-//   E           takes the best parabola off a window: I - Q Q^T, Q being orthonormal columns of 1, x, x^2
+//   Q           orthonormal columns of 1, x, x^2 in a window: Q Q^T y is the parabola that is nearest to it
 // Follows A. Savitzky and M. Golay, "Smoothing and differentiation of data by simplified least squares procedures"
 // (1964); at the ends of the roll the parabola is that of the first or the last window.
 namespace rollfix::belief {
@@ -35,22 +35,21 @@ struct Left {
   Eigen::VectorXd of_window;
 };
 
-Eigen::MatrixXd without_parabola(Eigen::Index size) {
+Eigen::MatrixXd parabolas(Eigen::Index size) {
   const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(size, -1, 1);
   Eigen::MatrixXd powers(size, kParameters);
   powers << Eigen::VectorXd::Ones(size), x, x.cwiseAbs2();
-  const Eigen::MatrixXd Q =
-      Eigen::HouseholderQR<Eigen::MatrixXd>(powers).householderQ() * Eigen::MatrixXd::Identity(size, kParameters);
-  return Eigen::MatrixXd::Identity(size, size) - Q * Q.transpose();
+  return Eigen::HouseholderQR<Eigen::MatrixXd>(powers).householderQ() * Eigen::MatrixXd::Identity(size, kParameters);
 }
 
-Left left_of(const Channel& y, const Eigen::MatrixXd& E) {
-  const Eigen::Index size = E.rows();
+Left left_of(const Channel& y, const Eigen::MatrixXd& Q) {
+  const Eigen::Index size = Q.rows();
   Left left{Eigen::VectorXd(y.size()), Eigen::VectorXd(y.size())};
   for (Eigen::Index k = 0; k < y.size(); ++k) {
     const Eigen::Index begin = std::clamp<Eigen::Index>(k - size / 2, 0, y.size() - size);
-    const Eigen::VectorXd off = E * y.segment(begin, size);
-    left.of_node[k] = off[k - begin] / std::sqrt(E(k - begin, k - begin));
+    const Eigen::VectorXd parabola = Q * (Q.transpose() * y.segment(begin, size));
+    const Eigen::VectorXd off = y.segment(begin, size) - parabola;
+    left.of_node[k] = off[k - begin] / std::sqrt(1 - Q.row(k - begin).squaredNorm());
     left.of_window[k] = off.squaredNorm() / static_cast<double>(size - kParameters);
   }
   return left;
@@ -96,13 +95,13 @@ PairRipples tell_ripples(std::vector<PairNode>& nodes) {
   const Eigen::Index size = std::max(kLeastWindow, count / kWindows | 1);
   PairRipples usual = PairRipples::Zero();
   if (count < 2 * size) return usual;
-  const Eigen::MatrixXd E = without_parabola(size);
+  const Eigen::MatrixXd Q = parabolas(size);
   const double deviation = std::sqrt(2.0 / static_cast<double>(size - kParameters));
   Eigen::Matrix<double, 5, Eigen::Dynamic> ripples = Eigen::Matrix<double, 5, Eigen::Dynamic>::Zero(5, count);
   std::vector<bool> is_smooth(nodes.size() - first, true);
   Eigen::Index row = 0;
   for (const Channel& channel : channels_of(nodes, first)) {
-    const Left left = left_of(channel, E);
+    const Left left = left_of(channel, Q);
     const double most = lower_quartile(left.of_window) * (1 + kNoParabola * deviation);
     for (std::size_t k = 0; k < is_smooth.size(); ++k) {
       if (left.of_window[static_cast<Eigen::Index>(k)] > most) is_smooth[k] = false;
