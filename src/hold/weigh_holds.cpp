@@ -199,7 +199,7 @@ class HoldWeighing {
       const bool is_found = std::ranges::any_of(
           optima, [&](const Optimum& other) { return other.set == one.set && fits(fit, other.state); });
       if (fit.wheels() > 0 && !is_found && fits(few, one.state) && !fits(fit, state)) {
-        state = nudged(fit, one.state.unknowns, std::move(state));
+        state = nudged(fit, one.state.unknowns, state);
       }
       const std::size_t set = set_with(found, state, one.set);
       if (set == found.size()) continue;
@@ -215,7 +215,7 @@ class HoldWeighing {
 
   /// Where few rows fit and all of them don't, some may have turned to a wrong side of a corner: from about there
   /// again.
-  static HeldState nudged(const HoldFit& fit, const Unknowns& unknowns, HeldState state) {
+  static HeldState nudged(const HoldFit& fit, const Unknowns& unknowns, const HeldState& state) {
     std::vector<HeldState> starts;
     for (int k = -kNudges; k <= kNudges; ++k) {
       Unknowns about = unknowns;
