@@ -10,10 +10,11 @@
 // Notation as in hold_pins.cpp:
 //   phi_k, sigma_k  the part's heading at row k in one of its poses, and its standard deviation there
 //   F_k             what row k costs in it
-//   h               how far the part turns from row to row, by the smallest steps between their poses
-//   w_ij            1 / (1 + (phi_j - phi_i)^2 / (h^2 + sigma_i^2 + sigma_j^2)): from pose i of a row to pose j of
-//   the next;
-//                   -2 log of its share among all j is what that costs: nothing where there is one pose
+//   h               how far the part turns from row to row, by the smallest steps between their poses; more, where they
+//                   are few
+//   w_ij            1 / (1 + (phi_j - phi_i)^2 / (h^2 + sigma_i^2 + sigma_j^2)), from pose i of a row to pose j of the
+//                   next; -2 log of its share among all j is what that costs: nothing where there is one pose. Of the
+//                   first row's poses all are as probable.
 // The path is the one of least sum of both, by dynamic programming (R. Bellman, 1957).
 // Idea: beside a wheel a row may fit in several poses, but a part that was in one of them a row ago is near it still.
 // If each row took what fits best, places would fit the better the more poses they leave to choose from.
@@ -51,6 +52,7 @@ std::vector<double> HoldFit::step_costs(const Placed& from, const std::vector<Pa
   return shares;
 }
 
+/// Of each row, whatever the others'.
 HoldFit::PosesOfRows HoldFit::all_poses(HeldState& state) const {
   PosesOfRows rows;
   for (std::size_t row = 0; row < rows_.rows.size(); ++row) rows.push_back(poses_at(state, row));
