@@ -40,6 +40,20 @@ Problem by_increments(double drift, double laps) {
   return {part(), log, {}, noise_with(drift, 1e-4, 1e-3)};
 }
 
+/// 35 rows of a lap in 400 s: over one row the bias comes to a hundred times what a row is off otherwise.
+Problem by_few_long_rows() {
+  const double P = part().perimeter();
+  Log log = rollfix::noisy_increments(part(), kStartShare * P, P, 35, noise_with(0, 1e-5, 2e-4), 5, 400).log;
+  for (std::size_t k = 0; k < log.time.size(); ++k) log.fingers[0].turn[k] += kBias * log.time[k];
+  return {part(), log, {}, noise_with(kDrift, 1e-5, 2e-4)};
+}
+
+/// As a clock shows it.
+Problem later(Problem problem, double seconds) {
+  for (double& time : problem.felt.log->time) time += seconds;
+  return problem;
+}
+
 /// A disk whose psi a gyroscope measures, in a minute.
 Problem by_psi(double drift) {
   const double P = part().perimeter();
@@ -68,6 +82,10 @@ Fit expect_found(const Problem& problem) {
 TEST(GyroscopeBias, of_increments_is_measured_and_moves_no_place) {
   EXPECT_LT(expect_found(by_increments(kDrift, 0.9)).turn_bias_sd, 0.2 * kDrift);
 }
+
+TEST(GyroscopeBias, is_in_the_first_row_as_in_the_second) { expect_found(by_few_long_rows()); }
+
+TEST(GyroscopeBias, does_not_ask_when_a_clock_began) { expect_found(later(by_few_long_rows(), 1.7e9)); }
 
 TEST(GyroscopeBias, of_psi_is_measured_and_moves_no_place) {
   EXPECT_LT(expect_found(by_psi(kDrift)).turn_bias_sd, 0.2 * kDrift);

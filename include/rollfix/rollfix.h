@@ -128,7 +128,8 @@ ROLLFIX_API rollfix_code rollfix_part_load(const char* path, const rollfix_part_
                                            char* message, size_t size);
 ROLLFIX_API void rollfix_part_free(rollfix_part* part); /* NULL: nothing */
 
-/* Of the course: its length, and 1 where it was drawn clockwise: it is stored the other way round, and s counts so. */
+/* Of the course: its length, and 1 where it was drawn clockwise: it is stored the other way round, and s counts so.
+ * Of NULL: 0. */
 ROLLFIX_API double rollfix_part_length(const rollfix_part* part);
 ROLLFIX_API int32_t rollfix_part_reversed(const rollfix_part* part);
 
@@ -137,10 +138,11 @@ ROLLFIX_API int32_t rollfix_part_reversed(const rollfix_part* part);
 ROLLFIX_API rollfix_code rollfix_start(const rollfix_part* part, const rollfix_options* options,
                                        rollfix_locator** locator, char* message, size_t size);
 ROLLFIX_API void rollfix_stop(rollfix_locator* locator);          /* NULL: nothing */
-ROLLFIX_API size_t rollfix_bytes(const rollfix_locator* locator); /* of that memory */
+ROLLFIX_API size_t rollfix_bytes(const rollfix_locator* locator); /* of that memory; of NULL: 0 */
 
 /* The next row: what wheel and gyroscope have added since the row before; positive along the course as drawn, turns
- * counter-clockwise. `seconds` grows from row to row; where neither bias nor walk is stated it may stay 0. A row that
+ * counter-clockwise. `seconds` grows from row to row; where neither bias nor walk is stated it may stay 0. The first
+ * row is taken to last as long as the second; or push the start itself first, without distance and turn. A row that
  * is not valid is refused (ROLLFIX_INPUT) and leaves all as it was. Takes about a microsecond. */
 ROLLFIX_API rollfix_code rollfix_push(rollfix_locator* locator, double seconds, double distance, double turn);
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -132,10 +131,6 @@ struct PairCentres {
   static PairCentres of(const PerFinger<FeltCentre>& felt, const PerFinger<double>& facing);
 };
 
-/// The noise of both lengths, of the turn, and of the centres' distance and direction.
-using PairRipple = Eigen::Matrix<double, 5, 1>;
-using PairRipples = Eigen::Matrix<double, 5, 5>;  // their covariance
-
 /// Neighbouring rows of two fingers' roll as one.
 struct PairNode {
   bool is_facing = false;                // the first contacts' facing: a row of its own, without lengths
@@ -146,7 +141,6 @@ struct PairNode {
   double gathered = 0;                   // rows since the node before
   std::array<double, 2> travelled{};     // by each finger, length since the node before, to and fro
   std::optional<PairCentres> centres{};  // where they are looked at: means
-  std::optional<PairRipple> ripple{};    // its noise, as far as that is known: see tell_ripples
 };
 
 /// As of one finger's nodes.

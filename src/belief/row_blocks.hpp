@@ -21,6 +21,14 @@ struct Row {
   FeltCentre felt{};            // where its centre is, if that is looked at
 };
 
+/// Whether a log's first row is not its start: what it says was measured on the way to it.
+inline bool has_way_to_first(LogKind kind, double length, double turn) {
+  return kind != LogKind::contact && (length != 0 || turn != 0);
+}
+
+/// When such a log started: its first row is taken to have lasted as long as the second. Seconds.
+inline double start_before(double first, double second) { return first - (second - first); }
+
 /// Rows that are taken together: their means, or of increments the last of them.
 struct JoinedRows {
   double length = 0;

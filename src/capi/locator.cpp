@@ -81,15 +81,29 @@ const char* Locator::refusal(double seconds, double distance, double turn) const
   if (!std::isfinite(distance) || !std::isfinite(turn)) return "expected a finite distance and turn";
   if (!has_times()) return nullptr;
   if (!std::isfinite(seconds)) return "expected a finite time";
-  const bool is_later = !belief_->first_time || seconds > *belief_->first_time + belief_->last.seconds;
+  const bool is_later = !belief_->start_time || seconds > *belief_->start_time + belief_->last.seconds;
   return is_later ? nullptr : "expected a time after that of the row before";
 }
 
 void Locator::push(double seconds, double distance, double turn) {
+  if (!has_times()) seconds = 0;
+  const Increment row{seconds, distance, turn};
+  if (!belief_->start_time) {
+    belief_->start_time = seconds;
+    if (has_times() && has_way_to_first(LogKind::increments, distance, turn)) belief_->first = row;
+  } else if (belief_->first) {
+    const Increment first = *belief_->first;
+    restart();
+    belief_->start_time = start_before(first.seconds, seconds);
+    add(first);
+  }
+  add(row);
+}
+
+void Locator::add(const Increment& row) {
   LogBelief& log = *belief_;
-  const Reading sum = in_stored_direction(log.odometer.add({{distance, 0}, {turn, 0}}), part_);
-  if (!log.first_time) log.first_time = has_times() ? seconds : 0;
-  log.last = {sum, 0, has_times() ? seconds - *log.first_time : 0, sum.turn, {}};
+  const Reading sum = in_stored_direction(log.odometer.add({{row.distance, 0}, {row.turn, 0}}), part_);
+  log.last = {sum, 0, row.seconds - *log.start_time, sum.turn, {}};
   use_memory([&] { log.nodes.add(log.last); });
 }
 

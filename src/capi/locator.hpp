@@ -43,6 +43,11 @@ class Locator {
   double rest() const;
 
  private:
+  struct Increment {
+    double seconds = 0;
+    double distance = 0;
+    double turn = 0;
+  };
   /// What is made anew for every log.
   struct LogBelief {
     explicit LogBelief(Locator& locator);
@@ -51,13 +56,15 @@ class Locator {
     belief::Nodes nodes;
     belief::Grid grid;
     std::pmr::vector<Mode> modes;
-    std::optional<double> first_time;
+    std::optional<double> start_time;
+    std::optional<Increment> first{};  // until it is known how long it took
     belief::Row last;
   };
 
   bool has_times() const { return options_.noise.drift > 0 || options_.noise.walk > 0; }
   /// What a grid of so many points takes at most.
   std::size_t bytes_for(std::size_t points) const;
+  void add(const Increment& row);
   template <class Work>
   void use_memory(const Work& work);
 

@@ -161,8 +161,8 @@ rollfix_code rollfix_part_load(const char* path, const rollfix_part_options* opt
 
 void rollfix_part_free(rollfix_part* part) { delete part; }
 
-double rollfix_part_length(const rollfix_part* part) { return part->part.perimeter(); }
-int32_t rollfix_part_reversed(const rollfix_part* part) { return part->part.reversed() ? 1 : 0; }
+double rollfix_part_length(const rollfix_part* part) { return part == nullptr ? 0 : part->part.perimeter(); }
+int32_t rollfix_part_reversed(const rollfix_part* part) { return part != nullptr && part->part.reversed() ? 1 : 0; }
 
 rollfix_code rollfix_start(const rollfix_part* part, const rollfix_options* options, rollfix_locator** locator,
                            char* message, size_t size) {
@@ -178,7 +178,7 @@ rollfix_code rollfix_start(const rollfix_part* part, const rollfix_options* opti
 
 void rollfix_stop(rollfix_locator* locator) { delete locator; }
 
-size_t rollfix_bytes(const rollfix_locator* locator) { return locator->locator.bytes(); }
+size_t rollfix_bytes(const rollfix_locator* locator) { return locator == nullptr ? 0 : locator->locator.bytes(); }
 
 rollfix_code rollfix_push(rollfix_locator* locator, double seconds, double distance, double turn) {
   if (locator == nullptr || locator->locator.refusal(seconds, distance, turn) != nullptr) return ROLLFIX_INPUT;

@@ -25,7 +25,6 @@ constexpr double kLeastHeldTravel = 1e-9;
 constexpr double kLeastHeldAngle = 1e-9;  // radians
 // A row is at the same corner as another if both contacts are within so many standard deviations of one another.
 constexpr double kAlikeSigmas = 3;
-constexpr double kMedianVariance = 0.5 * std::numbers::pi;  // of a median, in those of a mean
 constexpr std::size_t kRobustInstants = 15;  // in place of kHoldInstants: of some a measurement may be an outlier
 
 double radius_share(const Noise& noise, const Finger& finger) {
@@ -126,64 +125,6 @@ void count_alike(std::size_t finger, HeldRows& held) {
   }
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
-}
-
-/// What an outlier does not move: each number of a finger's rows is their median, but for how the contact lies on it.
-HeldContact median_of(const std::vector<HeldRow>& rows, std::size_t from, std::size_t to, std::size_t finger,
-                      HeldContact mean) {
-  const auto of = [&](auto number) {
-    std::vector<double> values;
-    for (std::size_t k = from; k < to; ++k) values.push_back(number(rows[k].contacts[finger]));
-    return median(std::move(values));
-  };
-  mean.travelled = of([](const HeldContact& one) { return one.travelled; });
-  mean.tangent = of([](const HeldContact& one) { return one.tangent; });
-  mean.orientation = of([](const HeldContact& one) { return one.orientation; });
-  mean.at = {of([](const HeldContact& one) { return one.at.x(); }),
-             of([](const HeldContact& one) { return one.at.y(); })};
-  mean.lever = {of([](const HeldContact& one) { return one.lever.x(); }),
-                of([](const HeldContact& one) { return one.lever.y(); })};
-  return mean;
-}
-
-/// The mean of the rows from one to before another.
-HeldRow mean_of(const std::vector<HeldRow>& rows, std::size_t from, std::size_t to, bool robust) {
-  HeldRow mean = rows[from];
-  if (to - from == 1) return mean;
-  const auto count = static_cast<double>(to - from);
-  mean.time = 0;
-  for (std::size_t k = from; k < to; ++k) mean.time += rows[k].time / count;
-  for (std::size_t finger = 0; finger < mean.contacts.size(); ++finger) {
-    HeldContact sum{0, 0, Vec2::Zero(), Vec2::Zero(), 0, 0, 0};
-    for (std::size_t k = from; k < to; ++k) {
-      const HeldContact& one = rows[k].contacts[finger];
-      sum.travelled += one.travelled / count;
-      sum.tangent += one.tangent / count;
-      sum.at += one.at / count;
-      sum.lever += one.lever / count;
-      sum.orientation += one.orientation / count;
-      sum.finger_curvature += one.finger_curvature / count;
-      sum.rows_alike += one.rows_alike / count;
-    }
-    mean.contacts[finger] = robust ? median_of(rows, from, to, finger, sum) : sum;
-  }
-  for (std::size_t pin = 0; pin < mean.pins.size(); ++pin) {
-    HeldPin sum;
-    for (std::size_t k = from; k < to; ++k) {
-      sum.at += rows[k].pins[pin].at / count;
-      sum.spin += rows[k].pins[pin].spin / count;
-    }
-    mean.pins[pin] = sum;
-  }
-  mean.weight = robust ? count / kMedianVariance : count;
-  return mean;
-}
-
 }  // namespace
 
 std::vector<Log> aligned(std::vector<Log> logs) {
@@ -222,20 +163,6 @@ HeldRows held_rows(const HoldProblem& problem, const std::vector<Log>& logs) {
   held.prior = problem.prior;
   held.pose = problem.pose;
   return held;
-}
-
-HeldRows averaged(const HeldRows& rows, std::size_t most) {
-  const std::size_t count = rows.rows.size();
-  if (count <= most) return rows;
-  HeldRows result = rows;
-  result.rows.clear();
-  const std::size_t stride = (count - 2 + most - 1) / most;
-  result.rows.push_back(rows.rows.front());
-  for (std::size_t from = 1; from + 1 < count; from += stride) {
-    result.rows.push_back(mean_of(rows.rows, from, std::min(from + stride, count - 1), rows.outlier_share > 0));
-  }
-  result.rows.push_back(rows.rows.back());
-  return result;
 }
 
 std::vector<std::size_t> rows_to_search(const HoldProblem& problem, const Log& log) {

@@ -73,9 +73,6 @@ std::vector<Log> aligned(std::vector<Log> logs);
 /// `logs`: aligned; of the fingers, then of the wheels.
 HeldRows held_rows(const HoldProblem& problem, const std::vector<Log>& logs);
 
-/// The same with neighbouring rows averaged, but for the first and the last one, to no more than about so many.
-HeldRows averaged(const HeldRows& rows, std::size_t most);
-
 /// Rows to search with, in the order in which they tell most: the first, the last, the middle one, ...
 std::vector<std::size_t> rows_to_search(const HoldProblem& problem, const Log& log);
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "answer_holds.hpp"
+#include "averaged_rows.hpp"
 #include "fingers_apart.hpp"
 #include "hold_fit.hpp"
 
@@ -25,7 +26,6 @@ constexpr double kCloseStarts = 0.04;     // ... and no two of a set that are cl
 constexpr std::size_t kGlanceLooks = 96;  // the same at a glance, ...
 constexpr std::size_t kGlanceStarts = 2;  // ... of each set from where to start, ...
 constexpr std::size_t kGlanceOptima = 4;  // ... and the best of all that are looked at by all rows
-constexpr std::size_t kMostRows = 512;    // of a posterior; more are averaged
 constexpr int kNudges = 4;                // to both sides, of a contact's error each, ...
 constexpr double kFitsNowhere = 1e-6;     // ... where all rows are less probable
 constexpr double kHopeless = 60;          // a set whose chi-square is so much larger than the best has no probability
@@ -46,7 +46,7 @@ class HoldWeighing {
         answer_(answer) {}
 
   void run(const std::vector<FoundSet>& found) {
-    const HeldRows all = averaged(rows_, kMostRows);
+    const HeldRows all = averaged(rows_);
     const HoldFit few(problem_.part, searched_, wheels_);
     const HoldFit fit(problem_.part, all, wheels_);
     std::vector<HeldSet> known;

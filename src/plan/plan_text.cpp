@@ -32,11 +32,11 @@ std::string friction_text(const PlanProblem& problem, const PlanMargin& margin) 
   const double tilt = margin.allowed - margin.value;
   const double asked = tilt + problem.margin;
   if (!finger.friction || asked >= 0.5 * std::numbers::pi) {
-    return fmt::format("no friction would hold {} {}: the force comes to {:.2f} deg from the normal there", name,
+    return fmt::format("no friction would hold {}, first {}: at worst the force comes to {:.2f} deg from the normal", name,
                        when(margin), in_degrees(tilt));
   }
   return fmt::format(
-      "{} slips {}: the force comes to {:.2f} deg from the normal, and friction {:.4g} holds it up to "
+      "{} slips, first {}: at worst the force comes to {:.2f} deg from the normal, and friction {:.4g} holds it up to "
       "{:.2f} deg{}; friction {:.4g} would do",
       name, when(margin), in_degrees(tilt), *finger.friction, in_degrees(margin.allowed),
       problem.margin > 0 ? fmt::format(", less a margin of {:.2f} deg", in_degrees(problem.margin)) : "",
@@ -49,10 +49,10 @@ std::string limit_text(const PlanProblem& problem, const PlanMargin& margin) {
   const std::string unit = unit_behind(problem);
   switch (margin.condition) {
     case Condition::speed:
-      return fmt::format("{} is too fast {}: {:.4g}{}/s, the limit is {:.4g}; take longer", name, when(margin), reached,
+      return fmt::format("{} is too fast, first {}: up to {:.4g}{}/s, the limit is {:.4g}; take longer", name, when(margin), reached,
                          unit, margin.allowed);
     case Condition::turn:
-      return fmt::format("{} turns too fast {}: {:.4g} deg/s, the limit is {:.4g}; take longer", name, when(margin),
+      return fmt::format("{} turns too fast, first {}: up to {:.4g} deg/s, the limit is {:.4g}; take longer", name, when(margin),
                          in_degrees(reached), in_degrees(margin.allowed));
     case Condition::travel:
       return fmt::format("{} travels too far {}: {:.4g}{} in all, the limit is {:.4g}; roll less far", name,
@@ -72,10 +72,10 @@ std::string failure_text(const PlanProblem& problem, const PlanMargin& margin) {
         return fmt::format("{} can't roll over the concave corner {}", name_of_finger(problem, margin.finger),
                            when(margin));
       }
-      return fmt::format("{} would hit the part {}: by {:.4g}{}", name_of_finger(problem, margin.finger), when(margin),
+      return fmt::format("{} would hit the part, first {}: by up to {:.4g}{}", name_of_finger(problem, margin.finger), when(margin),
                          -margin.value, unit_behind(problem));
     case Condition::apart:
-      return fmt::format("the fingers hit each other {}: they come to {:.4g}{}{}", when(margin), margin.value,
+      return fmt::format("the fingers hit each other, first {}: they come to {:.4g}{} at worst{}", when(margin), margin.value,
                          unit_behind(problem),
                          problem.clearance > 0 ? fmt::format(", and {:.4g} is asked for", problem.clearance) : "");
     case Condition::stable:

@@ -210,6 +210,12 @@ TEST(CApi, says_why_there_is_no_part) {
   EXPECT_EQ(std::strlen(short_one.data()), 7U);
 }
 
+TEST(CApi, of_nothing_there_is_nothing) {
+  EXPECT_EQ(rollfix_part_length(nullptr), 0);
+  EXPECT_EQ(rollfix_part_reversed(nullptr), 0);
+  EXPECT_EQ(rollfix_bytes(nullptr), 0U);
+}
+
 TEST(CApi, takes_a_figure_eight_where_it_is_allowed) {
   std::vector<double> xy;
   for (int k = 0; k < 40; ++k) {

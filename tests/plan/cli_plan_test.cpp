@@ -28,7 +28,7 @@ TEST(CliPlan, says_which_condition_fails_and_writes_nothing) {
   const cli::Folder folder;
   const cli::Ran ran = run(kTwo + "--length 0.7 --friction 0.3 -o never.csv");
   EXPECT_EQ(ran.code, 1);
-  EXPECT_THAT(ran.out, AllOf(StartsWith("no plan: finger "), HasSubstr(" slips at "), HasSubstr("FAILS")));
+  EXPECT_THAT(ran.out, AllOf(StartsWith("no plan: finger "), HasSubstr(" slips, first at "), HasSubstr("FAILS")));
   EXPECT_FALSE(std::filesystem::exists("never.csv"));
 }
 

@@ -81,22 +81,20 @@ class OneFingersPosterior : public Posterior {
       : part_(part), kind_(kind), options_(options), contacts_(contacts) {}
 
   void add(const Sample& sample) override {
-    const bool is_first = !state_;
     require_times(options_.noise, sample.time.has_value(), "the samples");
-    const std::optional<FeltCentre> felt = felt_centre(sample);
-    if (is_first) {
-      std::optional<FirstCentre> first;
-      if (felt)
-        first = FirstCentre{*felt, sample.centre.has_value(), facing(contacts_.fingers.front(), (*sample.contact)[0])};
-      state_.emplace(part_, kind_, options_, sample.finger_curvature[0], first);
-      first_time_ = sample.time.value_or(0);
-      if (sample.contact) first_psi_ = (*sample.contact)[0].psi;
+    if (!state_) {
+      begin(sample, sample.time.value_or(0));
+      // Row 1 of a log of contacts is what all others are measured from: it says nothing by itself.
+      if (kind_ != LogKind::contact) take(sample);
+      if (gathers_by_time() && has_way_to_first(kind_, sample.reading.length[0], sample.reading.turn)) first_ = sample;
+      return;
     }
-    last_ = {sample.reading, sample.finger_curvature[0], sample.time.value_or(0) - first_time_, sensed(sample),
-             felt.value_or(FeltCentre{})};
-    // Row 1 of a log of contacts is what all others are measured from: it says nothing by itself.
-    if (is_first && kind_ == LogKind::contact) return;
-    state_->nodes.add(last_);
+    if (first_) {
+      begin(*first_, start_before(*first_->time, *sample.time));
+      take(*first_);
+      first_.reset();
+    }
+    take(sample);
   }
 
   std::size_t samples() const override { return state_ ? state_->nodes.rows() : 0; }
@@ -154,6 +152,25 @@ class OneFingersPosterior : public Posterior {
   }
 
  private:
+  bool gathers_by_time() const { return options_.noise.drift > 0 || options_.noise.walk > 0; }
+  void begin(const Sample& first, double time) {
+    std::optional<FirstCentre> centre;
+    if (const auto felt = felt_centre(first)) {
+      centre = FirstCentre{*felt, first.centre.has_value(), facing(contacts_.fingers.front(), (*first.contact)[0])};
+    }
+    state_.emplace(part_, kind_, options_, first.finger_curvature[0], centre);
+    first_time_ = time;
+    if (first.contact) first_psi_ = (*first.contact)[0].psi;
+    last_ = row_of(first);
+  }
+  void take(const Sample& sample) {
+    last_ = row_of(sample);
+    state_->nodes.add(last_);
+  }
+  Row row_of(const Sample& sample) const {
+    return {sample.reading, sample.finger_curvature[0], sample.time.value_or(0) - first_time_, sensed(sample),
+            felt_centre(sample).value_or(FeltCentre{})};
+  }
   /// Nothing where the finger is not known, or what it felt.
   std::optional<FeltCentre> felt_centre(const Sample& sample) const {
     if (kind_ != LogKind::contact || !sample.contact || contacts_.fingers.empty()) return std::nullopt;
@@ -172,8 +189,9 @@ class OneFingersPosterior : public Posterior {
   BeliefOptions options_;
   Contacts contacts_;
   std::optional<OneFingersGrid> state_;
+  std::optional<Sample> first_;  // until it is known how long it took
   Row last_;
-  double first_time_ = 0;
+  double first_time_ = 0;  // of the roll's start
   double first_psi_ = 0;
 };
 

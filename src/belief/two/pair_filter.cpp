@@ -38,9 +38,6 @@ constexpr double kLeastDistance = 1e-6;
 // Of a turn's variance at least this share is not in the distance and the direction of the centres.
 constexpr double kLeastOwn = 1e-6;
 
-// Noise beyond this many times what is usual, squared, is not noise.
-constexpr double kMostUntold = 9;
-
 /// The angle nearest to 0 that is the same: std::remainder, but for rounding, and faster.
 double nearest_to_zero(double angle) { return angle - kTwoPi * std::floor(angle / kTwoPi + 0.5); }
 
@@ -54,9 +51,8 @@ struct PairEquations {
   Eigen::Matrix<double, N, 1> f = Eigen::Matrix<double, N, 1>::Zero();
   Eigen::Matrix<double, N, 5> by_errors = Eigen::Matrix<double, N, 5>::Zero();
   Eigen::Matrix<double, N, 2> by_start = Eigen::Matrix<double, N, 2>::Zero();
-  Eigen::Matrix<double, N, 2> by_length = Eigen::Matrix<double, N, 2>::Zero();  // as they were measured in the row
-  Eigen::Matrix<double, N, N> variance = Eigen::Matrix<double, N, N>::Zero();   // of the row on its own
-  Eigen::Matrix<double, N, N> pivots = Eigen::Matrix<double, N, N>::Zero();     // of that, of fingers at corners
+  Eigen::Matrix<double, N, N> variance = Eigen::Matrix<double, N, N>::Zero();  // of the row on its own
+  Eigen::Matrix<double, N, N> pivots = Eigen::Matrix<double, N, N>::Zero();    // of that, of fingers at corners
   double beyond = 0;  // squared distance beyond an open outline's ends, in standard deviations
 };
 
@@ -243,7 +239,6 @@ PairEquations<N> row_equations(const PairModel& model, const StartPlaces& at, co
       rows.beyond += off * off / errors.contact_variance();
     }
   }
-  rows.by_length.row(0) = rows.by_errors.template topLeftCorner<1, 2>();
   if (errors.absolute()) {
     f = nearest_to_zero(f);
   } else {
@@ -257,10 +252,7 @@ PairEquations<N> row_equations(const PairModel& model, const StartPlaces& at, co
   }
   rows.variance(0, 0) = variance / node.rows + pivots_alike;
   rows.pivots(0, 0) = pivots_alike;
-  if constexpr (N == 3) {
-    add_centres(model, contacts, node, rows);
-    rows.by_length.template bottomRows<2>() = rows.by_errors.template bottomLeftCorner<2, 2>();
-  }
+  if constexpr (N == 3) add_centres(model, contacts, node, rows);
   return rows;
 }
 
@@ -315,25 +307,6 @@ class LogSum {
   double sum_ = 0;
 };
 
-/// Rows of a pivot tell next to nothing, neither by the turn nor by the centres. They cost what rows do in the mean,
-/// trace(S^-1 pivots), where that is not told: else starts would be likelier the more rows they leave to pivots. As far
-/// as the noise e of such a row is known, it costs as much more than others as e^T (R^-1 - S^-1) e is more than usual,
-/// S being R + pivots: else starts would be likelier that leave to pivots what happens to be noisy.
-template <int N>
-double untold_cost(const PairEquations<N>& row, const std::optional<PairRipple>& ripple, const PairRipples& ripples) {
-  if (row.pivots.isZero(0)) return 0;
-  const Eigen::Matrix<double, N, N> inverse = row.variance.inverse();
-  const double untold = (inverse * row.pivots).trace();
-  if (!ripple) return untold;
-  Eigen::Matrix<double, N, 5> by_ripple;
-  by_ripple << row.by_length, -Eigen::Matrix<double, N, 3>::Identity();
-  const Eigen::Matrix<double, N, 1> e = by_ripple * *ripple;
-  const Eigen::Matrix<double, N, N> told = (row.variance - row.pivots).inverse() - inverse;
-  const double usual = (told * by_ripple * ripples * by_ripple.transpose()).trace();
-  const double times = e.dot(told * e) / usual;
-  return std::isfinite(times) ? untold * std::clamp(times, 0.0, kMostUntold) : untold;
-}
-
 /// A Kalman filter of the shared errors that goes through the rows.
 class PairPass {
  public:
@@ -386,7 +359,9 @@ class PairPass {
     // As of one finger only what the rows share has a volume, see RollFilter::absorb.
     const Eigen::Matrix<double, 5, N> of_walk = walk_ * rows.by_errors.transpose();
     const Eigen::Matrix<double, N, N> noise = own + rows.by_errors * of_walk;
-    const double untold = std::min(1.0, node.rows) * untold_cost<N>(rows, node.ripple, model_.ripples);
+    // Rows of a pivot tell next to nothing, neither by the turn nor by the centres. They cost what others do in the
+    // mean: else starts would be likelier the more rows they leave to pivots.
+    const double untold = std::min(1.0, node.rows) * (own.inverse() * rows.pivots).trace();
     double weight = 1;
     if (model_.outlier_share > 0) {
       const double range = N == 1 ? kTwoPi : kTwoPi * kTwoPi * model_.perimeter();

@@ -108,7 +108,6 @@ struct PairModel {
   std::array<FeltContact, 2> first{};  // ... as they were felt
   const Part* part = nullptr;
   Boundary places;
-  PairRipples ripples = PairRipples::Zero();  // of the nodes that have one
   Effort effort = Effort::whole;
   Innovations* kept = nullptr;  // where the last pass's go, if they are asked for
 

@@ -392,6 +392,12 @@ PairDensity pair_density(const PairModel& model, const std::vector<PairPeak>& pe
     }
   }
   const double total = spreading.total();
+  // Next to nothing about any peak, as of rows that contradict the noise by far: nothing is known then.
+  if (!(total > 0)) {
+    density.regions.clear();
+    density.rest = 1;
+    return density;
+  }
   density.total = total;
   for (PairRegion& region : density.regions) {
     for (PairLeaf& leaf : region.leaves) {

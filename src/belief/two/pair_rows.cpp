@@ -114,6 +114,66 @@ std::vector<PairRows::Block> PairRows::blocks() const {
   return all;
 }
 
+/// Of both lengths, of the turn and, where they are looked at, of the centres' distance and direction.
+std::vector<Course> PairRows::courses_of(const std::vector<Block>& blocks, const PairErrors& errors) const {
+  const double contact = errors.contact_sd();
+  const double turn =
+      std::hypot(std::sqrt(errors.turn_variance()), contact * errors.normal_turn(0), contact * errors.normal_turn(1));
+  std::vector<Course> courses{{{}, contact}, {{}, contact}, {{}, turn}};
+  for (const Block& block : blocks) {
+    for (const std::size_t finger : {0U, 1U}) courses[finger].values.push_back(block.length[finger] / block.medians);
+    courses[2].values.push_back(block.turn / block.medians);
+  }
+  if (have_centres() && errors.centre_variance() > 0) {
+    const double distance = std::sqrt(2 * errors.centre_variance());
+    courses.push_back({{}, distance});
+    courses.push_back({{}, std::hypot(distance / blocks.front().centres.distance, 0.5 * turn)});
+    double last = blocks.front().centres.direction;
+    for (const Block& block : blocks) {
+      last = brought_near(block.centres.direction, last);
+      courses[3].values.push_back(block.centres.distance);
+      courses[4].values.push_back(last);
+    }
+  }
+  for (Course& course : courses) course.sd /= std::sqrt(static_cast<double>(blocks.front().rows));
+  return courses;
+}
+
+/// As few blocks as even motion allows, each as it was in the middle of its rows.
+std::vector<PairRows::Block> PairRows::joined_where_even(std::vector<Block> blocks, const PairErrors& errors) const {
+  if (robust_ || blocks.size() < 2 * kFewestMeans) return blocks;
+  if (!std::ranges::all_of(courses_of(blocks, errors), is_even)) return blocks;
+  for (std::size_t lots = kFewestMeans; 2 * lots <= blocks.size(); lots *= 2) {
+    std::vector<Block> few(lots);
+    for (std::size_t k = 0; k < lots; ++k) {
+      for (std::size_t from = k * blocks.size() / lots; from < (k + 1) * blocks.size() / lots; ++from) {
+        few[k] = joined(few[k], blocks[from]);
+      }
+    }
+    if (to_middles(few, errors)) return few;
+  }
+  return blocks;
+}
+
+/// False: the means go too uneven for that.
+bool PairRows::to_middles(std::vector<Block>& means, const PairErrors& errors) const {
+  std::vector<std::vector<double>> middles;
+  for (const Course& course : courses_of(means, errors)) {
+    const auto of_course = at_middles(course);
+    if (!of_course) return false;
+    middles.push_back(*of_course);
+  }
+  for (std::size_t k = 0; k < means.size(); ++k) {
+    Block& mean = means[k];
+    for (const std::size_t finger : {0U, 1U}) mean.length[finger] = middles[finger][k] * mean.medians;
+    mean.turn = middles[2][k] * mean.medians;
+    if (middles.size() == 3) continue;
+    mean.centres.distance = middles[3][k];
+    mean.centres.direction = middles[4][k];
+  }
+  return true;
+}
+
 std::vector<PairNode> PairRows::nodes(const std::optional<double>& facing, const std::optional<PairCentres>& centres,
                                       const PairErrors& errors) const {
   std::vector<PairNode> nodes;
@@ -128,7 +188,7 @@ std::vector<PairNode> PairRows::nodes(const std::optional<double>& facing, const
   const double lift = errors.absolute() && facing ? *facing : 0;
   std::array<Travel, 2> travel{errors.travel(), errors.travel()};
   std::size_t begin = 0;
-  for (const Block& block : blocks()) {
+  for (const Block& block : joined_where_even(blocks(), errors)) {
     PairNode node;
     for (const std::size_t finger : {0U, 1U}) node.length[finger] = block.length[finger] / block.medians;
     node.turn = block.turn / block.medians + lift;

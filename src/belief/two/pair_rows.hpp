@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "belief/even_rows.hpp"
 #include "belief/nodes.hpp"
 #include "rollfix/contact/reading.hpp"
 
@@ -43,6 +44,9 @@ class PairRows {
   static Block joined(const Block& a, const Block& b);
   Block block_of(std::size_t begin, std::size_t end, std::size_t of_median) const;
   std::vector<Block> blocks() const;
+  std::vector<Course> courses_of(const std::vector<Block>& blocks, const PairErrors& errors) const;
+  bool to_middles(std::vector<Block>& means, const PairErrors& errors) const;
+  std::vector<Block> joined_where_even(std::vector<Block> blocks, const PairErrors& errors) const;
   void condense();
   void halve();
 

@@ -7,7 +7,6 @@
 
 #include "belief/posterior.hpp"
 #include "belief/two/pair_density.hpp"
-#include "belief/two/pair_ripples.hpp"
 #include "belief/two/pair_rows.hpp"
 #include "rollfix/error.hpp"
 
@@ -160,7 +159,6 @@ class TwoFingersPosterior : public Posterior {
     Question(const TwoFingersPosterior& of, const PairErrors& errors)
         : nodes(of.rows_.nodes(of.contacts_.facing, of.looked_at_centres(errors), errors)) {
       let_part_be_off(nodes, errors);
-      model.ripples = tell_ripples(nodes);
       const double accuracy = kShareOfAngle * std::sqrt(errors.turn_variance());
       const PerFinger<double>& curvature = of.contacts_.finger_curvature;
       const bool alike = curvature[0] == curvature[1];

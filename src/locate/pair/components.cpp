@@ -119,6 +119,7 @@ bool pieces_meet(const PairPiece& one, const PairPiece& two, const Shift& shift,
 // What is near is looked for along a slant, s + kSlant t: on a part that repeats itself as many pieces as repetitions
 // have the same s, or the same t. By the golden ratio, which is far from all fractions.
 constexpr double kSlant = 0.6180339887498949;
+constexpr std::size_t kPiecesOfBand = 1024;
 
 double along_slant(const PairPoint& at) { return at[0] + kSlant * at[1]; }
 
@@ -243,28 +244,51 @@ class Joiner {
     for (std::size_t k = 0; k < order.size(); ++k) rank_[swept[order[k]]] = k;
   }
 
-  /// Pieces that reach about as far along the slant, exact ones or others, in order of where they begin.
+  /// Pieces that reach about as far along the slant, exact ones or others. Of many, those that begin at about the same
+  /// t are a band: an area has as many on the same slant as it is wide. In each in order of where they begin on the
+  /// slant.
   struct Strip {
-    std::vector<std::size_t> pieces;
-    double widest = 0;
+    std::vector<std::vector<std::size_t>> bands;
+    double band_from = 0;    // t at which the first begins
+    double band_height = 0;  // along t
+    double tallest = 0;      // piece along t
+    double widest = 0;       // piece along the slant
     bool exact = false;
+
+    std::size_t band_at(double t) const {
+      const double last = static_cast<double>(bands.size() - 1);
+      return last > 0 ? static_cast<std::size_t>(std::clamp((t - band_from) / band_height, 0.0, last)) : 0;
+    }
   };
   using Strips = std::map<std::pair<int, bool>, Strip>;
 
-  Strips strips(const std::vector<std::size_t>& swept) {
+  Strips strips(const std::vector<std::size_t>& swept, const PairBox& whole) {
     Strips strips;
     for (const std::size_t k : swept) {
       const bool exact = pieces_[k].exact;
       Strip& strip = strips[{std::ilogb(std::max(reach_[k].width(), slack_of(exact))), exact}];
-      strip.pieces.push_back(k);
+      if (strip.bands.empty()) strip.bands.resize(1);
+      strip.bands.front().push_back(k);
+      strip.tallest = std::max(strip.tallest, reach_box(k)[1].width());
       strip.widest = std::max(strip.widest, reach_[k].width());
       strip.exact = exact;
     }
     for (auto& [key, strip] : strips) {
-      std::sort(strip.pieces.begin(), strip.pieces.end(),
-                [&](std::size_t a, std::size_t b) { return reach_[a].lo < reach_[b].lo; });
+      split_in_bands(strip, whole[1]);
+      for (std::vector<std::size_t>& band : strip.bands) {
+        std::sort(band.begin(), band.end(), [&](std::size_t a, std::size_t b) { return reach_[a].lo < reach_[b].lo; });
+      }
     }
     return strips;
+  }
+
+  void split_in_bands(Strip& strip, const Interval& t) const {
+    const std::vector<std::size_t> all = std::move(strip.bands.front());
+    const std::size_t count = 1 + all.size() / kPiecesOfBand;
+    strip.bands.assign(count, {});
+    strip.band_from = t.lo;
+    strip.band_height = t.width() / static_cast<double>(count);
+    for (const std::size_t k : all) strip.bands[strip.band_at(reach_box(k)[1].lo)].push_back(k);
   }
 
   /// Sweeps along the slant: a piece meets those whose reach is still open. Each width by itself, lest a wide piece, or
@@ -275,9 +299,9 @@ class Joiner {
     reach_.reserve(pieces_.size());
     for (std::size_t k = 0; k < pieces_.size(); ++k) reach_.push_back(along_slant(reach_box(k)));
     rank(swept);
-    const Strips all = strips(swept);
-    std::vector<std::size_t> near;
     const PairBox whole = box_around_all();
+    const Strips all = strips(swept, whole);
+    std::vector<std::size_t> near;
     for (const Shift& shift : shifts()) {
       const PairBox moved_whole = moved(whole, shift);
       for (const std::size_t one : swept) {
@@ -305,11 +329,16 @@ class Joiner {
     const double room = along_slant(PairPoint{slack, slack});
     const double from = reach_[piece].lo - by - strip.widest - room;
     const double to = reach_[piece].hi - by + room;
-    auto next = std::lower_bound(strip.pieces.begin(), strip.pieces.end(), from,
-                                 [&](std::size_t k, double value) { return reach_[k].lo < value; });
-    for (; next != strip.pieces.end() && reach_[*next].lo <= to; ++next) {
-      if (*next != piece && boxes_meet(reach_box(piece), moved(reach_box(*next), shift), slack)) {
-        near.push_back(*next);
+    const Interval t = moved(reach_box(piece), {-shift[0], -shift[1]})[1];
+    const std::size_t last = strip.band_at(t.hi + slack);
+    for (std::size_t at = strip.band_at(t.lo - slack - strip.tallest); at <= last; ++at) {
+      const std::vector<std::size_t>& band = strip.bands[at];
+      auto next = std::lower_bound(band.begin(), band.end(), from,
+                                   [&](std::size_t k, double value) { return reach_[k].lo < value; });
+      for (; next != band.end() && reach_[*next].lo <= to; ++next) {
+        if (*next != piece && boxes_meet(reach_box(piece), moved(reach_box(*next), shift), slack)) {
+          near.push_back(*next);
+        }
       }
     }
   }
