@@ -3,10 +3,33 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "requirements.hpp"
 
 namespace rollfix::touch {
+
+/// How a cell sees places of the world: where its middle pose has them in the part's frame, and how far from there, at
+/// most, any other of its poses.
+struct CellView {
+  Vec2 first = Vec2::Zero();   // the first contact, in the world, and ...
+  Vec2 middle = Vec2::Zero();  // ... in the part's frame
+  Pose back{};                 // its turn
+  double slack = 0;
+  double swing = 0;
+
+  Vec2 in_part(const Vec2& place) const { return middle + back.turned(place - first); }
+  double moved(const Vec2& place) const { return slack + swing * (place - first).norm(); }
+};
+
+/// Cells to be looked at together.
+struct Sieve {
+  const std::vector<Cell>& cells;
+  std::vector<CellView> views;
+  const PathTree& tree;
+  const Measured& first;
+};
+
 namespace {
 
 // Of the part's diagonal: the rounding of a distance.
@@ -19,6 +42,9 @@ constexpr double kWideHeading = 0.7;
 constexpr double kBeforeContact = 2;
 // Beyond so many standard deviations from the part a path is free.
 constexpr double kSurelyFree = 6;
+// Where cells are looked at together, steps that look for a place that is blocked in all of their poses are no shorter
+// than this share of what these poses differ by: what is missed is seen in halves of them.
+constexpr double kStepOfSpread = 0.25;
 
 double slack_of(const TouchProblem& problem, const std::vector<Measured>& contacts) {
   double most = 0;
@@ -75,6 +101,18 @@ bool walk(const Clear& path, double least_step, const Look& look) {
   }
 }
 
+CellView view_of(const Cell& cell, const PathTree& tree, const Measured& first) {
+  const PathTree::Node& node = tree.node(cell.first);
+  const double swing = cell.heading.is_all() ? 2 : 2 * std::sin(0.5 * cell.heading.half);
+  return {first.at, node.middle, {0, 0, -cell.heading.middle}, node.radius + first.place_most, swing};
+}
+
+/// How far a pose of the cell may have a place from where the middle of another has it: of all places of a straight
+/// path the most at one of its ends.
+double apart(const CellView& middle, const CellView& cell, const Vec2& place) {
+  return (middle.in_part(place) - cell.in_part(place)).norm() + cell.moved(place);
+}
+
 }  // namespace
 
 FreeSpace::FreeSpace(const TouchProblem& problem, const std::vector<Measured>& contacts)
@@ -100,25 +138,70 @@ bool FreeSpace::is_blocked(const Pose& pose) {
 
 bool FreeSpace::blocks_all(const Cell& cell, const PathTree& tree, const Measured& first) {
   if (cell.heading.half > kWideHeading) return false;
-  const PathTree::Node& node = tree.node(cell.first);
-  const Pose back{0, 0, -cell.heading.middle};
-  const double swing = 2 * std::sin(0.5 * cell.heading.half);
+  const CellView view = view_of(cell, tree, first);
   return std::any_of(paths_.begin(), paths_.end(), [&](const Clear& path) {
     return walk(path, least_step_, [&](const Vec2& place) {
-      const Vec2 arm = place - first.at;
-      const double moved = node.radius + first.place_most + swing * arm.norm();
-      const Vec2 in_part = node.middle + back.turned(arm);
-      const double free = part_.at_least(in_part) + moved - bound_;
-      return free > least_step_ ? free : part_.nearest(in_part).distance + moved - bound_;
+      const Vec2 in_part = view.in_part(place);
+      const double bound = bound_ - view.moved(place);
+      const double free = part_.at_least(in_part) - bound;
+      return free > least_step_ ? free : part_.nearest(in_part).distance - bound;
     });
   });
 }
 
+FreeSpace::Way FreeSpace::way_of(std::span<const CellView> views) {
+  const CellView& middle = views[views.size() / 2];
+  Way way = Way::free;
+  for (const Clear& path : paths_) {
+    double spread = 0;
+    for (const CellView& view : views) {
+      spread = std::max({spread, apart(middle, view, path.from), apart(middle, view, path.to)});
+    }
+    const auto look = [&](const Interval& distance) {
+      if (distance.hi < bound_ + spread) way = Way::unknown;
+      if (distance.hi < bound_ - spread) return -1.0;
+      if (way == Way::free) return distance.lo - bound_ - spread;
+      return std::max(distance.lo - bound_ + spread, kStepOfSpread * spread);
+    };
+    const bool is_blocked = walk(path, least_step_, [&](const Vec2& place) {
+      const Vec2 in_part = middle.in_part(place);
+      const double ahead = look(part_.between(in_part));
+      if (ahead < 0 && way == Way::unknown) return ahead;
+      if (ahead > least_step_) return ahead;
+      const double distance = part_.nearest(in_part).distance;
+      return look({distance, distance});
+    });
+    if (is_blocked) return Way::blocked;
+  }
+  return way;
+}
+
+/// Cells that are neighbours have poses that hardly differ: those from `begin` to `end` together where one look is
+/// enough, else in halves.
+void FreeSpace::add_unblocked(const Sieve& sieve, std::size_t begin, std::size_t end, std::vector<Cell>& to) {
+  if (end - begin == 1) {
+    if (!blocks_all(sieve.cells[begin], sieve.tree, sieve.first)) to.push_back(sieve.cells[begin]);
+    return;
+  }
+  const Way way = way_of(std::span(sieve.views).subspan(begin, end - begin));
+  if (way == Way::blocked) return;
+  if (way == Way::free) {
+    const std::span cells = std::span(sieve.cells).subspan(begin, end - begin);
+    to.insert(to.end(), cells.begin(), cells.end());
+    return;
+  }
+  const std::size_t middle = begin + (end - begin) / 2;
+  add_unblocked(sieve, begin, middle, to);
+  add_unblocked(sieve, middle, end, to);
+}
+
 void FreeSpace::drop_blocked(std::vector<Cell>& cells, const PathTree& tree, const Measured& first) {
-  if (is_empty()) return;
-  cells.erase(
-      std::remove_if(cells.begin(), cells.end(), [&](const Cell& cell) { return blocks_all(cell, tree, first); }),
-      cells.end());
+  if (is_empty() || cells.empty()) return;
+  Sieve sieve{cells, {}, tree, first};
+  for (const Cell& cell : cells) sieve.views.push_back(view_of(cell, tree, first));
+  std::vector<Cell> kept;
+  add_unblocked(sieve, 0, cells.size(), kept);
+  cells = std::move(kept);
 }
 
 /// Each path by its place that is nearest to the part, or deepest in it: by how far that is from where it may be, with
@@ -130,7 +213,10 @@ double FreeSpace::log_free(const PosteriorNode& node) {
     double least = std::numeric_limits<double>::infinity();
     NearestOfPart closest;
     walk(path, least_step_, [&](const Vec2& place) {
-      const NearestOfPart one = part_.nearest(back.turned(place - Vec2(node.pose.x, node.pose.y)));
+      const Vec2 in_part = back.turned(place - Vec2(node.pose.x, node.pose.y));
+      const double no_nearer = part_.at_least(in_part) - std::min(least, radius_ + kSurelyFree * sd_);
+      if (no_nearer > least_step_) return no_nearer;
+      const NearestOfPart one = part_.nearest(in_part);
       if (one.distance < least) {
         least = one.distance;
         closest = one;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "cell_search.hpp"
@@ -10,6 +11,9 @@
 #include "rollfix/touch/touch.hpp"
 
 namespace rollfix::touch {
+
+struct CellView;
+struct Sieve;
 
 /// Paths on which the finger met nothing, and what they say of the part's pose: it is nowhere nearer to a path than the
 /// finger's radius, but for what the path may be off. Of an open outline only the distance counts: it has no inside.
@@ -32,6 +36,10 @@ class FreeSpace {
   void weigh(std::vector<PosteriorNode>& nodes);
 
  private:
+  enum class Way { free, blocked, unknown };
+  /// Whether all paths are free in each pose of the cells, or one of them blocked in each.
+  Way way_of(std::span<const CellView> views);
+  void add_unblocked(const Sieve& sieve, std::size_t begin, std::size_t end, std::vector<Cell>& to);
   double log_free(const PosteriorNode& node);
 
   PartDistance part_;

@@ -45,9 +45,22 @@ std::optional<OnPath> beyond(const CentrePath& path, const InPart& touch, std::s
 
 }  // namespace
 
+namespace {
+
+/// How far a point is from a node's disc, of a single one from the strip of it that the tangents leave.
+double distance_to(const PathTree::Node& node, const Vec2& point) {
+  const Vec2 off = point - node.middle;
+  const double off_disc = std::max(0.0, off.norm() - node.radius);
+  if (!node.is_single() || off_disc == 0) return off_disc;
+  const double ahead = std::max(0.0, std::abs(off.dot(node.along)) - node.radius);
+  const double aside = std::max(0.0, std::abs(cross(node.along, off)) - node.flat);
+  return std::max(off_disc, std::hypot(ahead, aside));
+}
+
+}  // namespace
+
 double least_square(const PathTree::Node& node, const InPart& touch) {
-  const double off_disc = touch.has_place ? (touch.at - node.middle).norm() - node.radius : 0;
-  const double place = std::max(0.0, off_disc) / touch.place_unit;
+  const double place = touch.has_place ? distance_to(node, touch.at) / touch.place_unit : 0;
   if (!touch.tangent) return place * place;
   const double off = std::abs(nearest_angle(*touch.tangent - node.angle)) - node.half_turn;
   const double angle = std::max(0.0, off) / touch.angle_unit;

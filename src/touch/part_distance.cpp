@@ -23,11 +23,7 @@ constexpr int kLooks = 16;
 
 }  // namespace
 
-PartDistance::PartDistance(const Part& part)
-    : part_(part),
-      boundary_(part_, 0),
-      tree_(boundary_),
-      of_cell_(kCells * kCells, std::numeric_limits<double>::quiet_NaN()) {
+PartDistance::PartDistance(const Part& part) : part_(part), boundary_(part_, 0), tree_(boundary_) {
   const PathTree::Node& all = tree_.node(tree_.root());
   corner_ = all.middle - Vec2::Constant(all.radius);
   cell_ = Vec2::Constant(2 * all.radius / kCells);
@@ -61,6 +57,7 @@ Interval PartDistance::between(const Vec2& point) {
   const int column = std::clamp(static_cast<int>(number.x()), 0, kCells - 1);
   const int row = std::clamp(static_cast<int>(number.y()), 0, kCells - 1);
   const Vec2 middle = corner_ + cell_.cwiseProduct(Vec2(column + 0.5, row + 0.5));
+  of_cell_.resize(kCells * kCells, std::numeric_limits<double>::quiet_NaN());
   double& distance = of_cell_[static_cast<std::size_t>(row * kCells + column)];
   if (std::isnan(distance)) distance = nearest(middle).distance;
   const double off = (point - middle).norm();

@@ -34,7 +34,7 @@ class PartDistance {
   double at_least(const Vec2& point) { return between(point).lo; }
 
  private:
-  static constexpr int kCells = 64;  // of a grid over the part's box, each way
+  static constexpr int kCells = 256;  // of a grid over the part's box, each way
 
   const Part& part_;
   CentrePath boundary_;
@@ -42,7 +42,7 @@ class PartDistance {
   Vec2 corner_ = Vec2::Zero();  // of the grid
   Vec2 cell_ = Vec2::Zero();    // sizes of its cells
   bool is_hole_ = false;
-  std::vector<double> of_cell_;  // distance at a cell's middle; NaN: nobody asked yet
+  std::vector<double> of_cell_;  // distance at a cell's middle; NaN: not asked for yet; empty: none was
 };
 
 }  // namespace rollfix::touch

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 // Notation:
 //   u               place on a stretch of the path: arc length along a spiral, the tangent's angle at a corner
@@ -53,6 +54,8 @@ std::int32_t PathTree::add_single(std::int32_t stretch, const Interval& u, const
   const double at_hi = angle_at(u.hi);
   node.angle = 0.5 * (at_lo + at_hi);
   node.half_turn = 0.5 * std::abs(at_hi - at_lo) + kTurnAccuracy;
+  node.along = {std::cos(node.angle), std::sin(node.angle)};
+  node.flat = node.radius * std::sin(std::min(node.half_turn, 0.5 * std::numbers::pi));
   nodes_.push_back(node);
   return static_cast<std::int32_t>(nodes_.size()) - 1;
 }

@@ -18,9 +18,11 @@ class PathTree {
     double radius = 0;
     double angle = 0;  // of the tangent, radians: at most half_turn from this
     double half_turn = 0;
-    Interval number;            // of its places
-    std::int32_t stretch = -1;  // of a single one, with ...
-    Interval u;                 // ... its places
+    Vec2 along = Vec2::UnitX();  // of a single one: the direction of `angle`, ...
+    double flat = 0;             // ... and how far its centres are, at most, from the line through the middle along it
+    Interval number;             // of its places
+    std::int32_t stretch = -1;   // of a single one, with ...
+    Interval u;                  // ... its places
     std::int32_t left = -1;
     std::int32_t right = -1;
 
