@@ -3,16 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include "all_contacts.hpp"
 #include "answer_poses.hpp"
+#include "cell_levels.hpp"
 #include "heading_sets.hpp"
 #include "mirror_poses.hpp"
 #include "outline/turn.hpp"
 #include "plain_rolls.hpp"
 #include "requirements.hpp"
-#include "roll_poses.hpp"
 #include "witnessed_poses.hpp"
 
 namespace rollfix::touch {
@@ -97,19 +98,19 @@ void search_beyond(const TouchProblem& problem, AllContacts& contacts, const std
   const std::size_t budget = problem.budget.value_or(kTouchBudget);
   if (answer.place == PlaceKnown::unknown) return headings_beyond(contacts, known, budget, answer);
   const TouchPair pair = choose_pair(contacts.each);
-  CellSearch search(contacts.each, pair, budget);
-  double leaf = CellSearch::kLeaf;
-  Cells cells = contacts.rolls.empty() ? search.search() : search_by_levels(search, contacts.each, pair, leaf);
+  std::optional<CellSearch> search;
+  LevelCells level = search_levels(search, contacts, pair, budget, kEnoughCells);
   PoseFit fit(contacts.each, problem.pose);
   FreeSpace free(problem, contacts.each);
   const Asked asked{problem, fit, pair, free, answer.place};
-  drop_known(cells.fit, asked, known);
-  WitnessedPoses found = witnessed_poses(asked, search, leaf, std::move(cells.fit));
+  drop_known(level.cells.fit, asked, known);
+  std::vector<Cell> undecided = std::move(level.cells.undecided);
+  WitnessedPoses found = witnessed_poses(asked, *search, cut_sets(asked, *search, std::move(level), kEnoughCells));
   answer.poses = std::move(found.poses);
   for (TouchPose& bare : bare_poses(asked, std::move(found.without))) answer.poses.push_back(std::move(bare));
-  cells.undecided.insert(cells.undecided.end(), found.undecided.begin(), found.undecided.end());
+  undecided.insert(undecided.end(), found.undecided.begin(), found.undecided.end());
   answer.unresolved_touch = pair.first;
-  answer.unresolved = places_of(fit.tree(pair.first), cells.undecided);
+  answer.unresolved = places_of(fit.tree(pair.first), undecided);
 }
 
 }  // namespace

@@ -11,10 +11,6 @@
 namespace rollfix::touch {
 namespace {
 
-// Discs of the first level, as a share of the part's diagonal, and how much finer each next one is.
-constexpr double kFirstDisc = 0.02;
-constexpr double kFinerLevel = 0.125;
-
 // A place at an arc's end is on it, a share of the perimeter.
 constexpr double kSeam = 1e-9;
 
@@ -65,28 +61,6 @@ TouchPose pose_of(const RollContact& roll, const Placement& placement) {
 
 bool is_reference(const Measured& contact) {
   return contact.has_place && contact.tree != nullptr && contact.place_most >= contact.tree->path().part().perimeter();
-}
-
-Cells search_by_levels(CellSearch& search, const std::vector<Measured>& contacts, const TouchPair& pair, double& leaf,
-                       std::size_t enough) {
-  const double disc = kFirstDisc * contacts[pair.first].tree->path().diagonal();
-  double coarsest = CellSearch::kLeaf;
-  for (const std::size_t k : {pair.first, pair.second}) {
-    if (contacts[k].has_place) coarsest = std::max(coarsest, disc / contacts[k].place_most);
-    if (contacts[k].tangent) coarsest = std::max(coarsest, kFirstDisc / contacts[k].angle_most);
-  }
-  leaf = coarsest;
-  Cells cells = search.search(leaf);
-  std::vector<Cell> undecided = std::move(cells.undecided);
-  while (leaf > CellSearch::kLeaf && cells.fit.size() < enough && undecided.empty()) {
-    const double finer = std::max(CellSearch::kLeaf, kFinerLevel * leaf);
-    Cells next = search.search(cells.fit, finer);
-    undecided = std::move(next.undecided);
-    cells.fit = std::move(next.fit);
-    leaf = finer;
-  }
-  cells.undecided = std::move(undecided);
-  return cells;
 }
 
 void add_roll_ends(const std::vector<RollContact>& rolls, const std::vector<Measured>& contacts, TouchAnswer& answer) {

@@ -6,6 +6,7 @@
 
 #include "all_contacts.hpp"
 #include "answer_poses.hpp"
+#include "cell_levels.hpp"
 #include "heading_sets.hpp"
 #include "mirror_poses.hpp"
 #include "mistakes.hpp"
@@ -87,36 +88,32 @@ void take_over(WeighedPoses weighed, const TouchProblem& problem, const AllConta
 void search_poses(const TouchProblem& problem, AllContacts& contacts, TouchAnswer& answer) {
   const TouchPair pair = choose_pair(contacts.each);
   const std::size_t budget = problem.budget.value_or(kTouchBudget);
-  std::optional<CellSearch> search(std::in_place, contacts.each, pair, budget);
-  double leaf = CellSearch::kLeaf;
-  Cells cells = contacts.rolls.empty() ? search->search() : search_by_levels(*search, contacts.each, pair, leaf);
-  if (contacts.rolls.empty() && contacts.each.size() == 2 && !cells.undecided.empty()) {  // a continuum
-    answer.comparisons = search->comparisons();
-    search.emplace(contacts.each, pair, budget);
-    cells = search_by_levels(*search, contacts.each, pair, leaf, problem.noise ? kEnoughToWeigh : kEnoughCells);
-  }
+  const std::size_t enough = problem.noise && contacts.rolls.empty() ? kEnoughToWeigh : kEnoughCells;
+  std::optional<CellSearch> search;
+  LevelCells level = search_levels(search, contacts, pair, budget, enough);
   PoseFit fit(contacts.each, problem.pose);
   FreeSpace free(problem, contacts.each);
-  free.drop_blocked(cells.fit, fit.tree(pair.first), contacts.each[pair.first]);
   const Asked asked{problem, fit, pair, free, answer.place};
-  std::vector<Cell> undecided = std::move(cells.undecided);
+  const std::size_t abandoned = level.abandoned;
+  std::vector<Cell> undecided = std::move(level.cells.undecided);
+  std::vector<LevelSets> levels = cut_sets(asked, *search, std::move(level), enough);
   const auto leave = [&](const std::vector<Cell>& more) {
     undecided.insert(undecided.end(), more.begin(), more.end());
   };
   if (problem.noise) {
-    const CellSets sets = sets_of(fit.tree(pair.first), fit.tree(pair.second), std::move(cells.fit));
+    const CellSets sets = together(std::move(levels));
     WeighedPoses weighed = weighed_poses(asked, sets, budget);
     if (weighed.is_too_long) leave(sets.cells);
     take_over(std::move(weighed), problem, contacts, answer);
   } else {
-    WitnessedPoses witnessed = witnessed_poses(asked, *search, leaf, std::move(cells.fit));
+    WitnessedPoses witnessed = witnessed_poses(asked, *search, levels);
     leave(witnessed.undecided);
     leave(witnessed.without);
     answer.poses = std::move(witnessed.poses);
   }
   answer.unresolved_touch = pair.first;
   answer.unresolved = places_of(fit.tree(pair.first), undecided);
-  answer.comparisons += search->comparisons();
+  answer.comparisons = abandoned + search->comparisons();
 }
 
 void conclude(TouchAnswer& answer) {

@@ -57,37 +57,56 @@ Looked look_in(const Asked& asked, const std::vector<Cell>& cells) {
   return {std::move(fitted)};
 }
 
-}  // namespace
+/// Looks in sets of cells, and again in finer ones.
+class Witnesses {
+ public:
+  Witnesses(const Asked& asked, CellSearch& search) : asked_(asked), search_(search) {}
 
-WitnessedPoses witnessed_poses(const Asked& asked, CellSearch& search, double leaf, std::vector<Cell> cells) {
-  PoseFit& fit = asked.fit;
-  WitnessedPoses result;
-  std::vector<PoseSet> found;
-  for (int round = 0; round <= kRefinements && !cells.empty(); ++round) {
-    const CellSets sets = sets_of(fit.tree(asked.pair.first), fit.tree(asked.pair.second), std::move(cells));
-    cells.clear();
+  void look_at(const CellSets& sets, double leaf, int round = 0) {
     for (const std::vector<std::size_t>& component : sets.components) {
       std::vector<Cell> own = cells_of(sets, component);
-      Looked looked = look_in(asked, own);
+      Looked looked = look_in(asked_, own);
       if (looked.refuted) continue;
       if (looked.witness) {
-        add_set(asked, {std::move(*looked.witness), std::move(own)}, found);
+        add_set(asked_, {std::move(*looked.witness), std::move(own)}, found_);
+      } else if (round == kRefinements) {
+        result_.without.insert(result_.without.end(), own.begin(), own.end());
       } else {
-        cells.insert(cells.end(), own.begin(), own.end());
+        look_finer(own, kFiner * leaf, round + 1);
       }
     }
-    if (round == kRefinements) break;
-    leaf *= kFiner;
-    Cells finer = search.search(cells, leaf);
-    cells = std::move(finer.fit);
-    asked.free.drop_blocked(cells, fit.tree(asked.pair.first), fit.touches()[asked.pair.first]);
-    result.undecided.insert(result.undecided.end(), finer.undecided.begin(), finer.undecided.end());
   }
-  result.without = std::move(cells);
-  for (const PoseSet& set : found) result.poses.push_back(described(fit, set.fitted, set.cells, asked.pair));
-  std::sort(result.poses.begin(), result.poses.end(),
-            [](const TouchPose& a, const TouchPose& b) { return a.pose.heading < b.pose.heading; });
-  return result;
+
+  WitnessedPoses result() {
+    for (const PoseSet& set : found_) {
+      result_.poses.push_back(described(asked_.fit, set.fitted, set.cells, asked_.pair));
+    }
+    std::sort(result_.poses.begin(), result_.poses.end(),
+              [](const TouchPose& a, const TouchPose& b) { return a.pose.heading < b.pose.heading; });
+    return std::move(result_);
+  }
+
+ private:
+  void look_finer(const std::vector<Cell>& cells, double leaf, int round) {
+    const PathTree& first = asked_.fit.tree(asked_.pair.first);
+    Cells finer = search_.search(cells, leaf);
+    asked_.free.drop_blocked(finer.fit, first, asked_.fit.touches()[asked_.pair.first]);
+    result_.undecided.insert(result_.undecided.end(), finer.undecided.begin(), finer.undecided.end());
+    look_at(sets_of(first, asked_.fit.tree(asked_.pair.second), std::move(finer.fit)), leaf, round);
+  }
+
+  const Asked& asked_;
+  CellSearch& search_;
+  std::vector<PoseSet> found_;
+  WitnessedPoses result_;
+};
+
+}  // namespace
+
+WitnessedPoses witnessed_poses(const Asked& asked, CellSearch& search, const std::vector<LevelSets>& levels) {
+  Witnesses witnesses(asked, search);
+  for (const LevelSets& level : levels) witnesses.look_at(level.sets, level.leaf);
+  return witnesses.result();
 }
 
 }  // namespace rollfix::touch

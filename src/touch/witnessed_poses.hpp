@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "cell_levels.hpp"
 #include "pose_sets.hpp"
 
 namespace rollfix::touch {
@@ -14,7 +15,7 @@ struct WitnessedPoses {
 };
 
 /// Looks in every set of cells for a pose that fits all contacts. Sets without one are searched again, finer; they go
-/// where it is proved that none does. `leaf`: of the cells.
-WitnessedPoses witnessed_poses(const Asked& asked, CellSearch& search, double leaf, std::vector<Cell> cells);
+/// where it is proved that none does.
+WitnessedPoses witnessed_poses(const Asked& asked, CellSearch& search, const std::vector<LevelSets>& levels);
 
 }  // namespace rollfix::touch

@@ -2,10 +2,12 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "outline/turn.hpp"
 #include "rollfix/outline/curve.hpp"
+#include "rollfix/touch/slide.hpp"
 #include "touch_cases.hpp"
 
 namespace touch_degenerate_test {
@@ -83,6 +85,44 @@ TEST(TouchDegenerate, TouchesOnTwoParallelSidesLetThePartSlideToTheSidesEnds) {
   EXPECT_NEAR(pose.interval[0].hi, 25 - 0.025 * 50, 0.5);
   EXPECT_NEAR(std::sqrt(pose.spread.covariance(0, 0)), 50 / std::sqrt(12.0), 0.5);
   EXPECT_LT(pose.interval[1].width(), 1);  // as the heading is known
+}
+
+/// As exact as a measurement can be: a continuum has far too many of the finest cells.
+TouchAnswer nearly_exact_answer(const Part& part, const Pose& pose, const std::vector<double>& places, double radius) {
+  TouchProblem problem = exact_problem(part, pose, places, radius, true);
+  problem.noise.reset();
+  problem.tolerance = rollfix::TouchTolerance{1e-5, 1e-6};
+  problem.budget = 3000000;
+  return rollfix::solve(problem);
+}
+
+/// All of its poses slide along this line, by so much: no less, and hardly more.
+void expect_slides(const TouchAnswer& answer, double direction, double length) {
+  EXPECT_EQ(answer.status, rollfix::Status::complete);
+  for (const TouchPose& pose : answer.poses) {
+    const std::optional<rollfix::Slide> slide = rollfix::slide_of(answer, pose);
+    ASSERT_TRUE(slide.has_value());
+    EXPECT_NEAR(slide->direction, direction, 1e-5);
+    EXPECT_GE(slide->length, length - 1e-5);
+    EXPECT_LE(slide->length, 1.01 * length);
+  }
+}
+
+TEST(TouchDegenerate, NearlyExactTouchesOnTwoParallelSidesLeaveStretchesToTheSidesEnds) {
+  const Part plate = polygon({{0, 0}, {60, 0}, {50, 20}, {0, 20}});
+  const double top = 60 + std::hypot(10, 20);
+  // Of the world's x, before it is turned: 20 and 35 are on the lower side, 60 long, 30 and 45 on the upper one, 50
+  // long.
+  const TouchAnswer answer = nearly_exact_answer(plate, {5, -3, 0.4}, {20, 35, top + 50 - 45, top + 50 - 30}, 2);
+  EXPECT_EQ(answer.verdict_text(), "ambiguous (2, of them 2 stretches)");  // it may be upside down
+  expect_slides(answer, 0.4, 20 + 50 - 45);
+}
+
+TEST(TouchDegenerate, NearlyExactTouchesOnOneSideLeaveAStretchToItsEnds) {
+  const Part wedge = polygon({{0, 0}, {60, 0}, {20, 15}});  // its other sides are shorter than the touches are apart
+  const TouchAnswer answer = nearly_exact_answer(wedge, {5, -3, -0.7}, {8, 52}, 0);
+  EXPECT_EQ(answer.verdict_text(), "ambiguous (1 stretch)");
+  expect_slides(answer, -0.7, 8 + 60 - 52);
 }
 
 TEST(TouchDegenerate, OneTouchWithANormalLeavesTheWholeBoundary) {

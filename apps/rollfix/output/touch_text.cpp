@@ -12,6 +12,7 @@
 #include "rollfix/output/answer_output.hpp"
 #include "rollfix/output/answer_words.hpp"
 #include "rollfix/output/table.hpp"
+#include "rollfix/touch/slide.hpp"
 #include "text/text.hpp"
 
 namespace rollfix::app {
@@ -255,6 +256,15 @@ class TouchText {
     return fmt::format("{} to {}", place(interval.lo), place(interval.hi));
   }
 
+  /// Of a continuum.
+  std::string freedom(const TouchPose& pose) const {
+    if (!pose.continuum) return "";
+    const std::optional<Slide> slide = slide_of(answer_, pose);
+    if (!slide) return "; a continuum, of which the table shows one";
+    return fmt::format("; it slides by up to {}{} along {} deg, of which the table shows one pose",
+                       place(slide->length), behind(unit_), degrees(slide->direction));
+  }
+
   std::string pose_remarks() const {
     std::string text;
     for (std::size_t k = 0; k < std::min(answer_.poses.size(), kMostNotes); ++k) {
@@ -266,8 +276,8 @@ class TouchText {
       const std::string places = answer_.place == PlaceKnown::unknown
                                      ? ""
                                      : fmt::format("x {}, y {}{}, ", span(range[0]), span(range[1]), behind(unit_));
-      text += fmt::format("p{}: {} {}{}{}\n", k, answer_.noise ? "95 % within" : "within", places, heading,
-                          pose.continuum ? "; a continuum, of which the table shows one" : "");
+      text +=
+          fmt::format("p{}: {} {}{}{}\n", k, answer_.noise ? "95 % within" : "within", places, heading, freedom(pose));
     }
     if (answer_.place == PlaceKnown::unknown) {
       text += "where the part is is not known: the log has no columns x and y\n";

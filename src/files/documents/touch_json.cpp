@@ -4,6 +4,7 @@
 #include "documents.hpp"
 #include "outline/turn.hpp"
 #include "rollfix/files/documents.hpp"
+#include "rollfix/touch/slide.hpp"
 
 namespace rollfix {
 namespace {
@@ -32,12 +33,18 @@ Json fit_of_touches(const TouchFit& fit) {
   return {{"chi_square", json_number(fit.chi_square)}, {"freedom", fit.freedom}, {"p", json_number(fit.p)}};
 }
 
-Json pose_set_json(const TouchPose& set, bool has_noise) {
+Json slide_json(const std::optional<Slide>& slide) {
+  if (!slide) return nullptr;
+  return {{"direction", json_number(slide->direction)}, {"length", json_number(slide->length)}};
+}
+
+Json pose_set_json(const TouchAnswer& answer, const TouchPose& set) {
   const auto numbers = [&](auto value) { return each_of(set.contacts, value); };
   Json json = {
       {"kind", set.continuum ? "continuum" : "place"},
       {"pose", Json::array({triple(set.pose)})},
       {"any_heading", set.any_heading},
+      {"slide", slide_json(slide_of(answer, set))},
       {"pose_extent", each_of(set.extent, json_interval)},
       {"start", numbers([](const TouchContact& contact) { return json_number(contact.s); })},
       {"point", numbers([](const TouchContact& contact) { return point_json(contact.point); })},
@@ -52,7 +59,7 @@ Json pose_set_json(const TouchPose& set, bool has_noise) {
     json["extent"] = numbers(
         [](const TouchContact& contact) { return contact.extent ? json_interval(*contact.extent) : Json(nullptr); });
   }
-  if (!has_noise) return json;
+  if (!answer.noise) return json;
   json["chi_square"] = json_number(set.chi_square);
   json["pose_mean"] = triple(set.spread.mean);
   json["pose_covariance"] = Json::array();
@@ -110,7 +117,7 @@ void add_rolls(const TouchAnswer& answer, Json& document) {
 }  // namespace
 
 Json pose_sets_json(const TouchAnswer& answer) {
-  return each_of(answer.poses, [&](const TouchPose& set) { return pose_set_json(set, answer.noise.has_value()); });
+  return each_of(answer.poses, [&](const TouchPose& set) { return pose_set_json(answer, set); });
 }
 
 Json touches_json(const std::vector<MeasuredTouch>& touches, const std::vector<TouchTolerance>& tolerance) {

@@ -1,0 +1,40 @@
+#include "rollfix/touch/slide.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace rollfix {
+namespace {
+
+// Sides are parallel where they differ by no more than this, radians: so well the direction is known.
+constexpr double kParallel = 0.01;
+// A side is straight where it turns by no more than this over the part's perimeter, radians.
+constexpr double kStraight = 1e-6;
+
+/// An angle of a line: in (-pi/2, pi/2].
+double of_line(double angle) {
+  const double half = std::remainder(angle, std::numbers::pi);
+  return half <= -0.5 * std::numbers::pi ? half + std::numbers::pi : half;
+}
+
+}  // namespace
+
+std::optional<Slide> slide_of(const TouchAnswer& answer, const TouchPose& pose) {
+  if (!pose.continuum || pose.any_heading || pose.contacts.empty()) return std::nullopt;
+  const Part& part = answer.part;
+  const double along = pose.contacts.front().tangent;
+  const bool are_parallel = std::all_of(pose.contacts.begin(), pose.contacts.end(), [&](const TouchContact& contact) {
+    return std::abs(part.turning().at(contact.s).curvature) * part.perimeter() <= kStraight &&
+           std::abs(of_line(contact.tangent - along)) <= kParallel;
+  });
+  if (!are_parallel) return std::nullopt;
+  const std::array<Interval, 3>& range = answer.noise ? pose.interval : pose.extent;
+  const double direction = of_line(pose.pose.heading + along);
+  const double by_x = range[0].width() / std::abs(std::cos(direction));
+  const double by_y = range[1].width() / std::abs(std::sin(direction));
+  return Slide{direction, std::min(by_x, by_y)};
+}
+
+}  // namespace rollfix
