@@ -29,9 +29,12 @@ inline void scale(std::vector<double>& values, double by) {
   for (double& value : values) value *= by;
 }
 
-/// One log's rows are of instants so many rows later than the others'.
+/// One log's rows are of instants so many rows later than the others': its first contact is where it rolled to by then.
 inline void delay(HoldCase& one, std::size_t finger, std::size_t rows) {
   const auto cut = static_cast<std::ptrdiff_t>(rows);
+  const std::vector<double>& u = rows_of(one, finger).u;
+  const double rolled = (u[rows] - u.front()) / (u.back() - u.front());
+  one.starts[finger] += rolled * (one.ends[finger] - one.starts[finger]);
   for (std::size_t k = 0; k < one.problem.logs.size(); ++k) {
     FingerRows& of = rows_of(one, k);
     for (std::vector<double>* column : {&of.u, &of.psi, &of.x, &of.y}) {
