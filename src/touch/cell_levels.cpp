@@ -32,7 +32,7 @@ std::size_t count_cells(const CellSets& sets, const std::vector<std::size_t>& gr
   return count;
 }
 
-void add(std::vector<Cell> more, std::vector<Cell>& to) { to.insert(to.end(), more.begin(), more.end()); }
+void add(const std::vector<Cell>& more, std::vector<Cell>& to) { to.insert(to.end(), more.begin(), more.end()); }
 
 }  // namespace
 
@@ -75,7 +75,7 @@ std::vector<LevelSets> cut_sets(const Asked& asked, CellSearch& search, LevelCel
     }
     Cells cut = search.search(few, finer(leaf));
     const bool is_last = few.empty() || !cut.undecided.empty();
-    if (is_last) add(std::move(few), kept);
+    if (is_last) add(few, kept);
     if (!kept.empty()) levels.push_back({sets_of(first, second, std::move(kept)), leaf});
     if (is_last) return levels;
     cells = std::move(cut.fit);
