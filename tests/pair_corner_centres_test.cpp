@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
 #include <random>
 #include <string>
 
+#include "corner_fingers.hpp"
 #include "random.hpp"
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/contact/rolling.hpp"
@@ -24,7 +26,8 @@ struct Drawn {
 };
 
 /// Both fingers roll a fifth to a third of the way around, from opposite places.
-Drawn drawn_on(const Part& part, std::uint64_t seed, std::size_t rows) {
+Drawn drawn_on(const Part& part, std::uint64_t seed, std::size_t rows, const rollfix::Noise& noise = kNoise,
+               const std::optional<rollfix::Finger>& tip = {}) {
   std::mt19937_64 generator = test_generator(seed);
   const auto uniform = [&](double lo, double hi) { return std::uniform_real_distribution<double>(lo, hi)(generator); };
   const double perimeter = part.perimeter();
@@ -37,13 +40,17 @@ Drawn drawn_on(const Part& part, std::uint64_t seed, std::size_t rows) {
     finger.distance = uniform(0.2, 0.35) * perimeter;
   }
   plan.fingers[1].start = plan.fingers[0].start + 0.45 * perimeter;
-  rollfix::NoisyRoll roll = rollfix::noisy_roll_free(part, plan, kNoise, seed);
-  std::normal_distribution<double> off(0, kNoise.position);
+  if (tip) {
+    plan.fingers[1].finger = *tip;
+    plan.fingers[1].u = 0;
+  }
+  rollfix::NoisyRoll roll = rollfix::noisy_roll_free(part, plan, noise, seed);
+  std::normal_distribution<double> off(0, noise.position);
   for (rollfix::FingerRows& finger : roll.log.fingers) {
     for (double& x : finger.x) x += off(generator);
     for (double& y : finger.y) y += off(generator);
   }
-  return {{part, roll.log, {plan.fingers[0].finger, plan.fingers[1].finger}, kNoise},
+  return {{part, roll.log, {plan.fingers[0].finger, plan.fingers[1].finger}, noise},
           {roll.truth.s[0].front(), roll.truth.s[1].front()}};
 }
 
@@ -70,6 +77,17 @@ TEST(PairCornerCentres, of_honest_rows_contradict_nothing) {
       const Drawn drawn = drawn_on(part, static_cast<std::uint64_t>(k) + 1, k % 2 == 0 ? 24 : 150);
       EXPECT_TRUE(is_honest(drawn)) << name << ", seed " << k + 1;
     }
+  }
+}
+
+/// Where a contact is felt on the disk turns its normal: more than orientations are off.
+TEST(PairCornerCentres, of_a_disk_and_a_square_fingertip_contradict_nothing) {
+  const Part part = rollfix::load_part("gallery:ellipse");
+  const double P = part.perimeter();
+  const rollfix::Noise noise{.contact = 0.001 * P, .angle = 0.001, .position = 0.0005 * P};
+  for (int k = 0; k < test_count(6); ++k) {
+    const auto seed = static_cast<std::uint64_t>(k) + 1;
+    EXPECT_TRUE(is_honest(drawn_on(part, seed, 60, noise, corner_fingers::square(0.04 * P).finger()))) << seed;
   }
 }
 

@@ -23,6 +23,8 @@ namespace {
 
 // A length is off by no more than so many standard deviations.
 constexpr double kFarthestLength = 4.5;
+// Nor is a place, of which the interval has two.
+constexpr double kBeyondInterval = kFarthestLength - 2;
 // An interval is looked at in so many pieces, so that what is known of a turn is not lost in how far it is open.
 constexpr std::size_t kPieces = 8;
 // A place with less probability than this is not listed.
@@ -40,18 +42,24 @@ class RowsOnCorners {
     turn_ = std::hypot(std::numbers::sqrt2 * noise.angle, noise.part.turn);
     scale_ = std::hypot(noise.slip, noise.part.length);
     for (const Finger& finger : problem.fingers) scale_ = std::hypot(scale_, noise.radius * finger.curvature(0));
+    // A contact that is felt beside where it is has another normal on a disk.
+    for (const Finger& finger : problem.fingers) turn_ = std::hypot(turn_, contact_ * finger.curvature(0));
   }
 
   bool empty() const { return rows_.empty(); }
 
-  /// z, where in the placement's interval it is least.
+  /// z, where the placement may be it is least.
   double sigmas(const Placement& placement) const {
     const std::size_t fingers = placement.interval.size();
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < (fingers == 1 ? kPieces : kPieces * kPieces) && least > 0; ++k) {
       PerFinger<Interval> box = placement.interval;
       std::size_t piece = k;
-      for (Interval& side : box) {
+      for (const std::size_t finger : {0U, 1U}) {
+        if (finger == fingers) break;
+        Interval& side = box[finger];
+        const double beyond = kBeyondInterval * placement.sd[finger];
+        side = {side.lo - beyond, side.hi + beyond};
         const double width = side.width() / kPieces;
         side.lo += width * static_cast<double>(piece % kPieces);
         side.hi = side.lo + width;
@@ -82,7 +90,7 @@ class RowsOnCorners {
   Interval turns(const Reading& row, const PerFinger<Interval>& box, std::size_t finger) const {
     const double length = row.length[finger];
     const double off = kFarthestLength * std::hypot(contact_, scale_ * length);
-    const Interval from = angles_over(turning_, box[finger]);
+    const Interval from = angles_over(turning_, on_part(box[finger]));
     const Interval to = angles_over(turning_, on_part({box[finger].lo + length - off, box[finger].hi + length + off}));
     return {to.lo - from.hi, to.hi - from.lo};
   }
