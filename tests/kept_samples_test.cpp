@@ -3,16 +3,17 @@
 
 #include <memory>
 
+#include "catalog/on_catalog.hpp"
 #include "catalogs.hpp"
 #include "rollfix/outline/outline.hpp"
-#include "rollfix/watch/meaning.hpp"
+#include "watch/kept_samples.hpp"
 
 namespace kept_samples_test {
 namespace {
 
 TEST(KeptSamples, are_every_so_many_of_the_whole_roll) {
   const rollfix::Part part(rollfix::gallery("cam"));
-  rollfix::app::KeptSamples kept;
+  rollfix::KeptSamples kept;
   const std::size_t rows = 100'000;
   for (std::size_t k = 0; k < rows; ++k) {
     rollfix::Sample sample;
@@ -40,22 +41,21 @@ double sd_of(const rollfix::Identified& found) {
 
 TEST(KeptSamples, of_increments_leave_the_place_as_sure_as_all_of_them) {
   const cli::Folder folder;
-  rollfix::app::WatchOptions options;
-  options.catalog = std::make_shared<const rollfix::Catalog>(catalogs::of({"cam"}));
-  options.belief.noise = {1e-6, 1e-4};
-  const rollfix::Part part = options.catalog->part(0);
+  const auto catalog = std::make_shared<const rollfix::Catalog>(catalogs::of({"cam"}));
+  const rollfix::Followed followed{catalog->part(0), {}, {1e-6, 1e-4}, {}};
+  const rollfix::Part& part = followed.part;
   rollfix::Log all;
   all.kind = rollfix::LogKind::increments;
-  const auto kept = rollfix::app::meaning_on_catalog(part, options, all.kind);
+  const auto kept = rollfix::meaning_on_catalog(catalog, followed, all.kind);
   for (int row = 0; row < 5000; ++row) {
     const rollfix::Sample sample = summed(part, 0.0005 * row);
     kept->add(sample);
     all.fingers[0].length.push_back(sample.reading.length[0]);
     all.fingers[0].turn.push_back(sample.reading.turn);
   }
-  rollfix::app::WatchAnswer answer;
+  rollfix::Tracked answer;
   kept->conclude(answer, true);
-  const double sd = sd_of(rollfix::identify(*options.catalog, {part, all, {}, options.belief.noise}));
+  const double sd = sd_of(rollfix::identify(*catalog, {part, all, {}, followed.noise}));
   EXPECT_NEAR(sd_of(*answer.parts), sd, 0.02 * sd);
 }
 

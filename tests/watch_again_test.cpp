@@ -17,8 +17,8 @@ namespace watch_again_test {
 namespace {
 
 using rollfix::Part;
-using rollfix::app::RollEnd;
-using rollfix::app::WatchAnswer;
+using rollfix::RollEnd;
+using rollfix::Tracked;
 using rollfix::app::Watcher;
 using rollfix::app::WatchOptions;
 using testing::ElementsAre;
@@ -30,16 +30,16 @@ rollfix::Noise noise() { return {2e-4 * course().perimeter(), 2e-3, 5e-3, 0}; }
 
 /// How the rolls ended, and with which answers.
 struct Told {
-  std::vector<WatchAnswer> answers;
+  std::vector<Tracked> answers;
   std::vector<RollEnd> ends;
   std::vector<std::string> notes;
 };
 
 class Diary : public rollfix::app::WatchListener {
  public:
-  void found(const WatchAnswer& /*answer*/) override {}
-  void changed(const WatchAnswer& /*answer*/) override {}
-  void over(const WatchAnswer& answer, RollEnd why) override {
+  void found(const Tracked& /*answer*/) override {}
+  void changed(const Tracked& /*answer*/) override {}
+  void over(const Tracked& answer, RollEnd why) override {
     told.answers.push_back(answer);
     told.ends.push_back(why);
   }
@@ -64,7 +64,7 @@ std::vector<std::string> rows(double start, double laps, std::uint64_t seed) {
 Told watched(const std::vector<std::vector<std::string>>& drives, bool again) {
   WatchOptions options;
   options.name = "drive.csv";
-  options.belief.noise = noise();
+  options.noise = noise();
   options.again = again;
   Diary diary;
   Watcher watcher(course(), options, diary);

@@ -17,9 +17,9 @@ namespace {
 
 using nlohmann::json;
 using rollfix::Mode;
+using rollfix::RollEnd;
+using rollfix::Tracked;
 using rollfix::app::NoteLimit;
-using rollfix::app::RollEnd;
-using rollfix::app::WatchAnswer;
 using rollfix::app::WatchCounts;
 using rollfix::app::WatchEnd;
 using testing::AllOf;
@@ -43,8 +43,8 @@ struct Printed {
   }
 };
 
-WatchAnswer answer() {
-  WatchAnswer answer;
+Tracked answer() {
+  Tracked answer;
   answer.roll = 2;
   answer.samples = 7;
   answer.sample.line = 19;
@@ -100,7 +100,7 @@ TEST(WatchJsonl, has_the_fields_of_locate_and_numbers_that_read_back) {
 
 TEST(WatchJsonl, says_null_for_what_is_not_defined) {
   Printed printed;
-  WatchAnswer infinite = answer();
+  Tracked infinite = answer();
   infinite.modes[0].sd[0] = std::numeric_limits<double>::infinity();
   printed.json_lines->found(infinite);
   printed.json_lines->end(WatchEnd::signal, {}, {});
@@ -113,7 +113,7 @@ TEST(WatchJsonl, says_null_for_what_is_not_defined) {
 TEST(WatchJsonl, begins_with_what_was_known_before) {
   Printed printed;
   rollfix::app::WatchOptions options;
-  options.belief.prior = rollfix::Prior{1.5, 0.25};
+  options.prior = rollfix::Prior{1.5, 0.25};
   printed.json_lines->begin(cam(), options);
   printed.json_lines->found(answer());
   EXPECT_EQ(printed.events().front()["prior"], json({1.5, 0.25}));
@@ -167,7 +167,7 @@ TEST(WatchText, shows_the_last_row_of_a_roll_once) {
 
 TEST(WatchText, shows_no_place_when_nothing_fits) {
   Printed printed;
-  WatchAnswer nothing = answer();
+  Tracked nothing = answer();
   nothing.verdict = {rollfix::Verdict::inconsistent};
   printed.text->changed(nothing);
   EXPECT_THAT(printed.out.str(), HasSubstr("inconsistent\n"));
@@ -175,7 +175,7 @@ TEST(WatchText, shows_no_place_when_nothing_fits) {
 
 TEST(WatchText, ends_with_why_nothing_fits) {
   Printed printed;
-  WatchAnswer nothing = answer();
+  Tracked nothing = answer();
   nothing.verdict = {rollfix::Verdict::inconsistent};
   rollfix::Diagnosis radius;
   radius.cause = rollfix::Cause::radius;

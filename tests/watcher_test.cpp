@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "catalog/on_catalog.hpp"
 #include "rollfix/answer/solve.hpp"
 #include "rollfix/error.hpp"
 #include "rollfix/watch/watcher.hpp"
@@ -14,9 +15,9 @@ namespace watcher_test {
 namespace {
 
 using rollfix::Mode;
+using rollfix::RollEnd;
+using rollfix::Tracked;
 using rollfix::app::kLongestLine;
-using rollfix::app::RollEnd;
-using rollfix::app::WatchAnswer;
 using rollfix::app::Watcher;
 using rollfix::app::WatchOptions;
 using testing::ElementsAre;
@@ -29,9 +30,9 @@ using watching::noisy_rows;
 /// Writes down what it is told.
 class Diary : public rollfix::app::WatchListener {
  public:
-  void found(const WatchAnswer& answer) override { happened.push_back("found " + std::to_string(answer.roll)); }
-  void changed(const WatchAnswer& answer) override { changes.push_back(answer); }
-  void over(const WatchAnswer& answer, RollEnd why) override {
+  void found(const Tracked& answer) override { happened.push_back("found " + std::to_string(answer.roll)); }
+  void changed(const Tracked& answer) override { changes.push_back(answer); }
+  void over(const Tracked& answer, RollEnd why) override {
     const char* const words[] = {"lost ", "jump ", "restarted ", "ended "};
     happened.push_back(words[static_cast<int>(why)] + std::to_string(answer.roll));
     answers.push_back(answer);
@@ -40,8 +41,8 @@ class Diary : public rollfix::app::WatchListener {
   bool is_ready() override { return ready; }
 
   std::vector<std::string> happened;
-  std::vector<WatchAnswer> changes;
-  std::vector<WatchAnswer> answers;  // each roll's last
+  std::vector<Tracked> changes;
+  std::vector<Tracked> answers;  // each roll's last
   std::vector<std::string> notes;
   bool ready = true;
 };
@@ -50,7 +51,7 @@ WatchOptions options() {
   WatchOptions options;
   options.name = "roll.csv";
   options.fingers = {watching::kFinger};
-  options.belief.noise = watching::kNoise;
+  options.noise = watching::kNoise;
   return options;
 }
 
@@ -76,7 +77,7 @@ std::vector<std::string> part_of(const std::vector<std::string>& rows, std::size
   return {at(from), at(to)};
 }
 
-void expect_same(const WatchAnswer& a, const WatchAnswer& b) {
+void expect_same(const Tracked& a, const Tracked& b) {
   EXPECT_EQ(a.verdict.text(), b.verdict.text());
   ASSERT_EQ(a.modes.size(), b.modes.size());
   for (std::size_t k = 0; k < a.modes.size(); ++k) {
@@ -88,7 +89,7 @@ void expect_same(const WatchAnswer& a, const WatchAnswer& b) {
 }
 
 /// The one place that is left is the true one. Five standard deviations: seeds change.
-void expect_found(const WatchAnswer& answer, double start, double length) {
+void expect_found(const Tracked& answer, double start, double length) {
   EXPECT_EQ(answer.verdict.name, rollfix::Verdict::unique);
   ASSERT_FALSE(answer.modes.empty());
   const Mode& best = answer.modes.front();
@@ -98,14 +99,14 @@ void expect_found(const WatchAnswer& answer, double start, double length) {
 }
 
 /// What was told while a log grew, with nothing at all in between.
-WatchAnswer answer_to(const std::vector<std::string>& rows) {
+Tracked answer_to(const std::vector<std::string>& rows) {
   Watch watch;
   watch.push(kHeader).push(rows).watcher.finish();
   return watch.diary.answers.back();
 }
 
-WatchAnswer one_place(double mean, double sd, double probability) {
-  WatchAnswer answer;
+Tracked one_place(double mean, double sd, double probability) {
+  Tracked answer;
   answer.verdict = {rollfix::Verdict::ambiguous, 2};
   answer.modes.resize(1);
   answer.modes[0].mean = mean;
@@ -158,13 +159,13 @@ TEST(Watcher, gives_each_sample_its_due_however_rarely_it_tells) {
 
 TEST(Watcher, comes_to_the_same_answer_however_often_it_works_it_out) {
   const std::vector<std::string> rows = noisy_rows(2, 3, 400);
-  const WatchAnswer by_default = answer_to(rows);
+  const Tracked by_default = answer_to(rows);
   for (const std::size_t every : {1U, 7U, 100000U}) {
     WatchOptions asked = options();
     asked.every = every;
     Watch watch(asked);
     watch.push(kHeader).push(rows).watcher.finish();
-    const WatchAnswer& answer = watch.diary.answers.back();
+    const Tracked& answer = watch.diary.answers.back();
     EXPECT_EQ(answer.verdict, by_default.verdict);
     EXPECT_NEAR(answer.modes[0].mean[0], by_default.modes[0].mean[0], 0.1 * by_default.modes[0].sd[0]);
     EXPECT_NEAR(answer.modes[0].sd[0], by_default.modes[0].sd[0], 0.05 * by_default.modes[0].sd[0]);
@@ -211,8 +212,8 @@ TEST(Watcher, begins_anew_with_a_contact_that_was_lost_and_found_again) {
 
 TEST(Watcher, looks_for_what_is_wrong_with_some_of_many_short_rolls_and_with_the_last) {
   WatchOptions exact = options();
-  exact.belief.noise.contact *= 0.1;
-  exact.belief.noise.angle *= 0.1;
+  exact.noise.contact *= 0.1;
+  exact.noise.angle *= 0.1;
   Watch watch(exact);
   watch.push(kHeader);
   for (int roll = 0; roll < 12; ++roll) {
@@ -220,7 +221,7 @@ TEST(Watcher, looks_for_what_is_wrong_with_some_of_many_short_rolls_and_with_the
   }
   watch.push(noisy_rows(1, 2, 300, 1200)).watcher.finish();
   std::size_t explained = 0;
-  for (const WatchAnswer& answer : watch.diary.answers) explained += answer.diagnoses.empty() ? 0 : 1;
+  for (const Tracked& answer : watch.diary.answers) explained += answer.diagnoses.empty() ? 0 : 1;
   EXPECT_THAT(watch.diary.answers, SizeIs(13));
   EXPECT_LE(explained, 3U);
   EXPECT_FALSE(watch.diary.answers.front().diagnoses.empty());
@@ -276,24 +277,24 @@ TEST(Watcher, that_is_live_makes_something_of_the_last_samples_before_more_come)
 
 TEST(Watcher, refuses_noise_that_cannot_be_before_anything_comes) {
   WatchOptions none = options();
-  none.belief.noise = {};
+  none.noise = {};
   EXPECT_THROW(Watch{none}, rollfix::InputError);
 }
 
 TEST(News, are_another_verdict_a_place_that_was_not_known_and_more_certainty) {
-  const WatchAnswer said = one_place(2, 0.1, 0.6);
-  WatchAnswer other_verdict = said;
+  const Tracked said = one_place(2, 0.1, 0.6);
+  Tracked other_verdict = said;
   other_verdict.verdict = {rollfix::Verdict::unique, 1};
   EXPECT_TRUE(is_news(said, other_verdict, cam()));
   EXPECT_TRUE(is_news(said, one_place(2.11, 0.1, 0.6), cam()));
   EXPECT_TRUE(is_news(said, one_place(2, 0.049, 0.6), cam()));
   EXPECT_TRUE(is_news(said, one_place(2, 0.1, 0.71), cam()));
   EXPECT_TRUE(is_news(said, one_place(2, 0.1, 0.49), cam()));
-  EXPECT_TRUE(is_news(WatchAnswer{}, said, cam()));
+  EXPECT_TRUE(is_news(Tracked{}, said, cam()));
 }
 
 TEST(News, are_not_what_hardly_differs) {
-  const WatchAnswer said = one_place(2, 0.1, 0.6);
+  const Tracked said = one_place(2, 0.1, 0.6);
   EXPECT_FALSE(is_news(said, said, cam()));
   EXPECT_FALSE(is_news(said, one_place(2.09, 0.051, 0.69), cam()));
 }
@@ -309,28 +310,26 @@ TEST(News, of_a_catalog_are_another_part_and_another_probability) {
     found.verdict = "2 parts";
     found.parts.push_back({{}, rollfix::solve({cam(), rollfix::Reading(1, 0.5)}), probability});
     found.parts.back().weight.part = part;
-    WatchAnswer answer;
-    answer.parts = std::make_shared<const rollfix::Identified>(found);
-    return answer;
+    return found;
   };
-  const WatchAnswer said = likeliest(3, 0.6);
-  EXPECT_TRUE(is_news(said, likeliest(4, 0.6), cam()));
-  EXPECT_TRUE(is_news(said, likeliest(3, 0.71), cam()));
-  EXPECT_TRUE(is_news(said, likeliest(3, 0.49), cam()));
-  EXPECT_FALSE(is_news(said, likeliest(3, 0.69), cam()));
+  const rollfix::Identified said = likeliest(3, 0.6);
+  EXPECT_TRUE(is_news_of_parts(said, likeliest(4, 0.6)));
+  EXPECT_TRUE(is_news_of_parts(said, likeliest(3, 0.71)));
+  EXPECT_TRUE(is_news_of_parts(said, likeliest(3, 0.49)));
+  EXPECT_FALSE(is_news_of_parts(said, likeliest(3, 0.69)));
 }
 
 TEST(News, are_not_where_nothing_fits) {
-  WatchAnswer said = one_place(2, 0.1, 0.6);
-  WatchAnswer now = one_place(3, 0.01, 0.9);
+  Tracked said = one_place(2, 0.1, 0.6);
+  Tracked now = one_place(3, 0.01, 0.9);
   said.verdict = now.verdict = {rollfix::Verdict::inconsistent};
   EXPECT_FALSE(is_news(said, now, cam()));
 }
 
 TEST(News, are_not_two_places_that_change_ranks) {
-  WatchAnswer said = one_place(2, 0.1, 0.51);
+  Tracked said = one_place(2, 0.1, 0.51);
   said.modes.push_back(one_place(5, 0.1, 0.49).modes[0]);
-  WatchAnswer now = said;
+  Tracked now = said;
   std::swap(now.modes[0], now.modes[1]);
   EXPECT_FALSE(is_news(said, now, cam()));
 }

@@ -26,3 +26,4 @@
 #include "rollfix/question/question.hpp"  // IWYU pragma: export
 #include "rollfix/touch/next_touch.hpp"   // IWYU pragma: export
 #include "rollfix/touch/touch.hpp"        // IWYU pragma: export
+#include "rollfix/watch/tracker.hpp"      // IWYU pragma: export

@@ -234,6 +234,11 @@ std::size_t Catalog::size() const { return state_->entries.size(); }
 const CatalogEntry& Catalog::entry(std::size_t index) const { return state_->entries[index]; }
 const Catalog::Index& Catalog::index() const { return state_->index; }
 
+Part any_part_of(const Catalog& catalog) {
+  if (catalog.size() == 0) throw InputError(fmt::format("{}: the catalog has no parts", catalog.path()));
+  return with_unit(catalog.part(0), catalog.unit());
+}
+
 std::string Catalog::source_of(std::size_t index) const {
   const std::lock_guard lock(state_->mutex);
   Statement row = state_->database.prepare(

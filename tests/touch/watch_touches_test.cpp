@@ -19,7 +19,7 @@ namespace watch_touches_test {
 using namespace touch_cases;
 using cli::Json;
 using cli::run;
-using rollfix::app::RollEnd;
+using rollfix::RollEnd;
 using rollfix::app::TouchNews;
 using rollfix::app::TouchWatcher;
 using testing::ElementsAre;

@@ -29,9 +29,4 @@ void require_no_prior(const std::string& prior) {
   if (!prior.empty()) throw InputError("--prior: is about a place on one part: leave it out");
 }
 
-Part any_part_of(const Catalog& catalog) {
-  if (catalog.size() == 0) throw InputError(fmt::format("{}: the catalog has no parts", catalog.path()));
-  return with_unit(catalog.part(0), catalog.unit());
-}
-
 }  // namespace rollfix::app

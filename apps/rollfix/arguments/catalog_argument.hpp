@@ -17,8 +17,4 @@ void require_part_or_catalog(const std::string& command, const PartArgument& par
 /// Throws InputError: --prior was given, where it is asked which part it is.
 void require_no_prior(const std::string& prior);
 
-/// What a log is read with while it is not known which part it is of: one of them, in the catalog's unit. Throws
-/// InputError: there is none.
-Part any_part_of(const Catalog& catalog);
-
 }  // namespace rollfix::app

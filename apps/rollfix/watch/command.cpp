@@ -77,11 +77,13 @@ struct WatchArguments {
   bool jsonl = false;
 };
 
-BeliefOptions belief_options(const WatchArguments& arguments, const std::string& unit) {
+void read_belief(const WatchArguments& arguments, const std::string& unit, WatchOptions& options) {
   if (const std::optional<Noise> noise = read_noise(arguments.noise, unit)) {
-    BeliefOptions options{*noise, read_prior(arguments.prior, unit), arguments.robust};
+    options.noise = *noise;
+    options.prior = read_prior(arguments.prior, unit);
+    options.robust = arguments.robust;
     options.pose = read_pose(arguments.pose, unit);
-    return options;
+    return;
   }
   throw InputError(
       "watch: expected --noise, as in --noise contact=0.1,angle=0.5deg: how sure an answer is follows from how far the "
@@ -169,7 +171,7 @@ WatchOptions watch_options(const WatchArguments& arguments, const std::vector<st
   options.name = name_of(logs[0]);
   if (logs.size() == 2) options.name_b = name_of(logs[1]);
   read_fingers_and_wheel(arguments, logs.size(), unit, options);
-  options.belief = belief_options(arguments, unit);
+  read_belief(arguments, unit, options);
   options.may_overlap = arguments.may_overlap;
   LogArguments reading = arguments.reading;
   if (names_touch_columns(reading.columns)) reading.columns.clear();  // of a table of touches
@@ -186,7 +188,7 @@ WatchOptions watch_options(const WatchArguments& arguments, const std::vector<st
           "one, a disk or a jaw; locate takes it",
           finger.name()));
     }
-    if (finger.is_jaw() && (options.belief.pose || options.belief.noise.position > 0)) {
+    if (finger.is_jaw() && (options.pose || options.noise.position > 0)) {
       throw InputError(
           "--mirror: watch does not ask where a jaw has a part that lies face down: leave out --heading, --pose and "
           "--noise position, or ask locate");
@@ -222,8 +224,8 @@ std::optional<TouchWatchOptions> touch_options(const WatchArguments& arguments, 
   options.table.unit = part.unit();
   options.table.decimal_comma = watch.log.decimal_comma;
   options.every = watch.every;
-  options.problem.noise = watch.belief.noise;
-  options.problem.pose = watch.belief.pose;
+  options.problem.noise = watch.noise;
+  options.problem.pose = watch.pose;
   options.problem.mirrored = arguments.mirror;
   if (!watch.fingers.empty()) options.problem.finger = watch.fingers.front();
   return options;

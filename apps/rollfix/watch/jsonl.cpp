@@ -52,7 +52,7 @@ Json mode_json(const Mode& mode, const Part& part) {
 }
 
 /// The parts that remain, as identify lists them.
-void add_parts(const WatchAnswer& answer, const Catalog& catalog, Json& event) {
+void add_parts(const Tracked& answer, const Catalog& catalog, Json& event) {
   const Json document = Json::parse(format_identified(catalog, *answer.parts, Layout::line));
   event["verdict"] = answer.parts->verdict;
   event["left"] = answer.parts->left.size();
@@ -70,7 +70,7 @@ void add_held(const HoldAnswer& held, Json& event) {
 
 Json event_json(const char* name) { return {{"schema", kSchema}, {"event", name}}; }
 
-Json answer_json(const char* name, const WatchAnswer& answer, const Part& part, const Catalog* catalog) {
+Json answer_json(const char* name, const Tracked& answer, const Part& part, const Catalog* catalog) {
   Json event = event_json(name);
   event["roll"] = answer.roll;
   event["samples"] = answer.samples;
@@ -138,7 +138,7 @@ class JsonlWriter : public WatchWriter {
 
   void begin(const Part& part, const WatchOptions& options) override {
     fingers_ = options.fingers;
-    noise_ = options.belief.noise;
+    noise_ = options.noise;
     begin_ = event_json("begin");
     Json& event = begin_;
     catalog_ = options.catalog;
@@ -150,14 +150,14 @@ class JsonlWriter : public WatchWriter {
     event["fingers"] = nullptr;
     if (options.name_b) event["fingers"] = 2;
     event["log"] = options.name_b ? Json::array({options.name, *options.name_b}) : Json(options.name);
-    event["noise"] = noise_json(options.belief.noise);
+    event["noise"] = noise_json(options.noise);
     if (options.wheel) event["wheel"] = json_number(*options.wheel);
     event["prior"] = nullptr;
-    if (const auto& prior = options.belief.prior) {
+    if (const auto& prior = options.prior) {
       event["prior"] = Json::array({json_number(prior->s), json_number(prior->sd)});
     }
-    event["pose_prior"] = pose_prior_json(options.belief.pose);
-    event["robust"] = options.belief.robust;
+    event["pose_prior"] = pose_prior_json(options.pose);
+    event["robust"] = options.robust;
     announce(json_line(event));
   }
 
@@ -168,12 +168,12 @@ class JsonlWriter : public WatchWriter {
     announce(json_line(begin_));
   }
 
-  void found(const WatchAnswer& answer) override { write_event(answer_json("found", answer, part_, catalog_.get())); }
-  void changed(const WatchAnswer& answer) override {
+  void found(const Tracked& answer) override { write_event(answer_json("found", answer, part_, catalog_.get())); }
+  void changed(const Tracked& answer) override {
     write_event(answer_json("placements", answer, part_, catalog_.get()));
   }
 
-  void over(const WatchAnswer& answer, RollEnd why) override {
+  void over(const Tracked& answer, RollEnd why) override {
     Json event = answer_json("over", answer, part_, catalog_.get());
     event["why"] = kWhyOver.at(static_cast<std::size_t>(why));
     if (!answer.parts && !answer.held) event["diagnosis"] = diagnoses_json(answer.diagnoses, fingers_, noise_);
@@ -200,7 +200,7 @@ class JsonlWriter : public WatchWriter {
     write_event(event);
   }
 
-  void end(WatchEnd why, const WatchAnswer& last, const WatchCounts& counts) override {
+  void end(WatchEnd why, const Tracked& last, const WatchCounts& counts) override {
     write_end(why, last.roll > 0 ? Json(verdict_of(last)) : Json(nullptr), counts);
   }
 

@@ -43,7 +43,7 @@ class TextWriter : public WatchWriter {
     const int decimals = decimals_for(part.perimeter());
     const std::string unit = unit_.empty() ? "" : fmt::format(" {}; all lengths are in {}", unit_, unit_);
     fingers_ = options.fingers;
-    noise_ = options.belief.noise;
+    noise_ = options.noise;
     catalog_ = options.catalog;
     has_wheel_ = options.wheel.has_value();
     if (catalog_) return announce_catalog(options);
@@ -102,17 +102,17 @@ class TextWriter : public WatchWriter {
                       counted(counts.malformed, "malformed line", "malformed lines")));
   }
 
-  void found(const WatchAnswer& answer) override {
+  void found(const Tracked& answer) override {
     write(row(answer, fmt::format("contact: roll {} begins", answer.roll), ""));
   }
 
-  void changed(const WatchAnswer& answer) override {
+  void changed(const Tracked& answer) override {
     write(row_of(answer));
     roll_shown_ = answer.roll;
     shown_ = row_of(answer);
   }
 
-  void over(const WatchAnswer& answer, RollEnd why) override {
+  void over(const Tracked& answer, RollEnd why) override {
     if (answer.roll != roll_shown_ || row_of(answer) != shown_) changed(answer);
     if (why == RollEnd::ended) return;
     write(row("", "", "", "",
@@ -121,7 +121,7 @@ class TextWriter : public WatchWriter {
 
   void resumed(const WatchCounts& /*counts*/) override {}  // stderr said so
 
-  void end(WatchEnd why, const WatchAnswer& last, const WatchCounts& counts) override {
+  void end(WatchEnd why, const Tracked& last, const WatchCounts& counts) override {
     const bool fits = last.roll > 0 && last.verdict.name != Verdict::inconsistent;
     write(fmt::format("\n{}: {}\n{}{} in {}, {}, {}; {} us per sample\n",
                       kWatchIsOver.at(static_cast<std::size_t>(why)), conclusion(last),
@@ -148,7 +148,7 @@ class TextWriter : public WatchWriter {
     return all + "\n";
   }
 
-  std::string row(const WatchAnswer& answer, const std::string& verdict, const std::string& text) const {
+  std::string row(const Tracked& answer, const std::string& verdict, const std::string& text) const {
     const Sample& sample = answer.sample;
     return row(std::to_string(sample.line), sample.time ? fixed(*sample.time, 3) : "-",
                columns_of(sample.reading.length, 10), sample.reading.is_exact() ? degrees(sample.reading.turn) : "-",
@@ -189,11 +189,11 @@ class TextWriter : public WatchWriter {
     return text;
   }
 
-  std::string row_of(const WatchAnswer& answer) const {
+  std::string row_of(const Tracked& answer) const {
     return row(answer, verdict_of(answer), answer.parts ? parts(*answer.parts) : places(answer));
   }
 
-  std::string places(const WatchAnswer& answer) const {
+  std::string places(const Tracked& answer) const {
     if (answer.modes.empty() || answer.verdict.name == Verdict::inconsistent) return "";
     const Mode& best = answer.modes.front();
     std::string sds;
@@ -223,7 +223,7 @@ class TextWriter : public WatchWriter {
     return text;
   }
 
-  std::string conclusion_of_parts(const WatchAnswer& last) const {
+  std::string conclusion_of_parts(const Tracked& last) const {
     if (last.parts->parts.empty()) return last.parts->verdict;
     const PartFound& best = last.parts->parts.front();
     return fmt::format("{}: roll {} was on {}, from s = {}{}, with probability {}", last.parts->verdict, last.roll,
@@ -231,7 +231,7 @@ class TextWriter : public WatchWriter {
                        behind(unit_), fixed(best.probability, 4));
   }
 
-  std::string conclusion(const WatchAnswer& last) const {
+  std::string conclusion(const Tracked& last) const {
     if (last.roll == 0) return "no contact came";
     if (last.parts) return conclusion_of_parts(last);
     if (last.held) {
@@ -264,7 +264,7 @@ class TextWriter : public WatchWriter {
   }
 
   /// Where its rows fit badly: what explains them, and the cure.
-  std::string why(const WatchAnswer& last) const {
+  std::string why(const Tracked& last) const {
     if (last.diagnoses.empty()) return "";
     const Diagnosis& likeliest = last.diagnoses.front();
     return fmt::format("\nlikeliest: {}\n  {}", about(likeliest), cure_of(likeliest, fingers_, noise_));

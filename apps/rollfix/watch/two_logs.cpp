@@ -7,8 +7,8 @@
 namespace rollfix::app {
 
 TwoLogs::TwoLogs(const Part& part, const WatchOptions& options)
-    : stream_({options.name, *options.name_b}, part, options.fingers, options.belief.noise, options.log,
-              options.belief.robust, options.wheel.has_value()),
+    : stream_({options.name, *options.name_b}, part, options.fingers, options.noise, options.log, options.robust,
+              options.wheel.has_value()),
       midway_(options.midway) {}
 
 std::vector<LogLine> TwoLogs::push(std::size_t which, std::string_view line) {

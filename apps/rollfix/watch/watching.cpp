@@ -68,7 +68,7 @@ void Watching::finish() {
 
 void Watching::end(WatchEnd why) {
   if (touches_) return writer_.end_touches(why, touches_->last(), counts());
-  writer_.end(why, rolls_ ? rolls_->last_answer() : WatchAnswer{}, counts());
+  writer_.end(why, rolls_ ? rolls_->last_answer() : Tracked{}, counts());
 }
 
 bool Watching::has_found() const {
@@ -78,7 +78,7 @@ bool Watching::has_found() const {
 ExitCode Watching::exit_code() const {
   if (touches_) return touches_->last() ? exit_code_of(touches_->last()->answer) : ExitCode::fits;
   if (!rolls_) return ExitCode::fits;
-  const WatchAnswer& last = rolls_->last_answer();
+  const Tracked& last = rolls_->last_answer();
   if (last.held && last.held->status == Status::incomplete) return ExitCode::incomplete;
   const bool fits = last.verdict.name != Verdict::inconsistent;
   return fits ? ExitCode::fits : ExitCode::nothing_fits;

@@ -48,7 +48,7 @@ class WatchWriter : public WatchListener, public TouchListener {
   virtual void begin_touches() = 0;
   void show();
   virtual void resumed(const WatchCounts& counts) = 0;  // after a dropped connection
-  virtual void end(WatchEnd why, const WatchAnswer& last, const WatchCounts& counts) = 0;
+  virtual void end(WatchEnd why, const Tracked& last, const WatchCounts& counts) = 0;
   virtual void end_touches(WatchEnd why, const std::optional<TouchNews>& last, const WatchCounts& counts) = 0;
 
   void note(const std::string& message) final;  // not all of them when there are many

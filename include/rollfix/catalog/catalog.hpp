@@ -62,6 +62,10 @@ class Catalog {
   std::unique_ptr<State> state_;
 };
 
+/// What a log is read with while it is not known which part it is of: one of them, in the catalog's unit. Throws
+/// InputError: there is none.
+Part any_part_of(const Catalog& catalog);
+
 /// What a catalog is built of: a file, "gallery:..." or a part that is there, and how many parts of it there are.
 struct CatalogSource {
   std::string argument;  // as load_part takes it

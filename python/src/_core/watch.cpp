@@ -91,10 +91,10 @@ std::unique_ptr<Watch> watch(const PartHandle& part, const Question& asked, cons
   options.name = names[0];
   if (names.size() == 2) options.name_b = names[1];
   options.fingers = asked.fingers;
-  options.belief.noise = asked.noise.value_or(Noise{});
-  options.belief.prior = asked.prior;
-  options.belief.pose = asked.pose;
-  options.belief.robust = asked.robust;
+  options.noise = asked.noise.value_or(Noise{});
+  options.prior = asked.prior;
+  options.pose = asked.pose;
+  options.robust = asked.robust;
   options.every = every;
   options.may_overlap = asked.may_overlap;
   options.log.unit = part.part().unit();

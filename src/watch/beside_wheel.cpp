@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "rollfix/hold/hold.hpp"
-#include "rollfix/watch/meaning.hpp"
+#include "watch/kept_samples.hpp"
 
-namespace rollfix::app {
+namespace rollfix {
 namespace {
 
 // A first contact alone is no log yet.
@@ -43,12 +43,10 @@ PinLog pin_log_of(Log rows) {
 /// contact is not known: so rows are kept, and what `locate` says of them is asked again and again.
 class BesideWheel final : public Meaning {
  public:
-  BesideWheel(const Part& part, const WatchOptions& options) : options_(options), problem_{part, {}, options.fingers} {
-    const BeliefOptions& belief = options.belief;
-    problem_.noise = belief.noise;
-    problem_.prior = belief.prior;
-    problem_.pose = belief.pose;
-    problem_.robust = belief.robust;
+  explicit BesideWheel(const Followed& followed)
+      : options_(followed.options), problem_{followed.part, {}, followed.fingers} {
+    const TrackOptions& options = followed.options;
+    problem_.noise = followed.noise;
     problem_.mirrored = options.mirrored;
     problem_.squeezed = options.squeezed;
     problem_.may_overlap = options.may_overlap;
@@ -59,11 +57,14 @@ class BesideWheel final : public Meaning {
     last_ = sample;
   }
 
-  void look(WatchAnswer& answer) override { ask(answer, false); }
-  void conclude(WatchAnswer& answer, bool explains) override { ask(answer, explains); }
+  void look(Tracked& answer) override { ask(answer, false); }
+  void conclude(Tracked& answer, bool explains) override { ask(answer, explains); }
+  bool is_news(const Tracked& said, const Tracked& now) const override {
+    return rollfix::is_news(said, now, problem_.part);
+  }
 
  private:
-  void ask(WatchAnswer& answer, bool explains) {
+  void ask(Tracked& answer, bool explains) {
     answer.verdict = {Verdict::unobservable};
     answer.rest = 1;
     if (kept_.size() < kLeastRows) return;
@@ -84,7 +85,7 @@ class BesideWheel final : public Meaning {
     answer.held = held;
   }
 
-  WatchOptions options_;
+  TrackOptions options_;
   HoldProblem problem_;
   KeptSamples kept_;
   Sample last_;
@@ -92,8 +93,8 @@ class BesideWheel final : public Meaning {
 
 }  // namespace
 
-std::unique_ptr<Meaning> meaning_beside_wheel(const Part& part, const WatchOptions& options) {
-  return std::make_unique<BesideWheel>(part, options);
+std::unique_ptr<Meaning> meaning_beside_wheel(const Followed& followed) {
+  return std::make_unique<BesideWheel>(followed);
 }
 
-}  // namespace rollfix::app
+}  // namespace rollfix

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "rollfix/part/boundary.hpp"
-#include "rollfix/watch/watcher.hpp"
+#include "rollfix/watch/tracker.hpp"
 
-namespace rollfix::app {
+namespace rollfix {
 namespace {
 
 constexpr double kOtherProbability = 0.1;  // below that nobody decides otherwise
@@ -37,28 +37,13 @@ bool is_news_of_a_place(const Mode& said, const Mode& now, const Part& part) {
   return false;
 }
 
-/// Fewer parts, or another one is the likeliest, or as likely no more.
-bool is_news_of_parts(const Identified& said, const Identified& now) {
-  if (said.verdict != now.verdict) return true;
-  if (said.parts.empty() || now.parts.empty()) return said.parts.size() != now.parts.size();
-  const PartFound& before = said.parts.front();
-  const PartFound& best = now.parts.front();
-  return before.weight.part != best.weight.part || std::abs(before.probability - best.probability) > kOtherProbability;
-}
-
 }  // namespace
 
-std::string verdict_of(const WatchAnswer& answer) {
-  if (answer.held) return answer.held->verdict_text();
-  return answer.parts ? answer.parts->verdict : answer.verdict.text();
-}
-
-bool is_news(const WatchAnswer& said, const WatchAnswer& now, const Part& part) {
-  if (now.parts) return !said.parts || is_news_of_parts(*said.parts, *now.parts);
+bool is_news(const Tracked& said, const Tracked& now, const Part& part) {
   if (now.verdict != said.verdict || now.modes.empty() != said.modes.empty()) return true;
   if (now.modes.empty() || now.verdict.name == Verdict::inconsistent) return false;  // no place that is worth telling
   const Mode& best = now.modes.front();
   return is_news_of_a_place(nearest_to(best, said.modes, part), best, part);
 }
 
-}  // namespace rollfix::app
+}  // namespace rollfix

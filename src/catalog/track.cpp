@@ -1,0 +1,107 @@
+#include "rollfix/catalog/track.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "catalog/on_catalog.hpp"
+#include "rollfix/error.hpp"
+#include "text/text.hpp"
+#include "watch/kept_samples.hpp"
+#include "watch/tracker_state.hpp"
+
+namespace rollfix {
+namespace {
+
+// While so many parts remain they are only counted: to weigh them all takes longer than a roll is.
+constexpr std::size_t kMostWeighed = 500;
+// Fewer samples are no roll yet.
+constexpr std::size_t kLeastSamples = 3;
+// Of a part's probability less is no news: nobody decides otherwise.
+constexpr double kOtherProbability = 0.1;
+
+/// Which parts remain: those that were ruled out are not looked at again before the roll is over.
+class OnCatalog final : public Meaning {
+ public:
+  OnCatalog(const std::shared_ptr<const Catalog>& catalog, const Followed& followed, LogKind kind)
+      : catalog_(catalog), followed_(followed), kind_(kind) {}
+
+  void add(const Sample& sample) override { kept_.add(sample); }
+
+  void look(Tracked& answer) override {
+    IdentifyOptions options;
+    options.among = left_;
+    options.most_searched = kMostWeighed;
+    look(answer, options);
+    if (answer.parts->counted || !answer.parts->parts.empty()) left_ = answer.parts->left;
+  }
+
+  void conclude(Tracked& answer, bool /*explains*/) override { look(answer, {}); }
+
+  bool is_news(const Tracked& said, const Tracked& now) const override {
+    return !said.parts || is_news_of_parts(*said.parts, *now.parts);
+  }
+
+ private:
+  void look(Tracked& answer, const IdentifyOptions& options) const {
+    const Problem problem = problem_of(followed_, kind_, kept_);
+    try {
+      answer.parts = std::make_shared<const Identified>(identify(*catalog_, problem, options));
+    } catch (const InputError&) {  // so short a roll says nothing yet, or the rows are no roll on any part
+      Identified nothing;
+      nothing.counted = kept_.size() < kLeastSamples;
+      nothing.verdict = "none";
+      if (nothing.counted) {
+        nothing.left.resize(catalog_->size());
+        std::iota(nothing.left.begin(), nothing.left.end(), std::size_t{0});
+        nothing.verdict = counted(nothing.left.size(), "part", "parts");
+      }
+      answer.parts = std::make_shared<const Identified>(std::move(nothing));
+    }
+    const Identified& found = *answer.parts;
+    const bool is_one = found.parts.size() == 1 && found.parts.front().answer.placements.size() == 1;
+    answer.verdict = {found.verdict == "none" ? Verdict::inconsistent : is_one ? Verdict::unique : Verdict::ambiguous};
+    answer.rest = found.rest;
+  }
+
+  std::shared_ptr<const Catalog> catalog_;
+  Followed followed_;
+  LogKind kind_;
+  KeptSamples kept_;
+  std::vector<std::size_t> left_;  // empty: all
+};
+
+}  // namespace
+
+bool is_news_of_parts(const Identified& said, const Identified& now) {
+  if (said.verdict != now.verdict) return true;
+  if (said.parts.empty() || now.parts.empty()) return said.parts.size() != now.parts.size();
+  const PartFound& before = said.parts.front();
+  const PartFound& best = now.parts.front();
+  return before.weight.part != best.weight.part || std::abs(before.probability - best.probability) > kOtherProbability;
+}
+
+std::unique_ptr<Meaning> meaning_on_catalog(const std::shared_ptr<const Catalog>& catalog, const Followed& followed,
+                                            LogKind kind) {
+  return std::make_unique<OnCatalog>(catalog, followed, kind);
+}
+
+Tracker track(const std::shared_ptr<const Catalog>& catalog, std::vector<Finger> fingers, const Noise& noise,
+              TrackOptions options) {
+  const auto refuse = [](bool given, const char* name) {
+    if (given) throw InputError(fmt::format("`{}` is of a known part; leave it out", name));
+  };
+  refuse(options.prior.has_value(), "prior");
+  refuse(options.wheel.has_value(), "wheel");
+  refuse(options.again, "again");
+  require_no_corners(fingers, "identify");
+  options.log.any_part = true;
+  const Followed followed{any_part_of(*catalog), std::move(fingers), noise, std::move(options)};
+  return Tracker(std::make_unique<Tracker::State>(
+      followed, [=](LogKind kind) { return meaning_on_catalog(catalog, followed, kind); }));
+}
+
+}  // namespace rollfix

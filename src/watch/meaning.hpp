@@ -1,0 +1,47 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "rollfix/watch/tracker.hpp"
+
+namespace rollfix {
+
+/// What is followed, and with which fingers.
+struct Followed {
+  Part part;
+  std::vector<Finger> fingers;
+  Noise noise;
+  TrackOptions options;
+
+  /// As the log is read: see LogOptions.
+  BeliefOptions belief_options() const;
+};
+
+/// What the samples of a roll mean: where they were felt, on one part or on which of many.
+class Meaning {
+ public:
+  Meaning() = default;
+  virtual ~Meaning() = default;
+  Meaning(const Meaning&) = delete;
+  Meaning& operator=(const Meaning&) = delete;
+
+  virtual void add(const Sample& sample) = 0;
+  /// What is known by now goes into the answer.
+  virtual void look(Tracked& answer) = 0;
+  /// The same when the roll is over, of the roll as a whole. `explains`: and, where its rows fit badly, why, which
+  /// takes far longer.
+  virtual void conclude(Tracked& answer, bool explains) = 0;
+  virtual bool is_news(const Tracked& said, const Tracked& now) const = 0;
+};
+
+/// Of each roll anew. Where a roll begins it throws InputError: noise or prior that are not valid.
+using MakeMeaning = std::function<std::unique_ptr<Meaning>(LogKind kind)>;
+
+/// Of a roll on a known part.
+std::unique_ptr<Meaning> meaning_on_part(const Followed& followed, LogKind kind);
+/// Of a finger with skin beside a wheel without. REQUIRES options.wheel and options.name_b.
+std::unique_ptr<Meaning> meaning_beside_wheel(const Followed& followed);
+
+}  // namespace rollfix

@@ -1,0 +1,152 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "answer/finger_corners.hpp"
+#include "outline/turn.hpp"
+#include "rollfix/answer/solve.hpp"
+#include "rollfix/error.hpp"
+#include "watch/kept_samples.hpp"
+
+namespace rollfix {
+namespace {
+
+/// A placement of an answer with noise, as the mode that it was of.
+Mode mode_of(const Placement& placement) {
+  Mode mode;
+  mode.start = placement.start;
+  mode.end = placement.end;
+  mode.tangent = placement.tangent;
+  mode.probability = placement.probability;
+  mode.mean = placement.mean;
+  mode.sd = placement.sd;
+  mode.interval = placement.interval;
+  mode.end_mean = placement.end_mean;
+  mode.end_sd = placement.end_sd;
+  mode.covariance = placement.covariance;
+  return mode;
+}
+
+/// What is known of the fingers at their first contacts, as `solve` has it.
+Contacts contacts_at(const Sample& first, const std::vector<Finger>& fingers) {
+  Contacts contacts{first.finger_curvature, {}, fingers};
+  if (first.reading.fingers() != 2 || !first.contact) return contacts;
+  contacts.facing = nearest_angle(facing(*finger_of(fingers, 0), (*first.contact)[0]) -
+                                  facing(*finger_of(fingers, 1), (*first.contact)[1]));
+  return contacts;
+}
+
+/// On a corner of a finger, where u does not tell how its normal is turned.
+bool is_on_corner(const Sample& sample) {
+  return std::any_of(sample.finger_curvature.begin(), sample.finger_curvature.end(),
+                     [](double curvature) { return std::isinf(curvature); });
+}
+
+/// The way from one row to another.
+Reading between(const Reading& from, Reading to) {
+  for (std::size_t k = 0; k < to.length.size(); ++k) to.length[k] -= from.length[k];
+  to.turn -= from.turn;
+  to.pivot = 0;
+  return to;
+}
+
+/// Rows on corners of the fingers are not weighed: all others are measured from the first of these, as `solve` does.
+class OnPart final : public Meaning {
+ public:
+  OnPart(const Followed& followed, LogKind kind) : followed_(followed), kind_(kind) {}
+
+  void add(const Sample& sample) override {
+    kept_.add(sample);
+    last_ = sample.reading;
+    if (is_on_corner(sample)) return;
+    if (!belief_) begin(sample);
+    weighed_ = sample.reading;
+    belief_->add(from_base(sample));
+  }
+
+  void look(Tracked& answer) override {
+    answer.verdict = {Verdict::unobservable};
+    answer.rest = 1;
+    if (!belief_) return;
+    answer.verdict = belief_->verdict();
+    answer.modes = belief_->modes();
+    for (Mode& mode : answer.modes) mode.probability = std::min(1.0, mode.probability);  // a sum, with its rounding
+    for (Mode& mode : answer.modes) to_ends(mode);
+    answer.rest = belief_->rest();
+    answer.fit = belief_->fit();
+  }
+
+  /// What `locate` says of the same rows.
+  void conclude(Tracked& answer, bool explains) override {
+    try {
+      Problem problem = problem_of(followed_, kind_, kept_);
+      problem.diagnose = explains;
+      const Answer located = solve(problem);
+      answer.diagnoses = located.diagnoses;
+      const bool is_bad = located.verdict.fits_badly || located.verdict.name == Verdict::inconsistent;
+      // Of a long roll only some samples were kept: where they fit, all of them say more.
+      if (kept_.each() > 1 && !is_bad) return look(answer);
+      answer.verdict = located.verdict;
+      answer.impossible = located.impossible.size();
+      answer.rest = located.weighing->rest;
+      answer.fit = located.weighing->fit;
+      answer.modes.clear();
+      for (const Placement& placement : located.placements) answer.modes.push_back(mode_of(placement));
+    } catch (const InputError&) {  // so few of its samples are no roll any more: what is wrong is not known
+      look(answer);
+    }
+  }
+
+  bool is_news(const Tracked& said, const Tracked& now) const override {
+    return rollfix::is_news(said, now, followed_.part);
+  }
+
+ private:
+  void begin(const Sample& base) {
+    BeliefOptions options = followed_.belief_options();
+    if (kept_.size() > 1) way_ = base.reading;
+    if (options.prior && way_) options.prior->s += way_->length[0];
+    belief_.emplace(followed_.part, kind_, options, contacts_at(base, followed_.fingers));
+  }
+
+  Sample from_base(Sample sample) const {
+    if (way_) sample.reading = between(*way_, sample.reading);
+    return sample;
+  }
+
+  /// From the rows that were weighed to the first contacts and the last ones.
+  void to_ends(Mode& mode) const {
+    const auto& [part, fingers, noise, options] = followed_;
+    if (way_) to_first_contacts(*way_, part, noise, mode);
+    const Reading further = between(weighed_, last_);
+    const bool is_further = std::any_of(further.length.begin(), further.length.end(), [](double l) { return l != 0; });
+    if (is_further) to_last_contacts(further, part, noise, mode);
+  }
+
+  Followed followed_;
+  LogKind kind_;
+  std::optional<Belief> belief_;  // none before the first row off all corners
+  std::optional<Reading> way_{};  // to that row, where it is not the first
+  Reading weighed_{};             // of the last row off them
+  Reading last_{};                // of the last row
+  KeptSamples kept_;
+};
+
+}  // namespace
+
+BeliefOptions Followed::belief_options() const {
+  BeliefOptions belief{noise, options.prior, options.robust};
+  belief.pose = options.pose;
+  if (belief.pose && options.log.mirrored) {
+    belief.pose->mean.x *= -1;
+    belief.pose->mean.heading *= -1;
+  }
+  return belief;
+}
+
+std::unique_ptr<Meaning> meaning_on_part(const Followed& followed, LogKind kind) {
+  return std::make_unique<OnPart>(followed, kind);
+}
+
+}  // namespace rollfix

@@ -1,0 +1,124 @@
+#include "rollfix/watch/tracker.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+#include "rollfix/error.hpp"
+#include "watch/tracker_state.hpp"
+
+namespace rollfix {
+namespace {
+
+/// Throws InputError: what is not taken of a finger beside a wheel, before any row comes.
+void require_of_wheel(const Followed& followed) {
+  const TrackOptions& options = followed.options;
+  if (!(followed.noise.position > 0)) {
+    throw InputError(
+        "`noise`: expected position=SD beside a wheel, found none: all that a wheel says is where its pin was");
+  }
+  const auto refuse = [](bool given, const char* name) {
+    if (given) throw InputError(fmt::format("`{}` is not taken beside a wheel; leave it out", name));
+  };
+  refuse(options.prior.has_value(), "prior");
+  refuse(options.pose.has_value(), "pose");
+  refuse(options.robust, "robust");
+}
+
+Followed with_names(Followed followed) {
+  TrackOptions& options = followed.options;
+  if (options.wheel && !options.name_b) options.name_b = "the pin's log";
+  return followed;
+}
+
+MakeMeaning meaning_of(const Followed& followed) {
+  if (followed.options.wheel) return [followed](LogKind /*kind*/) { return meaning_beside_wheel(followed); };
+  return [followed](LogKind kind) { return meaning_on_part(followed, kind); };
+}
+
+}  // namespace
+
+Tracker::State::State(const Followed& followed, MakeMeaning make)
+    : stream(followed.options.name, followed.part, followed.fingers, followed.noise, followed.options.log,
+             followed.options.robust),
+      rolls(followed, std::move(make)) {
+  const auto& [part, fingers, noise, options] = followed;
+  if (options.wheel) require_of_wheel(followed);
+  if (options.name_b) {
+    two.emplace(std::array{options.name, *options.name_b}, part, fingers, noise, options.log, options.robust,
+                options.wheel.has_value());
+  }
+}
+
+std::vector<Tracked> Tracker::State::take(const LogLine& row, LogKind kind) {
+  if (!row.message.empty()) messages.push_back(row.message);
+  return rolls.push(row, kind);
+}
+
+LogStream& Tracker::State::numbers() {
+  messages.clear();
+  if (!two) return stream;
+  throw InputError(fmt::format(
+      "{} and {}: expected the lines of two logs, found a row of numbers; of two fingers with skin leave `name_b` out",
+      two->name(0), two->name(1)));
+}
+
+Tracker::Tracker(std::unique_ptr<State> state) : state_(std::move(state)) {}
+
+Tracker::Tracker(const Part& part, std::vector<Finger> fingers, const Noise& noise, TrackOptions options) {
+  const Followed followed = with_names({part, std::move(fingers), noise, std::move(options)});
+  state_ = std::make_unique<State>(followed, meaning_of(followed));
+}
+
+Tracker::~Tracker() = default;
+Tracker::Tracker(Tracker&&) noexcept = default;
+Tracker& Tracker::operator=(Tracker&&) noexcept = default;
+
+std::vector<Tracked> Tracker::push(std::optional<double> time, double u, double psi, std::optional<double> x,
+                                   std::optional<double> y) {
+  return push(time, Touch{u, psi, x, y});
+}
+
+std::vector<Tracked> Tracker::push(std::optional<double> time, const PerFinger<Touch>& fingers) {
+  LogStream& stream = state_->numbers();
+  return state_->take(stream.push(time, fingers), stream.kind());
+}
+
+std::vector<Tracked> Tracker::push_off(std::optional<double> time) {
+  LogStream& stream = state_->numbers();
+  return state_->take(stream.push_off(time), stream.kind());
+}
+
+std::vector<Tracked> Tracker::push(std::string_view line, std::size_t which) {
+  if (!state_->two) return push(state_->stream.push(line), state_->stream.kind());
+  state_->messages.clear();
+  std::vector<Tracked> told;
+  for (const LogLine& row : state_->two->push(which, line)) {
+    for (Tracked& now : state_->take(row, state_->two->kind())) told.push_back(std::move(now));
+  }
+  return told;
+}
+
+std::vector<Tracked> Tracker::push(const LogLine& row, LogKind kind) {
+  state_->messages.clear();
+  return state_->take(row, kind);
+}
+
+const std::vector<std::string>& Tracker::messages() const { return state_->messages; }
+
+void Tracker::resume(std::size_t which) { state_->two ? state_->two->resume(which) : state_->stream.resume(); }
+
+bool Tracker::is_ahead(std::size_t which) const { return state_->two && state_->two->is_ahead(which); }
+
+std::vector<Tracked> Tracker::finish(RollEnd why) { return state_->rolls.finish(why); }
+
+const Tracked& Tracker::now() { return state_->rolls.now(); }
+
+const Tracked& Tracker::last() const { return state_->rolls.last(); }
+
+bool Tracker::is_behind() const { return state_->rolls.is_behind(); }
+
+std::vector<Tracked> Tracker::catch_up() { return state_->rolls.catch_up(); }
+
+}  // namespace rollfix
