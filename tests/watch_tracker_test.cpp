@@ -74,6 +74,18 @@ rollfix::NoisyRoll pair_roll(const rollfix::Part& part, double s, double length_
   return rollfix::noisy_roll_free(part, plan, watching::kNoise, 1);
 }
 
+/// The later log as if the fingers had never let go: disks that are turned so that u goes on, and a later clock.
+Log going_on(const Log& before, Log later) {
+  for (std::size_t which = 0; which < later.fingers.size(); ++which) {
+    FingerRows& rows = later.fingers[which];
+    const double further = before.fingers[which].u.back() - rows.u.front();
+    for (double& u : rows.u) u += further;
+    for (double& psi : rows.psi) psi -= further;
+  }
+  for (double& time : later.time) time += before.time.back() + 1;
+  return later;
+}
+
 std::vector<std::string> lines_of(const std::string& file) {
   std::ifstream text(ROLLFIX_SOURCE_DIR "/examples/" + file);
   std::vector<std::string> lines;
@@ -220,6 +232,21 @@ TEST(Tracker, of_a_circle_stays_unobservable) {
   Tracker tracker(circle, {rollfix::disk(0.2)}, watching::kNoise);
   for (int row = 0; row < 50; ++row) tracker.push(row, 0.1 * row, -0.12 * row);
   EXPECT_EQ(tracker.now().verdict.name, rollfix::Verdict::unobservable);
+}
+
+TEST(Tracker, of_two_fingers_finds_them_where_they_were_carried) {
+  const rollfix::Part part = free_rolls::part_of("spline,n=9,seed=4,wobble=0.25");
+  const Log before = pair_roll(part, 1, 1.3, 4.2, -0.9).log;
+  const rollfix::NoisyRoll after = pair_roll(part, 3, 1.2, 0.2, 1.3);
+  Tracker tracker(part, {rollfix::disk(0.1)}, watching::kNoise, {.again = true, .every = 20});
+  told(tracker, before);
+  told(tracker, going_on(before, after.log));
+  const std::size_t begins = after.log.rows() - tracker.now().samples;
+  ASSERT_EQ(tracker.now().roll, 2U);
+  for (const std::size_t which : {0U, 1U}) {
+    const Mode& best = tracker.now().modes.front();
+    EXPECT_NEAR(best.mean[which], after.truth.s[which][begins], 5 * best.sd[which]);
+  }
 }
 
 TEST(Tracker, refuses_what_cannot_be_before_a_row_comes) {

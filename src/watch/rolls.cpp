@@ -25,6 +25,13 @@ constexpr std::size_t kLeastToContradict = 16;
 // To find out why rows fit badly takes as long as to take in so many. Nobody waits for all of a log's many short rolls.
 constexpr std::size_t kSamplesForWhy = 5000;
 
+/// The reading and so many times the way `by`, of each finger.
+Reading further(Reading reading, const Reading& by, double times) {
+  for (std::size_t k = 0; k < by.length.size(); ++k) reading.length[k] += times * by.length[k];
+  reading.turn += times * by.turn;
+  return reading;
+}
+
 }  // namespace
 
 Rolls::Rolls(Followed followed, MakeMeaning make) : followed_(std::move(followed)), make_(std::move(make)) {
@@ -97,16 +104,14 @@ void Rolls::begin_roll(const Sample& sample) {
 }
 
 Sample Rolls::from_beginning(Sample sample) const {
-  sample.reading.length[0] -= beginning_.length[0];
-  sample.reading.turn -= beginning_.turn;
+  sample.reading = further(sample.reading, beginning_, -1);
   return sample;
 }
 
 // A log of u and psi is measured from a first contact that is a row; any other from where the row before was.
 void Rolls::begin_elsewhere(const Sample& sample) {
   is_elsewhere_ = false;
-  const Reading before = {last_.reading.length[0] + beginning_.length[0], last_.reading.turn + beginning_.turn};
-  beginning_ = kind_ == LogKind::contact ? sample.reading : before;
+  beginning_ = kind_ == LogKind::contact ? sample.reading : further(last_.reading, beginning_, 1);
   begin_roll(from_beginning(sample));
 }
 
