@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "catalogs.hpp"
+#include "contact/mirrored.hpp"
 #include "free_roll.hpp"
 #include "refusal.hpp"
 #include "rollfix/answer/solve.hpp"
@@ -249,12 +250,30 @@ TEST(Tracker, of_two_fingers_finds_them_where_they_were_carried) {
   }
 }
 
+TEST(Tracker, of_a_part_that_lies_face_down_turns_the_outline_of_the_finger_over_as_solve_does) {
+  const rollfix::Finger tip = rollfix::Finger::outlined(rollfix::gallery("spline,n=7,seed=2,wobble=0.3"));
+  const rollfix::Finger seen = mirrored(tip);
+  rollfix::RollPlan plan;
+  plan.start = 2;
+  plan.distance = 2;
+  Log log = rollfix::roll(cam(), seen, plan).log;
+  mirror(log.fingers[0], &seen);
+  Tracker tracker(cam(), {tip}, watching::kNoise, {.mirrored = true});
+  told(tracker, log);
+  rollfix::Problem problem{cam(), log, {tip}, watching::kNoise};
+  problem.mirrored = true;
+  const Mode best = tracker.finish().front().modes.at(0);
+  EXPECT_NEAR(best.mean[0], solve(problem).placements.at(0).mean[0], 1e-9);  // u and psi are turned over and back again
+  EXPECT_NEAR(best.mean[0], 2, 5 * best.sd[0]);
+}
+
 TEST(Tracker, refuses_what_cannot_be_before_a_row_comes) {
   const auto refusal = [](const rollfix::Noise& noise, const TrackOptions& options) {
     return refusal_of([&] { Tracker(cam(), {rollfix::jaw()}, noise, options); });
   };
   EXPECT_THAT(refusal({}, {}), HasSubstr("noise"));
   EXPECT_THAT(refusal(watching::kNoise, {.wheel = 0.4}), HasSubstr("position=SD"));
+  EXPECT_THAT(refusal({.contact = 0.01, .angle = 0.01, .position = 0.01}, {.mirrored = true}), HasSubstr("mirror"));
   EXPECT_THAT(refusal({.contact = 0.01, .angle = 0.01, .position = 0.01}, {.robust = true, .wheel = 0.4}),
               HasSubstr("robust"));
 }

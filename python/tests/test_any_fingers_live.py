@@ -48,6 +48,20 @@ def test_a_fingertip_with_corners_ends_as_locate():
     assert [place["start"][0] for place in watch.placements] == [place.start[0] for place in located]
 
 
+def test_an_outline_finger_on_a_part_face_down_ends_as_locate():
+    tip = OutlineFinger(Part.gallery("spline", n=7, seed=2, wobble=0.3))
+    noise = Noise(contact=0.003, angle=0.004)
+    seen = [CAM.point(k * CAM.perimeter / 400) for k in range(400)]
+    face_down = Part.from_points([[-x, y] for x, y in seen])
+    log = face_down.simulate(tip, start=face_down.perimeter - 2, length=-2, samples=61, noise=noise, seed=1).log
+    watch = CAM.watch(finger=tip, noise=noise, every=20, mirrored=True)
+    watch.add(log.to_frame())
+    watch.finish()
+    located = CAM.locate(log=log, finger=tip, noise=noise, mirrored=True)
+    assert [place["start"][0] for place in watch.placements] == [place.start[0] for place in located]
+    assert located.placements[0].start[0] == pytest.approx(2, abs=0.1)
+
+
 def test_what_goes_with_a_wheel_is_said():
     with pytest.raises(InputError, match="^finger: expected one finger with skin and behind it one Wheel"):
         CAM.watch(finger=[Jaw(), Wheel(0.4)], noise=NOISE)

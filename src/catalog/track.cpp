@@ -99,7 +99,7 @@ Tracker track(const std::shared_ptr<const Catalog>& catalog, std::vector<Finger>
   refuse(options.again, "again");
   require_no_corners(fingers, "identify");
   options.log.any_part = true;
-  const Followed followed{any_part_of(*catalog), std::move(fingers), noise, std::move(options)};
+  const Followed followed = as_mirrored({any_part_of(*catalog), std::move(fingers), noise, std::move(options)});
   return Tracker(std::make_unique<Tracker::State>(
       followed, [=](LogKind kind) { return meaning_on_catalog(catalog, followed, kind); }));
 }

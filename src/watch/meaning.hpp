@@ -19,6 +19,11 @@ struct Followed {
   BeliefOptions belief_options() const;
 };
 
+/// Where the part lies face down, as a mirror shows it: its outline as it was drawn, with fingers and a log that are
+/// mirrored, once. Beside a wheel `solve` sees to it. Throws InputError: an open outline of a finger, or a jaw of which
+/// it is asked where it has the part.
+Followed as_mirrored(Followed followed);
+
 /// What the samples of a roll mean: where they were felt, on one part or on which of many.
 class Meaning {
  public:

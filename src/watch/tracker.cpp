@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "contact/mirrored.hpp"
 #include "rollfix/error.hpp"
 #include "watch/tracker_state.hpp"
 
@@ -37,7 +38,34 @@ MakeMeaning meaning_of(const Followed& followed) {
   return [followed](LogKind kind) { return meaning_on_part(followed, kind); };
 }
 
+/// Throws InputError: this finger is not taken of a part that lies face down.
+void require_mirrored(const Finger& finger, const Followed& followed) {
+  if (finger.outline() != nullptr && !finger.outline()->closed()) {
+    throw InputError(
+        fmt::format("`mirror`: the outline of the finger {} is open, which watch does not turn over: expected a closed "
+                    "one, a disk or a jaw; locate takes it",
+                    finger.name()));
+  }
+  if (finger.is_jaw() && (followed.options.pose || followed.noise.position > 0)) {
+    throw InputError(
+        "`mirror`: watch does not ask where a jaw has a part that lies face down: leave out `heading`, `pose` and "
+        "`noise` position, or ask locate");
+  }
+}
+
 }  // namespace
+
+Followed as_mirrored(Followed followed) {
+  TrackOptions& options = followed.options;
+  if (!options.mirrored || options.wheel) return followed;
+  for (Finger& finger : followed.fingers) {
+    require_mirrored(finger, followed);
+    finger = mirrored(finger);
+  }
+  options.mirrored = false;
+  options.log.mirrored = true;
+  return followed;
+}
 
 Tracker::State::State(const Followed& followed, MakeMeaning make)
     : stream(followed.options.name, followed.part, followed.fingers, followed.noise, followed.options.log,
@@ -67,7 +95,7 @@ LogStream& Tracker::State::numbers() {
 Tracker::Tracker(std::unique_ptr<State> state) : state_(std::move(state)) {}
 
 Tracker::Tracker(const Part& part, std::vector<Finger> fingers, const Noise& noise, TrackOptions options) {
-  const Followed followed = with_names({part, std::move(fingers), noise, std::move(options)});
+  const Followed followed = with_names(as_mirrored({part, std::move(fingers), noise, std::move(options)}));
   state_ = std::make_unique<State>(followed, meaning_of(followed));
 }
 

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "contact/mirrored.hpp"
 #include "rollfix/arguments/catalog_argument.hpp"
 #include "rollfix/arguments/finger_argument.hpp"
 #include "rollfix/arguments/part_argument.hpp"
@@ -177,24 +176,8 @@ WatchOptions watch_options(const WatchArguments& arguments, const std::vector<st
   if (names_touch_columns(reading.columns)) reading.columns.clear();  // of a table of touches
   options.log = read_log_options(reading, unit);
   if (!options.log.decimal_comma) options.log.decimal_comma = has_decimal_comma(arguments.part.decimal);
-  options.log.mirrored = arguments.mirror && !options.wheel;
-  options.mirrored = arguments.mirror && options.wheel.has_value();
+  options.mirrored = arguments.mirror;
   options.log.clockwise = counts_clockwise(arguments.direction);
-  for (Finger& finger : options.fingers) {
-    if (!options.log.mirrored) break;
-    if (finger.outline() != nullptr && !finger.outline()->closed()) {
-      throw InputError(fmt::format(
-          "--mirror: the outline of the finger {} is open, which watch does not turn over: expected a closed "
-          "one, a disk or a jaw; locate takes it",
-          finger.name()));
-    }
-    if (finger.is_jaw() && (options.pose || options.noise.position > 0)) {
-      throw InputError(
-          "--mirror: watch does not ask where a jaw has a part that lies face down: leave out --heading, --pose and "
-          "--noise position, or ask locate");
-    }
-    finger = mirrored(finger);
-  }
   options.live = !arguments.once;
   options.again = arguments.again;
   options.midway = std::any_of(logs.begin(), logs.end(), may_begin_midway);

@@ -10,6 +10,7 @@
 #include "rollfix/error.hpp"
 #include "rollfix/watch/beginning.hpp"
 #include "rollfix/watch/two_logs.hpp"
+#include "watch/meaning.hpp"
 
 namespace rollfix::app {
 namespace {
@@ -36,6 +37,13 @@ class WorkTime {
   WorkClock::time_point start_ = WorkClock::now();
 };
 
+WatchOptions as_mirrored(const Part& part, WatchOptions options) {
+  const Followed followed = rollfix::as_mirrored({part, options.fingers, options.noise, options});
+  options.fingers = followed.fingers;
+  static_cast<TrackOptions&>(options) = followed.options;
+  return options;
+}
+
 TrackOptions told_by(TrackOptions options, WatchListener& listener) {
   options.is_ready = [&listener] { return listener.is_ready(); };
   return options;
@@ -60,7 +68,7 @@ std::string verdict_of(const Tracked& answer) {
 
 Watcher::Watcher(const Part& part, WatchOptions options, WatchListener& listener)
     : part_(part),
-      options_(std::move(options)),
+      options_(as_mirrored(part, std::move(options))),
       listener_(listener),
       stream_(new_stream()),
       tracker_(tracker_of(part_, options_, listener_)) {

@@ -68,13 +68,13 @@ struct TrackOptions {
   std::optional<PosePrior> pose{};      // about how the part lies
   bool robust = false;                  // stray rows don't count
   bool may_overlap = false;             // see Problem
-  LogOptions log{};                     // how lines are read; `mirrored` for outlines of fingers that are mirrored too
+  LogOptions log{};                     // how rows are read; its `mirrored` is left to `mirrored` below
   bool again = false;                   // a roll that is contradicted is over, and another begins, anywhere
   std::size_t every = 0;                // tell after every so many samples; 0: when there is news
   bool live = false;                    // somebody waits: nothing new is kept back for longer than kMostDelay
   std::optional<double> wheel{};        // finger b is a wheel without skin: its radius
   std::optional<double> squeezed{};     // beside a wheel, see HoldProblem
-  bool mirrored = false;                // likewise; without a wheel `log` says it
+  bool mirrored = false;                // the part lies face down
   /// Whether news can be told without making the log wait. What is told later is what is known by then. None: always.
   std::function<bool()> is_ready{};
 };
@@ -102,8 +102,8 @@ class Tracker {
  public:
   /// Lengths in the part's unit, angles in radians, times in seconds. `fingers`: one that serves both of two, or each;
   /// beside a wheel the one with skin; none where the log is of length and turn, or of distance and dturn. Throws
-  /// InputError: noise, prior, pose or fingers that are not valid; beside a wheel noise without `position`, or what is
-  /// not taken there.
+  /// InputError: noise, prior, pose or fingers that are not valid; what is not taken beside a wheel, or `mirrored`: an
+  /// open outline of a finger, a jaw with a pose or noise `position`.
   Tracker(const Part& part, std::vector<Finger> fingers, const Noise& noise, TrackOptions options = {});
   ~Tracker();
   Tracker(Tracker&&) noexcept;

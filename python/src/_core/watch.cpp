@@ -103,8 +103,7 @@ std::unique_ptr<Watch> watch(const PartHandle& part, const Question& asked, cons
   options.log.clockwise = asked.direction == Direction::clockwise;
   options.wheel = wheel;
   options.squeezed = asked.squeezed;
-  options.mirrored = asked.mirrored && wheel;
-  options.log.mirrored = asked.mirrored && !wheel;
+  options.mirrored = asked.mirrored;
   options.live = live;
   if (catalog) options.catalog = catalog->catalog;
   options.log.any_part = catalog.has_value();
