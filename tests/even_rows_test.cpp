@@ -58,7 +58,9 @@ TEST(EvenRows, AreAsTheyWereInTheMiddleOfEachMean) {
   const auto middles = at_middles(means_of(integral_of_arc, 16));
   ASSERT_TRUE(middles);
   // Left is 3/640 of the fourth difference, 16 / 12^4; at both ends a 24th of the third.
-  for (int k = 0; k < 12; ++k) EXPECT_NEAR((*middles)[k], arc((k + 0.5) / 12), k == 0 || k == 11 ? 2e-4 : 4e-6) << k;
+  for (std::size_t k = 0; k < 12; ++k) {
+    EXPECT_NEAR((*middles)[k], arc((static_cast<double>(k) + 0.5) / 12), k == 0 || k == 11 ? 2e-4 : 4e-6) << k;
+  }
 }
 
 TEST(EvenRows, AcrossAKinkThatNoiseDoesNotHideAreNotAveraged) {

@@ -269,7 +269,6 @@ class Joiner {
       Strip& strip = strips[{std::ilogb(std::max(reach_[k].width(), slack_of(exact))), exact}];
       if (strip.bands.empty()) strip.bands.resize(1);
       strip.bands.front().push_back(k);
-      strip.tallest = std::max(strip.tallest, reach_box(k)[1].width());
       strip.widest = std::max(strip.widest, reach_[k].width());
       strip.exact = exact;
     }
@@ -283,12 +282,17 @@ class Joiner {
   }
 
   void split_in_bands(Strip& strip, const Interval& t) const {
+    const std::size_t count = 1 + strip.bands.front().size() / kPiecesOfBand;
+    if (count == 1 || !(t.width() > 0)) return;
     const std::vector<std::size_t> all = std::move(strip.bands.front());
-    const std::size_t count = 1 + all.size() / kPiecesOfBand;
     strip.bands.assign(count, {});
     strip.band_from = t.lo;
     strip.band_height = t.width() / static_cast<double>(count);
-    for (const std::size_t k : all) strip.bands[strip.band_at(reach_box(k)[1].lo)].push_back(k);
+    for (const std::size_t k : all) {
+      const Interval along_t = reach_box(k)[1];
+      strip.bands[strip.band_at(along_t.lo)].push_back(k);
+      strip.tallest = std::max(strip.tallest, along_t.width());
+    }
   }
 
   /// Sweeps along the slant: a piece meets those whose reach is still open. Each width by itself, lest a wide piece, or
@@ -329,9 +333,10 @@ class Joiner {
     const double room = along_slant(PairPoint{slack, slack});
     const double from = reach_[piece].lo - by - strip.widest - room;
     const double to = reach_[piece].hi - by + room;
-    const Interval t = moved(reach_box(piece), {-shift[0], -shift[1]})[1];
-    const std::size_t last = strip.band_at(t.hi + slack);
-    for (std::size_t at = strip.band_at(t.lo - slack - strip.tallest); at <= last; ++at) {
+    const double t = strip.bands.size() > 1 ? reach_box(piece)[1].lo - shift[1] : 0;
+    const double height = strip.bands.size() > 1 ? reach_box(piece)[1].width() : 0;
+    const std::size_t last = strip.band_at(t + height + slack);
+    for (std::size_t at = strip.band_at(t - slack - strip.tallest); at <= last; ++at) {
       const std::vector<std::size_t>& band = strip.bands[at];
       auto next = std::lower_bound(band.begin(), band.end(), from,
                                    [&](std::size_t k, double value) { return reach_[k].lo < value; });
