@@ -63,6 +63,22 @@ TEST(EvenRows, AreAsTheyWereInTheMiddleOfEachMean) {
   }
 }
 
+TEST(EvenRows, OfLotsThatAreNotEquallyLongAreAsTheyWereInTheMiddleOfEach) {
+  Course means{{}, kNoise, {}};
+  std::vector<double> middles;
+  double from = 0;
+  for (int k = 0; k < 13; ++k) {
+    const double rows = k % 3 == 0 ? 2 : 3;
+    const double to = from + rows / 35;
+    means.values.push_back((integral_of_arc(to) - integral_of_arc(from)) / (to - from));
+    means.rows.push_back(rows);
+    middles.push_back(0.5 * (from + to));
+    from = to;
+  }
+  const std::vector<double> found = at_middles(means).value();
+  for (std::size_t k = 1; k < 12; ++k) EXPECT_NEAR(found[k], arc(middles[k]), 1e-4) << k;
+}
+
 TEST(EvenRows, AcrossAKinkThatNoiseDoesNotHideAreNotAveraged) {
   EXPECT_FALSE(at_middles(means_of([](double time) { return integral_of_kink(time, 2); }, 100)));
   EXPECT_TRUE(at_middles(means_of([](double time) { return integral_of_kink(time, 0.1); }, 100)));

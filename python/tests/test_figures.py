@@ -168,7 +168,7 @@ def densest(answer, k, s):
 @pytest.mark.parametrize("starts", [(1.0, 4.0), (0.4, 3.1), (1.5, 5.0)])
 def test_the_density_of_two_fingers_has_no_ripples(starts):
     part, finger, noise = Part.gallery("cam"), Disk(0.2), Noise(contact=0.01, angle=0.01)
-    roll = part.simulate(finger, start=starts, length=[1.5, -0.8], samples=60, noise=noise)
+    roll = part.simulate(finger, start=starts, length=[1.5, -0.8], samples=240, noise=noise)
     answer = part.locate(log=roll, finger=finger, noise=noise, may_overlap=True)
     for k in (0, 1):
         s = answer.best.mean[k] + answer.best.sd[k] * np.linspace(-2, 2, 400)

@@ -6,10 +6,11 @@
 
 namespace rollfix::belief {
 
-/// One measurement of neighbouring rows, or of means over them.
+/// One measurement of neighbouring rows, or of means over lots of them.
 struct Course {
   std::vector<double> values;
-  double sd = 0;  // of the noise of one of them
+  double sd = 0;               // of the noise of one of them
+  std::vector<double> rows{};  // of each lot; none: as many in each
 };
 
 /// Of rows with noise no fewer means are taken, where few are enough.

@@ -104,7 +104,10 @@ std::vector<Measured> measured_numbers(const HeldRows& rows) {
 
 belief::Course course_of(std::vector<HeldRow>& rows, const Measured& measured) {
   belief::Course course{{}, measured.sd / std::sqrt(rows.front().weight)};
-  for (HeldRow& row : rows) course.values.push_back(measured.of(row));
+  for (HeldRow& row : rows) {
+    course.values.push_back(measured.of(row));
+    course.rows.push_back(row.weight);
+  }
   return course;
 }
 
@@ -142,8 +145,9 @@ HeldRows averaged(const HeldRows& rows) {
   const std::size_t count = rows.rows.size() - std::min<std::size_t>(2, rows.rows.size());
   const std::vector<Measured> numbers = measured_numbers(rows);
   std::vector<HeldRow> all = rows.rows;
+  // Several fingers leave a row one pose.
   const bool is_smooth =
-      rows.outlier_share == 0 && count >= 2 * belief::kFewestMeans &&
+      rows.fingers() == 1 && rows.outlier_share == 0 && count >= 2 * belief::kFewestMeans &&
       std::ranges::all_of(numbers, [&](const Measured& one) { return belief::is_even(course_of(all, one)); });
   for (std::size_t lots = belief::kFewestMeans; is_smooth && 2 * lots <= count && lots < kMostMeans; lots *= 2) {
     std::vector<HeldRow> few = means(rows, lots);

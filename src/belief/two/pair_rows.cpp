@@ -135,7 +135,10 @@ std::vector<Course> PairRows::courses_of(const std::vector<Block>& blocks, const
       courses[4].values.push_back(last);
     }
   }
-  for (Course& course : courses) course.sd /= std::sqrt(static_cast<double>(blocks.front().rows));
+  for (Course& course : courses) {
+    course.sd /= std::sqrt(static_cast<double>(blocks.front().rows));
+    for (const Block& block : blocks) course.rows.push_back(static_cast<double>(block.rows));
+  }
   return courses;
 }
 
