@@ -32,8 +32,8 @@ std::string friction_text(const PlanProblem& problem, const PlanMargin& margin) 
   const double tilt = margin.allowed - margin.value;
   const double asked = tilt + problem.margin;
   if (!finger.friction || asked >= 0.5 * std::numbers::pi) {
-    return fmt::format("no friction would hold {}, first {}: at worst the force comes to {:.2f} deg from the normal", name,
-                       when(margin), in_degrees(tilt));
+    return fmt::format("no friction would hold {}, first {}: at worst the force comes to {:.2f} deg from the normal",
+                       name, when(margin), in_degrees(tilt));
   }
   return fmt::format(
       "{} slips, first {}: at worst the force comes to {:.2f} deg from the normal, and friction {:.4g} holds it up to "
@@ -49,11 +49,11 @@ std::string limit_text(const PlanProblem& problem, const PlanMargin& margin) {
   const std::string unit = unit_behind(problem);
   switch (margin.condition) {
     case Condition::speed:
-      return fmt::format("{} is too fast, first {}: up to {:.4g}{}/s, the limit is {:.4g}; take longer", name, when(margin), reached,
-                         unit, margin.allowed);
+      return fmt::format("{} is too fast, first {}: up to {:.4g}{}/s, the limit is {:.4g}; take longer", name,
+                         when(margin), reached, unit, margin.allowed);
     case Condition::turn:
-      return fmt::format("{} turns too fast, first {}: up to {:.4g} deg/s, the limit is {:.4g}; take longer", name, when(margin),
-                         in_degrees(reached), in_degrees(margin.allowed));
+      return fmt::format("{} turns too fast, first {}: up to {:.4g} deg/s, the limit is {:.4g}; take longer", name,
+                         when(margin), in_degrees(reached), in_degrees(margin.allowed));
     case Condition::travel:
       return fmt::format("{} travels too far {}: {:.4g}{} in all, the limit is {:.4g}; roll less far", name,
                          when(margin), reached, unit, margin.allowed);
@@ -72,11 +72,11 @@ std::string failure_text(const PlanProblem& problem, const PlanMargin& margin) {
         return fmt::format("{} can't roll over the concave corner {}", name_of_finger(problem, margin.finger),
                            when(margin));
       }
-      return fmt::format("{} would hit the part, first {}: by up to {:.4g}{}", name_of_finger(problem, margin.finger), when(margin),
-                         -margin.value, unit_behind(problem));
+      return fmt::format("{} would hit the part, first {}: by up to {:.4g}{}", name_of_finger(problem, margin.finger),
+                         when(margin), -margin.value, unit_behind(problem));
     case Condition::apart:
-      return fmt::format("the fingers hit each other, first {}: they come to {:.4g}{} at worst{}", when(margin), margin.value,
-                         unit_behind(problem),
+      return fmt::format("the fingers hit each other, first {}: they come to {:.4g}{} at worst{}", when(margin),
+                         margin.value, unit_behind(problem),
                          problem.clearance > 0 ? fmt::format(", and {:.4g} is asked for", problem.clearance) : "");
     case Condition::stable:
       return fmt::format(

@@ -256,7 +256,7 @@ class Joiner {
     bool exact = false;
 
     std::size_t band_at(double t) const {
-      const double last = static_cast<double>(bands.size() - 1);
+      const auto last = static_cast<double>(bands.size() - 1);
       return last > 0 ? static_cast<std::size_t>(std::clamp((t - band_from) / band_height, 0.0, last)) : 0;
     }
   };
