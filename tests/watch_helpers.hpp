@@ -85,6 +85,13 @@ class Ear {
   /// The same without waiting for what is not there yet.
   std::string now() { return within(kAWhile); }
 
+  /// What is told to people next; empty: nothing.
+  std::string next_note() {
+    note_.clear();
+    run_until(kLongEnough, [this] { return !note_.empty(); });
+    return note_;
+  }
+
   /// Takes in what is there.
   void listen() { io_->poll(); }
 
@@ -103,9 +110,14 @@ class Ear {
     };
   }
 
+  template <class Condition>
+  void run_until(std::chrono::milliseconds longest, Condition is_enough) {
+    const auto deadline = std::chrono::steady_clock::now() + longest;
+    while (!is_enough() && std::chrono::steady_clock::now() < deadline) io_->run_one_until(deadline);
+  }
+
   std::string within(std::chrono::milliseconds time) {
-    const auto deadline = std::chrono::steady_clock::now() + time;
-    while (heard_.empty() && std::chrono::steady_clock::now() < deadline) io_->run_one_until(deadline);
+    run_until(time, [this] { return !heard_.empty(); });
     if (heard_.empty()) return "(nothing)";
     std::string first = heard_.front();
     if (first != "(ended)") heard_.pop_front();
