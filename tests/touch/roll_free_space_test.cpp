@@ -87,7 +87,9 @@ TEST(RollFreeSpace, LeavesThePosesThatManyPointsOfTheBoundaryLeave) {
     const RollCase one = of_a_few_poses(part, generator);
     const double size = diagonal(part);
     const Vec2 about = one.truth.world({0, 0});
-    const auto place = [&] { return about + size * Vec2(uniform(generator, -1, 1), uniform(generator, -1, 1)); };
+    const auto place = [&]() -> Vec2 {
+      return about + size * Vec2(uniform(generator, -1, 1), uniform(generator, -1, 1));
+    };
     expect_as_by_points(one, {place(), place()});
   }
 }
